@@ -1,0 +1,3 @@
+//! Robot manipulators, exactly.
+#![doc = "\n"]
+pub mod scalar;
