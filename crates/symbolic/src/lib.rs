@@ -1,9 +1,24 @@
 //! Exact expressions in lengths, angles, and the sines and cosines of angle sums.
-#![doc = "\n"]
+//!
+//! - [`Expr`]: a handle into a hash-consed graph, written with `+ − × ÷`, powers, roots, sines and arctangents.
+//! - [`equal`]: decides whether two formulas are the same function, exactly.
+//! - [`Ring`]: the canonical form behind it; [`readable`]: the form that a person would write.
+//!
+//! This crate knows formulas, not where they come from.
+
 pub mod angle;
+pub mod ball;
+pub mod equality;
 pub mod expr;
+pub mod fraction;
+mod lattice;
+pub mod poly;
 pub mod rational;
+pub mod readable;
+pub mod ring;
 
 pub use angle::Angle;
+pub use equality::{Verdict, equal};
 pub use expr::{Expr, Node, Symbol};
 pub use rational::Rational;
+pub use ring::{Refusal, Ring};

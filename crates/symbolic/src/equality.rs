@@ -1,0 +1,179 @@
+//! Equality of formulas, decided exactly.
+
+use crate::ball;
+use crate::expr::{Expr, Symbol};
+use crate::poly::Poly;
+use crate::ring::{Refusal, Ring};
+
+/// The answer to "are these two formulas equal?".
+#[derive(Clone, PartialEq, Debug)]
+pub enum Verdict {
+    /// Proved equal wherever none of the recorded denominators vanishes.
+    Equal {
+        /// Expressions that must not be 0.
+        conditions: Vec<Expr>,
+    },
+    /// Proved different.
+    Different {
+        /// A point at which the values differ by more than all rounding, if one was found.
+        witness: Option<Vec<(Symbol, f64)>>,
+    },
+    /// Neither proved nor refuted.
+    Undecided(Reason),
+}
+
+/// Why equality was not decided.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Reason {
+    /// No normal form was reached.
+    Refused(Refusal),
+    /// The normal forms differ, but their atoms (roots, constant angles) may be related in ways the ring does not
+    /// know, and no point was found that separates the values.
+    Dependent,
+}
+
+impl Verdict {
+    /// True if proved equal.
+    pub fn is_equal(&self) -> bool {
+        matches!(self, Verdict::Equal { .. })
+    }
+}
+
+/// Decides whether two formulas are equal as functions of their symbols.
+pub fn equal(a: Expr, b: Expr) -> Verdict {
+    let difference = a - b;
+    let mut ring = Ring::new(&[a, b, difference], &[]);
+    let form = match ring.normal(difference) {
+        Ok(form) => form,
+        Err(why) => return refute(difference).unwrap_or(Verdict::Undecided(Reason::Refused(why))),
+    };
+    if form.num.is_zero() {
+        let mut factors: Vec<Poly> = vec![];
+        for side in [a, b] {
+            if let Ok(f) = ring.normal(side) {
+                factors.extend(f.den.iter().map(|d| d.0.clone()));
+            }
+        }
+        factors.sort();
+        factors.dedup();
+        return Verdict::Equal { conditions: factors.iter().map(|p| ring.poly_expr(p)).collect() };
+    }
+    let refuted = refute(difference);
+    let independent = ring.is_independent(&form.num) && form.den.iter().all(|d| ring.is_independent(&d.0));
+    match (refuted, independent) {
+        (Some(verdict), _) => verdict,
+        (None, true) => Verdict::Different { witness: None },
+        (None, false) => Verdict::Undecided(Reason::Dependent),
+    }
+}
+
+/// Looks for a point at which a formula is certainly not 0.
+fn refute(e: Expr) -> Option<Verdict> {
+    let symbols = e.symbols();
+    let mut state = 0x9e37_79b9_7f4a_7c15_u64; // fixed seed: the same question has the same answer
+    for _ in 0..8 {
+        let point: Vec<(Symbol, f64)> = symbols
+            .iter()
+            .map(|&s| {
+                state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                (s, (state >> 43) as f64 / f64::from(1 << 20) + 0.25) // a multiple of 2⁻²⁰ in [0.25, 2.25)
+            })
+            .collect();
+        let value = ball::evaluate(e, |s| point.iter().find(|p| p.0 == s).map(|p| p.1));
+        if value.excludes_zero() {
+            return Some(Verdict::Different { witness: Some(point) });
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rational::Rational;
+
+    fn x(name: &str) -> Expr {
+        Expr::symbol(name)
+    }
+
+    #[track_caller]
+    fn same(a: Expr, b: Expr) {
+        assert!(equal(a, b).is_equal(), "{a:?} = {b:?}: {:?}", equal(a, b));
+    }
+
+    #[track_caller]
+    fn differ(a: Expr, b: Expr) {
+        assert!(matches!(equal(a, b), Verdict::Different { .. }), "{a:?} ≠ {b:?}: {:?}", equal(a, b));
+    }
+
+    fn deg(n: i64) -> Expr {
+        Expr::from(Rational::new(n, 180)) * Expr::pi()
+    }
+
+    #[test]
+    fn angle_sums() {
+        let (a, b, c) = (x("q1"), x("q2"), x("q3"));
+        same((a + b).cos(), a.cos() * b.cos() - a.sin() * b.sin());
+        same((a + b + c).sin(), (a + b).sin() * c.cos() + (a + b).cos() * c.sin());
+        same((a - b).cos(), a.cos() * b.cos() + a.sin() * b.sin());
+        same((a + a).sin(), Expr::int(2) * a.sin() * a.cos());
+        same(a.sin() * a.sin(), (Expr::int(1) - (a + a).cos()) / Expr::int(2));
+        same((a + deg(90)).cos(), -a.sin());
+        same((a / Expr::int(2)).cos().powi(2), (Expr::int(1) + a.cos()) / Expr::int(2));
+        differ((a + b).cos(), a.cos() * b.cos() + a.sin() * b.sin());
+        differ(a.cos(), b.cos());
+        differ(a.cos(), a);
+    }
+
+    #[test]
+    fn fixed_angles_are_exact() {
+        let two = Expr::int(2);
+        same(deg(45).cos(), two.sqrt() / two);
+        same(deg(15).sin() * Expr::int(4), Expr::int(6).sqrt() - two.sqrt());
+        same(deg(36).cos() - deg(72).cos(), Expr::from(Rational::new(1, 2)));
+        same(deg(18).sin().powi(2) + deg(18).cos().powi(2), Expr::int(1));
+        same((x("t") + deg(30)).sin(), (Expr::int(3).sqrt() * x("t").sin() + x("t").cos()) / two);
+        same(deg(20).sin().powi(2) + deg(20).cos().powi(2), Expr::int(1));
+        differ(deg(20).sin(), deg(21).sin());
+        // true, but for a reason the ring does not know
+        let product = deg(20).cos() * deg(40).cos() * deg(80).cos();
+        assert_eq!(
+            equal(product, Expr::from(Rational::new(1, 8))),
+            Verdict::Undecided(Reason::Dependent)
+        );
+    }
+
+    #[test]
+    fn quotients_record_their_conditions() {
+        let (a, b) = (x("a"), x("b"));
+        let verdict = equal((a * a - b * b) / (a - b), a + b);
+        let Verdict::Equal { conditions } = verdict else { panic!("{verdict:?}") };
+        assert!(equal(conditions[0], a - b).is_equal() || equal(conditions[0], b - a).is_equal());
+        differ(a / b, b / a);
+        same(Expr::int(1) / (Expr::int(1) / a), a);
+        assert_eq!(equal(a / (a - a), b), Verdict::Undecided(Reason::Refused(Refusal::Undefined)));
+        same(Expr::int(1) / Expr::int(2).sqrt(), Expr::int(2).sqrt() / Expr::int(2));
+    }
+
+    #[test]
+    fn roots_and_arctangents() {
+        let (a, b, q) = (x("a"), x("b"), x("q"));
+        let r = (a * a + b * b).sqrt();
+        same(r * r, a * a + b * b);
+        same(b.atan2(a).cos() * r, a);
+        same((q + b.atan2(a)).sin() * r, q.sin() * a + q.cos() * b);
+        same(Expr::int(12).sqrt(), Expr::int(2) * Expr::int(3).sqrt());
+        same((a / b).sqrt().powi(2), a / b);
+        differ(r, a + b);
+        // √(a²) is |a|: neither equal to a, nor different where a > 0
+        assert!(!equal((a * a).sqrt(), a).is_equal());
+    }
+
+    #[test]
+    fn large_expansions_are_refused_not_run() {
+        let sum = (0..40).fold(Expr::int(0), |s, i| s + x(&format!("x{i}")));
+        let tower = sum.powi(30);
+        assert!(matches!(Ring::new(&[tower], &[]).normal(tower), Err(Refusal::TooLarge)));
+        assert!(!equal(tower, tower + x("y")).is_equal());
+    }
+}

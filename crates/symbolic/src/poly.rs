@@ -1,0 +1,234 @@
+//! Sparse polynomials with rational coefficients in numbered atoms.
+//!
+//! A polynomial alone knows no rules between its atoms; those (C² + S² = 1, √2² = 2) belong to a
+//! [`Ring`](crate::ring::Ring), whose products are reduced by them.
+
+use crate::rational::Rational;
+use rustc_hash::FxHashMap;
+use smallvec::SmallVec;
+
+/// The number of an atom in its ring.
+pub type Atom = u16;
+
+/// A product of powers of atoms, sorted by atom.
+#[derive(Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Debug, Default)]
+pub struct Monomial(SmallVec<[(Atom, u16); 8]>);
+
+impl Monomial {
+    /// The monomial 1.
+    pub fn one() -> Self {
+        Self::default()
+    }
+
+    /// `atomⁿ`
+    pub fn power(atom: Atom, exponent: u16) -> Self {
+        let mut m = SmallVec::new();
+        if exponent > 0 {
+            m.push((atom, exponent));
+        }
+        Monomial(m)
+    }
+
+    /// Atoms and their exponents, sorted by atom.
+    pub fn factors(&self) -> &[(Atom, u16)] {
+        &self.0
+    }
+
+    /// The exponent of an atom, 0 if it does not occur.
+    pub fn exponent(&self, atom: Atom) -> u16 {
+        self.0.iter().find(|f| f.0 == atom).map_or(0, |f| f.1)
+    }
+
+    /// True for the monomial 1.
+    pub fn is_one(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The product; exponents saturate at the largest one that can be stored, which the budget of a ring
+    /// keeps out of reach.
+    pub fn times(&self, o: &Monomial) -> Monomial {
+        let (mut a, mut b) = (self.0.iter().peekable(), o.0.iter().peekable());
+        let mut out = SmallVec::with_capacity(self.0.len() + o.0.len());
+        loop {
+            match (a.peek(), b.peek()) {
+                (Some(x), Some(y)) if x.0 == y.0 => {
+                    out.push((x.0, x.1.saturating_add(y.1)));
+                    a.next();
+                    b.next();
+                }
+                (Some(x), Some(y)) if x.0 < y.0 => {
+                    out.push(**x);
+                    a.next();
+                }
+                (_, Some(y)) => {
+                    out.push(**y);
+                    b.next();
+                }
+                (Some(x), None) => {
+                    out.push(**x);
+                    a.next();
+                }
+                (None, None) => return Monomial(out),
+            }
+        }
+    }
+
+    /// The monomial without `atom`.
+    pub fn without(&self, atom: Atom) -> Monomial {
+        Monomial(self.0.iter().copied().filter(|f| f.0 != atom).collect())
+    }
+
+    /// The largest monomial that divides both.
+    pub fn gcd(&self, o: &Monomial) -> Monomial {
+        Monomial(self.0.iter().map(|&(x, e)| (x, e.min(o.exponent(x)))).filter(|f| f.1 > 0).collect())
+    }
+
+    /// `self / o`, for an `o` that divides it.
+    pub fn over(&self, o: &Monomial) -> Monomial {
+        Monomial(self.0.iter().map(|&(x, e)| (x, e - o.exponent(x))).filter(|f| f.1 > 0).collect())
+    }
+}
+
+/// A sum of terms, sorted by monomial, without zero coefficients.
+#[derive(Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Debug, Default)]
+pub struct Poly(Vec<(Monomial, Rational)>);
+
+impl Poly {
+    /// 0
+    pub fn zero() -> Self {
+        Self::default()
+    }
+
+    /// A constant.
+    pub fn constant(r: Rational) -> Self {
+        Self::term(Monomial::one(), r)
+    }
+
+    /// 1
+    pub fn one() -> Self {
+        Self::constant(Rational::ONE)
+    }
+
+    /// An atom.
+    pub fn atom(a: Atom) -> Self {
+        Self::term(Monomial::power(a, 1), Rational::ONE)
+    }
+
+    /// A single term.
+    pub fn term(m: Monomial, r: Rational) -> Self {
+        if r.is_zero() { Self::zero() } else { Poly(vec![(m, r)]) }
+    }
+
+    /// From terms in any order, repeated ones added up.
+    pub fn from_terms(terms: impl IntoIterator<Item = (Monomial, Rational)>) -> Self {
+        let mut sum = FxHashMap::default();
+        for (m, r) in terms {
+            accumulate(&mut sum, m, r);
+        }
+        Self::from_map(sum)
+    }
+
+    pub(crate) fn from_map(sum: FxHashMap<Monomial, Rational>) -> Self {
+        let mut terms: Vec<_> = sum.into_iter().filter(|t| !t.1.is_zero()).collect();
+        terms.sort_unstable_by(|a, b| a.0.cmp(&b.0));
+        Poly(terms)
+    }
+
+    /// The terms, sorted by monomial.
+    pub fn terms(&self) -> &[(Monomial, Rational)] {
+        &self.0
+    }
+
+    /// True for 0.
+    pub fn is_zero(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The value if the polynomial is a constant.
+    pub fn as_constant(&self) -> Option<Rational> {
+        match &self.0[..] {
+            [] => Some(Rational::ZERO),
+            [(m, r)] if m.is_one() => Some(r.clone()),
+            _ => None,
+        }
+    }
+
+    /// The sum.
+    pub fn plus(&self, o: &Poly) -> Poly {
+        let (mut a, mut b) = (self.0.iter().peekable(), o.0.iter().peekable());
+        let mut out = Vec::with_capacity(self.0.len() + o.0.len());
+        loop {
+            match (a.peek(), b.peek()) {
+                (Some(x), Some(y)) if x.0 == y.0 => {
+                    let r = &x.1 + &y.1;
+                    if !r.is_zero() {
+                        out.push((x.0.clone(), r));
+                    }
+                    a.next();
+                    b.next();
+                }
+                (Some(x), Some(y)) if x.0 < y.0 => {
+                    out.push((*x).clone());
+                    a.next();
+                }
+                (_, Some(y)) => {
+                    out.push((*y).clone());
+                    b.next();
+                }
+                (Some(x), None) => {
+                    out.push((*x).clone());
+                    a.next();
+                }
+                (None, None) => return Poly(out),
+            }
+        }
+    }
+
+    /// The multiple `r·self`.
+    pub fn scaled(&self, r: &Rational) -> Poly {
+        if r.is_zero() {
+            return Poly::zero();
+        }
+        Poly(self.0.iter().map(|(m, c)| (m.clone(), c * r)).collect())
+    }
+
+    /// The difference.
+    pub fn minus(&self, o: &Poly) -> Poly {
+        self.plus(&o.scaled(&-Rational::ONE))
+    }
+
+    /// The atoms that occur, sorted.
+    pub fn atoms(&self) -> Vec<Atom> {
+        let mut found: Vec<Atom> = self.0.iter().flat_map(|t| t.0.factors().iter().map(|f| f.0)).collect();
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+
+    /// The largest monomial that divides every term.
+    pub fn monomial_content(&self) -> Monomial {
+        let mut terms = self.0.iter().map(|t| &t.0);
+        let first = terms.next().cloned().unwrap_or_default();
+        terms.fold(first, |g, m| g.gcd(m))
+    }
+
+    /// `self / m`, for a monomial that divides every term.
+    pub fn over(&self, m: &Monomial) -> Poly {
+        let mut terms: Vec<_> = self.0.iter().map(|(x, r)| (x.over(m), r.clone())).collect();
+        terms.sort_unstable_by(|a, b| a.0.cmp(&b.0));
+        Poly(terms)
+    }
+}
+
+/// Adds `r·m` to a sum.
+pub(crate) fn accumulate(sum: &mut FxHashMap<Monomial, Rational>, m: Monomial, r: Rational) {
+    match sum.entry(m) {
+        std::collections::hash_map::Entry::Occupied(mut e) => {
+            let total = e.get() + &r;
+            e.insert(total);
+        }
+        std::collections::hash_map::Entry::Vacant(e) => {
+            e.insert(r);
+        }
+    }
+}
