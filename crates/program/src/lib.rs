@@ -1,1 +1,15 @@
-//! x
+//! Straight-line programs: one compiled form for every formula.
+//!
+//! - [`Graph`]: where formulas are traced into shared, value-numbered nodes.
+//! - [`Program`]: the nodes that chosen outputs need, in order, with names for the shared ones.
+//! - [`Count`]: what a program costs.
+//!
+//! This crate knows no robots.
+
+mod count;
+mod graph;
+mod program;
+
+pub use count::{COUNTING_RULE, Count};
+pub use graph::{Graph, Op, Stage, Value};
+pub use program::{Program, Step};

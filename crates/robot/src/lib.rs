@@ -1,3 +1,5 @@
 //! Robot manipulators, exactly.
 #![doc = "\n"]
+pub mod geometry;
 pub mod scalar;
+pub mod description;

@@ -16,6 +16,7 @@ pub mod poly;
 pub mod rational;
 pub mod readable;
 pub mod ring;
+pub mod vocabulary;
 
 pub use angle::Angle;
 pub use equality::{Verdict, equal};

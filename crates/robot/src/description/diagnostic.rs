@@ -1,0 +1,207 @@
+//! What is wrong with a text, or worth saying about it: each finding with its place and a hint.
+//!
+//! A reader collects all of them; whoever opened the file shows them.
+
+use std::fmt::Write;
+use std::ops::Range;
+
+/// How much a finding matters.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Severity {
+    /// The text says nothing that could be computed with.
+    Error,
+    /// It can be read, but is probably not what was meant.
+    Warning,
+    /// How something was understood.
+    Note,
+}
+
+impl Severity {
+    /// `error`, `warning` or `note`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+            Severity::Note => "note",
+        }
+    }
+}
+
+/// One finding.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Diagnostic {
+    /// How much it matters.
+    pub severity: Severity,
+    /// Where: bytes of the text.
+    pub span: Range<usize>,
+    /// What.
+    pub message: String,
+    /// What would help.
+    pub hint: Option<String>,
+}
+
+impl Diagnostic {
+    /// The same finding with a hint.
+    #[must_use]
+    pub fn with_hint(mut self, hint: impl Into<String>) -> Self {
+        self.hint = Some(hint.into());
+        self
+    }
+
+    /// `file:line:column: error: message`, the line of the text with the place marked, and the hint.
+    pub fn render(&self, file: &str, text: &str) -> String {
+        let (line, column) = line_column(text, self.span.start);
+        let mut out = format!("{file}:{line}:{column}: {}: {}\n", self.severity.name(), self.message);
+        let source = text.lines().nth(line - 1).unwrap_or("");
+        if !source.trim().is_empty() {
+            let shown: String = source.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+            let end = line_column(text, self.span.end.min(text.len()));
+            let last = if end.0 == line { end.1 } else { source.chars().count() + 1 };
+            let marks = last.saturating_sub(column).max(1);
+            let _ = writeln!(out, "  | {shown}\n  | {}{}", " ".repeat(column - 1), "^".repeat(marks));
+        }
+        if let Some(hint) = &self.hint {
+            let _ = writeln!(out, "  = hint: {hint}");
+        }
+        out
+    }
+}
+
+/// The findings of one reading.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Diagnostics(pub Vec<Diagnostic>);
+
+impl Diagnostics {
+    /// Adds a finding and gives it back, so that a hint can follow.
+    fn push(&mut self, severity: Severity, span: Range<usize>, message: String) -> &mut Diagnostic {
+        self.0.push(Diagnostic { severity, span, message, hint: None });
+        self.0.last_mut().expect("it was just added")
+    }
+
+    /// Adds an error.
+    pub fn error(&mut self, span: Range<usize>, message: impl Into<String>) -> &mut Diagnostic {
+        self.push(Severity::Error, span, message.into())
+    }
+
+    /// Adds a warning.
+    pub fn warning(&mut self, span: Range<usize>, message: impl Into<String>) -> &mut Diagnostic {
+        self.push(Severity::Warning, span, message.into())
+    }
+
+    /// Adds a note.
+    pub fn note(&mut self, span: Range<usize>, message: impl Into<String>) -> &mut Diagnostic {
+        self.push(Severity::Note, span, message.into())
+    }
+
+    /// True if one of them is an error.
+    pub fn has_errors(&self) -> bool {
+        self.0.iter().any(|d| d.severity == Severity::Error)
+    }
+
+    /// `value` with the warnings and notes, or, if there is an error, everything found; in the order of the text.
+    pub(super) fn finish<T>(mut self, value: Option<T>) -> Result<(T, Vec<Diagnostic>), Vec<Diagnostic>> {
+        self.0.sort_by_key(|d| (d.span.start, d.severity));
+        self.0.dedup();
+        match value {
+            Some(value) if !self.has_errors() => Ok((value, self.0)),
+            _ => Err(self.0),
+        }
+    }
+
+    /// All of them as text, see [`Diagnostic::render`].
+    pub fn render(&self, file: &str, text: &str) -> String {
+        render(&self.0, file, text)
+    }
+}
+
+impl Diagnostic {
+    /// Sets the hint in place.
+    pub(super) fn hint(&mut self, hint: impl Into<String>) {
+        self.hint = Some(hint.into());
+    }
+}
+
+/// Findings as text, see [`Diagnostic::render`].
+pub fn render(findings: &[Diagnostic], file: &str, text: &str) -> String {
+    findings.iter().map(|d| d.render(file, text)).collect()
+}
+
+/// Line and column of a byte, both counted from 1, columns in characters.
+pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
+    let mut offset = offset.min(text.len());
+    while !text.is_char_boundary(offset) {
+        offset -= 1;
+    }
+    let before = &text[..offset];
+    let line_start = before.rfind('\n').map_or(0, |at| at + 1);
+    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+}
+
+/// The one of `candidates` that `word` was probably meant to be: at most a third of its letters differ.
+pub(super) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let plain = |s: &str| s.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect::<Vec<_>>();
+    let word: Vec<char> = plain(word).into_iter().take(40).collect();
+    candidates
+        .into_iter()
+        .map(|c| (edit_distance(&word, &plain(c)), c))
+        .filter(|&(distance, c)| distance <= (word.len().max(c.len()) / 3).max(usize::from(word.len() > 1)))
+        .min_by_key(|&(distance, _)| distance)
+        .map(|(_, c)| c)
+}
+
+/// Insertions, deletions, replacements and swaps of neighbours from `a` to `b` (optimal string alignment).
+fn edit_distance(a: &[char], b: &[char]) -> usize {
+    let mut rows = vec![(0..=b.len()).collect::<Vec<usize>>()];
+    for i in 1..=a.len() {
+        let mut row = vec![i];
+        for j in 1..=b.len() {
+            let change = usize::from(a[i - 1] != b[j - 1]);
+            let mut best = (rows[i - 1][j] + 1).min(row[j - 1] + 1).min(rows[i - 1][j - 1] + change);
+            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                best = best.min(rows[i - 2][j - 2] + 1);
+            }
+            row.push(best);
+        }
+        rows.push(row);
+    }
+    rows[a.len()][b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_count_lines_and_characters() {
+        let text = "θ = 1\nα = x\n";
+        for (offset, place) in [(0, (1, 1)), (2, (1, 2)), (7, (2, 1)), (9, (2, 2)), (1, (1, 1)), (999, (3, 1))] {
+            assert_eq!(line_column(text, offset), place, "byte {offset}");
+        }
+    }
+
+    #[test]
+    fn a_finding_is_shown_in_its_line() {
+        let text = "name = \"x\"\ntheta = \"q1 + L7\"\n";
+        let d = Diagnostic { severity: Severity::Error, span: 25..27, message: "`L7` is unknown".into(), hint: None };
+        assert_eq!(
+            d.with_hint("declare it").render("arm.toml", text),
+            "arm.toml:2:15: error: `L7` is unknown\n  | theta = \"q1 + L7\"\n  |               ^^\n  = hint: declare it\n"
+        );
+    }
+
+    #[test]
+    fn slips_of_the_pen_find_their_word() {
+        for (word, expected) in [
+            ("tetha", Some("theta")),
+            ("aplha", Some("alpha")),
+            ("Theta", Some("theta")),
+            ("limit", Some("limits")),
+            ("mas", Some("mass")),
+            ("colour", None),
+            ("x", None),
+            ("", None),
+        ] {
+            assert_eq!(nearest(word, ["theta", "alpha", "limits", "mass", "d"]), expected, "{word}");
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! What somebody wrote down about a robot: its Denavit–Hartenberg table, exactly.
+//!
+//! A [`Description`] is text made precise: every cell an exact formula in parameters and joint variables. It is
+//! read from a robot file or from a table as it stands in a document, and turned into a
+//! [`Robot`](crate::robot::Robot) to compute with.
+
+use denavit_symbolic::{Expr, Symbol};
+use std::fmt;
+
+use crate::geometry::Transform;
+
+/// A robot as described.
+#[derive(Clone, Debug)]
+pub struct Description {
+    /// What people call it.
+    pub name: String,
+    /// Where the numbers come from.
+    pub source: Option<String>,
+    /// The convention of the table.
+    pub convention: Convention,
+    /// Symbols that stand for constants, in the order of the file.
+    pub parameters: Vec<Parameter>,
+    /// The rows of the table.
+    pub rows: Vec<Row>,
+    /// Frame 0 in the base; constant.
+    pub base: Transform<Expr>,
+    /// The tool in the last frame; constant.
+    pub tool: Transform<Expr>,
+    /// Named configurations, one constant for each joint variable.
+    pub poses: Vec<(String, Vec<Expr>)>,
+    /// The acceleration of gravity in the base, m/s².
+    pub gravity: Option<[Expr; 3]>,
+}
+
+/// A constant of the robot that formulas carry as a symbol.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// The symbol.
+    pub symbol: Symbol,
+    /// Its value (metres or radians), a constant expression, if one is known.
+    pub value: Option<Expr>,
+}
+
+/// The order and the letters of a row's four elementary transforms.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Convention {
+    /// Rz(θ)·Tz(d)·Tx(a)·Rx(α), keys `theta d a alpha` (Denavit and Hartenberg 1955, as in Paul 1981).
+    Standard,
+    /// Rx(α)·Tx(a)·Rz(θ)·Tz(d), keys `alpha a theta d` (Craig, *Introduction to Robotics*).
+    Craig,
+    /// Rx(α)·Tx(d)·Rz(θ)·Tz(r), keys `alpha d theta r`, and Rz(γ)·Tz(b) before it where a row has `gamma`, `b`
+    /// (Khalil and Kleinfinger 1986).
+    Khalil,
+}
+
+impl Convention {
+    /// All of them.
+    pub const ALL: [Convention; 3] = [Convention::Standard, Convention::Craig, Convention::Khalil];
+
+    /// The name used in robot files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Convention::Standard => "standard",
+            Convention::Craig => "craig",
+            Convention::Khalil => "khalil",
+        }
+    }
+
+    /// The key of the length along x (`a`, in Khalil's letters `d`).
+    pub fn length_x(self) -> &'static str {
+        if self == Convention::Khalil { "d" } else { "a" }
+    }
+
+    /// The key of the length along z (`d`, in Khalil's letters `r`).
+    pub fn length_z(self) -> &'static str {
+        if self == Convention::Khalil { "r" } else { "d" }
+    }
+}
+
+impl fmt::Display for Convention {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// A row of the table, in letters that do not depend on the convention: θ and d about and along z, α and a
+/// about and along x, γ and b about and along the z of the frame before (Khalil's letters for branches).
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// Rotation about z, radians; affine in the joint variables.
+    pub theta: Expr,
+    /// Translation along z, metres; affine in the joint variables.
+    pub d: Expr,
+    /// Translation along x, metres; constant.
+    pub a: Expr,
+    /// Rotation about x, radians; constant.
+    pub alpha: Expr,
+    /// Rotation about the z of the frame before, radians; constant, `khalil` only.
+    pub gamma: Expr,
+    /// Translation along the z of the frame before, metres; constant, `khalil` only.
+    pub b: Expr,
+    /// The joint variable that this row introduces; a row without one is a fixed transform (or follows other
+    /// joints).
+    pub variable: Option<Variable>,
+    /// The joint's name.
+    pub name: Option<String>,
+    /// Lower and upper limit of the variable (radians or metres), constants.
+    pub limits: Option<[Expr; 2]>,
+    /// Limit of the joint's speed (rad/s or m/s).
+    pub velocity: Option<Expr>,
+    /// Limit of the joint's acceleration (rad/s² or m/s²).
+    pub acceleration: Option<Expr>,
+    /// Mass of the link behind the joint, kg.
+    pub mass: Option<Expr>,
+    /// Its centre of mass in the row's frame, metres.
+    pub com: Option<[Expr; 3]>,
+    /// Its inertia about the centre of mass in the row's frame, xx xy xz yy yz zz, kg·m².
+    pub inertia: Option<[Expr; 6]>,
+}
+
+/// A joint variable.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Variable {
+    /// `q1`, `q2`, … counting the rows that have one.
+    pub symbol: Symbol,
+    /// What it moves.
+    pub kind: JointKind,
+}
+
+/// Whether a joint turns or slides.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum JointKind {
+    /// Turns about z.
+    Revolute,
+    /// Slides along z.
+    Prismatic,
+}
+
+impl Description {
+    /// The joint variables, `q1` first.
+    pub fn variables(&self) -> Vec<Variable> {
+        self.rows.iter().filter_map(|r| r.variable).collect()
+    }
+}

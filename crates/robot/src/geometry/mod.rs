@@ -1,0 +1,18 @@
+//! Vectors, rotations, rigid transforms, and the ways to write an orientation.
+//!
+//! A transform `x_ab` is frame `b` seen from frame `a`: it takes the coordinates of a point in `b` to its
+//! coordinates in `a`, and inner letters cancel, `x_ac = x_ab * x_bc`. Frames are right-handed, angles in
+//! radians, lengths in metres (or any one unit: nothing here depends on it).
+//!
+//! Everything but the reading of orientations is straight-line code over [`Scalar`](crate::scalar::Scalar):
+//! `f64` for numbers, `Expr` for formulas.
+
+pub mod orientation;
+pub mod rotation;
+pub mod transform;
+pub mod vector;
+
+pub use orientation::{EulerSet, Orientation, OrientationError, OrientationSet};
+pub use rotation::{NotRigid, Rotation};
+pub use transform::Transform;
+pub use vector::{Axis, Vector};

@@ -1,0 +1,218 @@
+//! The robot to compute with: constant transforms with a joint between each two.
+//!
+//! `x_ij` is frame j seen from frame i; frame i is rigidly attached behind row i of the table, frame 0 before row 1.
+
+use crate::description::{Convention, Description, Row};
+use crate::geometry::{Rotation, Transform, Vector};
+use crate::scalar::Scalar;
+use denavit_symbolic::{Angle, Expr, Rational, Symbol};
+use std::fmt;
+
+/// A serial chain over numbers or formulas.
+#[derive(Clone, Debug)]
+pub struct Robot<T> {
+    /// Frame 0 in the base.
+    pub base: Transform<T>,
+    /// One link a row of the table.
+    pub links: Vec<Link<T>>,
+    /// The tool in the last frame.
+    pub tool: Transform<T>,
+    /// How many joint variables there are.
+    pub joints: usize,
+}
+
+/// A row: constant, Rz(θ)·Tz(d), constant.
+#[derive(Clone, Debug)]
+pub struct Link<T> {
+    /// What stands before the joint's screw.
+    pub before: Transform<T>,
+    /// The angle about z, radians.
+    pub theta: Affine<T>,
+    /// The displacement along z, metres.
+    pub d: Affine<T>,
+    /// What stands behind it.
+    pub after: Transform<T>,
+}
+
+/// `offset + quarters·π/2 + Σ kᵢ·q[i]`; the quarter turns are kept apart because their sines are exact.
+#[derive(Clone, Debug)]
+pub struct Affine<T> {
+    /// The constant part.
+    pub offset: T,
+    /// Quarter turns, 0 to 3; 0 for a length.
+    pub quarters: u8,
+    /// Joint numbers (from 0) and their factors.
+    pub terms: Vec<(usize, T)>,
+}
+
+/// A parameter has no value where a number is needed.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct MissingValue {
+    /// The parameters without value.
+    pub parameters: Vec<String>,
+}
+
+impl fmt::Display for MissingValue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "no value for {}", self.parameters.join(", "))
+    }
+}
+
+impl std::error::Error for MissingValue {}
+
+impl<T: Scalar> Affine<T> {
+    fn linear(&self, q: &[T]) -> Option<T> {
+        self.terms.iter().map(|&(j, k)| if k == T::one() { q[j] } else { k * q[j] }).reduce(|a, b| a + b)
+    }
+
+    /// The value at a configuration, quarter turns left aside.
+    fn value(&self, q: &[T]) -> T {
+        match self.linear(q) {
+            None => self.offset,
+            Some(x) if self.offset == T::zero() => x,
+            Some(x) => self.offset + x,
+        }
+    }
+
+    /// Sine and cosine at a configuration.
+    fn sin_cos(&self, q: &[T]) -> (T, T) {
+        let (mut s, mut c) = self.value(q).sin_cos();
+        for _ in 0..self.quarters {
+            (s, c) = (c, -s);
+        }
+        (s, c)
+    }
+}
+
+impl<T: Scalar> Link<T> {
+    /// Frame i in frame i−1 at a configuration.
+    pub fn transform(&self, q: &[T]) -> Transform<T> {
+        let (s, c) = self.theta.sin_cos(q);
+        let (o, l) = (T::zero(), T::one());
+        let screw = Transform::from_rotation_translation(
+            Rotation::from_rows([[c, -s, o], [s, c, o], [o, o, l]]),
+            Vector([o, o, self.d.value(q)]),
+        );
+        self.before * screw * self.after
+    }
+}
+
+impl<T: Scalar> Robot<T> {
+    /// Frames 0 … n in the base: `frames[i]` is the frame behind row i.
+    ///
+    /// # Panics
+    /// If `q` does not have one entry per joint.
+    pub fn frames(&self, q: &[T]) -> Vec<Transform<T>> {
+        assert_eq!(q.len(), self.joints, "one entry per joint");
+        let mut x_0i = self.base;
+        let mut frames = vec![x_0i];
+        for link in &self.links {
+            x_0i = x_0i * link.transform(q);
+            frames.push(x_0i);
+        }
+        frames
+    }
+
+    /// The tool in the base: base · ⁰Tₙ · tool.
+    ///
+    /// # Panics
+    /// If `q` does not have one entry per joint.
+    pub fn pose(&self, q: &[T]) -> Transform<T> {
+        assert_eq!(q.len(), self.joints, "one entry per joint");
+        self.links.iter().fold(self.base, |x, link| x * link.transform(q)) * self.tool
+    }
+}
+
+impl Robot<Expr> {
+    /// The robot over formulas.
+    pub fn symbolic(description: &Description) -> Self {
+        let variables: Vec<Symbol> = description.variables().iter().map(|v| v.symbol).collect();
+        let links = description.rows.iter().map(|row| link(description.convention, row, &variables)).collect();
+        Robot { base: description.base, links, tool: description.tool, joints: variables.len() }
+    }
+}
+
+impl Robot<f64> {
+    /// The robot over numbers, with the values of its parameters.
+    ///
+    /// # Errors
+    /// If a parameter that the table uses has no value.
+    pub fn numeric(description: &Description) -> Result<Self, MissingValue> {
+        let value = |s: Symbol| {
+            let parameter = description.parameters.iter().find(|p| p.symbol == s)?;
+            parameter.value?.eval(|_| None).ok()
+        };
+        let mut missing: Vec<String> = vec![];
+        let mut number = |e: Expr| match e.eval(value) {
+            Ok(x) => x,
+            Err(s) => {
+                let name = s.name().to_string();
+                if !missing.contains(&name) {
+                    missing.push(name);
+                }
+                0.0
+            }
+        };
+        let symbolic = Robot::symbolic(description);
+        let mut numeric = |x: &Transform<Expr>| x.map(&mut number);
+        let (base, tool) = (numeric(&symbolic.base), numeric(&symbolic.tool));
+        let mut links = vec![];
+        for link in &symbolic.links {
+            let (before, after) = (numeric(&link.before), numeric(&link.after));
+            links.push((before, after));
+        }
+        let affine = |a: &Affine<Expr>, number: &mut dyn FnMut(Expr) -> f64| Affine {
+            offset: number(a.offset),
+            quarters: a.quarters,
+            terms: a.terms.iter().map(|&(j, k)| (j, number(k))).collect(),
+        };
+        let links = links
+            .into_iter()
+            .zip(&symbolic.links)
+            .map(|((before, after), link)| Link {
+                before,
+                theta: affine(&link.theta, &mut number),
+                d: affine(&link.d, &mut number),
+                after,
+            })
+            .collect();
+        if missing.is_empty() {
+            Ok(Robot { base, links, tool, joints: symbolic.joints })
+        } else {
+            Err(MissingValue { parameters: missing })
+        }
+    }
+}
+
+fn link(convention: Convention, row: &Row, variables: &[Symbol]) -> Link<Expr> {
+    let x = Transform::rotation_x(row.alpha) * Transform::translation_x(row.a);
+    let (before, after) = match convention {
+        Convention::Standard => (Transform::identity(), x),
+        Convention::Craig => (x, Transform::identity()),
+        Convention::Khalil => {
+            let branch = Transform::rotation_z(row.gamma) * Transform::translation_z(row.b);
+            (branch * x, Transform::identity())
+        }
+    };
+    Link { before, theta: affine(row.theta, variables, true), d: affine(row.d, variables, false), after }
+}
+
+fn affine(e: Expr, variables: &[Symbol], is_angle: bool) -> Affine<Expr> {
+    let mut form = Angle::of(e);
+    let mut terms = vec![];
+    form.terms.retain(|(x, k)| {
+        let joint = x.as_symbol().and_then(|s| variables.iter().position(|&v| v == s));
+        terms.extend(joint.map(|j| (j, Expr::from(k.clone()))));
+        joint.is_none()
+    });
+    let mut quarters = 0;
+    if is_angle {
+        let turns = &form.turns * &Rational::from(2);
+        let whole = turns.floor();
+        form.turns = &form.turns - &(&whole / &Rational::from(2));
+        let four = Rational::from(4);
+        let rest = &whole - &(&(&whole / &four).floor() * &four);
+        quarters = rest.to_integer().and_then(|n| u8::try_from(n).ok()).unwrap_or(0);
+    }
+    Affine { offset: form.to_expr(), quarters, terms }
+}
