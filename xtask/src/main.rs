@@ -1,1 +1,126 @@
-fn main(){}
+//! Everything a contributor runs: `cargo xtask help`.
+
+mod bench;
+mod counts;
+mod soak;
+mod test;
+mod tidy;
+
+use anyhow::{Context, Result, bail};
+use denavit::{Description, catalogue, description};
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+
+const HELP: &str = "\
+Everything a contributor runs.
+
+cargo xtask test                 all that a change must pass
+cargo xtask tidy                 the rules of the project that a program can check
+cargo xtask bench [--write]      CPU time of deriving every robot of the catalogue, beside SymPy's;
+                                 --write renews docs/performance.md
+cargo xtask counts [--check]     writes docs/operation-counts.md; --check fails if it is not up to date,
+                                 or if SymPy needs fewer operations for some robot
+cargo xtask soak [--seconds N] [TARGET...]
+                                 feeds random bytes to the readers, N seconds each (60)
+cargo xtask help                 this text
+";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    match dispatch(&arguments) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(e) => {
+            eprintln!("error: {e:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn dispatch(arguments: &[String]) -> Result<()> {
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match words[..] {
+        ["test"] => test::run_all(),
+        ["tidy"] => tidy::run(),
+        ["bench"] => bench::run(false),
+        ["bench", "--write"] => bench::run(true),
+        ["counts"] => counts::run(false),
+        ["counts", "--check"] => counts::run(true),
+        ["soak", "--seconds", n, ref targets @ ..] => {
+            soak::run(n.parse().context("--seconds takes a whole number")?, targets)
+        }
+        ["soak", ref targets @ ..] => soak::run(60, targets),
+        ["help" | "--help" | "-h"] | [] => {
+            print!("{HELP}");
+            Ok(())
+        }
+        _ => bail!("no such command: {}\n\n{HELP}", words.join(" ")),
+    }
+}
+
+/// The folder of the workspace.
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."))
+}
+
+/// A file of the project by its path from the root.
+fn path(relative: &str) -> PathBuf {
+    root().join(relative)
+}
+
+/// A command that runs in the root.
+fn command(program: impl AsRef<std::ffi::OsStr>) -> Command {
+    let mut command = Command::new(program);
+    command.current_dir(root());
+    command
+}
+
+/// The cargo that runs this program.
+fn cargo() -> Command {
+    command(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+}
+
+/// Runs a command; an error if it cannot start or does not succeed.
+fn succeed(command: &mut Command) -> Result<()> {
+    let status = command.status().with_context(|| format!("{command:?} does not start"))?;
+    if !status.success() {
+        bail!("{command:?} failed ({status})");
+    }
+    Ok(())
+}
+
+/// A robot of the catalogue.
+fn robot(name: &str) -> Result<Description> {
+    let text = catalogue::text(name).with_context(|| format!("no robot `{name}` in the catalogue"))?;
+    match description::read_toml(text) {
+        Ok((description, _)) => Ok(description),
+        Err(findings) => bail!("{}", description::render(&findings, &format!("{name}.toml"), text)),
+    }
+}
+
+/// Days since 1970-01-01 as year-month-day in UTC (Hinnant, *chrono-compatible low-level date algorithms*).
+fn date(days: u64) -> String {
+    let z = days + 719_468;
+    let era = z / 146_097;
+    let day_of_era = z % 146_097;
+    let year_of_era = (day_of_era - day_of_era / 1460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;
+    let day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
+    let shifted = (5 * day_of_year + 2) / 153;
+    let month = if shifted < 10 { shifted + 3 } else { shifted - 9 };
+    let year = era * 400 + year_of_era + u64::from(month <= 2);
+    format!("{year}-{month:02}-{:02}", day_of_year - (153 * shifted + 2) / 5 + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::date;
+
+    #[test]
+    fn dates_by_the_calendar() {
+        // `date -u -d @$((86400 * n)) +%F`
+        for (days, expected) in
+            [(0, "1970-01-01"), (59, "1970-03-01"), (11_016, "2000-02-29"), (20_454, "2026-01-01")]
+        {
+            assert_eq!(date(days), expected);
+        }
+    }
+}

@@ -1,1 +1,26 @@
-fn main(){}
+//! The `denavit` command: arguments, files, colours, exit codes. The science is in the crate `denavit`.
+
+mod arguments;
+mod commands;
+mod failure;
+mod load;
+mod terminal;
+
+use arguments::{Arguments, Command};
+use clap::Parser;
+use failure::Failure;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let done = match arguments.command {
+        Command::Robots(a) => commands::robots::run(&a),
+        Command::Show(a) => commands::show::run(&a),
+        Command::Fk(a) => commands::fk::run(&a),
+        Command::Derive(a) => commands::derive::run(&a),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}

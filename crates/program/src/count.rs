@@ -1,13 +1,12 @@
 //! What a program costs, counted by one stated rule.
 
 use crate::graph::{Op, Stage};
-use std::collections::BTreeSet;
 use std::fmt;
 
 /// How operations are counted.
 pub const COUNTING_RULE: &str = "a multiplication or addition of two values that depend on a joint variable or a parameter; \
 signs are free; angle sums are additions; a sine and cosine of one angle are one pair; \
-what depends on parameters alone is computed once and counted apart";
+a constant added to a joint variable as it comes in (its offset) and what depends on parameters alone are counted apart";
 
 /// Operations of a program.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -24,41 +23,41 @@ pub struct Count {
     pub roots: u32,
     /// Arctangents.
     pub arctangents: u32,
+    /// Additions of a constant to a variable as it comes in, such as the offset of a sliding joint.
+    pub offsets: u32,
     /// Operations on parameters alone, hoisted out of the evaluation.
     pub hoisted: u32,
 }
 
 impl Count {
-    /// Counts operations, each given once.
-    pub fn of<'a>(ops: impl Iterator<Item = (&'a Op, Stage)>) -> Self {
-        let mut count = Count::default();
-        let mut angles = BTreeSet::new();
-        for (op, stage) in ops {
-            if stage != Stage::Variable {
-                if stage == Stage::Parameter && op.operands().next().is_some() {
-                    count.hoisted += 1;
-                }
-                continue;
-            }
-            match op {
-                Op::Number(_) | Op::Pi | Op::Input(_) => {}
-                Op::Add(..) | Op::Sub(..) => count.additions += 1,
-                Op::Mul(..) => count.multiplications += 1,
-                Op::Div(..) => count.divisions += 1,
-                Op::Sqrt(_) => count.roots += 1,
-                Op::Sin(a) | Op::Cos(a) => {
-                    angles.insert(*a);
-                }
-                Op::Atan2(..) => count.arctangents += 1,
-            }
+    /// Adds operation `n`, which `look` finds along with its operands; `angles` holds those whose sine or cosine
+    /// is counted already.
+    pub(crate) fn include<'a>(&mut self, n: u32, look: impl Fn(u32) -> (&'a Op, Stage), angles: &mut Vec<u32>) {
+        let (op, stage) = look(n);
+        if stage != Stage::Variable {
+            self.hoisted += u32::from(stage == Stage::Parameter && op.operands().next().is_some());
+            return;
         }
-        count.sincos = angles.len() as u32;
-        count
+        let is_offset = |a: u32, b: u32| matches!(look(a), (Op::Input(_), Stage::Variable)) && look(b).1 != Stage::Variable;
+        match op {
+            Op::Number(_) | Op::Pi | Op::Input(_) => {}
+            Op::Add(a, b) | Op::Sub(a, b) if is_offset(*a, *b) || is_offset(*b, *a) => self.offsets += 1,
+            Op::Add(..) | Op::Sub(..) => self.additions += 1,
+            Op::Mul(..) => self.multiplications += 1,
+            Op::Div(..) => self.divisions += 1,
+            Op::Sqrt(_) => self.roots += 1,
+            Op::Sin(a) | Op::Cos(a) if angles.contains(a) => {}
+            Op::Sin(a) | Op::Cos(a) => {
+                angles.push(*a);
+                self.sincos += 1;
+            }
+            Op::Atan2(..) => self.arctangents += 1,
+        }
     }
 
     /// One figure to minimise: a product or a sum is 1, a sine and cosine 20, other functions likewise.
     pub fn cost(&self) -> u32 {
-        self.multiplications + self.additions + 20 * (self.sincos + self.arctangents) + 10 * (self.divisions + self.roots)
+        self.multiplications + self.additions + self.offsets + 20 * (self.sincos + self.arctangents) + 10 * (self.divisions + self.roots)
     }
 }
 
@@ -77,9 +76,12 @@ impl fmt::Display for Count {
                 write!(f, ", {}", plural(n, word))?;
             }
         }
-        if self.hoisted > 0 {
-            write!(f, " (and {} on parameters alone, once)", plural(self.hoisted, "operation"))?;
-        }
-        Ok(())
+        let apart = match (self.offsets, self.hoisted) {
+            (0, 0) => return Ok(()),
+            (n, 0) => plural(n, "joint offset"),
+            (0, n) => format!("{} on parameters alone", plural(n, "operation")),
+            (n, m) => format!("{}, {} on parameters alone", plural(n, "joint offset"), plural(m, "operation")),
+        };
+        write!(f, "; apart: {apart}")
     }
 }

@@ -4,7 +4,9 @@
 //! Operands of sums and products are ordered; numbers are folded; nothing else is rewritten.
 
 use denavit_symbolic::{Expr, Node, Rational, Symbol};
+use crate::count::Count;
 use rustc_hash::FxHashMap;
+use std::cell::RefCell;
 
 /// A node's result, with a sign.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
@@ -81,6 +83,8 @@ pub struct Graph<F: Fn(Symbol) -> Stage> {
     numbers: FxHashMap<Op, u32>,
     traced: FxHashMap<Expr, Value>,
     stage_of: F,
+    /// For each node the last walk that met it, and the number of that walk.
+    marks: RefCell<(Vec<u32>, u32)>,
 }
 
 impl<F: Fn(Symbol) -> Stage> Graph<F> {
@@ -92,6 +96,7 @@ impl<F: Fn(Symbol) -> Stage> Graph<F> {
             numbers: FxHashMap::default(),
             traced: FxHashMap::default(),
             stage_of,
+            marks: RefCell::default(),
         }
     }
 
@@ -291,18 +296,65 @@ impl<F: Fn(Symbol) -> Stage> Graph<F> {
         self.traced[&e]
     }
 
-    /// The nodes that `outputs` need, in order of evaluation.
+    /// The nodes that `outputs` need, in order of evaluation: what the first output needs comes first.
     pub fn reach(&self, outputs: &[Value]) -> Vec<u32> {
+        let mut found = vec![];
         let mut seen = vec![false; self.ops.len()];
-        let mut found: Vec<u32> = vec![];
+        let mut pending: Vec<(u32, bool)> = outputs.iter().rev().map(|v| (v.node, false)).collect();
+        while let Some((node, operands_done)) = pending.pop() {
+            if operands_done {
+                found.push(node);
+            } else if !std::mem::replace(&mut seen[node as usize], true) {
+                pending.push((node, true));
+                let operands: Vec<u32> = self.op(node).operands().collect();
+                pending.extend(operands.iter().rev().map(|&o| (o, false)));
+            }
+        }
+        found
+    }
+
+    /// What `outputs` cost, for walks that extend this one.
+    pub fn walk(&self, outputs: &[Value]) -> Walk {
+        let (marks, walks) = &mut *self.marks.borrow_mut();
+        *walks += 1;
+        let mut walk = Walk { number: *walks, angles: vec![], count: Count::default() };
+        self.visit(outputs, marks, *walks, *walks, |n| {
+            walk.count.include(n, |n| (self.op(n), self.stage(n)), &mut walk.angles);
+        });
+        walk
+    }
+
+    /// What the outputs of the last [`Graph::walk`] and these cost together.
+    pub fn extended(&self, paid: &Walk, outputs: &[Value]) -> Count {
+        let (marks, walks) = &mut *self.marks.borrow_mut();
+        *walks += 1;
+        let (mut count, mut angles) = (paid.count, paid.angles.clone());
+        self.visit(outputs, marks, paid.number, *walks, |n| {
+            count.include(n, |n| (self.op(n), self.stage(n)), &mut angles);
+        });
+        count
+    }
+
+    /// Visits what `outputs` need, but for nodes that carry the mark `paid` or `walk`; visited ones get `walk`.
+    fn visit(&self, outputs: &[Value], marks: &mut Vec<u32>, paid: u32, walk: u32, mut visit: impl FnMut(u32)) {
+        marks.resize(self.ops.len(), 0);
         let mut pending: Vec<u32> = outputs.iter().map(|v| v.node).collect();
         while let Some(node) = pending.pop() {
-            if !std::mem::replace(&mut seen[node as usize], true) {
-                found.push(node);
+            let mark = &mut marks[node as usize];
+            if *mark != paid && *mark != walk {
+                *mark = walk;
+                visit(node);
                 pending.extend(self.op(node).operands());
             }
         }
-        found.sort_unstable();
-        found
     }
+}
+
+/// A walk over the nodes that some outputs need.
+#[derive(Clone, Debug)]
+pub struct Walk {
+    number: u32,
+    angles: Vec<u32>,
+    /// What they cost.
+    pub count: Count,
 }

@@ -11,5 +11,5 @@ mod graph;
 mod program;
 
 pub use count::{COUNTING_RULE, Count};
-pub use graph::{Graph, Op, Stage, Value};
+pub use graph::{Graph, Op, Stage, Value, Walk};
 pub use program::{Program, Step};

@@ -108,7 +108,10 @@ impl Program {
 
     /// Its operations.
     pub fn count(&self) -> Count {
-        Count::of(self.ops.iter().map(|(op, stage)| (op, *stage)))
+        let (mut count, mut angles) = (Count::default(), vec![]);
+        let look = |n: u32| (&self.ops[n as usize].0, self.ops[n as usize].1);
+        (0..self.ops.len() as u32).for_each(|n| count.include(n, look, &mut angles));
+        count
     }
 
     /// The outputs in double precision; `input` gives the inputs.
@@ -186,18 +189,12 @@ impl Program {
         steps
     }
 
-    /// The angles of which sines and cosines are taken, in order.
-    pub fn angles(&self) -> Vec<Expr> {
+    /// The sines and cosines that are taken at every evaluation, in order of first use.
+    pub fn sines_and_cosines(&self) -> Vec<Expr> {
         let values = self.expressions(&vec![None; self.ops.len()]);
-        let mut angles: Vec<Expr> = vec![];
-        for (op, stage) in &self.ops {
-            if let (Op::Sin(a) | Op::Cos(a), Stage::Variable) = (op, stage)
-                && !angles.contains(&values[*a as usize])
-            {
-                angles.push(values[*a as usize]);
-            }
-        }
-        angles
+        let taken = |op: &Op, stage: Stage| matches!(op, Op::Sin(_) | Op::Cos(_)) && stage == Stage::Variable;
+        let of_variables = self.ops.iter().zip(values).filter(|((op, stage), _)| taken(op, *stage));
+        of_variables.map(|(_, value)| value).collect()
     }
 
     /// Each operation as a formula in which the operations with a name are that name.

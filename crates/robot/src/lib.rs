@@ -1,5 +1,20 @@
-//! Robot manipulators, exactly.
-#![doc = "\n"]
-pub mod geometry;
-pub mod scalar;
+//! Robot manipulators, exactly: from a Denavit–Hartenberg table to formulas that are proved.
+//!
+//! - [`description`]: what somebody wrote down, made precise: tables, robot files, their errors.
+//! - [`geometry`]: homogeneous transforms and orientations, usable on their own.
+//! - [`robot`]: the chain to compute with, over numbers or formulas.
+//! - [`structure`]: parallel and meeting axes, spherical wrists.
+//! - [`catalogue`]: robots that people own or study.
+//! - [`forward`]: link transforms, the simplified forward model, the shortest algorithm for it.
+
+pub mod catalogue;
 pub mod description;
+pub mod forward;
+pub mod geometry;
+pub mod robot;
+pub mod scalar;
+pub mod structure;
+
+pub use description::Description;
+pub use robot::Robot;
+pub use scalar::Scalar;

@@ -404,7 +404,14 @@ impl Div for Expr {
 
 impl fmt::Debug for Expr {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "e{}", self.0)
+        fmt::Display::fmt(self, f)
+    }
+}
+
+/// In ASCII, with full words: `cos(q2 + q3)`.
+impl fmt::Display for Expr {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&crate::print::print(*self, &Default::default(), crate::print::Style::Ascii))
     }
 }
 

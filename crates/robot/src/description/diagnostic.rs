@@ -67,15 +67,37 @@ impl Diagnostic {
     }
 }
 
-/// The findings of one reading.
+/// The findings of one reading; from the 100th on they are only counted.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
-pub struct Diagnostics(pub Vec<Diagnostic>);
+pub struct Diagnostics {
+    list: Vec<Diagnostic>,
+    left_out: usize,
+    last: Option<Diagnostic>,
+}
+
+/// How many findings are worth listing.
+const MAX_FINDINGS: usize = 100;
 
 impl Diagnostics {
     /// Adds a finding and gives it back, so that a hint can follow.
     fn push(&mut self, severity: Severity, span: Range<usize>, message: String) -> &mut Diagnostic {
-        self.0.push(Diagnostic { severity, span, message, hint: None });
-        self.0.last_mut().expect("it was just added")
+        let finding = Diagnostic { severity, span, message, hint: None };
+        if self.list.len() < MAX_FINDINGS {
+            self.list.push(finding);
+            return self.list.last_mut().expect("it was just added");
+        }
+        self.left_out += usize::from(severity == Severity::Error);
+        self.last.insert(finding)
+    }
+
+    /// True once further findings are only counted; a reader need not look for hints any more.
+    pub(super) fn is_full(&self) -> bool {
+        self.list.len() >= MAX_FINDINGS
+    }
+
+    /// Those found so far.
+    pub fn list(&self) -> &[Diagnostic] {
+        &self.list
     }
 
     /// Adds an error.
@@ -95,22 +117,27 @@ impl Diagnostics {
 
     /// True if one of them is an error.
     pub fn has_errors(&self) -> bool {
-        self.0.iter().any(|d| d.severity == Severity::Error)
+        self.left_out > 0 || self.list.iter().any(|d| d.severity == Severity::Error)
     }
 
     /// `value` with the warnings and notes, or, if there is an error, everything found; in the order of the text.
     pub(super) fn finish<T>(mut self, value: Option<T>) -> Result<(T, Vec<Diagnostic>), Vec<Diagnostic>> {
-        self.0.sort_by_key(|d| (d.span.start, d.severity));
-        self.0.dedup();
+        let failed = self.has_errors();
+        self.list.sort_by_key(|d| (d.span.start, d.severity));
+        self.list.dedup();
+        if let (1.., Some(mut last)) = (self.left_out, self.last) {
+            last.message = format!("{} (and {} more errors)", last.message, self.left_out - 1);
+            self.list.push(last);
+        }
         match value {
-            Some(value) if !self.has_errors() => Ok((value, self.0)),
-            _ => Err(self.0),
+            Some(value) if !failed => Ok((value, self.list)),
+            _ => Err(self.list),
         }
     }
 
     /// All of them as text, see [`Diagnostic::render`].
     pub fn render(&self, file: &str, text: &str) -> String {
-        render(&self.0, file, text)
+        render(&self.list, file, text)
     }
 }
 
@@ -143,6 +170,7 @@ pub(super) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a s
     let word: Vec<char> = plain(word).into_iter().take(40).collect();
     candidates
         .into_iter()
+        .filter(|c| c.len() <= 40)
         .map(|c| (edit_distance(&word, &plain(c)), c))
         .filter(|&(distance, c)| distance <= (word.len().max(c.len()) / 3).max(usize::from(word.len() > 1)))
         .min_by_key(|&(distance, _)| distance)

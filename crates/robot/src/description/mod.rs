@@ -4,8 +4,25 @@
 //! read from a robot file or from a table as it stands in a document, and turned into a
 //! [`Robot`](crate::robot::Robot) to compute with.
 
+mod cell;
+//convert
+pub mod diagnostic;
+mod names;
+mod robot_file;
+mod rows;
+pub mod table;
+mod units;
+
+pub use cell::MAX_LENGTH as MAX_CELL_BYTES;
+//pub use convert::{Conversion, SameChain, prove_same_chain};
+pub use diagnostic::{Diagnostic, Diagnostics, Severity, line_column, render};
+pub use robot_file::{MAX_BYTES, MAX_ROWS, read_toml, write_toml};
+pub use table::{TableKind, TableOptions, read_table};
+
 use denavit_symbolic::{Expr, Symbol};
 use std::fmt;
+use std::ops::Range;
+use units::Quantity;
 
 use crate::geometry::Transform;
 
@@ -141,4 +158,15 @@ impl Description {
     pub fn variables(&self) -> Vec<Variable> {
         self.rows.iter().filter_map(|r| r.variable).collect()
     }
+}
+
+/// Reports a number without unit that is improbable in SI: 90 rad, 151.9 m.
+fn suspicious_number(x: f64, span: &Range<usize>, quantity: Quantity, hint: &str, out: &mut Diagnostics) {
+    let (what, unit) = match quantity {
+        Quantity::Angle if x.abs() > std::f64::consts::TAU => (format!("{x} rad: more than a turn"), "deg"),
+        Quantity::Length if x.abs() > 20.0 => (format!("{x} m: taller than a house"), "mm"),
+        _ => return,
+    };
+    let hint = if hint.is_empty() { format!("a number without unit is SI; write `{x} {unit}` if that is meant") } else { hint.into() };
+    out.warning(span.clone(), what).hint(hint);
 }

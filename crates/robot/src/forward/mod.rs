@@ -6,4 +6,4 @@ mod model;
 
 pub use algorithm::{Outputs, Proof};
 pub use chain::Chain;
-pub use model::{ForwardModel, Reference};
+pub use model::{ForwardModel, Reference, link_transforms, symbol_order};

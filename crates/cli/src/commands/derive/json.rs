@@ -1,0 +1,45 @@
+//! The derivation as JSON; formulas are plain text that parses back.
+
+use super::Derivation;
+use crate::commands::robots::joints;
+use denavit_symbolic::Expr;
+use denavit_symbolic::print::{Style, print};
+use denavit_symbolic::vocabulary::Vocabulary;
+use serde_json::{Value, json};
+
+/// Schema 1 of `derive`.
+pub fn document(d: &Derivation) -> String {
+    let text = |e: Expr| d.text(e, Style::Ascii);
+    let rows = |m: &[[Expr; 4]; 4]| -> Value { m.iter().map(|row| row.map(text).to_vec()).collect() };
+    let plain = |e: Expr| print(e, &Vocabulary::new(), Style::Ascii);
+    let trigonometry = d.trigonometry().into_iter();
+    let mut steps: Vec<Value> =
+        trigonometry.map(|(name, value)| json!({"name": plain(name), "value": plain(value)})).collect();
+    steps.extend(d.steps.iter().map(|s| json!({"name": s.name, "value": text(s.value), "output": s.is_output})));
+    let count = d.model.algorithm.count();
+    let [from, to] = d.frames();
+    let variables = d.description.variables();
+    let document = json!({
+        "schema": 1,
+        "robot": d.description.name,
+        "convention": d.description.convention.name(),
+        "joints": variables.iter().zip(joints(d.description).chars())
+            .map(|(v, kind)| json!({"name": &*v.symbol.name(), "kind": kind.to_string()})).collect::<Vec<_>>(),
+        "links": d.links.iter().map(rows).collect::<Vec<_>>(),
+        "forward": {
+            "from": from,
+            "to": to,
+            "matrix": d.model.matrix.as_ref().map(rows).ok(),
+            "steps": steps,
+            "count": {
+                "multiplications": count.multiplications,
+                "additions": count.additions,
+                "sincos": count.sincos,
+                "offsets": count.offsets,
+                "hoisted": count.hoisted,
+            },
+            "proof": d.model.proof.to_string(),
+        },
+    });
+    format!("{document}\n")
+}

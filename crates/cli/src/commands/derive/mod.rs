@@ -1,0 +1,110 @@
+//! `denavit derive`: formulas, in the format asked for.
+
+mod html;
+mod json;
+mod latex;
+mod terminal;
+mod typst;
+
+use crate::arguments::{DeriveArguments, Format, RobotArguments};
+use crate::failure::Failure;
+use crate::load;
+use denavit::description::Description;
+use denavit::forward::{ForwardModel, Outputs, Reference, link_transforms};
+use denavit::geometry::Transform;
+use denavit_program::Step;
+use denavit_symbolic::Expr;
+use denavit_symbolic::print::{Style, print};
+use denavit_symbolic::vocabulary::Vocabulary;
+use std::io::Write;
+
+/// Derives a robot's formulas.
+///
+/// # Errors
+/// If there is no such robot or frame, or nothing can be written.
+pub fn run(arguments: &DeriveArguments) -> Result<(), Failure> {
+    let description = load::robot(&arguments.robot)?;
+    let from = reference(&description, &arguments.from, "--from")?;
+    let to = reference(&description, &arguments.to, "--to")?;
+    let outputs: Outputs = arguments.only.parse().map_err(|e| Failure::Usage(format!("--only: {e}")))?;
+    let derivation = Derivation::new(&description, from, to, outputs);
+    let format = if arguments.json { Format::Json } else { arguments.format };
+    write!(anstream::stdout(), "{}", derivation.printed(format))?;
+    Ok(())
+}
+
+/// The simplified pose of the tool alone, for `fk --symbolic`.
+///
+/// # Errors
+/// As [`run`].
+pub fn matrix_only(robot: &RobotArguments, format: Format) -> Result<(), Failure> {
+    let description = load::robot(robot)?;
+    let derivation = Derivation::new(&description, Reference::Base, Reference::Tool, Outputs::ALL);
+    let text = if format == Format::Json { derivation.printed(format) } else { terminal::forward(&derivation) };
+    write!(anstream::stdout(), "{text}")?;
+    Ok(())
+}
+
+fn reference(d: &Description, text: &str, option: &str) -> Result<Reference, Failure> {
+    let last = d.rows.len();
+    match (text, text.parse::<usize>()) {
+        ("base", _) => Ok(Reference::Base),
+        ("tool", _) => Ok(Reference::Tool),
+        (_, Ok(i)) if i <= last => Ok(Reference::Frame(i)),
+        _ => Err(Failure::Usage(format!("{option} {text}: `base`, `tool`, or a frame from 0 to {last}"))),
+    }
+}
+
+/// Everything that is printed, whatever the format.
+pub struct Derivation<'a> {
+    description: &'a Description,
+    /// The robot's names and those of the algorithm's intermediates.
+    names: Vocabulary,
+    links: Vec<[[Expr; 4]; 4]>,
+    model: ForwardModel,
+    steps: Vec<Step>,
+}
+
+impl<'a> Derivation<'a> {
+    fn new(description: &'a Description, from: Reference, to: Reference, outputs: Outputs) -> Self {
+        let model = ForwardModel::derive(description, from, to, outputs);
+        let steps = model.algorithm.steps();
+        let names = steps.iter().fold(description.vocabulary(), |v, step| v.symbol(&step.name));
+        Derivation { description, names, links: link_transforms(description), model, steps }
+    }
+
+    fn printed(&self, format: Format) -> String {
+        match format {
+            Format::Terminal => terminal::document(self),
+            Format::Latex => latex::document(self),
+            Format::Typst => typst::document(self),
+            Format::Html => html::document(self),
+            Format::Json => json::document(self),
+        }
+    }
+
+    fn text(&self, e: Expr, style: Style) -> String {
+        print(e, &self.names, style)
+    }
+
+    /// `C23` and `cos(q2 + q3)` for each sine and cosine that the algorithm takes and that has a short name.
+    fn trigonometry(&self) -> Vec<(Expr, Expr)> {
+        let plain = |e: Expr| print(e, &Vocabulary::new(), Style::Ascii);
+        let all = self.model.algorithm.sines_and_cosines().into_iter();
+        all.filter(|&e| self.text(e, Style::Ascii) != plain(e))
+            .map(|e| (Expr::symbol(&self.text(e, Style::Ascii)), e))
+            .collect()
+    }
+
+    /// The names of the two frames: `0` and `6`, or `base` and `tool` where those differ from them.
+    fn frames(&self) -> [String; 2] {
+        let d = self.description;
+        [self.model.from, self.model.to].map(|r| match r {
+            Reference::Base if d.base == Transform::identity() => "0".into(),
+            Reference::Base => "base".into(),
+            Reference::Frame(i) => i.to_string(),
+            Reference::Tool if d.tool == Transform::identity() => d.rows.len().to_string(),
+            Reference::Tool => "tool".into(),
+        })
+    }
+}

@@ -1,0 +1,85 @@
+//! The derivation for a terminal.
+
+use super::Derivation;
+use crate::commands::show::{dh_table, title};
+use crate::terminal::{
+    Align, FAINT, HEADING, NAME, lowered, matrix, matrix_width, raised, styled,
+};
+use denavit_program::COUNTING_RULE;
+use denavit_symbolic::Expr;
+use denavit_symbolic::print::{Style, print};
+use denavit_symbolic::vocabulary::Vocabulary;
+use std::fmt::Write;
+
+/// Wider matrices are printed entry by entry.
+const WIDTH: usize = 110;
+
+/// Table, link transforms, forward model and algorithm.
+pub fn document(d: &Derivation) -> String {
+    let mut text = title(d.description) + &dh_table(d.description);
+    let _ = writeln!(text, "\n{}", styled("Link transforms", HEADING));
+    for (i, link) in d.links.iter().enumerate() {
+        let label = label(&i.to_string(), &(i + 1).to_string());
+        text.push('\n');
+        text += &named_matrix(d, &label, link);
+    }
+    text + "\n" + &forward(d) + "\n" + &algorithm(d)
+}
+
+fn label(from: &str, to: &str) -> String {
+    match (from.parse::<usize>(), to.parse::<usize>()) {
+        (Ok(_), Ok(_)) => format!("{}T{}", raised(from), lowered(to)),
+        _ => format!("T({from} → {to})"),
+    }
+}
+
+fn named_matrix(d: &Derivation, label: &str, rows: &[[Expr; 4]; 4]) -> String {
+    let entries: Vec<Vec<String>> =
+        rows.iter().map(|row| row.iter().map(|&e| d.text(e, Style::Unicode)).collect()).collect();
+    if matrix_width(&entries) <= WIDTH {
+        return matrix(&format!("{label} = "), &entries, Align::Left);
+    }
+    let mut text = String::new();
+    for column in 0..4 {
+        for (row, entry) in entries.iter().enumerate().take(3) {
+            let name = styled(&format!("t{}{}", row + 1, column + 1), NAME);
+            let _ = writeln!(text, "  {name} = {}", entry[column]);
+        }
+    }
+    text
+}
+
+/// The simplified model.
+pub fn forward(d: &Derivation) -> String {
+    let [from, to] = d.frames();
+    let mut text = format!("{}\n\n", styled(&format!("Forward model {}", label(&from, &to)), HEADING));
+    match &d.model.matrix {
+        Ok(rows) => text += &named_matrix(d, &label(&from, &to), rows),
+        Err(why) => {
+            let _ = writeln!(text, "  not expanded: {why}; the algorithm below computes it");
+        }
+    }
+    text
+}
+
+fn algorithm(d: &Derivation) -> String {
+    let mut text = format!("{}\n\n", styled("Algorithm", HEADING));
+    let plain = |e: Expr| print(e, &Vocabulary::new(), Style::Unicode);
+    let trigonometry = d.trigonometry();
+    for pair in trigonometry.chunks(2) {
+        let line: Vec<String> = pair
+            .iter()
+            .map(|(name, value)| format!("{} = {}", styled(&plain(*name), NAME), plain(*value)))
+            .collect();
+        let _ = writeln!(text, "  {}", line.join(",  "));
+    }
+    for step in &d.steps {
+        let value = d.text(step.value, Style::Unicode);
+        let mark = if step.is_output { styled(&step.name, NAME) } else { step.name.clone() };
+        let _ = writeln!(text, "  {mark} = {value}");
+    }
+    let _ = writeln!(text, "\n  {}", styled(&d.model.algorithm.count().to_string(), HEADING));
+    let _ = writeln!(text, "  {}", styled(&format!("counted: {COUNTING_RULE}"), FAINT));
+    let _ = writeln!(text, "  {}", d.model.proof);
+    text
+}

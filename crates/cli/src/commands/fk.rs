@@ -1,0 +1,263 @@
+//! `denavit fk`: poses in numbers.
+
+use crate::arguments::{FkArguments, Format};
+use crate::commands::derive;
+use crate::failure::Failure;
+use crate::load;
+use crate::terminal::{Align, HEADING, NAME, lowered, matrix, number, raised, styled};
+use denavit::Robot;
+use denavit::description::{Description, JointKind, Variable};
+use denavit::geometry::Transform;
+use denavit::geometry::orientation::{OrientationSet, extract};
+use denavit_symbolic::Expr;
+use serde_json::{Value, json};
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Write};
+use std::path::Path;
+
+/// Computes poses.
+///
+/// # Errors
+/// If the robot or the configuration cannot be read, a parameter has no value, or nothing can be written.
+pub fn run(arguments: &FkArguments) -> Result<(), Failure> {
+    if arguments.symbolic {
+        let format = if arguments.json { Format::Json } else { Format::Terminal };
+        return derive::matrix_only(&arguments.robot, format);
+    }
+    let description = load::robot(&arguments.robot)?;
+    let request = Request::new(&description, arguments)?;
+    let robot = Robot::numeric(&description).map_err(|missing| {
+        let settings: Vec<String> = missing.parameters.iter().map(|p| format!("--set {p}=450mm")).collect();
+        Failure::Input(format!(
+            "error: {}: {missing}\n  = hint: give values, as in {}",
+            arguments.robot.robot,
+            settings.join(" ")
+        ))
+    })?;
+    match (&arguments.input, &arguments.q) {
+        (Some(path), _) => stream(&description, &robot, &request, path),
+        (None, Some(text)) => {
+            let q = configuration(&description, text)?;
+            warn_of_limits(&description, &q)?;
+            let mut out = anstream::stdout();
+            if arguments.json {
+                writeln!(out, "{}", answer(&description, &robot, &request, &q))?;
+            } else {
+                write!(out, "{}", report(&description, &robot, &request, &q))?;
+            }
+            Ok(())
+        }
+        (None, None) => Err(Failure::Usage(format!(
+            "say where the joints are: -q with {} values, as in -q \"{}\"{}",
+            robot.joints,
+            vec!["0"; robot.joints].join(", "),
+            pose_names(&description),
+        ))),
+    }
+}
+
+/// What is asked for besides the tool's pose.
+struct Request {
+    frames: Vec<usize>,
+    orientation: Option<OrientationSet>,
+}
+
+impl Request {
+    fn new(description: &Description, arguments: &FkArguments) -> Result<Self, Failure> {
+        let last = description.rows.len();
+        let frames = match arguments.frames.as_deref() {
+            None => vec![],
+            Some("all") => (0..=last).collect(),
+            Some(text) => match text.parse::<usize>() {
+                Ok(n) if n <= last => vec![n],
+                _ => return Err(Failure::Usage(format!("--frames {text}: `all`, or a number from 0 to {last}"))),
+            },
+        };
+        let set = arguments.orientation.as_deref().map(str::parse::<OrientationSet>).transpose();
+        let orientation = set.map_err(|e| Failure::Usage(format!("--orientation: {e}")))?;
+        Ok(Request { frames, orientation })
+    }
+}
+
+fn pose_names(d: &Description) -> String {
+    match d.poses.iter().map(|p| p.0.as_str()).collect::<Vec<_>>()[..] {
+        [] => String::new(),
+        ref names => format!(", or a pose by name: {}", names.join(", ")),
+    }
+}
+
+/// A pose of the file, or values separated by commas, semicolons or blanks.
+fn configuration(d: &Description, text: &str) -> Result<Vec<f64>, Failure> {
+    let variables = d.variables();
+    let bad = |why: String| Failure::Usage(format!("-q: {why}"));
+    if let Some((_, q)) = d.poses.iter().find(|p| p.0 == text.trim()) {
+        return q.iter().map(|e| value(*e).map_err(bad)).collect();
+    }
+    let text = text.trim().trim_start_matches(['[', '(']).trim_end_matches([']', ')']);
+    let parts: Vec<&str> = if text.contains([',', ';']) {
+        text.split([',', ';']).map(str::trim).collect()
+    } else {
+        text.split_whitespace().collect()
+    };
+    if parts.len() != variables.len() {
+        return Err(bad(format!(
+            "{} value{} given, the robot has {} joint{} ({})",
+            parts.len(),
+            if parts.len() == 1 { "" } else { "s" },
+            variables.len(),
+            if variables.len() == 1 { "" } else { "s" },
+            variables.iter().map(|v| v.symbol.name().to_string()).collect::<Vec<_>>().join(", ")
+        )));
+    }
+    let read = |(i, part): (usize, &&str)| {
+        load::quantity(part).and_then(value).map_err(|why| bad(format!("value {}: {why}", i + 1)))
+    };
+    parts.iter().enumerate().map(read).collect()
+}
+
+fn value(e: Expr) -> Result<f64, String> {
+    match e.eval(|_| None) {
+        Ok(x) if x.is_finite() => Ok(x),
+        _ => Err("not a finite number".into()),
+    }
+}
+
+fn limits(d: &Description) -> Vec<(Variable, Option<[f64; 2]>)> {
+    let numeric = |l: [Expr; 2]| Some([value(l[0]).ok()?, value(l[1]).ok()?]);
+    d.rows.iter().filter_map(|r| Some((r.variable?, r.limits.and_then(numeric)))).collect()
+}
+
+fn warn_of_limits(d: &Description, q: &[f64]) -> Result<(), Failure> {
+    for ((variable, limits), &x) in limits(d).into_iter().zip(q) {
+        if let Some([low, high]) = limits
+            && !(low..=high).contains(&x)
+        {
+            let shown = |x: f64| reading(x, variable.kind);
+            writeln!(
+                anstream::stderr(),
+                "warning: {} = {} is outside its limits {} … {}",
+                variable.symbol.name(),
+                shown(x),
+                shown(low),
+                shown(high)
+            )?;
+        }
+    }
+    Ok(())
+}
+
+/// A joint variable for reading: degrees or metres.
+fn reading(x: f64, kind: JointKind) -> String {
+    match kind {
+        JointKind::Revolute => format!("{}°", trimmed(x.to_degrees())),
+        JointKind::Prismatic => format!("{} m", trimmed(x)),
+    }
+}
+
+fn trimmed(x: f64) -> String {
+    let text = format!("{x:.4}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".into() } else { text.replace('-', "−") }
+}
+
+fn rows(x: &Transform<f64>) -> Value {
+    json!(x.matrix())
+}
+
+/// The answer as JSON.
+fn answer(d: &Description, robot: &Robot<f64>, request: &Request, q: &[f64]) -> Value {
+    let pose = robot.pose(q);
+    let mut answer = json!({"schema": 1, "robot": d.name, "q": q, "pose": rows(&pose)});
+    if !request.frames.is_empty() {
+        let frames = robot.frames(q);
+        answer["frames"] = request.frames.iter().map(|&i| rows(&frames[i])).collect();
+    }
+    if let Some(set) = request.orientation {
+        let o = extract(&pose.rotation, set);
+        answer["orientation"] = json!({"set": set.to_string(), "values": o.values, "singular": o.singular});
+    }
+    answer
+}
+
+/// The answer for reading.
+fn report(d: &Description, robot: &Robot<f64>, request: &Request, q: &[f64]) -> String {
+    let at: Vec<String> =
+        d.variables().iter().zip(q).map(|(v, &x)| format!("{} = {}", v.symbol.name(), reading(x, v.kind))).collect();
+    let mut text = format!("{} at {}\n\n", styled(&d.name, HEADING), at.join(", "));
+    let frames = robot.frames(q);
+    let size = frames.iter().map(|x| x.translation.norm()).fold(1.0, f64::max);
+    let show = |label: &str, x: &Transform<f64>| {
+        let entries: Vec<Vec<String>> =
+            x.matrix().iter().map(|row| row.iter().map(|&e| number(e, 1e-14 * size)).collect()).collect();
+        matrix(&format!("{label} = "), &entries, Align::Right)
+    };
+    for &i in &request.frames {
+        text += &show(&format!("{}T{}", raised("0"), lowered(&i.to_string())), &frames[i]);
+        text.push('\n');
+    }
+    let pose = robot.pose(q);
+    text += &show("tool", &pose);
+    if let Some(set) = request.orientation {
+        let o = extract(&pose.rotation, set);
+        text += &format!("\n  orientation as {}: ", styled(&set.to_string(), NAME));
+        let is_length_free = matches!(set, OrientationSet::Matrix | OrientationSet::Quaternion);
+        let values: Vec<String> = o
+            .names()
+            .iter()
+            .zip(&o.values)
+            .map(|(name, &x)| {
+                let angle = !is_length_free && !(set == OrientationSet::AxisAngle && *name != "angle");
+                if angle {
+                    format!("{name} {}", reading(x, JointKind::Revolute))
+                } else {
+                    format!("{name} {}", number(x, 1e-15))
+                }
+            })
+            .collect();
+        text += &values.join(", ");
+        if o.singular {
+            text += "  (singular: only the sum or difference of the outer angles is determined; the last is taken as 0)";
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// Answers a line for each line: the pose, or what is wrong with the line.
+fn stream(d: &Description, robot: &Robot<f64>, request: &Request, path: &Path) -> Result<(), Failure> {
+    let named = path.display();
+    let reader: Box<dyn BufRead> = if path.as_os_str() == "-" {
+        Box::new(io::stdin().lock())
+    } else {
+        let file = File::open(path).map_err(|e| Failure::Input(format!("error: {named}: {e}")))?;
+        Box::new(BufReader::new(file))
+    };
+    let mut out = io::BufWriter::new(io::stdout().lock());
+    let mut bad = 0_usize;
+    for (i, line) in reader.split(b'\n').enumerate() {
+        let line = line?;
+        if line.iter().all(u8::is_ascii_whitespace) {
+            continue;
+        }
+        match parse_line(&line, robot.joints) {
+            Ok(q) => writeln!(out, "{}", answer(d, robot, request, &q))?,
+            Err(why) => {
+                bad += 1;
+                writeln!(out, "{}", json!({"schema": 1, "line": i + 1, "error": why}))?;
+            }
+        }
+    }
+    out.flush()?;
+    match bad {
+        0 => Ok(()),
+        n => Err(Failure::Input(format!("error: {named}: {n} line{} could not be read", if n == 1 { "" } else { "s" }))),
+    }
+}
+
+fn parse_line(line: &[u8], joints: usize) -> Result<Vec<f64>, String> {
+    let q: Vec<f64> = serde_json::from_slice(line).map_err(|e| format!("not an array of numbers: {e}"))?;
+    if q.len() != joints {
+        return Err(format!("{} values, the robot has {joints} joints", q.len()));
+    }
+    Ok(q)
+}

@@ -1,0 +1,6 @@
+//! One file a verb.
+
+pub mod derive;
+pub mod fk;
+pub mod robots;
+pub mod show;

@@ -1,0 +1,49 @@
+//! `denavit robots`: the catalogue.
+
+use crate::arguments::RobotsArguments;
+use crate::failure::Failure;
+use crate::terminal::{Align, table};
+use denavit::catalogue;
+use denavit::description::{Description, JointKind, read_toml};
+use serde_json::json;
+use std::io::Write;
+
+/// Lists the catalogue.
+///
+/// # Errors
+/// If nothing can be written.
+pub fn run(arguments: &RobotsArguments) -> Result<(), Failure> {
+    let robots: Vec<(&str, Description)> = catalogue::names()
+        .into_iter()
+        .filter_map(|name| Some((name, read_toml(catalogue::text(name)?).ok()?.0)))
+        .filter(|(name, d)| arguments.filter.as_ref().is_none_or(|text| matches(text, name, &d.name)))
+        .collect();
+    let mut out = anstream::stdout();
+    if arguments.json {
+        let list: Vec<_> = robots
+            .iter()
+            .map(|(name, d)| {
+                json!({"name": name, "title": d.name, "joints": joints(d),
+                       "convention": d.convention.name(), "source": d.source})
+            })
+            .collect();
+        writeln!(out, "{}", json!({"schema": 1, "robots": list}))?;
+        return Ok(());
+    }
+    let rows: Vec<Vec<String>> = robots
+        .iter()
+        .map(|(name, d)| vec![(*name).into(), d.name.clone(), joints(d), d.convention.to_string()])
+        .collect();
+    write!(out, "{}", table(&["name", "robot", "joints", "convention"], &[Align::Left; 4], &rows))?;
+    Ok(())
+}
+
+fn matches(text: &str, name: &str, title: &str) -> bool {
+    let text = text.to_lowercase();
+    name.contains(&text) || title.to_lowercase().contains(&text)
+}
+
+/// `RRPRRR`.
+pub fn joints(d: &Description) -> String {
+    d.variables().iter().map(|v| if v.kind == JointKind::Revolute { 'R' } else { 'P' }).collect()
+}

@@ -1,0 +1,240 @@
+//! `denavit show`: the table, and what is special about the arm.
+
+use crate::arguments::ShowArguments;
+use crate::commands::robots::joints;
+use crate::failure::Failure;
+use crate::load;
+use crate::terminal::{Align, FAINT, HEADING, NAME, styled, table};
+use denavit::description::{Convention, Description, JointKind, write_toml};
+use denavit::geometry::Transform;
+use denavit::structure::Structure;
+use denavit_symbolic::print::{Style, print};
+use denavit_symbolic::vocabulary::Vocabulary;
+use denavit_symbolic::{Angle, Expr};
+use serde_json::json;
+use std::io::Write;
+
+/// Shows a robot.
+///
+/// # Errors
+/// If there is no such robot or nothing can be written.
+pub fn run(arguments: &ShowArguments) -> Result<(), Failure> {
+    let mut description = load::robot(&arguments.robot)?;
+    if let Some(to) = arguments.to {
+        let conversion = description.converted(to.into());
+        writeln!(anstream::stderr(), "note: {}", conversion.note)?;
+        description = conversion.description;
+    }
+    let mut out = anstream::stdout();
+    if arguments.toml {
+        write!(out, "{}", write_toml(&description))?;
+    } else if arguments.json {
+        writeln!(out, "{}", as_json(&description))?;
+    } else {
+        write!(out, "{}{}{}", title(&description), dh_table(&description), structure(&description))?;
+    }
+    Ok(())
+}
+
+/// Name, joints, convention and source.
+pub fn title(d: &Description) -> String {
+    let count = d.variables().len();
+    let mut text = format!(
+        "{}: {} joint{} ({}), {} convention\n",
+        styled(&d.name, HEADING),
+        count,
+        if count == 1 { "" } else { "s" },
+        joints(d),
+        d.convention
+    );
+    if let Some(source) = &d.source {
+        text += &format!("{}\n", styled(source, FAINT));
+    }
+    text
+}
+
+/// A quantity as it stands in a table: angles in degrees, lengths as formulas in metres.
+fn cell(e: Expr, is_angle: bool) -> String {
+    if !is_angle {
+        return print(e, &Vocabulary::new(), Style::Unicode);
+    }
+    let mut angle = Angle::of(e);
+    let turns = std::mem::take(&mut angle.turns);
+    let symbolic = angle.to_expr();
+    let degrees = &turns * &denavit_symbolic::Rational::from(180);
+    let degrees_text = print(Expr::from(degrees.abs()), &Vocabulary::new(), Style::Unicode);
+    match (symbolic.is_zero(), degrees.is_zero(), degrees.is_negative()) {
+        (true, true, _) => "0".into(),
+        (true, _, negative) => format!("{}{degrees_text}°", if negative { "−" } else { "" }),
+        (false, true, _) => print(symbolic, &Vocabulary::new(), Style::Unicode),
+        (false, _, negative) => format!(
+            "{} {} {degrees_text}°",
+            print(symbolic, &Vocabulary::new(), Style::Unicode),
+            if negative { "−" } else { "+" }
+        ),
+    }
+}
+
+/// The columns of a convention: heading, and what stands in them.
+type Column = (&'static str, fn(&denavit::description::Row) -> Expr, bool);
+
+fn columns(d: &Description) -> Vec<Column> {
+    let theta: Column = ("θ", |r| r.theta, true);
+    let alpha: Column = ("α", |r| r.alpha, true);
+    match d.convention {
+        Convention::Standard => vec![theta, ("d", |r| r.d, false), ("a", |r| r.a, false), alpha],
+        Convention::Craig => vec![alpha, ("a", |r| r.a, false), theta, ("d", |r| r.d, false)],
+        Convention::Khalil => {
+            let mut columns = vec![alpha, ("d", |r| r.a, false), theta, ("r", |r| r.d, false)];
+            if d.rows.iter().any(|r| !r.gamma.is_zero() || !r.b.is_zero()) {
+                let branch: [Column; 2] = [("γ", |r| r.gamma, true), ("b", |r| r.b, false)];
+                columns.splice(0..0, branch);
+            }
+            columns
+        }
+    }
+}
+
+/// The table in its own letters, with base, tool and the values of the parameters.
+pub fn dh_table(d: &Description) -> String {
+    let columns = columns(d);
+    let has_limits = d.rows.iter().any(|r| r.limits.is_some());
+    let has_names = d.rows.iter().any(|r| r.name.is_some());
+    let mut header: Vec<&str> = vec!["j", ""];
+    header.extend(columns.iter().map(|c| c.0));
+    if has_limits {
+        header.push("limits");
+    }
+    if has_names {
+        header.push("name");
+    }
+    let rows: Vec<Vec<String>> = d
+        .rows
+        .iter()
+        .enumerate()
+        .map(|(i, row)| {
+            let kind = match row.variable.map(|v| v.kind) {
+                Some(JointKind::Revolute) => "R",
+                Some(JointKind::Prismatic) => "P",
+                None => "–",
+            };
+            let mut cells = vec![(i + 1).to_string(), kind.to_string()];
+            cells.extend(columns.iter().map(|(_, of, is_angle)| cell(of(row), *is_angle)));
+            if has_limits {
+                let turns = row.variable.is_some_and(|v| v.kind == JointKind::Revolute);
+                let unit = if turns { "" } else { " m" };
+                let text = row.limits.map(|l| format!("{} … {}{unit}", cell(l[0], turns), cell(l[1], turns)));
+                cells.push(text.unwrap_or_default());
+            }
+            if has_names {
+                cells.push(row.name.clone().unwrap_or_default());
+            }
+            cells
+        })
+        .collect();
+    let mut text = format!("\n{}", table(&header, &vec![Align::Left; header.len()], &rows));
+    for (what, x) in [("base", &d.base), ("tool", &d.tool)] {
+        text += &placement(what, x);
+    }
+    if !d.parameters.is_empty() {
+        let values: Vec<String> = d
+            .parameters
+            .iter()
+            .map(|p| {
+                let angle = p.value.is_some_and(|v| !Angle::of(v).turns.is_zero());
+                let value = match p.value {
+                    Some(v) if angle => cell(v, true),
+                    Some(v) => format!("{} m", cell(v, false)),
+                    None => "?".into(),
+                };
+                format!("{} = {value}", styled(&p.symbol.name(), NAME))
+            })
+            .collect();
+        text += &format!("\n  {}\n", values.join(",  "));
+    }
+    text
+}
+
+fn placement(what: &str, x: &Transform<Expr>) -> String {
+    if *x == Transform::identity() {
+        return String::new();
+    }
+    let rows: Vec<Vec<String>> =
+        x.matrix().iter().map(|row| row.iter().map(|&e| cell(e, false)).collect()).collect();
+    format!("\n{}", crate::terminal::matrix(&format!("{what} = "), &rows, Align::Left))
+}
+
+fn structure(d: &Description) -> String {
+    let s = Structure::of(d);
+    let mut text = format!("\n{}\n  {}\n", styled("Structure", HEADING), s.schematic());
+    let list = |joints: &[usize]| joints.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+    for run in &s.parallel {
+        text += &format!("  axes {} are parallel\n", list(run));
+    }
+    for (k, relation) in s.relations.iter().enumerate() {
+        text += &format!("  axes {} and {} {relation}\n", k + 1, k + 2);
+    }
+    for &first in &s.spherical {
+        text += &format!("  axes {}, {}, {} meet in one point: a spherical wrist\n", first, first + 1, first + 2);
+    }
+    for near in &s.nearly {
+        let unit = if near.is_angle { "rad" } else { "m" };
+        text += &format!(
+            "  axes {} and {} are nearly {}: {:.3e} {unit} off; nothing is rounded\n",
+            near.joints.0, near.joints.1, near.nearly, near.by
+        );
+    }
+    for (name, q) in &d.poses {
+        let variables = d.variables();
+        let values: Vec<String> =
+            q.iter().zip(variables).map(|(e, v)| cell(*e, v.kind == JointKind::Revolute)).collect();
+        text += &format!("  pose {}: {}\n", styled(name, NAME), values.join(", "));
+    }
+    text
+}
+
+fn as_json(d: &Description) -> serde_json::Value {
+    let text = |e: Expr| print(e, &Vocabulary::new(), Style::Ascii);
+    let s = Structure::of(d);
+    let columns = columns(d);
+    let letter = |heading: &str| match heading {
+        "θ" => "theta".to_string(),
+        "α" => "alpha".to_string(),
+        "γ" => "gamma".to_string(),
+        other => other.to_string(),
+    };
+    let rows: Vec<_> = d
+        .rows
+        .iter()
+        .map(|row| {
+            let mut cells = serde_json::Map::new();
+            for (heading, of, _) in &columns {
+                cells.insert(letter(heading), text(of(row)).into());
+            }
+            cells.insert("variable".into(), row.variable.map(|v| v.symbol.name().to_string()).into());
+            cells.insert("limits".into(), row.limits.map(|l| l.map(text).to_vec()).into());
+            serde_json::Value::Object(cells)
+        })
+        .collect();
+    let matrix = |x: &Transform<Expr>| x.matrix().map(|row| row.map(text).to_vec()).to_vec();
+    json!({
+        "schema": 1,
+        "robot": d.name,
+        "source": d.source,
+        "convention": d.convention.name(),
+        "joints": joints(d),
+        "rows": rows,
+        "base": matrix(&d.base),
+        "tool": matrix(&d.tool),
+        "parameters": d.parameters.iter()
+            .map(|p| json!({"name": &*p.symbol.name(), "value": p.value.map(text)})).collect::<Vec<_>>(),
+        "structure": {
+            "schematic": s.schematic(),
+            "parallel": s.parallel,
+            "relations": s.relations.iter().map(ToString::to_string).collect::<Vec<_>>(),
+            "spherical_wrists": s.spherical,
+            "nearly": s.nearly.iter()
+                .map(|n| json!({"joints": [n.joints.0, n.joints.1], "nearly": n.nearly, "by": n.by})).collect::<Vec<_>>(),
+        },
+    })
+}

@@ -1,0 +1,41 @@
+//! How a command ends when it does not succeed.
+
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+/// Why a command stopped, with its exit code.
+#[derive(Debug)]
+pub enum Failure {
+    /// 2: the command line asks for something that does not fit the robot.
+    Usage(String),
+    /// 3: a file or value cannot be read; what is to be said stands in the text, ready to print.
+    Input(String),
+    /// 4: this is not supported.
+    Unsupported(String),
+    /// 5: a bound on time or size was reached.
+    GaveUp(String),
+    /// Standard output or a file cannot be written or read.
+    Io(io::Error),
+}
+
+impl Failure {
+    /// Says why on standard error and gives the exit code. A reader that has gone away (`| head`) is no failure.
+    pub fn report(self) -> ExitCode {
+        let (code, text) = match self {
+            Failure::Io(e) if e.kind() == io::ErrorKind::BrokenPipe => return ExitCode::SUCCESS,
+            Failure::Io(e) => (3, format!("error: {e}")),
+            Failure::Usage(text) => (2, format!("error: {text}")),
+            Failure::Input(text) => (3, text),
+            Failure::Unsupported(text) => (4, format!("not supported: {text}")),
+            Failure::GaveUp(text) => (5, format!("gave up: {text}")),
+        };
+        let _ = writeln!(anstream::stderr(), "{}", text.trim_end());
+        ExitCode::from(code)
+    }
+}
+
+impl From<io::Error> for Failure {
+    fn from(e: io::Error) -> Self {
+        Failure::Io(e)
+    }
+}

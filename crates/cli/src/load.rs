@@ -1,0 +1,151 @@
+//! From what stands on the command line to a robot.
+
+use crate::arguments::{AngleUnit, LengthUnit, RobotArguments};
+use crate::failure::Failure;
+use denavit::catalogue;
+use denavit::description::{
+    Description, Diagnostic, MAX_BYTES, Severity, TableKind, TableOptions, read_table, read_toml,
+};
+use denavit_symbolic::parse::parse;
+use denavit_symbolic::vocabulary::Vocabulary;
+use denavit_symbolic::{Expr, Rational};
+use std::fs::File;
+use std::io::{self, Read, Write};
+use std::path::Path;
+
+/// Reads the robot that the arguments name; what is worth saying about it goes to standard error.
+///
+/// # Errors
+/// If there is no such robot, or its file cannot be read or has errors.
+pub fn robot(arguments: &RobotArguments) -> Result<Description, Failure> {
+    let mut description = match catalogue::text(&arguments.robot) {
+        Some(text) => read(&arguments.robot, text, read_toml(text))?,
+        None => from_file(arguments)?,
+    };
+    for setting in &arguments.set {
+        set(&mut description, setting)?;
+    }
+    Ok(description)
+}
+
+fn from_file(arguments: &RobotArguments) -> Result<Description, Failure> {
+    let name = arguments.robot.as_str();
+    let path = Path::new(name);
+    let kind = match path.extension().and_then(|e| e.to_str()) {
+        _ if name == "-" => Some(TableKind::Markdown),
+        Some("toml") => None,
+        Some("md" | "markdown" | "txt") => Some(TableKind::Markdown),
+        Some("csv" | "tsv") => Some(TableKind::Csv),
+        Some("tex") => Some(TableKind::Latex),
+        Some("urdf" | "xacro") => {
+            return Err(Failure::Unsupported("URDF is not read yet; write the Denavit-Hartenberg table".into()));
+        }
+        _ => return Err(unknown_robot(name)),
+    };
+    let text = contents(name).map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
+    let outcome = match kind {
+        None => read_toml(&text),
+        Some(kind) => read_table(&text, kind, &options(arguments)),
+    };
+    read(name, &text, outcome)
+}
+
+/// The text of a file or of standard input, bounded, whatever its bytes are.
+fn contents(name: &str) -> io::Result<String> {
+    let limit = MAX_BYTES as u64 + 1;
+    let mut bytes = vec![];
+    if name == "-" {
+        io::stdin().lock().take(limit).read_to_end(&mut bytes)?;
+    } else {
+        File::open(name)?.take(limit).read_to_end(&mut bytes)?;
+    }
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+fn options(arguments: &RobotArguments) -> TableOptions {
+    TableOptions {
+        convention: arguments.convention.map(Into::into),
+        angles_in_degrees: arguments.angles.map(|u| u == AngleUnit::Deg),
+        lengths_in_millimetres: arguments.lengths.map(|u| u == LengthUnit::Mm),
+        table: arguments.table,
+        columns: arguments.columns.clone(),
+    }
+}
+
+type Reading = Result<(Description, Vec<Diagnostic>), Vec<Diagnostic>>;
+
+fn read(name: &str, text: &str, outcome: Reading) -> Result<Description, Failure> {
+    let render = |findings: &[Diagnostic]| findings.iter().map(|d| coloured(d, name, text)).collect::<String>();
+    match outcome {
+        Ok((description, findings)) => {
+            write!(anstream::stderr(), "{}", render(&findings))?;
+            Ok(description)
+        }
+        Err(findings) => Err(Failure::Input(render(&findings))),
+    }
+}
+
+fn coloured(finding: &Diagnostic, name: &str, text: &str) -> String {
+    use anstyle::{AnsiColor, Style};
+    let style: Style = match finding.severity {
+        Severity::Error => AnsiColor::Red.on_default().bold(),
+        Severity::Warning => AnsiColor::Yellow.on_default().bold(),
+        Severity::Note => AnsiColor::Cyan.on_default(),
+    };
+    let word = finding.severity.name();
+    finding.render(name, text).replacen(word, &format!("{style}{word}{style:#}"), 1)
+}
+
+fn unknown_robot(name: &str) -> Failure {
+    let close: Vec<&str> = catalogue::names().into_iter().filter(|n| similar(n, name)).take(6).collect();
+    let hint = match &close[..] {
+        [] => "`denavit robots` lists the catalogue; files end in .toml, .md, .csv or .tex".to_string(),
+        names => format!("did you mean {}?", names.join(", ")),
+    };
+    Failure::Input(format!("error: no robot or file `{name}`\n  = hint: {hint}"))
+}
+
+/// Whether a catalogue name is what somebody may have meant: it holds the text, or most of its letters in order.
+fn similar(candidate: &str, text: &str) -> bool {
+    let plain = |s: &str| s.to_lowercase().chars().filter(char::is_ascii_alphanumeric).collect::<String>();
+    let (candidate, text) = (plain(candidate), plain(text));
+    if text.len() < 2 {
+        return false;
+    }
+    let mut rest = candidate.chars();
+    let found = text.chars().filter(|&c| rest.clone().any(|r| r == c) && rest.any(|r| r == c)).count();
+    candidate.contains(&text) || (found + 1 >= text.len() && text.len() + 3 >= candidate.len())
+}
+
+/// `NAME=VALUE`.
+fn set(description: &mut Description, setting: &str) -> Result<(), Failure> {
+    let (name, value) = setting
+        .split_once('=')
+        .ok_or_else(|| Failure::Usage(format!("--set {setting}: write NAME=VALUE, as in D3=450mm")))?;
+    let value = quantity(value).map_err(|why| Failure::Usage(format!("--set {setting}: {why}")))?;
+    let names: Vec<String> = description.parameters.iter().map(|p| p.symbol.name().to_string()).collect();
+    match description.parameters.iter_mut().find(|p| *p.symbol.name() == *name.trim()) {
+        Some(parameter) => parameter.value = Some(value),
+        None => {
+            let known = if names.is_empty() { "it has none".into() } else { format!("they are {}", names.join(", ")) };
+            return Err(Failure::Usage(format!("--set {setting}: no parameter `{}`; {known}", name.trim())));
+        }
+    }
+    Ok(())
+}
+
+/// A constant with or without unit: `0.1`, `90deg`, `pi/2`, `450 mm`.
+///
+/// # Errors
+/// A sentence that says what is wrong.
+pub fn quantity(text: &str) -> Result<Expr, String> {
+    let units = [("mm", 1000), ("cm", 100), ("m", 1)];
+    let names = units.iter().fold(Vocabulary::new(), |v, (unit, n)| v.alias(unit, Rational::new(1, *n).into()));
+    let e = parse(text.trim(), &names).map_err(|errors| {
+        errors.first().map_or_else(|| "not a number".to_string(), ToString::to_string)
+    })?;
+    match e.eval(|_| None) {
+        Ok(x) if x.is_finite() => Ok(e),
+        _ => Err(format!("`{}` is no finite number", text.trim())),
+    }
+}

@@ -1,0 +1,17 @@
+//! Robots that people own or study, each a robot file with its source.
+
+use include_dir::{Dir, include_dir};
+
+static FILES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/catalogue");
+
+/// The names of all robots, sorted.
+pub fn names() -> Vec<&'static str> {
+    let mut names: Vec<&str> = FILES.files().filter_map(|f| f.path().file_stem()?.to_str()).collect();
+    names.sort_unstable();
+    names
+}
+
+/// The robot file with this name.
+pub fn text(name: &str) -> Option<&'static str> {
+    FILES.get_file(format!("{name}.toml"))?.contents_utf8()
+}

@@ -1,0 +1,192 @@
+//! A description as a robot file that reads back to it.
+
+use crate::description::cell::write_cell;
+use crate::description::units::Quantity;
+use crate::description::{Convention, Description, JointKind, Row};
+use crate::geometry::{Axis, Rotation, Transform};
+use denavit_symbolic::{Expr, Rational, equal, expr::Node};
+use std::f64::consts::PI;
+use std::fmt::Write;
+
+/// The robot file of a description.
+pub fn write_toml(d: &Description) -> String {
+    let mut out = format!("name = {}\nconvention = \"{}\"\n", quoted(&d.name), d.convention);
+    if let Some(source) = &d.source {
+        let _ = writeln!(out, "source = {}", quoted(source));
+    }
+    if let Some(gravity) = &d.gravity {
+        let _ = writeln!(out, "gravity = {}", list(gravity, Quantity::Acceleration));
+    }
+    if !d.parameters.is_empty() {
+        out.push_str("\n[parameters]\n");
+        for p in &d.parameters {
+            let quantity = quantity_of_parameter(d, p.symbol.into());
+            let value = p.value.map_or("{}".into(), |v| cell(v, quantity));
+            let _ = writeln!(out, "{} = {value}", key(&p.symbol.name()));
+        }
+    }
+    for row in &d.rows {
+        out.push_str("\n[[joints]]\n");
+        write_row(&mut out, row, d.convention);
+    }
+    for (name, frame) in [("base", &d.base), ("tool", &d.tool)] {
+        if *frame != Transform::identity() {
+            let _ = writeln!(out, "\n[{name}]");
+            write_frame(&mut out, frame);
+        }
+    }
+    if !d.poses.is_empty() {
+        out.push_str("\n[poses]\n");
+        let kinds: Vec<JointKind> = d.variables().iter().map(|v| v.kind).collect();
+        for (name, pose) in &d.poses {
+            let values: Vec<String> =
+                pose.iter().zip(&kinds).map(|(&e, &k)| cell(e, super::quantity_of(k))).collect();
+            let _ = writeln!(out, "{} = [{}]", key(name), values.join(", "));
+        }
+    }
+    out
+}
+
+fn write_row(out: &mut String, row: &Row, convention: Convention) {
+    if let Some(name) = &row.name {
+        let _ = writeln!(out, "name = {}", quoted(name));
+    }
+    let (x, z) = (convention.length_x(), convention.length_z());
+    let (theta, alpha) = (("theta", row.theta, Quantity::Angle), ("alpha", row.alpha, Quantity::Angle));
+    let (d, a) = ((z, row.d, Quantity::Length), (x, row.a, Quantity::Length));
+    let branch = [("gamma", row.gamma, Quantity::Angle), ("b", row.b, Quantity::Length)];
+    let letters = match convention {
+        Convention::Standard => [theta, d, a, alpha],
+        Convention::Craig | Convention::Khalil => [alpha, a, theta, d],
+    };
+    for (key, e, quantity) in branch.into_iter().chain(letters) {
+        if !e.is_zero() {
+            let _ = writeln!(out, "{key} = {}", cell(e, quantity));
+        }
+    }
+    let turns = row.variable.is_none_or(|v| v.kind == JointKind::Revolute);
+    let (value, rate, change) = match turns {
+        true => (Quantity::Angle, Quantity::AngularVelocity, Quantity::AngularAcceleration),
+        false => (Quantity::Length, Quantity::Velocity, Quantity::Acceleration),
+    };
+    if let Some(limits) = &row.limits {
+        let _ = writeln!(out, "limits = {}", list(limits, value));
+    }
+    for (key, e, quantity) in
+        [("velocity", row.velocity, rate), ("acceleration", row.acceleration, change), ("mass", row.mass, Quantity::Mass)]
+    {
+        if let Some(e) = e {
+            let _ = writeln!(out, "{key} = {}", cell(e, quantity));
+        }
+    }
+    if let Some(com) = &row.com {
+        let _ = writeln!(out, "com = {}", list(com, Quantity::Length));
+    }
+    if let Some(inertia) = &row.inertia {
+        let _ = writeln!(out, "inertia = {}", list(inertia, Quantity::Inertia));
+    }
+}
+
+fn write_frame(out: &mut String, frame: &Transform<Expr>) {
+    let zero = [Expr::int(0); 3];
+    if let Some(rpy) = exact_rpy(&frame.rotation) {
+        if frame.translation.0 != zero {
+            let _ = writeln!(out, "xyz = {}", list(&frame.translation.0, Quantity::Length));
+        }
+        if rpy != zero {
+            let _ = writeln!(out, "rpy = {}", list(&rpy, Quantity::Angle));
+        }
+        return;
+    }
+    out.push_str("matrix = [\n");
+    for (row, &p) in frame.rotation.rows().iter().zip(&frame.translation.0) {
+        let entries: Vec<String> = row.iter().map(|&e| cell(e, Quantity::Number)).collect();
+        let _ = writeln!(out, "  [{}, {}],", entries.join(", "), cell(p, Quantity::Length));
+    }
+    out.push_str("  [0, 0, 0, 1],\n]\n");
+}
+
+/// Roll, pitch and yaw that give this rotation, entry by entry, if they are multiples of π/180 or a turn about
+/// one axis by an angle that occurs in it.
+fn exact_rpy(r: &Rotation<Expr>) -> Option<[Expr; 3]> {
+    let o = Expr::int(0);
+    let angles: Vec<Expr> = Expr::postorder(r.rows().as_flattened())
+        .into_iter()
+        .filter_map(|e| if let Node::Sin(a) | Node::Cos(a) = e.node() { Some(a) } else { None })
+        .collect();
+    for angle in angles.into_iter().flat_map(|a| [a, -a, a + Expr::pi(), -a + Expr::pi()]) {
+        for axis in Axis::ALL {
+            if Rotation::about(axis, angle) == *r {
+                let mut rpy = [o; 3];
+                rpy[axis.index()] = angle;
+                return Some(rpy);
+            }
+        }
+    }
+    let m = r.rows();
+    let number = |i: usize, j: usize| m[i][j].eval(|_| None).ok();
+    let (m00, m10, m20) = (number(0, 0)?, number(1, 0)?, number(2, 0)?);
+    let pitch = (-m20).atan2(m00.hypot(m10));
+    let (roll, yaw) = match m00.hypot(m10) > 1e-9 {
+        true => (number(2, 1)?.atan2(number(2, 2)?), m10.atan2(m00)),
+        false => (0.0, (-number(0, 1)?).atan2(number(1, 1)?)), // pitch ±90°: only roll ∓ yaw is determined
+    };
+    // decimals of a degree that the rotation was perhaps given in
+    for scale in [1.0, 1000.0, 1e6] {
+        let rpy = [roll, pitch, yaw].map(|x| {
+            let steps = (x / PI * 180.0 * scale).round();
+            Expr::from(Rational::new(steps as i64, 180 * scale as i64)) * Expr::pi()
+        });
+        let again = Rotation::from_rpy(rpy[0], rpy[1], rpy[2]);
+        let same = |i: usize, j: usize| again[(i, j)] == m[i][j] || equal(again[(i, j)], m[i][j]).is_equal();
+        if (0..9).all(|k| same(k / 3, k % 3)) {
+            return Some(rpy);
+        }
+    }
+    None
+}
+
+fn cell(e: Expr, quantity: Quantity) -> String {
+    if e.is_zero() { "0".into() } else { quoted(&write_cell(e, quantity)) }
+}
+
+fn list(values: &[Expr], quantity: Quantity) -> String {
+    format!("[{}]", values.iter().map(|&e| cell(e, quantity)).collect::<Vec<_>>().join(", "))
+}
+
+/// A parameter that stands in an angle is an angle.
+fn quantity_of_parameter(d: &Description, symbol: Expr) -> Quantity {
+    let occurs = |e: &Expr| e.symbols().iter().any(|&s| Expr::from(s) == symbol);
+    let summand = |e: Expr| denavit_symbolic::Angle::of(e).terms.iter().any(|t| t.0 == symbol);
+    if d.rows.iter().flat_map(|r| [r.theta, r.alpha, r.gamma]).any(summand) {
+        return Quantity::Angle;
+    }
+    let lengths = d.rows.iter().flat_map(|r| [r.d, r.a, r.b]).chain(d.base.translation.0).chain(d.tool.translation.0);
+    if lengths.collect::<Vec<_>>().into_iter().any(summand) {
+        return Quantity::Length;
+    }
+    let turned = [&d.base, &d.tool].iter().any(|f| f.rotation.rows().as_flattened().iter().any(occurs));
+    if turned { Quantity::Angle } else { Quantity::Open }
+}
+
+fn key(name: &str) -> String {
+    let bare = !name.is_empty() && name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_' || b == b'-');
+    if bare { name.to_string() } else { quoted(name) }
+}
+
+fn quoted(text: &str) -> String {
+    let mut out = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => out.extend(['\\', c]),
+            '\n' => out.push_str("\\n"),
+            '\t' => out.push_str("\\t"),
+            c if c.is_control() => {
+                let _ = write!(out, "\\u{:04X}", u32::from(c));
+            }
+            c => out.push(c),
+        }
+    }
+    out.push('"');
+    out
+}

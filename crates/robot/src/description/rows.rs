@@ -1,0 +1,196 @@
+//! The rule of joint variables, for rows from whatever text.
+//!
+//! Row by row, the next variable `qk` may appear in θ or in the length along z, with a factor that is a number;
+//! it makes the row revolute or prismatic. Variables of earlier rows may be added there (a coupling). Everything
+//! else is constant.
+
+use super::cell::variable_number;
+use super::diagnostic::{Diagnostics, nearest};
+use super::{Convention, JointKind, Variable};
+use denavit_symbolic::{Angle, Expr, Symbol};
+use std::ops::Range;
+
+/// A cell that was read, and where.
+#[derive(Clone, Debug)]
+pub(super) struct Cell {
+    pub expr: Expr,
+    pub span: Range<usize>,
+    pub symbols: Vec<(String, Range<usize>)>,
+}
+
+impl Cell {
+    /// The 0 of a cell that is not there.
+    pub fn zero(span: Range<usize>) -> Self {
+        Cell { expr: Expr::int(0), span, symbols: vec![] }
+    }
+
+    /// The names that the value depends on as a sum: each with a number as its factor.
+    pub fn summands(&self) -> impl Iterator<Item = Symbol> {
+        Angle::of(self.expr).terms.into_iter().filter_map(|t| t.0.as_symbol())
+    }
+}
+
+/// The cells of a row.
+#[derive(Clone, Debug)]
+pub(super) struct Cells {
+    /// The whole row.
+    pub span: Range<usize>,
+    pub theta: Cell,
+    pub d: Cell,
+    pub a: Cell,
+    pub alpha: Cell,
+    pub gamma: Cell,
+    pub b: Cell,
+}
+
+impl Cells {
+    pub fn all(&self) -> [&Cell; 6] {
+        [&self.theta, &self.d, &self.a, &self.alpha, &self.gamma, &self.b]
+    }
+
+    /// The cells that hold angles, then those that hold lengths.
+    pub fn by_quantity(&self) -> ([&Cell; 3], [&Cell; 3]) {
+        ([&self.theta, &self.alpha, &self.gamma], [&self.d, &self.a, &self.b])
+    }
+}
+
+/// Finds each row's own variable; reports every breach of the rule.
+pub(super) fn assign_variables(rows: &[Cells], convention: Convention, out: &mut Diagnostics) -> Vec<Option<Variable>> {
+    let mut next = 1;
+    let mut variables = vec![];
+    for row in rows {
+        let (x, z) = (convention.length_x(), convention.length_z());
+        for (cell, name) in [(&row.a, x), (&row.alpha, "alpha"), (&row.gamma, "gamma"), (&row.b, "b")] {
+            for (q, span) in joint_variables(cell) {
+                out.error(span, format!("the joint variable `q{q}` in `{name}`"))
+                    .hint(format!("a joint turns or slides along z: its variable belongs in `theta` or `{z}`"));
+            }
+        }
+        let mut new: Vec<(usize, Range<usize>)> = joint_variables(&row.theta);
+        new.extend(joint_variables(&row.d));
+        new.retain(|v| v.0 >= next);
+        let (first, last) = (new.iter().map(|v| v.0).min(), new.iter().map(|v| v.0).max());
+        let mut own = None;
+        match (first, last) {
+            (Some(first), Some(last)) if first != last => {
+                let span = new.iter().find(|v| v.0 == last).map_or(row.span.clone(), |v| v.1.clone());
+                out.error(span, format!("two new joint variables in one row, `q{first}` and `q{last}`"))
+                    .hint("a row is one joint: give the second a row of its own; only variables of rows above may be added");
+            }
+            (Some(first), _) if first > next => {
+                let (message, hint) = (
+                    format!("`q{first}` comes before `q{next}`"),
+                    format!("variables count the rows that have one: this row's is `q{next}`"),
+                );
+                out.error(new[0].1.clone(), message).hint(hint);
+            }
+            (Some(_), _) => own = own_variable(row, next, z, out),
+            (None, _) => {}
+        }
+        if first.is_none() {
+            follows(row, out);
+        }
+        check_linear(row, z, own.is_some() || first.is_none(), out);
+        next = last.map_or(next, |q| q + 1);
+        variables.push(own);
+    }
+    variables
+}
+
+/// The variable `q{number}` of a row in which it occurs.
+fn own_variable(row: &Cells, number: usize, z: &str, out: &mut Diagnostics) -> Option<Variable> {
+    let symbol = Symbol::new(&format!("q{number}"));
+    let occurs = |c: &Cell| joint_variables(c).into_iter().find(|v| v.0 == number);
+    match (occurs(&row.theta), occurs(&row.d)) {
+        (Some(_), Some((_, span))) => {
+            out.error(span, format!("`q{number}` both in `theta` and in `{z}`"))
+                .hint("a joint turns or slides; a screw joint is not supported");
+            None
+        }
+        (Some(_), None) => Some(Variable { symbol, kind: JointKind::Revolute }),
+        (None, Some(_)) => Some(Variable { symbol, kind: JointKind::Prismatic }),
+        (None, None) => None,
+    }
+}
+
+/// Says so where a row only repeats variables of other rows.
+fn follows(row: &Cells, out: &mut Diagnostics) {
+    for cell in [&row.theta, &row.d] {
+        if let Some((q, span)) = joint_variables(cell).into_iter().next() {
+            out.note(span, format!("this row has no joint variable of its own: it follows `q{q}`"));
+        }
+    }
+}
+
+/// Every joint variable stands in a sum, with a number other than 0 as its factor.
+fn check_linear(row: &Cells, z: &str, report: bool, out: &mut Diagnostics) {
+    for (cell, name) in [(&row.theta, "theta"), (&row.d, z)] {
+        let variables = joint_variables(cell);
+        if variables.is_empty() || !report {
+            continue;
+        }
+        let summands: Vec<Symbol> = cell.summands().collect();
+        let nonlinear: Vec<Symbol> = Angle::of(cell.expr)
+            .terms
+            .iter()
+            .filter(|t| t.0.as_symbol().is_none())
+            .flat_map(|t| t.0.symbols())
+            .filter(|s| variable_number(&s.name()).is_some())
+            .collect();
+        for (q, span) in variables {
+            let symbol = Symbol::new(&format!("q{q}"));
+            if nonlinear.contains(&symbol) {
+                out.error(span, format!("`{name}` is not linear in `q{q}`"))
+                    .hint(format!("a joint variable may have a number as its factor and an offset: `{name} = \"2*q{q} + 90 deg\"`"));
+            } else if !summands.contains(&symbol) {
+                out.error(span, format!("`q{q}` cancels in `{name}`"));
+            }
+        }
+    }
+}
+
+/// The joint variables in a cell, each once.
+fn joint_variables(cell: &Cell) -> Vec<(usize, Range<usize>)> {
+    let mut found: Vec<(usize, Range<usize>)> = vec![];
+    for (name, span) in &cell.symbols {
+        if let Some(q) = variable_number(name)
+            && !found.iter().any(|f| f.0 == q)
+        {
+            found.push((q, span.clone()));
+        }
+    }
+    found
+}
+
+/// Reports names that are neither parameters nor joint variables, each once.
+pub(super) fn check_declared<'a>(
+    cells: impl IntoIterator<Item = &'a Cell>,
+    parameters: &[String],
+    count: usize,
+    out: &mut Diagnostics,
+) {
+    let mut reported: Vec<&str> = vec![];
+    for (name, span) in cells.into_iter().flat_map(|c| &c.symbols) {
+        if variable_number(name).is_some() || parameters.contains(name) || reported.contains(&name.as_str()) {
+            continue;
+        }
+        if out.is_full() {
+            out.error(span.clone(), format!("`{name}` is not declared"));
+            continue;
+        }
+        reported.push(name);
+        let joints: Vec<String> = (1..=count.min(60)).map(|i| format!("q{i}")).collect();
+        let lower = name.to_lowercase();
+        let joint = ["theta", "t", "th"]
+            .iter()
+            .find_map(|p| lower.strip_prefix(p))
+            .and_then(|n| joints.iter().find(|j| j[1..] == *n));
+        let candidates = parameters.iter().chain(&joints).map(String::as_str);
+        let hint = match (joint, nearest(name, candidates)) {
+            (Some(q), _) => format!("joint variables are written `{q}`"),
+            (_, Some(near)) => format!("did you mean `{near}`? If not, declare it: [parameters] {name} = \"\""),
+            _ => format!("declare it: [parameters] {name} = \"450 mm\", or \"\" where it has no value"),
+        };
+        out.error(span.clone(), format!("`{name}` is not declared")).hint(hint);
+    }
+}

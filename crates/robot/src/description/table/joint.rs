@@ -1,0 +1,107 @@
+//! Which cell of a row moves.
+
+use super::columns::Role;
+use super::read::{ReadRow, TableCell};
+use crate::description::cell::name_of;
+use crate::description::diagnostic::Diagnostics;
+use crate::description::{Convention, JointKind};
+
+/// What a row's joint is.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) enum Joint {
+    /// A fixed transform.
+    Fixed,
+    /// The cell that holds the variable, and the variable's name there; a cell that only says "variable" has none.
+    Moves(JointKind, Option<String>),
+}
+
+/// The joint of each row.
+pub(super) fn joints(rows: &[ReadRow], convention: Convention, out: &mut Diagnostics) -> Vec<Joint> {
+    let starred = rows.iter().any(|r| r.theta.star || r.z.star);
+    rows.iter().map(|row| joint(row, convention.length_z(), starred, out).unwrap_or(Joint::Fixed)).collect()
+}
+
+fn joint(row: &ReadRow, z: &str, starred: bool, out: &mut Diagnostics) -> Option<Joint> {
+    if let Some(sigma) = row.source(Role::Sigma) {
+        let kind = match sigma.text.trim_matches(['$', ' ', '*']).to_lowercase().as_str() {
+            "0" | "r" | "rev" | "revolute" | "rotoïde" | "rotoide" | "rot" | "rotary" | "rotational" => JointKind::Revolute,
+            "1" | "p" | "t" | "prism" | "prismatic" | "prismatique" | "linear" | "trans" | "translational" => JointKind::Prismatic,
+            "2" | "f" | "fixed" | "-" | "" => return Some(Joint::Fixed),
+            other => {
+                let shown: String = other.chars().take(20).collect();
+                out.error(sigma.span.clone(), format!("`{shown}` is no type of joint"))
+                    .hint("0 or R is revolute, 1 or P prismatic, 2 or F fixed");
+                return None;
+            }
+        };
+        let (cell, name) = if kind == JointKind::Revolute { (&row.theta, "theta") } else { (&row.z, z) };
+        if let Some(symbol) = the_variable(cell, row) {
+            return Some(Joint::Moves(kind, symbol));
+        }
+        let (span, number) = (cell.cell.span.clone(), row.number);
+        let what = if kind == JointKind::Revolute { "revolute" } else { "prismatic" };
+        let letter = if kind == JointKind::Revolute { "θ" } else { z };
+        out.error(span, format!("row {number} is {what}, but its {name} cell holds no joint variable"))
+            .hint(format!("write {letter}{number} or q{number} in it, with an offset if there is one"));
+        return None;
+    }
+    if let Some(variable) = row.source(Role::Variable) {
+        let text = variable.text.trim_matches(['$', ' ']);
+        if matches!(text, "" | "-" | "–" | "—" | "0" | "fixed") {
+            return Some(Joint::Fixed);
+        }
+        let name = name_of(text, true);
+        let holds = |c: &TableCell| name.as_ref().is_some_and(|n| c.cell.symbols.iter().any(|s| s.0 == *n));
+        return match (holds(&row.theta), holds(&row.z)) {
+            (true, _) => Some(Joint::Moves(JointKind::Revolute, name)),
+            (false, true) => Some(Joint::Moves(JointKind::Prismatic, name)),
+            (false, false) => {
+                let shown: String = text.chars().take(20).collect();
+                out.error(variable.span.clone(), format!("the variable `{shown}` stands neither in theta nor in {z}"))
+                    .hint("the q column names the symbol that moves");
+                None
+            }
+        };
+    }
+    if starred {
+        let cells = [(&row.theta, JointKind::Revolute), (&row.z, JointKind::Prismatic)];
+        let (cell, kind) = cells.into_iter().find(|c| c.0.star)?;
+        let symbol = the_variable(cell, row);
+        if symbol.is_none() {
+            out.error(cell.cell.span.clone(), "which symbol of this cell is the variable?")
+                .hint(format!("write it as q{}", row.number));
+        }
+        return Some(Joint::Moves(kind, symbol?));
+    }
+    if let Some(name) = own_symbol(&row.theta, row.number, &["theta", "q", "t", "th"]) {
+        return Some(Joint::Moves(JointKind::Revolute, Some(name)));
+    }
+    let name = own_symbol(&row.z, row.number, &["d", "r", "q"])?;
+    let (number, span) = (row.number, row.z.cell.span.clone());
+    out.note(span, format!("row {number} is prismatic: `{name}` in {z}, and no variable in theta"))
+        .hint("if that is a constant, give it another name, or add a column σ (0 revolute, 1 prismatic, 2 fixed)");
+    Some(Joint::Moves(JointKind::Prismatic, Some(name)))
+}
+
+/// The variable in a cell that is known to hold one: `Some(None)` for a cell that only says so.
+fn the_variable(cell: &TableCell, row: &ReadRow) -> Option<Option<String>> {
+    if cell.marker {
+        return Some(None);
+    }
+    if let Some(own) = own_symbol(cell, row.number, &["q", "theta", "t", "th", "d", "r"]) {
+        return Some(Some(own));
+    }
+    match cell.cell.symbols.as_slice() {
+        [only] => Some(Some(only.0.clone())),
+        _ => None,
+    }
+}
+
+/// The symbol of row `number` in a cell: θ3 in row 3, or θ without index.
+fn own_symbol(cell: &TableCell, number: usize, letters: &[&str]) -> Option<String> {
+    let index = number.to_string();
+    letters.iter().find_map(|letter| {
+        let own = |name: &str| name.strip_prefix(letter).is_some_and(|i| i == index || i.is_empty() && *letter != "t");
+        cell.cell.symbols.iter().map(|s| &s.0).find(|n| own(n)).cloned()
+    })
+}

@@ -1,0 +1,146 @@
+//! The convention of a table, and which column is the length along x and along z in it.
+
+use super::columns::{Column, Role};
+use super::layout::Layout;
+use super::lines::Lines;
+use super::TableOptions;
+use crate::description::Convention;
+use crate::description::diagnostic::{Diagnostics, nearest};
+
+/// The convention, and its columns.
+#[derive(Clone, Debug)]
+pub(super) struct Letters {
+    pub convention: Convention,
+    /// The length along x, if there is such a column.
+    pub x: Option<Role>,
+    /// The length along z.
+    pub z: Option<Role>,
+}
+
+/// What every choice means, for who has to make it.
+const CHOICES: &str = "add the line `convention: standard` (Rz(θ)·Tz(d)·Tx(a)·Rx(α)), `convention: craig` \
+     (Rx(α)·Tx(a)·Rz(θ)·Tz(d)) or `convention: khalil` (Rx(α)·Tx(d)·Rz(θ)·Tz(r)), or give it as an option";
+
+/// The columns of a layout with the letters that the user gives them, from left to right.
+pub(super) fn columns(
+    layout: &Layout,
+    lines: &Lines,
+    options: &TableOptions,
+    out: &mut Diagnostics,
+) -> Option<Vec<Column>> {
+    let mut columns = layout.columns.clone();
+    let line = lines.get("columns", layout.span.start);
+    let Some(told) = options.columns.as_deref().or(line.map(|l| l.text.as_str())) else { return Some(columns) };
+    let span = line.filter(|_| options.columns.is_none()).map_or(layout.span.clone(), |l| l.span.clone());
+    let names: Vec<&str> = told.split([' ', ',', '\t']).filter(|n| !n.is_empty()).collect();
+    let mut roles = vec![];
+    for name in &names {
+        match Role::of_letter(name) {
+            Some(role) => roles.push(role),
+            None => {
+                let shown: String = name.chars().take(20).collect();
+                out.error(span, format!("`{shown}` is no column of a table"))
+                    .hint("columns: theta, d, a, alpha (and r, gamma, b in Khalil's letters), from left to right");
+                return None;
+            }
+        }
+    }
+    let letters: Vec<&mut Column> = columns.iter_mut().filter(|c| c.role.is_letter()).collect();
+    if letters.len() != roles.len() {
+        let message = format!("{} columns are named, the table has {}", roles.len(), letters.len());
+        out.error(span, message).hint("name the columns θ, d, a, α, r from left to right, without numbers and types");
+        return None;
+    }
+    letters.into_iter().zip(roles).for_each(|(column, role)| column.role = role);
+    Some(columns)
+}
+
+/// The convention that is told, or that the columns force.
+pub(super) fn letters(
+    layout: &Layout,
+    columns: &[Column],
+    lines: &Lines,
+    options: &TableOptions,
+    out: &mut Diagnostics,
+) -> Option<Letters> {
+    for (i, column) in columns.iter().enumerate() {
+        if column.role.is_letter() && columns[..i].iter().any(|c| c.role == column.role) {
+            let span = layout.heads[i].span.clone();
+            out.error(span, format!("a second column `{}`", column.role.letter()));
+            return None;
+        }
+    }
+    let has = |role| columns.iter().any(|c| c.role == role);
+    let head = layout.heads.first().map_or(0, |h| h.span.start)..layout.heads.last().map_or(0, |h| h.span.end);
+    let head = head.start.min(head.end)..head.end;
+    let previous = columns.iter().any(|c| c.previous && matches!(c.role, Role::A | Role::Alpha | Role::D));
+    let line = lines.get("convention", layout.span.start);
+    let told = match (options.convention, line) {
+        (Some(convention), _) => Some(convention),
+        (None, Some(line)) => {
+            let name = line.text.to_lowercase();
+            let known = Convention::ALL.into_iter().find(|c| c.name() == name);
+            if known.is_none() {
+                let near = nearest(&name, Convention::ALL.map(Convention::name));
+                let hint = near.map_or(CHOICES.to_string(), |n| format!("did you mean `convention: {n}`?"));
+                out.error(line.span.clone(), "unknown convention").hint(hint);
+                return None;
+            }
+            known
+        }
+        (None, None) => None,
+    };
+    let khalil_only = has(Role::Gamma) || has(Role::B);
+    let convention = match told {
+        Some(Convention::Standard) if previous => {
+            out.error(head, "the index i-1 of α or a does not go with the standard convention")
+                .hint("rows that begin with the x axis of the frame before are `craig` or, with r, `khalil`");
+            return None;
+        }
+        Some(convention) => convention,
+        None if khalil_only || previous && has(Role::R) => {
+            let why = if khalil_only { "γ and b are Khalil's" } else { "the index i-1 and the length r are Khalil's" };
+            out.note(head.clone(), format!("read as khalil: {why}"));
+            Convention::Khalil
+        }
+        None if previous && has(Role::D) => {
+            out.note(head.clone(), "read as craig: with α_{i-1} or a_{i-1} a row begins with the x axis of the frame before");
+            Convention::Craig
+        }
+        None => {
+            let what = if has(Role::R) && has(Role::D) && !has(Role::A) {
+                "the convention is not said: θ, d, r, α are Khalil's letters, but others write r for the length along x"
+            } else {
+                "the convention is not said, and the columns do not tell"
+            };
+            out.error(head, what).hint(CHOICES);
+            return None;
+        }
+    };
+    let lengths = (has(Role::A), has(Role::D), has(Role::R));
+    let (a, d, r) = (Some(Role::A), Some(Role::D), Some(Role::R));
+    let (x, z) = match (convention, lengths) {
+        (Convention::Khalil, (false, x, z)) => (d.filter(|_| x), r.filter(|_| z)),
+        (Convention::Khalil, (true, false, true)) => (a, r),
+        (Convention::Standard | Convention::Craig, (x, z, false)) => (a.filter(|_| x), d.filter(|_| z)),
+        (Convention::Standard | Convention::Craig, (true, false, true)) => (a, r),
+        (Convention::Standard, (false, true, true)) => (r, d),
+        _ => {
+            let hint = match convention {
+                Convention::Khalil => "a and d are Craig's letters for the same product: say `convention: craig`".to_string(),
+                Convention::Craig if !lengths.0 => "d and r are Khalil's letters for the same product: say \
+                     `convention: khalil`, or name the columns: `columns: …`".to_string(),
+                _ => "name the columns from left to right with the line `columns: theta alpha a d`".to_string(),
+            };
+            out.error(head, format!("the lengths of this table do not go with the {convention} convention")).hint(hint);
+            return None;
+        }
+    };
+    for (role, native, axis) in [(x, convention.length_x(), "x"), (z, convention.length_z(), "z")] {
+        if let Some(role) = role.filter(|r| r.letter() != native) {
+            let message = format!("the column {} is the length along {axis}, `{native}` of the {convention} convention", role.letter());
+            out.note(head.clone(), message);
+        }
+    }
+    Some(Letters { convention, x, z })
+}

@@ -1,0 +1,112 @@
+//! Lines of the text around a table: what the table does not say, values of symbols, headings.
+
+use super::find::{GridCell, lines};
+use crate::description::cell::name_of;
+use std::ops::Range;
+
+const KEYS: &[&str] = &["convention", "columns", "angles", "lengths", "name"];
+
+/// `key: value`
+struct Directive {
+    key: String,
+    value: GridCell,
+}
+
+/// All that was found.
+pub(super) struct Lines {
+    directives: Vec<Directive>,
+    /// `D3 = 450 mm`: the plain name and the text of the value.
+    pub values: Vec<(String, GridCell)>,
+    headings: Vec<GridCell>,
+}
+
+impl Lines {
+    pub fn of(text: &str) -> Self {
+        let mut found = Lines { directives: vec![], values: vec![], headings: vec![] };
+        for span in lines(text) {
+            let line = &text[span.clone()];
+            if line.len() > 1000 {
+                continue;
+            }
+            found.directive(text, &span);
+            found.heading(text, &span);
+            if line.contains('=') && !line.contains('&') && !line.contains("\\begin") {
+                found.equations(text, span);
+            }
+        }
+        found
+    }
+
+    /// The value of a key: the last one before byte `at`, else the first.
+    pub fn get(&self, key: &str, at: usize) -> Option<&GridCell> {
+        let mut all = self.directives.iter().filter(|d| d.key == key);
+        let before = all.clone().take_while(|d| d.value.span.start < at).last();
+        before.or_else(|| all.next()).map(|d| &d.value)
+    }
+
+    /// Its text.
+    pub fn value(&self, key: &str, at: usize) -> Option<&str> {
+        self.get(key, at).map(|v| v.text.as_str())
+    }
+
+    /// The heading above byte `at`.
+    pub fn heading(&mut self, text: &str, span: &Range<usize>) {
+        let line = text[span.clone()].trim();
+        let title = if line.starts_with('#') {
+            Some(line.trim_matches(['#', ' ']))
+        } else {
+            ["\\section", "\\subsection", "\\caption", "\\title"]
+                .iter()
+                .find_map(|c| line.strip_prefix(c)?.trim_start_matches('*').strip_prefix('{')?.split('}').next())
+        };
+        if let Some(title) = title.map(str::trim).filter(|t| !t.is_empty() && directive(t).is_none()) {
+            self.headings.push(GridCell { text: title.replace(['*', '`', '$'], ""), span: span.clone() });
+        }
+    }
+
+    /// The nearest heading before byte `at`.
+    pub fn title(&self, at: usize) -> Option<&str> {
+        self.headings.iter().take_while(|h| h.span.start < at).last().map(|h| h.text.as_str())
+    }
+
+    fn directive(&mut self, text: &str, span: &Range<usize>) {
+        if let Some((key, value)) = directive(&text[span.clone()]) {
+            let offset = value.as_ptr() as usize - text.as_ptr() as usize;
+            let value = GridCell::of(text, offset..offset + value.len());
+            self.directives.push(Directive { key, value });
+        }
+    }
+
+    /// `a2 = 0.43 m, a3 = 0.02 m`
+    fn equations(&mut self, text: &str, span: Range<usize>) {
+        let line = &text[span.clone()];
+        let mut start = span.start;
+        let cuts = line
+            .match_indices([',', ';'])
+            .filter(|(i, _)| line[i + 1..].split([',', ';']).next().is_some_and(|t| t.contains('=')))
+            .map(|(i, _)| span.start + i);
+        for end in cuts.chain([span.end]).collect::<Vec<_>>() {
+            let part = &text[start..end];
+            if let Some((name, _)) = part.split_once('=') {
+                let plain = name.trim_matches(|c: char| c.is_whitespace() || matches!(c, '-' | '*' | '>' | '#' | '%' | '•'));
+                if let Some(plain) = name_of(plain, true) {
+                    let value = GridCell::of(text, start + name.len() + 1..end);
+                    let trimmed = value.text.trim_end_matches(['.', ' ', '\\']).len();
+                    let value = GridCell::of(text, value.span.start..value.span.start + trimmed);
+                    self.values.push((plain, value));
+                }
+            }
+            start = (end + 1).min(span.end);
+        }
+    }
+}
+
+/// Key and value of a line such as `<!-- convention: craig -->`.
+fn directive(line: &str) -> Option<(String, &str)> {
+    let line = line.trim().trim_start_matches(['#', '%', '>', '-', '*', '/', '<', '!', '`', ' ']);
+    let line = line.trim_end_matches("-->").trim_end_matches(['`', ' ', '*', '.']);
+    let (key, value) = line.split_once([':', '='])?;
+    let key = key.trim_matches(['*', '`', ' ']).to_lowercase();
+    let value = value.trim().trim_matches(['"', '`', '*']);
+    KEYS.contains(&key.as_str()).then_some((key, value))
+}

@@ -1,0 +1,137 @@
+//! Denavit–Hartenberg tables as they stand in documents: Markdown, CSV, LaTeX.
+//!
+//! A table is found by its header, which names at least three of θ, d, a, α, r; rows and columns may be swapped.
+//! What a table does not say stands in [`TableOptions`], or in lines of the same text:
+//!
+//! ```text
+//! convention: khalil              standard, craig or khalil
+//! columns: theta alpha a d        the letters of the convention, where the table uses others
+//! angles: deg                     the unit of angles without one: deg or rad
+//! lengths: mm                     the unit of lengths without one: m, cm, mm, in, …
+//! name: Stäubli RX-90
+//! D3 = 450 mm                     the value of a symbol
+//! ```
+//!
+//! **The convention is never guessed.** It is told, or it follows from the columns, and then a note says why:
+//! `α_{i-1}` and `a_{i-1}` mean that the row begins with the x axis of the frame before (craig, or with `r`
+//! khalil); γ and b occur with Khalil alone.
+//!
+//! **The joint.** A σ column decides (0 revolute, 1 prismatic); else a column q that names the variable; else a
+//! star (`θ1*`); else the symbol: θᵢ, qᵢ or tᵢ in the θ cell of row i turns, dᵢ, rᵢ or qᵢ in the length along z
+//! slides. A row without any is a fixed transform. Variables are renamed `q1`, `q2`, …; other symbols become
+//! parameters.
+
+mod columns;
+mod find;
+mod joint;
+mod latex;
+mod layout;
+mod letters;
+mod limits;
+mod lines;
+mod read;
+mod values;
+
+use super::diagnostic::{Diagnostic, Diagnostics};
+use super::{Convention, Description, MAX_BYTES, MAX_ROWS};
+use layout::Layout;
+use lines::Lines;
+use std::ops::Range;
+
+/// How a text holds its table.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum TableKind {
+    /// Pipe tables, lines with tabs, and LaTeX tables among other text.
+    Markdown,
+    /// Fields between commas, semicolons (then `0,5` is a half) or tabs.
+    Csv,
+    /// `tabular`, `array`, `longtable` in a document or alone.
+    Latex,
+}
+
+/// What a table may leave open. Options win over lines of the text.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct TableOptions {
+    /// The convention.
+    pub convention: Option<Convention>,
+    /// Whether angles without unit are degrees (else radians).
+    pub angles_in_degrees: Option<bool>,
+    /// Whether lengths without unit are millimetres (else metres).
+    pub lengths_in_millimetres: Option<bool>,
+    /// Which table of the text to read, counted from 1; tables that continue each other's row numbers are one.
+    pub table: Option<usize>,
+    /// The convention's letters for the columns θ, d, a, α, r from left to right: `theta alpha a d`.
+    pub columns: Option<String>,
+}
+
+/// Reads the table of a text. With the description come warnings and notes.
+///
+/// # Errors
+/// All errors of the text (with the warnings and notes), in the order of the text.
+pub fn read_table(
+    text: &str,
+    kind: TableKind,
+    options: &TableOptions,
+) -> Result<(Description, Vec<Diagnostic>), Vec<Diagnostic>> {
+    let mut out = Diagnostics::default();
+    if text.len() > MAX_BYTES {
+        out.error(0..0, format!("the text has {} bytes; {MAX_BYTES} are allowed", text.len()));
+        return out.finish(None);
+    }
+    let lines = Lines::of(text);
+    let grids = find::grids(text, kind);
+    let mut layouts: Vec<Layout> = grids.iter().filter_map(Layout::of).collect();
+    let columns = options.columns.as_deref().or_else(|| lines.value("columns", 0));
+    if layouts.is_empty()
+        && let Some(columns) = columns
+    {
+        layouts = grids.iter().filter_map(|g| Layout::without_header(g, columns)).collect();
+    }
+    let chosen = choose(text, &layouts, options.table, &mut out);
+    let description = match chosen.as_slice() {
+        [] => None,
+        chosen if chosen.iter().map(|l| l.rows.len()).sum::<usize>() > MAX_ROWS => {
+            out.error(chosen[0].span.clone(), format!("more than {MAX_ROWS} rows"));
+            None
+        }
+        chosen => read::description(text, chosen, &lines, options, &mut out),
+    };
+    out.finish(description)
+}
+
+/// The tables to read, in order.
+fn choose<'a>(text: &str, layouts: &'a [Layout], table: Option<usize>, out: &mut Diagnostics) -> Vec<&'a Layout> {
+    if layouts.is_empty() {
+        out.error(0..0, "there is no Denavit-Hartenberg table in the text")
+            .hint("a table has a header with at least three of theta, d, a, alpha, r, and numbered rows");
+        return vec![];
+    }
+    // Tables that continue each other are one.
+    let mut groups: Vec<Range<usize>> = vec![];
+    for (i, layout) in layouts.iter().enumerate() {
+        match groups.last_mut() {
+            Some(group) if layouts[i - 1].continues_in(layout) => group.end = i + 1,
+            _ => groups.push(i..i + 1),
+        }
+    }
+    let index = if groups.len() == 1 { table.unwrap_or(1) } else { table.unwrap_or(0) };
+    if let Some(group) = index.checked_sub(1).and_then(|i| groups.get(i)) {
+        return layouts[group.clone()].iter().collect();
+    }
+    let list: Vec<String> = groups
+        .iter()
+        .take(20)
+        .enumerate()
+        .map(|(i, group)| {
+            let line = super::line_column(text, layouts[group.start].span.start).0;
+            let rows: usize = layouts[group.clone()].iter().map(|l| l.rows.len()).sum();
+            format!("{} (line {line}, {rows} rows)", i + 1)
+        })
+        .collect();
+    match table {
+        Some(wrong) => out.error(0..0, format!("there is no table {wrong}")),
+        None => out.error(layouts[groups[1].start].span.clone(), format!("the text has {} tables", groups.len())),
+    }
+    .hint(format!("choose one with --table: {}", list.join(", ")));
+    vec![]
+}

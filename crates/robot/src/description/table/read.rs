@@ -1,0 +1,379 @@
+//! From the cells of a table to a description.
+
+use super::columns::{Column, Role};
+use super::find::GridCell;
+use super::joint::{Joint, joints};
+use super::layout::Layout;
+use super::letters::{Letters, columns, letters};
+use super::lines::Lines;
+use super::{TableOptions, limits, values};
+use crate::description::cell::{Place, Style, read_cell, variable_number};
+use crate::description::diagnostic::Diagnostics;
+use crate::description::rows::{self, Cell, Cells};
+use crate::description::units::{Quantity, Unit, unit_named};
+use crate::description::{Description, JointKind, Row, suspicious_number};
+use crate::geometry::Transform;
+use denavit_symbolic::{Expr, Symbol};
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+/// A cell of the table.
+#[derive(Clone, Debug)]
+pub(super) struct TableCell {
+    pub cell: Cell,
+    /// Marked as the variable: `θ1*`.
+    pub star: bool,
+    /// Says that it is the variable and nothing else: `*`, `var`.
+    pub marker: bool,
+    /// Numbers without unit.
+    bare: Vec<(f64, Range<usize>)>,
+}
+
+/// A row of the table.
+#[derive(Clone, Debug)]
+pub(super) struct ReadRow<'a> {
+    /// As the table numbers it.
+    pub number: usize,
+    pub theta: TableCell,
+    /// The length along z.
+    pub z: TableCell,
+    x: TableCell,
+    alpha: TableCell,
+    gamma: TableCell,
+    b: TableCell,
+    offset: TableCell,
+    span: Range<usize>,
+    columns: &'a [Column],
+    source: &'a [GridCell],
+}
+
+impl<'a> ReadRow<'a> {
+    /// The text in the column with a role.
+    pub fn source(&self, role: Role) -> Option<&'a GridCell> {
+        self.source.get(self.columns.iter().position(|c| c.role == role)?)
+    }
+
+    fn cells_mut(&mut self) -> [&mut TableCell; 7] {
+        [
+            &mut self.theta,
+            &mut self.z,
+            &mut self.x,
+            &mut self.alpha,
+            &mut self.gamma,
+            &mut self.b,
+            &mut self.offset,
+        ]
+    }
+}
+
+/// The units of numbers without one.
+#[derive(Clone, Copy)]
+pub(super) struct BareUnits {
+    pub angle: Option<Unit>,
+    pub length: Option<Unit>,
+    pub decimal_comma: bool,
+}
+
+impl BareUnits {
+    pub fn style(&self, quantity: Quantity, column: Option<Unit>) -> Style {
+        let told = match quantity {
+            Quantity::Angle => self.angle,
+            Quantity::Length => self.length,
+            _ => None,
+        };
+        let bare = column.or(told).filter(|u| !u.factor().is_one()); // SI is what nothing says
+        Style { bare, document: true, decimal_comma: self.decimal_comma, ..Style::of(quantity) }
+    }
+}
+
+/// The description of the tables, joined.
+pub(super) fn description(
+    text: &str,
+    layouts: &[&Layout],
+    lines: &Lines,
+    options: &TableOptions,
+    out: &mut Diagnostics,
+) -> Option<Description> {
+    let at = layouts[0].span.start;
+    let mut told_columns = vec![];
+    for layout in layouts {
+        told_columns.push(columns(layout, lines, options, out)?);
+    }
+    let letters = letters(layouts[0], &told_columns[0], lines, options, out)?;
+    for (layout, columns) in layouts.iter().zip(&told_columns) {
+        check_columns(layout, columns, &told_columns[0], out);
+    }
+    let mut units = BareUnits {
+        angle: match options.angles_in_degrees {
+            Some(degrees) => unit_named(if degrees { "deg" } else { "rad" }),
+            None => told("angles", Quantity::Angle, lines, at, out),
+        },
+        length: match options.lengths_in_millimetres {
+            Some(millimetres) => unit_named(if millimetres { "mm" } else { "m" }),
+            None => told("lengths", Quantity::Length, lines, at, out),
+        },
+        decimal_comma: layouts[0].decimal_comma,
+    };
+    let all = |units: &BareUnits, out: &mut Diagnostics| -> Vec<ReadRow> {
+        let mut found: Vec<ReadRow> = vec![];
+        for (layout, columns) in layouts.iter().zip(&told_columns) {
+            for source in &layout.rows {
+                let number = layout.number(source).unwrap_or(found.last().map_or(1, |r| r.number + 1));
+                found.push(read_row(layout, columns, source, number, &letters, units, out));
+            }
+        }
+        found
+    };
+    if units.angle.is_none() {
+        units.angle = degrees_by_size(&all(&units, &mut Diagnostics::default()), &told_columns[0], out);
+    }
+    let mut read = all(&units, out);
+    check_numbers(&read, layouts, out);
+    for row in &read {
+        for cell in [&row.z, &row.x, &row.b] {
+            for (x, span) in cell.bare.iter().filter(|_| units.length.is_none()) {
+                let hint = "say `d (mm)` in the header, add the line `lengths: mm`, or give it as an option";
+                suspicious_number(*x, span, Quantity::Length, hint, out);
+            }
+        }
+    }
+    let joints = joints(&read, letters.convention, out);
+    rename(&mut read, &joints, out);
+    let cells: Vec<Cells> = read.iter().map(cells_of).collect();
+    let variables = rows::assign_variables(&cells, letters.convention, out);
+    let parameters = values::parameters(text, &cells, lines, &units, &told_columns[0], out);
+    let rows: Vec<Row> = cells
+        .iter()
+        .zip(&read)
+        .zip(&variables)
+        .map(|((cells, read), &variable)| Row {
+            theta: cells.theta.expr,
+            d: cells.d.expr,
+            a: cells.a.expr,
+            alpha: cells.alpha.expr,
+            gamma: cells.gamma.expr,
+            b: cells.b.expr,
+            variable,
+            name: read.source(Role::Name).map(|n| n.text.clone()).filter(|n| !n.is_empty()),
+            limits: variable.and_then(|v| limits::limits(read, v.kind, &units, out)),
+            velocity: None,
+            acceleration: None,
+            mass: None,
+            com: None,
+            inertia: None,
+        })
+        .collect();
+    let name = lines.value("name", at).or(lines.title(at)).unwrap_or("table");
+    Some(Description {
+        name: name.to_string(),
+        source: None,
+        convention: letters.convention,
+        parameters,
+        rows,
+        base: Transform::identity(),
+        tool: Transform::identity(),
+        poses: vec![],
+        gravity: None,
+    })
+}
+
+/// A unit told by a line.
+fn told(key: &str, quantity: Quantity, lines: &Lines, at: usize, out: &mut Diagnostics) -> Option<Unit> {
+    let line = lines.get(key, at)?;
+    let unit = unit_named(line.text.trim()).filter(|u| u.quantity == quantity);
+    if unit.is_none() {
+        let units = if quantity == Quantity::Angle { "deg or rad" } else { "m, cm, mm or in" };
+        out.error(line.span.clone(), format!("unknown unit of {key}")).hint(format!("{key}: {units}"));
+    }
+    unit
+}
+
+/// Columns of unknown meaning, units that do not fit, tables that do not match.
+fn check_columns(layout: &Layout, columns: &[Column], first: &[Column], out: &mut Diagnostics) {
+    for (column, head) in columns.iter().zip(&layout.heads) {
+        let wanted = match column.role {
+            Role::Theta | Role::Alpha | Role::Gamma => Quantity::Angle,
+            Role::D | Role::A | Role::R | Role::B => Quantity::Length,
+            Role::Other => {
+                let shown: String = head.text.chars().take(30).collect();
+                out.warning(head.span.clone(), format!("the column `{shown}` is not read"));
+                continue;
+            }
+            _ => continue,
+        };
+        if column.unit.is_some_and(|u| u.quantity != wanted) {
+            out.error(head.span.clone(), format!("`{}` is {}", column.role.letter(), wanted.name()));
+        }
+        if !first.iter().any(|c| c.role == column.role) {
+            out.error(head.span.clone(), format!("the first table has no column `{}`", column.role.letter()));
+        }
+    }
+}
+
+/// Rows are numbered without gaps.
+fn check_numbers(read: &[ReadRow], layouts: &[&Layout], out: &mut Diagnostics) {
+    for pair in read.windows(2) {
+        let (before, after) = (pair[0].number, pair[1].number);
+        if after != before + 1 {
+            out.error(pair[1].span.clone(), format!("row {after} follows row {before}"));
+        }
+    }
+    if let Some(first) = read.first().filter(|r| r.number > 1) {
+        out.note(first.span.clone(), format!("the table begins with row {}; its joints become q1, q2, …", first.number));
+    }
+    for layout in layouts {
+        for row in &layout.rows {
+            if row.len() > layout.columns.len() {
+                let span = row[layout.columns.len()].span.start..row[row.len() - 1].span.end;
+                let message = format!("a row of {} cells under {} columns", row.len(), layout.columns.len());
+                out.error(span, message);
+            }
+        }
+    }
+}
+
+/// Degrees, if an angle without unit is more than a turn in radians.
+fn degrees_by_size(read: &[ReadRow], columns: &[Column], out: &mut Diagnostics) -> Option<Unit> {
+    let told = |role| columns.iter().find(|c| c.role == role).is_some_and(|c| c.unit.is_some());
+    let bare = |row: &ReadRow| -> Vec<(f64, Range<usize>)> {
+        [(Role::Theta, &row.theta), (Role::Alpha, &row.alpha), (Role::Gamma, &row.gamma), (Role::Offset, &row.offset)]
+            .into_iter()
+            .filter(|(role, _)| !told(*role))
+            .flat_map(|(_, cell)| cell.bare.clone())
+            .collect()
+    };
+    let (x, span) = read.iter().flat_map(bare).find(|b| b.0.abs() > TAU)?;
+    out.note(span, format!("{x} is more than a turn in radians: angles without a unit are read as degrees"))
+        .hint("`angles: deg` or `angles: rad` says so");
+    unit_named("deg")
+}
+
+fn read_row<'a>(
+    layout: &'a Layout,
+    columns: &'a [Column],
+    source: &'a [GridCell],
+    number: usize,
+    letters: &Letters,
+    units: &BareUnits,
+    out: &mut Diagnostics,
+) -> ReadRow<'a> {
+    let start = source.first().map_or(layout.span.start, |c| c.span.start);
+    let end = source.iter().map(|c| c.span.end).max().unwrap_or(start);
+    let span = start..end.max(start);
+    let mut read = |role: Option<Role>, quantity| {
+        let at = role.and_then(|r| columns.iter().position(|c| c.role == r));
+        match at.and_then(|i| source.get(i).map(|s| (s, columns[i].unit))) {
+            Some((cell, unit)) => read_table_cell(cell, &units.style(quantity, unit), out),
+            None => TableCell { cell: Cell::zero(span.clone()), star: false, marker: false, bare: vec![] },
+        }
+    };
+    ReadRow {
+        number,
+        theta: read(Some(Role::Theta), Quantity::Angle),
+        z: read(letters.z, Quantity::Length),
+        x: read(letters.x, Quantity::Length),
+        alpha: read(Some(Role::Alpha), Quantity::Angle),
+        gamma: read(Some(Role::Gamma), Quantity::Angle),
+        b: read(Some(Role::B), Quantity::Length),
+        offset: read(Some(Role::Offset), Quantity::Angle),
+        span,
+        columns,
+        source,
+    }
+}
+
+/// A cell; `-` and nothing are 0.
+fn read_table_cell(cell: &GridCell, style: &Style, out: &mut Diagnostics) -> TableCell {
+    let mut found = TableCell { cell: Cell::zero(cell.span.clone()), star: false, marker: false, bare: vec![] };
+    let mut text = cell.text.as_str();
+    let inner = text.trim_end_matches(['$', ' ']);
+    for star in ["^{*}", "^{\\ast}", "^\\ast", "^*", "*"] {
+        if let Some(rest) = inner.strip_suffix(star) {
+            text = rest;
+            found.star = true;
+            break;
+        }
+    }
+    let bare = text.trim_matches(['$', ' ']);
+    if matches!(bare.to_lowercase().as_str(), "var" | "var." | "variable" | "variabel") || found.star && bare.is_empty() {
+        found.marker = true;
+        found.star = true;
+        return found;
+    }
+    if matches!(bare, "" | "-" | "–" | "—" | "−" | "--" | "/" | "\\\\" | "n/a") {
+        return found;
+    }
+    let place = Place { span: cell.span.clone(), start: Some(cell.span.start) };
+    if let Some(value) = read_cell(text, &place, style, out) {
+        found.cell = Cell { expr: value.expr, span: cell.span.clone(), symbols: value.symbols };
+        found.bare = value.bare;
+    }
+    found
+}
+
+/// Calls the variables q1, q2, … wherever they occur.
+fn rename(read: &mut [ReadRow], joints: &[Joint], out: &mut Diagnostics) {
+    let mut names: Vec<(String, String)> = vec![];
+    let mut count = 0;
+    for (row, joint) in read.iter_mut().zip(joints) {
+        let Joint::Moves(kind, symbol) = joint else { continue };
+        count += 1;
+        let q = format!("q{count}");
+        let offset = row.offset.cell.clone();
+        let cell = if *kind == JointKind::Revolute { &mut row.theta.cell } else { &mut row.z.cell };
+        match symbol {
+            None => {
+                cell.expr = cell.expr + Expr::symbol(&q);
+                cell.symbols.push((q, cell.span.clone()));
+            }
+            // a variable without index is this row's own
+            Some(name) if !name.ends_with(|c: char| c.is_ascii_digit()) => {
+                replace(cell, &[(name.clone(), q)]);
+            }
+            Some(name) if names.iter().any(|n| n.0 == *name) => {
+                out.error(cell.span.clone(), format!("`{name}` is the variable of two rows"));
+            }
+            Some(name) => names.push((name.clone(), q)),
+        }
+        cell.expr = cell.expr + offset.expr;
+        cell.symbols.extend(offset.symbols);
+        row.offset.cell = Cell::zero(row.span.clone());
+    }
+    let numbers: Vec<String> = (1..=count).map(|i| format!("q{i}")).collect();
+    for row in read.iter_mut() {
+        for cell in row.cells_mut() {
+            let stray = cell.cell.symbols.iter().find(|(name, _)| {
+                variable_number(name).is_some() && !names.iter().any(|n| n.0 == *name) && !numbers.contains(name)
+            });
+            if let Some((name, span)) = stray {
+                out.error(span.clone(), format!("`{name}` is not the variable of any row"));
+            }
+            replace(&mut cell.cell, &names);
+        }
+    }
+}
+
+/// Puts new names for old ones, all at once.
+fn replace(cell: &mut Cell, names: &[(String, String)]) {
+    if !cell.symbols.iter().any(|s| names.iter().any(|n| n.0 == s.0)) {
+        return;
+    }
+    let new = |old: &str| names.iter().find(|n| n.0 == *old).map(|n| n.1.clone());
+    cell.expr = cell.expr.substitute(|s: Symbol| new(&s.name()).map(|n| Expr::symbol(&n)));
+    for symbol in &mut cell.symbols {
+        symbol.0 = new(&symbol.0).unwrap_or_else(|| symbol.0.clone());
+    }
+}
+
+fn cells_of(row: &ReadRow) -> Cells {
+    let cell = |c: &TableCell| c.cell.clone();
+    Cells {
+        span: row.span.clone(),
+        theta: cell(&row.theta),
+        d: cell(&row.z),
+        a: cell(&row.x),
+        alpha: cell(&row.alpha),
+        gamma: cell(&row.gamma),
+        b: cell(&row.b),
+    }
+}

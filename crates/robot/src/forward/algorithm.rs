@@ -1,0 +1,400 @@
+//! The shortest straight-line program for a chain, found by search and proved.
+//!
+//! A direct column of the orientation is carried from the right, vector at a time, down to some frame, and then
+//! multiplied by the product of the factors before it; the third column can be the cross product of two direct ones;
+//! a displacement can be added in its own frame or, along its axis carried there, in any frame before it. All
+//! candidates share one value-numbered graph, and what an output reaches in it is what it costs.
+
+use crate::forward::chain::{Chain, Item};
+use denavit_program::{Graph, Program, Stage, Value, Walk};
+use denavit_symbolic::{Angle, Expr, Refusal, Symbol};
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::fmt;
+use std::str::FromStr;
+
+/// Which parts of a transform are asked for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Outputs {
+    /// The columns x, y, z of the orientation.
+    pub columns: [bool; 3],
+    /// The position.
+    pub position: bool,
+}
+
+impl Outputs {
+    /// The whole matrix.
+    pub const ALL: Outputs = Outputs { columns: [true; 3], position: true };
+}
+
+impl FromStr for Outputs {
+    type Err = String;
+
+    /// A list of `x`, `y`, `z`, `position`, `orientation` or `all`, separated by commas.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let mut outputs = Outputs { columns: [false; 3], position: false };
+        for part in text.split(',').map(str::trim) {
+            match part {
+                "x" | "s" | "n" => outputs.columns[0] = true,
+                "y" | "o" => outputs.columns[1] = true,
+                "z" | "a" => outputs.columns[2] = true,
+                "orientation" | "rotation" => outputs.columns = [true; 3],
+                "position" | "p" => outputs.position = true,
+                "all" => outputs = Outputs::ALL,
+                other => {
+                    return Err(format!("unknown part `{other}`; known are x, y, z, orientation, position, all"));
+                }
+            }
+        }
+        Ok(outputs)
+    }
+}
+
+/// How far the equality of a program with the product of its table was established.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Proof {
+    /// Proved: the canonical forms are identical.
+    Proved,
+    /// Not decided, for the reason given.
+    Undecided(Refusal),
+    /// The canonical forms differ. With constant angles whose sines are related in ways the ring does not know,
+    /// the two sides may still be equal; otherwise this is a defect of the program.
+    Failed,
+}
+
+impl fmt::Display for Proof {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Proof::Proved => f.write_str("proved equal to the product of the link transforms"),
+            Proof::Undecided(why) => write!(f, "not proved: {why}"),
+            Proof::Failed => f.write_str("not proved: the canonical forms differ"),
+        }
+    }
+}
+
+const AXES: [char; 3] = ['x', 'y', 'z'];
+/// Factors up to which every combination of splits is tried.
+const MAX_FACTORS_FOR_ALL_SPLITS: usize = 8;
+/// Candidates for the orientation for which the displacements are placed as well.
+const ORIENTATIONS_TRIED: usize = 24;
+/// Placements of displacements tried for one orientation.
+const PLACEMENTS_TRIED: usize = 400;
+
+type Vector3 = [Value; 3];
+
+/// One way to compute the orientation.
+#[derive(Clone)]
+struct Orientation {
+    /// For each column the frame up to which it is carried from the right; `None` if it is not direct.
+    splits: [Option<usize>; 3],
+    columns: [Option<Vector3>; 3],
+    cost: (u32, u32),
+}
+
+struct Search<'a, F: Fn(Symbol) -> Stage> {
+    graph: Graph<F>,
+    chain: &'a Chain,
+    variables: &'a [Symbol],
+    factors: Vec<[Vector3; 3]>,
+    /// Direction of item i carried to a frame before its own.
+    carried: FxHashMap<(usize, usize), Vector3>,
+    /// F₁…Fₖ.
+    prefixes: Vec<[Vector3; 3]>,
+    /// Axis c of the last frame in frame k.
+    tails: Vec<[Vector3; 3]>,
+    /// Displacements summed up, for a frame and the items placed in it.
+    sums: FxHashMap<(usize, Vec<usize>), Vec<(Vector3, Value)>>,
+}
+
+/// The shortest program found for the chain's transform. Results are named `t11` … `t34` by row and column;
+/// names in `taken` are not given to intermediates.
+pub(super) fn shortest(
+    chain: &Chain,
+    variables: &[Symbol],
+    outputs: Outputs,
+    taken: &FxHashSet<String>,
+) -> Program {
+    let stage = |s: Symbol| if variables.contains(&s) { Stage::Variable } else { Stage::Parameter };
+    let mut search = Search::new(Graph::new(stage), chain, variables);
+    let orientations = search.orientations(outputs.columns);
+    let own: Vec<usize> = chain.items.iter().map(|i| i.frame).collect();
+    let mut best: Option<((u32, u32), Orientation, Vec<usize>)> = None;
+    for orientation in orientations.into_iter().take(ORIENTATIONS_TRIED) {
+        if best.as_ref().is_some_and(|b| orientation.cost >= b.0) {
+            continue;
+        }
+        if !outputs.position {
+            best = Some((orientation.cost, orientation, own.clone()));
+            continue;
+        }
+        let starts = [Some(own.clone()), best.as_ref().map(|b| b.2.clone())];
+        for start in starts.into_iter().flatten() {
+            let (cost, placement) = search.place(&orientation, start);
+            if best.as_ref().is_none_or(|b| cost < b.0) {
+                best = Some((cost, orientation.clone(), placement));
+            }
+        }
+    }
+    let (orientation, placement) = match best {
+        Some((_, orientation, placement)) => (orientation, placement),
+        None => (Orientation { splits: [None; 3], columns: [None; 3], cost: (0, 0) }, own),
+    };
+    search.program(&orientation, &placement, outputs, taken)
+}
+
+impl<'a, F: Fn(Symbol) -> Stage> Search<'a, F> {
+    fn new(mut graph: Graph<F>, chain: &'a Chain, variables: &'a [Symbol]) -> Self {
+        let factors: Vec<[Vector3; 3]> = chain
+            .factors
+            .iter()
+            .map(|r| r.rows().map(|row| row.map(|e| graph.trace(e))))
+            .collect();
+        let unit = [0, 1, 2].map(|i| {
+            [0, 1, 2].map(|j| graph.trace(Expr::int(i64::from(i == j))))
+        });
+        let mut search =
+            Search { graph, chain, variables, factors, carried: FxHashMap::default(), prefixes: vec![unit], tails: vec![], sums: FxHashMap::default() };
+        let m = search.factors.len();
+        for k in 0..m {
+            let (prefix, factor) = (search.prefixes[k], search.factors[k]);
+            let columns = [0, 1, 2].map(|c| {
+                let column = factor.map(|row| row[c]);
+                search.times(&prefix, column)
+            });
+            search.prefixes.push([0, 1, 2].map(|r| columns.map(|c| c[r])));
+        }
+        let mut tails = vec![unit; m + 1];
+        for k in (0..m).rev() {
+            let factor = search.factors[k];
+            tails[k] = tails[k + 1].map(|axis| search.times(&factor, axis));
+        }
+        search.tails = tails;
+        search
+    }
+
+    fn times(&mut self, matrix: &[Vector3; 3], v: Vector3) -> Vector3 {
+        matrix.map(|row| self.dot(row, v))
+    }
+
+    fn dot(&mut self, a: Vector3, b: Vector3) -> Value {
+        let products = [0, 1, 2].map(|i| self.graph.mul(a[i], b[i]));
+        let sum = self.graph.add(products[0], products[1]);
+        self.graph.add(sum, products[2])
+    }
+
+    fn cross(&mut self, a: Vector3, b: Vector3) -> Vector3 {
+        [(1, 2), (2, 0), (0, 1)].map(|(i, j)| {
+            let (x, y) = (self.graph.mul(a[i], b[j]), self.graph.mul(a[j], b[i]));
+            self.graph.sub(x, y)
+        })
+    }
+
+    fn cost(&self, values: &[Value]) -> (u32, u32) {
+        let count = self.graph.walk(values).count;
+        (count.cost(), count.multiplications)
+    }
+
+    /// Ways to compute the orientation, cheapest first; the one with y = z × x and no split wins ties.
+    fn orientations(&mut self, wanted: [bool; 3]) -> Vec<Orientation> {
+        let m = self.factors.len();
+        let direct_sets: Vec<[bool; 3]> = if wanted == [true; 3] {
+            vec![[true, false, true], [true, true, false], [false, true, true], [true; 3]]
+        } else {
+            vec![wanted]
+        };
+        let mut found = vec![];
+        for direct in direct_sets {
+            let range = |c: usize| if direct[c] { 0..=m } else { 0..=0 };
+            for x in range(0) {
+                for y in range(1) {
+                    for z in range(2) {
+                        let splits = [x, y, z];
+                        let alike = |c: usize| !direct[c] || splits[c] == x.max(y).max(z);
+                        if m > MAX_FACTORS_FOR_ALL_SPLITS && !(0..3).all(alike) {
+                            continue;
+                        }
+                        let splits = [0, 1, 2].map(|c| direct[c].then_some(splits[c]));
+                        found.push(self.orientation(splits, wanted));
+                    }
+                }
+            }
+        }
+        found.sort_by_key(|o| o.cost);
+        found
+    }
+
+    fn orientation(&mut self, splits: [Option<usize>; 3], wanted: [bool; 3]) -> Orientation {
+        let mut columns = [0, 1, 2].map(|c| {
+            splits[c].map(|k| {
+                let prefix = self.prefixes[k];
+                self.times(&prefix, self.tails[k][c])
+            })
+        });
+        for c in 0..3 {
+            if let (true, None, Some(a), Some(b)) =
+                (wanted[c], columns[c], columns[(c + 1) % 3], columns[(c + 2) % 3])
+            {
+                columns[c] = Some(self.cross(a, b));
+            }
+        }
+        let values: Vec<Value> = columns.iter().flatten().flatten().copied().collect();
+        Orientation { splits, columns, cost: self.cost(&values) }
+    }
+
+    /// Moves displacements to earlier frames, one at a time, while that pays.
+    fn place(&mut self, orientation: &Orientation, start: Vec<usize>) -> ((u32, u32), Vec<usize>) {
+        let fixed: Vec<Value> = orientation.columns.iter().flatten().flatten().copied().collect();
+        let paid = self.graph.walk(&fixed);
+        let mut placement = start;
+        let mut best = self.placed_cost(&paid, &placement);
+        let mut tried = 0;
+        loop {
+            let mut improved = false;
+            for i in 0..placement.len() {
+                for frame in (0..=self.chain.items[i].frame).rev() {
+                    if frame == placement[i] || tried >= PLACEMENTS_TRIED {
+                        continue;
+                    }
+                    tried += 1;
+                    let before = std::mem::replace(&mut placement[i], frame);
+                    let cost = self.placed_cost(&paid, &placement);
+                    if cost < best {
+                        (best, improved) = (cost, true);
+                    } else {
+                        placement[i] = before;
+                    }
+                }
+            }
+            if !improved {
+                return (best, placement);
+            }
+        }
+    }
+
+    fn placed_cost(&mut self, paid: &Walk, placement: &[usize]) -> (u32, u32) {
+        let position = self.positions(placement)[0];
+        let count = self.graph.extended(paid, &position);
+        (count.cost(), count.multiplications)
+    }
+
+    /// p in frame k is the sum of the displacements placed there plus Fₖ₊₁ times p in frame k+1; frame 0 first.
+    fn positions(&mut self, placement: &[usize]) -> Vec<Vector3> {
+        let m = self.factors.len();
+        let zero = self.graph.trace(Expr::int(0));
+        let mut partial = vec![[zero; 3]; m + 1];
+        for k in (0..=m).rev() {
+            let mut p = match self.factors.get(k).copied() {
+                Some(factor) => self.times(&factor, partial[k + 1]),
+                None => [zero; 3],
+            };
+            for (direction, length) in self.displacements(placement, k) {
+                for axis in 0..3 {
+                    let term = self.graph.mul(length, direction[axis]);
+                    p[axis] = self.graph.add(p[axis], term);
+                }
+            }
+            partial[k] = p;
+        }
+        partial
+    }
+
+    /// The displacements placed in a frame; lengths along the same direction are added first, parameters before
+    /// joint variables, so that what is constant is hoisted.
+    fn displacements(&mut self, placement: &[usize], frame: usize) -> Vec<(Vector3, Value)> {
+        let placed: Vec<usize> = (0..placement.len()).filter(|&i| placement[i] == frame).collect();
+        let key = (frame, placed);
+        if let Some(known) = self.sums.get(&key) {
+            return known.clone();
+        }
+        let mut sums: Vec<(Vector3, Vec<Expr>)> = vec![];
+        for &i in &key.1 {
+            let direction = self.carried(i, frame);
+            let length = self.chain.items[i].length;
+            let opposite = direction.map(|v| if self.graph.as_number(v).is_some_and(|r| r.is_zero()) { v } else { -v });
+            if let Some(same) = sums.iter_mut().find(|s| s.0 == direction) {
+                same.1.push(length);
+            } else if let Some(reversed) = sums.iter_mut().find(|s| s.0 == opposite) {
+                reversed.1.push(-length);
+            } else {
+                sums.push((direction, vec![length]));
+            }
+        }
+        let sums: Vec<(Vector3, Value)> = sums
+            .into_iter()
+            .map(|(direction, lengths)| {
+                let sum = lengths.into_iter().fold(Expr::int(0), |a, b| a + b);
+                let (fixed, moving) = self.split_length(sum);
+                let (fixed, moving) = (self.graph.trace(fixed), self.graph.trace(moving));
+                (direction, self.graph.add(fixed, moving))
+            })
+            .collect();
+        self.sums.insert(key, sums.clone());
+        sums
+    }
+
+    /// The part of a length that is constant, and the part that moves.
+    fn split_length(&self, length: Expr) -> (Expr, Expr) {
+        let form = Angle::of(length);
+        let moves = |e: Expr| e.symbols().iter().any(|s| self.variables.contains(s));
+        let (moving, fixed) = form.terms.iter().cloned().partition(|t| moves(t.0));
+        let fixed = Angle { terms: fixed, ..form };
+        (fixed.to_expr(), Angle { terms: moving, ..Angle::default() }.to_expr())
+    }
+
+    /// The direction of item i in a frame at or before its own.
+    fn carried(&mut self, i: usize, frame: usize) -> Vector3 {
+        if let Some(&known) = self.carried.get(&(i, frame)) {
+            return known;
+        }
+        let item: Item = self.chain.items[i];
+        let carried = if frame == item.frame {
+            item.direction.0.map(|e| self.graph.trace(e))
+        } else {
+            let behind = self.carried(i, frame + 1);
+            let factor = self.factors[frame];
+            self.times(&factor, behind)
+        };
+        self.carried.insert((i, frame), carried);
+        carried
+    }
+
+    /// The program of the winner, its shared values named for what they are.
+    fn program(
+        &mut self,
+        orientation: &Orientation,
+        placement: &[usize],
+        outputs: Outputs,
+        taken: &FxHashSet<String>,
+    ) -> Program {
+        let mut results = vec![];
+        for (c, column) in orientation.columns.iter().enumerate() {
+            if let (true, Some(column)) = (outputs.columns[c], column) {
+                results.extend(column.iter().enumerate().map(|(r, &v)| (format!("t{}{}", r + 1, c + 1), v)));
+            }
+        }
+        let partial = if outputs.position { self.positions(placement) } else { vec![] };
+        if let Some(p) = partial.first() {
+            results.extend(p.iter().enumerate().map(|(r, &v)| (format!("t{}4", r + 1), v)));
+        }
+        // Name a node after the first part it plays: z4x is the x component, in frame 4, of the last z axis.
+        let mut names: FxHashMap<u32, String> = FxHashMap::default();
+        let mut name = |v: &Vector3, letter: char, frame: usize| {
+            for (value, axis) in v.iter().zip(AXES) {
+                names.entry(value.node).or_insert_with(|| format!("{letter}{frame}{axis}"));
+            }
+        };
+        for (c, letter) in AXES.iter().enumerate() {
+            if let Some(split) = orientation.splits[c] {
+                for k in split..self.tails.len() {
+                    name(&self.tails[k][c], *letter, self.chain.frames[k]);
+                }
+            }
+        }
+        for (k, p) in partial.iter().enumerate().skip(1) {
+            name(p, 'p', self.chain.frames[k]);
+        }
+        if let Some(p) = partial.first() {
+            name(p, 'p', self.chain.frames[0]);
+        }
+        Program::new(&self.graph, &results, |node| names.get(&node).cloned(), taken)
+    }
+}

@@ -1,0 +1,148 @@
+//! The forward model of a robot: any ⁱTⱼ in readable form, with its algorithm, proved.
+
+use crate::description::Description;
+use crate::forward::algorithm::{self, Outputs, Proof};
+use crate::forward::chain::Chain;
+use crate::geometry::Transform;
+use crate::robot::Robot;
+use denavit_program::{Graph, Program, Stage};
+use denavit_symbolic::{Expr, Refusal, Ring, Symbol, readable};
+use rustc_hash::FxHashSet;
+
+/// A frame of the robot.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Reference {
+    /// The base, in which frame 0 has a constant place.
+    Base,
+    /// The frame behind row i; frame 0 stands before row 1.
+    Frame(usize),
+    /// The tool, at a constant place in the last frame.
+    Tool,
+}
+
+/// A transform between two frames as formulas.
+#[derive(Clone, Debug)]
+pub struct ForwardModel {
+    /// The frame in which the result is given.
+    pub from: Reference,
+    /// The frame whose pose it is.
+    pub to: Reference,
+    /// The homogeneous matrix, row-major, each entry simplified and proved equal to the product of the link
+    /// transforms; or why it was not expanded.
+    pub matrix: Result<[[Expr; 4]; 4], Refusal>,
+    /// The shortest program found for the outputs asked for.
+    pub algorithm: Program,
+    /// Whether the program is proved equal to the product of the link transforms.
+    pub proof: Proof,
+}
+
+impl ForwardModel {
+    /// The model of the pose of `to` in `from`; the algorithm computes `outputs` of it.
+    pub fn derive(description: &Description, from: Reference, to: Reference, outputs: Outputs) -> Self {
+        let place = |r: Reference| match r {
+            Reference::Base => (0, false),
+            Reference::Frame(i) => (i.min(description.rows.len()), true),
+            Reference::Tool => (description.rows.len(), true),
+        };
+        let order = |r: Reference| (place(r), r == Reference::Tool);
+        let (first, last) = if order(from) <= order(to) { (from, to) } else { (to, from) };
+        let inverted = first != from;
+        let (base, tool) = (first == Reference::Base && last != Reference::Base, last == Reference::Tool && first != Reference::Tool);
+        let chain = Chain::new(description, place(first).0, place(last).0, base, tool);
+
+        // The definition: the plain product of the table's own link transforms.
+        let robot = Robot::symbolic(description);
+        let q: Vec<Expr> = description.variables().iter().map(|v| v.symbol.into()).collect();
+        let mut definition = if base { robot.base } else { Transform::identity() };
+        for link in &robot.links[place(first).0..place(last).0] {
+            definition = definition * link.transform(&q);
+        }
+        if tool {
+            definition = definition * robot.tool;
+        }
+        let variables: Vec<Symbol> = description.variables().iter().map(|v| v.symbol).collect();
+        let taken: FxHashSet<String> = description
+            .parameters
+            .iter()
+            .map(|p| p.symbol)
+            .chain(variables.iter().copied())
+            .map(|s| s.name().to_string())
+            .collect();
+        let (wanted, chain_result) = if inverted {
+            (definition.inverse(), chain.transform().inverse())
+        } else {
+            (definition, chain.transform())
+        };
+
+        let all: Vec<Expr> = wanted.matrix().into_iter().chain(chain_result.matrix()).flatten().collect();
+        let mut ring = Ring::with_basis(&chain.angles, &all, &symbol_order(description));
+        let matrix = simplified(&mut ring, &wanted);
+        let algorithm = if inverted {
+            traced(matrix.as_ref().unwrap_or(&chain_result.matrix()), &variables, outputs, &taken)
+        } else {
+            algorithm::shortest(&chain, &variables, outputs, &taken)
+        };
+        let proof = prove(&mut ring, &algorithm, &wanted);
+        ForwardModel { from, to, matrix, algorithm, proof }
+    }
+
+    /// The pose of the tool in the base.
+    pub fn of_tool(description: &Description, outputs: Outputs) -> Self {
+        Self::derive(description, Reference::Base, Reference::Tool, outputs)
+    }
+}
+
+/// ⁱ⁻¹Tᵢ for each row, as a person would write them.
+pub fn link_transforms(description: &Description) -> Vec<[[Expr; 4]; 4]> {
+    let robot = Robot::symbolic(description);
+    let q: Vec<Expr> = description.variables().iter().map(|v| v.symbol.into()).collect();
+    let order = symbol_order(description);
+    let show = |x: &Transform<Expr>| {
+        let entries: Vec<Expr> = x.matrix().into_iter().flatten().collect();
+        simplified(&mut Ring::new(&entries, &order), x).unwrap_or(x.matrix())
+    };
+    robot.links.iter().map(|link| show(&link.transform(&q))).collect()
+}
+
+/// Parameters in the order of the file, then joint variables.
+pub fn symbol_order(description: &Description) -> Vec<Symbol> {
+    let parameters = description.parameters.iter().map(|p| p.symbol);
+    parameters.chain(description.variables().iter().map(|v| v.symbol)).collect()
+}
+
+fn simplified(ring: &mut Ring, x: &Transform<Expr>) -> Result<[[Expr; 4]; 4], Refusal> {
+    let mut rows = x.matrix();
+    for e in rows.iter_mut().flatten() {
+        *e = readable::simplify_in(ring, *e)?.expr;
+    }
+    Ok(rows)
+}
+
+/// Every output of the program, run over formulas, against the entry of the product.
+fn prove(ring: &mut Ring, program: &Program, wanted: &Transform<Expr>) -> Proof {
+    let matrix = wanted.matrix();
+    for ((name, _), formula) in program.outputs().iter().zip(program.formulas()) {
+        let digits: Vec<usize> = name.bytes().skip(1).map(|b| usize::from(b - b'1')).collect();
+        match ring.normal(formula - matrix[digits[0]][digits[1]]) {
+            Ok(difference) if difference.num.is_zero() => {}
+            Ok(_) => return Proof::Failed,
+            Err(why) => return Proof::Undecided(why),
+        }
+    }
+    Proof::Proved
+}
+
+/// The entries as they stand, common parts shared.
+fn traced(rows: &[[Expr; 4]; 4], variables: &[Symbol], outputs: Outputs, taken: &FxHashSet<String>) -> Program {
+    let mut graph =
+        Graph::new(|s| if variables.contains(&s) { Stage::Variable } else { Stage::Parameter });
+    let mut results = vec![];
+    for c in 0..4 {
+        if (c < 3 && outputs.columns[c]) || (c == 3 && outputs.position) {
+            for (r, row) in rows.iter().enumerate().take(3) {
+                results.push((format!("t{}{}", r + 1, c + 1), graph.trace(row[c])));
+            }
+        }
+    }
+    Program::new(&graph, &results, |_| None, taken)
+}

@@ -1,0 +1,189 @@
+//! Powers and functions, angles in degrees, and the bounds on what is built.
+
+use super::grammar::{Parser, Read, Value};
+use super::lexer::Kind;
+use super::words::Function;
+use super::{MAX_EXPONENT, MAX_OPERATORS, ParseError};
+use crate::angle::Angle;
+use crate::expr::{Expr, Node, Symbol};
+use crate::rational::Rational;
+
+/// The most operators on one way from the whole formula to a name in it.
+const MAX_HEIGHT: u32 = 3_000;
+/// The largest number, in bits of numerator and denominator.
+const MAX_BITS: u64 = 4_096;
+/// The most bits of numbers in one angle.
+const MAX_ANGLE_BITS: u64 = 8_192;
+/// Stands for one radian until bare numbers have become degrees.
+pub(super) const RADIAN: &str = "\u{0}radian";
+
+impl Parser<'_> {
+    pub fn raised(&mut self, base: Value, n: i32, start: usize) -> Read<Value> {
+        if n < 0 && base.expr.is_zero() {
+            return Err(ParseError::new(self.span_from(start), "division by zero"));
+        }
+        let size = base.expr.as_number().map_or(0, |r| bits(&r));
+        if size > 1 && size * u64::from(n.unsigned_abs()) > 2 * MAX_BITS {
+            return Err(self.too_large(start));
+        }
+        let power = base.expr.powi(n);
+        let scaled = base.bits.saturating_mul(u64::from(n.unsigned_abs()));
+        self.made(power, &[Value { bits: scaled, ..base }], start)
+    }
+
+    /// `^` and a whole number, if `^` comes next.
+    pub fn exponent(&mut self) -> Read<Option<i32>> {
+        if !matches!(self.peek(), Some(Kind::Caret)) {
+            return Ok(None);
+        }
+        let start = self.at;
+        self.at += 1;
+        let closing = match self.peek() {
+            Some(Kind::Open(c)) => Some(*c),
+            _ => None,
+        };
+        self.at += usize::from(closing.is_some());
+        let is_negative = matches!(self.peek(), Some(Kind::Minus));
+        self.at += usize::from(is_negative);
+        let whole = match self.peek() {
+            Some(Kind::Number(r)) => r.to_integer().and_then(|n| i32::try_from(n).ok()),
+            _ => None,
+        };
+        self.at = (self.at + 1).min(self.tokens.len());
+        let wrong = |span| {
+            let message = format!("an exponent is a whole number from -{MAX_EXPONENT} to {MAX_EXPONENT}");
+            Err(ParseError::new(span, message).hint("a root is `sqrt(…)`"))
+        };
+        let Some(n) = whole.filter(|n| *n <= MAX_EXPONENT) else { return wrong(self.span_from(start)) };
+        if let Some(c) = closing {
+            if !matches!(self.peek(), Some(Kind::Close(d)) if *d == c) {
+                return wrong(self.span_from(start));
+            }
+            self.at += 1;
+        }
+        if let Some(Kind::Caret) = self.peek() {
+            let e = ParseError::new(self.span_from(start), "a power of a power has two readings");
+            return Err(e.hint("write brackets: `(x^2)^3`"));
+        }
+        Ok(Some(if is_negative { -n } else { n }))
+    }
+
+    pub fn call(&mut self, f: Function, start: usize) -> Read<Value> {
+        self.at += 1;
+        let power = self.exponent()?;
+        let open = self.at;
+        let Some(Kind::Open(closing)) = self.peek().cloned() else {
+            return Err(self
+                .unexpected("`(`")
+                .hint(format!("`{}` takes its argument in brackets", f.name())));
+        };
+        self.at += 1;
+        let first = self.sum()?;
+        let second = match (f, self.peek()) {
+            (Function::Atan2, Some(Kind::Comma)) => {
+                self.at += 1;
+                Some(self.sum()?)
+            }
+            (Function::Atan2, _) => {
+                return Err(self.unexpected("`,`").hint("`atan2(y, x)` takes two arguments"));
+            }
+            _ => None,
+        };
+        self.close(closing, open)?;
+        if power.is_some_and(i32::is_negative) {
+            let e = ParseError::new(self.span_from(start), "a negative power of a function has two readings");
+            return Err(e.hint(format!("write `1/{}(…)`, or use atan2 for the inverse function", f.name())));
+        }
+        let value = match (f, second) {
+            (Function::Sin | Function::Cos, _) => {
+                let angle = self.angle(first, open)?;
+                if self.span_of(start).len() == 1 && !is_linear(angle.expr) {
+                    let e = ParseError::new(self.span_from(start), "the argument is not a sum of angles");
+                    return Err(e.hint("write `cos(…)` for a cosine, or the missing index"));
+                }
+                let trig = if f == Function::Sin { angle.expr.sin() } else { angle.expr.cos() };
+                Value { height: angle.height + 2, bits: 0, expr: trig }
+            }
+            (Function::Sqrt, _) => self.root(first, start)?,
+            (Function::Atan2, Some(x)) => self.made(first.expr.atan2(x.expr), &[first, x], start)?,
+            (Function::Atan2, None) => first,
+        };
+        match power {
+            Some(n) => self.raised(value, n, start),
+            None => Ok(value),
+        }
+    }
+
+    pub fn root(&mut self, inner: Value, start: usize) -> Read<Value> {
+        if inner.expr.as_number().is_some_and(|r| r.is_negative()) {
+            return Err(ParseError::new(self.span_from(start), "the root of a negative number"));
+        }
+        self.made(inner.expr.sqrt(), &[inner], start)
+    }
+
+    /// An angle: bare numbers become degrees where the vocabulary says so.
+    pub fn angle(&mut self, value: Value, start: usize) -> Read<Value> {
+        if value.bits > MAX_ANGLE_BITS {
+            return Err(self.too_large(start));
+        }
+        if !self.vocabulary.in_degrees() {
+            return Ok(value);
+        }
+        let mut angle = Angle::of(value.expr);
+        let degrees = std::mem::take(&mut angle.radians);
+        angle.turns = &angle.turns + &(&degrees / &Rational::from(180));
+        Ok(Value { expr: self.without_radians(angle.to_expr()), ..value })
+    }
+
+    pub fn without_radians(&self, e: Expr) -> Expr {
+        if !self.vocabulary.in_degrees() {
+            return e;
+        }
+        let radian = Symbol::new(RADIAN);
+        e.substitute(|s| (s == radian).then(|| Expr::int(1)))
+    }
+
+    /// The value of `expr`, built from `parts`, if it is within bounds.
+    pub fn made(&self, expr: Expr, parts: &[Value], start: usize) -> Read<Value> {
+        let height = parts.iter().map(|p| p.height).max().unwrap_or(0) + 1;
+        let sum = parts.iter().fold(0_u64, |s, p| s.saturating_add(p.bits));
+        if bits(&expr.split_number().0) > MAX_BITS {
+            return Err(self.too_large(start));
+        }
+        if height > MAX_HEIGHT {
+            return Err(ParseError::new(self.span_from(start), "too many operators inside one another"));
+        }
+        Ok(Value { expr, height, bits: sum })
+    }
+
+    pub fn too_large(&self, start: usize) -> ParseError {
+        ParseError::new(self.span_from(start), "the numbers become too large")
+    }
+
+    pub fn chain(&self, count: usize, start: usize) -> Read<()> {
+        if count > MAX_OPERATORS {
+            let message = format!("more than {MAX_OPERATORS} operators in a row");
+            return Err(ParseError::new(self.span_from(start), message));
+        }
+        Ok(())
+    }
+}
+
+/// True for a sum of multiples of symbols, arctangents and π.
+fn is_linear(e: Expr) -> bool {
+    let angle = Angle::of(e);
+    angle.terms.iter().all(|(term, _)| matches!(term.node(), Node::Symbol(_) | Node::Atan2(..)))
+}
+
+/// The bits of numerator and denominator, those of larger numbers rounded up.
+pub(super) fn bits(r: &Rational) -> u64 {
+    match r.to_parts() {
+        Some((n, d)) => {
+            u64::from(128 - n.unsigned_abs().leading_zeros() - d.unsigned_abs().leading_zeros()) - 1
+        }
+        None => {
+            let (n, d) = r.digits();
+            4 * (n.len() + d.len()) as u64
+        }
+    }
+}

@@ -1,0 +1,287 @@
+//! Tokens to an expression.
+//!
+//! ```text
+//! sum     = ["-"] product { ("+" | "-") product }
+//! product = factor { ["*"] factor | "/" factor }      from left to right; "/" and then no sign is refused
+//! factor  = {"-"} primary ["^" integer]
+//! primary = number [unit] | name | "(" sum ")" | "√" primary | function ["^" integer] "(" sum { "," sum } ")"
+//!         | "\frac" "{" sum "}" "{" sum "}"
+//! ```
+
+use super::calls::{RADIAN, bits};
+use super::lexer::{Kind, Token};
+use super::{MAX_NESTING, ParseError};
+use crate::expr::Expr;
+use crate::vocabulary::Vocabulary;
+use std::ops::Range;
+
+/// The expression that `tokens` spell, and what is wrong with their order; `None` where no reading on was possible.
+pub(super) fn formula(
+    text: &str,
+    tokens: &[Token],
+    vocabulary: &Vocabulary,
+    is_angle: bool,
+) -> (Option<Expr>, Vec<ParseError>) {
+    let mut p = Parser { text, tokens, vocabulary, at: 0, depth: 0, errors: vec![] };
+    match p.whole(is_angle) {
+        Ok(e) => (Some(e), p.errors),
+        Err(e) => {
+            p.errors.push(e);
+            (None, p.errors)
+        }
+    }
+}
+
+/// An expression, with bounds on its depth and on the bits of the numbers in it.
+#[derive(Clone, Copy)]
+pub(super) struct Value {
+    pub expr: Expr,
+    pub height: u32,
+    pub bits: u64,
+}
+
+pub(super) struct Parser<'a> {
+    pub text: &'a str,
+    pub tokens: &'a [Token],
+    pub vocabulary: &'a Vocabulary,
+    pub at: usize,
+    pub depth: usize,
+    /// What is wrong without being in the way of reading on.
+    pub errors: Vec<ParseError>,
+}
+
+/// What a rule of the grammar gives.
+pub(super) type Read<T> = Result<T, ParseError>;
+
+impl Parser<'_> {
+    pub fn peek(&self) -> Option<&Kind> {
+        self.tokens.get(self.at).map(|t| &t.kind)
+    }
+
+    /// The place of token number `i`, the end of the text behind the last one.
+    pub fn span_of(&self, i: usize) -> Range<usize> {
+        self.tokens.get(i).map_or(self.text.len()..self.text.len(), |t| t.span.clone())
+    }
+
+    /// The text of the tokens from number `from` to the present one.
+    pub fn span_from(&self, from: usize) -> Range<usize> {
+        let (first, last) = (self.span_of(from), self.span_of(self.at.saturating_sub(1)));
+        first.start.min(last.end)..last.end.max(first.start)
+    }
+
+    pub fn source(&self, span: &Range<usize>) -> &str {
+        self.text.get(span.clone()).unwrap_or_default()
+    }
+
+    fn whole(&mut self, is_angle: bool) -> Read<Expr> {
+        if self.tokens.is_empty() {
+            return Err(ParseError::new(0..self.text.len(), "no formula"));
+        }
+        let mut value = self.sum()?;
+        if self.at < self.tokens.len() {
+            return Err(self.unexpected("an operator"));
+        }
+        if is_angle {
+            value = self.angle(value, 0)?;
+        }
+        Ok(self.without_radians(value.expr))
+    }
+
+    /// An error at the present token, where `wanted` should stand.
+    pub fn unexpected(&self, wanted: &str) -> ParseError {
+        let span = self.span_of(self.at);
+        let e = match self.peek() {
+            None => return ParseError::new(span, format!("the formula ends where {wanted} should stand")),
+            Some(Kind::Degree | Kind::Radian) => {
+                return ParseError::new(span, "a unit stands directly behind a number");
+            }
+            Some(_) => ParseError::new(span.clone(), format!("unexpected `{}`", self.source(&span))),
+        };
+        match self.peek() {
+            Some(Kind::Comma) => e.hint("a decimal point is `.`"),
+            Some(Kind::Equals) => e.hint("a formula has no `=`; a definition is `name = formula`"),
+            Some(Kind::Close(_)) if self.depth == 0 => e.hint("no bracket is open here"),
+            _ => e,
+        }
+    }
+
+    pub fn sum(&mut self) -> Read<Value> {
+        let start = self.at;
+        let mut negative = false;
+        if let Some(Kind::Plus | Kind::Minus) = self.peek() {
+            negative = matches!(self.peek(), Some(Kind::Minus));
+            self.at += 1;
+        }
+        let mut sum = self.product()?;
+        if negative {
+            sum = self.made(-sum.expr, &[sum], start)?;
+        }
+        let mut count = 0;
+        while let Some(sign @ (Kind::Plus | Kind::Minus)) = self.peek().cloned() {
+            count += 1;
+            self.at += 1;
+            let term = self.product()?;
+            let expr = match sign {
+                Kind::Plus => sum.expr + term.expr,
+                _ => sum.expr - term.expr,
+            };
+            sum = self.made(expr, &[sum, term], start)?;
+            self.chain(count, start)?;
+        }
+        Ok(sum)
+    }
+
+    fn product(&mut self) -> Read<Value> {
+        let start = self.at;
+        let mut product = self.factor()?;
+        let mut divisor = None;
+        let mut count = 0;
+        loop {
+            let operator = self.at;
+            let expr = match self.peek() {
+                Some(Kind::Times) => {
+                    self.at += 1;
+                    divisor = None;
+                    let factor = self.factor()?;
+                    (product.expr * factor.expr, factor)
+                }
+                Some(Kind::Divide) => {
+                    self.at += 1;
+                    let over = self.factor()?;
+                    divisor = Some(operator + 1);
+                    if over.expr.is_zero() {
+                        let span = self.span_from(operator);
+                        self.errors.push(ParseError::new(span, "division by zero"));
+                        continue;
+                    }
+                    (product.expr / over.expr, over)
+                }
+                Some(Kind::Number(_)) => {
+                    let span = self.span_of(self.at);
+                    return Err(ParseError::new(span, "a number behind a factor").hint("write `*` before it"));
+                }
+                Some(Kind::Atom(_) | Kind::Function(_) | Kind::Open(_) | Kind::Root | Kind::Fraction) => {
+                    let next = self.at;
+                    let factor = self.powered()?;
+                    if let Some(from) = divisor {
+                        let left = self.span_of(from).start..self.span_of(next - 1).end;
+                        let right = self.span_from(next);
+                        let (a, b) = (self.source(&left), self.source(&right));
+                        let both = format!("`/{a} {b}` reads as `/{a}*{b}` or as `/({a}*{b})`");
+                        let span = self.span_of(from - 1).start..right.end;
+                        return Err(ParseError::new(span, both).hint("write `*`, brackets or `\\frac`"));
+                    }
+                    (product.expr * factor.expr, factor)
+                }
+                _ => return Ok(product),
+            };
+            count += 1;
+            product = self.made(expr.0, &[product, expr.1], start)?;
+            self.chain(count, start)?;
+        }
+    }
+
+    fn factor(&mut self) -> Read<Value> {
+        let start = self.at;
+        let mut negative = false;
+        while let Some(Kind::Minus) = self.peek() {
+            negative = !negative;
+            self.at += 1;
+        }
+        let value = self.powered()?;
+        if negative { self.made(-value.expr, &[value], start) } else { Ok(value) }
+    }
+
+    fn powered(&mut self) -> Read<Value> {
+        let start = self.at;
+        let base = self.primary()?;
+        let Some(n) = self.exponent()? else { return Ok(base) };
+        self.raised(base, n, start)
+    }
+
+    fn primary(&mut self) -> Read<Value> {
+        let start = self.at;
+        let Some(kind) = self.peek().cloned() else { return Err(self.unexpected("a name or a number")) };
+        match kind {
+            Kind::Number(r) => {
+                self.at += 1;
+                let size = bits(&r);
+                let number = Expr::from(r);
+                let expr = match self.peek() {
+                    Some(Kind::Degree) => number * Expr::pi() / Expr::int(180),
+                    Some(Kind::Radian) if self.vocabulary.in_degrees() => number * Expr::symbol(RADIAN),
+                    Some(Kind::Radian) => number,
+                    _ => return self.made(number, &[Value { expr: number, height: 0, bits: size }], start),
+                };
+                self.at += 1;
+                self.made(expr, &[Value { expr, height: 1, bits: size + 8 }], start)
+            }
+            Kind::Atom(expr) => {
+                self.at += 1;
+                Ok(Value { expr, height: 4, bits: 0 })
+            }
+            Kind::Open(closing) => {
+                self.at += 1;
+                self.nested(start, |p| p.bracket(closing, start))
+            }
+            Kind::Root => {
+                self.at += 1;
+                let inner = self.nested(start, Self::primary)?;
+                self.root(inner, start)
+            }
+            Kind::Fraction => {
+                self.at += 1;
+                let over = self.nested(start, Self::group)?;
+                let under = self.nested(start, Self::group)?;
+                if under.expr.is_zero() {
+                    return Err(ParseError::new(self.span_from(start), "division by zero"));
+                }
+                self.made(over.expr / under.expr, &[over, under], start)
+            }
+            Kind::Function(f) => self.nested(start, |p| p.call(f, start)),
+            _ => Err(self.unexpected("a name, a number or a bracket")),
+        }
+    }
+
+    fn nested(&mut self, start: usize, read: impl FnOnce(&mut Self) -> Read<Value>) -> Read<Value> {
+        self.depth += 1;
+        if self.depth > MAX_NESTING {
+            let message = format!("nested more than {MAX_NESTING} deep");
+            return Err(ParseError::new(self.span_of(start), message));
+        }
+        let value = read(self)?;
+        self.depth -= 1;
+        Ok(value)
+    }
+
+    /// A sum up to the closing bracket of the one that was opened at `open`.
+    fn bracket(&mut self, closing: char, open: usize) -> Read<Value> {
+        let value = self.sum()?;
+        self.close(closing, open)?;
+        Ok(value)
+    }
+
+    pub fn close(&mut self, closing: char, open: usize) -> Read<()> {
+        match self.peek() {
+            Some(Kind::Close(c)) if *c == closing => {
+                self.at += 1;
+                Ok(())
+            }
+            Some(Kind::Close(_)) => {
+                Err(self.unexpected("a bracket").hint(format!("`{closing}` closes the bracket")))
+            }
+            Some(_) => Err(self.unexpected("an operator")),
+            None => Err(ParseError::new(self.span_of(open), format!("no `{closing}` closes this bracket"))),
+        }
+    }
+
+    /// One argument of `\frac`.
+    fn group(&mut self) -> Read<Value> {
+        let open = self.at;
+        if !matches!(self.peek(), Some(Kind::Open('}'))) {
+            return Err(self.unexpected("a group").hint("`\\frac` takes two groups in braces"));
+        }
+        self.at += 1;
+        self.bracket('}', open)
+    }
+}

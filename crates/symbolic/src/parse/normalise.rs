@@ -1,0 +1,304 @@
+//! Text to marks: the many spellings of one character (Unicode, LaTeX) become one, and keep their place.
+
+use super::ParseError;
+use std::ops::Range;
+
+/// One character of the plain spelling, and the bytes of the text that it came from.
+#[derive(Clone, Debug)]
+pub(super) struct Mark {
+    pub glyph: Glyph,
+    pub span: Range<usize>,
+}
+
+/// A plain character, or what has none.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Glyph {
+    Char(char),
+    /// `\frac`: two groups in braces follow.
+    Fraction,
+    /// A name in backquotes.
+    Quoted(String),
+}
+
+impl Mark {
+    /// The character, if it is one.
+    pub fn char(&self) -> Option<char> {
+        match self.glyph {
+            Glyph::Char(c) => Some(c),
+            Glyph::Fraction | Glyph::Quoted(_) => None,
+        }
+    }
+
+    /// True for blank space.
+    pub fn is_space(&self) -> bool {
+        self.char() == Some(' ')
+    }
+}
+
+/// LaTeX commands that stand for one character.
+const COMMANDS: &[(&str, char)] = &[
+    ("alpha", 'α'),
+    ("beta", 'β'),
+    ("gamma", 'γ'),
+    ("delta", 'δ'),
+    ("epsilon", 'ε'),
+    ("varepsilon", 'ε'),
+    ("zeta", 'ζ'),
+    ("eta", 'η'),
+    ("theta", 'θ'),
+    ("vartheta", 'θ'),
+    ("iota", 'ι'),
+    ("kappa", 'κ'),
+    ("lambda", 'λ'),
+    ("mu", 'μ'),
+    ("nu", 'ν'),
+    ("xi", 'ξ'),
+    ("pi", 'π'),
+    ("rho", 'ρ'),
+    ("sigma", 'σ'),
+    ("tau", 'τ'),
+    ("upsilon", 'υ'),
+    ("phi", 'φ'),
+    ("varphi", 'φ'),
+    ("chi", 'χ'),
+    ("psi", 'ψ'),
+    ("omega", 'ω'),
+    ("Gamma", 'Γ'),
+    ("Delta", 'Δ'),
+    ("Theta", 'Θ'),
+    ("Lambda", 'Λ'),
+    ("Xi", 'Ξ'),
+    ("Pi", 'Π'),
+    ("Sigma", 'Σ'),
+    ("Phi", 'Φ'),
+    ("Psi", 'Ψ'),
+    ("Omega", 'Ω'),
+    ("sqrt", '√'),
+    ("cdot", '*'),
+    ("times", '*'),
+    ("ast", '*'),
+    ("div", '/'),
+    ("circ", '°'),
+    ("degree", '°'),
+    ("quad", ' '),
+    ("qquad", ' '),
+];
+
+/// LaTeX commands for a word of several letters.
+const WORDS: &[&str] = &["cos", "sin", "deg"];
+
+/// LaTeX commands that only change the looks, with an argument in braces, and without one.
+const WRAPPERS: &[&str] = &[
+    "mathsf",
+    "mathbf",
+    "mathrm",
+    "mathit",
+    "mathnormal",
+    "boldsymbol",
+    "text",
+    "textrm",
+    "textit",
+    "operatorname",
+];
+const IGNORED: &[&str] = &[
+    "left",
+    "right",
+    "big",
+    "Big",
+    "bigl",
+    "bigr",
+    "Bigl",
+    "Bigr",
+    "bigg",
+    "biggl",
+    "biggr",
+    "displaystyle",
+];
+
+/// The first Greek letter name that `word` begins with, the longest one.
+pub(super) fn greek_prefix(word: &str) -> Option<(&'static str, char)> {
+    let names = COMMANDS.iter().filter(|(n, c)| is_greek(*c) && word.starts_with(n));
+    names.max_by_key(|(n, _)| n.len()).copied()
+}
+
+/// The name of a Greek letter.
+pub(super) fn greek_name(letter: char) -> Option<&'static str> {
+    COMMANDS.iter().find(|(_, c)| *c == letter && is_greek(letter)).map(|(n, _)| *n)
+}
+
+/// True for the Greek letters.
+pub(super) fn is_greek(c: char) -> bool {
+    matches!(c, 'Α'..='Ω' | 'α'..='ω' | 'ϑ' | 'ϕ' | 'ϵ')
+}
+
+/// The plain spelling of `text`.
+pub(super) fn normalise(text: &str) -> (Vec<Mark>, Vec<ParseError>) {
+    let mut n = Normaliser { text, at: 0, marks: vec![], errors: vec![], is_wrapper: vec![] };
+    while let Some(c) = n.peek() {
+        n.step(c);
+    }
+    (n.marks, n.errors)
+}
+
+struct Normaliser<'a> {
+    text: &'a str,
+    at: usize,
+    marks: Vec<Mark>,
+    errors: Vec<ParseError>,
+    /// For each open brace whether it belongs to a wrapper, and is dropped.
+    is_wrapper: Vec<bool>,
+}
+
+impl Normaliser<'_> {
+    fn peek(&self) -> Option<char> {
+        self.text[self.at..].chars().next()
+    }
+
+    fn push(&mut self, c: char, span: Range<usize>) {
+        self.marks.push(Mark { glyph: Glyph::Char(c), span });
+    }
+
+    fn step(&mut self, c: char) {
+        let start = self.at;
+        if c == '\\' {
+            return self.command();
+        }
+        if c == '`' {
+            return self.quoted();
+        }
+        if let Some(first) = small(c) {
+            return self.small_run(first.0);
+        }
+        self.at += c.len_utf8();
+        let span = start..self.at;
+        match c {
+            '{' => {
+                self.is_wrapper.push(false);
+                self.push(c, span);
+            }
+            '}' => match self.is_wrapper.pop() {
+                Some(true) if self.peek().is_some_and(|c| c.is_alphabetic() || c == '\\') => {
+                    self.push(' ', span)
+                }
+                Some(true) => {}
+                _ => self.push(c, span),
+            },
+            '\u{ad}'
+            | '\u{200b}'..='\u{200f}'
+            | '\u{202a}'..='\u{202e}'
+            | '\u{2060}'..='\u{206f}'
+            | '\u{feff}' => {
+                let message = format!("invisible character U+{:04X}", c as u32);
+                self.errors.push(ParseError::new(span, message).hint("delete it"));
+            }
+            _ => self.push(plain(c), span),
+        }
+    }
+
+    /// A run of Unicode subscripts or superscripts, as a group in braces.
+    fn small_run(&mut self, opening: char) {
+        let start = self.at;
+        self.push(opening, start..start);
+        self.push('{', start..start);
+        while let Some((kind, c)) = self.peek().and_then(small)
+            && kind == opening
+        {
+            let from = self.at;
+            self.at += self.peek().map_or(0, char::len_utf8);
+            self.push(c, from..self.at);
+        }
+        self.push('}', self.at..self.at);
+    }
+
+    fn command(&mut self) {
+        let start = self.at;
+        let rest = &self.text[start + 1..];
+        let length = rest.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(rest.len());
+        let name = &rest[..length];
+        self.at = start + 1 + length;
+        let span = start..self.at;
+        if name.is_empty() {
+            let Some(c) = self.peek() else {
+                return self.errors.push(ParseError::new(span, "a `\\` without a command"));
+            };
+            self.at += c.len_utf8();
+            let span = start..self.at;
+            match c {
+                ',' | ';' | ':' | '!' | ' ' => self.push(' ', span),
+                '{' | '}' | '_' => self.push(c, span),
+                _ => self.errors.push(ParseError::new(span, format!("unknown command `\\{c}`"))),
+            }
+        } else if let Some((_, c)) = COMMANDS.iter().find(|(n, _)| *n == name) {
+            if name == "sqrt" && self.text[self.at..].trim_start().starts_with('[') {
+                self.errors.push(ParseError::new(span.clone(), "only square roots are read"));
+            }
+            self.push(*c, span);
+        } else if WORDS.contains(&name) {
+            self.push(' ', start..start);
+            name.chars().for_each(|c| self.push(c, span.clone()));
+        } else if matches!(name, "frac" | "dfrac" | "tfrac") {
+            self.marks.push(Mark { glyph: Glyph::Fraction, span });
+        } else if WRAPPERS.contains(&name) {
+            self.push(' ', span);
+            let rest = &self.text[self.at..];
+            let blank = rest.len() - rest.trim_start().len();
+            if rest[blank..].starts_with('{') {
+                self.at += blank + 1;
+                self.is_wrapper.push(true);
+            }
+        } else if !IGNORED.contains(&name) {
+            self.errors.push(ParseError::new(span, format!("unknown command `\\{name}`")));
+        }
+    }
+
+    fn quoted(&mut self) {
+        let start = self.at;
+        let mut name = String::new();
+        let mut chars = self.text[start + 1..].char_indices();
+        while let Some((i, c)) = chars.next() {
+            let c = match c {
+                '`' => {
+                    self.at = start + 1 + i + 1;
+                    return self.marks.push(Mark { glyph: Glyph::Quoted(name), span: start..self.at });
+                }
+                '\\' => chars.next().map_or('\\', |(_, c)| c),
+                _ => c,
+            };
+            name.push(c);
+        }
+        self.at = self.text.len();
+        self.errors.push(ParseError::new(start..self.at, "a name in backquotes without its end"));
+    }
+}
+
+/// One spelling for a character.
+fn plain(c: char) -> char {
+    match c {
+        '−' | '–' | '—' | '‐' | '‑' | '‒' | '﹣' | '－' => '-',
+        '·' | '×' | '∗' | '⋅' | '∙' | '•' | '✕' | '⨯' => '*',
+        '÷' | '∕' | '⁄' => '/',
+        '＋' => '+',
+        '＝' => '=',
+        '（' => '(',
+        '）' => ')',
+        '，' => ',',
+        'º' | '˚' => '°',
+        'µ' => 'μ',
+        'ϑ' => 'θ',
+        '\u{2126}' => 'Ω',
+        '~' | '$' => ' ',
+        c if c.is_whitespace() => ' ',
+        c => c,
+    }
+}
+
+/// Sub- and superscripts of Unicode: `_` or `^`, and the character.
+fn small(c: char) -> Option<(char, char)> {
+    const SUBSCRIPTS: &str = "₀0₁1₂2₃3₄4₅5₆6₇7₈8₉9₊+₋-ₐaₑeₕhᵢiⱼjₖkₗlₘmₙnₒoₚpᵣrₛsₜtᵤuᵥvₓx";
+    const SUPERSCRIPTS: &str = "⁰0¹1²2³3⁴4⁵5⁶6⁷7⁸8⁹9⁻-";
+    let find = |table: &str, kind| {
+        let mut chars = table.chars();
+        chars.find(|x| *x == c).and_then(|_| chars.next()).map(|plain| (kind, plain))
+    };
+    if c.is_ascii() { None } else { find(SUBSCRIPTS, '_').or_else(|| find(SUPERSCRIPTS, '^')) }
+}

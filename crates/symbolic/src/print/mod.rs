@@ -1,0 +1,526 @@
+//! Formulas as text: ASCII and Unicode that [`parse`](crate::parse) reads back, LaTeX, Typst and MathML.
+//!
+//! ```
+//! use denavit_symbolic::print::{Style, print};
+//! use denavit_symbolic::{Expr, Symbol, vocabulary::Vocabulary};
+//! let names = Vocabulary::new().angle(2, Symbol::new("q2")).angle(3, Symbol::new("q3")).symbol("a2");
+//! let (q2, q3) = (Expr::symbol("q2"), Expr::symbol("q3"));
+//! let x = Expr::symbol("a2") * (q2 + q3).cos() * (q2.sin() - Expr::int(3).sqrt()) / Expr::int(2);
+//! assert_eq!(print(x, &names, Style::Ascii), "a2*C23*(S2 - sqrt(3))/2");
+//! assert_eq!(print(x, &names, Style::Unicode), "a2C23(S2 − √3)/2");
+//! assert_eq!(print(x, &Vocabulary::new(), Style::Ascii), "a2*cos(q2 + q3)*(sin(q2) - sqrt(3))/2");
+//! ```
+//!
+//! Parentheses stand where reading would build another graph, and nowhere else. Nothing recurses: the formula is
+//! unrolled on a stack of its own, and the text ends in `…` once it is longer than [`MAX_BYTES`].
+
+mod ascii;
+mod latex;
+mod mathml;
+mod names;
+mod typst;
+mod unicode;
+
+use crate::angle::Angle;
+use crate::expr::{Expr, Node};
+use crate::rational::Rational;
+use crate::vocabulary::{Vocabulary, plain_name};
+use names::{Index, Spelling};
+use rustc_hash::FxHashMap;
+use std::rc::Rc;
+
+/// The length at which a text is cut off.
+pub const MAX_BYTES: usize = 10_000_000;
+
+/// How a formula is written.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Style {
+    /// `a2*C23*(S2 - sqrt(3))/2`
+    Ascii,
+    /// `a2C23(S2 − √3)/2`
+    Unicode,
+    /// `\frac{a_{2} C_{23}\left(S_{2} - \sqrt{3}\right)}{2}`
+    Latex,
+    /// `frac(a_2 C_23 (S_2 - sqrt(3)), 2)`
+    Typst,
+    /// Presentation MathML, an `mrow` to be put into a `math` element.
+    MathMl,
+}
+
+/// The formula as text. Angles that the vocabulary numbers are written `C23`, `S1`, `C_{2-3}`.
+pub fn print(e: Expr, vocabulary: &Vocabulary, style: Style) -> String {
+    let notation = style.notation().beside(vocabulary);
+    let mut printer = Printer {
+        notation,
+        vocabulary,
+        bridges: names::bridges(vocabulary),
+        leaves: FxHashMap::default(),
+        out: notation.whole[0].to_string(),
+    };
+    printer.write(e);
+    printer.out.push_str(notation.whole[1]);
+    printer.out
+}
+
+/// A symbol's name as it stands in a formula, for tables and legends: `RL4` is `\mathit{RL}_{4}` in LaTeX.
+pub fn print_symbol(name: &str, style: Style) -> String {
+    (style.notation().symbol)(&Spelling::of(name, &Vocabulary::new()))
+}
+
+impl Style {
+    fn notation(self) -> &'static Notation {
+        match self {
+            Style::Ascii => &ascii::NOTATION,
+            Style::Unicode => &unicode::NOTATION,
+            Style::Latex => &latex::NOTATION,
+            Style::Typst => &typst::NOTATION,
+            Style::MathMl => &mathml::NOTATION,
+        }
+    }
+}
+
+/// Everything that differs between the styles.
+#[derive(Clone, Copy)]
+struct Notation {
+    /// Around the whole formula.
+    whole: [&'static str; 2],
+    plus: &'static str,
+    minus: &'static str,
+    negative: &'static str,
+    paren: [&'static str; 2],
+    /// Before, between and after the parts of a fraction with a bar; `None` writes `a/b`.
+    bar: Option<[&'static str; 3]>,
+    root: [&'static str; 2],
+    /// The root sign of a bare integer, where it needs no parentheses.
+    short_root: Option<&'static str>,
+    /// The root where a symbol is called `sqrt`.
+    root_sign: [&'static str; 2],
+    /// The names of functions, which stand before an argument in `call`.
+    sine: &'static str,
+    cosine: &'static str,
+    arctangent: &'static str,
+    /// Before, between and behind the arguments of a function.
+    call: [&'static str; 3],
+    pi: &'static str,
+    /// π where its name means something else.
+    half_turn: &'static str,
+    /// Behind a number in an angle, where a bare number would be degrees.
+    radian: &'static str,
+    /// Before a power and between base and exponent; what closes it comes with the exponent.
+    power: [&'static str; 2],
+    exponent: fn(i32) -> String,
+    /// A number without sign or fraction bar.
+    digits: fn(String) -> String,
+    symbol: fn(&Spelling) -> String,
+    /// The sine or cosine (first letter) of numbered angles.
+    trig: fn(char, &Index) -> String,
+    times: fn(&Joint) -> &'static str,
+}
+
+impl Notation {
+    /// With other spellings for what the vocabulary gives another meaning: a length may be called `pi` or `cos`.
+    fn beside(mut self, vocabulary: &Vocabulary) -> Self {
+        let is_taken = |word: &str| vocabulary.lookup(word).is_some();
+        if is_taken("pi") || is_taken("π") {
+            self.pi = self.half_turn;
+        }
+        if is_taken("sin") || is_taken("cos") {
+            let letters = if is_taken("C") || is_taken("S") { ["s", "c"] } else { ["S", "C"] };
+            (self.sine, self.cosine) = (letters[0], letters[1]);
+        }
+        if is_taken("sqrt") {
+            self.root = self.root_sign;
+        }
+        if is_taken("atan2") {
+            self.arctangent = "arctan2";
+        }
+        self
+    }
+}
+
+/// Where two factors meet.
+struct Joint<'a> {
+    /// What is written so far.
+    left: &'a str,
+    right: Head,
+    /// A slash stands to the left, so that only a visible sign keeps the order of reading.
+    after_slash: bool,
+    /// Words that run across the border of a digit and a letter.
+    bridges: &'a [String],
+}
+
+impl Joint<'_> {
+    /// True if a known word that runs across a border lies in `text`.
+    fn bridges_at(&self, text: &str) -> bool {
+        self.bridges.iter().any(|w| text.contains(w.as_str()) || text.ends_with('(') && w.contains(text))
+    }
+
+    /// True if a bracket here would complete the start of a known word such as `d2(x)`.
+    fn calls(&self) -> bool {
+        let heads = self.bridges.iter().filter_map(|w| w.split_once('('));
+        heads.into_iter().any(|(head, _)| {
+            let tail = self.left.char_indices().rev().nth(4 * head.len() + 20).map_or(0, |(i, _)| i);
+            plain_name(&self.left[tail..]).ends_with(head)
+        })
+    }
+}
+
+/// How a factor starts.
+enum Head {
+    Number,
+    Paren,
+    Word(Rc<str>),
+    Call,
+    Root,
+    Fraction,
+}
+
+/// What the place of a formula asks of it.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Place {
+    /// Anything.
+    Whole,
+    /// An addend: no sum, no sign.
+    Addend,
+    /// A factor: no product or quotient either.
+    Factor,
+    /// A base: no power either.
+    Base,
+}
+
+enum Task {
+    Text(&'static str),
+    Own(String),
+    Write(Expr, Place),
+    Times(Expr, bool),
+}
+
+struct Printer<'a> {
+    notation: Notation,
+    vocabulary: &'a Vocabulary,
+    bridges: Vec<String>,
+    /// Symbols, and sines and cosines that have a short spelling.
+    leaves: FxHashMap<Expr, Option<Rc<str>>>,
+    out: String,
+}
+
+impl Printer<'_> {
+    fn write(&mut self, e: Expr) {
+        let mut tasks = vec![Task::Write(e, Place::Whole)];
+        while let Some(task) = tasks.pop() {
+            if self.out.len() > MAX_BYTES {
+                self.out.push('…');
+                return;
+            }
+            match task {
+                Task::Text(text) => self.out.push_str(text),
+                Task::Own(text) => self.out.push_str(&text),
+                Task::Times(right, after_slash) => {
+                    let joint = Joint {
+                        right: self.head(right),
+                        left: &self.out,
+                        after_slash,
+                        bridges: &self.bridges,
+                    };
+                    let sign = (self.notation.times)(&joint);
+                    self.out.push_str(sign);
+                    tasks.push(Task::Write(right, Place::Factor));
+                }
+                Task::Write(e, place) => {
+                    let start = tasks.len();
+                    if self.needs_parens(e, place) {
+                        tasks.push(Task::Text(self.notation.paren[0]));
+                        tasks.push(Task::Write(e, Place::Whole));
+                        tasks.push(Task::Text(self.notation.paren[1]));
+                    } else {
+                        self.unroll(e, &mut tasks);
+                    }
+                    tasks[start..].reverse();
+                }
+            }
+        }
+    }
+
+    fn needs_parens(&self, e: Expr, place: Place) -> bool {
+        let bar = self.notation.bar.is_some();
+        let looseness = match e.node() {
+            Node::Number(r) if r.is_negative() => Place::Whole,
+            Node::Number(r) if number_parts(&r).1.is_some() => {
+                if bar {
+                    Place::Factor
+                } else {
+                    Place::Addend
+                }
+            }
+            Node::Add(..) | Node::Sub(..) | Node::Neg(_) => Place::Whole,
+            Node::Div(_, b) if b.is_zero() && !bar => Place::Whole,
+            Node::Div(..) if bar => Place::Factor,
+            Node::Mul(..) | Node::Div(..) => Place::Addend,
+            Node::Pow(..) => Place::Factor,
+            Node::Sqrt(_) if self.notation.short_root.is_some() => Place::Factor,
+            Node::Pi | Node::Symbol(_) | Node::Number(_) => Place::Base,
+            Node::Sqrt(_) | Node::Sin(_) | Node::Cos(_) | Node::Atan2(..) => Place::Base,
+        };
+        looseness < place
+    }
+
+    /// The pieces of a formula in the order of reading.
+    fn unroll(&mut self, e: Expr, tasks: &mut Vec<Task>) {
+        let n = self.notation;
+        if let Some(leaf) = self.leaf(e) {
+            tasks.push(Task::Own(leaf.to_string()));
+            return;
+        }
+        match e.node() {
+            Node::Number(r) if r.is_negative() => {
+                tasks.extend([Task::Text(n.negative), Task::Write((-r).into(), Place::Addend)]);
+            }
+            Node::Number(r) => {
+                let (p, q) = number_parts(&r);
+                self.ratio(Some(p), Expr::int(1), q, None, tasks);
+            }
+            Node::Pi => tasks.push(Task::Text(n.pi)),
+            Node::Symbol(_) => unreachable!("a symbol is a leaf"),
+            Node::Neg(a) => tasks.extend([Task::Text(n.negative), Task::Write(a, Place::Addend)]),
+            Node::Add(..) | Node::Sub(..) => self.sum(e, tasks),
+            Node::Mul(a, b) => match a.as_number() {
+                Some(r) => {
+                    let (p, q) = if b == Expr::pi() { fraction_parts(&r) } else { number_parts(&r) };
+                    let p = Some(p).filter(|p| p != "1");
+                    match b.node() {
+                        Node::Div(a, b) if !b.is_zero() => self.ratio(p, a, q, Some(b), tasks),
+                        _ => self.ratio(p, b, q, None, tasks),
+                    }
+                }
+                None => self.ratio(None, e, None, None, tasks),
+            },
+            Node::Div(a, b) => match (n.bar, b.is_zero()) {
+                (None, true) => {
+                    tasks.extend([
+                        Task::Write(a, Place::Factor),
+                        Task::Text("/"),
+                        Task::Write(b, Place::Base),
+                    ]);
+                }
+                (None, false) => self.ratio(None, e, None, None, tasks),
+                (Some(_), _) => self.ratio(None, a, None, Some(b), tasks),
+            },
+            Node::Pow(a, k) => tasks.extend([
+                Task::Text(n.power[0]),
+                Task::Write(a, Place::Base),
+                Task::Text(n.power[1]),
+                Task::Own((n.exponent)(k)),
+            ]),
+            Node::Sqrt(a) => match (n.short_root, a.as_number()) {
+                (Some(sign), Some(r)) if r.is_integer() && !r.is_negative() => {
+                    tasks.extend([Task::Text(sign), Task::Write(a, Place::Whole)]);
+                }
+                _ => {
+                    tasks.extend([Task::Text(n.root[0]), Task::Write(a, Place::Whole), Task::Text(n.root[1])])
+                }
+            },
+            Node::Sin(a) => {
+                tasks.extend([Task::Text(n.sine), Task::Text(n.call[0])]);
+                self.argument(a, tasks);
+                tasks.push(Task::Text(n.call[2]));
+            }
+            Node::Cos(a) => {
+                tasks.extend([Task::Text(n.cosine), Task::Text(n.call[0])]);
+                self.argument(a, tasks);
+                tasks.push(Task::Text(n.call[2]));
+            }
+            Node::Atan2(y, x) => tasks.extend([
+                Task::Text(n.arctangent),
+                Task::Text(n.call[0]),
+                Task::Write(y, Place::Whole),
+                Task::Text(n.call[1]),
+                Task::Write(x, Place::Whole),
+                Task::Text(n.call[2]),
+            ]),
+        }
+    }
+
+    /// The argument of a sine or cosine.
+    fn argument(&self, a: Expr, tasks: &mut Vec<Task>) {
+        let (rest, negative, radians) = match a.node() {
+            _ if !self.vocabulary.in_degrees() => return tasks.push(Task::Write(a, Place::Whole)),
+            Node::Number(r) => (None, false, r),
+            Node::Add(a, b) => (Some(a), false, b.as_number().unwrap_or(Rational::ZERO)),
+            Node::Sub(a, b) => (Some(a), true, b.as_number().unwrap_or(Rational::ZERO)),
+            _ => (None, false, Rational::ZERO),
+        };
+        if radians.is_zero() {
+            return tasks.push(Task::Write(a, Place::Whole));
+        }
+        if let Some(rest) = rest {
+            tasks.push(Task::Write(rest, Place::Whole));
+            tasks.push(Task::Text(if negative { self.notation.minus } else { self.notation.plus }));
+        }
+        let (p, q) = number_parts(&radians);
+        tasks.extend([Task::Own((self.notation.digits)(p)), Task::Text(self.notation.radian)]);
+        if let Some(q) = q {
+            tasks.extend([Task::Text("/"), Task::Own((self.notation.digits)(q))]);
+        }
+    }
+
+    /// `a + b − c`, nested to the left.
+    fn sum(&self, e: Expr, tasks: &mut Vec<Task>) {
+        let (mut first, mut rest) = (e, vec![]);
+        loop {
+            let (a, sign, b) = match first.node() {
+                Node::Add(a, b) => (a, self.notation.plus, b),
+                Node::Sub(a, b) => (a, self.notation.minus, b),
+                _ => break,
+            };
+            rest.push((sign, b));
+            first = a;
+        }
+        tasks.push(Task::Write(first, Place::Addend));
+        for (sign, b) in rest.into_iter().rev() {
+            tasks.extend([Task::Text(sign), Task::Write(b, Place::Addend)]);
+        }
+    }
+
+    /// `p·a / (q·b)`, where `None` stands for 1.
+    fn ratio(&self, p: Option<String>, a: Expr, q: Option<String>, b: Option<Expr>, tasks: &mut Vec<Task>) {
+        let is_whole = q.is_none() && b.is_none();
+        match self.notation.bar {
+            _ if is_whole => self.product(p, a, Place::Factor, tasks),
+            Some([before, between, after]) => {
+                tasks.push(Task::Text(before));
+                self.product(p, a, Place::Whole, tasks);
+                tasks.push(Task::Text(between));
+                self.product(q, b.unwrap_or(Expr::int(1)), Place::Whole, tasks);
+                tasks.push(Task::Text(after));
+            }
+            None => {
+                self.product(p, a, Place::Factor, tasks);
+                tasks.push(Task::Text("/"));
+                match (q, b) {
+                    (None, Some(b)) => tasks.push(Task::Write(b, Place::Factor)),
+                    (q, None) => self.product(q, Expr::int(1), Place::Factor, tasks),
+                    (q, Some(b)) => {
+                        tasks.push(Task::Text(self.notation.paren[0]));
+                        self.product(q, b, Place::Factor, tasks);
+                        tasks.push(Task::Text(self.notation.paren[1]));
+                    }
+                }
+            }
+        }
+    }
+
+    /// `p·x`, where x is unrolled as far as it is nested to the left; `alone` is the place of an x that is neither
+    /// product nor quotient if nothing stands next to it.
+    fn product(&self, p: Option<String>, x: Expr, alone: Place, tasks: &mut Vec<Task>) {
+        let (mut first, mut rest) = (x, vec![]);
+        loop {
+            first = match first.node() {
+                Node::Mul(a, b) if a.as_number().is_none() => {
+                    rest.push((true, b));
+                    a
+                }
+                Node::Div(a, b) if self.notation.bar.is_none() && !b.is_zero() => {
+                    rest.push((false, b));
+                    a
+                }
+                _ => break,
+            };
+        }
+        match p {
+            Some(p) => {
+                tasks.push(Task::Own((self.notation.digits)(p)));
+                if !first.is_one() {
+                    tasks.push(Task::Times(first, false));
+                }
+            }
+            None if rest.is_empty() => tasks.push(Task::Write(first, alone)),
+            None => tasks.push(Task::Write(first, Place::Factor)),
+        }
+        let mut after_slash = false;
+        for (times, b) in rest.into_iter().rev() {
+            if times {
+                tasks.push(Task::Times(b, after_slash));
+            } else {
+                tasks.extend([Task::Text("/"), Task::Write(b, Place::Factor)]);
+                after_slash = true;
+            }
+        }
+    }
+
+    /// How a formula starts in the place of a factor.
+    fn head(&mut self, mut e: Expr) -> Head {
+        let mut place = Place::Factor;
+        loop {
+            if self.needs_parens(e, place) {
+                return Head::Paren;
+            }
+            if let Some(leaf) = self.leaf(e) {
+                return Head::Word(leaf);
+            }
+            match e.node() {
+                Node::Number(r) if number_parts(&r).1.is_none() => return Head::Number,
+                Node::Pi if self.notation.pi == self.notation.half_turn => return Head::Number,
+                Node::Pi => return Head::Word(self.notation.pi.into()),
+                Node::Pow(a, _) => (e, place) = (a, Place::Base),
+                Node::Sqrt(_) => return Head::Root,
+                Node::Sin(_) | Node::Cos(_) | Node::Atan2(..) => return Head::Call,
+                Node::Number(_) | Node::Div(..) => return Head::Fraction,
+                Node::Symbol(_) | Node::Neg(_) | Node::Add(..) | Node::Sub(..) | Node::Mul(..) => {
+                    return Head::Paren;
+                }
+            }
+        }
+    }
+
+    /// The spelling of a symbol, or of the sine or cosine of numbered angles.
+    fn leaf(&mut self, e: Expr) -> Option<Rc<str>> {
+        let node = e.node();
+        if !matches!(node, Node::Symbol(_) | Node::Sin(_) | Node::Cos(_)) {
+            return None;
+        }
+        if let Some(known) = self.leaves.get(&e) {
+            return known.clone();
+        }
+        let text = match node {
+            Node::Symbol(s) => Some((self.notation.symbol)(&Spelling::of(&s.name(), self.vocabulary))),
+            Node::Sin(a) => self.short_trig('S', a),
+            Node::Cos(a) => self.short_trig('C', a),
+            _ => None,
+        };
+        let text: Option<Rc<str>> = text.map(Rc::from);
+        self.leaves.insert(e, text.clone());
+        text
+    }
+
+    fn short_trig(&self, letter: char, argument: Expr) -> Option<String> {
+        let index = Index::of(&Angle::of(argument), self.vocabulary)?;
+        let word = ascii::trig(letter, &index);
+        // A symbol of the same name has the right of way.
+        self.vocabulary.lookup(&word).is_none().then(|| (self.notation.trig)(letter, &index))
+    }
+}
+
+/// Numerator and denominator (`None` for 1) of a positive number, or a decimal if it is a short one.
+fn number_parts(r: &Rational) -> (String, Option<String>) {
+    decimal(r).map_or_else(|| fraction_parts(r), |text| (text, None))
+}
+
+fn fraction_parts(r: &Rational) -> (String, Option<String>) {
+    let (p, q) = r.digits();
+    (p, Some(q).filter(|q| q != "1"))
+}
+
+/// The largest number of decimals; what needs more stays a fraction.
+const MAX_DECIMALS: u32 = 6;
+
+/// `0.1519`; not for 1/2, 3/4 or 1/10, which are shorter as fractions.
+fn decimal(r: &Rational) -> Option<String> {
+    let (n, d) = r.to_parts()?;
+    if d <= 10 {
+        return None;
+    }
+    let places = (2..=MAX_DECIMALS).find(|&k| 10_i64.pow(k) % d == 0)?;
+    let scale = 10_i128.pow(places);
+    let digits = i128::from(n) * (scale / i128::from(d));
+    Some(format!("{}.{:0width$}", digits / scale, digits % scale, width = places as usize))
+}

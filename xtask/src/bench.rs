@@ -1,0 +1,214 @@
+//! CPU time of deriving the forward model of every robot of the catalogue.
+//!
+//! Measured: reading the robot file, the link transforms, the simplified matrix, the search for the shortest
+//! algorithm, and the proof; each time in a fresh thread, so that no formula is known from the run before.
+//! References in the same run: the same product expanded over single joint angles (the ring without merging), and
+//! SymPy's `trigsimp` of the twelve entries for two robots.
+
+use crate::{command, date, path, robot, succeed};
+use anyhow::{Context, Result, bail};
+use cpu_time::ThreadTime;
+use denavit::catalogue;
+use denavit::forward::{ForwardModel, Outputs, link_transforms, symbol_order};
+use denavit::robot::Robot;
+use denavit_symbolic::{Angle, Expr, Ring};
+use std::fmt::Write;
+use std::fs;
+use std::hint::black_box;
+use std::process::Command;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+/// Measurements a figure.
+const REPEATS: usize = 9;
+/// What a derivation may take, ms.
+const BOUND: f64 = 50.0;
+/// Robots for which SymPy is asked as well.
+const WITH_SYMPY: &[&str] = &["staubli-rx90", "puma560"];
+const SYMPY: &str = "sympy==1.14.0";
+
+/// Median, least and largest of some times in ms.
+struct Times {
+    median: f64,
+    least: f64,
+    largest: f64,
+}
+
+struct Row {
+    name: &'static str,
+    ours: Times,
+    /// `None` if the expansion is refused as too large.
+    naive: Option<Times>,
+    /// Seconds.
+    sympy: Option<f64>,
+}
+
+/// Measures and prints the table; with `write` it goes to docs/performance.md as well.
+///
+/// # Errors
+/// If a robot of the catalogue cannot be read, or the file cannot be written.
+pub fn run(write: bool) -> Result<()> {
+    let python = python();
+    if let Err(e) = &python {
+        println!("no SymPy, so no ratio to it: {e:#}");
+    }
+    let mut rows = vec![];
+    for name in catalogue::names() {
+        let ours = times(name, derive)?.context("a derivation is never refused")?;
+        let naive = times(name, expand)?;
+        let sympy = match &python {
+            Ok(program) if WITH_SYMPY.contains(&name) => Some(trigsimp(program, name)?),
+            _ => None,
+        };
+        rows.push(Row { name, ours, naive, sympy });
+    }
+    let table = table(&rows);
+    println!("{table}\n{}", verdict(&rows));
+    if write {
+        let file = path("docs/performance.md");
+        fs::write(&file, page(&rows, &table)?)?;
+        println!("wrote docs/performance.md");
+    }
+    Ok(())
+}
+
+/// What is measured: from the text of the robot file to the proof.
+fn derive(name: &str) -> Result<bool> {
+    let description = robot(name)?;
+    black_box(link_transforms(&description));
+    black_box(ForwardModel::of_tool(&description, Outputs::ALL));
+    Ok(true)
+}
+
+/// The naive reference: the product of the link transforms in normal form over the single joint angles. False if
+/// that is too large.
+fn expand(name: &str) -> Result<bool> {
+    let description = robot(name)?;
+    let q: Vec<Expr> = description.variables().iter().map(|v| v.symbol.into()).collect();
+    let pose = Robot::symbolic(&description).pose(&q).matrix();
+    let entries: Vec<Expr> = pose.into_iter().flatten().collect();
+    let angles: Vec<Angle> = q.into_iter().map(Angle::of).collect();
+    let mut ring = Ring::with_basis(&angles, &entries, &symbol_order(&description));
+    Ok(entries.into_iter().all(|e| black_box(ring.normal(e)).is_ok()))
+}
+
+/// CPU times of `work`, each in a thread of its own; `None` if the work is refused.
+fn times(name: &'static str, work: fn(&str) -> Result<bool>) -> Result<Option<Times>> {
+    let mut milliseconds = vec![];
+    for _ in 0..REPEATS {
+        let measured = std::thread::Builder::new().stack_size(64 << 20).spawn(move || -> Result<_> {
+            let start = ThreadTime::now();
+            let done = work(name)?;
+            Ok(done.then(|| start.elapsed().as_secs_f64() * 1e3))
+        })?;
+        let Ok(time) = measured.join() else { bail!("{name}: the derivation panicked") };
+        match time.with_context(|| name)? {
+            Some(time) => milliseconds.push(time),
+            None => return Ok(None),
+        }
+    }
+    milliseconds.sort_by(f64::total_cmp);
+    Ok(Some(Times {
+        median: milliseconds[REPEATS / 2],
+        least: milliseconds[0],
+        largest: milliseconds[REPEATS - 1],
+    }))
+}
+
+/// A Python with SymPy: the project's environment, the system's, or an environment made for it.
+fn python() -> Result<String> {
+    let own = path(".venv/bin/python").display().to_string();
+    let has_sympy = |python: &str| {
+        command(python).args(["-c", "import sympy, tomllib"]).output().is_ok_and(|o| o.status.success())
+    };
+    if let Some(python) = [own.as_str(), "python3"].into_iter().find(|p| has_sympy(p)) {
+        return Ok(python.to_string());
+    }
+    succeed(command("python3").args(["-m", "venv", ".venv"]))?;
+    succeed(Command::new(&own).args(["-m", "pip", "install", "--quiet", SYMPY]))?;
+    Ok(own)
+}
+
+/// CPU seconds of SymPy's product of the rows and `trigsimp` of its twelve entries.
+fn trigsimp(python: &str, name: &str) -> Result<f64> {
+    const SCRIPT: &str = "
+import pathlib, sys, time
+sys.path.insert(0, 'crates/robot/tests/peers')
+sys.dont_write_bytecode = True
+import sympy, sympy_counts
+start = time.process_time()
+for entry in sympy_counts.product(pathlib.Path(sys.argv[1])):
+    sympy.trigsimp(entry)
+print(time.process_time() - start)
+";
+    let file = format!("crates/robot/catalogue/{name}.toml");
+    let output = command(python).args(["-c", SCRIPT, &file]).output()?;
+    if !output.status.success() {
+        bail!("SymPy on {name}: {}", String::from_utf8_lossy(&output.stderr).trim());
+    }
+    Ok(String::from_utf8(output.stdout)?.trim().parse()?)
+}
+
+fn table(rows: &[Row]) -> String {
+    let width = rows.iter().map(|r| r.name.len()).max().unwrap_or(0);
+    let mut out = String::new();
+    let mut line = |cells: [&str; 6]| {
+        let [name, median, spread, naive, ratio, sympy] = cells;
+        let _ = writeln!(out, "| {name:<width$} | {median:>7} | {spread:>15} | {naive:>8} | {ratio:>6} | {sympy:>18} |");
+    };
+    line(["robot", "CPU ms", "least – largest", "naive ms", "ratio", "SymPy s (ratio)"]);
+    line([&"-".repeat(width), "------:", "--------------:", "-------:", "-----:", "-----------------:"]);
+    for row in rows {
+        let naive = row.naive.as_ref().map(|t| t.median);
+        line([
+            row.name,
+            &format!("{:.2}", row.ours.median),
+            &format!("{:.2} – {:.2}", row.ours.least, row.ours.largest),
+            &naive.map_or("refused".into(), |ms| format!("{ms:.2}")),
+            &naive.map_or(String::new(), |ms| format!("{:.2}", ms / row.ours.median)),
+            &row.sympy.map_or(String::new(), |s| format!("{s:.1} ({:.0})", s * 1e3 / row.ours.median)),
+        ]);
+    }
+    out
+}
+
+fn verdict(rows: &[Row]) -> String {
+    let Some(slowest) = rows.iter().max_by(|a, b| a.ours.median.total_cmp(&b.ours.median)) else {
+        return "the catalogue is empty".into();
+    };
+    let above = rows.iter().filter(|r| r.ours.median > BOUND).count();
+    format!(
+        "{} robots; the slowest is {} with {:.1} ms; {} above the bound of {BOUND} ms.",
+        rows.len(),
+        slowest.name,
+        slowest.ours.median,
+        if above == 0 { "none".into() } else { above.to_string() }
+    )
+}
+
+fn page(rows: &[Row], table: &str) -> Result<String> {
+    let today = date(SystemTime::now().duration_since(UNIX_EPOCH)?.as_secs() / 86_400);
+    let rustc = command("rustc").arg("--version").output().map(|o| String::from_utf8_lossy(&o.stdout).into_owned());
+    let rustc = rustc.unwrap_or_else(|_| "rustc, version unknown".into());
+    Ok(format!(
+        "# Performance\n\n\
+         CPU time of deriving the forward model of each robot of the catalogue: reading the robot file, the link\n\
+         transforms, the simplified matrix, the search for the shortest algorithm, and the proof that it equals the\n\
+         product. Median of {REPEATS} runs, each in a fresh thread that knows no formula yet; release build, one thread.\n\n\
+         - **naive**: the same product in normal form over single joint angles, without merging parallel axes, without\n\
+         a search and without a readable form; the ratio is naive to ours.\n\
+         - **SymPy**: the product and `trigsimp` of its twelve entries ({SYMPY}), CPU time, once; the ratio is SymPy to ours.\n\n\
+         Measured {today} on {} ({}, {}).\n\n{}\n\n{table}\n\
+         Renew with `cargo xtask bench --write`.\n",
+        processor(),
+        std::env::consts::OS,
+        rustc.trim(),
+        verdict(rows),
+    ))
+}
+
+/// The model of the processor, as Linux names it.
+fn processor() -> String {
+    let info = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let model = info.lines().find_map(|l| l.strip_prefix("model name")?.split_once(':'));
+    model.map_or_else(|| std::env::consts::ARCH.into(), |m| m.1.trim().into())
+}

@@ -1,0 +1,76 @@
+//! Fuzzing for a bounded time: no byte string makes a reader panic, hang or swallow the memory.
+
+use crate::{command, path, succeed};
+use anyhow::{Context, Result, bail};
+use std::fs;
+use std::process::{Command, Stdio};
+
+/// A target and the folder with texts to start from.
+const TARGETS: &[(&str, &str)] = &[
+    ("formula", "fuzz/seeds/formula"),
+    ("robot_file", "crates/robot/catalogue"),
+    ("table", "fuzz/seeds/table"),
+];
+/// Longest input in bytes.
+const MAX_BYTES: u32 = 4096;
+/// Seconds after which one input counts as a hang (the build is unoptimised for speed and instrumented).
+const TIMEOUT: u32 = 20;
+/// Memory in MiB.
+const MEMORY: u32 = 2048;
+
+/// Runs the targets named, or all of them, `seconds` each.
+///
+/// # Errors
+/// If a target crashes (the input is left under `fuzz/artifacts`), or the tools are not there.
+pub fn run(seconds: u32, wanted: &[&str]) -> Result<()> {
+    if let Some(unknown) = wanted.iter().find(|w| TARGETS.iter().all(|t| t.0 != **w)) {
+        let known: Vec<&str> = TARGETS.iter().map(|t| t.0).collect();
+        bail!("no fuzz target `{unknown}`; there are {}", known.join(", "));
+    }
+    install()?;
+    let mut crashed = vec![];
+    for (target, seeds) in TARGETS.iter().filter(|t| wanted.is_empty() || wanted.contains(&t.0)) {
+        println!("\n━━ {target}, {seconds} s ━━");
+        let corpus = path(&format!("fuzz/corpus/{target}"));
+        fs::create_dir_all(&corpus)?;
+        let result = succeed(
+            fuzz().args(["run", target]).arg(&corpus).arg(path(seeds)).arg("--").args([
+                format!("-max_total_time={seconds}"),
+                format!("-max_len={MAX_BYTES}"),
+                format!("-timeout={TIMEOUT}"),
+                format!("-rss_limit_mb={MEMORY}"),
+                "-print_final_stats=1".into(),
+            ]),
+        );
+        if let Err(e) = result {
+            eprintln!("{target}: {e:#}");
+            crashed.push(*target);
+        }
+    }
+    if !crashed.is_empty() {
+        bail!("failed: {}; inputs are under fuzz/artifacts", crashed.join(", "));
+    }
+    Ok(())
+}
+
+/// `cargo fuzz` of the nightly toolchain, which the instrumentation needs.
+fn fuzz() -> Command {
+    let mut command = command("rustup");
+    command.args(["run", "nightly", "cargo", "fuzz"]);
+    for inherited in ["CARGO", "RUSTC", "RUSTDOC"] {
+        command.env_remove(inherited);
+    }
+    command
+}
+
+fn install() -> Result<()> {
+    let answers = |c: &mut Command| c.stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok_and(|s| s.success());
+    if !answers(command("rustup").args(["run", "nightly", "rustc", "--version"])) {
+        bail!("fuzzing needs the nightly toolchain: `rustup toolchain install nightly --profile minimal`");
+    }
+    if !answers(fuzz().arg("--version")) {
+        succeed(command("rustup").args(["run", "stable", "cargo", "install", "cargo-fuzz", "--locked"]))
+            .context("cargo-fuzz is not installed")?;
+    }
+    Ok(())
+}

@@ -1,0 +1,92 @@
+//! All that a change must pass, in order; the first failure ends it.
+//!
+//! A step that has to install something first (a Python environment, say) does so on its own, when it runs.
+
+use crate::{cargo, command, counts, succeed, tidy};
+use anyhow::{Context, Result, bail};
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// What a step that did not fail has to say.
+enum Outcome {
+    Passed,
+    Skipped(String),
+}
+
+type Step = (&'static str, fn() -> Result<Outcome>);
+
+const STEPS: &[Step] = &[
+    ("format", || run(&["fmt", "--all", "--check"])),
+    ("clippy", || run(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"])),
+    ("tidy", || tidy::run().map(|()| Outcome::Passed)),
+    ("tests", || run(&["test", "--workspace", "--locked"])),
+    ("documentation", documentation),
+    ("wasm32", wasm),
+    ("operation counts", || counts::run(true).map(|()| Outcome::Passed)),
+];
+
+/// Runs all steps.
+///
+/// # Errors
+/// The first step that fails.
+pub fn run_all() -> Result<()> {
+    let mut summary: Vec<(&str, String, Duration)> = vec![];
+    let mut failure = None;
+    for (name, step) in STEPS {
+        println!("\n━━ {name} ━━");
+        let start = Instant::now();
+        let result = match step() {
+            Ok(Outcome::Passed) => "passed".into(),
+            Ok(Outcome::Skipped(why)) => {
+                println!("skipped: {why}");
+                format!("skipped: {why}")
+            }
+            Err(e) => {
+                let line = format!("FAILED: {e:#}");
+                failure = Some(e.context(format!("{name} failed")));
+                line.lines().next().unwrap_or_default().to_string()
+            }
+        };
+        summary.push((name, result, start.elapsed()));
+        if failure.is_some() {
+            break;
+        }
+    }
+    println!("\n━━ summary ━━");
+    for (name, result, elapsed) in &summary {
+        println!("{name:<18} {:>6.1} s  {result}", elapsed.as_secs_f64());
+    }
+    for (name, _) in &STEPS[summary.len()..] {
+        println!("{name:<18} {:>8}  not run", "");
+    }
+    failure.map_or(Ok(()), Err)
+}
+
+fn run(arguments: &[&str]) -> Result<Outcome> {
+    succeed(cargo().args(arguments))?;
+    Ok(Outcome::Passed)
+}
+
+fn documentation() -> Result<Outcome> {
+    succeed(cargo().args(["doc", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings"))?;
+    Ok(Outcome::Passed)
+}
+
+/// The crates that a web page needs build for it.
+fn wasm() -> Result<Outcome> {
+    const TARGET: &str = "wasm32-unknown-unknown";
+    let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+    let output = command(&rustc)
+        .args(["--print", "target-libdir", "--target", TARGET])
+        .output()
+        .context("rustc does not start")?;
+    if !output.status.success() {
+        bail!("rustc does not know {TARGET}");
+    }
+    if !Path::new(String::from_utf8_lossy(&output.stdout).trim()).exists() {
+        return Ok(Outcome::Skipped(format!("the target is not installed (`rustup target add {TARGET}`)")));
+    }
+    let crates = ["-p", "denavit-symbolic", "-p", "denavit-program", "-p", "denavit"];
+    succeed(cargo().args(["build", "--locked", "--target", TARGET]).args(crates))?;
+    Ok(Outcome::Passed)
+}
