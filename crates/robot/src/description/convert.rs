@@ -1,1 +1,241 @@
-//! stub
+//! From one convention to another, exactly, and the proof that two chains are the same.
+//!
+//! With X = Rx(α)·Tx(a) and Z = Rz(θ)·Tz(d), a row is Z·X in the standard convention and X·Z in Craig's and
+//! Khalil's. The same product is cut at other places: each X moves to the neighbouring row, and the one at the
+//! end of the chain becomes part of the base or of the tool.
+
+use super::{Convention, Description, Row};
+use crate::geometry::{Axis, Rotation, Transform, Vector};
+use denavit_symbolic::{Angle, Expr, Refusal, Ring, Verdict, equal};
+
+/// A description in another convention.
+#[derive(Clone, Debug)]
+pub struct Conversion {
+    /// The same robot.
+    pub description: Description,
+    /// What moved into the base, the tool or neighbouring rows, in words.
+    pub note: String,
+}
+
+/// Whether two descriptions are the same function from joint variables to the pose of the tool.
+#[derive(Clone, PartialEq, Debug)]
+pub enum SameChain {
+    /// Proved: base, rows and tool multiply to the same matrix.
+    Equal,
+    /// Proved different.
+    Different {
+        /// An entry of the 4×4 matrix that differs, row and column counted from 0.
+        entry: (usize, usize),
+    },
+    /// Neither was proved.
+    Undecided,
+}
+
+impl SameChain {
+    /// True if proved equal.
+    pub fn is_equal(&self) -> bool {
+        *self == SameChain::Equal
+    }
+}
+
+/// Rotation about and translation along one axis.
+#[derive(Clone, Copy, PartialEq, Debug)]
+struct Screw {
+    axis: Axis,
+    angle: Expr,
+    length: Expr,
+}
+
+impl Screw {
+    fn is_identity(&self) -> bool {
+        self.angle.is_zero() && self.length.is_zero()
+    }
+
+    fn transform(&self) -> Transform<Expr> {
+        let shift = match self.axis {
+            Axis::Z => Transform::translation_z(self.length),
+            Axis::X | Axis::Y => Transform::translation_x(self.length),
+        };
+        Transform::rotation_about(self.axis, self.angle) * shift
+    }
+}
+
+fn x_screw(angle: Expr, length: Expr) -> Screw {
+    Screw { axis: Axis::X, angle, length }
+}
+
+fn z_screw(angle: Expr, length: Expr) -> Screw {
+    Screw { axis: Axis::Z, angle, length }
+}
+
+/// The sum in its normal order, so that q + π/2 − π/2 is q.
+fn plus(a: Expr, b: Expr) -> Expr {
+    if b.is_zero() { a } else { Angle::of(a + b).to_expr() }
+}
+
+impl Description {
+    /// The same robot in another convention; joints keep their variables, names and limits.
+    ///
+    /// Where the frame of a link moves, its centre of mass and inertia are expressed in the new one.
+    pub fn converted(&self, to: Convention) -> Conversion {
+        let mut d = self.clone();
+        let mut notes = vec![];
+        let from = self.convention;
+        d.convention = to;
+        if from == Convention::Khalil && to != Convention::Khalil {
+            d.fold_branches(&mut notes);
+        }
+        match (from == Convention::Standard, to == Convention::Standard) {
+            (false, true) => d.shift_to_standard(&mut notes),
+            (true, false) => d.shift_from_standard(&mut notes),
+            _ => {}
+        }
+        let note = match notes.as_slice() {
+            [] => "base and tool are unchanged".to_string(),
+            notes => notes.join("; "),
+        };
+        Conversion { description: d, note }
+    }
+
+    /// Rz(γ)·Tz(b) before a row goes to the Z of the row before, or to the base.
+    fn fold_branches(&mut self, notes: &mut Vec<String>) {
+        for i in 0..self.rows.len() {
+            let branch = z_screw(self.rows[i].gamma, self.rows[i].b);
+            if branch.is_identity() {
+                continue;
+            }
+            (self.rows[i].gamma, self.rows[i].b) = (Expr::int(0), Expr::int(0));
+            if i == 0 {
+                self.base = self.base * branch.transform();
+                notes.push("γ1 and b1 are part of the base".into());
+            } else {
+                let before = &mut self.rows[i - 1];
+                before.theta = plus(before.theta, branch.angle);
+                before.d = plus(before.d, branch.length);
+                move_frame(before, &branch.transform().inverse());
+                notes.push(format!("γ{} and b{} are part of row {i}", i + 1, i + 1));
+            }
+        }
+    }
+
+    /// X₁Z₁ X₂Z₂ … XₙZₙ = X₁ · Z₁X₂ · Z₂X₃ … Zₙ
+    fn shift_to_standard(&mut self, notes: &mut Vec<String>) {
+        let screws: Vec<Screw> = self.rows.iter().map(|r| x_screw(r.alpha, r.a)).collect();
+        if let Some(first) = screws.first().filter(|s| !s.is_identity()) {
+            self.base = self.base * first.transform();
+            notes.push("α and length x of the first row are part of the base".into());
+        }
+        let behind = screws.into_iter().skip(1).chain([x_screw(Expr::int(0), Expr::int(0))]);
+        for (row, x) in self.rows.iter_mut().zip(behind) {
+            (row.alpha, row.a) = (x.angle, x.length);
+            move_frame(row, &x.transform().inverse());
+        }
+    }
+
+    /// Z₁X₁ Z₂X₂ … ZₙXₙ = Z₁ · X₁Z₂ · X₂Z₃ … · Xₙ
+    fn shift_from_standard(&mut self, notes: &mut Vec<String>) {
+        let mut x = x_screw(Expr::int(0), Expr::int(0));
+        for row in &mut self.rows {
+            let own = x_screw(row.alpha, row.a);
+            (row.alpha, row.a) = (x.angle, x.length);
+            move_frame(row, &own.transform());
+            x = own;
+        }
+        if !x.is_identity() {
+            self.tool = x.transform() * self.tool;
+            notes.push("α and length x of the last row are part of the tool".into());
+        }
+    }
+
+    /// The chain as screws, neighbours on one axis merged, without identities.
+    fn screws(&self) -> Vec<Screw> {
+        let mut screws: Vec<Screw> = vec![];
+        for row in &self.rows {
+            let (z, x) = (z_screw(row.theta, row.d), x_screw(row.alpha, row.a));
+            let row = match self.convention {
+                Convention::Standard => vec![z, x],
+                Convention::Craig => vec![x, z],
+                Convention::Khalil => vec![z_screw(row.gamma, row.b), x, z],
+            };
+            for screw in row {
+                if let Some(last) = screws.last_mut().filter(|l| l.axis == screw.axis) {
+                    last.angle = Angle::of(last.angle + screw.angle).to_expr();
+                    last.length = Angle::of(last.length + screw.length).to_expr();
+                } else {
+                    let normal = |e| Angle::of(e).to_expr();
+                    screws.push(Screw { angle: normal(screw.angle), length: normal(screw.length), ..screw });
+                }
+                if screws.last().is_some_and(Screw::is_identity) {
+                    screws.pop();
+                }
+            }
+        }
+        screws
+    }
+
+    /// The constant ends of the chain multiplied into base and tool.
+    fn core(&self) -> (Transform<Expr>, Vec<Screw>, Transform<Expr>) {
+        let variables = self.variables();
+        let mut screws = self.screws();
+        let moves = |s: &Screw| {
+            let symbols = [s.angle.symbols(), s.length.symbols()].concat();
+            symbols.iter().any(|&s| variables.iter().any(|v| v.symbol == s))
+        };
+        let first = screws.iter().position(moves).unwrap_or(screws.len());
+        let base = screws.drain(..first).fold(self.base, |x, s| x * s.transform());
+        let last = screws.iter().rposition(moves).map_or(0, |i| i + 1);
+        let tool = screws.drain(last..).rev().fold(self.tool, |x, s| s.transform() * x);
+        (base, screws, tool)
+    }
+}
+
+/// Writes a link's mass properties in its new frame; `x_new_old` is the old frame seen from it.
+fn move_frame(row: &mut Row, x_new_old: &Transform<Expr>) {
+    if let Some(com) = &mut row.com {
+        *com = x_new_old.act_on_point(Vector(*com)).0;
+    }
+    if let Some([xx, xy, xz, yy, yz, zz]) = row.inertia {
+        let r = x_new_old.rotation;
+        let inertia = Rotation::from_rows([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
+        let m = (r * inertia * r.inverse()).rows(); // I' = R I Rᵀ
+        row.inertia = Some([m[0][0], m[0][1], m[0][2], m[1][1], m[1][2], m[2][2]]);
+    }
+}
+
+/// Proves that two descriptions take the same joint variables to the same pose, or that they do not.
+///
+/// Chains that are the same screws cut in other places are compared screw by screw, whatever their length;
+/// others by the product of all their transforms.
+pub fn prove_same_chain(a: &Description, b: &Description) -> SameChain {
+    let ((base_a, core_a, tool_a), (base_b, core_b, tool_b)) = (a.core(), b.core());
+    if core_a == core_b && same_transform(&base_a, &base_b).is_equal() && same_transform(&tool_a, &tool_b).is_equal() {
+        return SameChain::Equal;
+    }
+    let product = |base, core: &[Screw], tool| core.iter().fold(base, |x: Transform<Expr>, s| x * s.transform()) * tool;
+    same_transform(&product(base_a, &core_a, tool_a), &product(base_b, &core_b, tool_b))
+}
+
+/// Compares two transforms entry by entry in one ring.
+fn same_transform(a: &Transform<Expr>, b: &Transform<Expr>) -> SameChain {
+    if a == b {
+        return SameChain::Equal;
+    }
+    let (a, b) = (a.matrix(), b.matrix());
+    let pairs: Vec<(usize, usize)> = (0..12).map(|k| (k / 4, k % 4)).filter(|&(i, j)| a[i][j] != b[i][j]).collect();
+    let differences: Vec<Expr> = pairs.iter().map(|&(i, j)| a[i][j] - b[i][j]).collect();
+    let mut ring = Ring::new(&differences, &[]);
+    let mut verdict = SameChain::Equal;
+    for (&entry, &difference) in pairs.iter().zip(&differences) {
+        match ring.normal(difference) {
+            Ok(form) if form.num.is_zero() => continue,
+            Ok(_) | Err(Refusal::OutsideBasis | Refusal::Undefined) => {}
+            Err(Refusal::TooLarge) => return SameChain::Undecided,
+        }
+        match equal(difference, Expr::int(0)) {
+            Verdict::Equal { .. } => {}
+            Verdict::Different { .. } => return SameChain::Different { entry },
+            Verdict::Undecided(_) => verdict = SameChain::Undecided,
+        }
+    }
+    verdict
+}

@@ -5,7 +5,7 @@
 //! [`Robot`](crate::robot::Robot) to compute with.
 
 mod cell;
-//convert
+pub mod convert;
 pub mod diagnostic;
 mod names;
 mod robot_file;
@@ -14,7 +14,7 @@ pub mod table;
 mod units;
 
 pub use cell::MAX_LENGTH as MAX_CELL_BYTES;
-//pub use convert::{Conversion, SameChain, prove_same_chain};
+pub use convert::{Conversion, SameChain, prove_same_chain};
 pub use diagnostic::{Diagnostic, Diagnostics, Severity, line_column, render};
 pub use robot_file::{MAX_BYTES, MAX_ROWS, read_toml, write_toml};
 pub use table::{TableKind, TableOptions, read_table};

@@ -49,7 +49,10 @@ pub enum Style {
 
 /// The formula as text. Angles that the vocabulary numbers are written `C23`, `S1`, `C_{2-3}`.
 pub fn print(e: Expr, vocabulary: &Vocabulary, style: Style) -> String {
-    let notation = style.notation().beside(vocabulary);
+    let notation = match style {
+        Style::Ascii | Style::Unicode | Style::Latex => style.notation().beside(vocabulary),
+        Style::Typst | Style::MathMl => *style.notation(),
+    };
     let mut printer = Printer {
         notation,
         vocabulary,
@@ -363,19 +366,31 @@ impl Printer<'_> {
         }
     }
 
-    /// `a + b − c`, nested to the left.
+    /// `a + b − c`, nested to the left. What was built as the opposite of a difference, a − (b − c), is written as
+    /// `−(b − c − a)`: read as it stands, it would become a + (c − b).
     fn sum(&self, e: Expr, tasks: &mut Vec<Task>) {
+        let n = self.notation;
         let (mut first, mut rest) = (e, vec![]);
         loop {
             let (a, sign, b) = match first.node() {
-                Node::Add(a, b) => (a, self.notation.plus, b),
-                Node::Sub(a, b) => (a, self.notation.minus, b),
+                Node::Add(a, b) => (a, n.plus, b),
+                Node::Sub(a, b) if !is_difference(b) => (a, n.minus, b),
                 _ => break,
             };
             rest.push((sign, b));
             first = a;
         }
-        tasks.push(Task::Write(first, Place::Addend));
+        match first.node() {
+            Node::Sub(a, b) => tasks.extend([
+                Task::Text(n.negative),
+                Task::Text(n.paren[0]),
+                Task::Write(b, Place::Whole),
+                Task::Text(n.minus),
+                Task::Write(a, Place::Addend),
+                Task::Text(n.paren[1]),
+            ]),
+            _ => tasks.push(Task::Write(first, Place::Addend)),
+        }
         for (sign, b) in rest.into_iter().rev() {
             tasks.extend([Task::Text(sign), Task::Write(b, Place::Addend)]);
         }
@@ -498,6 +513,10 @@ impl Printer<'_> {
         // A symbol of the same name has the right of way.
         self.vocabulary.lookup(&word).is_none().then(|| (self.notation.trig)(letter, &index))
     }
+}
+
+fn is_difference(e: Expr) -> bool {
+    matches!(e.node(), Node::Sub(..))
 }
 
 /// Numerator and denominator (`None` for 1) of a positive number, or a decimal if it is a short one.

@@ -67,7 +67,7 @@ fn may_touch(joint: &Joint) -> bool {
         Head::Root => true,
         Head::Paren => !joint.bridges_at(&format!("{run}(")),
         Head::Word(word) => {
-            let is_number = run.starts_with(|c: char| c.is_ascii_digit());
+            let is_number = !run.is_empty() && run.bytes().all(|c| c.is_ascii_digit());
             // 2e1 is a number, C2θ1 has two readings.
             let is_clear = match word.chars().next() {
                 Some('e' | 'E') => !is_number,
