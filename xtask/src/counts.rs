@@ -120,7 +120,10 @@ fn page(sympy: &Value, opensymoro: &Value) -> Result<(String, Vec<String>)> {
     }
     let proved = match &unproved[..] {
         [] => "Every algorithm counted is proved equal to the product of its table.".to_string(),
-        names => format!("Every algorithm counted is proved equal to the product of its table, except {}.", names.join(", ")),
+        names => format!(
+            "Every algorithm counted is proved equal to the product of its table, except {}.",
+            names.join(", ")
+        ),
     };
     let version = sympy["provenance"]["sympy"].as_str().unwrap_or("version unknown");
     let source = opensymoro["provenance"].as_str().unwrap_or_default();

@@ -33,15 +33,13 @@ pub fn run(seconds: u32, wanted: &[&str]) -> Result<()> {
         println!("\n━━ {target}, {seconds} s ━━");
         let corpus = path(&format!("fuzz/corpus/{target}"));
         fs::create_dir_all(&corpus)?;
-        let result = succeed(
-            fuzz().args(["run", target]).arg(&corpus).arg(path(seeds)).arg("--").args([
-                format!("-max_total_time={seconds}"),
-                format!("-max_len={MAX_BYTES}"),
-                format!("-timeout={TIMEOUT}"),
-                format!("-rss_limit_mb={MEMORY}"),
-                "-print_final_stats=1".into(),
-            ]),
-        );
+        let result = succeed(fuzz().args(["run", target]).arg(&corpus).arg(path(seeds)).arg("--").args([
+            format!("-max_total_time={seconds}"),
+            format!("-max_len={MAX_BYTES}"),
+            format!("-timeout={TIMEOUT}"),
+            format!("-rss_limit_mb={MEMORY}"),
+            "-print_final_stats=1".into(),
+        ]));
         if let Err(e) = result {
             eprintln!("{target}: {e:#}");
             crashed.push(*target);
@@ -64,7 +62,8 @@ fn fuzz() -> Command {
 }
 
 fn install() -> Result<()> {
-    let answers = |c: &mut Command| c.stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok_and(|s| s.success());
+    let answers =
+        |c: &mut Command| c.stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok_and(|s| s.success());
     if !answers(command("rustup").args(["run", "nightly", "rustc", "--version"])) {
         bail!("fuzzing needs the nightly toolchain: `rustup toolchain install nightly --profile minimal`");
     }

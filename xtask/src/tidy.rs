@@ -21,7 +21,8 @@ const CONCRETE_WORDS: &[&str] = &["joint", "robot"];
 const INNOCENT_WORDS: &[&str] = &["disjoint", "adjoint"];
 /// What the science does not touch.
 const SCIENCE: &str = "crates/robot/src/";
-const OUTSIDE_WORLD: &[&str] = &["std::fs", "std::io", "std::time", "std::env", "print!(", "println!(", "eprint!(", "eprintln!("];
+const OUTSIDE_WORLD: &[&str] =
+    &["std::fs", "std::io", "std::time", "std::env", "print!(", "println!(", "eprint!(", "eprintln!("];
 /// What nothing but a test contains.
 const UNFINISHED: &[&str] = &[".unwrap()", "todo!", "unimplemented!", "dbg!"];
 const MAX_LINES: usize = 700;
@@ -121,7 +122,11 @@ fn layers(report: &mut Report) -> Result<()> {
             {
                 let name = LAYERS[other].1;
                 let line = text.lines().position(|l| l.starts_with(name)).map_or(1, |i| i + 1);
-                report.add(&manifest, line, format!("{} depends on {name}, which comes after it", LAYERS[own].1));
+                report.add(
+                    &manifest,
+                    line,
+                    format!("{} depends on {name}, which comes after it", LAYERS[own].1),
+                );
             }
         }
     }
@@ -162,7 +167,9 @@ fn contains(line: &str, needle: &str) -> bool {
 /// Whether `use std::{…}` names `std::x`.
 fn grouped(line: &str, needle: &str) -> bool {
     match (line.trim_start().strip_prefix("use std::{"), needle.strip_prefix("std::")) {
-        (Some(list), Some(module)) => list.split(|c: char| !c.is_alphanumeric() && c != '_').any(|w| w == module),
+        (Some(list), Some(module)) => {
+            list.split(|c: char| !c.is_alphanumeric() && c != '_').any(|w| w == module)
+        }
         _ => false,
     }
 }
@@ -192,7 +199,11 @@ fn lengths(files: &[File], report: &mut Report) {
         let n = file.text.lines().count();
         let allowed = LONG_FILES.iter().any(|l| l.0 == file.path);
         if n > MAX_LINES && !allowed {
-            report.add(&file.path, MAX_LINES, format!("{n} lines; at most {MAX_LINES} without a stated reason"));
+            report.add(
+                &file.path,
+                MAX_LINES,
+                format!("{n} lines; at most {MAX_LINES} without a stated reason"),
+            );
         } else if allowed && n <= MAX_LINES {
             report.add("xtask/src/tidy.rs", 1, format!("{} is not long any more", file.path));
         }
@@ -204,7 +215,8 @@ fn machine_folders(files: &[File], report: &mut Report) {
         for (i, line) in file.text.lines().enumerate() {
             for folder in MACHINE_FOLDERS.iter().map(|f| format!("{f}/")) {
                 // A folder at the root, not the middle of a relative path or an address.
-                let inside = |at: usize| line[..at].ends_with(|c: char| c.is_alphanumeric() || "_-.}/".contains(c));
+                let inside =
+                    |at: usize| line[..at].ends_with(|c: char| c.is_alphanumeric() || "_-.}/".contains(c));
                 if line.match_indices(&folder).any(|(at, _)| !inside(at)) {
                     report.add(&file.path, i + 1, format!("a path of one machine: {folder}"));
                 }
@@ -214,7 +226,9 @@ fn machine_folders(files: &[File], report: &mut Report) {
 }
 
 fn sources(files: &[File], report: &mut Report) {
-    for file in files.iter().filter(|f| f.path.starts_with("crates/robot/catalogue/") && f.path.ends_with(".toml")) {
+    for file in
+        files.iter().filter(|f| f.path.starts_with("crates/robot/catalogue/") && f.path.ends_with(".toml"))
+    {
         match file.text.parse::<toml::Table>() {
             Err(e) => report.add(&file.path, 1, e.message()),
             Ok(table) => {
@@ -284,7 +298,9 @@ fn first_commands(files: &[File], report: &mut Report) {
     for expected in FIRST_COMMANDS {
         match commands.next() {
             Some((_, line)) if line.split(" #").next().unwrap_or_default().trim_end() == expected => {}
-            Some((n, line)) => report.add("README.md", n, format!("`{line}` stands where `{expected}` should")),
+            Some((n, line)) => {
+                report.add("README.md", n, format!("`{line}` stands where `{expected}` should"))
+            }
             None => report.add("README.md", 1, format!("no command `{expected}` in a block ```sh")),
         }
     }
@@ -295,14 +311,16 @@ fn sessions(files: &[File], report: &mut Report) -> Result<()> {
     for file in files.iter().filter(|f| f.path.ends_with(".md")) {
         let mut lines = file.text.lines().enumerate();
         while let Some((i, line)) = lines.next() {
-            let Some(marked) = line.trim().strip_prefix("<!-- denavit ").and_then(|l| l.strip_suffix("-->")) else {
+            let Some(marked) = line.trim().strip_prefix("<!-- denavit ").and_then(|l| l.strip_suffix("-->"))
+            else {
                 continue;
             };
             if !lines.next().is_some_and(|(_, l)| l.starts_with("```")) {
                 report.add(&file.path, i + 1, "no block follows");
                 continue;
             }
-            let block: Vec<&str> = lines.by_ref().map(|(_, l)| l).take_while(|l| !l.starts_with("```")).collect();
+            let block: Vec<&str> =
+                lines.by_ref().map(|(_, l)| l).take_while(|l| !l.starts_with("```")).collect();
             let printed = denavit(marked)?;
             let shown = block.strip_prefix(&[""][..]).unwrap_or(&block);
             let shown = if shown.first().is_some_and(|l| l.starts_with("$ ")) { &shown[1..] } else { shown };
@@ -323,7 +341,11 @@ fn denavit(arguments: &str) -> Result<String> {
         .env("NO_COLOR", "1")
         .output()?;
     if output.stdout.is_empty() {
-        bail!("`denavit {}` prints nothing: {}", arguments.trim(), String::from_utf8_lossy(&output.stderr).trim());
+        bail!(
+            "`denavit {}` prints nothing: {}",
+            arguments.trim(),
+            String::from_utf8_lossy(&output.stderr).trim()
+        );
     }
     Ok(String::from_utf8(output.stdout)?)
 }
@@ -356,12 +378,18 @@ fn agrees(shown: &[&str], printed: &[&str]) -> Result<(), usize> {
     let mut line = 0;
     for (k, part) in parts.iter().enumerate() {
         let is_last = k + 1 == parts.len();
-        let same = |from: usize| part.iter().zip(&printed[from..]).take_while(|(a, b)| a.trim_end() == b.trim_end()).count();
+        let same = |from: usize| {
+            part.iter().zip(&printed[from..]).take_while(|(a, b)| a.trim_end() == b.trim_end()).count()
+        };
         let fits = |from: usize| same(from) == part.len() && (!is_last || from + part.len() == printed.len());
         let last = if free { printed.len().saturating_sub(part.len()) } else { at };
         match (at..=last).find(|&from| fits(from)) {
             Some(from) => at = from + part.len(),
-            None => return Err(line + (at..=last.max(at)).map(same).max().unwrap_or(0).min(part.len().saturating_sub(1))),
+            None => {
+                return Err(
+                    line + (at..=last.max(at)).map(same).max().unwrap_or(0).min(part.len().saturating_sub(1))
+                );
+            }
         }
         line += part.len() + 1;
         free = true;
@@ -396,6 +424,42 @@ mod tests {
     fn tests_and_comments_are_no_code() {
         let text = "a\n// b\n#[cfg(test)]\nmod tests {\n    c\n}\nd\n    #[cfg(test)]\n    use e;\nf\n";
         assert_eq!(code(text), [(1, "a"), (7, "d"), (10, "f")]);
+    }
+
+    fn check(rule: fn(&[File], &mut Report), texts: &[(&str, &str)]) -> Vec<String> {
+        let files: Vec<File> = texts.iter().map(|t| File { path: t.0.into(), text: t.1.into() }).collect();
+        let mut report = Report::default();
+        rule(&files, &mut report);
+        report.violations
+    }
+
+    #[test]
+    fn the_code_map_is_complete_and_true() {
+        let map = "# Map\n## crates/x\n- `a.rs`: one, after `b/`\n- `c.rs`: gone\n";
+        let sources = ["lib", "a", "b/mod", "b/d"].map(|f| format!("crates/x/src/{f}.rs"));
+        let mut files: Vec<(&str, &str)> = sources.iter().map(|f| (f.as_str(), "")).collect();
+        files.push(("ARCHITECTURE.md", map));
+        let expected = [
+            "ARCHITECTURE.md:4: `c.rs` does not exist",
+            "ARCHITECTURE.md:1: `crates/x/src/b/d.rs` is not named",
+        ];
+        assert_eq!(check(architecture, &files), expected);
+    }
+
+    #[test]
+    fn the_first_commands_of_the_readme() {
+        let [derive, test] = FIRST_COMMANDS;
+        let good = format!("```text\nx\n```\n```sh\n# why\n$ {derive}\n```\n```sh\n{test}   # all\n```\n");
+        assert_eq!(check(first_commands, &[("README.md", &good)]), [""; 0]);
+        let bad = format!("```sh\n{test}\n```\n");
+        assert_eq!(check(first_commands, &[("README.md", &bad)]).len(), 2);
+    }
+
+    #[test]
+    fn folders_of_one_machine() {
+        let [folder, ..] = MACHINE_FOLDERS else { panic!("there are some") };
+        let text = format!("see {folder}/main\nhttps://x.org{folder}/a\nhome{folder}/b\n");
+        assert_eq!(check(machine_folders, &[("a.md", &text)]).len(), 1);
     }
 
     #[test]

@@ -208,10 +208,14 @@ fn move_frame(row: &mut Row, x_new_old: &Transform<Expr>) {
 /// others by the product of all their transforms.
 pub fn prove_same_chain(a: &Description, b: &Description) -> SameChain {
     let ((base_a, core_a, tool_a), (base_b, core_b, tool_b)) = (a.core(), b.core());
-    if core_a == core_b && same_transform(&base_a, &base_b).is_equal() && same_transform(&tool_a, &tool_b).is_equal() {
+    if core_a == core_b
+        && same_transform(&base_a, &base_b).is_equal()
+        && same_transform(&tool_a, &tool_b).is_equal()
+    {
         return SameChain::Equal;
     }
-    let product = |base, core: &[Screw], tool| core.iter().fold(base, |x: Transform<Expr>, s| x * s.transform()) * tool;
+    let product =
+        |base, core: &[Screw], tool| core.iter().fold(base, |x: Transform<Expr>, s| x * s.transform()) * tool;
     same_transform(&product(base_a, &core_a, tool_a), &product(base_b, &core_b, tool_b))
 }
 
@@ -221,7 +225,8 @@ fn same_transform(a: &Transform<Expr>, b: &Transform<Expr>) -> SameChain {
         return SameChain::Equal;
     }
     let (a, b) = (a.matrix(), b.matrix());
-    let pairs: Vec<(usize, usize)> = (0..12).map(|k| (k / 4, k % 4)).filter(|&(i, j)| a[i][j] != b[i][j]).collect();
+    let pairs: Vec<(usize, usize)> =
+        (0..12).map(|k| (k / 4, k % 4)).filter(|&(i, j)| a[i][j] != b[i][j]).collect();
     let differences: Vec<Expr> = pairs.iter().map(|&(i, j)| a[i][j] - b[i][j]).collect();
     let mut ring = Ring::new(&differences, &[]);
     let mut verdict = SameChain::Equal;

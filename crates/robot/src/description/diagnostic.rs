@@ -164,15 +164,16 @@ pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
     (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
 }
 
-/// The one of `candidates` that `word` was probably meant to be: at most a third of its letters differ.
+/// The one of `candidates` that `word` was probably meant to be: about a third of its letters differ at most.
 pub(super) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let plain = |s: &str| s.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect::<Vec<_>>();
+    let plain =
+        |s: &str| s.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect::<Vec<_>>();
     let word: Vec<char> = plain(word).into_iter().take(40).collect();
     candidates
         .into_iter()
         .filter(|c| c.len() <= 40)
         .map(|c| (edit_distance(&word, &plain(c)), c))
-        .filter(|&(distance, c)| distance <= (word.len().max(c.len()) / 3).max(usize::from(word.len() > 1)))
+        .filter(|&(distance, c)| distance <= (word.len().max(c.len()) + 1) / 3 && word.len() > 1)
         .min_by_key(|&(distance, _)| distance)
         .map(|(_, c)| c)
 }
@@ -202,7 +203,9 @@ mod tests {
     #[test]
     fn places_count_lines_and_characters() {
         let text = "θ = 1\nα = x\n";
-        for (offset, place) in [(0, (1, 1)), (2, (1, 2)), (7, (2, 1)), (9, (2, 2)), (1, (1, 1)), (999, (3, 1))] {
+        for (offset, place) in
+            [(0, (1, 1)), (2, (1, 2)), (7, (2, 1)), (9, (2, 2)), (1, (1, 1)), (999, (3, 1))]
+        {
             assert_eq!(line_column(text, offset), place, "byte {offset}");
         }
     }
@@ -210,7 +213,12 @@ mod tests {
     #[test]
     fn a_finding_is_shown_in_its_line() {
         let text = "name = \"x\"\ntheta = \"q1 + L7\"\n";
-        let d = Diagnostic { severity: Severity::Error, span: 25..27, message: "`L7` is unknown".into(), hint: None };
+        let d = Diagnostic {
+            severity: Severity::Error,
+            span: 25..27,
+            message: "`L7` is unknown".into(),
+            hint: None,
+        };
         assert_eq!(
             d.with_hint("declare it").render("arm.toml", text),
             "arm.toml:2:15: error: `L7` is unknown\n  | theta = \"q1 + L7\"\n  |               ^^\n  = hint: declare it\n"

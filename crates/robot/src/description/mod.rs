@@ -163,8 +163,8 @@ impl Description {
 /// Reports a number without unit that is improbable in SI: 90 rad, 151.9 m.
 fn suspicious_number(x: f64, span: &Range<usize>, quantity: Quantity, hint: &str, out: &mut Diagnostics) {
     let (what, unit) = match quantity {
-        Quantity::Angle if x.abs() > std::f64::consts::TAU => (format!("{x} rad: more than a turn"), "deg"),
-        Quantity::Length if x.abs() > 20.0 => (format!("{x} m: taller than a house"), "mm"),
+        Quantity::Angle if x.abs() > std::f64::consts::TAU => (format!("{x} rad is more than a turn"), "deg"),
+        Quantity::Length if x.abs() > 20.0 => (format!("{x} m is a long way for a robot"), "mm"),
         _ => return,
     };
     let hint = if hint.is_empty() { format!("a number without unit is SI; write `{x} {unit}` if that is meant") } else { hint.into() };

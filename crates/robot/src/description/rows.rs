@@ -55,15 +55,20 @@ impl Cells {
 }
 
 /// Finds each row's own variable; reports every breach of the rule.
-pub(super) fn assign_variables(rows: &[Cells], convention: Convention, out: &mut Diagnostics) -> Vec<Option<Variable>> {
+pub(super) fn assign_variables(
+    rows: &[Cells],
+    convention: Convention,
+    out: &mut Diagnostics,
+) -> Vec<Option<Variable>> {
     let mut next = 1;
     let mut variables = vec![];
     for row in rows {
         let (x, z) = (convention.length_x(), convention.length_z());
         for (cell, name) in [(&row.a, x), (&row.alpha, "alpha"), (&row.gamma, "gamma"), (&row.b, "b")] {
             for (q, span) in joint_variables(cell) {
-                out.error(span, format!("the joint variable `q{q}` in `{name}`"))
-                    .hint(format!("a joint turns or slides along z: its variable belongs in `theta` or `{z}`"));
+                out.error(span, format!("the joint variable `q{q}` in `{name}`")).hint(format!(
+                    "a joint turns or slides along z: its variable belongs in `theta` or `{z}`"
+                ));
             }
         }
         let mut new: Vec<(usize, Range<usize>)> = joint_variables(&row.theta);
@@ -188,7 +193,9 @@ pub(super) fn check_declared<'a>(
         let candidates = parameters.iter().chain(&joints).map(String::as_str);
         let hint = match (joint, nearest(name, candidates)) {
             (Some(q), _) => format!("joint variables are written `{q}`"),
-            (_, Some(near)) => format!("did you mean `{near}`? If not, declare it: [parameters] {name} = \"\""),
+            (_, Some(near)) => {
+                format!("did you mean `{near}`? If not, declare it: [parameters] {name} = \"\"")
+            }
             _ => format!("declare it: [parameters] {name} = \"450 mm\", or \"\" where it has no value"),
         };
         out.error(span.clone(), format!("`{name}` is not declared")).hint(hint);

@@ -1,8 +1,8 @@
 //! The shortest straight-line program for a chain, found by search and proved.
 //!
 //! A direct column of the orientation is carried from the right, vector at a time, down to some frame, and then
-//! multiplied by the product of the factors before it; the third column can be the cross product of two direct ones;
-//! a displacement can be added in its own frame or, along its axis carried there, in any frame before it. All
+//! multiplied by the product of the factors before it, or carried across three factors at once; the third column can
+//! be the cross product of two direct ones; a displacement can be added in its own frame or, along its axis carried there, in any frame before it. All
 //! candidates share one value-numbered graph, and what an output reaches in it is what it costs.
 
 use crate::forward::chain::{Chain, Item};
@@ -86,6 +86,8 @@ type Vector3 = [Value; 3];
 struct Orientation {
     /// For each column the frame up to which it is carried from the right; `None` if it is not direct.
     splits: [Option<usize>; 3],
+    /// Columns carried across three factors at once: column, frame reached, value.
+    leaps: Vec<(usize, usize, Vector3)>,
     columns: [Option<Vector3>; 3],
     cost: (u32, u32),
 }
@@ -136,7 +138,7 @@ pub(super) fn shortest(
     }
     let (orientation, placement) = match best {
         Some((_, orientation, placement)) => (orientation, placement),
-        None => (Orientation { splits: [None; 3], columns: [None; 3], cost: (0, 0) }, own),
+        None => (Orientation { splits: [None; 3], leaps: vec![], columns: [None; 3], cost: (0, 0) }, own),
     };
     search.program(&orientation, &placement, outputs, taken)
 }
@@ -217,18 +219,55 @@ impl<'a, F: Fn(Symbol) -> Stage> Search<'a, F> {
                     }
                 }
             }
+            found.extend((0..m.saturating_sub(2)).map(|k| self.leap(k, direct, wanted)));
         }
         found.sort_by_key(|o| o.cost);
         found
     }
 
     fn orientation(&mut self, splits: [Option<usize>; 3], wanted: [bool; 3]) -> Orientation {
-        let mut columns = [0, 1, 2].map(|c| {
+        let columns = [0, 1, 2].map(|c| {
             splits[c].map(|k| {
                 let prefix = self.prefixes[k];
                 self.times(&prefix, self.tails[k][c])
             })
         });
+        self.completed(Orientation { splits, leaps: vec![], columns, cost: (0, 0) }, wanted)
+    }
+
+    /// The direct columns through F·G·H = Σ gᵢⱼ·(fᵢ hⱼᵀ), the factors from k on: the outer angles are multiplied
+    /// first, which serves several entries where F and H turn about the same kind of axis.
+    fn leap(&mut self, k: usize, direct: [bool; 3], wanted: [bool; 3]) -> Orientation {
+        let [f, g, h] = [self.factors[k], self.factors[k + 1], self.factors[k + 2]];
+        let zero = self.graph.trace(Expr::int(0));
+        let mut product = [[zero; 3]; 3];
+        for (r, row) in product.iter_mut().enumerate() {
+            for (c, entry) in row.iter_mut().enumerate() {
+                for i in 0..3 {
+                    for j in 0..3 {
+                        let outer = self.graph.mul(f[r][i], h[j][c]);
+                        let term = self.graph.mul(outer, g[i][j]);
+                        *entry = self.graph.add(*entry, term);
+                    }
+                }
+            }
+        }
+        let mut leaps = vec![];
+        let columns = [0, 1, 2].map(|c| {
+            direct[c].then(|| {
+                let carried = self.times(&product, self.tails[k + 3][c]);
+                leaps.push((c, k, carried));
+                let prefix = self.prefixes[k];
+                self.times(&prefix, carried)
+            })
+        });
+        let splits = direct.map(|d| d.then_some(k + 3));
+        self.completed(Orientation { splits, leaps, columns, cost: (0, 0) }, wanted)
+    }
+
+    /// The orientation with its third column as a cross product, and what it costs.
+    fn completed(&mut self, mut orientation: Orientation, wanted: [bool; 3]) -> Orientation {
+        let columns = &mut orientation.columns;
         for c in 0..3 {
             if let (true, None, Some(a), Some(b)) =
                 (wanted[c], columns[c], columns[(c + 1) % 3], columns[(c + 2) % 3])
@@ -237,7 +276,8 @@ impl<'a, F: Fn(Symbol) -> Stage> Search<'a, F> {
             }
         }
         let values: Vec<Value> = columns.iter().flatten().flatten().copied().collect();
-        Orientation { splits, columns, cost: self.cost(&values) }
+        orientation.cost = self.cost(&values);
+        orientation
     }
 
     /// Moves displacements to earlier frames, one at a time, while that pays.
@@ -388,6 +428,9 @@ impl<'a, F: Fn(Symbol) -> Stage> Search<'a, F> {
                     name(&self.tails[k][c], *letter, self.chain.frames[k]);
                 }
             }
+        }
+        for (c, k, carried) in &orientation.leaps {
+            name(carried, AXES[*c], self.chain.frames[*k]);
         }
         for (k, p) in partial.iter().enumerate().skip(1) {
             name(p, 'p', self.chain.frames[k]);

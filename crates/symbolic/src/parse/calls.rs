@@ -12,6 +12,8 @@ use crate::rational::Rational;
 const MAX_HEIGHT: u32 = 3_000;
 /// The largest number, in bits of numerator and denominator.
 const MAX_BITS: u64 = 4_096;
+/// The largest number under a root, which is tried for being a square.
+const MAX_ROOT_BITS: u64 = 256;
 /// The most bits of numbers in one angle.
 const MAX_ANGLE_BITS: u64 = 8_192;
 /// Stands for one radian until bare numbers have become degrees.
@@ -117,6 +119,9 @@ impl Parser<'_> {
     pub fn root(&mut self, inner: Value, start: usize) -> Read<Value> {
         if inner.expr.as_number().is_some_and(|r| r.is_negative()) {
             return Err(ParseError::new(self.span_from(start), "the root of a negative number"));
+        }
+        if inner.expr.as_number().is_some_and(|r| bits(&r) > MAX_ROOT_BITS) {
+            return Err(self.too_large(start));
         }
         self.made(inner.expr.sqrt(), &[inner], start)
     }

@@ -152,6 +152,11 @@ impl Lexer<'_> {
 
     pub fn run(&mut self, end: usize) {
         while self.at < end {
+            if self.errors.len() >= MAX_ERRORS {
+                self.is_whole = false;
+                self.at = end;
+                return;
+            }
             let mark = &self.marks[self.at];
             match &mark.glyph {
                 Glyph::Fraction => self.push(Kind::Fraction, 1),

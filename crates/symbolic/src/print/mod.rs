@@ -11,7 +11,10 @@
 //! assert_eq!(print(x, &Vocabulary::new(), Style::Ascii), "a2*cos(q2 + q3)*(sin(q2) - sqrt(3))/2");
 //! ```
 //!
-//! Parentheses stand where reading would build another graph, and nowhere else. Nothing recurses: the formula is
+//! ASCII, Unicode and LaTeX are read back as the same handle. Parentheses stand where reading would build another
+//! graph, and nowhere else; where factors side by side would be cut elsewhere, a sign of multiplication stands. Not
+//! read back are x/0, roots of negative numbers and exponents above 1000, and symbols whose name the vocabulary
+//! gives to something else without another word for them. Nothing recurses: the formula is
 //! unrolled on a stack of its own, and the text ends in `…` once it is longer than [`MAX_BYTES`].
 
 mod ascii;

@@ -93,11 +93,28 @@ pub(in crate::description) fn greek(c: char) -> Option<&'static str> {
 }
 
 /// Commands of LaTeX that only change how their group looks.
-const LOOKS: &[&str] =
-    &["mathrm", "text", "mathit", "mathbf", "mathsf", "mathtt", "boldsymbol", "bm", "textbf", "textit", "rm", "bf", "textrm",
-      "overline", "bar", "hat", "operatorname"];
+const LOOKS: &[&str] = &[
+    "mathrm",
+    "text",
+    "mathit",
+    "mathbf",
+    "mathsf",
+    "mathtt",
+    "boldsymbol",
+    "bm",
+    "textbf",
+    "textit",
+    "rm",
+    "bf",
+    "textrm",
+    "overline",
+    "bar",
+    "hat",
+    "operatorname",
+];
 /// Commands that are space, or brackets of some size.
-const SPACE: &[&str] = &["left", "right", "quad", "qquad", "displaystyle", "textstyle", "limits", "big", "Big", "bigl", "bigr"];
+const SPACE: &[&str] =
+    &["left", "right", "quad", "qquad", "displaystyle", "textstyle", "limits", "big", "Big", "bigl", "bigr"];
 
 /// The plain character of a subscript one: `₁` is 1.
 pub(in crate::description) fn subscript(c: char) -> Option<char> {
@@ -197,7 +214,8 @@ impl Lexer<'_> {
             }
             '^' => {
                 self.at += 1;
-                let degree = ["\\circ", "{\\circ}", "{ \\circ }", "{o}", "\\degree"].iter().any(|d| self.take(d));
+                let degree =
+                    ["\\circ", "{\\circ}", "{ \\circ }", "{o}", "\\degree"].iter().any(|d| self.take(d));
                 self.push(if degree { Kind::Degree } else { Kind::Sign('^') }, start);
             }
             '²' => {
@@ -240,7 +258,10 @@ impl Lexer<'_> {
 
     fn number(&mut self, start: usize) -> Result<(), Fault> {
         let mut digits = self.take_while(|c| c.is_ascii_digit() || c == '.');
-        if self.decimal_comma && self.peek() == Some(',') && self.peek_second().is_some_and(|d| d.is_ascii_digit()) {
+        if self.decimal_comma
+            && self.peek() == Some(',')
+            && self.peek_second().is_some_and(|d| d.is_ascii_digit())
+        {
             self.at += 1;
             digits = format!("{digits}.{}", self.take_while(|c| c.is_ascii_digit()));
         }
@@ -285,7 +306,8 @@ impl Lexer<'_> {
             "deg" | "rad" | "mm" | "cm" | "sin" | "cos" | "tan" | "pm" => self.push(Kind::Word(name), start),
             _ => {
                 let base = name.strip_prefix("var").unwrap_or(&name);
-                let letter = GREEK.iter().find(|g| g.1 == base || g.1 == base.to_lowercase() && base == "Theta");
+                let letter =
+                    GREEK.iter().find(|g| g.1 == base || g.1 == base.to_lowercase() && base == "Theta");
                 let Some(letter) = letter else {
                     return Err(Fault::new(start..self.at, format!("`\\{name}` is not known in a table")));
                 };

@@ -16,7 +16,7 @@ mod special;
 mod write;
 
 pub(super) use lexer::{greek, subscript};
-pub(super) use write::{decimal, write_cell};
+pub(super) use write::write_cell;
 
 use super::diagnostic::{Diagnostics, Severity};
 use super::units::{Quantity, Unit};
@@ -44,7 +44,13 @@ pub(super) struct Style {
 impl Style {
     /// A cell of a robot file.
     pub fn of(quantity: Quantity) -> Self {
-        Style { quantity, bare: None, document: false, decimal_comma: false, nearly: quantity == Quantity::Angle }
+        Style {
+            quantity,
+            bare: None,
+            document: false,
+            decimal_comma: false,
+            nearly: quantity == Quantity::Angle,
+        }
     }
 
     /// A value that is no geometry, such as a limit.

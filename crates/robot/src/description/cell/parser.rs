@@ -105,7 +105,10 @@ impl Parser<'_> {
         if self.take_sign(sign) {
             return Ok(());
         }
-        let what = self.tokens.get(self.at).map_or("the end".to_string(), |t| format!("`{}`", &self.text[t.span.clone()]));
+        let what = self
+            .tokens
+            .get(self.at)
+            .map_or("the end".to_string(), |t| format!("`{}`", &self.text[t.span.clone()]));
         let message = format!("`{sign}` is missing before {what}");
         Err(Fault::new(self.tokens.get(self.at).map_or(0..self.text.len(), |t| t.span.clone()), message))
     }
@@ -216,13 +219,20 @@ impl Parser<'_> {
     fn apply_unit(&mut self, term: &mut Term, unit: Unit, span: Range<usize>) -> Result<(), Fault> {
         if term.symbolic {
             let message = format!("the unit `{}` behind a name", unit.name);
-            return Err(Fault::new(span, message).hint("a name has its unit in its value; give numbers a unit"));
+            return Err(
+                Fault::new(span, message).hint("a name has its unit in its value; give numbers a unit")
+            );
         }
         if term.dimensioned && !(unit.factor().is_one() && self.measures.is_none()) {
-            let message = format!("`{}` is in radians already; `{}` would be a second unit", &self.text[term.span.clone()], unit.name);
+            let message = format!(
+                "`{}` is in radians already; `{}` would be a second unit",
+                &self.text[term.span.clone()],
+                unit.name
+            );
             return Err(Fault::new(span, message));
         }
-        let wanted = if self.style.quantity == Quantity::Open { self.measures } else { Some(self.style.quantity) };
+        let wanted =
+            if self.style.quantity == Quantity::Open { self.measures } else { Some(self.style.quantity) };
         if wanted.is_some_and(|q| q != unit.quantity) {
             let wanted = wanted.map_or("", Quantity::name);
             let message = format!("`{}` measures {}; this is {wanted}", unit.name, unit.quantity.name());
@@ -250,7 +260,9 @@ impl Parser<'_> {
                     c
                 }
                 Some(Kind::Number(..)) => return Err(self.two_values()),
-                Some(Kind::Word(_) | Kind::Fraction | Kind::Root | Kind::Sign('(')) if self.unit_here().is_none() => {
+                Some(Kind::Word(_) | Kind::Fraction | Kind::Root | Kind::Sign('('))
+                    if self.unit_here().is_none() =>
+                {
                     if self.tokens[self.at].after_dollar {
                         return Err(self.two_values());
                     }
@@ -293,7 +305,13 @@ impl Parser<'_> {
             return Err(Fault::new(token.span, format!("brackets more than {MAX_DEPTH} deep")));
         }
         self.at += 1;
-        let plain = |expr, digits| Term { expr, span: token.span.clone(), symbolic: false, dimensioned: false, digits };
+        let plain = |expr, digits| Term {
+            expr,
+            span: token.span.clone(),
+            symbolic: false,
+            dimensioned: false,
+            digits,
+        };
         let mut base = match token.kind.clone() {
             Kind::Number(value, digits) => plain(value.into(), Some(digits)),
             Kind::Word(name) => self.named(&name, &token.span, depth)?,
@@ -313,11 +331,19 @@ impl Parser<'_> {
             }
             Kind::Root => {
                 let inside = self.group(depth)?;
-                Term { expr: inside.expr.sqrt(), span: token.span.start..inside.span.end, digits: None, ..inside }
+                Term {
+                    expr: inside.expr.sqrt(),
+                    span: token.span.start..inside.span.end,
+                    digits: None,
+                    ..inside
+                }
             }
             Kind::Sign(_) | Kind::Degree => {
                 let shown = &self.text[token.span.clone()];
-                return Err(Fault::new(token.span.clone(), format!("`{shown}` stands where a value is expected")));
+                return Err(Fault::new(
+                    token.span.clone(),
+                    format!("`{shown}` stands where a value is expected"),
+                ));
             }
         };
         if self.peek_sign() == Some('^') {
@@ -347,8 +373,12 @@ impl Parser<'_> {
             _ => None,
         };
         self.powers += 1;
-        let Some(n) = exponent.filter(|_| self.powers <= MAX_POWERS).and_then(|n| i32::try_from(n).ok()) else {
-            return Err(Fault::new(span, format!("a power is a whole number up to {MAX_POWER}, and a cell has few")));
+        let Some(n) = exponent.filter(|_| self.powers <= MAX_POWERS).and_then(|n| i32::try_from(n).ok())
+        else {
+            return Err(Fault::new(
+                span,
+                format!("a power is a whole number up to {MAX_POWER}, and a cell has few"),
+            ));
         };
         self.at += 1;
         if bracket {
@@ -364,7 +394,8 @@ impl Parser<'_> {
 
     fn named(&mut self, name: &str, span: &Range<usize>, depth: usize) -> Result<Term, Fault> {
         let angle = self.style.quantity == Quantity::Angle;
-        let constant = |expr, dimensioned| Term { expr, span: span.clone(), symbolic: false, dimensioned, digits: None };
+        let constant =
+            |expr, dimensioned| Term { expr, span: span.clone(), symbolic: false, dimensioned, digits: None };
         match name {
             "pi" => return Ok(constant(Expr::pi(), angle)),
             "inf" | "nan" | "NaN" | "infinity" | "Inf" | "Infinity" => {
@@ -451,7 +482,8 @@ impl Parser<'_> {
 
 /// The name of a distance written as a function, from the bracket on: `d(O_2, O_3)` is `dO2O3`.
 pub(super) fn distance_name(first: &str, tokens: &[Token]) -> Option<String> {
-    let [Token { kind: Kind::Sign('('), .. }, inside @ .., Token { kind: Kind::Sign(')'), .. }] = tokens else {
+    let [Token { kind: Kind::Sign('('), .. }, inside @ .., Token { kind: Kind::Sign(')'), .. }] = tokens
+    else {
         return None;
     };
     let mut name = first.to_string();

@@ -18,7 +18,7 @@ pub(in crate::description) fn write_cell(e: Expr, quantity: Quantity) -> String 
 }
 
 /// A number as a decimal, or as a quotient if it has none.
-pub(in crate::description) fn decimal(r: &Rational) -> String {
+fn decimal(r: &Rational) -> String {
     let sign = if r.is_negative() { "-" } else { "" };
     let mut scaled = r.abs();
     for places in 0..=60 {
@@ -41,7 +41,11 @@ fn number(r: &Rational, quantity: Quantity, tight: Tight) -> String {
     let unit = quantity.units().1;
     let text = decimal(r);
     let compound = text.contains('/') && tight > Tight::Minus || r.is_negative() && tight > Tight::Sum;
-    if unit.is_empty() || r.is_zero() { bracket(text, compound) } else { bracket(format!("{text} {unit}"), tight > Tight::Minus) }
+    if unit.is_empty() || r.is_zero() {
+        bracket(text, compound)
+    } else {
+        bracket(format!("{text} {unit}"), tight > Tight::Minus)
+    }
 }
 
 /// `r·π`

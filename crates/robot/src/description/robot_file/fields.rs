@@ -107,7 +107,13 @@ impl Reader<'_> {
     }
 
     /// A list of cells, with the length checked.
-    pub fn list(&mut self, value: &Spanned<DeValue>, style: &Style, what: &str, length: usize) -> Option<Vec<Cell>> {
+    pub fn list(
+        &mut self,
+        value: &Spanned<DeValue>,
+        style: &Style,
+        what: &str,
+        length: usize,
+    ) -> Option<Vec<Cell>> {
         let values = self.array(value, what)?;
         if values.len() != length {
             self.out.error(value.span(), format!("{what} has {length} values, not {}", values.len()));

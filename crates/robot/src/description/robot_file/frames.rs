@@ -18,17 +18,25 @@ pub(super) struct FrameCells {
 
 impl Reader<'_> {
     /// The transform; the identity if there is none in the file, `None` if it could not be read.
-    pub fn frame(&mut self, value: Option<&Spanned<DeValue>>, what: &str) -> (Option<Transform<Expr>>, FrameCells) {
+    pub fn frame(
+        &mut self,
+        value: Option<&Spanned<DeValue>>,
+        what: &str,
+    ) -> (Option<Transform<Expr>>, FrameCells) {
         let mut cells = FrameCells::default();
         let Some(value) = value else { return (Some(Transform::identity()), cells) };
         let Some(fields) = self.table(value, what) else { return (None, cells) };
         self.unknown_keys(&fields, &["xyz", "rpy", "matrix"], |key| {
-            ["quaternion", "xyzw", "euler"].contains(&key).then(|| "give the rotation as `rpy` or `matrix`".into())
+            ["quaternion", "xyzw", "euler"]
+                .contains(&key)
+                .then(|| "give the rotation as `rpy` or `matrix`".into())
         });
         if let Some(matrix) = fields.get("matrix") {
             for key in ["xyz", "rpy"] {
                 if let Some(other) = fields.get(key) {
-                    self.out.error(other.span(), format!("`{key}` beside `matrix`")).hint("give one or the other");
+                    self.out
+                        .error(other.span(), format!("`{key}` beside `matrix`"))
+                        .hint("give one or the other");
                 }
             }
             let transform = self.matrix(matrix, &mut cells);
@@ -89,7 +97,8 @@ impl Reader<'_> {
     fn is_exact_rotation(&mut self, r: &Rotation<Expr>, last: [Expr; 4], value: &Spanned<DeValue>) -> bool {
         let product = r.inverse() * *r;
         let identity = Rotation::<Expr>::identity();
-        let mut pairs: Vec<(Expr, Expr)> = (0..9).map(|k| (product[(k / 3, k % 3)], identity[(k / 3, k % 3)])).collect();
+        let mut pairs: Vec<(Expr, Expr)> =
+            (0..9).map(|k| (product[(k / 3, k % 3)], identity[(k / 3, k % 3)])).collect();
         pairs.push((r.determinant(), Expr::int(1)));
         pairs.extend(last.into_iter().zip([0, 0, 0, 1].map(Expr::int)));
         if pairs.iter().all(|&(a, b)| equal(a, b).is_equal()) {
@@ -101,7 +110,10 @@ impl Reader<'_> {
                 .note(value.span(), "the matrix is a rotation up to rounding only")
                 .hint("`rpy` in degrees is exact, and so are entries such as \"sqrt(2)/2\"");
         } else {
-            self.out.error(value.span(), "not a rigid transform: the columns are not proved to be orthogonal unit vectors");
+            self.out.error(
+                value.span(),
+                "not a rigid transform: the columns are not proved to be orthogonal unit vectors",
+            );
         }
         constant
     }

@@ -34,7 +34,10 @@ fn hint(key: &str, convention: Option<Convention>) -> Option<String> {
         "γ" => "gamma",
         "offset" => return Some("an offset stands in the cell itself: theta = \"q2 + 90 deg\"".into()),
         "type" | "sigma" | "σ" | "kind" => {
-            return Some("the cell that holds the variable decides: theta = \"q1\" turns, a length along z slides".into());
+            return Some(
+                "the cell that holds the variable decides: theta = \"q1\" turns, a length along z slides"
+                    .into(),
+            );
         }
         "min" | "max" | "lower" | "upper" => return Some("limits = [lower, upper]".into()),
         "effort" | "torque" => return Some("not part of a robot file".into()),
@@ -47,8 +50,12 @@ fn hint(key: &str, convention: Option<Convention>) -> Option<String> {
     }
     Some(match (plain, convention) {
         ("r", _) => format!("`r` is Khalil's letter; the {convention} convention writes `d`"),
-        ("gamma" | "b", _) => format!("`{plain}` is Khalil's letter for branches; the {convention} convention has none"),
-        ("a", Convention::Khalil) => "Khalil writes `d` for the length along x, and `r` for the one along z".into(),
+        ("gamma" | "b", _) => {
+            format!("`{plain}` is Khalil's letter for branches; the {convention} convention has none")
+        }
+        ("a", Convention::Khalil) => {
+            "Khalil writes `d` for the length along x, and `r` for the one along z".into()
+        }
         _ => return None,
     })
 }
@@ -75,7 +82,11 @@ impl Reader<'_> {
         array.iter().filter_map(|row| self.draft(row, convention)).collect()
     }
 
-    fn draft<'a>(&mut self, row: &'a Spanned<DeValue<'a>>, convention: Option<Convention>) -> Option<Draft<'a>> {
+    fn draft<'a>(
+        &mut self,
+        row: &'a Spanned<DeValue<'a>>,
+        convention: Option<Convention>,
+    ) -> Option<Draft<'a>> {
         let fields = self.table(row, "[joints]")?;
         let known = [convention.map_or(LETTERS, letters), COMMON].concat();
         self.unknown_keys(&fields, &known, |key| hint(key, convention));
@@ -99,7 +110,11 @@ impl Reader<'_> {
 
     /// The rows, with what each says about its joint and its link.
     pub fn rows(&mut self, drafts: Vec<Draft>, variables: &[Option<Variable>], names: &[String]) -> Vec<Row> {
-        drafts.into_iter().zip(variables).map(|(draft, &variable)| self.row(&draft, variable, names)).collect()
+        drafts
+            .into_iter()
+            .zip(variables)
+            .map(|(draft, &variable)| self.row(&draft, variable, names))
+            .collect()
     }
 
     fn row(&mut self, draft: &Draft, variable: Option<Variable>, names: &[String]) -> Row {
@@ -155,7 +170,9 @@ impl Reader<'_> {
         let limits = [lower?, upper?];
         let [low, high] = limits.map(number);
         if low > high {
-            self.out.error(value.span(), "the lower limit is above the upper one").hint("limits = [lower, upper]");
+            self.out
+                .error(value.span(), "the lower limit is above the upper one")
+                .hint("limits = [lower, upper]");
             return None;
         }
         Some(limits)

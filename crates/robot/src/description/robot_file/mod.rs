@@ -63,7 +63,7 @@ pub fn read_toml(text: &str) -> Result<(Description, Vec<Diagnostic>), Vec<Diagn
 impl Reader<'_> {
     fn description(&mut self, table: &DeTable) -> Option<Description> {
         let fields = Fields::new(table, 0..0);
-        self.unknown_keys(&fields, KEYS, |key| top_level_hint(key));
+        self.unknown_keys(&fields, KEYS, top_level_hint);
         let name = self.string(fields.get("name")).unwrap_or_else(|| "robot".into());
         let source = self.string(fields.get("source"));
         let convention = self.convention(fields.get("convention"));
@@ -80,7 +80,8 @@ impl Reader<'_> {
         for cell in frame_cells.iter().flat_map(|c| c.lengths.iter().chain(&c.angles).chain(&c.entries)) {
             self.constant_of_parameters(cell, &names, drafts.len());
         }
-        let variables = rows::assign_variables(&cells, convention.unwrap_or(Convention::Standard), &mut self.out);
+        let variables =
+            rows::assign_variables(&cells, convention.unwrap_or(Convention::Standard), &mut self.out);
         let uses = parameters::Uses::of(&cells, &frame_cells);
         let parameters = self.parameter_values(&declared, &uses);
         let kinds: Vec<JointKind> = variables.iter().flatten().map(|v| v.kind).collect();
@@ -105,11 +106,12 @@ impl Reader<'_> {
     }
 
     fn convention(&mut self, value: Option<&Spanned<DeValue>>) -> Option<Convention> {
-        let choices = "\"standard\" (theta d a alpha), \"craig\" (alpha a theta d) or \"khalil\" (alpha d theta r)";
+        let choices =
+            "\"standard\" (theta d a alpha), \"craig\" (alpha a theta d) or \"khalil\" (alpha d theta r)";
         let Some(value) = value else {
-            self.out.error(0..0, "the convention is missing").hint(format!(
-                "a table means nothing without it: convention = {choices}"
-            ));
+            self.out
+                .error(0..0, "the convention is missing")
+                .hint(format!("a table means nothing without it: convention = {choices}"));
             return None;
         };
         let text = self.string(Some(value))?;
@@ -128,7 +130,9 @@ impl Reader<'_> {
                 (None, None) => format!("it is {choices}"),
             };
             let shown: String = text.chars().take(40).collect();
-            self.out.error(value.span(), format!("unknown convention \"{}\"", shown.escape_debug())).hint(hint);
+            self.out
+                .error(value.span(), format!("unknown convention \"{}\"", shown.escape_debug()))
+                .hint(hint);
         }
         known
     }
@@ -141,7 +145,10 @@ impl Reader<'_> {
             if values.len() != kinds.len() {
                 let (found, wanted) = (values.len(), kinds.len());
                 self.out
-                    .error(value.span(), format!("the pose `{name}` has {found} values for {wanted} joint variables"))
+                    .error(
+                        value.span(),
+                        format!("the pose `{name}` has {found} values for {wanted} joint variables"),
+                    )
                     .hint("one value for each joint variable, in the order q1, q2, …");
                 continue;
             }
@@ -173,7 +180,9 @@ impl Reader<'_> {
         for (name, span) in &cell.symbols {
             if super::cell::variable_number(name).is_some() {
                 let message = format!("the joint variable `{name}` in what is constant");
-                self.out.error(span.clone(), message).hint("joint variables belong in the rows of [[joints]]");
+                self.out
+                    .error(span.clone(), message)
+                    .hint("joint variables belong in the rows of [[joints]]");
             }
         }
         rows::check_declared([cell], names, count, &mut self.out);
@@ -194,7 +203,9 @@ fn quantity_of(kind: JointKind) -> Quantity {
 fn top_level_hint(key: &str) -> Option<String> {
     let belongs = |table: &str| Some(format!("`{key}` belongs under {table}"));
     match key {
-        "theta" | "d" | "a" | "alpha" | "r" | "gamma" | "b" | "limits" | "velocity" | "mass" => belongs("[[joints]]"),
+        "theta" | "d" | "a" | "alpha" | "r" | "gamma" | "b" | "limits" | "velocity" | "mass" => {
+            belongs("[[joints]]")
+        }
         "xyz" | "rpy" | "matrix" => belongs("[base] or [tool]"),
         "joint" | "links" | "rows" => Some("each row of the table is a [[joints]]".into()),
         _ => None,

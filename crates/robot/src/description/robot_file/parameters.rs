@@ -18,7 +18,8 @@ pub(super) struct Uses {
 
 impl Uses {
     pub fn of(rows: &[Cells], frames: &[&FrameCells]) -> Self {
-        let summands = |cells: &mut dyn Iterator<Item = &Cell>| cells.flat_map(Cell::summands).collect::<Vec<_>>();
+        let summands =
+            |cells: &mut dyn Iterator<Item = &Cell>| cells.flat_map(Cell::summands).collect::<Vec<_>>();
         let by: Vec<_> = rows.iter().map(Cells::by_quantity).collect();
         Uses {
             angles: summands(&mut by.iter().flat_map(|b| b.0).chain(frames.iter().flat_map(|f| &f.angles))),
@@ -34,8 +35,12 @@ pub(in crate::description) fn name_fault(name: &str) -> Option<(String, String)>
         return Some((message, "q1, q2, … are the joint variables; choose another letter".into()));
     }
     if is_reserved(name) {
-        let message = format!("the parameter `{name}` is named like a constant, a function, a unit or a sine");
-        return Some((message, "C1 and S23 are cosines and sines of joint angles; choose another name".into()));
+        let message =
+            format!("the parameter `{name}` is named like a constant, a function, a unit or a sine");
+        return Some((
+            message,
+            "C1 and S23 are cosines and sines of joint angles; choose another name".into(),
+        ));
     }
     None
 }
@@ -53,8 +58,10 @@ impl Reader<'_> {
         for ((key, span), (_, value)) in table.keys().zip(&table.entries) {
             let name = if key.len() <= 40 { name_of(key, false) } else { None };
             let Some(name) = name else {
-                self.out
-                    .error(span, "a parameter's name is a letter followed by letters, digits and `_` (40 at most)");
+                self.out.error(
+                    span,
+                    "a parameter's name is a letter followed by letters, digits and `_` (40 at most)",
+                );
                 continue;
             };
             if let Some((message, hint)) = name_fault(&name) {

@@ -72,9 +72,11 @@ fn write_row(out: &mut String, row: &Row, convention: Convention) {
     if let Some(limits) = &row.limits {
         let _ = writeln!(out, "limits = {}", list(limits, value));
     }
-    for (key, e, quantity) in
-        [("velocity", row.velocity, rate), ("acceleration", row.acceleration, change), ("mass", row.mass, Quantity::Mass)]
-    {
+    for (key, e, quantity) in [
+        ("velocity", row.velocity, rate),
+        ("acceleration", row.acceleration, change),
+        ("mass", row.mass, Quantity::Mass),
+    ] {
         if let Some(e) = e {
             let _ = writeln!(out, "{key} = {}", cell(e, quantity));
         }
@@ -161,7 +163,8 @@ fn quantity_of_parameter(d: &Description, symbol: Expr) -> Quantity {
     if d.rows.iter().flat_map(|r| [r.theta, r.alpha, r.gamma]).any(summand) {
         return Quantity::Angle;
     }
-    let lengths = d.rows.iter().flat_map(|r| [r.d, r.a, r.b]).chain(d.base.translation.0).chain(d.tool.translation.0);
+    let lengths =
+        d.rows.iter().flat_map(|r| [r.d, r.a, r.b]).chain(d.base.translation.0).chain(d.tool.translation.0);
     if lengths.collect::<Vec<_>>().into_iter().any(summand) {
         return Quantity::Length;
     }

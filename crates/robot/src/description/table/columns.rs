@@ -185,7 +185,8 @@ fn split_unit(text: &str) -> (&str, Option<Unit>, Option<String>) {
 /// `mm`, `°`, `$^\circ$`, `\text{deg}`
 fn unit(text: &str) -> Option<Unit> {
     let bare = text.replace("\\circ", "°").replace(['$', '{', '}', '^', '\\', ' '], "");
-    let bare = ["mathrm", "text", "rm", "si"].iter().fold(bare.as_str(), |t, p| t.strip_prefix(p).unwrap_or(t));
+    let bare =
+        ["mathrm", "text", "rm", "si"].iter().fold(bare.as_str(), |t, p| t.strip_prefix(p).unwrap_or(t));
     let bare = if bare.eq_ignore_ascii_case("deg.") { "deg" } else { bare };
     unit_named(&bare.to_lowercase())
         .or_else(|| unit_named(bare))
@@ -208,7 +209,19 @@ pub(super) fn plain(text: &str) -> String {
         }
     }
     loop {
-        let looks = ["boldsymbol", "oldsymbol", "mathrm", "mathbf", "mathit", "textbf", "textit", "text", "overline", "bar", "bf"];
+        let looks = [
+            "boldsymbol",
+            "oldsymbol",
+            "mathrm",
+            "mathbf",
+            "mathit",
+            "textbf",
+            "textit",
+            "text",
+            "overline",
+            "bar",
+            "bf",
+        ];
         match looks.iter().find_map(|p| out.strip_prefix(p).filter(|rest| !rest.is_empty())) {
             Some(rest) => out = rest.to_string(),
             None => break,
@@ -275,7 +288,11 @@ mod tests {
             ("R", Role::R, false, ""),
         ] {
             let found = column(head);
-            assert_eq!((found.role, found.previous, found.unit.map_or("", |u| u.name)), (role, previous, unit), "{head}");
+            assert_eq!(
+                (found.role, found.previous, found.unit.map_or("", |u| u.name)),
+                (role, previous, unit),
+                "{head}"
+            );
         }
     }
 }

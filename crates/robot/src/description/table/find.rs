@@ -41,7 +41,9 @@ pub(super) fn grids(text: &str, kind: TableKind) -> Vec<Grid> {
             grids
         }
         TableKind::Csv => {
-            let count = |d: char| blocks(text, |t, s| split_fields(t, s, d), true).iter().map(|g| g.rows.len()).sum::<usize>();
+            let count = |d: char| {
+                blocks(text, |t, s| split_fields(t, s, d), true).iter().map(|g| g.rows.len()).sum::<usize>()
+            };
             let delimiter = ['\t', ';', ','].into_iter().rev().max_by_key(|&d| count(d)).unwrap_or(',');
             let mut grids = blocks(text, |t, s| split_fields(t, s, delimiter), true);
             grids.iter_mut().for_each(|g| g.decimal_comma = delimiter == ';');
@@ -95,7 +97,9 @@ fn blocks(text: &str, split: impl Fn(&str, Range<usize>) -> Option<Vec<GridCell>
 
 /// `---`, `:--:`
 fn is_rule(cell: &GridCell) -> bool {
-    !cell.text.is_empty() && cell.text.chars().all(|c| matches!(c, '-' | ':' | '=' | '+')) && cell.text.len() > 1
+    !cell.text.is_empty()
+        && cell.text.chars().all(|c| matches!(c, '-' | ':' | '=' | '+'))
+        && cell.text.len() > 1
 }
 
 /// The cells of a line with `|` between them.

@@ -24,8 +24,11 @@ pub(super) fn joints(rows: &[ReadRow], convention: Convention, out: &mut Diagnos
 fn joint(row: &ReadRow, z: &str, starred: bool, out: &mut Diagnostics) -> Option<Joint> {
     if let Some(sigma) = row.source(Role::Sigma) {
         let kind = match sigma.text.trim_matches(['$', ' ', '*']).to_lowercase().as_str() {
-            "0" | "r" | "rev" | "revolute" | "rotoïde" | "rotoide" | "rot" | "rotary" | "rotational" => JointKind::Revolute,
-            "1" | "p" | "t" | "prism" | "prismatic" | "prismatique" | "linear" | "trans" | "translational" => JointKind::Prismatic,
+            "0" | "r" | "rev" | "revolute" | "rotoïde" | "rotoide" | "rot" | "rotary" | "rotational" => {
+                JointKind::Revolute
+            }
+            "1" | "p" | "t" | "prism" | "prismatic" | "prismatique" | "linear" | "trans"
+            | "translational" => JointKind::Prismatic,
             "2" | "f" | "fixed" | "-" | "" => return Some(Joint::Fixed),
             other => {
                 let shown: String = other.chars().take(20).collect();
@@ -57,8 +60,11 @@ fn joint(row: &ReadRow, z: &str, starred: bool, out: &mut Diagnostics) -> Option
             (false, true) => Some(Joint::Moves(JointKind::Prismatic, name)),
             (false, false) => {
                 let shown: String = text.chars().take(20).collect();
-                out.error(variable.span.clone(), format!("the variable `{shown}` stands neither in theta nor in {z}"))
-                    .hint("the q column names the symbol that moves");
+                out.error(
+                    variable.span.clone(),
+                    format!("the variable `{shown}` stands neither in theta nor in {z}"),
+                )
+                .hint("the q column names the symbol that moves");
                 None
             }
         };
@@ -78,8 +84,9 @@ fn joint(row: &ReadRow, z: &str, starred: bool, out: &mut Diagnostics) -> Option
     }
     let name = own_symbol(&row.z, row.number, &["d", "r", "q"])?;
     let (number, span) = (row.number, row.z.cell.span.clone());
-    out.note(span, format!("row {number} is prismatic: `{name}` in {z}, and no variable in theta"))
-        .hint("if that is a constant, give it another name, or add a column σ (0 revolute, 1 prismatic, 2 fixed)");
+    out.note(span, format!("row {number} is prismatic: `{name}` in {z}, and no variable in theta")).hint(
+        "if that is a constant, give it another name, or add a column σ (0 revolute, 1 prismatic, 2 fixed)",
+    );
     Some(Joint::Moves(JointKind::Prismatic, Some(name)))
 }
 
@@ -101,7 +108,9 @@ fn the_variable(cell: &TableCell, row: &ReadRow) -> Option<Option<String>> {
 fn own_symbol(cell: &TableCell, number: usize, letters: &[&str]) -> Option<String> {
     let index = number.to_string();
     letters.iter().find_map(|letter| {
-        let own = |name: &str| name.strip_prefix(letter).is_some_and(|i| i == index || i.is_empty() && *letter != "t");
+        let own = |name: &str| {
+            name.strip_prefix(letter).is_some_and(|i| i == index || i.is_empty() && *letter != "t")
+        };
         cell.cell.symbols.iter().map(|s| &s.0).find(|n| own(n)).cloned()
     })
 }

@@ -3,7 +3,8 @@
 use super::find::{Grid, GridCell};
 use std::ops::Range;
 
-const ENVIRONMENTS: &[&str] = &["tabular", "tabular*", "tabularx", "tabulary", "array", "longtable", "NiceTabular"];
+const ENVIRONMENTS: &[&str] =
+    &["tabular", "tabular*", "tabularx", "tabulary", "array", "longtable", "NiceTabular"];
 /// Commands that draw or space, and how many groups they take.
 const DECORATION: &[(&str, usize)] = &[
     ("\\hline", 0),
@@ -56,7 +57,9 @@ fn grid(text: &str, body: Range<usize>) -> Grid {
     let mut blanked = text.as_bytes()[body.clone()].to_vec();
     blank_comments(&mut blanked);
     let mut at = 0;
-    while let Some(end) = group_end(&blanked, skip_space(&blanked, at)).filter(|_| blanked[at..].trim_ascii_start()[0] != b'(') {
+    while let Some(end) =
+        group_end(&blanked, skip_space(&blanked, at)).filter(|_| blanked[at..].trim_ascii_start()[0] != b'(')
+    {
         blank(&mut blanked, at..end); // the column specification and options
         at = end;
     }

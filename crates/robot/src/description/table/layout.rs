@@ -57,7 +57,10 @@ impl Layout {
         if width != columns.len() || columns.len() < 3 {
             return None;
         }
-        let heads = columns.iter().map(|c| GridCell { text: c.role.letter().into(), span: grid.span.clone() }).collect();
+        let heads = columns
+            .iter()
+            .map(|c| GridCell { text: c.role.letter().into(), span: grid.span.clone() })
+            .collect();
         Self::with_rows(columns, heads, &grid.rows, grid)
     }
 
@@ -69,13 +72,8 @@ impl Layout {
     ) -> Option<Self> {
         let rows: Vec<Vec<GridCell>> =
             rows.iter().filter(|r| r.iter().any(|c| !c.text.is_empty())).cloned().collect();
-        let layout = Layout {
-            columns,
-            heads,
-            rows,
-            span: grid.span.clone(),
-            decimal_comma: grid.decimal_comma,
-        };
+        let layout =
+            Layout { columns, heads, rows, span: grid.span.clone(), decimal_comma: grid.decimal_comma };
         let pattern = |row: &Vec<GridCell>| {
             let index = layout.cell(row, Role::Index).map_or("", |c| c.text.trim_matches(['$', ' ', '*']));
             matches!(index, "..." | "…" | "n" | "N" | "⋮" | "\\vdots" | "\\ldots" | "\\dots" | "i")

@@ -1,9 +1,9 @@
 //! The convention of a table, and which column is the length along x and along z in it.
 
+use super::TableOptions;
 use super::columns::{Column, Role};
 use super::layout::Layout;
 use super::lines::Lines;
-use super::TableOptions;
 use crate::description::Convention;
 use crate::description::diagnostic::{Diagnostics, nearest};
 
@@ -30,7 +30,9 @@ pub(super) fn columns(
 ) -> Option<Vec<Column>> {
     let mut columns = layout.columns.clone();
     let line = lines.get("columns", layout.span.start);
-    let Some(told) = options.columns.as_deref().or(line.map(|l| l.text.as_str())) else { return Some(columns) };
+    let Some(told) = options.columns.as_deref().or(line.map(|l| l.text.as_str())) else {
+        return Some(columns);
+    };
     let span = line.filter(|_| options.columns.is_none()).map_or(layout.span.clone(), |l| l.span.clone());
     let names: Vec<&str> = told.split([' ', ',', '\t']).filter(|n| !n.is_empty()).collect();
     let mut roles = vec![];
@@ -39,8 +41,9 @@ pub(super) fn columns(
             Some(role) => roles.push(role),
             None => {
                 let shown: String = name.chars().take(20).collect();
-                out.error(span, format!("`{shown}` is no column of a table"))
-                    .hint("columns: theta, d, a, alpha (and r, gamma, b in Khalil's letters), from left to right");
+                out.error(span, format!("`{shown}` is no column of a table")).hint(
+                    "columns: theta, d, a, alpha (and r, gamma, b in Khalil's letters), from left to right",
+                );
                 return None;
             }
         }
@@ -48,7 +51,8 @@ pub(super) fn columns(
     let letters: Vec<&mut Column> = columns.iter_mut().filter(|c| c.role.is_letter()).collect();
     if letters.len() != roles.len() {
         let message = format!("{} columns are named, the table has {}", roles.len(), letters.len());
-        out.error(span, message).hint("name the columns θ, d, a, α, r from left to right, without numbers and types");
+        out.error(span, message)
+            .hint("name the columns θ, d, a, α, r from left to right, without numbers and types");
         return None;
     }
     letters.into_iter().zip(roles).for_each(|(column, role)| column.role = role);
@@ -71,7 +75,8 @@ pub(super) fn letters(
         }
     }
     let has = |role| columns.iter().any(|c| c.role == role);
-    let head = layout.heads.first().map_or(0, |h| h.span.start)..layout.heads.last().map_or(0, |h| h.span.end);
+    let head =
+        layout.heads.first().map_or(0, |h| h.span.start)..layout.heads.last().map_or(0, |h| h.span.end);
     let head = head.start.min(head.end)..head.end;
     let previous = columns.iter().any(|c| c.previous && matches!(c.role, Role::A | Role::Alpha | Role::D));
     let line = lines.get("convention", layout.span.start);
@@ -99,12 +104,19 @@ pub(super) fn letters(
         }
         Some(convention) => convention,
         None if khalil_only || previous && has(Role::R) => {
-            let why = if khalil_only { "γ and b are Khalil's" } else { "the index i-1 and the length r are Khalil's" };
+            let why = if khalil_only {
+                "γ and b are Khalil's"
+            } else {
+                "the index i-1 and the length r are Khalil's"
+            };
             out.note(head.clone(), format!("read as khalil: {why}"));
             Convention::Khalil
         }
         None if previous && has(Role::D) => {
-            out.note(head.clone(), "read as craig: with α_{i-1} or a_{i-1} a row begins with the x axis of the frame before");
+            out.note(
+                head.clone(),
+                "read as craig: with α_{i-1} or a_{i-1} a row begins with the x axis of the frame before",
+            );
             Convention::Craig
         }
         None => {
@@ -127,18 +139,27 @@ pub(super) fn letters(
         (Convention::Standard, (false, true, true)) => (r, d),
         _ => {
             let hint = match convention {
-                Convention::Khalil => "a and d are Craig's letters for the same product: say `convention: craig`".to_string(),
+                Convention::Khalil => {
+                    "a and d are Craig's letters for the same product: say `convention: craig`".to_string()
+                }
                 Convention::Craig if !lengths.0 => "d and r are Khalil's letters for the same product: say \
-                     `convention: khalil`, or name the columns: `columns: …`".to_string(),
-                _ => "name the columns from left to right with the line `columns: theta alpha a d`".to_string(),
+                     `convention: khalil`, or name the columns: `columns: …`"
+                    .to_string(),
+                _ => {
+                    "name the columns from left to right with the line `columns: theta alpha a d`".to_string()
+                }
             };
-            out.error(head, format!("the lengths of this table do not go with the {convention} convention")).hint(hint);
+            out.error(head, format!("the lengths of this table do not go with the {convention} convention"))
+                .hint(hint);
             return None;
         }
     };
     for (role, native, axis) in [(x, convention.length_x(), "x"), (z, convention.length_z(), "z")] {
         if let Some(role) = role.filter(|r| r.letter() != native) {
-            let message = format!("the column {} is the length along {axis}, `{native}` of the {convention} convention", role.letter());
+            let message = format!(
+                "the column {} is the length along {axis}, `{native}` of the {convention} convention",
+                role.letter()
+            );
             out.note(head.clone(), message);
         }
     }

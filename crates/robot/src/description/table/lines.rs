@@ -55,9 +55,9 @@ impl Lines {
         let title = if line.starts_with('#') {
             Some(line.trim_matches(['#', ' ']))
         } else {
-            ["\\section", "\\subsection", "\\caption", "\\title"]
-                .iter()
-                .find_map(|c| line.strip_prefix(c)?.trim_start_matches('*').strip_prefix('{')?.split('}').next())
+            ["\\section", "\\subsection", "\\caption", "\\title"].iter().find_map(|c| {
+                line.strip_prefix(c)?.trim_start_matches('*').strip_prefix('{')?.split('}').next()
+            })
         };
         if let Some(title) = title.map(str::trim).filter(|t| !t.is_empty() && directive(t).is_none()) {
             self.headings.push(GridCell { text: title.replace(['*', '`', '$'], ""), span: span.clone() });
@@ -88,7 +88,9 @@ impl Lines {
         for end in cuts.chain([span.end]).collect::<Vec<_>>() {
             let part = &text[start..end];
             if let Some((name, _)) = part.split_once('=') {
-                let plain = name.trim_matches(|c: char| c.is_whitespace() || matches!(c, '-' | '*' | '>' | '#' | '%' | '•'));
+                let plain = name.trim_matches(|c: char| {
+                    c.is_whitespace() || matches!(c, '-' | '*' | '>' | '#' | '%' | '•')
+                });
                 if let Some(plain) = name_of(plain, true) {
                     let value = GridCell::of(text, start + name.len() + 1..end);
                     let trimmed = value.text.trim_end_matches(['.', ' ', '\\']).len();

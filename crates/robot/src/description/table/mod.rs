@@ -100,7 +100,12 @@ pub fn read_table(
 }
 
 /// The tables to read, in order.
-fn choose<'a>(text: &str, layouts: &'a [Layout], table: Option<usize>, out: &mut Diagnostics) -> Vec<&'a Layout> {
+fn choose<'a>(
+    text: &str,
+    layouts: &'a [Layout],
+    table: Option<usize>,
+    out: &mut Diagnostics,
+) -> Vec<&'a Layout> {
     if layouts.is_empty() {
         out.error(0..0, "there is no Denavit-Hartenberg table in the text")
             .hint("a table has a header with at least three of theta, d, a, alpha, r, and numbered rows");
@@ -130,7 +135,9 @@ fn choose<'a>(text: &str, layouts: &'a [Layout], table: Option<usize>, out: &mut
         .collect();
     match table {
         Some(wrong) => out.error(0..0, format!("there is no table {wrong}")),
-        None => out.error(layouts[groups[1].start].span.clone(), format!("the text has {} tables", groups.len())),
+        None => {
+            out.error(layouts[groups[1].start].span.clone(), format!("the text has {} tables", groups.len()))
+        }
     }
     .hint(format!("choose one with --table: {}", list.join(", ")));
     vec![]

@@ -13,7 +13,7 @@ use crate::description::rows::{self, Cell, Cells};
 use crate::description::units::{Quantity, Unit, unit_named};
 use crate::description::{Description, JointKind, Row, suspicious_number};
 use crate::geometry::Transform;
-use denavit_symbolic::{Expr, Symbol};
+use denavit_symbolic::{Angle, Expr, Symbol};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -41,7 +41,8 @@ pub(super) struct ReadRow<'a> {
     alpha: TableCell,
     gamma: TableCell,
     b: TableCell,
-    offset: TableCell,
+    /// Read as an angle, to see whether it is in degrees.
+    offset_bare: Vec<(f64, Range<usize>)>,
     span: Range<usize>,
     columns: &'a [Column],
     source: &'a [GridCell],
@@ -53,16 +54,14 @@ impl<'a> ReadRow<'a> {
         self.source.get(self.columns.iter().position(|c| c.role == role)?)
     }
 
-    fn cells_mut(&mut self) -> [&mut TableCell; 7] {
-        [
-            &mut self.theta,
-            &mut self.z,
-            &mut self.x,
-            &mut self.alpha,
-            &mut self.gamma,
-            &mut self.b,
-            &mut self.offset,
-        ]
+    /// The unit of the column with a role, if it measures this.
+    pub fn unit(&self, role: Role, quantity: Quantity) -> Option<Unit> {
+        let column = self.columns.iter().find(|c| c.role == role);
+        column.and_then(|c| c.unit).filter(|u| u.quantity == quantity)
+    }
+
+    fn cells_mut(&mut self) -> [&mut TableCell; 6] {
+        [&mut self.theta, &mut self.z, &mut self.x, &mut self.alpha, &mut self.gamma, &mut self.b]
     }
 }
 
@@ -129,19 +128,20 @@ pub(super) fn description(
     }
     let mut read = all(&units, out);
     check_numbers(&read, layouts, out);
-    for row in &read {
-        for cell in [&row.z, &row.x, &row.b] {
-            for (x, span) in cell.bare.iter().filter(|_| units.length.is_none()) {
-                let hint = "say `d (mm)` in the header, add the line `lengths: mm`, or give it as an option";
-                suspicious_number(*x, span, Quantity::Length, hint, out);
-            }
-        }
+    let told = |role: Option<Role>| told_columns[0].iter().any(|c| Some(c.role) == role && c.unit.is_some());
+    let lengths = read.iter().flat_map(|r| [(letters.z, &r.z), (letters.x, &r.x), (Some(Role::B), &r.b)]);
+    let bare = lengths.filter(|l| units.length.is_none() && !told(l.0)).flat_map(|l| &l.1.bare);
+    if let Some((x, span)) = bare.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs())) {
+        let hint = "say `d (mm)` in the header, add the line `lengths: mm`, or give it as an option";
+        suspicious_number(*x, span, Quantity::Length, hint, out); // the largest stands for all
     }
     let joints = joints(&read, letters.convention, out);
-    rename(&mut read, &joints, out);
+    rename(&mut read, &joints, &units, out);
+    units.angle = units.angle.or(common_unit(&told_columns[0], Quantity::Angle));
+    units.length = units.length.or(common_unit(&told_columns[0], Quantity::Length));
     let cells: Vec<Cells> = read.iter().map(cells_of).collect();
     let variables = rows::assign_variables(&cells, letters.convention, out);
-    let parameters = values::parameters(text, &cells, lines, &units, &told_columns[0], out);
+    let parameters = values::parameters(text, &cells, lines, &units, out);
     let rows: Vec<Row> = cells
         .iter()
         .zip(&read)
@@ -219,7 +219,10 @@ fn check_numbers(read: &[ReadRow], layouts: &[&Layout], out: &mut Diagnostics) {
         }
     }
     if let Some(first) = read.first().filter(|r| r.number > 1) {
-        out.note(first.span.clone(), format!("the table begins with row {}; its joints become q1, q2, …", first.number));
+        out.note(
+            first.span.clone(),
+            format!("the table begins with row {}; its joints become q1, q2, …", first.number),
+        );
     }
     for layout in layouts {
         for row in &layout.rows {
@@ -236,11 +239,16 @@ fn check_numbers(read: &[ReadRow], layouts: &[&Layout], out: &mut Diagnostics) {
 fn degrees_by_size(read: &[ReadRow], columns: &[Column], out: &mut Diagnostics) -> Option<Unit> {
     let told = |role| columns.iter().find(|c| c.role == role).is_some_and(|c| c.unit.is_some());
     let bare = |row: &ReadRow| -> Vec<(f64, Range<usize>)> {
-        [(Role::Theta, &row.theta), (Role::Alpha, &row.alpha), (Role::Gamma, &row.gamma), (Role::Offset, &row.offset)]
-            .into_iter()
-            .filter(|(role, _)| !told(*role))
-            .flat_map(|(_, cell)| cell.bare.clone())
-            .collect()
+        [
+            (Role::Theta, &row.theta.bare),
+            (Role::Alpha, &row.alpha.bare),
+            (Role::Gamma, &row.gamma.bare),
+            (Role::Offset, &row.offset_bare),
+        ]
+        .into_iter()
+        .filter(|(role, _)| !told(*role))
+        .flat_map(|(_, bare)| bare.clone())
+        .collect()
     };
     let (x, span) = read.iter().flat_map(bare).find(|b| b.0.abs() > TAU)?;
     out.note(span, format!("{x} is more than a turn in radians: angles without a unit are read as degrees"))
@@ -260,13 +268,15 @@ fn read_row<'a>(
     let start = source.first().map_or(layout.span.start, |c| c.span.start);
     let end = source.iter().map(|c| c.span.end).max().unwrap_or(start);
     let span = start..end.max(start);
-    let mut read = |role: Option<Role>, quantity| {
+    let read_into = |role: Option<Role>, quantity, out: &mut Diagnostics| {
         let at = role.and_then(|r| columns.iter().position(|c| c.role == r));
         match at.and_then(|i| source.get(i).map(|s| (s, columns[i].unit))) {
             Some((cell, unit)) => read_table_cell(cell, &units.style(quantity, unit), out),
             None => TableCell { cell: Cell::zero(span.clone()), star: false, marker: false, bare: vec![] },
         }
     };
+    let offset_bare = read_into(Some(Role::Offset), Quantity::Angle, &mut Diagnostics::default()).bare;
+    let mut read = |role, quantity| read_into(role, quantity, out);
     ReadRow {
         number,
         theta: read(Some(Role::Theta), Quantity::Angle),
@@ -275,7 +285,7 @@ fn read_row<'a>(
         alpha: read(Some(Role::Alpha), Quantity::Angle),
         gamma: read(Some(Role::Gamma), Quantity::Angle),
         b: read(Some(Role::B), Quantity::Length),
-        offset: read(Some(Role::Offset), Quantity::Angle),
+        offset_bare,
         span,
         columns,
         source,
@@ -284,7 +294,8 @@ fn read_row<'a>(
 
 /// A cell; `-` and nothing are 0.
 fn read_table_cell(cell: &GridCell, style: &Style, out: &mut Diagnostics) -> TableCell {
-    let mut found = TableCell { cell: Cell::zero(cell.span.clone()), star: false, marker: false, bare: vec![] };
+    let mut found =
+        TableCell { cell: Cell::zero(cell.span.clone()), star: false, marker: false, bare: vec![] };
     let mut text = cell.text.as_str();
     let inner = text.trim_end_matches(['$', ' ']);
     for star in ["^{*}", "^{\\ast}", "^\\ast", "^*", "*"] {
@@ -295,7 +306,9 @@ fn read_table_cell(cell: &GridCell, style: &Style, out: &mut Diagnostics) -> Tab
         }
     }
     let bare = text.trim_matches(['$', ' ']);
-    if matches!(bare.to_lowercase().as_str(), "var" | "var." | "variable" | "variabel") || found.star && bare.is_empty() {
+    if matches!(bare.to_lowercase().as_str(), "var" | "var." | "variable" | "variabel")
+        || found.star && bare.is_empty()
+    {
         found.marker = true;
         found.star = true;
         return found;
@@ -312,14 +325,17 @@ fn read_table_cell(cell: &GridCell, style: &Style, out: &mut Diagnostics) -> Tab
 }
 
 /// Calls the variables q1, q2, … wherever they occur.
-fn rename(read: &mut [ReadRow], joints: &[Joint], out: &mut Diagnostics) {
+fn rename(read: &mut [ReadRow], joints: &[Joint], units: &BareUnits, out: &mut Diagnostics) {
+    let undecided = out.has_errors(); // then a name may be the variable that was not found
     let mut names: Vec<(String, String)> = vec![];
     let mut count = 0;
     for (row, joint) in read.iter_mut().zip(joints) {
         let Joint::Moves(kind, symbol) = joint else { continue };
         count += 1;
         let q = format!("q{count}");
-        let offset = row.offset.cell.clone();
+        let quantity = if *kind == JointKind::Revolute { Quantity::Angle } else { Quantity::Length };
+        let style = units.style(quantity, row.unit(Role::Offset, quantity));
+        let offset = row.source(Role::Offset).map(|c| read_table_cell(c, &style, out).cell);
         let cell = if *kind == JointKind::Revolute { &mut row.theta.cell } else { &mut row.z.cell };
         match symbol {
             None => {
@@ -335,17 +351,20 @@ fn rename(read: &mut [ReadRow], joints: &[Joint], out: &mut Diagnostics) {
             }
             Some(name) => names.push((name.clone(), q)),
         }
-        cell.expr = cell.expr + offset.expr;
-        cell.symbols.extend(offset.symbols);
-        row.offset.cell = Cell::zero(row.span.clone());
+        if let Some(offset) = offset {
+            cell.expr = cell.expr + offset.expr;
+            cell.symbols.extend(offset.symbols);
+        }
     }
     let numbers: Vec<String> = (1..=count).map(|i| format!("q{i}")).collect();
     for row in read.iter_mut() {
         for cell in row.cells_mut() {
             let stray = cell.cell.symbols.iter().find(|(name, _)| {
-                variable_number(name).is_some() && !names.iter().any(|n| n.0 == *name) && !numbers.contains(name)
+                variable_number(name).is_some()
+                    && !names.iter().any(|n| n.0 == *name)
+                    && !numbers.contains(name)
             });
-            if let Some((name, span)) = stray {
+            if let Some((name, span)) = stray.filter(|_| !undecided) {
                 out.error(span.clone(), format!("`{name}` is not the variable of any row"));
             }
             replace(&mut cell.cell, &names);
@@ -367,13 +386,26 @@ fn replace(cell: &mut Cell, names: &[(String, String)]) {
 
 fn cells_of(row: &ReadRow) -> Cells {
     let cell = |c: &TableCell| c.cell.clone();
+    // 90+θ2 is q2 + 90°
+    let angle = |c: &TableCell| Cell { expr: Angle::of(c.cell.expr).to_expr(), ..c.cell.clone() };
     Cells {
         span: row.span.clone(),
-        theta: cell(&row.theta),
+        theta: angle(&row.theta),
         d: cell(&row.z),
         a: cell(&row.x),
-        alpha: cell(&row.alpha),
-        gamma: cell(&row.gamma),
+        alpha: angle(&row.alpha),
+        gamma: angle(&row.gamma),
         b: cell(&row.b),
     }
+}
+
+/// The unit that all columns of a quantity have in their heads.
+fn common_unit(columns: &[Column], quantity: Quantity) -> Option<Unit> {
+    let measured = |c: &&Column| match quantity {
+        Quantity::Angle => matches!(c.role, Role::Theta | Role::Alpha | Role::Gamma),
+        _ => matches!(c.role, Role::D | Role::A | Role::R | Role::B),
+    };
+    let mut units = columns.iter().filter(measured).map(|c| c.unit);
+    let first = units.next()??;
+    units.all(|u| u == Some(first)).then_some(first)
 }

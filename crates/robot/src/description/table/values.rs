@@ -1,6 +1,5 @@
 //! The symbols of a table that are no variables, and the values that lines of the text give them.
 
-use super::columns::{Column, Role};
 use super::lines::Lines;
 use super::read::BareUnits;
 use crate::description::Parameter;
@@ -8,7 +7,7 @@ use crate::description::cell::{Place, Style, read_cell, variable_number};
 use crate::description::diagnostic::Diagnostics;
 use crate::description::robot_file::name_fault;
 use crate::description::rows::{Cell, Cells};
-use crate::description::units::{Quantity, Unit};
+use crate::description::units::Quantity;
 use denavit_symbolic::{Expr, Symbol};
 use std::ops::Range;
 
@@ -18,7 +17,6 @@ pub(super) fn parameters(
     rows: &[Cells],
     lines: &Lines,
     units: &BareUnits,
-    columns: &[Column],
     out: &mut Diagnostics,
 ) -> Vec<Parameter> {
     let mut names: Vec<(&str, Range<usize>)> = vec![];
@@ -33,9 +31,10 @@ pub(super) fn parameters(
         out.error(0..0, "more than 1000 parameters");
         return vec![];
     }
-    let uses = |pick: fn(&Cells) -> [&Cell; 3]| -> Vec<Symbol> { rows.iter().flat_map(pick).flat_map(Cell::summands).collect() };
+    let uses = |pick: fn(&Cells) -> [&Cell; 3]| -> Vec<Symbol> {
+        rows.iter().flat_map(pick).flat_map(Cell::summands).collect()
+    };
     let (angles, lengths) = (uses(|c| c.by_quantity().0), uses(|c| c.by_quantity().1));
-    let length_unit = units.length.or_else(|| common_unit(columns));
     let mut parameters = vec![];
     for (name, span) in names {
         if let Some((message, hint)) = name_fault(name) {
@@ -49,7 +48,7 @@ pub(super) fn parameters(
         }
         let style = match (angle, length) {
             (true, _) => units.style(Quantity::Angle, None),
-            (_, true) => units.style(Quantity::Length, length_unit),
+            (_, true) => units.style(Quantity::Length, None),
             _ => units.style(Quantity::Open, None),
         };
         parameters.push(Parameter { symbol, value: value(text, name, lines, &style, out) });
@@ -69,7 +68,12 @@ fn value(text: &str, name: &str, lines: &Lines, style: &Style, out: &mut Diagnos
         let Some(read) = read else {
             let shown: String = text[cell.span.clone()].chars().take(40).collect();
             out.note(cell.span.clone(), format!("`{name} = {shown}` is not taken for the value of `{name}`"))
-                .hint(findings.list().first().map_or("a value is a number with a unit".into(), |f| f.message.clone()));
+                .hint(
+                    findings
+                        .list()
+                        .first()
+                        .map_or("a value is a number with a unit".into(), |f| f.message.clone()),
+                );
             continue;
         };
         match found {
@@ -80,11 +84,4 @@ fn value(text: &str, name: &str, lines: &Lines, style: &Style, out: &mut Diagnos
         }
     }
     found
-}
-
-/// The unit that all columns of lengths have in their heads.
-fn common_unit(columns: &[Column]) -> Option<Unit> {
-    let mut units = columns.iter().filter(|c| matches!(c.role, Role::D | Role::A | Role::R | Role::B)).map(|c| c.unit);
-    let first = units.next()??;
-    units.all(|u| u == Some(first)).then_some(first)
 }
