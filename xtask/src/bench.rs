@@ -24,7 +24,7 @@ const REPEATS: usize = 9;
 const BOUND: f64 = 50.0;
 /// Robots for which SymPy is asked as well.
 const WITH_SYMPY: &[&str] = &["staubli-rx90", "puma560"];
-const SYMPY: &str = "sympy==1.14.0";
+const SYMPY: &str = "1.14.0";
 
 /// Median, least and largest of some times in ms.
 struct Times {
@@ -117,14 +117,14 @@ fn times(name: &'static str, work: fn(&str) -> Result<bool>) -> Result<Option<Ti
 /// A Python with SymPy: the project's environment, the system's, or an environment made for it.
 fn python() -> Result<String> {
     let own = path(".venv/bin/python").display().to_string();
-    let has_sympy = |python: &str| {
-        command(python).args(["-c", "import sympy, tomllib"]).output().is_ok_and(|o| o.status.success())
-    };
+    let check = format!("import sympy, tomllib; assert sympy.__version__ == '{SYMPY}'");
+    let has_sympy =
+        |python: &str| command(python).args(["-c", &check]).output().is_ok_and(|o| o.status.success());
     if let Some(python) = [own.as_str(), "python3"].into_iter().find(|p| has_sympy(p)) {
         return Ok(python.to_string());
     }
     succeed(command("python3").args(["-m", "venv", ".venv"]))?;
-    succeed(Command::new(&own).args(["-m", "pip", "install", "--quiet", SYMPY]))?;
+    succeed(Command::new(&own).args(["-m", "pip", "install", "--quiet", &format!("sympy=={SYMPY}")]))?;
     Ok(own)
 }
 
@@ -200,7 +200,7 @@ fn page(rows: &[Row], table: &str) -> Result<String> {
          product. Median of {REPEATS} runs, each in a fresh thread that knows no formula yet; release build, one thread.\n\n\
          - **naive**: only the normal form of the same product over single joint angles; no merging of parallel axes, no\n\
          readable form, no search, no proof. What the rest costs is the difference; the share is naive to ours.\n\
-         - **SymPy**: the product and `trigsimp` of its twelve entries ({SYMPY}), CPU time, once; the ratio is SymPy to ours.\n\n\
+         - **SymPy**: the product and `trigsimp` of its twelve entries (version {SYMPY}), CPU time, once; the ratio is SymPy to ours.\n\n\
          Measured {today} on {} ({}, {}).\n\n{}\n\n{table}\n\
          Renew with `cargo xtask bench --write`.\n",
         processor(),

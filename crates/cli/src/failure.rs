@@ -12,8 +12,6 @@ pub enum Failure {
     Input(String),
     /// 4: this is not supported.
     Unsupported(String),
-    /// 5: a bound on time or size was reached.
-    GaveUp(String),
     /// Standard output or a file cannot be written or read.
     Io(io::Error),
 }
@@ -27,7 +25,6 @@ impl Failure {
             Failure::Usage(text) => (2, format!("error: {text}")),
             Failure::Input(text) => (3, text),
             Failure::Unsupported(text) => (4, format!("not supported: {text}")),
-            Failure::GaveUp(text) => (5, format!("gave up: {text}")),
         };
         let _ = writeln!(anstream::stderr(), "{}", text.trim_end());
         ExitCode::from(code)

@@ -38,7 +38,9 @@ fn from_file(arguments: &RobotArguments) -> Result<Description, Failure> {
         Some("csv" | "tsv") => Some(TableKind::Csv),
         Some("tex") => Some(TableKind::Latex),
         Some("urdf" | "xacro") => {
-            return Err(Failure::Unsupported("URDF is not read yet; write the Denavit-Hartenberg table".into()));
+            return Err(Failure::Unsupported(
+                "URDF is not read yet; write the Denavit-Hartenberg table".into(),
+            ));
         }
         _ => return Err(unknown_robot(name)),
     };
@@ -75,7 +77,8 @@ fn options(arguments: &RobotArguments) -> TableOptions {
 type Reading = Result<(Description, Vec<Diagnostic>), Vec<Diagnostic>>;
 
 fn read(name: &str, text: &str, outcome: Reading) -> Result<Description, Failure> {
-    let render = |findings: &[Diagnostic]| findings.iter().map(|d| coloured(d, name, text)).collect::<String>();
+    let render =
+        |findings: &[Diagnostic]| findings.iter().map(|d| coloured(d, name, text)).collect::<String>();
     match outcome {
         Ok((description, findings)) => {
             write!(anstream::stderr(), "{}", render(&findings))?;
@@ -127,7 +130,11 @@ fn set(description: &mut Description, setting: &str) -> Result<(), Failure> {
     match description.parameters.iter_mut().find(|p| *p.symbol.name() == *name.trim()) {
         Some(parameter) => parameter.value = Some(value),
         None => {
-            let known = if names.is_empty() { "it has none".into() } else { format!("they are {}", names.join(", ")) };
+            let known = if names.is_empty() {
+                "it has none".into()
+            } else {
+                format!("they are {}", names.join(", "))
+            };
             return Err(Failure::Usage(format!("--set {setting}: no parameter `{}`; {known}", name.trim())));
         }
     }
@@ -140,10 +147,10 @@ fn set(description: &mut Description, setting: &str) -> Result<(), Failure> {
 /// A sentence that says what is wrong.
 pub fn quantity(text: &str) -> Result<Expr, String> {
     let units = [("mm", 1000), ("cm", 100), ("m", 1)];
-    let names = units.iter().fold(Vocabulary::new(), |v, (unit, n)| v.alias(unit, Rational::new(1, *n).into()));
-    let e = parse(text.trim(), &names).map_err(|errors| {
-        errors.first().map_or_else(|| "not a number".to_string(), ToString::to_string)
-    })?;
+    let names =
+        units.iter().fold(Vocabulary::new(), |v, (unit, n)| v.alias(unit, Rational::new(1, *n).into()));
+    let e = parse(text.trim(), &names)
+        .map_err(|errors| errors.first().map_or_else(|| "not a number".to_string(), ToString::to_string))?;
     match e.eval(|_| None) {
         Ok(x) if x.is_finite() => Ok(e),
         _ => Err(format!("`{}` is no finite number", text.trim())),

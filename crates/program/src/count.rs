@@ -32,13 +32,20 @@ pub struct Count {
 impl Count {
     /// Adds operation `n`, which `look` finds along with its operands; `angles` holds those whose sine or cosine
     /// is counted already.
-    pub(crate) fn include<'a>(&mut self, n: u32, look: impl Fn(u32) -> (&'a Op, Stage), angles: &mut Vec<u32>) {
+    pub(crate) fn include<'a>(
+        &mut self,
+        n: u32,
+        look: impl Fn(u32) -> (&'a Op, Stage),
+        angles: &mut Vec<u32>,
+    ) {
         let (op, stage) = look(n);
         if stage != Stage::Variable {
             self.hoisted += u32::from(stage == Stage::Parameter && op.operands().next().is_some());
             return;
         }
-        let is_offset = |a: u32, b: u32| matches!(look(a), (Op::Input(_), Stage::Variable)) && look(b).1 != Stage::Variable;
+        let is_offset = |a: u32, b: u32| {
+            matches!(look(a), (Op::Input(_), Stage::Variable)) && look(b).1 != Stage::Variable
+        };
         match op {
             Op::Number(_) | Op::Pi | Op::Input(_) => {}
             Op::Add(a, b) | Op::Sub(a, b) if is_offset(*a, *b) || is_offset(*b, *a) => self.offsets += 1,
@@ -57,7 +64,11 @@ impl Count {
 
     /// One figure to minimise: a product or a sum is 1, a sine and cosine 20, other functions likewise.
     pub fn cost(&self) -> u32 {
-        self.multiplications + self.additions + self.offsets + 20 * (self.sincos + self.arctangents) + 10 * (self.divisions + self.roots)
+        self.multiplications
+            + self.additions
+            + self.offsets
+            + 20 * (self.sincos + self.arctangents)
+            + 10 * (self.divisions + self.roots)
     }
 }
 
@@ -71,7 +82,9 @@ impl fmt::Display for Count {
             plural(self.additions, "addition"),
             plural(self.sincos, "sine/cosine pair"),
         )?;
-        for (n, word) in [(self.divisions, "division"), (self.roots, "root"), (self.arctangents, "arctangent")] {
+        for (n, word) in
+            [(self.divisions, "division"), (self.roots, "root"), (self.arctangents, "arctangent")]
+        {
             if n > 0 {
                 write!(f, ", {}", plural(n, word))?;
             }
@@ -80,7 +93,9 @@ impl fmt::Display for Count {
             (0, 0) => return Ok(()),
             (n, 0) => plural(n, "joint offset"),
             (0, n) => format!("{} on parameters alone", plural(n, "operation")),
-            (n, m) => format!("{}, {} on parameters alone", plural(n, "joint offset"), plural(m, "operation")),
+            (n, m) => {
+                format!("{}, {} on parameters alone", plural(n, "joint offset"), plural(m, "operation"))
+            }
         };
         write!(f, "; apart: {apart}")
     }

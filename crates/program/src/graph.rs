@@ -3,8 +3,8 @@
 //! A [`Value`] is a node with a sign, so that `a·(−b)` and `−(a·b)` are one product and negation costs nothing.
 //! Operands of sums and products are ordered; numbers are folded; nothing else is rewritten.
 
-use denavit_symbolic::{Expr, Node, Rational, Symbol};
 use crate::count::Count;
+use denavit_symbolic::{Expr, Node, Rational, Symbol};
 use rustc_hash::FxHashMap;
 use std::cell::RefCell;
 
@@ -336,7 +336,14 @@ impl<F: Fn(Symbol) -> Stage> Graph<F> {
     }
 
     /// Visits what `outputs` need, but for nodes that carry the mark `paid` or `walk`; visited ones get `walk`.
-    fn visit(&self, outputs: &[Value], marks: &mut Vec<u32>, paid: u32, walk: u32, mut visit: impl FnMut(u32)) {
+    fn visit(
+        &self,
+        outputs: &[Value],
+        marks: &mut Vec<u32>,
+        paid: u32,
+        walk: u32,
+        mut visit: impl FnMut(u32),
+    ) {
         marks.resize(self.ops.len(), 0);
         let mut pending: Vec<u32> = outputs.iter().map(|v| v.node).collect();
         while let Some(node) = pending.pop() {

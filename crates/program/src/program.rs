@@ -2,7 +2,7 @@
 
 use crate::count::Count;
 use crate::graph::{Graph, Op, Stage, Value};
-use denavit_symbolic::{Expr, Symbol};
+use denavit_symbolic::{Expr, Node, Symbol};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// A straight-line program.
@@ -100,10 +100,7 @@ impl Program {
 
     /// The inputs that are read, in order of first use.
     pub fn inputs(&self) -> Vec<Symbol> {
-        self.ops
-            .iter()
-            .filter_map(|(op, _)| if let Op::Input(s) = op { Some(*s) } else { None })
-            .collect()
+        self.ops.iter().filter_map(|(op, _)| if let Op::Input(s) = op { Some(*s) } else { None }).collect()
     }
 
     /// Its operations.
@@ -122,7 +119,8 @@ impl Program {
         let mut values: Vec<f64> = Vec::with_capacity(self.ops.len());
         for (op, _) in &self.ops {
             let at = |n: &u32| values[*n as usize];
-            let signed = |v: &Value| if v.negative { -values[v.node as usize] } else { values[v.node as usize] };
+            let signed =
+                |v: &Value| if v.negative { -values[v.node as usize] } else { values[v.node as usize] };
             let x = match op {
                 Op::Number(r) => r.to_f64(),
                 Op::Pi => std::f64::consts::PI,
@@ -152,7 +150,8 @@ impl Program {
     /// the order in which they become known. Sines and cosines of angle sums stand in the formulas.
     pub fn steps(&self) -> Vec<Step> {
         // A shared value that is a result as well goes by the name of the result.
-        let mut names: Vec<Option<Expr>> = self.names.iter().map(|n| n.as_deref().map(Expr::symbol)).collect();
+        let mut names: Vec<Option<Expr>> =
+            self.names.iter().map(|n| n.as_deref().map(Expr::symbol)).collect();
         for (name, v) in self.outputs.iter().rev() {
             let slot = &mut names[v.node as usize];
             if slot.is_some() {
@@ -162,7 +161,8 @@ impl Program {
         let values = self.expressions(&names);
         let mut steps = vec![];
         for (i, (_, stage)) in self.ops.iter().enumerate() {
-            let results: Vec<&(String, Value)> = self.outputs.iter().filter(|o| o.1.node as usize == i).collect();
+            let results: Vec<&(String, Value)> =
+                self.outputs.iter().filter(|o| o.1.node as usize == i).collect();
             let value = values[i];
             match (&names[i], &results[..]) {
                 (Some(_), [first, rest @ ..]) => {
@@ -170,7 +170,12 @@ impl Program {
                     steps.push(Step { name: first.0.clone(), value: own, stage: *stage, is_output: true });
                     for other in rest {
                         let alias = signed(Expr::symbol(&first.0), other.1.negative != first.1.negative);
-                        steps.push(Step { name: other.0.clone(), value: alias, stage: *stage, is_output: true });
+                        steps.push(Step {
+                            name: other.0.clone(),
+                            value: alias,
+                            stage: *stage,
+                            is_output: true,
+                        });
                     }
                 }
                 (Some(name), []) => {
@@ -185,6 +190,7 @@ impl Program {
                 }
             }
         }
+        steps.iter_mut().for_each(|s| s.value = tidy(s.value));
         steps.sort_by_key(|s| s.stage == Stage::Variable);
         steps
     }
@@ -209,6 +215,7 @@ impl Program {
                 Op::Input(s) => (*s).into(),
                 Op::Add(a, b) => at(a) + at(b),
                 Op::Sub(a, b) => at(a) - at(b),
+                Op::Mul(a, b) if self.rank(*b) < self.rank(*a) => at(b) * at(a),
                 Op::Mul(a, b) => at(a) * at(b),
                 Op::Div(a, b) => at(a) / at(b),
                 Op::Sqrt(a) => value(a).sqrt(),
@@ -219,6 +226,38 @@ impl Program {
             own.push(e);
         }
         own
+    }
+
+    /// The order of factors in a product: constants, then inputs, sines and cosines, then what is computed.
+    fn rank(&self, n: u32) -> (Stage, u8) {
+        let (op, stage) = &self.ops[n as usize];
+        let kind = match op {
+            Op::Number(_) | Op::Pi => 0,
+            Op::Input(_) => 1,
+            Op::Sin(_) | Op::Cos(_) => 2,
+            Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Div(..) | Op::Sqrt(_) | Op::Atan2(..) => 3,
+        };
+        (*stage, kind)
+    }
+}
+
+/// A sum with its positive terms first, for reading: −(a·b − c) becomes c − a·b.
+fn tidy(e: Expr) -> Expr {
+    let mut terms: Vec<(bool, Expr)> = vec![];
+    let mut pending = vec![(false, e)];
+    while let Some((negative, part)) = pending.pop() {
+        match part.node() {
+            Node::Neg(a) => pending.push((!negative, a)),
+            Node::Add(a, b) => pending.extend([(negative, b), (negative, a)]),
+            Node::Sub(a, b) => pending.extend([(!negative, b), (negative, a)]),
+            _ => terms.push((negative, part)),
+        }
+    }
+    let plain = terms.iter().filter(|t| !t.0).map(|t| t.1).reduce(|a, b| a + b);
+    let negated = terms.iter().filter(|t| t.0).map(|t| t.1);
+    match plain {
+        Some(plain) => negated.fold(plain, |sum, term| sum - term),
+        None => negated.reduce(|a, b| a + b).map_or(e, |sum| -sum),
     }
 }
 
@@ -252,6 +291,9 @@ mod tests {
         assert_eq!(program.formulas()[0].eval(value), Ok(5.0 * c));
         let steps: Vec<String> = program.steps().iter().map(|s| s.name.clone()).collect();
         assert_eq!(steps, ["u", "v"]);
-        assert_eq!(program.steps()[1].value.eval(|s| if &*s.name() == "u" { Some(1.0) } else { value(s) }), Ok(s - 1.0));
+        assert_eq!(
+            program.steps()[1].value.eval(|s| if &*s.name() == "u" { Some(1.0) } else { value(s) }),
+            Ok(s - 1.0)
+        );
     }
 }

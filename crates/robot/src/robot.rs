@@ -127,7 +127,8 @@ impl Robot<Expr> {
     /// The robot over formulas.
     pub fn symbolic(description: &Description) -> Self {
         let variables: Vec<Symbol> = description.variables().iter().map(|v| v.symbol).collect();
-        let links = description.rows.iter().map(|row| link(description.convention, row, &variables)).collect();
+        let links =
+            description.rows.iter().map(|row| link(description.convention, row, &variables)).collect();
         Robot { base: description.base, links, tool: description.tool, joints: variables.len() }
     }
 }

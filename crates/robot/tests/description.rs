@@ -56,7 +56,7 @@ fn rows_say_what_is_wrong_with_them() {
         ("theta = \"q1 +\"", vec!["3:13 error: the cell ends where a value is expected"]),
         ("theta = \"q1 ++ 2\"", vec!["3:14 error: `+` stands where a value is expected"]),
         ("theta = \"q1 2\"", vec!["3:13 error: two values in one cell | write a product"]),
-        ("theta = \"(q1\"", vec!["3:9 error: `)` is missing before the end"]),
+        ("theta = \"(q1\"", vec!["3:10 error: `)` is missing before the end"]),
         ("theta = \"q1 @ 3\"", vec!["3:13 error: `@` has no meaning here"]),
         ("theta = \"\"", vec!["3:9 error: an empty cell | write 0"]),
         ("theta = \"q1 + 20 mm\"", vec!["3:18 error: `mm` measures a length; this is an angle"]),

@@ -171,6 +171,14 @@ fn tables_say_what_is_wrong_with_them() {
         ),
         ("i;theta;d;a;alpha\n1;q1;0;0;q1\n", vec!["2:10 error: the joint variable `q1` in `alpha`"]),
         ("i;theta;d;a;alpha\n1;q1;q2;0;0\n", vec!["2:6 error: `q2` is not the variable of any row"]),
+        (
+            "i;theta;d;a;alpha\n1;0;L;0;0\n2;q2;0;0;0\n3;q3+q1;0;0;0\n",
+            vec!["4:6 error: `q1` is not the variable of any row"],
+        ),
+        (
+            "i;sigma;theta;d;a;alpha\n1;0;q5;0;0;0\n2;0;q5;0;0;0\n",
+            vec!["3:5 error: `q5` is the variable of two rows"],
+        ),
         ("i;theta;d;a;alpha\n1;q1;S2;0;0\n", vec!["2:6 error: the parameter `S2` is named like"]),
         ("i;theta;d;a;a\n1;q1;0;0;0\n", vec!["1:13 error: a second column `a`"]),
         ("lengths: miles\ni;theta;d;a;alpha\n1;q1;0;0;0\n", vec!["1:10 error: unknown unit of lengths"]),
@@ -245,4 +253,21 @@ fn parameters_of_a_table_get_values_from_lines() {
     assert_eq!(values, [("D3".to_string(), Some(0.45)), ("L".to_string(), Some(0.3))]);
     assert_eq!(shown(text, &findings).len(), 1, "{:?}", shown(text, &findings));
     assert!(shown(text, &findings)[0].starts_with("11:6 note: `D3 = x` is not taken for the value of `D3`"));
+}
+
+#[test]
+fn a_joint_is_found_in_many_ways() {
+    for (text, expected) in [
+        ("i;theta;d;a;alpha\n1;θ;0;0;0\n2;θ;0;0;0\n", ["q1", "q2"]),
+        ("i;theta;d;a;alpha\n1;var;0;0;0\n2;90+var;0;0;0\n", ["q1", "q2 + 90 deg"]),
+        ("i;theta;d;a;alpha\n1;*;0;0;0\n2;q1*;0;0;0\n", ["q1", "q2"]),
+        ("i;theta;d;a;alpha\n0;θ0;0;0;0\n1;θ1 - θ0;0;0;0\n", ["q1", "q2 - q1"]),
+        ("i;sigma;theta;d;a;alpha\n1;0;phi;0;0;0\n2;R;psi+phi;0;0;0\n", ["q1", "q1 + q2"]),
+        ("i;theta;d;a;alpha;q\n1;q_a;0;0;0;q_a\n2;x2;0;0;0;x_2\n", ["q1", "q2"]),
+        ("link;theta;d;a;alpha\n4;θ_4;0;0;0\n5;θ_5;0;0;0\n", ["q1", "q2"]),
+    ] {
+        let written = write_toml(&table(text, TableKind::Csv, &told(Convention::Standard)));
+        let lines = expected.map(|e| format!("theta = \"{e}\"\n"));
+        assert!(lines.iter().all(|l| written.contains(l.as_str())), "{text}{written}");
+    }
 }

@@ -195,7 +195,9 @@ fn wanted(claim: &Table, context: &Context) -> Matrix {
                 .as_array()
                 .expect("rows")
                 .iter()
-                .map(|row| row.as_array().expect("a row").iter().map(|c| read(text(c), &context.names)).collect())
+                .map(|row| {
+                    row.as_array().expect("a row").iter().map(|c| read(text(c), &context.names)).collect()
+                })
                 .collect();
             let entry = |r: usize, c: usize| given[r][c];
             let rotation = Rotation::from_rows([0, 1, 2].map(|r| [0, 1, 2].map(|c| entry(r, c))));
@@ -243,8 +245,12 @@ fn refuted(claim: &Table, context: &Context) -> BTreeSet<String> {
             let set: OrientationSet = set.split(' ').next_back().and_then(|s| s.parse().ok()).expect("a set");
             let ours = extraction_formulas(&rotation, set).expect("angles");
             // The documents' roll-pitch-yaw angles are φ about z, θ about y, ψ about x.
-            let keys = if set == OrientationSet::Rpy { ["psi", "theta", "phi"] } else { ["phi", "theta", "psi"] };
-            keys.iter().zip(ours).map(|(key, (_, e))| ((*key).into(), e, read(string(claim, key), &names))).collect()
+            let keys =
+                if set == OrientationSet::Rpy { ["psi", "theta", "phi"] } else { ["phi", "theta", "psi"] };
+            keys.iter()
+                .zip(ours)
+                .map(|(key, (_, e))| ((*key).into(), e, read(string(claim, key), &names)))
+                .collect()
         }
         _ => {
             let wanted = wanted(claim, context);

@@ -71,7 +71,7 @@ impl Angle {
 
     /// Sine and cosine, with quarter turns and a leading sign taken out of the argument.
     pub(crate) fn sin_cos(mut self) -> (Expr, Expr) {
-        let negative = self.leads_negative();
+        let mut negative = self.leads_negative();
         if negative {
             self = self.scaled(&-Rational::ONE);
         }
@@ -79,6 +79,14 @@ impl Angle {
         let two = Rational::from(2);
         let quarters = (&self.turns * &two).floor();
         self.turns = &self.turns - &(&quarters / &two);
+        let four = Rational::from(4);
+        let mut turn = (&quarters - &(&(&quarters / &four).floor() * &four)).to_integer().unwrap_or(0);
+        if self.is_constant() && self.leads_negative() {
+            // Only radians are left, below 0: x + n·π/2 is −(−x − n·π/2).
+            self = self.scaled(&-Rational::ONE);
+            turn = (4 - turn) % 4;
+            negative = !negative;
+        }
         let (mut s, mut c) = match self.exact_sin_cos() {
             Some(exact) => exact,
             None => {
@@ -86,9 +94,7 @@ impl Angle {
                 (Expr::trig_node(Node::Sin(argument)), Expr::trig_node(Node::Cos(argument)))
             }
         };
-        let four = Rational::from(4);
-        let turn = &quarters - &(&(&quarters / &four).floor() * &four);
-        for _ in 0..turn.to_integer().unwrap_or(0) {
+        for _ in 0..turn {
             (s, c) = (c, -s); // sin(x + π/2) = cos x, cos(x + π/2) = −sin x
         }
         (if negative { -s } else { s }, c)

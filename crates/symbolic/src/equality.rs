@@ -119,6 +119,8 @@ mod tests {
         same((a + a).sin(), Expr::int(2) * a.sin() * a.cos());
         same(a.sin() * a.sin(), (Expr::int(1) - (a + a).cos()) / Expr::int(2));
         same((a + deg(90)).cos(), -a.sin());
+        assert_eq!((Expr::pi() - Expr::int(1)).sin(), Expr::int(1).sin());
+        assert_eq!((Expr::int(1) - deg(90)).cos(), Expr::int(1).sin());
         same((a / Expr::int(2)).cos().powi(2), (Expr::int(1) + a.cos()) / Expr::int(2));
         differ((a + b).cos(), a.cos() * b.cos() + a.sin() * b.sin());
         differ(a.cos(), b.cos());
@@ -137,10 +139,7 @@ mod tests {
         differ(deg(20).sin(), deg(21).sin());
         // true, but for a reason the ring does not know
         let product = deg(20).cos() * deg(40).cos() * deg(80).cos();
-        assert_eq!(
-            equal(product, Expr::from(Rational::new(1, 8))),
-            Verdict::Undecided(Reason::Dependent)
-        );
+        assert_eq!(equal(product, Expr::from(Rational::new(1, 8))), Verdict::Undecided(Reason::Dependent));
     }
 
     #[test]

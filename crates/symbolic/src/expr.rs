@@ -340,7 +340,8 @@ impl Neg for Expr {
         match self.node() {
             Node::Number(r) => (-r).into(),
             Node::Neg(a) => a,
-            Node::Sub(a, b) => intern(Node::Sub(b, a)),
+            // −(a − b) is b − a; of a longer sum the sign stays in front
+            Node::Sub(a, b) if !matches!(a.node(), Node::Add(..) | Node::Sub(..)) => intern(Node::Sub(b, a)),
             _ => intern(Node::Neg(self)),
         }
     }

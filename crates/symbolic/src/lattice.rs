@@ -15,15 +15,15 @@ pub(crate) fn coordinates(angle: &Angle, basis: &[Angle]) -> Option<Vec<i64>> {
 
 fn rational_coordinates(angle: &Angle, basis: &[Angle]) -> Option<Vec<Rational>> {
     // Gauss–Jordan on the system Σ nⱼ·basisⱼ = angle, one row for each symbol.
-    let mut symbols: Vec<Expr> = basis.iter().chain([angle]).flat_map(|a| a.terms.iter().map(|t| t.0)).collect();
+    let mut symbols: Vec<Expr> =
+        basis.iter().chain([angle]).flat_map(|a| a.terms.iter().map(|t| t.0)).collect();
     symbols.sort_unstable();
     symbols.dedup();
-    let entry = |a: &Angle, x: Expr| a.terms.iter().find(|t| t.0 == x).map_or(Rational::ZERO, |t| t.1.clone());
+    let entry =
+        |a: &Angle, x: Expr| a.terms.iter().find(|t| t.0 == x).map_or(Rational::ZERO, |t| t.1.clone());
     let n = basis.len();
-    let mut rows: Vec<Vec<Rational>> = symbols
-        .iter()
-        .map(|&x| basis.iter().chain([angle]).map(|a| entry(a, x)).collect())
-        .collect();
+    let mut rows: Vec<Vec<Rational>> =
+        symbols.iter().map(|&x| basis.iter().chain([angle]).map(|a| entry(a, x)).collect()).collect();
     let mut pivots = vec![];
     for column in 0..n {
         let done = pivots.len();
@@ -76,7 +76,8 @@ fn hermite_basis(angles: &[&Angle]) -> Vec<Angle> {
     symbols.dedup();
     let mut rows: Vec<Angle> =
         angles.iter().map(|a| Angle { terms: a.terms.clone(), ..Angle::default() }).collect();
-    let entry = |a: &Angle, x: Expr| a.terms.iter().find(|t| t.0 == x).map_or(Rational::ZERO, |t| t.1.clone());
+    let entry =
+        |a: &Angle, x: Expr| a.terms.iter().find(|t| t.0 == x).map_or(Rational::ZERO, |t| t.1.clone());
     let mut basis = vec![];
     for x in symbols {
         // Euclid on the coefficients of x until one row holds it.
@@ -105,15 +106,20 @@ mod tests {
     use super::*;
 
     fn angle(terms: &[(&str, i64, i64)]) -> Angle {
-        Angle::of(terms.iter().fold(Expr::int(0), |s, &(x, n, d)| {
-            s + Expr::from(Rational::new(n, d)) * Expr::symbol(x)
-        }))
+        Angle::of(
+            terms
+                .iter()
+                .fold(Expr::int(0), |s, &(x, n, d)| s + Expr::from(Rational::new(n, d)) * Expr::symbol(x)),
+        )
     }
 
     #[test]
     fn sums_that_occur_become_the_basis() {
-        let (t2, t23, t234) =
-            (angle(&[("q2", 1, 1)]), angle(&[("q2", 1, 1), ("q3", 1, 1)]), angle(&[("q2", 1, 1), ("q3", 1, 1), ("q4", 1, 1)]));
+        let (t2, t23, t234) = (
+            angle(&[("q2", 1, 1)]),
+            angle(&[("q2", 1, 1), ("q3", 1, 1)]),
+            angle(&[("q2", 1, 1), ("q3", 1, 1), ("q4", 1, 1)]),
+        );
         let basis = extend_basis(vec![], &[t234.clone(), t2.clone(), t23.clone()]);
         assert_eq!(basis, [t2, t23, t234]);
         assert_eq!(coordinates(&angle(&[("q3", 1, 1), ("q4", 1, 1)]), &basis), Some(vec![-1, 0, 1]));
@@ -126,7 +132,11 @@ mod tests {
         for angles in [
             vec![angle(&[("x", 2, 1)]), angle(&[("x", 3, 1)])],
             vec![angle(&[("x", 1, 2)]), angle(&[("x", 1, 3)])],
-            vec![angle(&[("x", 1, 1), ("y", 1, 1)]), angle(&[("x", 1, 1), ("y", -1, 1)]), angle(&[("x", 1, 1)])],
+            vec![
+                angle(&[("x", 1, 1), ("y", 1, 1)]),
+                angle(&[("x", 1, 1), ("y", -1, 1)]),
+                angle(&[("x", 1, 1)]),
+            ],
         ] {
             let basis = extend_basis(vec![], &angles);
             assert!(angles.iter().all(|a| coordinates(a, &basis).is_some()), "{basis:?}");

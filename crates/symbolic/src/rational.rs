@@ -38,6 +38,9 @@ impl Rational {
 
     fn from_i128(n: i128, d: i128) -> Self {
         debug_assert!(d != 0);
+        if let (1, Ok(n)) = (d, i64::try_from(n)) {
+            return Rational(Repr::Small(n, 1));
+        }
         let g = gcd(n.unsigned_abs(), d.unsigned_abs()) as i128;
         let (n, d) = if d < 0 { (-(n / g), -(d / g)) } else { (n / g, d / g) };
         match (i64::try_from(n), i64::try_from(d)) {
@@ -189,7 +192,11 @@ impl Rational {
         let fraction = bits & ((1 << 52) - 1);
         let (m, e) = if exponent == 0 { (fraction, -1074) } else { (fraction | (1 << 52), exponent - 1075) };
         let m = BigInt::from_biguint(if x < 0.0 { Sign::Minus } else { Sign::Plus }, m.into());
-        Some(if e >= 0 { Self::from_big(m << e, BigInt::one()) } else { Self::from_big(m, BigInt::one() << -e) })
+        Some(if e >= 0 {
+            Self::from_big(m << e, BigInt::one())
+        } else {
+            Self::from_big(m, BigInt::one() << -e)
+        })
     }
 
     /// The nearest double.
@@ -290,6 +297,7 @@ impl Neg for &Rational {
     type Output = Rational;
     fn neg(self) -> Rational {
         match &self.0 {
+            Repr::Small(n, d) if *n != i64::MIN => Rational(Repr::Small(-n, *d)),
             Repr::Small(n, d) => Rational::from_i128(-(*n as i128), *d as i128),
             Repr::Big(b) => Rational::from_big(-&b.0, b.1.clone()),
         }
@@ -326,9 +334,7 @@ impl Neg for Rational {
 impl Ord for Rational {
     fn cmp(&self, o: &Self) -> Ordering {
         match (&self.0, &o.0) {
-            (&Repr::Small(a, b), &Repr::Small(c, d)) => {
-                (a as i128 * d as i128).cmp(&(c as i128 * b as i128))
-            }
+            (&Repr::Small(a, b), &Repr::Small(c, d)) => (a as i128 * d as i128).cmp(&(c as i128 * b as i128)),
             _ => {
                 let ((a, b), (c, d)) = (self.parts(), o.parts());
                 (a * d).cmp(&(c * b))
@@ -376,7 +382,9 @@ mod tests {
 
     #[test]
     fn decimals_are_read_exactly() {
-        for (text, n, d) in [("0.1519", 1519, 10000), ("-3", -3, 1), (".5", 1, 2), ("1e-3", 1, 1000), ("2.5E2", 250, 1)] {
+        for (text, n, d) in
+            [("0.1519", 1519, 10000), ("-3", -3, 1), (".5", 1, 2), ("1e-3", 1, 1000), ("2.5E2", 250, 1)]
+        {
             assert_eq!(Rational::from_decimal(text), Some(r(n, d)), "{text}");
         }
         for text in ["", ".", "-", "1.2.3", "1e", "e5", "1e999", "0x10", "nan", "1 "] {
@@ -390,7 +398,10 @@ mod tests {
             assert_eq!(Rational::from_f64(x).unwrap().to_f64(), x);
         }
         assert_eq!(Rational::from_decimal("0.1").unwrap().to_f64(), 0.1);
-        assert_eq!(Rational::from_decimal("179769313486231580793e-1").unwrap().to_f64(), 17976931348623158079.3);
+        assert_eq!(
+            Rational::from_decimal("179769313486231580793e-1").unwrap().to_f64(),
+            17976931348623158079.3
+        );
     }
 
     #[test]

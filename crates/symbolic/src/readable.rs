@@ -4,7 +4,6 @@
 //! occurs, C·A + S·B + R, then each part in turn. Other orders are tried; the cost is the number of literals
 //! printed. [`simplify`] also looks for angle sums that shorten the formula (C2C3 − S2S3 becomes C23).
 
-use crate::angle::Angle;
 use crate::expr::{Expr, Symbol};
 use crate::poly::{Atom, Monomial, Poly};
 use crate::rational::Rational;
@@ -77,7 +76,11 @@ pub fn simplify_in(ring: &mut Ring, e: Expr) -> Result<Simplified, Refusal> {
     let expr = show(ring, &form.num) / den;
     // A form that is not proved equal is not shown.
     let check = ring.normal(expr - e)?;
-    if check.num.is_zero() { Ok(Simplified { expr, conditions }) } else { Ok(Simplified { expr: e, conditions }) }
+    if check.num.is_zero() {
+        Ok(Simplified { expr, conditions })
+    } else {
+        Ok(Simplified { expr: e, conditions })
+    }
 }
 
 /// A polynomial of the ring in readable form.
@@ -99,7 +102,7 @@ pub fn show(ring: &Ring, p: &Poly) -> Expr {
 }
 
 /// How many sub-polynomials may be shown in other orders than along the chain.
-const ALTERNATIVES: u32 = 400;
+const ALTERNATIVES: u32 = 60;
 
 /// The polynomial with C^(2k+e) replaced by (1 − S²)^k C^e.
 fn in_sines(p: &Poly, cos: Atom, sin: Atom) -> Poly {
@@ -145,8 +148,8 @@ struct Form {
     expr: Expr,
     /// Literals printed.
     cost: u32,
-    /// Contains a sine or cosine.
-    moves: bool,
+    /// The first angle along the chain whose sine or cosine occurs; `None` sorts before all of them.
+    first: Option<usize>,
 }
 
 /// What a polynomial can be split at.
@@ -166,7 +169,7 @@ impl Collector<'_> {
     /// A polynomial: its common monomial times a sum.
     fn form(&mut self, p: &Poly) -> Form {
         if p.is_zero() {
-            return Form { expr: Expr::int(0), cost: 0, moves: false };
+            return Form { expr: Expr::int(0), cost: 0, first: None };
         }
         let content = p.monomial_content();
         let rest = p.over(&content);
@@ -180,11 +183,11 @@ impl Collector<'_> {
             product = Form {
                 expr: product.expr * sum.expr,
                 cost: product.cost + sum.cost,
-                moves: product.moves || sum.moves,
+                first: earlier(product.first, sum.first),
             };
         }
         let cost = product.cost + u32::from(!number.abs().is_one() && !product.expr.is_one());
-        Form { expr: Expr::from(number) * product.expr, cost: cost.max(1), moves: product.moves }
+        Form { expr: Expr::from(number) * product.expr, cost: cost.max(1), first: product.first }
     }
 
     /// Numbers, then symbols, then sines and cosines along the chain.
@@ -197,22 +200,24 @@ impl Collector<'_> {
         };
         let mut factors = m.factors().to_vec();
         factors.sort_by_key(|f| rank(f.0));
-        let expr =
-            factors.iter().fold(Expr::int(1), |x, &(a, e)| x * self.ring.atom_expr(a).powi(e.into()));
-        let moves = factors.iter().any(|f| rank(f.0).0 == 3);
-        Form { expr, cost: factors.iter().map(|f| u32::from(f.1.min(3))).sum(), moves }
+        let expr = factors.iter().fold(Expr::int(1), |x, &(a, e)| x * self.ring.atom_expr(a).powi(e.into()));
+        let first = factors.iter().map(|f| rank(f.0)).find(|r| r.0 == 3).map(|r| r.1);
+        Form { expr, cost: factors.iter().map(|f| u32::from(f.1.min(3))).sum(), first }
     }
 
     /// Signed addends in the order in which they are written. True stands for minus.
     fn sum(&self, pieces: &[(bool, Form)]) -> (bool, Form) {
         let all_negative = pieces.iter().all(|p| p.0);
         let mut order: Vec<&(bool, Form)> = pieces.iter().collect();
-        order.sort_by_key(|(negative, f)| (*negative && !all_negative, f.moves, std::cmp::Reverse(f.cost)));
+        order.sort_by_key(|(negative, f)| {
+            (*negative && !all_negative, f.first.is_some(), std::cmp::Reverse(f.cost), f.first)
+        });
         let expr = order.iter().fold(Expr::int(0), |sum, (negative, f)| {
             if *negative && !all_negative { sum - f.expr } else { sum + f.expr }
         });
         let cost = order.iter().map(|p| p.1.cost).sum();
-        (all_negative, Form { expr, cost, moves: order.iter().any(|p| p.1.moves) })
+        let first = order.iter().fold(None, |a, p| earlier(a, p.1.first));
+        (all_negative, Form { expr, cost, first })
     }
 
     /// The addends of a polynomial without common factor, by the cheapest split found.
@@ -304,6 +309,11 @@ impl Collector<'_> {
     }
 }
 
+/// The earlier of two angles, if any.
+fn earlier(a: Option<usize>, b: Option<usize>) -> Option<usize> {
+    a.into_iter().chain(b).min()
+}
+
 fn leads_negative(e: Expr) -> bool {
     use crate::expr::Node;
     match e.node() {
@@ -321,11 +331,6 @@ fn common_number(p: &Poly) -> Rational {
         Some(first) if sizes.all(|r| r == first) => first,
         _ => Rational::ONE,
     }
-}
-
-/// The basis in which an expression is shown, for callers that want to show several alike.
-pub fn merged_basis(exprs: &[Expr]) -> Vec<Angle> {
-    Ring::new(exprs, &[]).basis().to_vec()
 }
 
 #[cfg(test)]

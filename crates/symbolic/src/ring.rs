@@ -49,7 +49,9 @@ impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Refusal::TooLarge => "the expansion is too large to decide",
-            Refusal::Undefined => "a denominator is identically zero, or a root is taken of a negative number",
+            Refusal::Undefined => {
+                "a denominator is identically zero, or a root is taken of a negative number"
+            }
             Refusal::OutsideBasis => "an angle is no whole multiple of the angles the formula is built on",
         })
     }
@@ -161,7 +163,8 @@ impl Ring {
     fn generator(&mut self, angle: Angle) -> usize {
         let number = self.generators.len();
         let cos = self.atom(AtomKind::Cos(number), None);
-        let square = Poly::from_terms([(Monomial::power(cos, 2), -Rational::ONE), (Monomial::one(), Rational::ONE)]);
+        let square =
+            Poly::from_terms([(Monomial::power(cos, 2), -Rational::ONE), (Monomial::one(), Rational::ONE)]);
         let sin = self.atom(AtomKind::Sin(number), Some(square));
         if !angle.is_constant() {
             self.basis.push(angle.clone());
@@ -357,7 +360,8 @@ impl Ring {
 
     /// Sine and cosine of an angle, expanded over the generators.
     fn sin_cos(&mut self, angle: &Angle) -> Result<(Fraction, Fraction), Refusal> {
-        let numbers = lattice::coordinates(&symbolic_part(angle), &self.basis).ok_or(Refusal::OutsideBasis)?;
+        let numbers =
+            lattice::coordinates(&symbolic_part(angle), &self.basis).ok_or(Refusal::OutsideBasis)?;
         let mut rest = angle.clone();
         let mut sum: (Fraction, Fraction) = (Poly::zero().into(), Poly::one().into());
         let of_basis: Vec<usize> =
@@ -459,10 +463,8 @@ impl Ring {
     /// A polynomial as a plain sum of products (for a form to read, see [`readable`](crate::readable)).
     pub fn poly_expr(&self, p: &Poly) -> Expr {
         p.terms().iter().fold(Expr::int(0), |sum, (m, r)| {
-            let product = m
-                .factors()
-                .iter()
-                .fold(Expr::int(1), |x, &(a, e)| x * self.atom_expr(a).powi(e.into()));
+            let product =
+                m.factors().iter().fold(Expr::int(1), |x, &(a, e)| x * self.atom_expr(a).powi(e.into()));
             sum + Expr::from(r.clone()) * product
         })
     }
@@ -476,8 +478,5 @@ impl Ring {
 /// The angle without arctangents, which have a sine and cosine of their own.
 fn symbolic_part(angle: &Angle) -> Angle {
     let keeps = |e: Expr, k: &Rational| !matches!(e.node(), Node::Atan2(..)) || !k.is_integer();
-    Angle {
-        terms: angle.terms.iter().filter(|(e, k)| keeps(*e, k)).cloned().collect(),
-        ..angle.clone()
-    }
+    Angle { terms: angle.terms.iter().filter(|(e, k)| keeps(*e, k)).cloned().collect(), ..angle.clone() }
 }

@@ -70,7 +70,11 @@ impl Request {
             Some("all") => (0..=last).collect(),
             Some(text) => match text.parse::<usize>() {
                 Ok(n) if n <= last => vec![n],
-                _ => return Err(Failure::Usage(format!("--frames {text}: `all`, or a number from 0 to {last}"))),
+                _ => {
+                    return Err(Failure::Usage(format!(
+                        "--frames {text}: `all`, or a number from 0 to {last}"
+                    )));
+                }
             },
         };
         let set = arguments.orientation.as_deref().map(str::parse::<OrientationSet>).transpose();
@@ -181,8 +185,12 @@ fn answer(d: &Description, robot: &Robot<f64>, request: &Request, q: &[f64]) -> 
 
 /// The answer for reading.
 fn report(d: &Description, robot: &Robot<f64>, request: &Request, q: &[f64]) -> String {
-    let at: Vec<String> =
-        d.variables().iter().zip(q).map(|(v, &x)| format!("{} = {}", v.symbol.name(), reading(x, v.kind))).collect();
+    let at: Vec<String> = d
+        .variables()
+        .iter()
+        .zip(q)
+        .map(|(v, &x)| format!("{} = {}", v.symbol.name(), reading(x, v.kind)))
+        .collect();
     let mut text = format!("{} at {}\n\n", styled(&d.name, HEADING), at.join(", "));
     let frames = robot.frames(q);
     let size = frames.iter().map(|x| x.translation.norm()).fold(1.0, f64::max);
@@ -250,7 +258,10 @@ fn stream(d: &Description, robot: &Robot<f64>, request: &Request, path: &Path) -
     out.flush()?;
     match bad {
         0 => Ok(()),
-        n => Err(Failure::Input(format!("error: {named}: {n} line{} could not be read", if n == 1 { "" } else { "s" }))),
+        n => Err(Failure::Input(format!(
+            "error: {named}: {n} line{} could not be read",
+            if n == 1 { "" } else { "s" }
+        ))),
     }
 }
 

@@ -175,7 +175,8 @@ fn structure(d: &Description) -> String {
         text += &format!("  axes {} and {} {relation}\n", k + 1, k + 2);
     }
     for &first in &s.spherical {
-        text += &format!("  axes {}, {}, {} meet in one point: a spherical wrist\n", first, first + 1, first + 2);
+        text +=
+            &format!("  axes {}, {}, {} meet in one point: a spherical wrist\n", first, first + 1, first + 2);
     }
     for near in &s.nearly {
         let unit = if near.is_angle { "rad" } else { "m" };

@@ -167,6 +167,10 @@ fn suspicious_number(x: f64, span: &Range<usize>, quantity: Quantity, hint: &str
         Quantity::Length if x.abs() > 20.0 => (format!("{x} m is a long way for a robot"), "mm"),
         _ => return,
     };
-    let hint = if hint.is_empty() { format!("a number without unit is SI; write `{x} {unit}` if that is meant") } else { hint.into() };
+    let hint = if hint.is_empty() {
+        format!("a number without unit is SI; write `{x} {unit}` if that is meant")
+    } else {
+        hint.into()
+    };
     out.warning(span.clone(), what).hint(hint);
 }

@@ -41,7 +41,9 @@ impl FromStr for Outputs {
                 "position" | "p" => outputs.position = true,
                 "all" => outputs = Outputs::ALL,
                 other => {
-                    return Err(format!("unknown part `{other}`; known are x, y, z, orientation, position, all"));
+                    return Err(format!(
+                        "unknown part `{other}`; known are x, y, z, orientation, position, all"
+                    ));
                 }
             }
         }
@@ -75,7 +77,7 @@ const AXES: [char; 3] = ['x', 'y', 'z'];
 /// Factors up to which every combination of splits is tried.
 const MAX_FACTORS_FOR_ALL_SPLITS: usize = 8;
 /// Candidates for the orientation for which the displacements are placed as well.
-const ORIENTATIONS_TRIED: usize = 24;
+const ORIENTATIONS_TRIED: usize = 12;
 /// Placements of displacements tried for one orientation.
 const PLACEMENTS_TRIED: usize = 400;
 
@@ -128,12 +130,10 @@ pub(super) fn shortest(
             best = Some((orientation.cost, orientation, own.clone()));
             continue;
         }
-        let starts = [Some(own.clone()), best.as_ref().map(|b| b.2.clone())];
-        for start in starts.into_iter().flatten() {
-            let (cost, placement) = search.place(&orientation, start);
-            if best.as_ref().is_none_or(|b| cost < b.0) {
-                best = Some((cost, orientation.clone(), placement));
-            }
+        let start = best.as_ref().map_or_else(|| own.clone(), |b| b.2.clone());
+        let (cost, placement) = search.place(&orientation, start);
+        if best.as_ref().is_none_or(|b| cost < b.0) {
+            best = Some((cost, orientation, placement));
         }
     }
     let (orientation, placement) = match best {
@@ -145,16 +145,19 @@ pub(super) fn shortest(
 
 impl<'a, F: Fn(Symbol) -> Stage> Search<'a, F> {
     fn new(mut graph: Graph<F>, chain: &'a Chain, variables: &'a [Symbol]) -> Self {
-        let factors: Vec<[Vector3; 3]> = chain
-            .factors
-            .iter()
-            .map(|r| r.rows().map(|row| row.map(|e| graph.trace(e))))
-            .collect();
-        let unit = [0, 1, 2].map(|i| {
-            [0, 1, 2].map(|j| graph.trace(Expr::int(i64::from(i == j))))
-        });
-        let mut search =
-            Search { graph, chain, variables, factors, carried: FxHashMap::default(), prefixes: vec![unit], tails: vec![], sums: FxHashMap::default() };
+        let factors: Vec<[Vector3; 3]> =
+            chain.factors.iter().map(|r| r.rows().map(|row| row.map(|e| graph.trace(e)))).collect();
+        let unit = [0, 1, 2].map(|i| [0, 1, 2].map(|j| graph.trace(Expr::int(i64::from(i == j)))));
+        let mut search = Search {
+            graph,
+            chain,
+            variables,
+            factors,
+            carried: FxHashMap::default(),
+            prefixes: vec![unit],
+            tails: vec![],
+            sums: FxHashMap::default(),
+        };
         let m = search.factors.len();
         for k in 0..m {
             let (prefix, factor) = (search.prefixes[k], search.factors[k]);
@@ -349,7 +352,8 @@ impl<'a, F: Fn(Symbol) -> Stage> Search<'a, F> {
         for &i in &key.1 {
             let direction = self.carried(i, frame);
             let length = self.chain.items[i].length;
-            let opposite = direction.map(|v| if self.graph.as_number(v).is_some_and(|r| r.is_zero()) { v } else { -v });
+            let opposite =
+                direction.map(|v| if self.graph.as_number(v).is_some_and(|r| r.is_zero()) { v } else { -v });
             if let Some(same) = sums.iter_mut().find(|s| s.0 == direction) {
                 same.1.push(length);
             } else if let Some(reversed) = sums.iter_mut().find(|s| s.0 == opposite) {

@@ -47,7 +47,10 @@ impl ForwardModel {
         let order = |r: Reference| (place(r), r == Reference::Tool);
         let (first, last) = if order(from) <= order(to) { (from, to) } else { (to, from) };
         let inverted = first != from;
-        let (base, tool) = (first == Reference::Base && last != Reference::Base, last == Reference::Tool && first != Reference::Tool);
+        let (base, tool) = (
+            first == Reference::Base && last != Reference::Base,
+            last == Reference::Tool && first != Reference::Tool,
+        );
         let chain = Chain::new(description, place(first).0, place(last).0, base, tool);
 
         // The definition: the plain product of the table's own link transforms.
@@ -133,9 +136,13 @@ fn prove(ring: &mut Ring, program: &Program, wanted: &Transform<Expr>) -> Proof 
 }
 
 /// The entries as they stand, common parts shared.
-fn traced(rows: &[[Expr; 4]; 4], variables: &[Symbol], outputs: Outputs, taken: &FxHashSet<String>) -> Program {
-    let mut graph =
-        Graph::new(|s| if variables.contains(&s) { Stage::Variable } else { Stage::Parameter });
+fn traced(
+    rows: &[[Expr; 4]; 4],
+    variables: &[Symbol],
+    outputs: Outputs,
+    taken: &FxHashSet<String>,
+) -> Program {
+    let mut graph = Graph::new(|s| if variables.contains(&s) { Stage::Variable } else { Stage::Parameter });
     let mut results = vec![];
     for c in 0..4 {
         if (c < 3 && outputs.columns[c]) || (c == 3 && outputs.position) {

@@ -44,12 +44,16 @@ pub fn document(d: &Derivation) -> String {
 }
 
 fn formula(left: &str, right: &str) -> String {
-    format!("<div class=\"formula\"><math display=\"block\"><mrow>{left}<mo>=</mo>{right}</mrow></math></div>\n")
+    format!(
+        "<div class=\"formula\"><math display=\"block\"><mrow>{left}<mo>=</mo>{right}</mrow></math></div>\n"
+    )
 }
 
 fn frame_label(from: &str, to: &str) -> String {
     let (from, to) = (escaped(from), escaped(to));
-    format!("<mmultiscripts><mi>T</mi><mtext>{to}</mtext><none/><mprescripts/><none/><mtext>{from}</mtext></mmultiscripts>")
+    format!(
+        "<mmultiscripts><mi>T</mi><mtext>{to}</mtext><none/><mprescripts/><none/><mtext>{from}</mtext></mmultiscripts>"
+    )
 }
 
 fn matrix(d: &Derivation, rows: &[[Expr; 4]; 4]) -> String {

@@ -13,9 +13,12 @@ pub fn document(d: &Derivation) -> String {
     let rows = |m: &[[Expr; 4]; 4]| -> Value { m.iter().map(|row| row.map(text).to_vec()).collect() };
     let plain = |e: Expr| print(e, &Vocabulary::new(), Style::Ascii);
     let trigonometry = d.trigonometry().into_iter();
-    let mut steps: Vec<Value> =
-        trigonometry.map(|(name, value)| json!({"name": plain(name), "value": plain(value)})).collect();
-    steps.extend(d.steps.iter().map(|s| json!({"name": s.name, "value": text(s.value), "output": s.is_output})));
+    let mut steps: Vec<Value> = trigonometry
+        .map(|(name, value)| json!({"name": name, "value": plain(value), "output": false}))
+        .collect();
+    steps.extend(
+        d.steps.iter().map(|s| json!({"name": s.name, "value": text(s.value), "output": s.is_output})),
+    );
     let count = d.model.algorithm.count();
     let [from, to] = d.frames();
     let variables = d.description.variables();

@@ -9,11 +9,13 @@ use std::fmt::Write;
 /// A fragment to paste into a document.
 pub fn document(d: &Derivation) -> String {
     let mut text = format!("% Made by denavit {}; needs amsmath.\n", env!("CARGO_PKG_VERSION"));
-    let _ = writeln!(text, "\\section*{{{}}}\n\\subsection*{{Link transforms}}", escaped(&d.description.name));
+    let _ =
+        writeln!(text, "\\section*{{{}}}\n\\subsection*{{Link transforms}}", escaped(&d.description.name));
     for (i, link) in d.links.iter().enumerate() {
         let _ = writeln!(text, "\\[ {{}}^{{{i}}}T_{{{}}} = {} \\]", i + 1, matrix(d, link));
     }
-    let [from, to] = d.frames().map(|f| if f.parse::<usize>().is_ok() { f } else { format!("\\mathrm{{{f}}}") });
+    let [from, to] =
+        d.frames().map(|f| if f.parse::<usize>().is_ok() { f } else { format!("\\mathrm{{{f}}}") });
     let _ = writeln!(text, "\\subsection*{{Forward model ${{}}^{{{from}}}T_{{{to}}}$}}");
     if let Ok(rows) = &d.model.matrix {
         let mut entries = vec![];
@@ -29,11 +31,18 @@ pub fn document(d: &Derivation) -> String {
     let trigonometry = d.trigonometry().into_iter().map(|(_, e)| {
         format!("{} &= {}", d.text(e, Style::Latex), print(e, &Vocabulary::new(), Style::Latex))
     });
-    let steps =
-        d.steps.iter().map(|s| format!("{} &= {}", print_symbol(&s.name, Style::Latex), d.text(s.value, Style::Latex)));
+    let steps = d
+        .steps
+        .iter()
+        .map(|s| format!("{} &= {}", print_symbol(&s.name, Style::Latex), d.text(s.value, Style::Latex)));
     let lines: Vec<String> = trigonometry.chain(steps).collect();
     let _ = writeln!(text, "\\begin{{align*}}\n{}\n\\end{{align*}}", lines.join(" \\\\\n"));
-    let _ = writeln!(text, "{}; {}.", escaped(&d.model.algorithm.count().to_string()), escaped(&d.model.proof.to_string()));
+    let _ = writeln!(
+        text,
+        "{}; {}.",
+        escaped(&d.model.algorithm.count().to_string()),
+        escaped(&d.model.proof.to_string())
+    );
     text
 }
 

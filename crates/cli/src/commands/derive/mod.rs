@@ -40,7 +40,8 @@ pub fn run(arguments: &DeriveArguments) -> Result<(), Failure> {
 pub fn matrix_only(robot: &RobotArguments, format: Format) -> Result<(), Failure> {
     let description = load::robot(robot)?;
     let derivation = Derivation::new(&description, Reference::Base, Reference::Tool, Outputs::ALL);
-    let text = if format == Format::Json { derivation.printed(format) } else { terminal::forward(&derivation) };
+    let text =
+        if format == Format::Json { derivation.printed(format) } else { terminal::forward(&derivation) };
     write!(anstream::stdout(), "{text}")?;
     Ok(())
 }
@@ -87,13 +88,15 @@ impl<'a> Derivation<'a> {
         print(e, &self.names, style)
     }
 
-    /// `C23` and `cos(q2 + q3)` for each sine and cosine that the algorithm takes and that has a short name.
-    fn trigonometry(&self) -> Vec<(Expr, Expr)> {
-        let plain = |e: Expr| print(e, &Vocabulary::new(), Style::Ascii);
-        let all = self.model.algorithm.sines_and_cosines().into_iter();
-        all.filter(|&e| self.text(e, Style::Ascii) != plain(e))
-            .map(|e| (Expr::symbol(&self.text(e, Style::Ascii)), e))
-            .collect()
+    /// Name and value, `C23` and cos(q2 + q3), of each sine and cosine that the algorithm takes and that has a
+    /// short name; along the chain, cosine first.
+    fn trigonometry(&self) -> Vec<(String, Expr)> {
+        let taken = self.model.algorithm.sines_and_cosines().into_iter();
+        let named = taken.map(|e| (self.text(e, Style::Ascii), e));
+        let mut named: Vec<(String, Expr)> =
+            named.filter(|(name, e)| *name != print(*e, &Vocabulary::new(), Style::Ascii)).collect();
+        named.sort_by(|a, b| (&a.0[1..], &a.0).cmp(&(&b.0[1..], &b.0)));
+        named
     }
 
     /// The names of the two frames: `0` and `6`, or `base` and `tool` where those differ from them.

@@ -2,9 +2,7 @@
 
 use super::Derivation;
 use crate::commands::show::{dh_table, title};
-use crate::terminal::{
-    Align, FAINT, HEADING, NAME, lowered, matrix, matrix_width, raised, styled,
-};
+use crate::terminal::{Align, FAINT, HEADING, NAME, lowered, matrix, matrix_width, raised, styled};
 use denavit_program::COUNTING_RULE;
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::{Style, print};
@@ -66,11 +64,9 @@ fn algorithm(d: &Derivation) -> String {
     let mut text = format!("{}\n\n", styled("Algorithm", HEADING));
     let plain = |e: Expr| print(e, &Vocabulary::new(), Style::Unicode);
     let trigonometry = d.trigonometry();
-    for pair in trigonometry.chunks(2) {
-        let line: Vec<String> = pair
-            .iter()
-            .map(|(name, value)| format!("{} = {}", styled(&plain(*name), NAME), plain(*value)))
-            .collect();
+    for of_one_angle in trigonometry.chunk_by(|a, b| a.0[1..] == b.0[1..]) {
+        let line: Vec<String> =
+            of_one_angle.iter().map(|(name, value)| format!("{name} = {}", plain(*value))).collect();
         let _ = writeln!(text, "  {}", line.join(",  "));
     }
     for step in &d.steps {

@@ -27,8 +27,10 @@ pub fn document(d: &Derivation) -> String {
     let trigonometry = d.trigonometry().into_iter().map(|(_, e)| {
         format!("{} &= {}", d.text(e, Style::Typst), print(e, &Vocabulary::new(), Style::Typst))
     });
-    let steps =
-        d.steps.iter().map(|s| format!("{} &= {}", print_symbol(&s.name, Style::Typst), d.text(s.value, Style::Typst)));
+    let steps = d
+        .steps
+        .iter()
+        .map(|s| format!("{} &= {}", print_symbol(&s.name, Style::Typst), d.text(s.value, Style::Typst)));
     let lines: Vec<String> = trigonometry.chain(steps).collect();
     let _ = writeln!(text, "== Algorithm\n\n$ {} $\n", lines.join(" \\\n  "));
     let _ = writeln!(text, "#{}", quoted(&format!("{}; {}.", d.model.algorithm.count(), d.model.proof)));

@@ -18,10 +18,15 @@ pub(super) enum Joint {
 /// The joint of each row.
 pub(super) fn joints(rows: &[ReadRow], convention: Convention, out: &mut Diagnostics) -> Vec<Joint> {
     let starred = rows.iter().any(|r| r.theta.star || r.z.star);
-    rows.iter().map(|row| joint(row, convention.length_z(), starred, out).unwrap_or(Joint::Fixed)).collect()
+    let mut joints: Vec<Joint> = vec![];
+    for row in rows {
+        let found = joint(row, convention.length_z(), starred, &joints, out);
+        joints.push(found.unwrap_or(Joint::Fixed));
+    }
+    joints
 }
 
-fn joint(row: &ReadRow, z: &str, starred: bool, out: &mut Diagnostics) -> Option<Joint> {
+fn joint(row: &ReadRow, z: &str, starred: bool, above: &[Joint], out: &mut Diagnostics) -> Option<Joint> {
     if let Some(sigma) = row.source(Role::Sigma) {
         let kind = match sigma.text.trim_matches(['$', ' ', '*']).to_lowercase().as_str() {
             "0" | "r" | "rev" | "revolute" | "rotoïde" | "rotoide" | "rot" | "rotary" | "rotational" => {
@@ -38,7 +43,7 @@ fn joint(row: &ReadRow, z: &str, starred: bool, out: &mut Diagnostics) -> Option
             }
         };
         let (cell, name) = if kind == JointKind::Revolute { (&row.theta, "theta") } else { (&row.z, z) };
-        if let Some(symbol) = the_variable(cell, row) {
+        if let Some(symbol) = the_variable(cell, row, above) {
             return Some(Joint::Moves(kind, symbol));
         }
         let (span, number) = (cell.cell.span.clone(), row.number);
@@ -72,7 +77,7 @@ fn joint(row: &ReadRow, z: &str, starred: bool, out: &mut Diagnostics) -> Option
     if starred {
         let cells = [(&row.theta, JointKind::Revolute), (&row.z, JointKind::Prismatic)];
         let (cell, kind) = cells.into_iter().find(|c| c.0.star)?;
-        let symbol = the_variable(cell, row);
+        let symbol = the_variable(cell, row, above);
         if symbol.is_none() {
             out.error(cell.cell.span.clone(), "which symbol of this cell is the variable?")
                 .hint(format!("write it as q{}", row.number));
@@ -91,15 +96,18 @@ fn joint(row: &ReadRow, z: &str, starred: bool, out: &mut Diagnostics) -> Option
 }
 
 /// The variable in a cell that is known to hold one: `Some(None)` for a cell that only says so.
-fn the_variable(cell: &TableCell, row: &ReadRow) -> Option<Option<String>> {
+fn the_variable(cell: &TableCell, row: &ReadRow, above: &[Joint]) -> Option<Option<String>> {
     if cell.marker {
         return Some(None);
     }
-    if let Some(own) = own_symbol(cell, row.number, &["q", "theta", "t", "th", "d", "r"]) {
+    if let Some(own) = own_symbol(cell, row.number, &["q", "theta", "t", "th", "d", "r", "var"]) {
         return Some(Some(own));
     }
-    match cell.cell.symbols.as_slice() {
-        [only] => Some(Some(only.0.clone())),
+    let moved = |name: &str| above.iter().any(|j| matches!(j, Joint::Moves(_, Some(n)) if n == name));
+    let mut new = cell.cell.symbols.iter().map(|s| &s.0).filter(|n| !moved(n));
+    match (new.next(), new.next()) {
+        (Some(only), None) => Some(Some(only.clone())),
+        (None, _) if cell.cell.symbols.len() == 1 => Some(Some(cell.cell.symbols[0].0.clone())), // said of two rows
         _ => None,
     }
 }

@@ -14,6 +14,7 @@ use crate::description::units::{Quantity, Unit, unit_named};
 use crate::description::{Description, JointKind, Row, suspicious_number};
 use crate::geometry::Transform;
 use denavit_symbolic::{Angle, Expr, Symbol};
+use rustc_hash::FxHashSet;
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -319,6 +320,7 @@ fn read_table_cell(cell: &GridCell, style: &Style, out: &mut Diagnostics) -> Tab
     let place = Place { span: cell.span.clone(), start: Some(cell.span.start) };
     if let Some(value) = read_cell(text, &place, style, out) {
         found.cell = Cell { expr: value.expr, span: cell.span.clone(), symbols: value.symbols };
+        found.star |= found.cell.symbols.iter().any(|s| s.0 == "var");
         found.bare = value.bare;
     }
     found
@@ -326,8 +328,8 @@ fn read_table_cell(cell: &GridCell, style: &Style, out: &mut Diagnostics) -> Tab
 
 /// Calls the variables q1, q2, … wherever they occur.
 fn rename(read: &mut [ReadRow], joints: &[Joint], units: &BareUnits, out: &mut Diagnostics) {
-    let undecided = out.has_errors(); // then a name may be the variable that was not found
     let mut names: Vec<(String, String)> = vec![];
+    let mut seen: FxHashSet<&str> = FxHashSet::default();
     let mut count = 0;
     for (row, joint) in read.iter_mut().zip(joints) {
         let Joint::Moves(kind, symbol) = joint else { continue };
@@ -337,35 +339,39 @@ fn rename(read: &mut [ReadRow], joints: &[Joint], units: &BareUnits, out: &mut D
         let style = units.style(quantity, row.unit(Role::Offset, quantity));
         let offset = row.source(Role::Offset).map(|c| read_table_cell(c, &style, out).cell);
         let cell = if *kind == JointKind::Revolute { &mut row.theta.cell } else { &mut row.z.cell };
+        let owners =
+            |name: &str| joints.iter().filter(|j| matches!(j, Joint::Moves(_, Some(n)) if n == name)).count();
+        // a name that no cell can hold stands for what has none, or one that other rows use for theirs
+        let placeholder = format!("variable of row {}", row.number);
         match symbol {
             None => {
-                cell.expr = cell.expr + Expr::symbol(&q);
-                cell.symbols.push((q, cell.span.clone()));
+                cell.expr = cell.expr + Expr::symbol(&placeholder);
+                cell.symbols.push((placeholder.clone(), cell.span.clone()));
+                names.push((placeholder, q));
             }
-            // a variable without index is this row's own
-            Some(name) if !name.ends_with(|c: char| c.is_ascii_digit()) => {
-                replace(cell, &[(name.clone(), q)]);
+            Some(name) if owners(name) == 1 => names.push((name.clone(), q)),
+            Some(name) => {
+                if name.ends_with(|c: char| c.is_ascii_digit()) && !seen.insert(name) {
+                    out.error(cell.span.clone(), format!("`{name}` is the variable of two rows"));
+                }
+                replace(cell, &[(name.clone(), placeholder.clone())]);
+                names.push((placeholder, q));
             }
-            Some(name) if names.iter().any(|n| n.0 == *name) => {
-                out.error(cell.span.clone(), format!("`{name}` is the variable of two rows"));
-            }
-            Some(name) => names.push((name.clone(), q)),
         }
         if let Some(offset) = offset {
             cell.expr = cell.expr + offset.expr;
             cell.symbols.extend(offset.symbols);
         }
     }
-    let numbers: Vec<String> = (1..=count).map(|i| format!("q{i}")).collect();
+    let undecided = out.has_errors(); // then a name may be the variable that was not found
     for row in read.iter_mut() {
         for cell in row.cells_mut() {
-            let stray = cell.cell.symbols.iter().find(|(name, _)| {
-                variable_number(name).is_some()
-                    && !names.iter().any(|n| n.0 == *name)
-                    && !numbers.contains(name)
-            });
-            if let Some((name, span)) = stray.filter(|_| !undecided) {
-                out.error(span.clone(), format!("`{name}` is not the variable of any row"));
+            let known = |name: &String| variable_number(name).is_none() || names.iter().any(|n| n.0 == *name);
+            if !undecided {
+                for (name, span) in cell.cell.symbols.iter().filter(|s| !known(&s.0)) {
+                    out.error(span.clone(), format!("`{name}` is not the variable of any row"));
+                }
+                cell.cell.symbols.retain(|s| known(&s.0));
             }
             replace(&mut cell.cell, &names);
         }
