@@ -4,9 +4,9 @@ use crate::graph::{Op, Stage};
 use std::fmt;
 
 /// How operations are counted.
-pub const COUNTING_RULE: &str = "a multiplication or addition of two values that depend on a joint variable or a parameter; \
+pub const COUNTING_RULE: &str = "a multiplication or addition of two values that depend on a variable or a parameter; \
 signs are free; angle sums are additions; a sine and cosine of one angle are one pair; \
-a constant added to a joint variable as it comes in (its offset) and what depends on parameters alone are counted apart";
+a constant added to a variable as it comes in (its offset) and what depends on parameters alone are counted apart";
 
 /// Operations of a program.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -23,7 +23,7 @@ pub struct Count {
     pub roots: u32,
     /// Arctangents.
     pub arctangents: u32,
-    /// Additions of a constant to a variable as it comes in, such as the offset of a sliding joint.
+    /// Additions of a constant to a variable as it comes in, such as the offset of a slide.
     pub offsets: u32,
     /// Operations on parameters alone, hoisted out of the evaluation.
     pub hoisted: u32,
@@ -91,10 +91,10 @@ impl fmt::Display for Count {
         }
         let apart = match (self.offsets, self.hoisted) {
             (0, 0) => return Ok(()),
-            (n, 0) => plural(n, "joint offset"),
+            (n, 0) => plural(n, "variable offset"),
             (0, n) => format!("{} on parameters alone", plural(n, "operation")),
             (n, m) => {
-                format!("{}, {} on parameters alone", plural(n, "joint offset"), plural(m, "operation"))
+                format!("{}, {} on parameters alone", plural(n, "variable offset"), plural(m, "operation"))
             }
         };
         write!(f, "; apart: {apart}")

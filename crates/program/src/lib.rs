@@ -4,7 +4,7 @@
 //! - [`Program`]: the nodes that chosen outputs need, in order, with names for the shared ones.
 //! - [`Count`]: what a program costs.
 //!
-//! This crate knows no robots.
+//! This crate knows formulas, not where they come from.
 
 mod count;
 mod graph;

@@ -24,6 +24,10 @@ pub enum Relation {
     Perpendicular,
     /// Neither parallel nor meeting.
     Skew,
+    /// At a right angle; one of the two slides, which has a direction but no place.
+    PerpendicularDirections,
+    /// Neither parallel nor perpendicular; one of the two slides.
+    ObliqueDirections,
 }
 
 impl Relation {
@@ -32,8 +36,8 @@ impl Relation {
         match self {
             Relation::Coincident => "≡",
             Relation::Parallel => "∥",
-            Relation::MeetPerpendicular | Relation::Perpendicular => "⟂",
-            Relation::Meet | Relation::Skew => "∠",
+            Relation::MeetPerpendicular | Relation::Perpendicular | Relation::PerpendicularDirections => "⟂",
+            Relation::Meet | Relation::Skew | Relation::ObliqueDirections => "∠",
         }
     }
 }
@@ -47,6 +51,8 @@ impl fmt::Display for Relation {
             Relation::Meet => "meet",
             Relation::Perpendicular => "are perpendicular, at a distance",
             Relation::Skew => "are skew",
+            Relation::PerpendicularDirections => "are perpendicular",
+            Relation::ObliqueDirections => "are oblique",
         })
     }
 }
@@ -185,6 +191,8 @@ fn relate(x: &Transform<Expr>, sliding: bool) -> (Relation, Option<(Expr, Expr)>
     // The common normal has the length p·(e_z × z) / |e_z × z|.
     let meets = !sliding && is_zero(p[1] * z[0] - p[0] * z[1]);
     let relation = match (meets, perpendicular) {
+        _ if sliding && perpendicular => Relation::PerpendicularDirections,
+        _ if sliding => Relation::ObliqueDirections,
         (true, true) => Relation::MeetPerpendicular,
         (true, false) => Relation::Meet,
         (false, true) => Relation::Perpendicular,

@@ -62,7 +62,7 @@ fn with_values(d: &Description) -> Description {
 
 #[test]
 fn the_tables_of_the_documents() {
-    // As they stand in /work/shared/sources, the slips of the scan included.
+    // As they stand in the documents, the slips of the scan included.
     let khalil = told(Convention::Khalil);
     check_table(
         &table(include_str!("tables/staubli-rx90.md"), TableKind::Markdown, &khalil),

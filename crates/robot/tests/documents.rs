@@ -150,7 +150,8 @@ fn inverse(words: &str) -> Matrix {
     let (original, candidate) = (property(words), property(&format!("{kind} {to} {from}")));
     for (r, row) in original.iter().enumerate() {
         for c in 0..row.len() {
-            let entry = (0..row.len()).fold(Expr::int(0), |sum, k| sum + row[k] * candidate[k][c]);
+            let terms = row.iter().zip(&candidate).map(|(&a, column)| a * column[c]);
+            let entry = terms.fold(Expr::int(0), |sum, term| sum + term);
             assert!(equal(entry, Expr::int(i64::from(r == c))).is_equal(), "inverse of {words}");
         }
     }

@@ -16,7 +16,7 @@ use std::marker::PhantomData;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use std::rc::Rc;
 
-/// A name that stands for a number: a length, an angle, a joint variable.
+/// A name that stands for a number: a length, an angle.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Symbol(u32, PhantomData<*const ()>);
 

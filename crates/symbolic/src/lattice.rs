@@ -1,7 +1,7 @@
 //! Integer bases of angle sums.
 //!
 //! The angles of a formula span a lattice. A basis taken from the angles that occur (θ2, θ2+θ3, …) keeps a
-//! polynomial short, where single joint angles would expand every merged sum.
+//! polynomial short, where single angles would expand every merged sum.
 
 use crate::angle::Angle;
 use crate::expr::Expr;

@@ -27,34 +27,37 @@ pub struct Simplified {
 /// If no canonical form exists or it is too large; see [`Refusal`].
 pub fn simplify(e: Expr, symbols: &[Symbol]) -> Result<Simplified, Refusal> {
     let mut ring = Ring::new(&[e], symbols);
-    let mut best = simplify_in(&mut ring, e)?;
-    let mut best_cost = literals(best.expr);
+    let mut fewest = terms(&mut ring, e)?;
     let mut basis = ring.basis().to_vec();
-    if basis.len() > MAX_ANGLES_MERGED {
-        return Ok(best);
-    }
-    // Exchange one generator for its sum or difference with another while that shortens the result.
-    loop {
+    // Exchange one generator for its sum or difference with another while that leaves fewer terms.
+    while basis.len() <= MAX_ANGLES_MERGED {
         let mut improved = None;
         for i in 0..basis.len() {
             for j in (0..basis.len()).filter(|&j| j != i) {
                 for sign in [1, -1] {
                     let mut candidate = basis.clone();
                     candidate[i] = basis[i].plus(&basis[j].scaled(&Rational::from(sign)));
-                    let mut ring = Ring::with_basis(&candidate, &[e], symbols);
-                    let Ok(form) = simplify_in(&mut ring, e) else { continue };
-                    let cost = literals(form.expr);
-                    if cost < best_cost {
-                        (best, best_cost, improved) = (form, cost, Some(candidate));
+                    let mut other = Ring::with_basis(&candidate, &[e], symbols);
+                    if let Ok(n) = terms(&mut other, e)
+                        && n < fewest
+                    {
+                        (fewest, improved) = (n, Some((candidate, other)));
                     }
                 }
             }
         }
         match improved {
-            Some(candidate) => basis = candidate,
-            None => return Ok(best),
+            Some((candidate, other)) => (basis, ring) = (candidate, other),
+            None => break,
         }
     }
+    simplify_in(&mut ring, e)
+}
+
+/// The number of terms of the canonical form.
+fn terms(ring: &mut Ring, e: Expr) -> Result<usize, Refusal> {
+    let form = ring.normal(e)?;
+    Ok(form.num.terms().len() + form.den.iter().map(|f| f.0.terms().len()).sum::<usize>())
 }
 
 /// Angles beyond which merged sums are no longer searched for (the search is quadratic in them).
@@ -359,7 +362,7 @@ mod tests {
         check(c2 * c2 + s2 * s2, Expr::int(1));
         check(Expr::int(1) - c2 * c2, s2.powi(2));
         check(a * c2 + b * c2, c2 * (a + b));
-        check(a * c2 * c3 - a * s2 * s3 + b * c2, a * c23 + b * c2);
+        check(a * c2 * c3 - a * s2 * s3 + b * c2, b * c2 + a * c23);
         check((a * a - b * b) * c2 / (a - b), c2 * (a.powi(2) - b.powi(2)) / (a - b));
     }
 }

@@ -59,7 +59,7 @@ impl fmt::Display for Refusal {
 
 impl std::error::Error for Refusal {}
 
-/// Products of terms that one ring may form. A six-joint pose takes hundreds; the bound keeps an expansion
+/// Products of terms that one ring may form. The pose of six angles takes hundreds; the bound keeps an expansion
 /// within a second and some hundred megabytes.
 const BUDGET: u64 = 1_500_000;
 /// The largest multiple of a generator that is expanded: cos 64θ has 33 terms.

@@ -4,7 +4,7 @@ use crate::arguments::{FkArguments, Format};
 use crate::commands::derive;
 use crate::failure::Failure;
 use crate::load;
-use crate::terminal::{Align, HEADING, NAME, lowered, matrix, number, raised, styled};
+use crate::terminal::{Align, HEADING, NAME, decimals, lowered, matrix, number, raised, styled};
 use denavit::Robot;
 use denavit::description::{Description, JointKind, Variable};
 use denavit::geometry::Transform;
@@ -153,15 +153,9 @@ fn warn_of_limits(d: &Description, q: &[f64]) -> Result<(), Failure> {
 /// A joint variable for reading: degrees or metres.
 fn reading(x: f64, kind: JointKind) -> String {
     match kind {
-        JointKind::Revolute => format!("{}°", trimmed(x.to_degrees())),
-        JointKind::Prismatic => format!("{} m", trimmed(x)),
+        JointKind::Revolute => format!("{}°", decimals(x.to_degrees(), 4)),
+        JointKind::Prismatic => format!("{} m", decimals(x, 6)),
     }
-}
-
-fn trimmed(x: f64) -> String {
-    let text = format!("{x:.4}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".into() } else { text.replace('-', "−") }
 }
 
 fn rows(x: &Transform<f64>) -> Value {
@@ -204,7 +198,9 @@ fn report(d: &Description, robot: &Robot<f64>, request: &Request, q: &[f64]) -> 
         text.push('\n');
     }
     let pose = robot.pose(q);
-    text += &show("tool", &pose);
+    let has_tool = d.tool != Transform::identity() || d.base != Transform::identity();
+    let frame = format!("{}T{}", raised("0"), lowered(&d.rows.len().to_string()));
+    text += &show(if has_tool { "tool" } else { &frame }, &pose);
     if let Some(set) = request.orientation {
         let o = extract(&pose.rotation, set);
         text += &format!("\n  orientation as {}: ", styled(&set.to_string(), NAME));
@@ -214,7 +210,7 @@ fn report(d: &Description, robot: &Robot<f64>, request: &Request, q: &[f64]) -> 
             .iter()
             .zip(&o.values)
             .map(|(name, &x)| {
-                let angle = !is_length_free && !(set == OrientationSet::AxisAngle && *name != "angle");
+                let angle = !(is_length_free || set == OrientationSet::AxisAngle && *name != "angle");
                 if angle {
                     format!("{name} {}", reading(x, JointKind::Revolute))
                 } else {

@@ -106,6 +106,12 @@ pub fn number(x: f64, noise: f64) -> String {
     if x == x.round() && x.abs() < 1e6 {
         return format!("{x}").replace('-', "−");
     }
-    let text = if (1e-4..1e6).contains(&x.abs()) { format!("{x:.6}") } else { format!("{x:.6e}") };
-    text.replace('-', "−")
+    if (1e-4..1e6).contains(&x.abs()) { decimals(x, 6) } else { format!("{x:.6e}").replace('-', "−") }
+}
+
+/// At most so many decimals, no trailing zeros.
+pub fn decimals(x: f64, digits: usize) -> String {
+    let text = format!("{x:.digits$}");
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    if text == "-0" { "0".into() } else { text.replace('-', "−") }
 }

@@ -83,6 +83,9 @@ const PLACEMENTS_TRIED: usize = 400;
 
 type Vector3 = [Value; 3];
 
+/// Displacements along some directions, summed up.
+type Sums = Vec<(Vector3, Value)>;
+
 /// One way to compute the orientation.
 #[derive(Clone)]
 struct Orientation {
@@ -106,7 +109,7 @@ struct Search<'a, F: Fn(Symbol) -> Stage> {
     /// Axis c of the last frame in frame k.
     tails: Vec<[Vector3; 3]>,
     /// Displacements summed up, for a frame and the items placed in it.
-    sums: FxHashMap<(usize, Vec<usize>), Vec<(Vector3, Value)>>,
+    sums: FxHashMap<(usize, Vec<usize>), Sums>,
 }
 
 /// The shortest program found for the chain's transform. Results are named `t11` … `t34` by row and column;
@@ -342,7 +345,7 @@ impl<'a, F: Fn(Symbol) -> Stage> Search<'a, F> {
 
     /// The displacements placed in a frame; lengths along the same direction are added first, parameters before
     /// joint variables, so that what is constant is hoisted.
-    fn displacements(&mut self, placement: &[usize], frame: usize) -> Vec<(Vector3, Value)> {
+    fn displacements(&mut self, placement: &[usize], frame: usize) -> Sums {
         let placed: Vec<usize> = (0..placement.len()).filter(|&i| placement[i] == frame).collect();
         let key = (frame, placed);
         if let Some(known) = self.sums.get(&key) {
@@ -362,7 +365,7 @@ impl<'a, F: Fn(Symbol) -> Stage> Search<'a, F> {
                 sums.push((direction, vec![length]));
             }
         }
-        let sums: Vec<(Vector3, Value)> = sums
+        let sums: Sums = sums
             .into_iter()
             .map(|(direction, lengths)| {
                 let sum = lengths.into_iter().fold(Expr::int(0), |a, b| a + b);

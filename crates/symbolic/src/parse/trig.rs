@@ -150,7 +150,7 @@ fn indices(text: &str, span: &Range<usize>, sine: &str, names: &Names) -> Result
         true => text.split(',').filter(|n| !n.is_empty()).map(|n| n.parse().ok()).collect(),
         false => text.chars().map(|c| c.to_digit(10)).collect(),
     };
-    let numbers = numbers.ok_or_else(|| refuse(format!("`{text}` is no list of joints")))?;
+    let numbers = numbers.ok_or_else(|| refuse(format!("`{text}` is no list of angle numbers")))?;
     let single: Option<u32> = if has_comma { None } else { text.parse().ok().filter(|n| *n >= 10) };
     let declared = |n: &u32| {
         let is_angle =

@@ -1,7 +1,7 @@
 //! `C1*(C23*(C4*C5*C6 - S4*S6) - S23*S5*C6)`: what a keyboard has, every product with its sign.
 
 use super::names::{Index, Spelling};
-use super::{Joint, Notation};
+use super::{Notation, Seam};
 
 pub(super) const NOTATION: Notation = Notation {
     whole: ["", ""],
@@ -25,7 +25,7 @@ pub(super) const NOTATION: Notation = Notation {
     digits: |text| text,
     symbol,
     trig,
-    times: |_: &Joint| "*",
+    times: |_: &Seam| "*",
 };
 
 fn exponent(n: i32) -> String {

@@ -1,7 +1,7 @@
 //! `C_{1}\left(C_{23}\left(C_{4} C_{5} C_{6} - S_{4} S_{6}\right) - S_{23} S_{5} C_{6}\right)`
 
 use super::names::{GREEK, Index, Spelling, parts};
-use super::{Head, Joint, Notation};
+use super::{Head, Notation, Seam};
 
 pub(super) const NOTATION: Notation = Notation {
     whole: ["", ""],
@@ -28,16 +28,16 @@ pub(super) const NOTATION: Notation = Notation {
     times,
 };
 
-fn times(joint: &Joint) -> &'static str {
-    let base = match joint.left.strip_suffix('}').and_then(|l| l.rsplit_once("^{")) {
+fn times(seam: &Seam) -> &'static str {
+    let base = match seam.left.strip_suffix('}').and_then(|l| l.rsplit_once("^{")) {
         Some((base, exponent)) if exponent.parse::<i32>().is_ok() => base,
-        _ => joint.left,
+        _ => seam.left,
     };
     let last = base.trim_end_matches('}');
-    match &joint.right {
+    match &seam.right {
         Head::Number => " \\cdot ",
         // `a(b)` looks like a function.
-        Head::Paren if joint.left.ends_with(char::is_alphabetic) || joint.calls() => " \\cdot ",
+        Head::Paren if seam.left.ends_with(char::is_alphabetic) || seam.calls() => " \\cdot ",
         Head::Paren => "",
         // `c^{2} \alpha` is the square of a cosine.
         Head::Word(_) if last.ends_with(['c', 's', 'C', 'S']) || last.ends_with("sin") => " \\cdot ",

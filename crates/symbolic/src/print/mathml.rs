@@ -1,7 +1,7 @@
 //! Presentation MathML.
 
 use super::names::{Index, Spelling};
-use super::{Head, Joint, Notation};
+use super::{Head, Notation, Seam};
 
 pub(super) const NOTATION: Notation = Notation {
     whole: ["<mrow>", "</mrow>"],
@@ -28,8 +28,8 @@ pub(super) const NOTATION: Notation = Notation {
     times,
 };
 
-fn times(joint: &Joint) -> &'static str {
-    match joint.right {
+fn times(seam: &Seam) -> &'static str {
+    match seam.right {
         Head::Number => "<mo>·</mo>",
         Head::Paren | Head::Word(_) | Head::Call | Head::Root | Head::Fraction => "<mo>&#x2062;</mo>",
     }

@@ -120,7 +120,7 @@ struct Notation {
     symbol: fn(&Spelling) -> String,
     /// The sine or cosine (first letter) of numbered angles.
     trig: fn(char, &Index) -> String,
-    times: fn(&Joint) -> &'static str,
+    times: fn(&Seam) -> &'static str,
 }
 
 impl Notation {
@@ -145,7 +145,7 @@ impl Notation {
 }
 
 /// Where two factors meet.
-struct Joint<'a> {
+struct Seam<'a> {
     /// What is written so far.
     left: &'a str,
     right: Head,
@@ -155,7 +155,7 @@ struct Joint<'a> {
     bridges: &'a [String],
 }
 
-impl Joint<'_> {
+impl Seam<'_> {
     /// True if a known word that runs across a border lies in `text`.
     fn bridges_at(&self, text: &str) -> bool {
         self.bridges.iter().any(|w| text.contains(w.as_str()) || text.ends_with('(') && w.contains(text))
@@ -222,13 +222,13 @@ impl Printer<'_> {
                 Task::Text(text) => self.out.push_str(text),
                 Task::Own(text) => self.out.push_str(&text),
                 Task::Times(right, after_slash) => {
-                    let joint = Joint {
+                    let seam = Seam {
                         right: self.head(right),
                         left: &self.out,
                         after_slash,
                         bridges: &self.bridges,
                     };
-                    let sign = (self.notation.times)(&joint);
+                    let sign = (self.notation.times)(&seam);
                     self.out.push_str(sign);
                     tasks.push(Task::Write(right, Place::Factor));
                 }
@@ -369,31 +369,20 @@ impl Printer<'_> {
         }
     }
 
-    /// `a + b − c`, nested to the left. What was built as the opposite of a difference, a − (b − c), is written as
-    /// `−(b − c − a)`: read as it stands, it would become a + (c − b).
+    /// `a + b − c`, nested to the left.
     fn sum(&self, e: Expr, tasks: &mut Vec<Task>) {
         let n = self.notation;
         let (mut first, mut rest) = (e, vec![]);
         loop {
             let (a, sign, b) = match first.node() {
                 Node::Add(a, b) => (a, n.plus, b),
-                Node::Sub(a, b) if !is_difference(b) => (a, n.minus, b),
+                Node::Sub(a, b) => (a, n.minus, b),
                 _ => break,
             };
             rest.push((sign, b));
             first = a;
         }
-        match first.node() {
-            Node::Sub(a, b) => tasks.extend([
-                Task::Text(n.negative),
-                Task::Text(n.paren[0]),
-                Task::Write(b, Place::Whole),
-                Task::Text(n.minus),
-                Task::Write(a, Place::Addend),
-                Task::Text(n.paren[1]),
-            ]),
-            _ => tasks.push(Task::Write(first, Place::Addend)),
-        }
+        tasks.push(Task::Write(first, Place::Addend));
         for (sign, b) in rest.into_iter().rev() {
             tasks.extend([Task::Text(sign), Task::Write(b, Place::Addend)]);
         }
@@ -516,10 +505,6 @@ impl Printer<'_> {
         // A symbol of the same name has the right of way.
         self.vocabulary.lookup(&word).is_none().then(|| (self.notation.trig)(letter, &index))
     }
-}
-
-fn is_difference(e: Expr) -> bool {
-    matches!(e.node(), Node::Sub(..))
 }
 
 /// Numerator and denominator (`None` for 1) of a positive number, or a decimal if it is a short one.

@@ -1,7 +1,7 @@
 //! `C_1 (C_23 (C_4 C_5 C_6 - S_4 S_6) - S_23 S_5 C_6)`
 
 use super::names::{GREEK, Index, Spelling};
-use super::{Head, Joint, Notation};
+use super::{Head, Notation, Seam};
 
 pub(super) const NOTATION: Notation = Notation {
     whole: ["", ""],
@@ -28,8 +28,8 @@ pub(super) const NOTATION: Notation = Notation {
     times,
 };
 
-fn times(joint: &Joint) -> &'static str {
-    match joint.right {
+fn times(seam: &Seam) -> &'static str {
+    match seam.right {
         Head::Number => " dot ",
         Head::Paren | Head::Word(_) | Head::Call | Head::Root | Head::Fraction => " ",
     }

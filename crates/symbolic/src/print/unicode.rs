@@ -2,7 +2,7 @@
 //! differently.
 
 use super::names::{Spelling, is_greek, is_letter};
-use super::{Head, Joint, Notation, ascii};
+use super::{Head, Notation, Seam, ascii};
 use crate::vocabulary::plain_name;
 
 pub(super) const NOTATION: Notation = Notation {
@@ -44,28 +44,28 @@ fn symbol(name: &Spelling) -> String {
     }
 }
 
-fn times(joint: &Joint) -> &'static str {
-    if may_touch(joint) { "" } else { "·" }
+fn times(seam: &Seam) -> &'static str {
+    if may_touch(seam) { "" } else { "·" }
 }
 
 /// Factors touch where the left one ends in a digit or bracket, perhaps with an exponent, the right one starts with
 /// a letter, a bracket or a root sign, and no known word runs across the border.
-fn may_touch(joint: &Joint) -> bool {
-    if joint.after_slash {
+fn may_touch(seam: &Seam) -> bool {
+    if seam.after_slash {
         return false;
     }
-    let base = joint.left.trim_end_matches(SUPERSCRIPTS).trim_end_matches('⁻');
-    let is_power = base.len() < joint.left.len();
+    let base = seam.left.trim_end_matches(SUPERSCRIPTS).trim_end_matches('⁻');
+    let is_power = base.len() < seam.left.len();
     let number = base.trim_end_matches(|c: char| c.is_ascii_digit());
     if number.ends_with('√') || !(number.len() < base.len() || base.ends_with([')', '}'])) {
         return false;
     }
-    let before = joint.left.trim_end_matches(|c: char| is_letter(c) || c.is_ascii_digit() || c == '_');
-    let run = plain_name(&joint.left[before.len()..]);
-    match &joint.right {
+    let before = seam.left.trim_end_matches(|c: char| is_letter(c) || c.is_ascii_digit() || c == '_');
+    let run = plain_name(&seam.left[before.len()..]);
+    match &seam.right {
         Head::Number | Head::Call | Head::Fraction => false,
         Head::Root => true,
-        Head::Paren => !joint.bridges_at(&format!("{run}(")),
+        Head::Paren => !seam.bridges_at(&format!("{run}(")),
         Head::Word(word) => {
             let is_number = !run.is_empty() && run.bytes().all(|c| c.is_ascii_digit());
             // 2e1 is a number, C2θ1 has two readings.
@@ -75,7 +75,7 @@ fn may_touch(joint: &Joint) -> bool {
                 Some(c) => is_letter(c),
                 None => false,
             };
-            is_clear && !joint.bridges_at(&plain_name(&format!("{run}{word}")))
+            is_clear && !seam.bridges_at(&plain_name(&format!("{run}{word}")))
         }
     }
 }
