@@ -4,13 +4,13 @@ use crate::arguments::ShowArguments;
 use crate::commands::robots::joints;
 use crate::failure::Failure;
 use crate::load;
-use crate::terminal::{Align, FAINT, HEADING, NAME, styled, table};
+use crate::terminal::{Align, FAINT, HEADING, NAME, decimals, styled, table};
 use denavit::description::{Convention, Description, JointKind, write_toml};
 use denavit::geometry::Transform;
-use denavit::structure::Structure;
+use denavit::structure::{Relation, Structure};
 use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::vocabulary::Vocabulary;
-use denavit_symbolic::{Angle, Expr};
+use denavit_symbolic::{Angle, Expr, Rational};
 use serde_json::json;
 use std::io::Write;
 
@@ -55,24 +55,34 @@ pub fn title(d: &Description) -> String {
 
 /// A quantity as it stands in a table: angles in degrees, lengths as formulas in metres.
 fn cell(e: Expr, is_angle: bool) -> String {
+    if let (false, Some(length)) = (is_angle, e.as_number()) {
+        return decimals(length.to_f64(), 9);
+    }
     if !is_angle {
         return print(e, &Vocabulary::new(), Style::Unicode);
     }
+    // Multiples of π in degrees, the rest in radians.
     let mut angle = Angle::of(e);
-    let turns = std::mem::take(&mut angle.turns);
+    let degrees = &std::mem::take(&mut angle.turns) * &Rational::from(180);
+    let radians = std::mem::take(&mut angle.radians);
     let symbolic = angle.to_expr();
-    let degrees = &turns * &denavit_symbolic::Rational::from(180);
-    let degrees_text = print(Expr::from(degrees.abs()), &Vocabulary::new(), Style::Unicode);
-    match (symbolic.is_zero(), degrees.is_zero(), degrees.is_negative()) {
-        (true, true, _) => "0".into(),
-        (true, _, negative) => format!("{}{degrees_text}°", if negative { "−" } else { "" }),
-        (false, true, _) => print(symbolic, &Vocabulary::new(), Style::Unicode),
-        (false, _, negative) => format!(
-            "{} {} {degrees_text}°",
-            print(symbolic, &Vocabulary::new(), Style::Unicode),
-            if negative { "−" } else { "+" }
-        ),
+    let mut text = match symbolic.is_zero() {
+        true => String::new(),
+        false => print(symbolic, &Vocabulary::new(), Style::Unicode),
+    };
+    for (constant, unit) in [(degrees, "°"), (radians, " rad")] {
+        if constant.is_zero() {
+            continue;
+        }
+        text += match (text.is_empty(), constant.is_negative()) {
+            (true, true) => "−",
+            (true, false) => "",
+            (false, true) => " − ",
+            (false, false) => " + ",
+        };
+        text += &format!("{}{unit}", decimals(constant.abs().to_f64(), 9));
     }
+    if text.is_empty() { "0".into() } else { text }
 }
 
 /// The columns of a convention: heading, and what stands in them.
@@ -172,11 +182,18 @@ fn structure(d: &Description) -> String {
         text += &format!("  axes {} are parallel\n", list(run));
     }
     for (k, relation) in s.relations.iter().enumerate() {
-        text += &format!("  axes {} and {} {relation}\n", k + 1, k + 2);
+        let said = |run: &Vec<usize>| run.contains(&(k + 1)) && run.contains(&(k + 2));
+        if *relation != Relation::Parallel || !s.parallel.iter().any(said) {
+            text += &format!("  axes {} and {} {relation}\n", k + 1, k + 2);
+        }
     }
     for &first in &s.spherical {
-        text +=
-            &format!("  axes {}, {}, {} meet in one point: a spherical wrist\n", first, first + 1, first + 2);
+        let part = match first + 2 {
+            last if last == s.joints.len() => "a spherical wrist",
+            3 => "a spherical shoulder",
+            _ => "a spherical joint",
+        };
+        text += &format!("  axes {}, {}, {} meet in one point: {part}\n", first, first + 1, first + 2);
     }
     for near in &s.nearly {
         let unit = if near.is_angle { "rad" } else { "m" };

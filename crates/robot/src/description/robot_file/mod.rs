@@ -1,4 +1,4 @@
-//! Robot files (TOML), as DESIGN.md section 7 describes them.
+//! Robot files (TOML), as `docs/robot-files.md` describes them.
 
 mod fields;
 mod frames;
