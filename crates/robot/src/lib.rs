@@ -18,3 +18,8 @@ pub mod structure;
 pub use description::Description;
 pub use robot::Robot;
 pub use scalar::Scalar;
+
+/// The code in the README is true.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;

@@ -279,7 +279,7 @@ def main():
     }
     lines = ["{", f'"provenance": {json.dumps(provenance)},', '"robots": {']
     for k, (name, robot) in enumerate(robots.items()):
-        lines.append(f'"{name}": {{"parameters": {json.dumps(robot["parameters"])}, "reach": {robot["reach"]!r}, "samples": [')
+        lines.append(f'"{name}": {{"parameters": {json.dumps(robot["parameters"])}, "reach": {float(robot["reach"])!r}, "samples": [')
         lines += [json.dumps(s) + ("," if i + 1 < len(robot["samples"]) else "") for i, s in enumerate(robot["samples"])]
         lines.append("]}" + ("," if k + 1 < len(robots) else ""))
     lines += ["}", "}"]
