@@ -4,7 +4,7 @@ use denavit::description::{Description, read_toml};
 use denavit::forward::{ForwardModel, Outputs, Proof, Reference};
 use denavit::geometry::Transform;
 use denavit::{Robot, catalogue};
-use denavit_symbolic::{Expr, Rational, Symbol};
+use denavit_symbolic::{Expr, Rational, Symbol, equal};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
@@ -71,10 +71,9 @@ fn every_robot_agrees_with_pinocchio() {
             };
             let traced = model.algorithm.eval(value).unwrap_or_else(|s| panic!("{name}: no value for {s:?}"));
             let pose = robot.pose(&q).matrix();
-            for ((output, _), x) in model.algorithm.outputs().iter().zip(traced) {
-                let at: Vec<usize> = output.bytes().skip(1).map(|b| usize::from(b - b'1')).collect();
-                let off = (x - pose[at[0]][at[1]]).abs();
-                assert!(off <= 1e-13 * reach, "{name}, {output} at {q:?}: {off:e}");
+            for ((row, column), x) in Outputs::ALL.places().into_iter().zip(traced) {
+                let off = (x - pose[row][column]).abs();
+                assert!(off <= 1e-13 * reach, "{name}, entry {row},{column} at {q:?}: {off:e}");
             }
         }
     }
@@ -86,6 +85,24 @@ fn every_program_is_proved() {
         let model = ForwardModel::of_tool(&robot(name), Outputs::ALL);
         assert_eq!(model.proof, Proof::Proved, "{name}");
         assert!(model.matrix.is_ok(), "{name}");
+    }
+}
+
+/// RᵀR = 1 and det R = 1, by proof.
+#[test]
+fn orientations_are_rotations() {
+    for name in catalogue::names() {
+        let matrix = ForwardModel::of_tool(&robot(name), Outputs::ALL).matrix.expect("expanded");
+        let column = |c: usize| [0, 1, 2].map(|r| matrix[r][c]);
+        let dot = |a: [Expr; 3], b: [Expr; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        let (x, y, z) = (column(0), column(1), column(2));
+        let cross = [y[1] * z[2] - y[2] * z[1], y[2] * z[0] - y[0] * z[2], y[0] * z[1] - y[1] * z[0]];
+        let (zero, one) = (Expr::int(0), Expr::int(1));
+        let laws =
+            [(dot(x, x), one), (dot(y, y), one), (dot(z, z), one), (dot(x, y), zero), (dot(y, z), zero)];
+        for (left, right) in laws.into_iter().chain([(dot(z, x), zero), (dot(x, cross), one)]) {
+            assert!(equal(left, right).is_equal(), "{name}");
+        }
     }
 }
 

@@ -24,6 +24,19 @@ pub struct Outputs {
 impl Outputs {
     /// The whole matrix.
     pub const ALL: Outputs = Outputs { columns: [true; 3], position: true };
+
+    /// Row and column (from 0) of the matrix entries asked for, in the order in which a program gives them: column
+    /// by column, the position last.
+    pub fn places(self) -> Vec<(usize, usize)> {
+        let [x, y, z] = self.columns;
+        let columns = [x, y, z, self.position].into_iter().enumerate().filter(|c| c.1);
+        columns.flat_map(|(c, _)| (0..3).map(move |r| (r, c))).collect()
+    }
+}
+
+/// The name of a matrix entry: `t14` is row 1, column 4.
+pub(super) fn entry_name((row, column): (usize, usize)) -> String {
+    format!("t{}{}", row + 1, column + 1)
 }
 
 impl FromStr for Outputs {
@@ -412,16 +425,13 @@ impl<'a, F: Fn(Symbol) -> Stage> Search<'a, F> {
         outputs: Outputs,
         taken: &FxHashSet<String>,
     ) -> Program {
-        let mut results = vec![];
-        for (c, column) in orientation.columns.iter().enumerate() {
-            if let (true, Some(column)) = (outputs.columns[c], column) {
-                results.extend(column.iter().enumerate().map(|(r, &v)| (format!("t{}{}", r + 1, c + 1), v)));
-            }
-        }
         let partial = if outputs.position { self.positions(placement) } else { vec![] };
-        if let Some(p) = partial.first() {
-            results.extend(p.iter().enumerate().map(|(r, &v)| (format!("t{}4", r + 1), v)));
-        }
+        let zero = self.graph.trace(Expr::int(0));
+        let columns = orientation.columns.map(|c| c.unwrap_or([zero; 3]));
+        let position = partial.first().copied().unwrap_or([zero; 3]);
+        let value = |(r, c): (usize, usize)| if c < 3 { columns[c][r] } else { position[r] };
+        let results: Vec<(String, Value)> =
+            outputs.places().into_iter().map(|place| (entry_name(place), value(place))).collect();
         // Name a node after the first part it plays: z4x is the x component, in frame 4, of the last z axis.
         let mut names: FxHashMap<u32, String> = FxHashMap::default();
         let mut name = |v: &Vector3, letter: char, frame: usize| {

@@ -1,7 +1,7 @@
 //! The forward model of a robot: any ⁱTⱼ in readable form, with its algorithm, proved.
 
 use crate::description::Description;
-use crate::forward::algorithm::{self, Outputs, Proof};
+use crate::forward::algorithm::{self, Outputs, Proof, entry_name};
 use crate::forward::chain::Chain;
 use crate::geometry::Transform;
 use crate::robot::Robot;
@@ -85,7 +85,7 @@ impl ForwardModel {
         } else {
             algorithm::shortest(&chain, &variables, outputs, &taken)
         };
-        let proof = prove(&mut ring, &algorithm, &wanted);
+        let proof = prove(&mut ring, &algorithm, outputs, &wanted);
         ForwardModel { from, to, matrix, algorithm, proof }
     }
 
@@ -122,11 +122,10 @@ fn simplified(ring: &mut Ring, x: &Transform<Expr>) -> Result<[[Expr; 4]; 4], Re
 }
 
 /// Every output of the program, run over formulas, against the entry of the product.
-fn prove(ring: &mut Ring, program: &Program, wanted: &Transform<Expr>) -> Proof {
+fn prove(ring: &mut Ring, program: &Program, outputs: Outputs, wanted: &Transform<Expr>) -> Proof {
     let matrix = wanted.matrix();
-    for ((name, _), formula) in program.outputs().iter().zip(program.formulas()) {
-        let digits: Vec<usize> = name.bytes().skip(1).map(|b| usize::from(b - b'1')).collect();
-        match ring.normal(formula - matrix[digits[0]][digits[1]]) {
+    for ((row, column), formula) in outputs.places().into_iter().zip(program.formulas()) {
+        match ring.normal(formula - matrix[row][column]) {
             Ok(difference) if difference.num.is_zero() => {}
             Ok(_) => return Proof::Failed,
             Err(why) => return Proof::Undecided(why),
@@ -143,13 +142,7 @@ fn traced(
     taken: &FxHashSet<String>,
 ) -> Program {
     let mut graph = Graph::new(|s| if variables.contains(&s) { Stage::Variable } else { Stage::Parameter });
-    let mut results = vec![];
-    for c in 0..4 {
-        if (c < 3 && outputs.columns[c]) || (c == 3 && outputs.position) {
-            for (r, row) in rows.iter().enumerate().take(3) {
-                results.push((format!("t{}{}", r + 1, c + 1), graph.trace(row[c])));
-            }
-        }
-    }
+    let places = outputs.places().into_iter();
+    let results: Vec<_> = places.map(|(r, c)| (entry_name((r, c)), graph.trace(rows[r][c]))).collect();
     Program::new(&graph, &results, |_| None, taken)
 }
