@@ -4,9 +4,9 @@ use crate::graph::{Op, Stage};
 use std::fmt;
 
 /// How operations are counted.
-pub const COUNTING_RULE: &str = "a multiplication or addition of two values that depend on a variable or a parameter; \
-signs are free; angle sums are additions; a sine and cosine of one angle are one pair; \
-a constant added to a variable as it comes in (its offset) and what depends on parameters alone are counted apart";
+pub const COUNTING_RULE: &str = "each multiplication and addition whose result depends on a variable; signs are free; \
+a sine and cosine of one angle are one pair; a constant added to a variable as it comes in (its offset) \
+and what depends on parameters alone stand apart";
 
 /// Operations of a program.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]

@@ -69,26 +69,22 @@ impl Program {
         outputs.iter().for_each(|o| uses[o.1.node as usize] += 1);
         let mut used: FxHashSet<String> = taken.clone();
         used.extend(outputs.iter().map(|o| o.0.clone()));
-        let mut counter = 0;
+        let in_angles = only_in_angles(&ops, &outputs);
         let mut names = vec![None; ops.len()];
         for (i, (op, stage)) in ops.iter().enumerate() {
-            let shared = uses[i] > 1 && *stage != Stage::Constant;
-            let trigonometric = matches!(op, Op::Sin(_) | Op::Cos(_));
-            let angle = ops.iter().any(|(o, _)| matches!(o, Op::Sin(a) | Op::Cos(a) if *a == i as u32));
-            let leaf = matches!(op, Op::Number(_) | Op::Pi | Op::Input(_));
-            if !shared || trigonometric || leaf || angle {
+            let is_leaf = matches!(op, Op::Number(_) | Op::Pi | Op::Input(_));
+            if uses[i] < 2 || *stage == Stage::Constant || is_leaf || in_angles[i] {
                 continue;
             }
+            // A sine or cosine of a sum of inputs has a short name of its own.
+            let prefix = match op {
+                Op::Sin(a) | Op::Cos(a) if is_plain_sum(&ops, *a) => continue,
+                Op::Sin(_) => "sa",
+                Op::Cos(_) => "ca",
+                _ => "m",
+            };
             let proposed = hint(nodes[i]).filter(|name| used.insert(name.clone()));
-            names[i] = Some(proposed.unwrap_or_else(|| {
-                loop {
-                    counter += 1;
-                    let name = format!("m{counter}");
-                    if used.insert(name.clone()) {
-                        return name;
-                    }
-                }
-            }));
+            names[i] = Some(proposed.unwrap_or_else(|| numbered(prefix, &mut used)));
         }
         Program { ops, outputs, names }
     }
@@ -191,7 +187,11 @@ impl Program {
             }
         }
         steps.iter_mut().for_each(|s| s.value = tidy(s.value));
-        steps.sort_by_key(|s| s.stage == Stage::Variable);
+        steps.sort_by_key(|s| match s.stage {
+            Stage::Parameter => 0,
+            Stage::Variable => 1,
+            Stage::Constant => 2,
+        });
         steps
     }
 
@@ -259,6 +259,44 @@ fn tidy(e: Expr) -> Expr {
         Some(plain) => negated.fold(plain, |sum, term| sum - term),
         None => negated.reduce(|a, b| a + b).map_or(e, |sum| -sum),
     }
+}
+
+/// The first of `prefix1`, `prefix2`, … that is not used.
+fn numbered(prefix: &str, used: &mut FxHashSet<String>) -> String {
+    let mut number = 1;
+    loop {
+        let name = format!("{prefix}{number}");
+        if used.insert(name.clone()) {
+            return name;
+        }
+        number += 1;
+    }
+}
+
+/// True for an input or a sum of inputs.
+fn is_plain_sum(ops: &[(Op, Stage)], n: u32) -> bool {
+    match &ops[n as usize].0 {
+        Op::Input(_) => true,
+        Op::Add(a, b) => is_plain_sum(ops, *a) && is_plain_sum(ops, *b),
+        _ => false,
+    }
+}
+
+/// For each operation, whether it is read by sines and cosines alone, or by sums that are.
+fn only_in_angles(ops: &[(Op, Stage)], outputs: &[(String, Value)]) -> Vec<bool> {
+    let mut only = vec![true; ops.len()];
+    outputs.iter().for_each(|o| only[o.1.node as usize] = false);
+    for (i, (op, _)) in ops.iter().enumerate().rev() {
+        let passes_on = match op {
+            Op::Sin(_) | Op::Cos(_) => true,
+            Op::Add(..) | Op::Sub(..) => only[i],
+            _ => false,
+        };
+        if !passes_on {
+            op.operands().for_each(|o| only[o as usize] = false);
+        }
+    }
+    only
 }
 
 fn signed(e: Expr, negative: bool) -> Expr {
