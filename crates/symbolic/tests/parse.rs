@@ -353,6 +353,7 @@ fn refused_structure() {
     check_error(&v, "a)", 1..2, "unexpected `)`", Some("no bracket is open here"));
     check_error(&v, "(a]", 2..3, "unexpected `]`", Some("`)` closes the bracket"));
     check_error(&v, "a +", 3..3, "the formula ends where a name or a number should stand", None);
+    check_error(&v, "(²", 1..3, "unexpected `²`", None);
     check_error(&v, "a * / b", 4..5, "unexpected `/`", None);
     check_error(&v, "a / 0", 2..5, "division by zero", None);
     check_error(&v, "", 0..0, "no formula", None);

@@ -209,7 +209,8 @@ impl Normaliser<'_> {
     /// A run of Unicode subscripts or superscripts, as a group in braces.
     fn small_run(&mut self, opening: char) {
         let start = self.at;
-        self.push(opening, start..start);
+        let first = self.peek().map_or(0, char::len_utf8);
+        self.push(opening, start..if opening == '^' { start + first } else { start });
         self.push('{', start..start);
         while let Some((kind, c)) = self.peek().and_then(small)
             && kind == opening

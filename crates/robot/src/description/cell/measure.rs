@@ -43,7 +43,7 @@ pub(super) fn read(text: &str, style: &Style) -> Result<(Value, Vec<Finding>), P
 fn first(errors: Vec<ParseError>, text: &str) -> ParseError {
     let mut e = errors.into_iter().next().unwrap_or_else(|| ParseError::new(0..0, "no formula"));
     if e.span.start >= text.len() {
-        let end = text.trim_end().len();
+        let end = text.trim_end_matches(|c: char| c == '$' || c.is_whitespace()).len();
         e.span = text[..end].char_indices().next_back().map_or(0..0, |(last, _)| last..end);
     }
     e
