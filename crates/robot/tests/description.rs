@@ -53,18 +53,36 @@ fn rows_say_what_is_wrong_with_them() {
             "theta = \"q1\"\noffset = 1",
             vec!["4:1 error: unknown key `offset` | an offset stands in the cell itself"],
         ),
-        ("theta = \"q1 +\"", vec!["3:13 error: the cell ends where a value is expected"]),
-        ("theta = \"q1 ++ 2\"", vec!["3:14 error: `+` stands where a value is expected"]),
-        ("theta = \"q1 2\"", vec!["3:13 error: two values in one cell | write a product"]),
-        ("theta = \"(q1\"", vec!["3:10 error: `)` is missing before the end"]),
-        ("theta = \"q1 @ 3\"", vec!["3:13 error: `@` has no meaning here"]),
+        ("theta = \"q1 +\"", vec!["3:13 error: the formula ends where a name or a number should stand"]),
+        ("theta = \"q1 ++ 2\"", vec!["3:14 error: unexpected `+`"]),
+        ("theta = \"q1 2\"", vec!["3:13 error: two values without a sign between them | write a product"]),
+        ("theta = \"(q1\"", vec!["3:10 error: no `)` closes this bracket"]),
+        ("theta = \"q1 @ 3\"", vec!["3:13 error: unexpected character `@`"]),
         ("theta = \"\"", vec!["3:9 error: an empty cell | write 0"]),
         ("theta = \"q1 + 20 mm\"", vec!["3:18 error: `mm` measures a length; this is an angle"]),
         ("theta = \"q1\"\nd = \"90 deg\"", vec!["4:9 error: `deg` measures an angle; this is a length"]),
-        ("theta = \"q1\"\nd = \"1/0\"", vec!["4:6 error: a division by zero"]),
+        (
+            "theta = \"q1\"\nd = \"a1 mm\"",
+            vec!["4:9 error: the unit `mm` behind a name | a name has its unit"],
+        ),
+        ("theta = \"q1\"\nd = \"2 mm * (3 mm)\"", vec!["4:6 error: a product of two quantities with units"]),
+        ("theta = \"q1\"\nd = \"3 mm a1\"", vec!["4:11 error: `a1` behind a unit | a product with a unit"]),
+        (
+            "theta = \"q1\"\nd = \"1/2 a1\"",
+            vec!["4:7 error: `/2 a1` reads as `/2*a1` or as `/(2*a1)` | write"],
+        ),
+        (
+            "theta = \"q1\"\nd = \"2^99\"",
+            vec!["4:6 error: a power is a whole number up to 9, and a cell has few"],
+        ),
+        (
+            "theta = \"q1 + 1 rad deg\"",
+            vec!["3:21 error: `1 rad` has a unit already; `deg` would be a second"],
+        ),
+        ("theta = \"q1\"\nd = \"1/0\"", vec!["4:7 error: division by zero"]),
         ("theta = \"q1\"\nd = nan", vec!["4:5 error: the value is not a finite number"]),
         ("theta = \"q1\"\nd = -inf", vec!["4:5 error: the value is not a finite number"]),
-        ("theta = \"q1\"\nd = 1e999", vec!["4:5 error: `1e999` is not a number"]),
+        ("theta = \"q1\"\nd = 1e999", vec!["4:5 error: `1e999` is too long a number"]),
         (
             "theta = \"q1\"\nd = true",
             vec!["4:5 error: a number or a formula in quotes is expected here, not true"],
@@ -215,7 +233,7 @@ fn all_errors_come_at_once() {
 fn cells_are_exact() {
     let value = |key: &str, cell: &str| {
         let text = format!(
-            "convention = \"standard\"\n[parameters]\na1 = \"\"\n[[joints]]\ntheta = \"q1\"\n[[joints]]\n{key} = {cell}\n"
+            "convention = \"standard\"\n[parameters]\na1 = \"\"\na_1 = {{}}\n[[joints]]\ntheta = \"q1\"\n[[joints]]\n{key} = {cell}\n"
         );
         let row =
             read_toml(&text).unwrap_or_else(|e| panic!("{}", render(&e, "cell", &text))).0.rows[1].clone();
@@ -232,6 +250,9 @@ fn cells_are_exact() {
         ("a", "\"sqrt(2)/2 * a1\"", Expr::int(2).sqrt() / Expr::int(2) * a1),
         ("a", "1_000e-3", number(1, 1)),
         ("a", "\"1e-3\"", number(1, 1000)),
+        ("a", "\".5e-3\"", number(1, 2000)),
+        ("a", "\"a1*tan(45 deg)\"", a1),
+        ("a", "\"\\\\frac{a_1}{2}\"", Expr::symbol("a_1") / Expr::int(2)),
         ("alpha", "\"90 deg\"", pi * number(1, 2)),
         ("alpha", "\"-90°\"", -pi * number(1, 2)),
         ("alpha", "\"−π/2\"", -pi / Expr::int(2)),
@@ -323,5 +344,5 @@ fn too_large_texts_are_refused() {
     let long = " ".repeat((1 << 20) + 1);
     check_findings(&long, &["1:1 error: the text has 1048577 bytes"]);
     check_row(&format!("theta = \"q1{}\"", " + 1".repeat(300)), &["3:9 error: a cell of 1202 bytes"]);
-    check_row(&format!("theta = \"{}q1\"", "(".repeat(60)), &["3:51 error: brackets more than 40 deep"]);
+    check_row(&format!("theta = \"{}q1\"", "(".repeat(120)), &["3:110 error: nested more than 100 deep"]);
 }

@@ -152,6 +152,7 @@ fn tables_say_what_is_wrong_with_them() {
         &["3:42 error: two values", "7:21 error: two values"],
     );
     for (text, expected) in [
+        ("i;theta;d;a;alpha\n1;q1;$a_1$ $a_2$;0;0\n", vec!["2:13 error: two values without a sign"]),
         ("no table at all", vec!["1:1 error: there is no Denavit-Hartenberg table in the text"]),
         ("i;theta;d;a;alpha\n1;q1;0;0;0\n3;q3;0;0;0\n", vec!["3:1 error: row 3 follows row 1"]),
         ("i;theta;d;a;alpha\n1;q1;0;0;0;7\n", vec!["2:12 error: a row of 6 cells under 5 columns"]),

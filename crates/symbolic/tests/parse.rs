@@ -348,11 +348,12 @@ fn refused_structure() {
     check_error(&v, "a/b(x+y)", 1..8, "`/b (x+y)` reads as `/b*(x+y)` or as `/(b*(x+y))`", fraction);
     check_error(&v, "c2.5", 0..4, "`c2.5` reads as `c2*5` or as `c2*0.5`", Some("write `*` for the product"));
     check_error(&v, "0,5", 1..2, "unexpected `,`", Some("a decimal point is `.`"));
-    check_error(&v, "a 2", 2..3, "a number behind a factor", Some("write `*` before it"));
+    check_error(&v, "a 2", 2..3, "two values without a sign between them", Some("write a product with `*`"));
     check_error(&v, "(a", 0..1, "no `)` closes this bracket", None);
     check_error(&v, "a)", 1..2, "unexpected `)`", Some("no bracket is open here"));
     check_error(&v, "(a]", 2..3, "unexpected `]`", Some("`)` closes the bracket"));
     check_error(&v, "a +", 3..3, "the formula ends where a name or a number should stand", None);
+    check_error(&v, "(²", 1..3, "unexpected `²`", None);
     check_error(&v, "a * / b", 4..5, "unexpected `/`", None);
     check_error(&v, "a / 0", 2..5, "division by zero", None);
     check_error(&v, "", 0..0, "no formula", None);

@@ -2,6 +2,7 @@
 
 use super::grammar::{Parser, Read, Value};
 use super::lexer::Kind;
+use super::measured::Context;
 use super::words::Function;
 use super::{MAX_EXPONENT, MAX_OPERATORS, ParseError};
 use crate::angle::Angle;
@@ -23,6 +24,9 @@ impl Parser<'_> {
     pub fn raised(&mut self, base: Value, n: i32, start: usize) -> Read<Value> {
         if n < 0 && base.expr.is_zero() {
             return Err(ParseError::new(self.span_from(start), "division by zero"));
+        }
+        if let Some(m) = self.measures.as_deref_mut() {
+            m.power(n).map_err(|message| ParseError::new(self.span_from(start), message))?;
         }
         let size = base.expr.as_number().map_or(0, |r| bits(&r));
         if size > 1 && size * u64::from(n.unsigned_abs()) > 2 * MAX_BITS {
@@ -80,17 +84,20 @@ impl Parser<'_> {
                 .hint(format!("`{}` takes its argument in brackets", f.name())));
         };
         self.at += 1;
-        let first = self.sum()?;
+        let outer = self.context;
+        self.context = if f.takes_angle() { Context::Angle } else { Context::Plain };
+        let first = self.sum(true)?;
         let second = match (f, self.peek()) {
             (Function::Atan2, Some(Kind::Comma)) => {
                 self.at += 1;
-                Some(self.sum()?)
+                Some(self.sum(true)?)
             }
             (Function::Atan2, _) => {
                 return Err(self.unexpected("`,`").hint("`atan2(y, x)` takes two arguments"));
             }
             _ => None,
         };
+        self.context = outer;
         self.close(closing, open)?;
         if power.is_some_and(i32::is_negative) {
             let e = ParseError::new(self.span_from(start), "a negative power of a function has two readings");
@@ -104,10 +111,19 @@ impl Parser<'_> {
                     return Err(e.hint("write `cos(…)` for a cosine, or the missing index"));
                 }
                 let trig = if f == Function::Sin { angle.expr.sin() } else { angle.expr.cos() };
-                Value { height: angle.height + 2, bits: 0, expr: trig }
+                Value { height: angle.height + 2, bits: 0, expr: trig, has_unit: false, ..angle }
+            }
+            (Function::Tan, _) => {
+                let (sin, cos) = self.angle(first, open)?.expr.sin_cos();
+                if cos.is_zero() {
+                    return Err(ParseError::new(self.span_from(start), "the value is not a finite number"));
+                }
+                Value { height: first.height + 3, bits: 0, expr: sin / cos, has_unit: false, ..first }
             }
             (Function::Sqrt, _) => self.root(first, start)?,
-            (Function::Atan2, Some(x)) => self.made(first.expr.atan2(x.expr), &[first, x], start)?,
+            (Function::Atan2, Some(x)) => {
+                Value { has_unit: true, ..self.made(first.expr.atan2(x.expr), &[first, x], start)? }
+            }
             (Function::Atan2, None) => first,
         };
         match power {
@@ -158,7 +174,9 @@ impl Parser<'_> {
         if height > MAX_HEIGHT {
             return Err(ParseError::new(self.span_from(start), "too many operators inside one another"));
         }
-        Ok(Value { expr, height, bits: sum })
+        let has_name = parts.iter().any(|p| p.has_name);
+        let has_unit = parts.iter().any(|p| p.has_unit);
+        Ok(Value { expr, height, bits: sum, has_name, has_unit })
     }
 
     pub fn too_large(&self, start: usize) -> ParseError {

@@ -88,6 +88,37 @@ impl Lexer<'_> {
         }
     }
 
+    /// Reads a word that is not cut: letters, digits and subscripts, one Greek letter at most and at its beginning.
+    pub(super) fn whole_word(&mut self) {
+        let start = self.at;
+        let (mut word, mut depth, mut ends_in_group) = (String::new(), 0_usize, false);
+        while let Some(c) = self.char(self.at) {
+            let is_subscript = |at: usize| self.char(self.after_space(at)) == Some('_');
+            let begins_group = depth > 0 || self.at > start && self.char(self.at - 1) == Some('_');
+            match c {
+                '{' if begins_group => depth += 1,
+                '}' if depth > 0 => {
+                    depth -= 1;
+                    ends_in_group = depth == 0;
+                }
+                _ if depth > 0 => word.extend(Some(c).filter(|c| c.is_alphanumeric())),
+                '_' => word.extend(Some(c).filter(|_| !self.marks[self.at].span.is_empty())), // empty: of `₁`
+                ' ' if word.ends_with('_') || is_subscript(self.at) => {}
+                _ if c.is_ascii_digit() => word.push(c),
+                _ if !c.is_alphanumeric() || ends_in_group => break,
+                _ if !word.is_empty() && (is_greek(c) || word.chars().all(is_greek)) => break,
+                _ => word.push(c),
+            }
+            self.at += 1;
+        }
+        let span = self.span(start, self.at);
+        if word.trim_start_matches('_').starts_with(char::is_alphabetic) {
+            self.tokens.push(Token { kind: Kind::Word(word), span });
+        } else {
+            self.gap(ParseError::new(span, "a subscript without a name before it"));
+        }
+    }
+
     /// True if a sine at the end of `letters` takes the letter at `next` as its argument without brackets.
     fn joins(&self, letters: &[Letter], next: usize) -> bool {
         let Some(c) = self.char(next) else { return false };

@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! sum     = ["-"] product { ("+" | "-") product }
-//! product = factor { ["*"] factor | "/" factor }      from left to right; "/" and then no sign is refused
+//! product = factor { ["*"] factor | "/" factor }      from left to right; "/" and then no sign is refused;
+//!                                                     of whole words: a unit behind any factor is that of all before it
 //! factor  = {"-"} primary ["^" integer]
 //! primary = number [unit] | name | "(" sum ")" | "√" primary | function ["^" integer] "(" sum { "," sum } ")"
 //!         | "\frac" "{" sum "}" "{" sum "}"
@@ -10,19 +11,30 @@
 
 use super::calls::{RADIAN, bits};
 use super::lexer::{Kind, Token};
+use super::measured::{Context, Measures, Term};
 use super::{MAX_NESTING, ParseError};
 use crate::expr::Expr;
 use crate::vocabulary::Vocabulary;
 use std::ops::Range;
 
 /// The expression that `tokens` spell, and what is wrong with their order; `None` where no reading on was possible.
-pub(super) fn formula(
-    text: &str,
-    tokens: &[Token],
-    vocabulary: &Vocabulary,
+pub(super) fn formula<'a>(
+    text: &'a str,
+    tokens: &'a [Token],
+    vocabulary: &'a Vocabulary,
+    measures: Option<&'a mut dyn Measures>,
     is_angle: bool,
 ) -> (Option<Expr>, Vec<ParseError>) {
-    let mut p = Parser { text, tokens, vocabulary, at: 0, depth: 0, errors: vec![] };
+    let mut p = Parser {
+        text,
+        tokens,
+        vocabulary,
+        measures,
+        context: Context::Whole,
+        at: 0,
+        depth: 0,
+        errors: vec![],
+    };
     match p.whole(is_angle) {
         Ok(e) => (Some(e), p.errors),
         Err(e) => {
@@ -38,12 +50,26 @@ pub(super) struct Value {
     pub expr: Expr,
     pub height: u32,
     pub bits: u64,
+    /// A name occurs.
+    pub has_name: bool,
+    /// A unit occurs that no other one cancels.
+    pub has_unit: bool,
+}
+
+impl Value {
+    /// A number, or what is made of numbers.
+    pub fn plain(expr: Expr, height: u32, bits: u64) -> Self {
+        Value { expr, height, bits, has_name: false, has_unit: false }
+    }
 }
 
 pub(super) struct Parser<'a> {
     pub text: &'a str,
     pub tokens: &'a [Token],
     pub vocabulary: &'a Vocabulary,
+    /// What says the meaning of whole words and units; without it, the vocabulary does.
+    pub measures: Option<&'a mut dyn Measures>,
+    pub context: Context,
     pub at: usize,
     pub depth: usize,
     /// What is wrong without being in the way of reading on.
@@ -77,7 +103,7 @@ impl Parser<'_> {
         if self.tokens.is_empty() {
             return Err(ParseError::new(0..self.text.len(), "no formula"));
         }
-        let mut value = self.sum()?;
+        let mut value = self.sum(true)?;
         if self.at < self.tokens.len() {
             return Err(self.unexpected("an operator"));
         }
@@ -105,30 +131,42 @@ impl Parser<'_> {
         }
     }
 
-    pub fn sum(&mut self) -> Read<Value> {
+    /// A sum; `is_whole` where it is all that a bracket of a function, or the text, holds.
+    pub fn sum(&mut self, is_whole: bool) -> Read<Value> {
         let start = self.at;
-        let mut negative = false;
-        if let Some(Kind::Plus | Kind::Minus) = self.peek() {
-            negative = matches!(self.peek(), Some(Kind::Minus));
-            self.at += 1;
-        }
-        let mut sum = self.product()?;
-        if negative {
-            sum = self.made(-sum.expr, &[sum], start)?;
-        }
-        let mut count = 0;
-        while let Some(sign @ (Kind::Plus | Kind::Minus)) = self.peek().cloned() {
-            count += 1;
-            self.at += 1;
+        let mut is_minus = matches!(self.peek(), Some(Kind::Minus));
+        self.at += usize::from(matches!(self.peek(), Some(Kind::Plus | Kind::Minus)));
+        let mut terms = vec![];
+        loop {
+            let from = self.at;
             let term = self.product()?;
-            let expr = match sign {
-                Kind::Plus => sum.expr + term.expr,
-                _ => sum.expr - term.expr,
-            };
-            sum = self.made(expr, &[sum, term], start)?;
-            self.chain(count, start)?;
+            terms.push((is_minus, term, self.span_from(from)));
+            self.chain(terms.len() - 1, start)?;
+            match self.peek() {
+                Some(Kind::Plus) => is_minus = false,
+                Some(Kind::Minus) => is_minus = true,
+                _ => break,
+            }
+            self.at += 1;
         }
-        Ok(sum)
+        // A number without unit has one where a name or a unit stands beside it.
+        let takes_unit = is_whole || terms.iter().any(|(_, t, _)| t.has_name || t.has_unit);
+        let mut sum: Option<Value> = None;
+        for (is_minus, mut term, span) in terms {
+            if let Some(m) = self.measures.as_deref_mut()
+                && takes_unit
+                && !(term.has_name || term.has_unit)
+            {
+                term.expr = m.bare(&Term::new(&term, span), self.context);
+            }
+            sum = Some(match (sum, is_minus) {
+                (None, false) => term,
+                (None, true) => self.made(-term.expr, &[term], start)?,
+                (Some(sum), false) => self.made(sum.expr + term.expr, &[sum, term], start)?,
+                (Some(sum), true) => self.made(sum.expr - term.expr, &[sum, term], start)?,
+            });
+        }
+        sum.ok_or_else(|| self.unexpected("a name or a number"))
     }
 
     fn product(&mut self) -> Read<Value> {
@@ -136,8 +174,14 @@ impl Parser<'_> {
         let mut product = self.factor()?;
         let mut divisor = None;
         let mut count = 0;
+        let mut is_behind_unit = false;
         loop {
             let operator = self.at;
+            if let Some((unit, span)) = self.unit_here() {
+                product = self.measured(product, start, &unit, span)?;
+                (divisor, is_behind_unit) = (None, true);
+                continue;
+            }
             let expr = match self.peek() {
                 Some(Kind::Times) => {
                     self.at += 1;
@@ -157,11 +201,26 @@ impl Parser<'_> {
                     (product.expr / over.expr, over)
                 }
                 Some(Kind::Number(_)) => {
-                    let span = self.span_of(self.at);
-                    return Err(ParseError::new(span, "a number behind a factor").hint("write `*` before it"));
+                    return Err(self.two_values());
                 }
-                Some(Kind::Atom(_) | Kind::Function(_) | Kind::Open(_) | Kind::Root | Kind::Fraction) => {
+                Some(
+                    Kind::Atom(_)
+                    | Kind::Word(_)
+                    | Kind::Function(_)
+                    | Kind::Open(_)
+                    | Kind::Root
+                    | Kind::Fraction,
+                ) => {
                     let next = self.at;
+                    let between = self.span_of(next - 1).end..self.span_of(next).start;
+                    if self.measures.is_some() && self.source(&between).contains('$') {
+                        return Err(self.two_values());
+                    }
+                    if is_behind_unit {
+                        let message = format!("`{}` behind a unit", self.source(&self.span_of(next)));
+                        let e = ParseError::new(self.span_of(next), message);
+                        return Err(e.hint("a product with a unit needs a `*`"));
+                    }
                     let factor = self.powered()?;
                     if let Some(from) = divisor {
                         let left = self.span_of(from).start..self.span_of(next - 1).end;
@@ -176,7 +235,13 @@ impl Parser<'_> {
                 _ => return Ok(product),
             };
             count += 1;
-            product = self.made(expr.0, &[product, expr.1], start)?;
+            let is_over = matches!(self.tokens[operator].kind, Kind::Divide);
+            if !is_over && product.is_quantity() && expr.1.is_quantity() {
+                return Err(ParseError::new(self.span_from(start), "a product of two quantities with units"));
+            }
+            let has_unit = product.has_unit != expr.1.has_unit;
+            product = Value { has_unit, ..self.made(expr.0, &[product, expr.1], start)? };
+            is_behind_unit = false;
             self.chain(count, start)?;
         }
     }
@@ -208,18 +273,22 @@ impl Parser<'_> {
                 let size = bits(&r);
                 let number = Expr::from(r);
                 let expr = match self.peek() {
+                    _ if self.measures.is_some() => {
+                        return self.made(number, &[Value::plain(number, 0, size)], start);
+                    }
                     Some(Kind::Degree) => number * Expr::pi() / Expr::int(180),
                     Some(Kind::Radian) if self.vocabulary.in_degrees() => number * Expr::symbol(RADIAN),
                     Some(Kind::Radian) => number,
-                    _ => return self.made(number, &[Value { expr: number, height: 0, bits: size }], start),
+                    _ => return self.made(number, &[Value::plain(number, 0, size)], start),
                 };
                 self.at += 1;
-                self.made(expr, &[Value { expr, height: 1, bits: size + 8 }], start)
+                self.made(expr, &[Value::plain(expr, 1, size + 8)], start)
             }
             Kind::Atom(expr) => {
                 self.at += 1;
-                Ok(Value { expr, height: 4, bits: 0 })
+                Ok(Value::plain(expr, 4, 0))
             }
+            Kind::Word(word) => self.named(&word, start),
             Kind::Open(closing) => {
                 self.at += 1;
                 self.nested(start, |p| p.bracket(closing, start))
@@ -243,7 +312,7 @@ impl Parser<'_> {
         }
     }
 
-    fn nested(&mut self, start: usize, read: impl FnOnce(&mut Self) -> Read<Value>) -> Read<Value> {
+    pub fn nested(&mut self, start: usize, read: impl FnOnce(&mut Self) -> Read<Value>) -> Read<Value> {
         self.depth += 1;
         if self.depth > MAX_NESTING {
             let message = format!("nested more than {MAX_NESTING} deep");
@@ -256,7 +325,7 @@ impl Parser<'_> {
 
     /// A sum up to the closing bracket of the one that was opened at `open`.
     fn bracket(&mut self, closing: char, open: usize) -> Read<Value> {
-        let value = self.sum()?;
+        let value = self.sum(false)?;
         self.close(closing, open)?;
         Ok(value)
     }

@@ -14,6 +14,8 @@ use std::ops::Range;
 pub(super) enum Kind {
     Number(Rational),
     Atom(Expr),
+    /// A whole word, whose meaning the grammar asks for.
+    Word(String),
     Function(Function),
     Plus,
     Minus,
@@ -43,11 +45,12 @@ pub(super) fn tokens(
     text: &str,
     marks: &[Mark],
     vocabulary: &Vocabulary,
+    whole_words: bool,
     errors: &mut Vec<ParseError>,
 ) -> (Vec<Token>, bool) {
     let names = Names::new(vocabulary);
     let is_whole = errors.is_empty();
-    let mut lexer = Lexer { text, marks, at: 0, names, tokens: vec![], is_whole, errors };
+    let mut lexer = Lexer { text, marks, at: 0, names, whole_words, tokens: vec![], is_whole, errors };
     lexer.run(marks.len());
     (lexer.tokens, lexer.is_whole)
 }
@@ -99,6 +102,8 @@ pub(super) struct Lexer<'a> {
     pub marks: &'a [Mark],
     pub at: usize,
     pub names: Names<'a>,
+    /// Words are not cut.
+    pub whole_words: bool,
     pub tokens: Vec<Token>,
     pub is_whole: bool,
     pub errors: &'a mut Vec<ParseError>,
@@ -195,6 +200,7 @@ impl Lexer<'_> {
             ')' | ']' | '}' => self.push(Kind::Close(c), 1),
             ',' => self.push(Kind::Comma, 1),
             '=' => self.push(Kind::Equals, 1),
+            _ if self.whole_words && (c.is_alphabetic() || c == '_') => self.whole_word(),
             _ if c.is_alphabetic() => self.word(),
             _ => {
                 let span = self.marks[self.at].span.clone();
@@ -228,26 +234,32 @@ impl Lexer<'_> {
         self.push(Kind::Caret, 1);
     }
 
+    /// The place behind `e-3`, if that stands at `end`.
+    fn after_power_of_ten(&self, end: usize) -> usize {
+        if !matches!(self.char(end), Some('e' | 'E')) {
+            return end;
+        }
+        let sign = end + 1 + usize::from(matches!(self.char(end + 1), Some('+' | '-')));
+        let after = self.after_digits(sign);
+        let word: String = (end..after).filter_map(|i| self.char(i)).collect();
+        let is_number = after > sign && !self.char(after).is_some_and(char::is_alphabetic);
+        if is_number && self.names.known(&word).is_none() { after } else { end }
+    }
+
     fn number(&mut self) {
         let start = self.at;
         let mut end = self.after_digits(start);
         if self.char(end) == Some('.') && self.is_digit(end + 1) {
             end = self.after_digits(end + 1);
+        } else if self.whole_words && self.char(end) == Some('.') {
+            end += 1;
         }
-        if matches!(self.char(end), Some('e' | 'E')) {
-            let sign = end + 1 + usize::from(matches!(self.char(end + 1), Some('+' | '-')));
-            let after = self.after_digits(sign);
-            let word: String = (end..after).filter_map(|i| self.char(i)).collect();
-            let is_number = after > sign && !self.char(after).is_some_and(char::is_alphabetic);
-            if is_number && self.names.known(&word).is_none() {
-                end = after;
-            }
-        }
+        end = self.after_power_of_ten(end);
         let digits: String = (start..end).filter_map(|i| self.char(i)).collect();
         let span = self.span(start, end);
         self.at = end;
         let value = Rational::from_decimal(&digits).unwrap_or_else(|| {
-            self.error(ParseError::new(span.clone(), "the number is too long"));
+            self.error(ParseError::new(span.clone(), format!("`{digits}` is too long a number")));
             Rational::ONE
         });
         self.tokens.push(Token { kind: Kind::Number(value), span });
@@ -256,6 +268,9 @@ impl Lexer<'_> {
 
     /// `deg` or `rad` behind a number.
     fn unit(&mut self) {
+        if self.whole_words {
+            return; // `2 deg/s`: the grammar finds units
+        }
         let start = self.after_space(self.at);
         let letters = (start..).map_while(|i| self.char(i).filter(|c| c.is_alphanumeric() || *c == '_'));
         let word: String = letters.take(4).collect();
@@ -274,7 +289,7 @@ impl Lexer<'_> {
     fn point(&mut self) {
         let start = self.at;
         if self.is_digit(start + 1) {
-            let end = self.after_digits(start + 1);
+            let end = self.after_power_of_ten(self.after_digits(start + 1));
             let before = self.tokens.last().cloned().filter(|t| {
                 matches!(
                     t.kind,
@@ -286,7 +301,7 @@ impl Lexer<'_> {
             self.at = end;
             let Some(before) = before else {
                 let value = Rational::from_decimal(&digits).unwrap_or_else(|| {
-                    self.error(ParseError::new(span.clone(), "the number is too long"));
+                    self.error(ParseError::new(span.clone(), format!("`{digits}` is too long a number")));
                     Rational::ONE
                 });
                 self.tokens.push(Token { kind: Kind::Number(value), span });

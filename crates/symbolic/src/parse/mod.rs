@@ -8,10 +8,14 @@ mod calls;
 mod gather;
 mod grammar;
 mod lexer;
+mod measured;
 mod names;
 mod normalise;
 mod trig;
 mod words;
+
+pub use measured::{Context, Measures, Term, parse_measured, whole_word};
+pub use normalise::{greek_name, subscript};
 
 use crate::expr::Expr;
 use crate::vocabulary::Vocabulary;
@@ -41,11 +45,13 @@ pub struct ParseError {
 }
 
 impl ParseError {
-    fn new(span: Range<usize>, message: impl Into<String>) -> Self {
+    /// An error without a hint.
+    pub fn new(span: Range<usize>, message: impl Into<String>) -> Self {
         ParseError { span, message: message.into(), hint: None }
     }
 
-    fn hint(mut self, hint: impl Into<String>) -> Self {
+    /// The error with what to write instead.
+    pub fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hint = Some(hint.into());
         self
     }
@@ -107,8 +113,8 @@ pub fn parse_angle(text: &str, vocabulary: &Vocabulary) -> Result<Expr, Vec<Pars
 
 fn read(text: &str, vocabulary: &Vocabulary, is_angle: bool) -> Result<Expr, Vec<ParseError>> {
     let (marks, mut errors) = normalise::normalise(checked(text)?);
-    let (tokens, is_whole) = lexer::tokens(text, &marks, vocabulary, &mut errors);
-    let (value, structure) = grammar::formula(text, &tokens, vocabulary, is_angle);
+    let (tokens, is_whole) = lexer::tokens(text, &marks, vocabulary, false, &mut errors);
+    let (value, structure) = grammar::formula(text, &tokens, vocabulary, None, is_angle);
     errors.extend(structure.into_iter().filter(|_| is_whole));
     finish(value, errors)
 }
@@ -138,8 +144,8 @@ pub fn parse_definition(text: &str, vocabulary: &Vocabulary) -> Result<Definitio
         return Err(errors);
     };
     let name = lexer::defined_name(text, &marks[..equals], vocabulary);
-    let (tokens, is_whole) = lexer::tokens(text, &marks[equals + 1..], vocabulary, &mut errors);
-    let (value, structure) = grammar::formula(text, &tokens, vocabulary, false);
+    let (tokens, is_whole) = lexer::tokens(text, &marks[equals + 1..], vocabulary, false, &mut errors);
+    let (value, structure) = grammar::formula(text, &tokens, vocabulary, None, false);
     errors.extend(structure.into_iter().filter(|_| is_whole));
     match name {
         Ok((name, span)) => finish(value, errors).map(|value| Definition { name, span, value }),

@@ -85,7 +85,7 @@ const COMMANDS: &[(&str, char)] = &[
 ];
 
 /// LaTeX commands for a word of several letters.
-const WORDS: &[&str] = &["cos", "sin", "deg"];
+const WORDS: &[&str] = &["cos", "sin", "tan", "deg", "rad", "mm", "cm"];
 
 /// LaTeX commands that only change the looks, with an argument in braces, and without one.
 const WRAPPERS: &[&str] = &[
@@ -99,6 +99,15 @@ const WRAPPERS: &[&str] = &[
     "textrm",
     "textit",
     "operatorname",
+    "mathtt",
+    "bm",
+    "textbf",
+    "textsf",
+    "rm",
+    "bf",
+    "overline",
+    "bar",
+    "hat",
 ];
 const IGNORED: &[&str] = &[
     "left",
@@ -113,6 +122,8 @@ const IGNORED: &[&str] = &[
     "biggl",
     "biggr",
     "displaystyle",
+    "textstyle",
+    "limits",
 ];
 
 /// The first Greek letter name that `word` begins with, the longest one.
@@ -122,7 +133,7 @@ pub(super) fn greek_prefix(word: &str) -> Option<(&'static str, char)> {
 }
 
 /// The name of a Greek letter.
-pub(super) fn greek_name(letter: char) -> Option<&'static str> {
+pub fn greek_name(letter: char) -> Option<&'static str> {
     COMMANDS.iter().find(|(_, c)| *c == letter && is_greek(letter)).map(|(n, _)| *n)
 }
 
@@ -198,7 +209,8 @@ impl Normaliser<'_> {
     /// A run of Unicode subscripts or superscripts, as a group in braces.
     fn small_run(&mut self, opening: char) {
         let start = self.at;
-        self.push(opening, start..start);
+        let first = self.peek().map_or(0, char::len_utf8);
+        self.push(opening, start..if opening == '^' { start + first } else { start });
         self.push('{', start..start);
         while let Some((kind, c)) = self.peek().and_then(small)
             && kind == opening
@@ -224,7 +236,7 @@ impl Normaliser<'_> {
             self.at += c.len_utf8();
             let span = start..self.at;
             match c {
-                ',' | ';' | ':' | '!' | ' ' => self.push(' ', span),
+                ',' | ';' | ':' | '!' | '>' | ' ' | '(' | ')' | '[' | ']' | '*' => self.push(' ', span),
                 '{' | '}' | '_' => self.push(c, span),
                 _ => self.errors.push(ParseError::new(span, format!("unknown command `\\{c}`"))),
             }
@@ -236,7 +248,7 @@ impl Normaliser<'_> {
         } else if WORDS.contains(&name) {
             self.push(' ', start..start);
             name.chars().for_each(|c| self.push(c, span.clone()));
-        } else if matches!(name, "frac" | "dfrac" | "tfrac") {
+        } else if matches!(name, "frac" | "dfrac" | "tfrac" | "cfrac") {
             self.marks.push(Mark { glyph: Glyph::Fraction, span });
         } else if WRAPPERS.contains(&name) {
             self.push(' ', span);
@@ -290,6 +302,11 @@ fn plain(c: char) -> char {
         c if c.is_whitespace() => ' ',
         c => c,
     }
+}
+
+/// The plain character of a subscript one: `₁` is 1.
+pub fn subscript(c: char) -> Option<char> {
+    small(c).filter(|s| s.0 == '_').map(|s| s.1)
 }
 
 /// Sub- and superscripts of Unicode: `_` or `^`, and the character.

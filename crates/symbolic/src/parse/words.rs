@@ -24,6 +24,7 @@ pub(super) struct Letter {
 pub(super) enum Function {
     Sin,
     Cos,
+    Tan,
     Sqrt,
     Atan2,
 }
@@ -34,11 +35,21 @@ impl Function {
         match self {
             Function::Sin => "sin",
             Function::Cos => "cos",
+            Function::Tan => "tan",
             Function::Sqrt => "sqrt",
             Function::Atan2 => "atan2",
         }
     }
+
+    /// Whether its argument is an angle.
+    pub fn takes_angle(self) -> bool {
+        matches!(self, Function::Sin | Function::Cos | Function::Tan)
+    }
 }
+
+/// The functions that a whole word may call.
+pub(super) const CALLED: [Function; 5] =
+    [Function::Sin, Function::Cos, Function::Tan, Function::Sqrt, Function::Atan2];
 
 /// The names of functions; the sines may also stand without brackets.
 pub(super) const FUNCTIONS: &[(&str, Function)] = &[

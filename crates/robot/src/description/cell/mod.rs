@@ -1,26 +1,19 @@
 //! A table cell, read exactly: numbers with units, parameters, joint variables, and formulas of them.
 //!
-//! ```text
-//! sum     = ["-"] term { ("+" | "-") term }
-//! term    = product [unit] { ("*" | "/") product }        90 deg, 450 mm, π/2, 2 a1, 0.5·L
-//! product = factor { ["*" | "/"] factor }
-//! factor  = number | name | "(" sum ")" | function "(" sum ")" | "-" factor | factor "^" integer
-//! ```
-//!
-//! A name is a whole word (`RL4`, `a1`): a cell of a table never runs names together, as formulas do. A cell has
-//! at most [`MAX_LENGTH`] bytes, which bounds every recursion over what is read.
+//! The grammar is that of formulas (`denavit_symbolic::parse`), with units behind numbers. A name is a whole word
+//! (`RL4`, `a1`): a cell of a table never runs names together. A cell has at most [`MAX_LENGTH`] bytes, which bounds
+//! every recursion over what is read.
 
-mod lexer;
-mod parser;
+mod measure;
 mod special;
 mod write;
 
-pub(super) use lexer::{greek, subscript};
+pub(super) use measure::greek;
 pub(super) use write::write_cell;
 
 use super::diagnostic::{Diagnostics, Severity};
 use super::units::{Quantity, Unit};
-use denavit_symbolic::Expr;
+use denavit_symbolic::{Expr, parse::whole_word};
 use std::ops::Range;
 
 /// The longest cell, in bytes.
@@ -95,7 +88,7 @@ pub(super) fn read_cell(text: &str, place: &Place, style: &Style, out: &mut Diag
         out.error(place.span.clone(), format!("a cell of {} bytes; {MAX_LENGTH} are allowed", text.len()));
         return None;
     }
-    match parser::parse(text, style) {
+    match measure::read(text, style) {
         Ok((mut value, findings)) => {
             for (severity, span, message) in findings {
                 let span = place.part(span);
@@ -122,18 +115,15 @@ pub(super) fn name_of(text: &str, document: bool) -> Option<String> {
     if text.len() > MAX_LENGTH {
         return None;
     }
-    match lexer::tokens(text, document, false).ok()?.as_slice() {
-        [lexer::Token { kind: lexer::Kind::Word(name), .. }] => Some(name.clone()),
-        [lexer::Token { kind: lexer::Kind::Word(name), .. }, rest @ ..] => parser::distance_name(name, rest),
-        _ => None,
-    }
+    let word = if document { whole_word(&measure::mended(text, false)) } else { whole_word(text) };
+    Some(measure::plain(&word?, document))
 }
 
 /// True for names that stand for something else already: π, functions, units, `C1`, `S23`.
 pub(super) fn is_reserved(name: &str) -> bool {
     let index = name.strip_prefix(['C', 'S', 'c', 's']).unwrap_or("");
     let trigonometric = !index.is_empty() && index.bytes().all(|b| b.is_ascii_digit());
-    let word = parser::FUNCTIONS.contains(&name) || ["pi", "inf", "nan", "NaN", "infinity"].contains(&name);
+    let word = ["sin", "cos", "tan", "sqrt", "atan2", "pi", "inf", "nan", "NaN", "infinity"].contains(&name);
     let unit = super::units::unit_named(name)
         .is_some_and(|u| matches!(u.quantity, Quantity::Angle | Quantity::Length) && name != "m");
     trigonometric || word || unit

@@ -1,7 +1,8 @@
 //! What a header says: which column is what, in which unit.
 
-use crate::description::cell::{greek, subscript};
+use crate::description::cell::greek;
 use crate::description::units::{Quantity, Unit, unit_named};
+use denavit_symbolic::parse::subscript;
 
 /// What a column holds.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
