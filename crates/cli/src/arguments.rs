@@ -7,7 +7,8 @@ use std::path::PathBuf;
 /// Everything about a robot arm from its Denavit-Hartenberg table: exact, proved, in formulas and in numbers.
 ///
 /// A ROBOT is a name from the catalogue (`denavit robots`), a robot file (.toml), or a table as it stands in a
-/// document (.md, .csv, .tex). Exit codes: 0 done, 2 usage, 3 bad input, 4 not supported, 5 gave up.
+/// document (.md, .txt, .csv, .tsv, .tex). Exit codes: 0 done, 1 the answer is no, 2 usage, 3 bad input, 4 not
+/// supported, 5 gave up.
 #[derive(Parser)]
 #[command(name = "denavit", version, max_term_width = 110)]
 pub struct Arguments {

@@ -6,12 +6,16 @@ use std::process::ExitCode;
 /// Why a command stopped, with its exit code.
 #[derive(Debug)]
 pub enum Failure {
+    /// 1: the answer is no.
+    No(String),
     /// 2: the command line asks for something that does not fit the robot.
     Usage(String),
     /// 3: a file or value cannot be read; what is to be said stands in the text, ready to print.
     Input(String),
     /// 4: this is not supported.
     Unsupported(String),
+    /// 5: a bound on time or size was reached; what was found is printed.
+    GaveUp(String),
     /// Standard output or a file cannot be written or read.
     Io(io::Error),
 }
@@ -22,6 +26,8 @@ impl Failure {
         let (code, text) = match self {
             Failure::Io(e) if e.kind() == io::ErrorKind::BrokenPipe => return ExitCode::SUCCESS,
             Failure::Io(e) => (3, format!("error: {e}")),
+            Failure::No(text) => (1, text),
+            Failure::GaveUp(text) => (5, format!("gave up: {text}")),
             Failure::Usage(text) => (2, format!("error: {text}")),
             Failure::Input(text) => (3, text),
             Failure::Unsupported(text) => (4, format!("not supported: {text}")),

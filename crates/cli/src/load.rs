@@ -4,11 +4,10 @@ use crate::arguments::{AngleUnit, LengthUnit, RobotArguments};
 use crate::failure::Failure;
 use denavit::catalogue;
 use denavit::description::{
-    Description, Diagnostic, MAX_BYTES, Severity, TableKind, TableOptions, read_table, read_toml,
+    Description, Diagnostic, MAX_BYTES, Measure, Severity, TableKind, TableOptions, read_table, read_toml,
+    read_value,
 };
-use denavit_symbolic::parse::parse;
-use denavit_symbolic::vocabulary::Vocabulary;
-use denavit_symbolic::{Expr, Rational};
+use denavit_symbolic::{Expr, Symbol};
 use std::fs::File;
 use std::io::{self, Read, Write};
 use std::path::Path;
@@ -18,14 +17,47 @@ use std::path::Path;
 /// # Errors
 /// If there is no such robot, or its file cannot be read or has errors.
 pub fn robot(arguments: &RobotArguments) -> Result<Description, Failure> {
-    let mut description = match catalogue::text(&arguments.robot) {
-        Some(text) => read(&arguments.robot, text, read_toml(text))?,
+    let name = catalogue_name(&arguments.robot);
+    let is_table =
+        !name.as_deref().is_some_and(|n| catalogue::text(n).is_some()) && !arguments.robot.ends_with(".toml");
+    if let (false, Some(option)) = (is_table, table_option(arguments)) {
+        return Err(Failure::Usage(format!(
+            "{option} is for tables, and {} says it itself",
+            arguments.robot
+        )));
+    }
+    let mut description = match name.as_deref().and_then(|n| Some((n, catalogue::text(n)?))) {
+        Some((name, text)) => read(name, text, read_toml(text))?,
         None => from_file(arguments)?,
     };
+    let mut seen: Vec<&str> = vec![];
     for setting in &arguments.set {
+        let name = setting.split('=').next().unwrap_or_default().trim();
+        if seen.contains(&name) {
+            return Err(Failure::Usage(format!("--set gives {name} two values")));
+        }
+        seen.push(name);
         set(&mut description, setting)?;
     }
     Ok(description)
+}
+
+/// The catalogue's spelling: lower case, words joined by hyphens. `None` for what looks like a path.
+fn catalogue_name(text: &str) -> Option<String> {
+    let is_path = text.contains(['/', '\\', '.']) || text == "-";
+    (!is_path).then(|| text.to_lowercase().replace([' ', '_'], "-"))
+}
+
+/// The option given that only a table can need.
+fn table_option(arguments: &RobotArguments) -> Option<&'static str> {
+    let given = [
+        (arguments.convention.is_some(), "--convention"),
+        (arguments.angles.is_some(), "--angles"),
+        (arguments.lengths.is_some(), "--lengths"),
+        (arguments.table.is_some(), "--table"),
+        (arguments.columns.is_some(), "--columns"),
+    ];
+    given.into_iter().find(|g| g.0).map(|g| g.1)
 }
 
 fn from_file(arguments: &RobotArguments) -> Result<Description, Failure> {
@@ -41,6 +73,10 @@ fn from_file(arguments: &RobotArguments) -> Result<Description, Failure> {
             return Err(Failure::Unsupported(
                 "URDF is not read yet; write the Denavit-Hartenberg table".into(),
             ));
+        }
+        _ if path.is_file() => {
+            let hint = "a robot file ends in .toml, a table in .md, .txt, .csv, .tsv or .tex";
+            return Err(Failure::Input(format!("error: {name}: what is this?\n  = hint: {hint}")));
         }
         _ => return Err(unknown_robot(name)),
     };
@@ -125,9 +161,11 @@ fn set(description: &mut Description, setting: &str) -> Result<(), Failure> {
     let (name, value) = setting
         .split_once('=')
         .ok_or_else(|| Failure::Usage(format!("--set {setting}: write NAME=VALUE, as in D3=450mm")))?;
-    let value = quantity(value).map_err(|why| Failure::Usage(format!("--set {setting}: {why}")))?;
+    let symbol = Symbol::new(name.trim());
+    let value = value_of(value, description.measure(symbol))
+        .map_err(|why| Failure::Usage(format!("--set {setting}: {why}")))?;
     let names: Vec<String> = description.parameters.iter().map(|p| p.symbol.name().to_string()).collect();
-    match description.parameters.iter_mut().find(|p| *p.symbol.name() == *name.trim()) {
+    match description.parameters.iter_mut().find(|p| p.symbol == symbol) {
         Some(parameter) => parameter.value = Some(value),
         None => {
             let known = if names.is_empty() {
@@ -141,18 +179,16 @@ fn set(description: &mut Description, setting: &str) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A constant with or without unit: `0.1`, `90deg`, `pi/2`, `450 mm`.
+/// A constant with or without unit.
 ///
 /// # Errors
 /// A sentence that says what is wrong.
-pub fn quantity(text: &str) -> Result<Expr, String> {
-    let units = [("mm", 1000), ("cm", 100), ("m", 1)];
-    let names =
-        units.iter().fold(Vocabulary::new(), |v, (unit, n)| v.alias(unit, Rational::new(1, *n).into()));
-    let e = parse(text.trim(), &names)
-        .map_err(|errors| errors.first().map_or_else(|| "not a number".to_string(), ToString::to_string))?;
-    match e.eval(|_| None) {
-        Ok(x) if x.is_finite() => Ok(e),
-        _ => Err(format!("`{}` is no finite number", text.trim())),
-    }
+pub fn value_of(text: &str, measure: Measure) -> Result<Expr, String> {
+    read_value(text.trim(), measure).map_err(|findings| {
+        let sentences = findings.iter().map(|d| match &d.hint {
+            Some(hint) => format!("{} ({hint})", d.message),
+            None => d.message.clone(),
+        });
+        sentences.collect::<Vec<_>>().join("; ")
+    })
 }

@@ -11,6 +11,7 @@ pub mod ball;
 pub mod equality;
 pub mod expr;
 pub mod fraction;
+mod greek;
 mod lattice;
 pub mod parse;
 pub mod poly;

@@ -63,12 +63,18 @@ fn terms(ring: &mut Ring, e: Expr) -> Result<usize, Refusal> {
 /// Angles beyond which merged sums are no longer searched for (the search is quadratic in them).
 const MAX_ANGLES_MERGED: usize = 8;
 
+/// Terms beyond which nobody reads a formula.
+const MAX_TERMS: usize = 500;
+
 /// The readable form over the basis of `ring`.
 ///
 /// # Errors
 /// If `e` has no canonical form in the ring; see [`Refusal`].
 pub fn simplify_in(ring: &mut Ring, e: Expr) -> Result<Simplified, Refusal> {
     let form = ring.normal(e)?;
+    if form.den.iter().map(|f| &f.0).chain([&form.num]).any(|p| p.terms().len() > MAX_TERMS) {
+        return Err(Refusal::TooLarge);
+    }
     let mut den = Expr::int(1);
     let mut conditions = vec![];
     for (p, n) in &form.den {

@@ -61,7 +61,7 @@ impl std::error::Error for Refusal {}
 
 /// Products of terms that one ring may form. The pose of six angles takes hundreds; the bound keeps an expansion
 /// within a second and some hundred megabytes.
-const BUDGET: u64 = 1_500_000;
+const BUDGET: u64 = 600_000;
 /// The largest multiple of a generator that is expanded: cos 64θ has 33 terms.
 const MAX_MULTIPLE: i64 = 64;
 

@@ -6,10 +6,10 @@ use crate::failure::Failure;
 use crate::load;
 use crate::terminal::{Align, HEADING, NAME, decimals, lowered, matrix, number, raised, styled};
 use denavit::Robot;
-use denavit::description::{Description, JointKind, Variable};
+use denavit::description::{Description, JointKind, Measure, Variable};
 use denavit::geometry::Transform;
 use denavit::geometry::orientation::{OrientationSet, extract};
-use denavit_symbolic::Expr;
+use denavit_symbolic::{Expr, Symbol};
 use serde_json::{Value, json};
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Write};
@@ -27,7 +27,11 @@ pub fn run(arguments: &FkArguments) -> Result<(), Failure> {
     let description = load::robot(&arguments.robot)?;
     let request = Request::new(&description, arguments)?;
     let robot = Robot::numeric(&description).map_err(|missing| {
-        let settings: Vec<String> = missing.parameters.iter().map(|p| format!("--set {p}=450mm")).collect();
+        let example = |p: &String| match description.measure(Symbol::new(p)) {
+            Measure::Angle => format!("--set {p}=30deg"),
+            Measure::Length => format!("--set {p}=450mm"),
+        };
+        let settings: Vec<String> = missing.parameters.iter().map(example).collect();
         Failure::Input(format!(
             "error: {}: {missing}\n  = hint: give values, as in {}",
             arguments.robot.robot,
@@ -105,18 +109,25 @@ fn configuration(d: &Description, text: &str) -> Result<Vec<f64>, Failure> {
     };
     if parts.len() != variables.len() {
         return Err(bad(format!(
-            "{} value{} given, the robot has {} joint{} ({})",
-            parts.len(),
-            if parts.len() == 1 { "" } else { "s" },
-            variables.len(),
-            if variables.len() == 1 { "" } else { "s" },
-            variables.iter().map(|v| v.symbol.name().to_string()).collect::<Vec<_>>().join(", ")
+            "{} given, the robot has {} ({}){}",
+            plural(parts.len(), "value"),
+            plural(variables.len(), "joint"),
+            variables.iter().map(|v| v.symbol.name().to_string()).collect::<Vec<_>>().join(", "),
+            pose_names(d),
         )));
     }
-    let read = |(i, part): (usize, &&str)| {
-        load::quantity(part).and_then(value).map_err(|why| bad(format!("value {}: {why}", i + 1)))
-    };
-    parts.iter().enumerate().map(read).collect()
+    let (mut q, mut errors) = (vec![], vec![]);
+    for (part, variable) in parts.iter().zip(variables) {
+        match load::value_of(part, variable.kind.into()).and_then(value) {
+            Ok(x) => q.push(x),
+            Err(why) => errors.push(format!("{}: {why}", variable.symbol.name())),
+        }
+    }
+    if errors.is_empty() { Ok(q) } else { Err(bad(errors.join("\n  "))) }
+}
+
+fn plural(n: usize, word: &str) -> String {
+    format!("{n} {word}{}", if n == 1 { "" } else { "s" })
 }
 
 fn value(e: Expr) -> Result<f64, String> {
@@ -166,6 +177,12 @@ fn rows(x: &Transform<f64>) -> Value {
 fn answer(d: &Description, robot: &Robot<f64>, request: &Request, q: &[f64]) -> Value {
     let pose = robot.pose(q);
     let mut answer = json!({"schema": 1, "robot": d.name, "q": q, "pose": rows(&pose)});
+    let limits = limits(d);
+    if limits.iter().any(|l| l.1.is_some()) {
+        let inside =
+            |(l, x): (&(Variable, Option<[f64; 2]>), &f64)| l.1.is_none_or(|[a, b]| (a..=b).contains(x));
+        answer["within_limits"] = limits.iter().zip(q).all(inside).into();
+    }
     if !request.frames.is_empty() {
         let frames = robot.frames(q);
         answer["frames"] = request.frames.iter().map(|&i| rows(&frames[i])).collect();
@@ -189,18 +206,28 @@ fn report(d: &Description, robot: &Robot<f64>, request: &Request, q: &[f64]) -> 
     let frames = robot.frames(q);
     let size = frames.iter().map(|x| x.translation.norm()).fold(1.0, f64::max);
     let show = |label: &str, x: &Transform<f64>| {
-        let entries: Vec<Vec<String>> =
-            x.matrix().iter().map(|row| row.iter().map(|&e| number(e, 1e-14 * size)).collect()).collect();
+        let noise = |column: usize| if column == 3 { 1e-14 * size } else { 1e-14 };
+        let row = |row: &[f64; 4]| row.iter().enumerate().map(|(c, &e)| number(e, noise(c))).collect();
+        let entries: Vec<Vec<String>> = x.matrix().iter().map(row).collect();
         matrix(&format!("{label} = "), &entries, Align::Right)
     };
-    for &i in &request.frames {
-        text += &show(&format!("{}T{}", raised("0"), lowered(&i.to_string())), &frames[i]);
+    let (has_base, has_tool) = (d.base != Transform::identity(), d.tool != Transform::identity());
+    let label = |i: usize| match has_base {
+        true => format!("T(base → {i})"),
+        false => format!("{}T{}", raised("0"), lowered(&i.to_string())),
+    };
+    let last = d.rows.len();
+    for &i in request.frames.iter().filter(|&&i| i != last || has_tool) {
+        text += &show(&label(i), &frames[i]);
         text.push('\n');
     }
     let pose = robot.pose(q);
-    let has_tool = d.tool != Transform::identity() || d.base != Transform::identity();
-    let frame = format!("{}T{}", raised("0"), lowered(&d.rows.len().to_string()));
-    text += &show(if has_tool { "tool" } else { &frame }, &pose);
+    let whole = match (has_tool, has_base) {
+        (false, _) => label(last),
+        (true, false) => "T(0 → tool)".into(),
+        (true, true) => "T(base → tool)".into(),
+    };
+    text += &show(&whole, &pose);
     if let Some(set) = request.orientation {
         let o = extract(&pose.rotation, set);
         text += &format!("\n  orientation as {}: ", styled(&set.to_string(), NAME));
@@ -220,7 +247,12 @@ fn report(d: &Description, robot: &Robot<f64>, request: &Request, q: &[f64]) -> 
             .collect();
         text += &values.join(", ");
         if o.singular {
-            text += "  (singular: only the sum or difference of the outer angles is determined; the last is taken as 0)";
+            text += match set {
+                OrientationSet::AxisAngle => "  (singular: no axis is distinguished; z is taken)",
+                _ => {
+                    "  (singular: only the sum or difference of the outer angles is determined; the last is taken as 0)"
+                }
+            };
         }
         text.push('\n');
     }
@@ -239,7 +271,7 @@ fn stream(d: &Description, robot: &Robot<f64>, request: &Request, path: &Path) -
     let mut out = io::BufWriter::new(io::stdout().lock());
     let mut bad = 0_usize;
     for (i, line) in reader.split(b'\n').enumerate() {
-        let line = line?;
+        let line = line.map_err(|e| Failure::Input(format!("error: {named}: {e}")))?;
         if line.iter().all(u8::is_ascii_whitespace) {
             continue;
         }
@@ -262,9 +294,10 @@ fn stream(d: &Description, robot: &Robot<f64>, request: &Request, path: &Path) -
 }
 
 fn parse_line(line: &[u8], joints: usize) -> Result<Vec<f64>, String> {
-    let q: Vec<f64> = serde_json::from_slice(line).map_err(|e| format!("not an array of numbers: {e}"))?;
+    let q: Vec<f64> = serde_json::from_slice(line)
+        .map_err(|e| format!("not a JSON array of numbers (column {})", e.column()))?;
     if q.len() != joints {
-        return Err(format!("{} values, the robot has {joints} joints", q.len()));
+        return Err(format!("{}, the robot has {}", plural(q.len(), "value"), plural(joints, "joint")));
     }
     Ok(q)
 }

@@ -19,6 +19,9 @@ pub fn run(arguments: &RobotsArguments) -> Result<(), Failure> {
         .filter(|(name, d)| arguments.filter.as_ref().is_none_or(|text| matches(text, name, &d.name)))
         .collect();
     let mut out = anstream::stdout();
+    if let (true, Some(text)) = (robots.is_empty(), &arguments.filter) {
+        return Err(Failure::No(format!("no robot of the catalogue matches `{text}`")));
+    }
     if arguments.json {
         let list: Vec<_> = robots
             .iter()

@@ -5,7 +5,7 @@ use crate::commands::robots::joints;
 use crate::failure::Failure;
 use crate::load;
 use crate::terminal::{Align, FAINT, HEADING, NAME, decimals, styled, table};
-use denavit::description::{Convention, Description, JointKind, write_toml};
+use denavit::description::{Convention, Description, JointKind, Measure, write_toml};
 use denavit::geometry::Transform;
 use denavit::structure::{Relation, Structure};
 use denavit_symbolic::print::{Style, print};
@@ -151,13 +151,12 @@ pub fn dh_table(d: &Description) -> String {
             .parameters
             .iter()
             .map(|p| {
-                let angle = p.value.is_some_and(|v| !Angle::of(v).turns.is_zero());
-                let value = match p.value {
-                    Some(v) if angle => cell(v, true),
-                    Some(v) => format!("{} m", cell(v, false)),
-                    None => "?".into(),
+                let value = match (p.value, d.measure(p.symbol)) {
+                    (Some(v), Measure::Angle) => cell(v, true),
+                    (Some(v), Measure::Length) => format!("{} m", cell(v, false)),
+                    (None, _) => "?".into(),
                 };
-                format!("{} = {value}", styled(&p.symbol.name(), NAME))
+                format!("{} = {value}", styled(&cell(p.symbol.into(), false), NAME))
             })
             .collect();
         text += &format!("\n  {}\n", values.join(",  "));

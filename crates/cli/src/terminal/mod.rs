@@ -106,11 +106,19 @@ pub fn number(x: f64, noise: f64) -> String {
     if x == x.round() && x.abs() < 1e6 {
         return format!("{x}").replace('-', "−");
     }
-    if (1e-4..1e6).contains(&x.abs()) { decimals(x, 6) } else { format!("{x:.6e}").replace('-', "−") }
+    if (1e-4..1e6).contains(&x.abs()) {
+        return decimals(x, 6);
+    }
+    let text = format!("{x:.6e}");
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    format!("{}e{exponent}", mantissa.trim_end_matches('0').trim_end_matches('.')).replace('-', "−")
 }
 
 /// At most so many decimals, no trailing zeros.
 pub fn decimals(x: f64, digits: usize) -> String {
+    if x.abs() >= 1e9 {
+        return format!("{x:e}").replace('-', "−");
+    }
     let text = format!("{x:.digits$}");
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
     if text == "-0" { "0".into() } else { text.replace('-', "−") }

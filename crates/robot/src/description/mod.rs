@@ -12,12 +12,14 @@ mod robot_file;
 mod rows;
 pub mod table;
 mod units;
+mod value;
 
 pub use cell::MAX_LENGTH as MAX_CELL_BYTES;
 pub use convert::{Conversion, SameChain, prove_same_chain};
 pub use diagnostic::{Diagnostic, Diagnostics, Severity, line_column, render};
 pub use robot_file::{MAX_BYTES, MAX_ROWS, read_toml, write_toml};
 pub use table::{TableKind, TableOptions, read_table};
+pub use value::{Measure, read_value};
 
 use denavit_symbolic::{Expr, Symbol};
 use std::fmt;

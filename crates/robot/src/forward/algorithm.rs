@@ -341,17 +341,24 @@ impl<'a, F: Fn(Symbol) -> Stage> Search<'a, F> {
         let zero = self.graph.trace(Expr::int(0));
         let mut partial = vec![[zero; 3]; m + 1];
         for k in (0..=m).rev() {
-            let mut p = match self.factors.get(k).copied() {
+            let carried = match self.factors.get(k).copied() {
                 Some(factor) => self.times(&factor, partial[k + 1]),
                 None => [zero; 3],
             };
-            for (direction, length) in self.displacements(placement, k) {
-                for axis in 0..3 {
-                    let term = self.graph.mul(length, direction[axis]);
-                    p[axis] = self.graph.add(p[axis], term);
+            let displacements = self.displacements(placement, k);
+            partial[k] = [0, 1, 2].map(|axis| {
+                // What is constant is added first, so that it is hoisted, then what moves.
+                let (mut fixed, mut moving) = (zero, vec![]);
+                for (direction, length) in &displacements {
+                    let term = self.graph.mul(*length, direction[axis]);
+                    match self.graph.stage(term.node) {
+                        Stage::Constant | Stage::Parameter => fixed = self.graph.add(fixed, term),
+                        Stage::Variable => moving.push(term),
+                    }
                 }
-            }
-            partial[k] = p;
+                let own = moving.into_iter().fold(fixed, |sum, term| self.graph.add(sum, term));
+                self.graph.add(own, carried[axis])
+            });
         }
         partial
     }
@@ -380,11 +387,17 @@ impl<'a, F: Fn(Symbol) -> Stage> Search<'a, F> {
         }
         let sums: Sums = sums
             .into_iter()
-            .map(|(direction, lengths)| {
+            .flat_map(|(direction, lengths)| {
                 let sum = lengths.into_iter().fold(Expr::int(0), |a, b| a + b);
                 let (fixed, moving) = self.split_length(sum);
                 let (fixed, moving) = (self.graph.trace(fixed), self.graph.trace(moving));
-                (direction, self.graph.add(fixed, moving))
+                // Along an axis the two parts can be added to others of their kind.
+                let is_axis = direction.iter().all(|v| self.graph.as_number(*v).is_some());
+                if is_axis {
+                    vec![(direction, fixed), (direction, moving)]
+                } else {
+                    vec![(direction, self.graph.add(fixed, moving))]
+                }
             })
             .collect();
         self.sums.insert(key, sums.clone());

@@ -1,6 +1,7 @@
 //! Text to marks: the many spellings of one character (Unicode, LaTeX) become one, and keep their place.
 
 use super::ParseError;
+use crate::greek;
 use std::ops::Range;
 
 /// One character of the plain spelling, and the bytes of the text that it came from.
@@ -35,44 +36,13 @@ impl Mark {
     }
 }
 
-/// LaTeX commands that stand for one character.
+/// LaTeX commands that stand for one character, besides those of [`greek::LETTERS`].
 const COMMANDS: &[(&str, char)] = &[
-    ("alpha", 'α'),
-    ("beta", 'β'),
-    ("gamma", 'γ'),
-    ("delta", 'δ'),
-    ("epsilon", 'ε'),
     ("varepsilon", 'ε'),
-    ("zeta", 'ζ'),
-    ("eta", 'η'),
-    ("theta", 'θ'),
     ("vartheta", 'θ'),
-    ("iota", 'ι'),
-    ("kappa", 'κ'),
-    ("lambda", 'λ'),
-    ("mu", 'μ'),
-    ("nu", 'ν'),
-    ("xi", 'ξ'),
     ("pi", 'π'),
-    ("rho", 'ρ'),
-    ("sigma", 'σ'),
-    ("tau", 'τ'),
-    ("upsilon", 'υ'),
-    ("phi", 'φ'),
     ("varphi", 'φ'),
-    ("chi", 'χ'),
-    ("psi", 'ψ'),
-    ("omega", 'ω'),
-    ("Gamma", 'Γ'),
-    ("Delta", 'Δ'),
-    ("Theta", 'Θ'),
-    ("Lambda", 'Λ'),
-    ("Xi", 'Ξ'),
     ("Pi", 'Π'),
-    ("Sigma", 'Σ'),
-    ("Phi", 'Φ'),
-    ("Psi", 'Ψ'),
-    ("Omega", 'Ω'),
     ("sqrt", '√'),
     ("cdot", '*'),
     ("times", '*'),
@@ -126,15 +96,21 @@ const IGNORED: &[&str] = &[
     "limits",
 ];
 
-/// The first Greek letter name that `word` begins with, the longest one.
+/// The character that a LaTeX command stands for.
+fn command(name: &str) -> Option<char> {
+    greek::LETTERS.iter().chain(COMMANDS).find(|(n, _)| *n == name).map(|(_, c)| *c)
+}
+
+/// The Greek letter whose name `word` begins with, the longest one.
 pub(super) fn greek_prefix(word: &str) -> Option<(&'static str, char)> {
-    let names = COMMANDS.iter().filter(|(n, c)| is_greek(*c) && word.starts_with(n));
+    let variants = COMMANDS.iter().filter(|(_, c)| is_greek(*c));
+    let names = greek::LETTERS.iter().chain(variants).filter(|(n, _)| word.starts_with(n));
     names.max_by_key(|(n, _)| n.len()).copied()
 }
 
 /// The name of a Greek letter.
 pub fn greek_name(letter: char) -> Option<&'static str> {
-    COMMANDS.iter().find(|(_, c)| *c == letter && is_greek(letter)).map(|(n, _)| *n)
+    if letter == 'π' { Some("pi") } else { greek::name(letter) }
 }
 
 /// True for the Greek letters.
@@ -240,11 +216,11 @@ impl Normaliser<'_> {
                 '{' | '}' | '_' => self.push(c, span),
                 _ => self.errors.push(ParseError::new(span, format!("unknown command `\\{c}`"))),
             }
-        } else if let Some((_, c)) = COMMANDS.iter().find(|(n, _)| *n == name) {
+        } else if let Some(c) = command(name) {
             if name == "sqrt" && self.text[self.at..].trim_start().starts_with('[') {
                 self.errors.push(ParseError::new(span.clone(), "only square roots are read"));
             }
-            self.push(*c, span);
+            self.push(c, span);
         } else if WORDS.contains(&name) {
             self.push(' ', start..start);
             name.chars().for_each(|c| self.push(c, span.clone()));

@@ -19,6 +19,7 @@ pub(super) const NOTATION: Notation = Notation {
     call: ["(", ", ", ")"],
     pi: "pi",
     half_turn: "180 deg",
+    degree: " deg",
     radian: " rad",
     power: ["", "^"],
     exponent,

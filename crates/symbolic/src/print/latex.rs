@@ -1,7 +1,8 @@
 //! `C_{1}\left(C_{23}\left(C_{4} C_{5} C_{6} - S_{4} S_{6}\right) - S_{23} S_{5} C_{6}\right)`
 
-use super::names::{GREEK, Index, Spelling, parts};
+use super::names::{Index, Spelling, parts};
 use super::{Head, Notation, Seam};
+use crate::greek;
 
 pub(super) const NOTATION: Notation = Notation {
     whole: ["", ""],
@@ -19,6 +20,7 @@ pub(super) const NOTATION: Notation = Notation {
     call: ["\\left(", ", ", "\\right)"],
     pi: "\\pi",
     half_turn: "180^\\circ",
+    degree: "^\\circ",
     radian: "\\,\\mathrm{rad}",
     power: ["", "^"],
     exponent: |n| format!("{{{n}}}"),
@@ -55,7 +57,7 @@ fn symbol(name: &Spelling) -> String {
 
 fn word(name: &str) -> String {
     let (letters, index) = parts(name);
-    let base = match GREEK.iter().find(|g| letters.chars().eq([g.1])) {
+    let base = match greek::LETTERS.iter().find(|g| letters.chars().eq([g.1])) {
         Some((greek, _)) => format!("\\{greek}"),
         None if letters.chars().count() == 1 => letters.to_string(),
         None => format!("\\mathit{{{letters}}}"),

@@ -19,6 +19,7 @@ pub(super) const NOTATION: Notation = Notation {
     call: ["<mo>&#x2061;</mo><mrow><mo>(</mo>", "<mo>,</mo>", "<mo>)</mo></mrow>"],
     pi: "<mi>π</mi>",
     half_turn: "<mi>π</mi>",
+    degree: "<mo>°</mo>",
     radian: "<mo>&#x2062;</mo><mi mathvariant=\"normal\">rad</mi>",
     power: ["<msup>", ""],
     exponent,

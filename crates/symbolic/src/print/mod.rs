@@ -110,6 +110,8 @@ struct Notation {
     pi: &'static str,
     /// π where its name means something else.
     half_turn: &'static str,
+    /// Behind a number of degrees.
+    degree: &'static str,
     /// Behind a number in an angle, where a bare number would be degrees.
     radian: &'static str,
     /// Before a power and between base and exponent; what closes it comes with the exponent.
@@ -290,6 +292,10 @@ impl Printer<'_> {
             Node::Neg(a) => tasks.extend([Task::Text(n.negative), Task::Write(a, Place::Addend)]),
             Node::Add(..) | Node::Sub(..) => self.sum(e, tasks),
             Node::Mul(a, b) => match a.as_number() {
+                Some(r) if b == Expr::pi() && degrees(&r).is_some() => {
+                    let number = degrees(&r).unwrap_or_default();
+                    tasks.extend([Task::Own((n.digits)(number)), Task::Text(n.degree)]);
+                }
                 Some(r) => {
                     let (p, q) = if b == Expr::pi() { fraction_parts(&r) } else { number_parts(&r) };
                     let p = Some(p).filter(|p| p != "1");
@@ -512,6 +518,17 @@ fn number_parts(r: &Rational) -> (String, Option<String>) {
     decimal(r).map_or_else(|| fraction_parts(r), |text| (text, None))
 }
 
+/// The multiple `r` of π in degrees, if that is a short decimal and `r` no usual fraction.
+fn degrees(r: &Rational) -> Option<String> {
+    let (_, d) = r.to_parts()?;
+    let degrees = r * &Rational::from(180);
+    match degrees.to_integer() {
+        _ if d <= 12 => None,
+        Some(whole) => Some(whole.to_string()),
+        None => decimal(&degrees),
+    }
+}
+
 fn fraction_parts(r: &Rational) -> (String, Option<String>) {
     let (p, q) = r.digits();
     (p, Some(q).filter(|q| q != "1"))
@@ -520,13 +537,13 @@ fn fraction_parts(r: &Rational) -> (String, Option<String>) {
 /// The largest number of decimals; what needs more stays a fraction.
 const MAX_DECIMALS: u32 = 6;
 
-/// `0.1519`; not for 1/2, 3/4 or 1/10, which are shorter as fractions.
+/// `0.1519`, `0.3`; not for halves and quarters, which come out of the algebra.
 fn decimal(r: &Rational) -> Option<String> {
     let (n, d) = r.to_parts()?;
-    if d <= 10 {
+    if d <= 4 {
         return None;
     }
-    let places = (2..=MAX_DECIMALS).find(|&k| 10_i64.pow(k) % d == 0)?;
+    let places = (1..=MAX_DECIMALS).find(|&k| 10_i64.pow(k) % d == 0)?;
     let scale = 10_i128.pow(places);
     let digits = i128::from(n) * (scale / i128::from(d));
     Some(format!("{}.{:0width$}", digits / scale, digits % scale, width = places as usize))

@@ -2,43 +2,9 @@
 
 use crate::angle::Angle;
 use crate::expr::{Expr, Symbol};
+use crate::greek;
 use crate::rational::Rational;
 use crate::vocabulary::Vocabulary;
-
-/// The Greek letters that TeX has a command for, but for π, which is a number here.
-pub(super) const GREEK: [(&str, char); 31] = [
-    ("alpha", 'α'),
-    ("beta", 'β'),
-    ("gamma", 'γ'),
-    ("delta", 'δ'),
-    ("epsilon", 'ε'),
-    ("zeta", 'ζ'),
-    ("eta", 'η'),
-    ("theta", 'θ'),
-    ("iota", 'ι'),
-    ("kappa", 'κ'),
-    ("lambda", 'λ'),
-    ("mu", 'μ'),
-    ("nu", 'ν'),
-    ("xi", 'ξ'),
-    ("rho", 'ρ'),
-    ("sigma", 'σ'),
-    ("tau", 'τ'),
-    ("phi", 'φ'),
-    ("chi", 'χ'),
-    ("psi", 'ψ'),
-    ("omega", 'ω'),
-    ("Gamma", 'Γ'),
-    ("Delta", 'Δ'),
-    ("Theta", 'Θ'),
-    ("Lambda", 'Λ'),
-    ("Xi", 'Ξ'),
-    ("Sigma", 'Σ'),
-    ("Phi", 'Φ'),
-    ("Psi", 'Ψ'),
-    ("Omega", 'Ω'),
-    ("upsilon", 'υ'),
-];
 
 /// What a name may not look like where it is not quoted.
 const FUNCTIONS: [&str; 7] = ["pi", "π", "sqrt", "sin", "cos", "atan2", "arctan2"];
@@ -113,11 +79,7 @@ fn is_word(name: &str) -> bool {
 
 /// A letter that needs no quotes.
 pub(super) fn is_letter(c: char) -> bool {
-    c.is_ascii_alphabetic() || is_greek(c)
-}
-
-pub(super) fn is_greek(c: char) -> bool {
-    GREEK.iter().any(|g| g.1 == c)
+    c.is_ascii_alphabetic() || greek::is_letter(c)
 }
 
 /// `d(O_2,O_3)`: a word, then words in brackets.
@@ -134,7 +96,7 @@ fn is_misread(name: &str, vocabulary: &Vocabulary) -> bool {
     matches!(letters, "C" | "S" | "c" | "s" | "cos" | "sin" | "rad" | "deg")
         || has_sine && letters.chars().rev().nth(1).is_some_and(char::is_lowercase)
         || vocabulary.lookup(name).is_some()
-        || letters.starts_with(['C', 'S', 'c', 's']) && letters.chars().any(is_greek)
+        || letters.starts_with(['C', 'S', 'c', 's']) && letters.chars().any(greek::is_letter)
         || name.as_bytes().windows(2).any(|p| p[0].is_ascii_digit() && !p[1].is_ascii_digit())
         || name.char_indices().skip(1).any(|(i, _)| vocabulary.lookup(&name[..i]).is_some())
 }
@@ -142,14 +104,14 @@ fn is_misread(name: &str, vocabulary: &Vocabulary) -> bool {
 /// `α2` for `alpha2`.
 fn in_greek(name: &str) -> Option<String> {
     let (base, _) = parts(name);
-    let (_, letter) = GREEK.iter().find(|g| g.0 == base)?;
+    let (_, letter) = greek::LETTERS.iter().find(|g| g.0 == base)?;
     Some(format!("{letter}{}", &name[base.len()..]))
 }
 
 /// `alpha2` for `α2`.
 fn spelled_out(name: &str) -> Option<String> {
     let first = name.chars().next()?;
-    let (spelling, _) = GREEK.iter().find(|g| g.1 == first)?;
+    let spelling = greek::name(first)?;
     let rest = &name[first.len_utf8()..];
     rest.chars().all(|c| c.is_ascii_digit() || c == '_').then(|| format!("{spelling}{rest}"))
 }

@@ -1,7 +1,8 @@
 //! `C_1 (C_23 (C_4 C_5 C_6 - S_4 S_6) - S_23 S_5 C_6)`
 
-use super::names::{GREEK, Index, Spelling};
+use super::names::{Index, Spelling};
 use super::{Head, Notation, Seam};
+use crate::greek;
 
 pub(super) const NOTATION: Notation = Notation {
     whole: ["", ""],
@@ -19,6 +20,7 @@ pub(super) const NOTATION: Notation = Notation {
     call: ["(", ", ", ")"],
     pi: "pi",
     half_turn: "180 degree",
+    degree: " degree",
     radian: " \"rad\"",
     power: ["", "^"],
     exponent: |n| if n < 0 { format!("({n})") } else { n.to_string() },
@@ -44,7 +46,7 @@ fn symbol(name: &Spelling) -> String {
         Ok(parts) => parts,
         Err(name) => return quoted(name),
     };
-    let base = match GREEK.iter().find(|g| letters.chars().eq([g.1])) {
+    let base = match greek::LETTERS.iter().find(|g| letters.chars().eq([g.1])) {
         Some((greek, _)) => greek.to_string(),
         None => atom(letters),
     };

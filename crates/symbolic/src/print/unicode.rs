@@ -1,8 +1,9 @@
 //! `C1(C23(C4C5C6 − S4S6) − S23S5C6)`: as in a textbook, with `·` where factors side by side would be read
 //! differently.
 
-use super::names::{Spelling, is_greek, is_letter};
+use super::names::{Spelling, is_letter};
 use super::{Head, Notation, Seam, ascii};
+use crate::greek;
 use crate::vocabulary::plain_name;
 
 pub(super) const NOTATION: Notation = Notation {
@@ -21,6 +22,7 @@ pub(super) const NOTATION: Notation = Notation {
     call: ["(", ", ", ")"],
     pi: "π",
     half_turn: "180°",
+    degree: "°",
     radian: " rad",
     power: ["", ""],
     exponent,
@@ -71,7 +73,7 @@ fn may_touch(seam: &Seam) -> bool {
             // 2e1 is a number, C2θ1 has two readings.
             let is_clear = match word.chars().next() {
                 Some('e' | 'E') => !is_number,
-                Some(c) if is_greek(c) || c == 'π' => is_number || is_power || base.ends_with(')'),
+                Some(c) if greek::is_letter(c) || c == 'π' => is_number || is_power || base.ends_with(')'),
                 Some(c) => is_letter(c),
                 None => false,
             };

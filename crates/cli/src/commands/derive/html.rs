@@ -2,7 +2,7 @@
 
 use super::Derivation;
 use denavit_symbolic::Expr;
-use denavit_symbolic::print::{Style, print, print_symbol};
+use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::vocabulary::Vocabulary;
 use std::fmt::Write;
 
@@ -36,7 +36,8 @@ pub fn document(d: &Derivation) -> String {
         text += &formula(&d.text(e, Style::MathMl), &print(e, &Vocabulary::new(), Style::MathMl));
     }
     for step in &d.steps {
-        text += &formula(&print_symbol(&step.name, Style::MathMl), &d.text(step.value, Style::MathMl));
+        text +=
+            &formula(&d.text(Expr::symbol(&step.name), Style::MathMl), &d.text(step.value, Style::MathMl));
     }
     let _ = writeln!(text, "<p>{}</p>", escaped(&d.model.algorithm.count().to_string()));
     let _ = writeln!(text, "<p class=\"note\">{}</p>\n</body>\n</html>", escaped(&d.model.proof.to_string()));

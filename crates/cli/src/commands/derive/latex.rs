@@ -2,7 +2,7 @@
 
 use super::Derivation;
 use denavit_symbolic::Expr;
-use denavit_symbolic::print::{Style, print, print_symbol};
+use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::vocabulary::Vocabulary;
 use std::fmt::Write;
 
@@ -31,10 +31,9 @@ pub fn document(d: &Derivation) -> String {
     let trigonometry = d.trigonometry().into_iter().map(|(_, e)| {
         format!("{} &= {}", d.text(e, Style::Latex), print(e, &Vocabulary::new(), Style::Latex))
     });
-    let steps = d
-        .steps
-        .iter()
-        .map(|s| format!("{} &= {}", print_symbol(&s.name, Style::Latex), d.text(s.value, Style::Latex)));
+    let steps = d.steps.iter().map(|s| {
+        format!("{} &= {}", d.text(Expr::symbol(&s.name), Style::Latex), d.text(s.value, Style::Latex))
+    });
     let lines: Vec<String> = trigonometry.chain(steps).collect();
     let _ = writeln!(text, "\\begin{{align*}}\n{}\n\\end{{align*}}", lines.join(" \\\\\n"));
     let _ = writeln!(

@@ -10,7 +10,7 @@ use crate::arguments::{DeriveArguments, Format, RobotArguments};
 use crate::failure::Failure;
 use crate::load;
 use denavit::description::Description;
-use denavit::forward::{ForwardModel, Outputs, Reference, link_transforms};
+use denavit::forward::{ForwardModel, Outputs, Proof, Reference, link_transforms};
 use denavit::geometry::Transform;
 use denavit_program::Step;
 use denavit_symbolic::Expr;
@@ -30,7 +30,7 @@ pub fn run(arguments: &DeriveArguments) -> Result<(), Failure> {
     let derivation = Derivation::new(&description, from, to, outputs);
     let format = if arguments.json { Format::Json } else { arguments.format };
     write!(anstream::stdout(), "{}", derivation.printed(format))?;
-    Ok(())
+    derivation.verdict()
 }
 
 /// The simplified pose of the tool alone, for `fk --symbolic`.
@@ -43,7 +43,7 @@ pub fn matrix_only(robot: &RobotArguments, format: Format) -> Result<(), Failure
     let text =
         if format == Format::Json { derivation.printed(format) } else { terminal::forward(&derivation) };
     write!(anstream::stdout(), "{text}")?;
-    Ok(())
+    derivation.verdict()
 }
 
 fn reference(d: &Description, text: &str, option: &str) -> Result<Reference, Failure> {
@@ -84,6 +84,15 @@ impl<'a> Derivation<'a> {
         }
     }
 
+    /// Whether everything was expanded and proved.
+    fn verdict(&self) -> Result<(), Failure> {
+        match (&self.model.matrix, self.model.proof) {
+            (Err(why), _) => Err(Failure::GaveUp(format!("the matrix is not expanded: {why}"))),
+            (_, Proof::Proved) => Ok(()),
+            (_, proof) => Err(Failure::GaveUp(format!("the algorithm is {proof}"))),
+        }
+    }
+
     fn text(&self, e: Expr, style: Style) -> String {
         print(e, &self.names, style)
     }
@@ -95,7 +104,14 @@ impl<'a> Derivation<'a> {
         let named = taken.map(|e| (self.text(e, Style::Ascii), e));
         let mut named: Vec<(String, Expr)> =
             named.filter(|(name, e)| *name != print(*e, &Vocabulary::new(), Style::Ascii)).collect();
-        named.sort_by(|a, b| (&a.0[1..], &a.0).cmp(&(&b.0[1..], &b.0)));
+        let indices = |name: &str| -> Vec<u32> {
+            let text = name[1..].trim_start_matches("_{").trim_end_matches('}');
+            match text.contains([',', '-']) {
+                true => text.split([',', '-']).filter_map(|n| n.parse().ok()).collect(),
+                false => text.chars().filter_map(|c| c.to_digit(10)).collect(),
+            }
+        };
+        named.sort_by_cached_key(|(name, _)| (indices(name), name.clone()));
         named
     }
 

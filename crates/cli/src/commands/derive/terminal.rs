@@ -54,7 +54,7 @@ pub fn forward(d: &Derivation) -> String {
     match &d.model.matrix {
         Ok(rows) => text += &named_matrix(d, &label(&from, &to), rows),
         Err(why) => {
-            let _ = writeln!(text, "  not expanded: {why}; the algorithm below computes it");
+            let _ = writeln!(text, "  not expanded: {why}");
         }
     }
     text
@@ -76,6 +76,15 @@ fn algorithm(d: &Derivation) -> String {
     }
     let _ = writeln!(text, "\n  {}", styled(&d.model.algorithm.count().to_string(), HEADING));
     let _ = writeln!(text, "  {}", styled(&format!("counted: {COUNTING_RULE}"), FAINT));
+    let is_part = |name: &str| {
+        let digits = name.trim_start_matches(['x', 'y', 'z', 'p']).trim_end_matches(['x', 'y', 'z']);
+        name.len() > digits.len() + 1 && digits.bytes().all(|b| b.is_ascii_digit()) && !digits.is_empty()
+    };
+    if d.steps.iter().any(|s| is_part(&s.name)) {
+        let meaning =
+            "names: x3y is the y component, in frame 3, of the last x axis (so y, z); p a partial position";
+        let _ = writeln!(text, "  {}", styled(meaning, FAINT));
+    }
     let _ = writeln!(text, "  {}", d.model.proof);
     text
 }

@@ -2,13 +2,14 @@
 
 use super::Derivation;
 use denavit_symbolic::Expr;
-use denavit_symbolic::print::{Style, print, print_symbol};
+use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::vocabulary::Vocabulary;
 use std::fmt::Write;
 
 /// A fragment to paste into a document.
 pub fn document(d: &Derivation) -> String {
     let mut text = format!("// Made by denavit {}\n", env!("CARGO_PKG_VERSION"));
+    text += "#show math.equation: set block(breakable: true)\n";
     let _ = writeln!(text, "#heading(level: 1, {})\n\n== Link transforms\n", quoted(&d.description.name));
     for (i, link) in d.links.iter().enumerate() {
         let _ = writeln!(text, "$ attach(T, tl: {i}, br: {}) = {} $\n", i + 1, matrix(d, link));
@@ -27,10 +28,9 @@ pub fn document(d: &Derivation) -> String {
     let trigonometry = d.trigonometry().into_iter().map(|(_, e)| {
         format!("{} &= {}", d.text(e, Style::Typst), print(e, &Vocabulary::new(), Style::Typst))
     });
-    let steps = d
-        .steps
-        .iter()
-        .map(|s| format!("{} &= {}", print_symbol(&s.name, Style::Typst), d.text(s.value, Style::Typst)));
+    let steps = d.steps.iter().map(|s| {
+        format!("{} &= {}", d.text(Expr::symbol(&s.name), Style::Typst), d.text(s.value, Style::Typst))
+    });
     let lines: Vec<String> = trigonometry.chain(steps).collect();
     let _ = writeln!(text, "== Algorithm\n\n$ {} $\n", lines.join(" \\\n  "));
     let _ = writeln!(text, "#{}", quoted(&format!("{}; {}.", d.model.algorithm.count(), d.model.proof)));
