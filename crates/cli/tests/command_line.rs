@@ -60,8 +60,14 @@ fn refusals() {
     refused(&["derive", "puma"], 3, "did you mean puma-simple, puma560");
     refused(&["fk", "ur5"], 2, "-q with 6 values");
     refused(&["fk", "ur5", "-q", "0,0,0"], 2, "3 values given, the robot has 6 joints");
-    refused(&["fk", "ur5", "-q", "0,0,0,0,0,nan"], 2, "value 6");
-    refused(&["fk", "ur5", "-q", "0,0,0,0,0,1/0"], 2, "value 6");
+    refused(&["fk", "ur5", "-q", "0,0,0,0,0,nan"], 2, "q6: the value is not a finite number");
+    refused(&["fk", "ur5", "-q", "0,0,0,0,0,1/0"], 2, "q6: division by zero");
+    refused(&["fk", "scara", "-q", "20mm,0,20deg,x"], 2, "q1: `mm` measures a length");
+    refused(&["fk", "scara", "-q", "20mm,0,20deg,x"], 2, "q4: `x` is no number");
+    refused(&["fk", "puma560", "-q", "ready", "--set", "d6=30deg"], 2, "`deg` measures an angle");
+    refused(&["fk", "puma560", "-q", "ready", "--set", "d6=1", "--set", "d6=2"], 2, "two values");
+    refused(&["show", "scara", "--convention", "craig"], 2, "--convention is for tables");
+    refused(&["robots", "zzz"], 1, "no robot of the catalogue matches `zzz`");
     refused(&["fk", "prrrrp", "-q", "0 0 0 0 0 0"], 3, "no value for r7, a2, a3");
     refused(&["fk", "ur5", "-q", "0 0 0 0 0 0", "--frames", "9"], 2, "0 to 6");
     refused(&["fk", "ur5", "-q", "0 0 0 0 0 0", "--orientation", "xxy"], 2, "xxy");
@@ -70,6 +76,27 @@ fn refusals() {
     refused(&["show", "ur5", "--set", "d9=1"], 2, "no parameter `d9`");
     refused(&["show", "arm.urdf"], 4, "URDF");
     refused(&["paint", "ur5"], 2, "unrecognized subcommand");
+}
+
+#[test]
+fn names_are_found_in_any_spelling() {
+    assert_eq!(json(&["show", "UR5", "--json"])["robot"], json(&["show", "ur5", "--json"])["robot"]);
+    assert_eq!(denavit(&["show", "Staubli RX90"]).status.code(), Some(0));
+}
+
+#[test]
+fn what_is_too_long_to_read_is_given_up() {
+    let rows: String = (1..=20)
+        .map(|i| format!("[[joints]]\ntheta = \"q{i}\"\na = \"1 m\"\nalpha = \"37 deg\"\n"))
+        .collect();
+    let folder = std::env::temp_dir().join(format!("denavit-long-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let file = folder.join("long.toml");
+    std::fs::write(&file, format!("name = \"long\"\nconvention = \"standard\"\n{rows}")).expect("a file");
+    let output = denavit(&["derive", file.to_str().expect("UTF-8")]);
+    assert_eq!(output.status.code(), Some(5), "{}", stderr(&output));
+    assert!(stdout(&output).contains("Algorithm") && stderr(&output).contains("gave up"));
+    let _ = std::fs::remove_dir_all(&folder);
 }
 
 #[test]
