@@ -18,15 +18,15 @@ use std::path::Path;
 /// If there is no such robot, or its file cannot be read or has errors.
 pub fn robot(arguments: &RobotArguments) -> Result<Description, Failure> {
     let name = catalogue_name(&arguments.robot);
-    let is_table =
-        !name.as_deref().is_some_and(|n| catalogue::text(n).is_some()) && !arguments.robot.ends_with(".toml");
+    let listed = name.as_deref().and_then(|n| Some((n, catalogue::text(n)?)));
+    let is_table = listed.is_none() && !arguments.robot.ends_with(".toml");
     if let (false, Some(option)) = (is_table, table_option(arguments)) {
         return Err(Failure::Usage(format!(
             "{option} is for tables, and {} says it itself",
             arguments.robot
         )));
     }
-    let mut description = match name.as_deref().and_then(|n| Some((n, catalogue::text(n)?))) {
+    let mut description = match listed {
         Some((name, text)) => read(name, text, read_toml(text))?,
         None => from_file(arguments)?,
     };

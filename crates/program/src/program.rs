@@ -273,11 +273,12 @@ fn numbered(prefix: &str, used: &mut FxHashSet<String>) -> String {
     }
 }
 
-/// True for an input or a sum of inputs.
+/// True for an input, a sum of inputs, or a difference of two.
 fn is_plain_sum(ops: &[(Op, Stage)], n: u32) -> bool {
     match &ops[n as usize].0 {
         Op::Input(_) => true,
         Op::Add(a, b) => is_plain_sum(ops, *a) && is_plain_sum(ops, *b),
+        Op::Sub(a, b) => [a, b].iter().all(|n| matches!(ops[**n as usize].0, Op::Input(_))),
         _ => false,
     }
 }

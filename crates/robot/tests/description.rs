@@ -1,28 +1,11 @@
 //! Robot files: what they are read as, what is said about those that cannot be read, and conversions.
 
+mod common;
+
+use common::{robot, shown};
 use denavit::catalogue;
-use denavit::description::{
-    Convention, Description, Diagnostic, SameChain, line_column, prove_same_chain, read_toml, render,
-    write_toml,
-};
+use denavit::description::{Convention, SameChain, prove_same_chain, read_toml, render, write_toml};
 use denavit_symbolic::{Expr, Rational, equal};
-
-fn robot(name: &str) -> Description {
-    let text = catalogue::text(name).expect("a robot of the catalogue");
-    read_toml(text).unwrap_or_else(|e| panic!("{}", render(&e, name, text))).0
-}
-
-/// `line:column severity: message | hint` of each finding.
-fn shown(text: &str, findings: &[Diagnostic]) -> Vec<String> {
-    findings
-        .iter()
-        .map(|d| {
-            let (line, column) = line_column(text, d.span.start);
-            let hint = d.hint.as_deref().map_or(String::new(), |h| format!(" | {h}"));
-            format!("{line}:{column} {}: {}{hint}", d.severity.name(), d.message)
-        })
-        .collect()
-}
 
 /// All findings of a robot file begin as expected, in this order.
 #[track_caller]

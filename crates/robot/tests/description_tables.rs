@@ -1,28 +1,13 @@
 //! Tables as they stand in documents: what they are read as, and what is said about those that cannot be read.
 
-use denavit::catalogue;
+mod common;
+
+use common::{robot, shown};
 use denavit::description::{
-    Convention, Description, Diagnostic, SameChain, TableKind, TableOptions, line_column, prove_same_chain,
-    read_table, read_toml, render, write_toml,
+    Convention, Description, SameChain, TableKind, TableOptions, prove_same_chain, read_table, render,
+    write_toml,
 };
 use denavit_symbolic::Expr;
-
-fn robot(name: &str) -> Description {
-    let text = catalogue::text(name).expect("a robot of the catalogue");
-    read_toml(text).unwrap_or_else(|e| panic!("{}", render(&e, name, text))).0
-}
-
-/// `line:column severity: message | hint` of each finding.
-fn shown(text: &str, findings: &[Diagnostic]) -> Vec<String> {
-    findings
-        .iter()
-        .map(|d| {
-            let (line, column) = line_column(text, d.span.start);
-            let hint = d.hint.as_deref().map_or(String::new(), |h| format!(" | {h}"));
-            format!("{line}:{column} {}: {}{hint}", d.severity.name(), d.message)
-        })
-        .collect()
-}
 
 fn told(convention: Convention) -> TableOptions {
     TableOptions { convention: Some(convention), ..TableOptions::default() }
@@ -155,7 +140,7 @@ fn tables_say_what_is_wrong_with_them() {
         ("i;theta;d;a;alpha\n1;q1;$a_1$ $a_2$;0;0\n", vec!["2:13 error: two values without a sign"]),
         ("no table at all", vec!["1:1 error: there is no Denavit-Hartenberg table in the text"]),
         ("i;theta;d;a;alpha\n1;q1;0;0;0\n3;q3;0;0;0\n", vec!["3:1 error: row 3 follows row 1"]),
-        ("i;theta;d;a;alpha\n1;q1;0;0;0;7\n", vec!["2:12 error: a row of 6 cells under 5 columns"]),
+        ("i;theta;d;a;alpha\n1;q1;0;0;0;7\n", vec!["2:12 error: row 1 has 6 cells, the header has 5"]),
         ("i;theta (mm);d;a;alpha\n1;q1;0;0;0\n", vec!["1:3 error: `theta` is an angle"]),
         (
             "i;sigma;theta;d;a;alpha\n1;1;q1;0;0;0\n",
@@ -192,7 +177,7 @@ fn tables_say_what_is_wrong_with_them() {
         (
             "i;theta;d;a;alpha\n1;q1;0;0;0\n\nx\ni;theta;d;a;alpha\n1;q1;1;0;0\n",
             vec![
-                "5:1 error: the text has 2 tables | choose one with --table: 1 (line 1, 1 rows), 2 (line 5, 1 rows)",
+                "5:1 error: the text has 2 tables | choose one with --table: 1 (line 1, 1 row), 2 (line 5, 1 row)",
             ],
         ),
     ] {
@@ -270,5 +255,273 @@ fn a_joint_is_found_in_many_ways() {
         let written = write_toml(&table(text, TableKind::Csv, &told(Convention::Standard)));
         let lines = expected.map(|e| format!("theta = \"{e}\"\n"));
         assert!(lines.iter().all(|l| written.contains(l.as_str())), "{text}{written}");
+    }
+}
+
+#[test]
+fn nothing_is_dropped_in_silence() {
+    let standard = told(Convention::Standard);
+    let head = "| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | θ1 | 0 | 0 | 90° |\n";
+    for (rest, expected) in [
+        ("| 2 | θ2 |\n| 3 | θ3 | 0 | 0 | 0 |\n", vec!["4:3 error: row 2 has 2 cells, the header has 5"]),
+        (
+            "| 2 | θ2 | 0 | 0 | 0 | 7 | 8 |\n| 3 |\n",
+            vec!["4:24 error: row 2 has 7 cells", "5:3 error: row 3 has 1 cell, the header has 5"],
+        ),
+        ("\n| 2 | θ2 |\n", vec!["5:3 error: row 2 has 2 cells"]),
+        ("\nand the wrist:\n\n| 3 | θ3 | 0 | 0 | 0 |\n", vec!["7:3 error: row 3 follows row 1"]),
+        ("2 | θ2 | 0\n", vec!["4:1 error: row 2 has 3 cells"]),
+        ("\n| 2 | θ2 | | 0 | |\n", vec!["5:12 note: empty cells are read as 0"]),
+        ("\n| joint | limit |\n|---|---|\n| 1 | 90° |\n", vec![]),
+        ("\n| 1 | 2 | 3 | 4 | 5 |\n|---|---|---|---|---|\n| a | b | c | d | e |\n", vec![]),
+        ("where |x| is the norm\n", vec![]),
+    ] {
+        check_table_findings(&format!("{head}{rest}"), TableKind::Markdown, &standard, &expected);
+    }
+    for between in ["", "\n", "The second joint:\n", "\nThe norm |x| is:\n\n"] {
+        let text = format!("{head}{between}| 2 | θ2 | 0 | 0 | 0 |\n| 3 | θ3 | 0 | 0 | 0 |\n");
+        assert_eq!(table(&text, TableKind::Markdown, &standard).rows.len(), 3, "{text}");
+    }
+    for (kind, text) in [
+        (TableKind::Csv, "i,theta,d,a,alpha\n1,θ1,0,0,0\n2,θ2\n3,θ3,0,0,0\n"),
+        (TableKind::Csv, "i;theta;d;a;alpha\n1;θ1;0;0;0\n2;θ2\n3;θ3;0;0;0\n"),
+        (TableKind::Csv, "i\ttheta\td\ta\talpha\n1\tθ1\t0\t0\t0\n2\tθ2\n3\tθ3\t0\t0\t0\n"),
+        (TableKind::Markdown, "i\ttheta\td\ta\talpha\n1\tθ1\t0\t0\t0\n2\tθ2\n3\tθ3\t0\t0\t0\n"),
+        (
+            TableKind::Latex,
+            "\\begin{tabular}{c}$i$&$\\theta$&$d$&$a$&$\\alpha$\\\\\n1&$\\theta_1$&0&0&0\\\\\n2&$\\theta_2$\\\\\n\\end{tabular}",
+        ),
+    ] {
+        check_table_findings(text, kind, &standard, &["3:1 error: row 2 has 2 cells, the header has 5"]);
+    }
+    let matrix = "\\begin{tabular}{c}$\\theta$&$d$&$a$&$\\alpha$\\\\\n$\\theta_1$&0&0&0\\\\\n\\end{tabular}\n\
+                  $\\begin{array}{cccc}1&0&0&0\\\\0&1&0&0\\\\0&0&1&0\\\\0&0&0&1\\end{array}$\n";
+    check_table_findings(matrix, TableKind::Latex, &standard, &[]);
+    let text = "θ;d;a;α\nθ1;0;0;0\nθ2;0\n";
+    check_table_findings(
+        text,
+        TableKind::Csv,
+        &standard,
+        &["3:1 error: row 2 has 2 cells, the header has 4"],
+    );
+    let text = "i;theta;d;a;alpha\n1;θ1;;0;\n2;θ2;;;\n";
+    check_table_findings(text, TableKind::Csv, &standard, &["2:6 note: empty cells are read as 0"]);
+}
+
+#[test]
+fn stars_mark_what_moves() {
+    let standard = told(Convention::Standard);
+    let row = |theta: &str, d: &str, i: usize| format!("{i} & ${theta}$ & ${d}$ & 0 & 0 \\\\\n");
+    let text = |rows: &[(&str, &str)]| {
+        let rows: String = rows.iter().zip(1..).map(|(r, i)| row(r.0, r.1, i)).collect();
+        let header = "$i$ & $\\theta_i$ & $d_i$ & $a_i$ & $\\alpha_i$ \\\\\n";
+        format!("\\begin{{tabular}}{{c}}\n{header}{rows}\\end{{tabular}}\n")
+    };
+    let mixed = text(&[
+        ("\\theta_1^*", "d_1"),
+        ("\\theta_2^{*}", "0"),
+        ("\\theta_3^\\ast", "0"),
+        ("\\theta_4 - \\frac{\\pi}{2}", "0"),
+        ("\\theta_5", "0"),
+        ("\\theta_6^* - \\pi", "0"),
+        ("\\theta_7", "d_7^*"),
+    ]);
+    let found = table(&mixed, TableKind::Latex, &standard);
+    let written = write_toml(&found);
+    assert_eq!(found.variables().len(), 7, "{written}");
+    for cell in [
+        "theta = \"q1\"\nd = \"d1\"",
+        "theta = \"q4 - 90 deg\"",
+        "theta = \"q5\"",
+        "theta = \"q6 - 180 deg\"",
+        "theta = \"theta7\"\nd = \"q7\"",
+    ] {
+        assert!(written.contains(cell), "{cell}\n{written}");
+    }
+    for (rows, expected) in [
+        ([("\\theta_1^*", "0"), ("0", "d_2")], "4:11 warning: `d2` carries no star: row 2 is fixed"),
+        ([("\\theta_1^*", "d_1^*"), ("\\theta_2", "0")], "3:20 error: two cells of row 1 carry a star"),
+    ] {
+        check_table_findings(&text(&rows), TableKind::Latex, &standard, &[expected]);
+    }
+    let text = "i;theta;d;a;alpha\n1;θ1*;0;0;0\n2;θ2;0;a2*;0\n";
+    check_table_findings(text, TableKind::Csv, &standard, &["3:8 error: a star on a cell that cannot move"]);
+}
+
+#[test]
+fn every_row_holds_its_own_variable() {
+    let standard = told(Convention::Standard);
+    for (rows, expected) in [
+        (
+            "1;θ2;0;0;0\n2;θ1;0;0;0\n",
+            vec![
+                "2:3 error: row 1 holds θ2, the variable of another row | the variable of row 1 is θ1",
+                "3:3 error: row 2 holds θ1, the variable of another row",
+            ],
+        ),
+        ("1;θ1;0;0;0\n2;θ2-θ1;0;0;0\n", vec![]),
+        ("1;θ1;0;0;0\n2;-θ1;0;0;0\n", vec!["3:4 note: this row has no joint variable of its own"]),
+        (
+            "1;θ1;0;0;0\n2;0;d3;0;0\n3;0;0;0;90°\n",
+            vec!["3:5 warning: row 2 holds `d3` in d and no variable: it is read as fixed"],
+        ),
+        (
+            "1;30°;0.3;0;0\n2;0;L;0;0\n",
+            vec!["1:1 warning: no row holds a joint variable: the table describes a fixed transform"],
+        ),
+    ] {
+        check_table_findings(&format!("i;theta;d;a;alpha\n{rows}"), TableKind::Csv, &standard, &expected);
+    }
+}
+
+#[test]
+fn lines_do_not_contradict_each_other() {
+    let rows = "i;theta;d;a;alpha\n1;θ1;D1;0;0\n";
+    let standard = "convention: standard\n";
+    for (text, expected) in [
+        (
+            format!("{standard}convention: craig\n{rows}"),
+            vec!["2:13 error: `convention: craig` here, but `standard` in line 1 | leave one"],
+        ),
+        (format!("{standard}{rows}convention: Craig\n"), vec!["4:13 error: `convention: Craig` here"]),
+        (format!("{standard}{rows}convention: Standard\n"), vec![]),
+        (
+            format!("{standard}{rows}D1 = 3\nD1 = 4\n"),
+            vec!["5:6 error: a second value for `D1`; line 4 gives another | leave one"],
+        ),
+        (format!("{standard}{rows}D1 = 0.3\nD1 = 300 mm\n"), vec![]),
+        (
+            format!("{standard}{rows}D2 = 4 m\n"),
+            vec!["4:6 warning: the table has no symbol `D2`: `D2 = 4 m` is not read | did you mean `D1`?"],
+        ),
+        (
+            format!("{standard}{rows}θ1 = 30°\n"),
+            vec!["4:6 note: `theta1` is a joint variable: `theta1 = 30°` is not read"],
+        ),
+        (format!("{standard}{rows}y = x + 3, as is well known\n"), vec![]),
+    ] {
+        check_table_findings(&text, TableKind::Csv, &TableOptions::default(), &expected);
+    }
+    let both = format!("{standard}{rows}D1 = 3\n\nsecond\nconvention: craig\n{rows}D1 = 4\n");
+    for (number, expected) in [(1, (Convention::Standard, 3.0)), (2, (Convention::Craig, 4.0))] {
+        let options = TableOptions { table: Some(number), ..TableOptions::default() };
+        let found = table(&both, TableKind::Csv, &options);
+        let value = found.parameters[0].value.and_then(|v| v.eval(|_| None).ok());
+        assert_eq!(
+            (found.convention, value),
+            (expected.0, Some(expected.1)),
+            "every table has its own lines"
+        );
+    }
+}
+
+#[test]
+fn degrees_are_not_inferred_beside_radians() {
+    let rows =
+        |theta: &str, alpha: &str| format!("i;theta;d;a;alpha\n1;θ1;0;0;{alpha}\n2;θ2+{theta};0;0;0\n");
+    let standard = told(Convention::Standard);
+    for alpha in ["1.5707963267948966", "1.571", "0.2618", "3.1416"] {
+        let error =
+            format!("2:10 error: {alpha} looks like radians, but 30 elsewhere like degrees | `angles: deg`");
+        check_table_findings(&rows("30", alpha), TableKind::Csv, &standard, &[&error]);
+    }
+    let note = "3:6 note: 30 is more than a turn in radians";
+    check_table_findings(&rows("30", "3"), TableKind::Csv, &standard, &[note]);
+    let said = TableOptions { angles_in_degrees: Some(true), ..standard };
+    assert!(read_table(&rows("30", "1.5707963267948966"), TableKind::Csv, &said).is_ok());
+}
+
+#[test]
+fn told_columns_need_no_known_header() {
+    let expected = "theta = \"q1\"\nd = \"0.3 m\"\nalpha = \"90 deg\"\n";
+    let rows = "| 1 | θ1 | 0.3 | 0 | 90° |\n| 2 | θ2 | 0 | 0.2 | 0 |\n";
+    let standard = told(Convention::Standard);
+    let named = TableOptions { columns: Some("theta d a alpha".into()), ..standard.clone() };
+    for header in [
+        "| i | x | y | z | w |",
+        "| i | φ | s | l | ψ |",
+        "| i | angle | d | length | twist |",
+        "| joint | theta | offset | length | twist |",
+        "| i | theta | d | length | twist |",
+        "| i | θ | d | a | α |",
+    ] {
+        for text in [
+            format!("{header}\n|---|---|---|---|---|\n{rows}"),
+            format!("{header}\n{rows}"),
+            format!("{header}\n| | [rad] | [m] | [m] | [rad] |\n{rows}"),
+        ] {
+            let (found, findings) = read_table(&text, TableKind::Markdown, &named)
+                .unwrap_or_else(|e| panic!("{}", render(&e, "table", &text)));
+            assert!(write_toml(&found).contains(expected), "{text}{}", write_toml(&found));
+            assert_eq!((found.rows.len(), findings.len()), (2, 0), "{text}");
+        }
+    }
+    for text in [
+        rows.to_string(),
+        rows.replace("| 2 ", "\n| 2 "),
+        format!("columns: theta, d, a, alpha\n\n| i | x | y | z | w |\n{rows}"),
+        "columns: θ d a α\n\n| x | y | z | w |\n| θ1 | 0.3 | 0 | 90° |\n| θ2 | 0 | 0.2 | 0 |\n".to_string(),
+        "| x | y (mm) | z | w |\n| θ1 | 300 | 0 | 90° |\n| θ2 | 0 | 0.2 | 0 |\n".to_string(),
+    ] {
+        let options = if text.starts_with("col") { &standard } else { &named };
+        let found = table(&text, TableKind::Markdown, options);
+        assert!(write_toml(&found).contains(expected), "{text}{}", write_toml(&found));
+    }
+    check_table_findings(
+        &format!("columns: theta d a twist\n\n| i | x | y | z | w |\n{rows}"),
+        TableKind::Markdown,
+        &standard,
+        &[
+            "1:1 error: there is no Denavit-Hartenberg table in the text | a table has a header with at least \
+             three of theta, d, a, alpha, r, and numbered rows; where it names them otherwise, say what its \
+             columns are from left to right: `columns: theta d a alpha`",
+            "1:10 error: `twist` is no column of a table",
+        ],
+    );
+}
+
+#[test]
+fn small_courtesies() {
+    let standard = told(Convention::Standard);
+    let text = "\u{feff}joint;theta;d;a;alpha;mass\n1;θ1;0;0;x°\n";
+    let (d, _) = read_table(&text.replace(";x°", ";0;1"), TableKind::Csv, &standard).expect("a table");
+    assert_eq!(d.rows.len(), 1);
+    check_table_findings(
+        &text.replace(";x°", ";0;1").replace("joint", "i"),
+        TableKind::Csv,
+        &standard,
+        &["1:19 warning: the column `mass` is not read"],
+    );
+    check_table_findings(
+        "i;theta;d;a;alpha\n1;q1;151.9;0;0\n2;q2;-86.85;243.65;0\n3;q3;0;0.5;0\n",
+        TableKind::Csv,
+        &standard,
+        &["3:13 warning: 243.65 and 2 more are long ways for a robot in metres | say `d (mm)`"],
+    );
+}
+
+#[test]
+fn without_a_convention_all_else_is_still_told() {
+    let missing = "error: the convention is not said";
+    for (text, expected) in [
+        (
+            "i;theta;d;a;alpha\n1;q1;151.9;0;9 mm\n2;q2\nD1 = 2\n",
+            vec![
+                "1:1 error: the convention is not said",
+                "2:6 warning: 151.9 m is a long way",
+                "2:16 error: `mm` measures a length",
+                "3:1 error: row 2 has 2 cells",
+                "4:6 warning: the table has no symbol `D1`",
+            ],
+        ),
+        (
+            "convention: denavit\ni;theta;d;a;alpha\n1;q1;0;0;0\n3;q2;0;0;0\n",
+            vec!["1:13 error: unknown convention", "4:1 error: row 3 follows row 1"],
+        ),
+        ("i;theta;d;r;alpha\n1;θ1;0;r1;0\n2;0;d2;0;0\n", vec![]),
+    ] {
+        let own = format!("1:1 {missing}");
+        let expected = if expected.is_empty() { vec![own.as_str()] } else { expected };
+        check_table_findings(text, TableKind::Csv, &TableOptions::default(), &expected);
     }
 }

@@ -54,17 +54,41 @@ impl Diagnostic {
         let mut out = format!("{file}:{line}:{column}: {}: {}\n", self.severity.name(), self.message);
         let source = text.lines().nth(line - 1).unwrap_or("");
         if !source.trim().is_empty() {
-            let shown: String = source.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+            let source = source.trim_start_matches(BYTE_ORDER_MARK);
             let end = line_column(text, self.span.end.min(text.len()));
-            let last = if end.0 == line { end.1 } else { source.chars().count() + 1 };
-            let marks = last.saturating_sub(column).max(1);
-            let _ = writeln!(out, "  | {shown}\n  | {}{}", " ".repeat(column - 1), "^".repeat(marks));
+            let last = if end.0 == line { end.1 } else { usize::MAX };
+            let (shown, place) = clipped(source, column - 1..last - 1);
+            let marks = place.len().max(1);
+            let _ = writeln!(out, "  | {shown}\n  | {}{}", " ".repeat(place.start), "^".repeat(marks));
         }
         if let Some(hint) = &self.hint {
             let _ = writeln!(out, "  = hint: {hint}");
         }
         out
     }
+}
+
+/// The most characters of a source line that are shown.
+const MAX_SHOWN: usize = 160;
+
+/// How some editors begin a text.
+const BYTE_ORDER_MARK: char = '\u{feff}';
+
+/// A source line without control characters, cut to the neighbourhood of a place (both in characters), and the
+/// place in it.
+fn clipped(source: &str, place: Range<usize>) -> (String, Range<usize>) {
+    let length = source.chars().count();
+    let start = match place.start.min(length) {
+        _ if length <= MAX_SHOWN => 0,
+        at => at.saturating_sub(MAX_SHOWN / 3).min(length - MAX_SHOWN),
+    };
+    let end = (start + MAX_SHOWN).min(length);
+    let (before, after) = (if start > 0 { "…" } else { "" }, if end < length { "…" } else { "" });
+    let printable =
+        source.chars().skip(start).take(end - start).map(|c| if c.is_control() { ' ' } else { c });
+    let shown = format!("{before}{}{after}", printable.collect::<String>());
+    let shift = |at: usize| at.min(end).saturating_sub(start) + before.chars().count();
+    (shown, shift(place.start)..shift(place.end))
 }
 
 /// The findings of one reading; from the 100th on they are only counted.
@@ -98,6 +122,12 @@ impl Diagnostics {
     /// Those found so far.
     pub fn list(&self) -> &[Diagnostic] {
         &self.list
+    }
+
+    /// Adds what another reading found.
+    pub(super) fn add(&mut self, finding: Diagnostic) {
+        let Diagnostic { severity, span, message, hint } = finding;
+        self.push(severity, span, message).hint = hint;
     }
 
     /// Adds an error.
@@ -161,7 +191,8 @@ pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
     }
     let before = &text[..offset];
     let line_start = before.rfind('\n').map_or(0, |at| at + 1);
-    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+    let in_line = before[line_start..].trim_start_matches(BYTE_ORDER_MARK);
+    (before.matches('\n').count() + 1, in_line.chars().count() + 1)
 }
 
 /// The one of `candidates` that `word` was probably meant to be: about a third of its letters differ at most.
@@ -223,6 +254,29 @@ mod tests {
             d.with_hint("declare it").render("arm.toml", text),
             "arm.toml:2:15: error: `L7` is unknown\n  | theta = \"q1 + L7\"\n  |               ^^\n  = hint: declare it\n"
         );
+    }
+
+    #[test]
+    fn a_long_line_is_cut_around_the_place() {
+        let shown = |before: usize, after: usize| {
+            let text = format!("{}XY{}", "a".repeat(before), "b".repeat(after));
+            let span = before..before + 2;
+            let d = Diagnostic { severity: Severity::Error, span, message: String::new(), hint: None };
+            d.render("f", &text).lines().skip(1).map(|l| l[4..].to_string()).collect::<Vec<_>>()
+        };
+        for (before, after, cut) in [
+            (0, 158, format!("XY{}", "b".repeat(158))),
+            (0, 159, format!("XY{}…", "b".repeat(158))),
+            (1_000_000, 1_000_000, format!("…{}XY{}…", "a".repeat(53), "b".repeat(105))),
+            (1_000_000, 0, format!("…{}XY", "a".repeat(158))),
+        ] {
+            let lines = shown(before, after);
+            assert_eq!(lines[0], cut);
+            let place = cut.chars().position(|c| c == 'X').expect("the place is shown");
+            assert_eq!(lines[1], format!("{}^^", " ".repeat(place)));
+        }
+        let (line, place) = clipped(&"é".repeat(500), 0..usize::MAX - 1);
+        assert_eq!((line.chars().count(), place), (161, 0..160));
     }
 
     #[test]

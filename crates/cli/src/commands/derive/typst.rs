@@ -20,10 +20,16 @@ pub fn document(d: &Derivation) -> String {
         let mut lines = vec![];
         for column in 0..4 {
             for (row, cells) in rows.iter().enumerate().take(3) {
-                lines.push(format!("t_{}{} &= {}", row + 1, column + 1, d.text(cells[column], Style::Typst)));
+                lines.push(format!(
+                    "$t_{}{} = {}$",
+                    row + 1,
+                    column + 1,
+                    d.text(cells[column], Style::Typst)
+                ));
             }
         }
-        let _ = writeln!(text, "$ {} $\n", lines.join(" \\\n  "));
+        // In a line of text, a long formula breaks.
+        let _ = writeln!(text, "{}\n", lines.join("\n\n"));
     }
     let trigonometry = d.trigonometry().into_iter().map(|(_, e)| {
         format!("{} &= {}", d.text(e, Style::Typst), print(e, &Vocabulary::new(), Style::Typst))

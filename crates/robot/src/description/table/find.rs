@@ -1,6 +1,6 @@
 //! Where a text has something with rows and columns.
 
-use super::{TableKind, latex};
+use super::{TableKind, latex, lines};
 use std::ops::Range;
 
 /// A cell of a grid: its text and place, without the space around it.
@@ -24,8 +24,19 @@ impl GridCell {
 pub(super) struct Grid {
     pub rows: Vec<Vec<GridCell>>,
     pub span: Range<usize>,
-    /// Fields are separated by semicolons, so a comma may stand in a number.
-    pub decimal_comma: bool,
+    pub separator: Separator,
+    /// A line of dashes below the first row says that it is a header.
+    pub ruled: bool,
+}
+
+/// What stands between the cells of a row.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Separator {
+    Pipe,
+    /// Tab, comma or semicolon.
+    Field(char),
+    /// `&`, with `\\` behind each row.
+    Latex,
 }
 
 /// The longest row that is looked at, and the most rows.
@@ -35,19 +46,15 @@ const MAX_COLUMNS: usize = 600;
 pub(super) fn grids(text: &str, kind: TableKind) -> Vec<Grid> {
     let mut found = match kind {
         TableKind::Markdown => {
-            let mut grids = blocks(text, split_pipes, false);
-            grids.extend(blocks(text, |t, s| split_fields(t, s, '\t'), false));
+            let mut grids = blocks(text, Separator::Pipe, false);
+            grids.extend(blocks(text, Separator::Field('\t'), false));
             grids.extend(latex::grids(text));
             grids
         }
         TableKind::Csv => {
-            let count = |d: char| {
-                blocks(text, |t, s| split_fields(t, s, d), true).iter().map(|g| g.rows.len()).sum::<usize>()
-            };
-            let delimiter = ['\t', ';', ','].into_iter().rev().max_by_key(|&d| count(d)).unwrap_or(',');
-            let mut grids = blocks(text, |t, s| split_fields(t, s, delimiter), true);
-            grids.iter_mut().for_each(|g| g.decimal_comma = delimiter == ';');
-            grids
+            let fields = |d: char| blocks(text, Separator::Field(d), true);
+            let count = |d: char| fields(d).iter().map(|g| g.rows.len()).sum::<usize>();
+            fields([',', ';', '\t'].into_iter().max_by_key(|&d| count(d)).unwrap_or(','))
         }
         TableKind::Latex => latex::grids(text),
     };
@@ -66,9 +73,9 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = Range<usize>> {
     })
 }
 
-/// Runs of lines that `split` takes for rows of at least three cells; with `loose`, blank lines and comments
-/// do not end a run.
-fn blocks(text: &str, split: impl Fn(&str, Range<usize>) -> Option<Vec<GridCell>>, loose: bool) -> Vec<Grid> {
+/// Runs of lines that are rows. A run begins with a line of three cells or more; inside it a line with too few
+/// cells is a row, too, so that the fault can be told. With `loose`, blank lines and comments do not end a run.
+fn blocks(text: &str, separator: Separator, loose: bool) -> Vec<Grid> {
     let mut grids: Vec<Grid> = vec![];
     let mut open = false;
     for span in lines(text) {
@@ -76,23 +83,51 @@ fn blocks(text: &str, split: impl Fn(&str, Range<usize>) -> Option<Vec<GridCell>
         if loose && (line.is_empty() || line.starts_with('#')) {
             continue;
         }
-        match split(text, span.clone()) {
-            Some(cells) => {
-                if !open {
-                    grids.push(Grid { rows: vec![], span: span.clone(), decimal_comma: false });
-                }
-                open = true;
-                if let Some(grid) = grids.last_mut() {
-                    grid.span.end = span.end;
-                    if !cells.iter().all(is_rule) {
-                        grid.rows.push(cells);
-                    }
+        let cells = match separator {
+            Separator::Field(delimiter) => split_fields(text, span.clone(), delimiter),
+            _ => split_pipes(text, span.clone()),
+        };
+        let rule = cells.iter().all(is_rule);
+        let grid = grids.last_mut().filter(|_| open);
+        open = match &grid {
+            _ if !rule && (cells[0].text.contains('=') || lines::directive(line).is_some()) => false,
+            Some(grid) => is_row(line, &cells, grid, loose),
+            None => cells.len() >= 3 || separator == Separator::Pipe && is_framed(line),
+        };
+        match grid {
+            _ if !open => {}
+            Some(grid) => {
+                grid.span.end = span.end;
+                grid.ruled |= rule && grid.rows.len() == 1;
+                if !rule {
+                    grid.rows.push(cells);
                 }
             }
-            None => open = false,
+            None => {
+                let rows = if rule { vec![] } else { vec![cells] };
+                grids.push(Grid { rows, span, separator, ruled: false });
+            }
         }
     }
     grids
+}
+
+/// Whether a line below the rows of a grid is one of them, be it too short or too long.
+fn is_row(line: &str, cells: &[GridCell], grid: &Grid, loose: bool) -> bool {
+    let width = grid.rows.first().map_or(0, Vec::len);
+    let numbered = !cells[0].text.is_empty() && cells[0].text.chars().all(|c| c.is_ascii_digit());
+    match (grid.separator, cells.len()) {
+        (_, count) if count == width => true,
+        (_, 1) => numbered && loose || grid.separator == Separator::Pipe && is_framed(line),
+        (Separator::Pipe, _) => line.starts_with('|') || numbered,
+        (_, 2) => numbered || loose,
+        _ => true,
+    }
+}
+
+/// `| … |`
+fn is_framed(line: &str) -> bool {
+    line.len() > 1 && line.starts_with('|') && line.ends_with('|')
 }
 
 /// `---`, `:--:`
@@ -103,7 +138,7 @@ fn is_rule(cell: &GridCell) -> bool {
 }
 
 /// The cells of a line with `|` between them.
-fn split_pipes(text: &str, span: Range<usize>) -> Option<Vec<GridCell>> {
+fn split_pipes(text: &str, span: Range<usize>) -> Vec<GridCell> {
     let line = &text[span.clone()];
     let mut cuts = vec![];
     let mut escaped = false;
@@ -113,21 +148,21 @@ fn split_pipes(text: &str, span: Range<usize>) -> Option<Vec<GridCell>> {
         }
         escaped = c == '\\';
     }
-    if cuts.len() < 2 {
-        return None;
-    }
     let mut cells = cells_between(text, span, &cuts);
+    if cells.len() < 2 {
+        return cells;
+    }
     if cells.first().is_some_and(|c| c.text.is_empty()) && line.trim_start().starts_with('|') {
         cells.remove(0);
     }
-    if cells.last().is_some_and(|c| c.text.is_empty()) && line.trim_end().ends_with('|') {
+    if cells.len() > 1 && cells.last().is_some_and(|c| c.text.is_empty()) && line.trim_end().ends_with('|') {
         cells.pop();
     }
-    (cells.len() >= 3).then_some(cells)
+    cells
 }
 
 /// The fields of a line; a field in quotes may hold the delimiter.
-fn split_fields(text: &str, span: Range<usize>, delimiter: char) -> Option<Vec<GridCell>> {
+fn split_fields(text: &str, span: Range<usize>, delimiter: char) -> Vec<GridCell> {
     let line = &text[span.clone()];
     let mut cuts = vec![];
     let mut quoted = false;
@@ -138,16 +173,13 @@ fn split_fields(text: &str, span: Range<usize>, delimiter: char) -> Option<Vec<G
             _ => {}
         }
     }
-    if cuts.len() < 2 {
-        return None;
-    }
     let mut cells = cells_between(text, span, &cuts);
     for cell in &mut cells {
         if cell.text.len() >= 2 && cell.text.starts_with('"') && cell.text.ends_with('"') {
             *cell = GridCell::of(text, cell.span.start + 1..cell.span.end - 1);
         }
     }
-    Some(cells)
+    cells
 }
 
 /// The pieces of `span` between one-byte separators.

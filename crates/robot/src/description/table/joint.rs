@@ -17,12 +17,13 @@ pub(super) enum Joint {
 
 /// The joint of each row.
 pub(super) fn joints(rows: &[ReadRow], convention: Convention, out: &mut Diagnostics) -> Vec<Joint> {
-    let starred = rows.iter().any(|r| r.theta.star || r.z.star);
+    let starred = rows.iter().any(|r| r.cells().iter().any(|c| c.star));
     let mut joints: Vec<Joint> = vec![];
     for row in rows {
         let found = joint(row, convention.length_z(), starred, &joints, out);
         joints.push(found.unwrap_or(Joint::Fixed));
     }
+    check_owners(rows, &joints, convention.length_z(), out);
     joints
 }
 
@@ -74,18 +75,24 @@ fn joint(row: &ReadRow, z: &str, starred: bool, above: &[Joint], out: &mut Diagn
             }
         };
     }
+    let own_angle = || {
+        let name = own_symbol(&row.theta, row.number, &["theta", "q", "t", "th"])?;
+        Some(Joint::Moves(JointKind::Revolute, Some(name)))
+    };
     if starred {
-        let cells = [(&row.theta, JointKind::Revolute), (&row.z, JointKind::Prismatic)];
-        let (cell, kind) = cells.into_iter().find(|c| c.0.star)?;
-        let symbol = the_variable(cell, row, above);
-        if symbol.is_none() {
-            out.error(cell.cell.span.clone(), "which symbol of this cell is the variable?")
-                .hint(format!("write it as q{}", row.number));
-        }
-        return Some(Joint::Moves(kind, symbol?));
+        return match star(row, z, above, out) {
+            Some(found) => found,
+            None => own_angle().or_else(|| {
+                if let Some(name) = own_symbol(&row.z, row.number, &["d", "r", "q"]) {
+                    let message = format!("`{name}` carries no star: row {} is fixed", row.number);
+                    out.warning(row.z.cell.span.clone(), message).hint("mark what moves with a star");
+                }
+                None
+            }),
+        };
     }
-    if let Some(name) = own_symbol(&row.theta, row.number, &["theta", "q", "t", "th"]) {
-        return Some(Joint::Moves(JointKind::Revolute, Some(name)));
+    if let Some(joint) = own_angle() {
+        return Some(joint);
     }
     let name = own_symbol(&row.z, row.number, &["d", "r", "q"])?;
     let (number, span) = (row.number, row.z.cell.span.clone());
@@ -93,6 +100,64 @@ fn joint(row: &ReadRow, z: &str, starred: bool, above: &[Joint], out: &mut Diagn
         "if that is a constant, give it another name, or add a column σ (0 revolute, 1 prismatic, 2 fixed)",
     );
     Some(Joint::Moves(JointKind::Prismatic, Some(name)))
+}
+
+/// The joint of a row that carries a star; `Some(None)` if the star says nothing useful.
+fn star(row: &ReadRow, z: &str, above: &[Joint], out: &mut Diagnostics) -> Option<Option<Joint>> {
+    let number = row.number;
+    let (cell, kind) = match (row.theta.star, row.z.star) {
+        (true, true) => {
+            out.error(row.z.cell.span.clone(), format!("two cells of row {number} carry a star"))
+                .hint("a row is one joint: give the second a row of its own");
+            return Some(None);
+        }
+        (true, false) => (&row.theta, JointKind::Revolute),
+        (false, true) => (&row.z, JointKind::Prismatic),
+        (false, false) => {
+            let wrong = [&row.x, &row.alpha, &row.gamma, &row.b].into_iter().find(|c| c.star)?;
+            out.error(wrong.cell.span.clone(), "a star on a cell that cannot move")
+                .hint(format!("a joint turns or slides along z: its variable belongs in theta or {z}"));
+            return Some(None);
+        }
+    };
+    let symbol = the_variable(cell, row, above);
+    if symbol.is_none() {
+        out.error(cell.cell.span.clone(), "which symbol of this cell is the variable?")
+            .hint(format!("write it as q{number}"));
+    }
+    Some(symbol.map(|s| Joint::Moves(kind, s)))
+}
+
+/// Rows that hold the variable of another row, which does not hold it.
+fn check_owners(rows: &[ReadRow], joints: &[Joint], z: &str, out: &mut Diagnostics) {
+    let moved = |name: &str| joints.iter().any(|j| matches!(j, Joint::Moves(_, Some(n)) if n == name));
+    let of_other_row = |cell: &TableCell, number: usize, letters: &[&str]| {
+        cell.cell.symbols.iter().find_map(|(name, span)| {
+            let index = letters.iter().find_map(|l| name.strip_prefix(l)?.parse::<usize>().ok())?;
+            let other = index != number && rows.iter().any(|r| r.number == index) && !moved(name);
+            other.then(|| (name.clone(), index, span.clone()))
+        })
+    };
+    for (row, joint) in rows.iter().zip(joints) {
+        if row.source(Role::Sigma).or(row.source(Role::Variable)).is_some() {
+            continue;
+        }
+        let number = row.number;
+        // qᵢ of another row is reported with all names that are no row's
+        if let Some((name, index, span)) = of_other_row(&row.theta, number, &["theta", "t", "th"]) {
+            out.error(span, format!("row {number} holds θ{index}, the variable of another row")).hint(
+                format!(
+                    "the variable of row {number} is θ{number}; give a constant another name than `{name}`"
+                ),
+            );
+        } else if let (Joint::Fixed, Some((name, _, span))) =
+            (joint, of_other_row(&row.z, number, &["d", "r"]))
+        {
+            let message = format!("row {number} holds `{name}` in {z} and no variable: it is read as fixed");
+            out.warning(span, message)
+                .hint(format!("the variable of row {number} is {z}{number} or θ{number}"));
+        }
+    }
 }
 
 /// The variable in a cell that is known to hold one: `Some(None)` for a cell that only says so.

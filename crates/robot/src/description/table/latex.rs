@@ -1,6 +1,6 @@
 //! Tables in LaTeX: `tabular` and its kin, `array`.
 
-use super::find::{Grid, GridCell};
+use super::find::{Grid, GridCell, Separator};
 use std::ops::Range;
 
 const ENVIRONMENTS: &[&str] =
@@ -78,7 +78,7 @@ fn grid(text: &str, body: Range<usize>) -> Grid {
             start += blanked[start..].find(']').map_or(0, |e| e + 1); // \\[2pt]
         }
     }
-    Grid { rows, span: body, decimal_comma: false }
+    Grid { rows, span: body, separator: Separator::Latex, ruled: false }
 }
 
 fn cells(blanked: &str, row: Range<usize>, offset: usize) -> Vec<GridCell> {

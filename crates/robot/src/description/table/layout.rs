@@ -1,7 +1,8 @@
 //! A grid whose columns are known.
 
-use super::columns::{Column, Role, column, lone_unit};
-use super::find::{Grid, GridCell};
+use super::columns::{Column, Role, column, lone_unit, plain};
+use super::find::{Grid, GridCell, Separator};
+use crate::description::units::Unit;
 use std::ops::Range;
 
 /// A Denavit–Hartenberg table, not yet read.
@@ -11,7 +12,11 @@ pub(super) struct Layout {
     pub heads: Vec<GridCell>,
     pub rows: Vec<Vec<GridCell>>,
     pub span: Range<usize>,
-    pub decimal_comma: bool,
+    pub separator: Separator,
+    /// The letters of the columns are told, not read from a header.
+    pub told: bool,
+    /// Rows and columns are swapped.
+    swapped: bool,
 }
 
 impl Layout {
@@ -19,49 +24,54 @@ impl Layout {
     pub fn of(grid: &Grid) -> Option<Self> {
         let upright = || (0..grid.rows.len().min(2)).find_map(|skip| Self::upright(&grid.rows[skip..], grid));
         upright().or_else(|| {
-            let swapped = swap(&grid.rows)?;
-            Self::upright(&swapped, grid)
+            let layout = Self::upright(&swap(&grid.rows)?, grid)?;
+            Some(Layout { swapped: true, ..layout })
         })
     }
 
     fn upright(rows: &[Vec<GridCell>], grid: &Grid) -> Option<Self> {
-        let (heads, mut rows) = rows.split_first()?;
+        let (heads, rows) = rows.split_first()?;
         let mut columns: Vec<Column> = heads.iter().map(|h| column(&h.text)).collect();
         let letters: Vec<Role> = columns.iter().map(|c| c.role).filter(|r| r.is_letter()).collect();
         if letters.len() < 3 || !letters.contains(&Role::Alpha) && !letters.contains(&Role::Theta) {
             return None;
         }
-        // a row of units below the header
-        if let Some((units, rest)) = rows.split_first()
-            && units.iter().any(|c| lone_unit(&c.text).is_some())
-            && units.iter().all(|c| c.text.is_empty() || lone_unit(&c.text).is_some())
-        {
-            for (column, cell) in columns.iter_mut().zip(units) {
-                column.unit = column.unit.or(lone_unit(&cell.text));
-            }
-            rows = rest;
-        }
+        let rows = below_units(&mut columns, rows);
         Self::with_rows(columns, heads.clone(), rows, grid)
     }
 
-    /// A grid without a header, its columns told from left to right; a number of the row may stand before them.
-    pub fn without_header(grid: &Grid, letters: &str) -> Option<Self> {
-        let mut columns: Vec<Column> = vec![];
-        for letter in letters.split_whitespace() {
-            columns.push(Column { role: Role::of_letter(letter)?, previous: false, unit: None });
-        }
-        let width = grid.rows.iter().map(Vec::len).max()?;
-        if width == columns.len() + 1 {
-            columns.insert(0, Column { role: Role::Index, previous: false, unit: None });
-        }
-        if width != columns.len() || columns.len() < 3 {
+    /// A grid whose columns are told from left to right; a number of the row may stand before them. A first row
+    /// that holds no values is a header, of which the units count.
+    pub fn told(grid: &Grid, letters: &[Role]) -> Option<Self> {
+        let mut rows = grid.rows.as_slice();
+        let first = rows.first()?;
+        let numbered = first.len() == letters.len() + 1;
+        if letters.len() < 3 || !numbered && first.len() != letters.len() {
             return None;
         }
-        let heads = columns
-            .iter()
-            .map(|c| GridCell { text: c.role.letter().into(), span: grid.span.clone() })
-            .collect();
-        Self::with_rows(columns, heads, &grid.rows, grid)
+        let roles = numbered.then_some(Role::Index).into_iter().chain(letters.iter().copied());
+        let mut columns: Vec<Column> =
+            roles.map(|role| Column { role, previous: false, unit: None }).collect();
+        let is_header = |row: &[GridCell]| match numbered {
+            true => number_in(&row[0].text).is_none(),
+            false => {
+                !row.iter().any(|c| plain(&c.text).replace("i-1", "").contains(|d: char| d.is_ascii_digit()))
+            }
+        };
+        let place = |text: &str| GridCell { text: text.into(), span: grid.span.start..grid.span.start };
+        let mut heads: Vec<GridCell> = columns.iter().map(|c| place(c.role.letter())).collect();
+        if grid.ruled || is_header(first) {
+            for (told, head) in columns.iter_mut().zip(first).filter(|c| c.0.role.is_letter()) {
+                *told = Column { role: told.role, ..column(&head.text) };
+            }
+            heads = first.clone();
+            rows = &rows[1..];
+        }
+        let rows = below_units(&mut columns, rows);
+        if numbered && rows.iter().all(|r| number_in(&r[0].text).is_none()) {
+            return None;
+        }
+        Some(Layout { told: true, ..Self::with_rows(columns, heads, rows, grid)? })
     }
 
     fn with_rows(
@@ -72,14 +82,21 @@ impl Layout {
     ) -> Option<Self> {
         let rows: Vec<Vec<GridCell>> =
             rows.iter().filter(|r| r.iter().any(|c| !c.text.is_empty())).cloned().collect();
-        let layout =
-            Layout { columns, heads, rows, span: grid.span.clone(), decimal_comma: grid.decimal_comma };
+        let (span, separator) = (grid.span.clone(), grid.separator);
+        let layout = Layout { columns, heads, rows, span, separator, told: false, swapped: false };
         let pattern = |row: &Vec<GridCell>| {
             let index = layout.cell(row, Role::Index).map_or("", |c| c.text.trim_matches(['$', ' ', '*']));
             matches!(index, "..." | "…" | "n" | "N" | "⋮" | "\\vdots" | "\\ldots" | "\\dots" | "i")
         };
         let general = layout.rows.is_empty() || layout.rows.iter().any(pattern);
         (!general).then_some(layout)
+    }
+
+    /// The place of the header.
+    pub fn head(&self) -> Range<usize> {
+        let start = self.heads.first().map_or(0, |h| h.span.start);
+        let end = self.heads.last().map_or(0, |h| h.span.end);
+        start.min(end)..end
     }
 
     /// The column with a role.
@@ -94,19 +111,63 @@ impl Layout {
 
     /// The number that a row gives itself.
     pub fn number(&self, row: &[GridCell]) -> Option<usize> {
-        let text = &self.cell(row, Role::Index)?.text;
-        let text = text.trim_end_matches(['$', '*', ' ', '}', '.', ')']);
-        let digits = text.len() - text.trim_end_matches(|c: char| c.is_ascii_digit()).len();
-        text[text.len() - digits..].parse().ok().filter(|n| *n <= 10_000)
+        number_in(&self.cell(row, Role::Index)?.text)
+    }
+
+    /// The number of the last row.
+    fn last_number(&self) -> Option<usize> {
+        self.rows.last().and_then(|r| self.number(r))
+    }
+
+    /// True if a grid begins with the number behind the last row's.
+    pub fn counts_on(&self, grid: &Grid) -> bool {
+        let next = grid.rows.first().and_then(|r| self.number(r));
+        next.is_some() && next == self.last_number().map(|n| n + 1)
+    }
+
+    /// Takes rows without a header that stand below this table as its own: as wide as its rows, or numbered on.
+    pub fn takes(&mut self, grid: &Grid) -> bool {
+        let Some(first) = grid.rows.first().filter(|_| !self.swapped && !grid.ruled) else { return false };
+        let wide = first.len() == self.columns.len();
+        let belongs = match (self.find(Role::Index), self.number(first)) {
+            _ if grid.separator == Separator::Latex => wide && self.counts_on(grid), // else it may be a matrix
+            (None, _) => wide && first.iter().any(|c| c.text.contains(|d: char| d.is_ascii_digit())),
+            (Some(_), Some(number)) => wide || self.last_number().is_some_and(|last| number > last),
+            (Some(_), None) => false,
+        };
+        if self.separator != grid.separator || !belongs {
+            return false;
+        }
+        self.rows.extend(grid.rows.iter().cloned());
+        self.span.end = grid.span.end;
+        true
     }
 
     /// True if the rows of `next` go on counting where these end, under the same heads.
     pub fn continues_in(&self, next: &Layout) -> bool {
         let roles = |l: &Layout| l.columns.iter().map(|c| (c.role, c.previous)).collect::<Vec<_>>();
-        let last = self.rows.last().and_then(|r| self.number(r));
-        let first = next.rows.first().and_then(|r| next.number(r));
+        let (last, first) = (self.last_number(), next.rows.first().and_then(|r| next.number(r)));
         roles(self) == roles(next) && last.is_some() && last.map(|n| n + 1) == first
     }
+}
+
+/// The number at the end of a text: `3`, `Link 3`, `$J_{3}$`.
+fn number_in(text: &str) -> Option<usize> {
+    let text = text.trim_end_matches(['$', '*', ' ', '}', '.', ')']);
+    let digits = text.len() - text.trim_end_matches(|c: char| c.is_ascii_digit()).len();
+    text[text.len() - digits..].parse().ok().filter(|n| *n <= 10_000)
+}
+
+/// The rows below a header without a row of units, which the columns take.
+fn below_units<'a>(columns: &mut [Column], rows: &'a [Vec<GridCell>]) -> &'a [Vec<GridCell>] {
+    let Some((cells, rest)) = rows.split_first() else { return rows };
+    let units: Vec<Option<Unit>> = cells.iter().map(|c| lone_unit(&c.text)).collect();
+    let all = cells.iter().zip(&units).all(|(c, u)| c.text.is_empty() || u.is_some());
+    if !all || units.iter().all(Option::is_none) {
+        return rows;
+    }
+    columns.iter_mut().zip(units).for_each(|(column, unit)| column.unit = column.unit.or(unit));
+    rest
 }
 
 /// Rows for columns, if all rows are equally long.

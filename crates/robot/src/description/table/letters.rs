@@ -1,7 +1,7 @@
 //! The convention of a table, and which column is the length along x and along z in it.
 
 use super::TableOptions;
-use super::columns::{Column, Role};
+use super::columns::{Column, Role, plain};
 use super::layout::Layout;
 use super::lines::Lines;
 use crate::description::Convention;
@@ -21,7 +21,31 @@ pub(super) struct Letters {
 const CHOICES: &str = "add the line `convention: standard` (Rz(θ)·Tz(d)·Tx(a)·Rx(α)), `convention: craig` \
      (Rx(α)·Tx(a)·Rz(θ)·Tz(d)) or `convention: khalil` (Rx(α)·Tx(d)·Rz(θ)·Tz(r)), or give it as an option";
 
-/// The columns of a layout with the letters that the user gives them, from left to right.
+/// The letters that the user gives the columns, from left to right.
+pub(super) fn told_letters(
+    lines: &Lines,
+    at: usize,
+    options: &TableOptions,
+    out: &mut Diagnostics,
+) -> Option<Vec<Role>> {
+    let line = lines.get("columns", at);
+    let told = options.columns.as_deref().or(line.map(|l| l.text.as_str()))?;
+    let mut roles = vec![];
+    for name in told.split([' ', ',', '\t']).filter(|n| !n.is_empty()) {
+        let Some(role) = Role::of_letter(&plain(name)) else {
+            let span = line.filter(|_| options.columns.is_none()).map_or(at..at, |l| l.span.clone());
+            let shown: String = name.chars().take(20).collect();
+            out.error(span, format!("`{shown}` is no column of a table")).hint(
+                "columns: theta, d, a, alpha (and r, gamma, b in Khalil's letters), from left to right",
+            );
+            return None;
+        };
+        roles.push(role);
+    }
+    Some(roles)
+}
+
+/// The columns of a layout with the letters that the user gives them.
 pub(super) fn columns(
     layout: &Layout,
     lines: &Lines,
@@ -29,29 +53,17 @@ pub(super) fn columns(
     out: &mut Diagnostics,
 ) -> Option<Vec<Column>> {
     let mut columns = layout.columns.clone();
-    let line = lines.get("columns", layout.span.start);
-    let Some(told) = options.columns.as_deref().or(line.map(|l| l.text.as_str())) else {
+    let at = layout.span.start;
+    if layout.told || options.columns.is_none() && lines.get("columns", at).is_none() {
         return Some(columns);
-    };
-    let span = line.filter(|_| options.columns.is_none()).map_or(layout.span.clone(), |l| l.span.clone());
-    let names: Vec<&str> = told.split([' ', ',', '\t']).filter(|n| !n.is_empty()).collect();
-    let mut roles = vec![];
-    for name in &names {
-        match Role::of_letter(name) {
-            Some(role) => roles.push(role),
-            None => {
-                let shown: String = name.chars().take(20).collect();
-                out.error(span, format!("`{shown}` is no column of a table")).hint(
-                    "columns: theta, d, a, alpha (and r, gamma, b in Khalil's letters), from left to right",
-                );
-                return None;
-            }
-        }
     }
+    let roles = told_letters(lines, at, options, out)?;
     let letters: Vec<&mut Column> = columns.iter_mut().filter(|c| c.role.is_letter()).collect();
     if letters.len() != roles.len() {
-        let message = format!("{} columns are named, the table has {}", roles.len(), letters.len());
-        out.error(span, message)
+        let line = lines.get("columns", at).filter(|_| options.columns.is_none());
+        let span = line.map_or(layout.span.clone(), |l| l.span.clone());
+        let verb = if roles.len() == 1 { "column is" } else { "columns are" };
+        out.error(span, format!("{} {verb} named, the table has {}", roles.len(), letters.len()))
             .hint("name the columns θ, d, a, α, r from left to right, without numbers and types");
         return None;
     }
@@ -60,24 +72,14 @@ pub(super) fn columns(
 }
 
 /// The convention that is told, or that the columns force.
-pub(super) fn letters(
+pub(super) fn convention(
     layout: &Layout,
     columns: &[Column],
     lines: &Lines,
     options: &TableOptions,
     out: &mut Diagnostics,
-) -> Option<Letters> {
-    for (i, column) in columns.iter().enumerate() {
-        if column.role.is_letter() && columns[..i].iter().any(|c| c.role == column.role) {
-            let span = layout.heads[i].span.clone();
-            out.error(span, format!("a second column `{}`", column.role.letter()));
-            return None;
-        }
-    }
+) -> Option<Convention> {
     let has = |role| columns.iter().any(|c| c.role == role);
-    let head =
-        layout.heads.first().map_or(0, |h| h.span.start)..layout.heads.last().map_or(0, |h| h.span.end);
-    let head = head.start.min(head.end)..head.end;
     let previous = columns.iter().any(|c| c.previous && matches!(c.role, Role::A | Role::Alpha | Role::D));
     let line = lines.get("convention", layout.span.start);
     let told = match (options.convention, line) {
@@ -95,29 +97,30 @@ pub(super) fn letters(
         }
         (None, None) => None,
     };
+    let head = layout.head();
     let khalil_only = has(Role::Gamma) || has(Role::B);
-    let convention = match told {
+    match told {
         Some(Convention::Standard) if previous => {
             out.error(head, "the index i-1 of α or a does not go with the standard convention")
                 .hint("rows that begin with the x axis of the frame before are `craig` or, with r, `khalil`");
-            return None;
+            None
         }
-        Some(convention) => convention,
+        Some(convention) => Some(convention),
         None if khalil_only || previous && has(Role::R) => {
             let why = if khalil_only {
                 "γ and b are Khalil's"
             } else {
                 "the index i-1 and the length r are Khalil's"
             };
-            out.note(head.clone(), format!("read as khalil: {why}"));
-            Convention::Khalil
+            out.note(head, format!("read as khalil: {why}"));
+            Some(Convention::Khalil)
         }
         None if previous && has(Role::D) => {
             out.note(
-                head.clone(),
+                head,
                 "read as craig: with α_{i-1} or a_{i-1} a row begins with the x axis of the frame before",
             );
-            Convention::Craig
+            Some(Convention::Craig)
         }
         None => {
             let what = if has(Role::R) && has(Role::D) && !has(Role::A) {
@@ -126,9 +129,32 @@ pub(super) fn letters(
                 "the convention is not said, and the columns do not tell"
             };
             out.error(head, what).hint(CHOICES);
+            None
+        }
+    }
+}
+
+/// No letter stands over two columns.
+pub(super) fn check_letters(layout: &Layout, columns: &[Column], out: &mut Diagnostics) -> Option<()> {
+    for (i, column) in columns.iter().enumerate() {
+        if column.role.is_letter() && columns[..i].iter().any(|c| c.role == column.role) {
+            let span = layout.heads[i].span.clone();
+            out.error(span, format!("a second column `{}`", column.role.letter()));
             return None;
         }
-    };
+    }
+    Some(())
+}
+
+/// The lengths along x and z in a convention.
+pub(super) fn letters(
+    layout: &Layout,
+    columns: &[Column],
+    convention: Convention,
+    out: &mut Diagnostics,
+) -> Option<Letters> {
+    let has = |role| columns.iter().any(|c| c.role == role);
+    let head = layout.head();
     let lengths = (has(Role::A), has(Role::D), has(Role::R));
     let (a, d, r) = (Some(Role::A), Some(Role::D), Some(Role::R));
     let (x, z) = match (convention, lengths) {

@@ -1,7 +1,9 @@
 //! Lines of the text around a table: what the table does not say, values of symbols, headings.
 
 use super::find::{GridCell, lines};
+use super::layout::Layout;
 use crate::description::cell::name_of;
+use crate::description::diagnostic::{Diagnostics, line_column};
 use std::ops::Range;
 
 const KEYS: &[&str] = &["convention", "columns", "angles", "lengths", "name"];
@@ -18,6 +20,32 @@ pub(super) struct Lines {
     /// `D3 = 450 mm`: the plain name and the text of the value.
     pub values: Vec<(String, GridCell)>,
     headings: Vec<GridCell>,
+}
+
+/// Where the lines stand that speak of a table.
+pub(super) struct Around {
+    /// Directives: behind the table before it, and below it if it is the last one.
+    pub directives: Range<usize>,
+    /// What no other table has next to it.
+    pub own: Range<usize>,
+    /// From the table before it to the table behind it.
+    pub neighbours: Range<usize>,
+}
+
+impl Around {
+    /// The surroundings of the chosen tables among all tables of a text of `length` bytes.
+    pub fn of(chosen: &[&Layout], all: &[Layout], length: usize) -> Self {
+        let start = chosen.iter().map(|l| l.span.start).min().unwrap_or(0);
+        let end = chosen.iter().map(|l| l.span.end).max().unwrap_or(length);
+        let before = all.iter().map(|l| l.span.end).filter(|&e| e <= start).max();
+        let behind = all.iter().map(|l| l.span.start).filter(|&s| s >= end).min();
+        let below = if behind.is_some() { end } else { length };
+        Around {
+            directives: before.unwrap_or(0)..below,
+            own: before.map_or(0, |_| start)..below,
+            neighbours: before.unwrap_or(0)..behind.unwrap_or(length),
+        }
+    }
 }
 
 impl Lines {
@@ -42,6 +70,23 @@ impl Lines {
         let mut all = self.directives.iter().filter(|d| d.key == key);
         let before = all.clone().take_while(|d| d.value.span.start < at).last();
         before.or_else(|| all.next()).map(|d| &d.value)
+    }
+
+    /// Reports lines in `range` that tell a key two things; `settled` keys are told by an option.
+    pub fn check(&self, text: &str, range: &Range<usize>, settled: &[&str], out: &mut Diagnostics) {
+        for key in KEYS.iter().filter(|k| **k != "name" && !settled.contains(k)) {
+            let mut said =
+                self.directives.iter().filter(|d| d.key == *key && range.contains(&d.value.span.start));
+            let Some(first) = said.next() else { continue };
+            let plain = |d: &Directive| d.value.text.to_lowercase();
+            if let Some(second) = said.find(|d| plain(d) != plain(first)) {
+                let line = line_column(text, first.value.span.start).0;
+                let shown = |d: &Directive| d.value.text.chars().take(40).collect::<String>();
+                let message =
+                    format!("`{key}: {}` here, but `{}` in line {line}", shown(second), shown(first));
+                out.error(second.value.span.clone(), message).hint("leave one of the two");
+            }
+        }
     }
 
     /// Its text.
@@ -104,7 +149,7 @@ impl Lines {
 }
 
 /// Key and value of a line such as `<!-- convention: craig -->`.
-fn directive(line: &str) -> Option<(String, &str)> {
+pub(super) fn directive(line: &str) -> Option<(String, &str)> {
     let line = line.trim().trim_start_matches(['#', '%', '>', '-', '*', '/', '<', '!', '`', ' ']);
     let line = line.trim_end_matches("-->").trim_end_matches(['`', ' ', '*', '.']);
     let (key, value) = line.split_once([':', '='])?;

@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! convention: khalil              standard, craig or khalil
-//! columns: theta alpha a d        the letters of the convention, where the table uses others
+//! columns: theta alpha a d        its columns from left to right, where the table uses other letters
 //! angles: deg                     the unit of angles without one: deg or rad
 //! lengths: mm                     the unit of lengths without one: m, cm, mm, in, …
 //! name: Stäubli RX-90
@@ -20,6 +20,12 @@
 //! star (`θ1*`); else the symbol: θᵢ, qᵢ or tᵢ in the θ cell of row i turns, dᵢ, rᵢ or qᵢ in the length along z
 //! slides. A row without any is a fixed transform. Variables are renamed `q1`, `q2`, …; other symbols become
 //! parameters.
+//!
+//! **Stars.** The star of a row is in the cell that moves. In a table with stars, a row without one turns if its θ
+//! cell holds its own symbol (authors forget the star next to an offset); dᵢ without a star is a constant there.
+//!
+//! **Nothing is dropped in silence.** A row with too few or too many cells is an error, and so are rows below a
+//! blank line or a line of text that do not go on counting; empty cells are 0, and a note says so.
 
 mod columns;
 mod find;
@@ -34,8 +40,9 @@ mod values;
 
 use super::diagnostic::{Diagnostic, Diagnostics};
 use super::{Convention, Description, MAX_BYTES, MAX_ROWS};
+use find::Grid;
 use layout::Layout;
-use lines::Lines;
+use lines::{Around, Lines};
 use std::ops::Range;
 
 /// How a text holds its table.
@@ -78,15 +85,11 @@ pub fn read_table(
         out.error(0..0, format!("the text has {} bytes; {MAX_BYTES} are allowed", text.len()));
         return out.finish(None);
     }
+    // A byte order mark is blanked out, so that all places stay where they are.
+    let blanked = text.strip_prefix('\u{feff}').map(|rest| format!("   {rest}"));
+    let text = blanked.as_deref().unwrap_or(text);
     let lines = Lines::of(text);
-    let grids = find::grids(text, kind);
-    let mut layouts: Vec<Layout> = grids.iter().filter_map(Layout::of).collect();
-    let columns = options.columns.as_deref().or_else(|| lines.value("columns", 0));
-    if layouts.is_empty()
-        && let Some(columns) = columns
-    {
-        layouts = grids.iter().filter_map(|g| Layout::without_header(g, columns)).collect();
-    }
+    let layouts = layouts(&find::grids(text, kind), &lines, options, &mut out);
     let chosen = choose(text, &layouts, options.table, &mut out);
     let description = match chosen.as_slice() {
         [] => None,
@@ -94,9 +97,42 @@ pub fn read_table(
             out.error(chosen[0].span.clone(), format!("more than {MAX_ROWS} rows"));
             None
         }
-        chosen => read::description(text, chosen, &lines, options, &mut out),
+        chosen => {
+            let around = Around::of(chosen, &layouts, text.len());
+            read::description(text, chosen, &lines, &around, options, &mut out)
+        }
     };
     out.finish(description)
+}
+
+/// The tables of the grids: those with a header, or those that are as wide as the told columns.
+fn layouts(grids: &[Grid], lines: &Lines, options: &TableOptions, out: &mut Diagnostics) -> Vec<Layout> {
+    let gather = |read: &dyn Fn(&Grid) -> Option<Layout>, headless: bool| {
+        let mut found: Vec<Layout> = vec![];
+        for grid in grids {
+            if headless && found.last_mut().is_some_and(|above| above.counts_on(grid) && above.takes(grid)) {
+                continue;
+            }
+            match read(grid) {
+                Some(layout) => found.push(layout),
+                None => drop(found.last_mut().map(|above| above.takes(grid))),
+            }
+        }
+        found
+    };
+    let headed = gather(&Layout::of, false);
+    let mut findings = Diagnostics::default();
+    let told = letters::told_letters(lines, 0, options, &mut findings);
+    if headed.is_empty() {
+        findings.list().iter().for_each(|f| out.add(f.clone()));
+    }
+    let Some(told) = told else { return headed };
+    let letters = |l: &Layout| l.columns.iter().filter(|c| c.role.is_letter()).count();
+    if headed.iter().any(|l| letters(l) == told.len()) {
+        return headed;
+    }
+    let named = gather(&|grid| Layout::told(grid, &told), true);
+    if named.is_empty() { headed } else { named }
 }
 
 /// The tables to read, in order.
@@ -108,7 +144,10 @@ fn choose<'a>(
 ) -> Vec<&'a Layout> {
     if layouts.is_empty() {
         out.error(0..0, "there is no Denavit-Hartenberg table in the text")
-            .hint("a table has a header with at least three of theta, d, a, alpha, r, and numbered rows");
+            .hint(
+                "a table has a header with at least three of theta, d, a, alpha, r, and numbered rows; where it \
+                 names them otherwise, say what its columns are from left to right: `columns: theta d a alpha`",
+            );
         return vec![];
     }
     // Tables that continue each other are one.
@@ -130,7 +169,7 @@ fn choose<'a>(
         .map(|(i, group)| {
             let line = super::line_column(text, layouts[group.start].span.start).0;
             let rows: usize = layouts[group.clone()].iter().map(|l| l.rows.len()).sum();
-            format!("{} (line {line}, {rows} rows)", i + 1)
+            format!("{} (line {line}, {rows} row{})", i + 1, if rows == 1 { "" } else { "s" })
         })
         .collect();
     match table {

@@ -1,21 +1,21 @@
 //! From the cells of a table to a description.
 
 use super::columns::{Column, Role};
-use super::find::GridCell;
+use super::find::{GridCell, Separator};
 use super::joint::{Joint, joints};
 use super::layout::Layout;
-use super::letters::{Letters, columns, letters};
-use super::lines::Lines;
+use super::letters::{Letters, check_letters, columns, convention, letters};
+use super::lines::{Around, Lines};
 use super::{TableOptions, limits, values};
 use crate::description::cell::{Place, Style, read_cell, variable_number};
-use crate::description::diagnostic::Diagnostics;
+use crate::description::diagnostic::{Diagnostic, Diagnostics};
 use crate::description::rows::{self, Cell, Cells};
 use crate::description::units::{Quantity, Unit, unit_named};
-use crate::description::{Description, JointKind, Row, suspicious_number};
+use crate::description::{Convention, Description, JointKind, Row, suspicious_number};
 use crate::geometry::Transform;
 use denavit_symbolic::{Angle, Expr, Symbol};
 use rustc_hash::FxHashSet;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
 /// A cell of the table.
@@ -38,10 +38,10 @@ pub(super) struct ReadRow<'a> {
     pub theta: TableCell,
     /// The length along z.
     pub z: TableCell,
-    x: TableCell,
-    alpha: TableCell,
-    gamma: TableCell,
-    b: TableCell,
+    pub x: TableCell,
+    pub alpha: TableCell,
+    pub gamma: TableCell,
+    pub b: TableCell,
     /// Read as an angle, to see whether it is in degrees.
     offset_bare: Vec<(f64, Range<usize>)>,
     span: Range<usize>,
@@ -59,6 +59,11 @@ impl<'a> ReadRow<'a> {
     pub fn unit(&self, role: Role, quantity: Quantity) -> Option<Unit> {
         let column = self.columns.iter().find(|c| c.role == role);
         column.and_then(|c| c.unit).filter(|u| u.quantity == quantity)
+    }
+
+    /// θ, z, x, α, γ, b.
+    pub fn cells(&self) -> [&TableCell; 6] {
+        [&self.theta, &self.z, &self.x, &self.alpha, &self.gamma, &self.b]
     }
 
     fn cells_mut(&mut self) -> [&mut TableCell; 6] {
@@ -86,21 +91,67 @@ impl BareUnits {
     }
 }
 
-/// The description of the tables, joined.
+/// The description of the tables, joined. Lines in `around` speak of them.
+///
+/// Where the convention is not told, what every convention would find is reported with it.
 pub(super) fn description(
     text: &str,
     layouts: &[&Layout],
     lines: &Lines,
+    around: &Around,
     options: &TableOptions,
     out: &mut Diagnostics,
 ) -> Option<Description> {
-    let at = layouts[0].span.start;
     let mut told_columns = vec![];
     for layout in layouts {
         told_columns.push(columns(layout, lines, options, out)?);
     }
-    let letters = letters(layouts[0], &told_columns[0], lines, options, out)?;
-    for (layout, columns) in layouts.iter().zip(&told_columns) {
+    let first = (layouts[0], told_columns[0].as_slice());
+    check_letters(first.0, first.1, out)?;
+    let settled = [
+        (options.convention.is_some(), "convention"),
+        (options.columns.is_some(), "columns"),
+        (options.angles_in_degrees.is_some(), "angles"),
+        (options.lengths_in_millimetres.is_some(), "lengths"),
+    ];
+    let settled: Vec<&str> = settled.into_iter().filter(|s| s.0).map(|s| s.1).collect();
+    lines.check(text, &around.directives, &settled, out);
+    let tables = Tables { text, layouts, columns: &told_columns, lines, around, options };
+    if let Some(convention) = convention(first.0, first.1, lines, options, out) {
+        let letters = letters(first.0, first.1, convention, out)?;
+        return Some(read_as(&letters, &tables, out));
+    }
+    let mut common: Option<Vec<Diagnostic>> = None;
+    for convention in Convention::ALL {
+        let Some(letters) = letters(first.0, first.1, convention, &mut Diagnostics::default()) else {
+            continue;
+        };
+        let mut found = Diagnostics::default();
+        read_as(&letters, &tables, &mut found);
+        match &mut common {
+            Some(common) => common.retain(|f| found.list().contains(f)),
+            None => common = Some(found.list().to_vec()),
+        }
+    }
+    common.into_iter().flatten().for_each(|f| out.add(f));
+    None
+}
+
+/// Tables that are one, and what is said about them.
+struct Tables<'a> {
+    text: &'a str,
+    layouts: &'a [&'a Layout],
+    columns: &'a [Vec<Column>],
+    lines: &'a Lines,
+    around: &'a Around,
+    options: &'a TableOptions,
+}
+
+/// The description under a convention.
+fn read_as(letters: &Letters, tables: &Tables, out: &mut Diagnostics) -> Description {
+    let &Tables { text, layouts, columns: told_columns, lines, around, options } = tables;
+    let at = layouts[0].span.start;
+    for (layout, columns) in layouts.iter().zip(told_columns) {
         check_columns(layout, columns, &told_columns[0], out);
     }
     let mut units = BareUnits {
@@ -112,14 +163,14 @@ pub(super) fn description(
             Some(millimetres) => unit_named(if millimetres { "mm" } else { "m" }),
             None => told("lengths", Quantity::Length, lines, at, out),
         },
-        decimal_comma: layouts[0].decimal_comma,
+        decimal_comma: layouts[0].separator == Separator::Field(';'),
     };
     let all = |units: &BareUnits, out: &mut Diagnostics| -> Vec<ReadRow> {
         let mut found: Vec<ReadRow> = vec![];
-        for (layout, columns) in layouts.iter().zip(&told_columns) {
+        for (layout, columns) in layouts.iter().zip(told_columns) {
             for source in &layout.rows {
                 let number = layout.number(source).unwrap_or(found.last().map_or(1, |r| r.number + 1));
-                found.push(read_row(layout, columns, source, number, &letters, units, out));
+                found.push(read_row(layout, columns, source, number, letters, units, out));
             }
         }
         found
@@ -132,9 +183,19 @@ pub(super) fn description(
     let told = |role: Option<Role>| told_columns[0].iter().any(|c| Some(c.role) == role && c.unit.is_some());
     let lengths = read.iter().flat_map(|r| [(letters.z, &r.z), (letters.x, &r.x), (Some(Role::B), &r.b)]);
     let bare = lengths.filter(|l| units.length.is_none() && !told(l.0)).flat_map(|l| &l.1.bare);
-    if let Some((x, span)) = bare.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs())) {
+    let bare: Vec<&(f64, Range<usize>)> = bare.collect();
+    if let Some((x, span)) = bare.iter().max_by(|a, b| a.0.abs().total_cmp(&b.0.abs())) {
         let hint = "say `d (mm)` in the header, add the line `lengths: mm`, or give it as an option";
-        suspicious_number(*x, span, Quantity::Length, hint, out); // the largest stands for all
+        let mut found = Diagnostics::default();
+        suspicious_number(*x, span, Quantity::Length, hint, &mut found); // the largest stands for all
+        let more = |n: &usize| bare[*n].0.abs() > 20.0 && bare[*n].1 != *span;
+        let more = (0..bare.len()).filter(more).count();
+        for mut finding in found.list().iter().cloned() {
+            if more > 0 {
+                finding.message = format!("{x} and {more} more are long ways for a robot in metres");
+            }
+            out.add(finding);
+        }
     }
     let joints = joints(&read, letters.convention, out);
     rename(&mut read, &joints, &units, out);
@@ -142,7 +203,21 @@ pub(super) fn description(
     units.length = units.length.or(common_unit(&told_columns[0], Quantity::Length));
     let cells: Vec<Cells> = read.iter().map(cells_of).collect();
     let variables = rows::assign_variables(&cells, letters.convention, out);
-    let parameters = values::parameters(text, &cells, lines, &units, out);
+    if variables.iter().all(Option::is_none) && !out.has_errors() {
+        out.warning(
+            layouts[0].head(),
+            "no row holds a joint variable: the table describes a fixed transform",
+        )
+        .hint("write θ1 or q1 (d1 for a sliding joint) into row 1, and so on, or add a column σ");
+    }
+    let names: Vec<&str> = joints
+        .iter()
+        .filter_map(|j| match j {
+            Joint::Moves(_, name) => name.as_deref(),
+            Joint::Fixed => None,
+        })
+        .collect();
+    let parameters = values::parameters(text, &cells, &names, (lines, around), &units, out);
     let rows: Vec<Row> = cells
         .iter()
         .zip(&read)
@@ -165,7 +240,7 @@ pub(super) fn description(
         })
         .collect();
     let name = lines.value("name", at).or(lines.title(at)).unwrap_or("table");
-    Some(Description {
+    Description {
         name: name.to_string(),
         source: None,
         convention: letters.convention,
@@ -175,7 +250,7 @@ pub(super) fn description(
         tool: Transform::identity(),
         poses: vec![],
         gravity: None,
-    })
+    }
 }
 
 /// A unit told by a line.
@@ -225,14 +300,23 @@ fn check_numbers(read: &[ReadRow], layouts: &[&Layout], out: &mut Diagnostics) {
             format!("the table begins with row {}; its joints become q1, q2, …", first.number),
         );
     }
-    for layout in layouts {
-        for row in &layout.rows {
-            if row.len() > layout.columns.len() {
-                let span = row[layout.columns.len()].span.start..row[row.len() - 1].span.end;
-                let message = format!("a row of {} cells under {} columns", row.len(), layout.columns.len());
-                out.error(span, message);
-            }
+    let rows = layouts.iter().flat_map(|l| l.rows.iter().map(|r| (*l, r.as_slice())));
+    let mut empty = None;
+    for ((layout, row), read) in rows.zip(read) {
+        let (cells, wanted) = (row.len(), layout.columns.len());
+        if cells == wanted {
+            let letters = layout.columns.iter().zip(row).filter(|c| c.0.role.is_letter());
+            empty = empty.or(letters.map(|c| c.1).find(|c| c.text.is_empty()));
+            continue;
         }
+        let span =
+            if cells > wanted { row[wanted].span.start..row[cells - 1].span.end } else { read.span.clone() };
+        let plural = if cells == 1 { "" } else { "s" };
+        out.error(span, format!("row {} has {cells} cell{plural}, the header has {wanted}", read.number))
+            .hint("a cell that is 0 may be left empty, but not left out");
+    }
+    if let Some(cell) = empty {
+        out.note(cell.span.clone(), "empty cells are read as 0");
     }
 }
 
@@ -251,10 +335,24 @@ fn degrees_by_size(read: &[ReadRow], columns: &[Column], out: &mut Diagnostics) 
         .flat_map(|(_, bare)| bare.clone())
         .collect()
     };
-    let (x, span) = read.iter().flat_map(bare).find(|b| b.0.abs() > TAU)?;
-    out.note(span, format!("{x} is more than a turn in radians: angles without a unit are read as degrees"))
-        .hint("`angles: deg` or `angles: rad` says so");
+    let all: Vec<(f64, Range<usize>)> = read.iter().flat_map(bare).collect();
+    let (x, span) = all.iter().find(|b| b.0.abs() > TAU)?;
+    if let Some((radians, span)) = all.iter().find(|b| looks_like_radians(b.0)) {
+        let message = format!("{radians} looks like radians, but {x} elsewhere like degrees");
+        out.error(span.clone(), message)
+            .hint("`angles: deg` or `angles: rad` says what angles without a unit are");
+    } else {
+        let message =
+            format!("{x} is more than a turn in radians: angles without a unit are read as degrees");
+        out.note(span.clone(), message).hint("`angles: deg` or `angles: rad` says so");
+    }
     unit_named("deg")
+}
+
+/// A multiple of π/12 up to a turn, other than 0, as one writes it with three decimals or more.
+fn looks_like_radians(x: f64) -> bool {
+    let nearest = (x / (PI / 12.0)).round() * (PI / 12.0);
+    nearest != 0.0 && x.abs() < TAU + 0.1 && (x - nearest).abs() < 1e-3
 }
 
 fn read_row<'a>(
@@ -297,15 +395,8 @@ fn read_row<'a>(
 fn read_table_cell(cell: &GridCell, style: &Style, out: &mut Diagnostics) -> TableCell {
     let mut found =
         TableCell { cell: Cell::zero(cell.span.clone()), star: false, marker: false, bare: vec![] };
-    let mut text = cell.text.as_str();
-    let inner = text.trim_end_matches(['$', ' ']);
-    for star in ["^{*}", "^{\\ast}", "^\\ast", "^*", "*"] {
-        if let Some(rest) = inner.strip_suffix(star) {
-            text = rest;
-            found.star = true;
-            break;
-        }
-    }
+    let (text, star) = without_stars(&cell.text);
+    found.star = star;
     let bare = text.trim_matches(['$', ' ']);
     if matches!(bare.to_lowercase().as_str(), "var" | "var." | "variable" | "variabel")
         || found.star && bare.is_empty()
@@ -318,12 +409,35 @@ fn read_table_cell(cell: &GridCell, style: &Style, out: &mut Diagnostics) -> Tab
         return found;
     }
     let place = Place { span: cell.span.clone(), start: Some(cell.span.start) };
-    if let Some(value) = read_cell(text, &place, style, out) {
+    if let Some(value) = read_cell(&text, &place, style, out) {
         found.cell = Cell { expr: value.expr, span: cell.span.clone(), symbols: value.symbols };
         found.star |= found.cell.symbols.iter().any(|s| s.0 == "var");
         found.bare = value.bare;
     }
     found
+}
+
+/// A cell with its stars blanked out, and whether there were any: `^*` anywhere, `*` at the end or before a sign.
+fn without_stars(cell: &str) -> (String, bool) {
+    let mut text = cell.to_string();
+    for star in ["^{*}", "^{\\ast}", "^{\\star}", "^\\ast", "^\\star", "^*", "^{∗}", "^∗"] {
+        text = text.replace(star, &" ".repeat(star.len()));
+    }
+    let bare = |(at, star): (usize, &str)| {
+        let behind = text[at + star.len()..].trim_start_matches(['$', ' ', '}']);
+        let name = text[..at].trim_end_matches(['$', ' ', '}']);
+        let word =
+            name.rsplit(|c: char| !c.is_alphanumeric() && !matches!(c, '_' | '{')).next().unwrap_or("");
+        let named = word.contains(char::is_alphabetic);
+        let marks = behind.is_empty() || named && behind.starts_with(['+', '-', '−', ')']);
+        marks.then_some(at..at + star.len())
+    };
+    let bare: Vec<Range<usize>> = text.match_indices(['*', '∗']).filter_map(bare).collect();
+    for range in bare {
+        text.replace_range(range.clone(), &" ".repeat(range.len()));
+    }
+    let star = text != cell;
+    (text, star)
 }
 
 /// Calls the variables q1, q2, … wherever they occur.

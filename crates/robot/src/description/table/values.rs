@@ -1,21 +1,24 @@
 //! The symbols of a table that are no variables, and the values that lines of the text give them.
 
-use super::lines::Lines;
+use super::find::GridCell;
+use super::lines::{Around, Lines};
 use super::read::BareUnits;
 use crate::description::Parameter;
-use crate::description::cell::{Place, Style, read_cell, variable_number};
-use crate::description::diagnostic::Diagnostics;
+use crate::description::cell::{Place, Style, is_reserved, read_cell, variable_number};
+use crate::description::diagnostic::{Diagnostics, line_column, nearest};
 use crate::description::robot_file::name_fault;
 use crate::description::rows::{Cell, Cells};
 use crate::description::units::Quantity;
 use denavit_symbolic::{Expr, Symbol};
 use std::ops::Range;
 
-/// The parameters in the order in which they first occur.
+/// The parameters in the order in which they first occur. Lines near the table win over those that belong to other
+/// tables; `variables` are the names of the joint variables in the table.
 pub(super) fn parameters(
     text: &str,
     rows: &[Cells],
-    lines: &Lines,
+    variables: &[&str],
+    (lines, around): (&Lines, &Around),
     units: &BareUnits,
     out: &mut Diagnostics,
 ) -> Vec<Parameter> {
@@ -51,21 +54,37 @@ pub(super) fn parameters(
             (_, true) => units.style(Quantity::Length, None),
             _ => units.style(Quantity::Open, None),
         };
-        parameters.push(Parameter { symbol, value: value(text, name, lines, &style, out) });
+        parameters.push(Parameter { symbol, value: value(text, name, lines, around, &style, out) });
     }
+    unused(text, &parameters, variables, lines, around, out);
     parameters
 }
 
-/// The value of a name: the first line that gives one.
-fn value(text: &str, name: &str, lines: &Lines, style: &Style, out: &mut Diagnostics) -> Option<Expr> {
-    let mut found: Option<Expr> = None;
-    for (_, cell) in lines.values.iter().filter(|v| v.0 == name) {
-        let trimmed = cell.text.trim_matches(['"', '\'', '$', ' ']);
-        let start = cell.span.start + cell.text.find(trimmed).unwrap_or(0);
-        let place = Place { span: cell.span.clone(), start: Some(start) };
+/// What a line gives a name, if that is a constant.
+fn read_line(cell: &GridCell, style: &Style, out: &mut Diagnostics) -> Option<Expr> {
+    let trimmed = cell.text.trim_matches(['"', '\'', '$', ' ']);
+    let start = cell.span.start + cell.text.find(trimmed).unwrap_or(0);
+    let place = Place { span: cell.span.clone(), start: Some(start) };
+    Some(read_cell(trimmed, &place, style, out).filter(|v| v.symbols.is_empty())?.expr)
+}
+
+/// The value of a name: all lines that give one agree.
+fn value(
+    text: &str,
+    name: &str,
+    lines: &Lines,
+    around: &Around,
+    style: &Style,
+    out: &mut Diagnostics,
+) -> Option<Expr> {
+    let all = || lines.values.iter().filter(|v| v.0 == name).map(|v| &v.1);
+    let everywhere = 0..text.len() + 1;
+    let holds = |r: &Range<usize>| all().any(|c| r.contains(&c.span.start));
+    let near = [&around.own, &around.neighbours].into_iter().find(|r| holds(r)).unwrap_or(&everywhere);
+    let mut found: Option<(Expr, usize)> = None;
+    for cell in all().filter(|c| near.contains(&c.span.start)) {
         let mut findings = Diagnostics::default();
-        let read = read_cell(trimmed, &place, style, &mut findings).filter(|v| v.symbols.is_empty());
-        let Some(read) = read else {
+        let Some(read) = read_line(cell, style, &mut findings) else {
             let shown: String = text[cell.span.clone()].chars().take(40).collect();
             out.note(cell.span.clone(), format!("`{name} = {shown}` is not taken for the value of `{name}`"))
                 .hint(
@@ -77,11 +96,53 @@ fn value(text: &str, name: &str, lines: &Lines, style: &Style, out: &mut Diagnos
             continue;
         };
         match found {
-            Some(before) if before != read.expr => {
-                out.warning(cell.span.clone(), format!("a second value for `{name}`; the first is taken"));
+            Some((before, at)) if before != read => {
+                let line = line_column(text, at).0;
+                out.error(
+                    cell.span.clone(),
+                    format!("a second value for `{name}`; line {line} gives another"),
+                )
+                .hint("leave one of the two");
             }
-            _ => found = Some(read.expr),
+            Some(_) => {}
+            None => found = Some((read, cell.span.start)),
         }
     }
-    found
+    Some(found?.0)
+}
+
+/// Values for names that the table does not hold.
+fn unused(
+    text: &str,
+    parameters: &[Parameter],
+    variables: &[&str],
+    lines: &Lines,
+    around: &Around,
+    out: &mut Diagnostics,
+) {
+    let mut seen: Vec<&str> = vec![];
+    for (name, cell) in lines.values.iter().filter(|v| around.own.contains(&v.1.span.start)) {
+        let known = parameters.iter().any(|p| *p.symbol.name() == **name) || is_reserved(name);
+        if known || seen.contains(&name.as_str()) || out.is_full() {
+            continue;
+        }
+        let style = Style { document: true, ..Style::of(Quantity::Open) };
+        if read_line(cell, &style, &mut Diagnostics::default()).is_none() {
+            continue; // an equation of the text
+        }
+        seen.push(name);
+        let shown: String = text[cell.span.clone()].chars().take(40).collect();
+        if variables.contains(&name.as_str()) {
+            let message = format!("`{name}` is a joint variable: `{name} = {shown}` is not read");
+            out.note(cell.span.clone(), message);
+        } else {
+            let near = nearest(
+                name,
+                parameters.iter().map(|p| p.symbol.name()).collect::<Vec<_>>().iter().map(|n| &**n),
+            )
+            .map(|n| format!("did you mean `{n}`?"));
+            let message = format!("the table has no symbol `{name}`: `{name} = {shown}` is not read");
+            out.warning(cell.span.clone(), message).hint = near;
+        }
+    }
 }
