@@ -6,8 +6,10 @@ use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::vocabulary::Vocabulary;
 use std::fmt::Write;
 
+/// Matrices get their brackets from borders: without a mathematical font a browser does not stretch the characters.
 const STYLE: &str = "body{font:16px/1.5 system-ui,sans-serif;max-width:70rem;margin:2rem auto;padding:0 1rem}\
-math{font-size:1.05em}div.formula{margin:.4rem 0;overflow-x:auto}p.note{opacity:.75}\
+math{font-size:1.1em}div.formula{margin:.3rem 0 .3rem 1.5rem;padding:.15rem 0;overflow-x:auto;overflow-y:hidden}\
+mtable{border:solid currentColor;border-width:0 1.5px;border-radius:.5em;padding:0 .3em}p.note{opacity:.75}\
 @media(prefers-color-scheme:dark){body{background:#15171a;color:#e4e6ea}}";
 
 /// The page.
@@ -46,7 +48,7 @@ pub fn document(d: &Derivation) -> String {
 
 fn formula(left: &str, right: &str) -> String {
     format!(
-        "<div class=\"formula\"><math display=\"block\"><mrow>{left}<mo>=</mo>{right}</mrow></math></div>\n"
+        "<div class=\"formula\"><math displaystyle=\"true\"><mrow>{left}<mo>=</mo>{right}</mrow></math></div>\n"
     )
 }
 
@@ -66,7 +68,7 @@ fn matrix(d: &Derivation, rows: &[[Expr; 4]; 4]) -> String {
             format!("<mtr>{cells}</mtr>")
         })
         .collect();
-    format!("<mrow><mo>[</mo><mtable>{rows}</mtable><mo>]</mo></mrow>")
+    format!("<mtable>{rows}</mtable>")
 }
 
 fn escaped(text: &str) -> String {
