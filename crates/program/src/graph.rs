@@ -110,16 +110,6 @@ impl<F: Fn(Symbol) -> Stage> Graph<F> {
         self.stages[node as usize]
     }
 
-    /// How many nodes there are.
-    pub fn len(&self) -> usize {
-        self.ops.len()
-    }
-
-    /// True without nodes.
-    pub fn is_empty(&self) -> bool {
-        self.ops.is_empty()
-    }
-
     fn intern(&mut self, op: Op) -> Value {
         if let Some(&node) = self.numbers.get(&op) {
             return Value { node, negative: false };

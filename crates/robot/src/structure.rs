@@ -6,7 +6,7 @@
 use crate::description::{Description, JointKind};
 use crate::geometry::{Rotation, Transform, Vector};
 use crate::robot::{Link, Robot};
-use denavit_symbolic::{Expr, Ring, readable};
+use denavit_symbolic::{Expr, readable};
 use std::fmt;
 
 /// How an axis lies to the one before it.
@@ -167,7 +167,7 @@ fn between_joints(description: &Description) -> Vec<Transform<Expr>> {
             None => current = before.map(|x| x * fixed * link.after),
         }
     }
-    found.iter().map(|x| x.map(exact)).collect()
+    found.iter().map(|x| x.map(readable::settled)).collect()
 }
 
 /// Rz(θ)·Tz(d) without the joint variables.
@@ -235,10 +235,6 @@ fn nearly_special(
     found
 }
 
-fn exact(e: Expr) -> Expr {
-    readable::simplify_in(&mut Ring::new(&[e], &[]), e).map_or(e, |form| form.expr)
-}
-
 fn is_zero(e: Expr) -> bool {
-    exact(e).is_zero()
+    readable::settled(e).is_zero()
 }

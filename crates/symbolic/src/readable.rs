@@ -63,6 +63,12 @@ fn terms(ring: &mut Ring, e: Expr) -> Result<usize, Refusal> {
 /// Angles beyond which merged sums are no longer searched for (the search is quadratic in them).
 const MAX_ANGLES_MERGED: usize = 8;
 
+/// The readable form over the angle sums that occur; the formula itself where there is none. What is identically 0
+/// or 1 comes out as that number.
+pub fn settled(e: Expr) -> Expr {
+    simplify_in(&mut Ring::new(&[e], &[]), e).map_or(e, |form| form.expr)
+}
+
 /// Terms beyond which nobody reads a formula.
 const MAX_TERMS: usize = 500;
 

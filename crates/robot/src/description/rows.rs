@@ -6,7 +6,7 @@
 
 use super::cell::variable_number;
 use super::diagnostic::{Diagnostics, nearest};
-use super::{Convention, JointKind, Variable};
+use super::{Convention, JointKind, Row, Variable};
 use denavit_symbolic::{Angle, Expr, Symbol};
 use std::ops::Range;
 
@@ -46,6 +46,26 @@ pub(super) struct Cells {
 impl Cells {
     pub fn all(&self) -> [&Cell; 6] {
         [&self.theta, &self.d, &self.a, &self.alpha, &self.gamma, &self.b]
+    }
+
+    /// The geometry of the row; nothing else is known of it.
+    pub fn row(&self, variable: Option<Variable>) -> Row {
+        Row {
+            theta: self.theta.expr,
+            d: self.d.expr,
+            a: self.a.expr,
+            alpha: self.alpha.expr,
+            gamma: self.gamma.expr,
+            b: self.b.expr,
+            variable,
+            name: None,
+            limits: None,
+            velocity: None,
+            acceleration: None,
+            mass: None,
+            com: None,
+            inertia: None,
+        }
     }
 
     /// The cells that hold angles, then those that hold lengths.

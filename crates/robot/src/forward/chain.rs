@@ -7,7 +7,7 @@
 
 use crate::description::{Convention, Description};
 use crate::geometry::{Axis, Rotation, Transform, Vector};
-use denavit_symbolic::{Angle, Expr, Node, Rational, Ring, Symbol, equal, readable};
+use denavit_symbolic::{Angle, Expr, Node, Rational, Symbol, equal, readable};
 
 /// A chain of rotations about one angle each, with the displacements between them.
 #[derive(Clone, Debug)]
@@ -136,7 +136,8 @@ impl Builder {
 
     fn turn(&mut self, rotation: Rotation<Expr>) {
         if rotation != Rotation::identity() {
-            self.constant = (self.constant * rotation).map(exact_constant);
+            // A turn there and back is the identity to the letter.
+            self.constant = (self.constant * rotation).map(readable::settled);
         }
     }
 
@@ -228,17 +229,6 @@ fn flip(flipped: bool) -> Rotation<Expr> {
     if flipped { Rotation::about_x(Expr::pi()) } else { Rotation::identity() }
 }
 
-/// The entry in its shortest form; a constant rotation there and back is the identity to the letter.
-fn exact_constant(e: Expr) -> Expr {
-    if matches!(e.node(), Node::Number(_) | Node::Symbol(_) | Node::Sin(_) | Node::Cos(_)) {
-        return e;
-    }
-    match readable::simplify_in(&mut Ring::new(&[e], &[]), e) {
-        Ok(form) => form.expr,
-        Err(_) => e,
-    }
-}
-
 fn is_signed_unit(v: Vector<Expr>) -> bool {
     v.0.iter().filter(|e| !e.is_zero()).count() == 1
         && v.0.iter().all(|e| e.as_number().is_some_and(|r| r.is_zero() || r.abs().is_one()))
@@ -260,22 +250,14 @@ fn parallel(r: &Rotation<Expr>) -> Option<(Expr, bool)> {
 
 /// The constant angle with this sine and cosine, if it is a multiple of π/60 or stands there as a symbol.
 fn constant_angle(s: Expr, c: Expr) -> Option<Expr> {
-    if let (Node::Cos(a), (k, sine)) = (c.node(), split_sign(s))
-        && let Node::Sin(b) = sine.node()
-        && a == b
+    if let Node::Cos(a) = c.node()
+        && let Some(angle) = [a, -a].into_iter().find(|x| x.sin() == s)
     {
-        return Some(if k { -a } else { a });
+        return Some(angle);
     }
     let numeric = s.eval(|_| None).ok()?.atan2(c.eval(|_| None).ok()?);
     let sixtieths = (numeric / std::f64::consts::PI * 60.0).round();
     let gamma = Expr::from(Rational::new(sixtieths as i64, 60)) * Expr::pi();
     let (exact_s, exact_c) = gamma.sin_cos();
     (equal(exact_s, s).is_equal() && equal(exact_c, c).is_equal()).then_some(gamma)
-}
-
-fn split_sign(e: Expr) -> (bool, Expr) {
-    match e.node() {
-        Node::Neg(a) => (true, a),
-        _ => (false, e),
-    }
 }

@@ -2,8 +2,7 @@
 
 use super::Derivation;
 use denavit_symbolic::Expr;
-use denavit_symbolic::print::{Style, print};
-use denavit_symbolic::vocabulary::Vocabulary;
+use denavit_symbolic::print::Style;
 use std::fmt::Write;
 
 /// Matrices get their brackets from borders: without a mathematical font a browser does not stretch the characters.
@@ -35,7 +34,7 @@ pub fn document(d: &Derivation) -> String {
     }
     text += "<h2>Algorithm</h2>\n";
     for (_, e) in d.trigonometry() {
-        text += &formula(&d.text(e, Style::MathMl), &print(e, &Vocabulary::new(), Style::MathMl));
+        text += &formula(&d.text(e, Style::MathMl), &d.in_full(e, Style::MathMl));
     }
     for step in &d.steps {
         text +=

@@ -3,15 +3,14 @@
 use super::Derivation;
 use crate::commands::robots::joints;
 use denavit_symbolic::Expr;
-use denavit_symbolic::print::{Style, print};
-use denavit_symbolic::vocabulary::Vocabulary;
+use denavit_symbolic::print::Style;
 use serde_json::{Value, json};
 
 /// Schema 1 of `derive`.
 pub fn document(d: &Derivation) -> String {
     let text = |e: Expr| d.text(e, Style::Ascii);
     let rows = |m: &[[Expr; 4]; 4]| -> Value { m.iter().map(|row| row.map(text).to_vec()).collect() };
-    let plain = |e: Expr| print(e, &Vocabulary::new(), Style::Ascii);
+    let plain = |e: Expr| d.in_full(e, Style::Ascii);
     let trigonometry = d.trigonometry().into_iter();
     let mut steps: Vec<Value> = trigonometry
         .map(|(name, value)| json!({"name": name, "value": plain(value), "output": false}))

@@ -2,8 +2,7 @@
 
 use super::Derivation;
 use denavit_symbolic::Expr;
-use denavit_symbolic::print::{Style, print};
-use denavit_symbolic::vocabulary::Vocabulary;
+use denavit_symbolic::print::Style;
 use std::fmt::Write;
 
 /// A fragment to paste into a document.
@@ -28,9 +27,10 @@ pub fn document(d: &Derivation) -> String {
         let _ = writeln!(text, "\\begin{{align*}}\n{}\n\\end{{align*}}", entries.join(" \\\\\n"));
     }
     let _ = writeln!(text, "\\subsection*{{Algorithm}}");
-    let trigonometry = d.trigonometry().into_iter().map(|(_, e)| {
-        format!("{} &= {}", d.text(e, Style::Latex), print(e, &Vocabulary::new(), Style::Latex))
-    });
+    let trigonometry = d
+        .trigonometry()
+        .into_iter()
+        .map(|(_, e)| format!("{} &= {}", d.text(e, Style::Latex), d.in_full(e, Style::Latex)));
     let steps = d.steps.iter().map(|s| {
         format!("{} &= {}", d.text(Expr::symbol(&s.name), Style::Latex), d.text(s.value, Style::Latex))
     });

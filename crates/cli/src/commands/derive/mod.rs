@@ -97,13 +97,18 @@ impl<'a> Derivation<'a> {
         print(e, &self.names, style)
     }
 
+    /// A formula with sines and cosines in full: cos(q2 + q3).
+    fn in_full(&self, e: Expr, style: Style) -> String {
+        print(e, &Vocabulary::new(), style)
+    }
+
     /// Name and value, `C23` and cos(q2 + q3), of each sine and cosine that the algorithm takes and that has a
     /// short name; along the chain, cosine first.
     fn trigonometry(&self) -> Vec<(String, Expr)> {
         let taken = self.model.algorithm.sines_and_cosines().into_iter();
         let named = taken.map(|e| (self.text(e, Style::Ascii), e));
         let mut named: Vec<(String, Expr)> =
-            named.filter(|(name, e)| *name != print(*e, &Vocabulary::new(), Style::Ascii)).collect();
+            named.filter(|(name, e)| *name != self.in_full(*e, Style::Ascii)).collect();
         let indices = |name: &str| -> Vec<u32> {
             let text = name[1..].trim_start_matches("_{").trim_end_matches('}');
             match text.contains([',', '-']) {

@@ -5,8 +5,7 @@ use crate::commands::show::{dh_table, title};
 use crate::terminal::{Align, FAINT, HEADING, NAME, lowered, matrix, matrix_width, raised, styled};
 use denavit_program::COUNTING_RULE;
 use denavit_symbolic::Expr;
-use denavit_symbolic::print::{Style, print};
-use denavit_symbolic::vocabulary::Vocabulary;
+use denavit_symbolic::print::Style;
 use std::fmt::Write;
 
 /// Wider matrices are printed entry by entry.
@@ -62,7 +61,7 @@ pub fn forward(d: &Derivation) -> String {
 
 fn algorithm(d: &Derivation) -> String {
     let mut text = format!("{}\n\n", styled("Algorithm", HEADING));
-    let plain = |e: Expr| print(e, &Vocabulary::new(), Style::Unicode);
+    let plain = |e: Expr| d.in_full(e, Style::Unicode);
     let trigonometry = d.trigonometry();
     for of_one_angle in trigonometry.chunk_by(|a, b| a.0[1..] == b.0[1..]) {
         let line: Vec<String> =

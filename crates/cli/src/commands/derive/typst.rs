@@ -2,8 +2,7 @@
 
 use super::Derivation;
 use denavit_symbolic::Expr;
-use denavit_symbolic::print::{Style, print};
-use denavit_symbolic::vocabulary::Vocabulary;
+use denavit_symbolic::print::Style;
 use std::fmt::Write;
 
 /// A fragment to paste into a document.
@@ -31,9 +30,10 @@ pub fn document(d: &Derivation) -> String {
         // In a line of text, a long formula breaks.
         let _ = writeln!(text, "{}\n", lines.join("\n\n"));
     }
-    let trigonometry = d.trigonometry().into_iter().map(|(_, e)| {
-        format!("{} &= {}", d.text(e, Style::Typst), print(e, &Vocabulary::new(), Style::Typst))
-    });
+    let trigonometry = d
+        .trigonometry()
+        .into_iter()
+        .map(|(_, e)| format!("{} &= {}", d.text(e, Style::Typst), d.in_full(e, Style::Typst)));
     let steps = d.steps.iter().map(|s| {
         format!("{} &= {}", d.text(Expr::symbol(&s.name), Style::Typst), d.text(s.value, Style::Typst))
     });

@@ -140,23 +140,8 @@ impl Reader<'_> {
         let mass = get("mass").and_then(|v| self.mass(v, names));
         let com = get("com").and_then(|v| self.constants(v, Quantity::Length, "com", names));
         let inertia = get("inertia").and_then(|v| self.constants(v, Quantity::Inertia, "inertia", names));
-        let cells = &draft.cells;
-        Row {
-            theta: cells.theta.expr,
-            d: cells.d.expr,
-            a: cells.a.expr,
-            alpha: cells.alpha.expr,
-            gamma: cells.gamma.expr,
-            b: cells.b.expr,
-            variable,
-            name: self.string(get("name")),
-            limits,
-            velocity,
-            acceleration,
-            mass,
-            com,
-            inertia,
-        }
+        let name = self.string(get("name"));
+        Row { name, limits, velocity, acceleration, mass, com, inertia, ..draft.cells.row(variable) }
     }
 
     fn limits(&mut self, value: &Spanned<DeValue>, quantity: Quantity) -> Option<[Expr; 2]> {

@@ -223,20 +223,9 @@ fn read_as(letters: &Letters, tables: &Tables, out: &mut Diagnostics) -> Descrip
         .zip(&read)
         .zip(&variables)
         .map(|((cells, read), &variable)| Row {
-            theta: cells.theta.expr,
-            d: cells.d.expr,
-            a: cells.a.expr,
-            alpha: cells.alpha.expr,
-            gamma: cells.gamma.expr,
-            b: cells.b.expr,
-            variable,
             name: read.source(Role::Name).map(|n| n.text.clone()).filter(|n| !n.is_empty()),
             limits: variable.and_then(|v| limits::limits(read, v.kind, &units, out)),
-            velocity: None,
-            acceleration: None,
-            mass: None,
-            com: None,
-            inertia: None,
+            ..cells.row(variable)
         })
         .collect();
     let name = lines.value("name", at).or(lines.title(at)).unwrap_or("table");
