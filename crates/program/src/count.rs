@@ -1,6 +1,6 @@
 //! What a program costs, counted by one stated rule.
 
-use crate::graph::{Op, Stage};
+use crate::op::{Op, Stage};
 use std::fmt;
 
 /// How operations are counted.
@@ -40,7 +40,7 @@ impl Count {
     ) {
         let (op, stage) = look(n);
         if stage != Stage::Variable {
-            self.hoisted += u32::from(stage == Stage::Parameter && op.operands().next().is_some());
+            self.hoisted += u32::from(stage == Stage::Parameter && op.nodes().next().is_some());
             return;
         }
         let is_offset = |a: u32, b: u32| {

@@ -4,100 +4,46 @@
 //! Operands of sums and products are ordered; numbers are folded; nothing else is rewritten.
 
 use crate::count::Count;
+use crate::op::{Op, Stage, Value};
 use denavit_symbolic::{Expr, Node, Rational, Symbol};
 use rustc_hash::FxHashMap;
 use std::cell::RefCell;
 
-/// A node's result, with a sign.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
-pub struct Value {
-    /// The number of the node.
-    pub node: u32,
-    /// True for its negative.
-    pub negative: bool,
-}
-
-impl std::ops::Neg for Value {
-    type Output = Value;
-    fn neg(self) -> Value {
-        Value { negative: !self.negative, ..self }
-    }
-}
-
-/// When a value is known.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub enum Stage {
-    /// A number.
-    Constant,
-    /// Once the parameters are known; computed once and hoisted.
-    Parameter,
-    /// At every evaluation.
-    Variable,
-}
-
-/// An operation. Operands without sign are magnitudes: the sign is in front of the result.
-#[derive(Clone, PartialEq, Eq, Hash, Debug)]
-pub enum Op {
-    /// A rational that is not negative.
-    Number(Rational),
-    /// The constant π.
-    Pi,
-    /// An input.
-    Input(Symbol),
-    /// `a + b`
-    Add(u32, u32),
-    /// `a − b`
-    Sub(u32, u32),
-    /// `a · b`
-    Mul(u32, u32),
-    /// `a / b`
-    Div(u32, u32),
-    /// `√a`
-    Sqrt(Value),
-    /// `sin a`
-    Sin(u32),
-    /// `cos a`
-    Cos(u32),
-    /// `atan2(a, b)`
-    Atan2(Value, Value),
-}
-
-impl Op {
-    /// The nodes that the operation reads.
-    pub fn operands(&self) -> impl Iterator<Item = u32> + use<> {
-        let (a, b) = match *self {
-            Op::Number(_) | Op::Pi | Op::Input(_) => (None, None),
-            Op::Sqrt(a) => (Some(a.node), None),
-            Op::Sin(a) | Op::Cos(a) => (Some(a), None),
-            Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b) | Op::Div(a, b) => (Some(a), Some(b)),
-            Op::Atan2(a, b) => (Some(a.node), Some(b.node)),
-        };
-        a.into_iter().chain(b)
-    }
-}
-
 /// Nodes under construction.
-pub struct Graph<F: Fn(Symbol) -> Stage> {
+#[derive(Clone, Debug)]
+pub struct Graph {
+    variables: Vec<Symbol>,
+    parameters: Vec<Symbol>,
     ops: Vec<Op>,
     stages: Vec<Stage>,
     numbers: FxHashMap<Op, u32>,
     traced: FxHashMap<Expr, Value>,
-    stage_of: F,
     /// For each node the last walk that met it, and the number of that walk.
     marks: RefCell<(Vec<u32>, u32)>,
 }
 
-impl<F: Fn(Symbol) -> Stage> Graph<F> {
-    /// An empty graph; `stage_of` says when each input is known.
-    pub fn new(stage_of: F) -> Self {
+impl Graph {
+    /// An empty graph. A symbol that is neither a variable nor a parameter becomes a further parameter when it is met.
+    pub fn new(variables: &[Symbol], parameters: &[Symbol]) -> Self {
         Graph {
+            variables: variables.to_vec(),
+            parameters: parameters.to_vec(),
             ops: vec![],
             stages: vec![],
             numbers: FxHashMap::default(),
             traced: FxHashMap::default(),
-            stage_of,
             marks: RefCell::default(),
         }
+    }
+
+    /// The inputs that are known at every evaluation only.
+    pub fn variables(&self) -> &[Symbol] {
+        &self.variables
+    }
+
+    /// The inputs that are known before.
+    pub fn parameters(&self) -> &[Symbol] {
+        &self.parameters
     }
 
     /// The operation of a node.
@@ -110,15 +56,22 @@ impl<F: Fn(Symbol) -> Stage> Graph<F> {
         self.stages[node as usize]
     }
 
-    fn intern(&mut self, op: Op) -> Value {
+    /// The node of an operation on nodes that are there; for what [`Graph::add`] and its like do not cover.
+    pub(crate) fn intern(&mut self, op: Op) -> Value {
         if let Some(&node) = self.numbers.get(&op) {
             return Value { node, negative: false };
         }
         let node = u32::try_from(self.ops.len()).expect("fewer than 2^32 nodes");
         let stage = match &op {
             Op::Number(_) | Op::Pi => Stage::Constant,
-            Op::Input(s) => (self.stage_of)(*s),
-            _ => op.operands().map(|o| self.stage(o)).max().unwrap_or(Stage::Constant),
+            Op::Input(s) if self.variables.contains(s) => Stage::Variable,
+            Op::Input(s) => {
+                if !self.parameters.contains(s) {
+                    self.parameters.push(*s);
+                }
+                Stage::Parameter
+            }
+            _ => op.nodes().map(|o| self.stage(o)).max().unwrap_or(Stage::Constant),
         };
         self.ops.push(op.clone());
         self.stages.push(stage);
@@ -208,6 +161,41 @@ impl<F: Fn(Symbol) -> Stage> Graph<F> {
         if negative { -quotient } else { quotient }
     }
 
+    /// An input.
+    pub fn input(&mut self, s: Symbol) -> Value {
+        self.intern(Op::Input(s))
+    }
+
+    /// `√a`
+    pub fn sqrt(&mut self, a: Value) -> Value {
+        match self.as_number(a).and_then(|r| r.sqrt()) {
+            Some(root) => self.number(&root),
+            None => self.intern(Op::Sqrt(a)),
+        }
+    }
+
+    /// `sin a`
+    pub fn sin(&mut self, a: Value) -> Value {
+        if self.is_zero(a) {
+            return a;
+        }
+        let sine = self.intern(Op::Sin(a.node));
+        if a.negative { -sine } else { sine }
+    }
+
+    /// `cos a`
+    pub fn cos(&mut self, a: Value) -> Value {
+        if self.is_zero(a) {
+            return self.number(&Rational::ONE);
+        }
+        self.intern(Op::Cos(a.node))
+    }
+
+    /// `atan2(y, x)`
+    pub fn atan2(&mut self, y: Value, x: Value) -> Value {
+        self.intern(Op::Atan2(y, x))
+    }
+
     /// `aⁿ`, by repeated squaring.
     pub fn powi(&mut self, a: Value, n: i32) -> Value {
         let mut result = self.number(&Rational::ONE);
@@ -241,7 +229,7 @@ impl<F: Fn(Symbol) -> Stage> Graph<F> {
             let v = match part.node() {
                 Node::Number(r) => self.number(&r),
                 Node::Pi => self.intern(Op::Pi),
-                Node::Symbol(s) => self.intern(Op::Input(s)),
+                Node::Symbol(s) => self.input(s),
                 Node::Neg(a) => -of(&a),
                 Node::Add(a, b) => {
                     let (a, b) = (of(&a), of(&b));
@@ -265,20 +253,19 @@ impl<F: Fn(Symbol) -> Stage> Graph<F> {
                 }
                 Node::Sqrt(a) => {
                     let a = of(&a);
-                    self.intern(Op::Sqrt(a))
+                    self.sqrt(a)
                 }
                 Node::Sin(a) => {
                     let a = of(&a);
-                    let sine = self.intern(Op::Sin(a.node));
-                    if a.negative { -sine } else { sine }
+                    self.sin(a)
                 }
                 Node::Cos(a) => {
                     let a = of(&a);
-                    self.intern(Op::Cos(a.node))
+                    self.cos(a)
                 }
                 Node::Atan2(a, b) => {
                     let (a, b) = (of(&a), of(&b));
-                    self.intern(Op::Atan2(a, b))
+                    self.atan2(a, b)
                 }
             };
             self.traced.insert(part, v);
@@ -296,7 +283,7 @@ impl<F: Fn(Symbol) -> Stage> Graph<F> {
                 found.push(node);
             } else if !std::mem::replace(&mut seen[node as usize], true) {
                 pending.push((node, true));
-                let operands: Vec<u32> = self.op(node).operands().collect();
+                let operands: Vec<u32> = self.op(node).nodes().collect();
                 pending.extend(operands.iter().rev().map(|&o| (o, false)));
             }
         }
@@ -341,7 +328,7 @@ impl<F: Fn(Symbol) -> Stage> Graph<F> {
             if *mark != paid && *mark != walk {
                 *mark = walk;
                 visit(node);
-                pending.extend(self.op(node).operands());
+                pending.extend(self.op(node).nodes());
             }
         }
     }

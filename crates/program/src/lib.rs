@@ -7,9 +7,13 @@
 //! This crate knows formulas, not where they come from.
 
 mod count;
+mod domain;
 mod graph;
+mod op;
 mod program;
 
 pub use count::{COUNTING_RULE, Count};
-pub use graph::{Graph, Op, Stage, Value, Walk};
+pub use domain::Domain;
+pub use graph::{Graph, Walk};
+pub use op::{Op, Stage, Value};
 pub use program::{Program, Step};

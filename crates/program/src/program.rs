@@ -1,13 +1,17 @@
 //! A straight-line program: the nodes that some outputs need, in order, the shared ones named.
 
 use crate::count::Count;
-use crate::graph::{Graph, Op, Stage, Value};
+use crate::domain::Domain;
+use crate::graph::Graph;
+use crate::op::{Op, Stage, Value};
 use denavit_symbolic::{Expr, Node, Symbol};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// A straight-line program.
 #[derive(Clone, Debug)]
 pub struct Program {
+    variables: Vec<Symbol>,
+    parameters: Vec<Symbol>,
     /// Operations in order; operands are positions in this list.
     ops: Vec<(Op, Stage)>,
     outputs: Vec<(String, Value)>,
@@ -31,8 +35,8 @@ pub struct Step {
 impl Program {
     /// The part of a graph that `outputs` need. `hint` proposes names for shared values; names in `taken` are
     /// avoided, and values without a proposal are numbered `m1`, `m2`, ….
-    pub fn new<F: Fn(Symbol) -> Stage>(
-        graph: &Graph<F>,
+    pub fn new(
+        graph: &Graph,
         outputs: &[(String, Value)],
         hint: impl Fn(u32) -> Option<String>,
         taken: &FxHashSet<String>,
@@ -42,31 +46,24 @@ impl Program {
         let place: FxHashMap<u32, u32> = nodes.iter().enumerate().map(|(i, &n)| (n, i as u32)).collect();
         let at = |n: u32| place[&n];
         let moved = |v: Value| Value { node: place[&v.node], negative: v.negative };
-        let ops: Vec<(Op, Stage)> = nodes
-            .iter()
-            .map(|&n| {
-                let op = match graph.op(n).clone() {
-                    op @ (Op::Number(_) | Op::Pi | Op::Input(_)) => op,
-                    Op::Add(a, b) => Op::Add(at(a), at(b)),
-                    Op::Sub(a, b) => Op::Sub(at(a), at(b)),
-                    Op::Mul(a, b) => Op::Mul(at(a), at(b)),
-                    Op::Div(a, b) => Op::Div(at(a), at(b)),
-                    Op::Sqrt(a) => Op::Sqrt(moved(a)),
-                    Op::Sin(a) => Op::Sin(at(a)),
-                    Op::Cos(a) => Op::Cos(at(a)),
-                    Op::Atan2(a, b) => Op::Atan2(moved(a), moved(b)),
-                };
-                (op, graph.stage(n))
-            })
-            .collect();
-        let outputs: Vec<(String, Value)> =
+        let mut ops: Vec<(Op, Stage)> =
+            nodes.iter().map(|&n| (graph.op(n).renumbered(at), graph.stage(n))).collect();
+        let mut outputs: Vec<(String, Value)> =
             outputs.iter().map(|(name, v)| (name.clone(), moved(*v))).collect();
 
         let mut uses = vec![0_u32; ops.len()];
         for (op, _) in &ops {
-            op.operands().for_each(|o| uses[o as usize] += 1);
+            op.nodes().for_each(|o| uses[o as usize] += 1);
         }
         outputs.iter().for_each(|o| uses[o.1.node as usize] += 1);
+        // A result −(a − b) is b − a.
+        for (_, v) in &mut outputs {
+            let node = v.node as usize;
+            if let (1, true, Op::Sub(a, b)) = (uses[node], v.negative, &ops[node].0) {
+                ops[node].0 = Op::Sub(*b, *a);
+                v.negative = false;
+            }
+        }
         let mut used: FxHashSet<String> = taken.clone();
         used.extend(outputs.iter().map(|o| o.0.clone()));
         let in_angles = only_in_angles(&ops, &outputs);
@@ -86,7 +83,13 @@ impl Program {
             let proposed = hint(nodes[i]).filter(|name| used.insert(name.clone()));
             names[i] = Some(proposed.unwrap_or_else(|| numbered(prefix, &mut used)));
         }
-        Program { ops, outputs, names }
+        Program {
+            variables: graph.variables().to_vec(),
+            parameters: graph.parameters().to_vec(),
+            ops,
+            outputs,
+            names,
+        }
     }
 
     /// Results and where they come from.
@@ -94,9 +97,24 @@ impl Program {
         &self.outputs
     }
 
-    /// The inputs that are read, in order of first use.
-    pub fn inputs(&self) -> Vec<Symbol> {
-        self.ops.iter().filter_map(|(op, _)| if let Op::Input(s) = op { Some(*s) } else { None }).collect()
+    /// The inputs that are known at every evaluation only, in the order of the arguments of evaluators.
+    pub fn variables(&self) -> &[Symbol] {
+        &self.variables
+    }
+
+    /// The inputs that are known before, in the order of the arguments of evaluators.
+    pub fn parameters(&self) -> &[Symbol] {
+        &self.parameters
+    }
+
+    /// The operations in order, with when they are known; operands are positions in this list.
+    pub fn ops(&self) -> &[(Op, Stage)] {
+        &self.ops
+    }
+
+    /// The name of an operation that more than one other reads.
+    pub fn name(&self, node: u32) -> Option<&str> {
+        self.names[node as usize].as_deref()
     }
 
     /// Its operations.
@@ -107,33 +125,42 @@ impl Program {
         count
     }
 
-    /// The outputs in double precision; `input` gives the inputs.
+    /// The longest chain of operations from an input to an output.
+    pub fn depth(&self) -> usize {
+        let mut depths = vec![0_usize; self.ops.len()];
+        for (i, (op, stage)) in self.ops.iter().enumerate() {
+            let before = op.nodes().map(|n| depths[n as usize]).max();
+            let costs = *stage == Stage::Variable;
+            depths[i] = before.map_or(0, |d| d + usize::from(costs));
+        }
+        self.outputs.iter().map(|o| depths[o.1.node as usize]).max().unwrap_or(0)
+    }
+
+    /// Cycles that one evaluation takes in a batch, by estimate ([`Op::cycles`]).
+    pub fn cycles(&self) -> f64 {
+        self.ops.iter().filter(|o| o.1 == Stage::Variable).map(|o| o.0.cycles()).sum()
+    }
+
+    /// The outputs over some kind of number; `input` gives the inputs. This is the definition that the evaluators
+    /// follow; they are what to use where speed matters.
     ///
     /// # Errors
     /// The first input without a value.
-    pub fn eval(&self, input: impl Fn(Symbol) -> Option<f64>) -> Result<Vec<f64>, Symbol> {
-        let mut values: Vec<f64> = Vec::with_capacity(self.ops.len());
+    pub fn eval<D: Domain>(&self, input: impl Fn(Symbol) -> Option<D>) -> Result<Vec<D>, Symbol> {
+        let mut values: Vec<D> = Vec::with_capacity(self.ops.len());
         for (op, _) in &self.ops {
-            let at = |n: &u32| values[*n as usize];
-            let signed =
-                |v: &Value| if v.negative { -values[v.node as usize] } else { values[v.node as usize] };
-            let x = match op {
-                Op::Number(r) => r.to_f64(),
-                Op::Pi => std::f64::consts::PI,
-                Op::Input(s) => input(*s).ok_or(*s)?,
-                Op::Add(a, b) => at(a) + at(b),
-                Op::Sub(a, b) => at(a) - at(b),
-                Op::Mul(a, b) => at(a) * at(b),
-                Op::Div(a, b) => at(a) / at(b),
-                Op::Sqrt(a) => signed(a).sqrt(),
-                Op::Sin(a) => at(a).sin(),
-                Op::Cos(a) => at(a).cos(),
-                Op::Atan2(a, b) => signed(a).atan2(signed(b)),
+            let given = match op {
+                Op::Input(s) => Some(input(*s).ok_or(*s)?),
+                _ => None,
             };
-            values.push(x);
+            let value = op.value(|_| given.expect("looked up above"), |n| values[n as usize].clone());
+            values.push(value);
         }
-        let signed = |v: Value| if v.negative { -values[v.node as usize] } else { values[v.node as usize] };
-        Ok(self.outputs.iter().map(|o| signed(o.1)).collect())
+        let signed = |v: &Value| {
+            let value = &values[v.node as usize];
+            if v.negative { value.neg() } else { value.clone() }
+        };
+        Ok(self.outputs.iter().map(|o| signed(&o.1)).collect())
     }
 
     /// The outputs as formulas in the inputs, nothing abbreviated (shared parts are shared nodes).
@@ -294,7 +321,7 @@ fn only_in_angles(ops: &[(Op, Stage)], outputs: &[(String, Value)]) -> Vec<bool>
             _ => false,
         };
         if !passes_on {
-            op.operands().for_each(|o| only[o as usize] = false);
+            op.nodes().for_each(|o| only[o as usize] = false);
         }
     }
     only
@@ -311,8 +338,9 @@ mod tests {
     #[test]
     fn shared_parts_are_computed_once_and_signs_are_free() {
         let [a, b, x] = ["a", "b", "x"].map(Expr::symbol);
-        let stage = |s: Symbol| if &*s.name() == "x" { Stage::Variable } else { Stage::Parameter };
-        let mut graph = Graph::new(stage);
+        let [variables, parameters] = [&[x][..], &[a, b]]
+            .map(|list| list.iter().map(|e| e.as_symbol().expect("a symbol")).collect::<Vec<_>>());
+        let mut graph = Graph::new(&variables, &parameters);
         let u = graph.trace((a + b) * x.cos());
         let v = graph.trace(-(x.cos() * (b + a)) + x.sin());
         let outputs = [("u".to_string(), u), ("v".to_string(), v)];

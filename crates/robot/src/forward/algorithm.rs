@@ -110,8 +110,8 @@ struct Orientation {
     cost: (u32, u32),
 }
 
-struct Search<'a, F: Fn(Symbol) -> Stage> {
-    graph: Graph<F>,
+struct Search<'a> {
+    graph: Graph,
     chain: &'a Chain,
     variables: &'a [Symbol],
     factors: Vec<[Vector3; 3]>,
@@ -130,11 +130,11 @@ struct Search<'a, F: Fn(Symbol) -> Stage> {
 pub(super) fn shortest(
     chain: &Chain,
     variables: &[Symbol],
+    parameters: &[Symbol],
     outputs: Outputs,
     taken: &FxHashSet<String>,
 ) -> Program {
-    let stage = |s: Symbol| if variables.contains(&s) { Stage::Variable } else { Stage::Parameter };
-    let mut search = Search::new(Graph::new(stage), chain, variables);
+    let mut search = Search::new(Graph::new(variables, parameters), chain, variables);
     let orientations = search.orientations(outputs.columns);
     let own: Vec<usize> = chain.items.iter().map(|i| i.frame).collect();
     let mut best: Option<((u32, u32), Orientation, Vec<usize>)> = None;
@@ -159,8 +159,8 @@ pub(super) fn shortest(
     search.program(&orientation, &placement, outputs, taken)
 }
 
-impl<'a, F: Fn(Symbol) -> Stage> Search<'a, F> {
-    fn new(mut graph: Graph<F>, chain: &'a Chain, variables: &'a [Symbol]) -> Self {
+impl<'a> Search<'a> {
+    fn new(mut graph: Graph, chain: &'a Chain, variables: &'a [Symbol]) -> Self {
         let factors: Vec<[Vector3; 3]> =
             chain.factors.iter().map(|r| r.rows().map(|row| row.map(|e| graph.trace(e)))).collect();
         let unit = [0, 1, 2].map(|i| [0, 1, 2].map(|j| graph.trace(Expr::int(i64::from(i == j)))));

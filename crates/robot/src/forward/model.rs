@@ -5,7 +5,7 @@ use crate::forward::algorithm::{self, Outputs, Proof, entry_name};
 use crate::forward::chain::Chain;
 use crate::geometry::Transform;
 use crate::robot::Robot;
-use denavit_program::{Graph, Program, Stage};
+use denavit_program::{Graph, Program};
 use denavit_symbolic::{Expr, Refusal, Ring, Symbol, readable};
 use rustc_hash::FxHashSet;
 
@@ -64,13 +64,9 @@ impl ForwardModel {
             definition = definition * robot.tool;
         }
         let variables: Vec<Symbol> = description.variables().iter().map(|v| v.symbol).collect();
-        let taken: FxHashSet<String> = description
-            .parameters
-            .iter()
-            .map(|p| p.symbol)
-            .chain(variables.iter().copied())
-            .map(|s| s.name().to_string())
-            .collect();
+        let parameters: Vec<Symbol> = description.parameters.iter().map(|p| p.symbol).collect();
+        let taken: FxHashSet<String> =
+            parameters.iter().chain(&variables).map(|s| s.name().to_string()).collect();
         let (wanted, chain_result) = if inverted {
             (definition.inverse(), chain.transform().inverse())
         } else {
@@ -81,9 +77,15 @@ impl ForwardModel {
         let mut ring = Ring::with_basis(&chain.angles, &all, &symbol_order(description));
         let matrix = simplified(&mut ring, &wanted);
         let algorithm = if inverted {
-            traced(matrix.as_ref().unwrap_or(&chain_result.matrix()), &variables, outputs, &taken)
+            traced(
+                matrix.as_ref().unwrap_or(&chain_result.matrix()),
+                &variables,
+                &parameters,
+                outputs,
+                &taken,
+            )
         } else {
-            algorithm::shortest(&chain, &variables, outputs, &taken)
+            algorithm::shortest(&chain, &variables, &parameters, outputs, &taken)
         };
         let proof = prove(&mut ring, &algorithm, outputs, &wanted);
         ForwardModel { from, to, matrix, algorithm, proof }
@@ -138,10 +140,11 @@ fn prove(ring: &mut Ring, program: &Program, outputs: Outputs, wanted: &Transfor
 fn traced(
     rows: &[[Expr; 4]; 4],
     variables: &[Symbol],
+    parameters: &[Symbol],
     outputs: Outputs,
     taken: &FxHashSet<String>,
 ) -> Program {
-    let mut graph = Graph::new(|s| if variables.contains(&s) { Stage::Variable } else { Stage::Parameter });
+    let mut graph = Graph::new(variables, parameters);
     let places = outputs.places().into_iter();
     let results: Vec<_> = places.map(|(r, c)| (entry_name((r, c)), graph.trace(rows[r][c]))).collect();
     Program::new(&graph, &results, |_| None, taken)
