@@ -6,14 +6,19 @@
 //!
 //! This crate knows formulas, not where they come from.
 
+mod code;
 mod count;
 mod domain;
+mod evaluate;
 mod graph;
+pub mod kernel;
 mod op;
 mod program;
 
+pub use code::{Code, Instruction, NONE, Opcode};
 pub use count::{COUNTING_RULE, Count};
 pub use domain::Domain;
+pub use evaluate::{Arithmetic, Batch, Block, Function, Isa, Real, Scalar, atan2_8, sin_cos_8};
 pub use graph::{Graph, Walk};
 pub use op::{Op, Stage, Value};
 pub use program::{Program, Step};

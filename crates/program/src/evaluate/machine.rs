@@ -1,0 +1,145 @@
+//! Which vector instructions the processor has, and how loops get compiled for each set of them.
+//!
+//! All `unsafe` code of the crate is here: the calls of functions that are compiled for instructions which an [`Isa`]
+//! has found, and the vector loads and stores of the transposition.
+#![allow(unsafe_code)]
+
+/// A set of vector instructions that this processor has: a value exists only where they were found.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Isa(Set);
+
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Set {
+    Portable,
+    #[cfg(target_arch = "x86_64")]
+    Avx2,
+    #[cfg(target_arch = "x86_64")]
+    Avx512,
+}
+
+/// How the routines for sine, cosine and arctangent round; both keep to 2 units in the last place.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Arithmetic {
+    /// With fused multiplications inside: the faster one where the hardware has them.
+    Fused,
+    /// Without: the same bits on every machine.
+    Strict,
+}
+
+/// Loops that can be compiled for any set of instructions. `run` must be `#[inline(always)]`, as must be what it
+/// calls, for the compiler to use them.
+pub(crate) trait Work {
+    /// Does it.
+    fn run<const FUSED: bool>(self);
+}
+
+impl Isa {
+    /// The instructions that every processor of this architecture has (NEON on AArch64).
+    pub const PORTABLE: Isa = Isa(Set::Portable);
+
+    /// All sets that this processor has, the fastest first.
+    pub fn available() -> Vec<Isa> {
+        let mut found = vec![];
+        #[cfg(target_arch = "x86_64")]
+        if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+            if is_x86_feature_detected!("avx512f")
+                && is_x86_feature_detected!("avx512dq")
+                && is_x86_feature_detected!("avx512vl")
+            {
+                found.push(Isa(Set::Avx512));
+            }
+            found.push(Isa(Set::Avx2));
+        }
+        found.push(Isa::PORTABLE);
+        found
+    }
+
+    /// The fastest set that this processor has.
+    pub fn detect() -> Isa {
+        static FOUND: std::sync::OnceLock<Isa> = std::sync::OnceLock::new();
+        *FOUND.get_or_init(|| Isa::available()[0])
+    }
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self.0 {
+            Set::Portable if cfg!(target_arch = "aarch64") => "NEON",
+            Set::Portable => "portable",
+            #[cfg(target_arch = "x86_64")]
+            Set::Avx2 => "AVX2",
+            #[cfg(target_arch = "x86_64")]
+            Set::Avx512 => "AVX-512",
+        }
+    }
+
+    /// Fused where the hardware has fused multiplications, strict elsewhere.
+    pub fn arithmetic(self) -> Arithmetic {
+        match self.0 {
+            Set::Portable if cfg!(any(target_arch = "aarch64", target_feature = "fma")) => Arithmetic::Fused,
+            Set::Portable => Arithmetic::Strict,
+            #[cfg(target_arch = "x86_64")]
+            Set::Avx2 | Set::Avx512 => Arithmetic::Fused,
+        }
+    }
+
+    /// Does some work, compiled for this set.
+    #[inline]
+    pub(crate) fn run<W: Work>(self, arithmetic: Arithmetic, work: W) {
+        #[cfg(target_arch = "x86_64")]
+        #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
+        fn avx512<W: Work, const FUSED: bool>(work: W) {
+            work.run::<FUSED>();
+        }
+        #[cfg(target_arch = "x86_64")]
+        #[target_feature(enable = "avx2,fma")]
+        fn avx2<W: Work, const FUSED: bool>(work: W) {
+            work.run::<FUSED>();
+        }
+        #[inline(never)]
+        fn portable<W: Work, const FUSED: bool>(work: W) {
+            work.run::<FUSED>();
+        }
+        // SAFETY of the calls: `Isa::available` makes `Avx2` and `Avx512` only where their instructions are found.
+        match (self.0, arithmetic) {
+            #[cfg(target_arch = "x86_64")]
+            (Set::Avx512, Arithmetic::Fused) => unsafe { avx512::<W, true>(work) },
+            #[cfg(target_arch = "x86_64")]
+            (Set::Avx512, Arithmetic::Strict) => unsafe { avx512::<W, false>(work) },
+            #[cfg(target_arch = "x86_64")]
+            (Set::Avx2, Arithmetic::Fused) => unsafe { avx2::<W, true>(work) },
+            #[cfg(target_arch = "x86_64")]
+            (Set::Avx2, Arithmetic::Strict) => unsafe { avx2::<W, false>(work) },
+            (Set::Portable, Arithmetic::Fused) => portable::<W, true>(work),
+            (Set::Portable, Arithmetic::Strict) => portable::<W, false>(work),
+        }
+    }
+}
+
+/// Copies numbers without leaving them in the cache, where the processor can.
+#[inline]
+pub(crate) fn copy_past_cache<T: Copy>(from: &[T], to: &mut [T]) {
+    assert_eq!(from.len(), to.len(), "as many to write as to read");
+    #[cfg(all(target_arch = "x86_64", not(miri)))]
+    {
+        use std::arch::x86_64::{_mm_loadu_si128, _mm_sfence, _mm_stream_si128};
+        let bytes = size_of_val(from);
+        let (source, target) = (from.as_ptr().cast::<u8>(), to.as_mut_ptr().cast::<u8>());
+        let head = target.align_offset(16).min(bytes);
+        let middle = (bytes - head) / 16 * 16;
+        // SAFETY: both slices are `bytes` long; the parts [0, head), [head, head + middle) and the rest cover them;
+        // the middle of the target is aligned to 16 bytes, and its source may have any alignment. `T: Copy` has no
+        // padding here (f32, f64), so that every byte is initialised.
+        unsafe {
+            std::ptr::copy_nonoverlapping(source, target, head);
+            for k in (head..head + middle).step_by(16) {
+                _mm_stream_si128(target.add(k).cast(), _mm_loadu_si128(source.add(k).cast()));
+            }
+            let rest = head + middle;
+            std::ptr::copy_nonoverlapping(source.add(rest), target.add(rest), bytes - rest);
+            _mm_sfence();
+        }
+        return;
+    }
+    #[allow(unreachable_code)]
+    to.copy_from_slice(from);
+}
