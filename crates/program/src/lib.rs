@@ -9,6 +9,7 @@
 mod code;
 mod count;
 mod domain;
+pub mod emit;
 mod evaluate;
 mod graph;
 pub mod kernel;

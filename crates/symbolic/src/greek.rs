@@ -41,6 +41,6 @@ pub(crate) fn is_letter(c: char) -> bool {
 }
 
 /// The name of a letter.
-pub(crate) fn name(letter: char) -> Option<&'static str> {
+pub fn name(letter: char) -> Option<&'static str> {
     LETTERS.iter().find(|g| g.1 == letter).map(|g| g.0)
 }

@@ -24,5 +24,6 @@ pub mod vocabulary;
 pub use angle::Angle;
 pub use equality::{Verdict, equal};
 pub use expr::{Expr, Node, Symbol};
+pub use greek::name as greek_name;
 pub use rational::Rational;
 pub use ring::{Refusal, Ring};

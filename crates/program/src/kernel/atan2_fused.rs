@@ -1,5 +1,5 @@
 // The angle of the point (x, y), with fused multiply-add. Needs atan2_strict.rs, whose scheme it follows.
-// Error at most 1.9 ulp.
+// Largest error found: 1.55 ulp (1.8 million points), near y/x = 1/2; mean 0.14 ulp.
 
 /// atan2(y, x) if `atan2_in_range(y, x)`; anything else otherwise.
 #[inline(always)]

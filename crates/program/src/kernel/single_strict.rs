@@ -1,7 +1,7 @@
 // The kernels in single precision, without fused multiply-add. Needs reduce.rs, sincos_strict.rs, atan2_strict.rs.
 //
 // The schemes of those files with fewer pieces and coefficients. What is out of range is computed in double.
-// Error at most 1.0 ulp (sine), 1.0 ulp (cosine), 1.9 ulp (atan2).
+// Largest errors: sine 0.794 ulp, cosine 0.800 ulp (every argument in range); atan2 1.55 ulp (1.8 million points).
 
 /// 2¹²·π/2. The branch-free functions hold for |x| up to here.
 pub const SINCOS_LIMIT_F32: f32 = 6433.982;

@@ -1,0 +1,133 @@
+//! Source code of programs: a folder in one of several languages that builds and tests itself.
+//!
+//! [`Library`] says what to emit; every language starts from the same [`listing::Listing`] of statements and spells
+//! it its own way. What comes from outside (names, descriptions) reaches the text as sanitised identifiers
+//! ([`names`]) or in comments without line breaks.
+
+pub(crate) mod listing;
+pub(crate) mod names;
+pub(crate) mod spelling;
+
+use crate::program::Program;
+use denavit_symbolic::Symbol;
+
+/// A language that source can be emitted in.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Language {
+    /// Rust without standard library or allocation.
+    Rust,
+    /// C99, header and source, which compile as C++ too.
+    C,
+    /// Python over NumPy arrays.
+    Python,
+    /// MATLAB, which Octave reads.
+    Matlab,
+    /// JavaScript, an ES module.
+    JavaScript,
+    /// CUDA C++.
+    Cuda,
+}
+
+impl Language {
+    /// All of them.
+    pub const ALL: [Language; 6] = [
+        Language::Rust,
+        Language::C,
+        Language::Python,
+        Language::Matlab,
+        Language::JavaScript,
+        Language::Cuda,
+    ];
+
+    /// Its name for people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Language::Rust => "Rust",
+            Language::C => "C",
+            Language::Python => "Python",
+            Language::Matlab => "MATLAB",
+            Language::JavaScript => "JavaScript",
+            Language::Cuda => "CUDA",
+        }
+    }
+}
+
+/// Floating-point numbers of the emitted code.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Precision {
+    /// 64 bits.
+    #[default]
+    Double,
+    /// 32 bits, where the language has a choice (C, CUDA).
+    Single,
+}
+
+/// What to emit.
+#[derive(Clone, Debug)]
+pub struct Library<'a> {
+    /// What the functions are about, for people: one line.
+    pub title: String,
+    /// The name to make file and function names of.
+    pub name: String,
+    /// The lines that every file opens with, without comment signs: the table, the version of the generator, the
+    /// conventions.
+    pub header: Vec<String>,
+    /// The variables of all routines, in order, each with what it is and its unit.
+    pub variables: Vec<(Symbol, String)>,
+    /// The parameters of all routines, in order.
+    pub parameters: Vec<Parameter>,
+    /// The functions.
+    pub routines: Vec<Routine<'a>>,
+    /// Numbers of the emitted code.
+    pub precision: Precision,
+}
+
+/// A parameter of emitted code.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// Its symbol in the programs.
+    pub symbol: Symbol,
+    /// What it is and its unit: one line.
+    pub about: String,
+    /// Its value where the caller gives none.
+    pub default: Option<f64>,
+}
+
+/// A function to emit.
+#[derive(Clone, Debug)]
+pub struct Routine<'a> {
+    /// Its name, such as `fk`.
+    pub name: String,
+    /// What the results are: shape, units, frames. A line each.
+    pub about: Vec<String>,
+    /// What it computes; its variables and parameters are those of the library.
+    pub program: &'a Program,
+    /// What the results are called as a whole, such as `pose`.
+    pub result: String,
+    /// The shape of the results, row-major; the product is their number.
+    pub shape: Vec<usize>,
+    /// What the stored test holds it to.
+    pub vectors: Vec<Vector>,
+    /// The magnitude of each result, of which the test allows some units in the last place.
+    pub scales: Vec<f64>,
+}
+
+/// A configuration and the results there, from an independent source.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Vector {
+    /// One value per variable.
+    pub variables: Vec<f64>,
+    /// One value per parameter.
+    pub parameters: Vec<f64>,
+    /// The results.
+    pub results: Vec<f64>,
+}
+
+/// A file of the emitted folder.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct File {
+    /// Its path in the folder, with `/`.
+    pub path: String,
+    /// Its text.
+    pub text: String,
+}
