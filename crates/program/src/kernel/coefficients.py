@@ -92,11 +92,14 @@ def arctangent(z):  # atan t = t + t z A(z), z = t²
     return (atan(sqrt(z)) / sqrt(z) - 1) / z
 
 
+def shortest(v, kind):
+    return repr(v) if kind == "f64" else next(s for s in (f"{v:.{d}g}" for d in range(6, 10)) if to_f32(s) == v)
+
+
 def show(name, kind, values):
     print(f"const {name}: [{kind}; {len(values)}] = [")
     for v in values:
-        shortest = repr(v) if kind == "f64" else min((f"{v:.{d}g}" for d in range(6, 10)), key=lambda s: (to_f32(s) != v, len(s)))
-        print(f"    {shortest},")
+        print(f"    {shortest(v, kind)},")
     print("];")
 
 
@@ -113,15 +116,22 @@ def main():
             values, error = fit(f, weight, top, count, rounded)
             print(f"// {kind}, error 2^{error:.1f}")
             show(name, kind, values)
-    for name, bits in [("fused", (53, 33, 53)), ("strict", (33, 33, 33, 53)), ("fused f32", (24, 12, 24)), ("strict f32", (12, 12, 12, 24))]:
-        print(f"// pi/2, {name}:", [repr(float(p)) for p in pieces(pi / 2, bits)], [float(p).hex() for p in pieces(pi / 2, bits)])
-    for name, value in [("pi", pi), ("pi/2", pi / 2), ("pi/4", pi / 4), ("3 pi/4", 3 * pi / 4)]:
-        print(f"// {name}: f64", [repr(float(p)) for p in pieces(value, (53, 53))], "f32", [repr(float(p)) for p in pieces(value, (24, 24))])
-    print("// 2/pi", repr(float(2 / pi)), "limits", repr(float(ldexp(pi / 2, 20))), repr(to_f32(ldexp(pi / 2, 12))))
+    for name, kind, bits in [
+        ("fused", "f64", (53, 33, 53)),
+        ("strict", "f64", (33, 33, 33, 53)),
+        ("fused", "f32", (24, 12, 24)),
+        ("strict", "f32", (12, 12, 12, 24)),
+    ]:
+        print(f"// pi/2, {name}, {kind}:", [shortest(float(p), kind) for p in pieces(pi / 2, bits)])
+    for name, value in [("pi/4", pi / 4), ("pi/2", pi / 2), ("3 pi/4", 3 * pi / 4), ("pi", pi)]:
+        for kind, bits in [("f64", (53, 53)), ("f32", (24, 24))]:
+            print(f"// {name}, {kind}:", [shortest(float(p), kind) for p in pieces(value, bits)])
+    print("// limits:", float(ldexp(pi / 2, 20)), shortest(to_f32(ldexp(pi / 2, 12)), "f32"))
+    print("// 2/pi:")
     mp.prec = 1400
-    digits = int(floor(ldexp(2 / pi, 64 * 20)))
-    for i in range(20):
-        print(f"    0x{digits >> (64 * (19 - i)) & (2**64 - 1):016x},")
+    digits = int(floor(ldexp(2 / pi, 64 * 19)))
+    for i in reversed(range(19)):
+        print(f"    0x{digits >> (64 * i) & (2**64 - 1):016x},")
 
 
 main()

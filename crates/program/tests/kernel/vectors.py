@@ -69,8 +69,8 @@ F32 = Format("_f32", single, "<f", "<I", 8, 6433.98193359375, 3.4028234663852886
 def angles(f, n, worst):
     yield from worst
     yield from [f.smallest, -f.smallest * 12345, f.limit, -f.limit, f.moved(f.limit, 1), f.largest, -f.largest]
-    # 1e22; the double nearest to a multiple of pi/2, and the same for single precision
-    yield from [1e22, 6381956970095103 * 2.0**797, -6381956970095103 * 2.0**797] if f is F64 else [1e22, 16367173 * 2.0**72]
+    # the number of the format that is nearest to a multiple of pi/2
+    yield from [1e22, 6381956970095103 * 2.0**797 if f is F64 else 16367173 * 2.0**72]
     for reach, share in [(math.pi, 4), (1000, 3), (f.limit, 3)]:
         yield from (rng.uniform(-reach, reach) for _ in range(n * share))
     top = int(f.limit / (math.pi / 4)) - 1
@@ -95,6 +95,7 @@ def points(f, n, worst):
     tiny = lambda: rng.choice([-1, 1]) * rng.randint(1, 2000) * f.smallest
     yield from ((tiny(), tiny()) for _ in range(n))
     yield from ((rng.randint(-200, 200), rng.randint(1, 200)) for _ in range(n))
+    yield from [(0.7 * f.largest, f.largest), (-f.largest, -0.7 * f.largest)]  # their sum overflows
     yield from [(f.largest, f.largest), (f.largest, f.smallest), (-f.smallest, f.largest), (f.smallest, -f.largest)]
 
 
