@@ -131,6 +131,21 @@ impl Code {
         }
     }
 
+    /// The body in runs of one operation. The routines of a run do not read one another, so that one call can do
+    /// several of them.
+    pub fn runs(&self) -> impl Iterator<Item = &[Instruction]> {
+        let mut written: Vec<u32> = vec![];
+        self.body.chunk_by(move |a, b| {
+            written.extend(a.writes());
+            let joins = a.opcode == b.opcode
+                && !(b.opcode.is_routine() && b.reads().iter().any(|v| written.contains(v)));
+            if !joins {
+                written.clear();
+            }
+            joins
+        })
+    }
+
     /// The first value that the body computes; those before it, but for the variables, do not vary in a batch.
     pub fn first_of_body(&self) -> usize {
         let written: usize = self.body.iter().map(|i| i.writes().len()).sum();

@@ -163,8 +163,7 @@ impl<T: Real> Batch<T> {
     /// # Panics
     /// If the lengths do not belong to one number of rows.
     pub fn run(&mut self, variables: &[T], outputs: &mut [T]) {
-        self.count(variables, outputs);
-        if self.block.tape.outputs > 0 {
+        if self.count(variables, outputs) > 0 {
             self.block.rows(variables, outputs);
         }
     }
@@ -196,7 +195,10 @@ impl<T: Real> Batch<T> {
 
     fn count(&self, variables: &[T], outputs: &[T]) -> usize {
         let (n, m) = (self.block.tape.variables, self.block.tape.outputs);
-        let count = if m == 0 { 0 } else { outputs.len() / m };
+        if m == 0 {
+            return 0;
+        }
+        let count = outputs.len() / m;
         assert_eq!(outputs.len(), count * m, "whole rows of results");
         assert_eq!(variables.len(), count * n, "one row of variables for each row of results");
         count

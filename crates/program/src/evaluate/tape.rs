@@ -68,14 +68,8 @@ impl Tape {
         let mut free: BinaryHeap<Reverse<u32>> = BinaryHeap::new();
         let mut registers = scratch as u32;
         let mut cells = vec![];
-        let mut runs: Vec<Run> = vec![];
-        let mut push = |opcode: Opcode, cell: Cells<u32>| {
-            match runs.last_mut() {
-                Some(run) if run.opcode == opcode => run.count += 1,
-                _ => runs.push(Run { opcode, count: 1 }),
-            }
-            cells.push(cell);
-        };
+        let mut runs: Vec<Run> =
+            code.runs().map(|run| Run { opcode: run[0].opcode, count: run.len() }).collect();
         for (i, instruction) in code.body.iter().enumerate() {
             // Results before operands are freed, so that no register is read and written at once.
             for &v in instruction.writes() {
@@ -89,7 +83,7 @@ impl Tape {
                     );
                 }
             }
-            push(instruction.opcode, cell(instruction, &register));
+            cells.push(cell(instruction, &register));
             let mut done: Vec<u32> =
                 instruction.reads().iter().copied().filter(|&v| last_read[v as usize] == i).collect();
             done.extend(instruction.writes().iter().filter(|&&v| last_read[v as usize] == usize::MAX));
@@ -98,10 +92,11 @@ impl Tape {
             let freed = done.iter().map(|&v| register[v as usize]).filter(|&r| r as usize >= scratch);
             free.extend(freed.map(Reverse));
         }
-        for (v, r) in copies {
-            let read = register[v as usize];
-            push(Opcode::Copy, Cells { reads: [read; 4], writes: [r; 2] });
+        if !copies.is_empty() {
+            runs.push(Run { opcode: Opcode::Copy, count: copies.len() });
         }
+        let copy = |(v, r): (u32, u32)| Cells { reads: [register[v as usize]; 4], writes: [r; 2] };
+        cells.extend(copies.into_iter().map(copy));
         let registers = registers as usize;
         Tape { variables, outputs, uniforms, registers, runs, cells, constant_outputs }
     }
