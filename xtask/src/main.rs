@@ -2,6 +2,7 @@
 
 mod bench;
 mod counts;
+mod languages;
 mod soak;
 mod test;
 mod tidy;
@@ -16,8 +17,10 @@ Everything a contributor runs.
 
 cargo xtask test                 all that a change must pass
 cargo xtask tidy                 the rules of the project that a program can check
-cargo xtask bench [--write]      CPU time of deriving every robot of the catalogue, beside SymPy's;
-                                 --write renews docs/performance.md
+cargo xtask bench [--write] [evaluation] [derivation]
+                                 speed of evaluators and generated code beside peers; CPU time of deriving
+                                 every robot of the catalogue, beside SymPy's; --write renews docs/performance.md
+cargo xtask languages            builds and runs generated source code in every language
 cargo xtask counts [--check]     writes docs/operation-counts.md; --check fails if it is not up to date,
                                  or if SymPy needs fewer operations for some robot
 cargo xtask soak [--seconds N] [TARGET...]
@@ -41,8 +44,9 @@ fn dispatch(arguments: &[String]) -> Result<()> {
     match words[..] {
         ["test"] => test::run_all(),
         ["tidy"] => tidy::run(),
-        ["bench"] => bench::run(false),
-        ["bench", "--write"] => bench::run(true),
+        ["bench", "--write", ref parts @ ..] => bench::run(parts, true),
+        ["bench", ref parts @ ..] => bench::run(parts, false),
+        ["languages"] => languages::run(),
         ["counts"] => counts::run(false),
         ["counts", "--check"] => counts::run(true),
         ["soak", "--seconds", n, ref targets @ ..] => {

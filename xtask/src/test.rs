@@ -2,7 +2,7 @@
 //!
 //! A step that has to install something first (a Python environment, say) does so on its own, when it runs.
 
-use crate::{cargo, command, counts, succeed, tidy};
+use crate::{cargo, command, counts, languages, succeed, tidy};
 use anyhow::{Context, Result, bail};
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -20,6 +20,8 @@ const STEPS: &[Step] = &[
     ("clippy", || run(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"])),
     ("tidy", || tidy::run().map(|()| Outcome::Passed)),
     ("tests", || run(&["test", "--workspace", "--locked"])),
+    ("languages", || languages::run().map(|()| Outcome::Passed)),
+    ("benchmark", || run(&["check", "--locked", "--manifest-path", "bench/Cargo.toml"])),
     ("documentation", documentation),
     ("wasm32", wasm),
     ("operation counts", || counts::run(true).map(|()| Outcome::Passed)),

@@ -2,6 +2,7 @@
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use denavit::description::Convention;
+use denavit_program::emit::Language;
 use std::path::PathBuf;
 
 /// Everything about a robot arm from its Denavit-Hartenberg table: exact, proved, in formulas and in numbers.
@@ -28,6 +29,8 @@ pub enum Command {
     Fk(FkArguments),
     /// Derive link transforms, the simplified forward model, and the shortest algorithm for it
     Derive(DeriveArguments),
+    /// Write source code in a chosen language, in a folder that builds and tests itself
+    Generate(GenerateArguments),
 }
 
 /// `robots`
@@ -130,6 +133,70 @@ pub struct DeriveArguments {
     /// Print JSON (the same as --format json)
     #[arg(long, conflicts_with = "format")]
     pub json: bool,
+}
+
+/// `generate`
+#[derive(Args)]
+pub struct GenerateArguments {
+    /// The robot.
+    #[command(flatten)]
+    pub robot: RobotArguments,
+    /// The language
+    #[arg(long, short, value_enum)]
+    pub language: LanguageName,
+    /// Functions, separated by commas: fk (pose of the tool), frames (all link frames)
+    #[arg(long, short, value_name = "NAMES", default_value = "fk")]
+    pub functions: String,
+    /// The folder to write to
+    #[arg(long, short, value_name = "DIR")]
+    pub output: PathBuf,
+    /// The name of files and functions; the robot's if not given
+    #[arg(long, value_name = "NAME")]
+    pub name: Option<String>,
+    /// Write the values of parameters into the code instead of taking them as arguments
+    #[arg(long)]
+    pub fixed: bool,
+    /// Single precision (C and CUDA)
+    #[arg(long)]
+    pub float: bool,
+    /// Overwrite files that are there
+    #[arg(long)]
+    pub force: bool,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Languages by name.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum LanguageName {
+    /// A crate without standard library
+    Rust,
+    /// C99 that compiles as C++ too
+    C,
+    /// NumPy
+    Python,
+    /// MATLAB and Octave
+    #[value(alias = "octave")]
+    Matlab,
+    /// An ES module
+    #[value(alias = "js")]
+    Javascript,
+    /// CUDA C++
+    Cuda,
+}
+
+impl From<LanguageName> for Language {
+    fn from(name: LanguageName) -> Self {
+        match name {
+            LanguageName::Rust => Language::Rust,
+            LanguageName::C => Language::C,
+            LanguageName::Python => Language::Python,
+            LanguageName::Matlab => Language::Matlab,
+            LanguageName::Javascript => Language::JavaScript,
+            LanguageName::Cuda => Language::Cuda,
+        }
+    }
 }
 
 /// Output formats of `derive`.

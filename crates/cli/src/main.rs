@@ -17,6 +17,7 @@ fn main() -> ExitCode {
         Command::Show(a) => commands::show::run(&a),
         Command::Fk(a) => commands::fk::run(&a),
         Command::Derive(a) => commands::derive::run(&a),
+        Command::Generate(a) => commands::generate::run(&a),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

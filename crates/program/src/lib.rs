@@ -8,18 +8,24 @@
 
 mod code;
 mod count;
+mod derivative;
 mod domain;
 pub mod emit;
 mod evaluate;
 mod graph;
 pub mod kernel;
 mod op;
+mod pairs;
 mod program;
+mod rebuild;
+mod text;
 
 pub use code::{Code, Instruction, NONE, Opcode};
 pub use count::{COUNTING_RULE, Count};
-pub use domain::Domain;
+pub use domain::{Domain, Extended, Interval};
 pub use evaluate::{Arithmetic, Batch, Block, Function, Isa, Real, Scalar, atan2_8, sin_cos_8};
 pub use graph::{Graph, Walk};
 pub use op::{Op, Stage, Value};
+pub use pairs::{PairReason, PairRefusal};
 pub use program::{Program, Step};
+pub use text::TextError;

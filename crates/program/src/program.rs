@@ -92,6 +92,27 @@ impl Program {
         }
     }
 
+    /// A program whose operations are given as they are; an input that is not a variable is a parameter.
+    pub(crate) fn from_parts(
+        variables: Vec<Symbol>,
+        parameters: Vec<Symbol>,
+        list: impl Iterator<Item = Op>,
+        outputs: Vec<(String, Value)>,
+        names: Vec<Option<String>>,
+    ) -> Self {
+        let known: FxHashSet<Symbol> = variables.iter().copied().collect();
+        let mut ops: Vec<(Op, Stage)> = vec![];
+        for op in list {
+            let stage = match &op {
+                Op::Input(s) if known.contains(s) => Stage::Variable,
+                Op::Input(_) => Stage::Parameter,
+                _ => op.nodes().map(|n| ops[n as usize].1).max().unwrap_or(Stage::Constant),
+            };
+            ops.push((op, stage));
+        }
+        Program { variables, parameters, ops, outputs, names }
+    }
+
     /// Results and where they come from.
     pub fn outputs(&self) -> &[(String, Value)] {
         &self.outputs

@@ -6,10 +6,12 @@
 //! - [`structure`]: parallel and meeting axes, spherical wrists.
 //! - [`catalogue`]: robots that people own or study.
 //! - [`forward`]: link transforms, the simplified forward model, the shortest algorithm for it.
+//! - [`generate`]: source code in several languages.
 
 pub mod catalogue;
 pub mod description;
 pub mod forward;
+pub mod generate;
 pub mod geometry;
 pub mod robot;
 pub mod scalar;

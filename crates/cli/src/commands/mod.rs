@@ -2,5 +2,6 @@
 
 pub mod derive;
 pub mod fk;
+pub mod generate;
 pub mod robots;
 pub mod show;

@@ -1,5 +1,12 @@
 //! Kinds of number that a program can be run over, one operation at a time.
 
+mod extended;
+mod interval;
+mod single;
+
+pub use extended::Extended;
+pub use interval::Interval;
+
 use denavit_symbolic::Rational;
 
 /// What the operations mean for one kind of number.

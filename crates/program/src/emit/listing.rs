@@ -48,7 +48,7 @@ impl Listing {
         }
         let Builder { pairs, order, .. } = builder;
         let result = |name: &str| plain.get(&Symbol::new(name)).copied().unwrap_or(Expr::symbol(name));
-        let results = program.outputs().iter().map(|(name, _)| result(name)).collect();
+        let results: Vec<Expr> = program.outputs().iter().map(|(name, _)| result(name)).collect();
 
         // Angles stand before the first statement that reads them, in front of all if inputs are enough.
         let parameters: FxHashSet<Symbol> = program.parameters().iter().copied().collect();
@@ -65,17 +65,28 @@ impl Listing {
                 placed.insert(*angle);
             }
         }
-        for (stage, name, value) in lets {
-            let list = if stage == Stage::Variable { &mut body } else { &mut hoisted };
-            for angle in &order {
+        // Those that a formula reads and are not placed yet, behind those that their angles read.
+        let mut place_read = |value: Expr, list: &mut Vec<Statement>| {
+            let mut read: FxHashSet<Symbol> = value.symbols().into_iter().collect();
+            let mut missing: Vec<Expr> = vec![];
+            for angle in order.iter().rev().filter(|angle| !placed.contains(*angle)) {
                 let pair = &pairs[angle];
-                let is_read = value.symbols().iter().any(|s| pair.is(&s.name()));
-                if is_read && placed.insert(*angle) {
-                    list.push(pair.statement(*angle));
+                if read.iter().any(|s| pair.is(&s.name())) {
+                    read.extend(angle.symbols());
+                    missing.push(*angle);
                 }
             }
+            for angle in missing.into_iter().rev() {
+                list.push(pairs[&angle].statement(angle));
+                placed.insert(angle);
+            }
+        };
+        for (stage, name, value) in lets {
+            let list = if stage == Stage::Variable { &mut body } else { &mut hoisted };
+            place_read(value, list);
             list.push(Statement::Let { name, value });
         }
+        results.iter().for_each(|result| place_read(*result, &mut body));
         Listing { hoisted, body, results }
     }
 }

@@ -4,9 +4,18 @@
 //! it its own way. What comes from outside (names, descriptions) reaches the text as sanitised identifiers
 //! ([`names`]) or in comments without line breaks.
 
+pub(crate) mod blocks;
+mod c;
+pub(crate) mod compiled;
+mod cuda;
+mod javascript;
 pub(crate) mod listing;
+mod matlab;
 pub(crate) mod names;
+mod python;
+mod rust;
 pub(crate) mod spelling;
+pub(crate) mod wrap;
 
 use crate::program::Program;
 use denavit_symbolic::Symbol;
@@ -130,4 +139,16 @@ pub struct File {
     pub path: String,
     /// Its text.
     pub text: String,
+}
+
+/// The files of a folder that builds and tests itself.
+pub fn emit(library: &Library, language: Language) -> Vec<File> {
+    match language {
+        Language::Python => python::emit(library),
+        Language::Matlab => matlab::emit(library),
+        Language::JavaScript => javascript::emit(library),
+        Language::C => c::emit(library),
+        Language::Rust => rust::emit(library),
+        Language::Cuda => cuda::emit(library),
+    }
 }

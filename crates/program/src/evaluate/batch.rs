@@ -10,11 +10,11 @@ use std::sync::Arc;
 
 /// Lanes of a block, and what remains for programs with many registers.
 const LANES: usize = 64;
-const FEW_LANES: usize = 16;
+const FEW_LANES: usize = 32;
 /// What a register file may take of the first-level cache, in bytes.
 const IN_CACHE: usize = 24 * 1024;
 /// Results above this size bypass the cache, in bytes.
-const STREAMED: usize = 8 * 1024 * 1024;
+const STREAMED: usize = if cfg!(miri) { 64 * 1024 } else { 8 * 1024 * 1024 };
 /// Rows below which a second thread does not pay.
 const ROWS_PER_THREAD: usize = 10_000;
 
@@ -48,7 +48,8 @@ impl<T: Real> Block<T> {
             }
             file
         }
-        let wide = tape.registers * LANES * size_of::<T>() <= IN_CACHE;
+        let in_use = tape.registers - tape.constant_outputs.len();
+        let wide = in_use * LANES * size_of::<T>() <= IN_CACHE;
         let file =
             if wide { File::Wide(filled(tape, uniforms)) } else { File::Narrow(filled(tape, uniforms)) };
         Block { tape: tape.clone(), isa, arithmetic, file }

@@ -4,6 +4,8 @@
 //! has found, and the vector loads and stores of the transposition.
 #![allow(unsafe_code)]
 
+use crate::evaluate::real::Real;
+
 /// A set of vector instructions that this processor has: a value exists only where they were found.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Isa(Set);
@@ -117,29 +119,34 @@ impl Isa {
 
 /// Copies numbers without leaving them in the cache, where the processor can.
 #[inline]
-pub(crate) fn copy_past_cache<T: Copy>(from: &[T], to: &mut [T]) {
+pub(crate) fn copy_past_cache<T: Real>(from: &[T], to: &mut [T]) {
     assert_eq!(from.len(), to.len(), "as many to write as to read");
-    #[cfg(all(target_arch = "x86_64", not(miri)))]
+    #[cfg(target_arch = "x86_64")]
     {
-        use std::arch::x86_64::{_mm_loadu_si128, _mm_sfence, _mm_stream_si128};
+        use std::arch::x86_64::{__m128i, _mm_loadu_si128, _mm_sfence, _mm_stream_si128};
+        const STEP: usize = size_of::<__m128i>();
         let bytes = size_of_val(from);
         let (source, target) = (from.as_ptr().cast::<u8>(), to.as_mut_ptr().cast::<u8>());
-        let head = target.align_offset(16).min(bytes);
-        let middle = (bytes - head) / 16 * 16;
-        // SAFETY: both slices are `bytes` long; the parts [0, head), [head, head + middle) and the rest cover them;
-        // the middle of the target is aligned to 16 bytes, and its source may have any alignment. `T: Copy` has no
-        // padding here (f32, f64), so that every byte is initialised.
+        let head = target.align_offset(STEP).min(bytes);
+        let end = bytes - (bytes - head) % STEP;
+        // SAFETY: both slices are `bytes` long, and [0, head), [head, end), [end, bytes) cover them. Steps of the
+        // middle begin at multiples of STEP in the target; the source may have any alignment. `Real` is f32 or f64,
+        // which have no padding and hold any bits.
         unsafe {
             std::ptr::copy_nonoverlapping(source, target, head);
-            for k in (head..head + middle).step_by(16) {
-                _mm_stream_si128(target.add(k).cast(), _mm_loadu_si128(source.add(k).cast()));
+            for k in (head..end).step_by(STEP) {
+                let (source, target) = (source.add(k).cast::<__m128i>(), target.add(k).cast::<__m128i>());
+                // Miri does not know the store that bypasses the cache.
+                if cfg!(miri) {
+                    target.write(_mm_loadu_si128(source));
+                } else {
+                    _mm_stream_si128(target, _mm_loadu_si128(source));
+                }
             }
-            let rest = head + middle;
-            std::ptr::copy_nonoverlapping(source.add(rest), target.add(rest), bytes - rest);
+            std::ptr::copy_nonoverlapping(source.add(end), target.add(end), bytes - end);
             _mm_sfence();
         }
-        return;
     }
-    #[allow(unreachable_code)]
+    #[cfg(not(target_arch = "x86_64"))]
     to.copy_from_slice(from);
 }

@@ -4,9 +4,10 @@ use crate::kernel;
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A floating-point number with block routines for its functions.
+/// A floating-point number with block routines for its functions: `f32` or `f64`, and no other.
 pub trait Real:
-    Copy
+    sealed::Sealed
+    + Copy
     + Debug
     + Default
     + PartialEq
@@ -64,4 +65,10 @@ impl Real for f32 {
     fn atan2_lanes<const FUSED: bool, const N: usize>(y: &[Self; N], x: &[Self; N], a: &mut [Self; N]) {
         kernel::atan2_lanes_f32::<FUSED, N>(y, x, a);
     }
+}
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for f32 {}
+    impl Sealed for f64 {}
 }

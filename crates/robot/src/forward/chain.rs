@@ -34,7 +34,7 @@ pub struct Item {
 }
 
 /// An elementary transform of the table.
-enum Elementary {
+pub(super) enum Elementary {
     Turn(Axis, Expr),
     Shift(Axis, Expr),
     Fixed(Transform<Expr>),
@@ -42,30 +42,41 @@ enum Elementary {
     EndOfRow(usize),
 }
 
+/// What rows `from+1 … to` multiply, in order, with the base before row 1 and the tool behind the last on request.
+pub(super) fn elements(
+    description: &Description,
+    from: usize,
+    to: usize,
+    base: bool,
+    tool: bool,
+) -> Vec<Elementary> {
+    use Elementary::{Shift, Turn};
+    let mut elements = vec![];
+    if base {
+        elements.push(Elementary::Fixed(description.base));
+    }
+    for (i, row) in description.rows.iter().enumerate().take(to).skip(from) {
+        let x = [Turn(Axis::X, row.alpha), Shift(Axis::X, row.a)];
+        let z = [Turn(Axis::Z, row.theta), Shift(Axis::Z, row.d)];
+        match description.convention {
+            Convention::Standard => elements.extend(z.into_iter().chain(x)),
+            Convention::Craig => elements.extend(x.into_iter().chain(z)),
+            Convention::Khalil => {
+                let branch = [Turn(Axis::Z, row.gamma), Shift(Axis::Z, row.b)];
+                elements.extend(branch.into_iter().chain(x).chain(z));
+            }
+        }
+        elements.push(Elementary::EndOfRow(i + 1));
+    }
+    if tool {
+        elements.push(Elementary::Fixed(description.tool));
+    }
+    elements
+}
+
 impl Chain {
     /// The chain of rows `from+1 … to`, with the base before row 1 and the tool behind the last on request.
     pub fn new(description: &Description, from: usize, to: usize, base: bool, tool: bool) -> Self {
-        let mut elements = vec![];
-        if base {
-            elements.push(Elementary::Fixed(description.base));
-        }
-        for (i, row) in description.rows.iter().enumerate().take(to).skip(from) {
-            use Elementary::{Shift, Turn};
-            let x = [Turn(Axis::X, row.alpha), Shift(Axis::X, row.a)];
-            let z = [Turn(Axis::Z, row.theta), Shift(Axis::Z, row.d)];
-            match description.convention {
-                Convention::Standard => elements.extend(z.into_iter().chain(x)),
-                Convention::Craig => elements.extend(x.into_iter().chain(z)),
-                Convention::Khalil => {
-                    let branch = [Turn(Axis::Z, row.gamma), Shift(Axis::Z, row.b)];
-                    elements.extend(branch.into_iter().chain(x).chain(z));
-                }
-            }
-            elements.push(Elementary::EndOfRow(i + 1));
-        }
-        if tool {
-            elements.push(Elementary::Fixed(description.tool));
-        }
         let mut builder = Builder {
             variables: description.variables().iter().map(|v| v.symbol).collect(),
             folds_behind: description.convention == Convention::Standard,
@@ -74,7 +85,7 @@ impl Chain {
             constant: Rotation::identity(),
             row: from,
         };
-        elements.into_iter().for_each(|e| builder.push(e));
+        elements(description, from, to, base, tool).into_iter().for_each(|e| builder.push(e));
         builder.finish()
     }
 
@@ -225,7 +236,7 @@ impl Builder {
     }
 }
 
-fn flip(flipped: bool) -> Rotation<Expr> {
+pub(super) fn flip(flipped: bool) -> Rotation<Expr> {
     if flipped { Rotation::about_x(Expr::pi()) } else { Rotation::identity() }
 }
 
@@ -239,7 +250,7 @@ fn is_signed_permutation(r: &Rotation<Expr>) -> bool {
 }
 
 /// If the rotation is Rz(γ) or Rz(γ)·Rx(π): γ, and whether z is reversed.
-fn parallel(r: &Rotation<Expr>) -> Option<(Expr, bool)> {
+pub(super) fn parallel(r: &Rotation<Expr>) -> Option<(Expr, bool)> {
     let [[c, _, x], [s, _, y], [_, _, z]] = r.rows();
     if !x.is_zero() || !y.is_zero() {
         return None;

@@ -2,8 +2,10 @@
 
 mod algorithm;
 mod chain;
+mod frames;
 mod model;
 
 pub use algorithm::{Outputs, Proof};
 pub use chain::Chain;
-pub use model::{ForwardModel, Reference, link_transforms, symbol_order};
+pub use frames::{frames_program, pose_program};
+pub use model::{ForwardModel, Reference, link_transforms, prove, symbol_order};

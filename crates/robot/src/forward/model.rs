@@ -87,7 +87,9 @@ impl ForwardModel {
         } else {
             algorithm::shortest(&chain, &variables, &parameters, outputs, &taken)
         };
-        let proof = prove(&mut ring, &algorithm, outputs, &wanted);
+        let entries = wanted.matrix();
+        let places = outputs.places().into_iter().map(|(row, column)| entries[row][column]);
+        let proof = identical(&mut ring, algorithm.formulas().into_iter().zip(places));
         ForwardModel { from, to, matrix, algorithm, proof }
     }
 
@@ -123,11 +125,18 @@ fn simplified(ring: &mut Ring, x: &Transform<Expr>) -> Result<[[Expr; 4]; 4], Re
     Ok(rows)
 }
 
-/// Every output of the program, run over formulas, against the entry of the product.
-fn prove(ring: &mut Ring, program: &Program, outputs: Outputs, wanted: &Transform<Expr>) -> Proof {
-    let matrix = wanted.matrix();
-    for ((row, column), formula) in outputs.places().into_iter().zip(program.formulas()) {
-        match ring.normal(formula - matrix[row][column]) {
+/// Whether the results of a program are these formulas.
+pub fn prove(description: &Description, program: &Program, wanted: &[Expr]) -> Proof {
+    let formulas = program.formulas();
+    let all: Vec<Expr> = formulas.iter().chain(wanted).copied().collect();
+    let mut ring = Ring::new(&all, &symbol_order(description));
+    identical(&mut ring, formulas.into_iter().zip(wanted.iter().copied()))
+}
+
+/// Whether the canonical forms of each two formulas are the same.
+fn identical(ring: &mut Ring, pairs: impl Iterator<Item = (Expr, Expr)>) -> Proof {
+    for (formula, wanted) in pairs {
+        match ring.normal(formula - wanted) {
             Ok(difference) if difference.num.is_zero() => {}
             Ok(_) => return Proof::Failed,
             Err(why) => return Proof::Undecided(why),

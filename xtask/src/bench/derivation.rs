@@ -5,7 +5,7 @@
 //! References in the same run: the bare normal form of the same product over single joint angles, and SymPy's
 //! `trigsimp` of the twelve entries for two robots.
 
-use crate::{command, date, path, robot, succeed};
+use crate::{command, path, robot, succeed};
 use anyhow::{Context, Result, bail};
 use cpu_time::ThreadTime;
 use denavit::catalogue;
@@ -13,10 +13,8 @@ use denavit::forward::{ForwardModel, Outputs, link_transforms, symbol_order};
 use denavit::robot::Robot;
 use denavit_symbolic::{Angle, Expr, Ring};
 use std::fmt::Write;
-use std::fs;
 use std::hint::black_box;
 use std::process::Command;
-use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Measurements a figure.
 const REPEATS: usize = 9;
@@ -42,11 +40,11 @@ struct Row {
     sympy: Option<f64>,
 }
 
-/// Measures and prints the table; with `write` it goes to docs/performance.md as well.
+/// Measures, prints the table, and gives the section of the page.
 ///
 /// # Errors
-/// If a robot of the catalogue cannot be read, or the file cannot be written.
-pub fn run(write: bool) -> Result<()> {
+/// If a robot of the catalogue cannot be read.
+pub fn run() -> Result<String> {
     let python = python();
     if let Err(e) = &python {
         println!("no SymPy, so no ratio to it: {e:#}");
@@ -63,12 +61,7 @@ pub fn run(write: bool) -> Result<()> {
     }
     let table = table(&rows);
     println!("{table}\n{}", verdict(&rows));
-    if write {
-        let file = path("docs/performance.md");
-        fs::write(&file, page(&rows, &table)?)?;
-        println!("wrote docs/performance.md");
-    }
-    Ok(())
+    Ok(section(&rows, &table))
 }
 
 /// What is measured: from the text of the robot file to the proof.
@@ -188,31 +181,15 @@ fn verdict(rows: &[Row]) -> String {
     )
 }
 
-fn page(rows: &[Row], table: &str) -> Result<String> {
-    let today = date(SystemTime::now().duration_since(UNIX_EPOCH)?.as_secs() / 86_400);
-    let rustc =
-        command("rustc").arg("--version").output().map(|o| String::from_utf8_lossy(&o.stdout).into_owned());
-    let rustc = rustc.unwrap_or_else(|_| "rustc, version unknown".into());
-    Ok(format!(
-        "# Performance\n\n\
-         CPU time of deriving the forward model of each robot of the catalogue: reading the robot file, the link\n\
+fn section(rows: &[Row], table: &str) -> String {
+    format!(
+        "CPU time of deriving the forward model of each robot of the catalogue: reading the robot file, the link\n\
          transforms, the simplified matrix, the search for the shortest algorithm, and the proof that it equals the\n\
          product. Median of {REPEATS} runs, each in a fresh thread that knows no formula yet; release build, one thread.\n\n\
          - **naive**: only the normal form of the same product over single joint angles; no merging of parallel axes, no\n\
          readable form, no search, no proof. What the rest costs is the difference; the share is naive to ours.\n\
          - **SymPy**: the product and `trigsimp` of its twelve entries (version {SYMPY}), CPU time, once; the ratio is SymPy to ours.\n\n\
-         Measured {today} on {} ({}, {}).\n\n{}\n\n{table}\n\
-         Renew with `cargo xtask bench --write`.\n",
-        processor(),
-        std::env::consts::OS,
-        rustc.trim(),
+         {}\n\n{table}",
         verdict(rows),
-    ))
-}
-
-/// The model of the processor, as Linux names it.
-fn processor() -> String {
-    let info = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let model = info.lines().find_map(|l| l.strip_prefix("model name")?.split_once(':'));
-    model.map_or_else(|| std::env::consts::ARCH.into(), |m| m.1.trim().into())
+    )
 }

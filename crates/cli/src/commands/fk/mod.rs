@@ -1,19 +1,21 @@
 //! `denavit fk`: poses in numbers.
 
+mod answer;
+mod stream;
+
 use crate::arguments::{FkArguments, Format};
 use crate::commands::derive;
 use crate::failure::Failure;
 use crate::load;
 use crate::terminal::{Align, HEADING, NAME, decimals, lowered, matrix, number, raised, styled};
+use answer::Answers;
 use denavit::Robot;
 use denavit::description::{Description, JointKind, Measure, Variable};
+use denavit::forward::Reference;
 use denavit::geometry::Transform;
 use denavit::geometry::orientation::{OrientationSet, extract};
 use denavit_symbolic::{Expr, Symbol};
-use serde_json::{Value, json};
-use std::fs::File;
-use std::io::{self, BufRead, BufReader, Write};
-use std::path::Path;
+use std::io::Write;
 
 /// Computes poses.
 ///
@@ -39,15 +41,18 @@ pub fn run(arguments: &FkArguments) -> Result<(), Failure> {
         ))
     })?;
     match (&arguments.input, &arguments.q) {
-        (Some(path), _) => stream(&description, &robot, &request, path),
+        (Some(path), _) => stream::run(Answers::new(&description, &request), path),
         (None, Some(text)) => {
             let q = configuration(&description, text)?;
             warn_of_limits(&description, &q)?;
             let mut out = anstream::stdout();
             if arguments.json {
-                writeln!(out, "{}", answer(&description, &robot, &request, &q))?;
+                let answers = Answers::new(&description, &request);
+                let mut text = vec![];
+                answers.write(&q, answers.function.scalar().eval(&q), &mut text);
+                out.write_all(&text)?;
             } else {
-                write!(out, "{}", report(&description, &robot, &request, &q))?;
+                write!(out, "{}", report(&description, &request, &q))?;
             }
             Ok(())
         }
@@ -169,33 +174,8 @@ fn reading(x: f64, kind: JointKind) -> String {
     }
 }
 
-fn rows(x: &Transform<f64>) -> Value {
-    json!(x.matrix())
-}
-
-/// The answer as JSON.
-fn answer(d: &Description, robot: &Robot<f64>, request: &Request, q: &[f64]) -> Value {
-    let pose = robot.pose(q);
-    let mut answer = json!({"schema": 1, "robot": d.name, "q": q, "pose": rows(&pose)});
-    let limits = limits(d);
-    if limits.iter().any(|l| l.1.is_some()) {
-        let inside =
-            |(l, x): (&(Variable, Option<[f64; 2]>), &f64)| l.1.is_none_or(|[a, b]| (a..=b).contains(x));
-        answer["within_limits"] = limits.iter().zip(q).all(inside).into();
-    }
-    if !request.frames.is_empty() {
-        let frames = robot.frames(q);
-        answer["frames"] = request.frames.iter().map(|&i| rows(&frames[i])).collect();
-    }
-    if let Some(set) = request.orientation {
-        let o = extract(&pose.rotation, set);
-        answer["orientation"] = json!({"set": set.to_string(), "values": o.values, "singular": o.singular});
-    }
-    answer
-}
-
 /// The answer for reading.
-fn report(d: &Description, robot: &Robot<f64>, request: &Request, q: &[f64]) -> String {
+fn report(d: &Description, request: &Request, q: &[f64]) -> String {
     let at: Vec<String> = d
         .variables()
         .iter()
@@ -203,7 +183,11 @@ fn report(d: &Description, robot: &Robot<f64>, request: &Request, q: &[f64]) -> 
         .map(|(v, &x)| format!("{} = {}", v.symbol.name(), reading(x, v.kind)))
         .collect();
     let mut text = format!("{} at {}\n\n", styled(&d.name, HEADING), at.join(", "));
-    let frames = robot.frames(q);
+    let last = d.rows.len();
+    let poses: Vec<Reference> = (0..=last).map(Reference::Frame).chain([Reference::Tool]).collect();
+    let frames: Vec<Transform<f64>> =
+        answer::transforms(answer::function(d, &poses).scalar().eval(q)).collect();
+    let pose = frames[last + 1];
     let size = frames.iter().map(|x| x.translation.norm()).fold(1.0, f64::max);
     let show = |label: &str, x: &Transform<f64>| {
         let noise = |column: usize| if column == 3 { 1e-14 * size } else { 1e-14 };
@@ -216,12 +200,10 @@ fn report(d: &Description, robot: &Robot<f64>, request: &Request, q: &[f64]) -> 
         true => format!("T(base → {i})"),
         false => format!("{}T{}", raised("0"), lowered(&i.to_string())),
     };
-    let last = d.rows.len();
     for &i in request.frames.iter().filter(|&&i| i != last || has_tool) {
         text += &show(&label(i), &frames[i]);
         text.push('\n');
     }
-    let pose = robot.pose(q);
     let whole = match (has_tool, has_base) {
         (false, _) => label(last),
         (true, false) => "T(0 → tool)".into(),
@@ -257,47 +239,4 @@ fn report(d: &Description, robot: &Robot<f64>, request: &Request, q: &[f64]) -> 
         text.push('\n');
     }
     text
-}
-
-/// Answers a line for each line: the pose, or what is wrong with the line.
-fn stream(d: &Description, robot: &Robot<f64>, request: &Request, path: &Path) -> Result<(), Failure> {
-    let named = path.display();
-    let reader: Box<dyn BufRead> = if path.as_os_str() == "-" {
-        Box::new(io::stdin().lock())
-    } else {
-        let file = File::open(path).map_err(|e| Failure::Input(format!("error: {named}: {e}")))?;
-        Box::new(BufReader::new(file))
-    };
-    let mut out = io::BufWriter::new(io::stdout().lock());
-    let mut bad = 0_usize;
-    for (i, line) in reader.split(b'\n').enumerate() {
-        let line = line.map_err(|e| Failure::Input(format!("error: {named}: {e}")))?;
-        if line.iter().all(u8::is_ascii_whitespace) {
-            continue;
-        }
-        match parse_line(&line, robot.joints) {
-            Ok(q) => writeln!(out, "{}", answer(d, robot, request, &q))?,
-            Err(why) => {
-                bad += 1;
-                writeln!(out, "{}", json!({"schema": 1, "line": i + 1, "error": why}))?;
-            }
-        }
-    }
-    out.flush()?;
-    match bad {
-        0 => Ok(()),
-        n => Err(Failure::Input(format!(
-            "error: {named}: {n} line{} could not be read",
-            if n == 1 { "" } else { "s" }
-        ))),
-    }
-}
-
-fn parse_line(line: &[u8], joints: usize) -> Result<Vec<f64>, String> {
-    let q: Vec<f64> = serde_json::from_slice(line)
-        .map_err(|e| format!("not a JSON array of numbers (column {})", e.column()))?;
-    if q.len() != joints {
-        return Err(format!("{}, the robot has {}", plural(q.len(), "value"), plural(joints, "joint")));
-    }
-    Ok(q)
 }

@@ -1,0 +1,88 @@
+//! Timing: everything in turn, several rounds, as ratios to the unit measured in the same round.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+/// Rounds; a figure is the median of them.
+const ROUNDS: usize = 25;
+/// Configurations in the arrays that entries run over.
+pub const COUNT: usize = 4096;
+
+unsafe extern "C" {
+    fn sincos(x: f64, s: *mut f64, c: *mut f64);
+}
+
+/// The unit U per six angles: direct calls of the C library's `sincos`, results stored.
+#[inline(never)]
+#[allow(unsafe_code)]
+pub fn library_pairs(angles: &[f64], out: &mut [f64]) {
+    for (x, pair) in angles.iter().zip(out.chunks_exact_mut(2)) {
+        let [s, c] = pair else { continue };
+        // SAFETY: both pointers are to numbers that live through the call.
+        unsafe { sincos(*x, s, c) }
+    }
+}
+
+/// Something to time: what it is, and a run of it.
+pub struct Entry<'a> {
+    pub group: &'static str,
+    pub name: String,
+    /// Items that a run handles.
+    pub items: usize,
+    /// The most it may take, in U, where the project says so.
+    pub limit: Option<f64>,
+    pub run: Box<dyn FnMut() + 'a>,
+}
+
+/// Median and quartiles of the ratios to U.
+pub struct Figure {
+    pub group: &'static str,
+    pub name: String,
+    pub limit: Option<f64>,
+    pub ratio: [f64; 3],
+    pub nanoseconds: f64,
+}
+
+/// Times all entries in turn, round by round. Returns the median of U in ns as well.
+pub fn measure(entries: &mut [Entry], angles: &[f64]) -> (f64, Vec<Figure>) {
+    let mut pairs = vec![0.0; 2 * angles.len()];
+    let per_unit = angles.len() as f64 / 6.0;
+    let mut units = vec![];
+    let mut times: Vec<Vec<(f64, f64)>> = entries.iter().map(|_| vec![]).collect();
+    for _ in 0..ROUNDS {
+        for (entry, times) in entries.iter_mut().zip(&mut times) {
+            // The unit right before what is held against it: the clock of the processor may change.
+            let unit = nanoseconds(|| library_pairs(black_box(angles), black_box(&mut pairs))) / per_unit;
+            units.push(unit);
+            let time = nanoseconds(&mut entry.run) / entry.items as f64;
+            times.push((time / unit, time));
+        }
+    }
+    let figures = entries.iter().zip(times).map(|(entry, times)| {
+        let mut ratios: Vec<f64> = times.iter().map(|t| t.0).collect();
+        let mut plain: Vec<f64> = times.iter().map(|t| t.1).collect();
+        ratios.sort_by(f64::total_cmp);
+        plain.sort_by(f64::total_cmp);
+        Figure {
+            group: entry.group,
+            name: entry.name.clone(),
+            limit: entry.limit,
+            ratio: [ROUNDS / 4, ROUNDS / 2, ROUNDS * 3 / 4].map(|k| ratios[k]),
+            nanoseconds: plain[ROUNDS / 2],
+        }
+    });
+    let figures = figures.collect();
+    units.sort_by(f64::total_cmp);
+    (units[units.len() / 2], figures)
+}
+
+/// The least time of a few runs, ns.
+fn nanoseconds(mut run: impl FnMut()) -> f64 {
+    let mut least = f64::INFINITY;
+    for _ in 0..5 {
+        let start = Instant::now();
+        run();
+        least = least.min(start.elapsed().as_secs_f64() * 1e9);
+    }
+    least
+}

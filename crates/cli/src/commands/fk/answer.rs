@@ -1,0 +1,128 @@
+//! What is answered for a configuration, as JSON.
+
+use crate::commands::fk::{Request, limits};
+use denavit::description::Description;
+use denavit::forward::{Reference, frames_program};
+use denavit::geometry::orientation::{OrientationSet, extract};
+use denavit::geometry::{Rotation, Transform, Vector};
+use denavit_program::{Arithmetic, Function};
+use std::io::Write;
+
+/// Entries of a pose.
+const POSE: usize = 16;
+
+/// The poses of frames, sixteen results each, as one function that rounds the same on every machine.
+///
+/// `-q` and `--input` both use it, so that a configuration has one answer, to the last bit.
+pub fn function(description: &Description, of: &[Reference]) -> Function {
+    let program = frames_program(description, of);
+    let value = |s| description.parameters.iter().find(|p| p.symbol == s)?.value?.eval(|_| None).ok();
+    // One without a value is in no formula: the robot over numbers exists.
+    let values: Vec<f64> = program.parameters().iter().map(|s| value(*s).unwrap_or(f64::NAN)).collect();
+    let function = program.compile(&values);
+    function.on(function.target().0, Arithmetic::Strict)
+}
+
+/// The transforms that results stand for; a zero has no sign.
+pub fn transforms(results: &[f64]) -> impl Iterator<Item = Transform<f64>> {
+    results.chunks_exact(POSE).map(|m| {
+        let row = |r: usize| [m[4 * r] + 0.0, m[4 * r + 1] + 0.0, m[4 * r + 2] + 0.0];
+        let position = [3, 7, 11].map(|k| m[k] + 0.0);
+        Transform::from_rotation_translation(Rotation::from_rows([0, 1, 2].map(row)), Vector(position))
+    })
+}
+
+/// How to answer; it can be sent to other threads.
+pub struct Answers {
+    /// The poses: the frames asked for, then the tool.
+    pub function: Function,
+    /// How many joints there are.
+    pub joints: usize,
+    /// How many results a configuration has.
+    pub results: usize,
+    /// The robot's name, as JSON.
+    robot: String,
+    /// For each joint; none if no joint has limits.
+    limits: Vec<Option<[f64; 2]>>,
+    orientation: Option<OrientationSet>,
+}
+
+impl Answers {
+    /// For a robot whose parameters have values.
+    pub fn new(description: &Description, request: &Request) -> Self {
+        let frames = request.frames.iter().map(|&i| Reference::Frame(i));
+        let poses: Vec<Reference> = frames.chain([Reference::Tool]).collect();
+        let mut limits: Vec<Option<[f64; 2]>> = limits(description).into_iter().map(|l| l.1).collect();
+        let joints = limits.len();
+        if limits.iter().all(Option::is_none) {
+            limits.clear();
+        }
+        Answers {
+            function: function(description, &poses),
+            joints,
+            results: POSE * poses.len(),
+            robot: serde_json::Value::from(description.name.as_str()).to_string(),
+            limits,
+            orientation: request.orientation,
+        }
+    }
+
+    /// Writes the answer: an object on one line, keys in alphabetical order.
+    pub fn write(&self, q: &[f64], results: &[f64], out: &mut Vec<u8>) {
+        let (frames, pose) = results.split_at(self.results - POSE);
+        out.push(b'{');
+        if !frames.is_empty() {
+            out.extend(b"\"frames\":");
+            list(out, frames.chunks_exact(POSE), matrix);
+            out.push(b',');
+        }
+        if let Some(set) = self.orientation {
+            let found = transforms(pose).map(|x| extract(&x.rotation, set));
+            for o in found {
+                // Writing to memory does not fail.
+                let _ = write!(
+                    out,
+                    "\"orientation\":{{\"set\":\"{set}\",\"singular\":{},\"values\":",
+                    o.singular
+                );
+                list(out, o.values, number);
+                out.extend(b"},");
+            }
+        }
+        out.extend(b"\"pose\":");
+        matrix(out, pose);
+        out.extend(b",\"q\":");
+        list(out, q.iter().copied(), number);
+        out.extend(b",\"robot\":");
+        out.extend(self.robot.as_bytes());
+        out.extend(b",\"schema\":1");
+        if !self.limits.is_empty() {
+            let inside =
+                |(l, x): (&Option<[f64; 2]>, &f64)| l.is_none_or(|[low, high]| (low..=high).contains(x));
+            let all = self.limits.iter().zip(q).all(inside);
+            let _ = write!(out, ",\"within_limits\":{all}");
+        }
+        out.extend(b"}\n");
+    }
+}
+
+fn list<T>(out: &mut Vec<u8>, items: impl IntoIterator<Item = T>, item: impl Fn(&mut Vec<u8>, T)) {
+    out.push(b'[');
+    for (k, x) in items.into_iter().enumerate() {
+        if k > 0 {
+            out.push(b',');
+        }
+        item(out, x);
+    }
+    out.push(b']');
+}
+
+fn matrix(out: &mut Vec<u8>, entries: &[f64]) {
+    list(out, entries.chunks_exact(4), |out, row| list(out, row.iter().map(|x| x + 0.0), number));
+}
+
+/// The shortest decimals that read back as the same double; `null` if it is not finite.
+fn number(out: &mut Vec<u8>, x: f64) {
+    // A number has a JSON form, and writing to memory does not fail.
+    let _ = serde_json::to_writer(out, &x);
+}

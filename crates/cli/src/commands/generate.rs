@@ -1,0 +1,144 @@
+//! `denavit generate`: source code that builds and tests itself.
+
+use crate::arguments::GenerateArguments;
+use crate::failure::Failure;
+use crate::load;
+use crate::terminal::{FAINT, HEADING, NAME, styled};
+use denavit::forward::Proof;
+use denavit::generate::{self, Generated, Options, Wanted};
+use denavit_program::emit::{Language, Precision};
+use serde_json::json;
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+
+/// Writes the files.
+///
+/// # Errors
+/// If the robot cannot be read, a function is not known, a file stands in the way, or nothing can be written.
+pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
+    let functions: Result<Vec<Wanted>, String> = arguments.functions.split(',').map(str::parse).collect();
+    let mut functions = functions.map_err(|e| Failure::Usage(format!("--functions: {e}")))?;
+    let mut seen = vec![];
+    functions.retain(|f| {
+        !seen.contains(f) && {
+            seen.push(*f);
+            true
+        }
+    });
+    let language: Language = arguments.language.into();
+    if arguments.float && !matches!(language, Language::C | Language::Cuda) {
+        return Err(Failure::Usage(format!("--float: {} computes in double precision", language.name())));
+    }
+    let description = load::robot(&arguments.robot)?;
+    let options = Options {
+        language,
+        functions,
+        precision: if arguments.float { Precision::Single } else { Precision::Double },
+        name: Some(
+            arguments.name.clone().unwrap_or_else(|| name_of(&arguments.robot.robot, &description.name)),
+        ),
+        fixed: arguments.fixed,
+    };
+    let generated = generate::generate(&description, &options).map_err(|missing| {
+        Failure::Input(format!("error: --fixed: {missing}\n  = hint: give values with --set"))
+    })?;
+    write(&generated, &arguments.output, arguments.force)?;
+    for (wanted, _, proof) in &generated.functions {
+        if *proof != Proof::Proved {
+            writeln!(anstream::stderr(), "warning: {wanted} is {proof}")?;
+        }
+    }
+    let mut out = anstream::stdout();
+    if arguments.json {
+        writeln!(out, "{}", as_json(&generated, language, &arguments.output))?;
+    } else {
+        write!(out, "{}", report(&generated, language, &arguments.output))?;
+    }
+    Ok(())
+}
+
+/// The catalogue's name or the file's stem; a table from standard input goes by the name in it.
+fn name_of(robot: &str, title: &str) -> String {
+    let stem = Path::new(robot).file_stem().and_then(|s| s.to_str()).unwrap_or(title);
+    if robot == "-" { title.into() } else { stem.into() }
+}
+
+/// Writes all files or, if one would be overwritten, none.
+fn write(generated: &Generated, folder: &Path, force: bool) -> Result<(), Failure> {
+    let target = |path: &str| path.split('/').fold(folder.to_path_buf(), |p, part| p.join(part));
+    let failed = |path: &Path, e: std::io::Error| Failure::Input(format!("error: {}: {e}", path.display()));
+    if !force {
+        let differs = |f: &&denavit_program::emit::File| {
+            let path = target(&f.path);
+            path.exists() && fs::read_to_string(&path).ok().as_deref() != Some(&f.text)
+        };
+        let in_the_way: Vec<String> =
+            generated.files.iter().filter(differs).map(|f| target(&f.path).display().to_string()).collect();
+        if !in_the_way.is_empty() {
+            return Err(Failure::Input(format!(
+                "error: these files are there already, with other contents: {}\n  = hint: --force overwrites them",
+                in_the_way.join(", ")
+            )));
+        }
+    }
+    for file in &generated.files {
+        let path = target(&file.path);
+        if let Some(parent) = path.parent() {
+            fs::create_dir_all(parent).map_err(|e| failed(parent, e))?;
+        }
+        fs::write(&path, &file.text).map_err(|e| failed(&path, e))?;
+    }
+    Ok(())
+}
+
+/// The command that tests the folder, to be run in it.
+fn test_command(generated: &Generated, language: Language) -> String {
+    let file = |start: &str, end: &str| {
+        let names = generated.files.iter().map(|f| f.path.as_str());
+        names.into_iter().find(|p| p.starts_with(start) && p.ends_with(end)).unwrap_or_default().to_string()
+    };
+    match language {
+        Language::Rust => "cargo test".into(),
+        Language::C => "make test".into(),
+        Language::Python => format!("python -W error {}", file("test_", ".py")),
+        Language::Matlab => format!("octave --no-gui --quiet {}", file("test_", ".m")),
+        Language::JavaScript => "node --test".into(),
+        Language::Cuda => format!("python {}", file("test_", ".py")),
+    }
+}
+
+fn report(generated: &Generated, language: Language, folder: &Path) -> String {
+    let mut text = format!("{} in {}\n", styled(language.name(), HEADING), folder.display());
+    for file in &generated.files {
+        text += &format!(
+            "  {}  {}\n",
+            styled(&file.path, NAME),
+            styled(&format!("{} lines", file.text.lines().count()), FAINT)
+        );
+    }
+    for (wanted, count, proof) in &generated.functions {
+        text += &format!("{}: {count}; {proof}\n", styled(wanted.name(), NAME));
+    }
+    text += &format!("test it there with: {}\n", test_command(generated, language));
+    text
+}
+
+fn as_json(generated: &Generated, language: Language, folder: &Path) -> serde_json::Value {
+    let functions: Vec<_> = generated.functions.iter().map(|(wanted, count, proof)| {
+        json!({
+            "name": wanted.name(),
+            "count": {"multiplications": count.multiplications, "additions": count.additions, "sincos": count.sincos},
+            "proved": *proof == Proof::Proved,
+        })
+    }).collect();
+    let files: Vec<&str> = generated.files.iter().map(|f| f.path.as_str()).collect();
+    json!({
+        "schema": 1,
+        "language": language.name(),
+        "folder": folder.display().to_string(),
+        "files": files,
+        "functions": functions,
+        "test": test_command(generated, language),
+    })
+}

@@ -1,0 +1,28 @@
+#if defined(__GNUC__)
+#define INLINE static inline __attribute__((always_inline))
+#define NOINLINE __attribute__((noinline))
+#elif defined(_MSC_VER)
+#define INLINE static __forceinline
+#define NOINLINE __declspec(noinline)
+#else
+#define INLINE static inline
+#define NOINLINE
+#endif
+
+#ifdef __cplusplus
+#define RESTRICT __restrict
+#else
+#define RESTRICT restrict
+#endif
+
+/* gcc knows no such pragma: give it -ffp-contract=off. */
+#ifdef __clang__
+#pragma STDC FP_CONTRACT OFF
+#endif
+
+/* Compiled twice, for processors with AVX2 and fused multiply-add and for others. */
+#ifdef @NAME@_MULTIVERSION
+#define CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
+#else
+#define CLONES
+#endif

@@ -1,0 +1,556 @@
+//! JavaScript: an ES module over typed arrays with types in its comments, its tests, and the package file.
+//!
+//! Functions write into arrays of the caller's; one private function per routine walks over all rows, so that what
+//! depends on parameters alone is computed once.
+
+use crate::emit::blocks::{blocks, reads};
+use crate::emit::listing::{Listing, Statement};
+use crate::emit::names::{Names, comment, sanitised};
+use crate::emit::spelling::Spelling;
+use crate::emit::wrap::{Wrap, comments, prose, split};
+use crate::emit::{File, Language, Library, Parameter, Precision, Routine};
+use denavit_symbolic::{Expr, Symbol};
+
+const WRAP: Wrap = Wrap { width: 100, step: 2, sign_leads: false, goes_on: "", brackets: ["", ""] };
+
+/// Names that mean something in the module.
+const RESERVED: &str = "\
+q out parameters Parameters DEFAULTS missing i o Object Float64Array RangeError TypeError Number \
+Array test assert check TOLERANCE";
+
+/// The files: the module, its tests and the package.
+pub(crate) fn emit(library: &Library) -> Vec<File> {
+    let module = Module::new(library);
+    let file = |path: String, lines: Vec<String>| File { path, text: lines.join("\n") + "\n" };
+    vec![
+        file(format!("{}.js", module.name), module.source()),
+        file(format!("{}.test.js", module.name), module.tests()),
+        file("package.json".into(), module.package()),
+    ]
+}
+
+/// The names of one routine's functions.
+struct Functions {
+    /// One row.
+    one: String,
+    /// Many rows.
+    batch: String,
+    /// The formulas, private.
+    rows: String,
+    /// What the tests hold.
+    cases: String,
+    scales: String,
+}
+
+struct Module<'a> {
+    library: &'a Library<'a>,
+    name: String,
+    functions: Vec<Functions>,
+    /// Names of the module, inputs included.
+    names: Names,
+}
+
+impl<'a> Module<'a> {
+    fn new(library: &'a Library) -> Self {
+        let mut names = Names::new(Language::JavaScript, &RESERVED.split_whitespace().collect::<Vec<_>>());
+        let mut functions = vec![];
+        for routine in &library.routines {
+            let one = names.free(&sanitised(&routine.name));
+            let batch = names.free(&format!("{one}Batch"));
+            let rows = names.free(&format!("{one}Rows"));
+            let [cases, scales] = ["Cases", "Scales"].map(|what| names.free(&format!("{one}{what}")));
+            functions.push(Functions { one, batch, rows, cases, scales });
+        }
+        library.variables.iter().for_each(|(symbol, _)| names.declare(*symbol));
+        library.parameters.iter().for_each(|p| names.declare(p.symbol));
+        Module { library, name: sanitised(&library.name).to_lowercase(), functions, names }
+    }
+
+    fn header(&self) -> Vec<String> {
+        let lines: Vec<String> = self.library.header.iter().map(|line| untagged(line)).collect();
+        comments(lines.iter().map(String::as_str), "// ", WRAP.width)
+    }
+
+    fn spelling<'n>(&self, names: &'n Names) -> Spelling<'n> {
+        Spelling { language: Language::JavaScript, precision: Precision::Double, names }
+    }
+
+    fn numbers(&self, values: &[f64]) -> Vec<String> {
+        values.iter().map(|x| self.spelling(&self.names).number(*x)).collect()
+    }
+
+    /// The parameters that a routine reads.
+    fn parameters_of(&self, routine: &Routine) -> Vec<&Parameter> {
+        let read = reads(&Listing::new(routine.program, &mut self.names.clone()));
+        self.library.parameters.iter().filter(|p| read.contains(&p.symbol)).collect()
+    }
+
+    fn source(&self) -> Vec<String> {
+        let mut lines = self.header();
+        if !self.library.parameters.is_empty() {
+            lines.push(String::new());
+            lines.extend(self.parameters());
+        }
+        for (routine, functions) in self.library.routines.iter().zip(&self.functions) {
+            lines.push(String::new());
+            lines.extend(self.routine(routine, functions));
+        }
+        let is_any_required = |r: &Routine| self.parameters_of(r).iter().any(|p| p.default.is_none());
+        if self.library.routines.iter().any(is_any_required) {
+            lines.push(String::new());
+            lines.extend(documentation(&["@param {string} name".into(), "@returns {never}".into()]));
+            lines.push("function missing(name) {".into());
+            lines.push("  throw new TypeError(`parameter ${name} is missing: it has no default`);".into());
+            lines.push("}".into());
+        }
+        lines
+    }
+
+    /// The type of the parameters and their values.
+    fn parameters(&self) -> Vec<String> {
+        let mut about = vec!["Values of the symbols in the formulas.".to_string(), String::new()];
+        about.push("@typedef {object} Parameters".into());
+        for p in &self.library.parameters {
+            let name = self.names.of(p.symbol);
+            let name = if p.default.is_some() { format!("[{name}]") } else { name.to_string() };
+            about.push(format!("@property {{number}} {name} {}", untagged(&p.about)));
+        }
+        let mut lines = documentation(&about);
+        let defaults: Vec<(&str, f64)> = self
+            .library
+            .parameters
+            .iter()
+            .filter_map(|p| p.default.map(|x| (self.names.of(p.symbol), x)))
+            .collect();
+        if !defaults.is_empty() {
+            lines.push(String::new());
+            lines.push("/** The parameters where the caller gives none. */".into());
+            lines.push("export const DEFAULTS = Object.freeze({".into());
+            for (name, x) in defaults {
+                lines.push(format!("  {name}: {},", self.spelling(&self.names).number(x)));
+            }
+            lines.push("});".into());
+        }
+        lines
+    }
+
+    fn routine(&self, routine: &Routine, functions: &Functions) -> Vec<String> {
+        let (n, m) = (self.library.variables.len(), routine.program.outputs().len());
+        let parameters = self.parameters_of(routine);
+        let is_required = parameters.iter().any(|p| p.default.is_none());
+        let (given, passed) = match (parameters.is_empty(), is_required) {
+            (true, _) => ("", ""),
+            (false, true) => (", parameters", ", parameters"),
+            (false, false) => (", parameters = DEFAULTS", ", parameters"),
+        };
+        let tag = match (parameters.is_empty(), is_required) {
+            (true, _) => None,
+            (false, true) => Some("@param {Parameters} parameters values of the symbols".to_string()),
+            (false, false) => Some(format!("@param {{{}}} [parameters] values of the symbols", self.given())),
+        };
+        // What stands before a required argument is not optional itself.
+        let out = if is_required && !parameters.is_empty() {
+            "@param {Float64Array | undefined} out"
+        } else {
+            "@param {Float64Array} [out]"
+        };
+        let plain = |lines: &[String]| lines.iter().map(|line| untagged(line)).collect::<Vec<_>>();
+        let shape = routine.shape.iter().map(|k| k.to_string()).collect::<Vec<_>>().join(" x ");
+        let shape = if routine.shape.len() > 1 { format!("{shape} = {m}") } else { m.to_string() };
+
+        // One row.
+        let mut about = plain(&routine.about);
+        about.push(String::new());
+        about.push(format!("Operations per row: {}.", routine.program.count()));
+        about.push(String::new());
+        about.push(format!("@param {{ArrayLike<number>}} q {n} values:"));
+        for (symbol, what) in &self.library.variables {
+            about.push(format!("  {}: {}", self.names.of(*symbol), untagged(what)));
+        }
+        about.push(format!("{out} where the {shape} results go, row-major"));
+        about.extend(tag.clone());
+        about.push("@returns {Float64Array} `out`".into());
+        about.push("@throws {RangeError} if `q` or `out` has another length".into());
+        let mut lines = documentation(&about);
+        let one = &functions.one;
+        let arguments = format!("q, out = new Float64Array({m}){given}");
+        lines.extend(call(&format!("export function {one}"), &arguments, " {"));
+        for (name, length) in [("q", n), ("out", m)] {
+            lines.push(format!("  if ({name}.length !== {length}) {{"));
+            lines.push(format!(
+                "    throw new RangeError(`{name} must have {length} entries, not ${{{name}.length}}`);"
+            ));
+            lines.push("  }".into());
+        }
+        lines.push(format!("  {}(q, out{passed});", functions.rows));
+        lines.extend(["  return out;".to_string(), "}".to_string(), String::new()]);
+
+        // Many rows.
+        let mut about =
+            vec![format!("{one} of many rows, one after another.").replacen(one, &format!("`{one}`"), 1)];
+        about.push(String::new());
+        about.push(format!("@param {{ArrayLike<number>}} q N x {n} values"));
+        about.push(format!("{out} where the N x {m} results go, row-major"));
+        about.extend(tag);
+        about.push("@returns {Float64Array} `out`".into());
+        about.push("@throws {RangeError} if `q` or `out` has another length".into());
+        lines.extend(documentation(&about));
+        let batch = &functions.batch;
+        let new = match n {
+            0 => "0".into(),
+            1 => format!("q.length * {m}"),
+            _ => format!("Math.floor(q.length / {n}) * {m}"),
+        };
+        let arguments = format!("q, out = new Float64Array({new}){given}");
+        lines.extend(call(&format!("export function {batch}"), &arguments, " {"));
+        if n == 0 {
+            lines.push(format!("  if (q.length !== 0 || out.length % {m} !== 0) {{"));
+            lines
+                .push(format!("    throw new RangeError(\"q must be empty and out have N x {m} entries\");"));
+            lines.push("  }".into());
+        } else {
+            if n > 1 {
+                lines.push(format!("  if (q.length % {n} !== 0) {{"));
+                lines.push(format!(
+                    "    throw new RangeError(`q must have N x {n} entries, not ${{q.length}}`);"
+                ));
+                lines.push("  }".into());
+            }
+            let [needed, have] = match n {
+                1 => [format!("q.length * {m}"), "out.length".into()],
+                _ => [format!("(q.length / {n}) * {m}"), "out.length".into()],
+            };
+            lines.push(format!("  if ({have} !== {needed}) {{"));
+            lines.push(format!(
+                "    throw new RangeError(`out must have {m} entries per row of q, not ${{out.length}} in all`);"
+            ));
+            lines.push("  }".into());
+        }
+        lines.push(format!("  {}(q, out{passed});", functions.rows));
+        lines.extend(["  return out;".to_string(), "}".to_string(), String::new()]);
+
+        lines.extend(self.rows(routine, functions, &parameters, is_required));
+        lines
+    }
+
+    /// The type of parameters that need not be complete.
+    fn given(&self) -> &'static str {
+        let is_any_required = self.library.parameters.iter().any(|p| p.default.is_none());
+        if is_any_required { "Partial<Parameters>" } else { "Parameters" }
+    }
+
+    /// The private function with the formulas.
+    fn rows(
+        &self,
+        routine: &Routine,
+        functions: &Functions,
+        parameters: &[&Parameter],
+        is_required: bool,
+    ) -> Vec<String> {
+        let (n, m) = (self.library.variables.len(), routine.program.outputs().len());
+        let mut names = self.names.clone();
+        let listing = Listing::new(routine.program, &mut names);
+        let read = reads(&listing);
+        let blocks = blocks(&listing, &routine.shape, routine.program.variables(), &mut names);
+        let spelling = self.spelling(&names);
+        let mut about =
+            vec!["@param {ArrayLike<number>} q".to_string(), "@param {Float64Array} out".to_string()];
+        if !parameters.is_empty() {
+            let kind = if is_required { "Partial<Parameters> | undefined" } else { self.given() };
+            about.push(format!("@param {{{kind}}} parameters"));
+        }
+        let mut lines = documentation(&about);
+        let passed = if parameters.is_empty() { "" } else { ", parameters" };
+        lines.push(format!("function {}(q, out{passed}) {{", functions.rows));
+        if !parameters.is_empty() {
+            let value = |p: &&Parameter| {
+                let name = names.of(p.symbol);
+                match p.default {
+                    Some(_) => format!("{name} = DEFAULTS.{name}"),
+                    None => format!("{name} = missing(\"{name}\")"),
+                }
+            };
+            let values: Vec<String> = parameters.iter().map(value).collect();
+            let source = if is_required { "parameters ?? {}" } else { "parameters" };
+            let whole = format!("  const {{ {} }} = {source};", values.join(", "));
+            if whole.len() <= WRAP.width {
+                lines.push(whole);
+            } else {
+                lines.push("  const {".into());
+                lines.extend(values.iter().map(|value| format!("    {value},")));
+                lines.push(format!("  }} = {source};"));
+            }
+        }
+        lines.extend(listing.hoisted.iter().flat_map(|s| statement(s, &spelling, 2)));
+        lines.push(match n {
+            0 => format!("  for (let o = 0; o < out.length; o += {m}) {{"),
+            _ => format!("  for (let i = 0, o = 0; i < q.length; i += {n}, o += {m}) {{"),
+        });
+        for (k, (symbol, _)) in self.library.variables.iter().enumerate().filter(|(_, v)| read.contains(&v.0))
+        {
+            lines.push(format!("    const {} = q[{}];", names.of(*symbol), sum("i", k)));
+        }
+        for (k, block) in blocks.iter().enumerate() {
+            if k > 0 {
+                lines.push(String::new());
+            }
+            lines.extend(block.statements.iter().flat_map(|s| statement(s, &spelling, 4)));
+            if !block.statements.is_empty() {
+                lines.push(String::new());
+            }
+            for (place, value) in &block.results {
+                let head = format!("    out[{}] =", sum("o", *place));
+                lines.extend(WRAP.statement(&head, &spelling.formula(*value), ";"));
+            }
+        }
+        lines.extend(["  }".to_string(), "}".to_string()]);
+        lines
+    }
+}
+
+fn sum(base: &str, offset: usize) -> String {
+    if offset == 0 { base.into() } else { format!("{base} + {offset}") }
+}
+
+fn statement(statement: &Statement, spelling: &Spelling, indent: usize) -> Vec<String> {
+    let margin = " ".repeat(indent);
+    let one = |name: &str, value: Expr| {
+        let head = format!("{margin}const {} =", spelling.names.of(Symbol::new(name)));
+        WRAP.statement(&head, &spelling.formula(value), ";")
+    };
+    match statement {
+        Statement::Let { name, value } => one(name, *value),
+        Statement::Pair { angle, sine, cosine } => {
+            let sine = sine.iter().flat_map(|name| one(name, angle.sin()));
+            sine.chain(cosine.iter().flat_map(|name| one(name, angle.cos()))).collect()
+        }
+    }
+}
+
+/// `head(arguments)tail`, an argument a line if need be.
+fn call(head: &str, arguments: &str, tail: &str) -> Vec<String> {
+    let whole = format!("{head}({arguments}){tail}");
+    if whole.len() <= WRAP.width {
+        return vec![whole];
+    }
+    let margin = " ".repeat(head.len() - head.trim_start().len());
+    let mut lines = vec![format!("{head}(")];
+    lines.extend(split(arguments, &[", "]).iter().map(|(_, a)| format!("{margin}  {a},")));
+    lines.push(format!("{margin}){tail}"));
+    lines
+}
+
+/// A line of a comment in which no word is a tag.
+fn untagged(text: &str) -> String {
+    let mut plain = String::new();
+    for c in comment(text).chars() {
+        let opens_a_word = plain.chars().next_back().is_none_or(|last| !last.is_alphanumeric());
+        if c == '@' && opens_a_word {
+            plain.push_str("(at)");
+        } else {
+            plain.push(c);
+        }
+    }
+    plain
+}
+
+fn documentation(about: &[String]) -> Vec<String> {
+    let mut lines = vec!["/**".to_string()];
+    for line in about {
+        for part in prose(&comment(line), WRAP.width - 3) {
+            lines.push(format!(" * {part}").trim_end().to_string());
+        }
+    }
+    lines.push(" */".into());
+    lines
+}
+
+impl Module<'_> {
+    fn tests(&self) -> Vec<String> {
+        let mut lines = self.header();
+        let mut imports: Vec<&str> = vec![];
+        for functions in &self.functions {
+            imports.extend([functions.one.as_str(), functions.batch.as_str()]);
+        }
+        imports.sort_unstable();
+        lines.extend(
+            [
+                "",
+                "// The functions at stored configurations; results of an independent source.",
+                "",
+                "import assert from \"node:assert/strict\";",
+                "import test from \"node:test\";",
+            ]
+            .map(String::from),
+        );
+        let whole = format!("import {{ {} }} from \"./{}.js\";", imports.join(", "), self.name);
+        if whole.len() <= WRAP.width {
+            lines.push(whole);
+        } else {
+            lines.push("import {".into());
+            lines.extend(imports.iter().map(|name| format!("  {name},")));
+            lines.push(format!("}} from \"./{}.js\";", self.name));
+        }
+        let text = r"
+// Units in the last place of the size of a result.
+const TOLERANCE = 4 * 2 ** -52;
+
+/**
+ * @param {ArrayLike<number>} actual
+ * @param {ArrayLike<number>} expected
+ * @param {ArrayLike<number>} scales
+ */
+function check(actual, expected, scales) {
+  assert.equal(actual.length, expected.length);
+  for (let k = 0; k < expected.length; k++) {
+    const error = Math.abs(actual[k] - expected[k]);
+    const bound = TOLERANCE * scales[k];
+    assert.ok(error <= bound, `result ${k}: ${actual[k]}, not ${expected[k]}`);
+  }
+}";
+        lines.extend(text.lines().map(str::to_string));
+        for (routine, functions) in self.library.routines.iter().zip(&self.functions) {
+            lines.extend(self.test(routine, functions));
+        }
+        lines
+    }
+
+    fn test(&self, routine: &Routine, functions: &Functions) -> Vec<String> {
+        let (n, m) = (self.library.variables.len(), routine.program.outputs().len());
+        let Functions { one, batch, cases, scales, .. } = functions;
+        let parameters = self.parameters_of(routine);
+        let entry = |name: &str, values: &[f64]| -> Vec<String> {
+            let numbers = self.numbers(values);
+            let whole = format!("    {name}: [{}],", numbers.join(", "));
+            if whole.len() <= WRAP.width {
+                return vec![whole];
+            }
+            let mut lines = vec![format!("    {name}: [")];
+            lines.extend(WRAP.list(&numbers, 6));
+            lines.push("    ],".into());
+            lines
+        };
+        let mut lines = vec![String::new()];
+        let numbers = self.numbers(&routine.scales);
+        let whole = format!("const {scales} = [{}];", numbers.join(", "));
+        if whole.len() <= WRAP.width {
+            lines.push(whole);
+        } else {
+            lines.push(format!("const {scales} = ["));
+            lines.extend(WRAP.list(&numbers, 2));
+            lines.push("];".into());
+        }
+        lines.push(format!("const {cases} = ["));
+        for vector in &routine.vectors {
+            lines.push("  {".into());
+            lines.extend(entry("q", &vector.variables));
+            if !parameters.is_empty() {
+                let values = self.library.parameters.iter().zip(&vector.parameters);
+                let values: Vec<String> = values
+                    .map(|(p, x)| format!("{}: {}", self.names.of(p.symbol), self.numbers(&[*x])[0]))
+                    .collect();
+                let whole = format!("    parameters: {{ {} }},", values.join(", "));
+                if whole.len() <= WRAP.width {
+                    lines.push(whole);
+                } else {
+                    lines.push("    parameters: {".into());
+                    lines.extend(values.iter().map(|value| format!("      {value},")));
+                    lines.push("    },".into());
+                }
+            }
+            lines.extend(entry("expected", &vector.results));
+            lines.push("  },".into());
+        }
+        lines.push("];".into());
+
+        let given = if parameters.is_empty() { "" } else { ", parameters" };
+        let first = if parameters.is_empty() { String::new() } else { ", parameters".to_string() };
+        lines.extend(
+            format!(
+                "
+test(\"{one} of one row\", () => {{
+  for (const {{ q, expected{given} }} of {cases}) {{
+    const out = new Float64Array({m});
+    assert.equal({one}(q, out{given}), out);
+    check(out, expected, {scales});
+  }}
+}});
+"
+            )
+            .lines()
+            .map(str::to_string),
+        );
+        let all = if parameters.is_empty() {
+            format!(
+                "
+test(\"{batch} of all rows\", () => {{
+  const q = Float64Array.from({cases}.flatMap((c) => c.q));
+  const out = {batch}(q);
+  {cases}.forEach(({{ expected }}, k) => {{
+    check(out.subarray(k * {m}, (k + 1) * {m}), expected, {scales});
+  }});
+}});
+"
+            )
+        } else {
+            format!(
+                "
+test(\"{batch} of all rows\", () => {{
+  const q = Float64Array.from({cases}.flatMap((c) => c.q));
+  {cases}.forEach(({{ parameters, expected }}, k) => {{
+    const out = {batch}(q, undefined, parameters);
+    check(out.subarray(k * {m}, (k + 1) * {m}), expected, {scales});
+  }});
+}});
+"
+            )
+        };
+        if n > 0 {
+            lines.extend(all.lines().map(str::to_string));
+        }
+        let undefined = if first.is_empty() { "" } else { ", undefined" };
+        let [more_in, more_out] = [n + 1, m + 1].map(|length| format!("new Float64Array({length})"));
+        lines.extend([String::new(), format!("test(\"{one} refuses other lengths\", () => {{")]);
+        lines.push(format!("  const q = new Float64Array({n});"));
+        if !parameters.is_empty() {
+            lines.push(format!("  const {{ parameters }} = {cases}[0];"));
+        }
+        let mut refused =
+            |refused: String| lines.extend(call("  assert.throws", &format!("() => {refused}, RangeError"), ";"));
+        refused(format!("{one}({more_in}{undefined}{first})"));
+        refused(format!("{one}(q, {more_out}{first})"));
+        if n > 0 {
+            refused(format!("{batch}(q, {more_out}{first})"));
+        }
+        lines.push("});".into());
+        if let Some(required) = parameters.iter().find(|p| p.default.is_none()) {
+            let name = self.names.of(required.symbol);
+            lines
+                .extend([String::new(), format!("test(\"{one} says which parameter is missing\", () => {{")]);
+            lines.push("  // @ts-expect-error: a parameter without a default is required".into());
+            lines.push(format!("  const incomplete = () => {one}(new Float64Array({n}));"));
+            lines.push(format!("  assert.throws(incomplete, /parameter {name} is missing/);"));
+            lines.push("});".into());
+        }
+        lines
+    }
+
+    fn package(&self) -> Vec<String> {
+        let quoted = |text: &str| format!("\"{}\"", comment(text).replace('"', "'"));
+        let mut lines = vec!["{".to_string(), "  \"//\": [".into()];
+        let header: Vec<String> =
+            self.library.header.iter().map(|line| format!("    {}", quoted(line))).collect();
+        lines.push(header.join(",\n"));
+        lines.extend([
+            "  ],".to_string(),
+            format!("  \"name\": \"{}\",", self.name.replace('_', "-")),
+            "  \"version\": \"1.0.0\",".into(),
+            format!("  \"description\": {},", quoted(&self.library.title)),
+            "  \"type\": \"module\",".into(),
+            format!("  \"exports\": \"./{}.js\",", self.name),
+            "  \"scripts\": { \"test\": \"node --test\" }".into(),
+            "}".into(),
+        ]);
+        lines
+    }
+}

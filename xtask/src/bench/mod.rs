@@ -1,0 +1,74 @@
+//! Benchmarks, and the page that keeps their results.
+
+mod derivation;
+mod evaluation;
+
+use crate::{command, date, path};
+use anyhow::{Context, Result};
+use std::fs;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+const PAGE: &str = "docs/performance.md";
+
+/// What can be measured: its name, the title of its section, and the measurement.
+type Part = (&'static str, &'static str, fn() -> Result<String>);
+
+const PARTS: &[Part] =
+    &[("evaluation", "Evaluation", evaluation::run), ("derivation", "Derivation", derivation::run)];
+
+/// Measures the parts named, or all of them; with `write` their sections of the page are renewed.
+///
+/// # Errors
+/// If a measurement fails, there is no such part, or the page cannot be written.
+pub fn run(wanted: &[&str], write: bool) -> Result<()> {
+    if let Some(unknown) = wanted.iter().find(|w| PARTS.iter().all(|p| p.0 != **w)) {
+        let known: Vec<&str> = PARTS.iter().map(|p| p.0).collect();
+        anyhow::bail!("no benchmark `{unknown}`; there are {}", known.join(", "));
+    }
+    for (_, title, measure) in PARTS.iter().filter(|p| wanted.is_empty() || wanted.contains(&p.0)) {
+        println!("\n━━ {title} ━━");
+        let section = measure()?;
+        if write {
+            renew(title, &section)?;
+            println!("wrote the section {title} of {PAGE}");
+        }
+    }
+    Ok(())
+}
+
+/// Replaces one section of the page, from its heading to the next one of that rank.
+fn renew(title: &str, section: &str) -> Result<()> {
+    let page = fs::read_to_string(path(PAGE)).context(PAGE)?;
+    let heading = format!("## {title}\n");
+    let start = page.find(&heading).with_context(|| format!("{PAGE} has no section {title}"))?;
+    let rest = start + heading.len();
+    let end = page[rest..].find("\n## ").map_or(page.len(), |n| rest + n + 1);
+    let today = date(SystemTime::now().duration_since(UNIX_EPOCH)?.as_secs() / 86_400);
+    let text = format!(
+        "{}{heading}\nMeasured {today} on {}.\n\n{}\n{}",
+        &page[..start],
+        machine(),
+        section.trim_end(),
+        if end < page.len() { format!("\n{}", &page[end..]) } else { String::new() }
+    );
+    fs::write(path(PAGE), text).context(PAGE)
+}
+
+/// Processor, cores, system and compiler.
+fn machine() -> String {
+    let info = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let field = |name: &str| {
+        let line = info.lines().find_map(|l| l.strip_prefix(name)?.split_once(':'));
+        line.map(|l| l.1.trim().to_string())
+    };
+    let model = field("model name").unwrap_or_else(|| std::env::consts::ARCH.into());
+    let family = match (field("cpu family"), field("model\t")) {
+        (Some(family), Some(number)) => format!(", family {family} model {number}"),
+        _ => String::new(),
+    };
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let rustc = command("rustc").arg("--version").output();
+    let rustc = rustc.map(|o| String::from_utf8_lossy(&o.stdout).trim().to_string());
+    let rustc = rustc.unwrap_or_else(|_| "rustc, version unknown".into());
+    format!("{model}{family} ({cores} cores, {}, {rustc})", std::env::consts::OS)
+}
