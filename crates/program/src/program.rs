@@ -67,6 +67,8 @@ impl Program {
         let mut used: FxHashSet<String> = taken.clone();
         used.extend(outputs.iter().map(|o| o.0.clone()));
         let in_angles = only_in_angles(&ops, &outputs);
+        let plain_sums = plain_sums(&ops);
+        let mut last: FxHashMap<&str, u32> = FxHashMap::default();
         let mut names = vec![None; ops.len()];
         for (i, (op, stage)) in ops.iter().enumerate() {
             let is_leaf = matches!(op, Op::Number(_) | Op::Pi | Op::Input(_));
@@ -75,13 +77,13 @@ impl Program {
             }
             // A sine or cosine of a sum of inputs has a short name of its own.
             let prefix = match op {
-                Op::Sin(a) | Op::Cos(a) if is_plain_sum(&ops, *a) => continue,
+                Op::Sin(a) | Op::Cos(a) if plain_sums[*a as usize] => continue,
                 Op::Sin(_) => "sa",
                 Op::Cos(_) => "ca",
                 _ => "m",
             };
             let proposed = hint(nodes[i]).filter(|name| used.insert(name.clone()));
-            names[i] = Some(proposed.unwrap_or_else(|| numbered(prefix, &mut used)));
+            names[i] = Some(proposed.unwrap_or_else(|| numbered(prefix, last.entry(prefix).or_default(), &mut used)));
         }
         Program {
             variables: graph.variables().to_vec(),
@@ -309,26 +311,31 @@ fn tidy(e: Expr) -> Expr {
     }
 }
 
-/// The first of `prefix1`, `prefix2`, … that is not used.
-fn numbered(prefix: &str, used: &mut FxHashSet<String>) -> String {
-    let mut number = 1;
+/// The first name `prefix1`, `prefix2`, … behind the last that is not used.
+fn numbered(prefix: &str, last: &mut u32, used: &mut FxHashSet<String>) -> String {
     loop {
-        let name = format!("{prefix}{number}");
+        *last += 1;
+        let name = format!("{prefix}{last}");
         if used.insert(name.clone()) {
             return name;
         }
-        number += 1;
     }
 }
 
-/// True for an input, a sum of inputs, or a difference of two.
-fn is_plain_sum(ops: &[(Op, Stage)], n: u32) -> bool {
-    match &ops[n as usize].0 {
-        Op::Input(_) => true,
-        Op::Add(a, b) => is_plain_sum(ops, *a) && is_plain_sum(ops, *b),
-        Op::Sub(a, b) => [a, b].iter().all(|n| matches!(ops[**n as usize].0, Op::Input(_))),
-        _ => false,
+/// For each operation, whether it is an input, a sum of inputs, or a difference of two.
+fn plain_sums(ops: &[(Op, Stage)]) -> Vec<bool> {
+    let is_input = |n: u32| matches!(ops[n as usize].0, Op::Input(_));
+    let mut plain = vec![false; ops.len()];
+    for (i, (op, _)) in ops.iter().enumerate() {
+        plain[i] = match op {
+            Op::Input(_) => true,
+            Op::Add(a, b) => plain[*a as usize] && plain[*b as usize],
+            Op::Sub(a, b) => is_input(*a) && is_input(*b),
+            Op::Number(_) | Op::Pi | Op::Mul(..) | Op::Div(..) => false,
+            Op::Sqrt(_) | Op::Sin(_) | Op::Cos(_) | Op::Atan2(..) => false,
+        };
     }
+    plain
 }
 
 /// For each operation, whether it is read by sines and cosines alone, or by sums that are.

@@ -1,9 +1,9 @@
 //! JavaScript: an ES module over typed arrays with types in its comments, its tests, and the package file.
 //!
-//! Functions write into arrays of the caller's; one private function per routine walks over all rows, so that what
-//! depends on parameters alone is computed once.
+//! Functions write into arrays of the caller's. The formulas stand in one private function per routine, for one row;
+//! what depends on parameters alone is computed before and handed to it.
 
-use crate::emit::blocks::{blocks, reads};
+use crate::emit::blocks::{Block, blocks, reads};
 use crate::emit::listing::{Listing, Statement};
 use crate::emit::names::{Names, comment, sanitised};
 use crate::emit::spelling::Spelling;
@@ -36,7 +36,7 @@ struct Functions {
     /// Many rows.
     batch: String,
     /// The formulas, private.
-    rows: String,
+    row: String,
     /// What the tests hold.
     cases: String,
     scales: String,
@@ -57,9 +57,9 @@ impl<'a> Module<'a> {
         for routine in &library.routines {
             let one = names.free(&sanitised(&routine.name));
             let batch = names.free(&format!("{one}Batch"));
-            let rows = names.free(&format!("{one}Rows"));
+            let row = names.free(&format!("{one}Row"));
             let [cases, scales] = ["Cases", "Scales"].map(|what| names.free(&format!("{one}{what}")));
-            functions.push(Functions { one, batch, rows, cases, scales });
+            functions.push(Functions { one, batch, row, cases, scales });
         }
         library.variables.iter().for_each(|(symbol, _)| names.declare(*symbol));
         library.parameters.iter().for_each(|p| names.declare(p.symbol));
@@ -138,11 +138,12 @@ impl<'a> Module<'a> {
         let (n, m) = (self.library.variables.len(), routine.program.outputs().len());
         let parameters = self.parameters_of(routine);
         let is_required = parameters.iter().any(|p| p.default.is_none());
-        let (given, passed) = match (parameters.is_empty(), is_required) {
-            (true, _) => ("", ""),
-            (false, true) => (", parameters", ", parameters"),
-            (false, false) => (", parameters = DEFAULTS", ", parameters"),
+        let given = match (parameters.is_empty(), is_required) {
+            (true, _) => "",
+            (false, true) => ", parameters",
+            (false, false) => ", parameters = DEFAULTS",
         };
+        let body = Body::new(self, routine);
         let tag = match (parameters.is_empty(), is_required) {
             (true, _) => None,
             (false, true) => Some("@param {Parameters} parameters values of the symbols".to_string()),
@@ -182,7 +183,8 @@ impl<'a> Module<'a> {
             ));
             lines.push("  }".into());
         }
-        lines.push(format!("  {}(q, out{passed});", functions.rows));
+        lines.extend(body.opening(&parameters, is_required));
+        lines.extend(call(&format!("  {}", functions.row), &body.arguments("q, 0, out, 0"), ";"));
         lines.extend(["  return out;".to_string(), "}".to_string(), String::new()]);
 
         // Many rows.
@@ -226,10 +228,14 @@ impl<'a> Module<'a> {
             ));
             lines.push("  }".into());
         }
-        lines.push(format!("  {}(q, out{passed});", functions.rows));
-        lines.extend(["  return out;".to_string(), "}".to_string(), String::new()]);
-
-        lines.extend(self.rows(routine, functions, &parameters, is_required));
+        lines.extend(body.opening(&parameters, is_required));
+        lines.push(match n {
+            0 => format!("  for (let i = 0, o = 0; o < out.length; o += {m}) {{"),
+            _ => format!("  for (let i = 0, o = 0; i < q.length; i += {n}, o += {m}) {{"),
+        });
+        lines.extend(call(&format!("    {}", functions.row), &body.arguments("q, i, out, o"), ";"));
+        lines.extend(["  }", "  return out;", "}", ""].map(String::from));
+        lines.extend(body.row(functions));
         lines
     }
 
@@ -238,72 +244,100 @@ impl<'a> Module<'a> {
         let is_any_required = self.library.parameters.iter().any(|p| p.default.is_none());
         if is_any_required { "Partial<Parameters>" } else { "Parameters" }
     }
+}
 
-    /// The private function with the formulas.
-    fn rows(
-        &self,
-        routine: &Routine,
-        functions: &Functions,
-        parameters: &[&Parameter],
-        is_required: bool,
-    ) -> Vec<String> {
-        let (n, m) = (self.library.variables.len(), routine.program.outputs().len());
-        let mut names = self.names.clone();
+/// The formulas of a routine.
+struct Body<'a> {
+    library: &'a Library<'a>,
+    names: Names,
+    listing: Listing,
+    blocks: Vec<Block>,
+    /// What the formulas of a row read of the parameters and of what depends on them alone.
+    constants: Vec<Symbol>,
+}
+
+impl<'a> Body<'a> {
+    fn new(module: &Module<'a>, routine: &Routine) -> Self {
+        let library = module.library;
+        let mut names = module.names.clone();
         let listing = Listing::new(routine.program, &mut names);
-        let read = reads(&listing);
         let blocks = blocks(&listing, &routine.shape, routine.program.variables(), &mut names);
-        let spelling = self.spelling(&names);
-        let mut about =
-            vec!["@param {ArrayLike<number>} q".to_string(), "@param {Float64Array} out".to_string()];
-        if !parameters.is_empty() {
-            let kind = if is_required { "Partial<Parameters> | undefined" } else { self.given() };
-            about.push(format!("@param {{{kind}}} parameters"));
-        }
-        let mut lines = documentation(&about);
-        let passed = if parameters.is_empty() { "" } else { ", parameters" };
-        lines.push(format!("function {}(q, out{passed}) {{", functions.rows));
-        if !parameters.is_empty() {
-            let value = |p: &&Parameter| {
-                let name = names.of(p.symbol);
-                match p.default {
-                    Some(_) => format!("{name} = DEFAULTS.{name}"),
-                    None => format!("{name} = missing(\"{name}\")"),
-                }
-            };
-            let values: Vec<String> = parameters.iter().map(value).collect();
-            let source = if is_required { "parameters ?? {}" } else { "parameters" };
-            let whole = format!("  const {{ {} }} = {source};", values.join(", "));
-            if whole.len() <= WRAP.width {
-                lines.push(whole);
-            } else {
-                lines.push("  const {".into());
+        let read = reads(&Listing { hoisted: vec![], ..listing.clone() });
+        let parameters = library.parameters.iter().map(|p| p.symbol);
+        let hoisted = listing.hoisted.iter().flat_map(|statement| match statement {
+            Statement::Pair { sine, cosine, .. } => vec![sine.as_ref(), cosine.as_ref()],
+            Statement::Let { name, .. } => vec![Some(name)],
+        });
+        let hoisted = hoisted.flatten().map(|name| Symbol::new(name));
+        let constants = parameters.chain(hoisted).filter(|s| read.contains(s)).collect();
+        Body { library, names, listing, blocks, constants }
+    }
+
+    fn spelling(&self) -> Spelling<'_> {
+        Spelling { language: Language::JavaScript, precision: Precision::Double, names: &self.names }
+    }
+
+    /// The parameters taken apart, and what depends on them alone.
+    fn opening(&self, parameters: &[&Parameter], is_required: bool) -> Vec<String> {
+        let value = |p: &&Parameter| {
+            let name = self.names.of(p.symbol);
+            match p.default {
+                Some(_) => format!("{name} = DEFAULTS.{name}"),
+                None => format!("{name} = missing(\"{name}\")"),
+            }
+        };
+        let values: Vec<String> = parameters.iter().map(value).collect();
+        let source = if is_required { "parameters ?? {}" } else { "parameters" };
+        let whole = format!("  const {{ {} }} = {source};", values.join(", "));
+        let mut lines = match values.len() {
+            0 => vec![],
+            _ if whole.len() <= WRAP.width => vec![whole],
+            _ => {
+                let mut lines = vec!["  const {".to_string()];
                 lines.extend(values.iter().map(|value| format!("    {value},")));
                 lines.push(format!("  }} = {source};"));
+                lines
             }
+        };
+        lines.extend(self.listing.hoisted.iter().flat_map(|s| statement(s, &self.spelling())));
+        lines
+    }
+
+    /// Arguments of the function for a row.
+    fn arguments(&self, first: &str) -> String {
+        let constants = self.constants.iter().map(|s| format!(", {}", self.names.of(*s)));
+        format!("{first}{}", constants.collect::<String>())
+    }
+
+    /// The private function with the formulas.
+    fn row(&self, functions: &Functions) -> Vec<String> {
+        let mut about =
+            vec![format!("`{}` of the row that begins at `q[i]`, into `out[o]` and on.", functions.one)];
+        about.push(String::new());
+        about.extend(["@param {ArrayLike<number>} q", "@param {number} i"].map(String::from));
+        about.extend(["@param {Float64Array} out", "@param {number} o"].map(String::from));
+        about.extend(self.constants.iter().map(|s| format!("@param {{number}} {}", self.names.of(*s))));
+        let mut lines = documentation(&about);
+        lines.extend(call(&format!("function {}", functions.row), &self.arguments("q, i, out, o"), " {"));
+        let read = reads(&self.listing);
+        let variables = self.library.variables.iter().enumerate();
+        for (k, (symbol, _)) in variables.filter(|(_, v)| read.contains(&v.0)) {
+            lines.push(format!("  const {} = q[{}];", self.names.of(*symbol), sum("i", k)));
         }
-        lines.extend(listing.hoisted.iter().flat_map(|s| statement(s, &spelling, 2)));
-        lines.push(match n {
-            0 => format!("  for (let o = 0; o < out.length; o += {m}) {{"),
-            _ => format!("  for (let i = 0, o = 0; i < q.length; i += {n}, o += {m}) {{"),
-        });
-        for (k, (symbol, _)) in self.library.variables.iter().enumerate().filter(|(_, v)| read.contains(&v.0))
-        {
-            lines.push(format!("    const {} = q[{}];", names.of(*symbol), sum("i", k)));
-        }
-        for (k, block) in blocks.iter().enumerate() {
+        for (k, block) in self.blocks.iter().enumerate() {
             if k > 0 {
                 lines.push(String::new());
             }
-            lines.extend(block.statements.iter().flat_map(|s| statement(s, &spelling, 4)));
+            lines.extend(block.statements.iter().flat_map(|s| statement(s, &self.spelling())));
             if !block.statements.is_empty() {
                 lines.push(String::new());
             }
             for (place, value) in &block.results {
-                let head = format!("    out[{}] =", sum("o", *place));
-                lines.extend(WRAP.statement(&head, &spelling.formula(*value), ";"));
+                let head = format!("  out[{}] =", sum("o", *place));
+                lines.extend(WRAP.statement(&head, &self.spelling().formula(*value), ";"));
             }
         }
-        lines.extend(["  }".to_string(), "}".to_string()]);
+        lines.push("}".into());
         lines
     }
 }
@@ -312,10 +346,9 @@ fn sum(base: &str, offset: usize) -> String {
     if offset == 0 { base.into() } else { format!("{base} + {offset}") }
 }
 
-fn statement(statement: &Statement, spelling: &Spelling, indent: usize) -> Vec<String> {
-    let margin = " ".repeat(indent);
+fn statement(statement: &Statement, spelling: &Spelling) -> Vec<String> {
     let one = |name: &str, value: Expr| {
-        let head = format!("{margin}const {} =", spelling.names.of(Symbol::new(name)));
+        let head = format!("  const {} =", spelling.names.of(Symbol::new(name)));
         WRAP.statement(&head, &spelling.formula(value), ";")
     };
     match statement {
@@ -515,8 +548,9 @@ test(\"{batch} of all rows\", () => {{
         if !parameters.is_empty() {
             lines.push(format!("  const {{ parameters }} = {cases}[0];"));
         }
-        let mut refused =
-            |refused: String| lines.extend(call("  assert.throws", &format!("() => {refused}, RangeError"), ";"));
+        let mut refused = |refused: String| {
+            lines.extend(call("  assert.throws", &format!("() => {refused}, RangeError"), ";"))
+        };
         refused(format!("{one}({more_in}{undefined}{first})"));
         refused(format!("{one}(q, {more_out}{first})"));
         if n > 0 {

@@ -422,7 +422,11 @@ impl Module<'_> {
         let mut lines = vec![String::new(), String::new()];
         let class: Vec<String> = function.split('_').map(capitalised).collect();
         lines.push(format!("class Test{}(Stored, unittest.TestCase):", class.concat()));
-        lines.extend(WRAP.statement("    function =", &format!("staticmethod({}.{function})", self.name), ""));
+        lines.extend(WRAP.statement(
+            "    function =",
+            &format!("staticmethod({}.{function})", self.name),
+            "",
+        ));
         lines.extend(self.table("q", routine.vectors.iter().map(|v| &v.variables[..]), ""));
         if self.is_parametric(routine) {
             lines.push("    arguments = [".into());

@@ -12,15 +12,14 @@ impl Source<'_> {
         let name = &self.name;
         let words = format!("The stored configurations of {name}.c, one by one and in blocks.");
         let mut text = block_comment(self.lines().chain(["", &words]));
-        text.push_str(&include_str!("test_head.c").replace("@name@", name));
+        text.push_str(&include_str!("test_head.c").replace("@name@", name).replace("@N@", &self.upper()));
         let tested: Vec<&Function> = self.functions.iter().filter(|f| !f.routine.vectors.is_empty()).collect();
         if !tested.is_empty() {
             text.push_str(&preamble(self.library, TOLERANCE));
         }
         for f in &tested {
             text.push_str(&tables(f, self.library));
-            let body = include_str!("test_function.c").replace("@N@", &self.upper());
-            text.push_str(&filled(&body, f, self.library, name));
+            text.push_str(&filled(include_str!("test_function.c"), f, self.library, name));
         }
         text.push_str("\nint main(void)\n{\n");
         for f in tested {

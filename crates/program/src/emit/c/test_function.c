@@ -1,7 +1,8 @@
 
 static void test_@f@(void)
 {
-    static real q[VARIABLES * @N@_LANES], block[@F@_RESULTS * @N@_LANES];
+    static real q[VARIABLES * LANES];
+    static real block[@F@_RESULTS * LANES];
     for (int v = 0; v < @F@_VECTORS; v++) {
 @parameters@
         real variables[VARIABLES];
@@ -13,9 +14,9 @@ static void test_@f@(void)
         const real *one = @result@@first@;
 
         /* The same in every @F@_VECTORS-th lane, between the other configurations. */
-        for (int i = 0; i < @N@_LANES; i++) {
+        for (int i = 0; i < LANES; i++) {
             for (int j = 0; j < VARIABLES; j++) {
-                q[@N@_LANES * j + i] = (real)@f@_variables[(v + i) % @F@_VECTORS][j];
+                q[LANES * j + i] = (real)@f@_variables[(v + i) % @F@_VECTORS][j];
             }
         }
         @name@_@f@_block(q, @address@block);
@@ -23,8 +24,8 @@ static void test_@f@(void)
             const double expected = @f@_results[v][k];
             const double allowed = tolerance(@f@_variables[v]) * @f@_scales[k];
             check("@f@", v, k, (double)one[k], expected, allowed);
-            for (int i = 0; i < @N@_LANES; i += @F@_VECTORS) {
-                const double value = (double)block[@N@_LANES * k + i];
+            for (int i = 0; i < LANES; i += @F@_VECTORS) {
+                const double value = (double)block[LANES * k + i];
                 check("@f@_block", v, k, value, expected, allowed);
             }
         }
@@ -33,12 +34,13 @@ static void test_@f@(void)
         /* Where the routines without branches do not hold, the two agree bit by bit. */
         for (int j = 0; j < VARIABLES; j++) {
             variables[j] = (real)1e15;
-            q[@N@_LANES * j + 1] = variables[j];
+            q[LANES * j + 1] = variables[j];
         }
         @name@_@f@(variables, @address@@result@);
         @name@_@f@_block(q, @address@block);
         for (int k = 0; k < @F@_RESULTS; k++) {
-            check("@f@_block, huge", v, k, (double)block[@N@_LANES * k + 1], (double)one[k], 0.0);
+            const double value = (double)block[LANES * k + 1];
+            check("@f@_block, huge", v, k, value, (double)one[k], 0.0);
         }
 #endif
     }

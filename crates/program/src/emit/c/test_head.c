@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 
+enum { LANES = @N@_LANES };
+
 static int failures;
 
 static void

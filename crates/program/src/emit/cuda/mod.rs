@@ -4,12 +4,14 @@
 
 mod test;
 
-use crate::emit::compiled::{Body, Function, Pair, Step, WIDTH, defaults, file_name, functions, inputs, lines, opening};
+use crate::emit::compiled::{
+    Body, Function, Pair, Step, WIDTH, defaults, file_name, functions, inputs, opening,
+};
 use crate::emit::names::Names;
 use crate::emit::spelling::Spelling;
 use crate::emit::wrap::comments;
 use crate::emit::{File, Language, Library, Precision, c};
-use denavit_symbolic::{Expr, Symbol};
+use denavit_symbolic::Expr;
 use std::fmt::Write;
 
 /// Words that the emitted code uses, besides those of C.

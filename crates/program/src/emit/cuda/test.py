@@ -1,7 +1,8 @@
 """Compiles @name@.cu at run time (NVRTC) and holds the kernels to the stored configurations.
 
-Needs the NVRTC library (the CUDA toolkit, or `pip install nvidia-cuda-nvrtc-cu12`) and, to run, a GPU
-with its driver. Ends with 0 if all agree, 1 if not, and 77 if the code compiled but there is no GPU.
+Needs the NVRTC library (the CUDA toolkit, or `pip install nvidia-cuda-nvrtc-cu12`) and, to run, a
+GPU with its driver. Ends with 0 if all agree, 1 if not, 77 if the code compiles but there is no
+GPU.
 """
 
 import ctypes

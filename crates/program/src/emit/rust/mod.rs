@@ -6,7 +6,7 @@
 mod test;
 
 use crate::emit::compiled::{
-    Body, EIGHT, Function, Pair, Step, WIDTH, WRAP, defaults, file_name, functions, inputs, lines, opening,
+    Body, EIGHT, Function, Pair, Step, WIDTH, defaults, file_name, functions, inputs, lines, opening,
 };
 use crate::emit::names::{Names, comment};
 use crate::emit::spelling::Spelling;
@@ -92,8 +92,8 @@ impl Source<'_> {
         format!(
             "{}\n[package]\nname = \"{}\"\nversion = \"0.1.0\"\nedition = \"2024\"\nrust-version = \"1.85\"\n\
              description = \"{title}\"\n\n[features]\ndefault = [\"std\"]\n\
-             # Uses fused multiply-add where the target has it (RUSTFLAGS=\"-C target-cpu=x86-64-v3\"). Without this\n\
-             # feature nothing but `core` is needed, and results have the same bits on every machine.\nstd = []\n",
+             # Fused multiply-add where the target has it (RUSTFLAGS=\"-C target-cpu=x86-64-v3\"). Without\n\
+             # this feature only `core` is needed, and results have the same bits on every machine.\nstd = []\n",
             self.head("# ", &[]),
             self.name
         )
@@ -150,7 +150,12 @@ impl Source<'_> {
         match &used[..] {
             [] => {}
             [one] => _ = writeln!(text, "use kernel::{one};"),
-            many => _ = writeln!(text, "use kernel::{{{}}};", many.join(", ")),
+            many => {
+                let many: Vec<String> = many.iter().map(|name| name.to_string()).collect();
+                let mut out = Body { text, indent: 0 };
+                out.list("use kernel::{", &many, "};");
+                text = out.text;
+            }
         }
         let _ = write!(text, "\n/// Configurations of a block.\npub const LANES: usize = {LANES};\n");
         text.push_str(&self.parameters());
@@ -389,20 +394,21 @@ impl Source<'_> {
     }
 
     fn eight(&self, f: &Function, run: &[Pair], names: &mut Names, out: &mut Body) {
-        let [sines, cosines] = ["sines", "cosines"].map(|word| names.free(word));
         let mut formulas: Vec<String> = run.iter().map(|p| self.spelling(f).formula(p.angle)).collect();
         formulas.resize(EIGHT, "0.0".into());
-        out.list(&format!("let ({sines}, {cosines}) = sin_cos_8(["), &formulas, "]);");
         let name = |name: &Option<String>| name.as_ref().map_or("_", |name| f.of(name)).to_string();
-        for (list, array) in [
-            (run.iter().map(|p| name(&p.sine)).collect::<Vec<_>>(), sines),
-            (run.iter().map(|p| name(&p.cosine)).collect(), cosines),
-        ] {
-            let mut list = list;
-            if run.len() < EIGHT {
+        let sines: Vec<String> = run.iter().map(|p| name(&p.sine)).collect();
+        let cosines: Vec<String> = run.iter().map(|p| name(&p.cosine)).collect();
+        let mut array = |word: &str, list: &[String]| {
+            if list.iter().all(|name| name == "_") { "_".into() } else { names.free(word) }
+        };
+        let arrays = [array("sines", &sines), array("cosines", &cosines)];
+        out.list(&format!("let ({}, {}) = sin_cos_8([", arrays[0], arrays[1]), &formulas, "]);");
+        for (mut list, array) in [sines, cosines].into_iter().zip(arrays) {
+            if list.len() < EIGHT {
                 list.push("..".into());
             }
-            if list.iter().any(|name| name != "_" && name != "..") {
+            if array != "_" {
                 out.list("let [", &list, &format!("] = {array};"));
             }
         }
