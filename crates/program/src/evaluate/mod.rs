@@ -2,6 +2,7 @@
 
 mod batch;
 mod block;
+mod file;
 mod machine;
 mod real;
 mod rows;
@@ -11,7 +12,7 @@ mod tape;
 pub use batch::{Batch, Block};
 pub use machine::{Arithmetic, Isa};
 pub use real::Real;
-pub use scalar::{Scalar, atan2_8, sin_cos_8};
+pub use scalar::Scalar;
 
 use crate::code::Code;
 use crate::program::Program;

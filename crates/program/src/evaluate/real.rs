@@ -1,5 +1,6 @@
 //! What the evaluators need of `f32` and `f64`.
 
+use crate::evaluate::file::{Double, File, Single};
 use crate::kernel;
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -20,6 +21,8 @@ pub trait Real:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
+    /// The registers of a block.
+    type File: File<Self>;
     /// The nearest number of this kind.
     fn from_f64(x: f64) -> Self;
     /// `√a`
@@ -32,6 +35,7 @@ pub trait Real:
 }
 
 impl Real for f64 {
+    type File = Double;
     fn from_f64(x: f64) -> Self {
         x
     }
@@ -50,6 +54,7 @@ impl Real for f64 {
 }
 
 impl Real for f32 {
+    type File = Single;
     fn from_f64(x: f64) -> Self {
         x as f32
     }

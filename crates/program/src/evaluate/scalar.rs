@@ -136,54 +136,86 @@ fn execute<R: Copy, F: File<R> + ?Sized>(
             Opcode::Div => each(file, now, |f, [a, b, ..]| f.get(a) / f.get(b)),
             Opcode::Sqrt => each(file, now, |f, [a, ..]| f.get(a).sqrt()),
             Opcode::SinCos => {
-                for group in now.chunks(8) {
-                    let (mut x, mut s, mut c) = ([0.0; 8], [0.0; 8], [0.0; 8]);
-                    for (x, cell) in x.iter_mut().zip(group) {
-                        *x = file.get(cell.reads[0]);
-                    }
-                    sin_cos_8(isa, arithmetic, &x, &mut s, &mut c);
-                    for (k, cell) in group.iter().enumerate() {
-                        file.set(cell.writes[0], s[k]);
-                        file.set(cell.writes[1], c[k]);
-                    }
-                }
+                now.chunks(GROUP).for_each(|group| isa.run(arithmetic, Pairs(&mut *file, group)));
             }
             Opcode::Atan2 => {
-                for group in now.chunks(8) {
-                    let (mut y, mut x, mut a) = ([0.0; 8], [1.0; 8], [0.0; 8]);
-                    for (k, cell) in group.iter().enumerate() {
-                        (y[k], x[k]) = (file.get(cell.reads[0]), file.get(cell.reads[1]));
-                    }
-                    atan2_8(isa, arithmetic, &y, &x, &mut a);
-                    for (&a, cell) in a.iter().zip(group) {
-                        file.set(cell.writes[0], a);
-                    }
-                }
+                now.chunks(GROUP).for_each(|group| isa.run(arithmetic, Angles(&mut *file, group)));
             }
         }
     }
 }
 
-/// Sines and cosines of eight angles at once, at most 0.8 units in the last place off.
-pub fn sin_cos_8(isa: Isa, arithmetic: Arithmetic, x: &[f64; 8], s: &mut [f64; 8], c: &mut [f64; 8]) {
-    struct Pairs<'a>(&'a [f64; 8], &'a mut [f64; 8], &'a mut [f64; 8]);
-    impl Work for Pairs<'_> {
-        #[inline(always)]
-        fn run<const FUSED: bool>(self) {
-            kernel::sin_cos_lanes::<FUSED, 8>(self.0, self.1, self.2);
-        }
-    }
-    isa.run(arithmetic, Pairs(x, s, c));
+/// Routines done at once. Their operands are gathered inside the vector code, in arrays whose address nobody takes, so
+/// that they stay in registers: eight stores followed by one wide load would wait for each other.
+const GROUP: usize = 8;
+
+/// What lane k of a group reads; lanes that are left over repeat the last one.
+#[inline(always)]
+fn lanes<R: Copy, F: File<R> + ?Sized>(file: &F, cells: &[Cells<R>], operand: usize) -> [f64; GROUP] {
+    let last = cells.len() - 1;
+    let at = |k: usize| file.get(cells[k.min(last)].reads[operand]);
+    [at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7)]
 }
 
-/// Arctangents of eight quotients at once, at most 2 units in the last place off.
-pub fn atan2_8(isa: Isa, arithmetic: Arithmetic, y: &[f64; 8], x: &[f64; 8], a: &mut [f64; 8]) {
-    struct Angles<'a>(&'a [f64; 8], &'a [f64; 8], &'a mut [f64; 8]);
-    impl Work for Angles<'_> {
-        #[inline(always)]
-        fn run<const FUSED: bool>(self) {
-            kernel::atan2_lanes::<FUSED, 8>(self.0, self.1, self.2);
+/// Sines and cosines of up to eight angles.
+struct Pairs<'a, R, F: ?Sized>(&'a mut F, &'a [Cells<R>]);
+
+impl<R: Copy, F: File<R> + ?Sized> Work for Pairs<'_, R, F> {
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) {
+        let Pairs(file, cells) = self;
+        let x = lanes(file, cells, 0);
+        let (mut s, mut c) = ([0.0; GROUP], [0.0; GROUP]);
+        for (i, x) in x.into_iter().enumerate() {
+            (s[i], c[i]) = if FUSED { kernel::sin_cos_fused(x) } else { kernel::sin_cos_strict(x) };
+        }
+        for ((cell, s), c) in cells.iter().zip(s).zip(c) {
+            file.set(cell.writes[0], s);
+            file.set(cell.writes[1], c);
+        }
+        if !x.iter().fold(true, |all, x| all & kernel::sin_cos_in_range(*x)) {
+            let x = x;
+            repair_pairs(file, cells, &x);
         }
     }
-    isa.run(arithmetic, Angles(y, x, a));
+}
+
+/// Up to eight arctangents.
+struct Angles<'a, R, F: ?Sized>(&'a mut F, &'a [Cells<R>]);
+
+impl<R: Copy, F: File<R> + ?Sized> Work for Angles<'_, R, F> {
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) {
+        let Angles(file, cells) = self;
+        let (y, x) = (lanes(file, cells, 0), lanes(file, cells, 1));
+        let mut a = [0.0; GROUP];
+        for (i, (y, x)) in y.into_iter().zip(x).enumerate() {
+            a[i] = if FUSED { kernel::atan2_fused(y, x) } else { kernel::atan2_strict(y, x) };
+        }
+        cells.iter().zip(a).for_each(|(cell, a)| file.set(cell.writes[0], a));
+        if !y.iter().zip(&x).fold(true, |all, (y, x)| all & kernel::atan2_in_range(*y, *x)) {
+            let points = (y, x);
+            repair_angles(file, cells, &points.0, &points.1);
+        }
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn repair_pairs<R: Copy, F: File<R> + ?Sized>(file: &mut F, cells: &[Cells<R>], x: &[f64]) {
+    for (cell, &x) in cells.iter().zip(x).filter(|(_, x)| !kernel::sin_cos_in_range(**x)) {
+        let (s, c) = kernel::sin_cos_huge(x);
+        file.set(cell.writes[0], s);
+        file.set(cell.writes[1], c);
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn repair_angles<R: Copy, F: File<R> + ?Sized>(file: &mut F, cells: &[Cells<R>], y: &[f64], x: &[f64]) {
+    for ((cell, &y), &x) in cells.iter().zip(y).zip(x) {
+        if !kernel::atan2_in_range(y, x) {
+            file.set(cell.writes[0], kernel::atan2_rare(y, x));
+        }
+    }
 }

@@ -9,21 +9,21 @@ use std::collections::BinaryHeap;
 
 /// Consecutive instructions of one operation.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Run {
+pub struct Run {
     pub opcode: Opcode,
     pub count: usize,
 }
 
 /// Registers: operands a, b, c, d, then results. What an operation does not use is a valid register all the same.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Cells<R> {
+pub struct Cells<R> {
     pub reads: [R; 4],
     pub writes: [R; 2],
 }
 
 /// A scheduled program in registers.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) struct Tape {
+pub struct Tape {
     pub variables: usize,
     pub outputs: usize,
     pub uniforms: usize,
