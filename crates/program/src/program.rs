@@ -83,7 +83,9 @@ impl Program {
                 _ => "m",
             };
             let proposed = hint(nodes[i]).filter(|name| used.insert(name.clone()));
-            names[i] = Some(proposed.unwrap_or_else(|| numbered(prefix, last.entry(prefix).or_default(), &mut used)));
+            names[i] = Some(
+                proposed.unwrap_or_else(|| numbered(prefix, last.entry(prefix).or_default(), &mut used)),
+            );
         }
         Program {
             variables: graph.variables().to_vec(),

@@ -572,8 +572,8 @@ test(\"{batch} of all rows\", () => {{
     fn package(&self) -> Vec<String> {
         let quoted = |text: &str| format!("\"{}\"", comment(text).replace('"', "'"));
         let mut lines = vec!["{".to_string(), "  \"//\": [".into()];
-        let header: Vec<String> =
-            self.library.header.iter().map(|line| format!("    {}", quoted(line))).collect();
+        let header = comments(self.library.header.iter().map(String::as_str), "", WRAP.width - 7);
+        let header: Vec<String> = header.iter().map(|line| format!("    {}", quoted(line))).collect();
         lines.push(header.join(",\n"));
         lines.extend([
             "  ],".to_string(),

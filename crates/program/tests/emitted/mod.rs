@@ -185,6 +185,7 @@ pub fn run_all(language: Language, width: usize, test: impl Fn(&[File]) -> Vec<S
             let output = output.unwrap_or_else(|e| panic!("{}: {e}", command[0]));
             let text = [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
             assert!(output.status.success(), "{label} in {}:\n{}{}", folder.display(), text[0], text[1]);
+            std::fs::remove_dir_all(&folder).expect("a folder of our own");
         }
     }
 }

@@ -106,6 +106,8 @@ pub(crate) const RESERVED: &[&str] = &[
     "sig_atomic_max",
     "sig_atomic_min",
     "real",
+    "values",
+    "value",
     "variables",
     "one",
     "block",

@@ -13,7 +13,8 @@ impl Source<'_> {
         let words = format!("The stored configurations of {name}.c, one by one and in blocks.");
         let mut text = block_comment(self.lines().chain(["", &words]));
         text.push_str(&include_str!("test_head.c").replace("@name@", name).replace("@N@", &self.upper()));
-        let tested: Vec<&Function> = self.functions.iter().filter(|f| !f.routine.vectors.is_empty()).collect();
+        let tested: Vec<&Function> =
+            self.functions.iter().filter(|f| !f.routine.vectors.is_empty()).collect();
         if !tested.is_empty() {
             text.push_str(&preamble(self.library, TOLERANCE));
         }

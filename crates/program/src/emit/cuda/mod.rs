@@ -16,8 +16,8 @@ use std::fmt::Write;
 
 /// Words that the emitted code uses, besides those of C.
 const RESERVED: &[&str] = &[
-    "count", "values", "sincos", "sincosf", "sinf", "cosf", "atan2f", "sqrtf", "launch", "run", "must", "size_t",
-    "in", "out", "std", "blocks", "warpsize", "dim3", "uint3",
+    "count", "values", "sincos", "sincosf", "sinf", "cosf", "atan2f", "sqrtf", "launch", "run", "must",
+    "size_t", "in", "out", "std", "blocks", "warpsize", "dim3", "uint3",
 ];
 
 pub(crate) fn emit(library: &Library) -> Vec<File> {
@@ -31,8 +31,8 @@ pub(crate) fn emit(library: &Library) -> Vec<File> {
     vec![
         file(format!("{}.cuh", source.name), source.header()),
         file(format!("{}.cu", source.name), source.kernels()),
-        file("test.cu".into(), source.host_test()),
-        file("test.py".into(), source.python_test()),
+        file(format!("test_{}.cu", source.name), source.host_test()),
+        file(format!("test_{}.py", source.name), source.python_test()),
     ]
 }
 
@@ -144,7 +144,8 @@ impl Source<'_> {
                     out.blank();
                 }
                 Step::Atan2 { name, y, x } => {
-                    let (call, spelling) = (if self.is_single() { "atan2f" } else { "atan2" }, self.spelling(f));
+                    let (call, spelling) =
+                        (if self.is_single() { "atan2f" } else { "atan2" }, self.spelling(f));
                     let formula = format!("{call}({}, {})", spelling.formula(*y), spelling.formula(*x));
                     out.statement(&format!("const {real} {} =", f.of(name)), &formula);
                 }
@@ -173,7 +174,9 @@ impl Source<'_> {
                 out.line(&format!("{real} {sine}, {cosine};"));
                 out.line(&format!("sincos{f_or_none}({angle}, &{sine}, &{cosine});"));
             }
-            (Some(sine), None) => out.line(&format!("const {real} {} = sin{f_or_none}({angle});", f.of(sine))),
+            (Some(sine), None) => {
+                out.line(&format!("const {real} {} = sin{f_or_none}({angle});", f.of(sine)))
+            }
             (None, Some(cosine)) => {
                 out.line(&format!("const {real} {} = cos{f_or_none}({angle});", f.of(cosine)));
             }
@@ -214,7 +217,8 @@ impl Source<'_> {
                 self.parameters(f, "", ""),
                 f.result
             );
-            let head = c::call(&format!("extern \"C\" __global__ void {name}_{}_kernel(", f.name), &arguments);
+            let head =
+                c::call(&format!("extern \"C\" __global__ void {name}_{}_kernel(", f.name), &arguments);
             let body = include_str!("kernel.cu")
                 .replace("@first@", &"[0]".repeat(f.shape().len() - 1))
                 .replace("@shape@", &shape)

@@ -20,8 +20,8 @@ impl Source<'_> {
         let mut text = block_comment(self.lines().chain([
             "",
             "The stored configurations. Build and run on a machine with a GPU and the CUDA toolkit:",
-            "    nvcc -O3 test.cu -o test && ./test",
-            "Without the toolkit, test.py does the same.",
+            &format!("    nvcc -O3 test_{name}.cu -o test_{name} && ./test_{name}"),
+            &format!("Without the toolkit, test_{name}.py does the same."),
         ]));
         let head = include_str!("test_head.cu").replace("@name@", name);
         let (includes, rest) = head.split_once("\nstatic int failures;").unwrap_or((&head, ""));
@@ -73,12 +73,17 @@ impl Source<'_> {
         }
         tables.push_str("]\n");
         let (ctype, epsilon, rounding, units) = if self.is_single() {
-            ("c_float", "2.0**-23", "; variables are rounded as they come in", "(8.0 + sum(map(abs, variables)))")
+            (
+                "c_float",
+                "2.0**-23",
+                "; variables are rounded as they come in",
+                "(8.0 + sum(map(abs, variables)))",
+            )
         } else {
             ("c_double", "2.0**-52", "", "8.0")
         };
         let opening = lines(&comments(self.lines(), "# ", WIDTH));
-        let script = include_str!("test.py")
+        let script = include_str!("test.py.txt")
             .replace("@ctype@", ctype)
             .replace("@epsilon@", epsilon)
             .replace("@rounding@", rounding)

@@ -19,14 +19,55 @@ use std::fmt::Write;
 const LANES: usize = 64;
 /// Names that the emitted code uses, or that a pattern would take for a constant.
 const RESERVED: &[&str] = &[
-    "q", "parameters", "i", "k", "in_range", "lanes", "sin_cos", "sin_cos_8", "sin_cos_in_range", "near_sin_cos",
-    "atan2", "near_atan2", "atan2_in_range", "sqrt", "kernel", "none", "some", "ok", "err", "default", "value",
+    "q",
+    "parameters",
+    "i",
+    "k",
+    "in_range",
+    "lanes",
+    "sin_cos",
+    "sin_cos_8",
+    "sin_cos_in_range",
+    "near_sin_cos",
+    "atan2",
+    "near_atan2",
+    "atan2_in_range",
+    "sqrt",
+    "kernel",
+    "none",
+    "some",
+    "ok",
+    "err",
+    "default",
+    "value",
 ];
 /// Names that functions do not have: they are in scope where functions are called.
 const TAKEN: &[&str] = &[
-    "sin_cos", "sin_cos_8", "sin_cos_in_range", "near_sin_cos", "atan2", "near_atan2", "atan2_in_range", "sqrt",
-    "kernel", "from_fn", "q", "i", "j", "k", "v", "x", "one", "block", "lane", "same", "expected", "scale", "value",
-    "variables", "units",
+    "sin_cos",
+    "sin_cos_8",
+    "sin_cos_in_range",
+    "near_sin_cos",
+    "atan2",
+    "near_atan2",
+    "atan2_in_range",
+    "sqrt",
+    "kernel",
+    "from_fn",
+    "q",
+    "i",
+    "j",
+    "k",
+    "v",
+    "x",
+    "one",
+    "block",
+    "lane",
+    "same",
+    "expected",
+    "scale",
+    "value",
+    "variables",
+    "units",
 ];
 /// Where fused multiply-add is an instruction that the compiler may use.
 const FUSED: &str = "all(feature = \"std\", any(target_feature = \"fma\", target_arch = \"aarch64\"))";
@@ -173,8 +214,9 @@ impl Source<'_> {
         if self.library.parameters.is_empty() {
             return String::new();
         }
-        let mut text =
-            String::from("\n/// Parameters.\n#[derive(Clone, Copy, PartialEq, Debug)]\npub struct Parameters {\n");
+        let mut text = String::from(
+            "\n/// Parameters.\n#[derive(Clone, Copy, PartialEq, Debug)]\npub struct Parameters {\n",
+        );
         for p in &self.library.parameters {
             text.push_str(&lines(&comments([doc(&p.about).as_str()], "    /// ", WIDTH)));
             let _ = writeln!(text, "    pub {}: f64,", self.names.of(p.symbol));
@@ -436,9 +478,9 @@ impl Source<'_> {
         }
         if pairs {
             text.push('\n');
-            text.push_str(include_str!("drivers.rs"));
+            text.push_str(include_str!("drivers.rs.txt"));
             if Function::any_eight(&self.functions) {
-                text.push_str(include_str!("eight.rs"));
+                text.push_str(include_str!("eight.rs.txt"));
             }
             text.push_str(&embedded(include_str!("../../kernel/reduce.rs")));
             text.push('\n');
@@ -446,12 +488,12 @@ impl Source<'_> {
         }
         if atan2 {
             text.push('\n');
-            text.push_str(include_str!("atan2.rs"));
+            text.push_str(include_str!("atan2.rs.txt"));
             text.push_str(&embedded(include_str!("../../kernel/atan2_strict.rs")));
         }
         if self.has_root() {
             text.push('\n');
-            text.push_str(include_str!("sqrt.rs"));
+            text.push_str(include_str!("sqrt.rs.txt"));
         }
         text
     }
@@ -484,19 +526,41 @@ fn doc(text: &str) -> String {
 
 /// A routine of this crate, its lines no longer than [`WIDTH`].
 fn embedded(text: &str) -> String {
-    text.lines().flat_map(narrow).map(|line| line + "\n").collect()
+    let mut list: Vec<String> = vec![];
+    let mut rest = text.lines().peekable();
+    while let Some(line) = rest.next() {
+        let Some(prefix) = comment_prefix(line) else {
+            list.extend(narrow(line));
+            continue;
+        };
+        let mut paragraph = vec![line];
+        while let Some(next) = rest.next_if(|next| comment_prefix(next).as_ref() == Some(&prefix)) {
+            paragraph.push(next);
+        }
+        if paragraph.iter().all(|line| line.chars().count() <= WIDTH) {
+            list.extend(paragraph.into_iter().map(str::to_string));
+        } else {
+            let words: Vec<&str> = paragraph.iter().map(|line| line[prefix.len()..].trim()).collect();
+            list.extend(comments([words.join(" ").as_str()], &prefix, WIDTH));
+        }
+    }
+    lines(&list)
 }
 
+/// What stands before the words of a comment; nothing for code and for empty comments.
+fn comment_prefix(line: &str) -> Option<String> {
+    let trimmed = line.trim_start();
+    let sign = trimmed.split(' ').next().filter(|sign| ["//", "///"].contains(sign))?;
+    let is_empty = trimmed.len() <= sign.len() + 1;
+    (!is_empty).then(|| format!("{}{sign} ", &line[..line.len() - trimmed.len()]))
+}
+
+/// Code in lines no longer than [`WIDTH`]: it goes on behind the last comma or in front of the last call that fits.
 fn narrow(line: &str) -> Vec<String> {
     if line.chars().count() <= WIDTH {
         return vec![line.to_string()];
     }
     let margin = " ".repeat(line.len() - line.trim_start().len());
-    if line.trim_start().starts_with("//") {
-        let prefix = format!("{margin}{} ", line.split_whitespace().next().unwrap_or("//"));
-        return comments([line[prefix.len()..].trim_start()], &prefix, WIDTH);
-    }
-    // Code goes on behind the last comma or in front of the last call that fits.
     let cut = (margin.len() + 1..WIDTH).rev().find(|&k| {
         line.is_char_boundary(k) && (line[..k].ends_with(", ") || line[k..].starts_with(".mul_add("))
     });

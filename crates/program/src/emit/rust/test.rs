@@ -2,14 +2,17 @@
 
 use super::Source;
 use crate::emit::Vector;
-use crate::emit::compiled::{Function, TOLERANCE, WIDTH, WRAP, lines};
+use crate::emit::compiled::{Body, Function, TOLERANCE, WIDTH, WRAP, lines};
 use std::fmt::Write;
 
 impl Source<'_> {
     pub(super) fn test(&self) -> String {
         let mut text = self.head("// ", &["", "The stored configurations, one by one and in blocks."]);
-        let tested: Vec<&Function> = self.functions.iter().filter(|f| !f.routine.vectors.is_empty()).collect();
-        text.push_str("\n#![allow(non_snake_case, clippy::approx_constant, clippy::excessive_precision)]\n\n");
+        let tested: Vec<&Function> =
+            self.functions.iter().filter(|f| !f.routine.vectors.is_empty()).collect();
+        text.push_str(
+            "\n#![allow(non_snake_case, clippy::approx_constant, clippy::excessive_precision)]\n\n",
+        );
         if tested.is_empty() {
             return text;
         }
@@ -50,21 +53,24 @@ impl Source<'_> {
         let _ = write!(text, "\nconst {upper}_SCALES: [f64; {}] = [\n{scales}];\n", f.results());
         let mut given = String::new();
         if has_parameters {
-            let symbols = self.library.parameters.iter().map(|p| self.names.of(p.symbol).to_string());
-            let fields = lines(&WRAP.list(&symbols.collect::<Vec<_>>(), 12));
-            let _ = write!(
-                given,
-                "        let [\n{fields}        ] = {upper}_PARAMETERS[v];\n        \
-                 let parameters = Parameters {{\n{fields}        }};\n"
-            );
+            let symbols: Vec<String> =
+                self.library.parameters.iter().map(|p| self.names.of(p.symbol).to_string()).collect();
+            let mut out = Body { text: String::new(), indent: 8 };
+            out.list("let [", &symbols, &format!("] = {upper}_PARAMETERS[v];"));
+            out.list_spaced("let parameters = Parameters {", &symbols, "};");
+            given = out.text;
         }
         // The second place is one level further out.
-        let outer: String = given.lines().map(|line| format!("{}\n", line.strip_prefix("    ").unwrap_or(line))).collect();
-        let body = include_str!("test_function.rs")
+        let outer: String =
+            given.lines().map(|line| format!("{}\n", line.strip_prefix("    ").unwrap_or(line))).collect();
+        let body = include_str!("test_function.rs.txt")
             .replacen("@parameters@\n", &given, 1)
             .replacen("@parameters@\n", &outer, 1)
             .replace("    let v = 0;\n", if has_parameters { "    let v = 0;\n" } else { "" })
-            .replace("@F@_VARIABLES[v][j]", if has_parameters { "@F@_VARIABLES[v][j]" } else { "@F@_VARIABLES[0][j]" })
+            .replace(
+                "@F@_VARIABLES[v][j]",
+                if has_parameters { "@F@_VARIABLES[v][j]" } else { "@F@_VARIABLES[0][j]" },
+            )
             .replace("@argument@", if has_parameters { ", &parameters" } else { "" })
             .replace("@flat@", &".as_flattened()".repeat(f.shape().len() - 1))
             .replace("@n@", &self.library.variables.len().to_string())

@@ -1,0 +1,134 @@
+//! Emitted C builds without a warning as C99 and C++11, and agrees with stored values.
+
+#[allow(dead_code)]
+mod emit_support;
+
+use denavit_program::emit::{Language, Precision};
+use denavit_program::kernel;
+use denavit_symbolic::Expr;
+use emit_support::{Sample, arm, folder, has_fma, hostile, is_there, program, run, write};
+
+fn compilers() -> Vec<&'static str> {
+    ["gcc", "clang"].into_iter().filter(|c| is_there(c)).collect()
+}
+
+#[test]
+fn the_folder_builds_and_passes_its_own_test() {
+    for (kind, sample) in [("arm", arm()), ("hostile", hostile())] {
+        for precision in [Precision::Double, Precision::Single] {
+            let folder = folder(&format!("c-{kind}-{precision:?}"));
+            write(&sample.library(precision), Language::C, &folder);
+            for cc in compilers() {
+                let architectures: &[&str] = if has_fma() { &["", "-march=x86-64-v3"] } else { &[""] };
+                for architecture in architectures {
+                    let arch = format!("ARCH={architecture}");
+                    run(&folder, &["make", "-s", "-B", "test", &format!("CC={cc}"), "CFLAGS=-O1", &arch]);
+                }
+                let cxx = if cc == "gcc" { "CXX=g++" } else { "CXX=clang++" };
+                run(&folder, &["make", "-s", "-B", "test-cxx", cxx, "CXXFLAGS=-O1"]);
+            }
+        }
+    }
+}
+
+/// The embedded routines have the bits of this crate's, so that its error bounds hold for them.
+#[test]
+fn embedded_routines_have_the_bits_of_the_kernels() {
+    let [x, y] = ["x", "y"].map(Expr::symbol);
+    let outputs = [("s", x.sin()), ("c", x.cos()), ("a", y.atan2(x))];
+    let sample = Sample {
+        name: "routines",
+        variables: vec!["x", "y"],
+        parameters: vec![],
+        programs: vec![("all", "values", vec![3], program(&["x", "y"], &[], &outputs))],
+        configurations: vec![vec![0.5, 0.25]],
+    };
+    let points: Vec<[f64; 2]> = (0..640)
+        .map(|k| {
+            let t = f64::from(k);
+            [(t * 0.7).sin() * 10_f64.powf(t / 110.0), (t * 1.3 - 200.0) / 64.0]
+        })
+        .collect();
+    for precision in [Precision::Double, Precision::Single] {
+        let folder = folder(&format!("c-bits-{precision:?}"));
+        write(&sample.library(precision), Language::C, &folder);
+        let (real, print) = match precision {
+            Precision::Double => ("double", "%.17g"),
+            Precision::Single => ("float", "%.9g"),
+        };
+        let list: String = points.iter().map(|p| format!("    {{{:?}, {:?}}},\n", p[0], p[1])).collect();
+        let text = format!(
+            "#include \"routines.h\"\n#include <stdio.h>\nstatic const double points[][2] = {{\n{list}}};\n\
+             int main(void)\n{{\n    {real} q[128], out[192];\n    for (int b = 0; b < 10; b++) {{\n        \
+             for (int i = 0; i < 64; i++) {{\n            q[i] = ({real})points[64 * b + i][0];\n            \
+             q[64 + i] = ({real})points[64 * b + i][1];\n        }}\n        routines_all_block(q, out);\n        \
+             for (int i = 0; i < 64; i++) {{\n            printf(\"{print} {print} {print}\\n\", (double)out[i], \
+             (double)out[64 + i], (double)out[128 + i]);\n        }}\n    }}\n    return 0;\n}}\n"
+        );
+        std::fs::write(folder.join("bits.c"), text).expect("written");
+        for cc in compilers() {
+            for fused in if has_fma() { &[false, true][..] } else { &[false] } {
+                let flag = if *fused { "-march=x86-64-v3" } else { "-DROUTINES_STRICT" };
+                let words = [
+                    cc,
+                    "-std=c99",
+                    "-O3",
+                    "-ffp-contract=off",
+                    flag,
+                    "routines.c",
+                    "bits.c",
+                    "-lm",
+                    "-o",
+                    "bits",
+                ];
+                run(&folder, &words);
+                let printed = run(&folder, &["./bits"]);
+                for (line, [x, y]) in printed.lines().zip(&points) {
+                    let number = |word: &str| match precision {
+                        Precision::Double => word.parse().expect("a number"),
+                        Precision::Single => f64::from(word.parse::<f32>().expect("a number")),
+                    };
+                    let got: Vec<f64> = line.split(' ').map(number).collect();
+                    let expected = match precision {
+                        Precision::Double => {
+                            let (s, c) =
+                                pick(*fused, || kernel::sin_cos::<true>(*x), || kernel::sin_cos::<false>(*x));
+                            [
+                                s,
+                                c,
+                                pick(
+                                    *fused,
+                                    || kernel::atan2::<true>(*y, *x),
+                                    || kernel::atan2::<false>(*y, *x),
+                                ),
+                            ]
+                        }
+                        Precision::Single => {
+                            let (x, y) = (*x as f32, *y as f32);
+                            if x.abs() > kernel::SINCOS_LIMIT_F32 {
+                                continue; // the library's
+                            }
+                            let (s, c) = pick(
+                                *fused,
+                                || kernel::sin_cos_f32::<true>(x),
+                                || kernel::sin_cos_f32::<false>(x),
+                            );
+                            let a = pick(
+                                *fused,
+                                || kernel::atan2_f32::<true>(y, x),
+                                || kernel::atan2_f32::<false>(y, x),
+                            );
+                            [s, c, a].map(f64::from)
+                        }
+                    };
+                    assert_eq!(got, expected, "{cc} {flag} at {x:?}, {y:?}");
+                }
+                assert_eq!(printed.lines().count(), points.len());
+            }
+        }
+    }
+}
+
+fn pick<T>(fused: bool, yes: impl Fn() -> T, no: impl Fn() -> T) -> T {
+    if fused { yes() } else { no() }
+}

@@ -1,0 +1,28 @@
+//! Emitted Rust builds without a warning and agrees with stored values, with and without the standard library.
+
+#[allow(dead_code)]
+mod emit_support;
+
+use denavit_program::emit::{Language, Precision};
+use emit_support::{arm, folder, has_fma, hostile, run_with, write};
+
+#[test]
+fn the_package_builds_and_passes_its_own_test() {
+    for (kind, sample) in [("arm", arm()), ("hostile", hostile())] {
+        let folder = folder(&format!("rust-{kind}"));
+        // The folder stands inside the workspace of this crate, to which it does not belong.
+        write(&sample.library(Precision::Double), Language::Rust, &folder);
+        let manifest = std::fs::read_to_string(folder.join("Cargo.toml")).expect("a manifest");
+        std::fs::write(folder.join("Cargo.toml"), manifest + "\n[workspace]\n").expect("written");
+        let target = folder.join("target");
+        let target = target.to_str().expect("a path");
+        let plain = "-D warnings";
+        let fused = "-D warnings -C target-feature=+avx2,+fma";
+        for flags in [plain, fused].into_iter().take(if has_fma() { 2 } else { 1 }) {
+            let variables = [("RUSTFLAGS", flags), ("CARGO_TARGET_DIR", target)];
+            run_with(&folder, &[env!("CARGO"), "test", "-q", "--offline"], &variables);
+        }
+        let variables = [("RUSTFLAGS", plain), ("CARGO_TARGET_DIR", target)];
+        run_with(&folder, &[env!("CARGO"), "test", "-q", "--offline", "--no-default-features"], &variables);
+    }
+}
