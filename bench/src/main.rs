@@ -2,6 +2,8 @@
 //!
 //! Prints one JSON object: the unit in ns and a figure for each entry. `cargo xtask bench` makes a table of it.
 
+extern crate ur5_generated;
+
 mod compiled;
 mod measure;
 mod memory;
@@ -10,7 +12,7 @@ mod peers;
 use anyhow::{Context, Result};
 use denavit::forward::{Reference, frames_program, pose_program};
 use denavit::{Description, Robot, catalogue, description};
-use denavit_jit::Machine;
+use denavit_jit::MachineCode;
 use denavit_program::{Arithmetic, Block, Function, Isa, Program, Real};
 use measure::{COUNT, Entry};
 use rs_opw_kinematics::kinematic_traits::Kinematics;
@@ -120,7 +122,7 @@ fn one_configuration<'a>(
     // The arm of the peer's own parameters: a spherical wrist, six sines as well.
     let opw = OPWKinematics::new(Parameters::irb2400_10());
     let mut scalar = pose.scalar();
-    let machine = Machine::compile(pose).map_err(|e| anyhow::anyhow!("{e}"))?;
+    let machine = MachineCode::compile(pose).map_err(|e| anyhow::anyhow!("{e}"))?;
     let mut results = [0.0; 16];
     let each = move |name: &str, limit, mut f: Box<dyn FnMut(&[f64; 6])>| {
         entry(group, name, count, limit, move || configurations.iter().for_each(|q| f(black_box(q))))
@@ -161,7 +163,7 @@ fn compilation<'a>(d: &Description, program: &Program, pose: &Function) -> Vec<E
             black_box(program.compile(&parameters));
         }),
         entry(group, "machine code (JIT)", 1, None, move || {
-            black_box(Machine::compile(&pose)).ok();
+            black_box(MachineCode::compile(&pose)).ok();
         }),
     ]
 }

@@ -293,7 +293,7 @@ fn header(original: &Description, d: &Description) -> Vec<String> {
         if *x != Transform::identity() {
             lines.push(format!("{what}:"));
             let rows = x.matrix();
-            lines.extend(rows[..3].iter().map(|row| format!("  [{}]", row.map(|e| text(e)).join(", "))));
+            lines.extend(rows[..3].iter().map(|row| format!("  [{}]", row.map(text).join(", "))));
         }
     };
     fixed(&d.base, "Frame 0 in the base", &mut lines);

@@ -174,8 +174,8 @@ impl<R: Copy, F: File<R> + ?Sized> Work for Pairs<'_, R, F> {
             file.set(cell.writes[1], c);
         }
         if !x.iter().fold(true, |all, x| all & kernel::sin_cos_in_range(*x)) {
-            let x = x;
-            repair_pairs(file, cells, &x);
+            let angles = x;
+            repair_pairs(file, cells, &angles);
         }
     }
 }
