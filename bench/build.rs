@@ -8,52 +8,85 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
 
+/// What is generated.
+struct Source {
+    robot: &'static str,
+    name: &'static str,
+    wanted: Wanted,
+    precision: Precision,
+}
+
+const UR5: Source = Source { robot: "ur5", name: "ur5", wanted: Wanted::Pose, precision: Precision::Double };
+const UR5_SINGLE: Source = Source { name: "ur5f", precision: Precision::Single, ..UR5 };
+const PANDA: Source = Source { robot: "franka-panda", name: "panda", wanted: Wanted::Frames, ..UR5 };
+
+/// Levels of instructions to compile for; on other architectures there is one.
+const LEVELS: [&str; 2] = ["v3", "v4"];
+
+/// Both compilers take 256 bits at a time where 512 are there, unless they are told otherwise.
+const WIDE_RUST: &[&str] = &["-C", "target-feature=-prefer-256-bit", "-A", "warnings"];
+
 fn main() {
-    println!("cargo:rerun-if-env-changed=DENAVIT_BENCH_LEVEL");
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
-    let level = env::var("DENAVIT_BENCH_LEVEL").unwrap_or_else(|_| "native".into());
-    println!("cargo:rustc-env=DENAVIT_BENCH_LEVEL={level}");
-
-    let folder = write(&out, Language::Rust, Precision::Double, "ur5_generated");
-    let rustc = env::var_os("RUSTC").expect("cargo sets RUSTC");
-    run(Command::new(rustc)
-        .args(["--crate-type", "rlib", "--crate-name", "ur5_generated", "--edition", "2024"])
-        .args(["--cfg", "feature=\"std\"", "-C", "opt-level=3", "-C", &format!("target-cpu={level}")])
-        .arg(folder.join("src/lib.rs"))
-        .arg("-o")
-        .arg(out.join("libur5_generated.rlib")));
-    println!("cargo:rustc-link-search=all={}", out.display());
-
-    for (precision, name) in [(Precision::Double, "ur5"), (Precision::Single, "ur5f")] {
-        let folder = write(&out, Language::C, precision, name);
-        for compiler in ["gcc", "clang"] {
-            let object = out.join(format!("{name}_{compiler}.o"));
-            let mut command = Command::new(compiler);
-            command.args(["-std=c99", "-O3", "-fPIC", "-ffp-contract=off", &format!("-march={level}")]);
-            // The same file twice in one program: each compiler's functions get names of their own.
-            for symbol in ["fk", "fk_block", "defaults"] {
-                command.arg(format!("-D{name}_{symbol}={name}_{symbol}_{compiler}"));
+    let is_x86 = env::var("CARGO_CFG_TARGET_ARCH").is_ok_and(|a| a == "x86_64");
+    for level in LEVELS {
+        let target = if is_x86 { format!("x86-64-{level}") } else { "native".into() };
+        rust(&out, &UR5, level, &target);
+        rust(&out, &PANDA, level, &target);
+        for source in [&UR5, &UR5_SINGLE, &PANDA] {
+            for compiler in ["gcc", "clang"] {
+                c(&out, source, compiler, level, &target);
             }
-            run(command.arg("-c").arg(folder.join(format!("{name}.c"))).arg("-o").arg(&object));
-            let archive = out.join(format!("lib{name}_{compiler}.a"));
-            let _ = fs::remove_file(&archive);
-            run(Command::new("ar").arg("rcs").arg(&archive).arg(&object));
-            println!("cargo:rustc-link-lib=static={name}_{compiler}");
         }
     }
+    println!("cargo:rustc-link-search=all={}", out.display());
     println!("cargo:rustc-link-lib=m");
 }
 
-fn write(out: &Path, language: Language, precision: Precision, name: &str) -> PathBuf {
-    let text = catalogue::text("ur5").expect("the catalogue has a UR5");
-    let (description, _) = read_toml(text).unwrap_or_else(|_| panic!("the catalogue's UR5 can be read"));
-    let options =
-        Options { language, functions: vec![Wanted::Pose], precision, name: Some(name.into()), fixed: false };
-    let generated = generate(&description, &options).expect("a UR5 can be generated");
-    let folder = out.join(format!("{name}_{language:?}"));
+fn rust(out: &Path, source: &Source, level: &str, target: &str) {
+    let name = format!("{}_{level}", source.name);
+    let folder = write(out, Language::Rust, source);
+    let rustc = env::var_os("RUSTC").expect("cargo sets RUSTC");
+    run(Command::new(rustc)
+        .args(["--crate-type", "rlib", "--crate-name", &name, "--edition", "2024"])
+        .args(["--cfg", "feature=\"std\"", "-C", "opt-level=3", "-C", &format!("target-cpu={target}")])
+        .args(if level == "v4" { WIDE_RUST } else { &[] })
+        .arg(folder.join("src/lib.rs"))
+        .arg("-o")
+        .arg(out.join(format!("lib{name}.rlib"))));
+}
+
+fn c(out: &Path, source: &Source, compiler: &str, level: &str, target: &str) {
+    let (name, folder) = (source.name, write(out, Language::C, source));
+    let own = format!("{name}_{compiler}_{level}");
+    let object = out.join(format!("{own}.o"));
+    let mut command = Command::new(compiler);
+    command.args(["-std=c99", "-O3", "-fPIE", "-ffp-contract=off", &format!("-march={target}")]);
+    // The same file several times in one program: the functions of each get names of their own.
+    if level == "v4" {
+        command.arg("-mprefer-vector-width=512");
+    }
+    for symbol in ["fk", "fk_block", "frames", "frames_block", "defaults"] {
+        command.arg(format!("-D{name}_{symbol}={own}_{symbol}"));
+    }
+    run(command.arg("-c").arg(folder.join(format!("{name}.c"))).arg("-o").arg(&object));
+    let archive = out.join(format!("lib{own}.a"));
+    let _ = fs::remove_file(&archive);
+    run(Command::new("ar").arg("rcs").arg(&archive).arg(&object));
+    println!("cargo:rustc-link-lib=static={own}");
+}
+
+fn write(out: &Path, language: Language, source: &Source) -> PathBuf {
+    let text = catalogue::text(source.robot).expect("a robot of the catalogue");
+    let (description, _) = read_toml(text).unwrap_or_else(|_| panic!("{} can be read", source.robot));
+    let (functions, name) = (vec![source.wanted], Some(source.name.into()));
+    let options = Options { language, functions, precision: source.precision, name, fixed: false };
+    let generated = generate(&description, &options).expect("nothing is fixed");
+    let folder = out.join(format!("{}_{language:?}", source.name));
     for file in generated.files {
         let path = folder.join(&file.path);
-        fs::create_dir_all(path.parent().expect("a file stands in a folder")).expect("OUT_DIR can be written");
+        fs::create_dir_all(path.parent().expect("a file stands in a folder"))
+            .expect("OUT_DIR can be written");
         fs::write(path, file.text).expect("OUT_DIR can be written");
     }
     folder

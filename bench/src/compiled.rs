@@ -1,55 +1,88 @@
-//! Generated source code, compiled beforehand: Rust, and C by two compilers in two precisions.
+//! Generated source code, compiled beforehand for two levels of instructions: Rust, and C by two compilers in two
+//! precisions.
 
 use crate::entry;
 use crate::measure::Entry;
+use std::ffi::c_void;
 use std::hint::black_box;
-use ur5_generated as rust;
 
-/// What everything is compiled for.
-pub const LEVEL: &str = env!("DENAVIT_BENCH_LEVEL");
-const LANES: usize = rust::LANES;
+const LANES: usize = ur5_v3::LANES;
 /// Runs over one block that stays in the cache.
 const RUNS: usize = 64;
 
-/// As in the header of the generated file.
-#[repr(C)]
-#[derive(Clone, Copy)]
-struct Parameters<T>([T; 6]);
-
 /// A block of values, aligned as the generated header asks.
+#[derive(Clone, Copy)]
 #[repr(align(64))]
 struct Block<T, const N: usize>([[T; LANES]; N]);
 
+/// Variables, parameters, results, as the generated header says.
+type Function<T> = unsafe extern "C" fn(*const T, *const c_void, *mut T);
+
+/// What a compiler made of a generated C file.
+#[derive(Clone, Copy)]
+struct C<T> {
+    compiler: &'static str,
+    level: &'static str,
+    one: Function<T>,
+    block: Function<T>,
+    parameters: *const c_void,
+}
+
 macro_rules! c {
-    ($number:ty: $fk_gcc:ident, $block_gcc:ident, $defaults_gcc:ident, $fk_clang:ident, $block_clang:ident, $defaults_clang:ident) => {
+    ($number:ty, $compiler:literal, $level:literal, $one:ident, $block:ident, $defaults:ident) => {{
         unsafe extern "C" {
-            fn $fk_gcc(q: *const $number, parameters: *const Parameters<$number>, pose: *mut $number);
-            fn $block_gcc(q: *const $number, parameters: *const Parameters<$number>, pose: *mut $number);
-            static $defaults_gcc: Parameters<$number>;
-            fn $fk_clang(q: *const $number, parameters: *const Parameters<$number>, pose: *mut $number);
-            fn $block_clang(q: *const $number, parameters: *const Parameters<$number>, pose: *mut $number);
-            static $defaults_clang: Parameters<$number>;
+            fn $one(q: *const $number, parameters: *const c_void, results: *mut $number);
+            fn $block(q: *const $number, parameters: *const c_void, results: *mut $number);
+            static $defaults: c_void;
         }
-    };
-}
-c!(f64: ur5_fk_gcc, ur5_fk_block_gcc, ur5_defaults_gcc, ur5_fk_clang, ur5_fk_block_clang, ur5_defaults_clang);
-c!(f32: ur5f_fk_gcc, ur5f_fk_block_gcc, ur5f_defaults_gcc, ur5f_fk_clang, ur5f_fk_block_clang, ur5f_defaults_clang);
-
-type Function<T> = unsafe extern "C" fn(*const T, *const Parameters<T>, *mut T);
-
-/// (compiler, one configuration, block, parameters)
-#[allow(unsafe_code)]
-fn double() -> [(&'static str, Function<f64>, Function<f64>, Parameters<f64>); 2] {
-    // SAFETY: constants of the generated files.
-    let defaults = unsafe { (ur5_defaults_gcc, ur5_defaults_clang) };
-    [("gcc", ur5_fk_gcc, ur5_fk_block_gcc, defaults.0), ("clang", ur5_fk_clang, ur5_fk_block_clang, defaults.1)]
+        let parameters = &raw const $defaults;
+        C { compiler: $compiler, level: $level, one: $one, block: $block, parameters }
+    }};
 }
 
-#[allow(unsafe_code)]
-fn single() -> [(&'static str, Function<f32>, Function<f32>, Parameters<f32>); 2] {
-    // SAFETY: constants of the generated files.
-    let defaults = unsafe { (ur5f_defaults_gcc, ur5f_defaults_clang) };
-    [("gcc", ur5f_fk_gcc, ur5f_fk_block_gcc, defaults.0), ("clang", ur5f_fk_clang, ur5f_fk_block_clang, defaults.1)]
+fn ur5() -> [C<f64>; 4] {
+    [
+        c!(f64, "gcc", "v3", ur5_gcc_v3_fk, ur5_gcc_v3_fk_block, ur5_gcc_v3_defaults),
+        c!(f64, "clang", "v3", ur5_clang_v3_fk, ur5_clang_v3_fk_block, ur5_clang_v3_defaults),
+        c!(f64, "gcc", "v4", ur5_gcc_v4_fk, ur5_gcc_v4_fk_block, ur5_gcc_v4_defaults),
+        c!(f64, "clang", "v4", ur5_clang_v4_fk, ur5_clang_v4_fk_block, ur5_clang_v4_defaults),
+    ]
+}
+
+fn ur5_single() -> [C<f32>; 4] {
+    [
+        c!(f32, "gcc", "v3", ur5f_gcc_v3_fk, ur5f_gcc_v3_fk_block, ur5f_gcc_v3_defaults),
+        c!(f32, "clang", "v3", ur5f_clang_v3_fk, ur5f_clang_v3_fk_block, ur5f_clang_v3_defaults),
+        c!(f32, "gcc", "v4", ur5f_gcc_v4_fk, ur5f_gcc_v4_fk_block, ur5f_gcc_v4_defaults),
+        c!(f32, "clang", "v4", ur5f_clang_v4_fk, ur5f_clang_v4_fk_block, ur5f_clang_v4_defaults),
+    ]
+}
+
+fn panda() -> [C<f64>; 4] {
+    [
+        c!(f64, "gcc", "v3", panda_gcc_v3_frames, panda_gcc_v3_frames_block, panda_gcc_v3_defaults),
+        c!(f64, "clang", "v3", panda_clang_v3_frames, panda_clang_v3_frames_block, panda_clang_v3_defaults),
+        c!(f64, "gcc", "v4", panda_gcc_v4_frames, panda_gcc_v4_frames_block, panda_gcc_v4_defaults),
+        c!(f64, "clang", "v4", panda_clang_v4_frames, panda_clang_v4_frames_block, panda_clang_v4_defaults),
+    ]
+}
+
+/// Whether this processor runs code of a level.
+fn runs(level: &str) -> bool {
+    #[cfg(target_arch = "x86_64")]
+    if level == "v4" {
+        return std::is_x86_feature_detected!("avx512f")
+            && std::is_x86_feature_detected!("avx512bw")
+            && std::is_x86_feature_detected!("avx512cd")
+            && std::is_x86_feature_detected!("avx512dq")
+            && std::is_x86_feature_detected!("avx512vl");
+    }
+    level == "v3"
+}
+
+fn name(what: &str, level: &str) -> String {
+    let instructions = if level == "v4" { "AVX-512" } else { "AVX2" };
+    format!("{what}, {instructions}")
 }
 
 /// One configuration at a time.
@@ -57,68 +90,129 @@ fn single() -> [(&'static str, Function<f32>, Function<f32>, Parameters<f32>); 2
 pub fn one_configuration(configurations: &[[f64; 6]]) -> Vec<Entry<'_>> {
     let group = "one configuration";
     let count = configurations.len();
-    let run = move || {
+    let mut entries = vec![entry(group, name("generated Rust", "v3"), count, Some(0.5), move || {
         for q in configurations {
-            black_box(rust::fk(black_box(q), &rust::Parameters::default()));
+            black_box(ur5_v3::fk(black_box(q), &ur5_v3::Parameters::default()));
         }
-    };
-    let mut entries = vec![entry(group, "generated Rust", count, Some(0.5), run)];
-    for (compiler, fk, _, parameters) in double() {
+    })];
+    if runs("v4") {
+        entries.push(entry(group, name("generated Rust", "v4"), count, Some(0.5), move || {
+            for q in configurations {
+                black_box(ur5_v4::fk(black_box(q), &ur5_v4::Parameters::default()));
+            }
+        }));
+    }
+    for c in ur5().into_iter().filter(|c| runs(c.level)) {
         let mut pose = [0.0; 16];
         let run = move || {
             for q in configurations {
                 // SAFETY: six variables, six parameters and sixteen results, as the header says.
-                unsafe { fk(black_box(q).as_ptr(), &parameters, pose.as_mut_ptr()) };
+                unsafe { (c.one)(black_box(q).as_ptr(), c.parameters, pose.as_mut_ptr()) };
                 black_box(&pose);
             }
         };
-        entries.push(entry(group, format!("generated C, {compiler}"), count, Some(0.6), run));
+        let what = format!("generated C, {}", c.compiler);
+        entries.push(entry(group, name(&what, c.level), count, Some(0.6), run));
     }
     entries
 }
 
 /// Blocks that stay in the cache.
-#[allow(unsafe_code)]
 pub fn batch(configurations: &[[f64; 6]]) -> Vec<Entry<'_>> {
     let group = "batch";
-    let wide = LEVEL == "x86-64-v4";
+    let limit = |level: &str, limits: [f64; 2]| Some(limits[usize::from(level == "v4")]);
     let mut q = Block([[0.0; LANES]; 6]);
     for (i, row) in configurations.iter().take(LANES).enumerate() {
         (0..6).for_each(|j| q.0[j][i] = row[j]);
     }
-    let q32 = Block(q.0.map(|row| row.map(|x| x as f32)));
-    let limit = Some(if wide { 0.15 } else { 0.22 });
     let mut entries = vec![];
-    let (q_rust, mut out) = (Block(q.0), Block([[0.0; LANES]; 16]));
+    let mut out = Block([[0.0; LANES]; 16]);
     let run = move || {
         for _ in 0..RUNS {
-            rust::fk_block(black_box(&q_rust.0), &rust::Parameters::default(), &mut out.0);
+            ur5_v3::fk_block(black_box(&q.0), &ur5_v3::Parameters::default(), &mut out.0);
             black_box(&out.0);
         }
     };
-    entries.push(entry(group, "generated Rust, blocks, f64", RUNS * LANES, limit, run));
-    for (compiler, _, block, parameters) in double() {
-        let (q, mut out) = (Block(q.0), Block([[0.0; LANES]; 16]));
+    let double_limits = [0.22, 0.15];
+    let what = "generated Rust, blocks, f64";
+    entries.push(entry(group, name(what, "v3"), RUNS * LANES, limit("v3", double_limits), run));
+    if runs("v4") {
         let run = move || {
             for _ in 0..RUNS {
-                // SAFETY: blocks of six variables and sixteen results, as the header says.
-                unsafe { block(black_box(&q.0).as_ptr().cast(), &parameters, out.0.as_mut_ptr().cast()) };
+                ur5_v4::fk_block(black_box(&q.0), &ur5_v4::Parameters::default(), &mut out.0);
                 black_box(&out.0);
             }
         };
-        entries.push(entry(group, format!("generated C, {compiler}, blocks, f64"), RUNS * LANES, limit, run));
+        entries.push(entry(group, name(what, "v4"), RUNS * LANES, limit("v4", double_limits), run));
     }
-    let limit = Some(if wide { 0.055 } else { 0.075 });
-    for (compiler, _, block, parameters) in single() {
-        let (q, mut out) = (Block(q32.0), Block([[0.0_f32; LANES]; 16]));
-        let run = move || {
-            for _ in 0..RUNS {
-                // SAFETY: as above.
-                unsafe { block(black_box(&q.0).as_ptr().cast(), &parameters, out.0.as_mut_ptr().cast()) };
-                black_box(&out.0);
-            }
-        };
-        entries.push(entry(group, format!("generated C, {compiler}, blocks, f32"), RUNS * LANES, limit, run));
+    for c in ur5().into_iter().filter(|c| runs(c.level)) {
+        let what = name(&format!("generated C, {}, blocks, f64", c.compiler), c.level);
+        entries.push(entry(
+            group,
+            what,
+            RUNS * LANES,
+            limit(c.level, double_limits),
+            blocks::<_, 6, 16>(c, q),
+        ));
+    }
+    let q7 = Block([q.0[0], q.0[1], q.0[2], q.0[3], q.0[4], q.0[5], q.0[0]]);
+    entries.extend(frames(q7));
+    let q = Block(q.0.map(|row| row.map(|x| x as f32)));
+    for c in ur5_single().into_iter().filter(|c| runs(c.level)) {
+        let what = name(&format!("generated C, {}, blocks, f32", c.compiler), c.level);
+        entries.push(entry(
+            group,
+            what,
+            RUNS * LANES,
+            limit(c.level, [0.075, 0.055]),
+            blocks::<_, 6, 16>(c, q),
+        ));
     }
     entries
+}
+
+/// All link frames of a Panda: nine matrices.
+fn frames(q: Block<f64, 7>) -> Vec<Entry<'static>> {
+    const RESULTS: usize = 9 * 16;
+    let limit = Some(0.35);
+    let what = "generated Rust, blocks, all link frames of a Panda";
+    let mut out = Box::new(Block([[0.0; LANES]; RESULTS]));
+    let run = move || {
+        for _ in 0..RUNS {
+            panda_v3::frames_block(black_box(&q.0), &panda_v3::Parameters::default(), &mut out.0);
+            black_box(&out.0);
+        }
+    };
+    let mut entries = vec![entry("batch", name(what, "v3"), RUNS * LANES, limit, run)];
+    if runs("v4") {
+        let mut out = Box::new(Block([[0.0; LANES]; RESULTS]));
+        let run = move || {
+            for _ in 0..RUNS {
+                panda_v4::frames_block(black_box(&q.0), &panda_v4::Parameters::default(), &mut out.0);
+                black_box(&out.0);
+            }
+        };
+        entries.push(entry("batch", name(what, "v4"), RUNS * LANES, limit, run));
+    }
+    for c in panda().into_iter().filter(|c| runs(c.level)) {
+        let what = name(&format!("generated C, {}, blocks, all link frames of a Panda", c.compiler), c.level);
+        entries.push(entry("batch", what, RUNS * LANES, limit, blocks::<_, 7, RESULTS>(c, q)));
+    }
+    entries
+}
+
+/// Runs a C function over one block, again and again; `M` results each.
+#[allow(unsafe_code)]
+fn blocks<T: Copy + Default + 'static, const J: usize, const M: usize>(
+    c: C<T>,
+    q: Block<T, J>,
+) -> impl FnMut() + 'static {
+    let mut out = Box::new(Block([[T::default(); LANES]; M]));
+    move || {
+        for _ in 0..RUNS {
+            // SAFETY: blocks of J variables and M results, as the header says.
+            unsafe { (c.block)(black_box(&q.0).as_ptr().cast(), c.parameters, out.0.as_mut_ptr().cast()) };
+            black_box(&out.0);
+        }
+    }
 }

@@ -2,7 +2,10 @@
 //!
 //! Prints one JSON object: the unit in ns and a figure for each entry. `cargo xtask bench` makes a table of it.
 
-extern crate ur5_generated;
+extern crate panda_v3;
+extern crate panda_v4;
+extern crate ur5_v3;
+extern crate ur5_v4;
 
 mod compiled;
 mod measure;
@@ -47,20 +50,39 @@ fn main() -> Result<()> {
         let on = pose.on(isa, isa.arithmetic());
         let name = |what: &str| format!("{what}, {}", isa.name());
         entries.push(block::<f64>("batch", name("interpreter over blocks, f64"), &on, limits([0.24, 0.28])));
-        entries.push(block::<f32>("batch", name("interpreter over blocks, f32"), &on, limits([0.055, 0.075])));
+        entries.push(block::<f32>(
+            "batch",
+            name("interpreter over blocks, f32"),
+            &on,
+            limits([0.055, 0.075]),
+        ));
         let strict = pose.on(isa, Arithmetic::Strict);
-        entries.push(block::<f64>("batch", name("interpreter over blocks, f64, strict arithmetic"), &strict, None));
+        entries.push(block::<f64>(
+            "batch",
+            name("interpreter over blocks, f64, strict arithmetic"),
+            &strict,
+            None,
+        ));
         let frames = frames.on(isa, isa.arithmetic());
-        entries.push(block::<f64>("batch", name("all link frames of a Panda, f64"), &frames, Some(0.35)));
+        entries.push(block::<f64>(
+            "batch",
+            name("interpreter over blocks, all link frames of a Panda"),
+            &frames,
+            Some(0.35),
+        ));
     }
     entries.extend(compiled::batch(configurations));
-    let rows: Vec<f64> = configurations.iter().cycle().take(50 * COUNT).flatten().copied().collect();
-    for (name, threads) in [("rows in the cache's reach, one core", Some(1)), ("the same, all cores", None)] {
+    // 23 MB in and out.
+    const ROWS: usize = 32 * COUNT;
+    let rows: Vec<f64> = configurations.iter().cycle().take(ROWS).flatten().copied().collect();
+    for (name, threads) in
+        [("rows to rows, 23 MB, one core", 1), ("rows to rows, 23 MB, two cores", 2)]
+    {
         let (batch, rows) = (pose.batch::<f64>(), rows.clone());
-        let mut out = vec![0.0; rows.len() / 6 * 16];
-        let threads = threads.and_then(std::num::NonZero::new);
+        let mut out = vec![0.0; ROWS * 16];
+        let threads = std::num::NonZero::new(threads);
         let run = move || batch.run_parallel(threads, black_box(&rows), black_box(&mut out));
-        entries.push(entry("batch", name, 50 * COUNT, None, run));
+        entries.push(entry("batch", name, ROWS, None, run));
     }
     entries.extend(memory::entries(&pose, &mut random));
     entries.extend(compilation(&ur5, &pose_program(&ur5), &pose));
@@ -75,7 +97,7 @@ fn main() -> Result<()> {
             })
         })
         .collect();
-    println!("{}", json!({"unit_ns": unit, "level": compiled::LEVEL, "figures": figures}));
+    println!("{}", json!({"unit_ns": unit, "figures": figures}));
     Ok(())
 }
 
@@ -115,7 +137,10 @@ fn one_configuration<'a>(
     let robot = Robot::numeric(ur5)?;
     let (k, plain) = (peers::KChain::new(&robot)?, peers::PlainNalgebra::new(&robot));
     let expected = robot.pose(&configurations[0]).translation.0;
-    for found in [k.pose(&configurations[0]).translation.vector.data.0[0], plain.pose(&configurations[0]).translation.vector.data.0[0]] {
+    for found in [
+        k.pose(&configurations[0]).translation.vector.data.0[0],
+        plain.pose(&configurations[0]).translation.vector.data.0[0],
+    ] {
         let error = expected.iter().zip(found).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         anyhow::ensure!(error < 1e-12, "a peer computes another pose: {found:?}, not {expected:?}");
     }
@@ -128,17 +153,58 @@ fn one_configuration<'a>(
         entry(group, name, count, limit, move || configurations.iter().for_each(|q| f(black_box(q))))
     };
     Ok(vec![
-        each("plain product of 4×4 matrices, f64 (the oracle)", None, Box::new(move |q| { black_box(robot.pose(q)); })),
-        each("nalgebra 0.34, product of isometries", None, Box::new(move |q| { black_box(plain.pose(q)); })),
-        each("k 0.32", None, Box::new(move |q| { black_box(k.pose(q)); })),
-        each("rs-opw-kinematics 3.0 (an IRB 2400)", None, Box::new(move |q| { black_box(opw.forward(q)); })),
-        each("interpreter", Some(1.25), Box::new(move |q| { black_box(scalar.eval(q)); })),
-        each("machine code (JIT)", Some(0.65), Box::new(move |q| { machine.eval(q, black_box(&mut results)); })),
+        each(
+            "plain product of 4×4 matrices, f64 (the oracle)",
+            None,
+            Box::new(move |q| {
+                black_box(robot.pose(q));
+            }),
+        ),
+        each(
+            "nalgebra 0.34, product of isometries",
+            None,
+            Box::new(move |q| {
+                black_box(plain.pose(q));
+            }),
+        ),
+        each(
+            "k 0.32",
+            None,
+            Box::new(move |q| {
+                black_box(k.pose(q));
+            }),
+        ),
+        each(
+            "rs-opw-kinematics 3.0 (an IRB 2400)",
+            None,
+            Box::new(move |q| {
+                black_box(opw.forward(q));
+            }),
+        ),
+        each(
+            "interpreter",
+            Some(1.25),
+            Box::new(move |q| {
+                black_box(scalar.eval(q));
+            }),
+        ),
+        each(
+            "machine code (JIT)",
+            Some(0.65),
+            Box::new(move |q| {
+                machine.eval(q, black_box(&mut results));
+            }),
+        ),
     ])
 }
 
 /// A block that stays in the first-level cache.
-fn block<T: Real>(group: &'static str, name: String, function: &Function, limit: Option<f64>) -> Entry<'static> {
+fn block<T: Real>(
+    group: &'static str,
+    name: String,
+    function: &Function,
+    limit: Option<f64>,
+) -> Entry<'static> {
     const RUNS: usize = 64;
     let mut block: Block<T> = function.block();
     let lanes = block.lanes();

@@ -65,10 +65,12 @@ impl PlainNalgebra {
 
     /// base · Π Rz(qᵢ)·Xᵢ, for tables in the standard convention.
     pub fn pose(&self, q: &[f64]) -> Isometry3<f64> {
-        let turn = |q: f64| Isometry3::from_parts(
-            Translation3::identity(),
-            UnitQuaternion::from_axis_angle(&Vector3::z_axis(), q),
-        );
+        let turn = |q: f64| {
+            Isometry3::from_parts(
+                Translation3::identity(),
+                UnitQuaternion::from_axis_angle(&Vector3::z_axis(), q),
+            )
+        };
         self.links.iter().zip(q).fold(self.base, |x, (link, &q)| x * turn(q) * link)
     }
 }

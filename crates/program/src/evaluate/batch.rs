@@ -93,14 +93,17 @@ impl<T: Real> Batch<T> {
         if threads == 1 || share >= count {
             return self.clone().run(variables, outputs);
         }
+        // One share for each thread, the first for this one.
+        let (own_variables, mut rest) = variables.split_at(share * n);
+        let (own_outputs, others) = outputs.split_at_mut(share * m);
         std::thread::scope(|scope| {
-            let mut rest = variables;
-            for out in outputs.chunks_mut(share * m) {
-                let own;
-                (own, rest) = rest.split_at(out.len() / m * n);
+            for out in others.chunks_mut(share * m) {
+                let part;
+                (part, rest) = rest.split_at(out.len() / m * n);
                 let mut batch = self.clone();
-                scope.spawn(move || batch.run(own, out));
+                scope.spawn(move || batch.run(part, out));
             }
+            self.clone().run(own_variables, own_outputs);
         });
     }
 

@@ -76,6 +76,9 @@ impl<T: Real, const N: usize> Work for Rows<'_, T, N> {
                 rows::write(results, out);
             }
         }
+        if stream {
+            machine::settle_copies();
+        }
     }
 }
 

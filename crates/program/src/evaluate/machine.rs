@@ -117,13 +117,14 @@ impl Isa {
     }
 }
 
-/// Copies numbers without leaving them in the cache, where the processor can.
+/// Copies numbers without leaving them in the cache, where the processor can. [`settle_copies`] must follow before
+/// another thread reads them.
 #[inline]
 pub(crate) fn copy_past_cache<T: Real>(from: &[T], to: &mut [T]) {
     assert_eq!(from.len(), to.len(), "as many to write as to read");
     #[cfg(target_arch = "x86_64")]
     {
-        use std::arch::x86_64::{__m128i, _mm_loadu_si128, _mm_sfence, _mm_stream_si128};
+        use std::arch::x86_64::{__m128i, _mm_loadu_si128, _mm_stream_si128};
         const STEP: usize = size_of::<__m128i>();
         let bytes = size_of_val(from);
         let (source, target) = (from.as_ptr().cast::<u8>(), to.as_mut_ptr().cast::<u8>());
@@ -144,9 +145,17 @@ pub(crate) fn copy_past_cache<T: Real>(from: &[T], to: &mut [T]) {
                 }
             }
             std::ptr::copy_nonoverlapping(source.add(end), target.add(end), bytes - end);
-            _mm_sfence();
         }
     }
     #[cfg(not(target_arch = "x86_64"))]
     to.copy_from_slice(from);
+}
+
+/// Waits until what [`copy_past_cache`] wrote can be seen by all threads.
+pub(crate) fn settle_copies() {
+    #[cfg(target_arch = "x86_64")]
+    // SAFETY: a fence, without conditions.
+    unsafe {
+        std::arch::x86_64::_mm_sfence();
+    }
 }

@@ -3,22 +3,53 @@
 use crate::evaluate::block::Lanes;
 use crate::evaluate::real::Real;
 
-/// Side of the squares that are transposed at once.
-const SIDE: usize = 4;
+/// Values that are moved together; four doubles are what a vector register of 256 bits holds.
+const QUAD: usize = 4;
 
 /// Spreads rows of `file.len()` values over the registers; lanes without a row repeat the last one.
 #[inline(always)]
 pub(crate) fn read<T: Real, const N: usize>(rows: &[T], file: &mut [Lanes<T, N>]) {
-    let width = file.len();
-    if width == 0 {
-        return;
-    }
-    let given = rows.len() / width;
-    for (i, row) in rows.chunks_exact(width).enumerate() {
-        for (register, x) in file.iter_mut().zip(row) {
-            register.0[i] = *x;
+    // With the width known to the compiler, the loop over the rows becomes vector code.
+    match file.len() {
+        0 => {}
+        2 => fixed::<T, N, 2>(rows, file),
+        3 => fixed::<T, N, 3>(rows, file),
+        4 => fixed::<T, N, 4>(rows, file),
+        5 => fixed::<T, N, 5>(rows, file),
+        6 => fixed::<T, N, 6>(rows, file),
+        7 => fixed::<T, N, 7>(rows, file),
+        8 => fixed::<T, N, 8>(rows, file),
+        width => {
+            for (i, row) in rows.chunks_exact(width).enumerate() {
+                file.iter_mut().zip(row).for_each(|(register, x)| register.0[i] = *x);
+            }
+            repeat_last(rows.len() / width, file);
         }
     }
+}
+
+#[inline(always)]
+fn fixed<T: Real, const N: usize, const WIDTH: usize>(rows: &[T], file: &mut [Lanes<T, N>]) {
+    let Some(file) = file.first_chunk_mut::<WIDTH>() else { return };
+    let rows = rows.as_chunks::<WIDTH>().0;
+    match rows.first_chunk::<N>() {
+        Some(rows) => {
+            for i in 0..N {
+                for j in 0..WIDTH {
+                    file[j].0[i] = rows[i][j];
+                }
+            }
+        }
+        None => {
+            for (i, row) in rows.iter().enumerate() {
+                (0..WIDTH).for_each(|j| file[j].0[i] = row[j]);
+            }
+            repeat_last(rows.len(), file);
+        }
+    }
+}
+
+fn repeat_last<T: Real, const N: usize>(given: usize, file: &mut [Lanes<T, N>]) {
     for register in file {
         let last = register.0[given - 1];
         register.0[given..].fill(last);
@@ -29,41 +60,24 @@ pub(crate) fn read<T: Real, const N: usize>(rows: &[T], file: &mut [Lanes<T, N>]
 #[inline(always)]
 pub(crate) fn write<T: Real, const N: usize>(file: &[Lanes<T, N>], rows: &mut [T]) {
     let width = file.len();
-    if width == 0 {
-        return;
-    }
-    let count = rows.len() / width;
-    let (squares, whole) = (width / SIDE * SIDE, count / SIDE * SIDE);
-    for i in (0..whole).step_by(SIDE) {
-        let band = &mut rows[i * width..(i + SIDE) * width];
-        for (k, columns) in file.chunks_exact(SIDE).enumerate() {
-            square(columns, i, k * SIDE, width, band);
+    let (quads, rest) = file.as_chunks::<QUAD>();
+    let mut quad = Lanes([[T::default(); QUAD]; N]);
+    for (k, [a, b, c, d]) in quads.iter().enumerate() {
+        for i in 0..N {
+            quad.0[i] = [a.0[i], b.0[i], c.0[i], d.0[i]];
         }
-        for (k, column) in file.iter().enumerate().skip(squares) {
-            for r in 0..SIDE {
-                band[r * width + k] = column.0[i + r];
+        for (row, quad) in rows.chunks_exact_mut(width).zip(&quad.0) {
+            if let Some((_, place)) = row.split_at_mut_checked(k * QUAD)
+                && let Some(place) = place.first_chunk_mut::<QUAD>()
+            {
+                *place = *quad;
             }
         }
     }
-    for i in whole..count {
-        for (k, column) in file.iter().enumerate() {
-            rows[i * width + k] = column.0[i];
+    let done = quads.len() * QUAD;
+    for (k, register) in rest.iter().enumerate() {
+        for (row, x) in rows.chunks_exact_mut(width).zip(&register.0) {
+            row[done + k] = *x;
         }
-    }
-}
-
-#[inline(always)]
-fn square<T: Real, const N: usize>(
-    columns: &[Lanes<T, N>],
-    i: usize,
-    at: usize,
-    width: usize,
-    band: &mut [T],
-) {
-    let column = |c: usize| -> [T; SIDE] { std::array::from_fn(|r| columns[c].0[i + r]) };
-    let taken = [column(0), column(1), column(2), column(3)];
-    for r in 0..SIDE {
-        let row: [T; SIDE] = [taken[0][r], taken[1][r], taken[2][r], taken[3][r]];
-        band[r * width + at..r * width + at + SIDE].copy_from_slice(&row);
     }
 }
