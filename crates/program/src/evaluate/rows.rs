@@ -34,10 +34,8 @@ fn fixed<T: Real, const N: usize, const WIDTH: usize>(rows: &[T], file: &mut [La
     let rows = rows.as_chunks::<WIDTH>().0;
     match rows.first_chunk::<N>() {
         Some(rows) => {
-            for i in 0..N {
-                for j in 0..WIDTH {
-                    file[j].0[i] = rows[i][j];
-                }
+            for (i, row) in rows.iter().enumerate() {
+                (0..WIDTH).for_each(|j| file[j].0[i] = row[j]);
             }
         }
         None => {

@@ -165,6 +165,10 @@ impl<R: Copy, F: File<R> + ?Sized> Work for Pairs<'_, R, F> {
     fn run<const FUSED: bool>(self) {
         let Pairs(file, cells) = self;
         let x = lanes(file, cells, 0);
+        if !x.iter().fold(true, |all, x| all & kernel::sin_cos_in_range(*x)) {
+            let angles = x;
+            return pairs_one_by_one::<R, F, FUSED>(file, cells, &angles);
+        }
         let (mut s, mut c) = ([0.0; GROUP], [0.0; GROUP]);
         for (i, x) in x.into_iter().enumerate() {
             (s[i], c[i]) = if FUSED { kernel::sin_cos_fused(x) } else { kernel::sin_cos_strict(x) };
@@ -172,10 +176,6 @@ impl<R: Copy, F: File<R> + ?Sized> Work for Pairs<'_, R, F> {
         for ((cell, s), c) in cells.iter().zip(s).zip(c) {
             file.set(cell.writes[0], s);
             file.set(cell.writes[1], c);
-        }
-        if !x.iter().fold(true, |all, x| all & kernel::sin_cos_in_range(*x)) {
-            let angles = x;
-            repair_pairs(file, cells, &angles);
         }
     }
 }
@@ -188,23 +188,27 @@ impl<R: Copy, F: File<R> + ?Sized> Work for Angles<'_, R, F> {
     fn run<const FUSED: bool>(self) {
         let Angles(file, cells) = self;
         let (y, x) = (lanes(file, cells, 0), lanes(file, cells, 1));
+        if !y.iter().zip(&x).fold(true, |all, (y, x)| all & kernel::atan2_in_range(*y, *x)) {
+            let points = (y, x);
+            return angles_one_by_one::<R, F, FUSED>(file, cells, &points.0, &points.1);
+        }
         let mut a = [0.0; GROUP];
         for (i, (y, x)) in y.into_iter().zip(x).enumerate() {
             a[i] = if FUSED { kernel::atan2_fused(y, x) } else { kernel::atan2_strict(y, x) };
         }
         cells.iter().zip(a).for_each(|(cell, a)| file.set(cell.writes[0], a));
-        if !y.iter().zip(&x).fold(true, |all, (y, x)| all & kernel::atan2_in_range(*y, *x)) {
-            let points = (y, x);
-            repair_angles(file, cells, &points.0, &points.1);
-        }
     }
 }
 
 #[cold]
 #[inline(never)]
-fn repair_pairs<R: Copy, F: File<R> + ?Sized>(file: &mut F, cells: &[Cells<R>], x: &[f64]) {
-    for (cell, &x) in cells.iter().zip(x).filter(|(_, x)| !kernel::sin_cos_in_range(**x)) {
-        let (s, c) = kernel::sin_cos_huge(x);
+fn pairs_one_by_one<R: Copy, F: File<R> + ?Sized, const FUSED: bool>(
+    file: &mut F,
+    cells: &[Cells<R>],
+    x: &[f64],
+) {
+    for (cell, &x) in cells.iter().zip(x) {
+        let (s, c) = kernel::sin_cos::<FUSED>(x);
         file.set(cell.writes[0], s);
         file.set(cell.writes[1], c);
     }
@@ -212,10 +216,13 @@ fn repair_pairs<R: Copy, F: File<R> + ?Sized>(file: &mut F, cells: &[Cells<R>], 
 
 #[cold]
 #[inline(never)]
-fn repair_angles<R: Copy, F: File<R> + ?Sized>(file: &mut F, cells: &[Cells<R>], y: &[f64], x: &[f64]) {
+fn angles_one_by_one<R: Copy, F: File<R> + ?Sized, const FUSED: bool>(
+    file: &mut F,
+    cells: &[Cells<R>],
+    y: &[f64],
+    x: &[f64],
+) {
     for ((cell, &y), &x) in cells.iter().zip(y).zip(x) {
-        if !kernel::atan2_in_range(y, x) {
-            file.set(cell.writes[0], kernel::atan2_rare(y, x));
-        }
+        file.set(cell.writes[0], kernel::atan2::<FUSED>(y, x));
     }
 }
