@@ -33,8 +33,9 @@ pub struct Step {
 }
 
 impl Program {
-    /// The part of a graph that `outputs` need. `hint` proposes names for shared values; names in `taken` are
-    /// avoided, and values without a proposal are numbered `m1`, `m2`, ….
+    /// The part of a graph that `outputs` need. `hint` proposes names for shared values; names in `taken` and those of
+    /// inputs are avoided, and values without a proposal are numbered `m1`, `m2`, …. A result whose name is taken gets
+    /// underscores behind it.
     pub fn new(
         graph: &Graph,
         outputs: &[(String, Value)],
@@ -64,8 +65,15 @@ impl Program {
                 v.negative = false;
             }
         }
-        let mut used: FxHashSet<String> = taken.clone();
-        used.extend(outputs.iter().map(|o| o.0.clone()));
+        let inputs = graph.variables().iter().chain(graph.parameters());
+        let mut used: FxHashSet<String> = inputs.map(|s| s.name().to_string()).collect();
+        used.extend(taken.iter().cloned());
+        // A result that is called like an input gets another name.
+        for (name, _) in &mut outputs {
+            while !name.is_empty() && !used.insert(name.clone()) {
+                name.push('_');
+            }
+        }
         let in_angles = only_in_angles(&ops, &outputs);
         let plain_sums = plain_sums(&ops);
         let mut last: FxHashMap<&str, u32> = FxHashMap::default();

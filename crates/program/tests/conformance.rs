@@ -150,8 +150,8 @@ fn defined(program: &Program, row: &[f64]) -> Vec<f64> {
 fn rows() -> Vec<f64> {
     let mut rows = vec![];
     // Miri is slow; what it looks for does not depend on the numbers.
-    let step = if cfg!(miri) { 5 } else { 1 };
-    for (i, &x) in SPECIAL.iter().enumerate() {
+    let step = if cfg!(miri) { 6 } else { 1 };
+    for (i, &x) in SPECIAL.iter().enumerate().step_by(step) {
         for (j, &y) in SPECIAL.iter().enumerate().step_by(step) {
             rows.extend([
                 x,
@@ -267,7 +267,7 @@ fn blocks_and_batches_give_the_bits_of_one_configuration() {
                 }
             }
 
-            for size in [1, 7, 63, 64, 65, count] {
+            for size in [1, 7, 63, 64, 65, count].into_iter().filter(|n| *n <= count) {
                 let (part, wanted) = (&rows[..4 * size], &expected[..results * size]);
                 let mut out = vec![f64::NAN; results * size];
                 function.batch().run(part, &mut out);

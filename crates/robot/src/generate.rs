@@ -7,7 +7,7 @@ use crate::robot::{MissingValue, Robot};
 use denavit_program::emit::{self, File, Language, Library, Parameter, Precision, Routine, Vector};
 use denavit_program::{Extended, Program};
 use denavit_symbolic::print::{Style, print};
-use denavit_symbolic::{Expr, Symbol};
+use denavit_symbolic::{Expr, Node, Symbol};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt;
 use std::str::FromStr;
@@ -94,7 +94,7 @@ pub fn generate(description: &Description, options: &Options) -> Result<Generate
     let library = Library {
         title: d.name.clone(),
         name: options.name.clone().unwrap_or_else(|| d.name.clone()),
-        header: header(description, d),
+        header: header(description, d, &programs),
         variables: variables.iter().map(|v| (v.symbol, about_variable(d, v.symbol, v.kind))).collect(),
         parameters,
         routines,
@@ -139,13 +139,34 @@ fn with_values(d: &Description) -> Result<Description, MissingValue> {
     Ok(new)
 }
 
+/// Where a parameter stands in the table, and its unit.
 fn parameter(d: &Description, symbol: Symbol, value: Option<Expr>) -> Parameter {
-    let measure = d.measure(symbol);
-    let what = match measure {
-        Measure::Angle => "an angle of the table, in rad",
-        Measure::Length => "a length of the table, in m",
+    let letters = [d.convention.length_z(), d.convention.length_x()];
+    let mut places = vec![];
+    for (i, row) in d.rows.iter().enumerate() {
+        let cells = [
+            ("theta", row.theta),
+            (letters[0], row.d),
+            (letters[1], row.a),
+            ("alpha", row.alpha),
+            ("gamma", row.gamma),
+            ("b", row.b),
+        ];
+        let holds = |cell: &&(&str, Expr)| cell.1.symbols().contains(&symbol);
+        places.extend(cells.iter().filter(holds).map(|(letter, _)| format!("{letter} of row {}", i + 1)));
+    }
+    let occurs_in = |x: &Transform<Expr>| x.matrix().iter().flatten().any(|e| e.symbols().contains(&symbol));
+    places.extend(occurs_in(&d.base).then(|| "the base".to_string()));
+    places.extend(occurs_in(&d.tool).then(|| "the tool".to_string()));
+    let unit = match d.measure(symbol) {
+        Measure::Angle => "rad",
+        Measure::Length => "m",
     };
-    Parameter { symbol, about: what.into(), default: value.and_then(|e| e.eval(|_| None).ok()) }
+    let about = match &places[..] {
+        [] => format!("not used, in {unit}"),
+        places => format!("in {}; {unit}", places.join(", ")),
+    };
+    Parameter { symbol, about, default: value.and_then(|e| e.eval(|_| None).ok()) }
 }
 
 fn about_variable(d: &Description, symbol: Symbol, kind: JointKind) -> String {
@@ -187,9 +208,25 @@ fn routine<'a>(d: &Description, wanted: Wanted, program: &'a Program, samples: &
     let reference = reference(d, wanted);
     let vectors: Vec<Vector> = samples.iter().map(|s| s.vector(program, &reference)).collect();
     let reach = samples.iter().map(|s| s.reach).fold(f64::MIN_POSITIVE, f64::max);
+    let rounding = rounding(d, program, samples);
     let is_length = |k: usize| k % 4 == 3 && k % 16 != 15;
-    let scales = (0..program.outputs().len()).map(|k| if is_length(k) { reach } else { 1.0 }).collect();
+    let scale = |k| if is_length(k) { reach * rounding } else { rounding };
+    let scales = (0..program.outputs().len()).map(scale).collect();
     Routine { name: wanted.name().into(), about, program, result: result.into(), shape, vectors, scales }
+}
+
+/// What the entries of a rotation are worth where rounding is concerned: 1, more for many rows, and more where an angle
+/// is a sum, which is rounded at its own size before its sine is taken.
+fn rounding(d: &Description, program: &Program, samples: &[Sample]) -> f64 {
+    let mut scale = (d.rows.len() as f64 / 6.0).max(1.0);
+    for e in program.sines_and_cosines() {
+        let (Node::Sin(angle) | Node::Cos(angle)) = e.node() else { continue };
+        if angle.as_symbol().is_none() {
+            let sizes = samples.iter().map(|s| angle.eval(|x| s.value(program, x)).map_or(0.0, f64::abs));
+            scale = sizes.map(|size| size / 4.0).fold(scale, f64::max);
+        }
+    }
+    scale
 }
 
 /// The plain product of the table's link transforms, to be run in extended precision.
@@ -212,12 +249,15 @@ struct Sample {
 }
 
 impl Sample {
+    /// The value of an input of the program.
+    fn value(&self, program: &Program, s: Symbol) -> Option<f64> {
+        let place = |list: &[Symbol]| list.iter().position(|x| *x == s);
+        let variable = place(program.variables()).map(|k| self.variables[k]);
+        variable.or_else(|| place(program.parameters()).map(|k| self.parameters[k]))
+    }
+
     fn vector(&self, program: &Program, reference: &[Expr]) -> Vector {
-        let place = |list: &[Symbol], s: Symbol| list.iter().position(|x| *x == s);
-        let value = |s: Symbol| {
-            let given = place(program.variables(), s).map(|k| self.variables[k]);
-            given.or_else(|| place(program.parameters(), s).map(|k| self.parameters[k])).map(Extended::from)
-        };
+        let value = |s: Symbol| self.value(program, s).map(Extended::from);
         let mut graph = denavit_program::Graph::new(program.variables(), program.parameters());
         let outputs: Vec<_> = reference.iter().map(|e| (String::new(), graph.trace(*e))).collect();
         let plain = Program::new(&graph, &outputs, |_| None, &Default::default());
@@ -278,7 +318,7 @@ fn samples(d: &Description) -> Vec<Sample> {
 }
 
 /// What every file opens with.
-fn header(original: &Description, d: &Description) -> Vec<String> {
+fn header(original: &Description, d: &Description, programs: &[(Wanted, Program, Proof)]) -> Vec<String> {
     let mut lines = vec![original.name.clone()];
     if let Some(source) = &original.source {
         lines.push(format!("Source of the table: {source}"));
@@ -303,6 +343,7 @@ fn header(original: &Description, d: &Description) -> Vec<String> {
         "Generated by Denavit {} from this table. Do not edit: generate again.",
         env!("CARGO_PKG_VERSION")
     ));
+    lines.extend(programs.iter().map(|(wanted, _, proof)| format!("{wanted}: {proof}.")));
     lines
 }
 

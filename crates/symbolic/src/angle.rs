@@ -89,6 +89,12 @@ impl Angle {
         }
         let (mut s, mut c) = match self.exact_sin_cos() {
             Some(exact) => exact,
+            // Of two constants that add up to a right angle only the smaller one is used: cos 73° is sin 17°.
+            None if self.is_constant() && self.radians.is_zero() && self.turns > Rational::new(1, 4) => {
+                let rest = &Rational::new(1, 2) - &self.turns;
+                let (s, c) = Angle { turns: rest, ..Angle::default() }.sin_cos();
+                (c, s)
+            }
             None => {
                 let argument = self.to_expr();
                 (Expr::trig_node(Node::Sin(argument)), Expr::trig_node(Node::Cos(argument)))

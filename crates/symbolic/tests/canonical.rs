@@ -132,6 +132,17 @@ fn the_basis_of_angles_does_not_change_the_verdict() {
 }
 
 #[test]
+fn complements_of_a_right_angle_are_one_constant() {
+    let degrees = |n: i64| Expr::from(Rational::new(n, 180)) * Expr::pi();
+    let q = Expr::symbol("q");
+    assert_eq!(degrees(73).cos(), degrees(17).sin());
+    // cos(q + 17°) = cos q cos 17° − sin q sin 17°, whichever way the sum was turned round
+    let expanded = q.cos() * degrees(17).cos() - q.sin() * degrees(17).sin();
+    assert_eq!(equal((q - degrees(73)).sin(), -expanded), Verdict::Equal);
+    assert_eq!(equal((-q - degrees(17)).cos(), expanded), Verdict::Equal);
+}
+
+#[test]
 fn refusals_are_typed() {
     let (a, q) = (Expr::symbol("a"), Expr::symbol("q"));
     let refusal = |e: Expr| Ring::new(&[e], &[]).normal(e).err();

@@ -17,8 +17,15 @@ use std::path::Path;
 /// # Errors
 /// If the robot cannot be read, a function is not known, a file stands in the way, or nothing can be written.
 pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
-    let functions: Result<Vec<Wanted>, String> = arguments.functions.split(',').map(str::parse).collect();
+    let named = arguments.functions.split(',').map(str::trim).filter(|f| !f.is_empty());
+    let functions: Result<Vec<Wanted>, String> = named.map(str::parse).collect();
     let mut functions = functions.map_err(|e| Failure::Usage(format!("--functions: {e}")))?;
+    if functions.is_empty() {
+        return Err(Failure::Usage("--functions names no function".into()));
+    }
+    if arguments.name.as_ref().is_some_and(|n| !n.contains(|c: char| c.is_alphanumeric())) {
+        return Err(Failure::Usage("--name needs a letter or a digit".into()));
+    }
     let mut seen = vec![];
     functions.retain(|f| {
         !seen.contains(f) && {
@@ -68,19 +75,23 @@ fn name_of(robot: &str, title: &str) -> String {
 fn write(generated: &Generated, folder: &Path, force: bool) -> Result<(), Failure> {
     let target = |path: &str| path.split('/').fold(folder.to_path_buf(), |p, part| p.join(part));
     let failed = |path: &Path, e: std::io::Error| Failure::Input(format!("error: {}: {e}", path.display()));
-    if !force {
-        let differs = |f: &&denavit_program::emit::File| {
-            let path = target(&f.path);
-            path.exists() && fs::read_to_string(&path).ok().as_deref() != Some(&f.text)
-        };
-        let in_the_way: Vec<String> =
-            generated.files.iter().filter(differs).map(|f| target(&f.path).display().to_string()).collect();
-        if !in_the_way.is_empty() {
-            return Err(Failure::Input(format!(
-                "error: these files are there already, with other contents: {}\n  = hint: --force overwrites them",
-                in_the_way.join(", ")
-            )));
-        }
+    let targets = || generated.files.iter().map(|f| (target(&f.path), f));
+    if let Some((path, _)) = targets().find(|(path, _)| path.is_dir()) {
+        return Err(Failure::Input(format!(
+            "error: {}: a folder stands where a file should",
+            path.display()
+        )));
+    }
+    let differs = |path: &Path, text: &str| fs::read_to_string(path).ok().as_deref() != Some(text);
+    let in_the_way: Vec<String> = targets()
+        .filter(|(path, file)| !force && path.exists() && differs(path, &file.text))
+        .map(|(path, _)| path.display().to_string())
+        .collect();
+    if !in_the_way.is_empty() {
+        return Err(Failure::Input(format!(
+            "error: these files are there already, with other contents: {}\n  = hint: --force overwrites them",
+            in_the_way.join(", ")
+        )));
     }
     for file in &generated.files {
         let path = target(&file.path);

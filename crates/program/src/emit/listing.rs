@@ -35,12 +35,12 @@ impl Listing {
         let steps = program.steps();
         steps.iter().for_each(|step| names.declare(Symbol::new(&step.name)));
         let mut builder = Builder { pairs: FxHashMap::default(), order: vec![], names };
-        // Results that need no statement of their own: a number, or another name.
+        // What needs no statement of its own: another name, or a number as a result.
         let mut plain: FxHashMap<Symbol, Expr> = FxHashMap::default();
         let mut lets: Vec<(Stage, String, Expr)> = vec![];
         for step in steps {
             let value = builder.without_sines(step.value.substitute(|s| plain.get(&s).copied()));
-            if step.is_output && (value.symbols().is_empty() || is_signed_symbol(value)) {
+            if is_signed_symbol(value) || step.is_output && value.symbols().is_empty() {
                 plain.insert(Symbol::new(&step.name), value);
             } else {
                 lets.push((step.stage, step.name, value));

@@ -3,7 +3,7 @@
 use crate::emit::names::Names;
 use crate::emit::{Language, Precision};
 use crate::op::{Op, Value};
-use denavit_symbolic::{Expr, Node};
+use denavit_symbolic::{Expr, Node, Rational};
 
 /// How formulas are written.
 #[derive(Clone, Copy, Debug)]
@@ -61,14 +61,21 @@ impl Spelling<'_> {
         match e.node() {
             Node::Number(_) | Node::Pi => unreachable!("a constant"),
             Node::Symbol(s) => (self.names.of(s).to_string(), Binding::Atom),
-            Node::Neg(a) => (format!("-{}", at_least(a, Binding::Product)), Binding::Sign),
+            // A product that begins with a minus loses it.
+            Node::Neg(a) => match at_least(a, Binding::Product) {
+                text if text.starts_with('-') => (text[1..].into(), Binding::Product),
+                text => (format!("-{text}"), Binding::Sign),
+            },
             Node::Add(a, b) => {
-                (format!("{} + {}", at_least(a, Binding::Sum), at_least(b, Binding::Product)), Binding::Sum)
+                (sum(&at_least(a, Binding::Sum), '+', &at_least(b, Binding::Product)), Binding::Sum)
             }
             Node::Sub(a, b) => {
-                (format!("{} - {}", at_least(a, Binding::Sum), at_least(b, Binding::Product)), Binding::Sum)
+                (sum(&at_least(a, Binding::Sum), '-', &at_least(b, Binding::Product)), Binding::Sum)
             }
             Node::Mul(a, b) => {
+                if let Some(joined) = with_one_constant(e) {
+                    return self.bound(joined);
+                }
                 let sign = self.product();
                 let text = format!("{}{sign}{}", at_least(a, Binding::Product), at_least(b, Binding::Sign));
                 (text, Binding::Product)
@@ -102,4 +109,32 @@ impl Spelling<'_> {
     fn quotient(&self) -> &'static str {
         if self.language == Language::Matlab { "./" } else { " / " }
     }
+}
+
+/// `a + b`, `a - b`, where a minus that `b` begins with turns the sign around.
+fn sum(a: &str, sign: char, b: &str) -> String {
+    match (b.strip_prefix('-'), sign) {
+        (Some(b), '+') => format!("{a} - {b}"),
+        (Some(b), _) => format!("{a} + {b}"),
+        (None, _) => format!("{a} {sign} {b}"),
+    }
+}
+
+/// A product with several constant factors, rewritten with their product in front.
+fn with_one_constant(e: Expr) -> Option<Expr> {
+    let (mut constants, mut others) = (vec![], vec![]);
+    let mut pending = vec![e];
+    while let Some(part) = pending.pop() {
+        match part.node() {
+            _ if part.symbols().is_empty() => constants.push(part),
+            Node::Mul(a, b) => pending.extend([b, a]),
+            _ => others.push(part),
+        }
+    }
+    if constants.len() < 2 {
+        return None;
+    }
+    let product = constants.into_iter().reduce(|a, b| a * b)?;
+    let value = Rational::from_f64(product.eval(|_| None).ok()?)?;
+    Some(Expr::from(value) * others.into_iter().reduce(|a, b| a * b)?)
 }

@@ -125,11 +125,16 @@ fn simplified(ring: &mut Ring, x: &Transform<Expr>) -> Result<[[Expr; 4]; 4], Re
     Ok(rows)
 }
 
-/// Whether the results of a program are these formulas.
+/// Whether the results of a program are these formulas of the robot, one each.
+///
+/// # Panics
+/// If there is not one formula per result.
 pub fn prove(description: &Description, program: &Program, wanted: &[Expr]) -> Proof {
     let formulas = program.formulas();
+    assert_eq!(formulas.len(), wanted.len(), "one formula per result");
+    let chain = Chain::new(description, 0, description.rows.len(), true, true);
     let all: Vec<Expr> = formulas.iter().chain(wanted).copied().collect();
-    let mut ring = Ring::new(&all, &symbol_order(description));
+    let mut ring = Ring::with_basis(&chain.angles, &all, &symbol_order(description));
     identical(&mut ring, formulas.into_iter().zip(wanted.iter().copied()))
 }
 

@@ -9,6 +9,7 @@ use crate::commands::fk::plural;
 use crate::failure::Failure;
 use denavit_program::Batch;
 use indicatif::{HumanCount, ProgressBar, ProgressStyle};
+use serde_json::error::Category;
 use serde_json::json;
 use std::fs::File;
 use std::io::{self, IsTerminal, Read, Write};
@@ -211,8 +212,15 @@ fn parse(line: &[u8], joints: usize, rows: &mut Vec<f64>) -> Result<(), String> 
     if line.len() > LONGEST {
         return Err(format!("longer than {LONGEST} bytes"));
     }
-    let q: Vec<f64> = serde_json::from_slice(line)
-        .map_err(|e| format!("not a JSON array of numbers (column {})", e.column()))?;
+    // Some editors put a byte order mark before the first line.
+    let line = line.strip_prefix(b"\xef\xbb\xbf").unwrap_or(line);
+    let q: Vec<f64> = serde_json::from_slice(line).map_err(|e| {
+        let why = match e.classify() {
+            Category::Data => "",
+            Category::Io | Category::Syntax | Category::Eof => ": no JSON",
+        };
+        format!("not a JSON array of numbers{why} (column {})", e.column().max(1))
+    })?;
     if q.len() != joints {
         return Err(format!("{}, the robot has {}", plural(q.len(), "value"), plural(joints, "joint")));
     }
