@@ -9,7 +9,7 @@ use std::process::{Command, Stdio};
 use std::thread;
 
 /// Robots of different structure: parallel and crossing axes, slides, couplings, redundant arms, a rail, oblique
-/// twists; and one whose parameters have no values.
+/// twists; and some whose parameters have no values, hostile names, or those of results.
 const ROBOTS: &[&str] = &[
     "ur5",
     "staubli-rx90",
@@ -21,6 +21,8 @@ const ROBOTS: &[&str] = &[
     "smart5-six-rail",
     "oblique-6r",
     "crates/robot/tests/generated/symbols.toml",
+    "crates/robot/tests/generated/mixed.toml",
+    "crates/robot/tests/generated/names.toml",
 ];
 /// Of these also with the values of parameters in the code.
 const FIXED: &[&str] = &["scara", "franka-panda"];

@@ -2,7 +2,7 @@
 //!
 //! A step that has to install something first (a Python environment, say) does so on its own, when it runs.
 
-use crate::{cargo, command, counts, languages, succeed, tidy};
+use crate::{cargo, command, counts, languages, path, succeed, tidy};
 use anyhow::{Context, Result, bail};
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -20,6 +20,7 @@ const STEPS: &[Step] = &[
     ("clippy", || run(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"])),
     ("tidy", || tidy::run().map(|()| Outcome::Passed)),
     ("tests", || run(&["test", "--workspace", "--locked"])),
+    ("examples", examples),
     ("languages", || languages::run().map(|()| Outcome::Passed)),
     ("benchmark", || run(&["check", "--locked", "--manifest-path", "bench/Cargo.toml"])),
     ("documentation", documentation),
@@ -66,6 +67,16 @@ pub fn run_all() -> Result<()> {
 
 fn run(arguments: &[&str]) -> Result<Outcome> {
     succeed(cargo().args(arguments))?;
+    Ok(Outcome::Passed)
+}
+
+/// The numbered examples end without a failed assertion.
+fn examples() -> Result<Outcome> {
+    for entry in std::fs::read_dir(path("crates/robot/examples"))? {
+        let file = entry?.path();
+        let name = file.file_stem().and_then(|s| s.to_str()).context("a name")?;
+        succeed(cargo().args(["run", "--quiet", "--locked", "-p", "denavit", "--example", name]))?;
+    }
     Ok(Outcome::Passed)
 }
 

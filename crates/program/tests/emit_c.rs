@@ -6,7 +6,8 @@ mod emit_support;
 use denavit_program::emit::{Language, Precision};
 use denavit_program::kernel;
 use denavit_symbolic::Expr;
-use emit_support::{Sample, arm, folder, has_fma, hostile, is_there, program, run, write};
+use emit_support::{Sample, arm, example, folder, has_fma, hostile, is_there, program, run, small, text, write};
+use std::process::Command;
 
 fn compilers() -> Vec<&'static str> {
     ["gcc", "clang"].into_iter().filter(|c| is_there(c)).collect()
@@ -14,7 +15,9 @@ fn compilers() -> Vec<&'static str> {
 
 #[test]
 fn the_folder_builds_and_passes_its_own_test() {
-    for (kind, sample) in [("arm", arm()), ("hostile", hostile())] {
+    for (kind, sample) in
+        [("arm", arm()), ("hostile", hostile()), ("none", small(0)), ("one", small(1))]
+    {
         for precision in [Precision::Double, Precision::Single] {
             let folder = folder(&format!("c-{kind}-{precision:?}"));
             write(&sample.library(precision), Language::C, &folder);
@@ -29,6 +32,44 @@ fn the_folder_builds_and_passes_its_own_test() {
             }
         }
     }
+}
+
+#[test]
+fn the_example_of_the_header_compiles_and_fast_arithmetic_is_refused() {
+    for (kind, sample) in [("arm", arm()), ("hostile", hostile()), ("none", small(0))] {
+        let folder = folder(&format!("c-example-{kind}"));
+        let files = write(&sample.library(Precision::Double), Language::C, &folder);
+        let (header, source) = (&files[0], &files[1].path);
+        let lines = example(&header.text, " * ");
+        assert!(lines.lines().count() > 2, "{lines}");
+        let main = format!("#include \"{}\"\nint main(void)\n{{\n{lines}    return 0;\n}}\n", header.path);
+        std::fs::write(folder.join("example.c"), main).expect("written");
+        for cc in compilers() {
+            let words = [cc, "-std=c99", "-O1", "-Wall", "-Wextra", "-Werror", "example.c", source, "-lm"];
+            run(&folder, &[&words[..], &["-ffp-contract=off", "-o", "example"]].concat());
+            run(&folder, &["./example"]);
+            let fast = Command::new(cc).args(["-Ofast", "-c", source]).current_dir(&folder).output();
+            let fast = fast.expect("a compiler");
+            assert!(!fast.status.success());
+            assert!(String::from_utf8_lossy(&fast.stderr).contains("remove roundings"));
+        }
+    }
+}
+
+#[test]
+fn names_are_those_of_the_formulas_or_say_whose_they_are() {
+    let sample = small(1);
+    let files = emit_support::write(&sample.library(Precision::Double), Language::C, &folder("c-names"));
+    let source = text(&files, "x_test.c");
+    for wanted in ["s1, c1;", "s_al6, c_al6;", "const double L = parameters->L;"] {
+        assert!(source.contains(wanted), "{wanted}\n{source}");
+    }
+    let paths: Vec<&str> = files.iter().map(|f| f.path.as_str()).collect();
+    assert_eq!(paths, ["x_test.h", "x_test.c", "test_x_test.c", "Makefile"]);
+    assert!(text(&files, "Makefile").lines().take_while(|l| l.starts_with('#')).count() < 6);
+    let hostile = hostile();
+    let files = emit_support::write(&hostile.library(Precision::Double), Language::C, &folder("c-names"));
+    assert!(files[0].text.contains("const_2: the symbol const; "), "{}", files[0].text);
 }
 
 /// The embedded routines have the bits of this crate's, so that its error bounds hold for them.

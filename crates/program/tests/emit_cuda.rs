@@ -4,7 +4,7 @@
 mod emit_support;
 
 use denavit_program::emit::{Language, Library, Precision};
-use emit_support::{arm, folder, hostile, is_there, run, write};
+use emit_support::{arm, folder, hostile, is_there, only, run, small, write};
 use std::path::Path;
 use std::process::Command;
 
@@ -22,12 +22,15 @@ static index blockIdx, blockDim = {1}, threadIdx;
 
 #[test]
 fn kernels_agree_with_stored_values_thread_by_thread() {
-    for (kind, sample) in [("arm", arm()), ("hostile", hostile())] {
+    let samples = [("arm", arm()), ("hostile", hostile()), ("none", small(0)), ("one", small(1))];
+    for (kind, sample) in samples {
         for precision in [Precision::Double, Precision::Single] {
             let folder = folder(&format!("cuda-{kind}-{precision:?}"));
             let library = sample.library(precision);
             let files = write(&library, Language::Cuda, &folder);
             let name = files[1].path.strip_suffix(".cu").expect("kernels").to_string();
+            assert_eq!(only(&files, "test_", ".py"), format!("test_{name}.py"));
+            assert_eq!(files[0].text.contains("rctangents"), kind == "arm", "{kind}");
             let real = if precision == Precision::Single { "float" } else { "double" };
             std::fs::write(folder.join("emulated.cpp"), emulated(&library, &files[1].text, &name, real))
                 .expect("written");

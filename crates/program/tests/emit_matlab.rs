@@ -1,8 +1,11 @@
 //! Emitted MATLAB runs in Octave, and computes what it should.
 
+#[allow(dead_code)]
+mod emit_support;
 mod emitted;
 
-use denavit_program::emit::Language;
+use denavit_program::emit::{Language, Precision};
+use emit_support::{example, folder, only, run, small, text, write};
 
 #[test]
 fn matlab_tests_itself() {
@@ -13,4 +16,21 @@ fn matlab_tests_itself() {
         let test = emitted::file_name(files, "test_", ".m");
         ["octave", "--no-gui", "--quiet", "--norc", &test].map(String::from).to_vec()
     });
+}
+
+#[test]
+fn few_variables_and_the_example() {
+    if !emitted::has(&["octave", "--version"]) {
+        return;
+    }
+    for n in [0, 1] {
+        let folder = folder(&format!("matlab-{n}"));
+        let files = write(&small(n).library(Precision::Double), Language::Matlab, &folder);
+        let test = only(&files, "test_", ".m");
+        let said = run(&folder, &["octave", "--no-gui", "--quiet", "--norc", &test]);
+        assert_eq!(said, "x_test: all configurations agree\n");
+        let lines = example(text(&files, "x_test_fixed.m"), "% ");
+        assert!(lines.contains("x_test_fixed(q, parameters)"), "{lines}");
+        run(&folder, &["octave", "--no-gui", "--quiet", "--norc", "--eval", &lines]);
+    }
 }

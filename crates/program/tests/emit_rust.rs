@@ -4,14 +4,21 @@
 mod emit_support;
 
 use denavit_program::emit::{Language, Precision};
-use emit_support::{arm, folder, has_fma, hostile, run_with, write};
+use emit_support::{arm, folder, has_fma, hostile, run_with, small, write};
 
 #[test]
 fn the_package_builds_and_passes_its_own_test() {
-    for (kind, sample) in [("arm", arm()), ("hostile", hostile())] {
+    let samples = [("arm", arm()), ("hostile", hostile()), ("none", small(0)), ("one", small(1))];
+    for (kind, sample) in samples {
         let folder = folder(&format!("rust-{kind}"));
         // The folder stands inside the workspace of this crate, to which it does not belong.
-        write(&sample.library(Precision::Double), Language::Rust, &folder);
+        let files = write(&sample.library(Precision::Double), Language::Rust, &folder);
+        for file in &files {
+            for gone in ["reduce.rs", "sincos_", "atan2_strict.rs"] {
+                assert!(!file.text.contains(gone), "{}: {gone}", file.path);
+            }
+        }
+        run_with(&folder, &[env!("CARGO"), "fmt", "--check"], &[]);
         let manifest = std::fs::read_to_string(folder.join("Cargo.toml")).expect("a manifest");
         std::fs::write(folder.join("Cargo.toml"), manifest + "\n[workspace]\n").expect("written");
         let target = folder.join("target");

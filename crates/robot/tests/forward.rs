@@ -106,13 +106,15 @@ fn orientations_are_rotations() {
     }
 }
 
-/// Multiplications, additions, sine/cosine pairs of the whole pose; a change shows in review.
+/// Multiplications, additions, sine/cosine pairs, depth and estimated cycles of the whole pose; a change shows in
+/// review.
 #[test]
 fn operation_counts() {
     let mut found = String::new();
     for name in catalogue::names() {
-        let count = ForwardModel::of_tool(&robot(name), Outputs::ALL).algorithm.count();
-        found += &format!("{name}: {count}\n");
+        let program = ForwardModel::of_tool(&robot(name), Outputs::ALL).algorithm;
+        let (depth, cycles) = (program.depth(), program.cycles());
+        found += &format!("{name}: {}; depth {depth}, {cycles} cycles\n", program.count());
     }
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/snapshots/operation_counts.txt");
     if std::env::var_os("UPDATE_SNAPSHOTS").is_some() {

@@ -92,6 +92,7 @@ fn with_named_sum(statement: Statement, sums: &mut Vec<(Expr, Expr)>, names: &mu
     let first = angle.symbols().first().map(|s| s.name().to_string()).unwrap_or_default();
     let wanted = match index.strip_prefix('a') {
         Some(number) => format!("angle{number}"),
+        None if index.starts_with('_') => format!("angle{index}"),
         None => format!("{}{index}", first.trim_end_matches(|c: char| c.is_ascii_digit())),
     };
     let name = names.fresh(&wanted);

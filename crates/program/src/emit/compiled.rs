@@ -2,7 +2,7 @@
 
 use crate::emit::blocks::{blocks, reads};
 use crate::emit::listing::{Listing, Statement};
-use crate::emit::names::{Names, sanitised};
+use crate::emit::names::{Names, no_test, sanitised};
 use crate::emit::spelling::Spelling;
 use crate::emit::wrap::Wrap;
 use crate::emit::{Language, Library, Precision, Routine};
@@ -221,22 +221,31 @@ pub(crate) fn inputs(library: &Library, language: Language, reserved: &[&str]) -
 
 /// The name of files and functions.
 pub(crate) fn file_name(library: &Library, language: Language) -> String {
-    Names::new(language, &["test", "main", "makefile"]).free(&sanitised(&library.name).to_lowercase())
+    Names::new(language, &["main", "makefile"]).free(&no_test(sanitised(&library.name).to_lowercase()))
 }
 
 /// The words that open a file: the header of the library, what each function costs, and how it is called.
 pub(crate) fn opening(library: &Library, functions: &[Function], names: &Names) -> Vec<String> {
     let mut lines = library.header.clone();
     lines.extend([String::new(), "Operations of one configuration:".into()]);
-    lines.extend(functions.iter().map(|f| format!("  {}: {}", f.name, f.routine.program.count())));
+    lines.extend(functions.iter().map(|f| {
+        let name = &f.routine.name;
+        let also = if f.name == *name { String::new() } else { format!(" (the function {name})") };
+        format!("  {}{also}: {}", f.name, f.routine.program.count())
+    }));
     lines.extend([String::new(), "Variables, in the order of q:".into()]);
     let variables = library.variables.iter().enumerate();
-    lines.extend(variables.map(|(k, (s, about))| format!("  q[{k}] = {}: {about}", names.of(*s))));
+    lines.extend(
+        variables.map(|(k, (s, about))| format!("  q[{k}] = {}: {}", names.of(*s), names.about(*s, about))),
+    );
+    if library.variables.is_empty() {
+        lines.push("  none".into());
+    }
     if !library.parameters.is_empty() {
         lines.extend([String::new(), "Parameters:".into()]);
         lines.extend(library.parameters.iter().map(|p| {
             let default = p.default.map_or("no default".into(), |x| format!("default {x:?}"));
-            format!("  {}: {} ({default})", names.of(p.symbol), p.about)
+            format!("  {}: {} ({default})", names.of(p.symbol), names.about(p.symbol, &p.about))
         }));
     }
     lines.extend([String::new(), "Results:".into()]);
@@ -246,6 +255,19 @@ pub(crate) fn opening(library: &Library, functions: &[Function], names: &Names) 
         lines.extend(f.routine.about.iter().map(|line| format!("    {line}")));
     }
     lines
+}
+
+/// What holds of angles: which are taken, and what their sums cost.
+pub(crate) fn about_angles(functions: &[Function], precision: Precision) -> Vec<String> {
+    if !Function::any_range(functions) {
+        return vec![];
+    }
+    let unit = if precision == Precision::Single { "2^-24" } else { "2^-53" };
+    vec![
+        "Every finite angle has its sine; an infinite one or NaN makes the results that read it NaN.".into(),
+        "Angles that formulas add up are added before the sine is taken: that rounds the sum of angles".into(),
+        format!("q by up to |q| {unit}, an error of the result that grows with q. Huge sums overflow."),
+    ]
 }
 
 /// The default of every parameter, if each has one.

@@ -5,7 +5,7 @@
 
 use crate::emit::blocks::{Block, blocks, reads};
 use crate::emit::listing::{Listing, Statement};
-use crate::emit::names::{Names, comment, sanitised};
+use crate::emit::names::{Names, brief, comment, sanitised};
 use crate::emit::spelling::Spelling;
 use crate::emit::wrap::{Wrap, comments, prose, split};
 use crate::emit::{File, Language, Library, Parameter, Precision, Routine};
@@ -16,7 +16,7 @@ const WRAP: Wrap = Wrap { width: 100, step: 2, sign_leads: false, goes_on: "", b
 /// Names that mean something in the module.
 const RESERVED: &str = "\
 q out parameters Parameters DEFAULTS missing i o Object Float64Array RangeError TypeError Number \
-Array test assert check TOLERANCE";
+Array String ArrayBuffer test assert check TOLERANCE requireNumbers requireParameters";
 
 /// The files: the module, its tests and the package.
 pub(crate) fn emit(library: &Library) -> Vec<File> {
@@ -63,12 +63,40 @@ impl<'a> Module<'a> {
         }
         library.variables.iter().for_each(|(symbol, _)| names.declare(*symbol));
         library.parameters.iter().for_each(|p| names.declare(p.symbol));
-        Module { library, name: sanitised(&library.name).to_lowercase(), functions, names }
+        // `node --test` runs what is called like this.
+        let name = sanitised(&library.name).to_lowercase();
+        let is_test = name == "test" || name.ends_with("_test");
+        let name = if is_test { format!("{name}_x") } else { name };
+        Module { library, name, functions, names }
     }
 
     fn header(&self) -> Vec<String> {
         let lines: Vec<String> = self.library.header.iter().map(|line| untagged(line)).collect();
         comments(lines.iter().map(String::as_str), "// ", WRAP.width)
+    }
+
+    /// Calls of the first function, as a comment shows them.
+    fn example(&self) -> Vec<String> {
+        let (Some(f), Some(routine)) = (self.functions.first(), self.library.routines.first()) else {
+            return vec![];
+        };
+        let n = self.library.variables.len();
+        let mut lines = vec![String::new(), "Example:".into()];
+        lines.push(format!("    import {{ {}, {} }} from \"./{}.js\";", f.one, f.batch, self.name));
+        let parameters = self.parameters_of(routine);
+        let value = |p: &&Parameter| {
+            format!("{}: {}", self.names.of(p.symbol), self.numbers(&[p.default.unwrap_or(1.0)])[0])
+        };
+        let is_required = parameters.iter().any(|p| p.default.is_none());
+        let given: Vec<String> = match is_required {
+            true => parameters.iter().filter(|p| p.default.is_none()).map(value).collect(),
+            false => parameters.iter().take(1).map(value).collect(),
+        };
+        let given = format!(", undefined, {{ {} }}", given.join(", "));
+        let given = if parameters.is_empty() { "" } else { &given };
+        lines.push(format!("    const result = {}([{}]{given});", f.one, vec!["0"; n].join(", ")));
+        lines.push(format!("    const results = {}(new Float64Array({n} * 1000){given});", f.batch));
+        lines.iter().map(|line| untagged(line)).collect()
     }
 
     fn spelling<'n>(&self, names: &'n Names) -> Spelling<'n> {
@@ -87,6 +115,8 @@ impl<'a> Module<'a> {
 
     fn source(&self) -> Vec<String> {
         let mut lines = self.header();
+        let example = self.example();
+        lines.extend(comments(example.iter().map(String::as_str), "// ", WRAP.width));
         if !self.library.parameters.is_empty() {
             lines.push(String::new());
             lines.extend(self.parameters());
@@ -103,6 +133,22 @@ impl<'a> Module<'a> {
             lines.push("  throw new TypeError(`parameter ${name} is missing: it has no default`);".into());
             lines.push("}".into());
         }
+        lines.extend(REQUIRE_NUMBERS.lines().map(str::to_string));
+        if self.library.routines.iter().any(|r| !self.parameters_of(r).is_empty()) {
+            let list = &self.library.parameters;
+            let known: Vec<String> = list.iter().map(|p| format!("\"{}\"", self.names.of(p.symbol))).collect();
+            for line in REQUIRE_PARAMETERS.lines() {
+                if line.contains("DEFAULTS") && list.iter().all(|p| p.default.is_none()) {
+                    lines.push("  if (parameters === undefined) {".into());
+                } else if line.contains("KNOWN") {
+                    lines.push("  const known = [".into());
+                    lines.extend(WRAP.list(&known, 4));
+                    lines.push("  ];".into());
+                } else {
+                    lines.push(line.into());
+                }
+            }
+        }
         lines
     }
 
@@ -113,7 +159,8 @@ impl<'a> Module<'a> {
         for p in &self.library.parameters {
             let name = self.names.of(p.symbol);
             let name = if p.default.is_some() { format!("[{name}]") } else { name.to_string() };
-            about.push(format!("@property {{number}} {name} {}", untagged(&p.about)));
+            let what = untagged(&self.names.about(p.symbol, &p.about));
+            about.push(format!("@property {{number}} {name} {what}"));
         }
         let mut lines = documentation(&about);
         let defaults: Vec<(&str, f64)> = self
@@ -166,16 +213,19 @@ impl<'a> Module<'a> {
         about.push(String::new());
         about.push(format!("@param {{ArrayLike<number>}} q {n} values:"));
         for (symbol, what) in &self.library.variables {
-            about.push(format!("  {}: {}", self.names.of(*symbol), untagged(what)));
+            let what = untagged(&self.names.about(*symbol, what));
+            about.push(format!("  {}: {what}", self.names.of(*symbol)));
         }
         about.push(format!("{out} where the {shape} results go, row-major"));
         about.extend(tag.clone());
         about.push("@returns {Float64Array} `out`".into());
         about.push("@throws {RangeError} if `q` or `out` has another length".into());
+        about.push("@throws {TypeError} if an argument is of another type".into());
         let mut lines = documentation(&about);
         let one = &functions.one;
         let arguments = format!("q, out = new Float64Array({m}){given}");
         lines.extend(call(&format!("export function {one}"), &arguments, " {"));
+        lines.extend(required(&parameters));
         for (name, length) in [("q", n), ("out", m)] {
             lines.push(format!("  if ({name}.length !== {length}) {{"));
             lines.push(format!(
@@ -196,6 +246,7 @@ impl<'a> Module<'a> {
         about.extend(tag);
         about.push("@returns {Float64Array} `out`".into());
         about.push("@throws {RangeError} if `q` or `out` has another length".into());
+        about.push("@throws {TypeError} if an argument is of another type".into());
         lines.extend(documentation(&about));
         let batch = &functions.batch;
         let new = match n {
@@ -205,6 +256,7 @@ impl<'a> Module<'a> {
         };
         let arguments = format!("q, out = new Float64Array({new}){given}");
         lines.extend(call(&format!("export function {batch}"), &arguments, " {"));
+        lines.extend(required(&parameters));
         if n == 0 {
             lines.push(format!("  if (q.length !== 0 || out.length % {m} !== 0) {{"));
             lines
@@ -245,6 +297,58 @@ impl<'a> Module<'a> {
         if is_any_required { "Partial<Parameters>" } else { "Parameters" }
     }
 }
+
+/// The types of arguments are what they should be.
+fn required(parameters: &[&Parameter]) -> Vec<String> {
+    let mut lines = vec!["  requireNumbers(q);".to_string(), "  if (!(out instanceof Float64Array)) {".into()];
+    let hint = if parameters.is_empty() { "" } else { "; parameters are the third argument" };
+    lines.push(format!("    throw new TypeError(\"out must be a Float64Array{hint}\");"));
+    lines.push("  }".into());
+    if !parameters.is_empty() {
+        lines.push("  requireParameters(parameters);".into());
+    }
+    lines
+}
+
+/// What refuses texts and the like for numbers; typed arrays hold nothing else.
+const REQUIRE_NUMBERS: &str = r#"
+/** @param {ArrayLike<number>} q */
+function requireNumbers(q) {
+  if (ArrayBuffer.isView(q)) {
+    return;
+  }
+  if (typeof q !== "object" || q === null || typeof q.length !== "number") {
+    throw new TypeError(`q must be an array of numbers, not ${q === null ? "null" : typeof q}`);
+  }
+  for (let i = 0; i < q.length; i++) {
+    if (typeof q[i] !== "number") {
+      throw new TypeError(`q[${i}] must be a number, not ${q[i] === null ? "null" : typeof q[i]}`);
+    }
+  }
+}
+"#;
+
+/// What refuses unknown names and what is no finite number.
+const REQUIRE_PARAMETERS: &str = r#"
+/** @param {Partial<Parameters> | null | undefined} parameters */
+function requireParameters(parameters) {
+  if (parameters === DEFAULTS || parameters === undefined) {
+    return;
+  }
+  if (typeof parameters !== "object" || parameters === null) {
+    throw new TypeError("parameters must be an object such as { name: value }");
+  }
+  KNOWN
+  for (const [name, value] of Object.entries(parameters)) {
+    if (!known.includes(name)) {
+      throw new TypeError(`there is no parameter ${name}; there are ${known.join(", ")}`);
+    }
+    if (value !== undefined && !Number.isFinite(value)) {
+      throw new TypeError(`parameter ${name} must be a finite number, not ${String(value)}`);
+    }
+  }
+}
+"#;
 
 /// The formulas of a routine.
 struct Body<'a> {
@@ -557,6 +661,23 @@ test(\"{batch} of all rows\", () => {{
             refused(format!("{batch}(q, {more_out}{first})"));
         }
         lines.push("});".into());
+        lines.extend([String::new(), format!("test(\"{one} refuses other types\", () => {{")]);
+        lines.push(format!("  const q = new Float64Array({n});"));
+        lines.push(format!("  const refused = [[\"{}\"], [q, {{}}]];", "1".repeat(n)));
+        if n > 0 {
+            lines.push(format!("  refused.push([Array({n}).fill(\"1\")]);"));
+        }
+        if let Some(p) = parameters.first() {
+            let name = self.names.of(p.symbol);
+            lines.push(format!("  refused.push([q, undefined, {{ ...{cases}[0].parameters, {name}: \"1\" }}]);"));
+            lines.push(format!("  refused.push([q, undefined, {{ ...{cases}[0].parameters, \"no such\": 1 }}]);"));
+        }
+        lines.push("  for (const given of refused) {".into());
+        for function in [one, batch] {
+            lines.push("    // @ts-expect-error: other types on purpose".into());
+            lines.push(format!("    assert.throws(() => {function}(...given), TypeError);"));
+        }
+        lines.extend(["  }".to_string(), "});".into()]);
         if let Some(required) = parameters.iter().find(|p| p.default.is_none()) {
             let name = self.names.of(required.symbol);
             lines
@@ -572,7 +693,8 @@ test(\"{batch} of all rows\", () => {{
     fn package(&self) -> Vec<String> {
         let quoted = |text: &str| format!("\"{}\"", comment(text).replace('"', "'"));
         let mut lines = vec!["{".to_string(), "  \"//\": [".into()];
-        let header = comments(self.library.header.iter().map(String::as_str), "", WRAP.width - 7);
+        let header = brief(self.library, &format!("{}.js", self.name));
+        let header = comments(header.iter().map(String::as_str), "", WRAP.width - 7);
         let header: Vec<String> = header.iter().map(|line| format!("    {}", quoted(line))).collect();
         lines.push(header.join(",\n"));
         lines.extend([

@@ -34,7 +34,8 @@ impl Listing {
     pub fn new(program: &Program, names: &mut Names) -> Self {
         let steps = program.steps();
         steps.iter().for_each(|step| names.declare(Symbol::new(&step.name)));
-        let mut builder = Builder { pairs: FxHashMap::default(), order: vec![], names };
+        let variables = program.variables();
+        let mut builder = Builder { variables, pairs: FxHashMap::default(), order: vec![], names };
         // What needs no statement of its own: another name, or a number as a result.
         let mut plain: FxHashMap<Symbol, Expr> = FxHashMap::default();
         let mut lets: Vec<(Stage, String, Expr)> = vec![];
@@ -122,6 +123,7 @@ impl Pair {
 }
 
 struct Builder<'a> {
+    variables: &'a [Symbol],
     pairs: FxHashMap<Expr, Pair>,
     order: Vec<Expr>,
     names: &'a mut Names,
@@ -164,14 +166,8 @@ impl Builder<'_> {
 
     fn pair(&mut self, angle: Expr) -> &mut Pair {
         if !self.pairs.contains_key(&angle) {
-            let index = short_index(angle);
-            let [sine, cosine] = ["s", "c"].map(|letter| {
-                let wanted = match &index {
-                    Some(index) => format!("{letter}{index}"),
-                    None => format!("{letter}a{}", self.order.len() + 1),
-                };
-                self.names.fresh(&wanted)
-            });
+            let index = index(angle, self.variables).unwrap_or(format!("a{}", self.order.len() + 1));
+            let [sine, cosine] = ["s", "c"].map(|letter| self.names.fresh(&format!("{letter}{index}")));
             self.order.push(angle);
             self.pairs.insert(angle, Pair { sine, cosine, reads_sine: false, reads_cosine: false });
         }
@@ -179,22 +175,21 @@ impl Builder<'_> {
     }
 }
 
-/// `23` for q2 + q3: the numbers at the ends of the names of a plain sum.
-fn short_index(angle: Expr) -> Option<String> {
+/// What sines of a sum are called by, behind their letter: `23` for q2 + q3, the numbers of variables, but `_q2_al3`,
+/// with all names, where something else enters.
+fn index(angle: Expr, variables: &[Symbol]) -> Option<String> {
     let form = Angle::of(angle);
     let is_plain_sum = form.to_expr() == angle && form.terms.iter().all(|t| t.1.is_one());
     if !is_plain_sum || form.terms.is_empty() {
         return None;
     }
-    let mut indices = vec![];
-    for (term, _) in &form.terms {
-        let name = term.as_symbol()?.name();
-        let digits = &name[name.trim_end_matches(|c: char| c.is_ascii_digit()).len()..];
-        if digits.is_empty() {
-            return None;
-        }
-        indices.push(digits.to_string());
+    let symbols: Vec<Symbol> = form.terms.iter().map(|t| t.0.as_symbol()).collect::<Option<_>>()?;
+    let names: Vec<_> = symbols.iter().map(|s| s.name()).collect();
+    let number = |name: &str| name[name.trim_end_matches(|c: char| c.is_ascii_digit()).len()..].to_string();
+    let numbers: Vec<String> = names.iter().map(|name| number(name)).collect();
+    if symbols.iter().all(|s| variables.contains(s)) && numbers.iter().all(|n| !n.is_empty()) {
+        let separator = if numbers.iter().any(|n| n.len() > 1) { "_" } else { "" };
+        return Some(numbers.join(separator));
     }
-    let separator = if indices.iter().any(|i| i.len() > 1) { "_" } else { "" };
-    Some(indices.join(separator))
+    Some(names.iter().map(|name| format!("_{name}")).collect())
 }

@@ -5,7 +5,7 @@
 
 use crate::emit::blocks::{blocks, reads};
 use crate::emit::listing::{Listing, Statement};
-use crate::emit::names::{Names, sanitised};
+use crate::emit::names::{Names, no_test, sanitised};
 use crate::emit::spelling::Spelling;
 use crate::emit::wrap::{Wrap, comments};
 use crate::emit::{File, Language, Library, Parameter, Precision, Routine};
@@ -21,7 +21,7 @@ const MAX_NAME: usize = 20;
 const RESERVED: &str = "\
 q p parameters given defaults required names k error double struct isnumeric isreal ismatrix \
 isstruct isscalar isfield fieldnames nargin narginchk mat2str class abs all any max strjoin permute \
-isempty isequal strcmp numel help run clear";
+isempty isequal strcmp numel help run clear value isfinite fprintf";
 
 /// The files: functions, parameters and tests.
 pub(crate) fn emit(library: &Library) -> Vec<File> {
@@ -54,7 +54,7 @@ struct Module<'a> {
 
 impl<'a> Module<'a> {
     fn new(library: &'a Library) -> Self {
-        let name = short(&library.name, MAX_LIBRARY).to_lowercase();
+        let name = no_test(short(&library.name, MAX_LIBRARY - 2).to_lowercase());
         let mut names = Names::new(Language::Matlab, &RESERVED.split_whitespace().collect::<Vec<_>>());
         let test = names.free(&format!("test_{name}"));
         let parameters = names.free(&format!("{name}_parameters"));
@@ -166,6 +166,7 @@ impl<'a> Module<'a> {
             }
         )];
         for (k, (symbol, what)) in self.library.variables.iter().enumerate() {
+            let what = self.names.about(*symbol, what);
             about.push(format!("    Q(:, {})  {}: {what}", k + 1, self.names.of(*symbol)));
         }
         if !parameters.is_empty() {
@@ -178,11 +179,37 @@ impl<'a> Module<'a> {
             ));
         }
         about.push(String::new());
+        about.push("  Example:".into());
+        about.extend(self.example(function, result, parameters).iter().map(|line| format!("      {line}")));
+        about.push(String::new());
         about.push(format!("  Operations per row of Q: {}.", routine.program.count()));
         lines.extend(comments(about.iter().map(String::as_str), "% ", WRAP.width));
         lines.push("%".into());
         let header: Vec<String> = self.library.header.iter().map(indented).collect();
         lines.extend(comments(header.iter().map(String::as_str), "% ", WRAP.width));
+        lines
+    }
+
+    /// A call, as a comment shows it.
+    fn example(&self, function: &str, result: &str, parameters: &[&Parameter]) -> Vec<String> {
+        let mut lines = vec![format!("q = zeros(1000, {});", self.library.variables.len())];
+        let is_required = self.library.parameters.iter().any(|p| p.default.is_none());
+        let given = match parameters.first() {
+            Some(p) if !is_required => {
+                let value = &self.numbers(&[p.default.unwrap_or(1.0)])[0];
+                lines.push(format!("parameters.{} = {value};", self.names.of(p.symbol)));
+                ", parameters"
+            }
+            Some(_) => {
+                lines.extend(self.library.parameters.iter().map(|p| {
+                    let value = &self.numbers(&[p.default.unwrap_or(1.0)])[0];
+                    format!("parameters.{} = {value};", self.names.of(p.symbol))
+                }));
+                ", parameters"
+            }
+            None => "",
+        };
+        lines.push(format!("{result} = {function}(q{given});"));
         lines
     }
 
@@ -210,7 +237,8 @@ impl<'a> Module<'a> {
                 Some(x) => format!("default {}", self.numbers(&[x])[0]),
                 None => "required".into(),
             };
-            about.push(format!("    {}: {} ({what})", self.names.of(p.symbol), p.about));
+            let about_it = self.names.about(p.symbol, &p.about);
+            about.push(format!("    {}: {about_it} ({what})", self.names.of(p.symbol)));
         }
         about.push(String::new());
         about.extend(self.library.header.iter().map(|line| format!("  {line}")));
@@ -245,7 +273,12 @@ for k = 1:numel(names)
     if ~any(strcmp(names{k}, known))
         error('NAME:parameters:unknown', 'there is no parameter %s.', names{k});
     end
-    parameters.(names{k}) = given.(names{k});
+    value = given.(names{k});
+    if ~isnumeric(value) || ~isreal(value) || ~isscalar(value) || ~isfinite(value)
+        error('NAME:parameters:value', ...
+            'parameter %s must be a finite real number, not a %s.', names{k}, class(value));
+    end
+    parameters.(names{k}) = double(value);
 end
 ";
         lines.extend(text.replace("NAME", &self.name).trim_end().lines().skip(1).map(str::to_string));
@@ -330,6 +363,21 @@ impl Module<'_> {
         for (routine, function) in self.library.routines.iter().zip(&self.functions) {
             lines.extend(self.test(routine, function));
         }
+        if let Some(p) = self.library.parameters.first() {
+            let text = r"
+% A parameter is a number.
+identifier = '';
+try
+    PARAMETERS(struct('SYMBOL', '1'));
+catch err
+    identifier = err.identifier;
+end
+if ~strcmp(identifier, 'NAME:parameters:value')
+    error('NAME:test', 'a text is taken for a number.');
+end";
+            let text = text.replace("PARAMETERS", &self.parameters).replace("NAME", &self.name);
+            lines.extend(text.replace("SYMBOL", self.names.of(p.symbol)).lines().map(String::from));
+        }
         if self.library.parameters.iter().any(|p| p.default.is_none()) {
             let text = r"
 % A parameter without a default is required.
@@ -345,11 +393,16 @@ end";
             let text = text.replace("PARAMETERS", &self.parameters).replace("NAME", &self.name);
             lines.extend(text.lines().map(String::from));
         }
+        lines.push(String::new());
+        lines.push(format!("fprintf('{}: all configurations agree\\n');", self.name));
         lines
     }
 
     /// A matrix in lines.
     fn matrix(&self, name: &str, rows: &[&[f64]]) -> Vec<String> {
+        if rows.iter().all(|row| row.is_empty()) {
+            return vec![format!("{name} = zeros({}, 0);", rows.len())];
+        }
         let mut lines = vec![format!("{name} = [ ...")];
         for row in rows {
             let own = WRAP.list(&self.numbers(row), 4);

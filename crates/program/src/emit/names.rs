@@ -1,6 +1,6 @@
 //! Identifiers for symbols: ASCII letters, digits and underscores, no keyword, no two alike.
 
-use crate::emit::Language;
+use crate::emit::{Language, Library};
 use denavit_symbolic::Symbol;
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -11,21 +11,30 @@ const MAX_LENGTH: usize = 40;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Names {
     identifiers: FxHashMap<Symbol, String>,
+    /// Words that are not used, in lower case.
+    reserved: FxHashSet<String>,
+    /// Identifiers in use, and the same in lower case.
+    exact: FxHashSet<String>,
     taken: FxHashSet<String>,
 }
 
 impl Names {
-    /// No names yet; the keywords of the language and the words given are not used. Words that differ in case only
-    /// count as alike.
+    /// No names yet; the keywords of the language and the words given are not used. What differs from them in case
+    /// only is not used either, unless it is a single letter.
     pub fn new(language: Language, reserved: &[&str]) -> Self {
         let words = keywords(language).iter().chain(reserved);
-        Names { identifiers: FxHashMap::default(), taken: words.map(|w| w.to_lowercase()).collect() }
+        Names { reserved: words.map(|w| w.to_lowercase()).collect(), ..Names::default() }
     }
 
     /// Gives a symbol its identifier, the nearest to its name that is free.
     pub fn declare(&mut self, symbol: Symbol) {
         if !self.identifiers.contains_key(&symbol) {
-            let identifier = self.free(&sanitised(&symbol.name()));
+            let is_free = |names: &Self, c: &str| {
+                let is_letter = c.len() == 1;
+                !names.exact.contains(c)
+                    && !names.reserved.contains(&if is_letter { c.into() } else { c.to_lowercase() })
+            };
+            let identifier = self.take(&sanitised(&symbol.name()), is_free);
             self.identifiers.insert(symbol, identifier);
         }
     }
@@ -40,11 +49,28 @@ impl Names {
         name
     }
 
-    /// An identifier that is not used yet, for what is no symbol.
+    /// An identifier that is not used yet, for what is no symbol; it differs from all others not in case only.
     pub fn free(&mut self, wanted: &str) -> String {
+        let is_free = |names: &Self, c: &str| {
+            let lower = c.to_lowercase();
+            !names.taken.contains(&lower) && !names.reserved.contains(&lower)
+        };
+        self.take(wanted, is_free)
+    }
+
+    fn take(&mut self, wanted: &str, is_free: impl Fn(&Self, &str) -> bool) -> String {
         let numbered = (2..).map(|k| format!("{wanted}_{k}"));
         let mut candidates = std::iter::once(wanted.to_string()).chain(numbered);
-        candidates.find(|c| self.taken.insert(c.to_lowercase())).expect("numbers do not end")
+        let name = candidates.find(|c| is_free(self, c)).expect("numbers do not end");
+        self.exact.insert(name.clone());
+        self.taken.insert(name.to_lowercase());
+        name
+    }
+
+    /// What a symbol is, to stand behind its identifier: names the symbol where the identifier differs from it.
+    pub fn about(&self, symbol: Symbol, about: &str) -> String {
+        let name = symbol.name();
+        if *name == *self.of(symbol) { about.into() } else { format!("the symbol {name}; {about}") }
     }
 
     /// The identifier of a declared symbol.
@@ -73,6 +99,19 @@ pub(crate) fn sanitised(name: &str) -> String {
         Some(c) if c.is_ascii_digit() => format!("x{text}"),
         Some(_) => text.into(),
     }
+}
+
+/// A name of files, none that tests have: their names begin with `test_`.
+pub(crate) fn no_test(name: String) -> String {
+    if name == "test" || name.starts_with("test_") { format!("x_{name}") } else { name }
+}
+
+/// The words that open a file beside the main one: the first and the last line of the header, and where all stands.
+pub(crate) fn brief(library: &Library, main: &str) -> Vec<String> {
+    let mut lines: Vec<String> = library.header.first().cloned().into_iter().collect();
+    lines.extend(library.header.last().filter(|_| library.header.len() > 1).cloned());
+    lines.push(format!("More stands in {main}."));
+    lines
 }
 
 /// A text as one line of a comment in any of the languages: no control characters, no end of a comment, no trigraph
@@ -369,6 +408,24 @@ mod tests {
         let symbols = ["double", "Double", "q", "a b", "a_b"].map(Symbol::new);
         symbols.iter().for_each(|s| names.declare(*s));
         let identifiers = symbols.map(|s| names.of(s).to_string());
-        assert_eq!(identifiers, ["double_2", "Double_3", "q_2", "a_b", "a_b_2"]);
+        assert_eq!(identifiers, ["double_2", "Double_2", "q_2", "a_b", "a_b_2"]);
+    }
+
+    #[test]
+    fn letters_of_either_case_are_names_of_their_own() {
+        let mut names = Names::new(Language::Python, &["q", "l"]);
+        let symbols = ["L", "l", "Q", "a", "A"].map(Symbol::new);
+        symbols.iter().for_each(|s| names.declare(*s));
+        assert_eq!(symbols.map(|s| names.of(s).to_string()), ["L", "l_2", "Q", "a", "A"]);
+        assert_eq!(names.about(symbols[0], "a length"), "a length");
+        assert_eq!(names.about(symbols[1], "a length"), "the symbol l; a length");
+        assert_eq!(names.free("Q"), "Q_2");
+    }
+
+    #[test]
+    fn no_file_is_taken_for_a_test() {
+        for (name, expected) in [("test", "x_test"), ("test_fk", "x_test_fk"), ("tester", "tester")] {
+            assert_eq!(no_test(name.into()), expected);
+        }
     }
 }

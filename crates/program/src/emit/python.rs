@@ -4,10 +4,10 @@
 
 use crate::emit::blocks::{blocks, reads};
 use crate::emit::listing::{Listing, Statement};
-use crate::emit::names::{Names, comment, sanitised};
+use crate::emit::names::{Names, brief, comment, no_test, sanitised};
 use crate::emit::spelling::Spelling;
 use crate::emit::wrap::{Wrap, comments, prose};
-use crate::emit::{File, Language, Library, Precision, Routine};
+use crate::emit::{File, Language, Library, Parameter, Precision, Routine};
 use denavit_symbolic::{Expr, Symbol};
 use rustc_hash::FxHashSet;
 
@@ -19,7 +19,7 @@ const RESERVED: &str = "\
 q parameters Parameters DEFAULTS dataclass ArrayLike NDArray l O I abs all any bin bool chr dict dir \
 exec eval filter float format hash help hex id input int iter len list map max min next object oct \
 open ord pow print range repr round self set slice sorted str sum super tuple vars zip ValueError \
-property bytes complex callable __all__";
+property bytes complex callable isinstance TypeError __all__";
 
 /// Modules that a file of that name would stand in front of.
 const MODULES: &str = "\
@@ -62,7 +62,7 @@ impl<'a> Module<'a> {
     fn new(library: &'a Library) -> Self {
         let words: Vec<&str> = RESERVED.split_whitespace().chain(MODULES.split_whitespace()).collect();
         let mut modules = Names::new(Language::Python, &words);
-        let name = modules.free(&sanitised(&library.name).to_lowercase());
+        let name = modules.free(&no_test(sanitised(&library.name).to_lowercase()));
         let mut names = Names::new(Language::Python, &RESERVED.split_whitespace().collect::<Vec<_>>());
         let mut function = |routine: &Routine| {
             let name = sanitised(&routine.name);
@@ -75,11 +75,47 @@ impl<'a> Module<'a> {
     }
 
     fn header(&self) -> Vec<String> {
+        Self::head(&self.library.header)
+    }
+
+    fn head(lines: &[String]) -> Vec<String> {
         // An interpreter takes `coding: name` in the first lines for the encoding of the file.
         let plain =
             |line: &String| comment(line).replace("coding:", "coding :").replace("coding=", "coding =");
-        let lines: Vec<String> = self.library.header.iter().map(plain).collect();
+        let lines: Vec<String> = lines.iter().map(plain).collect();
         comments(lines.iter().map(String::as_str), "# ", WRAP.width)
+    }
+
+    /// A call of the first function, for people and for `doctest`.
+    fn example(&self) -> Vec<String> {
+        let (Some(function), Some(routine)) = (self.functions.first(), self.library.routines.first()) else {
+            return vec![];
+        };
+        let (name, n) = (&self.name, self.library.variables.len());
+        let mut lines = vec!["Examples".to_string(), "--------".into()];
+        lines.push(">>> import numpy as np".into());
+        lines.push(format!(">>> import {name}"));
+        let given = if self.is_parametric(routine) && !self.has_defaults() {
+            let one = |p: &Parameter| {
+                let value = float(&self.number(p.default.unwrap_or(1.0)));
+                format!("...     {}={value},", self.names.of(p.symbol))
+            };
+            lines.push(format!(">>> parameters = {name}.Parameters("));
+            lines.extend(self.library.parameters.iter().map(one));
+            lines.push("... )".into());
+            ", parameters"
+        } else {
+            ""
+        };
+        lines.push(format!(">>> {name}.{function}(np.zeros({n}){given}).shape"));
+        let shape = |leading: &[usize]| {
+            let all: Vec<String> = leading.iter().chain(&routine.shape).map(usize::to_string).collect();
+            format!("({}{})", all.join(", "), if all.len() == 1 { "," } else { "" })
+        };
+        lines.push(shape(&[]));
+        lines.push(format!(">>> {name}.{function}(np.zeros((1000, {n})){given}).shape"));
+        lines.push(shape(&[1000]));
+        lines
     }
 
     fn spelling<'n>(&self, names: &'n Names) -> Spelling<'n> {
@@ -98,7 +134,10 @@ impl<'a> Module<'a> {
         let library = self.library;
         let has_parameters = !library.parameters.is_empty();
         let mut lines = self.header();
-        lines.extend(documentation(&[format!("{}: formulas over NumPy arrays.", library.title)], 0));
+        let title = format!("{}: formulas over NumPy arrays.", library.title);
+        let mut about = vec![title.replace(">>>", "> > >"), String::new()];
+        about.extend(self.example());
+        lines.extend(documentation(&about, 0));
         lines.push(String::new());
         if has_parameters {
             lines.extend(["from dataclasses import dataclass".into(), String::new()]);
@@ -141,7 +180,7 @@ impl<'a> Module<'a> {
         about.extend(["Attributes".into(), "----------".into()]);
         for p in &self.library.parameters {
             about.push(format!("{} : float", self.names.of(p.symbol)));
-            about.push(format!("    {}", capitalised(&p.about)));
+            about.push(format!("    {}", capitalised(&self.names.about(p.symbol, &p.about))));
         }
         let mut lines: Vec<String> =
             ["", "", "@dataclass(frozen=True, kw_only=True)", "class Parameters:"].map(String::from).to_vec();
@@ -184,6 +223,11 @@ impl<'a> Module<'a> {
             lines
         };
         lines.extend(self.about(routine, &result, !parameters.is_empty()));
+        if !parameters.is_empty() {
+            lines.push("    if not isinstance(parameters, Parameters):".into());
+            lines.push("        kind = type(parameters).__name__".into());
+            lines.push("        raise TypeError(f\"parameters must be Parameters(...), not {kind}\")".into());
+        }
         lines.push("    q = np.asarray(q, dtype=np.float64)".into());
         lines.push(format!("    if q.shape[-1:] != ({n},):"));
         let message = format!("raise ValueError(f\"q must have the shape (..., {n}), not {{q.shape}}\")");
@@ -197,7 +241,7 @@ impl<'a> Module<'a> {
         let spelling = self.spelling(&names);
         if !listing.hoisted.is_empty() {
             lines.push(String::new());
-            lines.extend(listing.hoisted.iter().flat_map(|s| statement(s, &spelling)));
+            lines.extend(listing.hoisted.iter().flat_map(|s| statement(s, 4, &spelling)));
         }
         let whole = if shape.is_empty() {
             "q.shape[:-1]".into()
@@ -210,7 +254,18 @@ impl<'a> Module<'a> {
             if k == 0 || !block.statements.is_empty() {
                 lines.push(String::new());
             }
-            lines.extend(block.statements.iter().flat_map(|s| statement(s, &spelling)));
+            // Up to the last sine or cosine of the first results.
+            let is_pair = |s: &Statement| matches!(s, Statement::Pair { .. });
+            let pairs = block.statements.iter().rposition(is_pair).filter(|_| k == 0).map_or(0, |p| p + 1);
+            let (sines, rest) = block.statements.split_at(pairs);
+            if pairs > 0 {
+                lines.push("    with np.errstate(invalid=\"ignore\"):  # infinite angles give NaN".into());
+                lines.extend(sines.iter().flat_map(|s| statement(s, 8, &spelling)));
+                if !rest.is_empty() {
+                    lines.push(String::new());
+                }
+            }
+            lines.extend(rest.iter().flat_map(|s| statement(s, 4, &spelling)));
             lines.push(String::new());
             if k == 0 {
                 lines.extend(WRAP.statement(&format!("    {result} ="), &format!("np.{new}({whole})"), ""));
@@ -244,6 +299,7 @@ impl<'a> Module<'a> {
         about.extend(section("Parameters"));
         about.push(format!("q : array_like, shape (..., {n})"));
         for (symbol, what) in &self.library.variables {
+            let what = self.names.about(*symbol, what);
             about.push(format!("    {}: {what}", self.names.of(*symbol)));
         }
         if has_parameters {
@@ -257,6 +313,10 @@ impl<'a> Module<'a> {
         about.extend(section("Raises"));
         about.push("ValueError".into());
         about.push(format!("    If the last axis of `q` does not have the length {n}."));
+        if has_parameters {
+            about.push("TypeError".into());
+            about.push("    If `parameters` is no `Parameters`.".into());
+        }
         about.extend(section("Notes"));
         about.push(format!("Operations per row of `q`: {}.", routine.program.count()));
         documentation(&about, 4)
@@ -276,11 +336,12 @@ impl<'a> Module<'a> {
 }
 
 /// A statement inside a function.
-fn statement(statement: &Statement, spelling: &Spelling) -> Vec<String> {
+fn statement(statement: &Statement, indent: usize, spelling: &Spelling) -> Vec<String> {
+    let margin = " ".repeat(indent);
     let named = |name: &String| spelling.names.of(Symbol::new(name)).to_string();
     match statement {
         Statement::Let { name, value } => {
-            WRAP.statement(&format!("    {} =", named(name)), &spelling.formula(*value), "")
+            WRAP.statement(&format!("{margin}{} =", named(name)), &spelling.formula(*value), "")
         }
         Statement::Pair { angle, sine, cosine } => {
             let one = |name: &Option<String>, function: fn(Expr) -> Expr| {
@@ -290,12 +351,12 @@ fn statement(statement: &Statement, spelling: &Spelling) -> Vec<String> {
                 [one(sine, Expr::sin), one(cosine, Expr::cos)].into_iter().flatten().collect();
             let all =
                 |part: fn(&(String, String)) -> &str| list.iter().map(part).collect::<Vec<_>>().join(", ");
-            let whole = format!("    {} = {}", all(|p| &p.0), all(|p| &p.1));
+            let whole = format!("{margin}{} = {}", all(|p| &p.0), all(|p| &p.1));
             if whole.len() <= WRAP.width {
                 return vec![whole];
             }
             list.iter()
-                .flat_map(|(name, value)| WRAP.statement(&format!("    {name} ="), value, ""))
+                .flat_map(|(name, value)| WRAP.statement(&format!("{margin}{name} ="), value, ""))
                 .collect()
         }
     }
@@ -394,7 +455,7 @@ impl Module<'_> {
         let mut lines = self.header();
         let about = "The functions at stored configurations; results of an independent source.";
         lines.extend(documentation(&[about.into()], 0));
-        lines.extend(["", "import unittest", "", "import numpy as np", ""].map(String::from));
+        lines.extend(["", "import doctest", "import unittest", "", "import numpy as np", ""].map(String::from));
         lines.push(format!("import {}", self.name));
         lines.extend(STORED.lines().map(String::from));
         for (routine, function) in self.library.routines.iter().zip(&self.functions) {
@@ -408,6 +469,9 @@ impl Module<'_> {
             lines.push(format!("        with self.assertRaisesRegex(TypeError, \"{name}\"):"));
             lines.push(format!("            {}.Parameters()", self.name));
         }
+        lines.extend(["", "", "class Example(unittest.TestCase):"].map(String::from));
+        lines.push("    def test_of_the_module(self):".into());
+        lines.push(format!("        self.assertEqual(doctest.testmod({}).failed, 0)", self.name));
         lines.extend(["", "", "if __name__ == \"__main__\":", "    unittest.main()"].map(String::from));
         lines
     }
@@ -440,6 +504,17 @@ impl Module<'_> {
         let all = format!(".reshape({})", all.join(", "));
         lines.extend(self.table("expected", routine.vectors.iter().map(|v| &v.results[..]), &all));
         lines.extend(self.scales(routine, &shape));
+        if self.is_parametric(routine) {
+            lines.extend(
+                [
+                    "",
+                    "    def test_parameters_of_another_type(self):",
+                    "        with self.assertRaisesRegex(TypeError, \"must be Parameters\"):",
+                    "            self.function(self.q, {})",
+                ]
+                .map(String::from),
+            );
+        }
         lines
     }
 
@@ -494,7 +569,7 @@ impl Module<'_> {
     }
 
     fn project(&self) -> Vec<String> {
-        let mut lines = self.header();
+        let mut lines = Self::head(&brief(self.library, &format!("{}.py", self.name)));
         let title = comment(&self.library.title).replace('"', "'");
         lines.extend([
             String::new(),

@@ -131,6 +131,51 @@ pub fn hostile() -> Sample {
     }
 }
 
+/// No variable, or one; constant results; a function that reads no variable and one that reads no parameter; a name
+/// like those of tests.
+pub fn small(variables: usize) -> Sample {
+    let variables = vec!["q1"; variables];
+    let angle = variables.first().map_or(Expr::int(2), |q| Expr::symbol(q));
+    let length = Expr::symbol("L");
+    let parameters = ["L", "al6"];
+    let twist = Expr::symbol("al6");
+    let constant = [("one", Expr::int(1)), ("two", length), ("three", twist.sin() + twist.cos())];
+    let moving = [("x", angle.cos()), ("y", angle.sin() * Expr::int(3))];
+    let first = program(&variables, &parameters, &constant);
+    let second = program(&variables, &parameters, &moving);
+    let configurations = match variables.len() {
+        0 => vec![vec![], vec![]],
+        _ => vec![vec![0.5], vec![-2.0], vec![3.0]],
+    };
+    Sample {
+        name: "test",
+        variables,
+        parameters: vec![("L", Some(0.5)), ("al6", Some(0.25))],
+        programs: vec![("fixed", "values", vec![3], first), ("moving", "values", vec![2, 1], second)],
+        configurations,
+    }
+}
+
+/// The file whose name begins and ends so, of which there is one.
+pub fn only(files: &[File], start: &str, end: &str) -> String {
+    let names: Vec<&String> =
+        files.iter().map(|f| &f.path).filter(|p| p.starts_with(start) && p.ends_with(end)).collect();
+    assert_eq!(names.len(), 1, "{names:?}");
+    names[0].clone()
+}
+
+/// The text of a file.
+pub fn text<'a>(files: &'a [File], path: &str) -> &'a str {
+    &files.iter().find(|f| f.path == path).unwrap_or_else(|| panic!("no {path}")).text
+}
+
+/// The lines behind `Example` in a comment, without its signs.
+pub fn example(text: &str, sign: &str) -> String {
+    let lines = text.lines().map(|line| line.strip_prefix(sign).unwrap_or(line));
+    let lines = lines.skip_while(|line| !line.trim_start().starts_with("Example")).skip(1);
+    lines.take_while(|line| line.starts_with("    ")).map(|line| format!("{line}\n")).collect()
+}
+
 /// An empty folder for a test.
 pub fn folder(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);

@@ -39,6 +39,8 @@ pub fn document(d: &Derivation) -> String {
                 "sincos": count.sincos,
                 "offsets": count.offsets,
                 "hoisted": count.hoisted,
+                "depth": d.model.algorithm.depth(),
+                "cycles": d.model.algorithm.cycles(),
             },
             "proof": d.model.proof.to_string(),
         },

@@ -6,12 +6,13 @@
 pub(crate) mod test;
 
 use crate::emit::compiled::{
-    Body, EIGHT, Function, Pair, Step, WIDTH, WRAP, defaults, file_name, functions, inputs, lines, opening,
+    Body, EIGHT, Function, Pair, Step, WIDTH, WRAP, about_angles, defaults, file_name, functions, inputs,
+    lines, opening,
 };
-use crate::emit::names::Names;
+use crate::emit::names::{Names, brief};
 use crate::emit::spelling::Spelling;
 use crate::emit::wrap::comments;
-use crate::emit::{File, Language, Library, Precision};
+use crate::emit::{File, Language, Library, Parameter, Precision};
 use denavit_symbolic::{Expr, Symbol};
 use std::fmt::Write;
 
@@ -131,17 +132,18 @@ pub(crate) const RESERVED: &[&str] = &[
 pub(crate) fn emit(library: &Library) -> Vec<File> {
     let name = file_name(library, Language::C);
     let names = inputs(library, Language::C, RESERVED);
-    let source =
-        Source { library, functions: functions(library, Language::C, &names, &[]), opening: vec![], name };
-    let opening = opening(library, &source.functions, &names);
-    let source = Source { opening, ..source };
+    let functions = functions(library, Language::C, &names, &[]);
+    let opening = opening(library, &functions, &names);
+    let source = Source { library, functions, opening, name, names };
     let file = |path: String, text: String| File { path, text };
+    let head = brief(library, &format!("{}.h", source.name));
+    let head = head.iter().map(String::as_str);
     let makefile = include_str!("Makefile.txt").replace("@name@", &source.name);
     vec![
         file(format!("{}.h", source.name), source.header()),
         file(format!("{}.c", source.name), source.body()),
-        file("test.c".into(), source.test()),
-        file("Makefile".into(), format!("{}\n{makefile}", lines(&comments(source.lines(), "# ", WIDTH)))),
+        file(format!("test_{}.c", source.name), source.test()),
+        file("Makefile".into(), format!("{}\n{makefile}", lines(&comments(head, "# ", WIDTH)))),
     ]
 }
 
@@ -152,6 +154,8 @@ struct Source<'a> {
     opening: Vec<String>,
     /// The prefix of everything.
     name: String,
+    /// Identifiers of variables and parameters.
+    names: Names,
 }
 
 impl Source<'_> {
@@ -192,11 +196,21 @@ impl Source<'_> {
 
     fn header(&self) -> String {
         let (name, upper, real) = (&self.name, self.upper(), self.real());
-        let mut text = block_comment(self.lines().chain([
-            "",
-            "How to call: q and the results are arrays of the caller; they do not overlap. Nothing is",
-            "allocated or stored. Any number of threads may call at once. Results are valid for all finite",
-            "angles, and NaN where an angle is infinite or NaN.",
+        let (angles, example) = (about_angles(&self.functions, self.library.precision), self.example());
+        let mut words = vec![String::new()];
+        words.extend(example);
+        words.extend([
+            "How to call: q and the results are arrays of the caller; they do not overlap. Nothing is".into(),
+            "allocated or stored. Any number of threads may call at once.".into(),
+        ]);
+        words.extend(angles);
+        let huge = match (Function::any_range(&self.functions), self.library.precision) {
+            (false, _) => "",
+            (true, Precision::Double) => ", but for angles above 1.6e6, where it calls the C library",
+            (true, Precision::Single) => ", but for angles above 6400, where it calls the C library",
+        };
+        let strict = format!("-D{upper}_STRICT uses no fused multiply-add: the same bits on every machine{huge}.");
+        let mut text = block_comment(self.lines().chain(words.iter().map(String::as_str)).chain([
             "",
             &format!(
                 "A block holds {LANES} configurations side by side. Variable j of configuration i stands at"
@@ -206,9 +220,11 @@ impl Source<'_> {
             ),
             "aligned to 64 bytes are fastest. Lanes that are not needed must hold finite numbers.",
             "",
+            "Never compile with -ffast-math, -Ofast or /fp:fast (the default of icx: -fp-model=precise),",
+            "which remove roundings that results depend on.",
             "Compile with -ffp-contract=off; with -O3 and -march=x86-64-v3 (or -march=native) for speed, or",
             &format!("with -D{upper}_MULTIVERSION (gcc on x86-64), which chooses when the program starts."),
-            &format!("-D{upper}_STRICT uses no fused multiply-add: the same bits on every machine."),
+            &strict,
         ]));
         let _ = write!(
             text,
@@ -221,7 +237,8 @@ impl Source<'_> {
             let _ = write!(text, "\n/* Parameters. */\ntypedef struct {name}_parameters {{\n");
             for p in &self.library.parameters {
                 let field = self.field(p.symbol);
-                let about = comments([p.about.as_str()], "", WIDTH - 10).join("\n       ");
+                let about = self.names.about(p.symbol, &p.about);
+                let about = comments([about.as_str()], "", WIDTH - 10).join("\n       ");
                 let _ = write!(text, "    /* {about} */\n    {real} {field};\n");
             }
             let _ = writeln!(text, "}} {name}_parameters;");
@@ -245,7 +262,33 @@ impl Source<'_> {
     }
 
     fn field(&self, symbol: Symbol) -> &str {
-        self.functions.first().map_or("", |f| f.names.of(symbol))
+        self.names.of(symbol)
+    }
+
+    /// A call of the first function, as a comment shows it.
+    fn example(&self) -> Vec<String> {
+        let (name, real) = (&self.name, self.real());
+        let Some(f) = self.functions.first() else { return vec![] };
+        let shape: String = f.shape().iter().map(|n| format!("[{n}]")).collect();
+        let mut lines = vec!["Example:".to_string()];
+        lines.push(format!("    {real} q[{}] = {{ 0 }};", self.library.variables.len().max(1)));
+        lines.push(format!("    {real} {}{shape};", f.result));
+        let argument = match (f.parameters(self.library).is_empty(), defaults(self.library)) {
+            (true, _) => String::new(),
+            (false, Some(_)) => format!("&{name}_defaults, "),
+            (false, None) => {
+                lines.push(format!("    {name}_parameters parameters;"));
+                let one = |p: &Parameter| {
+                    let value = self.number(p.default.unwrap_or(1.0));
+                    format!("    parameters.{} = {value};", self.names.of(p.symbol))
+                };
+                lines.extend(self.library.parameters.iter().map(one));
+                "&parameters, ".into()
+            }
+        };
+        lines.push(format!("    {name}_{}(q, {argument}{});", f.name, f.result));
+        lines.push(String::new());
+        lines
     }
 
     /// `, const ur5_parameters *parameters` if the function reads any.

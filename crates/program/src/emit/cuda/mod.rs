@@ -5,7 +5,7 @@
 mod test;
 
 use crate::emit::compiled::{
-    Body, Function, Pair, Step, WIDTH, defaults, file_name, functions, inputs, opening,
+    Body, Function, Pair, Step, WIDTH, about_angles, defaults, file_name, functions, inputs, opening,
 };
 use crate::emit::names::Names;
 use crate::emit::spelling::Spelling;
@@ -70,21 +70,35 @@ impl Source<'_> {
 
     fn header(&self) -> String {
         let (name, upper, real) = (&self.name, self.name.to_uppercase(), self.real());
-        let atan2 = if self.is_single() { 3 } else { 2 };
-        let mut text = c::block_comment(self.lines().chain([
-            "",
-            "How to call: device functions take arrays of the calling thread; parameters go by value to",
-            "kernels and by reference to device functions. Nothing is allocated.",
-            "",
-            "Sines and cosines are the device's, within 2 units in the last place by CUDA's documentation;",
-            &format!("arctangents within {atan2}. Products and sums are contracted as the compiler"),
-            "likes, unless --fmad=false is given. Do not use --use_fast_math.",
-        ]));
+        let mut words = vec![String::new()];
+        words.extend(self.example());
+        words.extend([
+            "How to call: device functions take arrays of the calling thread; parameters go by value to".into(),
+            "kernels and by reference to device functions. Nothing is allocated.".into(),
+        ]);
+        words.extend(about_angles(&self.functions, self.library.precision));
+        words.push(String::new());
+        if Function::any_pair(&self.functions) {
+            words.push(
+                "Sines and cosines are the device's, within 2 units in the last place by CUDA's documentation."
+                    .into(),
+            );
+        }
+        if Function::any_atan2(&self.functions) {
+            let units = if self.is_single() { 3 } else { 2 };
+            words.push(format!("Arctangents are the device's, within {units}."));
+        }
+        words.push("Products and sums are contracted as the compiler likes, unless --fmad=false is given.".into());
+        if self.is_single() {
+            words.push("Never compile with --use_fast_math: sines lose most of their digits.".into());
+        }
+        let mut text = c::block_comment(self.lines().chain(words.iter().map(String::as_str)));
         let _ = write!(text, "#ifndef {upper}_CUH\n#define {upper}_CUH\n");
         if !self.library.parameters.is_empty() {
             let _ = write!(text, "\n/* Parameters. */\nstruct {name}_parameters {{\n");
             for p in &self.library.parameters {
-                let about = comments([p.about.as_str()], "", WIDTH - 10).join("\n       ");
+                let about = self.names.about(p.symbol, &p.about);
+                let about = comments([about.as_str()], "", WIDTH - 10).join("\n       ");
                 let _ = write!(text, "    /* {about} */\n    {real} {};\n", self.names.of(p.symbol));
             }
             text.push_str("};\n");
@@ -116,6 +130,30 @@ impl Source<'_> {
         }
         text.push_str("\n#endif\n");
         text
+    }
+
+    /// A call of the first function, as a comment shows it.
+    fn example(&self) -> Vec<String> {
+        let (name, real) = (&self.name, self.real());
+        let Some(f) = self.functions.first() else { return vec![] };
+        let shape: String = f.shape().iter().map(|n| format!("[{n}]")).collect();
+        let mut lines = vec![format!("Example, in code of the device (a kernel for many is in {name}.cu):")];
+        lines.push(format!("    {real} q[{}] = {{}};", self.variables()));
+        lines.push(format!("    {real} {}{shape};", f.result));
+        let argument = match (f.parameters(self.library).is_empty(), defaults(self.library)) {
+            (true, _) => "",
+            (false, Some(_)) => {
+                lines.push(format!("    const {name}_parameters parameters = {name}_defaults();"));
+                "parameters, "
+            }
+            (false, None) => {
+                lines.push(format!("    {name}_parameters parameters = {{}}; // and values for all of them"));
+                "parameters, "
+            }
+        };
+        lines.push(format!("    {name}_{}(q, {argument}{});", f.name, f.result));
+        lines.push(String::new());
+        lines
     }
 
     fn one(&self, f: &Function) -> String {

@@ -6,9 +6,10 @@
 mod test;
 
 use crate::emit::compiled::{
-    Body, EIGHT, Function, Pair, Step, WIDTH, defaults, file_name, functions, inputs, lines, opening,
+    Body, EIGHT, Function, Pair, Step, WIDTH, about_angles, defaults, file_name, functions, inputs, lines,
+    opening,
 };
-use crate::emit::names::{Names, comment};
+use crate::emit::names::{Names, brief, comment};
 use crate::emit::spelling::Spelling;
 use crate::emit::wrap::comments;
 use crate::emit::{File, Language, Library, Precision};
@@ -80,6 +81,7 @@ pub(crate) fn emit(library: &Library) -> Vec<File> {
     let source = Source { library, functions, opening, name, names };
     let file = |path: &str, text: String| File { path: path.into(), text };
     let mut files = vec![file("Cargo.toml", source.manifest()), file("src/lib.rs", source.root())];
+    files.push(file("rustfmt.toml", source.format()));
     if source.needs_kernel() {
         files.push(file("src/kernel.rs", source.kernel()));
     }
@@ -135,26 +137,69 @@ impl Source<'_> {
              description = \"{title}\"\n\n[features]\ndefault = [\"std\"]\n\
              # Fused multiply-add where the target has it (RUSTFLAGS=\"-C target-cpu=x86-64-v3\"). Without\n\
              # this feature only `core` is needed, and results have the same bits on every machine.\nstd = []\n",
-            self.head("# ", &[]),
+            self.brief(),
             self.name
         )
     }
 
+    /// The code is laid out already.
+    fn format(&self) -> String {
+        format!("{}\ndisable_all_formatting = true\n", self.brief())
+    }
+
+    fn brief(&self) -> String {
+        let lines_of_it = brief(self.library, "src/lib.rs");
+        lines(&comments(lines_of_it.iter().map(String::as_str), "# ", WIDTH))
+    }
+
+    /// A call of the first function; documentation that is a test.
+    fn example(&self) -> Vec<String> {
+        let Some(f) = self.functions.first() else { return vec![] };
+        let (name, n) = (&self.name, self.library.variables.len());
+        let result = if f.result == f.name || f.result == *name { "results" } else { &f.result };
+        let index: String = f.shape().iter().map(|_| "[0]").collect();
+        let mut lines = vec!["```".to_string()];
+        let parameters = match (f.parameters(self.library).is_empty(), defaults(self.library)) {
+            (true, _) => {
+                lines.push(format!("use {name}::{};", f.name));
+                String::new()
+            }
+            (false, Some(_)) => {
+                lines.push(format!("use {name}::{{{}, Parameters}};", f.name));
+                ", &Parameters::default()".into()
+            }
+            (false, None) => {
+                lines.push(format!("use {name}::{{{}, Parameters}};", f.name));
+                lines.push("let parameters = Parameters {".into());
+                lines.extend(self.library.parameters.iter().map(|p| {
+                    format!("    {}: {:?},", self.names.of(p.symbol), p.default.unwrap_or(1.0))
+                }));
+                lines.push("};".into());
+                ", &parameters".into()
+            }
+        };
+        lines.push(format!("let {result} = {}(&[0.0; {n}]{parameters});", f.name));
+        lines.push(format!("assert!({result}{index}.is_finite());"));
+        lines.push("```".into());
+        lines
+    }
+
     fn root(&self) -> String {
-        let mut more = vec![
-            "",
-            "The functions allocate nothing and need `core` only. Results are valid for all finite",
-            "angles, and NaN where an angle is infinite or NaN.",
+        let example = self.example();
+        let angles: Vec<String> =
+            about_angles(&self.functions, Precision::Double).iter().map(|line| doc(line)).collect();
+        let mut more = vec![""];
+        more.extend(example.iter().map(String::as_str));
+        more.extend(["", "The functions allocate nothing and need `core` only."]);
+        more.extend(angles.iter().map(String::as_str));
+        more.extend([
             "",
             "A block holds the values of `LANES` configurations side by side: `q[j][i]` is variable j of",
             "configuration i, and result k of it, counted row by row, comes to row k. All lanes must hold",
             "finite numbers. Blocks are several times faster than single calls if the compiler may use",
             "vector instructions and fused multiply-add: `RUSTFLAGS=\"-C target-cpu=x86-64-v3\"` or",
             "`native`.",
-        ];
-        if !self.has_pairs() {
-            more.clear();
-        }
+        ]);
         let opening: String = self.head("//! ", &[]).replace("```", "'''");
         let mut text = format!("//! ```text\n{opening}//! ```\n");
         text.push_str(&lines(&comments(more, "//! ", WIDTH)));
@@ -218,7 +263,8 @@ impl Source<'_> {
             "\n/// Parameters.\n#[derive(Clone, Copy, PartialEq, Debug)]\npub struct Parameters {\n",
         );
         for p in &self.library.parameters {
-            text.push_str(&lines(&comments([doc(&p.about).as_str()], "    /// ", WIDTH)));
+            let about = doc(&self.names.about(p.symbol, &p.about));
+            text.push_str(&lines(&comments([about.as_str()], "    /// ", WIDTH)));
             let _ = writeln!(text, "    pub {}: f64,", self.names.of(p.symbol));
         }
         text.push_str("}\n");
@@ -524,8 +570,18 @@ fn doc(text: &str) -> String {
     text.chars().flat_map(|c| "[]<>`*_".contains(c).then_some('\\').into_iter().chain([c])).collect()
 }
 
+/// What the routines of this crate say of the files that they stand in, and what is said where they are embedded.
+const ELSEWHERE: &[(&str, &str)] = &[
+    (" Needs reduce.rs and sincos_strict.rs.", ""),
+    (" Needs reduce.rs.", ""),
+    (" Self-contained.", ""),
+    (" Needs atan2_strict.rs, whose scheme it follows.", " The scheme of the routine without."),
+    ("The scheme of sincos_strict.rs;", "The scheme of the routine without;"),
+];
+
 /// A routine of this crate, its lines no longer than [`WIDTH`].
 fn embedded(text: &str) -> String {
+    let text = ELSEWHERE.iter().fold(text.to_string(), |text, (old, new)| text.replace(old, new));
     let mut list: Vec<String> = vec![];
     let mut rest = text.lines().peekable();
     while let Some(line) = rest.next() {
