@@ -6,7 +6,9 @@ mod emit_support;
 use denavit_program::emit::{Language, Precision};
 use denavit_program::kernel;
 use denavit_symbolic::Expr;
-use emit_support::{Sample, arm, example, folder, has_fma, hostile, is_there, program, run, small, text, write};
+use emit_support::{
+    Sample, arm, example, folder, has_fma, hostile, is_there, program, run, small, text, write,
+};
 use std::process::Command;
 
 fn compilers() -> Vec<&'static str> {
@@ -15,9 +17,7 @@ fn compilers() -> Vec<&'static str> {
 
 #[test]
 fn the_folder_builds_and_passes_its_own_test() {
-    for (kind, sample) in
-        [("arm", arm()), ("hostile", hostile()), ("none", small(0)), ("one", small(1))]
-    {
+    for (kind, sample) in [("arm", arm()), ("hostile", hostile()), ("none", small(0)), ("one", small(1))] {
         for precision in [Precision::Double, Precision::Single] {
             let folder = folder(&format!("c-{kind}-{precision:?}"));
             write(&sample.library(precision), Language::C, &folder);

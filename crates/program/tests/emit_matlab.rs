@@ -28,7 +28,7 @@ fn few_variables_and_the_example() {
         let files = write(&small(n).library(Precision::Double), Language::Matlab, &folder);
         let test = only(&files, "test_", ".m");
         let said = run(&folder, &["octave", "--no-gui", "--quiet", "--norc", &test]);
-        assert_eq!(said, "x_test: all configurations agree\n");
+        assert!(said.starts_with("x_test: all configurations agree\n"), "{said}");
         let lines = example(text(&files, "x_test_fixed.m"), "% ");
         assert!(lines.contains("x_test_fixed(q, parameters)"), "{lines}");
         run(&folder, &["octave", "--no-gui", "--quiet", "--norc", "--eval", &lines]);

@@ -2,7 +2,7 @@
 
 use crate::emit::blocks::{blocks, reads};
 use crate::emit::listing::{Listing, Statement};
-use crate::emit::names::{Names, no_test, sanitised};
+use crate::emit::names::{Names, no_test, renamed, sanitised};
 use crate::emit::spelling::Spelling;
 use crate::emit::wrap::Wrap;
 use crate::emit::{Language, Library, Precision, Routine};
@@ -183,6 +183,16 @@ impl<'a> Function<'a> {
         functions.iter().any(Function::has_range)
     }
 
+    /// Whether the body of some function takes sines and cosines.
+    pub fn any_pair_in_range(functions: &[Self]) -> bool {
+        functions.iter().flat_map(|f| &f.body).any(|s| matches!(s, Step::Pairs(_)))
+    }
+
+    /// Whether the body of some function takes the angle of a point.
+    pub fn any_atan2_in_range(functions: &[Self]) -> bool {
+        functions.iter().flat_map(|f| &f.body).any(|s| matches!(s, Step::Atan2 { .. }))
+    }
+
     /// Whether some function of the list takes sines and cosines.
     pub fn any_pair(functions: &[Self]) -> bool {
         functions.iter().flat_map(Function::steps).any(|s| matches!(s, Step::Pairs(_)))
@@ -225,8 +235,9 @@ pub(crate) fn file_name(library: &Library, language: Language) -> String {
 }
 
 /// The words that open a file: the header of the library, what each function costs, and how it is called.
-pub(crate) fn opening(library: &Library, functions: &[Function], names: &Names) -> Vec<String> {
+pub(crate) fn opening(library: &Library, functions: &[Function], names: &Names, name: &str) -> Vec<String> {
     let mut lines = library.header.clone();
+    lines.extend(renamed(library, name));
     lines.extend([String::new(), "Operations of one configuration:".into()]);
     lines.extend(functions.iter().map(|f| {
         let name = &f.routine.name;
@@ -265,8 +276,8 @@ pub(crate) fn about_angles(functions: &[Function], precision: Precision) -> Vec<
     let unit = if precision == Precision::Single { "2^-24" } else { "2^-53" };
     vec![
         "Every finite angle has its sine; an infinite one or NaN makes the results that read it NaN.".into(),
-        "Angles that formulas add up are added before the sine is taken: that rounds the sum of angles".into(),
-        format!("q by up to |q| {unit}, an error of the result that grows with q. Huge sums overflow."),
+        "Where formulas add angles up, the sum is rounded before its sine is taken: by up to".into(),
+        format!("|sum| {unit} (rad), and results with it. A sum beyond the largest number gives NaN."),
     ]
 }
 

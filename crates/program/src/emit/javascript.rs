@@ -5,7 +5,7 @@
 
 use crate::emit::blocks::{Block, blocks, reads};
 use crate::emit::listing::{Listing, Statement};
-use crate::emit::names::{Names, brief, comment, sanitised};
+use crate::emit::names::{Names, brief, comment, renamed, sanitised};
 use crate::emit::spelling::Spelling;
 use crate::emit::wrap::{Wrap, comments, prose, split};
 use crate::emit::{File, Language, Library, Parameter, Precision, Routine};
@@ -81,7 +81,8 @@ impl<'a> Module<'a> {
             return vec![];
         };
         let n = self.library.variables.len();
-        let mut lines = vec![String::new(), "Example:".into()];
+        let mut lines: Vec<String> = renamed(self.library, &self.name).into_iter().collect();
+        lines.extend([String::new(), "Example:".into()]);
         lines.push(format!("    import {{ {}, {} }} from \"./{}.js\";", f.one, f.batch, self.name));
         let parameters = self.parameters_of(routine);
         let value = |p: &&Parameter| {
@@ -136,14 +137,20 @@ impl<'a> Module<'a> {
         lines.extend(REQUIRE_NUMBERS.lines().map(str::to_string));
         if self.library.routines.iter().any(|r| !self.parameters_of(r).is_empty()) {
             let list = &self.library.parameters;
-            let known: Vec<String> = list.iter().map(|p| format!("\"{}\"", self.names.of(p.symbol))).collect();
+            let known: Vec<String> =
+                list.iter().map(|p| format!("\"{}\"", self.names.of(p.symbol))).collect();
             for line in REQUIRE_PARAMETERS.lines() {
                 if line.contains("DEFAULTS") && list.iter().all(|p| p.default.is_none()) {
                     lines.push("  if (parameters === undefined) {".into());
                 } else if line.contains("KNOWN") {
-                    lines.push("  const known = [".into());
-                    lines.extend(WRAP.list(&known, 4));
-                    lines.push("  ];".into());
+                    let whole = format!("  const known = [{}];", known.join(", "));
+                    if whole.len() <= WRAP.width {
+                        lines.push(whole);
+                    } else {
+                        lines.push("  const known = [".into());
+                        lines.extend(known.iter().map(|name| format!("    {name},")));
+                        lines.push("  ];".into());
+                    }
                 } else {
                     lines.push(line.into());
                 }
@@ -300,7 +307,8 @@ impl<'a> Module<'a> {
 
 /// The types of arguments are what they should be.
 fn required(parameters: &[&Parameter]) -> Vec<String> {
-    let mut lines = vec!["  requireNumbers(q);".to_string(), "  if (!(out instanceof Float64Array)) {".into()];
+    let mut lines =
+        vec!["  requireNumbers(q);".to_string(), "  if (!(out instanceof Float64Array)) {".into()];
     let hint = if parameters.is_empty() { "" } else { "; parameters are the third argument" };
     lines.push(format!("    throw new TypeError(\"out must be a Float64Array{hint}\");"));
     lines.push("  }".into());
@@ -669,8 +677,13 @@ test(\"{batch} of all rows\", () => {{
         }
         if let Some(p) = parameters.first() {
             let name = self.names.of(p.symbol);
-            lines.push(format!("  refused.push([q, undefined, {{ ...{cases}[0].parameters, {name}: \"1\" }}]);"));
-            lines.push(format!("  refused.push([q, undefined, {{ ...{cases}[0].parameters, \"no such\": 1 }}]);"));
+            lines.push(format!("  const {{ parameters }} = {cases}[0];"));
+            lines.push("  refused.push([q, undefined, { ...parameters, \"no such\": 1 }]);".into());
+            lines.push("  refused.push([".into());
+            lines.push("    q,".into());
+            lines.push("    undefined,".into());
+            lines.push(format!("    {{ ...parameters, {name}: \"1\" }},"));
+            lines.push("  ]);".into());
         }
         lines.push("  for (const given of refused) {".into());
         for function in [one, batch] {

@@ -5,7 +5,7 @@
 
 use crate::emit::blocks::{blocks, reads};
 use crate::emit::listing::{Listing, Statement};
-use crate::emit::names::{Names, no_test, sanitised};
+use crate::emit::names::{Names, no_test, renamed, sanitised};
 use crate::emit::spelling::Spelling;
 use crate::emit::wrap::{Wrap, comments};
 use crate::emit::{File, Language, Library, Parameter, Precision, Routine};
@@ -185,7 +185,9 @@ impl<'a> Module<'a> {
         about.push(format!("  Operations per row of Q: {}.", routine.program.count()));
         lines.extend(comments(about.iter().map(String::as_str), "% ", WRAP.width));
         lines.push("%".into());
-        let header: Vec<String> = self.library.header.iter().map(indented).collect();
+        let renamed = renamed(self.library, &self.name);
+        let header = self.library.header.iter().chain(&renamed).map(indented);
+        let header: Vec<String> = header.collect();
         lines.extend(comments(header.iter().map(String::as_str), "% ", WRAP.width));
         lines
     }

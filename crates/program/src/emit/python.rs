@@ -4,7 +4,7 @@
 
 use crate::emit::blocks::{blocks, reads};
 use crate::emit::listing::{Listing, Statement};
-use crate::emit::names::{Names, brief, comment, no_test, sanitised};
+use crate::emit::names::{Names, brief, comment, no_test, renamed, sanitised};
 use crate::emit::spelling::Spelling;
 use crate::emit::wrap::{Wrap, comments, prose};
 use crate::emit::{File, Language, Library, Parameter, Precision, Routine};
@@ -136,6 +136,7 @@ impl<'a> Module<'a> {
         let mut lines = self.header();
         let title = format!("{}: formulas over NumPy arrays.", library.title);
         let mut about = vec![title.replace(">>>", "> > >"), String::new()];
+        about.extend(renamed(library, &self.name).into_iter().flat_map(|line| [line, String::new()]));
         about.extend(self.example());
         lines.extend(documentation(&about, 0));
         lines.push(String::new());
@@ -455,7 +456,9 @@ impl Module<'_> {
         let mut lines = self.header();
         let about = "The functions at stored configurations; results of an independent source.";
         lines.extend(documentation(&[about.into()], 0));
-        lines.extend(["", "import doctest", "import unittest", "", "import numpy as np", ""].map(String::from));
+        lines.extend(
+            ["", "import doctest", "import unittest", "", "import numpy as np", ""].map(String::from),
+        );
         lines.push(format!("import {}", self.name));
         lines.extend(STORED.lines().map(String::from));
         for (routine, function) in self.library.routines.iter().zip(&self.functions) {

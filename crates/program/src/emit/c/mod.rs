@@ -133,7 +133,7 @@ pub(crate) fn emit(library: &Library) -> Vec<File> {
     let name = file_name(library, Language::C);
     let names = inputs(library, Language::C, RESERVED);
     let functions = functions(library, Language::C, &names, &[]);
-    let opening = opening(library, &functions, &names);
+    let opening = opening(library, &functions, &names, &name);
     let source = Source { library, functions, opening, name, names };
     let file = |path: String, text: String| File { path, text };
     let head = brief(library, &format!("{}.h", source.name));
@@ -209,7 +209,8 @@ impl Source<'_> {
             (true, Precision::Double) => ", but for angles above 1.6e6, where it calls the C library",
             (true, Precision::Single) => ", but for angles above 6400, where it calls the C library",
         };
-        let strict = format!("-D{upper}_STRICT uses no fused multiply-add: the same bits on every machine{huge}.");
+        let strict =
+            format!("-D{upper}_STRICT uses no fused multiply-add: the same bits on every machine{huge}.");
         let mut text = block_comment(self.lines().chain(words.iter().map(String::as_str)).chain([
             "",
             &format!(
@@ -220,8 +221,8 @@ impl Source<'_> {
             ),
             "aligned to 64 bytes are fastest. Lanes that are not needed must hold finite numbers.",
             "",
-            "Never compile with -ffast-math, -Ofast or /fp:fast (the default of icx: -fp-model=precise),",
-            "which remove roundings that results depend on.",
+            "Never compile with -ffast-math, -Ofast or /fp:fast: they remove roundings that results depend",
+            "on. icx does so by default: give it -fp-model=precise.",
             "Compile with -ffp-contract=off; with -O3 and -march=x86-64-v3 (or -march=native) for speed, or",
             &format!("with -D{upper}_MULTIVERSION (gcc on x86-64), which chooses when the program starts."),
             &strict,

@@ -25,7 +25,7 @@ pub(crate) fn emit(library: &Library) -> Vec<File> {
     let name = file_name(library, Language::Cuda);
     let names = inputs(library, Language::Cuda, &reserved);
     let functions = functions(library, Language::Cuda, &names, &[]);
-    let opening = opening(library, &functions, &names);
+    let opening = opening(library, &functions, &names, &name);
     let source = Source { library, functions, opening, name, names };
     let file = |path: String, text: String| File { path, text };
     vec![
@@ -73,7 +73,8 @@ impl Source<'_> {
         let mut words = vec![String::new()];
         words.extend(self.example());
         words.extend([
-            "How to call: device functions take arrays of the calling thread; parameters go by value to".into(),
+            "How to call: device functions take arrays of the calling thread; parameters go by value to"
+                .into(),
             "kernels and by reference to device functions. Nothing is allocated.".into(),
         ]);
         words.extend(about_angles(&self.functions, self.library.precision));
@@ -88,7 +89,9 @@ impl Source<'_> {
             let units = if self.is_single() { 3 } else { 2 };
             words.push(format!("Arctangents are the device's, within {units}."));
         }
-        words.push("Products and sums are contracted as the compiler likes, unless --fmad=false is given.".into());
+        words.push(
+            "Products and sums are contracted as the compiler likes, unless --fmad=false is given.".into(),
+        );
         if self.is_single() {
             words.push("Never compile with --use_fast_math: sines lose most of their digits.".into());
         }

@@ -76,8 +76,8 @@ const FUSED: &str = "all(feature = \"std\", any(target_feature = \"fma\", target
 pub(crate) fn emit(library: &Library) -> Vec<File> {
     let names = inputs(library, Language::Rust, RESERVED);
     let functions = functions(library, Language::Rust, &names, TAKEN);
-    let opening = opening(library, &functions, &names);
     let name = Names::new(Language::Rust, &["alloc", "proc_macro"]).free(&file_name(library, Language::Rust));
+    let opening = opening(library, &functions, &names, &name);
     let source = Source { library, functions, opening, name, names };
     let file = |path: &str, text: String| File { path: path.into(), text };
     let mut files = vec![file("Cargo.toml", source.manifest()), file("src/lib.rs", source.root())];
@@ -159,25 +159,26 @@ impl Source<'_> {
         let result = if f.result == f.name || f.result == *name { "results" } else { &f.result };
         let index: String = f.shape().iter().map(|_| "[0]").collect();
         let mut lines = vec!["```".to_string()];
-        let parameters = match (f.parameters(self.library).is_empty(), defaults(self.library)) {
-            (true, _) => {
-                lines.push(format!("use {name}::{};", f.name));
-                String::new()
-            }
-            (false, Some(_)) => {
-                lines.push(format!("use {name}::{{{}, Parameters}};", f.name));
-                ", &Parameters::default()".into()
-            }
-            (false, None) => {
-                lines.push(format!("use {name}::{{{}, Parameters}};", f.name));
-                lines.push("let parameters = Parameters {".into());
-                lines.extend(self.library.parameters.iter().map(|p| {
-                    format!("    {}: {:?},", self.names.of(p.symbol), p.default.unwrap_or(1.0))
-                }));
-                lines.push("};".into());
-                ", &parameters".into()
-            }
-        };
+        let parameters =
+            match (f.parameters(self.library).is_empty(), defaults(self.library)) {
+                (true, _) => {
+                    lines.push(format!("use {name}::{};", f.name));
+                    String::new()
+                }
+                (false, Some(_)) => {
+                    lines.push(format!("use {name}::{{{}, Parameters}};", f.name));
+                    ", &Parameters::default()".into()
+                }
+                (false, None) => {
+                    lines.push(format!("use {name}::{{{}, Parameters}};", f.name));
+                    lines.push("let parameters = Parameters {".into());
+                    lines.extend(self.library.parameters.iter().map(|p| {
+                        format!("    {}: {:?},", self.names.of(p.symbol), p.default.unwrap_or(1.0))
+                    }));
+                    lines.push("};".into());
+                    ", &parameters".into()
+                }
+            };
         lines.push(format!("let {result} = {}(&[0.0; {n}]{parameters});", f.name));
         lines.push(format!("assert!({result}{index}.is_finite());"));
         lines.push("```".into());
@@ -212,7 +213,9 @@ impl Source<'_> {
         }
         let mut used: Vec<&str> = vec![];
         if self.has_pairs() {
-            used.extend(["near_sin_cos", "sin_cos_in_range"]);
+            if Function::any_pair_in_range(&self.functions) {
+                used.extend(["near_sin_cos", "sin_cos_in_range"]);
+            }
             if Function::any_single(&self.functions) {
                 used.push("sin_cos");
             }
@@ -221,7 +224,10 @@ impl Source<'_> {
             }
         }
         if self.has_atan2() {
-            used.extend(["atan2", "atan2_in_range", "near_atan2"]);
+            used.push("atan2");
+            if Function::any_atan2_in_range(&self.functions) {
+                used.extend(["atan2_in_range", "near_atan2"]);
+            }
         }
         if self.has_root() {
             used.push("sqrt");
