@@ -25,6 +25,7 @@ cargo xtask counts [--check]     writes docs/operation-counts.md; --check fails 
                                  or if SymPy needs fewer operations for some robot
 cargo xtask soak [--seconds N] [TARGET...]
                                  feeds random bytes to the readers, N seconds each (60)
+cargo xtask miri                 the evaluators' conformance suite under Miri (half an hour)
 cargo xtask help                 this text
 ";
 
@@ -47,6 +48,7 @@ fn dispatch(arguments: &[String]) -> Result<()> {
         ["bench", "--write", ref parts @ ..] => bench::run(parts, true),
         ["bench", ref parts @ ..] => bench::run(parts, false),
         ["languages"] => languages::run(),
+        ["miri"] => soak::miri(),
         ["counts"] => counts::run(false),
         ["counts", "--check"] => counts::run(true),
         ["soak", "--seconds", n, ref targets @ ..] => {

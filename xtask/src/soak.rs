@@ -73,3 +73,20 @@ fn install() -> Result<()> {
     }
     Ok(())
 }
+
+/// The evaluators under Miri, which finds undefined behaviour in unsafe code; about half an hour.
+///
+/// # Errors
+/// If it finds some, or the nightly toolchain has no Miri and cannot get it.
+pub fn miri() -> Result<()> {
+    let rustup = |arguments: &[&str]| {
+        let mut command = command("rustup");
+        command.args(arguments).env("MIRIFLAGS", "-Zmiri-deterministic-floats");
+        for inherited in ["CARGO", "RUSTC", "RUSTDOC"] {
+            command.env_remove(inherited);
+        }
+        succeed(&mut command)
+    };
+    rustup(&["component", "add", "--toolchain", "nightly", "miri", "rust-src"])?;
+    rustup(&["run", "nightly", "cargo", "miri", "test", "-p", "denavit-program", "--test", "conformance"])
+}
