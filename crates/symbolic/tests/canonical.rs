@@ -138,8 +138,8 @@ fn complements_of_a_right_angle_are_one_constant() {
     assert_eq!(degrees(73).cos(), degrees(17).sin());
     // cos(q + 17°) = cos q cos 17° − sin q sin 17°, whichever way the sum was turned round
     let expanded = q.cos() * degrees(17).cos() - q.sin() * degrees(17).sin();
-    assert_eq!(equal((q - degrees(73)).sin(), -expanded), Verdict::Equal);
-    assert_eq!(equal((-q - degrees(17)).cos(), expanded), Verdict::Equal);
+    assert!(equal((q - degrees(73)).sin(), -expanded).is_equal());
+    assert!(equal((-q - degrees(17)).cos(), expanded).is_equal());
 }
 
 #[test]
