@@ -32,8 +32,22 @@ impl Source<'_> {
              a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan())\n}}\n",
             if fits { whole } else { split }
         );
+        if tested.iter().any(|f| !f.parameters(self.library).is_empty()) {
+            text.push_str(&self.parameters_of_a_row());
+        }
         tested.iter().for_each(|f| text.push_str(&self.test_of(f)));
         text
+    }
+
+    /// The parameters from a row of a table, in a function of its own: their names may be those of functions.
+    fn parameters_of_a_row(&self) -> String {
+        let all = &self.library.parameters;
+        let symbols: Vec<String> = all.iter().map(|p| self.names.of(p.symbol).to_string()).collect();
+        let mut out = Body { text: String::new(), indent: 4 };
+        out.list("let [", &symbols, "] = values;");
+        out.list_spaced("Parameters {", &symbols, "}");
+        let head = format!("fn parameters(values: [f64; {}]) -> Parameters {{", all.len());
+        format!("\n/// A row of a table.\n{head}\n{}}}\n", out.text)
     }
 
     fn test_of(&self, f: &Function) -> String {
@@ -51,15 +65,10 @@ impl Source<'_> {
         text.push_str(&table("RESULTS", f.results(), of(|v| &v.results)));
         let scales = lines(&WRAP.list(&numbers(&f.routine.scales), 4));
         let _ = write!(text, "\nconst {upper}_SCALES: [f64; {}] = [\n{scales}];\n", f.results());
-        let mut given = String::new();
-        if has_parameters {
-            let symbols: Vec<String> =
-                self.library.parameters.iter().map(|p| self.names.of(p.symbol).to_string()).collect();
-            let mut out = Body { text: String::new(), indent: 8 };
-            out.list("let [", &symbols, &format!("] = {upper}_PARAMETERS[v];"));
-            out.list_spaced("let parameters = Parameters {", &symbols, "};");
-            given = out.text;
-        }
+        let given = match has_parameters {
+            true => format!("        let parameters = parameters({upper}_PARAMETERS[v]);\n"),
+            false => String::new(),
+        };
         // The second place is one level further out.
         let outer: String =
             given.lines().map(|line| format!("{}\n", line.strip_prefix("    ").unwrap_or(line))).collect();
