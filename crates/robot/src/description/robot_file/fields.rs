@@ -79,7 +79,9 @@ impl Reader<'_> {
 
     pub fn string(&mut self, value: Option<&Spanned<DeValue>>) -> Option<String> {
         let value = value?;
-        let text = value.get_ref().as_str().map(str::to_string);
+        // Names and sources are single lines wherever they are shown.
+        let plain = |text: &str| text.replace(|c: char| c.is_control(), " ");
+        let text = value.get_ref().as_str().map(plain);
         if text.is_none() {
             self.wrong_type(value, "text in quotes");
         }
