@@ -1,8 +1,8 @@
 //! Source code of programs: a folder in one of several languages that builds and tests itself.
 //!
-//! [`Library`] says what to emit; every language starts from the same [`listing::Listing`] of statements and spells
+//! [`Library`] says what to emit; every language starts from the same listing of statements and spells
 //! it its own way. What comes from outside (names, descriptions) reaches the text as sanitised identifiers
-//! ([`names`]) or in comments without line breaks.
+//! (`names.rs`) or in comments without line breaks.
 
 pub(crate) mod blocks;
 mod c;

@@ -79,7 +79,7 @@ impl Function {
         Scalar::new(&self.tape, &self.uniforms, self.isa, self.arithmetic)
     }
 
-    /// An evaluator for a block of [`Block::LANES`] configurations, as a structure of arrays.
+    /// An evaluator for a block of [`Block::lanes`] configurations, as a structure of arrays.
     pub fn block<T: Real>(&self) -> Block<T> {
         Block::new(&self.tape, &self.uniforms, self.isa, self.arithmetic)
     }
