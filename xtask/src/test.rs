@@ -22,7 +22,7 @@ const STEPS: &[Step] = &[
     ("tests", || run(&["test", "--workspace", "--locked"])),
     ("examples", examples),
     ("languages", || languages::run().map(|()| Outcome::Passed)),
-    ("benchmark", || run(&["check", "--locked", "--manifest-path", "bench/Cargo.toml"])),
+    ("benchmark", benchmark),
     ("documentation", documentation),
     ("wasm32", wasm),
     ("operation counts", || counts::run(true).map(|()| Outcome::Passed)),
@@ -67,6 +67,14 @@ pub fn run_all() -> Result<()> {
 
 fn run(arguments: &[&str]) -> Result<Outcome> {
     succeed(cargo().args(arguments))?;
+    Ok(Outcome::Passed)
+}
+
+/// The package `bench`, which is no member of the workspace, compiles.
+fn benchmark() -> Result<Outcome> {
+    let mut check = cargo();
+    check.args(["check", "--locked", "--manifest-path", "bench/Cargo.toml"]);
+    succeed(check.env("CARGO_TARGET_DIR", path("target/bench")))?;
     Ok(Outcome::Passed)
 }
 
