@@ -1,6 +1,5 @@
 //! Emitted C builds without a warning as C99 and C++11, and agrees with stored values.
 
-#[allow(dead_code)]
 mod emit_support;
 
 use denavit_program::emit::{Language, Precision};

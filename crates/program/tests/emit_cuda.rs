@@ -1,6 +1,5 @@
 //! Emitted CUDA: its kernels run as C++ with one thread at a time, and compile with NVRTC where that is installed.
 
-#[allow(dead_code)]
 mod emit_support;
 
 use denavit_program::emit::{Language, Library, Precision};

@@ -1,6 +1,5 @@
 //! Emitted JavaScript runs, and computes what it should.
 
-#[allow(dead_code)]
 mod emit_support;
 mod emitted;
 

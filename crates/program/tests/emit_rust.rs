@@ -1,6 +1,5 @@
 //! Emitted Rust builds without a warning and agrees with stored values, with and without the standard library.
 
-#[allow(dead_code)]
 mod emit_support;
 
 use denavit_program::emit::{Language, Precision};

@@ -5,7 +5,7 @@ use crate::forward::{Proof, Reference, frames_program, pose_program, prove};
 use crate::geometry::Transform;
 use crate::robot::{MissingValue, Robot};
 use denavit_program::emit::{self, File, Language, Library, Parameter, Precision, Routine, Vector};
-use denavit_program::{Extended, Program};
+use denavit_program::{Extended, Graph, Program};
 use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::{Expr, Node, Symbol};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -202,11 +202,10 @@ fn routine<'a>(d: &Description, wanted: Wanted, program: &'a Program, samples: &
     };
     let about = vec![
         what,
-        "Row-major: rotation in the first three rows and columns (no unit), position in the last column (m)."
-            .into(),
+        "Rotation in the first three rows and columns (no unit), position in the last column (m).".into(),
     ];
-    let reference = reference(d, wanted);
-    let vectors: Vec<Vector> = samples.iter().map(|s| s.vector(program, &reference)).collect();
+    let reference = reference_program(program, &reference(d, wanted));
+    let vectors: Vec<Vector> = samples.iter().map(|s| s.vector(&reference)).collect();
     let reach = samples.iter().map(|s| s.reach).fold(f64::MIN_POSITIVE, f64::max);
     let rounding = rounding(d, program, samples);
     let is_length = |k: usize| k % 4 == 3 && k % 16 != 15;
@@ -240,6 +239,13 @@ fn reference(d: &Description, wanted: Wanted) -> Vec<Expr> {
     poses.into_iter().flat_map(|x| x.matrix()).flatten().collect()
 }
 
+/// Formulas as they stand, over the inputs of a program.
+fn reference_program(program: &Program, formulas: &[Expr]) -> Program {
+    let mut graph = Graph::new(program.variables(), program.parameters());
+    let outputs: Vec<_> = formulas.iter().map(|e| (String::new(), graph.trace(*e))).collect();
+    Program::new(&graph, &outputs, |_| None, &Default::default())
+}
+
 /// A configuration for a test, with values for the parameters.
 struct Sample {
     variables: Vec<f64>,
@@ -256,12 +262,11 @@ impl Sample {
         variable.or_else(|| place(program.parameters()).map(|k| self.parameters[k]))
     }
 
-    fn vector(&self, program: &Program, reference: &[Expr]) -> Vector {
-        let value = |s: Symbol| self.value(program, s).map(Extended::from);
-        let mut graph = denavit_program::Graph::new(program.variables(), program.parameters());
-        let outputs: Vec<_> = reference.iter().map(|e| (String::new(), graph.trace(*e))).collect();
-        let plain = Program::new(&graph, &outputs, |_| None, &Default::default());
-        let results = plain.eval(value).unwrap_or_default().iter().map(Extended::to_f64).collect();
+    /// The results of the reference here.
+    fn vector(&self, reference: &Program) -> Vector {
+        let exact = reference.eval(|s| self.value(reference, s).map(Extended::from));
+        let exact = exact.expect("a sample has a value for every input");
+        let results = exact.iter().map(Extended::to_f64).collect();
         Vector { variables: self.variables.clone(), parameters: self.parameters.clone(), results }
     }
 }

@@ -2,7 +2,6 @@
 
 mod extended;
 mod interval;
-mod single;
 
 pub use extended::Extended;
 pub use interval::Interval;
@@ -41,35 +40,42 @@ pub trait Domain: Clone {
     fn atan2(&self, x: &Self) -> Self;
 }
 
-impl Domain for f64 {
-    fn rational(r: &Rational) -> Self {
-        r.to_f64()
-    }
-    fn pi() -> Self {
-        std::f64::consts::PI
-    }
-    fn neg(&self) -> Self {
-        -self
-    }
-    fn add(&self, b: &Self) -> Self {
-        self + b
-    }
-    fn sub(&self, b: &Self) -> Self {
-        self - b
-    }
-    fn mul(&self, b: &Self) -> Self {
-        self * b
-    }
-    fn div(&self, b: &Self) -> Self {
-        self / b
-    }
-    fn sqrt(&self) -> Self {
-        f64::sqrt(*self)
-    }
-    fn sin_cos(&self) -> (Self, Self) {
-        f64::sin_cos(*self)
-    }
-    fn atan2(&self, x: &Self) -> Self {
-        f64::atan2(*self, *x)
-    }
+/// Numbers of the hardware; constants go by way of the nearest double, as in the evaluators.
+macro_rules! hardware {
+    ($number:ident) => {
+        impl Domain for $number {
+            fn rational(r: &Rational) -> Self {
+                r.to_f64() as $number
+            }
+            fn pi() -> Self {
+                std::$number::consts::PI
+            }
+            fn neg(&self) -> Self {
+                -self
+            }
+            fn add(&self, b: &Self) -> Self {
+                self + b
+            }
+            fn sub(&self, b: &Self) -> Self {
+                self - b
+            }
+            fn mul(&self, b: &Self) -> Self {
+                self * b
+            }
+            fn div(&self, b: &Self) -> Self {
+                self / b
+            }
+            fn sqrt(&self) -> Self {
+                $number::sqrt(*self)
+            }
+            fn sin_cos(&self) -> (Self, Self) {
+                $number::sin_cos(*self)
+            }
+            fn atan2(&self, x: &Self) -> Self {
+                $number::atan2(*self, *x)
+            }
+        }
+    };
 }
+hardware!(f32);
+hardware!(f64);

@@ -1,5 +1,7 @@
 //! Libraries to emit, folders to emit them into, and compilers to run there.
 
+#![allow(dead_code, reason = "each language uses its part")]
+
 use denavit_program::emit::{File, Language, Library, Parameter, Precision, Routine, Vector, emit};
 use denavit_program::{Graph, Program};
 use denavit_symbolic::{Expr, Symbol};
