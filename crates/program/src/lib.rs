@@ -18,6 +18,7 @@ mod op;
 mod pairs;
 mod program;
 mod rebuild;
+pub mod solver;
 mod text;
 
 pub use code::{Code, Instruction, NONE, Opcode};
