@@ -13,6 +13,7 @@ pub mod description;
 pub mod forward;
 pub mod generate;
 pub mod geometry;
+pub mod inverse;
 pub mod robot;
 pub mod scalar;
 pub mod structure;

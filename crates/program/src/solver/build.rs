@@ -63,6 +63,13 @@ impl SolverBuilder {
         self.names.entry(v.node).or_insert_with(|| name.to_string());
     }
 
+    /// The nodes of the graph that what was added so far needs.
+    pub fn walk(&self) -> FxHashSet<u32> {
+        let wanted: Vec<Value> =
+            self.nodes.iter().flat_map(|n| n.root.operands().into_iter().chain(n.guard)).collect();
+        self.graph.reach(&wanted).into_iter().collect()
+    }
+
     /// Adds a node; its results are inputs of the graph from now on.
     ///
     /// # Panics

@@ -5,8 +5,13 @@
 //! residual of the equations. What only earlier branches determine is computed once for all later ones.
 
 mod build;
+mod evaluate;
+mod quartic;
+mod roots;
 
 pub use build::{Level, Output, Register, SolverBuilder};
+pub use evaluate::{Ended, Leaf, Leaves, Solutions, SolverBatch, SolverFunction, SolverScalar, Walk};
+pub use roots::{Roots, roots};
 
 use crate::op::Value;
 use denavit_symbolic::Symbol;
@@ -180,6 +185,8 @@ pub const GUARD: f64 = 256.0 * f64::EPSILON / 2.0;
 pub const CLAMP: f64 = 1e-6;
 /// A branch is a solution if its residual is at most this.
 pub const TOLERANCE: f64 = 1e-9;
+/// A branch with a residual up to this is kept, for the caller to improve; with a larger one it is dropped.
+pub const CANDIDATE: f64 = 1e-4;
 /// Two branches are the same solution if all results differ by at most this (angles modulo 2π).
 pub const SAME: f64 = 2e-7;
 
@@ -187,6 +194,16 @@ impl Solver {
     /// The largest number of solutions.
     pub fn max_solutions(&self) -> usize {
         self.nodes.iter().map(|n| n.root.branches()).product()
+    }
+
+    /// The registers of a node's results: those behind the variables and the results of earlier nodes.
+    ///
+    /// # Panics
+    /// If there are not that many nodes.
+    pub fn results(&self, node: usize) -> std::ops::Range<Register> {
+        let earlier: usize = self.nodes[..node].iter().map(|n| n.root.results()).sum();
+        let first = (self.variables.len() + earlier) as Register;
+        first..first + self.nodes[node].root.results() as Register
     }
 }
 

@@ -1,0 +1,170 @@
+//! The careful evaluator: depth first through all branches, the cases of every root told apart.
+
+use super::leaves::{Leaves, Record};
+use super::single::Single;
+use super::{Shape, SolverFunction, lanes};
+use crate::evaluate::Scalar;
+use crate::solver::roots::{Roots, power, roots};
+use std::sync::Arc;
+
+/// A way through all branches, for levels that are computed by anybody. It allocates nothing after it is made.
+#[derive(Clone, Debug)]
+pub struct Walk {
+    shape: Arc<Shape>,
+    /// The registers of the solver.
+    registers: Vec<f64>,
+    /// sizeᵈᵉᵍʳᵉᵉ of each node.
+    scales: Vec<f64>,
+    /// The roots of each node on the way, and how many of them have been visited.
+    found: Vec<(Roots, usize)>,
+    signs: Vec<i8>,
+    leaves: Leaves,
+}
+
+impl Walk {
+    /// A walk through the nodes of a solver.
+    pub fn new(solver: &SolverFunction) -> Self {
+        let shape = solver.shape.clone();
+        let n = shape.steps.len();
+        Walk {
+            registers: vec![0.0; shape.registers],
+            scales: vec![1.0; n],
+            found: vec![(Roots::NONE, 0); n],
+            signs: vec![0; n],
+            leaves: shape.leaves(),
+            shape,
+        }
+    }
+
+    /// Visits all branches. `level` is called with the number of a level and the registers, and must write those that
+    /// the level writes ([`Level`](crate::solver::Level)); `given` is as for [`SolverScalar::solve`].
+    ///
+    /// # Panics
+    /// If there is not one value per variable.
+    pub fn solve(
+        &mut self,
+        variables: &[f64],
+        given: &[Option<[f64; 2]>],
+        mut level: impl FnMut(usize, &mut [f64]),
+    ) -> &Leaves {
+        let Walk { shape, registers, scales, found, signs, leaves } = self;
+        assert_eq!(variables.len(), shape.variables, "one value per variable");
+        let last = shape.steps.len();
+        leaves.clear();
+        registers[..variables.len()].copy_from_slice(variables);
+        level(0, registers);
+        let size = registers[shape.size as usize].abs();
+        for (scale, step) in scales.iter_mut().zip(&shape.steps) {
+            *scale = power(size, step.degree);
+        }
+        let mut i = 0;
+        let mut is_new = true;
+        loop {
+            if i == last {
+                leaf(shape, registers, found, signs, leaves);
+            } else {
+                let step = &shape.steps[i];
+                if is_new {
+                    let at = |r: u32| registers[r as usize];
+                    let given = given.get(i).copied().flatten();
+                    let all = roots(&step.root.map(at), step.guard.map(at), scales[i], given);
+                    if all.count == 0 {
+                        leaves.end(i, 1, all.gap);
+                    }
+                    found[i] = (all, 0);
+                }
+                let (all, visited) = &mut found[i];
+                if *visited < all.count {
+                    let k = *visited;
+                    *visited += 1;
+                    signs[i] = all.signs[k];
+                    let [first, second] = all.values[k];
+                    let results = [first, if step.root.is_angle() { second } else { f64::from(signs[i]) }];
+                    for (x, r) in results.iter().chain([&f64::from(signs[i])]).zip(step.results.clone()) {
+                        registers[r] = *x;
+                    }
+                    i += 1;
+                    level(i, registers);
+                    is_new = true;
+                    continue;
+                }
+            }
+            if i == 0 {
+                return leaves;
+            }
+            i -= 1;
+            is_new = false;
+        }
+    }
+}
+
+fn leaf(shape: &Shape, registers: &[f64], found: &[(Roots, usize)], signs: &[i8], leaves: &mut Leaves) {
+    let at = |r: &u32| registers[*r as usize];
+    let mut record = Record {
+        residual: at(&shape.residual),
+        multiplicity: 1,
+        free: 0,
+        guard: f64::INFINITY,
+    };
+    for (i, (all, visited)) in found.iter().enumerate() {
+        record.multiplicity = record.multiplicity.saturating_mul(all.multiplicities[visited - 1]);
+        record.free |= u64::from(all.is_free) << i;
+        record.guard = record.guard.min(all.guard);
+    }
+    leaves.add(shape.outputs.iter().map(at), signs, record);
+}
+
+/// Runs a [`SolverFunction`] for one set of variables after another. It allocates nothing after it is made.
+#[derive(Clone, Debug)]
+pub struct SolverScalar {
+    fast: Option<Single>,
+    walk: Walk,
+    levels: Vec<Scalar>,
+    /// What a level reads, gathered.
+    gathered: Vec<f64>,
+}
+
+impl SolverScalar {
+    pub(crate) fn new(solver: &SolverFunction) -> Self {
+        let levels = solver.levels.iter().map(|f| f.scalar()).collect();
+        let most = solver.shape.places.iter().map(|p| p.reads.len()).max().unwrap_or(0);
+        let fast = lanes::is_possible(&solver.shape).then(|| Single::new(solver));
+        SolverScalar { fast, walk: Walk::new(solver), levels, gathered: vec![0.0; most] }
+    }
+
+    /// All solutions for one set of variables; they stay readable until the next call.
+    ///
+    /// `given` says what an unknown takes that turns out to be free: for each node cosine and sine, or the value and
+    /// anything; nodes that are missing take (1, 0) or 0.
+    ///
+    /// # Panics
+    /// If there is not one value per variable.
+    pub fn solve(&mut self, variables: &[f64], given: &[Option<[f64; 2]>]) -> &Leaves {
+        assert_eq!(variables.len(), self.walk.shape.variables, "one value per variable");
+        if let Some(fast) = &mut self.fast
+            && fast.solve(variables, &mut self.walk.leaves)
+        {
+            return &self.walk.leaves;
+        }
+        self.solve_carefully(variables, given)
+    }
+
+    /// The same, one branch after the other.
+    ///
+    /// # Panics
+    /// If there is not one value per variable.
+    pub fn solve_carefully(&mut self, variables: &[f64], given: &[Option<[f64; 2]>]) -> &Leaves {
+        let SolverScalar { walk, levels, gathered, .. } = self;
+        let shape = walk.shape.clone();
+        walk.solve(variables, given, |i, registers| {
+            let places = &shape.places[i];
+            let values = &mut gathered[..places.reads.len()];
+            for (x, &r) in values.iter_mut().zip(&places.reads) {
+                *x = registers[r as usize];
+            }
+            for (x, &r) in levels[i].eval(values).iter().zip(&places.writes) {
+                registers[r as usize] = *x;
+            }
+        })
+    }
+}

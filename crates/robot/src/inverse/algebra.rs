@@ -1,0 +1,217 @@
+//! Polynomials in the entries of the pose, in sines and cosines of the unknown angles, and in the robot's constants.
+//!
+//! Every angle has a cosine and a sine, with the rule S² → 1 − C². Angles that are sums of one another (θ2, θ23) are
+//! atoms of their own here: an equation holds whichever of them its product was formed with.
+
+use denavit_symbolic::poly::{Atom, Monomial, Poly};
+use denavit_symbolic::ring::{AtomKind, Ring};
+use denavit_symbolic::{Expr, Rational};
+use rustc_hash::FxHashMap;
+
+/// What an atom stands for.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Kind {
+    /// An entry of the pose, row-major in a 3×4 matrix.
+    Pose(usize),
+    /// The cosine of an angle.
+    Cos(usize),
+    /// The sine of an angle.
+    Sin(usize),
+    /// The displacement of a sliding axis.
+    Slide(usize),
+    /// A constant of the robot.
+    Constant(Expr),
+}
+
+/// Atoms, their rules, their formulas.
+#[derive(Debug, Default)]
+pub struct Algebra {
+    kinds: Vec<Kind>,
+    exprs: Vec<Expr>,
+    rules: Vec<Option<Poly>>,
+    numbers: FxHashMap<Kind, Atom>,
+}
+
+impl Algebra {
+    /// The atom of a kind; `expr` is what it is printed as.
+    pub fn atom(&mut self, kind: Kind, expr: impl FnOnce() -> Expr) -> Atom {
+        if let Some(&a) = self.numbers.get(&kind) {
+            return a;
+        }
+        let number = Atom::try_from(self.kinds.len()).expect("fewer than 65536 atoms");
+        self.kinds.push(kind);
+        self.exprs.push(expr());
+        self.rules.push(None);
+        self.numbers.insert(kind, number);
+        number
+    }
+
+    /// Cosine and sine of an angle as polynomials.
+    pub fn pair(&mut self, angle: usize, expr: Expr) -> (Poly, Poly) {
+        let c = self.atom(Kind::Cos(angle), || expr.cos());
+        let s = self.atom(Kind::Sin(angle), || expr.sin());
+        if self.rules[usize::from(s)].is_none() {
+            self.rules[usize::from(s)] = Some(one_minus_square(c));
+        }
+        (Poly::atom(c), Poly::atom(s))
+    }
+
+    /// What an atom stands for.
+    pub fn kind(&self, a: Atom) -> Kind {
+        self.kinds[usize::from(a)]
+    }
+
+    /// The number of an atom that is there.
+    pub fn find(&self, kind: Kind) -> Option<Atom> {
+        self.numbers.get(&kind).copied()
+    }
+
+    /// An atom as a formula.
+    pub fn expr(&self, a: Atom) -> Expr {
+        self.exprs[usize::from(a)]
+    }
+
+    /// How many atoms there are.
+    pub fn len(&self) -> usize {
+        self.kinds.len()
+    }
+
+    /// The product, squares of sines and roots replaced.
+    pub fn times(&self, a: &Poly, b: &Poly) -> Poly {
+        if let Some(r) = a.as_constant() {
+            return b.scaled(&r);
+        }
+        if let Some(r) = b.as_constant() {
+            return a.scaled(&r);
+        }
+        let mut terms = Vec::with_capacity(a.terms().len() * b.terms().len());
+        let mut pending: Vec<(Monomial, Rational)> = vec![];
+        for (m, r) in a.terms() {
+            for (n, t) in b.terms() {
+                pending.push((m.times(n), r * t));
+                while let Some((m, r)) = pending.pop() {
+                    let square = m
+                        .factors()
+                        .iter()
+                        .find(|f| f.1 >= 2 && self.rules[usize::from(f.0)].is_some())
+                        .copied();
+                    match square {
+                        None => terms.push((m, r)),
+                        Some((atom, exponent)) => {
+                            let rest = m.without(atom).times(&Monomial::power(atom, exponent - 2));
+                            let rule = self.rules[usize::from(atom)].as_ref().map_or(&[][..], Poly::terms);
+                            pending.extend(rule.iter().map(|(n, t)| (rest.times(n), &r * t)));
+                        }
+                    }
+                }
+            }
+        }
+        Poly::from_terms(terms)
+    }
+
+    /// The square.
+    pub fn square(&self, a: &Poly) -> Poly {
+        self.times(a, a)
+    }
+
+    /// The value, atoms having these values.
+    pub fn value(p: &Poly, atoms: &[f64]) -> f64 {
+        p.terms().iter().map(|(m, r)| r.to_f64() * monomial_value(m, atoms)).sum()
+    }
+
+    /// The value, and the sum of the terms' magnitudes.
+    pub fn value_and_size(p: &Poly, atoms: &[f64]) -> (f64, f64) {
+        p.terms().iter().fold((0.0, 0.0), |(v, s), (m, r)| {
+            let x = r.to_f64() * monomial_value(m, atoms);
+            (v + x, s + x.abs())
+        })
+    }
+
+    /// A constant formula of the robot as a polynomial; what is none becomes an atom as it stands.
+    pub fn constant(&mut self, ring: &mut Ring, e: Expr) -> Poly {
+        let Ok(p) = ring.polynomial(e) else {
+            return Poly::atom(self.atom(Kind::Constant(e), || e));
+        };
+        let mut terms = vec![];
+        for (m, r) in p.terms() {
+            let mut product = Monomial::one();
+            for &(a, n) in m.factors() {
+                let e = ring.atom_expr(a);
+                let atom = self.atom(Kind::Constant(e), || e);
+                if let AtomKind::Surd(k) = ring.kind(a) {
+                    self.rules[usize::from(atom)] = Some(Poly::constant((*k).into()));
+                }
+                product = product.times(&Monomial::power(atom, n));
+            }
+            terms.push((product, r.clone()));
+        }
+        for (c, s) in ring.pairs().collect::<Vec<_>>() {
+            let (c, s) = (ring.atom_expr(c), ring.atom_expr(s));
+            if let (Some(c), Some(s)) = (self.find(Kind::Constant(c)), self.find(Kind::Constant(s))) {
+                self.rules[usize::from(s)] = Some(one_minus_square(c));
+            }
+        }
+        Poly::from_terms(terms)
+    }
+}
+
+fn one_minus_square(c: Atom) -> Poly {
+    Poly::from_terms([(Monomial::power(c, 2), -Rational::ONE), (Monomial::one(), Rational::ONE)])
+}
+
+fn monomial_value(m: &Monomial, atoms: &[f64]) -> f64 {
+    m.factors().iter().map(|&(a, n)| atoms[usize::from(a)].powi(n.into())).product()
+}
+
+/// A 3×3 matrix of polynomials.
+pub type Matrix = [[Poly; 3]; 3];
+/// Three polynomials.
+pub type Column = [Poly; 3];
+
+/// The identity.
+pub fn identity() -> Matrix {
+    std::array::from_fn(|i| std::array::from_fn(|j| if i == j { Poly::one() } else { Poly::zero() }))
+}
+
+impl Algebra {
+    /// The product of two matrices.
+    pub fn product(&self, a: &Matrix, b: &Matrix) -> Matrix {
+        std::array::from_fn(|i| {
+            std::array::from_fn(|j| {
+                (0..3).fold(Poly::zero(), |sum, k| {
+                    if a[i][k].is_zero() || b[k][j].is_zero() {
+                        return sum;
+                    }
+                    sum.plus(&self.times(&a[i][k], &b[k][j]))
+                })
+            })
+        })
+    }
+
+    /// A matrix times a column.
+    pub fn apply(&self, a: &Matrix, p: &Column) -> Column {
+        std::array::from_fn(|i| {
+            (0..3).fold(Poly::zero(), |sum, k| {
+                if a[i][k].is_zero() || p[k].is_zero() {
+                    return sum;
+                }
+                sum.plus(&self.times(&a[i][k], &p[k]))
+            })
+        })
+    }
+}
+
+/// The transpose.
+pub fn transposed(a: &Matrix) -> Matrix {
+    std::array::from_fn(|i| std::array::from_fn(|j| a[j][i].clone()))
+}
+
+/// The sum of two columns.
+pub fn sum(a: &Column, b: &Column) -> Column {
+    std::array::from_fn(|i| a[i].plus(&b[i]))
+}
+
+/// The difference of two columns.
+pub fn difference(a: &Column, b: &Column) -> Column {
+    std::array::from_fn(|i| a[i].minus(&b[i]))
+}

@@ -1,0 +1,193 @@
+//! All useful scalar equations of Z₁ C₁ … Zₙ = U.
+//!
+//! For two cuts of the chain, left · middle · right = U gives middle = left⁻¹ · U · right⁻¹: nine entries of the
+//! rotation, three of the position, three of the position of the inverse. Sums of squares of positions are formed when
+//! it is known which components still hold an unknown ([`Split`]).
+
+use super::algebra::{Algebra, Column, Matrix, transposed};
+use super::chain::Chain;
+use denavit_symbolic::Rational;
+use denavit_symbolic::poly::{Atom, Poly};
+use rustc_hash::FxHashSet;
+
+/// What of the hand is given.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Goal {
+    /// Position and orientation.
+    Pose,
+    /// The position of the tool.
+    Position,
+    /// The position of the tool and the direction of its z axis.
+    PositionAndAxis,
+}
+
+/// Which element of which product an equation is.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, PartialOrd, Ord)]
+pub enum Entry {
+    /// An element of the rotation, row and column from 0.
+    Rotation(usize, usize),
+    /// An element of the position.
+    Position(usize),
+    /// An element of the position of the inverse.
+    Inverse(usize),
+}
+
+/// Where an equation comes from: what stands left of element `left` and from element `right` on is moved to the side of
+/// the pose.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, PartialOrd, Ord)]
+pub struct Source {
+    /// The first element of the middle part.
+    pub left: usize,
+    /// The element behind the middle part.
+    pub right: usize,
+    /// Which element of the two sides.
+    pub entry: Entry,
+}
+
+/// `pose = chain`.
+#[derive(Clone, Debug)]
+pub struct Equation {
+    /// Where it comes from.
+    pub source: Source,
+    /// The side with the entries of the pose.
+    pub pose: Poly,
+    /// The side of the middle part.
+    pub chain: Poly,
+    /// pose − chain, which vanishes.
+    pub zero: Poly,
+    /// The dimension: 0 for a rotation, 1 for a length.
+    pub degree: u8,
+    /// The atoms that occur.
+    pub atoms: Vec<Atom>,
+}
+
+/// Both sides at two cuts: for sums of squares, and to measure how well a solution fulfils the equations.
+#[derive(Clone, Debug)]
+pub struct Split {
+    /// The first element of the middle part.
+    pub left: usize,
+    /// The element behind it.
+    pub right: usize,
+    /// The position on the side with the entries of the pose; a component is missing if it is too large.
+    pub pose: [Option<Poly>; 3],
+    /// The position of the middle part.
+    pub chain: Column,
+    /// The rotation on the side with the entries of the pose.
+    pub pose_rotation: [[Option<Poly>; 3]; 3],
+    /// The rotation of the middle part.
+    pub chain_rotation: Matrix,
+}
+
+/// Terms of one side of an equation that is kept.
+const TERMS: usize = 160;
+/// Products of terms that an entry may take.
+const PRODUCTS: usize = 1_500;
+
+/// All equations of a chain, short ones first, and the positions for sums of squares.
+pub fn equations(chain: &Chain, goal: Goal) -> (Vec<Equation>, Vec<Split>) {
+    let a = &chain.algebra;
+    let n = chain.elements.len();
+    let products: Vec<Vec<(Matrix, Column)>> = (0..=n).map(|u| chain.products_from(u)).collect();
+    let u = |i: usize, j: usize| Some(Poly::atom((i * 4 + j) as Atom));
+    let known = |j: usize| match goal {
+        Goal::Pose => true,
+        Goal::Position => j == 3,
+        Goal::PositionAndAxis => j >= 2,
+    };
+    let (mut found, mut splits) = (vec![], vec![]);
+    let mut seen: FxHashSet<Poly> = FxHashSet::default();
+    let rights: Vec<usize> = if goal == Goal::Pose { (0..=n).collect() } else { vec![n] };
+    for &v in &rights {
+        // W = U · right⁻¹
+        let (r_right, p_right) = &products[v][n - v];
+        let back = transposed(r_right);
+        let rotation: [[Option<Poly>; 3]; 3] = std::array::from_fn(|i| {
+            std::array::from_fn(|j| {
+                if goal == Goal::Pose {
+                    dot(a, (0..3).map(|k| (u(i, k), &back[k][j])))
+                } else {
+                    known(j).then(|| u(i, j)).flatten()
+                }
+            })
+        });
+        let position: [Option<Poly>; 3] = std::array::from_fn(|i| {
+            let shift = dot(a, (0..3).map(|k| (rotation[i][k].clone(), &p_right[k])))?;
+            Some(u(i, 3)?.minus(&shift))
+        });
+        for left in 0..=v {
+            let (r_left, p_left) = &products[0][left];
+            let (r_middle, p_middle) = &products[left][v - left];
+            let moved: [Option<Poly>; 3] =
+                std::array::from_fn(|i| Some(position[i].as_ref()?.minus(&p_left[i])));
+            let entry_of = |column: &dyn Fn(usize) -> Option<Poly>, i: usize| {
+                dot(a, (0..3).map(|k| (column(k), &r_left[k][i])))
+            };
+            let mut push = |entry: Entry, pose: Option<Poly>, chain_side: &Poly, degree: u8| {
+                let Some(pose) = pose else { return };
+                if pose.terms().len() > TERMS || chain_side.terms().len() > TERMS {
+                    return;
+                }
+                let zero = pose.minus(chain_side);
+                let Some((_, first)) = zero.terms().first() else { return };
+                let monic = zero.scaled(&first.recip().unwrap_or(Rational::ONE));
+                if seen.insert(monic) {
+                    let atoms = zero.atoms();
+                    let source = Source { left, right: v, entry };
+                    found.push(Equation { source, pose, chain: chain_side.clone(), zero, degree, atoms });
+                }
+            };
+            let turned: [[Option<Poly>; 3]; 3] =
+                std::array::from_fn(|i| std::array::from_fn(|j| entry_of(&|k| rotation[k][j].clone(), i)));
+            for i in 0..3 {
+                for j in 0..3 {
+                    push(Entry::Rotation(i, j), turned[i][j].clone(), &r_middle[i][j], 0);
+                }
+            }
+            let on_pose: [Option<Poly>; 3] =
+                std::array::from_fn(|i| entry_of(&|k| moved[k].clone(), i));
+            for i in 0..3 {
+                push(Entry::Position(i), on_pose[i].clone(), &p_middle[i], 1);
+            }
+            for i in 0..3 {
+                // middle⁻¹'s position: −Rᵀp on both sides
+                let pose = dot(a, (0..3).map(|k| (rotation[k][i].clone(), &moved[k])).filter_map(flat));
+                let pose = pose.map(|p| p.scaled(&-Rational::ONE));
+                let chain_side = (0..3).fold(Poly::zero(), |sum, k| {
+                    sum.minus(&a.times(&r_middle[k][i], &p_middle[k]))
+                });
+                let complete = (0..3).all(|k| rotation[k][i].is_some() && moved[k].is_some());
+                push(Entry::Inverse(i), pose.filter(|_| complete), &chain_side, 1);
+            }
+            splits.push(Split {
+                left,
+                right: v,
+                pose: on_pose,
+                chain: p_middle.clone(),
+                pose_rotation: turned,
+                chain_rotation: r_middle.clone(),
+            });
+        }
+    }
+    found.sort_by_key(|e| (e.zero.terms().len(), e.source));
+    (found, splits)
+}
+
+fn flat<'a>((x, y): (Option<Poly>, &'a Option<Poly>)) -> Option<(Option<Poly>, &'a Poly)> {
+    y.as_ref().map(|y| (x, y))
+}
+
+/// Σ x·y, or nothing if a factor is missing or it takes too many products.
+fn dot<'a>(a: &Algebra, pairs: impl Iterator<Item = (Option<Poly>, &'a Poly)>) -> Option<Poly> {
+    let mut sum = Poly::zero();
+    for (x, y) in pairs {
+        if y.is_zero() {
+            continue;
+        }
+        let x = x?;
+        if x.terms().len() * y.terms().len() > PRODUCTS {
+            return None;
+        }
+        sum = sum.plus(&a.times(&x, y));
+    }
+    Some(sum)
+}

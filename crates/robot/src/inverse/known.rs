@@ -1,0 +1,340 @@
+//! What is known at a point of the derivation, and equations seen from there.
+//!
+//! The nodes of a group of parallel axes are connected where the angle between them is known: learning θ234 and θ2 makes
+//! θ34 known for free. Two angles that differ by a known one are one unknown.
+
+use super::algebra::{Algebra, Kind};
+use super::chain::{Chain, Difference, Motion};
+use denavit_symbolic::poly::{Atom, Monomial, Poly};
+use denavit_symbolic::{Expr, Rational, Symbol};
+use std::collections::BTreeMap;
+
+/// An angle or a displacement.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, PartialOrd, Ord)]
+pub enum Unknown {
+    /// A difference of potentials.
+    Angle(Difference),
+    /// The displacement of an axis.
+    Slide(usize),
+}
+
+/// What is known.
+#[derive(Clone, Debug)]
+pub struct Known {
+    /// For each node of each group, the smallest node that it is connected to.
+    component: Vec<Vec<usize>>,
+    slides: Vec<bool>,
+}
+
+impl Known {
+    /// Nothing but the values of some axes.
+    pub fn new(chain: &Chain, given: &[usize]) -> Self {
+        let mut known = Known {
+            component: chain.groups.iter().map(|&n| (0..=n).collect()).collect(),
+            slides: chain.axes.iter().map(|a| a.motion != Motion::Slide).collect(),
+        };
+        for &k in given {
+            known.learn(axis_unknown(chain, k));
+        }
+        known
+    }
+
+    /// The unknown is known from here on.
+    pub fn learn(&mut self, x: Unknown) {
+        match x {
+            Unknown::Slide(k) => self.slides[k] = true,
+            Unknown::Angle(d) => {
+                let nodes = &mut self.component[d.group];
+                let (a, b) = (nodes[d.from], nodes[d.to]);
+                let (low, high) = (a.min(b), a.max(b));
+                nodes.iter_mut().filter(|n| **n == high).for_each(|n| *n = low);
+            }
+        }
+    }
+
+    /// True if the value is known.
+    pub fn knows(&self, x: Unknown) -> bool {
+        match x {
+            Unknown::Slide(k) => self.slides[k],
+            Unknown::Angle(d) => self.component[d.group][d.from] == self.component[d.group][d.to],
+        }
+    }
+
+    /// True if every axis is known.
+    pub fn everything(&self) -> bool {
+        self.slides.iter().all(|&x| x) && self.component.iter().all(|c| c.iter().all(|&n| n == 0))
+    }
+
+    /// The angle by which an unknown difference is called: between the smallest nodes of its components.
+    pub fn representative(&self, d: Difference) -> Difference {
+        let nodes = &self.component[d.group];
+        let (a, b) = (nodes[d.from], nodes[d.to]);
+        Difference { group: d.group, from: a.min(b), to: a.max(b) }
+    }
+
+    /// The unknown angles (by representative) and displacements among some atoms, sorted.
+    pub fn unknowns(&self, chain: &Chain, atoms: &[Atom]) -> Vec<Unknown> {
+        let mut found = vec![];
+        for &a in atoms {
+            let x = match chain.algebra.kind(a) {
+                Kind::Cos(n) | Kind::Sin(n) => Unknown::Angle(chain.differences[n]),
+                Kind::Slide(k) => Unknown::Slide(k),
+                Kind::Pose(_) | Kind::Constant(_) => continue,
+            };
+            if !self.knows(x) {
+                found.push(match x {
+                    Unknown::Angle(d) => Unknown::Angle(self.representative(d)),
+                    slide => slide,
+                });
+            }
+        }
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+
+    /// How many of some unknowns are independent: three angles between three nodes are two.
+    pub fn rank(&self, unknowns: &[Unknown]) -> usize {
+        let mut merged = self.clone();
+        let mut rank = 0;
+        for &x in unknowns {
+            if !merged.knows(x) {
+                merged.learn(x);
+                rank += 1;
+            }
+        }
+        rank
+    }
+
+    /// The angle between the outer ends of two angles of one group that share a node.
+    pub fn third(&self, pair: &[Unknown]) -> Option<Unknown> {
+        let [Unknown::Angle(a), Unknown::Angle(b)] = pair else { return None };
+        if a.group != b.group {
+            return None;
+        }
+        let mut nodes = vec![];
+        for n in [a.from, a.to, b.from, b.to] {
+            match nodes.iter().position(|&m| m == n) {
+                Some(k) => {
+                    nodes.swap_remove(k);
+                }
+                None => nodes.push(n),
+            }
+        }
+        let [p, q] = nodes[..] else { return None };
+        Some(Unknown::Angle(Difference { group: a.group, from: p.min(q), to: p.max(q) }))
+    }
+
+    /// The polynomial with its unknown angles written in those of `basis`.
+    pub fn in_basis(&self, chain: &Chain, p: &Poly, basis: &[Unknown]) -> Poly {
+        let a = &chain.algebra;
+        let mut pairs: BTreeMap<usize, (Poly, Poly)> = BTreeMap::new();
+        for atom in p.atoms() {
+            if let Kind::Cos(n) | Kind::Sin(n) = a.kind(atom) {
+                let d = chain.differences[n];
+                let x = Unknown::Angle(d);
+                if !self.knows(x) && !basis.contains(&x) && !pairs.contains_key(&n) {
+                    let Some(pair) = self.expanded(chain, d, basis) else { continue };
+                    pairs.insert(n, pair);
+                }
+            }
+        }
+        if pairs.is_empty() {
+            return p.clone();
+        }
+        let mut sum: Vec<Poly> = vec![];
+        let mut kept: Vec<(Monomial, Rational)> = vec![];
+        for (m, r) in p.terms() {
+            let mut rest = Monomial::one();
+            let mut product: Option<Poly> = None;
+            for &(atom, n) in m.factors() {
+                let replaced = match a.kind(atom) {
+                    Kind::Cos(k) => pairs.get(&k).map(|x| &x.0),
+                    Kind::Sin(k) => pairs.get(&k).map(|x| &x.1),
+                    _ => None,
+                };
+                match replaced {
+                    None => rest = rest.times(&Monomial::power(atom, n)),
+                    Some(x) => {
+                        for _ in 0..n {
+                            product = Some(product.map_or_else(|| x.clone(), |y| a.times(&y, x)));
+                        }
+                    }
+                }
+            }
+            match product {
+                None => kept.push((rest, r.clone())),
+                Some(x) => sum.push(a.times(&x, &Poly::term(rest, r.clone()))),
+            }
+        }
+        let terms = sum.iter().flat_map(|p| p.terms().iter().cloned()).chain(kept);
+        Poly::from_terms(terms)
+    }
+
+    /// Cosine and sine of a difference by angles of a basis and known ones.
+    fn expanded(&self, chain: &Chain, d: Difference, basis: &[Unknown]) -> Option<(Poly, Poly)> {
+        let nodes = &self.component[d.group];
+        let (start, goal) = (nodes[d.from], nodes[d.to]);
+        // A path over at most two edges of the basis.
+        let edges: Vec<(usize, usize)> = basis
+            .iter()
+            .filter_map(|x| match x {
+                Unknown::Angle(e) if e.group == d.group => Some((e.from, e.to)),
+                _ => None,
+            })
+            .flat_map(|(p, q)| [(p, q), (q, p)])
+            .collect();
+        let ends = |e: (usize, usize)| (nodes[e.0], nodes[e.1]);
+        let mut path: Option<Vec<(usize, usize)>> =
+            edges.iter().find(|e| ends(**e) == (start, goal)).map(|e| vec![*e]);
+        if path.is_none() {
+            for &e in edges.iter().filter(|e| ends(**e).0 == start) {
+                let next = edges.iter().find(|f| ends(**f) == (ends(e).1, goal));
+                if let Some(&f) = next {
+                    path = Some(vec![e, f]);
+                    break;
+                }
+            }
+        }
+        let mut at = d.from;
+        let mut sum = (Poly::one(), Poly::zero());
+        for (p, q) in path? {
+            sum = add_angles(&chain.algebra, &sum, &chain.pair(d.group, at, p));
+            sum = add_angles(&chain.algebra, &sum, &chain.pair(d.group, p, q));
+            at = q;
+        }
+        Some(add_angles(&chain.algebra, &sum, &chain.pair(d.group, at, d.to)))
+    }
+}
+
+/// The unknown that an axis is.
+pub fn axis_unknown(chain: &Chain, k: usize) -> Unknown {
+    match chain.axes[k].motion {
+        Motion::Slide => Unknown::Slide(k),
+        Motion::Turn { group, node, .. } => Unknown::Angle(Difference { group, from: node - 1, to: node }),
+    }
+}
+
+fn add_angles(a: &Algebra, x: &(Poly, Poly), y: &(Poly, Poly)) -> (Poly, Poly) {
+    let c = a.times(&x.0, &y.0).minus(&a.times(&x.1, &y.1));
+    let s = a.times(&x.1, &y.0).plus(&a.times(&x.0, &y.1));
+    (c, s)
+}
+
+/// Values of all atoms at some configurations: for tests of what vanishes, and for conditioning.
+#[derive(Debug)]
+pub struct Samples {
+    /// For each configuration the values of all atoms.
+    atoms: Vec<Vec<f64>>,
+    /// The configurations: the value of each axis, quarter turns left aside.
+    axes: Vec<Vec<f64>>,
+}
+
+/// How many configurations are sampled.
+const SAMPLES: usize = 8;
+
+impl Samples {
+    /// Random configurations (always the same ones); a parameter without value gets a random one.
+    pub fn new(chain: &Chain, value: impl Fn(Symbol) -> Option<f64>) -> Self {
+        let mut random = Random(0x9E37_79B9_7F4A_7C15);
+        let constants: Vec<Vec<(Symbol, f64)>> = (0..SAMPLES)
+            .map(|_| {
+                let of = |s: &Symbol| {
+                    let drawn = 0.3 + 0.7 * random.unit();
+                    (*s, value(*s).unwrap_or(drawn))
+                };
+                chain.parameters.iter().map(of).collect()
+            })
+            .collect();
+        let mut samples = Samples { atoms: vec![], axes: vec![] };
+        for parameters in &constants {
+            let axes: Vec<f64> = chain
+                .axes
+                .iter()
+                .map(|axis| match axis.motion {
+                    Motion::Turn { .. } => std::f64::consts::TAU * random.unit(),
+                    Motion::Slide => random.unit() - 0.3,
+                })
+                .collect();
+            let lookup = |s: Symbol| parameters.iter().find(|p| p.0 == s).map(|p| p.1);
+            let mut atoms = vec![0.0; chain.algebra.len()];
+            for (i, atom) in atoms.iter_mut().enumerate() {
+                if let Kind::Constant(e) = chain.algebra.kind(i as Atom) {
+                    *atom = Expr::eval(e, lookup).unwrap_or(f64::NAN);
+                }
+            }
+            set_axes(chain, &axes, &mut atoms);
+            samples.atoms.push(atoms);
+            samples.axes.push(axes);
+        }
+        samples
+    }
+
+    /// The pose of the first configuration with one axis moved.
+    pub fn moved(&self, chain: &Chain, axis: usize, by: f64) -> Vec<f64> {
+        let (mut axes, mut atoms) = (self.axes[0].clone(), self.atoms[0].clone());
+        axes[axis] += by;
+        set_axes(chain, &axes, &mut atoms);
+        atoms.truncate(12);
+        atoms
+    }
+
+    /// True if the polynomial is 0 at all of them.
+    pub fn vanishes(&self, p: &Poly) -> bool {
+        p.is_zero()
+            || self.atoms.iter().all(|atoms| {
+                let (value, size) = Algebra::value_and_size(p, atoms);
+                value.abs() <= 1e-10 * size
+            })
+    }
+
+    /// The values.
+    pub fn values(&self, p: &Poly) -> Vec<f64> {
+        self.atoms.iter().map(|atoms| Algebra::value(p, atoms)).collect()
+    }
+}
+
+/// Puts in the values of the axes, and of what follows from them.
+fn set_axes(chain: &Chain, axes: &[f64], atoms: &mut [f64]) {
+    let mut potentials: Vec<Vec<f64>> = chain.groups.iter().map(|_| vec![0.0]).collect();
+    for (axis, &x) in chain.axes.iter().zip(axes) {
+        if let Motion::Turn { group, reversed, .. } = axis.motion {
+            let last = potentials[group].last().copied().unwrap_or(0.0);
+            potentials[group].push(if reversed { last - x } else { last + x });
+        }
+    }
+    for (i, atom) in atoms.iter_mut().enumerate() {
+        let angle = |n: usize| {
+            let d = chain.differences[n];
+            potentials[d.group][d.to] - potentials[d.group][d.from]
+        };
+        match chain.algebra.kind(i as Atom) {
+            Kind::Cos(n) => *atom = angle(n).cos(),
+            Kind::Sin(n) => *atom = angle(n).sin(),
+            Kind::Slide(k) => *atom = axes[k],
+            Kind::Pose(_) | Kind::Constant(_) => {}
+        }
+    }
+    if let Some((r, p)) = chain.products_from(0).last() {
+        for i in 0..3 {
+            for j in 0..3 {
+                atoms[i * 4 + j] = Algebra::value(&r[i][j], atoms);
+            }
+            atoms[i * 4 + 3] = Algebra::value(&p[i], atoms);
+        }
+    }
+}
+
+/// A small generator of numbers that look random (splitmix64).
+pub struct Random(pub u64);
+
+impl Random {
+    /// A number in [0, 1).
+    pub fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}

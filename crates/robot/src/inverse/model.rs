@@ -1,0 +1,338 @@
+//! The inverse model of a robot: the derivation, what it could not find and why, its solver.
+
+use super::algebra::Kind;
+use super::candidates::Problem;
+use super::chain::{self, Chain, Element, End, Motion, Unsuitable};
+use super::compile::{self, Compiled};
+use super::equations::{Goal, Split, equations};
+use super::known::{Samples, Unknown, axis_unknown};
+use super::plan::{Form, Step};
+use super::search::{self, Outcome};
+use crate::description::Description;
+use denavit_symbolic::{Expr, Symbol};
+use std::fmt;
+
+/// What is asked of a derivation.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// What of the hand is given.
+    pub goal: Goal,
+    /// Joint variables (from 0) whose values are given; `None` lets the derivation choose as many as the arm has too
+    /// many.
+    pub given: Option<Vec<usize>>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options { goal: Goal::Pose, given: None }
+    }
+}
+
+/// A closed-form inverse model.
+#[derive(Debug)]
+pub struct InverseModel {
+    /// What was derived for: parameters that are 0, and angles with values, put in.
+    pub description: Description,
+    /// What of the hand is given.
+    pub goal: Goal,
+    /// Joint variables (from 0) that are given beside it, sorted.
+    pub given: Vec<usize>,
+    /// True if the derivation chose them.
+    pub given_by_choice: bool,
+    /// Independent directions in which the hand can move.
+    pub rank: usize,
+    /// The problem's normal form.
+    pub chain: Chain,
+    /// The steps, in order.
+    pub steps: Vec<Step>,
+    /// What the branches of each step are called, if it has more than one.
+    pub labels: Vec<Option<String>>,
+    /// Both sides of the chain's equations at each two cuts.
+    pub splits: Vec<Split>,
+    /// The steps as a solver, and its inputs.
+    pub compiled: Compiled,
+}
+
+/// Why there is no closed form, or none that was found.
+#[derive(Debug)]
+pub enum Refusal {
+    /// The robot has no normal form.
+    Unsuitable(Unsuitable),
+    /// Values are given for joints that the arm does not have, or for too many.
+    Given(String),
+    /// The derivation ended before everything was found.
+    Stuck(Box<Stuck>),
+}
+
+/// A derivation that ended early.
+#[derive(Debug)]
+pub struct Stuck {
+    /// The normal form.
+    pub chain: Chain,
+    /// The steps that were found.
+    pub steps: Vec<Step>,
+    /// The joint variables (from 0) that were not.
+    pub missing: Vec<usize>,
+    /// How many joints the arm has more than the hand has directions to move in.
+    pub surplus: usize,
+    /// The joint variables that were given.
+    pub given: Vec<usize>,
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Refusal::Unsuitable(why) => write!(f, "{why}"),
+            Refusal::Given(why) => f.write_str(why),
+            Refusal::Stuck(stuck) => {
+                let name = |j: &usize| stuck.chain.variables[*j].name().to_string();
+                let missing: Vec<String> = stuck.missing.iter().map(name).collect();
+                let found: Vec<String> = stuck.steps.iter().map(|s| stuck.chain.describe(s.unknown)).collect();
+                let found = if found.is_empty() { "nothing".into() } else { found.join(", ") };
+                write!(
+                    f,
+                    "no closed form: found {found}; no equation of degree up to 4 in one unknown is left for {}",
+                    missing.join(", ")
+                )
+            }
+        }
+    }
+}
+
+impl std::error::Error for Refusal {}
+
+/// Sets of joints that are tried as given.
+const TRIALS: usize = 40;
+/// Branches of a derivation that is accepted at once.
+const FEW: usize = 8;
+
+impl InverseModel {
+    /// Derives the inverse model of a robot.
+    ///
+    /// # Errors
+    /// See [`Refusal`].
+    pub fn derive(description: &Description, options: &Options) -> Result<Self, Refusal> {
+        let settled = chain::settled(description);
+        let end = if options.goal == Goal::Pose { End::Pose } else { End::Point };
+        let chain = Chain::new(&settled, end).map_err(Refusal::Unsuitable)?;
+        let n = chain.variables.len();
+        if let Some(j) = options.given.iter().flatten().find(|&&j| j >= n) {
+            return Err(Refusal::Given(format!("joint {} is given, but there are only {n}", j + 1)));
+        }
+        let (found, splits) = equations(&chain, options.goal);
+        let value = |s: Symbol| settled.parameters.iter().find(|p| p.symbol == s)?.value?.eval(|_| None).ok();
+        let samples = Samples::new(&chain, value);
+        let problem = Problem { chain: &chain, equations: &found, splits: &splits, samples: &samples };
+        let rank = rank(&chain, &samples, options.goal);
+        let surplus = n - rank.min(n);
+
+        let mut asked: Vec<usize> = options.given.clone().unwrap_or_default();
+        asked.sort_unstable();
+        asked.dedup();
+        if asked.len() > surplus {
+            return Err(Refusal::Given(too_many(&asked, surplus)));
+        }
+        let (given, outcome) = choose(&problem, &asked, surplus);
+        if !outcome.is_complete() {
+            let missing = missing(&chain, &outcome, &given);
+            let steps = outcome.steps;
+            return Err(Refusal::Stuck(Box::new(Stuck { chain, steps, missing, surplus, given })));
+        }
+        let labels = labels(&chain, &outcome.steps);
+        let compiled = compile::compile(&chain, &outcome, &splits, options.goal, &given, &labels);
+        Ok(InverseModel {
+            goal: options.goal,
+            given_by_choice: given.len() > asked.len(),
+            given,
+            rank,
+            steps: outcome.steps,
+            labels,
+            splits,
+            compiled,
+            chain,
+            description: settled,
+        })
+    }
+
+    /// The largest number of isolated solutions.
+    pub fn max_solutions(&self) -> usize {
+        self.compiled.solver.max_solutions()
+    }
+}
+
+fn too_many(asked: &[usize], surplus: usize) -> String {
+    let joints = |k: usize| if k == 1 { "1 joint".into() } else { format!("{k} joints") };
+    match surplus {
+        0 => "no joint can be given: the arm has no more joints than its hand can use".into(),
+        _ => format!("{} given, but the arm has only {} too many", joints(asked.len()), joints(surplus)),
+    }
+}
+
+/// The axes that joint variables determine.
+fn axes_of(chain: &Chain, given: &[usize]) -> Vec<usize> {
+    (0..chain.axes.len())
+        .filter(|&k| chain.axes[k].form.terms.iter().all(|t| given.contains(&t.0)))
+        .collect()
+}
+
+/// The joint variables that are still open.
+fn missing(chain: &Chain, outcome: &Outcome, given: &[usize]) -> Vec<usize> {
+    let open = |k: usize| outcome.missing.contains(&axis_unknown(chain, k));
+    (0..chain.variables.len())
+        .filter(|j| !given.contains(j) && chain.inverse_coupling[*j].iter().any(|f| open(f.0)))
+        .collect()
+}
+
+/// Searches with the given joints, and as many more as the arm has too many: those with which the search ends with the
+/// fewest branches.
+fn choose(problem: &Problem, asked: &[usize], surplus: usize) -> (Vec<usize>, Outcome) {
+    let chain = problem.chain;
+    let first = search::search(problem, &axes_of(chain, asked));
+    let more = surplus - asked.len();
+    if first.is_complete() || more == 0 {
+        return (asked.to_vec(), first);
+    }
+    let mut open = missing(chain, &first, asked);
+    // Slides at the base carry the arm about; then joints in the middle, whose loss hurts least.
+    let n = chain.variables.len();
+    let slides = |j: &usize| !chain.is_angle(*j);
+    open.sort_by_key(|j| (!slides(j), (2 * j + 3).abs_diff(n)));
+    let mut best: Option<((usize, bool, u32, usize), Vec<usize>, Outcome)> = None;
+    for set in subsets(&open, more).into_iter().take(TRIALS) {
+        let mut given: Vec<usize> = asked.iter().chain(&set).copied().collect();
+        given.sort_unstable();
+        let outcome = search::search(problem, &axes_of(chain, &given));
+        if !outcome.is_complete() {
+            continue;
+        }
+        let spurious = outcome.steps.iter().any(|s| s.cost.spurious);
+        let conditions: u32 = outcome.steps.iter().map(|s| u32::from(s.cost.condition)).sum();
+        let terms: usize = outcome.steps.iter().map(|s| s.cost.terms).sum();
+        let cost = (outcome.leaves(), spurious, conditions, terms);
+        let accepted = n > 6 && outcome.leaves() <= FEW && !spurious;
+        if best.as_ref().is_none_or(|b| cost < b.0) {
+            best = Some((cost, given, outcome));
+        }
+        if accepted {
+            break;
+        }
+    }
+    best.map_or((asked.to_vec(), first), |(_, given, outcome)| (given, outcome))
+}
+
+/// All subsets with `size` members, those of the first members first.
+fn subsets(of: &[usize], size: usize) -> Vec<Vec<usize>> {
+    if size == 0 {
+        return vec![vec![]];
+    }
+    let mut found = vec![];
+    for (k, &x) in of.iter().enumerate() {
+        for mut rest in subsets(&of[k + 1..], size - 1) {
+            rest.insert(0, x);
+            found.push(rest);
+        }
+        if found.len() > 4 * TRIALS {
+            break;
+        }
+    }
+    found
+}
+
+/// The rank of the derivative of what the goal gives, by the axes.
+fn rank(chain: &Chain, samples: &Samples, goal: Goal) -> usize {
+    const STEP: f64 = 1e-5;
+    let rows: Vec<usize> = (0..12)
+        .filter(|k| match goal {
+            Goal::Pose => true,
+            Goal::Position => k % 4 == 3,
+            Goal::PositionAndAxis => k % 4 >= 2,
+        })
+        .collect();
+    let mut columns: Vec<Vec<f64>> = (0..chain.axes.len())
+        .map(|k| {
+            let [plus, minus] = [STEP, -STEP].map(|h| samples.moved(chain, k, h));
+            rows.iter().map(|&r| (plus[r] - minus[r]) / (2.0 * STEP)).collect()
+        })
+        .collect();
+    // Gram–Schmidt, the longest column first.
+    let mut rank = 0;
+    let norm = |v: &Vec<f64>| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let scale = columns.iter().map(norm).fold(0.0, f64::max);
+    while let Some(k) = (0..columns.len()).max_by(|&a, &b| norm(&columns[a]).total_cmp(&norm(&columns[b]))) {
+        let pivot = columns.swap_remove(k);
+        let length = norm(&pivot);
+        if length <= 1e-6 * scale {
+            break;
+        }
+        rank += 1;
+        for c in &mut columns {
+            let along: f64 = c.iter().zip(&pivot).map(|(x, y)| x * y).sum::<f64>() / (length * length);
+            c.iter_mut().zip(&pivot).for_each(|(x, y)| *x -= along * y);
+        }
+    }
+    rank
+}
+
+/// What people call the branches: the first turning joint's are the shoulder's, those of the last three joints the
+/// wrist's, those between the elbow's; joints of an arm that has fewer than five are an elbow's but for the first.
+fn labels(chain: &Chain, steps: &[Step]) -> Vec<Option<String>> {
+    let n = chain.axes.len();
+    let turns: Vec<usize> = (0..n).filter(|&k| chain.axes[k].motion != Motion::Slide).collect();
+    let wrist = if turns.len() >= 5 { n - 3 } else { n };
+    let mut used: Vec<String> = vec![];
+    steps
+        .iter()
+        .map(|step| {
+            if step.cost.roots < 2 {
+                return None;
+            }
+            let first = match step.unknown {
+                Unknown::Slide(k) => k,
+                Unknown::Angle(d) => (0..n).find(|&k| matches!(chain.axes[k].motion, Motion::Turn { group, node, .. } if group == d.group && node > d.from)).unwrap_or(0),
+            };
+            let last = match step.unknown {
+                Unknown::Slide(k) => k,
+                Unknown::Angle(d) => (0..n).rev().find(|&k| matches!(chain.axes[k].motion, Motion::Turn { group, node, .. } if group == d.group && node <= d.to)).unwrap_or(0),
+            };
+            let spans_wrist = last >= wrist && (first >= wrist || last - first >= 2);
+            let name = if matches!(step.unknown, Unknown::Slide(_)) {
+                "reach"
+            } else if spans_wrist {
+                "wrist"
+            } else if first == turns[0] && (turns.len() > 3 || matches!(step.form, Form::Line)) {
+                "shoulder"
+            } else {
+                "elbow"
+            };
+            let same = used.iter().filter(|u| *u == name).count();
+            used.push(name.to_string());
+            Some(if same == 0 { name.to_string() } else { format!("{name}{}", same + 1) })
+        })
+        .collect()
+}
+
+impl Chain {
+    /// An unknown as a formula in the joint variables.
+    pub fn unknown_expr(&self, x: Unknown) -> Expr {
+        match x {
+            Unknown::Angle(d) => self.angle(d),
+            Unknown::Slide(k) => self.axes[k].value,
+        }
+    }
+
+    /// An unknown in words: `θ2 + θ3`.
+    pub fn describe(&self, x: Unknown) -> String {
+        let vocabulary = denavit_symbolic::vocabulary::Vocabulary::default();
+        denavit_symbolic::print::print(self.unknown_expr(x), &vocabulary, denavit_symbolic::print::Style::Unicode)
+    }
+
+    /// True if the position of the hand alone is what the last element moves.
+    pub fn ends_with_constant(&self) -> bool {
+        matches!(self.elements.last(), Some(Element::Constant(..)))
+    }
+
+    /// The atoms' kinds, for readers of polynomials.
+    pub fn kind_of(&self, atom: denavit_symbolic::poly::Atom) -> Kind {
+        self.algebra.kind(atom)
+    }
+}
