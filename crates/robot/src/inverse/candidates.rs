@@ -10,6 +10,8 @@ use super::known::{Known, Samples, Unknown};
 use super::plan::{Cost, Determinant, Elimination, Form, Norm, Origin, Row, Step};
 use denavit_symbolic::Rational;
 use denavit_symbolic::poly::{Atom, Monomial, Poly};
+use rustc_hash::FxHashMap;
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 /// What the search works on.
@@ -22,6 +24,8 @@ pub struct Problem<'a> {
     pub splits: &'a [Split],
     /// Values of all atoms at random configurations.
     pub samples: &'a Samples,
+    /// Sums of squares that were multiplied out: cuts, whether on the side of the pose, components.
+    squares: RefCell<FxHashMap<(usize, usize, bool, Vec<usize>), Poly>>,
 }
 
 /// Equations of one unknown that are compared in pairs.
@@ -30,6 +34,8 @@ const ROWS: usize = 24;
 const PAIRS: usize = 16;
 /// Terms of a polynomial that is squared.
 const SQUARED: usize = 60;
+/// Unknowns of a sum of squares before it is multiplied out, which loses two at most.
+const MOST_UNKNOWNS: usize = 4;
 
 /// An equation seen from a state.
 struct Seen {
@@ -41,6 +47,18 @@ struct Seen {
 
 /// A polynomial by powers of an unknown: (cosine, sine), or (displacement, 0).
 type View = BTreeMap<(u16, u16), Poly>;
+
+impl<'a> Problem<'a> {
+    /// A search's problem.
+    pub fn new(
+        chain: &'a Chain,
+        equations: &'a [Equation],
+        splits: &'a [Split],
+        samples: &'a Samples,
+    ) -> Self {
+        Problem { chain, equations, splits, samples, squares: RefCell::default() }
+    }
+}
 
 impl Problem<'_> {
     /// All steps that can be taken, in no order.
@@ -109,23 +127,32 @@ impl Problem<'_> {
             let of = |&k: &usize| if pose { split.pose[k].as_ref() } else { Some(&split.chain[k]) };
             components.iter().filter_map(of).collect()
         };
-        let expanded = |polys: &[&Poly]| -> Option<Poly> {
-            if polys.iter().any(|p| p.terms().len() > SQUARED) {
+        let (pose, chain) = (side(true), side(false));
+        let all: Vec<Atom> = pose.iter().chain(&chain).flat_map(|p| p.atoms()).collect();
+        let open = known.unknowns(self.chain, &all);
+        if known.rank(&open) > MOST_UNKNOWNS {
+            return None;
+        }
+        let expanded = |on_pose: bool, polys: &[&Poly]| -> Option<Poly> {
+            let products: usize = polys.iter().map(|p| p.terms().len() * p.terms().len()).sum();
+            if products > SQUARED * SQUARED {
                 return None;
             }
-            Some(polys.iter().fold(Poly::zero(), |sum, p| sum.plus(&a.square(p))))
+            let key = (split.left, split.right, on_pose, components.clone());
+            let mut squares = self.squares.borrow_mut();
+            let found = squares.entry(key);
+            Some(found.or_insert_with(|| polys.iter().fold(Poly::zero(), |sum, p| sum.plus(&a.square(p)))).clone())
         };
-        let (pose, chain) = (side(true), side(false));
         let mut zero = match (in_pose, in_chain) {
             (false, true) => Norm {
+                plus: expanded(false, &chain)?.scaled(&-Rational::ONE),
                 squares: pose.into_iter().cloned().collect(),
-                plus: expanded(&chain)?.scaled(&-Rational::ONE),
             },
             (true, false) => Norm {
+                plus: expanded(true, &pose)?.scaled(&-Rational::ONE),
                 squares: chain.into_iter().cloned().collect(),
-                plus: expanded(&pose)?.scaled(&-Rational::ONE),
             },
-            _ => expanded(&pose)?.minus(&expanded(&chain)?).into(),
+            _ => expanded(true, &pose)?.minus(&expanded(false, &chain)?).into(),
         };
         let mut unknowns = unknowns_of(&zero.plus);
         if unknowns.len() > 1 && unknowns.len() <= 3 && known.rank(&unknowns) == 2 {

@@ -255,7 +255,7 @@ impl Chain {
                 sum = if reversed { sum - axis.value } else { sum + axis.value };
             }
         }
-        sum
+        denavit_symbolic::Angle::of(sum).to_expr()
     }
 
     /// Cosine and sine of φ_to − φ_from, whichever is larger.

@@ -5,7 +5,6 @@ use super::chain::{Chain, Difference, Element, Motion};
 use super::equations::{Goal, Split};
 use super::known::Unknown;
 use super::plan::{Determinant, Form, Norm, Row, Step};
-use super::search::Outcome;
 use crate::geometry::{Rotation, Transform, Vector};
 use denavit_program::solver::{Draft, Output, Root, Solver, SolverBuilder};
 use denavit_program::{Op, Stage, Value};
@@ -82,14 +81,30 @@ pub struct Compiled {
 /// Compiles the steps of a complete search.
 pub fn compile(
     chain: &Chain,
-    outcome: &Outcome,
+    steps: &[Step],
     splits: &[Split],
     goal: Goal,
     given: &[usize],
     labels: &[Option<String>],
 ) -> Compiled {
+    compile_with(chain, steps, Some(splits), goal, given, labels)
+}
+
+/// The solver of a model that keeps every branch: its residual is 0.
+pub fn without_residual(model: &super::model::InverseModel) -> Solver {
+    compile_with(&model.chain, &model.steps, None, model.goal, &model.given, &model.labels).solver
+}
+
+fn compile_with(
+    chain: &Chain,
+    steps: &[Step],
+    splits: Option<&[Split]>,
+    goal: Goal,
+    given: &[usize],
+    labels: &[Option<String>],
+) -> Compiled {
     let inputs = Inputs::new(chain, goal, given);
-    let names = names(chain, outcome, &inputs);
+    let names = names(chain, steps, &inputs);
     let results: Vec<Symbol> = names.iter().flatten().copied().collect();
     let mut builder = Builder {
         chain,
@@ -112,11 +127,14 @@ pub fn compile(
         builder.give(k);
     }
     let size = builder.size(goal);
-    for (i, step) in outcome.steps.iter().enumerate() {
+    for (i, step) in steps.iter().enumerate() {
         let label = labels.get(i).cloned().flatten();
         builder.step(i, step, &names[i], label);
     }
-    let residual = builder.residual(splits, goal, size);
+    let residual = match splits {
+        Some(splits) => builder.residual(splits, goal, size),
+        None => builder.number(0),
+    };
     let outputs: Vec<Output> = (0..chain.variables.len()).map(|j| builder.output(j, given)).collect();
     Compiled { solver: builder.solver.finish(&outputs, residual, size), inputs }
 }
@@ -129,7 +147,7 @@ fn unique(mut name: String, taken: &mut FxHashSet<String>) -> String {
 }
 
 /// Names of the results of each step: c23, s23, k23; r3.
-fn names(chain: &Chain, outcome: &Outcome, inputs: &Inputs) -> Vec<Vec<Symbol>> {
+fn names(chain: &Chain, steps: &[Step], inputs: &Inputs) -> Vec<Vec<Symbol>> {
     let mut taken: FxHashSet<String> = chain
         .variables
         .iter()
@@ -139,8 +157,7 @@ fn names(chain: &Chain, outcome: &Outcome, inputs: &Inputs) -> Vec<Vec<Symbol>> 
         .map(|s| s.name().to_string())
         .collect();
     let mut name = |prefix: &str, index: &str| Symbol::new(&unique(format!("{prefix}{index}"), &mut taken));
-    outcome
-        .steps
+    steps
         .iter()
         .map(|step| {
             let index = index(chain, step.unknown);

@@ -11,8 +11,10 @@ mod compile;
 mod equations;
 mod known;
 mod model;
+mod newton;
 mod plan;
 mod search;
+mod solve;
 
 pub use algebra::{Algebra, Kind};
 pub use chain::{Axis, Chain, Difference, Element, End, Motion, Unsuitable};
@@ -21,3 +23,4 @@ pub use equations::{Entry, Goal, Source, Split};
 pub use known::Unknown;
 pub use model::{InverseModel, Options, Refusal, Stuck};
 pub use plan::{Cost, Determinant, Elimination, Form, Norm, Origin, Row, Step};
+pub use solve::{Answer, Family, InverseSolver, Obstacle, Solution, variables};

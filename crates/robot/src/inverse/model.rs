@@ -122,7 +122,7 @@ impl InverseModel {
         let (found, splits) = equations(&chain, options.goal);
         let value = |s: Symbol| settled.parameters.iter().find(|p| p.symbol == s)?.value?.eval(|_| None).ok();
         let samples = Samples::new(&chain, value);
-        let problem = Problem { chain: &chain, equations: &found, splits: &splits, samples: &samples };
+        let problem = Problem::new(&chain, &found, &splits, &samples);
         let rank = rank(&chain, &samples, options.goal);
         let surplus = n - rank.min(n);
 
@@ -139,7 +139,7 @@ impl InverseModel {
             return Err(Refusal::Stuck(Box::new(Stuck { chain, steps, missing, surplus, given })));
         }
         let labels = labels(&chain, &outcome.steps);
-        let compiled = compile::compile(&chain, &outcome, &splits, options.goal, &given, &labels);
+        let compiled = compile::compile(&chain, &outcome.steps, &splits, options.goal, &given, &labels);
         Ok(InverseModel {
             goal: options.goal,
             given_by_choice: given.len() > asked.len(),
@@ -193,10 +193,11 @@ fn choose(problem: &Problem, asked: &[usize], surplus: usize) -> (Vec<usize>, Ou
         return (asked.to_vec(), first);
     }
     let mut open = missing(chain, &first, asked);
-    // Slides at the base carry the arm about; then joints in the middle, whose loss hurts least.
+    // Slides at the base carry the arm about; then the joint that swings the elbow of a 7R arm, then the ends.
     let n = chain.variables.len();
-    let slides = |j: &usize| !chain.is_angle(*j);
-    open.sort_by_key(|j| (!slides(j), (2 * j + 3).abs_diff(n)));
+    let usual = [n.saturating_sub(5), n - 1, 0];
+    let place = |j: usize| usual.iter().position(|&u| u == j).unwrap_or(3);
+    open.sort_by_key(|&j| (chain.is_angle(j), place(j), j));
     let mut best: Option<((usize, bool, u32, usize), Vec<usize>, Outcome)> = None;
     for set in subsets(&open, more).into_iter().take(TRIALS) {
         let mut given: Vec<usize> = asked.iter().chain(&set).copied().collect();

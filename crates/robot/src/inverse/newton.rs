@@ -1,0 +1,229 @@
+//! Newton's method on the pose, and the directions in which the arm moves with its hand still.
+
+use super::equations::Goal;
+use crate::geometry::{Transform, Vector};
+use crate::robot::Robot;
+
+/// Steps of a polish; two or three are usual.
+const STEPS: usize = 20;
+/// How far a polish may lead: further away is another solution.
+const FAR: f64 = 0.1;
+/// A singular value below this, relative to the largest, counts as 0.
+const RANK: f64 = 1e-7;
+
+/// The error of a pose as rotation vector and displacement by `size`, both in the base; zeros where the goal gives
+/// nothing.
+fn error(goal: Goal, wanted: &Transform<f64>, have: &Transform<f64>, size: f64) -> [f64; 6] {
+    let turn = rotation_error(goal, wanted, have);
+    let d = wanted.translation - have.translation;
+    [turn[0], turn[1], turn[2], d[0] / size, d[1] / size, d[2] / size]
+}
+
+/// The small rotation that brings `have` to `wanted`; for an axis, the one that brings the axis there.
+fn rotation_error(goal: Goal, wanted: &Transform<f64>, have: &Transform<f64>) -> [f64; 3] {
+    let half = |v: Vector<f64>, k: f64| [v[0] * k, v[1] * k, v[2] * k];
+    match goal {
+        Goal::Position => [0.0; 3],
+        Goal::PositionAndAxis => half(have.rotation.z().cross(wanted.rotation.z()), 1.0),
+        Goal::Pose => {
+            let (a, b) = (&have.rotation, &wanted.rotation);
+            let sum = a.x().cross(b.x()) + a.y().cross(b.y()) + a.z().cross(b.z());
+            half(sum, 0.5)
+        }
+    }
+}
+
+/// How far the hand is from a pose: the columns of the rotation that the goal gives and the position by `size`.
+pub fn distance(robot: &Robot<f64>, goal: Goal, wanted: &Transform<f64>, q: &[f64], size: f64) -> f64 {
+    let have = robot.pose(q);
+    let columns: &[fn(&Transform<f64>) -> Vector<f64>] = match goal {
+        Goal::Pose => &[|x| x.rotation.x(), |x| x.rotation.y(), |x| x.rotation.z()],
+        Goal::Position => &[],
+        Goal::PositionAndAxis => &[|x| x.rotation.z()],
+    };
+    let square = |v: Vector<f64>| v.dot(v);
+    let turned: f64 = columns.iter().map(|c| square(c(&have) - c(wanted))).sum();
+    let shift = square(have.translation - wanted.translation) / (size * size);
+    (turned + shift).sqrt()
+}
+
+/// The angle and the displacement between the hand and a pose, radians and metres.
+pub fn gap(robot: &Robot<f64>, goal: Goal, wanted: &Transform<f64>, q: &[f64]) -> (f64, f64) {
+    let have = robot.pose(q);
+    let angle = match goal {
+        Goal::Position => 0.0,
+        Goal::PositionAndAxis => {
+            let (a, b) = (have.rotation.z(), wanted.rotation.z());
+            a.cross(b).norm().atan2(a.dot(b))
+        }
+        Goal::Pose => {
+            let turn = rotation_error(goal, wanted, &have);
+            let sine = turn.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let (a, b) = (have.rotation, wanted.rotation);
+            let trace = a.x().dot(b.x()) + a.y().dot(b.y()) + a.z().dot(b.z());
+            sine.atan2((trace - 1.0) / 2.0)
+        }
+    };
+    (angle, (have.translation - wanted.translation).norm())
+}
+
+/// The derivative of the error's parts by the joint variables, one column a joint; that of given joints is 0.
+fn jacobian(robot: &Robot<f64>, goal: Goal, q: &[f64], given: &[usize], size: f64) -> Vec<[f64; 6]> {
+    let p = robot.pose(q).translation;
+    let tool = robot.pose(q).rotation.z();
+    let mut columns = vec![[0.0; 6]; q.len()];
+    let mut before = robot.base;
+    for link in &robot.links {
+        let screw = before * link.before;
+        let z = screw.rotation.z();
+        let lever = z.cross(p - screw.translation);
+        for &(j, k) in &link.theta.terms {
+            for i in 0..3 {
+                columns[j][i] += k * z[i];
+                columns[j][3 + i] += k * lever[i] / size;
+            }
+        }
+        for &(j, k) in &link.d.terms {
+            for i in 0..3 {
+                columns[j][3 + i] += k * z[i] / size;
+            }
+        }
+        before = before * link.transform(q);
+    }
+    for (j, c) in columns.iter_mut().enumerate() {
+        if given.contains(&j) {
+            *c = [0.0; 6];
+        }
+        let turn = Vector([c[0], c[1], c[2]]);
+        let seen = match goal {
+            Goal::Pose => turn,
+            Goal::Position => Vector([0.0; 3]),
+            // Turning about the tool's axis does not move it.
+            Goal::PositionAndAxis => turn - tool.scale(tool.dot(turn)),
+        };
+        c[..3].copy_from_slice(&seen.0);
+    }
+    columns
+}
+
+/// The solution next to `q`, and its distance; nothing if there is none.
+pub fn polish(
+    robot: &Robot<f64>,
+    goal: Goal,
+    wanted: &Transform<f64>,
+    q: &[f64],
+    given: &[usize],
+    size: f64,
+) -> Option<(Vec<f64>, f64)> {
+    let mut at = q.to_vec();
+    let mut best = distance(robot, goal, wanted, &at, size);
+    let mut damping = 1e-12;
+    for _ in 0..STEPS {
+        if best <= 1e-14 {
+            break;
+        }
+        let e = error(goal, wanted, &robot.pose(&at), size);
+        let columns = jacobian(robot, goal, &at, given, size);
+        let step = damped(&columns, &e, damping);
+        let next: Vec<f64> = at.iter().zip(&step).map(|(x, d)| x + d).collect();
+        let moved = distance(robot, goal, wanted, &next, size);
+        if moved < best {
+            (at, best) = (next, moved);
+            damping = (damping * 0.1).max(1e-15);
+        } else if damping > 1.0 {
+            break;
+        } else {
+            damping *= 100.0;
+        }
+    }
+    let far = q.iter().zip(&at).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+    (best.is_finite() && far <= FAR).then_some((at, best))
+}
+
+/// x with (JᵀJ + λ)x = Jᵀe, by Gauss's elimination.
+fn damped(columns: &[[f64; 6]], e: &[f64; 6], damping: f64) -> Vec<f64> {
+    let n = columns.len();
+    let dot = |a: &[f64; 6], b: &[f64; 6]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
+    let mut m: Vec<Vec<f64>> = (0..n)
+        .map(|i| {
+            let mut row: Vec<f64> = (0..n).map(|j| dot(&columns[i], &columns[j])).collect();
+            row[i] += damping;
+            row.push(dot(&columns[i], e));
+            row
+        })
+        .collect();
+    for k in 0..n {
+        let pivot = (k..n).max_by(|&a, &b| m[a][k].abs().total_cmp(&m[b][k].abs())).unwrap_or(k);
+        m.swap(k, pivot);
+        if m[k][k].abs() < f64::MIN_POSITIVE {
+            continue;
+        }
+        for i in (0..n).filter(|&i| i != k) {
+            let factor = m[i][k] / m[k][k];
+            for c in k..=n {
+                m[i][c] -= factor * m[k][c];
+            }
+        }
+    }
+    (0..n).map(|k| if m[k][k].abs() < f64::MIN_POSITIVE { 0.0 } else { m[k][n] / m[k][k] }).collect()
+}
+
+/// An orthonormal basis of the joint velocities that leave the hand still (radians, and lengths by `size`), by Jacobi's
+/// rotations of JᵀJ.
+pub fn null_space(
+    robot: &Robot<f64>,
+    goal: Goal,
+    q: &[f64],
+    given: &[usize],
+    size: f64,
+) -> Vec<Vec<f64>> {
+    let size = if size > 0.0 { size } else { 1.0 };
+    let columns = jacobian(robot, goal, q, given, size);
+    let free: Vec<usize> = (0..q.len()).filter(|j| !given.contains(j)).collect();
+    let n = free.len();
+    let dot = |a: &[f64; 6], b: &[f64; 6]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
+    let mut m: Vec<Vec<f64>> =
+        free.iter().map(|&i| free.iter().map(|&j| dot(&columns[i], &columns[j])).collect()).collect();
+    let mut v: Vec<Vec<f64>> = (0..n).map(|i| (0..n).map(|j| f64::from(u8::from(i == j))).collect()).collect();
+    for _ in 0..60 {
+        let mut largest = 0.0_f64;
+        for a in 0..n {
+            for b in a + 1..n {
+                if m[a][b] == 0.0 {
+                    continue;
+                }
+                largest = largest.max(m[a][b].abs());
+                let theta = (m[b][b] - m[a][a]) / (2.0 * m[a][b]);
+                let t = theta.signum() / (theta.abs() + theta.hypot(1.0));
+                let c = 1.0 / t.hypot(1.0);
+                let s = t * c;
+                for row in &mut m {
+                    (row[a], row[b]) = (c * row[a] - s * row[b], s * row[a] + c * row[b]);
+                }
+                let (mut x, mut y) = (m[a].clone(), m[b].clone());
+                for (p, q) in x.iter_mut().zip(&mut y) {
+                    (*p, *q) = (c * *p - s * *q, s * *p + c * *q);
+                }
+                (m[a], m[b]) = (x, y);
+                for row in &mut v {
+                    (row[a], row[b]) = (c * row[a] - s * row[b], s * row[a] + c * row[b]);
+                }
+            }
+        }
+        if largest <= 1e-30 {
+            break;
+        }
+    }
+    let most = (0..n).map(|k| m[k][k]).fold(0.0, f64::max);
+    let mut found = vec![];
+    for k in 0..n {
+        if m[k][k].max(0.0).sqrt() <= RANK * most.sqrt() {
+            let mut direction = vec![0.0; q.len()];
+            for (i, &j) in free.iter().enumerate() {
+                direction[j] = if v[i][k].abs() < 1e-9 { 0.0 } else { v[i][k] };
+            }
+            found.push(direction);
+        }
+    }
+    found
+}

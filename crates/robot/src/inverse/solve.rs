@@ -1,0 +1,577 @@
+//! Numbers from an inverse model: all solutions of a pose, the families where the arm can move with its hand still, and
+//! what stands in the way of a pose that has none.
+//!
+//! The solver finds every branch; where a branch's equation leaves its unknown free, the unknown is given values all
+//! round, and what solves the pose then is a family (or, at a single value, a solution).
+
+use super::compile::{self, Inputs};
+use super::equations::Goal;
+use super::model::InverseModel;
+use super::newton;
+use crate::description::Description;
+use crate::geometry::Transform;
+use crate::robot::{MissingValue, Robot};
+use denavit_program::solver::{Leaf, SolverFunction, SolverScalar, TOLERANCE};
+use denavit_symbolic::Symbol;
+use std::f64::consts::{PI, TAU};
+
+/// Finds the solutions of poses for a robot with numbers.
+#[derive(Clone, Debug)]
+pub struct InverseSolver {
+    function: SolverFunction,
+    scalar: SolverScalar,
+    /// The same with every branch kept, however far from a solution.
+    nearest: SolverScalar,
+    /// The robot that is moved.
+    pub robot: Robot<f64>,
+    goal: Goal,
+    given: Vec<usize>,
+    is_angle: Vec<bool>,
+    limits: Vec<Option<[f64; 2]>>,
+    nodes: Vec<NodeFacts>,
+    /// A length that is compared with: the sum of the robot's lengths.
+    reach: f64,
+}
+
+/// What is known of a node of the solver.
+#[derive(Clone, Debug)]
+struct NodeFacts {
+    unknown: String,
+    is_angle: bool,
+    label: Option<String>,
+}
+
+/// All solutions of one pose.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Answer {
+    /// True if all solutions are here: no equation left its unknown undetermined, or what it left open is in a family
+    /// found by going all round.
+    pub complete: bool,
+    /// The isolated ones.
+    pub solutions: Vec<Solution>,
+    /// Those where the arm can move with its hand still.
+    pub families: Vec<Family>,
+    /// What stands in the way, if there are none.
+    pub obstacle: Option<Obstacle>,
+}
+
+impl Answer {
+    /// True if there is a solution.
+    pub fn is_reachable(&self) -> bool {
+        !self.solutions.is_empty() || !self.families.is_empty()
+    }
+}
+
+/// An isolated solution.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Solution {
+    /// The joint variables, radians in (−π, π] and metres.
+    pub q: Vec<f64>,
+    /// The distance from the pose: rotation (Frobenius norm of two columns) and position by the arm's size, together.
+    pub residual: f64,
+    /// The branch: `shoulder+ elbow− wrist+`.
+    pub branch: String,
+    /// How many branches coincide here.
+    pub multiplicity: u32,
+    /// Whether the robot's limits allow it, or a copy of it a whole turn away.
+    pub within_limits: bool,
+    /// The smallest quantity that the derivation divides by, without dimension: joints are determined to about
+    /// 1e-16 by it.
+    pub guard: f64,
+}
+
+/// Solutions in which some joints can move together with the hand still.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Family {
+    /// One of them.
+    pub representative: Solution,
+    /// How many parameters it has.
+    pub dimension: usize,
+    /// The unknowns that are free: `q4`, `q2 + q3 + q4`.
+    pub free: Vec<String>,
+    /// How the joints move at the representative, a unit vector (the first of the null space).
+    pub direction: Vec<f64>,
+    /// True if they move in these proportions everywhere: an affine family.
+    pub is_affine: bool,
+    /// For one free unknown, the values for which there is a solution (radians or metres), from the sampling.
+    pub interval: Option<[f64; 2]>,
+    /// The nodes of the solver that are free, and the values taken there at the representative.
+    pub(crate) at: Vec<(usize, [f64; 2])>,
+}
+
+/// Why a pose has no solution.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Obstacle {
+    /// An equation has no root on any branch.
+    NoRoot {
+        /// The unknown that it would determine.
+        unknown: String,
+        /// How far it is from having one, without dimension.
+        gap: f64,
+    },
+    /// The pose does not meet what all poses of the arm meet; the nearest that the derivation came is this far away.
+    NotOnTheArm {
+        /// The joint variables of the nearest branch.
+        q: Vec<f64>,
+        /// The rotation that is missing, radians.
+        angle: f64,
+        /// The displacement that is missing, metres.
+        distance: f64,
+    },
+}
+
+/// Values that are tried for one free unknown; multiples of 5° hold all usual angles.
+const ROUND: usize = 72;
+/// For two, and for three and more.
+const ROUND_OF_TWO: usize = 24;
+const ROUND_OF_MORE: usize = 12;
+
+impl InverseModel {
+    /// The solver for the numbers of a robot: those of the description that the model was derived from, or others with
+    /// the same zeros and angles.
+    ///
+    /// # Errors
+    /// If a parameter has no value.
+    pub fn solver(&self, description: &Description) -> Result<InverseSolver, MissingValue> {
+        let robot = Robot::numeric(description)?;
+        let value = |s: Symbol| {
+            let p = description.parameters.iter().find(|p| p.symbol == s)?;
+            p.value?.eval(|_| None).ok()
+        };
+        let missing: Vec<String> = self
+            .compiled
+            .solver
+            .parameters
+            .iter()
+            .filter(|s| value(**s).is_none())
+            .map(|s| s.name().to_string())
+            .collect();
+        if !missing.is_empty() {
+            return Err(MissingValue { parameters: missing });
+        }
+        let parameters: Vec<f64> =
+            self.compiled.solver.parameters.iter().map(|&s| value(s).unwrap_or(0.0)).collect();
+        let function = self.compiled.solver.compile(&parameters);
+        let nearest = compile::without_residual(self).compile(&parameters).scalar();
+        let limits = description
+            .rows
+            .iter()
+            .filter(|r| r.variable.is_some())
+            .map(|r| {
+                let [low, high] = r.limits?;
+                Some([low.eval(value).ok()?, high.eval(value).ok()?])
+            })
+            .collect();
+        let nodes = self
+            .steps
+            .iter()
+            .zip(&self.labels)
+            .map(|(s, label)| NodeFacts {
+                unknown: self.chain.describe(s.unknown),
+                is_angle: matches!(s.unknown, super::known::Unknown::Angle(_)),
+                label: label.clone(),
+            })
+            .collect();
+        let lengths = robot.links.iter().flat_map(|l| {
+            [l.before.translation.norm(), l.after.translation.norm(), l.d.offset.abs()]
+        });
+        let reach: f64 = lengths.sum::<f64>() + robot.base.translation.norm() + robot.tool.translation.norm();
+        Ok(InverseSolver {
+            scalar: function.scalar(),
+            nearest,
+            function,
+            robot,
+            goal: self.goal,
+            given: self.given.clone(),
+            is_angle: (0..self.chain.variables.len()).map(|j| self.chain.is_angle(j)).collect(),
+            limits,
+            nodes,
+            reach,
+        })
+    }
+}
+
+/// The entries of a pose that a goal gives, in the order of [`Inputs`], then the given joint variables.
+pub fn variables(goal: Goal, pose: &Transform<f64>, given: &[f64]) -> Vec<f64> {
+    let m = pose.matrix();
+    let wanted = |k: &usize| match goal {
+        Goal::Pose => true,
+        Goal::Position => k % 4 == 3,
+        Goal::PositionAndAxis => k % 4 >= 2,
+    };
+    (0..12).filter(wanted).map(|k| m[k / 4][k % 4]).chain(given.iter().copied()).collect()
+}
+
+impl Inputs {
+    /// How many numbers go into the solver.
+    pub fn len(&self) -> usize {
+        self.symbols().len()
+    }
+
+    /// True for no input; there is always one.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+impl InverseSolver {
+    /// The compiled solver, for batches.
+    pub fn function(&self) -> &SolverFunction {
+        &self.function
+    }
+
+    /// Which joint variables are given (from 0).
+    pub fn given(&self) -> &[usize] {
+        &self.given
+    }
+
+    /// All solutions of a pose of the tool in the base; `given` holds a value for each joint that is given.
+    ///
+    /// # Panics
+    /// If there is not one value per given joint.
+    pub fn solve(&mut self, pose: &Transform<f64>, given: &[f64]) -> Answer {
+        assert_eq!(given.len(), self.given.len(), "one value per given joint");
+        let variables = variables(self.goal, pose, given);
+        let mut answer = Answer { complete: true, solutions: vec![], families: vec![], obstacle: None };
+        let leaves = self.scalar.solve(&variables, &[]);
+        let met = leaves.met_free();
+        let mut found: Vec<(Solution, u64)> = vec![];
+        for leaf in leaves.iter() {
+            found.push((draft(&self.nodes, &leaf), leaf.free));
+        }
+        for (mut s, free) in found {
+            if free == 0 && self.improve(pose, &mut s) {
+                self.add(&mut answer.solutions, s);
+            }
+        }
+        if met != 0 {
+            self.families(pose, &variables, met, &mut answer);
+        }
+        if !answer.is_reachable() {
+            self.last_resort(pose, &variables, met, &mut answer);
+        }
+        answer
+    }
+
+    /// The solutions with values for unknowns that are free: members of a family.
+    pub fn members(&mut self, pose: &Transform<f64>, given: &[f64], family: &Family, value: f64) -> Vec<Solution> {
+        let variables = variables(self.goal, pose, given);
+        let mut at = vec![None; self.nodes.len()];
+        for (i, x) in &family.at {
+            at[*i] = Some(*x);
+        }
+        if let Some((i, _)) = family.at.first() {
+            at[*i] = Some(if self.nodes[*i].is_angle { [value.cos(), value.sin()] } else { [value, 0.0] });
+        }
+        let leaves = self.scalar.solve_carefully(&variables, &at);
+        let found: Vec<Solution> =
+            leaves.iter().filter(|l| l.residual <= TOLERANCE).map(|l| draft(&self.nodes, &l)).collect();
+        found
+    }
+
+    /// Polishes a leaf that is not a solution yet; false if it does not become one nearby.
+    fn improve(&self, pose: &Transform<f64>, s: &mut Solution) -> bool {
+        if s.residual > TOLERANCE {
+            let Some((q, residual)) =
+                newton::polish(&self.robot, self.goal, pose, &s.q, &self.given, self.size(pose))
+            else {
+                return false;
+            };
+            (s.q, s.residual) = (q, residual);
+        }
+        for (x, is_angle) in s.q.iter_mut().zip(&self.is_angle) {
+            if *is_angle {
+                *x = wrapped(*x);
+            }
+        }
+        s.within_limits = self.within_limits(&s.q);
+        s.residual <= TOLERANCE
+    }
+
+    fn size(&self, pose: &Transform<f64>) -> f64 {
+        self.reach.hypot(pose.translation.norm()).max(f64::MIN_POSITIVE)
+    }
+
+    fn within_limits(&self, q: &[f64]) -> bool {
+        q.iter().zip(&self.limits).zip(&self.is_angle).all(|((&x, limits), &is_angle)| match limits {
+            None => true,
+            Some([low, high]) => {
+                let inside = |x: f64| (low - 1e-9..=high + 1e-9).contains(&x);
+                inside(x) || is_angle && (inside(x + TAU) || inside(x - TAU))
+            }
+        })
+    }
+
+    /// Adds a solution, or counts it with one that is the same.
+    fn add(&self, solutions: &mut Vec<Solution>, s: Solution) {
+        match solutions.iter_mut().find(|t| self.is_same(&t.q, &s.q)) {
+            Some(t) => t.multiplicity += s.multiplicity,
+            None => solutions.push(s),
+        }
+    }
+
+    fn is_same(&self, a: &[f64], b: &[f64]) -> bool {
+        const SAME: f64 = denavit_program::solver::SAME;
+        a.iter().zip(b).zip(&self.is_angle).all(|((x, y), &is_angle)| {
+            let d = x - y;
+            (if is_angle { wrapped(d).abs() } else { d.abs() / self.reach.max(1e-3) }) <= SAME
+        })
+    }
+
+    /// Gives free unknowns values all round, and gathers what solves the pose.
+    fn families(&mut self, pose: &Transform<f64>, variables: &[f64], met: u64, answer: &mut Answer) {
+        let mut free: Vec<usize> = (0..self.nodes.len()).filter(|i| met >> i & 1 == 1).collect();
+        let mut members: Vec<Member> = vec![];
+        // Other unknowns may turn out to be free on the way; then all are varied.
+        for _ in 0..3 {
+            let steps = match free.len() {
+                1 => ROUND,
+                2 => ROUND_OF_TWO,
+                _ => ROUND_OF_MORE,
+            };
+            members.clear();
+            let mut more = met;
+            let count = steps.pow(free.len().min(3) as u32);
+            for number in 0..count {
+                let at = self.values(&free, steps, number);
+                let leaves = self.scalar.solve_carefully(variables, &at);
+                more |= leaves.met_free();
+                for leaf in leaves.iter().filter(|l| l.free != 0) {
+                    members.push(Member {
+                        solution: draft(&self.nodes, &leaf),
+                        signs: leaf.signs.to_vec(),
+                        free: leaf.free,
+                        number,
+                    });
+                }
+            }
+            let known = free.len();
+            free = (0..self.nodes.len()).filter(|i| more >> i & 1 == 1).collect();
+            if free.len() == known {
+                let steps = match known {
+                    1 => ROUND,
+                    2 => ROUND_OF_TWO,
+                    _ => ROUND_OF_MORE,
+                };
+                self.group(pose, &free, steps, members, answer);
+                return;
+            }
+        }
+        answer.complete = false;
+    }
+
+    /// The values of free unknowns in sample `number`.
+    fn values(&self, free: &[usize], steps: usize, number: usize) -> Vec<Option<[f64; 2]>> {
+        let mut at = vec![None; self.nodes.len()];
+        let mut rest = number;
+        for &i in free.iter().take(3) {
+            let k = rest % steps;
+            rest /= steps;
+            let turn = k as f64 / steps as f64;
+            at[i] = Some(if self.nodes[i].is_angle {
+                quarter_exact(k, steps)
+            } else {
+                [(2.0 * turn - 1.0) * self.reach, 0.0]
+            });
+        }
+        at
+    }
+
+    /// Members that belong together: the same branches, neighbouring values.
+    fn group(
+        &mut self,
+        pose: &Transform<f64>,
+        free: &[usize],
+        steps: usize,
+        members: Vec<Member>,
+        answer: &mut Answer,
+    ) {
+        let mut groups: Vec<Vec<Member>> = vec![];
+        for m in members {
+            let same = |g: &&mut Vec<Member>| {
+                let last = &g[g.len() - 1];
+                last.signs == m.signs
+                    && last.free == m.free
+                    && (free.len() > 1 || m.number - last.number <= 1)
+            };
+            match groups.iter_mut().find(same) {
+                Some(g) => g.push(m),
+                None => groups.push(vec![m]),
+            }
+        }
+        // All round, the last values are next to the first ones.
+        if free.len() == 1 && self.nodes[free[0]].is_angle {
+            let mut k = 0;
+            while k < groups.len() {
+                let starts = groups[k][0].number == 0;
+                let end = (0..groups.len()).find(|&j| {
+                    j != k
+                        && groups[j][0].signs == groups[k][0].signs
+                        && groups[j][0].free == groups[k][0].free
+                        && groups[j].last().is_some_and(|m| m.number + 1 == steps)
+                });
+                if let (true, Some(j)) = (starts, end) {
+                    let mut joined = std::mem::take(&mut groups[j]);
+                    joined.append(&mut groups[k]);
+                    groups[k] = joined;
+                    groups.remove(j);
+                    k = 0;
+                    continue;
+                }
+                k += 1;
+            }
+        }
+        for group in groups {
+            // The representative: a proper solution, of the value nearest to 0.
+            let angle = |m: &Member| (m.number.min(steps - m.number.min(steps)), m.number);
+            let mut sorted: Vec<usize> = (0..group.len()).collect();
+            sorted.sort_by_key(|&k| angle(&group[k]));
+            let best = sorted.iter().find_map(|&k| {
+                let mut s = group[k].solution.clone();
+                self.improve(pose, &mut s).then_some((k, s))
+            });
+            let Some((k, representative)) = best else { continue };
+            let directions = newton::null_space(&self.robot, self.goal, &representative.q, &self.given, self.reach);
+            if directions.is_empty() {
+                self.add(&mut answer.solutions, representative);
+                continue;
+            }
+            let far = &group[(k + group.len() / 2) % group.len()];
+            let others = newton::null_space(&self.robot, self.goal, &far.solution.q, &self.given, self.reach);
+            let is_affine = directions.len() == 1
+                && others.len() == 1
+                && group.len() > 2
+                && parallel(&directions[0], &others[0]);
+            let mask = group[k].free;
+            let unknowns = (0..self.nodes.len()).filter(|i| mask >> i & 1 == 1);
+            let at: Vec<(usize, [f64; 2])> = {
+                let values = self.values(free, steps, group[k].number);
+                unknowns.clone().filter_map(|i| Some((i, values[i]?))).collect()
+            };
+            let interval = (free.len() == 1).then(|| self.interval(free[0], steps, &group));
+            let family = Family {
+                dimension: directions.len(),
+                free: unknowns.map(|i| self.nodes[i].unknown.clone()).collect(),
+                direction: directions[0].clone(),
+                is_affine,
+                interval,
+                at,
+                representative,
+            };
+            let known = answer.families.iter().any(|f| {
+                f.at.iter().map(|a| a.0).eq(family.at.iter().map(|a| a.0))
+                    && self.is_same(&f.representative.q, &family.representative.q)
+            });
+            if !known {
+                answer.families.push(family);
+            }
+        }
+    }
+
+    /// The sampled values between the ends of a group.
+    fn interval(&self, node: usize, steps: usize, group: &[Member]) -> [f64; 2] {
+        let value = |number: usize| {
+            let turn = number as f64 / steps as f64;
+            if self.nodes[node].is_angle { wrapped(turn * TAU) } else { (2.0 * turn - 1.0) * self.reach }
+        };
+        if group.len() == steps && self.nodes[node].is_angle {
+            return [-PI, PI];
+        }
+        [value(group[0].number), value(group[group.len() - 1].number)]
+    }
+
+    /// Newton's method from the branches that come nearest, and if that fails what stands in the way.
+    fn last_resort(&mut self, pose: &Transform<f64>, variables: &[f64], met: u64, answer: &mut Answer) {
+        let free: Vec<usize> = (0..self.nodes.len()).filter(|i| met >> i & 1 == 1).collect();
+        let (steps, count) = if free.is_empty() { (1, 1) } else { (ROUND, ROUND) };
+        let mut starts: Vec<Solution> = vec![];
+        for number in 0..count {
+            let at = self.values(&free[..free.len().min(1)], steps, number);
+            let leaves = self.nearest.solve_carefully(variables, &at);
+            for leaf in leaves.iter() {
+                starts.push(draft(&self.nodes, &leaf));
+            }
+        }
+        for s in &mut starts {
+            s.residual = newton::distance(&self.robot, self.goal, pose, &s.q, self.size(pose));
+        }
+        starts.sort_by(|a, b| a.residual.total_cmp(&b.residual));
+        starts.truncate(16);
+        for s in &starts {
+            let mut s = s.clone();
+            s.residual = s.residual.max(2.0 * TOLERANCE);
+            if self.improve(pose, &mut s) {
+                answer.complete = false;
+                self.add(&mut answer.solutions, s);
+            }
+        }
+        if answer.is_reachable() {
+            return;
+        }
+        let leaves = self.scalar.solve_carefully(variables, &[]);
+        let last = leaves.ended().max_by(|a, b| a.node.cmp(&b.node));
+        answer.obstacle = match (starts.first(), last) {
+            (Some(s), _) => {
+                let (angle, distance) = newton::gap(&self.robot, self.goal, pose, &s.q);
+                Some(Obstacle::NotOnTheArm { q: s.q.clone(), angle, distance })
+            }
+            (None, Some(end)) => {
+                Some(Obstacle::NoRoot { unknown: self.nodes[end.node].unknown.clone(), gap: end.gap })
+            }
+            (None, None) => None,
+        };
+    }
+}
+
+/// A leaf with values for free unknowns.
+struct Member {
+    solution: Solution,
+    signs: Vec<i8>,
+    free: u64,
+    number: usize,
+}
+
+fn draft(nodes: &[NodeFacts], leaf: &Leaf) -> Solution {
+    let branch: Vec<String> = nodes
+        .iter()
+        .zip(leaf.signs)
+        .enumerate()
+        .filter(|(i, (n, _))| n.label.is_some() && leaf.free >> i & 1 == 0)
+        .map(|(_, (n, sign))| {
+            let label = n.label.as_deref().unwrap_or_default();
+            match sign {
+                -1 => format!("{label}−"),
+                1 => format!("{label}+"),
+                k => format!("{label}{k}"),
+            }
+        })
+        .collect();
+    Solution {
+        q: leaf.outputs.to_vec(),
+        residual: leaf.residual,
+        branch: branch.join(" "),
+        multiplicity: leaf.multiplicity,
+        within_limits: true,
+        guard: leaf.guard,
+    }
+}
+
+/// Cosine and sine of k/steps of a turn, exact at quarter turns.
+fn quarter_exact(k: usize, steps: usize) -> [f64; 2] {
+    if (4 * k).is_multiple_of(steps) {
+        return [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]][4 * k / steps % 4];
+    }
+    let (s, c) = (k as f64 / steps as f64 * TAU).sin_cos();
+    [c, s]
+}
+
+/// The angle in (−π, π].
+fn wrapped(x: f64) -> f64 {
+    let y = x - TAU * (x / TAU).round();
+    if y <= -PI { y + TAU } else { y }
+}
+
+fn parallel(a: &[f64], b: &[f64]) -> bool {
+    let dot: f64 = a.iter().zip(b).map(|(x, y)| x * y).sum();
+    (dot.abs() - 1.0).abs() <= 1e-6
+}
