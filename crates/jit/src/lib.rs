@@ -39,6 +39,9 @@
 mod emit;
 mod native;
 mod routines;
+mod solver;
+
+pub use solver::MachineSolver;
 
 use denavit_program::Function;
 use native::Native;

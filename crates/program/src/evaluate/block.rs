@@ -35,7 +35,9 @@ fn each<T: Real, const N: usize>(
 ) {
     for cell in cells {
         let (out, read) = apart(file, cell.writes[0]);
-        loops(out, cell.reads.map(read), f);
+        // Not by `map`, which the compiler may leave as a call.
+        let [a, b, c, d] = cell.reads;
+        loops(out, [read(a), read(b), read(c), read(d)], f);
     }
 }
 

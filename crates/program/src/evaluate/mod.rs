@@ -1,13 +1,13 @@
 //! Evaluators: one configuration, a block, millions.
 
 mod batch;
-mod block;
+pub(crate) mod block;
 mod file;
-mod machine;
+pub(crate) mod machine;
 mod real;
-mod rows;
+pub(crate) mod rows;
 mod scalar;
-mod tape;
+pub(crate) mod tape;
 
 pub use batch::{Batch, Block};
 pub use machine::{Arithmetic, Isa};
@@ -62,6 +62,11 @@ impl Function {
     /// The instructions.
     pub fn code(&self) -> &Code {
         &self.code
+    }
+
+    /// The instructions with registers.
+    pub(crate) fn tape(&self) -> &Tape {
+        &self.tape
     }
 
     /// Parameters, constants and what depends on these alone, in the order of [`Code::uniforms`].

@@ -184,7 +184,8 @@ impl SolverBuilder {
                 }
             }
             places.push(place);
-            built.push(program(&graph, &write, i, &level, &register, &held, &names, &used));
+            let known = Known { graph: &graph, level: &level, register: &register, held: &held };
+            built.push(known.program(i, &write, &names, &used));
         }
         let mut compiled = vec![];
         for (i, node) in nodes.iter().enumerate() {
@@ -260,67 +261,82 @@ fn levels(
     level
 }
 
-#[allow(clippy::too_many_arguments)]
-fn program(
-    graph: &Graph,
-    write: &[(String, Value, Register)],
-    now: usize,
-    level: &FxHashMap<u32, usize>,
-    register: &FxHashMap<Symbol, (Register, usize)>,
-    held: &FxHashMap<u32, (Register, Symbol)>,
-    names: &FxHashMap<u32, String>,
-    used: &FxHashSet<String>,
-) -> Level {
-    let earlier = |n: u32| {
-        let computed = graph.stage(n) == Stage::Variable && !matches!(graph.op(n), Op::Input(_));
-        held.get(&n).filter(|_| computed && level[&n] < now)
-    };
-    // Inputs in the order of first use.
-    let mut reads: Vec<(Register, Symbol)> = vec![];
-    let mut order: Vec<u32> = vec![];
-    let mut seen = FxHashSet::default();
-    let mut pending: Vec<(u32, bool)> = write.iter().rev().map(|w| (w.1.node, false)).collect();
-    while let Some((n, done)) = pending.pop() {
-        if done {
-            order.push(n);
-        } else if seen.insert(n) {
-            match (earlier(n), graph.op(n)) {
-                (Some(h), _) => reads.push(*h),
-                (None, Op::Input(s)) => reads.extend(register.get(s).map(|r| (r.0, *s))),
-                _ => {}
-            }
-            pending.push((n, true));
-            if earlier(n).is_none() {
-                let operands: Vec<u32> = graph.op(n).nodes().collect();
-                pending.extend(operands.iter().rev().map(|&o| (o, false)));
-            }
-        }
-    }
-    reads.sort_unstable_by_key(|r| r.0);
-    reads.dedup_by_key(|r| r.0);
-    let variables: Vec<Symbol> = reads.iter().map(|r| r.1).collect();
-    let mut part = Graph::new(&variables, graph.parameters());
-    let mut at: FxHashMap<u32, Value> = FxHashMap::default();
-    let mut hints: FxHashMap<u32, String> = FxHashMap::default();
-    for n in order {
-        let v = match earlier(n) {
-            Some(h) => part.input(h.1),
-            None => apply(&mut part, graph.op(n), |o| at[&o]),
+/// Where values are when a level begins.
+struct Known<'a> {
+    graph: &'a Graph,
+    /// The level at which each node that varies is known.
+    level: &'a FxHashMap<u32, usize>,
+    /// Inputs: their register, and the level at which they are known.
+    register: &'a FxHashMap<Symbol, (Register, usize)>,
+    /// What earlier levels have computed for later ones.
+    held: &'a FxHashMap<u32, (Register, Symbol)>,
+}
+
+impl Known<'_> {
+    /// The program of level `now`, which writes some values to registers under names.
+    fn program(
+        &self,
+        now: usize,
+        write: &[(String, Value, Register)],
+        names: &FxHashMap<u32, String>,
+        used: &FxHashSet<String>,
+    ) -> Level {
+        let Known { graph, level, register, held } = *self;
+        let earlier = |n: u32| {
+            let computed = graph.stage(n) == Stage::Variable && !matches!(graph.op(n), Op::Input(_));
+            held.get(&n).filter(|_| computed && level[&n] < now)
         };
-        if let Some(name) = names.get(&n) {
-            hints.entry(v.node).or_insert_with(|| name.clone());
+        // Inputs in the order of first use.
+        let mut reads: Vec<(Register, Symbol)> = vec![];
+        let mut order: Vec<u32> = vec![];
+        let mut seen = FxHashSet::default();
+        let mut pending: Vec<(u32, bool)> = write.iter().rev().map(|w| (w.1.node, false)).collect();
+        while let Some((n, done)) = pending.pop() {
+            if done {
+                order.push(n);
+            } else if seen.insert(n) {
+                match (earlier(n), graph.op(n)) {
+                    (Some(h), _) => reads.push(*h),
+                    (None, Op::Input(s)) => reads.extend(register.get(s).map(|r| (r.0, *s))),
+                    _ => {}
+                }
+                pending.push((n, true));
+                if earlier(n).is_none() {
+                    let operands: Vec<u32> = graph.op(n).nodes().collect();
+                    pending.extend(operands.iter().rev().map(|&o| (o, false)));
+                }
+            }
         }
-        at.insert(n, v);
+        reads.sort_unstable_by_key(|r| r.0);
+        reads.dedup_by_key(|r| r.0);
+        let variables: Vec<Symbol> = reads.iter().map(|r| r.1).collect();
+        let mut part = Graph::new(&variables, graph.parameters());
+        let mut at: FxHashMap<u32, Value> = FxHashMap::default();
+        let mut hints: FxHashMap<u32, String> = FxHashMap::default();
+        for n in order {
+            let v = match earlier(n) {
+                Some(h) => part.input(h.1),
+                None => apply(&mut part, graph.op(n), |o| at[&o]),
+            };
+            if let Some(name) = names.get(&n) {
+                hints.entry(v.node).or_insert_with(|| name.clone());
+            }
+            at.insert(n, v);
+        }
+        let outputs: Vec<(String, Value)> = write
+            .iter()
+            .map(|w| {
+                let v = at[&w.1.node];
+                (w.0.clone(), if w.1.negative { -v } else { v })
+            })
+            .collect();
+        let written: FxHashSet<&String> = outputs.iter().map(|o| &o.0).collect();
+        let taken: FxHashSet<String> = used.iter().filter(|name| !written.contains(name)).cloned().collect();
+        let program = Program::new(&part, &outputs, |n| hints.get(&n).cloned(), &taken);
+        Level {
+            program,
+            reads: reads.iter().map(|r| r.0).collect(),
+            writes: write.iter().map(|w| w.2).collect(),
+        }
     }
-    let outputs: Vec<(String, Value)> = write
-        .iter()
-        .map(|w| {
-            let v = at[&w.1.node];
-            (w.0.clone(), if w.1.negative { -v } else { v })
-        })
-        .collect();
-    let written: FxHashSet<&String> = outputs.iter().map(|o| &o.0).collect();
-    let taken: FxHashSet<String> = used.iter().filter(|name| !written.contains(name)).cloned().collect();
-    let program = Program::new(&part, &outputs, |n| hints.get(&n).cloned(), &taken);
-    Level { program, reads: reads.iter().map(|r| r.0).collect(), writes: write.iter().map(|w| w.2).collect() }
 }

@@ -76,7 +76,8 @@ pub(crate) fn quartic([cc, cs, c, s, one]: [f64; 5], found: &mut Roots) {
     }
     let points = &distinct[..n];
     // The sign at each point; a height of exactly 0 has that of the next one which is not.
-    let is_positive = |i: usize| (0..n).map(|k| points[(i + k) % n].1).find(|&h| h != 0.0).unwrap_or(0.0) > 0.0;
+    let is_positive =
+        |i: usize| (0..n).map(|k| points[(i + k) % n].1).find(|&h| h != 0.0).unwrap_or(0.0) > 0.0;
     let mut zeros: [(f64, u32); 4] = [(0.0, 0); 4];
     let mut count = 0;
     let mut add = |angle: f64, multiplicity: u32| {

@@ -9,6 +9,7 @@ mod candidates;
 mod chain;
 mod compile;
 mod equations;
+pub mod explain;
 mod known;
 mod model;
 mod newton;

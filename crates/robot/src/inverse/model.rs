@@ -321,6 +321,26 @@ impl Chain {
         }
     }
 
+    /// An unknown's factors of the joint variables.
+    pub fn unknown_terms(&self, x: Unknown) -> Vec<(usize, f64)> {
+        let mut sum = vec![0.0; self.variables.len()];
+        for (k, axis) in self.axes.iter().enumerate() {
+            let sign = match (x, axis.motion) {
+                (Unknown::Slide(j), _) if j == k => 1.0,
+                (Unknown::Angle(d), Motion::Turn { group, node, reversed })
+                    if group == d.group && (d.from + 1..=d.to).contains(&node) =>
+                {
+                    if reversed { -1.0 } else { 1.0 }
+                }
+                _ => continue,
+            };
+            for &(j, factor) in &axis.form.terms {
+                sum[j] += sign * factor.eval(|_| None).unwrap_or(0.0);
+            }
+        }
+        sum.into_iter().enumerate().filter(|t| t.1 != 0.0).collect()
+    }
+
     /// An unknown in words: `θ2 + θ3`.
     pub fn describe(&self, x: Unknown) -> String {
         let vocabulary = denavit_symbolic::vocabulary::Vocabulary::default();

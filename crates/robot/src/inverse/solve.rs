@@ -37,6 +37,9 @@ pub struct InverseSolver {
 #[derive(Clone, Debug)]
 struct NodeFacts {
     unknown: String,
+    /// The unknown as a sum of joint variables.
+    offset: f64,
+    terms: Vec<(usize, f64)>,
     is_angle: bool,
     label: Option<String>,
 }
@@ -167,6 +170,8 @@ impl InverseModel {
             .iter()
             .zip(&self.labels)
             .map(|(s, label)| NodeFacts {
+                offset: self.chain.unknown_expr(s.unknown).eval(|v| value(v).or(Some(0.0))).unwrap_or(0.0),
+                terms: self.chain.unknown_terms(s.unknown),
                 unknown: self.chain.describe(s.unknown),
                 is_angle: matches!(s.unknown, super::known::Unknown::Angle(_)),
                 label: label.clone(),
@@ -267,6 +272,25 @@ impl InverseSolver {
         let found: Vec<Solution> =
             leaves.iter().filter(|l| l.residual <= TOLERANCE).map(|l| draft(&self.nodes, &l)).collect();
         found
+    }
+
+    /// The solutions with the free unknowns of a family as they are at a configuration: those among them show whether
+    /// the configuration belongs to the family.
+    pub fn members_at(&mut self, pose: &Transform<f64>, given: &[f64], family: &Family, q: &[f64]) -> Vec<Solution> {
+        let variables = variables(self.goal, pose, given);
+        let mut at = vec![None; self.nodes.len()];
+        for (i, _) in &family.at {
+            at[*i] = Some(self.value_at(*i, q));
+        }
+        let leaves = self.scalar.solve_carefully(&variables, &at);
+        leaves.iter().filter(|l| l.residual <= TOLERANCE).map(|l| draft(&self.nodes, &l)).collect()
+    }
+
+    /// The unknown of a node at a configuration: cosine and sine, or the displacement.
+    fn value_at(&self, node: usize, q: &[f64]) -> [f64; 2] {
+        let facts = &self.nodes[node];
+        let x: f64 = facts.offset + facts.terms.iter().map(|&(j, k)| k * q[j]).sum::<f64>();
+        if facts.is_angle { [x.cos(), x.sin()] } else { [x, 0.0] }
     }
 
     /// Polishes a leaf that is not a solution yet; false if it does not become one nearby.

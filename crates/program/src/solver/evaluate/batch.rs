@@ -278,15 +278,15 @@ impl Fast {
         let mut counts = [0_usize; N];
         let mut worst = [0.0; N];
         let last = shape.steps.len();
-        for number in 0..shape.most {
+        for (number, mark) in marks.iter_mut().enumerate() {
             // The last node varies first: what comes before the first one with another root stays as it is.
             let mut below = shape.most;
             for (i, (step, level)) in shape.steps.iter().zip(levels).enumerate() {
                 below /= step.root.branches();
-                if number % below != 0 {
+                if !number.is_multiple_of(below) {
                     continue;
                 }
-                let k = if number / below % step.root.branches() == 0 { 1.0 } else { -1.0 };
+                let k = if (number / below).is_multiple_of(step.root.branches()) { 1.0 } else { -1.0 };
                 let mut state = states[i];
                 let scale = &scales[usize::from(step.degree)].0;
                 root(i, step, file, scale, &[k; N], &mut state);
@@ -295,7 +295,7 @@ impl Fast {
             }
             let State { ended, unclear: marked, .. } = &states[last];
             let residual = &file[shape.residual as usize].0;
-            let mark = &mut marks[number].0;
+            let mark = &mut mark.0;
             different(shape, file, mark);
             let mut is_kept = [0.0; N];
             for i in 0..N {
@@ -322,8 +322,8 @@ impl Fast {
         }
         for (k, a) in marks.iter().enumerate() {
             for b in &marks[k + 1..] {
-                for i in 0..N {
-                    unclear[i] = if is_near(a.0[i], b.0[i]) { 1.0 } else { unclear[i] };
+                for (unclear, (a, b)) in unclear.iter_mut().zip(a.0.iter().zip(&b.0)) {
+                    *unclear = if is_near(*a, *b) { 1.0 } else { *unclear };
                 }
             }
         }

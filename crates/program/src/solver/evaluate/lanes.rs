@@ -16,7 +16,9 @@ const MOST_OUTPUTS: usize = 32;
 
 /// Whether every root has a version over lanes, and the branches are few enough.
 pub(super) fn is_possible(shape: &Shape) -> bool {
-    shape.most <= 64 && shape.outputs.len() <= MOST_OUTPUTS && !shape.steps.iter().any(|s| matches!(s.root, Root::Quartic { .. }))
+    shape.most <= 64
+        && shape.outputs.len() <= MOST_OUTPUTS
+        && !shape.steps.iter().any(|s| matches!(s.root, Root::Quartic { .. }))
 }
 
 /// The levels of a solver as tapes over one register file.
@@ -71,7 +73,13 @@ impl Tapes {
             let cells =
                 tape.cells.iter().map(|c| Cells { reads: c.reads.map(moved), writes: c.writes.map(moved) });
             let cells = cells.collect();
-            levels.push(Tape { registers, cells, runs: tape.runs.clone(), constant_outputs: vec![], ..*tape });
+            levels.push(Tape {
+                registers,
+                cells,
+                runs: tape.runs.clone(),
+                constant_outputs: vec![],
+                ..*tape
+            });
         }
         Tapes { levels, registers, fixed }
     }
@@ -122,7 +130,7 @@ impl<const N: usize> State<N> {
     #[inline(always)]
     fn guard(&mut self, guard: &[f64; N], divisor: &[f64; N], scale: &[f64; N], degree: u8) {
         for i in 0..N {
-            let is_finite = is_finite(divisor[i]) & is_finite(guard[i]);
+            let is_finite = is_finite(divisor[i]) & is_finite(guard[i]) & is_finite(scale[i]);
             self.mark(i, is_finite & !vanishes(guard[i], divisor[i], scale[i]));
         }
         for i in 0..N {
@@ -136,7 +144,7 @@ impl<const N: usize> State<N> {
 /// As `f64::is_finite`, which the compiler does not turn into vector code.
 #[inline(always)]
 pub(super) fn is_finite(x: f64) -> bool {
-    x - x == 0.0
+    x * 0.0 == 0.0
 }
 
 /// A number for each lane that is nearly the same for leaves that are the same: a weighted sum of the outputs, of angles
@@ -185,6 +193,7 @@ pub(super) fn root<const N: usize>(
             let (n, d) = (at(numerator), at(denominator));
             for i in 0..N {
                 of[i] = d[i].abs();
+                state.mark(i, is_finite(n[i]));
                 first[i] = n[i] / d[i];
             }
         }
@@ -193,6 +202,7 @@ pub(super) fn root<const N: usize>(
             let sign = sign.map_or([1.0; N], |s| *at(s));
             for i in 0..N {
                 of[i] = (x[i] * x[i] + y[i] * y[i]).sqrt();
+                state.mark(i, is_finite(sign[i]));
                 [first[i], second[i]] = direction(x[i], y[i], sign[i]);
             }
         }

@@ -50,6 +50,7 @@ pub struct Leaves {
     /// For each node how often it ended a branch, and the smallest gap.
     ends: Vec<(u32, f64)>,
     dropped: u32,
+    met_free: u64,
 }
 
 /// Leaves for which there is room from the beginning.
@@ -65,6 +66,7 @@ impl Leaves {
             records: Vec::with_capacity(room),
             ends: vec![(0, f64::INFINITY); nodes],
             dropped: 0,
+            met_free: 0,
         }
     }
 
@@ -111,6 +113,11 @@ impl Leaves {
         ends.map(|(node, &(times, gap))| Ended { node, times, gap })
     }
 
+    /// Bit i is set if the equation of node i left its unknown free on some branch, whether or not that led to a leaf.
+    pub fn met_free(&self) -> u64 {
+        self.met_free
+    }
+
     /// True if every leaf is a plain solution: nothing free, nothing double, no candidate.
     pub fn is_regular(&self) -> bool {
         let plain = |r: &Record| r.free == 0 && r.multiplicity == 1 && r.residual <= crate::solver::TOLERANCE;
@@ -123,6 +130,11 @@ impl Leaves {
         self.records.clear();
         self.ends.fill((0, f64::INFINITY));
         self.dropped = 0;
+        self.met_free = 0;
+    }
+
+    pub(crate) fn meet_free(&mut self, node: usize) {
+        self.met_free |= 1 << node;
     }
 
     pub(crate) fn end(&mut self, node: usize, times: u32, gap: f64) {
@@ -148,8 +160,8 @@ impl Leaves {
         }
         let (known, new) = self.outputs.split_at(first);
         let is_angle = &self.is_angle;
-        let same = (0..self.records.len())
-            .find(|&k| (0..m).all(|i| is_same(known[k * m + i], new[i], is_angle[i])));
+        let same =
+            (0..self.records.len()).find(|&k| (0..m).all(|i| is_same(known[k * m + i], new[i], is_angle[i])));
         let Some(k) = same else {
             self.signs.extend_from_slice(signs);
             self.records.push(record);

@@ -5,8 +5,8 @@ use super::leaves::{Leaves, Record};
 use super::{Shape, SolverFunction};
 use crate::evaluate::block::{self, Lanes};
 use crate::evaluate::machine::{Arithmetic, Isa, Work};
-use crate::solver::roots::{power, roots};
 use crate::solver::CANDIDATE;
+use crate::solver::roots::{power, roots};
 use std::sync::Arc;
 
 /// Branches in a pass.
@@ -52,10 +52,10 @@ impl Pass {
             let own = step.root.branches();
             for lane in 0..lanes {
                 let branch = first_branch + lane;
-                let k = if branch / below % own == 0 { 1 } else { -1 };
+                let k = if (branch / below).is_multiple_of(own) { 1 } else { -1 };
                 pass.k[i].0[lane] = f64::from(k);
                 pass.signs[lane * n + i] = if own > 1 { k } else { 0 };
-                pass.first[i][lane] = branch % (below * own) == 0;
+                pass.first[i][lane] = branch.is_multiple_of(below * own);
             }
             below *= own;
         }
@@ -163,8 +163,7 @@ fn take(
     let is_plain = is_only && !any_same(shape, file, &is_kept);
     let n = shape.steps.len();
     for lane in (0..lanes).filter(|&l| is_kept[l]) {
-        let record =
-            Record { residual: residual[lane], multiplicity: 1, free: 0, guard: state.guard[lane] };
+        let record = Record { residual: residual[lane], multiplicity: 1, free: 0, guard: state.guard[lane] };
         let outputs = shape.outputs.iter().map(|&r| file[r as usize].0[lane]);
         let signs = &pass.signs[lane * n..(lane + 1) * n];
         if is_plain {

@@ -71,6 +71,9 @@ impl Walk {
                     if all.count == 0 {
                         leaves.end(i, 1, all.gap);
                     }
+                    if all.is_free {
+                        leaves.meet_free(i);
+                    }
                     found[i] = (all, 0);
                 }
                 let (all, visited) = &mut found[i];
@@ -100,12 +103,7 @@ impl Walk {
 
 fn leaf(shape: &Shape, registers: &[f64], found: &[(Roots, usize)], signs: &[i8], leaves: &mut Leaves) {
     let at = |r: &u32| registers[*r as usize];
-    let mut record = Record {
-        residual: at(&shape.residual),
-        multiplicity: 1,
-        free: 0,
-        guard: f64::INFINITY,
-    };
+    let mut record = Record { residual: at(&shape.residual), multiplicity: 1, free: 0, guard: f64::INFINITY };
     for (i, (all, visited)) in found.iter().enumerate() {
         record.multiplicity = record.multiplicity.saturating_mul(all.multiplicities[visited - 1]);
         record.free |= u64::from(all.is_free) << i;
