@@ -153,16 +153,6 @@ impl<'a> Function<'a> {
         functions.iter().flat_map(Function::steps).any(is_eight)
     }
 
-    /// Whether some function of the list takes an angle on its own.
-    pub fn any_single(functions: &[Self]) -> bool {
-        let is_single = |s: &Step| match s {
-            Step::Pairs(pairs) => Self::runs(pairs).iter().any(|run| run.len() == 1),
-            Step::Break | Step::Atan2 { .. } | Step::Let { .. } | Step::Result { .. } => false,
-        };
-        let hoisted = |f: &Self| f.hoisted.iter().any(|s| matches!(s, Step::Pairs(_)));
-        functions.iter().any(hoisted) || functions.iter().flat_map(Function::steps).any(is_single)
-    }
-
     /// Whether some function of the list takes a root of what is no constant.
     pub fn any_root(functions: &[Self]) -> bool {
         let is_root = |e: &Expr| matches!(e.node(), Node::Sqrt(_)) && !e.symbols().is_empty();
@@ -181,16 +171,6 @@ impl<'a> Function<'a> {
     /// Whether some function of the list has a range in which the routines without branches hold.
     pub fn any_range(functions: &[Self]) -> bool {
         functions.iter().any(Function::has_range)
-    }
-
-    /// Whether the body of some function takes sines and cosines.
-    pub fn any_pair_in_range(functions: &[Self]) -> bool {
-        functions.iter().flat_map(|f| &f.body).any(|s| matches!(s, Step::Pairs(_)))
-    }
-
-    /// Whether the body of some function takes the angle of a point.
-    pub fn any_atan2_in_range(functions: &[Self]) -> bool {
-        functions.iter().flat_map(|f| &f.body).any(|s| matches!(s, Step::Atan2 { .. }))
     }
 
     /// Whether some function of the list takes sines and cosines.
@@ -238,19 +218,22 @@ pub(crate) fn file_name(library: &Library, language: Language) -> String {
 pub(crate) fn opening(library: &Library, functions: &[Function], names: &Names, name: &str) -> Vec<String> {
     let mut lines = library.header.clone();
     lines.extend(renamed(library, name));
-    lines.extend([String::new(), "Operations of one configuration:".into()]);
-    lines.extend(functions.iter().map(|f| {
-        let name = &f.routine.name;
-        let also = if f.name == *name { String::new() } else { format!(" (the function {name})") };
-        format!("  {}{also}: {}", f.name, f.routine.program.count())
-    }));
-    lines.extend([String::new(), "Variables, in the order of q:".into()]);
-    let variables = library.variables.iter().enumerate();
-    lines.extend(
-        variables.map(|(k, (s, about))| format!("  q[{k}] = {}: {}", names.of(*s), names.about(*s, about))),
-    );
-    if library.variables.is_empty() {
-        lines.push("  none".into());
+    if !functions.is_empty() {
+        lines.extend([String::new(), "Operations of one configuration:".into()]);
+        lines.extend(functions.iter().map(|f| {
+            let name = &f.routine.name;
+            let also = if f.name == *name { String::new() } else { format!(" (the function {name})") };
+            format!("  {}{also}: {}", f.name, f.routine.program.count())
+        }));
+        lines.extend([String::new(), "Variables, in the order of q:".into()]);
+        let variables = library.variables.iter().enumerate();
+        lines.extend(
+            variables
+                .map(|(k, (s, about))| format!("  q[{k}] = {}: {}", names.of(*s), names.about(*s, about))),
+        );
+        if library.variables.is_empty() {
+            lines.push("  none".into());
+        }
     }
     if !library.parameters.is_empty() {
         lines.extend([String::new(), "Parameters:".into()]);
@@ -259,7 +242,9 @@ pub(crate) fn opening(library: &Library, functions: &[Function], names: &Names, 
             format!("  {}: {} ({default})", names.of(p.symbol), names.about(p.symbol, &p.about))
         }));
     }
-    lines.extend([String::new(), "Results:".into()]);
+    if !functions.is_empty() {
+        lines.extend([String::new(), "Results:".into()]);
+    }
     for f in functions {
         let shape: Vec<String> = f.shape().iter().map(usize::to_string).collect();
         lines.push(format!("  {} of {}, {}:", f.result, f.name, shape.join(" x ")));
@@ -291,13 +276,15 @@ pub(crate) fn defaults(library: &Library) -> Option<Vec<f64>> {
 /// rounded as well, which moves a result by up to half a unit of the variable's magnitude.
 pub(crate) const TOLERANCE: f64 = 4.0;
 
-struct Steps<'a> {
-    list: Vec<Step>,
-    names: &'a mut Names,
+/// Statements on their way to steps.
+pub(crate) struct Steps<'a> {
+    pub list: Vec<Step>,
+    pub names: &'a mut Names,
 }
 
 impl Steps<'_> {
-    fn statements(&mut self, statements: &[Statement]) {
+    /// Adds the steps of statements.
+    pub fn statements(&mut self, statements: &[Statement]) {
         for statement in statements {
             match statement {
                 Statement::Pair { angle, sine, cosine } => {

@@ -12,12 +12,15 @@ mod javascript;
 pub(crate) mod listing;
 mod matlab;
 pub(crate) mod names;
+mod nested;
 mod python;
 mod rust;
+pub(crate) mod solver;
 pub(crate) mod spelling;
 pub(crate) mod wrap;
 
 use crate::program::Program;
+use crate::solver::Solver;
 use denavit_symbolic::Symbol;
 
 /// A language that source can be emitted in.
@@ -87,6 +90,8 @@ pub struct Library<'a> {
     pub parameters: Vec<Parameter>,
     /// The functions.
     pub routines: Vec<Routine<'a>>,
+    /// The functions that find all solutions.
+    pub solvers: Vec<SolverRoutine<'a>>,
     /// Numbers of the emitted code.
     pub precision: Precision,
 }
@@ -130,6 +135,49 @@ pub struct Vector {
     pub parameters: Vec<f64>,
     /// The results.
     pub results: Vec<f64>,
+}
+
+/// A function that finds all solutions. It computes in double precision, whatever the precision of the library.
+#[derive(Clone, Debug)]
+pub struct SolverRoutine<'a> {
+    /// Its name, such as `inverse`.
+    pub name: String,
+    /// What it solves: shapes, units, frames. A line each.
+    pub about: Vec<String>,
+    /// What it computes; its parameters are among those of the library, its variables are its own.
+    pub solver: &'a Solver,
+    /// What the variables are called as a whole, such as `goal`.
+    pub argument: String,
+    /// The shape of the variables, row-major; the product is their number.
+    pub shape: Vec<usize>,
+    /// What the results of a solution are called as a whole, such as `q`.
+    pub result: String,
+    /// What the stored test holds it to.
+    pub vectors: Vec<SolverVector>,
+}
+
+/// What is known, and all solutions.
+#[derive(Clone, PartialEq, Debug)]
+pub struct SolverVector {
+    /// One value per variable of the solver.
+    pub variables: Vec<f64>,
+    /// One value per parameter of the library.
+    pub parameters: Vec<f64>,
+    /// All solutions, in any order.
+    pub solutions: Vec<KnownSolution>,
+    /// What a result may be off by; angles modulo 2π.
+    pub tolerance: f64,
+}
+
+/// A solution from an independent source.
+#[derive(Clone, PartialEq, Debug)]
+pub struct KnownSolution {
+    /// The results.
+    pub results: Vec<f64>,
+    /// How many branches come together in it.
+    pub multiplicity: u32,
+    /// The nodes whose unknown is free there: bit i for node i.
+    pub free: u32,
 }
 
 /// A file of the emitted folder.

@@ -65,6 +65,7 @@ impl Sample {
                 .map(|p| Parameter { symbol: Symbol::new(p.0), about: hostile.into(), default: p.1 })
                 .collect(),
             routines: routines.collect(),
+            solvers: vec![],
             precision,
         }
     }

@@ -158,6 +158,7 @@ pub fn folder(language: Language, words: Words, given: Given) -> Vec<File> {
             .map(|(k, s)| Parameter { symbol: *s, about: say(4, "another number"), default: default(k) })
             .collect(),
         routines: routines.into_iter().map(routine).collect(),
+        solvers: vec![],
         precision: Precision::Double,
     };
     emit(&library, language)

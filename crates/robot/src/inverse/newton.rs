@@ -1,4 +1,4 @@
-//! Newton's method on the pose, and the directions in which the arm moves with its hand still.
+//! Newton's method on the pose.
 
 use super::equations::Goal;
 use crate::geometry::{Transform, Vector};
@@ -8,8 +8,6 @@ use crate::robot::Robot;
 const STEPS: usize = 20;
 /// How far a polish may lead: further away is another solution.
 const FAR: f64 = 0.1;
-/// A singular value below this, relative to the largest, counts as 0.
-const RANK: f64 = 1e-7;
 
 /// The error of a pose as rotation vector and displacement by `size`, both in the base; zeros where the goal gives
 /// nothing.
@@ -166,64 +164,4 @@ fn damped(columns: &[[f64; 6]], e: &[f64; 6], damping: f64) -> Vec<f64> {
         }
     }
     (0..n).map(|k| if m[k][k].abs() < f64::MIN_POSITIVE { 0.0 } else { m[k][n] / m[k][k] }).collect()
-}
-
-/// An orthonormal basis of the joint velocities that leave the hand still (radians, and lengths by `size`), by Jacobi's
-/// rotations of JᵀJ.
-pub fn null_space(
-    robot: &Robot<f64>,
-    goal: Goal,
-    q: &[f64],
-    given: &[usize],
-    size: f64,
-) -> Vec<Vec<f64>> {
-    let size = if size > 0.0 { size } else { 1.0 };
-    let columns = jacobian(robot, goal, q, given, size);
-    let free: Vec<usize> = (0..q.len()).filter(|j| !given.contains(j)).collect();
-    let n = free.len();
-    let dot = |a: &[f64; 6], b: &[f64; 6]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
-    let mut m: Vec<Vec<f64>> =
-        free.iter().map(|&i| free.iter().map(|&j| dot(&columns[i], &columns[j])).collect()).collect();
-    let mut v: Vec<Vec<f64>> = (0..n).map(|i| (0..n).map(|j| f64::from(u8::from(i == j))).collect()).collect();
-    for _ in 0..60 {
-        let mut largest = 0.0_f64;
-        for a in 0..n {
-            for b in a + 1..n {
-                if m[a][b] == 0.0 {
-                    continue;
-                }
-                largest = largest.max(m[a][b].abs());
-                let theta = (m[b][b] - m[a][a]) / (2.0 * m[a][b]);
-                let t = theta.signum() / (theta.abs() + theta.hypot(1.0));
-                let c = 1.0 / t.hypot(1.0);
-                let s = t * c;
-                for row in &mut m {
-                    (row[a], row[b]) = (c * row[a] - s * row[b], s * row[a] + c * row[b]);
-                }
-                let (mut x, mut y) = (m[a].clone(), m[b].clone());
-                for (p, q) in x.iter_mut().zip(&mut y) {
-                    (*p, *q) = (c * *p - s * *q, s * *p + c * *q);
-                }
-                (m[a], m[b]) = (x, y);
-                for row in &mut v {
-                    (row[a], row[b]) = (c * row[a] - s * row[b], s * row[a] + c * row[b]);
-                }
-            }
-        }
-        if largest <= 1e-30 {
-            break;
-        }
-    }
-    let most = (0..n).map(|k| m[k][k]).fold(0.0, f64::max);
-    let mut found = vec![];
-    for k in 0..n {
-        if m[k][k].max(0.0).sqrt() <= RANK * most.sqrt() {
-            let mut direction = vec![0.0; q.len()];
-            for (i, &j) in free.iter().enumerate() {
-                direction[j] = if v[i][k].abs() < 1e-9 { 0.0 } else { v[i][k] };
-            }
-            found.push(direction);
-        }
-    }
-    found
 }

@@ -99,7 +99,9 @@ pub struct Family {
     /// For one free unknown, the values for which there is a solution (radians or metres), from the sampling.
     pub interval: Option<[f64; 2]>,
     /// The nodes of the solver that are free, and the values taken there at the representative.
-    pub(crate) at: Vec<(usize, [f64; 2])>,
+    at: Vec<(usize, [f64; 2])>,
+    /// What guards were compared with.
+    looseness: f64,
 }
 
 /// Why a pose has no solution.
@@ -123,6 +125,14 @@ pub enum Obstacle {
     },
 }
 
+/// A residual above this is more than rounding, and Newton's method lowers it.
+const ROUGH: f64 = 1e-13;
+/// A guard below this may be one that vanishes at a solution which is known to the square root of rounding only.
+const NEAR: f64 = 1e-6;
+/// What guards are compared with then, by what they are compared with otherwise.
+const LOOSE: f64 = NEAR / denavit_program::solver::GUARD;
+/// How far Newton's method may move a member of a family that was found with loose guards.
+const SHORT: f64 = 1e-5;
 /// Values that are tried for one free unknown; multiples of 5° hold all usual angles.
 const ROUND: usize = 72;
 /// For two, and for three and more.
@@ -240,6 +250,7 @@ impl InverseSolver {
         let mut answer = Answer { complete: true, solutions: vec![], families: vec![], obstacle: None };
         let leaves = self.scalar.solve(&variables, &[]);
         let met = leaves.met_free();
+        let near = leaves.iter().any(|l| l.free == 0 && l.guard < NEAR);
         let mut found: Vec<(Solution, u64)> = vec![];
         for leaf in leaves.iter() {
             found.push((draft(&self.nodes, &leaf), leaf.free));
@@ -250,7 +261,16 @@ impl InverseSolver {
             }
         }
         if met != 0 {
-            self.families(pose, &variables, met, &mut answer);
+            self.families(pose, given, (met, 1.0), &mut answer);
+        }
+        if near {
+            // Where roots coincide they are known to the square root of a rounding error only, and so are the guards
+            // of what follows.
+            let loose = self.scalar.solve_loosely(&variables, &[], LOOSE).met_free();
+            if loose != 0 {
+                self.families(pose, given, (loose, LOOSE), &mut answer);
+                self.absorb(pose, given, &mut answer);
+            }
         }
         if !answer.is_reachable() {
             self.last_resort(pose, &variables, met, &mut answer);
@@ -258,32 +278,72 @@ impl InverseSolver {
         answer
     }
 
-    /// The solutions with values for unknowns that are free: members of a family.
-    pub fn members(&mut self, pose: &Transform<f64>, given: &[f64], family: &Family, value: f64) -> Vec<Solution> {
-        let variables = variables(self.goal, pose, given);
-        let mut at = vec![None; self.nodes.len()];
-        for (i, x) in &family.at {
-            at[*i] = Some(*x);
+    /// The members of a family with its free unknown (radians or metres) at a value; the first, if it has several.
+    pub fn members(
+        &mut self,
+        pose: &Transform<f64>,
+        given: &[f64],
+        family: &Family,
+        value: f64,
+    ) -> Vec<Solution> {
+        let mut at = family.at.clone();
+        if let Some((i, x)) = at.first_mut() {
+            *x = if self.nodes[*i].is_angle { [value.cos(), value.sin()] } else { [value, 0.0] };
         }
-        if let Some((i, _)) = family.at.first() {
-            at[*i] = Some(if self.nodes[*i].is_angle { [value.cos(), value.sin()] } else { [value, 0.0] });
-        }
-        let leaves = self.scalar.solve_carefully(&variables, &at);
-        let found: Vec<Solution> =
-            leaves.iter().filter(|l| l.residual <= TOLERANCE).map(|l| draft(&self.nodes, &l)).collect();
-        found
+        self.with_free(pose, given, family, &at)
     }
 
-    /// The solutions with the free unknowns of a family as they are at a configuration: those among them show whether
-    /// the configuration belongs to the family.
-    pub fn members_at(&mut self, pose: &Transform<f64>, given: &[f64], family: &Family, q: &[f64]) -> Vec<Solution> {
+    /// The members of a family with its free unknowns as they are at a configuration: those among them show whether the
+    /// configuration belongs to the family.
+    pub fn members_at(
+        &mut self,
+        pose: &Transform<f64>,
+        given: &[f64],
+        family: &Family,
+        q: &[f64],
+    ) -> Vec<Solution> {
+        let at: Vec<(usize, [f64; 2])> = family.at.iter().map(|&(i, _)| (i, self.value_at(i, q))).collect();
+        self.with_free(pose, given, family, &at)
+    }
+
+    fn with_free(
+        &mut self,
+        pose: &Transform<f64>,
+        given: &[f64],
+        family: &Family,
+        at: &[(usize, [f64; 2])],
+    ) -> Vec<Solution> {
         let variables = variables(self.goal, pose, given);
-        let mut at = vec![None; self.nodes.len()];
-        for (i, _) in &family.at {
-            at[*i] = Some(self.value_at(*i, q));
+        let mut free = vec![None; self.nodes.len()];
+        for &(i, x) in at {
+            free[i] = Some(x);
         }
-        let leaves = self.scalar.solve_carefully(&variables, &at);
-        leaves.iter().filter(|l| l.residual <= TOLERANCE).map(|l| draft(&self.nodes, &l)).collect()
+        let leaves = self.scalar.solve_loosely(&variables, &free, family.looseness);
+        let found: Vec<Solution> = leaves.iter().map(|l| draft(&self.nodes, &l)).collect();
+        found.into_iter().filter_map(|s| self.member(pose, s, family.looseness)).collect()
+    }
+
+    /// A leaf as a member of a family, if it is one.
+    fn member(&self, pose: &Transform<f64>, mut s: Solution, looseness: f64) -> Option<Solution> {
+        let start = s.q.clone();
+        let holds = self.improve(pose, &mut s);
+        let moved = start.iter().zip(&s.q).zip(&self.is_angle).map(|((x, y), &is_angle)| {
+            if is_angle { wrapped(x - y).abs() } else { (x - y).abs() / self.reach.max(1e-3) }
+        });
+        let far = moved.fold(0.0, f64::max);
+        (holds && (looseness == 1.0 || far <= SHORT)).then_some(s)
+    }
+
+    /// Drops isolated solutions that are members of a family.
+    fn absorb(&mut self, pose: &Transform<f64>, given: &[f64], answer: &mut Answer) {
+        let solutions = std::mem::take(&mut answer.solutions);
+        let families = answer.families.clone();
+        for s in solutions {
+            let is_member = s.guard < NEAR && self.is_in_a_family(pose, given, &families, &s.q);
+            if !is_member {
+                answer.solutions.push(s);
+            }
+        }
     }
 
     /// The unknown of a node at a configuration: cosine and sine, or the displacement.
@@ -295,7 +355,7 @@ impl InverseSolver {
 
     /// Polishes a leaf that is not a solution yet; false if it does not become one nearby.
     fn improve(&self, pose: &Transform<f64>, s: &mut Solution) -> bool {
-        if s.residual > TOLERANCE {
+        if s.residual > ROUGH {
             let Some((q, residual)) =
                 newton::polish(&self.robot, self.goal, pose, &s.q, &self.given, self.size(pose))
             else {
@@ -343,7 +403,14 @@ impl InverseSolver {
     }
 
     /// Gives free unknowns values all round, and gathers what solves the pose.
-    fn families(&mut self, pose: &Transform<f64>, variables: &[f64], met: u64, answer: &mut Answer) {
+    fn families(
+        &mut self,
+        pose: &Transform<f64>,
+        given: &[f64],
+        (met, looseness): (u64, f64),
+        answer: &mut Answer,
+    ) {
+        let variables = variables(self.goal, pose, given);
         let mut free: Vec<usize> = (0..self.nodes.len()).filter(|i| met >> i & 1 == 1).collect();
         let mut members: Vec<Member> = vec![];
         // Other unknowns may turn out to be free on the way; then all are varied.
@@ -358,7 +425,7 @@ impl InverseSolver {
             let count = steps.pow(free.len().min(3) as u32);
             for number in 0..count {
                 let at = self.values(&free, steps, number);
-                let leaves = self.scalar.solve_carefully(variables, &at);
+                let leaves = self.scalar.solve_loosely(&variables, &at, looseness);
                 more |= leaves.met_free();
                 for leaf in leaves.iter().filter(|l| l.free != 0) {
                     members.push(Member {
@@ -377,7 +444,7 @@ impl InverseSolver {
                     2 => ROUND_OF_TWO,
                     _ => ROUND_OF_MORE,
                 };
-                self.group(pose, &free, steps, members, answer);
+                self.group(pose, given, &free, (steps, looseness), members, answer);
                 return;
             }
         }
@@ -405,8 +472,9 @@ impl InverseSolver {
     fn group(
         &mut self,
         pose: &Transform<f64>,
+        given: &[f64],
         free: &[usize],
-        steps: usize,
+        (steps, looseness): (usize, f64),
         members: Vec<Member>,
         answer: &mut Answer,
     ) {
@@ -451,45 +519,85 @@ impl InverseSolver {
             let mut sorted: Vec<usize> = (0..group.len()).collect();
             sorted.sort_by_key(|&k| angle(&group[k]));
             let best = sorted.iter().find_map(|&k| {
-                let mut s = group[k].solution.clone();
-                self.improve(pose, &mut s).then_some((k, s))
+                self.member(pose, group[k].solution.clone(), looseness).map(|s| (k, s))
             });
             let Some((k, representative)) = best else { continue };
-            let directions = newton::null_space(&self.robot, self.goal, &representative.q, &self.given, self.reach);
-            if directions.is_empty() {
-                self.add(&mut answer.solutions, representative);
-                continue;
-            }
-            let far = &group[(k + group.len() / 2) % group.len()];
-            let others = newton::null_space(&self.robot, self.goal, &far.solution.q, &self.given, self.reach);
-            let is_affine = directions.len() == 1
-                && others.len() == 1
-                && group.len() > 2
-                && parallel(&directions[0], &others[0]);
             let mask = group[k].free;
-            let unknowns = (0..self.nodes.len()).filter(|i| mask >> i & 1 == 1);
-            let at: Vec<(usize, [f64; 2])> = {
-                let values = self.values(free, steps, group[k].number);
-                unknowns.clone().filter_map(|i| Some((i, values[i]?))).collect()
-            };
-            let interval = (free.len() == 1).then(|| self.interval(free[0], steps, &group));
-            let family = Family {
-                dimension: directions.len(),
-                free: unknowns.map(|i| self.nodes[i].unknown.clone()).collect(),
-                direction: directions[0].clone(),
-                is_affine,
-                interval,
+            let unknowns: Vec<usize> = (0..self.nodes.len()).filter(|i| mask >> i & 1 == 1).collect();
+            let values = self.values(free, steps, group[k].number);
+            let at: Vec<(usize, [f64; 2])> = unknowns.iter().filter_map(|&i| Some((i, values[i]?))).collect();
+            let mut family = Family {
+                dimension: unknowns.len(),
+                free: unknowns.iter().map(|&i| self.nodes[i].unknown.clone()).collect(),
+                direction: vec![],
+                is_affine: false,
+                interval: (free.len() == 1).then(|| self.interval(free[0], steps, &group)),
                 at,
+                looseness,
                 representative,
             };
-            let known = answer.families.iter().any(|f| {
-                f.at.iter().map(|a| a.0).eq(family.at.iter().map(|a| a.0))
-                    && self.is_same(&f.representative.q, &family.representative.q)
-            });
-            if !known {
+            let q = family.representative.q.clone();
+            let Some(direction) = self.tangent(pose, given, &family, &q) else {
+                if !self.is_in_a_family(pose, given, &answer.families, &q) {
+                    self.add(&mut answer.solutions, family.representative);
+                }
+                continue;
+            };
+            let far = group[(k + group.len() / 2) % group.len()].solution.q.clone();
+            family.is_affine = free.len() == 1
+                && self.tangent(pose, given, &family, &far).is_some_and(|d| parallel(&d, &direction));
+            family.direction = direction;
+            if !self.is_in_a_family(pose, given, &answer.families, &q) {
                 answer.families.push(family);
             }
         }
+    }
+
+    /// How the joints move along a family at one of its members, a unit vector; nothing if they cannot.
+    fn tangent(
+        &mut self,
+        pose: &Transform<f64>,
+        given: &[f64],
+        family: &Family,
+        q: &[f64],
+    ) -> Option<Vec<f64>> {
+        const STEP: f64 = 1e-3;
+        let (first, _) = *family.at.first()?;
+        let at: Vec<(usize, [f64; 2])> = family.at.iter().map(|&(i, _)| (i, self.value_at(i, q))).collect();
+        for step in [STEP, -STEP] {
+            let mut moved = at.clone();
+            let [x, y] = moved[0].1;
+            moved[0].1 = if self.nodes[first].is_angle {
+                let (s, c) = step.sin_cos();
+                [x * c - y * s, y * c + x * s]
+            } else {
+                [x + step * self.reach, 0.0]
+            };
+            // The neighbour on the same branch is the nearest one.
+            let distance = |s: &Solution| -> f64 { self.moved(q, &s.q).iter().map(|d| d * d).sum::<f64>().sqrt() };
+            let members = self.clone().with_free(pose, given, family, &moved);
+            let nearest = members.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+            if let Some(n) = nearest
+                && distance(n) < 100.0 * STEP
+            {
+                let length = distance(n) * step.signum();
+                return Some(self.moved(q, &n.q).iter().map(|d| d / length).collect());
+            }
+        }
+        None
+    }
+
+    /// How the joints differ, angles by the shorter way.
+    fn moved(&self, from: &[f64], to: &[f64]) -> Vec<f64> {
+        let pairs = from.iter().zip(to).zip(&self.is_angle);
+        pairs.map(|((x, y), &is_angle)| if is_angle { wrapped(y - x) } else { y - x }).collect()
+    }
+
+    fn is_in_a_family(&mut self, pose: &Transform<f64>, given: &[f64], families: &[Family], q: &[f64]) -> bool {
+        families.iter().any(|f| {
+            let members = self.members_at(pose, given, f, q);
+            members.iter().any(|m| self.moved(q, &m.q).iter().all(|d| d.abs() <= SHORT))
+        })
     }
 
     /// The sampled values between the ends of a group.

@@ -3,6 +3,7 @@
 //! A function for one configuration, and one for a block of [`LANES`] with the values of all lanes side by side. The
 //! routines for sines, cosines and angles are embedded (`c/*.c`), since a compiler makes vector code of them.
 
+pub(crate) mod solver;
 pub(crate) mod test;
 
 use crate::emit::compiled::{
@@ -10,6 +11,7 @@ use crate::emit::compiled::{
     lines, opening,
 };
 use crate::emit::names::{Names, brief};
+use crate::emit::solver::{Plan, plans};
 use crate::emit::spelling::Spelling;
 use crate::emit::wrap::comments;
 use crate::emit::{File, Language, Library, Parameter, Precision};
@@ -134,7 +136,8 @@ pub(crate) fn emit(library: &Library) -> Vec<File> {
     let names = inputs(library, Language::C, RESERVED);
     let functions = functions(library, Language::C, &names, &[]);
     let opening = opening(library, &functions, &names, &name);
-    let source = Source { library, functions, opening, name, names };
+    let plans = solver_plans(library, &functions);
+    let source = Source { library, functions, plans, opening, name, names };
     let file = |path: String, text: String| File { path, text };
     let head = brief(library, &format!("{}.h", source.name));
     let head = head.iter().map(String::as_str);
@@ -147,9 +150,17 @@ pub(crate) fn emit(library: &Library) -> Vec<File> {
     ]
 }
 
+/// The solvers, whose names are none of functions.
+fn solver_plans<'a>(library: &'a Library, functions: &[Function]) -> Vec<Plan<'a>> {
+    let of = |f: &Function| [f.name.clone(), format!("{}_block", f.name)];
+    let taken: Vec<String> = functions.iter().flat_map(of).collect();
+    plans(library, Language::C, &inputs(library, Language::C, &solver::reserved()), &[], &taken)
+}
+
 struct Source<'a> {
     library: &'a Library<'a>,
     functions: Vec<Function<'a>>,
+    plans: Vec<Plan<'a>>,
     /// What every file opens with.
     opening: Vec<String>,
     /// The prefix of everything.
@@ -258,6 +269,7 @@ impl Source<'_> {
             let words = format!("The same for a block of {upper}_LANES configurations.");
             let _ = write!(text, "\n/* {words} */\n{};\n", self.block_signature(f, "", ""));
         }
+        self.plans.iter().for_each(|plan| text.push_str(&self.declaration(plan)));
         text.push_str("\n#ifdef __cplusplus\n}\n#endif\n\n#endif\n");
         text
     }
@@ -329,8 +341,9 @@ impl Source<'_> {
             "#include \"{name}.h\"\n\n#include <math.h>\n#include <stdint.h>\n#include <string.h>\n\n"
         );
         text.push_str(&include_str!("macros.c").replace("@NAME@", &upper));
-        let (pairs, atan2) = (Function::any_pair(&self.functions), Function::any_atan2(&self.functions));
         let single = self.library.precision == Precision::Single;
+        let pairs = Function::any_pair(&self.functions) || !single && Plan::any_pair(&self.plans);
+        let atan2 = Function::any_atan2(&self.functions) || !single && Plan::any_atan2(&self.plans);
         if pairs || atan2 {
             let fma = if single { "fmaf" } else { "fma" };
             text.push_str(&include_str!("class.c").replace("@NAME@", &upper).replace("@FMA@", fma));
@@ -363,7 +376,7 @@ impl Source<'_> {
             text.push_str(&self.one(f));
             text.push_str(&self.block(f));
         }
-        text
+        text + &self.solvers()
     }
 
     fn one(&self, f: &Function) -> String {

@@ -12,9 +12,12 @@ impl Source<'_> {
         let name = &self.name;
         let words = format!("The stored configurations of {name}.c, one by one and in blocks.");
         let mut text = block_comment(self.lines().chain(["", &words]));
-        text.push_str(&include_str!("test_head.c").replace("@name@", name).replace("@N@", &self.upper()));
         let tested: Vec<&Function> =
             self.functions.iter().filter(|f| !f.routine.vectors.is_empty()).collect();
+        let head = include_str!("test_head.c");
+        let head =
+            if tested.is_empty() { head.split("\nstatic void\n").next().unwrap_or(head) } else { head };
+        text.push_str(&head.replace("@name@", name).replace("@N@", &self.upper()));
         if !tested.is_empty() {
             text.push_str(&preamble(self.library, TOLERANCE));
         }
@@ -22,9 +25,11 @@ impl Source<'_> {
             text.push_str(&tables(f, self.library));
             text.push_str(&filled(include_str!("test_function.c"), f, self.library, name));
         }
+        let solved = || self.plans.iter().filter(|p| !p.routine.vectors.is_empty());
+        solved().for_each(|plan| text.push_str(&self.solver_test(plan)));
         text.push_str("\nint main(void)\n{\n");
-        for f in tested {
-            let _ = writeln!(text, "    test_{}();", f.name);
+        for name in tested.iter().map(|f| &f.name).chain(solved().map(|p| &p.name)) {
+            let _ = writeln!(text, "    test_{name}();");
         }
         let _ = write!(
             text,
@@ -99,7 +104,7 @@ pub(crate) fn filled(template: &str, f: &Function, library: &Library, name: &str
 }
 
 /// A row of a table, in braces.
-fn row(values: &[f64]) -> String {
+pub(crate) fn row(values: &[f64]) -> String {
     let values = if values.is_empty() { &[0.0] } else { values };
     let list = numbers(values);
     let whole = format!("    {{{}}},\n", list.join(", "));
@@ -110,7 +115,7 @@ fn row(values: &[f64]) -> String {
 }
 
 /// Numbers of double precision, in which the tests compare.
-fn numbers(values: &[f64]) -> Vec<String> {
+pub(crate) fn numbers(values: &[f64]) -> Vec<String> {
     let names = Names::default();
     let spelling = Spelling { language: Language::C, precision: Precision::Double, names: &names };
     values.iter().map(|x| spelling.number(*x)).collect()

@@ -2,12 +2,14 @@
 //!
 //! One thread computes one configuration, with the values of all configurations side by side in memory.
 
+mod solver;
 mod test;
 
 use crate::emit::compiled::{
     Body, Function, Pair, Step, WIDTH, about_angles, defaults, file_name, functions, inputs, opening,
 };
 use crate::emit::names::Names;
+use crate::emit::solver::{Plan, plans};
 use crate::emit::spelling::Spelling;
 use crate::emit::wrap::comments;
 use crate::emit::{File, Language, Library, Precision, c};
@@ -26,7 +28,8 @@ pub(crate) fn emit(library: &Library) -> Vec<File> {
     let names = inputs(library, Language::Cuda, &reserved);
     let functions = functions(library, Language::Cuda, &names, &[]);
     let opening = opening(library, &functions, &names, &name);
-    let source = Source { library, functions, opening, name, names };
+    let plans = solver_plans(library, &functions);
+    let source = Source { library, functions, plans, opening, name, names };
     let file = |path: String, text: String| File { path, text };
     vec![
         file(format!("{}.cuh", source.name), source.header()),
@@ -36,9 +39,19 @@ pub(crate) fn emit(library: &Library) -> Vec<File> {
     ]
 }
 
+/// The solvers, whose names are none of functions.
+fn solver_plans<'a>(library: &'a Library, functions: &[Function]) -> Vec<Plan<'a>> {
+    let of = |f: &Function| [f.name.clone(), format!("{}_kernel", f.name)];
+    let taken: Vec<String> = functions.iter().flat_map(of).collect();
+    let more = RESERVED.iter().copied().chain(["number", "place", "s"]);
+    let reserved: Vec<&str> = c::solver::reserved().into_iter().chain(more).collect();
+    plans(library, Language::Cuda, &inputs(library, Language::Cuda, &reserved), &[], &taken)
+}
+
 struct Source<'a> {
     library: &'a Library<'a>,
     functions: Vec<Function<'a>>,
+    plans: Vec<Plan<'a>>,
     /// What every file opens with.
     opening: Vec<String>,
     /// The prefix of everything.
@@ -131,6 +144,7 @@ impl Source<'_> {
             text.push_str(&c::block_comment(about));
             text.push_str(&self.one(f));
         }
+        text.push_str(&self.solvers());
         text.push_str("\n#endif\n");
         text
     }
@@ -272,6 +286,7 @@ impl Source<'_> {
                 .replace("@m@", &f.results().to_string());
             let _ = write!(text, "\n{head}\n{body}");
         }
+        self.plans.iter().for_each(|plan| text.push_str(&self.solver_kernel(plan)));
         text
     }
 }

@@ -26,7 +26,7 @@ impl Source<'_> {
         let head = include_str!("test_head.cu").replace("@name@", name);
         let (includes, rest) = head.split_once("\nstatic int failures;").unwrap_or((&head, ""));
         text.push_str(includes);
-        if self.tested().is_empty() {
+        if self.tested().is_empty() && self.solved().is_empty() {
             return text + "\nint main()\n{\n    return 0;\n}\n";
         }
         text.push_str(&c::preamble(self.library, TOLERANCE));
@@ -36,9 +36,11 @@ impl Source<'_> {
             text.push_str(&c::tables(f, self.library));
             text.push_str(&c::filled(include_str!("test_function.cu"), f, self.library, name));
         }
+        self.solved().iter().for_each(|plan| text.push_str(&self.solver_test(plan)));
         text.push_str("\nint main()\n{\n");
-        for f in self.tested() {
-            let _ = writeln!(text, "    test_{}();", f.name);
+        let (tested, solved) = (self.tested(), self.solved());
+        for name in tested.iter().map(|f| &f.name).chain(solved.iter().map(|p| &p.name)) {
+            let _ = writeln!(text, "    test_{name}();");
         }
         let _ = write!(
             text,
@@ -71,6 +73,8 @@ impl Source<'_> {
             }
             tables.push_str("        ],\n    },\n");
         }
+        tables.push_str("]\nSOLVERS = [\n");
+        self.solved().iter().for_each(|plan| tables.push_str(&self.solver_table(plan)));
         tables.push_str("]\n");
         let (ctype, epsilon, rounding, units) = if self.is_single() {
             (
@@ -95,7 +99,7 @@ impl Source<'_> {
 }
 
 /// A Python list, in one line if it fits.
-fn list(values: &[f64], indent: usize) -> String {
+pub(super) fn list(values: &[f64], indent: usize) -> String {
     let values: Vec<String> = values.iter().map(|x| format!("{x:?}")).collect();
     let whole = format!("[{}]", values.join(", "));
     if indent + 12 + whole.len() <= WIDTH {

@@ -3,11 +3,13 @@
 //! Functions write into arrays of the caller's. The formulas stand in one private function per routine, for one row;
 //! what depends on parameters alone is computed before and handed to it.
 
+mod solver;
 mod test;
 
 use crate::emit::blocks::{Block, blocks, reads};
 use crate::emit::listing::{Listing, Statement};
 use crate::emit::names::{Names, brief, comment, renamed, sanitised};
+use crate::emit::solver::{Plan, plans};
 use crate::emit::spelling::Spelling;
 use crate::emit::wrap::{Wrap, comments, prose, split};
 use crate::emit::{File, Language, Library, Parameter, Precision, Routine};
@@ -48,6 +50,7 @@ struct Module<'a> {
     library: &'a Library<'a>,
     name: String,
     functions: Vec<Functions>,
+    plans: Vec<Plan<'a>>,
     /// Names of the module, inputs included.
     names: Names,
 }
@@ -65,11 +68,12 @@ impl<'a> Module<'a> {
         }
         library.variables.iter().for_each(|(symbol, _)| names.declare(*symbol));
         library.parameters.iter().for_each(|p| names.declare(p.symbol));
+        let plans = solver_plans(library, &functions);
         // `node --test` runs what is called like this.
         let name = sanitised(&library.name).to_lowercase();
         let is_test = name == "test" || name.ends_with("_test");
         let name = if is_test { format!("{name}_x") } else { name };
-        Module { library, name, functions, names }
+        Module { library, name, functions, plans, names }
     }
 
     fn header(&self) -> Vec<String> {
@@ -129,15 +133,19 @@ impl<'a> Module<'a> {
             lines.extend(self.routine(routine, functions));
         }
         let is_any_required = |r: &Routine| self.parameters_of(r).iter().any(|p| p.default.is_none());
-        if self.library.routines.iter().any(is_any_required) {
+        let is_required = |p: &Plan| self.parameters_of_solver(p).iter().any(|p| p.default.is_none());
+        if self.library.routines.iter().any(is_any_required) || self.plans.iter().any(is_required) {
             lines.push(String::new());
             lines.extend(documentation(&["@param {string} name".into(), "@returns {never}".into()]));
             lines.push("function missing(name) {".into());
             lines.push("  throw new TypeError(`parameter ${name} is missing: it has no default`);".into());
             lines.push("}".into());
         }
+        lines.extend(self.solvers());
         lines.extend(REQUIRE_NUMBERS.lines().map(str::to_string));
-        if self.library.routines.iter().any(|r| !self.parameters_of(r).is_empty()) {
+        if self.library.routines.iter().any(|r| !self.parameters_of(r).is_empty())
+            || self.plans.iter().any(|p| !self.parameters_of_solver(p).is_empty())
+        {
             let list = &self.library.parameters;
             let known: Vec<String> =
                 list.iter().map(|p| format!("\"{}\"", self.names.of(p.symbol))).collect();
@@ -360,6 +368,49 @@ function requireParameters(parameters) {
 }
 "#;
 
+/// The parameters taken apart; `names` gives the field of each, and the field with the name it gets.
+fn required_parameters(
+    parameters: &[&Parameter],
+    is_required: bool,
+    names: impl Fn(&Parameter) -> (String, String),
+) -> Vec<String> {
+    let value = |p: &&Parameter| {
+        let (field, name) = names(p);
+        match p.default {
+            Some(_) => format!("{name} = DEFAULTS.{field}"),
+            None => format!("{name} = missing(\"{field}\")"),
+        }
+    };
+    let values: Vec<String> = parameters.iter().map(value).collect();
+    let source = if is_required { "parameters ?? {}" } else { "parameters" };
+    let whole = format!("  const {{ {} }} = {source};", values.join(", "));
+    match values.len() {
+        0 => vec![],
+        _ if whole.len() <= WRAP.width => vec![whole],
+        _ => {
+            let mut lines = vec!["  const {".to_string()];
+            lines.extend(values.iter().map(|value| format!("    {value},")));
+            lines.push(format!("  }} = {source};"));
+            lines
+        }
+    }
+}
+
+/// The solvers, whose names are none of the module's.
+fn solver_plans<'a>(library: &'a Library, functions: &[Functions]) -> Vec<Plan<'a>> {
+    let of = |f: &Functions| {
+        let names = [&f.one, &f.batch, &f.row, &f.cases, &f.scales];
+        names.map(|name| name.to_string())
+    };
+    let taken: Vec<String> = functions.iter().flat_map(of).collect();
+    let words: Vec<&str> = RESERVED.split_whitespace().chain(solver::WORDS.split_whitespace()).collect();
+    let locals: Vec<&str> = words.iter().copied().filter(|w| *w != "q").collect();
+    let locals: Vec<&str> = locals.into_iter().chain(taken.iter().map(String::as_str)).collect();
+    let mut names = Names::new(Language::JavaScript, &locals);
+    library.parameters.iter().for_each(|p| names.declare(p.symbol));
+    plans(library, Language::JavaScript, &names, &words, &taken)
+}
+
 /// The formulas of a routine.
 struct Body<'a> {
     library: &'a Library<'a>,
@@ -393,26 +444,10 @@ impl<'a> Body<'a> {
 
     /// The parameters taken apart, and what depends on them alone.
     fn opening(&self, parameters: &[&Parameter], is_required: bool) -> Vec<String> {
-        let value = |p: &&Parameter| {
-            let name = self.names.of(p.symbol);
-            match p.default {
-                Some(_) => format!("{name} = DEFAULTS.{name}"),
-                None => format!("{name} = missing(\"{name}\")"),
-            }
-        };
-        let values: Vec<String> = parameters.iter().map(value).collect();
-        let source = if is_required { "parameters ?? {}" } else { "parameters" };
-        let whole = format!("  const {{ {} }} = {source};", values.join(", "));
-        let mut lines = match values.len() {
-            0 => vec![],
-            _ if whole.len() <= WRAP.width => vec![whole],
-            _ => {
-                let mut lines = vec!["  const {".to_string()];
-                lines.extend(values.iter().map(|value| format!("    {value},")));
-                lines.push(format!("  }} = {source};"));
-                lines
-            }
-        };
+        let mut lines = required_parameters(parameters, is_required, |p| {
+            let name = self.names.of(p.symbol).to_string();
+            (name.clone(), name)
+        });
         lines.extend(self.listing.hoisted.iter().flat_map(|s| statement(s, &self.spelling())));
         lines
     }

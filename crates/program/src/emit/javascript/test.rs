@@ -10,6 +10,8 @@ impl Module<'_> {
         for functions in &self.functions {
             imports.extend([functions.one.as_str(), functions.batch.as_str()]);
         }
+        let solvers: Vec<String> = self.plans.iter().flat_map(|p| [p.name.clone(), self.labels(p)]).collect();
+        imports.extend(solvers.iter().map(String::as_str));
         imports.sort_unstable();
         lines.extend(
             [
@@ -46,10 +48,13 @@ function check(actual, expected, scales) {
     assert.ok(error <= bound, `result ${k}: ${actual[k]}, not ${expected[k]}`);
   }
 }";
-        lines.extend(text.lines().map(str::to_string));
+        if !self.functions.is_empty() {
+            lines.extend(text.lines().map(str::to_string));
+        }
         for (routine, functions) in self.library.routines.iter().zip(&self.functions) {
             lines.extend(self.test(routine, functions));
         }
+        self.plans.iter().for_each(|plan| lines.extend(self.solver_test(plan)));
         lines
     }
 

@@ -3,9 +3,12 @@
 //! Rows are configurations; matrices come as pages. The comment that opens a file stands behind the function line,
 //! where `help` and `lookfor` look for it.
 
+mod solver;
+
 use crate::emit::blocks::{blocks, reads};
 use crate::emit::listing::{Listing, Statement};
 use crate::emit::names::{Names, no_test, renamed, sanitised};
+use crate::emit::solver::{Plan, plans};
 use crate::emit::spelling::Spelling;
 use crate::emit::wrap::{Wrap, comments};
 use crate::emit::{File, Language, Library, Parameter, Precision, Routine};
@@ -34,6 +37,9 @@ pub(crate) fn emit(library: &Library) -> Vec<File> {
         .zip(&module.functions)
         .map(|(routine, function)| file(function, module.function(routine, function)))
         .collect();
+    for (plan, function) in module.plans.iter().zip(&module.solvers) {
+        files.push(file(function, module.solver(plan, function)));
+    }
     if !library.parameters.is_empty() {
         files.push(file(&module.parameters, module.parameters()));
     }
@@ -45,6 +51,9 @@ struct Module<'a> {
     library: &'a Library<'a>,
     name: String,
     functions: Vec<String>,
+    plans: Vec<Plan<'a>>,
+    /// The functions of the solvers.
+    solvers: Vec<String>,
     /// The function that completes the parameters.
     parameters: String,
     test: String,
@@ -60,9 +69,35 @@ impl<'a> Module<'a> {
         let parameters = names.free(&format!("{name}_parameters"));
         let mut function = |r: &Routine| names.free(&format!("{name}_{}", short(&r.name, MAX_NAME)));
         let functions: Vec<String> = library.routines.iter().map(&mut function).collect();
+        let mut words: Vec<&str> = RESERVED.split_whitespace().filter(|w| *w != "q").collect();
+        words.extend(solver::WORDS.split_whitespace());
+        let mut locals = Names::new(Language::Matlab, &words);
+        library.parameters.iter().for_each(|p| locals.declare(p.symbol));
+        let plans = plans(library, Language::Matlab, &locals, &words, &[]);
+        let solvers: Vec<String> =
+            plans.iter().map(|p| names.free(&format!("{name}_{}", short(&p.name, MAX_NAME)))).collect();
         library.variables.iter().for_each(|(symbol, _)| names.declare(*symbol));
         library.parameters.iter().for_each(|p| names.declare(p.symbol));
-        Module { library, name, functions, parameters, test, names }
+        Module { library, name, functions, plans, solvers, parameters, test, names }
+    }
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The function that completes the parameters.
+    fn parameters_name(&self) -> &str {
+        &self.parameters
+    }
+
+    /// The field of a parameter.
+    fn field(&self, p: &Parameter) -> &str {
+        self.names.of(p.symbol)
+    }
+
+    /// What errors of a function are called by.
+    fn mnemonic<'f>(&self, function: &'f str) -> &'f str {
+        function.strip_prefix(&format!("{}_", self.name)).unwrap_or(function)
     }
 
     fn spelling<'n>(&self, names: &'n Names) -> Spelling<'n> {
@@ -364,6 +399,9 @@ impl Module<'_> {
         lines.push("tolerance = 4 * 2^-52;".into());
         for (routine, function) in self.library.routines.iter().zip(&self.functions) {
             lines.extend(self.test(routine, function));
+        }
+        for (plan, function) in self.plans.iter().zip(&self.solvers) {
+            lines.extend(self.solver_test(plan, function));
         }
         if let Some(p) = self.library.parameters.first() {
             let text = r"

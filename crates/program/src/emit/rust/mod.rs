@@ -3,6 +3,9 @@
 //! A function for one configuration, and one for a block of [`LANES`] with the values of all lanes side by side. The
 //! routines for sines, cosines and angles are those of this crate (`kernel/*.rs`), embedded as they stand.
 
+mod kernel;
+mod lanes;
+mod solver;
 mod test;
 
 use crate::emit::compiled::{
@@ -10,6 +13,7 @@ use crate::emit::compiled::{
     opening,
 };
 use crate::emit::names::{Names, brief, comment};
+use crate::emit::solver::{Kind, Plan, plans};
 use crate::emit::spelling::Spelling;
 use crate::emit::wrap::comments;
 use crate::emit::{File, Language, Library, Precision};
@@ -70,6 +74,17 @@ const TAKEN: &[&str] = &[
     "variables",
     "units",
 ];
+/// What functions call of the kernel.
+const KERNEL: &[&str] = &[
+    "atan2",
+    "atan2_in_range",
+    "near_atan2",
+    "near_sin_cos",
+    "sin_cos",
+    "sin_cos_8",
+    "sin_cos_in_range",
+    "sqrt",
+];
 /// Where fused multiply-add is an instruction that the compiler may use.
 const FUSED: &str = "all(feature = \"std\", any(target_feature = \"fma\", target_arch = \"aarch64\"))";
 
@@ -78,7 +93,13 @@ pub(crate) fn emit(library: &Library) -> Vec<File> {
     let functions = functions(library, Language::Rust, &names, TAKEN);
     let name = Names::new(Language::Rust, &["alloc", "proc_macro"]).free(&file_name(library, Language::Rust));
     let opening = opening(library, &functions, &names, &name);
-    let source = Source { library, functions, opening, name, names };
+    let of = |f: &Function| [f.name.clone(), format!("{}_block", f.name), format!("{}_one_by_one", f.name)];
+    let taken: Vec<String> = functions.iter().flat_map(of).collect();
+    let words: Vec<&str> = [RESERVED, TAKEN, solver::WORDS].concat();
+    let words: Vec<&str> =
+        words.into_iter().filter(|w| *w != "q").chain(taken.iter().map(String::as_str)).collect();
+    let plans = plans(library, Language::Rust, &inputs(library, Language::Rust, &words), TAKEN, &taken);
+    let source = Source { library, functions, plans, opening, name, names };
     let file = |path: &str, text: String| File { path: path.into(), text };
     let mut files = vec![file("Cargo.toml", source.manifest()), file("src/lib.rs", source.root())];
     files.push(file("rustfmt.toml", source.format()));
@@ -88,6 +109,9 @@ pub(crate) fn emit(library: &Library) -> Vec<File> {
     if source.has_pairs() || source.has_atan2() {
         files.push(file("src/kernel/fused.rs", source.fused()));
     }
+    if !source.plans.is_empty() {
+        files.push(file("src/roots.rs", source.roots()));
+    }
     files.push(file("tests/vectors.rs", source.test()));
     files
 }
@@ -95,6 +119,7 @@ pub(crate) fn emit(library: &Library) -> Vec<File> {
 struct Source<'a> {
     library: &'a Library<'a>,
     functions: Vec<Function<'a>>,
+    plans: Vec<Plan<'a>>,
     /// What every file opens with.
     opening: Vec<String>,
     /// The name of the package.
@@ -115,15 +140,16 @@ impl Source<'_> {
     }
 
     fn has_pairs(&self) -> bool {
-        Function::any_pair(&self.functions)
+        Function::any_pair(&self.functions) || Plan::any_pair(&self.plans)
     }
 
     fn has_atan2(&self) -> bool {
-        Function::any_atan2(&self.functions)
+        Function::any_atan2(&self.functions) || Plan::any_atan2(&self.plans)
     }
 
     fn has_root(&self) -> bool {
-        Function::any_root(&self.functions)
+        let divides = |p: &Plan| p.nodes.iter().any(|n| n.kind() != Kind::Ratio) || p.any_root();
+        Function::any_root(&self.functions) || self.plans.iter().any(divides)
     }
 
     fn needs_kernel(&self) -> bool {
@@ -211,32 +237,15 @@ impl Source<'_> {
         if self.needs_kernel() {
             text.push_str("\nmod kernel;\n");
         }
-        let mut used: Vec<&str> = vec![];
-        if self.has_pairs() {
-            if Function::any_pair_in_range(&self.functions) {
-                used.extend(["near_sin_cos", "sin_cos_in_range"]);
-            }
-            if Function::any_single(&self.functions) {
-                used.push("sin_cos");
-            }
-            if Function::any_eight(&self.functions) {
-                used.push("sin_cos_8");
-            }
+        if !self.plans.is_empty() {
+            text.push_str("mod roots;\n");
         }
-        if self.has_atan2() {
-            used.push("atan2");
-            if Function::any_atan2_in_range(&self.functions) {
-                used.extend(["atan2_in_range", "near_atan2"]);
-            }
-        }
-        if self.has_root() {
-            used.push("sqrt");
-        }
-        used.sort_unstable();
+        let code = self.code();
+        let used: Vec<&str> = KERNEL.iter().copied().filter(|word| is_called(&code, word)).collect();
         if !used.is_empty() {
             text.push('\n');
         }
-        if Function::any_range(&self.functions) {
+        if is_called(&code, "from_fn") {
             text.push_str("use core::array::from_fn;\n");
         }
         match &used[..] {
@@ -249,7 +258,12 @@ impl Source<'_> {
                 text = out.text;
             }
         }
-        let _ = write!(text, "\n/// Configurations of a block.\npub const LANES: usize = {LANES};\n");
+        text + &code
+    }
+
+    /// The functions, and what they are for.
+    fn code(&self) -> String {
+        let mut text = format!("\n/// Configurations of a block.\npub const LANES: usize = {LANES};\n");
         text.push_str(&self.parameters());
         for f in &self.functions {
             text.push_str(&self.one(f));
@@ -258,7 +272,7 @@ impl Source<'_> {
                 text.push_str(&self.one_by_one(f));
             }
         }
-        text
+        text + &self.solvers()
     }
 
     fn parameters(&self) -> String {
@@ -507,62 +521,15 @@ impl Source<'_> {
             }
         }
     }
+}
 
-    fn kernel(&self) -> String {
-        let (pairs, atan2) = (self.has_pairs(), self.has_atan2());
-        let words = "Sines, cosines, angles and roots, the same bits in loops of vector code as one by one.";
-        let mut text = self.head("// ", &["", words]);
-        if pairs || atan2 {
-            text.push_str("\n// One of the two classes of arithmetic is used.\n#![allow(dead_code)]\n");
-            let _ = write!(text, "\n#[cfg({FUSED})]\nmod fused;\n");
-        }
-        for (on, name, fused, strict) in [
-            (pairs, "near_sin_cos", "sin_cos_fused", "sin_cos_strict"),
-            (atan2, "near_atan2", "atan2_fused", "atan2_strict"),
-        ] {
-            if on {
-                let _ = write!(
-                    text,
-                    "\n#[cfg({FUSED})]\npub(crate) use fused::{fused} as {name};\n\
-                     #[cfg(not({FUSED}))]\npub(crate) use self::{strict} as {name};\n"
-                );
-            }
-        }
-        if pairs {
-            text.push('\n');
-            text.push_str(include_str!("drivers.rs.txt"));
-            if Function::any_eight(&self.functions) {
-                text.push_str(include_str!("eight.rs.txt"));
-            }
-            text.push_str(&embedded(include_str!("../../kernel/reduce.rs")));
-            text.push('\n');
-            text.push_str(&embedded(include_str!("../../kernel/sincos_strict.rs")));
-        }
-        if atan2 {
-            text.push('\n');
-            text.push_str(include_str!("atan2.rs.txt"));
-            text.push_str(&embedded(include_str!("../../kernel/atan2_strict.rs")));
-        }
-        if self.has_root() {
-            text.push('\n');
-            text.push_str(include_str!("sqrt.rs.txt"));
-        }
-        text
-    }
-
-    fn fused(&self) -> String {
-        let mut text = self.head("// ", &["", "The routines with fused multiply-add."]);
-        text.push_str("\nuse super::*;\n");
-        if self.has_pairs() {
-            text.push('\n');
-            text.push_str(&embedded(include_str!("../../kernel/sincos_fused.rs")));
-        }
-        if self.has_atan2() {
-            text.push('\n');
-            text.push_str(&embedded(include_str!("../../kernel/atan2_fused.rs")));
-        }
-        text
-    }
+/// Whether code calls a function, without a path.
+fn is_called(code: &str, name: &str) -> bool {
+    let call = format!("{name}(");
+    let is_other = |c: char| c.is_alphanumeric() || c == '_' || c == ':' || c == '.';
+    let calls = |line: &str| line.match_indices(&call).any(|(at, _)| !line[..at].ends_with(is_other));
+    let lines = code.lines().map(str::trim_start);
+    lines.filter(|line| !line.starts_with("//") && !line.starts_with("pub fn")).any(calls)
 }
 
 /// `(s1, c1)`, with `_` for what is not read.
@@ -574,65 +541,6 @@ fn names_of(f: &Function, p: &Pair) -> String {
 /// A text for documentation: what would be markup there is taken literally.
 fn doc(text: &str) -> String {
     text.chars().flat_map(|c| "[]<>`*_".contains(c).then_some('\\').into_iter().chain([c])).collect()
-}
-
-/// What the routines of this crate say of the files that they stand in, and what is said where they are embedded.
-const ELSEWHERE: &[(&str, &str)] = &[
-    (" Needs reduce.rs and sincos_strict.rs.", ""),
-    (" Needs reduce.rs.", ""),
-    (" Self-contained.", ""),
-    (" Needs atan2_strict.rs, whose scheme it follows.", " The scheme of the routine without."),
-    ("The scheme of sincos_strict.rs;", "The scheme of the routine without;"),
-];
-
-/// A routine of this crate, its lines no longer than [`WIDTH`].
-fn embedded(text: &str) -> String {
-    let text = ELSEWHERE.iter().fold(text.to_string(), |text, (old, new)| text.replace(old, new));
-    let mut list: Vec<String> = vec![];
-    let mut rest = text.lines().peekable();
-    while let Some(line) = rest.next() {
-        let Some(prefix) = comment_prefix(line) else {
-            list.extend(narrow(line));
-            continue;
-        };
-        let mut paragraph = vec![line];
-        while let Some(next) = rest.next_if(|next| comment_prefix(next).as_ref() == Some(&prefix)) {
-            paragraph.push(next);
-        }
-        if paragraph.iter().all(|line| line.chars().count() <= WIDTH) {
-            list.extend(paragraph.into_iter().map(str::to_string));
-        } else {
-            let words: Vec<&str> = paragraph.iter().map(|line| line[prefix.len()..].trim()).collect();
-            list.extend(comments([words.join(" ").as_str()], &prefix, WIDTH));
-        }
-    }
-    lines(&list)
-}
-
-/// What stands before the words of a comment; nothing for code and for empty comments.
-fn comment_prefix(line: &str) -> Option<String> {
-    let trimmed = line.trim_start();
-    let sign = trimmed.split(' ').next().filter(|sign| ["//", "///"].contains(sign))?;
-    let is_empty = trimmed.len() <= sign.len() + 1;
-    (!is_empty).then(|| format!("{}{sign} ", &line[..line.len() - trimmed.len()]))
-}
-
-/// Code in lines no longer than [`WIDTH`]: it goes on behind the last comma or in front of the last call that fits.
-fn narrow(line: &str) -> Vec<String> {
-    if line.chars().count() <= WIDTH {
-        return vec![line.to_string()];
-    }
-    let margin = " ".repeat(line.len() - line.trim_start().len());
-    let cut = (margin.len() + 1..WIDTH).rev().find(|&k| {
-        line.is_char_boundary(k) && (line[..k].ends_with(", ") || line[k..].starts_with(".mul_add("))
-    });
-    match cut {
-        Some(cut) => {
-            let first = line[..cut].trim_end().to_string();
-            [vec![first], narrow(&format!("{margin}    {}", &line[cut..]))].concat()
-        }
-        None => vec![line.to_string()],
-    }
 }
 
 /// `head arguments tail`, an argument a line if it is too long.

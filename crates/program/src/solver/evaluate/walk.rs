@@ -19,6 +19,7 @@ pub struct Walk {
     found: Vec<(Roots, usize)>,
     signs: Vec<i8>,
     leaves: Leaves,
+    looseness: f64,
 }
 
 impl Walk {
@@ -32,8 +33,15 @@ impl Walk {
             found: vec![(Roots::NONE, 0); n],
             signs: vec![0; n],
             leaves: shape.leaves(),
+            looseness: 1.0,
             shape,
         }
+    }
+
+    /// Guards count as vanished up to `looseness` times what rounding leaves, from the next call on: for variables that
+    /// are known less well, or that made an earlier root coincide.
+    pub fn set_looseness(&mut self, looseness: f64) {
+        self.looseness = looseness;
     }
 
     /// Visits all branches. `level` is called with the number of a level and the registers, and must write those that
@@ -47,7 +55,7 @@ impl Walk {
         given: &[Option<[f64; 2]>],
         mut level: impl FnMut(usize, &mut [f64]),
     ) -> &Leaves {
-        let Walk { shape, registers, scales, found, signs, leaves } = self;
+        let Walk { shape, registers, scales, found, signs, leaves, looseness } = self;
         assert_eq!(variables.len(), shape.variables, "one value per variable");
         let last = shape.steps.len();
         leaves.clear();
@@ -55,7 +63,7 @@ impl Walk {
         level(0, registers);
         let size = registers[shape.size as usize].abs();
         for (scale, step) in scales.iter_mut().zip(&shape.steps) {
-            *scale = power(size, step.degree);
+            *scale = power(size, step.degree) * *looseness;
         }
         let mut i = 0;
         let mut is_new = true;
@@ -145,6 +153,23 @@ impl SolverScalar {
             return &self.walk.leaves;
         }
         self.solve_carefully(variables, given)
+    }
+
+    /// As [`SolverScalar::solve_carefully`], with guards that count as vanished up to `looseness` times what rounding
+    /// leaves.
+    ///
+    /// # Panics
+    /// If there is not one value per variable.
+    pub fn solve_loosely(
+        &mut self,
+        variables: &[f64],
+        given: &[Option<[f64; 2]>],
+        looseness: f64,
+    ) -> &Leaves {
+        self.walk.set_looseness(looseness);
+        self.solve_carefully(variables, given);
+        self.walk.set_looseness(1.0);
+        &self.walk.leaves
     }
 
     /// The same, one branch after the other.

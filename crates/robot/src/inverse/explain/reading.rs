@@ -1,27 +1,50 @@
 //! Polynomials of a derivation as formulas that a person would write.
 
 use crate::inverse::algebra::Kind;
-use crate::inverse::chain::Chain;
+use crate::inverse::chain::{Chain, Difference, Motion};
 use crate::inverse::compile::{outermost, split};
 use crate::inverse::known::{Known, Unknown, axis_unknown};
 use crate::inverse::plan::{Norm, Step};
-use denavit_symbolic::poly::{Atom, Poly};
+use denavit_symbolic::poly::{Atom, Monomial, Poly};
 use denavit_symbolic::{Expr, Rational};
+use std::collections::VecDeque;
 
-/// When each atom becomes known.
+/// How polynomials are read: when each atom becomes known, and which steps an angle is composed of.
 pub struct Reading<'a> {
     pub chain: &'a Chain,
-    /// For each atom: 0 for constants, 1 for the pose, 2 for what is given, 3 + i for step i, more for what is unknown.
-    pub ranks: Vec<usize>,
+    ranks: Vec<usize>,
+    /// Angles that are known: between which nodes, and from which step (none for what is given).
+    edges: Vec<(Difference, Option<usize>)>,
+    slides: Vec<(usize, usize)>,
 }
 
+/// The parts of a polynomial, as they are written.
+enum Parts {
+    /// A number or a single product.
+    Term,
+    /// A common factor and the rest.
+    Content(Monomial, Rational, Poly),
+    /// Atom times polynomial, one after another, and what is left.
+    Sum(Vec<(Atom, Poly)>, Poly),
+}
+
+/// A name for a polynomial, if it has one.
+pub type Short<'s> = &'s dyn Fn(&Poly) -> Option<Expr>;
+
 impl<'a> Reading<'a> {
-    /// The ranks after some steps.
+    /// With the values of some joint variables given.
     pub fn new(chain: &'a Chain, given: &[usize], steps: &[Step]) -> Self {
         let axes: Vec<usize> = (0..chain.axes.len())
             .filter(|&k| chain.axes[k].form.terms.iter().all(|t| given.contains(&t.0)))
             .collect();
         let mut known = Known::new(chain, &axes);
+        let mut edges: Vec<(Difference, Option<usize>)> = vec![];
+        for &k in &axes {
+            if let Unknown::Angle(d) = axis_unknown(chain, k) {
+                edges.push((d, None));
+            }
+        }
+        let mut slides = vec![];
         let mut ranks = vec![usize::MAX; chain.algebra.len()];
         for i in 0..=steps.len() {
             for (a, rank) in ranks.iter_mut().enumerate().filter(|r| *r.1 == usize::MAX) {
@@ -35,12 +58,16 @@ impl<'a> Reading<'a> {
             }
             if let Some(step) = steps.get(i) {
                 known.learn(step.unknown);
+                match step.unknown {
+                    Unknown::Angle(d) => edges.push((d, Some(i))),
+                    Unknown::Slide(k) => slides.push((k, i)),
+                }
             }
         }
-        Reading { chain, ranks }
+        Reading { chain, ranks, edges, slides }
     }
 
-    /// When an atom is known.
+    /// When an atom is known: 0 for constants, 1 for the pose, 2 for what is given, 3 + i for step i.
     pub fn rank(&self, a: Atom) -> usize {
         self.ranks[usize::from(a)]
     }
@@ -50,23 +77,164 @@ impl<'a> Reading<'a> {
         p.atoms().into_iter().map(|a| self.rank(a)).max().unwrap_or(0)
     }
 
-    /// The polynomial, the atom that becomes known last taken out first; `short` may have a name for a part.
-    pub fn expr(&self, p: &Poly, short: &dyn Fn(&Poly) -> Option<Expr>) -> Expr {
-        if let Some(r) = p.as_constant() {
-            return r.into();
+    fn is_constant(&self, p: &Poly) -> bool {
+        self.rank_of(p) == 0
+    }
+
+    /// The steps (or given angles) that lead from node to node, with signs, by the first `steps` steps.
+    pub fn path(&self, d: Difference, steps: usize) -> Option<Vec<(Difference, Option<usize>, bool)>> {
+        let mut ways: Vec<(usize, Vec<(Difference, Option<usize>, bool)>)> = vec![(d.from, vec![])];
+        let mut pending = VecDeque::from([0]);
+        while let Some(at) = pending.pop_front() {
+            let (node, way) = ways[at].clone();
+            if node == d.to {
+                return Some(way);
+            }
+            for &(e, step) in &self.edges {
+                if e.group != d.group || step.is_some_and(|s| s >= steps) {
+                    continue;
+                }
+                for (start, end, backwards) in [(e.from, e.to, false), (e.to, e.from, true)] {
+                    if start == node && ways.iter().all(|w| w.0 != end) {
+                        let mut longer = way.clone();
+                        longer.push((e, step, backwards));
+                        ways.push((end, longer));
+                        pending.push_back(ways.len() - 1);
+                    }
+                }
+            }
         }
-        if let Some(name) = short(p) {
+        None
+    }
+
+    /// The steps whose results are in a polynomial that is known after `steps` steps.
+    pub fn steps_in(&self, p: &Poly, steps: usize) -> Vec<usize> {
+        let mut found = vec![];
+        for a in p.atoms() {
+            match self.chain.algebra.kind(a) {
+                Kind::Cos(n) | Kind::Sin(n) => {
+                    let way = self.path(self.chain.differences[n], steps).unwrap_or_default();
+                    found.extend(way.iter().filter_map(|w| w.1));
+                }
+                Kind::Slide(k) => found.extend(self.slides.iter().filter(|s| s.0 == k && s.1 < steps).map(|s| s.1)),
+                Kind::Pose(_) | Kind::Constant(_) => {}
+            }
+        }
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+
+    fn parts(&self, p: &Poly) -> Parts {
+        if p.terms().len() <= 1 {
+            return Parts::Term;
+        }
+        let common = p.monomial_content();
+        let constants = common.factors().iter().filter(|f| self.rank(f.0) == 0);
+        let common = constants.fold(Monomial::one(), |m, f| m.times(&Monomial::power(f.0, f.1)));
+        let size = p.terms()[0].1.abs();
+        let same = !size.is_one() && p.terms().iter().all(|t| t.1.abs() == size);
+        if !common.is_one() || same {
+            let number = if same { size } else { Rational::ONE };
+            let inner = p.over(&common).scaled(&number.recip().unwrap_or(Rational::ONE));
+            return Parts::Content(common, number, inner);
+        }
+        if self.is_constant(p) {
+            return Parts::Sum(vec![], p.clone());
+        }
+        let (mut products, mut rest) = (vec![], p.clone());
+        while !self.is_constant(&rest) && rest.terms().len() > 1 {
+            let Some(atom) = outermost(&rest, |a| self.rank(a)) else { break };
+            let (inside, left) = split(&rest, atom);
+            products.push((atom, inside));
+            rest = left;
+        }
+        Parts::Sum(products, rest)
+    }
+
+    /// A product: number, constants, sines and cosines, entries of the pose.
+    fn monomial(&self, m: &Monomial, r: &Rational) -> Expr {
+        let mut factors: Vec<(usize, Atom, u16)> =
+            m.factors().iter().map(|&(a, n)| (self.place(a), a, n)).collect();
+        factors.sort_unstable();
+        factors.into_iter().fold(r.clone().into(), |product: Expr, (_, a, n)| {
+            product * self.chain.algebra.expr(a).powi(i32::from(n))
+        })
+    }
+
+    fn place(&self, a: Atom) -> usize {
+        match self.chain.algebra.kind(a) {
+            Kind::Constant(_) => 0,
+            Kind::Slide(_) => 1,
+            Kind::Cos(_) | Kind::Sin(_) => 2,
+            Kind::Pose(_) => 3,
+        }
+    }
+
+    /// The polynomial, the atom that becomes known last taken out first; `short` may have a name for a part.
+    pub fn expr(&self, p: &Poly, short: Short) -> Expr {
+        if p.is_zero() {
+            return Expr::int(0);
+        }
+        if p.terms().len() > 1 && let Some(name) = short(p) {
             return name;
         }
-        let Some(atom) = outermost(p, |a| self.rank(a)) else { return Expr::int(0) };
-        let (inside, rest) = split(p, atom);
-        let atom = self.chain.algebra.expr(atom);
-        let inside = self.expr(&inside, short);
-        let product = match inside.as_number() {
-            Some(_) => inside * atom,
-            None => atom * inside,
-        };
-        if rest.is_zero() { product } else { product + self.expr(&rest, short) }
+        match self.parts(p) {
+            Parts::Term => self.monomial(&p.terms()[0].0, &p.terms()[0].1),
+            Parts::Content(m, r, inner) => self.monomial(&m, &r) * self.expr(&inner, short),
+            Parts::Sum(products, rest) => {
+                let (mut front, mut back, mut constants) = (vec![], vec![], vec![]);
+                for (atom, inside) in products {
+                    let trig = self.place(atom) == 2;
+                    let of_constants = trig && self.is_constant(&inside);
+                    let product = self.product(atom, &inside, short);
+                    if of_constants { back.push(product) } else { front.push(product) }
+                }
+                for (m, r) in rest.terms() {
+                    let term = self.monomial(m, r);
+                    let list = match m.factors().iter().all(|f| self.rank(f.0) == 0) {
+                        true => &mut constants,
+                        false => &mut front,
+                    };
+                    list.push(term);
+                }
+                let first = if front.is_empty() { constants.split_off(0) } else { vec![] };
+                let all = first.into_iter().chain(front).chain(back).chain(constants);
+                positive_first(all.collect())
+            }
+        }
+    }
+
+    fn product(&self, atom: Atom, inside: &Poly, short: Short) -> Expr {
+        if inside.terms().len() == 1 {
+            let (m, r) = &inside.terms()[0];
+            return self.monomial(&m.times(&Monomial::power(atom, 1)), r);
+        }
+        let x = self.chain.algebra.expr(atom);
+        if short(inside).is_none() && let Parts::Content(m, r, inner) = self.parts(inside) {
+            return self.monomial(&m, &r) * x * self.expr(&inner, short);
+        }
+        let within = self.expr(inside, short);
+        if self.is_constant(inside) { within * x } else { x * within }
+    }
+
+    /// Every part with more than one term that writing the polynomial meets, the whole first.
+    pub fn walk(&self, p: &Poly, visit: &mut dyn FnMut(&Poly) -> bool) {
+        if p.terms().len() <= 1 || !visit(p) {
+            return;
+        }
+        match self.parts(p) {
+            Parts::Term => {}
+            Parts::Content(_, _, inner) => self.walk(&inner, visit),
+            Parts::Sum(products, _) => {
+                for (_, inside) in products {
+                    match self.parts(&inside) {
+                        Parts::Content(_, _, inner) => self.walk(&inner, visit),
+                        _ => self.walk(&inside, visit),
+                    }
+                }
+            }
+        }
     }
 
     /// The same without names.
@@ -75,11 +243,56 @@ impl<'a> Reading<'a> {
     }
 
     /// A sum with its squares left as they are.
-    pub fn norm(&self, n: &Norm, short: &dyn Fn(&Poly) -> Option<Expr>) -> Expr {
+    pub fn norm(&self, n: &Norm, short: Short) -> Expr {
         let square = |sum: Expr, p: &Poly| sum + self.expr(p, short).powi(2);
         let squares = n.squares.iter().fold(Expr::int(0), square);
-        if n.plus.is_zero() { squares } else { squares + self.expr(&n.plus, short) }
+        if n.squares.is_empty() {
+            return self.expr(&n.plus, short);
+        }
+        // − (a² + b²) reads better term by term.
+        if self.is_constant(&n.plus) && short(&n.plus).is_none() {
+            return n.plus.terms().iter().fold(squares, |sum, (m, r)| sum + self.monomial(m, r));
+        }
+        squares + self.expr(&n.plus, short)
     }
+
+    /// The unknown that turns or moves an axis, by name: q2, or q234 for a sum.
+    pub fn name(&self, x: Unknown) -> (Expr, Option<Expr>) {
+        let value = self.chain.unknown_expr(x);
+        if value.as_symbol().is_some() {
+            return (value, None);
+        }
+        let index = crate::inverse::compile::index(self.chain, x);
+        let is_sum = value.symbols().len() > 1
+            && self.chain.axes.iter().all(|a| match (a.motion, x) {
+                (Motion::Turn { group, node, reversed }, Unknown::Angle(d)) => {
+                    group != d.group
+                        || !(d.from + 1..=d.to).contains(&node)
+                        || !reversed && a.value.as_symbol().is_some_and(|s| s.name().starts_with('q'))
+                }
+                _ => true,
+            });
+        let taken = |s: &str| self.chain.parameters.iter().any(|p| *p.name() == *s);
+        let mut name = format!("{}{index}", if is_sum { "q" } else { "φ" });
+        while taken(&name) || self.chain.variables.iter().any(|v| *v.name() == *name) {
+            name.insert(0, 'θ');
+        }
+        (Expr::symbol(&name), Some(value))
+    }
+}
+
+/// The sum, a term without minus sign in front if there is one.
+fn positive_first(mut terms: Vec<Expr>) -> Expr {
+    let negative = |e: &Expr| match e.node() {
+        denavit_symbolic::Node::Neg(_) => true,
+        denavit_symbolic::Node::Number(r) => r.is_negative(),
+        _ => false,
+    };
+    if terms.first().is_some_and(negative) && let Some(k) = terms.iter().position(|t| !negative(t)) {
+        let first = terms.remove(k);
+        terms.insert(0, first);
+    }
+    terms.into_iter().reduce(|a, b| a + b).unwrap_or(Expr::int(0))
 }
 
 /// −p.

@@ -1,0 +1,214 @@
+//! A document that knows no notation: headings, paragraphs, formulas, lists, a tree.
+
+use denavit_symbolic::Expr;
+
+/// A part of a document.
+#[derive(Clone, Debug)]
+pub enum Block {
+    /// A heading: level 1 for the document, 2 and 3 inside.
+    Heading(u8, Line),
+    /// Running text.
+    Paragraph(Line),
+    /// A formula on a line of its own.
+    Formula {
+        /// The formula.
+        math: Math,
+        /// The number by which the text refers to it.
+        number: Option<usize>,
+        /// Whether it is proved; nothing for definitions.
+        proof: Option<Proof>,
+    },
+    /// Remarks.
+    List(Vec<Line>),
+    /// The branches.
+    Tree(Branch),
+}
+
+/// What is known of a formula.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, PartialOrd, Ord)]
+pub enum Proof {
+    /// It follows identically from the robot's own chain of matrices.
+    Proved,
+    /// It holds at sample poses; the expansion was too large to decide.
+    Sampled,
+    /// It does not hold.
+    Wrong,
+}
+
+impl Proof {
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Proof::Proved => "proved",
+            Proof::Sampled => "checked at sample poses",
+            Proof::Wrong => "NOT TRUE",
+        }
+    }
+}
+
+/// Text with formulas in it.
+#[derive(Clone, Debug, Default)]
+pub struct Line(pub Vec<Piece>);
+
+/// A part of a line.
+#[derive(Clone, Debug)]
+pub enum Piece {
+    /// Words.
+    Text(String),
+    /// Words that stand out.
+    Strong(String),
+    /// A formula.
+    Math(Math),
+}
+
+impl Line {
+    /// A line that starts with words.
+    pub fn new(text: impl Into<String>) -> Self {
+        Line::default().text(text)
+    }
+
+    /// Words.
+    #[must_use]
+    pub fn text(mut self, text: impl Into<String>) -> Self {
+        self.0.push(Piece::Text(text.into()));
+        self
+    }
+
+    /// Words that stand out.
+    #[must_use]
+    pub fn strong(mut self, text: impl Into<String>) -> Self {
+        self.0.push(Piece::Strong(text.into()));
+        self
+    }
+
+    /// A formula.
+    #[must_use]
+    pub fn math(mut self, math: impl Into<Math>) -> Self {
+        self.0.push(Piece::Math(math.into()));
+        self
+    }
+
+    /// Several formulas with commas between them.
+    #[must_use]
+    pub fn list(mut self, all: impl IntoIterator<Item = Math>) -> Self {
+        for (k, math) in all.into_iter().enumerate() {
+            if k > 0 {
+                self = self.text(", ");
+            }
+            self = self.math(math);
+        }
+        self
+    }
+}
+
+/// A formula.
+#[derive(Clone, Debug)]
+pub enum Math {
+    /// An expression.
+    Expr(Expr),
+    /// Expressions with signs between them: a ≤ b ≤ c.
+    Chain(Expr, Vec<(Sign, Expr)>),
+    /// A product of matrices.
+    Product(Vec<Factor>),
+    /// An equation of two products.
+    Products(Vec<Factor>, Vec<Factor>),
+    /// A matrix by its entries.
+    Matrix(Factor, Vec<Vec<Expr>>),
+}
+
+impl From<Expr> for Math {
+    fn from(e: Expr) -> Self {
+        Math::Expr(e)
+    }
+}
+
+impl Math {
+    /// a = b
+    pub fn equation(a: Expr, b: Expr) -> Self {
+        Math::Chain(a, vec![(Sign::Equal, b)])
+    }
+
+    /// One relation.
+    pub fn relation(a: Expr, sign: Sign, b: Expr) -> Self {
+        Math::Chain(a, vec![(sign, b)])
+    }
+
+    /// All expressions in it.
+    pub fn exprs(&self) -> Vec<Expr> {
+        match self {
+            Math::Expr(e) => vec![*e],
+            Math::Chain(a, rest) => [*a].into_iter().chain(rest.iter().map(|r| r.1)).collect(),
+            Math::Product(_) | Math::Products(..) => vec![],
+            Math::Matrix(_, rows) => rows.iter().flatten().copied().collect(),
+        }
+    }
+}
+
+/// A sign between expressions.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Sign {
+    /// =
+    Equal,
+    /// ≠
+    Different,
+    /// <
+    Less,
+    /// ≤
+    AtMost,
+    /// ≥
+    AtLeast,
+    /// ±: equal to plus or minus what follows
+    EitherSign,
+}
+
+/// A matrix of a product.
+#[derive(Clone, Debug)]
+pub enum Factor {
+    /// A named matrix: A2(q2), U, T; `power` −1 for its inverse.
+    Named {
+        /// The letter.
+        letter: &'static str,
+        /// Its number.
+        number: Option<usize>,
+        /// What it depends on, where that is to be said.
+        of: Option<Expr>,
+        /// Whether its inverse is meant.
+        inverse: bool,
+    },
+    /// A turn about an axis by an angle.
+    Rotation(char, Expr),
+    /// A displacement.
+    Translation([Expr; 3]),
+    /// The inverse of one of the two above.
+    Inverse(Box<Factor>),
+    /// Any other constant matrix, the upper three rows.
+    Constant(Vec<Vec<Expr>>),
+}
+
+impl Factor {
+    /// A matrix with a letter.
+    pub fn named(letter: &'static str) -> Self {
+        Factor::Named { letter, number: None, of: None, inverse: false }
+    }
+
+    /// The inverse.
+    #[must_use]
+    pub fn inverse(self) -> Self {
+        match self {
+            Factor::Named { letter, number, of, inverse } => Factor::Named { letter, number, of, inverse: !inverse },
+            Factor::Rotation(axis, angle) => Factor::Rotation(axis, -angle),
+            Factor::Translation(p) => Factor::Translation(p.map(|x| -x)),
+            Factor::Inverse(of) => *of,
+            other @ Factor::Constant(_) => Factor::Inverse(Box::new(other)),
+        }
+    }
+}
+
+/// A node of the solution tree.
+#[derive(Clone, Debug)]
+pub struct Branch {
+    /// What is found here.
+    pub line: Line,
+    /// What follows.
+    pub children: Vec<Branch>,
+}
