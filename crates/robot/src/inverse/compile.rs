@@ -363,6 +363,10 @@ impl Builder<'_> {
         debug_assert!(goal == Goal::Pose || self.chain.tool == Transform::identity());
         lengths.extend([3, 7, 11].map(|k| self.atoms[&k]));
         let sum = self.sum_of_squares(&lengths);
+        // Never 0, so that a quotient by it is a number.
+        let tiny = self.solver.graph.number(&Rational::new(1, 1 << 62));
+        let tiny = self.solver.graph.mul(tiny, tiny);
+        let sum = self.solver.graph.add(sum, tiny);
         self.solver.graph.sqrt(sum)
     }
 

@@ -100,8 +100,6 @@ pub struct Family {
     pub interval: Option<[f64; 2]>,
     /// The nodes of the solver that are free, and the values taken there at the representative.
     at: Vec<(usize, [f64; 2])>,
-    /// What guards were compared with.
-    looseness: f64,
 }
 
 /// Why a pose has no solution.
@@ -260,15 +258,12 @@ impl InverseSolver {
                 self.add(&mut answer.solutions, s);
             }
         }
-        if met != 0 {
-            self.families(pose, given, (met, 1.0), &mut answer);
-        }
-        if near {
+        if met != 0 || near || !answer.is_reachable() {
             // Where roots coincide they are known to the square root of a rounding error only, and so are the guards
             // of what follows.
-            let loose = self.scalar.solve_loosely(&variables, &[], LOOSE).met_free();
+            let loose = met | self.scalar.solve_loosely(&variables, &[], LOOSE).met_free();
             if loose != 0 {
-                self.families(pose, given, (loose, LOOSE), &mut answer);
+                self.families(pose, given, loose, &mut answer);
                 self.absorb(pose, given, &mut answer);
             }
         }
@@ -290,7 +285,7 @@ impl InverseSolver {
         if let Some((i, x)) = at.first_mut() {
             *x = if self.nodes[*i].is_angle { [value.cos(), value.sin()] } else { [value, 0.0] };
         }
-        self.with_free(pose, given, family, &at)
+        self.with_free(pose, given, &at)
     }
 
     /// The members of a family with its free unknowns as they are at a configuration: those among them show whether the
@@ -302,15 +297,15 @@ impl InverseSolver {
         family: &Family,
         q: &[f64],
     ) -> Vec<Solution> {
-        let at: Vec<(usize, [f64; 2])> = family.at.iter().map(|&(i, _)| (i, self.value_at(i, q))).collect();
-        self.with_free(pose, given, family, &at)
+        // Within the family further unknowns may be free at single places.
+        let at: Vec<(usize, [f64; 2])> = (0..self.nodes.len()).map(|i| (i, self.value_at(i, q))).collect();
+        self.with_free(pose, given, &at)
     }
 
     fn with_free(
         &mut self,
         pose: &Transform<f64>,
         given: &[f64],
-        family: &Family,
         at: &[(usize, [f64; 2])],
     ) -> Vec<Solution> {
         let variables = variables(self.goal, pose, given);
@@ -318,20 +313,20 @@ impl InverseSolver {
         for &(i, x) in at {
             free[i] = Some(x);
         }
-        let leaves = self.scalar.solve_loosely(&variables, &free, family.looseness);
+        let leaves = self.scalar.solve_loosely(&variables, &free, LOOSE);
         let found: Vec<Solution> = leaves.iter().map(|l| draft(&self.nodes, &l)).collect();
-        found.into_iter().filter_map(|s| self.member(pose, s, family.looseness)).collect()
+        found.into_iter().filter_map(|s| self.member(pose, s)).collect()
     }
 
     /// A leaf as a member of a family, if it is one.
-    fn member(&self, pose: &Transform<f64>, mut s: Solution, looseness: f64) -> Option<Solution> {
+    fn member(&self, pose: &Transform<f64>, mut s: Solution) -> Option<Solution> {
         let start = s.q.clone();
         let holds = self.improve(pose, &mut s);
         let moved = start.iter().zip(&s.q).zip(&self.is_angle).map(|((x, y), &is_angle)| {
             if is_angle { wrapped(x - y).abs() } else { (x - y).abs() / self.reach.max(1e-3) }
         });
         let far = moved.fold(0.0, f64::max);
-        (holds && (looseness == 1.0 || far <= SHORT)).then_some(s)
+        (holds && far <= SHORT).then_some(s)
     }
 
     /// Drops isolated solutions that are members of a family.
@@ -407,7 +402,7 @@ impl InverseSolver {
         &mut self,
         pose: &Transform<f64>,
         given: &[f64],
-        (met, looseness): (u64, f64),
+        met: u64,
         answer: &mut Answer,
     ) {
         let variables = variables(self.goal, pose, given);
@@ -425,7 +420,7 @@ impl InverseSolver {
             let count = steps.pow(free.len().min(3) as u32);
             for number in 0..count {
                 let at = self.values(&free, steps, number);
-                let leaves = self.scalar.solve_loosely(&variables, &at, looseness);
+                let leaves = self.scalar.solve_loosely(&variables, &at, LOOSE);
                 more |= leaves.met_free();
                 for leaf in leaves.iter().filter(|l| l.free != 0) {
                     members.push(Member {
@@ -444,7 +439,7 @@ impl InverseSolver {
                     2 => ROUND_OF_TWO,
                     _ => ROUND_OF_MORE,
                 };
-                self.group(pose, given, &free, (steps, looseness), members, answer);
+                self.group(pose, given, &free, steps, members, answer);
                 return;
             }
         }
@@ -474,7 +469,7 @@ impl InverseSolver {
         pose: &Transform<f64>,
         given: &[f64],
         free: &[usize],
-        (steps, looseness): (usize, f64),
+        steps: usize,
         members: Vec<Member>,
         answer: &mut Answer,
     ) {
@@ -519,7 +514,7 @@ impl InverseSolver {
             let mut sorted: Vec<usize> = (0..group.len()).collect();
             sorted.sort_by_key(|&k| angle(&group[k]));
             let best = sorted.iter().find_map(|&k| {
-                self.member(pose, group[k].solution.clone(), looseness).map(|s| (k, s))
+                self.member(pose, group[k].solution.clone()).map(|s| (k, s))
             });
             let Some((k, representative)) = best else { continue };
             let mask = group[k].free;
@@ -533,7 +528,6 @@ impl InverseSolver {
                 is_affine: false,
                 interval: (free.len() == 1).then(|| self.interval(free[0], steps, &group)),
                 at,
-                looseness,
                 representative,
             };
             let q = family.representative.q.clone();
@@ -575,7 +569,7 @@ impl InverseSolver {
             };
             // The neighbour on the same branch is the nearest one.
             let distance = |s: &Solution| -> f64 { self.moved(q, &s.q).iter().map(|d| d * d).sum::<f64>().sqrt() };
-            let members = self.clone().with_free(pose, given, family, &moved);
+            let members = self.clone().with_free(pose, given, &moved);
             let nearest = members.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
             if let Some(n) = nearest
                 && distance(n) < 100.0 * STEP
