@@ -141,7 +141,11 @@ impl Problem<'_> {
             let key = (split.left, split.right, on_pose, components.clone());
             let mut squares = self.squares.borrow_mut();
             let found = squares.entry(key);
-            Some(found.or_insert_with(|| polys.iter().fold(Poly::zero(), |sum, p| sum.plus(&a.square(p)))).clone())
+            Some(
+                found
+                    .or_insert_with(|| polys.iter().fold(Poly::zero(), |sum, p| sum.plus(&a.square(p))))
+                    .clone(),
+            )
         };
         let mut zero = match (in_pose, in_chain) {
             (false, true) => Norm {
@@ -268,7 +272,13 @@ impl Problem<'_> {
                 rows: vec![row.clone()],
                 origins: vec![row.origin.clone()],
                 degree: row.degree,
-                cost: Cost { roots: 2, spurious, condition, depth: row.origin.depth(), terms: row_terms(row) },
+                cost: Cost {
+                    roots: 2,
+                    spurious,
+                    condition,
+                    depth: row.origin.depth(),
+                    terms: row_terms(row),
+                },
             });
         }
         let values: Vec<[Vec<f64>; 2]> =
@@ -315,7 +325,10 @@ impl Problem<'_> {
                     let denominator = part(1);
                     let condition = if is_constant(&self.samples.values(&denominator)) { 0 } else { 2 };
                     let numerator = part(0).scaled(&-Rational::ONE);
-                    (Form::Ratio { numerator, denominator }, Cost { roots: 1, spurious, condition, depth: s.origin.depth(), terms })
+                    (
+                        Form::Ratio { numerator, denominator },
+                        Cost { roots: 1, spurious, condition, depth: s.origin.depth(), terms },
+                    )
                 }
                 2 => {
                     let c = Norm { squares: s.zero.squares.clone(), plus: part(0) };
@@ -372,7 +385,9 @@ impl Problem<'_> {
             let mut found: Vec<(Seen, bool)> = vec![];
             for (i, (first, s1)) in rows.iter().enumerate() {
                 for (second, s2) in &rows[i + 1..] {
-                    if let Some((zero, how, degree)) = self.eliminate((x, y), first, second, s1.degree, s2.degree) {
+                    if let Some((zero, how, degree)) =
+                        self.eliminate((x, y), first, second, s1.degree, s2.degree)
+                    {
                         let from = Box::new([s1.origin.clone(), s2.origin.clone()]);
                         let origin = Origin::Eliminated { unknown: y, how, from };
                         let spurious = how != Elimination::Rotation;
@@ -428,7 +443,10 @@ impl Problem<'_> {
             };
             return Some((zero, Elimination::Rotation, 2 * d1));
         }
-        if [&u1, &v1, &u2, &v2].iter().any(|p| p.terms().len() > 12) || w1.terms().len() > 24 || w2.terms().len() > 24 {
+        if [&u1, &v1, &u2, &v2].iter().any(|p| p.terms().len() > 12)
+            || w1.terms().len() > 24
+            || w2.terms().len() > 24
+        {
             return None;
         }
         let cos = a.times(&w1, &v2).minus(&a.times(&w2, &v1));
@@ -465,11 +483,7 @@ fn rotation_like(a: &super::algebra::Algebra, first: [&Poly; 2], second: [&Poly;
 }
 
 /// What two equations in cosine and sine cost, and what their determinant is, if they are independent.
-fn pair_cost(
-    rows: [&Row; 2],
-    values: [&[Vec<f64>; 2]; 2],
-    spurious: bool,
-) -> Option<(Cost, Determinant)> {
+fn pair_cost(rows: [&Row; 2], values: [&[Vec<f64>; 2]; 2], spurious: bool) -> Option<(Cost, Determinant)> {
     let [[a1, b1], [a2, b2]] = values;
     let (mut perpendicular, mut least) = (true, f64::INFINITY);
     let mut determinants = vec![];
@@ -495,7 +509,10 @@ fn pair_cost(
         Determinant::General => 2 + u8::from(least < 1e-2),
     };
     let depth = rows.iter().map(|r| r.origin.depth()).max().unwrap_or(0);
-    Some((Cost { roots: 1, spurious, condition, depth, terms: row_terms(rows[0]) + row_terms(rows[1]) }, determinant))
+    Some((
+        Cost { roots: 1, spurious, condition, depth, terms: row_terms(rows[0]) + row_terms(rows[1]) },
+        determinant,
+    ))
 }
 
 fn row_terms(row: &Row) -> usize {

@@ -144,7 +144,8 @@ impl Chain {
         let (mut motions, mut groups) = (vec![], vec![]);
         let mut orientation: Option<(usize, bool, Rotation<Expr>)> = None;
         for (k, screw) in screws.iter().enumerate() {
-            let turn = orientation.take().map(|(g, flipped, since)| (g, flipped, since * screw.before.rotation));
+            let turn =
+                orientation.take().map(|(g, flipped, since)| (g, flipped, since * screw.before.rotation));
             if !turning[k] {
                 orientation = turn;
                 motions.push(Motion::Slide);
@@ -188,7 +189,12 @@ impl Chain {
         let axes: Vec<Axis> = screws
             .iter()
             .zip(&motions)
-            .map(|(s, &motion)| Axis { motion, value: value(&s.form, &variables), form: s.form.clone(), row: s.row })
+            .map(|(s, &motion)| Axis {
+                motion,
+                value: value(&s.form, &variables),
+                form: s.form.clone(),
+                row: s.row,
+            })
             .collect();
         let mut elements = vec![];
         for (k, x) in constants.iter().enumerate() {
@@ -356,11 +362,7 @@ fn inverse_coupling(axes: &[Axis], n: usize) -> Option<Vec<Vec<(usize, Rational)
 
 fn about_z(c: &Poly, s: &Poly) -> Matrix {
     let (o, l) = (Poly::zero(), Poly::one());
-    [
-        [c.clone(), s.scaled(&-Rational::ONE), o.clone()],
-        [s.clone(), c.clone(), o.clone()],
-        [o.clone(), o, l],
-    ]
+    [[c.clone(), s.scaled(&-Rational::ONE), o.clone()], [s.clone(), c.clone(), o.clone()], [o.clone(), o, l]]
 }
 
 /// The moving axes with the constants before each, and what stands behind the last.
@@ -374,9 +376,8 @@ fn screws(robot: &Robot<Expr>) -> Result<(Vec<Screw>, Transform<Expr>), Unsuitab
             return Err(Unsuitable::Helical(row + 1));
         }
         // Rz and Tz about one axis commute; quarter turns of an angle and offsets of a displacement are constants.
-        let quarters = Transform::rotation_z(
-            Expr::from(Rational::new(i64::from(link.theta.quarters), 2)) * Expr::pi(),
-        );
+        let quarters =
+            Transform::rotation_z(Expr::from(Rational::new(i64::from(link.theta.quarters), 2)) * Expr::pi());
         constant = constant * quarters;
         if link.theta.terms.is_empty() {
             constant = constant * Transform::rotation_z(link.theta.offset);
@@ -433,8 +434,7 @@ fn gather(screws: &mut [Screw], tail: &mut Transform<Expr>, turning: &[bool]) {
         }
         let z = x.rotation.z();
         let rest = x.translation - z.scale(along);
-        screws[k].before =
-            Transform::from_rotation_translation(x.rotation, rest).map(readable::settled);
+        screws[k].before = Transform::from_rotation_translation(x.rotation, rest).map(readable::settled);
         let after = behind(screws, tail, k);
         set(screws, tail, k, (Transform::translation_z(along) * after).map(readable::settled));
     }

@@ -512,7 +512,9 @@ impl Builder<'_> {
             let mut turned: Vec<(u64, Vec<Value>)> = vec![];
             for &j in columns {
                 let column: [Option<Poly>; 3] = std::array::from_fn(|i| split.pose_rotation[i][j].clone());
-                let Some(values) = self.differences_of(&column, |i| &split.chain_rotation[i][j]) else { continue };
+                let Some(values) = self.differences_of(&column, |i| &split.chain_rotation[i][j]) else {
+                    continue;
+                };
                 turned.push((self.cost(&spent, &values), values));
             }
             if turned.len() < keep {
@@ -663,5 +665,9 @@ fn square_root(a: &Algebra, p: &Poly) -> Option<Poly> {
 fn lexical(x: &Monomial, y: &Monomial) -> std::cmp::Ordering {
     let mut atoms: Vec<Atom> = x.factors().iter().chain(y.factors()).map(|f| f.0).collect();
     atoms.sort_unstable();
-    atoms.iter().map(|&a| x.exponent(a).cmp(&y.exponent(a))).find(|o| o.is_ne()).unwrap_or(std::cmp::Ordering::Equal)
+    atoms
+        .iter()
+        .map(|&a| x.exponent(a).cmp(&y.exponent(a)))
+        .find(|o| o.is_ne())
+        .unwrap_or(std::cmp::Ordering::Equal)
 }

@@ -143,8 +143,7 @@ pub fn equations(chain: &Chain, goal: Goal) -> (Vec<Equation>, Vec<Split>) {
                     push(Entry::Rotation(i, j), turned[i][j].clone(), &r_middle[i][j], 0);
                 }
             }
-            let on_pose: [Option<Poly>; 3] =
-                std::array::from_fn(|i| entry_of(&|k| moved[k].clone(), i));
+            let on_pose: [Option<Poly>; 3] = std::array::from_fn(|i| entry_of(&|k| moved[k].clone(), i));
             for i in 0..3 {
                 push(Entry::Position(i), on_pose[i].clone(), &p_middle[i], 1);
             }
@@ -152,9 +151,8 @@ pub fn equations(chain: &Chain, goal: Goal) -> (Vec<Equation>, Vec<Split>) {
                 // middle⁻¹'s position: −Rᵀp on both sides
                 let pose = dot(a, (0..3).map(|k| (rotation[k][i].clone(), &moved[k])).filter_map(flat));
                 let pose = pose.map(|p| p.scaled(&-Rational::ONE));
-                let chain_side = (0..3).fold(Poly::zero(), |sum, k| {
-                    sum.minus(&a.times(&r_middle[k][i], &p_middle[k]))
-                });
+                let chain_side =
+                    (0..3).fold(Poly::zero(), |sum, k| sum.minus(&a.times(&r_middle[k][i], &p_middle[k])));
                 let complete = (0..3).all(|k| rotation[k][i].is_some() && moved[k].is_some());
                 push(Entry::Inverse(i), pose.filter(|_| complete), &chain_side, 1);
             }

@@ -87,7 +87,8 @@ impl fmt::Display for Refusal {
             Refusal::Stuck(stuck) => {
                 let name = |j: &usize| stuck.chain.variables[*j].name().to_string();
                 let missing: Vec<String> = stuck.missing.iter().map(name).collect();
-                let found: Vec<String> = stuck.steps.iter().map(|s| stuck.chain.describe(s.unknown)).collect();
+                let found: Vec<String> =
+                    stuck.steps.iter().map(|s| stuck.chain.describe(s.unknown)).collect();
                 let found = if found.is_empty() { "nothing".into() } else { found.join(", ") };
                 write!(
                     f,
@@ -170,9 +171,7 @@ fn too_many(asked: &[usize], surplus: usize) -> String {
 
 /// The axes that joint variables determine.
 fn axes_of(chain: &Chain, given: &[usize]) -> Vec<usize> {
-    (0..chain.axes.len())
-        .filter(|&k| chain.axes[k].form.terms.iter().all(|t| given.contains(&t.0)))
-        .collect()
+    (0..chain.axes.len()).filter(|&k| chain.axes[k].form.terms.iter().all(|t| given.contains(&t.0))).collect()
 }
 
 /// The joint variables that are still open.
@@ -330,7 +329,11 @@ impl Chain {
                 (Unknown::Angle(d), Motion::Turn { group, node, reversed })
                     if group == d.group && (d.from + 1..=d.to).contains(&node) =>
                 {
-                    if reversed { -1.0 } else { 1.0 }
+                    if reversed {
+                        -1.0
+                    } else {
+                        1.0
+                    }
                 }
                 _ => continue,
             };
@@ -344,7 +347,11 @@ impl Chain {
     /// An unknown in words: `θ2 + θ3`.
     pub fn describe(&self, x: Unknown) -> String {
         let vocabulary = denavit_symbolic::vocabulary::Vocabulary::default();
-        denavit_symbolic::print::print(self.unknown_expr(x), &vocabulary, denavit_symbolic::print::Style::Unicode)
+        denavit_symbolic::print::print(
+            self.unknown_expr(x),
+            &vocabulary,
+            denavit_symbolic::print::Style::Unicode,
+        )
     }
 
     /// True if the position of the hand alone is what the last element moves.

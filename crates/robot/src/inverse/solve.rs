@@ -100,6 +100,8 @@ pub struct Family {
     pub interval: Option<[f64; 2]>,
     /// The nodes of the solver that are free, and the values taken there at the representative.
     at: Vec<(usize, [f64; 2])>,
+    /// The signs of the nodes of the solver.
+    signs: Vec<i8>,
 }
 
 /// Why a pose has no solution.
@@ -185,9 +187,10 @@ impl InverseModel {
                 label: label.clone(),
             })
             .collect();
-        let lengths = robot.links.iter().flat_map(|l| {
-            [l.before.translation.norm(), l.after.translation.norm(), l.d.offset.abs()]
-        });
+        let lengths = robot
+            .links
+            .iter()
+            .flat_map(|l| [l.before.translation.norm(), l.after.translation.norm(), l.d.offset.abs()]);
         let reach: f64 = lengths.sum::<f64>() + robot.base.translation.norm() + robot.tool.translation.norm();
         Ok(InverseSolver {
             scalar: function.scalar(),
@@ -285,7 +288,7 @@ impl InverseSolver {
         if let Some((i, x)) = at.first_mut() {
             *x = if self.nodes[*i].is_angle { [value.cos(), value.sin()] } else { [value, 0.0] };
         }
-        self.with_free(pose, given, &at)
+        self.with_free(pose, given, &at, &family.signs)
     }
 
     /// The members of a family with its free unknowns as they are at a configuration: those among them show whether the
@@ -299,7 +302,7 @@ impl InverseSolver {
     ) -> Vec<Solution> {
         // Within the family further unknowns may be free at single places.
         let at: Vec<(usize, [f64; 2])> = (0..self.nodes.len()).map(|i| (i, self.value_at(i, q))).collect();
-        self.with_free(pose, given, &at)
+        self.with_free(pose, given, &at, &family.signs)
     }
 
     fn with_free(
@@ -307,6 +310,7 @@ impl InverseSolver {
         pose: &Transform<f64>,
         given: &[f64],
         at: &[(usize, [f64; 2])],
+        signs: &[i8],
     ) -> Vec<Solution> {
         let variables = variables(self.goal, pose, given);
         let mut free = vec![None; self.nodes.len()];
@@ -314,7 +318,11 @@ impl InverseSolver {
             free[i] = Some(x);
         }
         let leaves = self.scalar.solve_loosely(&variables, &free, LOOSE);
-        let found: Vec<Solution> = leaves.iter().map(|l| draft(&self.nodes, &l)).collect();
+        // Where two roots coincide there is one sign for both.
+        let branch: Vec<Leaf> = leaves.iter().filter(|l| l.signs == signs).collect();
+        let all = || leaves.iter().filter(|l| l.free != 0 || l.guard < NEAR).collect();
+        let kept: Vec<Leaf> = if branch.is_empty() { all() } else { branch };
+        let found: Vec<Solution> = kept.iter().map(|l| draft(&self.nodes, l)).collect();
         found.into_iter().filter_map(|s| self.member(pose, s)).collect()
     }
 
@@ -351,12 +359,13 @@ impl InverseSolver {
     /// Polishes a leaf that is not a solution yet; false if it does not become one nearby.
     fn improve(&self, pose: &Transform<f64>, s: &mut Solution) -> bool {
         if s.residual > ROUGH {
-            let Some((q, residual)) =
-                newton::polish(&self.robot, self.goal, pose, &s.q, &self.given, self.size(pose))
-            else {
-                return false;
-            };
-            (s.q, s.residual) = (q, residual);
+            let polished = newton::polish(&self.robot, self.goal, pose, &s.q, &self.given, self.size(pose));
+            if let Some((q, residual)) = polished
+                && residual < s.residual
+                && (s.residual > TOLERANCE || norm(&self.moved(&s.q, &q)) <= SHORT)
+            {
+                (s.q, s.residual) = (q, residual);
+            }
         }
         for (x, is_angle) in s.q.iter_mut().zip(&self.is_angle) {
             if *is_angle {
@@ -398,13 +407,7 @@ impl InverseSolver {
     }
 
     /// Gives free unknowns values all round, and gathers what solves the pose.
-    fn families(
-        &mut self,
-        pose: &Transform<f64>,
-        given: &[f64],
-        met: u64,
-        answer: &mut Answer,
-    ) {
+    fn families(&mut self, pose: &Transform<f64>, given: &[f64], met: u64, answer: &mut Answer) {
         let variables = variables(self.goal, pose, given);
         let mut free: Vec<usize> = (0..self.nodes.len()).filter(|i| met >> i & 1 == 1).collect();
         let mut members: Vec<Member> = vec![];
@@ -510,66 +513,84 @@ impl InverseSolver {
         }
         for group in groups {
             // The representative: a proper solution, of the value nearest to 0.
-            let angle = |m: &Member| (m.number.min(steps - m.number.min(steps)), m.number);
-            let mut sorted: Vec<usize> = (0..group.len()).collect();
-            sorted.sort_by_key(|&k| angle(&group[k]));
-            let best = sorted.iter().find_map(|&k| {
-                self.member(pose, group[k].solution.clone()).map(|s| (k, s))
-            });
-            let Some((k, representative)) = best else { continue };
-            let mask = group[k].free;
-            let unknowns: Vec<usize> = (0..self.nodes.len()).filter(|i| mask >> i & 1 == 1).collect();
-            let values = self.values(free, steps, group[k].number);
-            let at: Vec<(usize, [f64; 2])> = unknowns.iter().filter_map(|&i| Some((i, values[i]?))).collect();
-            let mut family = Family {
-                dimension: unknowns.len(),
-                free: unknowns.iter().map(|&i| self.nodes[i].unknown.clone()).collect(),
-                direction: vec![],
-                is_affine: false,
-                interval: (free.len() == 1).then(|| self.interval(free[0], steps, &group)),
-                at,
-                representative,
+            let slides = !self.nodes[free[0]].is_angle;
+            let away = |m: &Member| {
+                let k = m.number % steps;
+                if slides { k.abs_diff(steps / 2) } else { k.min(steps - k) }
             };
-            let q = family.representative.q.clone();
-            let Some(direction) = self.tangent(pose, given, &family, &q) else {
-                if !self.is_in_a_family(pose, given, &answer.families, &q) {
-                    self.add(&mut answer.solutions, family.representative);
-                }
+            let mut sorted: Vec<usize> = (0..group.len()).collect();
+            sorted.sort_by_key(|&k| (away(&group[k]), group[k].number));
+            let best =
+                sorted.iter().find_map(|&k| self.member(pose, group[k].solution.clone()).map(|s| (k, s)));
+            let Some((k, representative)) = best else { continue };
+            let (mask, signs) = (group[k].free, group[k].signs.clone());
+            let values = self.values(free, steps, group[k].number);
+            let at: Vec<(usize, [f64; 2])> = (0..self.nodes.len())
+                .filter(|i| mask >> i & 1 == 1)
+                .filter_map(|i| Some((i, values[i]?)))
+                .collect();
+            let q = representative.q.clone();
+            // Two branches may meet at single places: the whole group must be known already to be dropped.
+            let places = [k, 0, group.len() / 3, group.len() / 2, group.len() - 1];
+            if places.iter().all(|&p| {
+                let Some(s) = self.member(pose, group[p].solution.clone()) else { return true };
+                self.is_in_a_family(pose, given, &answer.families, &s.q)
+            }) {
+                continue;
+            }
+            // Of the unknowns that are free, those that can move while the others stay.
+            let moving: Vec<(usize, Vec<f64>)> = at
+                .iter()
+                .filter_map(|&(i, _)| Some((i, self.tangent(pose, given, i, (&at, &signs), &q)?)))
+                .collect();
+            let Some((first, direction)) = moving.first().cloned() else {
+                self.add(&mut answer.solutions, representative);
                 continue;
             };
+            let at: Vec<(usize, [f64; 2])> =
+                at.into_iter().filter(|a| moving.iter().any(|m| m.0 == a.0)).collect();
             let far = group[(k + group.len() / 2) % group.len()].solution.q.clone();
-            family.is_affine = free.len() == 1
-                && self.tangent(pose, given, &family, &far).is_some_and(|d| parallel(&d, &direction));
-            family.direction = direction;
-            if !self.is_in_a_family(pose, given, &answer.families, &q) {
-                answer.families.push(family);
-            }
+            let is_affine = at.len() == 1
+                && self
+                    .tangent(pose, given, first, (&at, &signs), &far)
+                    .is_some_and(|d| parallel(&d, &direction));
+            answer.families.push(Family {
+                dimension: at.len(),
+                free: at.iter().map(|&(i, _)| self.nodes[i].unknown.clone()).collect(),
+                direction,
+                is_affine,
+                interval: (free.len() == 1).then(|| self.interval(free[0], steps, &group)),
+                at,
+                signs,
+                representative,
+            });
         }
     }
 
-    /// How the joints move along a family at one of its members, a unit vector; nothing if they cannot.
+    /// How the joints move with one of the free unknowns at a solution, a unit vector; nothing if they cannot.
     fn tangent(
         &mut self,
         pose: &Transform<f64>,
         given: &[f64],
-        family: &Family,
+        node: usize,
+        (at, signs): (&[(usize, [f64; 2])], &[i8]),
         q: &[f64],
     ) -> Option<Vec<f64>> {
         const STEP: f64 = 1e-3;
-        let (first, _) = *family.at.first()?;
-        let at: Vec<(usize, [f64; 2])> = family.at.iter().map(|&(i, _)| (i, self.value_at(i, q))).collect();
+        let at: Vec<(usize, [f64; 2])> = at.iter().map(|&(i, _)| (i, self.value_at(i, q))).collect();
+        let number = at.iter().position(|a| a.0 == node)?;
         for step in [STEP, -STEP] {
             let mut moved = at.clone();
-            let [x, y] = moved[0].1;
-            moved[0].1 = if self.nodes[first].is_angle {
+            let [x, y] = moved[number].1;
+            moved[number].1 = if self.nodes[node].is_angle {
                 let (s, c) = step.sin_cos();
                 [x * c - y * s, y * c + x * s]
             } else {
                 [x + step * self.reach, 0.0]
             };
             // The neighbour on the same branch is the nearest one.
-            let distance = |s: &Solution| -> f64 { self.moved(q, &s.q).iter().map(|d| d * d).sum::<f64>().sqrt() };
-            let members = self.clone().with_free(pose, given, &moved);
+            let members = self.with_free(pose, given, &moved, signs);
+            let distance = |s: &Solution| norm(&self.moved(q, &s.q));
             let nearest = members.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
             if let Some(n) = nearest
                 && distance(n) < 100.0 * STEP
@@ -587,7 +608,13 @@ impl InverseSolver {
         pairs.map(|((x, y), &is_angle)| if is_angle { wrapped(y - x) } else { y - x }).collect()
     }
 
-    fn is_in_a_family(&mut self, pose: &Transform<f64>, given: &[f64], families: &[Family], q: &[f64]) -> bool {
+    fn is_in_a_family(
+        &mut self,
+        pose: &Transform<f64>,
+        given: &[f64],
+        families: &[Family],
+        q: &[f64],
+    ) -> bool {
         families.iter().any(|f| {
             let members = self.members_at(pose, given, f, q);
             members.iter().any(|m| self.moved(q, &m.q).iter().all(|d| d.abs() <= SHORT))
@@ -695,6 +722,10 @@ fn quarter_exact(k: usize, steps: usize) -> [f64; 2] {
 fn wrapped(x: f64) -> f64 {
     let y = x - TAU * (x / TAU).round();
     if y <= -PI { y + TAU } else { y }
+}
+
+fn norm(v: &[f64]) -> f64 {
+    v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 fn parallel(a: &[f64], b: &[f64]) -> bool {
