@@ -127,6 +127,15 @@ impl Algebra {
         })
     }
 
+    /// A polynomial as a sum of products.
+    pub fn formula(&self, p: &Poly) -> Expr {
+        p.terms().iter().fold(Expr::int(0), |sum, (m, r)| {
+            let product =
+                m.factors().iter().fold(Expr::int(1), |x, &(a, n)| x * self.expr(a).powi(n.into()));
+            sum + Expr::from(r.clone()) * product
+        })
+    }
+
     /// A constant formula of the robot as a polynomial; what is none becomes an atom as it stands.
     pub fn constant(&mut self, ring: &mut Ring, e: Expr) -> Poly {
         let Ok(p) = ring.polynomial(e) else {
@@ -209,9 +218,4 @@ pub fn transposed(a: &Matrix) -> Matrix {
 /// The sum of two columns.
 pub fn sum(a: &Column, b: &Column) -> Column {
     std::array::from_fn(|i| a[i].plus(&b[i]))
-}
-
-/// The difference of two columns.
-pub fn difference(a: &Column, b: &Column) -> Column {
-    std::array::from_fn(|i| a[i].minus(&b[i]))
 }

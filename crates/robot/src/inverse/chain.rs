@@ -28,8 +28,15 @@ pub struct Axis {
 /// How an axis moves.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Motion {
-    /// From potential `node − 1` to `node` of a group; `reversed` if it turns against the group's first axis.
-    Turn { group: usize, node: usize, reversed: bool },
+    /// From one potential of a group to the next.
+    Turn {
+        /// The group, from 0.
+        group: usize,
+        /// The potential behind it; `node − 1` is the one before.
+        node: usize,
+        /// True if it turns against the group's first axis.
+        reversed: bool,
+    },
     /// Along z.
     Slide,
 }

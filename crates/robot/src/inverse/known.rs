@@ -5,6 +5,7 @@
 
 use super::algebra::{Algebra, Kind};
 use super::chain::{Chain, Difference, Motion};
+use crate::geometry::{Rotation, Transform, Vector};
 use denavit_symbolic::poly::{Atom, Monomial, Poly};
 use denavit_symbolic::{Expr, Rational, Symbol};
 use std::collections::BTreeMap;
@@ -228,6 +229,8 @@ pub struct Samples {
     atoms: Vec<Vec<f64>>,
     /// The configurations: the value of each axis, quarter turns left aside.
     axes: Vec<Vec<f64>>,
+    /// What stands behind the pose at the first configuration.
+    tool: Transform<f64>,
 }
 
 /// How many configurations are sampled.
@@ -246,7 +249,9 @@ impl Samples {
                 chain.parameters.iter().map(of).collect()
             })
             .collect();
-        let mut samples = Samples { atoms: vec![], axes: vec![] };
+        let first = |s: Symbol| constants[0].iter().find(|p| p.0 == s).map(|p| p.1);
+        let tool = chain.tool.map(|e| e.eval(first).unwrap_or(f64::NAN));
+        let mut samples = Samples { atoms: vec![], axes: vec![], tool };
         for parameters in &constants {
             let axes: Vec<f64> = chain
                 .axes
@@ -270,13 +275,20 @@ impl Samples {
         samples
     }
 
-    /// The pose of the first configuration with one axis moved.
+    /// The tool's pose at the first configuration with one axis moved, row-major 3×4.
     pub fn moved(&self, chain: &Chain, axis: usize, by: f64) -> Vec<f64> {
         let (mut axes, mut atoms) = (self.axes[0].clone(), self.atoms[0].clone());
         axes[axis] += by;
         set_axes(chain, &axes, &mut atoms);
-        atoms.truncate(12);
-        atoms
+        let rows = std::array::from_fn(|i| std::array::from_fn(|j| atoms[i * 4 + j]));
+        let p = Vector(std::array::from_fn(|i| atoms[i * 4 + 3]));
+        let pose = Transform::from_rotation_translation(Rotation::from_rows(rows), p) * self.tool;
+        pose.matrix().into_iter().take(3).flatten().collect()
+    }
+
+    /// The values of all atoms at the first configuration.
+    pub fn first(&self) -> &[f64] {
+        &self.atoms[0]
     }
 
     /// True if the polynomial is 0 at all of them.

@@ -1,15 +1,18 @@
 //! The inverse model of a robot: the derivation, what it could not find and why, its solver.
 
-use super::algebra::Kind;
 use super::candidates::Problem;
-use super::chain::{self, Chain, Element, End, Motion, Unsuitable};
+use super::chain::{self, Chain, End, Motion, Unsuitable};
 use super::compile::{self, Compiled};
+use super::conditions::{self, Condition, Task};
 use super::equations::{Goal, Split, equations};
 use super::known::{Samples, Unknown, axis_unknown};
 use super::plan::{Form, Step};
 use super::search::{self, Outcome};
 use crate::description::Description;
-use denavit_symbolic::{Expr, Symbol};
+use denavit_symbolic::poly::Poly;
+use denavit_symbolic::print::{Style, print};
+use denavit_symbolic::vocabulary::Vocabulary;
+use denavit_symbolic::{Expr, Rational, Symbol};
 use std::fmt;
 
 /// What is asked of a derivation.
@@ -41,6 +44,10 @@ pub struct InverseModel {
     pub given_by_choice: bool,
     /// Independent directions in which the hand can move.
     pub rank: usize,
+    /// What the arm serves.
+    pub task: Task,
+    /// What a pose must meet, as many as the arm lacks degrees of freedom.
+    pub conditions: Vec<Condition>,
     /// The problem's normal form.
     pub chain: Chain,
     /// The steps, in order.
@@ -140,12 +147,21 @@ impl InverseModel {
             return Err(Refusal::Stuck(Box::new(Stuck { chain, steps, missing, surplus, given })));
         }
         let labels = labels(&chain, &outcome.steps);
+        let [of_position, with_axis] =
+            [Goal::Position, Goal::PositionAndAxis].map(|goal| self::rank(&chain, &samples, goal));
+        let task = conditions::task(&chain, rank, of_position, with_axis);
+        let lacking = if options.goal == Goal::Pose { 6 - rank } else { 0 };
+        let axes = axes_of(&chain, &given);
+        let conditions =
+            conditions::conditions(&chain, &found, &outcome.steps, &axes, &samples, lacking);
         let compiled = compile::compile(&chain, &outcome.steps, &splits, options.goal, &given, &labels);
         Ok(InverseModel {
             goal: options.goal,
             given_by_choice: given.len() > asked.len(),
             given,
             rank,
+            task,
+            conditions,
             steps: outcome.steps,
             labels,
             splits,
@@ -153,6 +169,16 @@ impl InverseModel {
             chain,
             description: settled,
         })
+    }
+
+    /// A condition as a formula to read: `S1·px = C1·py`.
+    pub fn condition_text(&self, c: &Condition) -> String {
+        let vocabulary = Vocabulary::default();
+        let flipped = c.pose.terms().first().is_some_and(|t| t.1.is_negative());
+        let sign = Rational::from(if flipped { -1 } else { 1 });
+        let side =
+            |p: &Poly| print(self.chain.algebra.formula(&p.scaled(&sign)), &vocabulary, Style::Unicode);
+        format!("{} = {}", side(&c.pose), side(&c.chain))
     }
 
     /// The largest number of isolated solutions.
@@ -352,15 +378,5 @@ impl Chain {
             &vocabulary,
             denavit_symbolic::print::Style::Unicode,
         )
-    }
-
-    /// True if the position of the hand alone is what the last element moves.
-    pub fn ends_with_constant(&self) -> bool {
-        matches!(self.elements.last(), Some(Element::Constant(..)))
-    }
-
-    /// The atoms' kinds, for readers of polynomials.
-    pub fn kind_of(&self, atom: denavit_symbolic::poly::Atom) -> Kind {
-        self.algebra.kind(atom)
     }
 }

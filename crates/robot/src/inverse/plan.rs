@@ -1,6 +1,6 @@
 //! The derivation as a list of steps: which unknown, from which equation, of which type.
 
-use super::equations::Source;
+use super::equations::{Entry, Source};
 use super::known::Unknown;
 use denavit_symbolic::poly::Poly;
 
@@ -60,6 +60,18 @@ pub enum Origin {
 }
 
 impl Origin {
+    /// The elements of products that it is made of.
+    pub fn sources(&self) -> Vec<Source> {
+        match self {
+            Origin::Entry(source) => vec![*source],
+            Origin::Squares { left, right, components } => {
+                let entry = |&k: &usize| Source { left: *left, right: *right, entry: Entry::Position(k) };
+                components.iter().map(entry).collect()
+            }
+            Origin::Eliminated { from, .. } => from.iter().flat_map(Origin::sources).collect(),
+        }
+    }
+
     /// How many operations lie between the equation and an element of a product.
     pub fn depth(&self) -> u8 {
         match self {

@@ -1,7 +1,6 @@
 //! The order in which unknowns are found: always the cheapest step that is possible.
 
 use super::candidates::Problem;
-use super::chain::Chain;
 use super::known::{Known, Unknown, axis_unknown};
 use super::plan::{Form, Step};
 
@@ -13,8 +12,6 @@ pub const MAX_LEAVES: usize = 64;
 pub struct Outcome {
     /// The steps that were found, in order.
     pub steps: Vec<Step>,
-    /// What is known behind them.
-    pub known: Known,
     /// What could not be found; empty for a complete derivation.
     pub missing: Vec<Unknown>,
 }
@@ -40,18 +37,18 @@ pub fn search(problem: &Problem, given: &[usize]) -> Outcome {
     while !known.everything() {
         let mut found = problem.candidates(&known);
         found.retain(|s| leaves * usize::from(s.cost.roots) <= MAX_LEAVES);
-        let Some(best) = found.into_iter().min_by_key(|s| (s.cost, order(chain, s))) else { break };
+        let Some(best) = found.into_iter().min_by_key(|s| (s.cost, order(s))) else { break };
         leaves *= usize::from(best.cost.roots);
         known.learn(best.unknown);
         steps.push(best);
     }
     let missing: Vec<Unknown> =
         (0..chain.axes.len()).map(|k| axis_unknown(chain, k)).filter(|&x| !known.knows(x)).collect();
-    Outcome { steps, known, missing }
+    Outcome { steps, missing }
 }
 
 /// Among equals: the unknown nearer to the base, the simpler type.
-fn order(_chain: &Chain, step: &Step) -> (Unknown, u8) {
+fn order(step: &Step) -> (Unknown, u8) {
     let kind = match step.form {
         Form::Ratio { .. } => 0,
         Form::Pair { .. } => 1,

@@ -162,7 +162,7 @@ pub enum Sign {
 }
 
 /// A matrix of a product.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub enum Factor {
     /// A named matrix: A2(q2), U, T; `power` −1 for its inverse.
     Named {
@@ -196,6 +196,8 @@ impl Factor {
     pub fn inverse(self) -> Self {
         match self {
             Factor::Named { letter, number, of, inverse } => Factor::Named { letter, number, of, inverse: !inverse },
+            // Half a turn is its own inverse.
+            Factor::Rotation(axis, angle) if angle == Expr::pi() => Factor::Rotation(axis, angle),
             Factor::Rotation(axis, angle) => Factor::Rotation(axis, -angle),
             Factor::Translation(p) => Factor::Translation(p.map(|x| -x)),
             Factor::Inverse(of) => *of,

@@ -1,30 +1,449 @@
 //! The derivation in words and formulas, every formula proved.
+//!
+//! An [`Explanation`] holds what is said, step by step; [`Explanation::document`] says it, in a tree of headings,
+//! paragraphs and formulas that knows no notation; [`text`] is the tree for a terminal, [`math()`] a formula in any style.
 
+mod document;
+mod math;
+mod names;
+mod origin;
+mod prove;
 mod reading;
+mod step;
+mod text;
+mod words;
 
-pub fn dump(m: &super::InverseModel) {
-    use super::Form;
-    use denavit_symbolic::print::{print, Style};
-    let names = m.description.vocabulary();
-    let r = reading::Reading::new(&m.chain, &m.given, &m.steps);
-    let show = |e| print(e, &names, Style::Unicode);
-    println!("== {} given {:?} rank {}", m.description.name, m.given, m.rank);
-    for (k, e) in m.chain.elements.iter().enumerate() {
-        match e {
-            super::Element::Axis(k) => println!("  axis {k} {:?}", m.chain.axes[*k].motion),
-            super::Element::Constant(rot, p) => println!("  {k}: const {:?} {:?}", rot.each_ref().map(|x| x.each_ref().map(|p| show(r.plain(p)))), p.each_ref().map(|p| show(r.plain(p)))),
+pub use document::{Block, Branch, Factor, Line, Math, Piece, Proof, Sign};
+pub use math::math;
+pub use origin::listed;
+pub use step::{Condition, Explained, Source, Statement};
+pub use text::{Mark, text};
+
+use super::chain::{Chain, Motion};
+use super::equations::{Goal, Split, equations};
+use super::known::{Unknown, axis_unknown};
+use super::model::{InverseModel, Stuck};
+use super::plan::{Form, Step};
+use crate::description::Description;
+use crate::geometry::Transform;
+use denavit_symbolic::poly::Poly;
+use denavit_symbolic::vocabulary::Vocabulary;
+use denavit_symbolic::{Expr, Node, Rational, Symbol};
+use names::Names;
+use origin::Matrices;
+use prove::Prover;
+use reading::Reading;
+use step::Context;
+
+/// How a derivation goes, step by step.
+#[derive(Clone, Debug)]
+pub struct Explanation {
+    /// The robot that is solved.
+    pub description: Description,
+    /// What of the hand is given.
+    pub goal: Goal,
+    /// Joint variables that are given beside it.
+    pub given: Vec<Expr>,
+    /// True if the derivation chose them.
+    pub given_by_choice: bool,
+    /// Independent directions in which the hand can move, if that was asked.
+    pub rank: Option<usize>,
+    /// The matrices A1, A2, … of the chain.
+    pub matrices: Vec<(Factor, Vec<Factor>)>,
+    /// What was brought to the side of the pose, in front and behind: T(base) and T(tool).
+    pub moved: [Option<Vec<Factor>>; 2],
+    /// The names of the entries of U, row-major 3×4.
+    pub pose: [Expr; 12],
+    /// The steps.
+    pub steps: Vec<Explained>,
+    /// How joint variables follow that no step gives by name.
+    pub joints: Vec<Statement>,
+    /// What a pose has to meet beside: an arm with fewer than six directions does not reach all.
+    pub leftovers: Vec<Statement>,
+    /// The branches, with the number of the solution at the ends.
+    pub branches: Option<Branch>,
+    /// The largest number of isolated solutions; nothing if the derivation ended early.
+    pub solutions: Option<usize>,
+    /// Joint variables that were not found.
+    pub missing: Vec<Expr>,
+    /// Joints that the arm has too many.
+    pub surplus: usize,
+}
+
+/// What both kinds of outcome have in common.
+struct Facts<'a> {
+    description: &'a Description,
+    chain: &'a Chain,
+    steps: &'a [Step],
+    labels: &'a [Option<String>],
+    splits: &'a [Split],
+    given: &'a [usize],
+    goal: Goal,
+}
+
+impl Explanation {
+    /// Explains a complete derivation.
+    pub fn of(model: &InverseModel) -> Self {
+        let facts = Facts {
+            description: &model.description,
+            chain: &model.chain,
+            steps: &model.steps,
+            labels: &model.labels,
+            splits: &model.splits,
+            given: &model.given,
+            goal: model.goal,
+        };
+        let mut explanation = facts.explain(Some(model.rank));
+        explanation.given_by_choice = model.given_by_choice;
+        explanation.rank = Some(model.rank);
+        explanation.solutions = Some(model.max_solutions());
+        explanation.branches = Some(branches(&explanation.steps, &mut 0));
+        explanation
+    }
+
+    /// Explains how far a derivation came that ended early.
+    pub fn of_stuck(description: &Description, stuck: &Stuck, goal: Goal) -> Self {
+        let settled = super::chain::settled(description);
+        let (_, splits) = equations(&stuck.chain, goal);
+        let labels = vec![None; stuck.steps.len()];
+        let facts = Facts {
+            description: &settled,
+            chain: &stuck.chain,
+            steps: &stuck.steps,
+            labels: &labels,
+            splits: &splits,
+            given: &stuck.given,
+            goal,
+        };
+        let mut explanation = facts.explain(None);
+        explanation.missing = stuck.missing.iter().map(|&j| stuck.chain.variables[j].into()).collect();
+        explanation.surplus = stuck.surplus;
+        explanation
+    }
+
+    /// Every statement that is proved or not.
+    pub fn statements(&self) -> impl Iterator<Item = &Statement> {
+        let steps = self.steps.iter().flat_map(|s| {
+            s.sources.iter().flat_map(|o| o.equations.iter()).chain(&s.names).chain(&s.coefficients).chain(&s.solution)
+        });
+        steps.chain(&self.joints).chain(&self.leftovers)
+    }
+
+    /// What all formulas together are: proved only if each is.
+    pub fn proof(&self) -> Proof {
+        self.statements().filter_map(|s| s.proof).max().unwrap_or(Proof::Proved)
+    }
+
+    /// The names that the formulas use.
+    pub fn names(&self) -> Vocabulary {
+        let numbers = self.description.vocabulary();
+        let variables: Vec<Symbol> = self.description.variables().iter().map(|v| v.symbol).collect();
+        let mut names: Vec<Symbol> = self.pose.iter().filter_map(|e| e.as_symbol()).collect();
+        for s in self.statements() {
+            names.extend(s.math.exprs().into_iter().flat_map(Expr::symbols));
+        }
+        for s in &self.steps {
+            names.extend(s.form.iter().flat_map(Math::exprs).flat_map(Expr::symbols));
+            names.extend(s.unknown.symbols());
+        }
+        names.retain(|s| !variables.contains(s));
+        names.into_iter().fold(numbers, |v, s| v.symbol(&s.name()))
+    }
+
+    /// A sum of angles that occurs, for the legend.
+    fn sum(&self) -> Option<Expr> {
+        let mut found = self.statements().flat_map(|s| s.math.exprs()).flat_map(|e| Expr::postorder(&[e]));
+        found.find_map(|e| match e.node() {
+            Node::Cos(a) | Node::Sin(a) if matches!(a.node(), Node::Add(..)) => Some(a),
+            _ => None,
+        })
+    }
+
+    /// The document.
+    pub fn document(&self) -> Vec<Block> {
+        words::document(self)
+    }
+
+    /// The formulas alone, to be computed one after another.
+    pub fn summary(&self) -> Vec<Block> {
+        words::formulas(self)
+    }
+}
+
+impl Facts<'_> {
+    fn explain(&self, rank: Option<usize>) -> Explanation {
+        let chain = self.chain;
+        let reading = Reading::new(chain, self.given, self.steps);
+        let matrices = Matrices::new(&reading, self.splits, self.description.convention);
+        let mut taken: Vec<String> =
+            chain.variables.iter().chain(&chain.parameters).chain(&chain.pose).map(|s| s.name().to_string()).collect();
+        taken.extend(["T", "U", "t"].map(String::from));
+        let mut unique = |wanted: &str| {
+            let mut name = wanted.to_string();
+            while taken.contains(&name) {
+                name.push('_');
+            }
+            taken.push(name.clone());
+            Expr::symbol(&name)
+        };
+        let letters = ["A", "B", "D", "E", "F"].map(&mut unique);
+        let helpers = ["R", "Δ"].map(&mut unique);
+        let mut in_use = |name: &str| {
+            let is = taken.contains(&name.to_string());
+            if !is {
+                taken.push(name.to_string());
+            }
+            is
+        };
+        let names = Names::new(&reading, &written(self.steps), &mut in_use);
+        let prover = Prover::new(&reading, &names.meanings(&reading));
+        let mut context = Context {
+            reading: &reading,
+            matrices: &matrices,
+            names: &names,
+            prover: &prover,
+            letters,
+            helpers,
+            equations: 0,
+            signs: 0,
+        };
+        let mut steps: Vec<Explained> = vec![];
+        for (i, step) in self.steps.iter().enumerate() {
+            steps.push(context.explain(i, step, self.labels.get(i).and_then(Option::as_deref)));
+        }
+        for (i, step) in self.steps.iter().enumerate() {
+            for p in polys(step) {
+                for j in reading.steps_in(&p, i) {
+                    if !steps[j].used_by.contains(&(i + 1)) {
+                        steps[j].used_by.push(i + 1);
+                    }
+                }
+            }
+        }
+        let grouped = |k: usize| {
+            let of = chain.axes[k].value;
+            let factors = matrices.groups[k].clone().flat_map(|e| matrices.written(e)).collect();
+            (Factor::Named { letter: "A", number: Some(k + 1), of: Some(of), inverse: false }, factors)
+        };
+        let placed = |x: &Transform<Expr>| (*x != Transform::identity()).then(|| placement(x));
+        let directions = rank.unwrap_or(6);
+        Explanation {
+            description: self.description.clone(),
+            goal: self.goal,
+            given: self.given.iter().map(|&j| chain.variables[j].into()).collect(),
+            given_by_choice: false,
+            rank,
+            matrices: (0..chain.axes.len()).map(grouped).collect(),
+            moved: [placed(&chain.base), placed(&chain.tool)],
+            pose: chain.pose.map(Expr::from),
+            joints: self.joints(&reading, &prover),
+            leftovers: match self.goal {
+                Goal::Pose if directions < 6 => self.leftovers(&reading, &prover, 6 - directions),
+                _ => vec![],
+            },
+            steps,
+            branches: None,
+            solutions: None,
+            missing: vec![],
+            surplus: 0,
         }
     }
-    for (s, label) in m.steps.iter().zip(&m.labels) {
-        println!("- {} {:?} {:?}", m.chain.describe(s.unknown), label, s.cost);
-        for row in &s.rows {
-            println!("   {:?}\n      ({}) C + ({}) S = {}", row.origin, show(r.plain(&row.a)), show(r.plain(&row.b)), show(r.norm(&row.c, &|_| None)));
+
+    /// Joint variables that no step is about: θ4 = θ234 − θ2 − θ3.
+    fn joints(&self, reading: &Reading, prover: &Prover) -> Vec<Statement> {
+        let chain = self.chain;
+        let mut found = vec![];
+        for (j, &variable) in chain.variables.iter().enumerate() {
+            if self.given.contains(&j) {
+                continue;
+            }
+            let direct = |s: &Step| chain.unknown_expr(s.unknown) == Expr::from(variable);
+            if self.steps.iter().any(direct) {
+                continue;
+            }
+            // The variable by its axes, each by the steps that lead to it.
+            let mut terms: Vec<(Rational, Expr, Expr)> = vec![];
+            let mut known = true;
+            for (k, factor) in &chain.inverse_coupling[j] {
+                let before = terms.len();
+                match axis_unknown(chain, *k) {
+                    x @ Unknown::Slide(_) => {
+                        let (name, meaning) = reading.name(x);
+                        if self.steps.iter().any(|s| s.unknown == x) {
+                            terms.push((factor.clone(), name, meaning.unwrap_or(name)));
+                        }
+                    }
+                    Unknown::Angle(d) => {
+                        let reversed = matches!(chain.axes[*k].motion, Motion::Turn { reversed: true, .. });
+                        for (e, _, backwards) in reading.path(d, self.steps.len()).unwrap_or_default() {
+                            let (name, meaning) = reading.name(Unknown::Angle(e));
+                            let factor = if backwards == reversed { factor.clone() } else { -factor };
+                            terms.push((factor, name, meaning.unwrap_or(name)));
+                        }
+                    }
+                }
+                known &= terms.len() > before;
+                let offset = chain.axes[*k].form.offset;
+                if !offset.is_zero() {
+                    terms.push((-factor, offset, offset));
+                }
+            }
+            // What is added, then what is taken away, each along the chain.
+            terms.sort_by_cached_key(|t| (t.0.is_negative(), t.1.symbols().first().map(|s| s.name().to_string())));
+            let total = |part: fn(&(Rational, Expr, Expr)) -> Expr| {
+                terms.iter().map(|t| Expr::from(t.0.clone()) * part(t)).reduce(|a, b| a + b)
+            };
+            let (sum, in_joints) = (total(|t| t.1), total(|t| t.2));
+            let (Some(sum), Some(meaning), true) = (sum, in_joints, known) else { continue };
+            let proof = Some(prover.equation(variable.into(), meaning));
+            found.push(Statement { math: Math::equation(variable.into(), sum), number: None, proof });
         }
-        match &s.form {
-            Form::Ratio { numerator, denominator } => println!("   {:?}\n     ({}) r = {}", s.origins, show(r.plain(denominator)), show(r.plain(numerator))),
-            Form::Quadratic { a, b, c } => println!("   {:?}\n     ({}) r² + 2({}) r + {}", s.origins, show(r.plain(a)), show(r.plain(b)), show(r.norm(c, &|_| None))),
-            Form::Quartic(all) => println!("  {:?}\n  quartic {:?}", s.origins, all.each_ref().map(|x| show(r.norm(x, &|_| None)))),
-            f => println!("   {f:?}"),
-        }
+        found
     }
+
+    /// Equations that are left when all is known, those that can be asked first in front.
+    fn leftovers(&self, reading: &Reading, prover: &Prover, count: usize) -> Vec<Statement> {
+        let algebra = &self.chain.algebra;
+        // What a step solved is no condition.
+        let mut used: Vec<Poly> = vec![];
+        for step in self.steps {
+            if let Unknown::Angle(d) = step.unknown {
+                let (c, s) = self.chain.pair(d.group, d.from, d.to);
+                let left = |r: &super::plan::Row| algebra.times(&r.a, &c).plus(&algebra.times(&r.b, &s));
+                used.extend(step.rows.iter().map(|r| left(r).minus(&r.c.plus)));
+            }
+        }
+        let mut found: Vec<(usize, usize, bool, Poly, Poly)> = vec![];
+        for split in self.splits {
+            for i in 0..3 {
+                for j in 0..4 {
+                    let (pose, chain) = match j {
+                        3 => (&split.pose[i], &split.chain[i]),
+                        _ => (&split.pose_rotation[i][j], &split.chain_rotation[i][j]),
+                    };
+                    let Some(pose) = pose else { continue };
+                    let zero = pose.minus(chain);
+                    let rank = reading.rank_of(&zero);
+                    let pose_only = chain.atoms().iter().all(|&a| reading.rank(a) == 0);
+                    let is_used = used.contains(&zero) || used.contains(&reading::negated(&zero));
+                    if pose_only && !is_used && (1..usize::MAX).contains(&rank) {
+                        found.push((rank, zero.terms().len(), j != 2, pose.clone(), chain.clone()));
+                    }
+                }
+            }
+        }
+        found.sort_by(|a, b| (a.0, a.1, a.2).cmp(&(b.0, b.1, b.2)));
+        let mut kept: Vec<Statement> = vec![];
+        let mut seen: Vec<Poly> = vec![];
+        for (_, _, _, pose, chain) in found {
+            let zero = pose.minus(&chain);
+            if kept.len() == count {
+                break;
+            }
+            if seen.contains(&zero) || seen.contains(&reading::negated(&zero)) {
+                continue;
+            }
+            let (mut left, mut right) = (reading.plain(&pose), reading.plain(&chain));
+            let proof = prover.equation(left, right);
+            if step::unsigned(left) != left {
+                (left, right) = (-left, -right);
+            }
+            if proof != Proof::Wrong {
+                kept.push(Statement { math: Math::equation(left, right), number: None, proof: Some(proof) });
+            }
+            seen.push(zero);
+        }
+        kept
+    }
+}
+
+/// The polynomials of a step's equation.
+fn polys(step: &Step) -> Vec<Poly> {
+    written_of(step).into_iter().map(|w| w.0).collect()
+}
+
+fn written(steps: &[Step]) -> Vec<(Poly, usize)> {
+    steps.iter().flat_map(written_of).collect()
+}
+
+/// What is written of a step, and how often.
+fn written_of(step: &Step) -> Vec<(Poly, usize)> {
+    let mut found: Vec<(Poly, usize)> = vec![];
+    let unit = |p: &Poly| p.as_constant().is_some();
+    for row in &step.rows {
+        let simple = unit(&row.a) && unit(&row.b);
+        let times = match step.form {
+            Form::Pair { .. } if !simple => 2,
+            Form::Sincos => 2,
+            _ => 1,
+        };
+        found.extend([(row.a.clone(), times), (row.b.clone(), times), (row.c.plus.clone(), times)]);
+        found.extend(row.c.squares.iter().map(|p| (p.clone(), 2)));
+    }
+    let mut norm = |n: &super::plan::Norm, times: usize| {
+        found.push((n.plus.clone(), times));
+        found.extend(n.squares.iter().map(|p| (p.clone(), 2)));
+    };
+    match &step.form {
+        Form::Ratio { numerator, denominator } => {
+            norm(&numerator.clone().into(), 1);
+            norm(&denominator.clone().into(), 1);
+        }
+        Form::Quadratic { a, b, c } => {
+            norm(&a.clone().into(), 1);
+            norm(&b.clone().into(), 1);
+            norm(c, 1);
+        }
+        Form::Quartic(all) => all.iter().for_each(|n| norm(n, 1)),
+        Form::Pair { .. } | Form::Line | Form::Sincos => {}
+    }
+    found.retain(|f| !f.0.is_zero());
+    found
+}
+
+/// A constant placement as a product of a displacement and turns.
+fn placement(x: &Transform<Expr>) -> Vec<Factor> {
+    let mut found = vec![];
+    if x.translation.0.iter().any(|e| !e.is_zero()) {
+        found.push(Factor::Translation(x.translation.0));
+    }
+    let rows = x.rotation.rows();
+    match origin::elementary(&rows) {
+        Some(turns) => found.extend(turns),
+        None => found.push(Factor::Constant(
+            rows.iter().map(|r| r.iter().copied().chain([Expr::int(0)]).collect()).collect(),
+        )),
+    }
+    found
+}
+
+/// The tree of branches: a node for each choice, what follows without choice on its line.
+fn branches(steps: &[Explained], solutions: &mut usize) -> Branch {
+    let first = steps.iter().position(|s| s.values > 1).unwrap_or(steps.len());
+    let mut line = Line::default();
+    for (k, s) in steps[..first].iter().enumerate() {
+        line = line.text(if k == 0 { "" } else { ", " }).math(s.unknown);
+    }
+    let mut children = vec![];
+    if let Some(step) = steps.get(first) {
+        for k in 0..step.values {
+            let mut child = branches(&steps[first + 1..], solutions);
+            let which = match step.values {
+                2 => if k == 0 { "+" } else { "−" }.to_string(),
+                _ => (k + 1).to_string(),
+            };
+            let label = step.label.clone().unwrap_or_default();
+            let mut front = Line::default().math(step.unknown).text(" ").strong(format!("{label}{which}"));
+            if !child.line.0.is_empty() {
+                front = front.text(", ");
+            }
+            front.0.append(&mut child.line.0);
+            children.push(Branch { line: front, children: child.children });
+        }
+    } else {
+        *solutions += 1;
+        let text = format!("{}solution {solutions}", if line.0.is_empty() { "→ " } else { " → " });
+        line = line.text(text);
+    }
+    Branch { line, children }
 }

@@ -44,8 +44,9 @@ impl Names {
                 }
             });
         }
-        counts.retain(|c| c.1 >= 2 && reading.rank_of(&c.0) >= 2);
-        counts.sort_by_key(|c| reading.rank_of(&c.0));
+        // What is long, or holds more than the pose.
+        counts.retain(|c| c.1 >= 2 && (reading.rank_of(&c.0) >= 2 || reading.rank_of(&c.0) == 1 && c.0.terms().len() > 2));
+        counts.sort_by_key(|c| (reading.rank_of(&c.0), c.0.terms().len()));
         let mut named: Vec<(Poly, Expr, usize)> = vec![];
         for (p, _) in counts {
             let kinds: Vec<Kind> = p.atoms().into_iter().map(|a| reading.chain.algebra.kind(a)).collect();

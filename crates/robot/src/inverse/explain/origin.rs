@@ -273,18 +273,20 @@ impl<'a> Matrices<'a> {
             let of = middle.iter().copied().filter(|&k| g.is_some() && group(k) == g && !occurs(k));
             of.collect()
         };
-        let mut said = vec![];
+        let (mut said, mut free) = (vec![], vec![]);
         let front = absent(first);
         if !front.is_empty() {
             said.push(match front.len() {
-                1 => format!("this component lies along axis {}, and turning about an axis changes nothing along it", joints(&front)),
-                _ => format!("axes {} are parallel and the component lies along them: turning about an axis changes nothing along it", joints(&front)),
+                1 => format!("a component along axis {}", joints(&front)),
+                _ => format!("a component along the parallel axes {}", joints(&front)),
             });
+            free.extend(&front);
         }
         if cut.column < 3 {
             let back: Vec<usize> = absent(last).into_iter().filter(|k| !front.contains(k)).collect();
             if cut.column == 2 && !back.is_empty() {
-                said.push(format!("a direction along axis {} does not change with that joint", joints(&back)));
+                said.push(format!("of the direction of axis {}", joints(&back)));
+                free.extend(back);
             }
         } else {
             let still: Vec<usize> = middle
@@ -294,13 +296,19 @@ impl<'a> Matrices<'a> {
                 .take_while(|&k| !occurs(k) && !front.contains(&k) && chain.axes[k].motion != Motion::Slide)
                 .collect();
             let still: Vec<usize> = still.into_iter().rev().collect();
-            match still.len() {
-                0 => {}
-                1 => said.push(format!("the point lies on axis {}", joints(&still))),
-                _ => said.push(format!("the point lies on axes {}, which do not move it", joints(&still))),
+            if !still.is_empty() {
+                let axes = if still.len() == 1 { "axis" } else { "axes" };
+                said.push(format!("of a point on {axes} {}", joints(&still)));
+                free.extend(still);
             }
         }
-        (!said.is_empty()).then(|| said.join("; "))
+        free.sort_unstable();
+        let word = if free.len() == 1 { "joint" } else { "joints" };
+        let what = match said.first().is_some_and(|s| s.starts_with("of")) {
+            true => format!("a component {}", said.join(" ")),
+            false => said.join(" "),
+        };
+        (!said.is_empty()).then(|| format!("{what}: free of {word} {}", joints(&free)))
     }
 }
 
@@ -324,7 +332,7 @@ fn start(axes: &[usize], k: usize) -> usize {
 }
 
 /// A constant rotation as turns about axes, if it is that simple.
-fn elementary(r: &[[Expr; 3]; 3]) -> Option<Vec<Factor>> {
+pub fn elementary(r: &[[Expr; 3]; 3]) -> Option<Vec<Factor>> {
     let turn = |axis: char| -> Option<(Expr, Expr)> {
         let k = "xyz".find(axis)?;
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
@@ -344,7 +352,7 @@ fn elementary(r: &[[Expr; 3]; 3]) -> Option<Vec<Factor>> {
     for a in quarters {
         for b in quarters {
             for c in quarters {
-                let product = crate::geometry::Rotation::z_turn(a) * crate::geometry::Rotation::x_turn(b) * crate::geometry::Rotation::z_turn(c);
+                let product = crate::geometry::Rotation::about_z(a) * crate::geometry::Rotation::about_x(b) * crate::geometry::Rotation::about_z(c);
                 if product.rows() == *r {
                     let all = [('z', a), ('x', b), ('z', c)];
                     return Some(all.into_iter().filter(|f| !f.1.is_zero()).map(|(k, e)| Factor::Rotation(k, e)).collect());

@@ -24,6 +24,8 @@ enum Parts {
     Term,
     /// A common factor and the rest.
     Content(Monomial, Rational, Poly),
+    /// The rest, and what a constant is the factor of.
+    Apart(Atom, Poly, Poly),
     /// Atom times polynomial, one after another, and what is left.
     Sum(Vec<(Atom, Poly)>, Poly),
 }
@@ -142,6 +144,9 @@ impl<'a> Reading<'a> {
         if self.is_constant(p) {
             return Parts::Sum(vec![], p.clone());
         }
+        if let Some(apart) = self.apart(p) {
+            return apart;
+        }
         let (mut products, mut rest) = (vec![], p.clone());
         while !self.is_constant(&rest) && rest.terms().len() > 1 {
             let Some(atom) = outermost(&rest, |a| self.rank(a)) else { break };
@@ -150,6 +155,19 @@ impl<'a> Reading<'a> {
             rest = left;
         }
         Parts::Sum(products, rest)
+    }
+
+    /// What one length is the factor of, apart from the rest: C1px + S1py + d5(C6u + S6v).
+    fn apart(&self, p: &Poly) -> Option<Parts> {
+        let constants = p.atoms().into_iter().filter(|&a| self.rank(a) == 0);
+        for atom in constants {
+            let (inside, rest) = split(p, atom);
+            let several = |p: &Poly| outermost(p, |a| self.rank(a)).is_some_and(|a| !split(p, a).1.is_zero());
+            if inside.terms().len() > 1 && !rest.is_zero() && !self.is_constant(&inside) && several(&inside) {
+                return Some(Parts::Apart(atom, inside, rest));
+            }
+        }
+        None
     }
 
     /// A product: number, constants, sines and cosines, entries of the pose.
@@ -181,23 +199,32 @@ impl<'a> Reading<'a> {
         }
         match self.parts(p) {
             Parts::Term => self.monomial(&p.terms()[0].0, &p.terms()[0].1),
-            Parts::Content(m, r, inner) => self.monomial(&m, &r) * self.expr(&inner, short),
+            Parts::Content(m, r, inner) => times(self.monomial(&m, &r), self.expr(&inner, short)),
+            Parts::Apart(atom, inside, rest) => {
+                self.expr(&rest, short) + self.chain.algebra.expr(atom) * self.expr(&inside, short)
+            }
             Parts::Sum(products, rest) => {
                 let (mut front, mut back, mut constants) = (vec![], vec![], vec![]);
                 for (atom, inside) in products {
-                    let trig = self.place(atom) == 2;
-                    let of_constants = trig && self.is_constant(&inside);
                     let product = self.product(atom, &inside, short);
-                    if of_constants { back.push(product) } else { front.push(product) }
+                    if self.place(atom) == 2 && self.is_constant(&inside) {
+                        back.push((atom, product));
+                    } else {
+                        front.push(product);
+                    }
                 }
                 for (m, r) in rest.terms() {
                     let term = self.monomial(m, r);
-                    let list = match m.factors().iter().all(|f| self.rank(f.0) == 0) {
-                        true => &mut constants,
-                        false => &mut front,
-                    };
-                    list.push(term);
+                    let known: Vec<Atom> = m.factors().iter().map(|f| f.0).filter(|&a| self.rank(a) > 0).collect();
+                    match known[..] {
+                        [] => constants.push(term),
+                        [a] if self.place(a) == 2 && m.exponent(a) == 1 && m.factors().len() > 1 => back.push((a, term)),
+                        _ => front.push(term),
+                    }
                 }
+                // a2C2 + a3C23: along the chain.
+                back.sort_by_key(|b| b.0);
+                let back = back.into_iter().map(|b| b.1);
                 let first = if front.is_empty() { constants.split_off(0) } else { vec![] };
                 let all = first.into_iter().chain(front).chain(back).chain(constants);
                 positive_first(all.collect())
@@ -212,10 +239,10 @@ impl<'a> Reading<'a> {
         }
         let x = self.chain.algebra.expr(atom);
         if short(inside).is_none() && let Parts::Content(m, r, inner) = self.parts(inside) {
-            return self.monomial(&m, &r) * x * self.expr(&inner, short);
+            return times(self.monomial(&m, &r) * x, self.expr(&inner, short));
         }
         let within = self.expr(inside, short);
-        if self.is_constant(inside) { within * x } else { x * within }
+        if self.is_constant(inside) { within * x } else { times(x, within) }
     }
 
     /// Every part with more than one term that writing the polynomial meets, the whole first.
@@ -226,6 +253,10 @@ impl<'a> Reading<'a> {
         match self.parts(p) {
             Parts::Term => {}
             Parts::Content(_, _, inner) => self.walk(&inner, visit),
+            Parts::Apart(_, inside, rest) => {
+                self.walk(&rest, visit);
+                self.walk(&inside, visit);
+            }
             Parts::Sum(products, _) => {
                 for (_, inside) in products {
                     match self.parts(&inside) {
@@ -278,6 +309,15 @@ impl<'a> Reading<'a> {
             name.insert(0, 'θ');
         }
         (Expr::symbol(&name), Some(value))
+    }
+}
+
+/// The product without brackets round a product.
+fn times(x: Expr, y: Expr) -> Expr {
+    match y.node() {
+        denavit_symbolic::Node::Mul(a, b) => times(times(x, a), b),
+        denavit_symbolic::Node::Neg(a) => -times(x, a),
+        _ => x * y,
     }
 }
 

@@ -1,0 +1,190 @@
+//! A document as text of bounded width.
+
+use super::document::{Block, Branch, Line, Piece, Proof};
+use super::math::math;
+use denavit_symbolic::print::Style;
+use denavit_symbolic::vocabulary::Vocabulary;
+
+/// What a part of a text is, for colours.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Mark {
+    /// A heading.
+    Heading,
+    /// Words that stand out.
+    Strong,
+    /// What stands back.
+    Faint,
+}
+
+/// Characters of a line.
+const WIDTH: usize = 104;
+/// Where the numbers of formulas end.
+const NUMBER: usize = 96;
+
+/// The document; `mark` may colour parts, without changing their width.
+pub fn text(blocks: &[Block], names: &Vocabulary, mark: &dyn Fn(Mark, &str) -> String) -> String {
+    let writer = Writer { names, mark };
+    let mut out = String::new();
+    for block in blocks {
+        match block {
+            Block::Heading(level, line) => {
+                if *level > 1 {
+                    out.push('\n');
+                }
+                out += &(writer.mark)(Mark::Heading, &writer.plain(line));
+                out.push('\n');
+            }
+            Block::Paragraph(line) => out += &writer.wrapped(line, "  ", "  "),
+            Block::List(lines) => {
+                for line in lines {
+                    out += &writer.wrapped(line, "  - ", "    ");
+                }
+            }
+            Block::Formula { math: m, number, proof } => {
+                let formula = math(m, names, Style::Unicode);
+                let tail = match (number, proof) {
+                    (Some(n), proof) => format!("({n}){}", sign(*proof)),
+                    (None, Some(_)) => format!("   {}", sign(*proof).trim_start()),
+                    (None, None) => String::new(),
+                };
+                let mut lines = broken(&formula, WIDTH - 8);
+                let last = lines.pop().unwrap_or_default();
+                for line in lines {
+                    out += &format!("      {line}\n");
+                }
+                let space = NUMBER.saturating_sub(6 + last.chars().count() + tail.chars().count());
+                let tail = if tail.is_empty() { tail } else { " ".repeat(space.max(2)) + &(writer.mark)(Mark::Faint, &tail) };
+                out += &format!("      {last}{tail}\n");
+            }
+            Block::Tree(branch) => writer.tree(branch, &mut out),
+        }
+    }
+    out
+}
+
+fn sign(proof: Option<Proof>) -> &'static str {
+    match proof {
+        Some(Proof::Proved) => " ✓",
+        Some(Proof::Sampled) => " ≈",
+        Some(Proof::Wrong) => " NOT TRUE",
+        None => "",
+    }
+}
+
+/// A long formula in lines, broken before signs outside of brackets.
+fn broken(formula: &str, width: usize) -> Vec<String> {
+    let mut lines: Vec<String> = vec![];
+    let mut line: Vec<char> = vec![];
+    let mut depth = 0_i32;
+    let mut breaks: Vec<(usize, i32)> = vec![];
+    let all: Vec<char> = formula.chars().collect();
+    for (k, &c) in all.iter().enumerate() {
+        depth += i32::from(c == '(') - i32::from(c == ')');
+        let is_sign = matches!(c, '+' | '−' | '=' | '≤');
+        if is_sign && k > 0 && all[k - 1] == ' ' && all.get(k + 1) == Some(&' ') {
+            breaks.push((line.len(), depth));
+        }
+        line.push(c);
+        if line.len() > width {
+            // The outermost place, of those the last in the second half.
+            let usable = breaks.iter().filter(|b| b.0 > width / 3 && b.0 <= width);
+            let Some(&(at, _)) = usable.min_by_key(|b| (b.1, std::cmp::Reverse(b.0))) else { continue };
+            let rest: Vec<char> = line.split_off(at);
+            lines.push(line.iter().collect::<String>().trim_end().to_string());
+            line = "    ".chars().chain(rest).collect();
+            breaks = breaks.into_iter().filter(|b| b.0 > at).map(|(b, d)| (b - at + 4, d)).collect();
+        }
+    }
+    lines.push(line.into_iter().collect());
+    lines
+}
+
+struct Writer<'a> {
+    names: &'a Vocabulary,
+    mark: &'a dyn Fn(Mark, &str) -> String,
+}
+
+impl Writer<'_> {
+    fn plain(&self, line: &Line) -> String {
+        line.0
+            .iter()
+            .map(|piece| match piece {
+                Piece::Text(t) | Piece::Strong(t) => t.clone(),
+                Piece::Math(m) => math(m, self.names, Style::Unicode),
+            })
+            .collect()
+    }
+
+    /// Words that stay together, with what they are.
+    fn wrapped(&self, line: &Line, first: &str, next: &str) -> String {
+        // A formula does not break unless it is long; text breaks at blanks.
+        let mut words: Vec<(String, Option<Mark>, bool)> = vec![];
+        let mut glued = true;
+        for piece in &line.0 {
+            let (text, mark) = match piece {
+                Piece::Text(t) => (t.clone(), None),
+                Piece::Strong(t) => (t.clone(), Some(Mark::Strong)),
+                Piece::Math(m) => (math(m, self.names, Style::Unicode), None),
+            };
+            if matches!(piece, Piece::Math(_)) && text.chars().count() < WIDTH / 2 {
+                words.push((text, mark, glued));
+                glued = true;
+                continue;
+            }
+            if text.is_empty() {
+                continue;
+            }
+            let starts = text.starts_with(' ');
+            for (k, word) in text.split(' ').filter(|w| !w.is_empty()).enumerate() {
+                words.push((word.to_string(), mark, k == 0 && glued && !starts));
+            }
+            glued = !text.ends_with(' ');
+        }
+        let mut out = String::new();
+        let (mut at, mut start) = (0, first);
+        let mut k = 0;
+        while k < words.len() {
+            let mut end = k + 1;
+            while end < words.len() && words[end].2 {
+                end += 1;
+            }
+            let width: usize = words[k..end].iter().map(|w| w.0.chars().count()).sum();
+            if at == 0 {
+                out += start;
+                at = start.chars().count();
+            } else if at + 1 + width > WIDTH {
+                out.push('\n');
+                start = next;
+                out += start;
+                at = start.chars().count();
+            } else {
+                out.push(' ');
+                at += 1;
+            }
+            for (word, mark, _) in &words[k..end] {
+                out += &mark.map_or_else(|| word.clone(), |m| (self.mark)(m, word));
+            }
+            at += width;
+            k = end;
+        }
+        out.push('\n');
+        out
+    }
+
+    fn tree(&self, branch: &Branch, out: &mut String) {
+        let line = self.plain(&branch.line);
+        if !line.is_empty() {
+            *out += &format!("      {line}\n");
+        }
+        self.children(branch, "      ", out);
+    }
+
+    fn children(&self, branch: &Branch, indent: &str, out: &mut String) {
+        for (k, child) in branch.children.iter().enumerate() {
+            let last = k + 1 == branch.children.len();
+            let (corner, bar) = if last { ("└─ ", "   ") } else { ("├─ ", "│  ") };
+            *out += &format!("{indent}{corner}{}\n", self.plain(&child.line));
+            self.children(child, &format!("{indent}{bar}"), out);
+        }
+    }
+}

@@ -1,0 +1,333 @@
+//! Families: solutions in which the arm can move with its hand still.
+//!
+//! Where an equation leaves its unknown free, the unknown is given values all round; what solves the pose then, on one
+//! branch and for neighbouring values, is a family, or a single solution if its neighbours are none.
+
+use super::solve::{Answer, Family, InverseSolver, LOOSE, NEAR, SHORT, Solution, draft, norm, variables, wrapped};
+use crate::geometry::Transform;
+use denavit_program::solver::Leaf;
+use std::f64::consts::{PI, TAU};
+
+/// A leaf with values for free unknowns.
+struct Member {
+    solution: Solution,
+    signs: Vec<i8>,
+    free: u64,
+    number: usize,
+}
+
+/// How many values each of some free unknowns is given: multiples of 5° for one, of 15° for two, of 30° for more.
+pub(super) fn round(unknowns: usize) -> usize {
+    match unknowns {
+        0 | 1 => 72,
+        2 => 24,
+        _ => 12,
+    }
+}
+
+impl InverseSolver {
+    /// The members of a family with its free unknown (radians or metres) at a value; the first, if it has several.
+    pub fn members(
+        &mut self,
+        pose: &Transform<f64>,
+        given: &[f64],
+        family: &Family,
+        value: f64,
+    ) -> Vec<Solution> {
+        let mut at = family.at.clone();
+        if let Some((i, x)) = at.first_mut() {
+            *x = if self.nodes[*i].is_angle { [value.cos(), value.sin()] } else { [value, 0.0] };
+        }
+        self.with_free(pose, given, &at, &family.signs)
+    }
+
+    /// The members of a family with its free unknowns as they are at a configuration: those among them show whether the
+    /// configuration belongs to the family.
+    pub fn members_at(
+        &mut self,
+        pose: &Transform<f64>,
+        given: &[f64],
+        family: &Family,
+        q: &[f64],
+    ) -> Vec<Solution> {
+        // Within the family further unknowns may be free at single places.
+        let at: Vec<(usize, [f64; 2])> = (0..self.nodes.len()).map(|i| (i, self.value_at(i, q))).collect();
+        self.with_free(pose, given, &at, &family.signs)
+    }
+
+    fn with_free(
+        &mut self,
+        pose: &Transform<f64>,
+        given: &[f64],
+        at: &[(usize, [f64; 2])],
+        signs: &[i8],
+    ) -> Vec<Solution> {
+        let variables = variables(self.goal, pose, given);
+        let mut free = vec![None; self.nodes.len()];
+        for &(i, x) in at {
+            free[i] = Some(x);
+        }
+        let leaves = self.scalar.solve_loosely(&variables, &free, LOOSE);
+        // Where two roots coincide there is one sign for both.
+        let branch: Vec<Leaf> = leaves.iter().filter(|l| l.signs == signs).collect();
+        let all = || leaves.iter().filter(|l| l.free != 0 || l.guard < NEAR).collect();
+        let kept: Vec<Leaf> = if branch.is_empty() { all() } else { branch };
+        let found: Vec<Solution> = kept.iter().map(|l| draft(&self.nodes, l)).collect();
+        found.into_iter().filter_map(|s| self.member(pose, s)).collect()
+    }
+
+    /// A leaf as a member of a family, if it is one.
+    fn member(&self, pose: &Transform<f64>, mut s: Solution) -> Option<Solution> {
+        let start = s.q.clone();
+        let holds = self.improve(pose, &mut s);
+        let moved = start.iter().zip(&s.q).zip(&self.is_angle).map(|((x, y), &is_angle)| {
+            if is_angle { wrapped(x - y).abs() } else { (x - y).abs() / self.reach.max(1e-3) }
+        });
+        let far = moved.fold(0.0, f64::max);
+        (holds && far <= SHORT).then_some(s)
+    }
+
+    /// Drops isolated solutions that are members of a family.
+    pub(super) fn absorb(&mut self, pose: &Transform<f64>, given: &[f64], answer: &mut Answer) {
+        let solutions = std::mem::take(&mut answer.solutions);
+        let families = answer.families.clone();
+        for s in solutions {
+            let is_member = s.guard < NEAR && self.is_in_a_family(pose, given, &families, &s.q);
+            if !is_member {
+                answer.solutions.push(s);
+            }
+        }
+    }
+
+    /// Gives free unknowns values all round, and gathers what solves the pose.
+    pub(super) fn families(&mut self, pose: &Transform<f64>, given: &[f64], met: u64, answer: &mut Answer) {
+        let variables = variables(self.goal, pose, given);
+        let mut free: Vec<usize> = (0..self.nodes.len()).filter(|i| met >> i & 1 == 1).collect();
+        let mut members: Vec<Member> = vec![];
+        // Other unknowns may turn out to be free on the way; then all are varied.
+        for _ in 0..3 {
+            let steps = round(free.len());
+            members.clear();
+            let mut more = met;
+            let count = steps.pow(free.len().min(3) as u32);
+            for number in 0..count {
+                let at = self.values(&free, steps, number);
+                let leaves = self.scalar.solve_loosely(&variables, &at, LOOSE);
+                more |= leaves.met_free();
+                for leaf in leaves.iter().filter(|l| l.free != 0) {
+                    members.push(Member {
+                        solution: draft(&self.nodes, &leaf),
+                        signs: leaf.signs.to_vec(),
+                        free: leaf.free,
+                        number,
+                    });
+                }
+            }
+            let known = free.len();
+            free = (0..self.nodes.len()).filter(|i| more >> i & 1 == 1).collect();
+            if free.len() == known {
+                self.group(pose, given, &free, steps, members, answer);
+                return;
+            }
+        }
+        answer.complete = false;
+    }
+
+    /// The values of free unknowns in sample `number`.
+    pub(super) fn values(&self, free: &[usize], steps: usize, number: usize) -> Vec<Option<[f64; 2]>> {
+        let mut at = vec![None; self.nodes.len()];
+        let mut rest = number;
+        for &i in free.iter().take(3) {
+            let k = rest % steps;
+            rest /= steps;
+            let turn = k as f64 / steps as f64;
+            at[i] = Some(if self.nodes[i].is_angle {
+                quarter_exact(k, steps)
+            } else {
+                [(2.0 * turn - 1.0) * self.reach, 0.0]
+            });
+        }
+        at
+    }
+
+    /// Members that belong together: the same branches, neighbouring values.
+    fn group(
+        &mut self,
+        pose: &Transform<f64>,
+        given: &[f64],
+        free: &[usize],
+        steps: usize,
+        members: Vec<Member>,
+        answer: &mut Answer,
+    ) {
+        let mut groups: Vec<Vec<Member>> = vec![];
+        for m in members {
+            let same = |g: &&mut Vec<Member>| {
+                let last = &g[g.len() - 1];
+                last.signs == m.signs
+                    && last.free == m.free
+                    && (free.len() > 1 || m.number - last.number <= 1)
+            };
+            match groups.iter_mut().find(same) {
+                Some(g) => g.push(m),
+                None => groups.push(vec![m]),
+            }
+        }
+        // All round, the last values are next to the first ones.
+        if free.len() == 1 && self.nodes[free[0]].is_angle {
+            let mut k = 0;
+            while k < groups.len() {
+                let starts = groups[k][0].number == 0;
+                let end = (0..groups.len()).find(|&j| {
+                    j != k
+                        && groups[j][0].signs == groups[k][0].signs
+                        && groups[j][0].free == groups[k][0].free
+                        && groups[j].last().is_some_and(|m| m.number + 1 == steps)
+                });
+                if let (true, Some(j)) = (starts, end) {
+                    let mut joined = std::mem::take(&mut groups[j]);
+                    joined.append(&mut groups[k]);
+                    groups[k] = joined;
+                    groups.remove(j);
+                    k = 0;
+                    continue;
+                }
+                k += 1;
+            }
+        }
+        for group in groups {
+            // The representative: a proper solution, of the value nearest to 0.
+            let slides = !self.nodes[free[0]].is_angle;
+            let away = |m: &Member| {
+                let k = m.number % steps;
+                if slides { k.abs_diff(steps / 2) } else { k.min(steps - k) }
+            };
+            let mut sorted: Vec<usize> = (0..group.len()).collect();
+            sorted.sort_by_key(|&k| (away(&group[k]), group[k].number));
+            let best =
+                sorted.iter().find_map(|&k| self.member(pose, group[k].solution.clone()).map(|s| (k, s)));
+            let Some((k, representative)) = best else { continue };
+            let (mask, signs) = (group[k].free, group[k].signs.clone());
+            let values = self.values(free, steps, group[k].number);
+            let at: Vec<(usize, [f64; 2])> = (0..self.nodes.len())
+                .filter(|i| mask >> i & 1 == 1)
+                .filter_map(|i| Some((i, values[i]?)))
+                .collect();
+            let q = representative.q.clone();
+            // Two branches may meet at single places: the whole group must be known already to be dropped.
+            let places = [k, 0, group.len() / 3, group.len() / 2, group.len() - 1];
+            if places.iter().all(|&p| {
+                let Some(s) = self.member(pose, group[p].solution.clone()) else { return true };
+                self.is_in_a_family(pose, given, &answer.families, &s.q)
+            }) {
+                continue;
+            }
+            // Of the unknowns that are free, those that can move while the others stay.
+            let moving: Vec<(usize, Vec<f64>)> = at
+                .iter()
+                .filter_map(|&(i, _)| Some((i, self.tangent(pose, given, i, (&at, &signs), &q)?)))
+                .collect();
+            let Some((first, direction)) = moving.first().cloned() else {
+                self.add(&mut answer.solutions, representative);
+                continue;
+            };
+            let at: Vec<(usize, [f64; 2])> =
+                at.into_iter().filter(|a| moving.iter().any(|m| m.0 == a.0)).collect();
+            let far = group[(k + group.len() / 2) % group.len()].solution.q.clone();
+            let is_affine = at.len() == 1
+                && self
+                    .tangent(pose, given, first, (&at, &signs), &far)
+                    .is_some_and(|d| parallel(&d, &direction));
+            answer.families.push(Family {
+                dimension: at.len(),
+                free: at.iter().map(|&(i, _)| self.nodes[i].unknown.clone()).collect(),
+                direction,
+                is_affine,
+                interval: (free.len() == 1).then(|| self.interval(free[0], steps, &group)),
+                at,
+                signs,
+                representative,
+            });
+        }
+    }
+
+    /// How the joints move with one of the free unknowns at a solution, a unit vector; nothing if they cannot.
+    fn tangent(
+        &mut self,
+        pose: &Transform<f64>,
+        given: &[f64],
+        node: usize,
+        (at, signs): (&[(usize, [f64; 2])], &[i8]),
+        q: &[f64],
+    ) -> Option<Vec<f64>> {
+        const STEP: f64 = 1e-3;
+        let at: Vec<(usize, [f64; 2])> = at.iter().map(|&(i, _)| (i, self.value_at(i, q))).collect();
+        let number = at.iter().position(|a| a.0 == node)?;
+        for step in [STEP, -STEP] {
+            let mut moved = at.clone();
+            let [x, y] = moved[number].1;
+            moved[number].1 = if self.nodes[node].is_angle {
+                let (s, c) = step.sin_cos();
+                [x * c - y * s, y * c + x * s]
+            } else {
+                [x + step * self.reach, 0.0]
+            };
+            // The neighbour on the same branch is the nearest one.
+            let members = self.with_free(pose, given, &moved, signs);
+            let distance = |s: &Solution| norm(&self.moved(q, &s.q));
+            let nearest = members.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+            if let Some(n) = nearest
+                && distance(n) < 100.0 * STEP
+            {
+                let length = distance(n) * step.signum();
+                return Some(self.moved(q, &n.q).iter().map(|d| d / length).collect());
+            }
+        }
+        None
+    }
+
+    /// How the joints differ, angles by the shorter way.
+    pub(super) fn moved(&self, from: &[f64], to: &[f64]) -> Vec<f64> {
+        let pairs = from.iter().zip(to).zip(&self.is_angle);
+        pairs.map(|((x, y), &is_angle)| if is_angle { wrapped(y - x) } else { y - x }).collect()
+    }
+
+    fn is_in_a_family(
+        &mut self,
+        pose: &Transform<f64>,
+        given: &[f64],
+        families: &[Family],
+        q: &[f64],
+    ) -> bool {
+        families.iter().any(|f| {
+            let members = self.members_at(pose, given, f, q);
+            members.iter().any(|m| self.moved(q, &m.q).iter().all(|d| d.abs() <= SHORT))
+        })
+    }
+
+    /// The sampled values between the ends of a group.
+    fn interval(&self, node: usize, steps: usize, group: &[Member]) -> [f64; 2] {
+        let value = |number: usize| {
+            let turn = number as f64 / steps as f64;
+            if self.nodes[node].is_angle { wrapped(turn * TAU) } else { (2.0 * turn - 1.0) * self.reach }
+        };
+        if group.len() == steps && self.nodes[node].is_angle {
+            return [-PI, PI];
+        }
+        [value(group[0].number), value(group[group.len() - 1].number)]
+    }
+}
+
+/// Cosine and sine of k/steps of a turn, exact at quarter turns.
+fn quarter_exact(k: usize, steps: usize) -> [f64; 2] {
+    if (4 * k).is_multiple_of(steps) {
+        return [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]][4 * k / steps % 4];
+    }
+    let (s, c) = (k as f64 / steps as f64 * TAU).sin_cos();
+    [c, s]
+}
+
+fn parallel(a: &[f64], b: &[f64]) -> bool {
+    let dot: f64 = a.iter().zip(b).map(|(x, y)| x * y).sum();
+    (dot.abs() - 1.0).abs() <= 1e-6
+}
