@@ -1,4 +1,4 @@
-//! Generates source code for a UR5 and compiles it, Rust with this compiler, C with gcc and clang.
+//! Generates source code for some arms and compiles it, Rust with this compiler, C with gcc and clang.
 
 use denavit::catalogue;
 use denavit::description::read_toml;
@@ -19,6 +19,8 @@ struct Source {
 const UR5: Source = Source { robot: "ur5", name: "ur5", wanted: Wanted::Pose, precision: Precision::Double };
 const UR5_SINGLE: Source = Source { name: "ur5f", precision: Precision::Single, ..UR5 };
 const PANDA: Source = Source { robot: "franka-panda", name: "panda", wanted: Wanted::Frames, ..UR5 };
+const UR5_INVERSE: Source = Source { name: "ur5_ik", wanted: Wanted::Inverse, ..UR5 };
+const IRB_INVERSE: Source = Source { robot: "abb-irb2400-10", name: "irb2400_ik", ..UR5_INVERSE };
 
 /// Levels of instructions to compile for; on other architectures there is one.
 const LEVELS: [&str; 2] = ["v3", "v4"];
@@ -31,8 +33,9 @@ fn main() {
     let is_x86 = env::var("CARGO_CFG_TARGET_ARCH").is_ok_and(|a| a == "x86_64");
     for level in LEVELS {
         let target = if is_x86 { format!("x86-64-{level}") } else { "native".into() };
-        rust(&out, &UR5, level, &target);
-        rust(&out, &PANDA, level, &target);
+        for source in [&UR5, &PANDA, &UR5_INVERSE, &IRB_INVERSE] {
+            rust(&out, source, level, &target);
+        }
         for source in [&UR5, &UR5_SINGLE, &PANDA] {
             for compiler in ["gcc", "clang"] {
                 c(&out, source, compiler, level, &target);
@@ -80,7 +83,8 @@ fn write(out: &Path, language: Language, source: &Source) -> PathBuf {
     let text = catalogue::text(source.robot).expect("a robot of the catalogue");
     let (description, _) = read_toml(text).unwrap_or_else(|_| panic!("{} can be read", source.robot));
     let (functions, name) = (vec![source.wanted], Some(source.name.into()));
-    let options = Options { language, functions, precision: source.precision, name, fixed: false };
+    let inverse = Default::default();
+    let options = Options { language, functions, inverse, precision: source.precision, name, fixed: false };
     let generated = generate(&description, &options).expect("nothing is fixed");
     let folder = out.join(format!("{}_{language:?}", source.name));
     for file in generated.files {

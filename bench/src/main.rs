@@ -1,13 +1,19 @@
-//! Speed of what evaluates a pose, in units of six `sincos` calls of the C library timed in the same run.
+//! Speed of what evaluates a pose, in units of six `sincos` calls of the C library timed in the same run; with the
+//! argument `inverse`, of what solves one, in units of `ik-geo`.
 //!
-//! Prints one JSON object: the unit in ns and a figure for each entry. `cargo xtask bench` makes a table of it.
+//! Prints one JSON object: the unit in ns and a figure for each entry. `cargo xtask bench` makes tables of it.
 
+extern crate irb2400_ik_v3;
+extern crate irb2400_ik_v4;
 extern crate panda_v3;
 extern crate panda_v4;
+extern crate ur5_ik_v3;
+extern crate ur5_ik_v4;
 extern crate ur5_v3;
 extern crate ur5_v4;
 
 mod compiled;
+mod inverse;
 mod measure;
 mod memory;
 mod peers;
@@ -31,6 +37,9 @@ fn main() -> Result<()> {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         ((state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5) * std::f64::consts::TAU
     };
+    if std::env::args().nth(1).as_deref() == Some("inverse") {
+        return inverse::run(random);
+    }
     let ur5 = read("ur5")?;
     let panda = read("franka-panda")?;
     let pose = compiled(&ur5, &pose_program(&ur5));
@@ -80,16 +89,8 @@ fn main() -> Result<()> {
     entries.extend(memory::entries(&pose, &mut random));
     entries.extend(compilation(&ur5, &pose_program(&ur5), &pose));
 
-    let (unit, figures) = measure::measure(&mut entries, &angles);
-    let figures: Vec<_> = figures
-        .iter()
-        .map(|f| {
-            json!({
-                "group": f.group, "name": f.name, "limit": f.limit, "ns": f.nanoseconds,
-                "ratio": f.ratio[1], "quartiles": [f.ratio[0], f.ratio[2]],
-            })
-        })
-        .collect();
+    let (unit, figures) = measure::measure(&mut entries, measure::library_unit(&angles));
+    let figures: Vec<_> = figures.iter().map(measure::Figure::json).collect();
     println!("{}", json!({"unit_ns": unit, "figures": figures}));
     Ok(())
 }

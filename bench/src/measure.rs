@@ -39,7 +39,7 @@ pub struct Entry<'a> {
     pub run: Box<dyn FnMut() + 'a>,
 }
 
-/// Median and quartiles of the ratios to U.
+/// Median and quartiles of the ratios to the unit.
 pub struct Figure {
     pub group: &'static str,
     pub name: String,
@@ -48,19 +48,35 @@ pub struct Figure {
     pub nanoseconds: f64,
 }
 
-/// Times all entries in turn, round by round. Returns the median of U in ns as well.
-pub fn measure(entries: &mut [Entry], angles: &[f64]) -> (f64, Vec<Figure>) {
+impl Figure {
+    pub fn json(&self) -> serde_json::Value {
+        serde_json::json!({
+            "group": self.group, "name": self.name, "limit": self.limit, "ns": self.nanoseconds,
+            "ratio": self.ratio[1], "quartiles": [self.ratio[0], self.ratio[2]],
+        })
+    }
+}
+
+/// U in ns: six angles by the C library.
+pub fn library_unit(angles: &[f64]) -> impl FnMut() -> f64 {
     let angles = &angles[..UNIT_ANGLES];
     let mut pairs = vec![0.0; 2 * UNIT_ANGLES];
     let per_unit = (UNIT_REPEATS * UNIT_ANGLES) as f64 / 6.0;
+    move || {
+        nanoseconds(|| {
+            (0..UNIT_REPEATS).for_each(|_| library_pairs(black_box(angles), black_box(&mut pairs)));
+        }) / per_unit
+    }
+}
+
+/// Times all entries in turn, round by round, as ratios to a unit (ns). Returns the median of the unit as well.
+pub fn measure(entries: &mut [Entry], mut unit: impl FnMut() -> f64) -> (f64, Vec<Figure>) {
     let mut units = vec![];
     let mut times: Vec<Vec<(f64, f64)>> = entries.iter().map(|_| vec![]).collect();
     for _ in 0..ROUNDS {
         for (entry, times) in entries.iter_mut().zip(&mut times) {
             // The unit right before what is held against it: the clock of the processor may change.
-            let unit = nanoseconds(|| {
-                (0..UNIT_REPEATS).for_each(|_| library_pairs(black_box(angles), black_box(&mut pairs)));
-            }) / per_unit;
+            let unit = unit();
             units.push(unit);
             let time = nanoseconds(&mut entry.run) / entry.items as f64;
             times.push((time / unit, time));
@@ -85,7 +101,7 @@ pub fn measure(entries: &mut [Entry], angles: &[f64]) -> (f64, Vec<Figure>) {
 }
 
 /// The least time of a few runs, ns.
-fn nanoseconds(mut run: impl FnMut()) -> f64 {
+pub fn nanoseconds(mut run: impl FnMut()) -> f64 {
     let mut least = f64::INFINITY;
     for _ in 0..5 {
         let start = Instant::now();

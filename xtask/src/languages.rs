@@ -9,7 +9,7 @@ use std::process::{Command, Stdio};
 use std::thread;
 
 /// Robots of different structure: parallel and crossing axes, slides, couplings, redundant arms, a rail, oblique
-/// twists; and some whose parameters have no values, hostile names, or those of results.
+/// twists (which have no closed form back); and some whose parameters have no values, hostile names, or those of results.
 const ROBOTS: &[&str] = &[
     "ur5",
     "staubli-rx90",
@@ -55,7 +55,7 @@ pub fn run() -> Result<()> {
     });
     a?;
     b.unwrap_or_else(|_| bail!("a test thread panicked"))?;
-    println!("{} robots in every language agree with their link transforms", ROBOTS.len());
+    println!("{} robots in every language agree with their link transforms, forward and back", ROBOTS.len());
     Ok(())
 }
 
@@ -63,7 +63,7 @@ fn one(robot: &str, python: &Path, folder: &Path) -> Result<()> {
     let stem = Path::new(robot).file_stem().and_then(|s| s.to_str()).context("a name")?;
     let generate = |language: &str, extra: &[&str]| -> Result<PathBuf> {
         let target = folder.join(format!("{stem}-{language}{}", extra.concat()));
-        let functions = ["--functions", "fk,frames", "--language", language, "--output"];
+        let functions = ["--functions", "fk,frames,ik", "--language", language, "--output"];
         let output = command(path("target/debug/denavit"))
             .args(["generate", robot])
             .args(functions)

@@ -17,9 +17,10 @@ Everything a contributor runs.
 
 cargo xtask test                 all that a change must pass
 cargo xtask tidy                 the rules of the project that a program can check
-cargo xtask bench [--write] [evaluation] [derivation]
-                                 speed of evaluators and generated code beside peers; CPU time of deriving
-                                 every robot of the catalogue, beside SymPy's; --write renews docs/performance.md
+cargo xtask bench [--write] [evaluation] [inverse] [derivation]
+                                 speed of evaluators and generated code beside peers, forward and inverse; CPU
+                                 time of deriving every robot of the catalogue, beside SymPy's; --write renews
+                                 docs/performance.md; fails if a figure is above its limit
 cargo xtask languages            builds and runs generated source code in every language
 cargo xtask counts [--check]     writes docs/operation-counts.md; --check fails if it is not up to date,
                                  or if SymPy needs fewer operations for some robot

@@ -1,4 +1,4 @@
-//! Fuzzing for a bounded time: no byte string makes a reader panic, hang or swallow the memory.
+//! What takes too long for a test: fuzzing of the readers, inverse models on very many poses, Miri.
 
 use crate::{command, path, succeed};
 use anyhow::{Context, Result, bail};
@@ -11,6 +11,8 @@ const TARGETS: &[(&str, &str)] = &[
     ("robot_file", "crates/robot/catalogue"),
     ("table", "fuzz/seeds/table"),
 ];
+/// The soak that is not a fuzz target.
+const INVERSE: &str = "inverse";
 /// Longest input in bytes.
 const MAX_BYTES: u32 = 4096;
 /// Seconds after which one input counts as a hang (the build is unoptimised for speed and instrumented).
@@ -23,9 +25,15 @@ const MEMORY: u32 = 2048;
 /// # Errors
 /// If a target crashes (the input is left under `fuzz/artifacts`), or the tools are not there.
 pub fn run(seconds: u32, wanted: &[&str]) -> Result<()> {
-    if let Some(unknown) = wanted.iter().find(|w| TARGETS.iter().all(|t| t.0 != **w)) {
-        let known: Vec<&str> = TARGETS.iter().map(|t| t.0).collect();
+    if let Some(unknown) = wanted.iter().find(|w| **w != INVERSE && TARGETS.iter().all(|t| t.0 != **w)) {
+        let known: Vec<&str> = TARGETS.iter().map(|t| t.0).chain([INVERSE]).collect();
         bail!("no fuzz target `{unknown}`; there are {}", known.join(", "));
+    }
+    if wanted.is_empty() || wanted.contains(&INVERSE) {
+        inverse()?;
+    }
+    if wanted == [INVERSE] {
+        return Ok(());
     }
     install()?;
     let mut crashed = vec![];
@@ -49,6 +57,14 @@ pub fn run(seconds: u32, wanted: &[&str]) -> Result<()> {
         bail!("failed: {}; inputs are under fuzz/artifacts", crashed.join(", "));
     }
     Ok(())
+}
+
+/// The tests of inverse models in full: 100,000 random configurations a robot, the whole grid of special ones, more
+/// singularities; about an hour.
+fn inverse() -> Result<()> {
+    println!("\n━━ {INVERSE} ━━");
+    let arguments = ["test", "--release", "-p", "denavit", "--test", "inverse", "--", "--nocapture"];
+    succeed(command("cargo").args(arguments).env("DENAVIT_SOAK", "1"))
 }
 
 /// `cargo fuzz` of the nightly toolchain, which the instrumentation needs.

@@ -2,6 +2,7 @@
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use denavit::description::Convention;
+use denavit::inverse::Goal;
 use denavit_program::emit::Language;
 use std::path::PathBuf;
 
@@ -27,6 +28,8 @@ pub enum Command {
     Show(ShowArguments),
     /// Compute poses: the tool, all frames, orientations in any set of angles
     Fk(FkArguments),
+    /// Find all joint variables for a pose, or derive and explain the formulas for them
+    Ik(IkArguments),
     /// Derive link transforms, the simplified forward model, and the shortest algorithm for it
     Derive(DeriveArguments),
     /// Write source code in a chosen language, in a folder that builds and tests itself
@@ -112,6 +115,46 @@ pub struct FkArguments {
     pub json: bool,
 }
 
+/// `ik`
+#[derive(Args)]
+pub struct IkArguments {
+    /// The robot.
+    #[command(flatten)]
+    pub robot: RobotArguments,
+    /// The pose of the tool: `x, y, z, roll, pitch, yaw` (fixed axes; without unit metres and radians), or a matrix as
+    /// JSON or by rows, as in `"[[1,0,0,0.4],[0,1,0,0],[0,0,1,0.3],[0,0,0,1]]"`
+    #[arg(short, long, value_name = "POSE", allow_hyphen_values = true)]
+    pub pose: Option<String>,
+    /// What the values behind the position in --pose are: quaternion, axis-angle, rpy, or an Euler set such as zyz
+    #[arg(long, value_name = "SET", default_value = "rpy", requires = "pose")]
+    pub orientation: String,
+    /// Take the pose from these joint variables, as in `fk`: shows the other configurations with the same pose
+    #[arg(short, long = "joints", value_name = "Q", allow_hyphen_values = true, conflicts_with = "pose")]
+    pub q: Option<String>,
+    /// Read one JSON 4×4 matrix a line from a file (- for standard input), answer a line each
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["pose", "q"])]
+    pub input: Option<PathBuf>,
+    /// Joint variables that are given beside the pose, with or without value, as in `--given q7=30deg` (names or
+    /// numbers, separated by commas); an arm with too many joints has some chosen otherwise
+    #[arg(long, value_name = "JOINTS")]
+    pub given: Option<String>,
+    /// What of the tool is to be met
+    #[arg(long, value_enum, default_value_t = GoalName::Pose)]
+    pub goal: GoalName,
+    /// Print the derivation, step by step, as a textbook has it
+    #[arg(long, conflicts_with_all = ["pose", "q", "input"])]
+    pub explain: bool,
+    /// Print the formulas alone
+    #[arg(long, conflicts_with_all = ["pose", "q", "input", "explain"])]
+    pub symbolic: bool,
+    /// How to print --explain and --symbolic
+    #[arg(long, value_enum, default_value_t = Format::Terminal, conflicts_with_all = ["pose", "q", "input"])]
+    pub format: Format,
+    /// Print JSON
+    #[arg(long, conflicts_with = "format")]
+    pub json: bool,
+}
+
 /// `derive`
 #[derive(Args)]
 pub struct DeriveArguments {
@@ -144,9 +187,17 @@ pub struct GenerateArguments {
     /// The language
     #[arg(long, short, value_enum)]
     pub language: LanguageName,
-    /// Functions, separated by commas: fk (pose of the tool), frames (all link frames)
-    #[arg(long, short, value_name = "NAMES", default_value = "fk")]
+    /// Functions, separated by commas: fk (pose of the tool), frames (all link frames), ik (all joint variables for a
+    /// pose)
+    #[arg(long, short, value_name = "NAMES", default_value = "fk,ik")]
     pub functions: String,
+    /// For ik: joint variables to be given beside the pose, as in `--given q3` (names or numbers, separated by commas);
+    /// an arm with too many joints has some chosen otherwise
+    #[arg(long, value_name = "JOINTS")]
+    pub given: Option<String>,
+    /// For ik: what of the tool is to be met
+    #[arg(long, value_enum, default_value_t = GoalName::Pose)]
+    pub goal: GoalName,
     /// The folder to write to
     #[arg(long, short, value_name = "DIR")]
     pub output: PathBuf,
@@ -165,6 +216,27 @@ pub struct GenerateArguments {
     /// Print JSON
     #[arg(long)]
     pub json: bool,
+}
+
+/// What of the tool is to be met.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum GoalName {
+    /// Position and orientation
+    Pose,
+    /// The position alone
+    Position,
+    /// The position and the direction of the z axis
+    PositionAxis,
+}
+
+impl From<GoalName> for Goal {
+    fn from(name: GoalName) -> Self {
+        match name {
+            GoalName::Pose => Goal::Pose,
+            GoalName::Position => Goal::Position,
+            GoalName::PositionAxis => Goal::PositionAndAxis,
+        }
+    }
 }
 
 /// Languages by name.
@@ -199,10 +271,11 @@ impl From<LanguageName> for Language {
     }
 }
 
-/// Output formats of `derive`.
+/// Output formats of formulas.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Format {
     /// Aligned text
+    #[value(alias = "text")]
     Terminal,
     /// LaTeX, to paste into a document
     Latex,

@@ -16,6 +16,7 @@ fn main() -> ExitCode {
         Command::Robots(a) => commands::robots::run(&a),
         Command::Show(a) => commands::show::run(&a),
         Command::Fk(a) => commands::fk::run(&a),
+        Command::Ik(a) => commands::ik::run(&a),
         Command::Derive(a) => commands::derive::run(&a),
         Command::Generate(a) => commands::generate::run(&a),
     };

@@ -82,11 +82,18 @@ fn refusals() {
     refused(
         &["generate", "ur5", "--language", "c", "-o", "x", "--functions", "ik2"],
         2,
-        "known are fk, frames",
+        "known are fk, frames, ik",
     );
     refused(&["generate", "ur5", "--language", "python", "-o", "x", "--float"], 2, "double precision");
     refused(&["generate", "ur5", "--language", "c", "-o", "x", "--name", "/"], 2, "--name needs");
     refused(&["generate", "prrrrp", "--language", "c", "-o", "x", "--fixed"], 3, "no value for");
+    refused(&["generate", "oblique-6r", "--language", "c", "-o", "x", "--functions", "ik"], 4, "no closed form");
+    refused(&["generate", "ur5", "--language", "c", "-o", "x", "--given", "q9"], 2, "no joint `q9`");
+    refused(
+        &["generate", "ur5", "--language", "c", "-o", "x", "--functions", "ik", "--given", "q3"],
+        4,
+        "no joint can be given",
+    );
     refused(&["generate", "ur5", "--language", "cobol", "-o", "x"], 2, "javascript");
 }
 
@@ -122,4 +129,47 @@ fn fixed_values_leave_no_parameters() {
     let folder = folder("fixed");
     let answer = generated("ur5", "c", &folder, &["--fixed"]);
     assert!(texts(&folder, &answer).iter().all(|text| !text.contains("ur5_parameters")));
+}
+
+#[test]
+fn there_is_inverse_kinematics_where_it_has_a_closed_form() {
+    let there = folder("inverse");
+    let answer = generated("ur5", "c", &there, &[]);
+    assert_eq!(answer["functions"].as_array().map(Vec::len), Some(1));
+    assert_eq!(answer["ik"]["max_solutions"], 8);
+    assert_eq!(answer["ik"]["branches"].as_array().map(Vec::len), Some(3), "{answer}");
+    assert!(answer["ik"]["poses_in_test"].as_u64() > Some(10), "{answer}");
+    let lines = texts(&there, &answer)[..2].iter().map(|t| t.lines().count()).sum::<usize>();
+    assert!(lines < 1000, "{lines} lines of C");
+
+    let there = folder("inverse-alone");
+    let answer = generated("scara", "python", &there, &["--functions", "ik", "--fixed"]);
+    assert_eq!(answer["functions"].as_array().map(Vec::len), Some(0));
+    assert!(texts(&there, &answer).iter().any(|t| t.contains("def ik(")));
+
+    let there = folder("inverse-position");
+    let answer = generated("planar-2r", "python", &there, &["--goal", "position"]);
+    assert_eq!(answer["ik"]["max_solutions"], 2, "{answer}");
+}
+
+#[test]
+fn joints_too_many_are_given() {
+    let answer = generated("franka-panda", "c", &folder("chosen"), &["--functions", "ik"]);
+    assert_eq!(answer["ik"]["given_by_choice"], true);
+    assert_eq!(answer["ik"]["given"].as_array().map(Vec::len), Some(1));
+    let answer = generated("franka-panda", "c", &folder("given"), &["--functions", "ik", "--given", "q7"]);
+    assert_eq!(answer["ik"]["given_by_choice"], false);
+    assert_eq!(answer["ik"]["given"][0], "q7");
+}
+
+#[test]
+fn an_arm_without_closed_form_has_the_forward_model_only() {
+    let folder = folder("oblique");
+    let path = folder.to_str().expect("a path");
+    let output = denavit(&["generate", "oblique-6r", "--language", "python", "--output", path]);
+    assert_eq!(output.status.code(), Some(0));
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(said.contains("warning: no ik: no closed form"), "{said}");
+    let module = fs::read_to_string(folder.join("oblique_6r.py")).expect("the module is there");
+    assert!(module.contains("def fk(") && !module.contains("def ik("));
 }

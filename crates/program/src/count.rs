@@ -72,6 +72,21 @@ impl Count {
     }
 }
 
+impl std::iter::Sum for Count {
+    fn sum<I: Iterator<Item = Count>>(all: I) -> Count {
+        all.fold(Count::default(), |a, b| Count {
+            multiplications: a.multiplications + b.multiplications,
+            additions: a.additions + b.additions,
+            sincos: a.sincos + b.sincos,
+            divisions: a.divisions + b.divisions,
+            roots: a.roots + b.roots,
+            arctangents: a.arctangents + b.arctangents,
+            offsets: a.offsets + b.offsets,
+            hoisted: a.hoisted + b.hoisted,
+        })
+    }
+}
+
 impl fmt::Display for Count {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let plural = |n: u32, word: &str| format!("{n} {word}{}", if n == 1 { "" } else { "s" });

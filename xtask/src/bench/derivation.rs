@@ -1,10 +1,11 @@
-//! CPU time of deriving the forward model of every robot of the catalogue.
+//! CPU time of deriving the forward model of every robot of the catalogue; behind it that of the inverse model.
 //!
 //! Measured: reading the robot file, the link transforms, the simplified matrix, the search for the shortest
 //! algorithm, and the proof; each time in a fresh thread, so that no formula is known from the run before.
 //! References in the same run: the bare normal form of the same product over single joint angles, and SymPy's
 //! `trigsimp` of the twelve entries for two robots.
 
+use super::closed_form;
 use crate::{command, path, robot, succeed};
 use anyhow::{Context, Result, bail};
 use cpu_time::ThreadTime;
@@ -25,8 +26,8 @@ const WITH_SYMPY: &[&str] = &["staubli-rx90", "puma560"];
 const SYMPY: &str = "1.14.0";
 
 /// Median, least and largest of some times in ms.
-struct Times {
-    median: f64,
+pub struct Times {
+    pub median: f64,
     least: f64,
     largest: f64,
 }
@@ -51,8 +52,8 @@ pub fn run() -> Result<String> {
     }
     let mut rows = vec![];
     for name in catalogue::names() {
-        let ours = times(name, derive)?.context("a derivation is never refused")?;
-        let naive = times(name, expand)?;
+        let ours = times(name, REPEATS, derive)?.context("a derivation is never refused")?;
+        let naive = times(name, REPEATS, expand)?;
         let sympy = match &python {
             Ok(program) if WITH_SYMPY.contains(&name) => Some(trigsimp(program, name)?),
             _ => None,
@@ -61,7 +62,8 @@ pub fn run() -> Result<String> {
     }
     let table = table(&rows);
     println!("{table}\n{}", verdict(&rows));
-    Ok(section(&rows, &table))
+    let inverse = closed_form::run()?;
+    Ok(format!("{}\n{inverse}", section(&rows, &table)))
 }
 
 /// What is measured: from the text of the robot file to the proof.
@@ -85,9 +87,13 @@ fn expand(name: &str) -> Result<bool> {
 }
 
 /// CPU times of `work`, each in a thread of its own; `None` if the work is refused.
-fn times(name: &'static str, work: fn(&str) -> Result<bool>) -> Result<Option<Times>> {
+pub fn times(
+    name: &'static str,
+    repeats: usize,
+    work: fn(&str) -> Result<bool>,
+) -> Result<Option<Times>> {
     let mut milliseconds = vec![];
-    for _ in 0..REPEATS {
+    for _ in 0..repeats {
         let measured = std::thread::Builder::new().stack_size(64 << 20).spawn(move || -> Result<_> {
             let start = ThreadTime::now();
             let done = work(name)?;
@@ -101,9 +107,9 @@ fn times(name: &'static str, work: fn(&str) -> Result<bool>) -> Result<Option<Ti
     }
     milliseconds.sort_by(f64::total_cmp);
     Ok(Some(Times {
-        median: milliseconds[REPEATS / 2],
+        median: milliseconds[repeats / 2],
         least: milliseconds[0],
-        largest: milliseconds[REPEATS - 1],
+        largest: milliseconds[repeats - 1],
     }))
 }
 

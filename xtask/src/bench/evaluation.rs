@@ -11,7 +11,7 @@ use std::process::Stdio;
 /// # Errors
 /// If the package `bench` does not build or run.
 pub fn run() -> Result<String> {
-    let table = table(&measure()?)?;
+    let table = table(&measured(&[])?)?;
     println!("{table}");
     Ok(format!("{INTRODUCTION}{table}"))
 }
@@ -24,9 +24,11 @@ entries of its matrix, link lengths as parameters. A limit is what the project d
 The interpreters choose their instructions when they run; generated code is compiled for AVX2 (x86-64-v3) and for\n\
 AVX-512 (x86-64-v4); everything else, the peers among it, for x86-64-v3.\n";
 
-fn measure() -> Result<Value> {
+/// What the package `bench` prints.
+pub fn measured(arguments: &[&str]) -> Result<Value> {
     let mut cargo = cargo();
     cargo.args(["run", "--release", "--quiet", "--manifest-path"]).arg(path("bench/Cargo.toml"));
+    cargo.arg("--").args(arguments);
     cargo.env("CARGO_TARGET_DIR", path("target/bench")).stderr(Stdio::inherit());
     if cfg!(target_arch = "x86_64") {
         cargo.env("RUSTFLAGS", "-C target-cpu=x86-64-v3");

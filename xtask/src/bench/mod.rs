@@ -1,7 +1,9 @@
 //! Benchmarks, and the page that keeps their results.
 
+mod closed_form;
 mod derivation;
 mod evaluation;
+mod inverse;
 
 use crate::{command, date, path};
 use anyhow::{Context, Result};
@@ -13,26 +15,34 @@ const PAGE: &str = "docs/performance.md";
 /// What can be measured: its name, the title of its section, and the measurement.
 type Part = (&'static str, &'static str, fn() -> Result<String>);
 
-const PARTS: &[Part] =
-    &[("evaluation", "Evaluation", evaluation::run), ("derivation", "Derivation", derivation::run)];
+const PARTS: &[Part] = &[
+    ("evaluation", "Evaluation", evaluation::run),
+    ("inverse", "Inverse kinematics", inverse::run),
+    ("derivation", "Derivation", derivation::run),
+];
+/// What stands behind a figure that is above its limit.
+const MISSED: &str = "**missed**";
 
 /// Measures the parts named, or all of them; with `write` their sections of the page are renewed.
 ///
 /// # Errors
-/// If a measurement fails, there is no such part, or the page cannot be written.
+/// If a measurement fails, a limit is missed, there is no such part, or the page cannot be written.
 pub fn run(wanted: &[&str], write: bool) -> Result<()> {
     if let Some(unknown) = wanted.iter().find(|w| PARTS.iter().all(|p| p.0 != **w)) {
         let known: Vec<&str> = PARTS.iter().map(|p| p.0).collect();
         anyhow::bail!("no benchmark `{unknown}`; there are {}", known.join(", "));
     }
+    let mut missed = 0;
     for (_, title, measure) in PARTS.iter().filter(|p| wanted.is_empty() || wanted.contains(&p.0)) {
         println!("\n━━ {title} ━━");
         let section = measure()?;
+        missed += section.matches(MISSED).count();
         if write {
             renew(title, &section)?;
             println!("wrote the section {title} of {PAGE}");
         }
     }
+    anyhow::ensure!(missed == 0, "figures above their limits: {missed}");
     Ok(())
 }
 

@@ -5,7 +5,9 @@ use crate::failure::Failure;
 use crate::load;
 use crate::terminal::{FAINT, HEADING, NAME, styled};
 use denavit::forward::Proof;
-use denavit::generate::{self, Generated, Options, Wanted};
+use denavit::description::Description;
+use denavit::generate::{self, Generated, Inverse, Options, Wanted};
+use denavit::inverse;
 use denavit_program::emit::{Language, Precision};
 use serde_json::json;
 use std::fs;
@@ -38,9 +40,11 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
         return Err(Failure::Usage(format!("--float: {} computes in double precision", language.name())));
     }
     let description = load::robot(&arguments.robot)?;
+    let given = arguments.given.as_deref().map(|words| joints(words, &description)).transpose()?;
     let options = Options {
         language,
         functions,
+        inverse: inverse::Options { goal: arguments.goal.into(), given },
         precision: if arguments.float { Precision::Single } else { Precision::Double },
         name: Some(
             arguments.name.clone().unwrap_or_else(|| name_of(&arguments.robot.robot, &description.name)),
@@ -50,6 +54,12 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
     let generated = generate::generate(&description, &options).map_err(|missing| {
         Failure::Input(format!("error: --fixed: {missing}\n  = hint: give values with --set"))
     })?;
+    if let Some(why) = &generated.refused {
+        if generated.files.is_empty() {
+            return Err(Failure::Unsupported(format!("ik: {why}")));
+        }
+        writeln!(anstream::stderr(), "warning: no ik: {why}")?;
+    }
     write(&generated, &arguments.output, arguments.force)?;
     for (wanted, _, proof) in &generated.functions {
         if *proof != Proof::Proved {
@@ -63,6 +73,20 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
         write!(out, "{}", report(&generated, language, &arguments.output))?;
     }
     Ok(())
+}
+
+/// Joint variables (from 0) by name or number.
+fn joints(words: &str, description: &Description) -> Result<Vec<usize>, Failure> {
+    let variables = description.variables();
+    let find = |word: &str| {
+        let number = word.parse().ok().filter(|n| (1..=variables.len()).contains(n)).map(|n: usize| n - 1);
+        let found = number.or_else(|| variables.iter().position(|v| *v.symbol.name() == *word));
+        found.ok_or_else(|| {
+            let names: Vec<String> = variables.iter().map(|v| v.symbol.name().to_string()).collect();
+            Failure::Usage(format!("--given: no joint `{word}`; there are {}", names.join(", ")))
+        })
+    };
+    words.split(',').map(str::trim).filter(|w| !w.is_empty()).map(find).collect()
 }
 
 /// The catalogue's name or the file's stem; a table from standard input goes by the name in it.
@@ -131,7 +155,30 @@ fn report(generated: &Generated, language: Language, folder: &Path) -> String {
     for (wanted, count, proof) in &generated.functions {
         text += &format!("{}: {count}; {proof}\n", styled(wanted.name(), NAME));
     }
+    if let Some(ik) = &generated.inverse {
+        text += &format!("{}: {}\n", styled("ik", NAME), in_words(ik));
+    }
     text += &format!("test it there with: {}\n", test_command(generated, language));
+    text
+}
+
+/// `closed form, at most 8 solutions (shoulder, wrist, elbow); q3 is given`
+fn in_words(ik: &Inverse) -> String {
+    let mut text = format!("closed form, at most {}", ik.at_most());
+    if !ik.branches.is_empty() {
+        text += &format!(" ({})", ik.branches.join(", "));
+    }
+    let given: Vec<String> = ik.given.iter().map(|s| s.name().to_string()).collect();
+    if !given.is_empty() {
+        text += &format!("; given: {}", given.join(", "));
+    }
+    if ik.given_by_choice {
+        text += " (chosen here; --given chooses others)";
+    }
+    let assumed: Vec<String> = ik.assumed.iter().map(|(s, _)| s.name().to_string()).collect();
+    if !assumed.is_empty() {
+        text += &format!("; with the values of {} in it", assumed.join(", "));
+    }
     text
 }
 
@@ -143,6 +190,19 @@ fn as_json(generated: &Generated, language: Language, folder: &Path) -> serde_js
             "proved": *proof == Proof::Proved,
         })
     }).collect();
+    let names = |list: Vec<denavit_symbolic::Symbol>| -> Vec<String> {
+        list.iter().map(|s| s.name().to_string()).collect()
+    };
+    let inverse = generated.inverse.as_ref().map(|ik| {
+        json!({
+            "max_solutions": ik.max_solutions,
+            "branches": ik.branches,
+            "given": names(ik.given.clone()),
+            "given_by_choice": ik.given_by_choice,
+            "assumed": names(ik.assumed.iter().map(|a| a.0).collect()),
+            "poses_in_test": ik.vectors,
+        })
+    });
     let files: Vec<&str> = generated.files.iter().map(|f| f.path.as_str()).collect();
     json!({
         "schema": 1,
@@ -150,6 +210,7 @@ fn as_json(generated: &Generated, language: Language, folder: &Path) -> serde_js
         "folder": folder.display().to_string(),
         "files": files,
         "functions": functions,
+        "ik": inverse,
         "test": test_command(generated, language),
     })
 }

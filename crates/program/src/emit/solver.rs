@@ -334,19 +334,19 @@ impl<'a> Plan<'a> {
         let mut lines = self.routine.about.clone();
         lines.push(String::new());
         lines.push(format!(
-            "At most {} solutions. Each has a residual (at most 1e-9), a multiplicity",
-            self.max()
+            "At most {}. Each has a residual (at most 1e-9), a multiplicity (branches that come together, \
+             within 2e-7), the number of its branch, and a bit for each unknown that is free there, of whose family \
+             it is one member:",
+            if self.max() == 1 { "1 solution".into() } else { format!("{} solutions", self.max()) }
         ));
-        lines.push(
-            "(branches that come together, within 2e-7), the number of its branch, and a bit for".into(),
-        );
-        lines.push("each unknown that is free there, of whose family it is one member:".into());
-        for (i, node) in self.nodes.iter().enumerate() {
-            let of: Vec<&str> = node.results[..1 + usize::from(node.root.is_angle())]
-                .iter()
-                .map(|s| self.names.of(*s))
-                .collect();
-            lines.push(format!("  bit {i}: {} ({})", node.label, of.join(", ")));
+        for (i, (node, own)) in self.nodes.iter().zip(&self.routine.solver.nodes).enumerate() {
+            let results = &node.results[..1 + usize::from(node.root.is_angle())];
+            let of: Vec<&str> = results.iter().map(|s| self.names.of(*s)).collect();
+            let of = of.join(", ");
+            lines.push(match own.label {
+                Some(_) => format!("  bit {i}: {} ({of})", node.label),
+                None => format!("  bit {i}: {of}"),
+            });
         }
         lines
     }

@@ -147,6 +147,7 @@ impl SolverBuilder {
         };
         // Where values are: nodes that are carried, and signed values that roots read.
         let mut held: FxHashMap<u32, (Register, Symbol)> = FxHashMap::default();
+        let mut early: FxHashSet<String> = FxHashSet::default();
         let mut built: Vec<Level> = vec![];
         let mut places: Vec<Vec<Register>> = vec![];
         for i in 0..=last {
@@ -177,8 +178,15 @@ impl SolverBuilder {
                     held.insert(n, (w.2, Symbol::new(&w.0)));
                 } else {
                     let r = fresh();
-                    let proposed = names.get(&n).cloned().unwrap_or_else(|| format!("t{}", r));
-                    let name = unique(&proposed, &mut used);
+                    // An output that is known early stands nowhere else.
+                    let output = outputs.iter().find(|o| o.value == v).map(|o| o.name.clone());
+                    let name = match output.filter(|name| early.insert(name.clone())) {
+                        Some(name) => name,
+                        None => {
+                            let proposed = names.get(&n).cloned().unwrap_or_else(|| format!("w{r}"));
+                            unique(&proposed, &mut used)
+                        }
+                    };
                     held.insert(n, (r, Symbol::new(&name)));
                     write.push((name, v, r));
                 }

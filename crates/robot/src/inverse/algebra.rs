@@ -130,8 +130,7 @@ impl Algebra {
     /// A polynomial as a sum of products.
     pub fn formula(&self, p: &Poly) -> Expr {
         p.terms().iter().fold(Expr::int(0), |sum, (m, r)| {
-            let product =
-                m.factors().iter().fold(Expr::int(1), |x, &(a, n)| x * self.expr(a).powi(n.into()));
+            let product = m.factors().iter().fold(Expr::int(1), |x, &(a, n)| x * self.expr(a).powi(n.into()));
             sum + Expr::from(r.clone()) * product
         })
     }

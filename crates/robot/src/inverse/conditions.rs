@@ -89,7 +89,8 @@ pub fn conditions(
     if lacking == 0 {
         return vec![];
     }
-    let used: FxHashSet<Source> = steps.iter().flat_map(|s| s.origins.iter().flat_map(|o| o.sources())).collect();
+    let used: FxHashSet<Source> =
+        steps.iter().flat_map(|s| s.origins.iter().flat_map(|o| o.sources())).collect();
     let mut known = Known::new(chain, given);
     let mut candidates: Vec<Condition> = vec![];
     for behind in 0..=steps.len() {
@@ -120,8 +121,7 @@ pub fn conditions(
         if chosen.len() == lacking {
             break;
         }
-        let mut row: Vec<f64> =
-            directions.iter().map(|d| samples.derivative(&c.zero, d)).collect();
+        let mut row: Vec<f64> = directions.iter().map(|d| samples.derivative(&c.zero, d)).collect();
         let length = norm(&row);
         if length < 1e-9 {
             continue;

@@ -3,7 +3,9 @@
 //! Where an equation leaves its unknown free, the unknown is given values all round; what solves the pose then, on one
 //! branch and for neighbouring values, is a family, or a single solution if its neighbours are none.
 
-use super::solve::{Answer, Family, InverseSolver, LOOSE, NEAR, SHORT, Solution, draft, norm, variables, wrapped};
+use super::solve::{
+    Answer, Family, InverseSolver, LOOSE, NEAR, ROUGH, SHORT, Solution, draft, norm, variables, wrapped,
+};
 use crate::geometry::Transform;
 use denavit_program::solver::Leaf;
 use std::f64::consts::{PI, TAU};
@@ -228,7 +230,10 @@ impl InverseSolver {
                 .filter_map(|&(i, _)| Some((i, self.tangent(pose, given, i, (&at, &signs), &q)?)))
                 .collect();
             let Some((first, direction)) = moving.first().cloned() else {
-                self.add(&mut answer.solutions, representative);
+                // Near a singularity a wrong value passes too, by the tolerance; the branch itself gave the right one.
+                if representative.residual <= ROUGH {
+                    self.add(&mut answer.solutions, representative);
+                }
                 continue;
             };
             let at: Vec<(usize, [f64; 2])> =

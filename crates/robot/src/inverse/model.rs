@@ -152,8 +152,7 @@ impl InverseModel {
         let task = conditions::task(&chain, rank, of_position, with_axis);
         let lacking = if options.goal == Goal::Pose { 6 - rank } else { 0 };
         let axes = axes_of(&chain, &given);
-        let conditions =
-            conditions::conditions(&chain, &found, &outcome.steps, &axes, &samples, lacking);
+        let conditions = conditions::conditions(&chain, &found, &outcome.steps, &axes, &samples, lacking);
         let compiled = compile::compile(&chain, &outcome.steps, &splits, options.goal, &given, &labels);
         Ok(InverseModel {
             goal: options.goal,
@@ -325,7 +324,9 @@ fn labels(chain: &Chain, steps: &[Step]) -> Vec<Option<String>> {
                 "reach"
             } else if spans_wrist {
                 "wrist"
-            } else if first == turns[0] && (turns.len() > 3 || matches!(step.form, Form::Line)) {
+            } else if first == turns[0] && (turns.len() > 3 || matches!(step.form, Form::Line))
+                || turns.len() >= 7 && turns[..3].contains(&last)
+            {
                 "shoulder"
             } else {
                 "elbow"

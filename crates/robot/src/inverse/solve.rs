@@ -135,7 +135,7 @@ pub enum Obstacle {
 }
 
 /// A residual above this is more than rounding, and Newton's method lowers it.
-const ROUGH: f64 = 1e-13;
+pub(super) const ROUGH: f64 = 1e-13;
 /// A guard below this may be one that vanishes at a solution which is known to the square root of rounding only.
 pub(super) const NEAR: f64 = 1e-6;
 /// What guards are compared with then, by what they are compared with otherwise.
@@ -397,7 +397,12 @@ impl InverseSolver {
         answer.obstacle = match (starts.first(), last) {
             (Some(s), _) => {
                 let (angle, distance) = newton::gap(&self.robot, self.goal, pose, &s.q);
-                Some(Obstacle::NotOnTheArm { q: s.q.clone(), angle, distance, violated: self.violated(pose, &s.q) })
+                Some(Obstacle::NotOnTheArm {
+                    q: s.q.clone(),
+                    angle,
+                    distance,
+                    violated: self.violated(pose, &s.q),
+                })
             }
             (None, Some(end)) => {
                 Some(Obstacle::NoRoot { unknown: self.nodes[end.node].unknown.clone(), gap: end.gap })

@@ -13,12 +13,7 @@ mtable{border:solid currentColor;border-width:0 1.5px;border-radius:.5em;padding
 
 /// The page.
 pub fn document(d: &Derivation) -> String {
-    let name = escaped(&d.description.name);
-    let mut text = format!(
-        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <title>{name}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<h1>{name}</h1>\n<h2>Link transforms</h2>\n"
-    );
+    let mut text = head(&d.description.name) + "<h2>Link transforms</h2>\n";
     for (i, link) in d.links.iter().enumerate() {
         text += &formula(&frame_label(&i.to_string(), &(i + 1).to_string()), &matrix(d, link));
     }
@@ -41,9 +36,22 @@ pub fn document(d: &Derivation) -> String {
             &formula(&d.text(Expr::symbol(&step.name), Style::MathMl), &d.text(step.value, Style::MathMl));
     }
     let _ = writeln!(text, "<p>{}</p>", escaped(&d.model.algorithm.count().to_string()));
-    let _ = writeln!(text, "<p class=\"note\">{}</p>\n</body>\n</html>", escaped(&d.model.proof.to_string()));
-    text
+    let _ = writeln!(text, "<p class=\"note\">{}</p>", escaped(&d.model.proof.to_string()));
+    text + END
 }
+
+/// The page up to its heading.
+pub fn head(title: &str) -> String {
+    let title = escaped(title);
+    format!(
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <title>{title}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>\n"
+    )
+}
+
+/// The end of a page.
+pub const END: &str = "</body>\n</html>\n";
 
 fn formula(left: &str, right: &str) -> String {
     format!(
@@ -70,6 +78,7 @@ fn matrix(d: &Derivation, rows: &[[Expr; 4]; 4]) -> String {
     format!("<mtable>{rows}</mtable>")
 }
 
-fn escaped(text: &str) -> String {
+/// Text outside of formulas.
+pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -5,9 +5,12 @@ use denavit_symbolic::Expr;
 use denavit_symbolic::print::Style;
 use std::fmt::Write;
 
+/// The first line of a fragment.
+pub const HEAD: &str = concat!("% Made by denavit ", env!("CARGO_PKG_VERSION"), "; needs amsmath.\n");
+
 /// A fragment to paste into a document.
 pub fn document(d: &Derivation) -> String {
-    let mut text = format!("% Made by denavit {}; needs amsmath.\n", env!("CARGO_PKG_VERSION"));
+    let mut text = HEAD.to_string();
     let _ =
         writeln!(text, "\\section*{{{}}}\n\\subsection*{{Link transforms}}", escaped(&d.description.name));
     for (i, link) in d.links.iter().enumerate() {
@@ -54,7 +57,7 @@ fn matrix(d: &Derivation, rows: &[[Expr; 4]; 4]) -> String {
 }
 
 /// Text outside of formulas.
-fn escaped(text: &str) -> String {
+pub fn escaped(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars() {
         match c {

@@ -1,10 +1,10 @@
 //! `denavit derive`: formulas, in the format asked for.
 
-mod html;
+pub mod html;
 mod json;
-mod latex;
+pub mod latex;
 mod terminal;
-mod typst;
+pub mod typst;
 
 use crate::arguments::{DeriveArguments, Format, RobotArguments};
 use crate::failure::Failure;

@@ -5,10 +5,16 @@ use denavit_symbolic::Expr;
 use denavit_symbolic::print::Style;
 use std::fmt::Write;
 
+/// The first lines of a fragment.
+pub const HEAD: &str = concat!(
+    "// Made by denavit ",
+    env!("CARGO_PKG_VERSION"),
+    "\n#show math.equation: set block(breakable: true)\n"
+);
+
 /// A fragment to paste into a document.
 pub fn document(d: &Derivation) -> String {
-    let mut text = format!("// Made by denavit {}\n", env!("CARGO_PKG_VERSION"));
-    text += "#show math.equation: set block(breakable: true)\n";
+    let mut text = HEAD.to_string();
     let _ = writeln!(text, "#heading(level: 1, {})\n\n== Link transforms\n", quoted(&d.description.name));
     for (i, link) in d.links.iter().enumerate() {
         let _ = writeln!(text, "$ attach(T, tl: {i}, br: {}) = {} $\n", i + 1, matrix(d, link));
@@ -52,6 +58,6 @@ fn matrix(d: &Derivation, rows: &[[Expr; 4]; 4]) -> String {
 }
 
 /// A Typst string.
-fn quoted(text: &str) -> String {
+pub fn quoted(text: &str) -> String {
     format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\"").replace(char::is_control, " "))
 }

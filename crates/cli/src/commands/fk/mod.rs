@@ -10,6 +10,7 @@ use crate::load;
 use crate::terminal::{Align, HEADING, NAME, decimals, lowered, matrix, number, raised, styled};
 use answer::Answers;
 use denavit::Robot;
+use denavit::robot::MissingValue;
 use denavit::description::{Description, JointKind, Measure, Variable};
 use denavit::forward::Reference;
 use denavit::geometry::Transform;
@@ -28,18 +29,8 @@ pub fn run(arguments: &FkArguments) -> Result<(), Failure> {
     }
     let description = load::robot(&arguments.robot)?;
     let request = Request::new(&description, arguments)?;
-    let robot = Robot::numeric(&description).map_err(|missing| {
-        let example = |p: &String| match description.measure(Symbol::new(p)) {
-            Measure::Angle => format!("--set {p}=30deg"),
-            Measure::Length => format!("--set {p}=450mm"),
-        };
-        let settings: Vec<String> = missing.parameters.iter().map(example).collect();
-        Failure::Input(format!(
-            "error: {}: {missing}\n  = hint: give values, as in {}",
-            arguments.robot.robot,
-            settings.join(" ")
-        ))
-    })?;
+    let robot = Robot::numeric(&description)
+        .map_err(|missing| without_values(&description, &arguments.robot.robot, &missing))?;
     match (&arguments.input, &arguments.q) {
         (Some(path), _) => stream::run(Answers::new(&description, &request), path),
         (None, Some(text)) => {
@@ -63,6 +54,16 @@ pub fn run(arguments: &FkArguments) -> Result<(), Failure> {
             pose_names(&description),
         ))),
     }
+}
+
+/// Parameters have no value.
+pub fn without_values(description: &Description, name: &str, missing: &MissingValue) -> Failure {
+    let example = |p: &String| match description.measure(Symbol::new(p)) {
+        Measure::Angle => format!("--set {p}=30deg"),
+        Measure::Length => format!("--set {p}=450mm"),
+    };
+    let settings: Vec<String> = missing.parameters.iter().map(example).collect();
+    Failure::Input(format!("error: {name}: {missing}\n  = hint: give values, as in {}", settings.join(" ")))
 }
 
 /// What is asked for besides the tool's pose.
@@ -100,7 +101,7 @@ fn pose_names(d: &Description) -> String {
 }
 
 /// A pose of the file, or values separated by commas, semicolons or blanks.
-fn configuration(d: &Description, text: &str) -> Result<Vec<f64>, Failure> {
+pub fn configuration(d: &Description, text: &str) -> Result<Vec<f64>, Failure> {
     let variables = d.variables();
     let bad = |why: String| Failure::Usage(format!("-q: {why}"));
     if let Some((_, q)) = d.poses.iter().find(|p| p.0 == text.trim()) {
@@ -131,18 +132,18 @@ fn configuration(d: &Description, text: &str) -> Result<Vec<f64>, Failure> {
     if errors.is_empty() { Ok(q) } else { Err(bad(errors.join("\n  "))) }
 }
 
-fn plural(n: usize, word: &str) -> String {
+pub fn plural(n: usize, word: &str) -> String {
     format!("{n} {word}{}", if n == 1 { "" } else { "s" })
 }
 
-fn value(e: Expr) -> Result<f64, String> {
+pub fn value(e: Expr) -> Result<f64, String> {
     match e.eval(|_| None) {
         Ok(x) if x.is_finite() => Ok(x),
         _ => Err("not a finite number".into()),
     }
 }
 
-fn limits(d: &Description) -> Vec<(Variable, Option<[f64; 2]>)> {
+pub fn limits(d: &Description) -> Vec<(Variable, Option<[f64; 2]>)> {
     let numeric = |l: [Expr; 2]| Some([value(l[0]).ok()?, value(l[1]).ok()?]);
     d.rows.iter().filter_map(|r| Some((r.variable?, r.limits.and_then(numeric)))).collect()
 }
@@ -167,7 +168,7 @@ fn warn_of_limits(d: &Description, q: &[f64]) -> Result<(), Failure> {
 }
 
 /// A joint variable for reading: degrees or metres.
-fn reading(x: f64, kind: JointKind) -> String {
+pub fn reading(x: f64, kind: JointKind) -> String {
     match kind {
         JointKind::Revolute => format!("{}°", decimals(x.to_degrees(), 4)),
         JointKind::Prismatic => format!("{} m", decimals(x, 6)),

@@ -4,6 +4,7 @@ use super::{RESERVED, Source, WIDTH, block_comment, test};
 use crate::emit::compiled::{Body, WRAP, lines};
 use crate::emit::nested::{Leaf, Nested, element, part, routines};
 use crate::emit::solver::Plan;
+use crate::count::Count;
 use crate::emit::{Language, Library, Precision};
 use std::fmt::Write;
 
@@ -131,7 +132,7 @@ pub(crate) fn structure(plan: &Plan, name: &str, macro_name: &str) -> String {
     let mut words = plan.about();
     let shape: Vec<String> = plan.routine.shape.iter().map(usize::to_string).collect();
     words.push(format!(
-        "Takes {} values, {} row by row. Level by level: {}.",
+        "Takes {} values, {} row by row. Between the roots, each branch once: {}.",
         plan.routine.solver.variables.len(),
         if shape.is_empty() { "a number".into() } else { shape.join(" x ") },
         counts(plan)
@@ -147,11 +148,9 @@ pub(crate) fn structure(plan: &Plan, name: &str, macro_name: &str) -> String {
     )
 }
 
-/// What the programs between roots cost, taken once each.
+/// What the programs between roots cost, each taken once.
 pub(crate) fn counts(plan: &Plan) -> String {
-    let levels = plan.routine.solver.levels.iter();
-    let all: Vec<String> = levels.map(|l| l.program.count().to_string()).filter(|c| !c.is_empty()).collect();
-    all.join("; ")
+    plan.routine.solver.levels.iter().map(|l| l.program.count()).sum::<Count>().to_string()
 }
 
 /// The function that keeps a solution.

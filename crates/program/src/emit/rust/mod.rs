@@ -219,14 +219,15 @@ impl Source<'_> {
         more.extend(example.iter().map(String::as_str));
         more.extend(["", "The functions allocate nothing and need `core` only."]);
         more.extend(angles.iter().map(String::as_str));
-        more.extend([
+        let has_functions = !self.functions.is_empty();
+        more.extend(has_functions.then_some([
             "",
             "A block holds the values of `LANES` configurations side by side: `q[j][i]` is variable j of",
             "configuration i, and result k of it, counted row by row, comes to row k. All lanes must hold",
             "finite numbers. Blocks are several times faster than single calls if the compiler may use",
             "vector instructions and fused multiply-add: `RUSTFLAGS=\"-C target-cpu=x86-64-v3\"` or",
             "`native`.",
-        ]);
+        ]).into_iter().flatten());
         let opening: String = self.head("//! ", &[]).replace("```", "'''");
         let mut text = format!("//! ```text\n{opening}//! ```\n");
         text.push_str(&lines(&comments(more, "//! ", WIDTH)));
@@ -263,7 +264,10 @@ impl Source<'_> {
 
     /// The functions, and what they are for.
     fn code(&self) -> String {
-        let mut text = format!("\n/// Configurations of a block.\npub const LANES: usize = {LANES};\n");
+        let mut text = String::new();
+        if !self.functions.is_empty() {
+            text.push_str(&format!("\n/// Configurations of a block.\npub const LANES: usize = {LANES};\n"));
+        }
         text.push_str(&self.parameters());
         for f in &self.functions {
             text.push_str(&self.one(f));

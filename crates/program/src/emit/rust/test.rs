@@ -21,7 +21,7 @@ impl Source<'_> {
         }
         let has_parameters = tested.iter().any(|f| !f.parameters(self.library).is_empty())
             || solved.iter().any(|p| !p.parameters(self.library).is_empty());
-        let mut used = vec!["LANES".to_string()];
+        let mut used: Vec<String> = tested.first().map(|_| "LANES".to_string()).into_iter().collect();
         if has_parameters {
             used.push("Parameters".into());
         }
@@ -29,7 +29,7 @@ impl Source<'_> {
         for p in &solved {
             let (f, kind, upper) = (&p.name, camel(&p.name), p.name.to_uppercase());
             used.extend([f.clone(), format!("{f}_block"), format!("{kind}Block"), format!("{kind}Solution")]);
-            used.extend([format!("{upper}_BRANCHES"), format!("{upper}_MAX")]);
+            used.extend(["BRANCHES", "LANES", "MAX"].map(|word| format!("{upper}_{word}")));
         }
         let whole = format!("use {}::{{{}}};", self.name, used.join(", "));
         let fits = whole.len() <= WIDTH;

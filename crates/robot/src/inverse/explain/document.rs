@@ -70,7 +70,12 @@ impl Line {
     /// Words.
     #[must_use]
     pub fn text(mut self, text: impl Into<String>) -> Self {
-        self.0.push(Piece::Text(text.into()));
+        let text = text.into();
+        match self.0.last_mut() {
+            Some(Piece::Text(before)) => before.push_str(&text),
+            _ if text.is_empty() => {}
+            _ => self.0.push(Piece::Text(text)),
+        }
         self
     }
 
@@ -195,7 +200,9 @@ impl Factor {
     #[must_use]
     pub fn inverse(self) -> Self {
         match self {
-            Factor::Named { letter, number, of, inverse } => Factor::Named { letter, number, of, inverse: !inverse },
+            Factor::Named { letter, number, of, inverse } => {
+                Factor::Named { letter, number, of, inverse: !inverse }
+            }
             // Half a turn is its own inverse.
             Factor::Rotation(axis, angle) if angle == Expr::pi() => Factor::Rotation(axis, angle),
             Factor::Rotation(axis, angle) => Factor::Rotation(axis, -angle),

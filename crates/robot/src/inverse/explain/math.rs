@@ -7,7 +7,25 @@ use denavit_symbolic::{Expr, Symbol};
 
 /// The formula; `names` says how angles are numbered.
 pub fn math(m: &Math, names: &Vocabulary, style: Style) -> String {
-    Writer { names, style }.math(m)
+    if matches!(style, Style::Ascii | Style::Unicode) {
+        return Writer { names, style }.math(m);
+    }
+    // px is set as p with the index x.
+    let entries = m.exprs().into_iter().flat_map(Expr::symbols).filter_map(indexed);
+    let names = entries.filter_map(Expr::as_symbol).fold(names.clone(), |v, s| v.symbol(&s.name()));
+    Writer { names: &names, style }.math(m)
+}
+
+/// An entry of the pose with its index apart.
+fn indexed(s: Symbol) -> Option<Expr> {
+    let name = s.name();
+    let mut letters = name.chars();
+    match (letters.next(), letters.next(), letters.next()) {
+        (Some(a @ ('n' | 'o' | 'a' | 'p')), Some(b @ ('x' | 'y' | 'z')), None) => {
+            Some(Expr::symbol(&format!("{a}_{b}")))
+        }
+        _ => None,
+    }
 }
 
 struct Writer<'a> {
@@ -19,9 +37,9 @@ impl Writer<'_> {
     fn math(&self, m: &Math) -> String {
         let text = match m {
             Math::Expr(e) => self.expr(*e),
-            Math::Chain(first, rest) => {
-                rest.iter().fold(self.expr(*first), |text, (sign, e)| text + self.sign(*sign) + &self.expr(*e))
-            }
+            Math::Chain(first, rest) => rest
+                .iter()
+                .fold(self.expr(*first), |text, (sign, e)| text + self.sign(*sign) + &self.expr(*e)),
             Math::Product(factors) => self.product(factors),
             Math::Products(left, right) => self.product(left) + self.sign(Sign::Equal) + &self.product(right),
             Math::Matrix(name, rows) => self.factor(name) + self.sign(Sign::Equal) + &self.matrix(rows),
@@ -34,16 +52,6 @@ impl Writer<'_> {
 
     /// Names such as px are p with the index x where indices can be set.
     fn expr(&self, e: Expr) -> String {
-        let indexed = |s: Symbol| -> Option<Expr> {
-            let name = s.name();
-            let mut letters = name.chars();
-            match (letters.next(), letters.next(), letters.next()) {
-                (Some(a @ ('n' | 'o' | 'a' | 'p')), Some(b @ ('x' | 'y' | 'z')), None) => {
-                    Some(Expr::symbol(&format!("{a}_{b}")))
-                }
-                _ => None,
-            }
-        };
         let e = match self.style {
             Style::Ascii | Style::Unicode => e,
             Style::Latex | Style::Typst | Style::MathMl => e.substitute(indexed),
@@ -110,7 +118,10 @@ impl Writer<'_> {
                 match p.iter().filter(|e| !zero(e)).count() {
                     1 => {
                         let k = p.iter().position(|e| !zero(e)).unwrap_or(0);
-                        self.call(&self.function("Trans"), &[self.letter(['x', 'y', 'z'][k]), self.expr(p[k])])
+                        self.call(
+                            &self.function("Trans"),
+                            &[self.letter(['x', 'y', 'z'][k]), self.expr(p[k])],
+                        )
                     }
                     _ => self.call(&self.function("Trans"), &p.map(|e| self.expr(e))),
                 }
@@ -124,7 +135,8 @@ impl Writer<'_> {
     fn angle(&self, e: Expr) -> String {
         let turns = denavit_symbolic::Angle::of(e);
         let degrees = &turns.turns * &denavit_symbolic::Rational::from(180);
-        let is_multiple = e.symbols().is_empty() && turns.to_expr() == (Expr::from(turns.turns.clone()) * Expr::pi());
+        let is_multiple =
+            e.symbols().is_empty() && turns.to_expr() == (Expr::from(turns.turns.clone()) * Expr::pi());
         if !is_multiple || degrees.is_zero() {
             return self.expr(e);
         }

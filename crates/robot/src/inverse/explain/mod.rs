@@ -4,6 +4,7 @@
 //! paragraphs and formulas that knows no notation; [`text`] is the tree for a terminal, [`math()`] a formula in any style.
 
 mod document;
+mod explained;
 mod math;
 mod names;
 mod origin;
@@ -14,12 +15,13 @@ mod text;
 mod words;
 
 pub use document::{Block, Branch, Factor, Line, Math, Piece, Proof, Sign};
+pub use explained::{Case, Explained, Source, Statement};
 pub use math::math;
 pub use origin::listed;
-pub use step::{Condition, Explained, Source, Statement};
 pub use text::{Mark, text};
 
 use super::chain::{Chain, Motion};
+use super::conditions::{Condition, Task};
 use super::equations::{Goal, Split, equations};
 use super::known::{Unknown, axis_unknown};
 use super::model::{InverseModel, Stuck};
@@ -48,6 +50,8 @@ pub struct Explanation {
     pub given_by_choice: bool,
     /// Independent directions in which the hand can move, if that was asked.
     pub rank: Option<usize>,
+    /// What the hand can be told.
+    pub task: Option<Task>,
     /// The matrices A1, A2, … of the chain.
     pub matrices: Vec<(Factor, Vec<Factor>)>,
     /// What was brought to the side of the pose, in front and behind: T(base) and T(tool).
@@ -58,7 +62,7 @@ pub struct Explanation {
     pub steps: Vec<Explained>,
     /// How joint variables follow that no step gives by name.
     pub joints: Vec<Statement>,
-    /// What a pose has to meet beside: an arm with fewer than six directions does not reach all.
+    /// What a pose must meet: an arm with fewer than six directions does not reach all.
     pub leftovers: Vec<Statement>,
     /// The branches, with the number of the solution at the ends.
     pub branches: Option<Branch>,
@@ -77,6 +81,7 @@ struct Facts<'a> {
     steps: &'a [Step],
     labels: &'a [Option<String>],
     splits: &'a [Split],
+    conditions: &'a [Condition],
     given: &'a [usize],
     goal: Goal,
 }
@@ -90,12 +95,14 @@ impl Explanation {
             steps: &model.steps,
             labels: &model.labels,
             splits: &model.splits,
+            conditions: &model.conditions,
             given: &model.given,
             goal: model.goal,
         };
-        let mut explanation = facts.explain(Some(model.rank));
+        let mut explanation = facts.explain();
         explanation.given_by_choice = model.given_by_choice;
         explanation.rank = Some(model.rank);
+        explanation.task = Some(model.task);
         explanation.solutions = Some(model.max_solutions());
         explanation.branches = Some(branches(&explanation.steps, &mut 0));
         explanation
@@ -112,10 +119,11 @@ impl Explanation {
             steps: &stuck.steps,
             labels: &labels,
             splits: &splits,
+            conditions: &[],
             given: &stuck.given,
             goal,
         };
-        let mut explanation = facts.explain(None);
+        let mut explanation = facts.explain();
         explanation.missing = stuck.missing.iter().map(|&j| stuck.chain.variables[j].into()).collect();
         explanation.surplus = stuck.surplus;
         explanation
@@ -124,7 +132,12 @@ impl Explanation {
     /// Every statement that is proved or not.
     pub fn statements(&self) -> impl Iterator<Item = &Statement> {
         let steps = self.steps.iter().flat_map(|s| {
-            s.sources.iter().flat_map(|o| o.equations.iter()).chain(&s.names).chain(&s.coefficients).chain(&s.solution)
+            s.sources
+                .iter()
+                .flat_map(|o| o.equations.iter())
+                .chain(&s.names)
+                .chain(&s.coefficients)
+                .chain(&s.solution)
         });
         steps.chain(&self.joints).chain(&self.leftovers)
     }
@@ -171,12 +184,17 @@ impl Explanation {
 }
 
 impl Facts<'_> {
-    fn explain(&self, rank: Option<usize>) -> Explanation {
+    fn explain(&self) -> Explanation {
         let chain = self.chain;
         let reading = Reading::new(chain, self.given, self.steps);
         let matrices = Matrices::new(&reading, self.splits, self.description.convention);
-        let mut taken: Vec<String> =
-            chain.variables.iter().chain(&chain.parameters).chain(&chain.pose).map(|s| s.name().to_string()).collect();
+        let mut taken: Vec<String> = chain
+            .variables
+            .iter()
+            .chain(&chain.parameters)
+            .chain(&chain.pose)
+            .map(|s| s.name().to_string())
+            .collect();
         taken.extend(["T", "U", "t"].map(String::from));
         let mut unique = |wanted: &str| {
             let mut name = wanted.to_string();
@@ -226,21 +244,18 @@ impl Facts<'_> {
             (Factor::Named { letter: "A", number: Some(k + 1), of: Some(of), inverse: false }, factors)
         };
         let placed = |x: &Transform<Expr>| (*x != Transform::identity()).then(|| placement(x));
-        let directions = rank.unwrap_or(6);
         Explanation {
             description: self.description.clone(),
             goal: self.goal,
             given: self.given.iter().map(|&j| chain.variables[j].into()).collect(),
             given_by_choice: false,
-            rank,
+            rank: None,
             matrices: (0..chain.axes.len()).map(grouped).collect(),
             moved: [placed(&chain.base), placed(&chain.tool)],
             pose: chain.pose.map(Expr::from),
             joints: self.joints(&reading, &prover),
-            leftovers: match self.goal {
-                Goal::Pose if directions < 6 => self.leftovers(&reading, &prover, 6 - directions),
-                _ => vec![],
-            },
+            leftovers: self.leftovers(&reading, &prover),
+            task: None,
             steps,
             branches: None,
             solutions: None,
@@ -289,7 +304,9 @@ impl Facts<'_> {
                 }
             }
             // What is added, then what is taken away, each along the chain.
-            terms.sort_by_cached_key(|t| (t.0.is_negative(), t.1.symbols().first().map(|s| s.name().to_string())));
+            terms.sort_by_cached_key(|t| {
+                (t.0.is_negative(), t.1.symbols().first().map(|s| s.name().to_string()))
+            });
             let total = |part: fn(&(Rational, Expr, Expr)) -> Expr| {
                 terms.iter().map(|t| Expr::from(t.0.clone()) * part(t)).reduce(|a, b| a + b)
             };
@@ -301,59 +318,17 @@ impl Facts<'_> {
         found
     }
 
-    /// Equations that are left when all is known, those that can be asked first in front.
-    fn leftovers(&self, reading: &Reading, prover: &Prover, count: usize) -> Vec<Statement> {
-        let algebra = &self.chain.algebra;
-        // What a step solved is no condition.
-        let mut used: Vec<Poly> = vec![];
-        for step in self.steps {
-            if let Unknown::Angle(d) = step.unknown {
-                let (c, s) = self.chain.pair(d.group, d.from, d.to);
-                let left = |r: &super::plan::Row| algebra.times(&r.a, &c).plus(&algebra.times(&r.b, &s));
-                used.extend(step.rows.iter().map(|r| left(r).minus(&r.c.plus)));
-            }
-        }
-        let mut found: Vec<(usize, usize, bool, Poly, Poly)> = vec![];
-        for split in self.splits {
-            for i in 0..3 {
-                for j in 0..4 {
-                    let (pose, chain) = match j {
-                        3 => (&split.pose[i], &split.chain[i]),
-                        _ => (&split.pose_rotation[i][j], &split.chain_rotation[i][j]),
-                    };
-                    let Some(pose) = pose else { continue };
-                    let zero = pose.minus(chain);
-                    let rank = reading.rank_of(&zero);
-                    let pose_only = chain.atoms().iter().all(|&a| reading.rank(a) == 0);
-                    let is_used = used.contains(&zero) || used.contains(&reading::negated(&zero));
-                    if pose_only && !is_used && (1..usize::MAX).contains(&rank) {
-                        found.push((rank, zero.terms().len(), j != 2, pose.clone(), chain.clone()));
-                    }
-                }
-            }
-        }
-        found.sort_by(|a, b| (a.0, a.1, a.2).cmp(&(b.0, b.1, b.2)));
-        let mut kept: Vec<Statement> = vec![];
-        let mut seen: Vec<Poly> = vec![];
-        for (_, _, _, pose, chain) in found {
-            let zero = pose.minus(&chain);
-            if kept.len() == count {
-                break;
-            }
-            if seen.contains(&zero) || seen.contains(&reading::negated(&zero)) {
-                continue;
-            }
-            let (mut left, mut right) = (reading.plain(&pose), reading.plain(&chain));
-            let proof = prover.equation(left, right);
+    /// What a pose must meet beside.
+    fn leftovers(&self, reading: &Reading, prover: &Prover) -> Vec<Statement> {
+        let statement = |c: &Condition| {
+            let (mut left, mut right) = (reading.plain(&c.pose), reading.plain(&c.chain));
+            let proof = Some(prover.equation(left, right));
             if step::unsigned(left) != left {
                 (left, right) = (-left, -right);
             }
-            if proof != Proof::Wrong {
-                kept.push(Statement { math: Math::equation(left, right), number: None, proof: Some(proof) });
-            }
-            seen.push(zero);
-        }
-        kept
+            Statement { math: Math::equation(left, right), number: None, proof }
+        };
+        self.conditions.iter().map(statement).collect()
     }
 }
 

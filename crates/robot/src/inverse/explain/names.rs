@@ -45,7 +45,9 @@ impl Names {
             });
         }
         // What is long, or holds more than the pose.
-        counts.retain(|c| c.1 >= 2 && (reading.rank_of(&c.0) >= 2 || reading.rank_of(&c.0) == 1 && c.0.terms().len() > 2));
+        counts.retain(|c| {
+            c.1 >= 2 && (reading.rank_of(&c.0) >= 2 || reading.rank_of(&c.0) == 1 && c.0.terms().len() > 2)
+        });
         counts.sort_by_key(|c| (reading.rank_of(&c.0), c.0.terms().len()));
         let mut named: Vec<(Poly, Expr, usize)> = vec![];
         for (p, _) in counts {

@@ -82,7 +82,9 @@ impl<'a> Matrices<'a> {
             Some(mut factors) => found.append(&mut factors),
             None => {
                 let zero = Expr::int(0);
-                found.push(Factor::Constant(r.iter().map(|row| row.iter().copied().chain([zero]).collect()).collect()));
+                found.push(Factor::Constant(
+                    r.iter().map(|row| row.iter().copied().chain([zero]).collect()).collect(),
+                ));
             }
         }
         found
@@ -129,7 +131,8 @@ impl<'a> Matrices<'a> {
     fn price(&self, left: usize, right: usize) -> (usize, usize) {
         let inside = |e: usize| self.groups.iter().any(|g| g.start < e && e < g.end);
         let apart = usize::from(inside(left)) + usize::from(inside(right));
-        let axes = |r: Range<usize>| self.groups.iter().filter(|g| g.start < r.end && r.start < g.end).count();
+        let axes =
+            |r: Range<usize>| self.groups.iter().filter(|g| g.start < r.end && r.start < g.end).count();
         (apart, axes(0..left) + axes(right..self.chain().elements.len()))
     }
 
@@ -168,7 +171,14 @@ impl<'a> Matrices<'a> {
                     if here < price && (difference == zero || difference == minus) {
                         price = here;
                         let sides = vec![(pose.clone(), chain.clone())];
-                        best = Cut { left: split.left, right: split.right, rows: vec![i], column: j, inverse: false, sides };
+                        best = Cut {
+                            left: split.left,
+                            right: split.right,
+                            rows: vec![i],
+                            column: j,
+                            inverse: false,
+                            sides,
+                        };
                     }
                 }
             }
@@ -190,9 +200,8 @@ impl<'a> Matrices<'a> {
                 continue;
             }
             let zeros: Vec<Option<Poly>> = (0..3).map(|k| zero(split, k)).collect();
-            let place = |w: &Poly| {
-                zeros.iter().position(|z| z.as_ref().is_some_and(|z| z == w || *z == negated(w)))
-            };
+            let place =
+                |w: &Poly| zeros.iter().position(|z| z.as_ref().is_some_and(|z| z == w || *z == negated(w)));
             let places: Option<Vec<usize>> = wanted.iter().map(place).collect();
             if let Some(mut places) = places {
                 places.sort_unstable();
@@ -210,7 +219,9 @@ impl<'a> Matrices<'a> {
         let at = |left| self.splits.iter().find(|s| s.left == left && s.right == source.right);
         let split = at(source.left)?;
         match source.entry {
-            Entry::Rotation(i, j) => Some((split.pose_rotation[i][j].clone()?, split.chain_rotation[i][j].clone())),
+            Entry::Rotation(i, j) => {
+                Some((split.pose_rotation[i][j].clone()?, split.chain_rotation[i][j].clone()))
+            }
             Entry::Position(i) => Some((split.pose[i].clone()?, split.chain[i].clone())),
             Entry::Inverse(i) => {
                 // −Rᵀp on both sides, the side of the pose before it is turned.
@@ -352,10 +363,17 @@ pub fn elementary(r: &[[Expr; 3]; 3]) -> Option<Vec<Factor>> {
     for a in quarters {
         for b in quarters {
             for c in quarters {
-                let product = crate::geometry::Rotation::about_z(a) * crate::geometry::Rotation::about_x(b) * crate::geometry::Rotation::about_z(c);
+                let product = crate::geometry::Rotation::about_z(a)
+                    * crate::geometry::Rotation::about_x(b)
+                    * crate::geometry::Rotation::about_z(c);
                 if product.rows() == *r {
                     let all = [('z', a), ('x', b), ('z', c)];
-                    return Some(all.into_iter().filter(|f| !f.1.is_zero()).map(|(k, e)| Factor::Rotation(k, e)).collect());
+                    return Some(
+                        all.into_iter()
+                            .filter(|f| !f.1.is_zero())
+                            .map(|(k, e)| Factor::Rotation(k, e))
+                            .collect(),
+                    );
                 }
             }
         }

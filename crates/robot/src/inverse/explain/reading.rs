@@ -118,7 +118,9 @@ impl<'a> Reading<'a> {
                     let way = self.path(self.chain.differences[n], steps).unwrap_or_default();
                     found.extend(way.iter().filter_map(|w| w.1));
                 }
-                Kind::Slide(k) => found.extend(self.slides.iter().filter(|s| s.0 == k && s.1 < steps).map(|s| s.1)),
+                Kind::Slide(k) => {
+                    found.extend(self.slides.iter().filter(|s| s.0 == k && s.1 < steps).map(|s| s.1))
+                }
                 Kind::Pose(_) | Kind::Constant(_) => {}
             }
         }
@@ -194,7 +196,9 @@ impl<'a> Reading<'a> {
         if p.is_zero() {
             return Expr::int(0);
         }
-        if p.terms().len() > 1 && let Some(name) = short(p) {
+        if p.terms().len() > 1
+            && let Some(name) = short(p)
+        {
             return name;
         }
         match self.parts(p) {
@@ -215,10 +219,13 @@ impl<'a> Reading<'a> {
                 }
                 for (m, r) in rest.terms() {
                     let term = self.monomial(m, r);
-                    let known: Vec<Atom> = m.factors().iter().map(|f| f.0).filter(|&a| self.rank(a) > 0).collect();
+                    let known: Vec<Atom> =
+                        m.factors().iter().map(|f| f.0).filter(|&a| self.rank(a) > 0).collect();
                     match known[..] {
                         [] => constants.push(term),
-                        [a] if self.place(a) == 2 && m.exponent(a) == 1 && m.factors().len() > 1 => back.push((a, term)),
+                        [a] if self.place(a) == 2 && m.exponent(a) == 1 && m.factors().len() > 1 => {
+                            back.push((a, term))
+                        }
                         _ => front.push(term),
                     }
                 }
@@ -238,7 +245,9 @@ impl<'a> Reading<'a> {
             return self.monomial(&m.times(&Monomial::power(atom, 1)), r);
         }
         let x = self.chain.algebra.expr(atom);
-        if short(inside).is_none() && let Parts::Content(m, r, inner) = self.parts(inside) {
+        if short(inside).is_none()
+            && let Parts::Content(m, r, inner) = self.parts(inside)
+        {
             return times(self.monomial(&m, &r) * x, self.expr(&inner, short));
         }
         let within = self.expr(inside, short);
@@ -328,7 +337,9 @@ fn positive_first(mut terms: Vec<Expr>) -> Expr {
         denavit_symbolic::Node::Number(r) => r.is_negative(),
         _ => false,
     };
-    if terms.first().is_some_and(negative) && let Some(k) = terms.iter().position(|t| !negative(t)) {
+    if terms.first().is_some_and(negative)
+        && let Some(k) = terms.iter().position(|t| !negative(t))
+    {
         let first = terms.remove(k);
         terms.insert(0, first);
     }

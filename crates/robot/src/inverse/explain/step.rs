@@ -1,6 +1,7 @@
 //! One step: from where its equation comes, of which type it is, its solution, what can go wrong.
 
-use super::document::{Factor, Line, Math, Proof, Sign};
+use super::document::{Line, Math, Proof, Sign};
+use super::explained::{Case, Explained, Source, Statement};
 use super::names::Names;
 use super::origin::Matrices;
 use super::prove::{Prover, identity};
@@ -8,80 +9,6 @@ use super::reading::{Reading, negated};
 use crate::inverse::plan::{Determinant, Elimination, Form, Norm, Origin, Row, Step};
 use denavit_symbolic::poly::{Monomial, Poly};
 use denavit_symbolic::{Expr, Rational};
-
-/// A formula that is printed.
-#[derive(Clone, Debug)]
-pub struct Statement {
-    /// The formula.
-    pub math: Math,
-    /// The number by which the text refers to it.
-    pub number: Option<usize>,
-    /// Whether it is proved; nothing for a definition.
-    pub proof: Option<Proof>,
-}
-
-/// An equation of the chain.
-#[derive(Clone, Debug)]
-pub struct Source {
-    /// The matrix equation.
-    pub product: (Vec<Factor>, Vec<Factor>),
-    /// Row and column of the elements that are used, from 1.
-    pub elements: Vec<(usize, usize)>,
-    /// True if the inverse of both sides is taken.
-    pub inverse: bool,
-    /// True if the squares of the rows are added.
-    pub squared: bool,
-    /// Why few joints occur.
-    pub why: Option<String>,
-    /// The equations, numbered.
-    pub equations: Vec<Statement>,
-}
-
-/// What a condition means.
-#[derive(Clone, Debug)]
-pub struct Condition {
-    /// When.
-    pub when: Vec<Math>,
-    /// Then.
-    pub then: String,
-}
-
-/// A step explained.
-#[derive(Clone, Debug)]
-pub struct Explained {
-    /// The name of the unknown: q1, q234.
-    pub unknown: Expr,
-    /// What a sum stands for: q2 + q3 + q4.
-    pub meaning: Option<Expr>,
-    /// How many values it has.
-    pub values: usize,
-    /// Where the equations come from.
-    pub sources: Vec<Source>,
-    /// What is done with them: an elimination.
-    pub elimination: Option<Line>,
-    /// Names that are used from here on.
-    pub names: Vec<Statement>,
-    /// The type in words.
-    pub kind: String,
-    /// The type's number in the books: Paul; Khalil and Dombre.
-    pub number: &'static str,
-    /// The general form of the type.
-    pub form: Vec<Math>,
-    /// The coefficients in it.
-    pub coefficients: Vec<Statement>,
-    /// From the equation to the solution.
-    pub solution: Vec<Statement>,
-    /// When it has how many values.
-    pub conditions: Vec<Condition>,
-    /// What the branches are called.
-    pub label: Option<String>,
-    /// The sign that tells them apart, ±1.
-    pub sign: Option<Expr>,
-    /// Later steps that use the unknown, from 1.
-    pub used_by: Vec<usize>,
-    /// What is lost or added on the way.
-    pub remark: String,
-}
 
 /// What explaining a step needs.
 pub struct Context<'a> {
@@ -183,7 +110,9 @@ impl Context<'_> {
         for origin in origins {
             let (cut, squared) = match origin {
                 Origin::Entry(source) => (self.matrices.entry(*source), false),
-                Origin::Squares { left, right, components } => (self.matrices.squares(*left, *right, components), true),
+                Origin::Squares { left, right, components } => {
+                    (self.matrices.squares(*left, *right, components), true)
+                }
                 Origin::Eliminated { .. } => (None, false),
             };
             let Some(cut) = cut else { continue };
@@ -198,7 +127,8 @@ impl Context<'_> {
             let product = self.matrices.sides(&cut);
             let why = self.matrices.why_short(&cut);
             let elements = cut.rows.iter().map(|r| (r + 1, cut.column + 1));
-            let same = |s: &&mut Source| !squared && !s.squared && s.inverse == cut.inverse && s.product == product;
+            let same =
+                |s: &&mut Source| !squared && !s.squared && s.inverse == cut.inverse && s.product == product;
             if let Some(s) = found.iter_mut().find(same) {
                 s.elements.extend(elements);
                 s.equations.extend(equations);
@@ -255,7 +185,7 @@ impl Context<'_> {
             ..self.plain(done.unknown, n / d)
         });
         if self.reading.rank_of(denominator) > 0 {
-            done.conditions.push(Condition {
+            done.conditions.push(Case {
                 when: vec![Math::equation(unsigned(d), Expr::int(0))],
                 then: "the displacement is free if the right-hand side vanishes too; else no solution".into(),
             });
@@ -289,12 +219,20 @@ impl Context<'_> {
             done.solution = vec![Statement { proof, ..self.plain(r, formula) }];
         } else {
             done.coefficients = vec![self.plain(la, a), self.plain(lb, b), self.plain(lc, c)];
-            done.solution = vec![Statement { proof, ..self.plain(r, (sign * (lb.powi(2) - la * lc).sqrt() - lb) / la) }];
+            done.solution =
+                vec![Statement { proof, ..self.plain(r, (sign * (lb.powi(2) - la * lc).sqrt() - lb) / la) }];
         }
-        let inside = if b.is_zero() && a.is_one() { -c } else { lb.powi(2) - if a.is_one() { lc } else { la * lc } };
+        let inside =
+            if b.is_zero() && a.is_one() { -c } else { lb.powi(2) - if a.is_one() { lc } else { la * lc } };
         done.conditions = vec![
-            Condition { when: vec![Math::relation(inside, Sign::Less, zero)], then: "out of reach: no solution on this branch".into() },
-            Condition { when: vec![Math::equation(inside, zero)], then: "both values coincide (multiplicity 2)".into() },
+            Case {
+                when: vec![Math::relation(inside, Sign::Less, zero)],
+                then: "out of reach: no solution on this branch".into(),
+            },
+            Case {
+                when: vec![Math::equation(inside, zero)],
+                then: "both values coincide (multiplicity 2)".into(),
+            },
         ];
     }
 
@@ -306,10 +244,12 @@ impl Context<'_> {
         let name = done.unknown;
         let (cn, sn) = (c, s);
         let zero = Expr::int(0);
-        let form = |[a, b, d, e, g]: [Expr; 5], c: Expr, s: Expr| a * c.powi(2) + b * c * s + d * c + e * s + g;
+        let form =
+            |[a, b, d, e, g]: [Expr; 5], c: Expr, s: Expr| a * c.powi(2) + b * c * s + d * c + e * s + g;
         let values: [Expr; 5] = all.each_ref().map(|n| self.sum(i, n));
         // Letters of coefficients that are there.
-        let letters: [Expr; 5] = std::array::from_fn(|k| if values[k].is_zero() { zero } else { self.letters[k] });
+        let letters: [Expr; 5] =
+            std::array::from_fn(|k| if values[k].is_zero() { zero } else { self.letters[k] });
         done.form = vec![Math::equation(form(letters, cn, sn), zero)];
         done.coefficients = [a, b, d, e, g]
             .into_iter()
@@ -323,7 +263,11 @@ impl Context<'_> {
         let t = Expr::symbol("t");
         let two = Expr::int(2);
         let [a, b, d, e, g] = letters;
-        let quartic = (a - d + g) * t.powi(4) + two * (e - b) * t.powi(3) + two * (g - a) * t.powi(2) + two * (e + b) * t + (a + d + g);
+        let quartic = (a - d + g) * t.powi(4)
+            + two * (e - b) * t.powi(3)
+            + two * (g - a) * t.powi(2)
+            + two * (e + b) * t
+            + (a + d + g);
         let one = Expr::int(1);
         let half = one + t.powi(2);
         let substituted = form(letters, (one - t.powi(2)) / half, two * t / half);
@@ -331,9 +275,9 @@ impl Context<'_> {
         done.solution.push(Statement { math: Math::equation(quartic, zero), number: None, proof });
         done.solution.push(self.plain(name, two * t.atan2(one)));
         done.conditions = vec![
-            Condition { when: vec![], then: "as many values as the polynomial has real roots t = tan(θ/2): 0, 2 or 4; a double root counts twice".into() },
-            Condition { when: vec![Math::equation(a - d + g, zero)], then: "one root is the half turn".into() },
-            Condition { when: [a, b, d, e, g].into_iter().filter(|x| !x.is_zero()).map(|x| Math::equation(x, zero)).collect(), then: "the joint is free".into() },
+            Case { when: vec![], then: "as many values as the polynomial has real roots t = tan(θ/2): 0, 2 or 4; a double root counts twice".into() },
+            Case { when: vec![Math::equation(a - d + g, zero)], then: "one root is the half turn".into() },
+            Case { when: [a, b, d, e, g].into_iter().filter(|x| !x.is_zero()).map(|x| Math::equation(x, zero)).collect(), then: "the joint is free".into() },
         ];
     }
 
@@ -351,7 +295,7 @@ impl Context<'_> {
         let k = done.sign.unwrap_or(Expr::int(1));
         let proof = Some(self.prover.equation(x * s, y * c));
         done.solution = vec![Statement { proof, ..self.plain(name, (k * y).atan2(k * x)) }];
-        done.conditions = vec![Condition {
+        done.conditions = vec![Case {
             when: vec![Math::equation(unsigned(x), zero), Math::equation(unsigned(y), zero)],
             then: "the equation leaves the angle free: the arm can move with its hand still, if the other equations allow it".into(),
         }];
@@ -382,7 +326,11 @@ impl Context<'_> {
             let (vn, rn) = (value, rest);
             self.equations += 1;
             let proof = Some(self.prover.equation(positive * value, right));
-            done.solution.push(Statement { math: Math::equation(vn, right / positive), number: Some(self.equations), proof });
+            done.solution.push(Statement {
+                math: Math::equation(vn, right / positive),
+                number: Some(self.equations),
+                proof,
+            });
             // cos = (a c − κ b R)/(a² + b²), sin = (b c + κ a R)/(a² + b²)
             let sign = if is_cos == negative { -k } else { k };
             let root = (one - vn.powi(2)).sqrt();
@@ -406,14 +354,22 @@ impl Context<'_> {
         let (fa, fb, fc) = if short { (a, b, right) } else { (la, lb, lc) };
         let square = length_squared(fa, fb) - fc.powi(2);
         // At every configuration R² = (A sin − B cos)².
-        let proof = Some(self.prover.equation((a * s - b * c).powi(2), a.powi(2) + b.powi(2) - right.powi(2)));
+        let proof =
+            Some(self.prover.equation((a * s - b * c).powi(2), a.powi(2) + b.powi(2) - right.powi(2)));
         done.solution.push(Statement { proof, ..self.plain(r, square.sqrt()) });
         let proof = Some(type_2());
         done.solution.push(Statement { proof, ..self.plain(name, fb.atan2(fa) + k * r.atan2(fc)) });
         self.reach(i, row, done, None);
         if self.reading.rank_of(&row.a).max(self.reading.rank_of(&row.b)) > 0 {
-            let when = [b, a].into_iter().filter(|e| !e.is_zero()).map(|e| Math::equation(unsigned(e), zero)).collect();
-            done.conditions.push(Condition { when, then: "no solution, unless the right-hand side vanishes too: then the joint is free".into() });
+            let when = [b, a]
+                .into_iter()
+                .filter(|e| !e.is_zero())
+                .map(|e| Math::equation(unsigned(e), zero))
+                .collect();
+            done.conditions.push(Case {
+                when,
+                then: "no solution, unless the right-hand side vanishes too: then the joint is free".into(),
+            });
         }
     }
 
@@ -438,12 +394,13 @@ impl Context<'_> {
                 let right = self.sum(i, &row.c);
                 let literals = |e: Expr| denavit_symbolic::readable::literals(e);
                 let total: u64 = coefficients.iter().map(|e| literals(*e)).sum::<u64>() + literals(right);
-                let (a, b, c) = if total <= SHORT { (coefficients[0], coefficients[1], right) } else { (la, lb, lc) };
+                let (a, b, c) =
+                    if total <= SHORT { (coefficients[0], coefficients[1], right) } else { (la, lb, lc) };
                 let (left, right) = (length_squared(a, b), c.powi(2));
                 (Math::relation(left, Sign::AtLeast, right), "out of reach: no solution on this branch")
             }
         };
-        done.conditions.push(Condition {
+        done.conditions.push(Case {
             when: vec![when],
             then: format!("two values; they coincide where equality holds (multiplicity 2, a singular configuration); otherwise {less}"),
         });
@@ -464,7 +421,8 @@ impl Context<'_> {
         let mut divisors = vec![Monomial::one()];
         for &(atom, exponent) in halves.factors() {
             let powers = (0..=exponent / 2).map(|e| Monomial::power(atom, e));
-            divisors = powers.flat_map(|p| divisors.iter().map(|d| d.times(&p)).collect::<Vec<_>>()).collect();
+            divisors =
+                powers.flat_map(|p| divisors.iter().map(|d| d.times(&p)).collect::<Vec<_>>()).collect();
         }
         for d in divisors {
             let rest = n.over(&d.times(&d)).scaled(&Rational::new(1, 4));
@@ -474,7 +432,10 @@ impl Context<'_> {
             }
             let root = match rest.terms() {
                 [(x, r)] if x.factors().iter().all(|f| f.1 % 2 == 0) && r.sqrt().is_some() => {
-                    let half = x.factors().iter().fold(Monomial::one(), |h, f| h.times(&Monomial::power(f.0, f.1 / 2)));
+                    let half = x
+                        .factors()
+                        .iter()
+                        .fold(Monomial::one(), |h, f| h.times(&Monomial::power(f.0, f.1 / 2)));
                     self.reading.plain(&Poly::term(half, r.sqrt()?))
                 }
                 _ => self.reading.plain(&rest).sqrt(),
@@ -498,7 +459,9 @@ impl Context<'_> {
         let lone = |p: &Poly| p.terms().len() == 1 && self.reading.rank_of(p) == 0;
         let rows = [0, 1].map(|k| flipped(self, &step.rows[k]).unwrap_or_else(|| step.rows[k].clone()));
         let (r1, r2) = (&rows[0], &rows[1]);
-        let separate = [(r1, r2), (r2, r1)].into_iter().find(|(x, y)| x.b.is_zero() && y.a.is_zero() && lone(&x.a) && lone(&y.b));
+        let separate = [(r1, r2), (r2, r1)]
+            .into_iter()
+            .find(|(x, y)| x.b.is_zero() && y.a.is_zero() && lone(&x.a) && lone(&y.b));
         if let Some((x, y)) = separate {
             done.kind = "cosine and sine, each from an equation of its own".into();
             let mut values = vec![];
@@ -519,7 +482,7 @@ impl Context<'_> {
                 done.solution.push(Statement { proof: Some(py), ..self.plain(s, y) });
                 done.solution.push(self.plain(name, s.atan2(c)));
             }
-            done.conditions.push(Condition { when: vec![], then: "always exactly one value".into() });
+            done.conditions.push(Case { when: vec![], then: "always exactly one value".into() });
             return;
         }
         let coefficients = |row: &Row| [self.known(i, &row.a), self.known(i, &row.b), self.sum(i, &row.c)];
@@ -554,15 +517,15 @@ impl Context<'_> {
             done.solution.push(Statement { proof: Some(px), ..self.plain(c, x / symbol) });
             done.solution.push(Statement { proof: Some(py), ..self.plain(s, y / symbol) });
             done.solution.push(self.plain(name, s.atan2(c)));
-            done.conditions.push(Condition { when: vec![Math::equation(symbol, zero)], then: "the two equations are one: two values, or a free joint, or none; the solver goes by the longer row".into() });
+            done.conditions.push(Case { when: vec![Math::equation(symbol, zero)], then: "the two equations are one: two values, or a free joint, or none; the solver goes by the longer row".into() });
         } else {
             done.solution.push(Statement { proof, ..self.plain(name, y.atan2(x)) });
             match determinant {
-                Determinant::Perpendicular => done.conditions.push(Condition {
+                Determinant::Perpendicular => done.conditions.push(Case {
                     when: vec![Math::equation(unsigned(a1), zero), Math::equation(unsigned(b1), zero)],
                     then: "the joint is free if the right-hand sides vanish too; else no solution".into(),
                 }),
-                _ => done.conditions.push(Condition { when: vec![], then: "always exactly one value".into() }),
+                _ => done.conditions.push(Case { when: vec![], then: "always exactly one value".into() }),
             }
         }
     }
@@ -614,9 +577,4 @@ fn remark(step: &Step) -> String {
         (Form::Pair { .. } | Form::Line | Form::Sincos | Form::Ratio { .. }, ..) => "Nothing is dropped, nothing is squared.".into(),
         _ => "No root is added.".into(),
     }
-}
-
-/// Ordinal numbers of rows and columns.
-pub fn ordinal(n: usize) -> &'static str {
-    ["zeroth", "first", "second", "third", "fourth"][n.min(4)]
 }

@@ -53,7 +53,11 @@ pub fn text(blocks: &[Block], names: &Vocabulary, mark: &dyn Fn(Mark, &str) -> S
                     out += &format!("      {line}\n");
                 }
                 let space = NUMBER.saturating_sub(6 + last.chars().count() + tail.chars().count());
-                let tail = if tail.is_empty() { tail } else { " ".repeat(space.max(2)) + &(writer.mark)(Mark::Faint, &tail) };
+                let tail = if tail.is_empty() {
+                    tail
+                } else {
+                    " ".repeat(space.max(2)) + &(writer.mark)(Mark::Faint, &tail)
+                };
                 out += &format!("      {last}{tail}\n");
             }
             Block::Tree(branch) => writer.tree(branch, &mut out),

@@ -1,9 +1,9 @@
 //! What an explanation says.
 
-use super::document::{Block, Factor, Line, Math, Proof};
-use super::origin::listed;
-use super::step::{Explained, Source, Statement, ordinal};
 use super::Explanation;
+use super::document::{Block, Factor, Line, Math, Proof};
+use super::explained::{Explained, Source, Statement, ordinal};
+use super::origin::listed;
 use crate::inverse::equations::Goal;
 use denavit_symbolic::Expr;
 
@@ -12,7 +12,8 @@ const DRAWN: usize = 16;
 
 /// The whole derivation.
 pub fn document(e: &Explanation) -> Vec<Block> {
-    let mut blocks = vec![Block::Heading(1, Line::new(format!("Inverse kinematics of the {}", e.description.name)))];
+    let mut blocks =
+        vec![Block::Heading(1, Line::new(format!("Inverse kinematics of the {}", e.description.name)))];
     setting(e, &mut blocks);
     for (k, step) in e.steps.iter().enumerate() {
         explained(k + 1, step, &mut blocks);
@@ -27,7 +28,8 @@ pub fn document(e: &Explanation) -> Vec<Block> {
 
 /// The formulas alone.
 pub fn formulas(e: &Explanation) -> Vec<Block> {
-    let mut blocks = vec![Block::Heading(1, Line::new(format!("Inverse kinematics of the {}", e.description.name)))];
+    let mut blocks =
+        vec![Block::Heading(1, Line::new(format!("Inverse kinematics of the {}", e.description.name)))];
     setting(e, &mut blocks);
     for (k, step) in e.steps.iter().enumerate() {
         let mut line = Line::new(format!("{}. ", k + 1)).math(step.unknown);
@@ -60,11 +62,7 @@ pub fn formulas(e: &Explanation) -> Vec<Block> {
 
 /// True if a statement names a coefficient of its step.
 fn uses_letters(s: &Statement, step: &Explained) -> bool {
-    let names: Vec<Expr> = step
-        .coefficients
-        .iter()
-        .filter_map(|c| c.math.exprs().first().copied())
-        .collect();
+    let names: Vec<Expr> = step.coefficients.iter().filter_map(|c| c.math.exprs().first().copied()).collect();
     s.math.exprs().iter().any(|e| e.symbols().into_iter().any(|x| names.contains(&Expr::from(x))))
 }
 
@@ -94,7 +92,9 @@ fn setting(e: &Explanation, blocks: &mut Vec<Block>) {
         line = line.text(" and ").list(e.given.iter().map(|&q| q.into()));
         if e.given_by_choice {
             line = line.text(match e.given.len() {
-                1 => " (a joint too many: any value is allowed, and the derivation is shortest with this one)",
+                1 => {
+                    " (a joint too many: any value is allowed, and the derivation is shortest with this one)"
+                }
                 _ => " (joints too many: any values are allowed, and the derivation is shortest with these)",
             });
         }
@@ -131,10 +131,17 @@ fn setting(e: &Explanation, blocks: &mut Vec<Block>) {
     let mut line = Line::new("U has the columns ");
     for (k, last) in [(0, ""), (1, ""), (2, ""), (3, " (the position)")] {
         line = line.text("(").list(rows(k).map(Math::from)).text(format!("){last}"));
-        line = line.text(if k < 2 { ", " } else if k == 2 { " and " } else { ". " });
+        line = line.text(if k < 2 {
+            ", "
+        } else if k == 2 {
+            " and "
+        } else {
+            ". "
+        });
     }
     let turning = |q: &&denavit_symbolic::Symbol| e.names().number_of(**q).is_some();
-    let variables: Vec<denavit_symbolic::Symbol> = e.description.variables().iter().map(|v| v.symbol).collect();
+    let variables: Vec<denavit_symbolic::Symbol> =
+        e.description.variables().iter().map(|v| v.symbol).collect();
     if let Some(&q) = variables.iter().find(turning) {
         let q = Expr::from(q);
         line = line.math(q.cos()).text(" and ").math(q.sin()).text(" are cosine and sine of ").math(q);
@@ -192,7 +199,15 @@ fn explained(number: usize, s: &Explained, blocks: &mut Vec<Block>) {
     for c in &s.conditions {
         let mut line = Line::default();
         for (k, m) in c.when.iter().enumerate() {
-            line = line.text(if k == 0 { "" } else if c.when.len() == 2 && is_zeros(&c.when) { " and " } else { " or " }).math(m.clone());
+            line = line
+                .text(if k == 0 {
+                    ""
+                } else if c.when.len() == 2 && is_zeros(&c.when) {
+                    " and "
+                } else {
+                    " or "
+                })
+                .math(m.clone());
         }
         if !c.when.is_empty() {
             line = line.text(": ");
@@ -211,7 +226,9 @@ fn explained(number: usize, s: &Explained, blocks: &mut Vec<Block>) {
     last = last.text(match &s.used_by[..] {
         [] => " No later step needs it.".to_string(),
         [one] => format!(" Used by step {one}."),
-        many => format!(" Used by steps {}.", listed(&many.iter().map(ToString::to_string).collect::<Vec<_>>())),
+        many => {
+            format!(" Used by steps {}.", listed(&many.iter().map(ToString::to_string).collect::<Vec<_>>()))
+        }
     });
     remarks.push(last);
     blocks.push(Block::List(remarks));
@@ -253,20 +270,25 @@ fn from(source: &Source, blocks: &mut Vec<Block>) {
 
 fn ending(e: &Explanation, blocks: &mut Vec<Block>) {
     if !e.leftovers.is_empty() {
-        blocks.push(Block::Heading(2, Line::new("What the pose has to meet")));
+        blocks.push(Block::Heading(2, Line::new("What the pose must meet")));
         let count = e.rank.unwrap_or(6);
+        let task = e.task.map(|t| format!(": it can be told {t}")).unwrap_or_default();
         blocks.push(Block::Paragraph(Line::new(format!(
-            "The hand can move in {count} independent directions, so that not every pose is reached. A pose that is reached meets"
+            "The hand can move in {count} independent directions{task}. A pose that is reached meets"
         ))));
         blocks.extend(e.leftovers.iter().map(block));
     }
     match e.solutions {
         Some(count) => {
-            blocks.push(Block::Heading(2, Line::new(match count {
-                1 => "One solution".to_string(),
-                n => format!("At most {n} solutions"),
-            })));
-            let factors: Vec<String> = e.steps.iter().filter(|s| s.values > 1).map(|s| s.values.to_string()).collect();
+            blocks.push(Block::Heading(
+                2,
+                Line::new(match count {
+                    1 => "One solution".to_string(),
+                    n => format!("At most {n} solutions"),
+                }),
+            ));
+            let factors: Vec<String> =
+                e.steps.iter().filter(|s| s.values > 1).map(|s| s.values.to_string()).collect();
             if factors.len() > 1 {
                 blocks.push(Block::Paragraph(Line::new(format!("{} = {count}:", factors.join(" · ")))));
             }

@@ -1,6 +1,8 @@
 //! Generated source code, compiled beforehand for two levels of instructions: Rust, and C by two compilers in two
 //! precisions.
 
+pub mod inverse;
+
 use crate::entry;
 use crate::measure::Entry;
 use std::ffi::c_void;

@@ -1,5 +1,7 @@
 //! The same pose by other libraries.
 
+pub mod inverse;
+
 use anyhow::{Context, Result};
 use denavit::Robot;
 use denavit::geometry::Transform;

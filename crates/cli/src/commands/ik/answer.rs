@@ -1,0 +1,236 @@
+//! The solutions of a pose, as a table and as JSON.
+
+use crate::commands::fk::{plural, reading};
+use crate::terminal::{Align, FAINT, HEADING, NAME, matrix, number, styled, table};
+use denavit::description::{Description, JointKind};
+use denavit::geometry::Transform;
+use denavit::inverse::{Answer, Family, InverseModel, Obstacle, Solution};
+use serde_json::{Value, json};
+use std::f64::consts::TAU;
+
+/// What does not change from pose to pose.
+#[derive(Clone)]
+pub struct Question {
+    /// The values of the given joints.
+    pub given: Vec<f64>,
+    robot: String,
+    names: Vec<(String, f64)>,
+}
+
+impl Question {
+    /// About a robot, with values of the given joints.
+    pub fn new(description: &Description, model: &InverseModel, given: Vec<f64>) -> Self {
+        let variables = description.variables();
+        let name = |j: &usize| variables[*j].symbol.name().to_string();
+        let names = model.given.iter().map(name).zip(given.iter().copied()).collect();
+        Question { given, robot: description.name.clone(), names }
+    }
+
+    /// The answer on one line.
+    pub fn json(&self, pose: &Transform<f64>, answer: &Answer) -> String {
+        let mut value = json!({
+            "schema": 1,
+            "robot": self.robot,
+            "pose": pose.matrix().map(|row| row.to_vec()).to_vec(),
+            "status": if answer.is_reachable() { "solved" } else { "unreachable" },
+            "complete": answer.complete,
+            "solutions": answer.solutions.iter().map(solution).collect::<Vec<_>>(),
+            "families": answer.families.iter().map(family).collect::<Vec<_>>(),
+        });
+        if !self.names.is_empty() {
+            value["given"] = self.names.iter().map(|(n, x)| (n.clone(), Value::from(*x))).collect();
+        }
+        match &answer.obstacle {
+            Some(Obstacle::NoRoot { unknown, gap }) => {
+                value["obstacle"] = json!({"kind": "no root", "unknown": unknown, "gap": gap});
+            }
+            Some(Obstacle::NotOnTheArm { q, angle, distance, violated }) => {
+                let violated: Vec<Value> =
+                    violated.iter().map(|(condition, by)| json!({"condition": condition, "by": by})).collect();
+                value["obstacle"] = json!({
+                    "kind": "not on the arm", "nearest": q, "angle": angle, "distance": distance, "violated": violated,
+                });
+            }
+            None => {}
+        }
+        format!("{value}\n")
+    }
+}
+
+fn solution(s: &Solution) -> Value {
+    json!({
+        "q": s.q,
+        "residual": s.residual,
+        "branch": s.branch,
+        "multiplicity": s.multiplicity,
+        "within_limits": s.within_limits,
+    })
+}
+
+fn family(f: &Family) -> Value {
+    let mut value = solution(&f.representative);
+    value["dimension"] = f.dimension.into();
+    value["free"] = f.free.clone().into();
+    value["direction"] = f.direction.clone().into();
+    value["affine"] = f.is_affine.into();
+    value["interval"] = f.interval.map(|i| i.to_vec()).into();
+    value
+}
+
+/// Why there is no solution.
+pub fn obstacle(d: &Description, answer: &Answer) -> String {
+    match &answer.obstacle {
+        Some(Obstacle::NoRoot { unknown, gap }) => format!(
+            "unreachable: no branch has a value for {unknown} (out of reach by {} of the equation's size)",
+            number(*gap, 0.0)
+        ),
+        Some(Obstacle::NotOnTheArm { q, angle, distance, violated }) => {
+            let conditions: Vec<&str> = violated.iter().map(|v| v.0.as_str()).collect();
+            let which = match conditions[..] {
+                [] => String::new(),
+                _ => format!("\n  a pose of this arm meets {}", conditions.join(", ")),
+            };
+            let at: Vec<String> =
+                d.variables().iter().zip(q).map(|(v, &x)| format!("{} = {}", v.symbol.name(), reading(x, v.kind))).collect();
+            format!(
+                "unreachable: the hand cannot take this pose; nearest found, {} and {} away: {}{which}",
+                reading(*angle, JointKind::Revolute),
+                reading(*distance, JointKind::Prismatic),
+                at.join(", ")
+            )
+        }
+        None => "unreachable".into(),
+    }
+}
+
+/// The answer for reading.
+pub struct Report<'a> {
+    /// What was asked.
+    pub question: &'a Question,
+    /// The robot.
+    pub description: &'a Description,
+    /// The pose.
+    pub pose: &'a Transform<f64>,
+    /// Its solutions.
+    pub answer: &'a Answer,
+    /// The configuration that the pose was taken from.
+    pub at: Option<&'a [f64]>,
+}
+
+/// Joint values closer than this are shown as the same configuration.
+const SAME: f64 = 1e-6;
+
+impl Report<'_> {
+    /// Pose, solutions, families.
+    pub fn text(&self) -> String {
+        let (d, answer) = (self.description, self.answer);
+        let count = match (answer.solutions.len(), answer.families.len()) {
+            (0, 0) => "no solution".to_string(),
+            (n, 0) => plural(n, "solution"),
+            (0, 1) => "one family of solutions".into(),
+            (0, n) => format!("{n} families of solutions"),
+            (n, m) => format!("{} and {}", plural(n, "solution"), if m == 1 { "1 family".into() } else { format!("{m} families") }),
+        };
+        let mut text = format!("{}: {count} for\n\n", styled(&d.name, HEADING));
+        let noise = 1e-14 * self.pose.translation.norm().max(1.0);
+        let rows: Vec<Vec<String>> =
+            self.pose.matrix().iter().map(|r| r.iter().map(|&x| number(x, noise)).collect()).collect();
+        text += &matrix("T = ", &rows, Align::Right);
+        for (name, x) in &self.question.names {
+            let kind = d.variables().iter().find(|v| *v.symbol.name() == **name).map(|v| v.kind);
+            text += &format!("  {} = {} given\n", styled(name, NAME), reading(*x, kind.unwrap_or(JointKind::Revolute)));
+        }
+        if !answer.solutions.is_empty() {
+            text.push('\n');
+            text += &self.table(answer.solutions.iter());
+        }
+        for (k, f) in answer.families.iter().enumerate() {
+            text += &self.family(k, f);
+        }
+        if !answer.complete {
+            text += "  not complete: there may be more\n";
+        }
+        text
+    }
+
+    fn table<'s>(&self, solutions: impl Iterator<Item = &'s Solution>) -> String {
+        let variables = self.description.variables();
+        let names: Vec<String> = variables.iter().map(|v| v.symbol.name().to_string()).collect();
+        let mut header: Vec<&str> = vec![""];
+        header.extend(names.iter().map(String::as_str));
+        header.extend(["branch", "residual", ""]);
+        let mut align = vec![Align::Right; 1 + names.len()];
+        align.extend([Align::Left, Align::Right, Align::Left]);
+        let rows: Vec<Vec<String>> = solutions
+            .enumerate()
+            .map(|(k, s)| {
+                let mut row = vec![(k + 1).to_string()];
+                row.extend(variables.iter().zip(&s.q).map(|(v, &x)| reading(x, v.kind)));
+                row.push(s.branch.clone());
+                row.push(format!("{:.0e}", s.residual));
+                let mut notes = vec![];
+                if s.multiplicity > 1 {
+                    notes.push(format!("{}-fold", s.multiplicity));
+                }
+                if !s.within_limits {
+                    notes.push("outside the limits".into());
+                }
+                if self.at.is_some_and(|q| self.same(q, &s.q)) {
+                    notes.push("← -q".into());
+                }
+                row.push(notes.join(", "));
+                row
+            })
+            .collect();
+        table(&header, &align, &rows)
+    }
+
+    fn same(&self, a: &[f64], b: &[f64]) -> bool {
+        let variables = self.description.variables();
+        a.iter().zip(b).zip(variables).all(|((x, y), v)| {
+            let off = (x - y).abs();
+            match v.kind {
+                JointKind::Revolute => (off % TAU).min(TAU - off % TAU) < SAME,
+                JointKind::Prismatic => off < SAME,
+            }
+        })
+    }
+
+    fn family(&self, k: usize, f: &Family) -> String {
+        let mut text = format!(
+            "\n  {}: the hand stands still while {} move{}\n",
+            styled(&format!("family {}", k + 1), HEADING),
+            self.moving(f),
+            match (f.is_affine, f.dimension) {
+                (true, _) => ", in these proportions everywhere",
+                (false, 1) => ", in these proportions here",
+                _ => "",
+            }
+        );
+        let free = f.free.join(", ");
+        let mut of = format!("free: {free}");
+        if let Some([low, high]) = f.interval {
+            let kind = match self.description.variables().iter().find(|v| *v.symbol.name() == *free) {
+                Some(v) => v.kind,
+                None => JointKind::Revolute,
+            };
+            of += &format!(", from {} to {}", reading(low, kind), reading(high, kind));
+        }
+        if f.dimension > 1 {
+            of += &format!("; {} parameters", f.dimension);
+        }
+        text += &format!("  {}\n", styled(&of, FAINT));
+        text + &self.table(std::iter::once(&f.representative))
+    }
+
+    /// `q4 : −q6`, the joints that move.
+    fn moving(&self, f: &Family) -> String {
+        let largest = f.direction.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let variables = self.description.variables();
+        let moving = variables.iter().zip(&f.direction).filter(|(_, x)| x.abs() > 1e-9);
+        let parts: Vec<String> = moving
+            .map(|(v, x)| format!("{} by {}", v.symbol.name(), number(x / largest, 1e-9)))
+            .collect();
+        parts.join(", ")
+    }
+}

@@ -1,0 +1,159 @@
+//! Source code for one robot: what to emit, the words around it, and the vectors that its tests hold.
+
+mod forward;
+mod inverse;
+mod samples;
+mod words;
+
+pub use inverse::Inverse;
+
+use crate::description::Description;
+use crate::forward::Proof;
+use crate::inverse as ik;
+use crate::robot::MissingValue;
+use denavit_program::Count;
+use denavit_program::emit::{self, File, Language, Library, Parameter, Precision};
+use denavit_symbolic::{Expr, Symbol};
+use forward::Forward;
+use inverse::Closed;
+use std::fmt;
+use std::str::FromStr;
+
+/// A function that can be generated.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Wanted {
+    /// `fk`: the tool in the base.
+    Pose,
+    /// `frames`: frames 0 … n in the base.
+    Frames,
+    /// `ik`: all joint variables that bring the tool to a pose.
+    Inverse,
+}
+
+impl Wanted {
+    /// All of them.
+    pub const ALL: [Wanted; 3] = [Wanted::Pose, Wanted::Frames, Wanted::Inverse];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Wanted::Pose => "fk",
+            Wanted::Frames => "frames",
+            Wanted::Inverse => "ik",
+        }
+    }
+}
+
+impl FromStr for Wanted {
+    type Err = String;
+    fn from_str(text: &str) -> Result<Self, String> {
+        let known = Wanted::ALL.into_iter().find(|w| w.name() == text.trim());
+        let names = || Wanted::ALL.map(Wanted::name).join(", ");
+        known.ok_or_else(|| format!("unknown function `{text}`; known are {}", names()))
+    }
+}
+
+impl fmt::Display for Wanted {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// How to generate.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// The language.
+    pub language: Language,
+    /// The functions.
+    pub functions: Vec<Wanted>,
+    /// What of the hand is given to the inverse model, and which joints beside it.
+    pub inverse: ik::Options,
+    /// Double or single precision, where the language has a choice.
+    pub precision: Precision,
+    /// The name of the files and functions; by default that of the robot.
+    pub name: Option<String>,
+    /// Write the values of parameters into the code, instead of taking them as arguments.
+    pub fixed: bool,
+}
+
+/// Generated source code.
+#[derive(Clone, Debug)]
+pub struct Generated {
+    /// The files of a folder that builds and tests itself; none if there is no function.
+    pub files: Vec<File>,
+    /// For each forward function its operations and whether it is proved equal to the product of the link transforms.
+    pub functions: Vec<(Wanted, Count, Proof)>,
+    /// The inverse function, if it was asked for and there is a closed form.
+    pub inverse: Option<Inverse>,
+    /// Why there is none although it was asked for.
+    pub refused: Option<String>,
+}
+
+/// Generates source code for a robot. An inverse function that has no closed form is left out.
+///
+/// # Errors
+/// With `fixed`: if a parameter has no value.
+pub fn generate(description: &Description, options: &Options) -> Result<Generated, MissingValue> {
+    let fixed;
+    let d = if options.fixed {
+        fixed = with_values(description)?;
+        &fixed
+    } else {
+        description
+    };
+    let programs: Vec<Forward> = options.functions.iter().filter_map(|&w| Forward::new(d, w)).collect();
+    let asked = options.functions.contains(&Wanted::Inverse);
+    let (closed, refused) = match asked.then(|| Closed::new(d, options)) {
+        None => (None, None),
+        Some(Ok(closed)) => (Some(closed), None),
+        Some(Err(why)) => (None, Some(why.to_string())),
+    };
+    let functions = programs.iter().map(|f| (f.wanted, f.program.count(), f.proof)).collect();
+    if programs.is_empty() && closed.is_none() {
+        return Ok(Generated { files: vec![], functions, inverse: None, refused });
+    }
+    let samples = samples::samples(d);
+    let variables = d.variables();
+    let parameters: Vec<Parameter> =
+        d.parameters.iter().map(|p| words::parameter(d, p.symbol, p.value)).collect();
+    let library = Library {
+        title: d.name.clone(),
+        name: options.name.clone().unwrap_or_else(|| d.name.clone()),
+        header: words::header(description, d, &programs, closed.as_ref()),
+        // Those of the forward functions.
+        variables: variables
+            .iter()
+            .filter(|_| !programs.is_empty())
+            .map(|v| (v.symbol, words::about_variable(d, v.symbol, v.kind)))
+            .collect(),
+        parameters,
+        routines: programs.iter().map(|f| f.routine(d, &samples)).collect(),
+        solvers: closed.iter().map(Closed::routine).collect(),
+        precision: options.precision,
+    };
+    let files = emit::emit(&library, options.language);
+    Ok(Generated { files, functions, inverse: closed.as_ref().map(Closed::facts), refused })
+}
+
+/// The description with values in place of its parameters.
+///
+/// # Errors
+/// If a parameter has no value.
+pub fn with_values(d: &Description) -> Result<Description, MissingValue> {
+    let missing = d.parameters.iter().filter(|p| p.value.is_none());
+    let parameters: Vec<String> = missing.map(|p| p.symbol.name().to_string()).collect();
+    if !parameters.is_empty() {
+        return Err(MissingValue { parameters });
+    }
+    let value = |s: Symbol| d.parameters.iter().find(|p| p.symbol == s)?.value;
+    let fixed = |e: Expr| e.substitute(value);
+    let mut new = d.clone();
+    for row in &mut new.rows {
+        for cell in [&mut row.theta, &mut row.d, &mut row.a, &mut row.alpha, &mut row.gamma, &mut row.b] {
+            *cell = fixed(*cell);
+        }
+    }
+    (new.base, new.tool) = (d.base.map(fixed), d.tool.map(fixed));
+    new.parameters.clear();
+    Ok(new)
+}
