@@ -5,14 +5,17 @@
 //! which the derived inverse model gives. Corrections are held in the same way, and their values proved to solve
 //! equations that are proved. `docs/errata.md` tells it in words.
 
+#[path = "common/printed.rs"]
+mod printed;
+
 use denavit::catalogue;
 use denavit::description::{Description, read_toml};
 use denavit::geometry::Transform;
 use denavit::inverse::{Goal, InverseModel, InverseSolver, Options};
 use denavit::robot::Robot;
-use denavit_symbolic::parse::parse;
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Expr, Rational, Symbol, Verdict, equal};
+use printed::{formulas, list, read, string, strings, text, values};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::{PI, TAU};
 use toml::{Table, Value};
@@ -166,79 +169,6 @@ impl Model {
         let others = of.substitute(|s| (s == last).then(|| Expr::int(0)));
         e.substitute(|s| (s == last).then(|| value - others))
     }
-}
-
-fn text(v: &Value) -> &str {
-    v.as_str().unwrap_or_else(|| panic!("{v} is no string"))
-}
-
-fn string<'a>(table: &'a Table, key: &str) -> &'a str {
-    table.get(key).map(text).unwrap_or_else(|| panic!("no `{key}` in {table}"))
-}
-
-fn list<'a>(table: &'a Table, key: &str) -> Vec<&'a Table> {
-    let items = table.get(key).and_then(Value::as_array).into_iter().flatten();
-    items.filter_map(Value::as_table).collect()
-}
-
-fn strings(table: &Table, key: &str) -> Vec<String> {
-    table.get(key).and_then(Value::as_array).into_iter().flatten().map(|v| text(v).to_string()).collect()
-}
-
-fn formulas(table: &Table, key: &str, names: &Vocabulary) -> Vec<Expr> {
-    strings(table, key).iter().map(|f| read(f, names)).collect()
-}
-
-/// A formula, inverse functions of sines read as their principal values.
-fn read(formula: &str, names: &Vocabulary) -> Expr {
-    let formula = principal(formula);
-    parse(&formula, names).unwrap_or_else(|errors| panic!("`{formula}`: {errors:?}"))
-}
-
-/// Writes arccos u as atan2(√(1−u²), u), and so on.
-fn principal(formula: &str) -> String {
-    let Some((at, name)) =
-        ["arccos(", "arcsin(", "arctan("].iter().filter_map(|f| Some((formula.find(f)?, *f))).min()
-    else {
-        return formula.into();
-    };
-    let (before, rest) = (&formula[..at], &formula[at + name.len()..]);
-    let mut depth = 1;
-    let end = rest.find(|c| {
-        depth += i32::from(c == '(') - i32::from(c == ')');
-        depth == 0
-    });
-    let (inner, behind) = rest.split_at(end.expect("a closing bracket"));
-    let (u, behind) = (principal(inner), principal(&behind[1..]));
-    let meaning = match name {
-        "arccos(" => format!("atan2(sqrt(1 - ({u})^2), {u})"),
-        "arcsin(" => format!("atan2({u}, sqrt(1 - ({u})^2))"),
-        _ => format!("atan2({u}, 1)"),
-    };
-    format!("{before}{meaning}{behind}")
-}
-
-/// A formula with each ± replaced by both signs, the first one slowest.
-fn both_signs(formula: &str) -> Vec<String> {
-    let Some((before, behind)) = formula.split_once('±') else { return vec![formula.into()] };
-    let leads = before.trim_end().is_empty() || before.trim_end().ends_with(['(', ',']);
-    let signs = [if leads { "" } else { "+" }, "-"];
-    signs.iter().flat_map(|sign| both_signs(&format!("{before}{sign}{behind}"))).collect()
-}
-
-/// The printed values: for each, one formula per unknown.
-fn values(table: &Table, names: &Vocabulary) -> Vec<Vec<Expr>> {
-    let rows = table["values"].as_array().expect("values");
-    let rows = rows.iter().map(|row| row.as_array().expect("one formula per unknown"));
-    rows.flat_map(|row| {
-        let cells: Vec<Vec<String>> = row.iter().map(|cell| both_signs(text(cell))).collect();
-        assert!(cells.iter().filter(|c| c.len() > 1).count() <= 1, "signs that go together are written out");
-        let count = cells.iter().map(Vec::len).max().unwrap_or(0);
-        (0..count)
-            .map(|k| cells.iter().map(|c| read(&c[k.min(c.len() - 1)], names)).collect())
-            .collect::<Vec<Vec<Expr>>>()
-    })
-    .collect()
 }
 
 /// True if proved equal, false if proved different.
