@@ -26,7 +26,7 @@ fn most_poses_are_kept() {
     for (name, goal, least) in [
         ("ur5", Goal::Pose, 11),
         ("puma560", Goal::Pose, 11),
-        ("stanford", Goal::Pose, 11),
+        ("stanford", Goal::Pose, 9),
         ("scara", Goal::Pose, 9),
         ("staubli-rx90", Goal::Pose, 11),
         ("cylindrical-wrist", Goal::Pose, 11),

@@ -162,7 +162,8 @@ impl<'a> Reading<'a> {
     /// What one length is the factor of, apart from the rest: C1px + S1py + d5(C6u + S6v).
     fn apart(&self, p: &Poly) -> Option<Parts> {
         let constants = p.atoms().into_iter().filter(|&a| self.rank(a) == 0);
-        for atom in constants {
+        let linear = |a: &Atom| p.terms().iter().all(|t| t.0.exponent(*a) <= 1);
+        for atom in constants.filter(linear) {
             let (inside, rest) = split(p, atom);
             let several = |p: &Poly| outermost(p, |a| self.rank(a)).is_some_and(|a| !split(p, a).1.is_zero());
             if inside.terms().len() > 1 && !rest.is_zero() && !self.is_constant(&inside) && several(&inside) {

@@ -6,9 +6,13 @@ use super::explained::{Explained, Source, Statement, ordinal};
 use super::origin::listed;
 use crate::inverse::equations::Goal;
 use denavit_symbolic::Expr;
+use denavit_symbolic::readable::literals;
 
 /// Solutions beyond which the tree is not drawn.
 const DRAWN: usize = 16;
+
+/// Literals of coefficients that stand in a line of text.
+const INLINE: u64 = 40;
 
 /// The whole derivation.
 pub fn document(e: &Explanation) -> Vec<Block> {
@@ -190,10 +194,19 @@ fn explained(number: usize, s: &Explained, blocks: &mut Vec<Block>) {
     for (k, f) in s.form.iter().enumerate() {
         line = line.text(if k == 0 { ": " } else { " and " }).math(f.clone());
     }
-    for (k, c) in s.coefficients.iter().enumerate() {
+    let literals = |c: &Statement| c.math.exprs().into_iter().map(literals).sum::<u64>();
+    let is_long = s.coefficients.iter().map(literals).sum::<u64>() > INLINE;
+    for (k, c) in s.coefficients.iter().enumerate().filter(|_| !is_long) {
         line = line.text(if k == 0 { " with " } else { ", " }).math(c.math.clone());
     }
-    blocks.push(Block::Paragraph(line.text("; so")));
+    if is_long {
+        blocks.push(Block::Paragraph(line.text(" with")));
+        blocks.extend(s.coefficients.iter().map(block));
+        line = Line::default();
+    } else {
+        line = line.text("; ");
+    }
+    blocks.push(Block::Paragraph(line.text("so")));
     blocks.extend(s.solution.iter().map(block));
     let mut remarks = vec![];
     for c in &s.conditions {
@@ -202,7 +215,7 @@ fn explained(number: usize, s: &Explained, blocks: &mut Vec<Block>) {
             line = line
                 .text(if k == 0 {
                     ""
-                } else if c.when.len() == 2 && is_zeros(&c.when) {
+                } else if is_zeros(&c.when) {
                     " and "
                 } else {
                     " or "
