@@ -102,8 +102,9 @@ impl Closed {
     fn condition(&self) -> Option<String> {
         let values = self.facts.assumed.iter().map(|(s, e)| format!("{} = {}", s.name(), text(*e)));
         let values: Vec<String> = values.collect();
-        (!values.is_empty())
-            .then(|| format!("ik holds for {} only; what the parameters say of them is not read.", values.join(", ")))
+        (!values.is_empty()).then(|| {
+            format!("ik holds for {} only; what the parameters say of them is not read.", values.join(", "))
+        })
     }
 
     /// With words and vectors.
@@ -116,9 +117,12 @@ impl Closed {
                 "pose",
                 vec![3, 4],
             ),
-            Goal::Position => {
-                (format!("the origin of {to} has a position in {from}"), "the position (m)", "position", vec![3])
-            }
+            Goal::Position => (
+                format!("the origin of {to} has a position in {from}"),
+                "the position (m)",
+                "position",
+                vec![3],
+            ),
             Goal::PositionAndAxis => (
                 format!("the origin of {to} has a position and its z axis a direction in {from}"),
                 "for x, y and z in turn the component of the z axis (no unit) and of the position (m)",
@@ -141,10 +145,16 @@ impl Closed {
             all(&self.model.chain.variables)
         ));
         if self.model.goal == Goal::Pose && self.model.rank < 6 {
-            about.push(format!("The arm moves its hand in {} directions only; other poses have no solution.", self.model.rank));
+            about.push(format!(
+                "The arm moves its hand in {} directions only; other poses have no solution.",
+                self.model.rank
+            ));
         }
         about.extend(self.condition());
-        about.push("Where a pose leaves an unknown free, a family solves it; its member with 0 there is given.".into());
+        about.push(
+            "Where a pose leaves an unknown free, a family solves it; its member with 0 there is given."
+                .into(),
+        );
         SolverRoutine {
             name: "ik".into(),
             about,

@@ -148,10 +148,16 @@ impl Problem<'_> {
             )
         };
         let mut zero = match (in_pose, in_chain) {
-            (false, true) => Norm {
-                plus: expanded(false, &chain)?.scaled(&-Rational::ONE),
-                squares: pose.into_iter().cloned().collect(),
-            },
+            (false, true) => {
+                // What is known on the side of the chain goes over before it is squared.
+                let parts: Vec<(Poly, Poly)> = chain.iter().map(|c| self.known_part(known, c)).collect();
+                let open: Vec<&Poly> = parts.iter().map(|p| &p.1).collect();
+                let square = |sum: Poly, p: &&Poly| sum.plus(&a.square(p));
+                Norm {
+                    plus: open.iter().fold(Poly::zero(), square).scaled(&-Rational::ONE),
+                    squares: pose.iter().zip(&parts).map(|(p, (k, _))| p.minus(k)).collect(),
+                }
+            }
             (true, false) => Norm {
                 plus: expanded(true, &pose)?.scaled(&-Rational::ONE),
                 squares: chain.into_iter().cloned().collect(),
@@ -181,6 +187,20 @@ impl Problem<'_> {
         }
         let origin = Origin::Squares { left: split.left, right: split.right, components };
         Some(Seen { unknowns, zero, degree: 2, origin })
+    }
+
+    /// The terms of a polynomial that are known, and the others.
+    fn known_part(&self, known: &Known, p: &Poly) -> (Poly, Poly) {
+        let is_known = |m: &Monomial| {
+            let atoms: Vec<Atom> = m.factors().iter().map(|f| f.0).collect();
+            known.unknowns(self.chain, &atoms).is_empty()
+        };
+        let constant = |m: &Monomial| {
+            m.factors().iter().all(|f| matches!(self.chain.algebra.kind(f.0), Kind::Constant(_)))
+        };
+        let (moved, kept) = p.terms().iter().cloned().partition(|(m, _)| is_known(m) && !constant(m));
+        let (moved, kept): (Vec<_>, Vec<_>) = (moved, kept);
+        (Poly::from_terms(moved), Poly::from_terms(kept))
     }
 
     /// A sum with its squares multiplied out, if that is short.
