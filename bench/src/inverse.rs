@@ -45,7 +45,12 @@ pub struct Contestant {
 pub fn run(mut random: impl FnMut() -> f64) -> Result<()> {
     let arms = [
         arm("ur5", "UR5", compiled::inverse::ur5, &mut random)?,
-        arm("abb-irb2400-10", "ABB IRB 2400/10, a spherical wrist with offsets at shoulder and elbow", compiled::inverse::irb2400, &mut random)?,
+        arm(
+            "abb-irb2400-10",
+            "ABB IRB 2400/10, a spherical wrist with offsets at shoulder and elbow",
+            compiled::inverse::irb2400,
+            &mut random,
+        )?,
     ];
     println!("{}", json!({"arms": arms, "poses": POSES}));
     Ok(())
@@ -79,7 +84,12 @@ fn arm(name: &str, title: &str, generated: Generated, random: &mut impl FnMut() 
             "returned": check.returned as f64 / POSES as f64, "worst": check.worst,
             "drawn_found": check.drawn_found,
         }));
-        ensure!(check.drawn_found == POSES, "{}: finds {} of {POSES} drawn configurations", c.name, check.drawn_found);
+        ensure!(
+            check.drawn_found == POSES,
+            "{}: finds {} of {POSES} drawn configurations",
+            c.name,
+            check.drawn_found
+        );
         let first = counts.get_or_insert_with(|| check.distinct.clone());
         let others = first.iter().zip(&check.distinct).filter(|(a, b)| a != b).count();
         ensure!(others == 0, "{title}: {} has another number of solutions for {others} poses", c.name);
@@ -193,4 +203,3 @@ fn evaluators(description: &Description, poses: &Rc<Vec<Rows>>) -> Result<Vec<Co
     });
     Ok(all)
 }
-

@@ -11,7 +11,8 @@ macro_rules! generated {
         use $package::{IK_LANES, IK_MAX, IkBlock, IkSolution, Parameters, ik, ik_block};
         let parameters = Parameters::default();
         let poses: Rc<Vec<Rows>> = $poses.clone();
-        let as_matrix = |p: &Rows| -> [[f64; 4]; 3] { std::array::from_fn(|i| std::array::from_fn(|j| p[4 * i + j])) };
+        let as_matrix =
+            |p: &Rows| -> [[f64; 4]; 3] { std::array::from_fn(|i| std::array::from_fn(|j| p[4 * i + j])) };
         let matrices: Vec<[[f64; 4]; 3]> = poses.iter().map(as_matrix).collect();
         let answers = |pose: &[[f64; 4]; 3]| -> Vec<Joints> {
             let mut solutions = [IkSolution::NONE; IK_MAX];

@@ -41,7 +41,8 @@ impl Geo {
         let h = Matrix3x6::from_fn(|r, c| axes[c][r]);
         let before = |r: usize, c: usize| if c == 0 { 0.0 } else { points[c - 1][r] };
         let p = SMatrix::<f64, 3, 7>::from_fn(|r, c| points[c][r] - before(r, c));
-        let make = if has_parallel { robot::three_parallel_two_intersecting } else { robot::spherical_two_parallel };
+        let make =
+            if has_parallel { robot::three_parallel_two_intersecting } else { robot::spherical_two_parallel };
         let last = Matrix3::from_fn(|r, c| x.rotation.rows()[r][c]);
         Geo { solver: Rc::new(make(h, p)), last }
     }

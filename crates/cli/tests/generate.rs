@@ -87,7 +87,11 @@ fn refusals() {
     refused(&["generate", "ur5", "--language", "python", "-o", "x", "--float"], 2, "double precision");
     refused(&["generate", "ur5", "--language", "c", "-o", "x", "--name", "/"], 2, "--name needs");
     refused(&["generate", "prrrrp", "--language", "c", "-o", "x", "--fixed"], 3, "no value for");
-    refused(&["generate", "oblique-6r", "--language", "c", "-o", "x", "--functions", "ik"], 4, "no closed form");
+    refused(
+        &["generate", "oblique-6r", "--language", "c", "-o", "x", "--functions", "ik"],
+        4,
+        "no closed form",
+    );
     refused(&["generate", "ur5", "--language", "c", "-o", "x", "--given", "q9"], 2, "no joint `q9`");
     refused(
         &["generate", "ur5", "--language", "c", "-o", "x", "--functions", "ik", "--given", "q3"],
@@ -118,7 +122,8 @@ fn a_parameter_called_like_a_result_is_not_mistaken_for_it() {
     let text = "name = \"Tee\"\nconvention = \"standard\"\n[parameters]\nt11 = 0.3\nt14 = 0.2\n\
                 [[joints]]\ntheta = \"q1\"\na = \"t11\"\nalpha = \"90 deg\"\n[[joints]]\ntheta = \"q2\"\na = \"t14\"\n";
     fs::write(&robot, text).expect("a file");
-    let answer = generated(robot.to_str().expect("a path"), "python", &folder.join("out"), &[]);
+    let answer =
+        generated(robot.to_str().expect("a path"), "python", &folder.join("out"), &["--functions", "fk"]);
     let module = &texts(&folder.join("out"), &answer).concat();
     assert!(module.contains("t11 = parameters.t11"), "{module}");
     assert_eq!(module.matches("    t11 = ").count(), 1, "one thing is called t11:\n{module}");

@@ -72,7 +72,10 @@ fn all_solutions_of_a_pose() {
 fn a_table_to_read() {
     let (code, out, _) = ik(&["ur5", "-q", "0.1,-1,1.2,0.3,0.5,0.2"]);
     assert_eq!(code, 0);
-    assert!(out.contains("8 solutions for") && out.contains("shoulder+ wrist") && out.contains("← -q"), "{out}");
+    assert!(
+        out.contains("8 solutions for") && out.contains("shoulder+ wrist") && out.contains("← -q"),
+        "{out}"
+    );
     // Units, as in fk.
     let (code, out, err) = ik(&["staubli-rx90", "--pose", "400 mm, 100mm, 0.5, 10 deg, 80deg, 0"]);
     assert_eq!(code, 0, "{err}");
@@ -132,13 +135,19 @@ fn lines_in_lines_out() {
 #[test]
 fn derivations() {
     let (code, out, _) = ik(&["ur5"]);
-    assert!(code == 0 && out.contains("at most 8 solutions") && out.contains("needs px² + py² ≥ d4²"), "{out}");
+    assert!(
+        code == 0 && out.contains("at most 8 solutions") && out.contains("needs px² + py² ≥ d4²"),
+        "{out}"
+    );
     let (_, out, _) = ik(&["ur5", "--explain"]);
     assert!(out.contains("q1 = atan2(px, −py) + κ1·atan2(R, d4)") && out.contains("Step 6. q2"), "{out}");
     let (_, out, _) = ik(&["ur5", "--symbolic"]);
     assert!(out.contains("q4 = q234 − q2 − q3") && !out.contains("Step 6"), "{out}");
     let (_, out, _) = ik(&["ur5", "--explain", "--format", "latex"]);
-    assert!(out.contains("\\operatorname{atan2}") && out.contains("p_{x}") && out.contains("\\tag{1}"), "{out}");
+    assert!(
+        out.contains("\\operatorname{atan2}") && out.contains("p_{x}") && out.contains("\\tag{1}"),
+        "{out}"
+    );
     assert_eq!(out.matches("\\begin").count(), out.matches("\\end").count());
     let (_, out, _) = ik(&["ur5", "--explain", "--format", "typst"]);
     assert!(out.contains("op(\"atan2\")") && out.contains("quad checkmark"), "{out}");
@@ -178,6 +187,21 @@ fn refusals() {
 /// Only the position, or the position and a direction.
 #[test]
 fn goals() {
-    let answer = json(&["articulated-3r", "-q", "0.3,0.4,0.5", "--goal", "position", "--set", "d1=0.5", "--set", "a2=0.4", "--set", "a3=0.3"], 0);
+    let answer = json(
+        &[
+            "articulated-3r",
+            "-q",
+            "0.3,0.4,0.5",
+            "--goal",
+            "position",
+            "--set",
+            "d1=0.5",
+            "--set",
+            "a2=0.4",
+            "--set",
+            "a3=0.3",
+        ],
+        0,
+    );
     assert_eq!(solutions(&answer).len(), 4, "{answer}");
 }

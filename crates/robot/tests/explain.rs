@@ -4,8 +4,8 @@ use denavit::catalogue;
 use denavit::description::{Description, read_toml};
 use denavit::inverse::explain::{Explanation, Math, Proof, math, text};
 use denavit::inverse::{Goal, InverseModel, Options, Refusal};
-use denavit_symbolic::{Expr, Node, Symbol};
 use denavit_symbolic::print::Style;
+use denavit_symbolic::{Expr, Node, Symbol};
 
 fn robot(name: &str) -> Description {
     let text = catalogue::text(name).unwrap_or_else(|| panic!("no robot {name}"));
@@ -61,8 +61,16 @@ fn every_step_has_its_parts() {
         let e = explanation(name, given.map(|j| vec![j]));
         assert_eq!(e.solutions, Some(e.steps.iter().map(|s| s.values).product()), "{name}");
         for (i, s) in e.steps.iter().enumerate() {
-            assert!(!s.sources.is_empty() && s.sources.iter().all(|o| !o.equations.is_empty()), "{name}, step {}", i + 1);
-            assert!(!s.kind.is_empty() && !s.number.is_empty() && !s.remark.is_empty(), "{name}, step {}", i + 1);
+            assert!(
+                !s.sources.is_empty() && s.sources.iter().all(|o| !o.equations.is_empty()),
+                "{name}, step {}",
+                i + 1
+            );
+            assert!(
+                !s.kind.is_empty() && !s.number.is_empty() && !s.remark.is_empty(),
+                "{name}, step {}",
+                i + 1
+            );
             assert!(s.solution.iter().any(|x| x.proof.is_some()), "{name}, step {}", i + 1);
             let last = s.solution.last().map(|x| x.math.exprs()[0]);
             assert_eq!(last, Some(s.unknown), "{name}, step {}", i + 1);
@@ -164,7 +172,11 @@ fn formulas_give_the_solutions_of_the_solver() {
                 if let Some(k) = step.sign {
                     let plus = branch >> signs.iter().position(|s| Expr::from(*s) == k).unwrap_or(0) & 1 == 0;
                     values.known.extend(k.as_symbol().map(|s| (s, if plus { 1.0 } else { -1.0 })));
-                    words.push(format!("{}{}", step.label.as_deref().unwrap_or(""), if plus { "+" } else { "−" }));
+                    words.push(format!(
+                        "{}{}",
+                        step.label.as_deref().unwrap_or(""),
+                        if plus { "+" } else { "−" }
+                    ));
                 }
                 let (mut cosine, mut sine) = (None, None);
                 for s in step.names.iter().chain(&step.coefficients).chain(&step.solution) {
@@ -197,9 +209,15 @@ fn formulas_give_the_solutions_of_the_solver() {
                 assert!(theirs.is_none(), "{name} {words:?}");
                 continue;
             }
-            let Some(theirs) = theirs else { panic!("{name}: the solver has no {words:?}: {:?}", answer.solutions) };
+            let Some(theirs) = theirs else {
+                panic!("{name}: the solver has no {words:?}: {:?}", answer.solutions)
+            };
             for (j, (a, b)) in ours.iter().zip(&theirs.q).enumerate() {
-                let off = if model.chain.is_angle(j) { (a - b).sin().hypot(1.0 - (a - b).cos()) } else { (a - b).abs() };
+                let off = if model.chain.is_angle(j) {
+                    (a - b).sin().hypot(1.0 - (a - b).cos())
+                } else {
+                    (a - b).abs()
+                };
                 assert!(off < 1e-9, "{name} {words:?} q{}: {a} {b}", j + 1);
             }
             found += 1;
@@ -238,12 +256,17 @@ fn ur3_as_in_the_report() {
 #[test]
 fn refusals_say_how_far_it_came() {
     let d = robot("oblique-6r");
-    let Err(Refusal::Stuck(stuck)) = InverseModel::derive(&d, &Options::default()) else { panic!("a closed form") };
+    let Err(Refusal::Stuck(stuck)) = InverseModel::derive(&d, &Options::default()) else {
+        panic!("a closed form")
+    };
     let e = Explanation::of_stuck(&d, &stuck, Goal::Pose);
     assert_eq!(e.solutions, None);
     assert_eq!(e.missing.len(), 6);
     let shown = plain(&e);
-    assert!(shown.contains("Here the derivation ends") && shown.contains("polynomial of degree 16"), "{shown}");
+    assert!(
+        shown.contains("Here the derivation ends") && shown.contains("polynomial of degree 16"),
+        "{shown}"
+    );
 }
 
 #[track_caller]

@@ -193,9 +193,8 @@ fn determinant(robot: &Robot<f64>, q: &[f64]) -> f64 {
         product *= rows[k][k];
         for i in k + 1..6 {
             let factor = if rows[k][k] == 0.0 { 0.0 } else { rows[i][k] / rows[k][k] };
-            for c in k..6 {
-                rows[i][c] -= factor * rows[k][c];
-            }
+            let pivot = rows[k];
+            rows[i].iter_mut().zip(&pivot).for_each(|(x, y)| *x -= factor * y);
         }
     }
     product

@@ -70,7 +70,10 @@ fn table(rows: &[Row]) -> String {
     let mut out = String::new();
     let mut line = |cells: [&str; 5]| {
         let [name, symbols, numbers, solutions, given] = cells;
-        let _ = writeln!(out, "| {name:<width$} | {symbols:>10} | {numbers:>10} | {solutions:>9} | {given:<12} |");
+        let _ = writeln!(
+            out,
+            "| {name:<width$} | {symbols:>10} | {numbers:>10} | {solutions:>9} | {given:<12} |"
+        );
     };
     line(["robot", "symbols ms", "numbers ms", "solutions", "given"]);
     line([&"-".repeat(width), "---------:", "---------:", "--------:", "------------"]);
@@ -101,5 +104,9 @@ fn verdict(rows: &[Row]) -> String {
         format!("with {what} the slowest is {name} with {ms:.0} ms, {above} above {bound} ms")
     });
     let closed = rows.iter().filter(|r| r.found.is_some()).count();
-    format!("{closed} of {} robots have a closed form; {}.\n", rows.len(), words.collect::<Vec<_>>().join("; "))
+    format!(
+        "{closed} of {} robots have a closed form; {}.\n",
+        rows.len(),
+        words.collect::<Vec<_>>().join("; ")
+    )
 }

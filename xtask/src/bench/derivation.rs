@@ -87,11 +87,7 @@ fn expand(name: &str) -> Result<bool> {
 }
 
 /// CPU times of `work`, each in a thread of its own; `None` if the work is refused.
-pub fn times(
-    name: &'static str,
-    repeats: usize,
-    work: fn(&str) -> Result<bool>,
-) -> Result<Option<Times>> {
+pub fn times(name: &'static str, repeats: usize, work: fn(&str) -> Result<bool>) -> Result<Option<Times>> {
     let mut milliseconds = vec![];
     for _ in 0..repeats {
         let measured = std::thread::Builder::new().stack_size(64 << 20).spawn(move || -> Result<_> {

@@ -106,7 +106,8 @@ impl Chunk {
     /// The lines that are not blank, with their numbers.
     pub fn lines(&self) -> impl Iterator<Item = (usize, &[u8])> {
         let all = self.text.split(|b| *b == b'\n').enumerate();
-        all.filter(|(_, line)| !line.iter().all(u8::is_ascii_whitespace)).map(|(i, line)| (self.first + i, line))
+        all.filter(|(_, line)| !line.iter().all(u8::is_ascii_whitespace))
+            .map(|(i, line)| (self.first + i, line))
     }
 }
 
@@ -297,7 +298,10 @@ mod tests {
             assert_eq!(lines.len(), 4);
             assert!((LONGEST + 1..=LONGEST + 2 * READ).contains(&lines[1].len()), "{}", lines[1].len());
             assert_eq!(lines[2], b"[1]");
-            assert!(parsed(lines[1], "numbers", |l| serde_json::from_slice::<Vec<f64>>(l)).is_err_and(|e| e.starts_with("longer than")));
+            assert!(
+                parsed(lines[1], "numbers", |l| serde_json::from_slice::<Vec<f64>>(l))
+                    .is_err_and(|e| e.starts_with("longer than"))
+            );
         }
     }
 }

@@ -231,7 +231,7 @@ impl<'a> Tester<'a> {
         let known = self.solutions(&variables)?;
         let mut moved = 0.0_f64;
         for (k, nudge) in NUDGES.into_iter().enumerate() {
-            let signs = |i: usize| if (i * (2 * k + 3) + k) % 3 == 0 { -nudge } else { nudge };
+            let signs = |i: usize| if (i * (2 * k + 3) + k).is_multiple_of(3) { -nudge } else { nudge };
             let by = |(i, x): (usize, &f64)| x + signs(i) * if x.abs() > 1.0 { x.abs() } else { 1.0 };
             let nudged: Vec<f64> = variables.iter().enumerate().map(by).collect();
             let others = self.solutions(&nudged)?;

@@ -72,7 +72,7 @@ impl Algebra {
     }
 
     /// How many atoms there are.
-    pub fn len(&self) -> usize {
+    pub fn atoms(&self) -> usize {
         self.kinds.len()
     }
 

@@ -14,6 +14,9 @@ use rustc_hash::FxHashMap;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
+/// Cuts, whether on the side of the pose, components.
+type SquaresKey = (usize, usize, bool, Vec<usize>);
+
 /// What the search works on.
 pub struct Problem<'a> {
     /// The normal form.
@@ -24,8 +27,8 @@ pub struct Problem<'a> {
     pub splits: &'a [Split],
     /// Values of all atoms at random configurations.
     pub samples: &'a Samples,
-    /// Sums of squares that were multiplied out: cuts, whether on the side of the pose, components.
-    squares: RefCell<FxHashMap<(usize, usize, bool, Vec<usize>), Poly>>,
+    /// Sums of squares that were multiplied out.
+    squares: RefCell<FxHashMap<SquaresKey, Poly>>,
 }
 
 /// Equations of one unknown that are compared in pairs.

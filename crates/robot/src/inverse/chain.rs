@@ -45,7 +45,7 @@ pub enum Motion {
 #[derive(Clone, Debug)]
 pub enum Element {
     /// A constant rotation and displacement.
-    Constant(Matrix, Column),
+    Constant(Box<(Matrix, Column)>),
     /// A moving axis.
     Axis(usize),
 }
@@ -208,7 +208,7 @@ impl Chain {
             if *x != Transform::identity() {
                 let rotation = x.rotation.rows().map(|row| row.map(|e| algebra.constant(&mut ring, e)));
                 let translation = x.translation.0.map(|e| algebra.constant(&mut ring, e));
-                elements.push(Element::Constant(rotation, translation));
+                elements.push(Element::Constant(Box::new((rotation, translation))));
             }
             if k < axes.len() {
                 elements.push(Element::Axis(k));
@@ -305,7 +305,8 @@ impl Chain {
         let mut found = vec![(identity(), position.clone())];
         for element in &self.elements[from..] {
             match element {
-                Element::Constant(r, p) => {
+                Element::Constant(constant) => {
+                    let (r, p) = &**constant;
                     if p.iter().any(|x| !x.is_zero()) {
                         let shift = a.apply(&since, p);
                         let shift = turn(group).map_or_else(|| shift.clone(), |z| a.apply(&z, &shift));
@@ -354,8 +355,9 @@ fn inverse_coupling(axes: &[Axis], n: usize) -> Option<Vec<Vec<(usize, Rational)
         matrix[j].iter_mut().for_each(|x| *x = &*x * &inverse);
         for i in (0..n).filter(|&i| i != j) {
             let factor = matrix[i][j].clone();
-            for c in 0..2 * n {
-                matrix[i][c] = &matrix[i][c] - &(&factor * &matrix[j][c]);
+            let pivot = matrix[j].clone();
+            for (x, y) in matrix[i].iter_mut().zip(&pivot) {
+                *x = &*x - &(&factor * y);
             }
         }
     }

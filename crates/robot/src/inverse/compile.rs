@@ -110,7 +110,7 @@ fn compile_with(
         chain,
         solver: SolverBuilder::new(&inputs.symbols(), &chain.parameters, &results),
         atoms: FxHashMap::default(),
-        ranks: vec![0; chain.algebra.len()],
+        ranks: vec![0; chain.algebra.atoms()],
         edges: vec![vec![]; chain.groups.len()],
         pairs: FxHashMap::default(),
         polys: FxHashMap::default(),
@@ -353,8 +353,8 @@ impl Builder<'_> {
     fn size(&mut self, goal: Goal) -> Value {
         let mut lengths: Vec<Value> = vec![];
         for e in &self.chain.elements {
-            if let Element::Constant(_, p) = e {
-                lengths.extend(p.iter().map(|x| self.poly(x)));
+            if let Element::Constant(constant) = e {
+                lengths.extend(constant.1.iter().map(|x| self.poly(x)));
             }
         }
         for x in [&self.chain.base, &self.chain.tool] {

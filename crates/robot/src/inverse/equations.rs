@@ -170,7 +170,7 @@ pub fn equations(chain: &Chain, goal: Goal) -> (Vec<Equation>, Vec<Split>) {
     (found, splits)
 }
 
-fn flat<'a>((x, y): (Option<Poly>, &'a Option<Poly>)) -> Option<(Option<Poly>, &'a Poly)> {
+fn flat((x, y): (Option<Poly>, &Option<Poly>)) -> Option<(Option<Poly>, &Poly)> {
     y.as_ref().map(|y| (x, y))
 }
 

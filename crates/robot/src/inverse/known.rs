@@ -262,7 +262,7 @@ impl Samples {
                 })
                 .collect();
             let lookup = |s: Symbol| parameters.iter().find(|p| p.0 == s).map(|p| p.1);
-            let mut atoms = vec![0.0; chain.algebra.len()];
+            let mut atoms = vec![0.0; chain.algebra.atoms()];
             for (i, atom) in atoms.iter_mut().enumerate() {
                 if let Kind::Constant(e) = chain.algebra.kind(i as Atom) {
                     *atom = Expr::eval(e, lookup).unwrap_or(f64::NAN);

@@ -207,6 +207,9 @@ fn missing(chain: &Chain, outcome: &Outcome, given: &[usize]) -> Vec<usize> {
         .collect()
 }
 
+/// Branches, whether roots may be added, conditions, length.
+type Price = (usize, bool, u32, usize);
+
 /// Searches with the given joints, and as many more as the arm has too many: those with which the search ends with the
 /// fewest branches.
 fn choose(problem: &Problem, asked: &[usize], surplus: usize) -> (Vec<usize>, Outcome) {
@@ -222,7 +225,7 @@ fn choose(problem: &Problem, asked: &[usize], surplus: usize) -> (Vec<usize>, Ou
     let usual = [n.saturating_sub(5), n - 1, 0];
     let place = |j: usize| usual.iter().position(|&u| u == j).unwrap_or(3);
     open.sort_by_key(|&j| (chain.is_angle(j), place(j), j));
-    let mut best: Option<((usize, bool, u32, usize), Vec<usize>, Outcome)> = None;
+    let mut best: Option<(Price, Vec<usize>, Outcome)> = None;
     for set in subsets(&open, more).into_iter().take(TRIALS) {
         let mut given: Vec<usize> = asked.iter().chain(&set).copied().collect();
         given.sort_unstable();

@@ -1,7 +1,7 @@
 //! Newton's method on the pose.
 
 use super::equations::Goal;
-use crate::geometry::{Transform, Vector};
+use crate::geometry::{Axis, Transform, Vector};
 use crate::robot::Robot;
 
 /// Steps of a polish; two or three are usual.
@@ -34,13 +34,14 @@ fn rotation_error(goal: Goal, wanted: &Transform<f64>, have: &Transform<f64>) ->
 /// How far the hand is from a pose: the columns of the rotation that the goal gives and the position by `size`.
 pub fn distance(robot: &Robot<f64>, goal: Goal, wanted: &Transform<f64>, q: &[f64], size: f64) -> f64 {
     let have = robot.pose(q);
-    let columns: &[fn(&Transform<f64>) -> Vector<f64>] = match goal {
-        Goal::Pose => &[|x| x.rotation.x(), |x| x.rotation.y(), |x| x.rotation.z()],
+    let columns = match goal {
+        Goal::Pose => &Axis::ALL[..],
         Goal::Position => &[],
-        Goal::PositionAndAxis => &[|x| x.rotation.z()],
+        Goal::PositionAndAxis => &[Axis::Z],
     };
     let square = |v: Vector<f64>| v.dot(v);
-    let turned: f64 = columns.iter().map(|c| square(c(&have) - c(wanted))).sum();
+    let turned: f64 =
+        columns.iter().map(|&c| square(have.rotation.column(c) - wanted.rotation.column(c))).sum();
     let shift = square(have.translation - wanted.translation) / (size * size);
     (turned + shift).sqrt()
 }
@@ -158,9 +159,8 @@ fn damped(columns: &[[f64; 6]], e: &[f64; 6], damping: f64) -> Vec<f64> {
         }
         for i in (0..n).filter(|&i| i != k) {
             let factor = m[i][k] / m[k][k];
-            for c in k..=n {
-                m[i][c] -= factor * m[k][c];
-            }
+            let row = m[k].clone();
+            m[i].iter_mut().zip(&row).for_each(|(x, y)| *x -= factor * y);
         }
     }
     (0..n).map(|k| if m[k][k].abs() < f64::MIN_POSITIVE { 0.0 } else { m[k][n] / m[k][k] }).collect()

@@ -10,11 +10,11 @@ use crate::load;
 use crate::terminal::{Align, HEADING, NAME, decimals, lowered, matrix, number, raised, styled};
 use answer::Answers;
 use denavit::Robot;
-use denavit::robot::MissingValue;
 use denavit::description::{Description, JointKind, Measure, Variable};
 use denavit::forward::Reference;
 use denavit::geometry::Transform;
 use denavit::geometry::orientation::{OrientationSet, extract};
+use denavit::robot::MissingValue;
 use denavit_symbolic::{Expr, Symbol};
 use std::io::Write;
 

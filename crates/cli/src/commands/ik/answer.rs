@@ -45,8 +45,10 @@ impl Question {
                 value["obstacle"] = json!({"kind": "no root", "unknown": unknown, "gap": gap});
             }
             Some(Obstacle::NotOnTheArm { q, angle, distance, violated }) => {
-                let violated: Vec<Value> =
-                    violated.iter().map(|(condition, by)| json!({"condition": condition, "by": by})).collect();
+                let violated: Vec<Value> = violated
+                    .iter()
+                    .map(|(condition, by)| json!({"condition": condition, "by": by}))
+                    .collect();
                 value["obstacle"] = json!({
                     "kind": "not on the arm", "nearest": q, "angle": angle, "distance": distance, "violated": violated,
                 });
@@ -90,8 +92,12 @@ pub fn obstacle(d: &Description, answer: &Answer) -> String {
                 [] => String::new(),
                 _ => format!("\n  a pose of this arm meets {}", conditions.join(", ")),
             };
-            let at: Vec<String> =
-                d.variables().iter().zip(q).map(|(v, &x)| format!("{} = {}", v.symbol.name(), reading(x, v.kind))).collect();
+            let at: Vec<String> = d
+                .variables()
+                .iter()
+                .zip(q)
+                .map(|(v, &x)| format!("{} = {}", v.symbol.name(), reading(x, v.kind)))
+                .collect();
             format!(
                 "unreachable: the hand cannot take this pose; nearest found, {} and {} away: {}{which}",
                 reading(*angle, JointKind::Revolute),
@@ -129,7 +135,11 @@ impl Report<'_> {
             (n, 0) => plural(n, "solution"),
             (0, 1) => "one family of solutions".into(),
             (0, n) => format!("{n} families of solutions"),
-            (n, m) => format!("{} and {}", plural(n, "solution"), if m == 1 { "1 family".into() } else { format!("{m} families") }),
+            (n, m) => format!(
+                "{} and {}",
+                plural(n, "solution"),
+                if m == 1 { "1 family".into() } else { format!("{m} families") }
+            ),
         };
         let mut text = format!("{}: {count} for\n\n", styled(&d.name, HEADING));
         let noise = 1e-14 * self.pose.translation.norm().max(1.0);
@@ -138,7 +148,11 @@ impl Report<'_> {
         text += &matrix("T = ", &rows, Align::Right);
         for (name, x) in &self.question.names {
             let kind = d.variables().iter().find(|v| *v.symbol.name() == **name).map(|v| v.kind);
-            text += &format!("  {} = {} given\n", styled(name, NAME), reading(*x, kind.unwrap_or(JointKind::Revolute)));
+            text += &format!(
+                "  {} = {} given\n",
+                styled(name, NAME),
+                reading(*x, kind.unwrap_or(JointKind::Revolute))
+            );
         }
         if !answer.solutions.is_empty() {
             text.push('\n');
@@ -228,9 +242,8 @@ impl Report<'_> {
         let largest = f.direction.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         let variables = self.description.variables();
         let moving = variables.iter().zip(&f.direction).filter(|(_, x)| x.abs() > 1e-9);
-        let parts: Vec<String> = moving
-            .map(|(v, x)| format!("{} by {}", v.symbol.name(), number(x / largest, 1e-9)))
-            .collect();
+        let parts: Vec<String> =
+            moving.map(|(v, x)| format!("{} by {}", v.symbol.name(), number(x / largest, 1e-9))).collect();
         parts.join(", ")
     }
 }

@@ -42,7 +42,13 @@ fn in_latex(blocks: &[Block], names: &Vocabulary) -> String {
         line.0
             .iter()
             .map(|p| match p {
-                Piece::Text(t) => latex::escaped(t).replace('✓', "$\\checkmark$").replace('≈', "$\\approx$").replace('−', "--").replace('·', "$\\cdot$").replace('→', "$\\to$").replace('θ', "$\\theta$"),
+                Piece::Text(t) => latex::escaped(t)
+                    .replace('✓', "$\\checkmark$")
+                    .replace('≈', "$\\approx$")
+                    .replace('−', "--")
+                    .replace('·', "$\\cdot$")
+                    .replace('→', "$\\to$")
+                    .replace('θ', "$\\theta$"),
                 Piece::Strong(t) => format!("\\textbf{{{}}}", latex::escaped(t).replace('−', "--")),
                 Piece::Math(m) => format!("${}$", formula(m)),
             })
@@ -52,7 +58,8 @@ fn in_latex(blocks: &[Block], names: &Vocabulary) -> String {
     for block in blocks {
         match block {
             Block::Heading(level, line) => {
-                let command = ["section", "section", "subsection", "subsubsection"][usize::from(*level).min(3)];
+                let command =
+                    ["section", "section", "subsection", "subsubsection"][usize::from(*level).min(3)];
                 let _ = writeln!(out, "\\{command}*{{{}}}", words(line));
             }
             Block::Paragraph(line) => {
@@ -63,9 +70,14 @@ fn in_latex(blocks: &[Block], names: &Vocabulary) -> String {
                     Some(n) => format!(" \\tag{{{n}}}"),
                     None => String::new(),
                 };
-                let mark = mark(*proof, [" \\quad\\checkmark", " \\quad\\approx", " \\quad\\textbf{NOT TRUE}"]);
+                let mark =
+                    mark(*proof, [" \\quad\\checkmark", " \\quad\\approx", " \\quad\\textbf{NOT TRUE}"]);
                 let environment = if number.is_some() { "equation" } else { "equation*" };
-                let _ = writeln!(out, "\\begin{{{environment}}} {}{mark}{tag} \\end{{{environment}}}", formula(m));
+                let _ = writeln!(
+                    out,
+                    "\\begin{{{environment}}} {}{mark}{tag} \\end{{{environment}}}",
+                    formula(m)
+                );
             }
             Block::List(lines) => {
                 out += "\\begin{itemize}\n";
@@ -160,7 +172,11 @@ fn in_html(e: &Explanation, blocks: &[Block], names: &Vocabulary) -> String {
                 let number = number.map(|n| format!(" ({n})")).unwrap_or_default();
                 let mark = mark(*proof, [" ✓", " ≈", " NOT TRUE"]);
                 let tail = format!("{number}{mark}");
-                let tail = if tail.is_empty() { tail } else { format!(" <small>&emsp;{}</small>", tail.trim_start()) };
+                let tail = if tail.is_empty() {
+                    tail
+                } else {
+                    format!(" <small>&emsp;{}</small>", tail.trim_start())
+                };
                 let _ = writeln!(
                     out,
                     "<div class=\"formula\"><math displaystyle=\"true\">{}</math>{tail}</div>",

@@ -18,7 +18,9 @@ pub fn document(e: &Explanation) -> String {
     let formula = |m: &Math| math(m, &names, Style::Ascii);
     let statement = |s: &Statement| -> Value {
         let mut value = match &s.math {
-            Math::Chain(left, rest) if rest.len() == 1 => json!({"left": text(*left), "right": text(rest[0].1)}),
+            Math::Chain(left, rest) if rest.len() == 1 => {
+                json!({"left": text(*left), "right": text(rest[0].1)})
+            }
             other => json!({"formula": formula(other)}),
         };
         if let Some(n) = s.number {

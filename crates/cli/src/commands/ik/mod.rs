@@ -25,7 +25,8 @@ pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
     let description = load::robot(&arguments.robot)?;
     let goal: Goal = arguments.goal.into();
     let given = given(&description, arguments.given.as_deref())?;
-    let options = Options { goal, given: arguments.given.is_some().then(|| given.iter().map(|g| g.0).collect()) };
+    let options =
+        Options { goal, given: arguments.given.is_some().then(|| given.iter().map(|g| g.0).collect()) };
     let is_numeric = arguments.pose.is_some() || arguments.q.is_some() || arguments.input.is_some();
     let model = match InverseModel::derive(&description, &options) {
         Ok(model) => model,
@@ -37,7 +38,8 @@ pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
         return Ok(());
     }
     let name = &arguments.robot.robot;
-    let mut solver = model.solver(&description).map_err(|missing| without_values(&description, name, &missing))?;
+    let mut solver =
+        model.solver(&description).map_err(|missing| without_values(&description, name, &missing))?;
     let at = arguments.q.as_deref().map(|text| configuration(&description, text)).transpose()?;
     let values = values(&description, &model, &given, at.as_deref())?;
     let question = Question::new(&description, &model, values);
@@ -53,7 +55,14 @@ pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
     let text = if arguments.json {
         question.json(&pose, &answer)
     } else {
-        Report { question: &question, description: &description, pose: &pose, answer: &answer, at: at.as_deref() }.text()
+        Report {
+            question: &question,
+            description: &description,
+            pose: &pose,
+            answer: &answer,
+            at: at.as_deref(),
+        }
+        .text()
     };
     write!(anstream::stdout(), "{text}")?;
     if answer.is_reachable() { Ok(()) } else { Err(Failure::No(answer::obstacle(&description, &answer))) }
@@ -147,7 +156,10 @@ fn values(
                     Some([low, high]) if !(*low..=*high).contains(&0.0) => f64::midpoint(*low, *high),
                     _ => 0.0,
                 };
-                let (name, unit) = (variable.symbol.name(), if variable.kind == JointKind::Revolute { "30deg" } else { "0.2" });
+                let (name, unit) = (
+                    variable.symbol.name(),
+                    if variable.kind == JointKind::Revolute { "30deg" } else { "0.2" },
+                );
                 writeln!(
                     anstream::stderr(),
                     "note: {name} is one joint too many; taken as {}, `--given {name}={unit}` chooses",

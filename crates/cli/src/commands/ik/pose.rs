@@ -31,7 +31,8 @@ pub fn read(text: &str, orientation: &str, goal: Goal) -> Result<Transform<f64>,
     // Values may hold blanks: `0.4, 0, 0.3, 90 deg, 0, 0`.
     let parts: Vec<&str> =
         if plain.contains([',', ';']) { plain.split([',', ';']).map(str::trim).collect() } else { parts };
-    let set: OrientationSet = orientation.parse().map_err(|e| Failure::Usage(format!("--orientation: {e}")))?;
+    let set: OrientationSet =
+        orientation.parse().map_err(|e| Failure::Usage(format!("--orientation: {e}")))?;
     let wanted = 3 + set.names().len();
     let position_only = parts.len() == 3 && goal == Goal::Position;
     if parts.len() != wanted && !position_only {
@@ -58,7 +59,9 @@ pub fn read(text: &str, orientation: &str, goal: Goal) -> Result<Transform<f64>,
 }
 
 fn number(text: &str, measure: Measure) -> Result<f64, String> {
-    load::value_of(text, measure).and_then(crate::commands::fk::value).map_err(|why| format!("`{text}`: {why}"))
+    load::value_of(text, measure)
+        .and_then(crate::commands::fk::value)
+        .map_err(|why| format!("`{text}`: {why}"))
 }
 
 /// A matrix of four rows (or three) of four numbers.

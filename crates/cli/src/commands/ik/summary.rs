@@ -62,7 +62,10 @@ pub fn text(e: &Explanation) -> String {
     for (k, s) in e.steps.iter().enumerate() {
         for c in s.conditions.iter().filter(|c| !c.when.is_empty()) {
             let when: Vec<String> = c.when.iter().map(formula).collect();
-            let is_bound = c.when.iter().any(|m| matches!(m, Math::Chain(_, signs) if signs.iter().any(|s| s.0 != Sign::Equal)));
+            let is_bound = c
+                .when
+                .iter()
+                .any(|m| matches!(m, Math::Chain(_, signs) if signs.iter().any(|s| s.0 != Sign::Equal)));
             let what = if is_bound { "needs" } else { "is degenerate at" };
             text += &format!("  step {} {what} {}\n", k + 1, when.join(", "));
         }

@@ -1,10 +1,10 @@
 //! Solvers in C: a function that fills an array of solutions, with the routines for the roots that it calls.
 
 use super::{RESERVED, Source, WIDTH, block_comment, test};
+use crate::count::Count;
 use crate::emit::compiled::{Body, WRAP, lines};
 use crate::emit::nested::{Leaf, Nested, element, part, routines};
 use crate::emit::solver::Plan;
-use crate::count::Count;
 use crate::emit::{Language, Library, Precision};
 use std::fmt::Write;
 

@@ -334,7 +334,8 @@ impl Source<'_> {
              free: [[0; {upper}_LANES]; {upper}_MAX],\n    }};\n}}\n\n/// [`{f}`] of a block of rows.\n"
         );
         let argument = self.argument_name(plan);
-        let arguments = format!("{argument}: &[[f64; {upper}_LANES]; {n}]{parameters}, solutions: &mut {kind}Block");
+        let arguments =
+            format!("{argument}: &[[f64; {upper}_LANES]; {n}]{parameters}, solutions: &mut {kind}Block");
         let call = format!("{f}_row({argument}{given}, solutions, i);");
         if has_lanes(plan) {
             text.push_str(&self.nested_rows(plan, &arguments, &call));

@@ -71,7 +71,8 @@ impl<'a> Matrices<'a> {
 
     /// An element written out: displacement, then rotation.
     pub fn written(&self, e: usize) -> Vec<Factor> {
-        let Element::Constant(r, p) = &self.chain().elements[e] else { return vec![self.element(e)] };
+        let Element::Constant(constant) = &self.chain().elements[e] else { return vec![self.element(e)] };
+        let (r, p) = &**constant;
         let p = p.each_ref().map(|x| self.reading.plain(x));
         let mut found = vec![];
         if p.iter().any(|x| !x.is_zero()) {
@@ -229,8 +230,8 @@ impl<'a> Matrices<'a> {
                 let whole = at(0)?;
                 let shift = &self.chain().products_from(0)[source.left].1;
                 let (mut pose, mut chain) = (Poly::zero(), Poly::zero());
-                for k in 0..3 {
-                    let moved = whole.pose[k].as_ref()?.minus(&shift[k]);
+                for (k, shift) in shift.iter().enumerate() {
+                    let moved = whole.pose[k].as_ref()?.minus(shift);
                     pose = pose.minus(&a.times(whole.pose_rotation[k][i].as_ref()?, &moved));
                     chain = chain.minus(&a.times(&split.chain_rotation[k][i], &split.chain[k]));
                 }

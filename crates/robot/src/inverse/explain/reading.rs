@@ -33,6 +33,9 @@ enum Parts {
 /// A name for a polynomial, if it has one.
 pub type Short<'s> = &'s dyn Fn(&Poly) -> Option<Expr>;
 
+/// An angle on the way from node to node, the step that finds it (none if it is given), whether it is passed backwards.
+type Leg = (Difference, Option<usize>, bool);
+
 impl<'a> Reading<'a> {
     /// With the values of some joint variables given.
     pub fn new(chain: &'a Chain, given: &[usize], steps: &[Step]) -> Self {
@@ -47,7 +50,7 @@ impl<'a> Reading<'a> {
             }
         }
         let mut slides = vec![];
-        let mut ranks = vec![usize::MAX; chain.algebra.len()];
+        let mut ranks = vec![usize::MAX; chain.algebra.atoms()];
         for i in 0..=steps.len() {
             for (a, rank) in ranks.iter_mut().enumerate().filter(|r| *r.1 == usize::MAX) {
                 *rank = match chain.algebra.kind(a as Atom) {
@@ -84,8 +87,8 @@ impl<'a> Reading<'a> {
     }
 
     /// The steps (or given angles) that lead from node to node, with signs, by the first `steps` steps.
-    pub fn path(&self, d: Difference, steps: usize) -> Option<Vec<(Difference, Option<usize>, bool)>> {
-        let mut ways: Vec<(usize, Vec<(Difference, Option<usize>, bool)>)> = vec![(d.from, vec![])];
+    pub fn path(&self, d: Difference, steps: usize) -> Option<Vec<Leg>> {
+        let mut ways: Vec<(usize, Vec<Leg>)> = vec![(d.from, vec![])];
         let mut pending = VecDeque::from([0]);
         while let Some(at) = pending.pop_front() {
             let (node, way) = ways[at].clone();

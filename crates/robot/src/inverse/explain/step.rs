@@ -522,7 +522,11 @@ impl Context<'_> {
             done.solution.push(Statement { proof, ..self.plain(name, y.atan2(x)) });
             match determinant {
                 Determinant::Perpendicular => done.conditions.push(Case {
-                    when: [a1, b1].into_iter().filter(|e| !e.is_zero()).map(|e| Math::equation(unsigned(e), zero)).collect(),
+                    when: [a1, b1]
+                        .into_iter()
+                        .filter(|e| !e.is_zero())
+                        .map(|e| Math::equation(unsigned(e), zero))
+                        .collect(),
                     then: "the joint is free if the right-hand sides vanish too; else no solution".into(),
                 }),
                 _ => done.conditions.push(Case { when: vec![], then: "always exactly one value".into() }),
