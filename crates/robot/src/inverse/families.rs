@@ -3,6 +3,7 @@
 //! Where an equation leaves its unknown free, the unknown is given values all round; what solves the pose then, on one
 //! branch and for neighbouring values, is a family, or a single solution if its neighbours are none.
 
+use super::newton;
 use super::solve::{
     Answer, Family, InverseSolver, LOOSE, NEAR, ROUGH, SHORT, Solution, draft, norm, variables, wrapped,
 };
@@ -64,6 +65,7 @@ impl InverseSolver {
         at: &[(usize, [f64; 2])],
         signs: &[i8],
     ) -> Vec<Solution> {
+        let pose = &newton::nearest_rigid(pose).0;
         let variables = variables(self.goal, pose, given);
         let mut free = vec![None; self.nodes.len()];
         for &(i, x) in at {
@@ -197,6 +199,8 @@ impl InverseSolver {
                 k += 1;
             }
         }
+        // The largest first: a group of one is often a place where two branches of a larger one meet.
+        groups.sort_by_key(|g| std::cmp::Reverse(g.len()));
         for group in groups {
             // The representative: a proper solution, of the value nearest to 0.
             let slides = !self.nodes[free[0]].is_angle;
@@ -238,17 +242,29 @@ impl InverseSolver {
             };
             let at: Vec<(usize, [f64; 2])> =
                 at.into_iter().filter(|a| moving.iter().any(|m| m.0 == a.0)).collect();
-            let far = group[(k + group.len() / 2) % group.len()].solution.q.clone();
+            let far = group[(k + group.len().min(steps / 2) / 3) % group.len()].solution.q.clone();
+            let mut direction = direction;
             let is_affine = at.len() == 1
                 && self
                     .tangent(pose, given, first, (&at, &signs), &far)
                     .is_some_and(|d| parallel(&d, &direction));
+            if is_affine {
+                // Far along, rounding weighs less.
+                let by = norm(&self.moved(&q, &far));
+                if by > 0.1 {
+                    let sign = if along(&self.moved(&q, &far), &direction) < 0.0 { -1.0 } else { 1.0 };
+                    direction = self.moved(&q, &far).iter().map(|d| sign * d / by).collect();
+                }
+                direction.iter_mut().filter(|d| d.abs() < 1e-6).for_each(|d| *d = 0.0);
+                let length = norm(&direction);
+                direction.iter_mut().for_each(|d| *d /= length);
+            }
             answer.families.push(Family {
                 dimension: at.len(),
                 free: at.iter().map(|&(i, _)| self.nodes[i].unknown.clone()).collect(),
                 direction,
                 is_affine,
-                interval: (free.len() == 1).then(|| self.interval(free[0], steps, &group)),
+                interval: (free.len() == 1).then(|| self.interval(pose, given, (free[0], steps), &group)),
                 at,
                 signs,
                 representative,
@@ -297,7 +313,7 @@ impl InverseSolver {
         pairs.map(|((x, y), &is_angle)| if is_angle { wrapped(y - x) } else { y - x }).collect()
     }
 
-    fn is_in_a_family(
+    pub(super) fn is_in_a_family(
         &mut self,
         pose: &Transform<f64>,
         given: &[f64],
@@ -310,16 +326,42 @@ impl InverseSolver {
         })
     }
 
-    /// The sampled values between the ends of a group.
-    fn interval(&self, node: usize, steps: usize, group: &[Member]) -> [f64; 2] {
-        let value = |number: usize| {
-            let turn = number as f64 / steps as f64;
-            if self.nodes[node].is_angle { wrapped(turn * TAU) } else { (2.0 * turn - 1.0) * self.reach }
-        };
-        if group.len() == steps && self.nodes[node].is_angle {
+    /// Between which values the free unknown of a group may move, the ends found by bisection: a length, or an angle from
+    /// (−π, π] to at most a turn further.
+    fn interval(
+        &mut self,
+        pose: &Transform<f64>,
+        given: &[f64],
+        (node, steps): (usize, usize),
+        group: &[Member],
+    ) -> [f64; 2] {
+        let is_angle = self.nodes[node].is_angle;
+        if group.len() == steps && is_angle {
             return [-PI, PI];
         }
-        [value(group[0].number), value(group[group.len() - 1].number)]
+        let width = if is_angle { TAU } else { 2.0 * self.reach };
+        let step = width / steps as f64;
+        let first = group[0].number as f64 * step - if is_angle { 0.0 } else { self.reach };
+        let last = first + (group.len() - 1) as f64 * step;
+        let variables = variables(self.goal, pose, given);
+        let mut holds = |x: f64| {
+            let mut at = vec![None; self.nodes.len()];
+            at[node] = Some(if is_angle { [x.cos(), x.sin()] } else { [x, 0.0] });
+            let leaves = self.scalar.solve_loosely(&variables, &at, LOOSE);
+            let branch = leaves.iter().find(|l| l.signs == group[0].signs);
+            let found = branch.map(|l| draft(&self.nodes, &l));
+            found.is_some_and(|s| self.member(pose, s).is_some())
+        };
+        let mut end = |inside: f64, outside: f64| {
+            let (mut inside, mut outside) = (inside, outside);
+            for _ in 0..40 {
+                let middle = (inside + outside) / 2.0;
+                if holds(middle) { inside = middle } else { outside = middle }
+            }
+            inside
+        };
+        let (low, high) = (end(first, first - step), end(last, last + step));
+        if is_angle { [wrapped(low), wrapped(low) + (high - low).min(TAU)] } else { [low, high] }
     }
 }
 
@@ -332,7 +374,11 @@ fn quarter_exact(k: usize, steps: usize) -> [f64; 2] {
     [c, s]
 }
 
+fn along(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
+/// True if two unit vectors are parallel, but for the error of a difference over a short step.
 fn parallel(a: &[f64], b: &[f64]) -> bool {
-    let dot: f64 = a.iter().zip(b).map(|(x, y)| x * y).sum();
-    (dot.abs() - 1.0).abs() <= 1e-6
+    (along(a, b).abs() - 1.0).abs() <= 1e-6
 }

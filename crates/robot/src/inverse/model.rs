@@ -307,7 +307,7 @@ fn labels(chain: &Chain, steps: &[Step]) -> Vec<Option<String>> {
     let n = chain.axes.len();
     let turns: Vec<usize> = (0..n).filter(|&k| chain.axes[k].motion != Motion::Slide).collect();
     let ends_turning = n >= 5 && chain.axes[n - 3..].iter().all(|a| a.motion != Motion::Slide);
-    let wrist = if ends_turning { n - 3 } else { n };
+    let wrist = if ends_turning { n - if n == 5 { 2 } else { 3 } } else { n };
     let mut used: Vec<String> = vec![];
     steps
         .iter()

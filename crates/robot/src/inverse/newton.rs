@@ -1,13 +1,13 @@
 //! Newton's method on the pose.
 
 use super::equations::Goal;
-use crate::geometry::{Axis, Transform, Vector};
+use crate::geometry::{Axis, Rotation, Transform, Vector};
 use crate::robot::Robot;
 
 /// Steps of a polish; two or three are usual.
 const STEPS: usize = 20;
 /// How far a polish may lead: further away is another solution.
-const FAR: f64 = 0.1;
+const FAR: f64 = 0.3;
 
 /// The error of a pose as rotation vector and displacement by `size`, both in the base; zeros where the goal gives
 /// nothing.
@@ -114,6 +114,20 @@ pub fn polish(
     given: &[usize],
     size: f64,
 ) -> Option<(Vec<f64>, f64)> {
+    let (at, best) = approach(robot, goal, wanted, q, given, size)?;
+    let far = q.iter().zip(&at).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+    (far <= FAR).then_some((at, best))
+}
+
+/// As near as Newton's method comes to a pose from `q`, and how near that is.
+pub fn approach(
+    robot: &Robot<f64>,
+    goal: Goal,
+    wanted: &Transform<f64>,
+    q: &[f64],
+    given: &[usize],
+    size: f64,
+) -> Option<(Vec<f64>, f64)> {
     let mut at = q.to_vec();
     let mut best = distance(robot, goal, wanted, &at, size);
     let mut damping = 1e-12;
@@ -135,8 +149,7 @@ pub fn polish(
             damping *= 100.0;
         }
     }
-    let far = q.iter().zip(&at).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
-    (best.is_finite() && far <= FAR).then_some((at, best))
+    best.is_finite().then_some((at, best))
 }
 
 /// x with (JᵀJ + λ)x = Jᵀe, by Gauss's elimination.
@@ -164,4 +177,30 @@ fn damped(columns: &[[f64; 6]], e: &[f64; 6], damping: f64) -> Vec<f64> {
         }
     }
     (0..n).map(|k| if m[k][k].abs() < f64::MIN_POSITIVE { 0.0 } else { m[k][n] / m[k][k] }).collect()
+}
+
+/// The pose with the rotation nearest to its own, and by how much the columns of its own fail to be orthonormal.
+pub fn nearest_rigid(pose: &Transform<f64>) -> (Transform<f64>, f64) {
+    let mut rows = pose.rotation.rows();
+    let mut defect = 0.0_f64;
+    for step in 0..3 {
+        // R (3·1 − RᵀR)/2, which converges to the orthogonal factor of R.
+        let column = |j: usize| Vector(std::array::from_fn(|i: usize| rows[i][j]));
+        let product: [[f64; 3]; 3] = std::array::from_fn(|i| {
+            std::array::from_fn(|j| f64::from(u8::from(i == j)) - column(i).dot(column(j)))
+        });
+        let largest = product.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
+        if step == 0 {
+            defect = largest;
+        }
+        if largest <= 1e-15 || largest > 0.1 {
+            break;
+        }
+        rows = std::array::from_fn(|i| {
+            std::array::from_fn(|j| {
+                rows[i][j] + 0.5 * (0..3).map(|k| rows[i][k] * product[k][j]).sum::<f64>()
+            })
+        });
+    }
+    (Transform::from_rotation_translation(Rotation::from_rows(rows), pose.translation), defect)
 }

@@ -35,6 +35,8 @@ pub struct InverseSolver {
     /// What stands before the first axis and behind the last one in the normal form.
     base: Transform<f64>,
     tool: Transform<f64>,
+    /// What a solution may miss the pose by.
+    tolerance: f64,
     /// A length that is compared with: the sum of the robot's lengths.
     pub(super) reach: f64,
 }
@@ -136,6 +138,13 @@ pub enum Obstacle {
 
 /// A residual above this is more than rounding, and Newton's method lowers it.
 pub(super) const ROUGH: f64 = 1e-13;
+/// Branches that Newton's method starts from, and how far they may be from the pose.
+const STARTS: usize = 24;
+const NEARBY: f64 = 0.3;
+/// The largest tolerance that a pose with a rounded rotation gets.
+const LOOSEST: f64 = 1e-5;
+/// Solutions this near (radians, and lengths by the reach) are the same: two roots that coincide differ by as much.
+const SAME: f64 = 2e-6;
 /// A guard below this may be one that vanishes at a solution which is known to the square root of rounding only.
 pub(super) const NEAR: f64 = 1e-6;
 /// What guards are compared with then, by what they are compared with otherwise.
@@ -203,6 +212,7 @@ impl InverseModel {
             .collect();
         let number = |e: Expr| e.eval(value).unwrap_or(f64::NAN);
         Ok(InverseSolver {
+            tolerance: TOLERANCE,
             conditions,
             base: self.chain.base.map(number),
             tool: self.chain.tool.map(number),
@@ -258,8 +268,14 @@ impl InverseSolver {
     ///
     /// # Panics
     /// If there is not one value per given joint.
+    ///
+    /// A pose is taken to be as precise as its rotation is orthonormal: the nearest rotation is meant, and solutions may
+    /// miss the pose by as much.
     pub fn solve(&mut self, pose: &Transform<f64>, given: &[f64]) -> Answer {
         assert_eq!(given.len(), self.given.len(), "one value per given joint");
+        let (pose, defect) = newton::nearest_rigid(pose);
+        let pose = &pose;
+        self.tolerance = (4.0 * defect).clamp(TOLERANCE, LOOSEST);
         let variables = variables(self.goal, pose, given);
         let mut answer = Answer { complete: true, solutions: vec![], families: vec![], obstacle: None };
         let leaves = self.scalar.solve(&variables, &[]);
@@ -282,9 +298,11 @@ impl InverseSolver {
                 self.families(pose, given, loose, &mut answer);
                 self.absorb(pose, given, &mut answer);
             }
-        }
-        if !answer.is_reachable() {
-            self.last_resort(pose, &variables, met, &mut answer);
+            let starts = self.nearest(pose, &variables, loose);
+            self.search_on(pose, given, &starts, &mut answer);
+            if !answer.is_reachable() {
+                answer.obstacle = self.obstacle(pose, &variables, &starts);
+            }
         }
         answer
     }
@@ -302,7 +320,7 @@ impl InverseSolver {
             let polished = newton::polish(&self.robot, self.goal, pose, &s.q, &self.given, self.size(pose));
             if let Some((q, residual)) = polished
                 && residual < s.residual
-                && (s.residual > TOLERANCE || norm(&self.moved(&s.q, &q)) <= SHORT)
+                && (s.residual > self.tolerance || norm(&self.moved(&s.q, &q)) <= SHORT)
             {
                 (s.q, s.residual) = (q, residual);
             }
@@ -313,7 +331,7 @@ impl InverseSolver {
             }
         }
         s.within_limits = self.within_limits(&s.q);
-        s.residual <= TOLERANCE
+        s.residual <= self.tolerance
     }
 
     /// The conditions that a pose does not meet, by joint variables that come near.
@@ -328,7 +346,7 @@ impl InverseSolver {
                 let miss = c.miss(&entries, q);
                 (c.text.clone(), miss, if c.degree > 0 { miss.abs() / self.size(pose) } else { miss.abs() })
             })
-            .filter(|c| c.2 > TOLERANCE)
+            .filter(|c| c.2 > self.tolerance)
             .collect();
         found.sort_by(|a, b| b.2.total_cmp(&a.2));
         found.into_iter().map(|(text, miss, _)| (text, miss)).collect()
@@ -357,58 +375,85 @@ impl InverseSolver {
     }
 
     fn is_same(&self, a: &[f64], b: &[f64]) -> bool {
-        const SAME: f64 = denavit_program::solver::SAME;
         a.iter().zip(b).zip(&self.is_angle).all(|((x, y), &is_angle)| {
             let d = x - y;
             (if is_angle { wrapped(d).abs() } else { d.abs() / self.reach.max(1e-3) }) <= SAME
         })
     }
 
-    /// Newton's method from the branches that come nearest, and if that fails what stands in the way.
-    fn last_resort(&mut self, pose: &Transform<f64>, variables: &[f64], met: u64, answer: &mut Answer) {
+    /// The branches however far from the pose, the nearest first; unknowns that are free are given values all round, one
+    /// at a time.
+    fn nearest(&mut self, pose: &Transform<f64>, variables: &[f64], met: u64) -> Vec<Solution> {
         let free: Vec<usize> = (0..self.nodes.len()).filter(|i| met >> i & 1 == 1).collect();
-        let steps = if free.is_empty() { 1 } else { families::round(1) };
         let mut starts: Vec<Solution> = vec![];
-        for number in 0..steps {
-            let at = self.values(&free[..free.len().min(1)], steps, number);
-            let leaves = self.nearest.solve_carefully(variables, &at);
-            for leaf in leaves.iter() {
-                starts.push(draft(&self.nodes, &leaf));
+        let rounds: Vec<&[usize]> = if free.is_empty() { vec![&[]] } else { free.chunks(1).collect() };
+        for unknown in rounds {
+            let steps = if unknown.is_empty() { 1 } else { families::round(1) };
+            for number in 0..steps {
+                let at = self.values(unknown, steps, number);
+                let leaves = self.nearest.solve_loosely(variables, &at, LOOSE);
+                starts.extend(leaves.iter().map(|l| draft(&self.nodes, &l)));
             }
         }
         for s in &mut starts {
             s.residual = newton::distance(&self.robot, self.goal, pose, &s.q, self.size(pose));
         }
+        starts.retain(|s| s.residual.is_finite());
         starts.sort_by(|a, b| a.residual.total_cmp(&b.residual));
-        starts.truncate(16);
-        for s in &starts {
-            let mut s = s.clone();
-            s.residual = s.residual.max(2.0 * TOLERANCE);
-            if self.improve(pose, &mut s) {
-                answer.complete = false;
-                self.add(&mut answer.solutions, s);
+        starts
+    }
+
+    /// Solutions that Newton's method finds from branches nearby: those at values of free unknowns that were not tried.
+    fn search_on(&mut self, pose: &Transform<f64>, given: &[f64], starts: &[Solution], answer: &mut Answer) {
+        let mut tried: Vec<Vec<f64>> = vec![];
+        let near = self.tolerance..NEARBY;
+        for s in starts.iter().filter(|s| near.contains(&s.residual)) {
+            if tried.len() == STARTS {
+                return;
             }
+            if tried.iter().any(|q| norm(&self.moved(q, &s.q)) < 0.5 * NEARBY) {
+                continue;
+            }
+            tried.push(s.q.clone());
+            let mut s = Solution { multiplicity: 1, branch: String::new(), ..s.clone() };
+            if !self.improve(pose, &mut s)
+                || answer.solutions.iter().any(|t| self.is_same(&t.q, &s.q))
+                || self.is_in_a_family(pose, given, &answer.families, &s.q)
+            {
+                continue;
+            }
+            answer.complete = false;
+            answer.solutions.push(s);
         }
-        if answer.is_reachable() {
-            return;
+    }
+
+    /// What stands in the way of a pose without solution.
+    fn obstacle(
+        &mut self,
+        pose: &Transform<f64>,
+        variables: &[f64],
+        starts: &[Solution],
+    ) -> Option<Obstacle> {
+        // As near as the arm comes from the best branches.
+        let size = self.size(pose);
+        let near = starts
+            .iter()
+            .take(STARTS)
+            .filter_map(|s| newton::approach(&self.robot, self.goal, pose, &s.q, &self.given, size))
+            .min_by(|a, b| a.1.total_cmp(&b.1));
+        if let Some((q, _)) = near {
+            let q: Vec<f64> = q
+                .iter()
+                .zip(&self.is_angle)
+                .map(|(&x, &is_angle)| if is_angle { wrapped(x) } else { x })
+                .collect();
+            let (angle, distance) = newton::gap(&self.robot, self.goal, pose, &q);
+            let violated = self.violated(pose, &q);
+            return Some(Obstacle::NotOnTheArm { q, angle, distance, violated });
         }
         let leaves = self.scalar.solve_carefully(variables, &[]);
-        let last = leaves.ended().max_by(|a, b| a.node.cmp(&b.node));
-        answer.obstacle = match (starts.first(), last) {
-            (Some(s), _) => {
-                let (angle, distance) = newton::gap(&self.robot, self.goal, pose, &s.q);
-                Some(Obstacle::NotOnTheArm {
-                    q: s.q.clone(),
-                    angle,
-                    distance,
-                    violated: self.violated(pose, &s.q),
-                })
-            }
-            (None, Some(end)) => {
-                Some(Obstacle::NoRoot { unknown: self.nodes[end.node].unknown.clone(), gap: end.gap })
-            }
-            (None, None) => None,
-        };
+        let last = leaves.ended().max_by_key(|end| end.node)?;
+        Some(Obstacle::NoRoot { unknown: self.nodes[last.node].unknown.clone(), gap: last.gap })
     }
 }
 
