@@ -28,6 +28,9 @@ pub(super) fn round(unknowns: usize) -> usize {
     }
 }
 
+/// How much smaller steps may become.
+const FINEST: usize = 100;
+
 impl InverseSolver {
     /// The members of a family with its free unknown (radians or metres) at a value; the first, if it has several.
     pub fn members(
@@ -108,9 +111,11 @@ impl InverseSolver {
         let variables = variables(self.goal, pose, given);
         let mut free: Vec<usize> = (0..self.nodes.len()).filter(|i| met >> i & 1 == 1).collect();
         let mut members: Vec<Member> = vec![];
-        // Other unknowns may turn out to be free on the way; then all are varied.
-        for _ in 0..3 {
-            let steps = round(free.len());
+        // Other unknowns may turn out to be free on the way; then all are varied. Where none of one unknown's values
+        // leads anywhere, the right ones may be few: it is varied in smaller steps.
+        let mut finer = 1;
+        for _ in 0..5 {
+            let steps = round(free.len()) * finer;
             members.clear();
             let mut more = met;
             let count = steps.pow(free.len().min(3) as u32);
@@ -130,6 +135,10 @@ impl InverseSolver {
             let known = free.len();
             free = (0..self.nodes.len()).filter(|i| more >> i & 1 == 1).collect();
             if free.len() == known {
+                if known == 1 && members.is_empty() && finer < FINEST {
+                    finer *= 10;
+                    continue;
+                }
                 self.group(pose, given, &free, steps, members, answer);
                 return;
             }

@@ -301,7 +301,7 @@ impl InverseSolver {
             let starts = self.nearest(pose, &variables, loose);
             self.search_on(pose, given, &starts, &mut answer);
             if !answer.is_reachable() {
-                answer.obstacle = self.obstacle(pose, &variables, &starts);
+                self.approach(pose, &variables, &starts, &mut answer);
             }
         }
         answer
@@ -427,33 +427,39 @@ impl InverseSolver {
         }
     }
 
-    /// What stands in the way of a pose without solution.
-    fn obstacle(
+    /// As near as the arm comes to a pose from the best branches: what stands in the way, or a solution after all.
+    fn approach(
         &mut self,
         pose: &Transform<f64>,
         variables: &[f64],
         starts: &[Solution],
-    ) -> Option<Obstacle> {
-        // As near as the arm comes from the best branches.
+        answer: &mut Answer,
+    ) {
         let size = self.size(pose);
         let near = starts
             .iter()
             .take(STARTS)
-            .filter_map(|s| newton::approach(&self.robot, self.goal, pose, &s.q, &self.given, size))
-            .min_by(|a, b| a.1.total_cmp(&b.1));
-        if let Some((q, _)) = near {
-            let q: Vec<f64> = q
-                .iter()
-                .zip(&self.is_angle)
-                .map(|(&x, &is_angle)| if is_angle { wrapped(x) } else { x })
-                .collect();
-            let (angle, distance) = newton::gap(&self.robot, self.goal, pose, &q);
-            let violated = self.violated(pose, &q);
-            return Some(Obstacle::NotOnTheArm { q, angle, distance, violated });
+            .filter_map(|s| {
+                let (q, residual) = newton::approach(&self.robot, self.goal, pose, &s.q, &self.given, size)?;
+                Some(Solution { q, residual, multiplicity: 1, branch: String::new(), ..s.clone() })
+            })
+            .min_by(|a, b| a.residual.total_cmp(&b.residual));
+        if let Some(mut s) = near {
+            let is_solution = self.improve(pose, &mut s);
+            if is_solution {
+                answer.complete = false;
+                answer.solutions.push(s);
+                return;
+            }
+            let (angle, distance) = newton::gap(&self.robot, self.goal, pose, &s.q);
+            let violated = self.violated(pose, &s.q);
+            answer.obstacle = Some(Obstacle::NotOnTheArm { q: s.q, angle, distance, violated });
+            return;
         }
         let leaves = self.scalar.solve_carefully(variables, &[]);
-        let last = leaves.ended().max_by_key(|end| end.node)?;
-        Some(Obstacle::NoRoot { unknown: self.nodes[last.node].unknown.clone(), gap: last.gap })
+        let last = leaves.ended().max_by_key(|end| end.node);
+        answer.obstacle =
+            last.map(|end| Obstacle::NoRoot { unknown: self.nodes[end.node].unknown.clone(), gap: end.gap });
     }
 }
 

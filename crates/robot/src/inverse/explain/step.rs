@@ -187,7 +187,7 @@ impl Context<'_> {
         if self.reading.rank_of(denominator) > 0 {
             done.conditions.push(Case {
                 when: vec![Math::equation(unsigned(d), Expr::int(0))],
-                then: "the displacement is free if the right-hand side vanishes too; else no solution".into(),
+                then: "the equation does not determine the displacement: if the right-hand side vanishes too, it is free or another equation gives it; else no solution".into(),
             });
         }
     }
@@ -297,7 +297,7 @@ impl Context<'_> {
         done.solution = vec![Statement { proof, ..self.plain(name, (k * y).atan2(k * x)) }];
         done.conditions = vec![Case {
             when: vec![Math::equation(unsigned(x), zero), Math::equation(unsigned(y), zero)],
-            then: "the equation leaves the angle free: the arm can move with its hand still, if the other equations allow it".into(),
+            then: "the equation leaves the angle open: it is free (the arm can move with its hand still), or another equation gives it".into(),
         }];
     }
 
@@ -368,7 +368,7 @@ impl Context<'_> {
                 .collect();
             done.conditions.push(Case {
                 when,
-                then: "no solution, unless the right-hand side vanishes too: then the joint is free".into(),
+                then: "no solution, unless the right-hand side vanishes too: then the equation leaves the joint open".into(),
             });
         }
     }
@@ -527,7 +527,7 @@ impl Context<'_> {
                         .filter(|e| !e.is_zero())
                         .map(|e| Math::equation(unsigned(e), zero))
                         .collect(),
-                    then: "the joint is free if the right-hand sides vanish too; else no solution".into(),
+                    then: "if the right-hand sides vanish too, the joint is free or another equation gives it; else no solution".into(),
                 }),
                 _ => done.conditions.push(Case { when: vec![], then: "always exactly one value".into() }),
             }
