@@ -8,6 +8,7 @@ use super::compile::{self, Inputs};
 use super::conditions::NumericCondition;
 use super::equations::Goal;
 use super::families;
+use super::known::Random;
 use super::model::InverseModel;
 use super::newton;
 use crate::description::Description;
@@ -112,28 +113,20 @@ pub struct Family {
     pub(super) signs: Vec<i8>,
 }
 
-/// Why a pose has no solution.
+/// Why a pose has no solution, and how near the arm comes.
 #[derive(Clone, PartialEq, Debug)]
-pub enum Obstacle {
-    /// An equation has no root on any branch.
-    NoRoot {
-        /// The unknown that it would determine.
-        unknown: String,
-        /// How far it is from having one, without dimension.
-        gap: f64,
-    },
-    /// The pose does not meet what all poses of the arm meet; the nearest that the derivation came is this far away.
-    NotOnTheArm {
-        /// The joint variables of the nearest branch.
-        q: Vec<f64>,
-        /// The rotation that is missing, radians.
-        angle: f64,
-        /// The displacement that is missing, metres.
-        distance: f64,
-        /// The conditions that the pose violates, the worst first, with what is left instead of 0 (a number without
-        /// dimension, or metres).
-        violated: Vec<(String, f64)>,
-    },
+pub struct Obstacle {
+    /// The unknown for which no branch has a value, if that is where the branches end: the pose is out of reach.
+    pub unknown: Option<String>,
+    /// The joint variables of the nearest configuration that was found.
+    pub q: Vec<f64>,
+    /// The rotation that is missing there, radians.
+    pub angle: f64,
+    /// The displacement that is missing there, metres.
+    pub distance: f64,
+    /// The conditions of the arm that the pose violates, the worst first, with what is left instead of 0 (a number
+    /// without dimension, or metres).
+    pub violated: Vec<(String, f64)>,
 }
 
 /// A residual above this is more than rounding, and Newton's method lowers it.
@@ -436,30 +429,49 @@ impl InverseSolver {
         answer: &mut Answer,
     ) {
         let size = self.size(pose);
-        let near = starts
+        let leaves = self.scalar.solve_carefully(variables, &[]);
+        let last = leaves.ended().max_by_key(|end| end.node).map(|end| end.node);
+        let unknown = last.filter(|_| starts.is_empty()).map(|i| self.nodes[i].unknown.clone());
+        let from: Vec<Vec<f64>> = if starts.is_empty() {
+            self.anywhere(pose, variables)
+        } else {
+            starts.iter().take(STARTS).map(|s| s.q.clone()).collect()
+        };
+        let near = from
             .iter()
-            .take(STARTS)
-            .filter_map(|s| {
-                let (q, residual) = newton::approach(&self.robot, self.goal, pose, &s.q, &self.given, size)?;
-                Some(Solution { q, residual, multiplicity: 1, branch: String::new(), ..s.clone() })
-            })
-            .min_by(|a, b| a.residual.total_cmp(&b.residual));
-        if let Some(mut s) = near {
-            let is_solution = self.improve(pose, &mut s);
-            if is_solution {
-                answer.complete = false;
-                answer.solutions.push(s);
-                return;
-            }
-            let (angle, distance) = newton::gap(&self.robot, self.goal, pose, &s.q);
-            let violated = self.violated(pose, &s.q);
-            answer.obstacle = Some(Obstacle::NotOnTheArm { q: s.q, angle, distance, violated });
+            .filter_map(|q| newton::approach(&self.robot, self.goal, pose, q, &self.given, size))
+            .min_by(|a, b| a.1.total_cmp(&b.1));
+        let Some((q, residual)) = near else { return };
+        let mut s =
+            Solution { q, residual, branch: String::new(), multiplicity: 1, within_limits: true, guard: 0.0 };
+        if self.improve(pose, &mut s) {
+            answer.complete = false;
+            answer.solutions.push(s);
             return;
         }
-        let leaves = self.scalar.solve_carefully(variables, &[]);
-        let last = leaves.ended().max_by_key(|end| end.node);
-        answer.obstacle =
-            last.map(|end| Obstacle::NoRoot { unknown: self.nodes[end.node].unknown.clone(), gap: end.gap });
+        let (angle, distance) = newton::gap(&self.robot, self.goal, pose, &s.q);
+        let violated = self.violated(pose, &s.q);
+        answer.obstacle = Some(Obstacle { unknown, q: s.q, angle, distance, violated });
+    }
+
+    /// Configurations all over the arm, with the joints that are given where they are.
+    fn anywhere(&self, pose: &Transform<f64>, variables: &[f64]) -> Vec<Vec<f64>> {
+        let mut random = Random(1);
+        let size = self.size(pose);
+        let first = variables.len() - self.given.len();
+        (0..STARTS)
+            .map(|_| {
+                let mut q: Vec<f64> = self
+                    .is_angle
+                    .iter()
+                    .map(|&is_angle| (random.unit() - 0.5) * if is_angle { TAU } else { 2.0 * size })
+                    .collect();
+                for (k, &j) in self.given.iter().enumerate() {
+                    q[j] = variables[first + k];
+                }
+                q
+            })
+            .collect()
     }
 }
 

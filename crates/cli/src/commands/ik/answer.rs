@@ -40,20 +40,12 @@ impl Question {
         if !self.names.is_empty() {
             value["given"] = self.names.iter().map(|(n, x)| (n.clone(), Value::from(*x))).collect();
         }
-        match &answer.obstacle {
-            Some(Obstacle::NoRoot { unknown, gap }) => {
-                value["obstacle"] = json!({"kind": "no root", "unknown": unknown, "gap": gap});
-            }
-            Some(Obstacle::NotOnTheArm { q, angle, distance, violated }) => {
-                let violated: Vec<Value> = violated
-                    .iter()
-                    .map(|(condition, by)| json!({"condition": condition, "by": by}))
-                    .collect();
-                value["obstacle"] = json!({
-                    "kind": "not on the arm", "nearest": q, "angle": angle, "distance": distance, "violated": violated,
-                });
-            }
-            None => {}
+        if let Some(Obstacle { unknown, q, angle, distance, violated }) = &answer.obstacle {
+            let violated: Vec<Value> =
+                violated.iter().map(|(condition, by)| json!({"condition": condition, "by": by})).collect();
+            value["obstacle"] = json!({
+                "unknown": unknown, "nearest": q, "angle": angle, "distance": distance, "violated": violated,
+            });
         }
         format!("{value}\n")
     }
@@ -82,15 +74,15 @@ fn family(f: &Family) -> Value {
 /// Why there is no solution.
 pub fn obstacle(d: &Description, answer: &Answer) -> String {
     match &answer.obstacle {
-        Some(Obstacle::NoRoot { unknown, gap }) => format!(
-            "unreachable: no branch has a value for {unknown} (out of reach by {} of the equation's size)",
-            number(*gap, 0.0)
-        ),
-        Some(Obstacle::NotOnTheArm { q, angle, distance, violated }) => {
+        Some(Obstacle { unknown, q, angle, distance, violated }) => {
             let conditions: Vec<&str> = violated.iter().map(|v| v.0.as_str()).collect();
             let which = match conditions[..] {
                 [] => String::new(),
                 _ => format!("\n  a pose of this arm meets {}", conditions.join(", ")),
+            };
+            let why = match unknown {
+                Some(x) => format!("no branch has a value for {x}"),
+                None => "the hand cannot take this pose".into(),
             };
             let at: Vec<String> = d
                 .variables()
@@ -99,7 +91,7 @@ pub fn obstacle(d: &Description, answer: &Answer) -> String {
                 .map(|(v, &x)| format!("{} = {}", v.symbol.name(), reading(x, v.kind)))
                 .collect();
             format!(
-                "unreachable: the hand cannot take this pose; nearest found, {} and {} away: {}{which}",
+                "unreachable: {why}; nearest found, {} and {} away: {}{which}",
                 reading(*angle, JointKind::Revolute),
                 reading(*distance, JointKind::Prismatic),
                 at.join(", ")
