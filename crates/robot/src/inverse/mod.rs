@@ -25,6 +25,6 @@ pub use compile::{Compiled, Inputs};
 pub use conditions::{Condition, Task};
 pub use equations::{Entry, Goal, Source, Split};
 pub use known::Unknown;
-pub use model::{InverseModel, Options, Refusal, Stuck};
+pub use model::{InverseModel, Options, Refusal, Stuck, Variant};
 pub use plan::{Cost, Determinant, Elimination, Form, Norm, Origin, Row, Step};
 pub use solve::{Answer, Family, InverseSolver, Obstacle, Solution, variables};

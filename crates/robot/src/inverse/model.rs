@@ -52,11 +52,26 @@ pub struct InverseModel {
     pub chain: Chain,
     /// The steps, in order.
     pub steps: Vec<Step>,
+    /// For steps whose equation does not determine its unknown everywhere, derivations that find it in another way.
+    pub variants: Vec<Variant>,
     /// What the branches of each step are called, if it has more than one.
     pub labels: Vec<Option<String>>,
     /// Both sides of the chain's equations at each two cuts.
     pub splits: Vec<Split>,
     /// The steps as a solver, and its inputs.
+    pub compiled: Compiled,
+}
+
+/// A derivation with another equation for the unknown of a step.
+#[derive(Debug)]
+pub struct Variant {
+    /// The step, from 0.
+    pub step: usize,
+    /// The steps of the variant.
+    pub steps: Vec<Step>,
+    /// What their branches are called.
+    pub labels: Vec<Option<String>>,
+    /// Its solver.
     pub compiled: Compiled,
 }
 
@@ -153,6 +168,19 @@ impl InverseModel {
         let lacking = if options.goal == Goal::Pose { 6 - rank } else { 0 };
         let axes = axes_of(&chain, &given);
         let conditions = conditions::conditions(&chain, &found, &outcome.steps, &axes, &samples, lacking);
+        let others = if rank < 6 || !given.is_empty() {
+            search::variants(&problem, &axes, &outcome.steps)
+        } else {
+            vec![]
+        };
+        let variants = others
+            .into_iter()
+            .map(|(step, steps)| {
+                let labels = self::labels(&chain, &steps);
+                let compiled = compile::compile(&chain, &steps, &splits, options.goal, &given, &labels);
+                Variant { step, steps, labels, compiled }
+            })
+            .collect();
         let compiled = compile::compile(&chain, &outcome.steps, &splits, options.goal, &given, &labels);
         Ok(InverseModel {
             goal: options.goal,
@@ -162,6 +190,7 @@ impl InverseModel {
             task,
             conditions,
             steps: outcome.steps,
+            variants,
             labels,
             splits,
             compiled,

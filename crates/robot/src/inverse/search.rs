@@ -3,6 +3,8 @@
 use super::candidates::Problem;
 use super::known::{Known, Unknown, axis_unknown};
 use super::plan::{Form, Step};
+use denavit_symbolic::Rational;
+use denavit_symbolic::poly::Poly;
 
 /// Values a derivation may lead to in all.
 pub const MAX_LEAVES: usize = 64;
@@ -30,10 +32,15 @@ impl Outcome {
 
 /// Searches with the values of some axes given.
 pub fn search(problem: &Problem, given: &[usize]) -> Outcome {
+    search_on(problem, given, vec![])
+}
+
+/// Searches on behind some steps.
+fn search_on(problem: &Problem, given: &[usize], mut steps: Vec<Step>) -> Outcome {
     let chain = problem.chain;
     let mut known = Known::new(chain, given);
-    let mut steps: Vec<Step> = vec![];
-    let mut leaves = 1;
+    steps.iter().for_each(|s| known.learn(s.unknown));
+    let mut leaves: usize = steps.iter().map(|s| usize::from(s.cost.roots)).product();
     while !known.everything() {
         let mut found = problem.candidates(&known);
         found.retain(|s| leaves * usize::from(s.cost.roots) <= MAX_LEAVES);
@@ -45,6 +52,48 @@ pub fn search(problem: &Problem, given: &[usize]) -> Outcome {
     let missing: Vec<Unknown> =
         (0..chain.axes.len()).map(|k| axis_unknown(chain, k)).filter(|&x| !known.knows(x)).collect();
     Outcome { steps, missing }
+}
+
+/// Derivations that find the unknown of a step in another way, for the places where the step's own equation does not
+/// determine it: for each such step the cheapest. Only an arm with more equations than unknowns has them.
+pub fn variants(problem: &Problem, given: &[usize], steps: &[Step]) -> Vec<(usize, Vec<Step>)> {
+    let mut known = Known::new(problem.chain, given);
+    let mut found = vec![];
+    for (i, step) in steps.iter().enumerate() {
+        if step.cost.condition > 0
+            && let Some(own) = divisor(step)
+        {
+            let other = |s: &Step| {
+                s.unknown == step.unknown
+                    && s.cost.roots <= step.cost.roots
+                    && divisor(s).is_some_and(|d| d != own)
+            };
+            let candidates = problem.candidates(&known).into_iter().filter(other);
+            if let Some(best) = candidates.min_by_key(|s| (s.cost, order(s))) {
+                let mut first = steps[..i].to_vec();
+                first.push(best);
+                let outcome = search_on(problem, given, first);
+                if outcome.is_complete() {
+                    found.push((i, outcome.steps));
+                }
+            }
+        }
+        known.learn(step.unknown);
+    }
+    found
+}
+
+/// What a step divides by, up to a factor: two polynomials at most, one of which must not vanish.
+fn divisor(step: &Step) -> Option<[Poly; 2]> {
+    let monic = |p: &Poly| match p.terms().first() {
+        Some((_, r)) => p.scaled(&r.recip().unwrap_or(Rational::ONE)),
+        None => Poly::zero(),
+    };
+    match &step.form {
+        Form::Ratio { denominator, .. } => Some([monic(denominator), Poly::zero()]),
+        Form::Line => Some([monic(&step.rows[0].a), monic(&step.rows[0].b)]),
+        _ => None,
+    }
 }
 
 /// Among equals: the unknown nearer to the base, the simpler type.

@@ -11,6 +11,7 @@ use super::families;
 use super::known::Random;
 use super::model::InverseModel;
 use super::newton;
+use super::plan::Step;
 use crate::description::Description;
 use crate::geometry::Transform;
 use crate::robot::{MissingValue, Robot};
@@ -32,6 +33,7 @@ pub struct InverseSolver {
     pub(super) is_angle: Vec<bool>,
     limits: Vec<Option<[f64; 2]>>,
     pub(super) nodes: Vec<NodeFacts>,
+    variants: Vec<VariantSolver>,
     conditions: Vec<NumericCondition>,
     /// What stands before the first axis and behind the last one in the normal form.
     base: Transform<f64>,
@@ -40,6 +42,14 @@ pub struct InverseSolver {
     tolerance: f64,
     /// A length that is compared with: the sum of the robot's lengths.
     pub(super) reach: f64,
+}
+
+/// A derivation that finds the unknown of a step in another way.
+#[derive(Clone, Debug)]
+struct VariantSolver {
+    step: usize,
+    scalar: SolverScalar,
+    nodes: Vec<NodeFacts>,
 }
 
 /// What is known of a node of the solver.
@@ -181,16 +191,30 @@ impl InverseModel {
                 Some([low.eval(value).ok()?, high.eval(value).ok()?])
             })
             .collect();
-        let nodes = self
-            .steps
+        let facts = |steps: &[Step], labels: &[Option<String>]| -> Vec<NodeFacts> {
+            let pairs = steps.iter().zip(labels);
+            pairs
+                .map(|(s, label)| NodeFacts {
+                    offset: self
+                        .chain
+                        .unknown_expr(s.unknown)
+                        .eval(|v| value(v).or(Some(0.0)))
+                        .unwrap_or(0.0),
+                    terms: self.chain.unknown_terms(s.unknown),
+                    unknown: self.chain.describe(s.unknown),
+                    is_angle: matches!(s.unknown, super::known::Unknown::Angle(_)),
+                    label: label.clone(),
+                })
+                .collect()
+        };
+        let nodes = facts(&self.steps, &self.labels);
+        let variants = self
+            .variants
             .iter()
-            .zip(&self.labels)
-            .map(|(s, label)| NodeFacts {
-                offset: self.chain.unknown_expr(s.unknown).eval(|v| value(v).or(Some(0.0))).unwrap_or(0.0),
-                terms: self.chain.unknown_terms(s.unknown),
-                unknown: self.chain.describe(s.unknown),
-                is_angle: matches!(s.unknown, super::known::Unknown::Angle(_)),
-                label: label.clone(),
+            .map(|v| VariantSolver {
+                step: v.step,
+                scalar: v.compiled.solver.compile(&parameters).scalar(),
+                nodes: facts(&v.steps, &v.labels),
             })
             .collect();
         let lengths = robot
@@ -205,6 +229,7 @@ impl InverseModel {
             .collect();
         let number = |e: Expr| e.eval(value).unwrap_or(f64::NAN);
         Ok(InverseSolver {
+            variants,
             tolerance: TOLERANCE,
             conditions,
             base: self.chain.base.map(number),
@@ -287,12 +312,15 @@ impl InverseSolver {
             // Where roots coincide they are known to the square root of a rounding error only, and so are the guards
             // of what follows.
             let loose = met | self.scalar.solve_loosely(&variables, &[], LOOSE).met_free();
+            let loose = loose & !self.other_ways(pose, &variables, loose, &mut answer);
             if loose != 0 {
                 self.families(pose, given, loose, &mut answer);
                 self.absorb(pose, given, &mut answer);
             }
             let starts = self.nearest(pose, &variables, loose);
-            self.search_on(pose, given, &starts, &mut answer);
+            if loose != 0 {
+                self.search_on(pose, given, &starts, &mut answer);
+            }
             if !answer.is_reachable() {
                 self.approach(pose, &variables, &starts, &mut answer);
             }
@@ -372,6 +400,27 @@ impl InverseSolver {
             let d = x - y;
             (if is_angle { wrapped(d).abs() } else { d.abs() / self.reach.max(1e-3) }) <= SAME
         })
+    }
+
+    /// The solutions by variants of the steps in `met`; the result says which of those are settled so: their variants
+    /// leave nothing open.
+    fn other_ways(&mut self, pose: &Transform<f64>, variables: &[f64], met: u64, answer: &mut Answer) -> u64 {
+        let mut settled = 0;
+        let mut found: Vec<Solution> = vec![];
+        for v in self.variants.iter_mut().filter(|v| met >> v.step & 1 == 1) {
+            if v.scalar.solve_loosely(variables, &[], LOOSE).met_free() != 0 {
+                continue;
+            }
+            let leaves = v.scalar.solve_carefully(variables, &[]);
+            found.extend(leaves.iter().map(|l| draft(&v.nodes, &l)));
+            settled |= 1 << v.step;
+        }
+        for mut s in found {
+            if self.improve(pose, &mut s) && !answer.solutions.iter().any(|t| self.is_same(&t.q, &s.q)) {
+                answer.solutions.push(s);
+            }
+        }
+        settled
     }
 
     /// The branches however far from the pose, the nearest first; unknowns that are free are given values all round, one
