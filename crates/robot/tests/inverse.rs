@@ -127,7 +127,9 @@ fn random_configurations_are_found() {
                 // A slide that is far out has rounding errors of its own.
                 let far =
                     s.q.iter().zip(&case.is_angle).filter(|x| !x.1).map(|x| x.0.abs()).fold(1.0, f64::max);
-                assert!(s.residual <= 1e-12 * far, "{name}: residual {} at {q:?}", s.residual);
+                // Next to a singularity Newton's method ends where rounding does.
+                let allowed = 1e-12 * far * (1e-4 / s.guard).max(1.0);
+                assert!(s.residual <= allowed, "{name}: residual {} at {q:?}", s.residual);
                 assert!(s.q.iter().all(|x| x.is_finite()));
             }
             for (i, s) in answer.solutions.iter().enumerate() {

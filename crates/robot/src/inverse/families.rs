@@ -86,7 +86,7 @@ impl InverseSolver {
     /// A leaf as a member of a family, if it is one.
     fn member(&self, pose: &Transform<f64>, mut s: Solution) -> Option<Solution> {
         let start = s.q.clone();
-        let holds = self.improve(pose, &mut s);
+        let holds = self.improve_within(pose, &mut s, SHORT);
         let moved = start.iter().zip(&s.q).zip(&self.is_angle).map(|((x, y), &is_angle)| {
             if is_angle { wrapped(x - y).abs() } else { (x - y).abs() / self.reach.max(1e-3) }
         });

@@ -337,11 +337,16 @@ impl InverseSolver {
 
     /// Polishes a leaf that is not a solution yet; false if it does not become one nearby.
     pub(super) fn improve(&self, pose: &Transform<f64>, s: &mut Solution) -> bool {
+        self.improve_within(pose, s, 100.0 * SHORT)
+    }
+
+    /// The same; what is a solution already moves by `most` (radians, and lengths by the reach) at most.
+    pub(super) fn improve_within(&self, pose: &Transform<f64>, s: &mut Solution, most: f64) -> bool {
         if s.residual > ROUGH {
             let polished = newton::polish(&self.robot, self.goal, pose, &s.q, &self.given, self.size(pose));
             if let Some((q, residual)) = polished
                 && residual < s.residual
-                && (s.residual > self.tolerance || norm(&self.moved(&s.q, &q)) <= SHORT)
+                && (s.residual > self.tolerance || norm(&self.moved(&s.q, &q)) <= most)
             {
                 (s.q, s.residual) = (q, residual);
             }
@@ -458,7 +463,9 @@ impl InverseSolver {
             }
             tried.push(s.q.clone());
             let mut s = Solution { multiplicity: 1, branch: String::new(), ..s.clone() };
+            // What converges slowly lies between two roots that nearly coincide, and is none.
             if !self.improve(pose, &mut s)
+                || s.residual > 1e-3 * self.tolerance
                 || answer.solutions.iter().any(|t| self.is_same(&t.q, &s.q))
                 || self.is_in_a_family(pose, given, &answer.families, &s.q)
             {
