@@ -72,6 +72,7 @@ fn run(arguments: &[&str]) -> Result<Outcome> {
 
 /// The package `bench`, which is no member of the workspace, compiles.
 fn benchmark() -> Result<Outcome> {
+    crate::bench::cmake()?;
     let mut check = cargo();
     check.args(["check", "--locked", "--manifest-path", "bench/Cargo.toml"]);
     succeed(check.env("CARGO_TARGET_DIR", path("target/bench")))?;

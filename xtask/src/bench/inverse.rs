@@ -59,7 +59,10 @@ fn table(arm: &Value) -> Result<String> {
 }
 
 /// Installs CMake, which `ik-geo` needs, if it is missing.
-fn cmake() -> Result<()> {
+///
+/// # Errors
+/// If it cannot be installed.
+pub fn cmake() -> Result<()> {
     let started = Command::new("cmake").arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
     if started.is_ok_and(|s| s.success()) {
         return Ok(());

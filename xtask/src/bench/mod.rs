@@ -5,6 +5,8 @@ mod derivation;
 mod evaluation;
 mod inverse;
 
+pub use inverse::cmake;
+
 use crate::{command, date, path};
 use anyhow::{Context, Result};
 use std::fs;
