@@ -302,6 +302,22 @@ fn no_closed_form_is_refused_with_reasons() {
 }
 
 #[test]
+fn long_chains_are_refused_at_once() {
+    let rows = |n: usize| -> String {
+        let joint = |k: usize| {
+            format!("[[joints]]\ntheta = \"q{k}\"\nd = 0.1\na = 0.1\nalpha = \"{} deg\"\n", 30 + k)
+        };
+        (1..=n).map(joint).collect()
+    };
+    let text = format!("name = \"Long\"\nconvention = \"standard\"\n{}", rows(30));
+    let d = description::read_toml(&text).expect("a robot").0;
+    match InverseModel::derive(&d, &Options::default()) {
+        Err(Refusal::Unsuitable(why)) => assert!(why.to_string().contains("30 joints"), "{why}"),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
 fn positions_alone_are_solved() {
     for name in ["planar-2r", "articulated-3r", "scara", "spherical-rrp", "cylindrical-rpp", "cartesian-ppp"]
     {

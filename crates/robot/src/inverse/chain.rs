@@ -97,7 +97,12 @@ pub enum Unsuitable {
     Coupling,
     /// There is no joint.
     NoJoint,
+    /// There are so many joints that the products of the chain would not end.
+    TooLong(usize),
 }
+
+/// Joints of the longest chain that is derived.
+const MAX_AXES: usize = 9;
 
 impl std::fmt::Display for Unsuitable {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -107,6 +112,9 @@ impl std::fmt::Display for Unsuitable {
                 f.write_str("the joint variables do not follow from the angles and displacements of the rows")
             }
             Unsuitable::NoJoint => f.write_str("the robot has no joint"),
+            Unsuitable::TooLong(n) => {
+                write!(f, "the robot has {n} joints; closed forms are derived for up to {MAX_AXES}")
+            }
         }
     }
 }
@@ -139,6 +147,9 @@ impl Chain {
         let (mut screws, tail) = screws(&robot)?;
         if screws.is_empty() {
             return Err(Unsuitable::NoJoint);
+        }
+        if screws.len() > MAX_AXES {
+            return Err(Unsuitable::TooLong(screws.len()));
         }
         if screws.len() != variables.len() {
             return Err(Unsuitable::Coupling);

@@ -4,7 +4,7 @@
 //! The solver finds every branch; where a branch's equation leaves its unknown free, the unknown is given values all
 //! round, and what solves the pose then is a family (or, at a single value, a solution).
 
-use super::compile::{self, Inputs};
+use super::compile;
 use super::conditions::NumericCondition;
 use super::equations::Goal;
 use super::families;
@@ -248,7 +248,7 @@ impl InverseModel {
     }
 }
 
-/// The entries of a pose that a goal gives, in the order of [`Inputs`], then the given joint variables.
+/// The entries of a pose that a goal gives, in the order of [`Inputs`](super::Inputs), then the given joint variables.
 pub fn variables(goal: Goal, pose: &Transform<f64>, given: &[f64]) -> Vec<f64> {
     let m = pose.matrix();
     let wanted = |k: &usize| match goal {
@@ -257,18 +257,6 @@ pub fn variables(goal: Goal, pose: &Transform<f64>, given: &[f64]) -> Vec<f64> {
         Goal::PositionAndAxis => k % 4 >= 2,
     };
     (0..12).filter(wanted).map(|k| m[k / 4][k % 4]).chain(given.iter().copied()).collect()
-}
-
-impl Inputs {
-    /// How many numbers go into the solver.
-    pub fn len(&self) -> usize {
-        self.symbols().len()
-    }
-
-    /// True for no input; there is always one.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
 }
 
 impl InverseSolver {
