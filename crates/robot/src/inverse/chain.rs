@@ -102,7 +102,7 @@ pub enum Unsuitable {
 }
 
 /// Joints of the longest chain that is derived.
-const MAX_AXES: usize = 9;
+const MAX_AXES: usize = 8;
 
 impl std::fmt::Display for Unsuitable {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
