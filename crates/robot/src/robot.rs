@@ -134,6 +134,13 @@ impl Robot<Expr> {
 }
 
 impl Robot<f64> {
+    /// The sum of the robot's lengths, metres: no point of the hand is further from the base.
+    pub fn reach(&self) -> f64 {
+        let of = |l: &Link<f64>| l.before.translation.norm() + l.after.translation.norm() + l.d.offset.abs();
+        let links: f64 = self.links.iter().map(of).sum();
+        links + self.base.translation.norm() + self.tool.translation.norm()
+    }
+
     /// The robot over numbers, with the values of its parameters.
     ///
     /// # Errors

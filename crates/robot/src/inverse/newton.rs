@@ -1,6 +1,6 @@
 //! Newton's method on the pose.
 
-use super::equations::Goal;
+use super::derivation::Goal;
 use crate::geometry::{Axis, Rotation, Transform, Vector};
 use crate::robot::Robot;
 

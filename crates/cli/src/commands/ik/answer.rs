@@ -33,7 +33,7 @@ impl Question {
             "robot": self.robot,
             "pose": pose.matrix().map(|row| row.to_vec()).to_vec(),
             "status": if answer.is_reachable() { "solved" } else { "unreachable" },
-            "complete": answer.complete,
+            "complete": answer.is_complete(),
             "solutions": answer.solutions.iter().map(solution).collect::<Vec<_>>(),
             "families": answer.families.iter().map(family).collect::<Vec<_>>(),
         });
@@ -153,8 +153,8 @@ impl Report<'_> {
         for (k, f) in answer.families.iter().enumerate() {
             text += &self.family(k, f);
         }
-        if !answer.complete {
-            text += "  not complete: there may be more\n";
+        if let Some(doubt) = answer.doubt {
+            text += &format!("  not complete, there may be more: {}\n", doubt.words());
         }
         text
     }

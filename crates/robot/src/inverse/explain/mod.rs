@@ -20,12 +20,10 @@ pub use math::math;
 pub use origin::listed;
 pub use text::{Mark, text};
 
-use super::chain::{Chain, Motion};
-use super::conditions::{Condition, Task};
-use super::equations::{Goal, Split, equations};
-use super::known::{Unknown, axis_unknown};
-use super::model::{InverseModel, Stuck};
-use super::plan::{Form, Step};
+use super::derivation::{
+    Chain, Condition, Form, Goal, InverseModel, Motion, Norm, Split, Step, Stuck, Task, Unknown,
+    axis_unknown, equations, settled,
+};
 use crate::description::Description;
 use crate::geometry::Transform;
 use denavit_symbolic::poly::Poly;
@@ -110,7 +108,7 @@ impl Explanation {
 
     /// Explains how far a derivation came that ended early.
     pub fn of_stuck(description: &Description, stuck: &Stuck, goal: Goal) -> Self {
-        let settled = super::chain::settled(description);
+        let settled = settled(description);
         let (_, splits) = equations(&stuck.chain, goal);
         let labels = vec![None; stuck.steps.len()];
         let facts = Facts {
@@ -355,7 +353,7 @@ fn written_of(step: &Step) -> Vec<(Poly, usize)> {
         found.extend([(row.a.clone(), times), (row.b.clone(), times), (row.c.plus.clone(), times)]);
         found.extend(row.c.squares.iter().map(|p| (p.clone(), 2)));
     }
-    let mut norm = |n: &super::plan::Norm, times: usize| {
+    let mut norm = |n: &Norm, times: usize| {
         found.push((n.plus.clone(), times));
         found.extend(n.squares.iter().map(|p| (p.clone(), 2)));
     };

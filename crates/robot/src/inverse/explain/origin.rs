@@ -3,9 +3,9 @@
 use super::document::Factor;
 use super::reading::{Reading, negated};
 use crate::description::Convention;
-use crate::inverse::algebra::Kind;
-use crate::inverse::chain::{Chain, Element, Motion};
-use crate::inverse::equations::{Entry, Source, Split};
+use crate::inverse::derivation::Kind;
+use crate::inverse::derivation::{Chain, Element, Motion};
+use crate::inverse::derivation::{Entry, Source, Split};
 use denavit_symbolic::poly::Poly;
 use denavit_symbolic::{Expr, Rational};
 use std::ops::Range;

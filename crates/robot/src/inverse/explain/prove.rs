@@ -3,7 +3,7 @@
 
 use super::document::Proof;
 use super::reading::Reading;
-use crate::inverse::known::Random;
+use crate::inverse::derivation::Random;
 use denavit_symbolic::{Expr, Symbol, Verdict, equal};
 use rustc_hash::FxHashMap;
 

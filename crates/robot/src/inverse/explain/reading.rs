@@ -1,10 +1,10 @@
 //! Polynomials of a derivation as formulas that a person would write.
 
-use crate::inverse::algebra::Kind;
-use crate::inverse::chain::{Chain, Difference, Motion};
 use crate::inverse::compile::{outermost, split};
-use crate::inverse::known::{Known, Unknown, axis_unknown};
-use crate::inverse::plan::{Norm, Step};
+use crate::inverse::derivation::Kind;
+use crate::inverse::derivation::{Chain, Difference, Motion};
+use crate::inverse::derivation::{Known, Unknown, axis_unknown};
+use crate::inverse::derivation::{Norm, Step};
 use denavit_symbolic::poly::{Atom, Monomial, Poly};
 use denavit_symbolic::{Expr, Rational};
 use std::collections::VecDeque;

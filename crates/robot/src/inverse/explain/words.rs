@@ -4,7 +4,7 @@ use super::Explanation;
 use super::document::{Block, Factor, Line, Math, Proof};
 use super::explained::{Explained, Source, Statement, ordinal};
 use super::origin::listed;
-use crate::inverse::equations::Goal;
+use crate::inverse::derivation::Goal;
 use denavit_symbolic::Expr;
 use denavit_symbolic::readable::literals;
 

@@ -3,11 +3,11 @@
 //! Where an equation leaves its unknown free, the unknown is given values all round; what solves the pose then, on one
 //! branch and for neighbouring values, is a family, or a single solution if its neighbours are none.
 
-use super::newton;
-use super::solve::{
-    Answer, Family, InverseSolver, LOOSE, NEAR, ROUGH, SHORT, Solution, draft, norm, variables, wrapped,
-};
+use super::solve::{InverseSolver, LOOSE, NEAR, ROUGH, SHORT, draft, variables};
 use crate::geometry::Transform;
+use crate::inverse::answer::{Answer, Doubt, Family, Solution};
+use crate::inverse::newton;
+use crate::inverse::space::{norm, wrapped};
 use denavit_program::solver::Leaf;
 use std::f64::consts::{PI, TAU};
 
@@ -87,8 +87,8 @@ impl InverseSolver {
     fn member(&self, pose: &Transform<f64>, mut s: Solution) -> Option<Solution> {
         let start = s.q.clone();
         let holds = self.improve_within(pose, &mut s, SHORT);
-        let moved = start.iter().zip(&s.q).zip(&self.is_angle).map(|((x, y), &is_angle)| {
-            if is_angle { wrapped(x - y).abs() } else { (x - y).abs() / self.reach.max(1e-3) }
+        let moved = start.iter().zip(&s.q).zip(&self.space.is_angle).map(|((x, y), &is_angle)| {
+            if is_angle { wrapped(x - y).abs() } else { (x - y).abs() / self.space.reach.max(1e-3) }
         });
         let far = moved.fold(0.0, f64::max);
         (holds && far <= SHORT).then_some(s)
@@ -143,7 +143,7 @@ impl InverseSolver {
                 return;
             }
         }
-        answer.complete = false;
+        answer.doubt = Some(Doubt::Sampled);
     }
 
     /// The values of free unknowns in sample `number`.
@@ -157,7 +157,7 @@ impl InverseSolver {
             at[i] = Some(if self.nodes[i].is_angle {
                 quarter_exact(k, steps)
             } else {
-                [(2.0 * turn - 1.0) * self.reach, 0.0]
+                [(2.0 * turn - 1.0) * self.space.reach, 0.0]
             });
         }
         at
@@ -259,10 +259,10 @@ impl InverseSolver {
                     .is_some_and(|d| parallel(&d, &direction));
             if is_affine {
                 // Far along, rounding weighs less.
-                let by = norm(&self.moved(&q, &far));
+                let by = norm(&self.space.moved(&q, &far));
                 if by > 0.1 {
-                    let sign = if along(&self.moved(&q, &far), &direction) < 0.0 { -1.0 } else { 1.0 };
-                    direction = self.moved(&q, &far).iter().map(|d| sign * d / by).collect();
+                    let sign = if along(&self.space.moved(&q, &far), &direction) < 0.0 { -1.0 } else { 1.0 };
+                    direction = self.space.moved(&q, &far).iter().map(|d| sign * d / by).collect();
                 }
                 direction.iter_mut().filter(|d| d.abs() < 1e-6).for_each(|d| *d = 0.0);
                 let length = norm(&direction);
@@ -274,6 +274,7 @@ impl InverseSolver {
                 direction,
                 is_affine,
                 interval: (free.len() == 1).then(|| self.interval(pose, given, (free[0], steps), &group)),
+                curve: vec![],
                 at,
                 signs,
                 representative,
@@ -300,26 +301,20 @@ impl InverseSolver {
                 let (s, c) = step.sin_cos();
                 [x * c - y * s, y * c + x * s]
             } else {
-                [x + step * self.reach, 0.0]
+                [x + step * self.space.reach, 0.0]
             };
             // The neighbour on the same branch is the nearest one.
             let members = self.with_free(pose, given, &moved, signs);
-            let distance = |s: &Solution| norm(&self.moved(q, &s.q));
+            let distance = |s: &Solution| norm(&self.space.moved(q, &s.q));
             let nearest = members.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
             if let Some(n) = nearest
                 && distance(n) < 100.0 * STEP
             {
                 let length = distance(n) * step.signum();
-                return Some(self.moved(q, &n.q).iter().map(|d| d / length).collect());
+                return Some(self.space.moved(q, &n.q).iter().map(|d| d / length).collect());
             }
         }
         None
-    }
-
-    /// How the joints differ, angles by the shorter way.
-    pub(super) fn moved(&self, from: &[f64], to: &[f64]) -> Vec<f64> {
-        let pairs = from.iter().zip(to).zip(&self.is_angle);
-        pairs.map(|((x, y), &is_angle)| if is_angle { wrapped(y - x) } else { y - x }).collect()
     }
 
     pub(super) fn is_in_a_family(
@@ -331,7 +326,7 @@ impl InverseSolver {
     ) -> bool {
         families.iter().any(|f| {
             let members = self.members_at(pose, given, f, q);
-            members.iter().any(|m| self.moved(q, &m.q).iter().all(|d| d.abs() <= SHORT))
+            members.iter().any(|m| self.space.moved(q, &m.q).iter().all(|d| d.abs() <= SHORT))
         })
     }
 
@@ -348,9 +343,9 @@ impl InverseSolver {
         if group.len() == steps && is_angle {
             return [-PI, PI];
         }
-        let width = if is_angle { TAU } else { 2.0 * self.reach };
+        let width = if is_angle { TAU } else { 2.0 * self.space.reach };
         let step = width / steps as f64;
-        let first = group[0].number as f64 * step - if is_angle { 0.0 } else { self.reach };
+        let first = group[0].number as f64 * step - if is_angle { 0.0 } else { self.space.reach };
         let last = first + (group.len() - 1) as f64 * step;
         let variables = variables(self.goal, pose, given);
         let mut holds = |x: f64| {

@@ -4,20 +4,17 @@
 //! The solver finds every branch; where a branch's equation leaves its unknown free, the unknown is given values all
 //! round, and what solves the pose then is a family (or, at a single value, a solution).
 
-use super::compile;
-use super::conditions::NumericCondition;
-use super::equations::Goal;
 use super::families;
-use super::known::Random;
-use super::model::InverseModel;
-use super::newton;
-use super::plan::Step;
 use crate::description::Description;
 use crate::geometry::Transform;
+use crate::inverse::answer::{Answer, Doubt, Obstacle, Solution};
+use crate::inverse::derivation::{Goal, InverseModel, NumericCondition, Random, Step, Unknown, compile};
+use crate::inverse::newton;
+use crate::inverse::space::{JointSpace, norm};
 use crate::robot::{MissingValue, Robot};
 use denavit_program::solver::{Leaf, SolverFunction, SolverScalar, TOLERANCE};
 use denavit_symbolic::{Expr, Symbol};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 /// Finds the solutions of poses for a robot with numbers.
 #[derive(Clone, Debug)]
@@ -30,8 +27,7 @@ pub struct InverseSolver {
     pub robot: Robot<f64>,
     pub(super) goal: Goal,
     given: Vec<usize>,
-    pub(super) is_angle: Vec<bool>,
-    limits: Vec<Option<[f64; 2]>>,
+    pub(super) space: JointSpace,
     pub(super) nodes: Vec<NodeFacts>,
     variants: Vec<VariantSolver>,
     conditions: Vec<NumericCondition>,
@@ -40,8 +36,6 @@ pub struct InverseSolver {
     tool: Transform<f64>,
     /// What a solution may miss the pose by.
     tolerance: f64,
-    /// A length that is compared with: the sum of the robot's lengths.
-    pub(super) reach: f64,
 }
 
 /// A derivation that finds the unknown of a step in another way.
@@ -63,82 +57,6 @@ pub(super) struct NodeFacts {
     pub label: Option<String>,
 }
 
-/// All solutions of one pose.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Answer {
-    /// True if all solutions are here: no equation left its unknown undetermined, or what it left open is in a family
-    /// found by going all round.
-    pub complete: bool,
-    /// The isolated ones.
-    pub solutions: Vec<Solution>,
-    /// Those where the arm can move with its hand still.
-    pub families: Vec<Family>,
-    /// What stands in the way, if there are none.
-    pub obstacle: Option<Obstacle>,
-}
-
-impl Answer {
-    /// True if there is a solution.
-    pub fn is_reachable(&self) -> bool {
-        !self.solutions.is_empty() || !self.families.is_empty()
-    }
-}
-
-/// An isolated solution.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Solution {
-    /// The joint variables, radians in (−π, π] and metres.
-    pub q: Vec<f64>,
-    /// The distance from the pose: rotation (Frobenius norm of two columns) and position by the arm's size, together.
-    pub residual: f64,
-    /// The branch: `shoulder+ elbow− wrist+`.
-    pub branch: String,
-    /// How many branches coincide here.
-    pub multiplicity: u32,
-    /// Whether the robot's limits allow it, or a copy of it a whole turn away.
-    pub within_limits: bool,
-    /// The smallest quantity that the derivation divides by, without dimension: joints are determined to about
-    /// 1e-16 by it.
-    pub guard: f64,
-}
-
-/// Solutions in which some joints can move together with the hand still.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Family {
-    /// One of them.
-    pub representative: Solution,
-    /// How many parameters it has.
-    pub dimension: usize,
-    /// The unknowns that are free: `q4`, `q2 + q3 + q4`.
-    pub free: Vec<String>,
-    /// How the joints move at the representative, a unit vector (the first of the null space).
-    pub direction: Vec<f64>,
-    /// True if they move in these proportions everywhere: an affine family.
-    pub is_affine: bool,
-    /// For one free unknown, the values for which there is a solution (radians or metres), from the sampling.
-    pub interval: Option<[f64; 2]>,
-    /// The nodes of the solver that are free, and the values taken there at the representative.
-    pub(super) at: Vec<(usize, [f64; 2])>,
-    /// The signs of the nodes of the solver.
-    pub(super) signs: Vec<i8>,
-}
-
-/// Why a pose has no solution, and how near the arm comes.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Obstacle {
-    /// The unknown for which no branch has a value, if that is where the branches end: the pose is out of reach.
-    pub unknown: Option<String>,
-    /// The joint variables of the nearest configuration that was found.
-    pub q: Vec<f64>,
-    /// The rotation that is missing there, radians.
-    pub angle: f64,
-    /// The displacement that is missing there, metres.
-    pub distance: f64,
-    /// The conditions of the arm that the pose violates, the worst first, with what is left instead of 0 (a number
-    /// without dimension, or metres).
-    pub violated: Vec<(String, f64)>,
-}
-
 /// A residual above this is more than rounding, and Newton's method lowers it.
 pub(super) const ROUGH: f64 = 1e-13;
 /// Branches that Newton's method starts from, and how far they may be from the pose.
@@ -146,8 +64,6 @@ const STARTS: usize = 24;
 const NEARBY: f64 = 0.3;
 /// The largest tolerance that a pose with a rounded rotation gets.
 const LOOSEST: f64 = 1e-5;
-/// Solutions this near (radians, and lengths by the reach) are the same: two roots that coincide differ by as much.
-const SAME: f64 = 2e-6;
 /// A guard below this may be one that vanishes at a solution which is known to the square root of rounding only.
 pub(super) const NEAR: f64 = 1e-6;
 /// What guards are compared with then, by what they are compared with otherwise.
@@ -182,15 +98,6 @@ impl InverseModel {
             self.compiled.solver.parameters.iter().map(|&s| value(s).unwrap_or(0.0)).collect();
         let function = self.compiled.solver.compile(&parameters);
         let nearest = compile::without_residual(self).compile(&parameters).scalar();
-        let limits = description
-            .rows
-            .iter()
-            .filter(|r| r.variable.is_some())
-            .map(|r| {
-                let [low, high] = r.limits?;
-                Some([low.eval(value).ok()?, high.eval(value).ok()?])
-            })
-            .collect();
         let facts = |steps: &[Step], labels: &[Option<String>]| -> Vec<NodeFacts> {
             let pairs = steps.iter().zip(labels);
             pairs
@@ -202,7 +109,7 @@ impl InverseModel {
                         .unwrap_or(0.0),
                     terms: self.chain.unknown_terms(s.unknown),
                     unknown: self.chain.describe(s.unknown),
-                    is_angle: matches!(s.unknown, super::known::Unknown::Angle(_)),
+                    is_angle: matches!(s.unknown, Unknown::Angle(_)),
                     label: label.clone(),
                 })
                 .collect()
@@ -217,11 +124,7 @@ impl InverseModel {
                 nodes: facts(&v.steps, &v.labels),
             })
             .collect();
-        let lengths = robot
-            .links
-            .iter()
-            .flat_map(|l| [l.before.translation.norm(), l.after.translation.norm(), l.d.offset.abs()]);
-        let reach: f64 = lengths.sum::<f64>() + robot.base.translation.norm() + robot.tool.translation.norm();
+        let space = JointSpace::new(description, robot.reach());
         let conditions = self
             .conditions
             .iter()
@@ -240,15 +143,13 @@ impl InverseModel {
             robot,
             goal: self.goal,
             given: self.given.clone(),
-            is_angle: (0..self.chain.variables.len()).map(|j| self.chain.is_angle(j)).collect(),
-            limits,
+            space,
             nodes,
-            reach,
         })
     }
 }
 
-/// The entries of a pose that a goal gives, in the order of [`Inputs`](super::Inputs), then the given joint variables.
+/// The entries of a pose that a goal gives, in the order of [`Inputs`](crate::inverse::Inputs), then the given joint variables.
 pub fn variables(goal: Goal, pose: &Transform<f64>, given: &[f64]) -> Vec<f64> {
     let m = pose.matrix();
     let wanted = |k: &usize| match goal {
@@ -283,7 +184,7 @@ impl InverseSolver {
         let pose = &pose;
         self.tolerance = (4.0 * defect).clamp(TOLERANCE, LOOSEST);
         let variables = variables(self.goal, pose, given);
-        let mut answer = Answer { complete: true, solutions: vec![], families: vec![], obstacle: None };
+        let mut answer = Answer::empty();
         let leaves = self.scalar.solve(&variables, &[]);
         let met = leaves.met_free();
         let near = leaves.iter().any(|l| l.free == 0 && l.guard < NEAR);
@@ -334,17 +235,13 @@ impl InverseSolver {
             let polished = newton::polish(&self.robot, self.goal, pose, &s.q, &self.given, self.size(pose));
             if let Some((q, residual)) = polished
                 && residual < s.residual
-                && (s.residual > self.tolerance || norm(&self.moved(&s.q, &q)) <= most)
+                && (s.residual > self.tolerance || norm(&self.space.moved(&s.q, &q)) <= most)
             {
                 (s.q, s.residual) = (q, residual);
             }
         }
-        for (x, is_angle) in s.q.iter_mut().zip(&self.is_angle) {
-            if *is_angle {
-                *x = wrapped(*x);
-            }
-        }
-        s.within_limits = self.within_limits(&s.q);
+        self.space.wrap(&mut s.q);
+        s.within_limits = self.space.within(&s.q);
         s.residual <= self.tolerance
     }
 
@@ -367,32 +264,15 @@ impl InverseSolver {
     }
 
     fn size(&self, pose: &Transform<f64>) -> f64 {
-        self.reach.hypot(pose.translation.norm()).max(f64::MIN_POSITIVE)
-    }
-
-    fn within_limits(&self, q: &[f64]) -> bool {
-        q.iter().zip(&self.limits).zip(&self.is_angle).all(|((&x, limits), &is_angle)| match limits {
-            None => true,
-            Some([low, high]) => {
-                let inside = |x: f64| (low - 1e-9..=high + 1e-9).contains(&x);
-                inside(x) || is_angle && (inside(x + TAU) || inside(x - TAU))
-            }
-        })
+        self.space.reach.hypot(pose.translation.norm()).max(f64::MIN_POSITIVE)
     }
 
     /// Adds a solution, or counts it with one that is the same.
     pub(super) fn add(&self, solutions: &mut Vec<Solution>, s: Solution) {
-        match solutions.iter_mut().find(|t| self.is_same(&t.q, &s.q)) {
+        match solutions.iter_mut().find(|t| self.space.is_same(&t.q, &s.q)) {
             Some(t) => t.multiplicity += s.multiplicity,
             None => solutions.push(s),
         }
-    }
-
-    fn is_same(&self, a: &[f64], b: &[f64]) -> bool {
-        a.iter().zip(b).zip(&self.is_angle).all(|((x, y), &is_angle)| {
-            let d = x - y;
-            (if is_angle { wrapped(d).abs() } else { d.abs() / self.reach.max(1e-3) }) <= SAME
-        })
     }
 
     /// The solutions by variants of the steps in `met`; the result says which of those are settled so: their variants
@@ -409,7 +289,8 @@ impl InverseSolver {
             settled |= 1 << v.step;
         }
         for mut s in found {
-            if self.improve(pose, &mut s) && !answer.solutions.iter().any(|t| self.is_same(&t.q, &s.q)) {
+            if self.improve(pose, &mut s) && !answer.solutions.iter().any(|t| self.space.is_same(&t.q, &s.q))
+            {
                 answer.solutions.push(s);
             }
         }
@@ -446,7 +327,7 @@ impl InverseSolver {
             if tried.len() == STARTS {
                 return;
             }
-            if tried.iter().any(|q| norm(&self.moved(q, &s.q)) < 0.5 * NEARBY) {
+            if tried.iter().any(|q| norm(&self.space.moved(q, &s.q)) < 0.5 * NEARBY) {
                 continue;
             }
             tried.push(s.q.clone());
@@ -454,12 +335,12 @@ impl InverseSolver {
             // What converges slowly lies between two roots that nearly coincide, and is none.
             if !self.improve(pose, &mut s)
                 || s.residual > 1e-3 * self.tolerance
-                || answer.solutions.iter().any(|t| self.is_same(&t.q, &s.q))
+                || answer.solutions.iter().any(|t| self.space.is_same(&t.q, &s.q))
                 || self.is_in_a_family(pose, given, &answer.families, &s.q)
             {
                 continue;
             }
-            answer.complete = false;
+            answer.doubt = Some(Doubt::Sampled);
             answer.solutions.push(s);
         }
     }
@@ -489,7 +370,7 @@ impl InverseSolver {
         let mut s =
             Solution { q, residual, branch: String::new(), multiplicity: 1, within_limits: true, guard: 0.0 };
         if self.improve(pose, &mut s) {
-            answer.complete = false;
+            answer.doubt = Some(Doubt::Sampled);
             answer.solutions.push(s);
             return;
         }
@@ -506,6 +387,7 @@ impl InverseSolver {
         (0..STARTS)
             .map(|_| {
                 let mut q: Vec<f64> = self
+                    .space
                     .is_angle
                     .iter()
                     .map(|&is_angle| (random.unit() - 0.5) * if is_angle { TAU } else { 2.0 * size })
@@ -542,14 +424,4 @@ pub(super) fn draft(nodes: &[NodeFacts], leaf: &Leaf) -> Solution {
         within_limits: true,
         guard: leaf.guard,
     }
-}
-
-/// The angle in (−π, π].
-pub(super) fn wrapped(x: f64) -> f64 {
-    let y = x - TAU * (x / TAU).round();
-    if y <= -PI { y + TAU } else { y }
-}
-
-pub(super) fn norm(v: &[f64]) -> f64 {
-    v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }

@@ -1,0 +1,1 @@
+//! All configurations of any six-joint arm at a pose, by elimination.

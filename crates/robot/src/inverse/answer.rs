@@ -1,0 +1,115 @@
+//! What inverse kinematics answers: solutions, families of them, or what stands in the way.
+
+/// All solutions of one pose.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Answer {
+    /// Why there may be more solutions; nothing if all are here: no equation left its unknown undetermined, what it left
+    /// open is in a family found by going all round, or a count of the roots says so.
+    pub doubt: Option<Doubt>,
+    /// The isolated ones.
+    pub solutions: Vec<Solution>,
+    /// Those where the arm can move with its hand still.
+    pub families: Vec<Family>,
+    /// What stands in the way, if there are none.
+    pub obstacle: Option<Obstacle>,
+}
+
+impl Answer {
+    /// No solution yet.
+    pub fn empty() -> Self {
+        Answer { doubt: None, solutions: vec![], families: vec![], obstacle: None }
+    }
+
+    /// True if all solutions are here.
+    pub fn is_complete(&self) -> bool {
+        self.doubt.is_none()
+    }
+
+    /// True if there is a solution.
+    pub fn is_reachable(&self) -> bool {
+        !self.solutions.is_empty() || !self.families.is_empty()
+    }
+}
+
+/// Why an answer may lack solutions.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Doubt {
+    /// Some were found by trying values or by starting from nearby, where others may hide.
+    Sampled,
+    /// Two roots nearly coincide: whether they are two, one or none is below rounding.
+    DoubleRoot,
+    /// The roots could not be counted.
+    Uncounted,
+    /// Solutions were searched for by descent from several starts, and there may be any number.
+    Searched,
+}
+
+impl Doubt {
+    /// In words: "not complete: …".
+    pub fn words(self) -> &'static str {
+        match self {
+            Doubt::Sampled => "some solutions were found by trying values",
+            Doubt::DoubleRoot => "undecided near a double root",
+            Doubt::Uncounted => "the roots could not be counted",
+            Doubt::Searched => "searched for from several starts",
+        }
+    }
+}
+
+/// An isolated solution.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Solution {
+    /// The joint variables, radians in (−π, π] and metres.
+    pub q: Vec<f64>,
+    /// The distance from the pose: rotation (Frobenius norm of two columns) and position by the arm's size, together.
+    pub residual: f64,
+    /// The branch: `shoulder+ elbow− wrist+`.
+    pub branch: String,
+    /// How many branches coincide here.
+    pub multiplicity: u32,
+    /// Whether the robot's limits allow it, or a copy of it a whole turn away.
+    pub within_limits: bool,
+    /// The smallest quantity that the derivation divides by, without dimension: joints are determined to about
+    /// 1e-16 by it.
+    pub guard: f64,
+}
+
+/// Solutions in which some joints can move together with the hand still.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Family {
+    /// One of them.
+    pub representative: Solution,
+    /// How many parameters it has.
+    pub dimension: usize,
+    /// The unknowns that are free: `q4`, `q2 + q3 + q4`.
+    pub free: Vec<String>,
+    /// How the joints move at the representative, a unit vector (the first of the null space).
+    pub direction: Vec<f64>,
+    /// True if they move in these proportions everywhere: an affine family.
+    pub is_affine: bool,
+    /// For one free unknown, the values for which there is a solution (radians or metres), from the sampling.
+    pub interval: Option<[f64; 2]>,
+    /// Members along it, neighbours next to each other, where it is not affine and was followed; the first again at
+    /// the end if it is closed.
+    pub curve: Vec<Vec<f64>>,
+    /// The nodes of the solver that are free, and the values taken there at the representative.
+    pub(in crate::inverse) at: Vec<(usize, [f64; 2])>,
+    /// The signs of the nodes of the solver.
+    pub(in crate::inverse) signs: Vec<i8>,
+}
+
+/// Why a pose has no solution, and how near the arm comes.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Obstacle {
+    /// The unknown for which no branch has a value, if that is where the branches end: the pose is out of reach.
+    pub unknown: Option<String>,
+    /// The joint variables of the nearest configuration that was found.
+    pub q: Vec<f64>,
+    /// The rotation that is missing there, radians.
+    pub angle: f64,
+    /// The displacement that is missing there, metres.
+    pub distance: f64,
+    /// The conditions of the arm that the pose violates, the worst first, with what is left instead of 0 (a number
+    /// without dimension, or metres).
+    pub violated: Vec<(String, f64)>,
+}
