@@ -141,6 +141,16 @@ pub struct IkArguments {
     /// What of the tool is to be met
     #[arg(long, value_enum, default_value_t = GoalName::Pose)]
     pub goal: GoalName,
+    /// Give the solution nearest to these joint variables as well, whole turns within the limits
+    #[arg(long, value_name = "Q", allow_hyphen_values = true)]
+    pub near: Option<String>,
+    /// With --input: each pose takes the solution nearest to that of the line before (the first to --near, or to 0)
+    #[arg(long, requires = "input")]
+    pub follow: bool,
+    /// Take axes that are nearly parallel, perpendicular or meeting as exactly so, up to TOL (radians, and lengths by the
+    /// arm's size); says what changed and what it costs
+    #[arg(long, value_name = "TOL", num_args = 0..=1, default_missing_value = "0.01", require_equals = true)]
+    pub idealise: Option<f64>,
     /// Print the derivation, step by step, as a textbook has it
     #[arg(long, conflicts_with_all = ["pose", "q", "input"])]
     pub explain: bool,

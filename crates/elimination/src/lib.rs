@@ -1,1 +1,34 @@
 //! All configurations of any six-joint arm at a pose, by elimination.
+//!
+//! The loop equation of the arm is cut in two (Raghavan and Roth 1990, 1993), two joints are eliminated linearly, and
+//! the determinant that remains is a trigonometric polynomial of degree 8 in one joint's angle: its 16 complex roots
+//! hold every configuration. It is sampled on the circle, so that no root is at infinity; each real root gives the other
+//! joints, and Newton's method on the pose the last digits. Discs around the roots certify that nothing is missing.
+//!
+//! In reading order: [`Arm`], [`Plan::new`] (offline), [`Plan::solve`] (online), [`Answer`].
+
+mod answer;
+mod arm;
+mod certificate;
+mod chart;
+mod determinant;
+mod eigen;
+mod eliminate;
+mod extract;
+mod forms;
+mod fourier;
+mod lanes;
+mod newton;
+mod plan;
+mod remaining;
+mod rigid;
+mod roots;
+mod slides;
+mod solve;
+mod split;
+mod triple;
+
+pub use answer::{Answer, Certificate, Solution};
+pub use arm::{Arm, Joint};
+pub use plan::{Plan, Unsuitable};
+pub use rigid::Rigid;

@@ -4,6 +4,8 @@
 //! - [`geometry`]: homogeneous transforms and orientations, usable on their own.
 //! - [`robot`]: the chain to compute with, over numbers or formulas.
 //! - [`structure`]: parallel and meeting axes, spherical wrists.
+//! - [`idealise`]: the special arm beside a nearly special one.
+//! - [`inverse`]: inverse kinematics of any arm: closed forms with their derivation, elimination, redundancy, descent.
 //! - [`catalogue`]: robots that people own or study.
 //! - [`forward`]: link transforms, the simplified forward model, the shortest algorithm for it.
 //! - [`generate`]: source code in several languages.
@@ -13,6 +15,7 @@ pub mod description;
 pub mod forward;
 pub mod generate;
 pub mod geometry;
+pub mod idealise;
 pub mod inverse;
 pub mod robot;
 pub mod scalar;

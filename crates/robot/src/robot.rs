@@ -75,7 +75,7 @@ impl<T: Scalar> Affine<T> {
     }
 
     /// Sine and cosine at a configuration.
-    fn sin_cos(&self, q: &[T]) -> (T, T) {
+    pub(crate) fn sin_cos(&self, q: &[T]) -> (T, T) {
         let (mut s, mut c) = self.value(q).sin_cos();
         for _ in 0..self.quarters {
             (s, c) = (c, -s);
@@ -139,6 +139,24 @@ impl Robot<f64> {
         let of = |l: &Link<f64>| l.before.translation.norm() + l.after.translation.norm() + l.d.offset.abs();
         let links: f64 = self.links.iter().map(of).sum();
         links + self.base.translation.norm() + self.tool.translation.norm()
+    }
+
+    /// The robot with some joints held at values: `held` are their numbers (from 0) and values; the others keep their
+    /// order.
+    pub fn held(&self, held: &[(usize, f64)]) -> Self {
+        let value = |j: usize| held.iter().find(|h| h.0 == j).map(|h| h.1);
+        let left: Vec<usize> = (0..self.joints).filter(|&j| value(j).is_none()).collect();
+        let affine = |a: &Affine<f64>| Affine {
+            offset: a.offset + a.terms.iter().filter_map(|&(j, k)| Some(k * value(j)?)).sum::<f64>(),
+            quarters: a.quarters,
+            terms: a
+                .terms
+                .iter()
+                .filter_map(|&(j, k)| Some((left.iter().position(|&l| l == j)?, k)))
+                .collect(),
+        };
+        let links = self.links.iter().map(|l| Link { theta: affine(&l.theta), d: affine(&l.d), ..l.clone() });
+        Robot { base: self.base, links: links.collect(), tool: self.tool, joints: left.len() }
     }
 
     /// The robot over numbers, with the values of its parameters.

@@ -70,6 +70,14 @@ pub struct NearlySpecial {
     pub is_angle: bool,
 }
 
+impl fmt::Display for NearlySpecial {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let unit = if self.is_angle { "rad" } else { "m" };
+        let (first, second) = self.joints;
+        write!(f, "axes {first} and {second} are nearly {}: {:.3e} {unit} off", self.nearly, self.by)
+    }
+}
+
 /// What is special about an arm.
 #[derive(Clone, Debug)]
 pub struct Structure {

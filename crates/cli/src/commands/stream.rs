@@ -34,6 +34,18 @@ pub trait Worker: Send + 'static {
 /// # Errors
 /// If the file cannot be read or the answers not written; at the end, if there were lines that could not be read.
 pub fn run<W: Worker>(worker: impl Fn() -> W, path: &Path) -> Result<(), Failure> {
+    run_by(thread::available_parallelism().map_or(1, NonZero::get), worker, path)
+}
+
+/// The same by one worker, to which an answer can depend on the lines before.
+///
+/// # Errors
+/// See [`run`].
+pub fn run_in_line<W: Worker>(worker: impl Fn() -> W, path: &Path) -> Result<(), Failure> {
+    run_by(1, worker, path)
+}
+
+fn run_by<W: Worker>(workers: usize, worker: impl Fn() -> W, path: &Path) -> Result<(), Failure> {
     let named = path.display();
     let unreadable = |e: io::Error| Failure::Input(format!("error: {named}: {e}"));
     let (source, bytes): (Box<dyn Read + Send>, Option<u64>) = if path.as_os_str() == "-" {
@@ -43,7 +55,6 @@ pub fn run<W: Worker>(worker: impl Fn() -> W, path: &Path) -> Result<(), Failure
         let bytes = file.metadata().ok().filter(|m| m.is_file()).map(|m| m.len());
         (Box::new(file), bytes)
     };
-    let workers = thread::available_parallelism().map_or(1, NonZero::get);
     let (mut inputs, mut outputs, mut threads) = (vec![], vec![], vec![]);
     for _ in 0..workers {
         let (to_worker, input) = sync_channel::<Chunk>(1);

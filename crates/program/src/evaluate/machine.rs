@@ -30,7 +30,7 @@ pub enum Arithmetic {
 
 /// Loops that can be compiled for any set of instructions. `run` must be `#[inline(always)]`, as must be what it
 /// calls, for the compiler to use them.
-pub(crate) trait Work {
+pub trait Work {
     /// Does it.
     fn run<const FUSED: bool>(self);
 }
@@ -86,7 +86,7 @@ impl Isa {
 
     /// Does some work, compiled for this set.
     #[inline]
-    pub(crate) fn run<W: Work>(self, arithmetic: Arithmetic, work: W) {
+    pub fn run<W: Work>(self, arithmetic: Arithmetic, work: W) {
         #[cfg(target_arch = "x86_64")]
         #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
         fn avx512<W: Work, const FUSED: bool>(work: W) {

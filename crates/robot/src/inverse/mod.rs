@@ -9,11 +9,20 @@
 mod answer;
 pub mod closed;
 pub mod derivation;
+mod dispatch;
 pub mod explain;
+pub mod general;
 mod newton;
+pub mod numeric;
+pub mod redundant;
+pub mod self_motion;
 mod space;
 
 pub use answer::{Answer, Doubt, Family, Obstacle, Solution};
 pub use closed::{InverseSolver, variables};
 pub use derivation::*;
+pub use dispatch::{InverseKinematics, Nearest, Unprepared};
+pub use redundant::{Component, Criterion, Manifold, NotSolved, RedundantSolver};
+pub use self_motion::{CurveEnd, SelfMotion};
+pub use numeric::NumericSolver;
 pub use space::JointSpace;

@@ -1,6 +1,6 @@
 //! Newton's method on the pose.
 
-use super::derivation::Goal;
+use super::derivation::{Goal, Random};
 use crate::geometry::{Axis, Rotation, Transform, Vector};
 use crate::robot::Robot;
 
@@ -150,6 +150,73 @@ pub fn approach(
         }
     }
     best.is_finite().then_some((at, best))
+}
+
+/// How many independent directions of what the goal gives the joints can move, at a configuration like any other.
+pub fn rank(robot: &Robot<f64>, goal: Goal) -> usize {
+    let mut random = Random(1);
+    let size = robot.reach().max(f64::MIN_POSITIVE);
+    let of = |q: &[f64]| {
+        let mut columns = jacobian(robot, goal, q, &[], size);
+        let square = |c: &[f64; 6]| c.iter().map(|x| x * x).sum::<f64>();
+        let scale = columns.iter().map(square).fold(0.0, f64::max);
+        let mut rank = 0;
+        while let Some(k) =
+            (0..columns.len()).max_by(|&a, &b| square(&columns[a]).total_cmp(&square(&columns[b])))
+        {
+            let pivot = columns.swap_remove(k);
+            if square(&pivot) <= 1e-14 * scale {
+                break;
+            }
+            rank += 1;
+            for c in &mut columns {
+                let along: f64 = c.iter().zip(&pivot).map(|(x, y)| x * y).sum::<f64>() / square(&pivot);
+                c.iter_mut().zip(&pivot).for_each(|(x, y)| *x -= along * y);
+            }
+        }
+        rank
+    };
+    (0..5)
+        .map(|_| of(&(0..robot.joints).map(|_| 6.0 * random.unit() - 3.0).collect::<Vec<_>>()))
+        .max()
+        .unwrap_or(0)
+}
+
+/// Moves along the solutions of a pose from one of them to where they are nearest to a configuration: each step is the
+/// part of the way there that the hand does not see, then corrected. `given` joints stay.
+pub fn slide(
+    robot: &Robot<f64>,
+    goal: Goal,
+    wanted: &Transform<f64>,
+    q: &[f64],
+    (given, to): (&[usize], &[f64]),
+    size: f64,
+) -> Vec<f64> {
+    const MOST: usize = 60;
+    let away = |q: &[f64]| q.iter().zip(to).map(|(x, y)| (x - y) * (x - y)).sum::<f64>();
+    let mut at = q.to_vec();
+    let mut length = 1.0;
+    for _ in 0..MOST {
+        let columns = jacobian(robot, goal, &at, given, size);
+        let way: Vec<f64> =
+            (0..at.len()).map(|j| if given.contains(&j) { 0.0 } else { to[j] - at[j] }).collect();
+        let seen: [f64; 6] = std::array::from_fn(|i| columns.iter().zip(&way).map(|(c, x)| c[i] * x).sum());
+        let back = damped(&columns, &seen, 1e-11);
+        let step: Vec<f64> = way.iter().zip(&back).map(|(x, y)| length * (x - y)).collect();
+        if step.iter().all(|x| x.abs() < 1e-10) {
+            break;
+        }
+        let next: Vec<f64> = at.iter().zip(&step).map(|(x, d)| x + d).collect();
+        match polish(robot, goal, wanted, &next, given, size) {
+            Some((next, residual)) if residual <= 1e-10 && away(&next) < away(&at) => {
+                at = next;
+                length = (2.0 * length).min(1.0);
+            }
+            _ if length > 1e-4 => length *= 0.5,
+            _ => break,
+        }
+    }
+    at
 }
 
 /// x with (JᵀJ + λ)x = Jᵀe, by Gauss's elimination.

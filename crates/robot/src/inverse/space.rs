@@ -33,6 +33,17 @@ impl JointSpace {
         JointSpace { is_angle, limits: limits.collect(), reach }
     }
 
+    /// The space of the joints that are not held.
+    pub fn held(&self, held: &[usize]) -> Self {
+        let left = |j: &usize| !held.contains(j);
+        let joints: Vec<usize> = (0..self.is_angle.len()).filter(left).collect();
+        JointSpace {
+            is_angle: joints.iter().map(|&j| self.is_angle[j]).collect(),
+            limits: joints.iter().map(|&j| self.limits[j]).collect(),
+            reach: self.reach,
+        }
+    }
+
     /// How the joints differ, angles by the shorter way.
     pub fn moved(&self, from: &[f64], to: &[f64]) -> Vec<f64> {
         let pairs = from.iter().zip(to).zip(&self.is_angle);

@@ -4,7 +4,8 @@ use crate::commands::fk::{plural, reading};
 use crate::terminal::{Align, FAINT, HEADING, NAME, matrix, number, styled, table};
 use denavit::description::{Description, JointKind};
 use denavit::geometry::Transform;
-use denavit::inverse::{Answer, Family, InverseModel, Obstacle, Solution};
+use denavit::idealise::{Ideal, Snap};
+use denavit::inverse::{Answer, Family, InverseKinematics, JointSpace, Nearest, Obstacle, Solution};
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
 
@@ -13,24 +14,57 @@ use std::f64::consts::TAU;
 pub struct Question {
     /// The values of the given joints.
     pub given: Vec<f64>,
+    /// The solution nearest to these joint variables is wanted as well.
+    pub near: Option<Vec<f64>>,
     robot: String,
+    method: &'static str,
     names: Vec<(String, f64)>,
+    space: JointSpace,
+    ideal: Option<Value>,
 }
 
 impl Question {
     /// About a robot, with values of the given joints.
-    pub fn new(description: &Description, model: &InverseModel, given: Vec<f64>) -> Self {
+    pub fn new(
+        description: &Description,
+        solver: &InverseKinematics,
+        given: Vec<f64>,
+        near: Option<Vec<f64>>,
+        ideal: Option<&Ideal>,
+    ) -> Self {
         let variables = description.variables();
         let name = |j: &usize| variables[*j].symbol.name().to_string();
-        let names = model.given.iter().map(name).zip(given.iter().copied()).collect();
-        Question { given, robot: description.name.clone(), names }
+        let names = solver.given.iter().map(name).zip(given.iter().copied()).collect();
+        let ideal = ideal.map(|i| {
+            let snap = |s: &Snap| json!({"axes": [s.axes.0, s.axes.1], "what": s.what.words(), "from": s.from, "to": s.to});
+            json!({
+                "rotation_error": i.rotation_error,
+                "position_error": i.position_error,
+                "changes": i.snaps.iter().map(snap).collect::<Vec<_>>(),
+            })
+        });
+        let (robot, method, space) = (description.name.clone(), solver.method(), solver.space.clone());
+        Question { given, near, robot, method, names, space, ideal }
+    }
+
+    /// The solution nearest to what was asked for, if anything was.
+    pub fn nearest(
+        &self,
+        solver: &InverseKinematics,
+        pose: &Transform<f64>,
+        answer: &Answer,
+    ) -> Option<Nearest> {
+        solver.nearest(pose, answer, self.near.as_ref()?)
     }
 
     /// The answer on one line.
-    pub fn json(&self, pose: &Transform<f64>, answer: &Answer) -> String {
+    pub fn json(&self, pose: &Transform<f64>, answer: &Answer, nearest: Option<&Nearest>) -> String {
+        let solution = |s| solution(s, &self.space);
+        let family = |f| family(f, &self.space);
         let mut value = json!({
             "schema": 1,
             "robot": self.robot,
+            "method": self.method,
             "pose": pose.matrix().map(|row| row.to_vec()).to_vec(),
             "status": if answer.is_reachable() { "solved" } else { "unreachable" },
             "complete": answer.is_complete(),
@@ -39,6 +73,15 @@ impl Question {
         });
         if !self.names.is_empty() {
             value["given"] = self.names.iter().map(|(n, x)| (n.clone(), Value::from(*x))).collect();
+        }
+        if let Some(doubt) = answer.doubt {
+            value["doubt"] = doubt.words().into();
+        }
+        if let Some(ideal) = &self.ideal {
+            value["idealised"] = ideal.clone();
+        }
+        if let Some(Nearest { q, distance, within_limits }) = nearest {
+            value["nearest"] = json!({"q": q, "distance": distance, "within_limits": within_limits});
         }
         if let Some(Obstacle { unknown, q, angle, distance, violated }) = &answer.obstacle {
             let violated: Vec<Value> =
@@ -51,23 +94,28 @@ impl Question {
     }
 }
 
-fn solution(s: &Solution) -> Value {
+fn solution(s: &Solution, space: &JointSpace) -> Value {
+    let turns: Option<Vec<[i32; 2]>> = s.q.iter().enumerate().map(|(j, &x)| space.turns(j, x)).collect();
     json!({
         "q": s.q,
         "residual": s.residual,
         "branch": s.branch,
         "multiplicity": s.multiplicity,
         "within_limits": s.within_limits,
+        "turns": turns,
     })
 }
 
-fn family(f: &Family) -> Value {
-    let mut value = solution(&f.representative);
+fn family(f: &Family, space: &JointSpace) -> Value {
+    let mut value = solution(&f.representative, space);
     value["dimension"] = f.dimension.into();
     value["free"] = f.free.clone().into();
     value["direction"] = f.direction.clone().into();
     value["affine"] = f.is_affine.into();
     value["interval"] = f.interval.map(|i| i.to_vec()).into();
+    if !f.curve.is_empty() {
+        value["curve"] = json!(f.curve);
+    }
     value
 }
 
@@ -113,6 +161,8 @@ pub struct Report<'a> {
     pub answer: &'a Answer,
     /// The configuration that the pose was taken from.
     pub at: Option<&'a [f64]>,
+    /// The solution nearest to what was asked for.
+    pub nearest: Option<&'a Nearest>,
 }
 
 /// Joint values closer than this are shown as the same configuration.
@@ -152,6 +202,12 @@ impl Report<'_> {
         }
         for (k, f) in answer.families.iter().enumerate() {
             text += &self.family(k, f);
+        }
+        if let Some(nearest) = self.nearest {
+            let at: Vec<String> =
+                d.variables().iter().zip(&nearest.q).map(|(v, &x)| reading(x, v.kind)).collect();
+            let note = if nearest.within_limits { "" } else { ", outside the limits" };
+            text += &format!("\n  nearest to --near{note}: {}\n", at.join(", "));
         }
         if let Some(doubt) = answer.doubt {
             text += &format!("  not complete, there may be more: {}\n", doubt.words());

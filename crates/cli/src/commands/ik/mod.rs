@@ -8,13 +8,14 @@ mod stream;
 mod summary;
 
 use crate::arguments::{Format, IkArguments};
-use crate::commands::fk::{configuration, without_values};
+use crate::commands::fk::{configuration, reading, without_values};
 use crate::failure::Failure;
 use crate::load;
 use answer::{Question, Report};
 use denavit::description::{Description, JointKind};
+use denavit::idealise::{Ideal, idealised};
 use denavit::inverse::explain::Explanation;
-use denavit::inverse::{Goal, InverseModel, Options, Refusal};
+use denavit::inverse::{Goal, InverseKinematics, InverseModel, Options, Refusal, Unprepared};
 use std::io::Write;
 
 /// Solves a pose, or shows the derivation.
@@ -22,29 +23,42 @@ use std::io::Write;
 /// # Errors
 /// If something cannot be read, there is no closed form, or the pose is not reachable.
 pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
-    let description = load::robot(&arguments.robot)?;
+    let loaded = load::robot(&arguments.robot)?;
+    let name = &arguments.robot.robot;
+    let ideal = match arguments.idealise {
+        Some(tolerance) => Some(ideal(&loaded, name, tolerance)?),
+        None => None,
+    };
+    let description = ideal.as_ref().map_or(loaded, |i| i.description.clone());
     let goal: Goal = arguments.goal.into();
     let given = given(&description, arguments.given.as_deref())?;
     let options =
         Options { goal, given: arguments.given.is_some().then(|| given.iter().map(|g| g.0).collect()) };
     let is_numeric = arguments.pose.is_some() || arguments.q.is_some() || arguments.input.is_some();
-    let model = match InverseModel::derive(&description, &options) {
-        Ok(model) => model,
-        Err(refusal) => return Err(refused(arguments, &description, &refusal, is_numeric)?),
-    };
     if !is_numeric {
-        let explanation = Explanation::of(&model);
-        write!(anstream::stdout(), "{}", printed(arguments, &explanation))?;
+        let model = match InverseModel::derive(&description, &options) {
+            Ok(model) => model,
+            Err(refusal) => return Err(refused(arguments, &description, &refusal)?),
+        };
+        write!(anstream::stdout(), "{}", printed(arguments, &Explanation::of(&model)))?;
         return Ok(());
     }
-    let name = &arguments.robot.robot;
-    let mut solver =
-        model.solver(&description).map_err(|missing| without_values(&description, name, &missing))?;
+    let mut solver = InverseKinematics::new(&description, &options).map_err(|e| match e {
+        Unprepared::Missing(missing) => without_values(&description, name, &missing),
+        Unprepared::Given(why) => Failure::Usage(format!("--given: {why}")),
+    })?;
+    for near in &solver.nearly {
+        writeln!(anstream::stderr(), "note: {near}; solved as it stands, `--idealise` takes it so")?;
+    }
     let at = arguments.q.as_deref().map(|text| configuration(&description, text)).transpose()?;
-    let values = values(&description, &model, &given, at.as_deref())?;
-    let question = Question::new(&description, &model, values);
+    let mut near = arguments.near.as_deref().map(|text| configuration(&description, text)).transpose()?;
+    if arguments.follow && near.is_none() {
+        near = Some(vec![0.0; solver.robot.joints]);
+    }
+    let values = values(&description, &solver.given, &given, at.as_deref())?;
+    let question = Question::new(&description, &solver, values, near, ideal.as_ref());
     if let Some(path) = &arguments.input {
-        return stream::run(&solver, &question, path);
+        return stream::run(&solver, &question, path, arguments.follow);
     }
     let pose = match (&at, &arguments.pose) {
         (Some(q), _) => solver.robot.pose(q),
@@ -52,8 +66,9 @@ pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
         (None, None) => return Ok(()),
     };
     let answer = solver.solve(&pose, &question.given);
+    let nearest = question.nearest(&solver, &pose, &answer);
     let text = if arguments.json {
-        question.json(&pose, &answer)
+        question.json(&pose, &answer, nearest.as_ref())
     } else {
         Report {
             question: &question,
@@ -61,11 +76,36 @@ pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
             pose: &pose,
             answer: &answer,
             at: at.as_deref(),
+            nearest: nearest.as_ref(),
         }
         .text()
     };
     write!(anstream::stdout(), "{text}")?;
     if answer.is_reachable() { Ok(()) } else { Err(Failure::No(answer::obstacle(&description, &answer))) }
+}
+
+/// The special arm beside a nearly special one; what changed goes to standard error.
+fn ideal(description: &Description, name: &str, tolerance: f64) -> Result<Ideal, Failure> {
+    if !(0.0..=0.1).contains(&tolerance) {
+        return Err(Failure::Usage("--idealise: a tolerance lies between 0 and 0.1".into()));
+    }
+    let ideal =
+        idealised(description, tolerance).map_err(|missing| without_values(description, name, &missing))?;
+    let mut err = anstream::stderr();
+    for snap in &ideal.snaps {
+        let kind = if snap.what.is_angle() { JointKind::Revolute } else { JointKind::Prismatic };
+        let (from, to) = (reading(snap.from, kind), reading(snap.to, kind));
+        writeln!(
+            err,
+            "note: {} of axes {} and {}: {from} taken as {to}",
+            snap.what.words(),
+            snap.axes.0,
+            snap.axes.1
+        )?;
+    }
+    let (turn, shift) = (ideal.rotation_error, ideal.position_error);
+    writeln!(err, "note: the hand is off by up to {turn:.1e} rad and {shift:.1e} m for that")?;
+    Ok(ideal)
 }
 
 fn printed(arguments: &IkArguments, e: &Explanation) -> String {
@@ -85,7 +125,6 @@ fn refused(
     arguments: &IkArguments,
     description: &Description,
     refusal: &Refusal,
-    is_numeric: bool,
 ) -> Result<Failure, Failure> {
     let why = refusal.to_string();
     let stuck = match refusal {
@@ -95,14 +134,12 @@ fn refused(
     };
     let mut out = anstream::stdout();
     match stuck {
-        Some(_) | None if arguments.json && (is_numeric || stuck.is_none()) => {
-            writeln!(out, "{}", json::refusal(description, &why))?;
-        }
-        Some(stuck) if !is_numeric => {
+        None if arguments.json => writeln!(out, "{}", json::refusal(description, &why))?,
+        Some(stuck) => {
             let explanation = Explanation::of_stuck(description, stuck, arguments.goal.into());
             write!(out, "{}", printed(arguments, &explanation))?;
         }
-        _ => {}
+        None => {}
     }
     Ok(Failure::Unsupported(why))
 }
@@ -139,13 +176,13 @@ fn given(description: &Description, text: Option<&str>) -> Result<Vec<(usize, Op
 /// Values of the given joints: as said, as they are in `-q`, or 0 (where the limits exclude that, their middle).
 fn values(
     description: &Description,
-    model: &InverseModel,
+    chosen: &[usize],
     given: &[(usize, Option<f64>)],
     at: Option<&[f64]>,
 ) -> Result<Vec<f64>, Failure> {
     let limits = crate::commands::fk::limits(description);
     let mut found = vec![];
-    for &j in &model.given {
+    for &j in chosen {
         let said = given.iter().find(|g| g.0 == j).and_then(|g| g.1);
         let value = match (said, at) {
             (Some(x), _) => x,

@@ -4,20 +4,42 @@ use super::answer::Question;
 use super::pose;
 use crate::commands::stream::{self, Chunk, Worker, complaint, parsed};
 use crate::failure::Failure;
-use denavit::inverse::InverseSolver;
+use denavit::geometry::Transform;
+use denavit::inverse::InverseKinematics;
 use std::path::Path;
 
-/// Answers a line for each line.
+/// Answers a line for each line; where a path is followed, one after the other.
 ///
 /// # Errors
 /// If the file cannot be read or the answers not written; at the end, if there were lines that could not be read.
-pub fn run(solver: &InverseSolver, question: &Question, path: &Path) -> Result<(), Failure> {
-    stream::run(|| Poses { solver: solver.clone(), question: question.clone() }, path)
+pub fn run(
+    solver: &InverseKinematics,
+    question: &Question,
+    path: &Path,
+    follow: bool,
+) -> Result<(), Failure> {
+    let worker = || Poses { solver: solver.clone(), question: question.clone(), follow };
+    if follow { stream::run_in_line(worker, path) } else { stream::run(worker, path) }
 }
 
 struct Poses {
-    solver: InverseSolver,
+    solver: InverseKinematics,
     question: Question,
+    follow: bool,
+}
+
+impl Poses {
+    fn solved(&mut self, pose: &Transform<f64>) -> String {
+        let answer = self.solver.solve(pose, &self.question.given);
+        let nearest = self.question.nearest(&self.solver, pose, &answer);
+        let text = self.question.json(pose, &answer, nearest.as_ref());
+        if self.follow
+            && let Some(nearest) = nearest
+        {
+            self.question.near = Some(nearest.q);
+        }
+        text
+    }
 }
 
 impl Worker for Poses {
@@ -26,10 +48,7 @@ impl Worker for Poses {
         for (number, line) in chunk.lines() {
             let value = parsed(line, "a JSON 4×4 matrix", |l| serde_json::from_slice(l));
             match value.and_then(|v| pose::matrix(&v)) {
-                Ok(pose) => {
-                    let answer = self.solver.solve(&pose, &self.question.given);
-                    out.extend(self.question.json(&pose, &answer).into_bytes());
-                }
+                Ok(pose) => out.extend(self.solved(&pose).into_bytes()),
                 Err(why) => {
                     complaint(number, &why, out);
                     bad += 1;

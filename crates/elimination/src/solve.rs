@@ -1,0 +1,357 @@
+//! The solver: one split of the loop after the other, until one certifies that nothing is missing.
+
+use crate::{
+    answer::{Answer, Candidate, Certificate, Found, Solution, Work, gather, lane},
+    arm::{Arm, Joint},
+    certificate::{Verdict, verdict},
+    chart::{Chart, crowds},
+    determinant::determinant,
+    eliminate::eliminate,
+    extract::{SHARED, SMALL, UNKNOWNS, null_vectors, shared},
+    fourier::{Fourier, Trigonometric},
+    lanes::{Lanes, WIDTH},
+    newton::{polish, smallest_singular_values},
+    remaining::{First, complete},
+    rigid::Rigid,
+    roots::Roots,
+    slides::{Sliding, solve_sliding},
+    split::Split,
+    triple::{Triple, solve_triple},
+};
+
+/// Roots within this distance of the circle are tried as real angles: noise moves a double root by its square root.
+const NEAR: f64 = 0.02;
+/// Largest distance to the pose that is accepted.
+pub(crate) const ACCEPTED: f64 = 1e-10;
+/// Configurations closer than this are one.
+const SAME: f64 = 1e-6;
+/// Least noise of the polynomial that the discs allow for.
+const NOISE: f64 = 2e-14;
+/// A fit with more noise than this is of no use.
+pub(crate) const USELESS: f64 = 1e-5;
+/// Smallest singular value below which a configuration counts as double.
+pub(crate) const SINGULAR: f64 = 1e-6;
+/// Degree of the determinant in the hidden angle.
+pub(crate) const DEGREE: usize = 8;
+
+/// The constants of a solver: everything that does not depend on the pose.
+#[derive(Clone, Debug)]
+pub(crate) struct Constants {
+    /// The arm, lengths divided by its size.
+    pub arm: Arm,
+    /// The arm's size.
+    pub size: f64,
+    /// Nodes and transform.
+    pub fourier: Fourier<3>,
+}
+
+/// Most charts of a split.
+const CHARTS: usize = 12;
+/// How deep charts are taken of parts of charts.
+const DEPTH: u32 = 4;
+/// Roots of the whole circle closer than this (rad) may be one that several configurations share.
+const TOGETHER: f64 = 3e-4;
+
+/// Solves one split and adds what it finds to `work.found`.
+#[inline(always)]
+pub(crate) fn solve_split<const FUSED: bool>(
+    constants: &Constants,
+    split: &Split,
+    target: &Rigid,
+    work: &mut Work,
+) -> Verdict {
+    let arm = &constants.arm;
+    let closing = arm.links[5].then(&target.inverse()).then(&arm.base);
+    eliminate::<FUSED>(split, &closing, &mut work.eliminated);
+    over_charts(work, |chart, work| solve_chart::<FUSED>(constants, split, target, chart, work))
+}
+
+/// Solves in the chart of the whole circle, then in charts of the arcs where something does not fit.
+#[inline(always)]
+pub(crate) fn over_charts(work: &mut Work, mut solve: impl FnMut(&Chart, &mut Work) -> Verdict) -> Verdict {
+    let mut charts = [Chart::WHOLE; CHARTS];
+    let (mut done, mut count) = (0, 1);
+    let mut total = Verdict::Certified;
+    work.effort = 0;
+    while done < count {
+        let chart = charts[done];
+        done += 1;
+        let verdict = solve(&chart, work);
+        work.effort += 8 + work.candidates.len();
+        if verdict == Verdict::Certified {
+            continue;
+        }
+        let mut arcs = [(0.0, 0.0); 8];
+        let (marks, n) = (&work.marks, work.marks.count);
+        let crowds = crowds(&marks.angles[..n], &marks.marked[..n], &marks.reach[..n], &mut arcs);
+        if crowds == 0 || chart.depth == DEPTH || count + crowds > CHARTS {
+            total = if total == Verdict::Uncertain { total } else { verdict };
+            continue;
+        }
+        for &(centre, half_width) in &arcs[..crowds] {
+            charts[count] = chart.part(centre, half_width);
+            count += 1;
+        }
+    }
+    if total == Verdict::Certified && !work.found.len().is_multiple_of(2) { Verdict::Uncertain } else { total }
+}
+
+/// Finds the roots that a chart shows, and the configurations that belong to them.
+#[inline(always)]
+fn solve_chart<const FUSED: bool>(
+    constants: &Constants,
+    split: &Split,
+    target: &Rigid,
+    chart: &Chart,
+    work: &mut Work,
+) -> Verdict {
+    let (multiplied, _) = split.multiplied_and_other();
+    let mut samples = [Lanes::ZERO; 3];
+    for (g, sample) in samples.iter_mut().enumerate() {
+        let [c, s, weight] = chart.nodes::<FUSED>(constants.fourier.cosines[g], constants.fourier.sines[g]);
+        let square = weight.times(weight);
+        let square = square.times(square);
+        *sample = determinant::<FUSED>(&work.eliminated.rows, multiplied, c, s).times(square.times(square));
+    }
+    work.marks.count = 0;
+    let useful = constants.fourier.fit::<FUSED>(DEGREE, &samples, &mut work.polynomial);
+    if !useful || work.polynomial.noise > USELESS {
+        return Verdict::Uncertain;
+    }
+    work.roots.find::<FUSED>(&work.polynomial, noise(&work.polynomial));
+
+    let mut near = [([0.0; 2], false); NEARBY];
+    let count = near_roots(chart, &work.roots, &mut near);
+    candidates::<FUSED>(split, &near[..count], work);
+    accept::<FUSED>(&constants.arm, split, target, work);
+    verdict(split.joints[2], split.sign, chart, &work.roots, &work.found, &mut work.marks)
+}
+
+/// The noise that the discs allow for.
+#[inline(always)]
+pub(crate) fn noise(polynomial: &Trigonometric) -> f64 {
+    if 4.0 * polynomial.noise > NOISE { 4.0 * polynomial.noise } else { NOISE }
+}
+
+/// Most roots near the circle, with the middles of those that are close together.
+pub(crate) const NEARBY: usize = 48;
+
+/// The roots near the circle as cosines and sines of the hidden joint, and the middles of those that are close together
+/// (marked): a root that several configurations share falls apart by the root of the noise, its middle does not.
+#[inline(always)]
+pub(crate) fn near_roots<const GROUPS: usize>(
+    chart: &Chart,
+    roots: &Roots<GROUPS>,
+    near: &mut [([f64; 2], bool); NEARBY],
+) -> usize {
+    let mut count = 0;
+    for k in 0..roots.count {
+        let (x, y) = (roots.re[k / 8].0[k % 8], roots.im[k / 8].0[k % 8]);
+        let modulus = (x * x + y * y).sqrt();
+        let (x, y) = (x / modulus, y / modulus);
+        if (modulus - 1.0).abs() < NEAR && chart.answers_for(x + 0.1) {
+            let mut middle = [0.0; 2];
+            for ([u, v], _) in &near[..count] {
+                if (x - u).abs() + (y - v).abs() < TOGETHER {
+                    let (c, s) = (x + u, y + v);
+                    let length = (c * c + s * s).sqrt();
+                    middle = [c / length, s / length];
+                }
+            }
+            near[count] = ([x, y], false);
+            count += 1;
+            if middle != [0.0; 2] {
+                near[count] = (middle, true);
+                count += 1;
+            }
+        }
+    }
+    for (pair, _) in &mut near[..count] {
+        *pair = chart.outside(*pair);
+    }
+    count
+}
+
+/// Adds the null vectors at the given cosines and sines of the hidden joint to the candidates.
+///
+/// Where several configurations share a root, the middles of close roots are exact: they serve instead of the roots.
+#[inline(always)]
+fn candidates<const FUSED: bool>(split: &Split, near: &[([f64; 2], bool)], work: &mut Work) {
+    work.candidates.clear();
+    let (multiplied, _) = split.multiplied_and_other();
+    let mut small = [0.0; NEARBY];
+    for (g, group) in near.chunks(WIDTH).enumerate() {
+        let [c, s] = gather(group, |(pair, _)| *pair);
+        let mut x = [Lanes::ZERO; UNKNOWNS];
+        let pivots = null_vectors::<FUSED>(&work.eliminated.rows, multiplied, c, s, &mut x);
+        for (l, (pair, _)) in group.iter().enumerate() {
+            let mut vector = [0.0; UNKNOWNS];
+            for (entry, x) in vector.iter_mut().zip(&x) {
+                *entry = x.0[l];
+            }
+            small[8 * g + l] = pivots.0[l];
+            work.candidates.push(Candidate { hidden: *pair, x: vector });
+        }
+    }
+    let mut kept = 0;
+    for k in 0..near.len() {
+        let ([c, s], middle) = near[k];
+        let together = |j: usize| (near[j].0[0] - c).abs() + (near[j].0[1] - s).abs() < 2.0 * TOGETHER;
+        let shared_here = !(small[k] > SMALL);
+        let replaced = !middle && (0..near.len()).any(|j| near[j].1 && !(small[j] > SMALL) && together(j));
+        if replaced || (middle && !shared_here) {
+            continue;
+        }
+        let own = work.candidates[k];
+        work.candidates[kept] = own;
+        kept += 1;
+        if shared_here {
+            let mut vectors = [[0.0; UNKNOWNS]; SHARED];
+            let found = shared(&work.eliminated.rows, multiplied, c, s, &mut vectors);
+            for x in &vectors[..found] {
+                work.candidates.push(Candidate { hidden: [c, s], x: *x });
+            }
+        }
+    }
+    // Close the gap between those kept and those added.
+    let added = near.len();
+    let mut to = kept;
+    for from in added..work.candidates.len() {
+        work.candidates[to] = work.candidates[from];
+        to += 1;
+    }
+    work.candidates.truncate(to);
+}
+
+/// Completes and polishes the candidates, and keeps those that reach the pose and are new.
+#[inline(always)]
+fn accept<const FUSED: bool>(arm: &Arm, split: &Split, target: &Rigid, work: &mut Work) {
+    let first = First::new(split.kinds[0], &work.eliminated.first);
+    let branches: &[f64] = if first.open.is_some() { &[1.0, -1.0] } else { &[1.0] };
+    for group in work.candidates.chunks(WIDTH) {
+        let hidden = gather(group, |candidate| candidate.hidden);
+        let x = gather(group, |candidate| candidate.x);
+        for &branch in branches {
+            let mut values = [[Lanes::ZERO; 2]; 6];
+            complete::<FUSED>(split, &work.eliminated, &first, branch, &hidden, &x, &mut values);
+            let residual = polish::<FUSED>(arm, target, &mut values);
+            for l in 0..group.len() {
+                if residual.0[l] <= ACCEPTED {
+                    let values = lane(&values, l);
+                    add(arm, &mut work.found, Found { values, residual: residual.0[l] });
+                }
+            }
+        }
+    }
+}
+
+/// Adds a configuration unless it is there.
+#[inline(always)]
+pub(crate) fn add(arm: &Arm, found: &mut Vec<Found>, new: Found) {
+    for known in found.iter_mut() {
+        let mut apart = 0.0f64;
+        for i in 0..6 {
+            let (a, b) = (known.values[i], new.values[i]);
+            let scale = match arm.joints[i] {
+                Joint::Revolute => 1.0,
+                Joint::Prismatic => 1.0 + a[0].abs(),
+            };
+            let away = ((a[0] - b[0]).abs() + (a[1] - b[1]).abs()) / scale;
+            apart = if away > apart { away } else { apart };
+        }
+        if apart < SAME {
+            return;
+        }
+    }
+    found.push(new);
+}
+
+/// The ways to solve an arm, in their order.
+#[derive(Clone, Debug)]
+pub(crate) enum Method {
+    /// At most one slide: elimination.
+    Splits(Vec<Split>),
+    /// Two slides: the rotations first.
+    Slides(Vec<Sliding>),
+    /// Three slides: in closed form.
+    Triple(Triple),
+}
+
+/// One way after the other, until one certifies the answer.
+#[inline(always)]
+pub(crate) fn solve<const FUSED: bool>(constants: &Constants, method: &Method, pose: &Rigid, answer: &mut Answer) {
+    let target = pose.scaled(1.0 / constants.size);
+    let work = &mut answer.work;
+    work.found.clear();
+    answer.splits = 0;
+    let mut last = Verdict::Uncertain;
+    match method {
+        Method::Splits(splits) => {
+            for split in splits {
+                last = solve_split::<FUSED>(constants, split, &target, work);
+                answer.splits += 1;
+                if last == Verdict::Certified {
+                    break;
+                }
+            }
+        }
+        Method::Slides(ways) => {
+            for way in ways {
+                last = solve_sliding::<FUSED>(&constants.arm, way, &target, work);
+                answer.splits += 1;
+                if last == Verdict::Certified {
+                    break;
+                }
+            }
+        }
+        Method::Triple(triple) => {
+            last = solve_triple::<FUSED>(&constants.arm, triple, &target, work);
+            answer.splits = 1;
+        }
+    }
+    report::<FUSED>(constants, last, answer);
+}
+
+/// Turns what was found into solutions, with their singular values.
+#[inline(always)]
+fn report<const FUSED: bool>(constants: &Constants, last: Verdict, answer: &mut Answer) {
+    answer.solutions.clear();
+    let mut least = f64::INFINITY;
+    for group in answer.work.found.chunks(WIDTH) {
+        let flat: [Lanes; 12] = gather(group, |found| {
+            let mut flat = [0.0; 12];
+            for (pair, value) in flat.chunks_exact_mut(2).zip(&found.values) {
+                pair.copy_from_slice(value);
+            }
+            flat
+        });
+        let mut values = [[Lanes::ZERO; 2]; 6];
+        for (i, value) in values.iter_mut().enumerate() {
+            *value = [flat[2 * i], flat[2 * i + 1]];
+        }
+        let singular = smallest_singular_values::<FUSED>(&constants.arm, &values);
+        for (l, found) in group.iter().enumerate() {
+            let mut q = [0.0; 6];
+            for (i, q) in q.iter_mut().enumerate() {
+                let [c, s] = found.values[i];
+                *q = match constants.arm.joints[i] {
+                    Joint::Revolute => {
+                        let angle = s.atan2(c);
+                        if angle <= -std::f64::consts::PI { std::f64::consts::PI } else { angle }
+                    }
+                    Joint::Prismatic => c * constants.size,
+                };
+            }
+            let singular = if singular.0[l].is_finite() { singular.0[l] } else { 0.0 };
+            least = if singular < least { singular } else { least };
+            let multiplicity = if singular < SINGULAR { 2 } else { 1 };
+            answer.solutions.push(Solution { q, residual: found.residual, singular, multiplicity });
+        }
+    }
+    answer.certificate = match last {
+        _ if least < SINGULAR => Certificate::NearDoubleRoot,
+        Verdict::Certified => Certificate::Complete,
+        Verdict::Pairs => Certificate::NearDoubleRoot,
+        Verdict::Uncertain => Certificate::Undecided,
+    };
+}

@@ -1,0 +1,299 @@
+//! Which method serves an arm, and its answers.
+//!
+//! | arm | method |
+//! |---|---|
+//! | a closed form is derived | [`InverseSolver`] |
+//! | six joints without one, or nearly special | [`GeneralSolver`], the closed form beside it |
+//! | more joints than the hand can use | [`RedundantSolver`] |
+//! | anything else | [`NumericSolver`] |
+//!
+//! Nothing is rounded to a special arm here: see [`idealised`](crate::idealise::idealised).
+
+use super::answer::{Answer, Doubt, Obstacle, Solution};
+use super::closed::InverseSolver;
+use super::derivation::{Goal, InverseModel, Options, Refusal};
+use super::general::GeneralSolver;
+use super::newton;
+use super::numeric::NumericSolver;
+use super::redundant::RedundantSolver;
+use super::space::JointSpace;
+use crate::description::Description;
+use crate::geometry::Transform;
+use crate::robot::{MissingValue, Robot};
+use crate::structure::{NearlySpecial, Structure};
+use std::fmt;
+use std::num::NonZero;
+
+/// Inverse kinematics of a robot with numbers, by whatever method serves it.
+#[derive(Clone, Debug)]
+pub struct InverseKinematics {
+    /// The robot that is moved.
+    pub robot: Robot<f64>,
+    /// Its joints.
+    pub space: JointSpace,
+    /// What of the hand is given.
+    pub goal: Goal,
+    /// Joint variables (from 0) whose values go with each pose.
+    pub given: Vec<usize>,
+    /// What is nearly special about the arm: no closed form rests on it.
+    pub nearly: Vec<NearlySpecial>,
+    method: Method,
+    numeric: NumericSolver,
+}
+
+/// How the solutions are found.
+#[derive(Clone, Debug)]
+enum Method {
+    Closed(Box<InverseSolver>),
+    /// By elimination; the closed form beside it, where there is one.
+    General(Box<GeneralSolver>, Option<Box<InverseSolver>>),
+    /// By elimination for the joints that are not given, at the values that are held.
+    Held(Vec<f64>, Option<Box<GeneralSolver>>),
+    Redundant(Box<RedundantSolver>),
+    Numeric,
+}
+
+/// Why there is no solver for a robot.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Unprepared {
+    /// A parameter has no value.
+    Missing(MissingValue),
+    /// Values are given for joints that the arm does not have, or for too many.
+    Given(String),
+}
+
+impl fmt::Display for Unprepared {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Unprepared::Missing(why) => write!(f, "{why}"),
+            Unprepared::Given(why) => f.write_str(why),
+        }
+    }
+}
+
+impl std::error::Error for Unprepared {}
+
+impl From<MissingValue> for Unprepared {
+    fn from(missing: MissingValue) -> Self {
+        Unprepared::Missing(missing)
+    }
+}
+
+/// A solution that one asked for in particular.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Nearest {
+    /// The joint variables: within the limits if anything is, whole turns from a solution.
+    pub q: Vec<f64>,
+    /// The largest difference of a joint from what was asked for, radians, and lengths by the reach.
+    pub distance: f64,
+    /// Whether the limits allow it.
+    pub within_limits: bool,
+}
+
+impl InverseKinematics {
+    /// For a description. `options.given` are joints whose values go with each pose; without it an arm with too many
+    /// joints is answered with its self-motion.
+    ///
+    /// # Errors
+    /// See [`Unprepared`].
+    pub fn new(description: &Description, options: &Options) -> Result<Self, Unprepared> {
+        let robot = Robot::numeric(description)?;
+        let space = JointSpace::new(description, robot.reach());
+        let numeric = NumericSolver::new(description, options.goal)?;
+        let nearly = Structure::of(description).nearly;
+        let surplus = robot.joints - newton::rank(&robot, options.goal);
+        let of_pose = options.goal == Goal::Pose;
+        let mut this = InverseKinematics {
+            robot,
+            space,
+            goal: options.goal,
+            given: vec![],
+            nearly,
+            method: Method::Numeric,
+            numeric,
+        };
+        if surplus > 0
+            && of_pose
+            && options.given.is_none()
+            && let Ok(solver) = RedundantSolver::new(description, options.goal)
+        {
+            this.method = Method::Redundant(Box::new(solver));
+            return Ok(this);
+        }
+        let asked = options.given.clone().unwrap_or_default();
+        let closed = match InverseModel::derive(description, options) {
+            Ok(model) => {
+                this.given.clone_from(&model.given);
+                Some(Box::new(model.solver(description)?))
+            }
+            Err(Refusal::Given(why)) => return Err(Unprepared::Given(why)),
+            Err(_) => {
+                this.given = asked;
+                this.given.sort_unstable();
+                None
+            }
+        };
+        let six = of_pose && this.robot.joints - this.given.len() == 6;
+        this.method = match closed {
+            Some(solver) if this.nearly.is_empty() || !six || !this.given.is_empty() => {
+                Method::Closed(solver)
+            }
+            closed if six && this.given.is_empty() => match GeneralSolver::new(&this.robot, &this.space) {
+                Ok(general) => Method::General(Box::new(general), closed),
+                Err(_) => closed.map_or(Method::Numeric, Method::Closed),
+            },
+            Some(solver) => Method::Closed(solver),
+            None if six => Method::Held(vec![], None),
+            None => Method::Numeric,
+        };
+        Ok(this)
+    }
+
+    /// The method in words: `closed form`, `elimination`, `self-motion`, `descent`.
+    pub fn method(&self) -> &'static str {
+        match self.method {
+            Method::Closed(_) => "closed form",
+            Method::General(..) | Method::Held(..) => "elimination",
+            Method::Redundant(_) => "self-motion",
+            Method::Numeric => "descent",
+        }
+    }
+
+    /// All solutions of a pose of the tool in the base; `given` holds a value for each joint of [`given`](Self::given).
+    ///
+    /// # Panics
+    /// If there is not one value per given joint.
+    pub fn solve(&mut self, pose: &Transform<f64>, given: &[f64]) -> Answer {
+        assert_eq!(given.len(), self.given.len(), "one value per given joint");
+        let mut answer = match &mut self.method {
+            Method::Closed(solver) => return solver.solve(pose, given),
+            Method::General(general, closed) => {
+                let mut answer = general.solve(pose);
+                if answer.doubt.is_some()
+                    && let Some(closed) = closed
+                {
+                    merge(&mut answer, closed.solve(pose, given), &self.space);
+                }
+                answer
+            }
+            Method::Held(values, general) => {
+                if values != given || general.is_none() {
+                    let held: Vec<(usize, f64)> =
+                        self.given.iter().copied().zip(given.iter().copied()).collect();
+                    let robot = self.robot.held(&held);
+                    *general = GeneralSolver::new(&robot, &self.space.held(&self.given)).ok().map(Box::new);
+                    *values = given.to_vec();
+                }
+                match general {
+                    Some(general) => with_held(general.solve(pose), &self.given, given, &self.space),
+                    None => Answer { doubt: Some(Doubt::Searched), ..Answer::empty() },
+                }
+            }
+            Method::Redundant(solver) => solver.manifold(pose).answer(),
+            Method::Numeric => Answer { doubt: Some(Doubt::Searched), ..Answer::empty() },
+        };
+        if !answer.is_reachable() {
+            self.search(pose, &mut answer);
+        }
+        answer
+    }
+
+    /// By descent: a solution, or the nearest configuration.
+    fn search(&mut self, pose: &Transform<f64>, answer: &mut Answer) {
+        let outcome = self.numeric.nearest(pose, None);
+        let size = self.size(pose);
+        let residual = newton::distance(&self.robot, self.goal, pose, &outcome.q, size);
+        if residual <= TOLERANCE {
+            let mut q = outcome.q;
+            self.space.wrap(&mut q);
+            let within_limits = self.space.within(&q);
+            let (branch, guard) = (String::new(), 0.0);
+            answer.doubt = Some(Doubt::Searched);
+            answer.solutions.push(Solution { q, residual, branch, multiplicity: 1, within_limits, guard });
+            return;
+        }
+        let (angle, distance) = newton::gap(&self.robot, self.goal, pose, &outcome.q);
+        answer.obstacle = Some(Obstacle { unknown: None, q: outcome.q, angle, distance, violated: vec![] });
+    }
+
+    fn size(&self, pose: &Transform<f64>) -> f64 {
+        self.space.reach.hypot(pose.translation.norm()).max(f64::MIN_POSITIVE)
+    }
+
+    /// The configuration of an answer that is nearest to another, families included: within the limits if one is.
+    pub fn nearest(&self, pose: &Transform<f64>, answer: &Answer, to: &[f64]) -> Option<Nearest> {
+        let mut best: Option<Nearest> = None;
+        let mut offer = |q: &[f64]| {
+            let q = self.space.nearest_copy(q, to);
+            let by = |(x, y): (&f64, &f64), is_angle: bool| {
+                (x - y).abs() / if is_angle { 1.0 } else { self.space.reach }
+            };
+            let distance =
+                q.iter().zip(to).zip(&self.space.is_angle).map(|(p, &a)| by(p, a)).fold(0.0, f64::max);
+            let within_limits = self.space.within(&q);
+            let is_better = |b: &Nearest| (within_limits, -distance) > (b.within_limits, -b.distance);
+            if best.as_ref().is_none_or(is_better) {
+                best = Some(Nearest { q, distance, within_limits });
+            }
+        };
+        answer.solutions.iter().for_each(|s| offer(&s.q));
+        for family in &answer.families {
+            let starts = std::iter::once(&family.representative.q).chain(&family.curve);
+            for q in starts {
+                offer(&newton::slide(&self.robot, self.goal, pose, q, (&self.given, to), self.size(pose)));
+            }
+        }
+        best
+    }
+
+    /// All solutions of many poses, in their order, by as many threads; the same whatever their number.
+    pub fn solve_all(&self, poses: &[Transform<f64>], given: &[f64], threads: NonZero<usize>) -> Vec<Answer> {
+        let share = poses.len().div_ceil(threads.get()).max(1);
+        std::thread::scope(|scope| {
+            let work = |poses: &[Transform<f64>]| {
+                let mut solver = self.clone();
+                poses.iter().map(|pose| solver.solve(pose, given)).collect::<Vec<_>>()
+            };
+            let parts: Vec<_> = poses.chunks(share).map(|part| scope.spawn(move || work(part))).collect();
+            parts.into_iter().flat_map(|part| part.join().unwrap_or_default()).collect()
+        })
+    }
+}
+
+/// What a solution that was searched for may miss the pose by.
+const TOLERANCE: f64 = 1e-9;
+
+/// Adds what another method found.
+fn merge(answer: &mut Answer, other: Answer, space: &JointSpace) {
+    for s in other.solutions {
+        if !answer.solutions.iter().any(|t| space.is_same(&t.q, &s.q)) {
+            answer.solutions.push(s);
+        }
+    }
+    if answer.families.is_empty() {
+        answer.families = other.families;
+    }
+}
+
+/// An answer of the joints that are not given, with those that are.
+fn with_held(mut answer: Answer, given: &[usize], values: &[f64], space: &JointSpace) -> Answer {
+    let whole = |q: &[f64], held: &[f64]| -> Vec<f64> {
+        let mut rest = q.iter().copied();
+        let held = |j: usize| given.iter().position(|&g| g == j).map(|k| held[k]);
+        (0..space.is_angle.len()).map(|j| held(j).or_else(|| rest.next()).unwrap_or(0.0)).collect()
+    };
+    let still = vec![0.0; given.len()];
+    let families = answer.families.iter_mut();
+    for s in families
+        .map(|f| {
+            f.direction = whole(&f.direction, &still);
+            f.curve.iter_mut().for_each(|q| *q = whole(q, values));
+            &mut f.representative
+        })
+        .chain(&mut answer.solutions)
+    {
+        s.q = whole(&s.q, values);
+        s.within_limits = space.within(&s.q);
+    }
+    answer
+}

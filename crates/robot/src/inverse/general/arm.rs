@@ -1,0 +1,135 @@
+//! The arm in the form that elimination takes: six axes and the constant transforms between them.
+
+use crate::geometry::{Axis, Rotation, Transform, Vector};
+use crate::robot::{Link, Robot};
+use denavit_elimination::{Arm, Joint, Rigid};
+use std::f64::consts::FRAC_PI_2;
+use std::fmt;
+
+/// Why elimination does not serve an arm.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Unsuited {
+    /// It has this many axes that move, not six.
+    Axes(usize),
+    /// A row of the table both turns and slides (counted from 1).
+    TwoInOne(usize),
+    /// The joint variables do not determine the axes one to one by whole turns: a factor of a coupling is not ±1.
+    Coupled,
+    /// The elimination itself refuses: its words.
+    Degenerate(String),
+}
+
+impl fmt::Display for Unsuited {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Unsuited::Axes(n) => write!(f, "{n} axes move; elimination serves six"),
+            Unsuited::TwoInOne(row) => write!(f, "row {row} both turns and slides"),
+            Unsuited::Coupled => f.write_str("a coupling of joints has factors other than ±1"),
+            Unsuited::Degenerate(why) => f.write_str(why),
+        }
+    }
+}
+
+impl std::error::Error for Unsuited {}
+
+/// An arm of six axes, and what its axes are in joint variables: x = C·q + c.
+#[derive(Clone, Debug)]
+pub(super) struct SixAxes {
+    pub arm: Arm,
+    offsets: [f64; 6],
+    /// C⁻¹.
+    inverse: [[f64; 6]; 6],
+}
+
+impl SixAxes {
+    /// That of a robot with as many joints as axes.
+    pub fn new(robot: &Robot<f64>) -> Result<Self, Unsuited> {
+        let rows = || robot.links.iter().enumerate();
+        let moves = |l: &Link<f64>| !l.theta.terms.is_empty() || !l.d.terms.is_empty();
+        if let Some((k, _)) = rows().find(|(_, l)| !l.theta.terms.is_empty() && !l.d.terms.is_empty()) {
+            return Err(Unsuited::TwoInOne(k + 1));
+        }
+        let count = rows().filter(|(_, l)| moves(l)).count();
+        if count != 6 || robot.joints != 6 {
+            return Err(Unsuited::Axes(count.max(robot.joints)));
+        }
+        let mut constants = vec![robot.base];
+        let (mut joints, mut offsets, mut coupling) = ([Joint::Revolute; 6], [0.0; 6], [[0.0; 6]; 6]);
+        for link in &robot.links {
+            let last = constants.len() - 1;
+            if !moves(link) {
+                constants[last] = constants[last] * link.transform(&[0.0; 6]);
+                continue;
+            }
+            let turns = !link.theta.terms.is_empty();
+            let axis = if turns { &link.theta } else { &link.d };
+            joints[last] = if turns { Joint::Revolute } else { Joint::Prismatic };
+            offsets[last] = axis.offset + f64::from(axis.quarters) * FRAC_PI_2;
+            for &(j, k) in &axis.terms {
+                coupling[last][j] = k;
+            }
+            constants[last] = constants[last] * link.before * still(link, turns);
+            constants.push(link.after);
+        }
+        constants[6] = constants[6] * robot.tool;
+        let is_slide: [bool; 6] = std::array::from_fn(|k| joints[k] == Joint::Prismatic);
+        let is_one_to_one = coupling
+            .iter()
+            .enumerate()
+            .all(|(k, row)| is_slide[k] || row.iter().all(|x| *x == 0.0 || x.abs() == 1.0));
+        let inverse = inverted(coupling).filter(|_| is_one_to_one).ok_or(Unsuited::Coupled)?;
+        let arm = Arm {
+            base: rigid(&constants[0]),
+            joints,
+            links: std::array::from_fn(|k| rigid(&constants[k + 1])),
+        };
+        Ok(SixAxes { arm, offsets, inverse })
+    }
+
+    /// The joint variables at values of the axes.
+    pub fn joints(&self, x: &[f64; 6]) -> Vec<f64> {
+        let of = |row: &[f64; 6]| (0..6).map(|k| row[k] * (x[k] - self.offsets[k])).sum();
+        self.inverse.iter().map(of).collect()
+    }
+}
+
+/// The part of a joint's screw that does not move.
+fn still(link: &Link<f64>, turns: bool) -> Transform<f64> {
+    if turns {
+        return Transform::translation_z(link.d.offset);
+    }
+    let (s, c) = link.theta.sin_cos(&[]);
+    let turned = Rotation::from_sin_cos(Axis::Z, s, c);
+    Transform::from_rotation_translation(turned, Vector([0.0; 3]))
+}
+
+pub(super) fn rigid(x: &Transform<f64>) -> Rigid {
+    Rigid { rotation: x.rotation.rows(), translation: x.translation.0 }
+}
+
+/// The inverse of a matrix, by Gauss's and Jordan's elimination.
+fn inverted(mut m: [[f64; 6]; 6]) -> Option<[[f64; 6]; 6]> {
+    let mut inverse: [[f64; 6]; 6] =
+        std::array::from_fn(|i| std::array::from_fn(|j| f64::from(u8::from(i == j))));
+    for k in 0..6 {
+        let pivot = (k..6).max_by(|&a, &b| m[a][k].abs().total_cmp(&m[b][k].abs()))?;
+        m.swap(k, pivot);
+        inverse.swap(k, pivot);
+        if m[k][k].abs() < 1e-9 {
+            return None;
+        }
+        let by = 1.0 / m[k][k];
+        for j in 0..6 {
+            m[k][j] *= by;
+            inverse[k][j] *= by;
+        }
+        for i in (0..6).filter(|&i| i != k) {
+            let factor = m[i][k];
+            for j in 0..6 {
+                m[i][j] -= factor * m[k][j];
+                inverse[i][j] -= factor * inverse[k][j];
+            }
+        }
+    }
+    Some(inverse)
+}

@@ -1,0 +1,97 @@
+//! All solutions of a pose by elimination, as solutions of the robot.
+
+use super::arm::{SixAxes, Unsuited, rigid};
+use crate::geometry::Transform;
+use crate::inverse::answer::{Answer, Doubt, Solution};
+use crate::inverse::derivation::Goal;
+use crate::inverse::newton;
+use crate::inverse::space::JointSpace;
+use crate::robot::Robot;
+use denavit_elimination::{self as elimination, Certificate, Plan};
+use denavit_program::{Isa, Work};
+
+/// Finds the solutions of poses for any robot with six joints.
+#[derive(Clone, Debug)]
+pub struct GeneralSolver {
+    /// The robot that is moved.
+    pub robot: Robot<f64>,
+    /// Its joints.
+    pub space: JointSpace,
+    axes: SixAxes,
+    plan: Plan,
+    found: elimination::Answer,
+    isa: Isa,
+}
+
+/// A solution may miss the pose by this (see [`Solution::residual`]).
+const TOLERANCE: f64 = 1e-9;
+/// A residual above this is more than rounding.
+const ROUGH: f64 = 1e-12;
+
+impl GeneralSolver {
+    /// For a robot with six axes; measures which eliminations suit it (up to a fifth of a second).
+    ///
+    /// # Errors
+    /// See [`Unsuited`].
+    pub fn new(robot: &Robot<f64>, space: &JointSpace) -> Result<Self, Unsuited> {
+        let axes = SixAxes::new(robot)?;
+        let plan = Plan::new(&axes.arm).map_err(|e| Unsuited::Degenerate(e.to_string()))?;
+        let found = elimination::Answer::default();
+        Ok(GeneralSolver {
+            robot: robot.clone(),
+            space: space.clone(),
+            axes,
+            plan,
+            found,
+            isa: Isa::detect(),
+        })
+    }
+
+    /// All solutions of a pose of the tool in the base, in ascending order of their joint variables.
+    pub fn solve(&mut self, pose: &Transform<f64>) -> Answer {
+        let work = Eliminate { plan: &self.plan, pose: rigid(pose), found: &mut self.found };
+        self.isa.run(self.isa.arithmetic(), work);
+        let mut answer = Answer::empty();
+        answer.doubt = match self.found.certificate {
+            Certificate::Complete => None,
+            Certificate::NearDoubleRoot => Some(Doubt::DoubleRoot),
+            Certificate::Undecided => Some(Doubt::Uncounted),
+        };
+        let size = self.space.reach.hypot(pose.translation.norm()).max(f64::MIN_POSITIVE);
+        for found in &self.found.solutions {
+            let mut q = self.axes.joints(&found.q);
+            let mut residual = newton::distance(&self.robot, Goal::Pose, pose, &q, size);
+            if residual > ROUGH
+                && let Some((polished, better)) = newton::polish(&self.robot, Goal::Pose, pose, &q, &[], size)
+                && better < residual
+            {
+                (q, residual) = (polished, better);
+            }
+            if residual > TOLERANCE {
+                continue;
+            }
+            self.space.wrap(&mut q);
+            let within_limits = self.space.within(&q);
+            let (branch, multiplicity, guard) = (String::new(), found.multiplicity, found.singular);
+            answer.solutions.push(Solution { q, residual, branch, multiplicity, within_limits, guard });
+        }
+        answer.solutions.sort_by(|a, b| {
+            let unequal = a.q.iter().zip(&b.q).map(|(x, y)| x.total_cmp(y)).find(|o| o.is_ne());
+            unequal.unwrap_or(std::cmp::Ordering::Equal)
+        });
+        answer
+    }
+}
+
+struct Eliminate<'a> {
+    plan: &'a Plan,
+    pose: elimination::Rigid,
+    found: &'a mut elimination::Answer,
+}
+
+impl Work for Eliminate<'_> {
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) {
+        self.plan.solve::<FUSED>(&self.pose, self.found);
+    }
+}

@@ -1,0 +1,393 @@
+//! Redundant arms with a closed form for given joints: all configurations by the value of a joint that is given.
+//!
+//! The compiled solver gives all branches for a value; branches are followed over samples that become denser where joints
+//! move fast, their ends and the places where limits are reached are closed in on.
+
+use super::feasible::{self, Point};
+use super::limits::{Range, SLACK, excess};
+use super::manifold::{Chart, Found, Piece};
+use crate::description::Description;
+use crate::geometry::Transform;
+use crate::inverse::closed::variables;
+use crate::inverse::derivation::{Goal, InverseModel};
+use crate::inverse::space::JointSpace;
+use crate::robot::MissingValue;
+use denavit_program::solver::{Leaf, SolverScalar};
+use std::f64::consts::{PI, TAU};
+
+/// A branch is a solution up to this residual; at its end the residual decides to this.
+const SOLVED: f64 = 1e-9;
+const SHARP: f64 = 1e-11;
+/// Values that are tried before a manifold is computed.
+const TRIES: usize = 24;
+/// Values all round, before they become denser, and how often they may.
+const VALUES: usize = 96;
+const DENSER: usize = 6;
+/// Neighbours further apart than this have a value between them.
+const APART: f64 = 0.3;
+/// How often the place where a gap is least is closed in on.
+const DIVISIONS: usize = 24;
+/// Values of each further joint that is given.
+const SLICES: usize = 7;
+
+/// The solver for given joints.
+#[derive(Clone, Debug)]
+pub(super) struct ByJoint {
+    scalar: SolverScalar,
+    goal: Goal,
+    /// The joints that are given; the last one is the parameter.
+    pub given: Vec<usize>,
+    /// The name of the parameter.
+    pub name: String,
+    labels: Vec<Option<String>>,
+    space: JointSpace,
+    ranges: Vec<Range>,
+}
+
+/// A value of the parameter with its branches.
+struct Sample {
+    x: f64,
+    branches: Vec<(Vec<i8>, Vec<f64>)>,
+    /// For each node, how far the nearest branch that ended there is from going on; infinite if none ended.
+    gaps: Vec<f64>,
+}
+
+impl Sample {
+    fn on(&self, signs: &[i8]) -> Option<&Vec<f64>> {
+        self.branches.iter().find(|b| b.0 == signs).map(|b| &b.1)
+    }
+}
+
+impl ByJoint {
+    /// The solver of a model with given joints.
+    pub fn new(
+        model: &InverseModel,
+        description: &Description,
+        space: &JointSpace,
+    ) -> Result<Self, MissingValue> {
+        let solver = model.solver(description)?;
+        let given = model.given.clone();
+        let name = given.last().map(|&j| description.variables()[j].symbol.name().to_string());
+        Ok(ByJoint {
+            scalar: solver.function().scalar(),
+            goal: model.goal,
+            name: name.unwrap_or_default(),
+            labels: model.labels.clone(),
+            ranges: Range::all(space),
+            space: space.clone(),
+            given,
+        })
+    }
+
+    fn parameter(&self) -> usize {
+        self.given.last().copied().unwrap_or(0)
+    }
+
+    /// The values that a joint is given: its limits, or all round.
+    fn span(&self, joint: usize) -> [f64; 2] {
+        let far = if self.space.is_angle[joint] { PI } else { self.space.reach };
+        self.ranges[joint].ends().unwrap_or([-far, far])
+    }
+
+    /// One within the limits, if one of a few values has one; values near those of `seed` come first.
+    pub fn quick(&mut self, pose: &Transform<f64>, seed: Option<&[f64]>) -> Option<Found> {
+        let m = self.given.len();
+        let mut inputs = variables(self.goal, pose, &vec![0.0; m]);
+        let first = inputs.len() - m;
+        let spans: Vec<[f64; 2]> = self.given.iter().map(|&j| self.span(j)).collect();
+        let tries = TRIES * m * m * m;
+        for number in 0..tries + usize::from(seed.is_some()) {
+            for (k, [low, high]) in spans.iter().enumerate() {
+                inputs[first + k] = match (seed, number) {
+                    (Some(q), 0) => q[self.given[k]],
+                    (Some(_), _) => low + (high - low) * radical(number, BASES[k % BASES.len()]),
+                    (None, _) => low + (high - low) * radical(number + 1, BASES[k % BASES.len()]),
+                };
+            }
+            let leaves = self.scalar.solve(&inputs, &[]);
+            let ranges = &self.ranges;
+            let good = |l: &Leaf| l.free == 0 && l.residual <= SOLVED && excess(ranges, l.outputs) <= SLACK;
+            let found = match seed {
+                None => leaves.iter().find(good),
+                Some(q) => {
+                    let away = |l: &Leaf| self.space.distance(q, l.outputs);
+                    leaves.iter().filter(good).min_by(|a, b| away(a).total_cmp(&away(b)))
+                }
+            };
+            if let Some(leaf) = found {
+                let branch = branch(&self.labels, leaf.signs);
+                return Some(Found { q: leaf.outputs.to_vec(), guard: Some(leaf.guard), branch });
+            }
+        }
+        None
+    }
+
+    /// The member of a component at a value.
+    pub fn member(
+        &mut self,
+        pose: &Transform<f64>,
+        (signs, others): (&[i8], &[f64]),
+        x: f64,
+    ) -> Option<Vec<f64>> {
+        let mut inputs = self.inputs(pose, others);
+        self.on(&mut inputs, signs, x, SOLVED)
+    }
+
+    fn inputs(&self, pose: &Transform<f64>, others: &[f64]) -> Vec<f64> {
+        let mut given = others.to_vec();
+        given.push(0.0);
+        variables(self.goal, pose, &given)
+    }
+
+    fn on(&mut self, inputs: &mut [f64], signs: &[i8], x: f64, most: f64) -> Option<Vec<f64>> {
+        if let Some(last) = inputs.last_mut() {
+            *last = x;
+        }
+        let leaves = self.scalar.solve(inputs, &[]);
+        let leaf = leaves.iter().find(|l| l.signs == signs && l.free == 0 && l.residual <= most)?;
+        Some(leaf.outputs.to_vec())
+    }
+
+    fn sample(&mut self, inputs: &mut [f64], x: f64) -> Sample {
+        if let Some(last) = inputs.last_mut() {
+            *last = x;
+        }
+        let leaves = self.scalar.solve(inputs, &[]);
+        let good = leaves.iter().filter(|l| l.free == 0 && l.residual <= SOLVED);
+        let branches = good.map(|l| (l.signs.to_vec(), l.outputs.to_vec())).collect();
+        let mut gaps = vec![f64::INFINITY; self.labels.len()];
+        leaves.ended().for_each(|end| gaps[end.node] = end.gap);
+        Sample { x, branches, gaps }
+    }
+
+    /// All branches of a pose; with more than one joint given, for a grid of values of the others.
+    pub fn pieces(&mut self, pose: &Transform<f64>) -> Vec<Piece> {
+        let others = self.given[..self.given.len() - 1].to_vec();
+        let count = SLICES.pow(others.len() as u32);
+        let mut found = vec![];
+        for number in 0..count {
+            let mut rest = number;
+            let values: Vec<f64> = others
+                .iter()
+                .map(|&j| {
+                    let [low, high] = self.span(j);
+                    let part = ((rest % SLICES) as f64 + 0.5) / SLICES as f64;
+                    rest /= SLICES;
+                    low + (high - low) * part
+                })
+                .collect();
+            self.slice(pose, &values, &mut found);
+        }
+        found
+    }
+
+    /// The branches with the other given joints at some values.
+    fn slice(&mut self, pose: &Transform<f64>, others: &[f64], found: &mut Vec<Piece>) {
+        let mut inputs = self.inputs(pose, others);
+        let parameter = self.parameter();
+        let is_angle = self.space.is_angle[parameter];
+        let [low, high] = if is_angle { [-PI, PI] } else { self.span(parameter) };
+        let samples = self.samples(&mut inputs, [low, high]);
+        let mut known: Vec<&Vec<i8>> = vec![];
+        for s in samples.iter().flat_map(|s| &s.branches) {
+            if !known.contains(&&s.0) {
+                known.push(&s.0);
+            }
+        }
+        known.sort_by(|a, b| b.cmp(a));
+        for signs in known {
+            // Runs of neighbours that have the branch: places of the first and the last.
+            let mut runs: Vec<[usize; 2]> = vec![];
+            for k in (0..samples.len()).filter(|&k| samples[k].on(signs).is_some()) {
+                match runs.last_mut() {
+                    Some(run) if run[1] + 1 == k => run[1] = k,
+                    _ => runs.push([k, k]),
+                }
+            }
+            let last = samples.len() - 1;
+            let goes_round = is_angle && runs.len() > 1 && runs[0][0] == 0 && runs[runs.len() - 1][1] == last;
+            let tail = if goes_round { runs.pop() } else { None };
+            for (number, [a, b]) in runs.into_iter().enumerate() {
+                let point = |k: usize, turn: f64| {
+                    let q = samples[k].on(signs)?;
+                    Some((samples[k].x + turn, excess(&self.ranges, q)))
+                };
+                let mut points: Vec<Point> = (a..=b).filter_map(|k| point(k, 0.0)).collect();
+                let (mut from, turn) = (a, if is_angle { TAU } else { 0.0 });
+                if let (0, Some([c, _])) = (number, tail) {
+                    // From the tail across the seam: π is −π.
+                    let before: Vec<Point> = (c..last).filter_map(|k| point(k, -turn)).collect();
+                    points.splice(0..0, before);
+                    from = c;
+                }
+                let whole = is_angle && a == 0 && b == last;
+                if !whole {
+                    let mut end = |k: usize, outside: Option<&Sample>, turn: f64| {
+                        self.end(&mut inputs, signs, samples[k].x, outside?.x, turn)
+                    };
+                    let before = from.checked_sub(1).and_then(|k| samples.get(k));
+                    let first = end(from, before, if from == a { 0.0 } else { -turn });
+                    let after = end(b, samples.get(b + 1), 0.0);
+                    points.splice(0..0, first);
+                    points.extend(after);
+                }
+                if points.len() < 2 {
+                    continue;
+                }
+                let mut along = |x: f64| {
+                    let x = if is_angle { super::wrapped(x) } else { x };
+                    let q = self.on(&mut inputs, signs, x, SOLVED)?;
+                    Some(excess(&self.ranges, &q))
+                };
+                let mut parts = feasible::intervals(&points, &mut along);
+                let mut domain = [points[0].0, points[points.len() - 1].0];
+                if whole {
+                    domain = [-PI, PI];
+                    join_round(&mut parts);
+                } else if is_angle && domain[0] <= -PI {
+                    domain = domain.map(|x| x + TAU);
+                    parts.iter_mut().flatten().for_each(|x| *x += TAU);
+                }
+                found.push(Piece {
+                    branch: branch(&self.labels, signs),
+                    parameter: self.name.clone(),
+                    domain,
+                    feasible: parts,
+                    is_closed: whole,
+                    chart: Chart::Joint { signs: signs.clone(), others: others.to_vec() },
+                });
+            }
+        }
+    }
+
+    /// Values from `low` to `high`, denser where branches move fast or end.
+    fn samples(&mut self, inputs: &mut [f64], [low, high]: [f64; 2]) -> Vec<Sample> {
+        let at = (0..=VALUES).map(|k| low + (high - low) * k as f64 / VALUES as f64);
+        let mut samples: Vec<Sample> = at.map(|x| self.sample(inputs, x)).collect();
+        for k in (1..samples.len() - 1).rev() {
+            let [a, b, c] = [k - 1, k, k + 1].map(|k| &samples[k]);
+            if let Some(island) = self.island(inputs, [a, b, c]) {
+                samples.insert(if island.x < b.x { k } else { k + 1 }, island);
+            }
+        }
+        for _ in 0..DENSER {
+            let mut denser: Vec<Sample> = vec![];
+            let mut grew = false;
+            for s in samples {
+                if let Some(last) = denser.last()
+                    && self.is_rough(last, &s)
+                {
+                    let middle = (last.x + s.x) / 2.0;
+                    denser.push(self.sample(inputs, middle));
+                    grew = true;
+                }
+                denser.push(s);
+            }
+            samples = denser;
+            if !grew {
+                break;
+            }
+        }
+        samples
+    }
+
+    /// A place between three neighbours with branches that none of them has: where a gap that is least at the middle one
+    /// closes.
+    fn island(&mut self, inputs: &mut [f64], [a, b, c]: [&Sample; 3]) -> Option<Sample> {
+        let is_least = |&i: &usize| b.gaps[i].is_finite() && b.gaps[i] <= a.gaps[i] && b.gaps[i] < c.gaps[i];
+        for node in (0..b.gaps.len()).filter(is_least).collect::<Vec<_>>() {
+            let (mut low, mut high) = (a.x, c.x);
+            let mut best = (b.x, b.gaps[node]);
+            for _ in 0..DIVISIONS {
+                let is_left = best.0 - low > high - best.0;
+                let side = if is_left { low - best.0 } else { high - best.0 };
+                let found = self.sample(inputs, best.0 + 0.38 * side);
+                if found.branches.iter().any(|(signs, _)| [a, b, c].iter().all(|s| s.on(signs).is_none())) {
+                    return Some(found);
+                }
+                let (x, gap) = (found.x, found.gaps[node]);
+                match (gap < best.1, is_left) {
+                    (true, true) => (high, best) = (best.0, (x, gap)),
+                    (true, false) => (low, best) = (best.0, (x, gap)),
+                    (false, true) => low = x,
+                    (false, false) => high = x,
+                }
+            }
+        }
+        None
+    }
+
+    /// True if a branch has moved far, or has come to an end.
+    fn is_rough(&self, a: &Sample, b: &Sample) -> bool {
+        let moved = |(signs, q): &(Vec<i8>, Vec<f64>)| match b.on(signs) {
+            Some(p) => self.space.distance(q, p) > APART,
+            None => true,
+        };
+        a.branches.iter().any(moved) || b.branches.iter().any(|(signs, _)| a.on(signs).is_none())
+    }
+
+    /// The last place of a branch between one where it exists and one where it does not.
+    fn end(
+        &mut self,
+        inputs: &mut [f64],
+        signs: &[i8],
+        inside: f64,
+        outside: f64,
+        turn: f64,
+    ) -> Option<Point> {
+        let (mut inside, mut outside) = (inside, outside);
+        let mut last = None;
+        for _ in 0..60 {
+            let middle = (inside + outside) / 2.0;
+            if middle == inside || middle == outside {
+                break;
+            }
+            match self.on(inputs, signs, middle, SHARP) {
+                Some(q) => (inside, last) = (middle, Some(q)),
+                None => outside = middle,
+            }
+        }
+        last.map(|q| (inside + turn, excess(&self.ranges, &q)))
+    }
+}
+
+/// What a branch is called.
+fn branch(labels: &[Option<String>], signs: &[i8]) -> String {
+    let mut name = String::new();
+    for (label, sign) in labels.iter().zip(signs) {
+        let Some(label) = label else { continue };
+        if !name.is_empty() {
+            name.push(' ');
+        }
+        name.push_str(label);
+        match sign {
+            -1 => name.push('−'),
+            1 => name.push('+'),
+            k => name += &k.to_string(),
+        }
+    }
+    name
+}
+
+/// On a circle cut at ±π, the parts at its two ends are one.
+fn join_round(parts: &mut Vec<[f64; 2]>) {
+    if parts.len() > 1 && parts[0][0] == -PI && parts[parts.len() - 1][1] == PI {
+        let [_, end] = parts.remove(0);
+        if let Some(last) = parts.last_mut() {
+            last[1] = end + TAU;
+        }
+    }
+}
+
+const BASES: [usize; 4] = [2, 3, 5, 7];
+
+/// The radical inverse: values that fill (0, 1) evenly, whatever their number (van der Corput 1935; Halton 1960).
+pub(super) fn radical(mut number: usize, base: usize) -> f64 {
+    let (mut x, mut digit) = (0.0, 1.0);
+    while number > 0 {
+        digit /= base as f64;
+        x += digit * (number % base) as f64;
+        number /= base;
+    }
+    x
+}

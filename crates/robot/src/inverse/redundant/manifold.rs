@@ -1,0 +1,109 @@
+//! What a redundant arm can do at one pose: curves of configurations, each with a parameter.
+
+use crate::inverse::answer::{Answer, Doubt, Family, Solution};
+
+/// All configurations of a pose, as curves.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Manifold {
+    /// The curves: one a branch and piece of its parameter's range.
+    pub components: Vec<Component>,
+    /// How many parameters configurations have; beyond one, components are samples.
+    pub dimension: usize,
+    /// Why there may be more; nothing if all are here.
+    pub doubt: Option<Doubt>,
+}
+
+/// A curve of configurations.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Component {
+    /// The branch: `shoulder+ elbow− wrist+`; empty for a curve that was followed.
+    pub branch: String,
+    /// The parameter: `ψ` (the arm angle, radians), the name of a joint variable (radians or metres), or `s` (the length
+    /// along the curve, radians with slides by the reach).
+    pub parameter: String,
+    /// The values of the parameter, whatever the limits: a whole turn is `[−π, π]`; an arc starts in (−π, π].
+    pub domain: [f64; 2],
+    /// The values at which the limits allow the configuration, or a copy of it whole turns away, in order. The end of an
+    /// interval may be up to a turn beyond π.
+    pub feasible: Vec<[f64; 2]>,
+    /// True if the end of the domain is its start again.
+    pub is_closed: bool,
+    /// A member: in the middle of the longest feasible interval, if there is one, or of the domain.
+    pub representative: Solution,
+    /// How the joints move there, radians and metres, a unit vector.
+    pub direction: Vec<f64>,
+    /// Members along the domain, neighbours at most 0.1 rad apart and without jumps of whole turns.
+    pub curve: Vec<Vec<f64>>,
+    pub(super) chart: Chart,
+}
+
+/// A component before members of it are computed.
+#[derive(Clone, Debug)]
+pub(super) struct Piece {
+    pub branch: String,
+    pub parameter: String,
+    pub domain: [f64; 2],
+    pub feasible: Vec<[f64; 2]>,
+    pub is_closed: bool,
+    pub chart: Chart,
+}
+
+/// A configuration of a pose.
+#[derive(Clone, Debug)]
+pub(super) struct Found {
+    pub q: Vec<f64>,
+    /// The smallest quantity that was divided by, if it is known.
+    pub guard: Option<f64>,
+    pub branch: String,
+}
+
+/// How the joints follow from the parameter.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) enum Chart {
+    /// By the arm angle: which elbow (0 or 1), and the signs of shoulder and wrist.
+    ArmAngle { elbow: usize, shoulder: f64, wrist: f64 },
+    /// By a joint's value: the signs of the solver's nodes, and the values of other joints that are given.
+    Joint { signs: Vec<i8>, others: Vec<f64> },
+    /// By interpolation and correction: members with their lengths along the curve.
+    Curve { members: Vec<Vec<f64>>, lengths: Vec<f64> },
+}
+
+impl Manifold {
+    /// True if no configuration has the pose.
+    pub fn is_empty(&self) -> bool {
+        self.components.is_empty()
+    }
+
+    /// True if a configuration within the limits has the pose.
+    pub fn is_feasible(&self) -> bool {
+        self.components.iter().any(|c| !c.feasible.is_empty())
+    }
+
+    /// The curves as families of solutions.
+    pub fn answer(self) -> Answer {
+        let dimension = self.dimension;
+        let family = |c: Component| Family {
+            representative: c.representative,
+            dimension,
+            free: vec![c.parameter],
+            direction: c.direction,
+            is_affine: false,
+            interval: Some(c.domain),
+            curve: c.curve,
+            at: vec![],
+            signs: vec![],
+        };
+        let families = self.components.into_iter().map(family).collect();
+        Answer { doubt: self.doubt, families, ..Answer::empty() }
+    }
+}
+
+impl Piece {
+    /// The middle of the longest interval that the limits allow, or of all.
+    pub fn middle(&self) -> f64 {
+        let length = |i: &[f64; 2]| i[1] - i[0];
+        let longest = self.feasible.iter().max_by(|a, b| length(a).total_cmp(&length(b)));
+        let [low, high] = longest.unwrap_or(&self.domain);
+        (low + high) / 2.0
+    }
+}

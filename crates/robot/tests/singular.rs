@@ -1,0 +1,177 @@
+//! At singular poses and next to them: never empty, and the configuration that a pose was made from is found, or lies in
+//! a family that is reported.
+
+mod common;
+
+use common::robot;
+use denavit::geometry::Transform;
+use denavit::inverse::{Answer, InverseKinematics, Options};
+use denavit::robot::Robot;
+use std::f64::consts::{PI, TAU};
+
+/// A small generator of numbers that look random (splitmix64).
+struct Random(u64);
+
+impl Random {
+    fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+const OFFSETS: [f64; 7] = [0.0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-4, 1e-2];
+
+/// The columns of the geometric Jacobian, lengths by the arm's size.
+fn jacobian(robot: &Robot<f64>, q: &[f64]) -> Vec<[f64; 6]> {
+    let size = robot.reach();
+    let p = robot.pose(q).translation;
+    let mut before = robot.base;
+    let mut columns = vec![[0.0; 6]; robot.joints];
+    for link in &robot.links {
+        let screw = before * link.before;
+        let z = screw.rotation.z();
+        let lever = z.cross(p - screw.translation);
+        for &(j, k) in &link.theta.terms {
+            for i in 0..3 {
+                columns[j][i] += k * z[i];
+                columns[j][3 + i] += k * lever[i] / size;
+            }
+        }
+        before = before * link.transform(q);
+    }
+    columns
+}
+
+/// Jᵀu at a configuration and a direction of the hand, and 1 − u·u.
+fn lost(robot: &Robot<f64>, x: &[f64]) -> Vec<f64> {
+    let (q, u) = x.split_at(robot.joints);
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
+    let mut rest: Vec<f64> = jacobian(robot, q).iter().map(|c| dot(c, u)).collect();
+    rest.push(1.0 - dot(u, u));
+    rest
+}
+
+/// A singular configuration near a random one: Newton's method with least norm on Jᵀu = 0, |u| = 1.
+fn singular(robot: &Robot<f64>, random: &mut Random) -> Option<Vec<f64>> {
+    let n = robot.joints;
+    let mut x: Vec<f64> = (0..n).map(|_| TAU * random.unit() - PI).collect();
+    x.extend((0..6).map(|_| random.unit() - 0.5));
+    for _ in 0..60 {
+        let f = lost(robot, &x);
+        let worst = f.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        if worst < 3e-16 {
+            break;
+        }
+        // Central differences are exact enough: the method corrects itself.
+        let columns: Vec<Vec<f64>> = (0..x.len())
+            .map(|k| {
+                let mut moved = x.clone();
+                moved[k] += 1e-6;
+                let plus = lost(robot, &moved);
+                moved[k] -= 2e-6;
+                let minus = lost(robot, &moved);
+                plus.iter().zip(&minus).map(|(a, b)| (a - b) / 2e-6).collect()
+            })
+            .collect();
+        // y with (A·Aᵀ + λ) y = f, then x − Aᵀ y.
+        let rows = f.len();
+        let mut m: Vec<Vec<f64>> = (0..rows)
+            .map(|i| {
+                let mut row: Vec<f64> =
+                    (0..rows).map(|j| columns.iter().map(|c| c[i] * c[j]).sum()).collect();
+                row[i] += 1e-13;
+                row.push(f[i]);
+                row
+            })
+            .collect();
+        for k in 0..rows {
+            let pivot = (k..rows).max_by(|&a, &b| m[a][k].abs().total_cmp(&m[b][k].abs()))?;
+            m.swap(k, pivot);
+            for i in (0..rows).filter(|&i| i != k) {
+                let factor = m[i][k] / m[k][k];
+                let row = m[k].clone();
+                m[i].iter_mut().zip(&row).for_each(|(a, b)| *a -= factor * b);
+            }
+        }
+        let y: Vec<f64> = (0..rows).map(|k| m[k][rows] / m[k][k]).collect();
+        for (xk, c) in x.iter_mut().zip(&columns) {
+            *xk -= c.iter().zip(&y).map(|(a, b)| a * b).sum::<f64>();
+        }
+    }
+    let worst = lost(robot, &x).iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let mut q = x[..n].to_vec();
+    q.iter_mut().for_each(|a| *a -= TAU * (*a / TAU).round());
+    (worst < 1e-14).then_some(q)
+}
+
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| ((x - y) - TAU * ((x - y) / TAU).round()).abs()).fold(0.0, f64::max)
+}
+
+/// Whether a configuration is among the solutions or in a family.
+fn holds(solver: &InverseKinematics, pose: &Transform<f64>, answer: &Answer, q: &[f64]) -> bool {
+    // Near a double root a solution is known to the square root of rounding only.
+    let near = |found: &[f64]| distance(found, q) <= 1e-5;
+    answer.solutions.iter().any(|s| near(&s.q)) || solver.nearest(pose, answer, q).is_some_and(|n| near(&n.q))
+}
+
+fn solve_near_singular(name: &str, count: usize) {
+    let mut solver = InverseKinematics::new(&robot(name), &Options::default()).expect("numbers");
+    let mut random = Random(7);
+    let (mut empty, mut missed, mut tried) = (vec![], vec![], 0);
+    while tried < count * OFFSETS.len() {
+        let Some(at) = singular(&solver.robot, &mut random) else { continue };
+        let way: Vec<f64> = at.iter().map(|_| random.unit() - 0.5).collect();
+        for offset in OFFSETS {
+            let q: Vec<f64> = at.iter().zip(&way).map(|(x, d)| x + offset * d).collect();
+            let pose = solver.robot.pose(&q);
+            let answer = solver.solve(&pose, &[]);
+            tried += 1;
+            if !answer.is_reachable() {
+                empty.push((offset, q));
+            } else if !holds(&solver, &pose, &answer, &q) {
+                missed.push((offset, q));
+            }
+        }
+    }
+    println!("{name}: {tried} poses, {} empty, {} missed", empty.len(), missed.len());
+    assert!(empty.is_empty() && missed.is_empty(), "{name}: empty {empty:?}, missed {missed:?}");
+}
+
+/// Poses a singularity and offset: all of them with DENAVIT_SOAK=1.
+fn count() -> usize {
+    if std::env::var_os("DENAVIT_SOAK").is_some() { 1000 } else { 40 }
+}
+
+#[test]
+fn ur5() {
+    solve_near_singular("ur5", count());
+}
+
+#[test]
+fn puma() {
+    solve_near_singular("puma560", count());
+}
+
+#[test]
+fn rx90() {
+    solve_near_singular("staubli-rx90", count());
+}
+
+#[test]
+fn crx() {
+    solve_near_singular("fanuc-crx10ia-l", count());
+}
+
+#[test]
+fn iiwa() {
+    solve_near_singular("kuka-iiwa-14", count());
+}
+
+#[test]
+fn panda() {
+    solve_near_singular("franka-panda", count());
+}
