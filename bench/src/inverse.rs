@@ -4,7 +4,7 @@
 //! same for all.
 
 use crate::measure::{Entry, measure, nanoseconds};
-use crate::peers::inverse::{Geo, Opw};
+use crate::peers::inverse::{Family, Geo, Opw};
 use crate::{compiled, read};
 use anyhow::{Result, ensure};
 use denavit::inverse::{InverseModel, Options, variables};
@@ -19,7 +19,7 @@ use std::rc::Rc;
 /// Poses of each arm.
 pub const POSES: usize = 1024;
 /// An answer that misses the pose by more, in metres or in an entry of the rotation, is none.
-const VALID: f64 = 1e-6;
+pub const VALID: f64 = 1e-6;
 /// Answers of a pose that differ by less are one.
 const SAME: f64 = 1e-6;
 
@@ -68,7 +68,8 @@ fn arm(name: &str, title: &str, generated: Generated, random: &mut impl FnMut() 
         pose.try_into().expect("three rows of four")
     };
     let poses: Rc<Vec<Rows>> = Rc::new(drawn.iter().map(rows).collect());
-    let geo = Geo::new(&robot, name == "ur5");
+    let family = if name == "ur5" { Family::ThreeParallel } else { Family::Wrist };
+    let geo = Geo::new(&robot, family);
     let mut contestants = vec![geo.contestant(&poses)];
     if name == "abb-irb2400-10" {
         contestants.push(Opw::new(&robot)?.contestant(&poses));
@@ -106,18 +107,18 @@ fn entries(contestants: Vec<Contestant>) -> Vec<Entry<'static>> {
 }
 
 /// What somebody's answers are worth.
-struct Check {
-    returned: usize,
+pub struct Check {
+    pub returned: usize,
     /// Distinct valid answers of each pose.
-    distinct: Vec<usize>,
+    pub distinct: Vec<usize>,
     /// How far a valid answer misses its pose at most.
-    worst: f64,
+    pub worst: f64,
     /// For how many poses the configuration that it was made from is among the answers.
-    drawn_found: usize,
+    pub drawn_found: usize,
 }
 
 impl Check {
-    fn new(
+    pub fn new(
         answers: &[Vec<Joints>],
         poses: &[Rows],
         drawn: &[Joints],

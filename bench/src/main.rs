@@ -1,5 +1,5 @@
 //! Speed of what evaluates a pose, in units of six `sincos` calls of the C library timed in the same run; with the
-//! argument `inverse`, of what solves one, in units of `ik-geo`.
+//! argument `inverse`, of what solves one, in units of `ik-geo`; with `arms`, of what solves one without a closed form.
 //!
 //! Prints one JSON object: the unit in ns and a figure for each entry. `cargo xtask bench` makes tables of it.
 
@@ -12,6 +12,7 @@ extern crate ur5_ik_v4;
 extern crate ur5_v3;
 extern crate ur5_v4;
 
+mod arms;
 mod compiled;
 mod inverse;
 mod measure;
@@ -37,8 +38,13 @@ fn main() -> Result<()> {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         ((state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5) * std::f64::consts::TAU
     };
-    if std::env::args().nth(1).as_deref() == Some("inverse") {
-        return inverse::run(random);
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        [] => {}
+        ["inverse"] => return inverse::run(random),
+        ["arms"] => return arms::run(false, random),
+        ["arms", "--quick"] => return arms::run(true, random),
+        _ => anyhow::bail!("no such benchmark: {}", arguments.join(" ")),
     }
     let ur5 = read("ur5")?;
     let panda = read("franka-panda")?;
@@ -129,7 +135,7 @@ fn one_configuration<'a>(
     let group = "one configuration";
     let count = configurations.len();
     let robot = Robot::numeric(ur5)?;
-    let (k, plain) = (peers::KChain::new(&robot)?, peers::PlainNalgebra::new(&robot));
+    let (k, plain) = (peers::KChain::new(&robot, &[])?, peers::PlainNalgebra::new(&robot));
     let expected = robot.pose(&configurations[0]).translation.0;
     for found in [
         k.pose(&configurations[0]).translation.vector.data.0[0],

@@ -100,13 +100,49 @@ pub fn measure(entries: &mut [Entry], mut unit: impl FnMut() -> f64) -> (f64, Ve
     (units[units.len() / 2], figures)
 }
 
+/// Runs of which the least time counts.
+const REPEATS: usize = 5;
+
 /// The least time of a few runs, ns.
 pub fn nanoseconds(mut run: impl FnMut()) -> f64 {
     let mut least = f64::INFINITY;
-    for _ in 0..5 {
+    for _ in 0..REPEATS {
         let start = Instant::now();
         run();
         least = least.min(start.elapsed().as_secs_f64() * 1e9);
     }
     least
+}
+
+/// What each item takes, µs: the least of a few rounds over all items.
+pub fn times(items: usize, mut run: impl FnMut(usize)) -> Vec<f64> {
+    let mut times = vec![f64::INFINITY; items];
+    for _ in 0..REPEATS {
+        for (item, time) in times.iter_mut().enumerate() {
+            let start = Instant::now();
+            run(item);
+            *time = time.min(start.elapsed().as_secs_f64() * 1e6);
+        }
+    }
+    times
+}
+
+/// Times of items, summed up.
+pub struct Spread {
+    pub mean: f64,
+    pub median: f64,
+    /// What 99 of 100 items take at most.
+    pub p99: f64,
+}
+
+impl Spread {
+    /// # Panics
+    /// If there is no item.
+    pub fn of(times: &[f64]) -> Self {
+        let mut sorted = times.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        let at_most = |share: f64| sorted[(share * sorted.len() as f64).ceil() as usize - 1];
+        let mean = sorted.iter().sum::<f64>() / sorted.len() as f64;
+        Spread { mean, median: at_most(0.5), p99: at_most(0.99) }
+    }
 }

@@ -13,6 +13,17 @@ use rs_opw_kinematics::parameters::opw_kinematics::Parameters;
 use std::hint::black_box;
 use std::rc::Rc;
 
+/// What is special about an arm, as `ik-geo` has it.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Family {
+    /// Three parallel axes, and two that meet.
+    ThreeParallel,
+    /// A spherical wrist, and two parallel axes.
+    Wrist,
+    /// Nothing.
+    General,
+}
+
 /// `ik-geo`: axes and the ways between them at zero.
 pub struct Geo {
     solver: Rc<robot::Robot>,
@@ -21,8 +32,8 @@ pub struct Geo {
 }
 
 impl Geo {
-    /// With three parallel axes, or a spherical wrist.
-    pub fn new(robot: &Robot<f64>, has_parallel: bool) -> Self {
+    /// For an arm with six revolute joints.
+    pub fn new(robot: &Robot<f64>, family: Family) -> Self {
         let zero = vec![0.0; robot.joints];
         let mut x = robot.base;
         let (mut axes, mut points) = (vec![], vec![]);
@@ -33,7 +44,7 @@ impl Geo {
             x = x * link.transform(&zero);
         }
         x = x * robot.tool;
-        if !has_parallel {
+        if family == Family::Wrist {
             // A point of axis 4 where it meets the others.
             points[3] = points[4];
         }
@@ -41,8 +52,11 @@ impl Geo {
         let h = Matrix3x6::from_fn(|r, c| axes[c][r]);
         let before = |r: usize, c: usize| if c == 0 { 0.0 } else { points[c - 1][r] };
         let p = SMatrix::<f64, 3, 7>::from_fn(|r, c| points[c][r] - before(r, c));
-        let make =
-            if has_parallel { robot::three_parallel_two_intersecting } else { robot::spherical_two_parallel };
+        let make = match family {
+            Family::ThreeParallel => robot::three_parallel_two_intersecting,
+            Family::Wrist => robot::spherical_two_parallel,
+            Family::General => robot::gen_six_dof,
+        };
         let last = Matrix3::from_fn(|r, c| x.rotation.rows()[r][c]);
         Geo { solver: Rc::new(make(h, p)), last }
     }
@@ -66,11 +80,17 @@ impl Geo {
         }
     }
 
+    /// All answers for one of the poses, by its number.
+    pub fn solver(&self, poses: &[Rows]) -> impl FnMut(usize) -> Vec<Joints> + 'static {
+        let (given, solver) = (self.given(poses), self.solver.clone());
+        move |k| {
+            let (r, p) = given[k];
+            solver.ik(r, p).iter().map(|(q, _)| std::array::from_fn(|j| q[j])).collect()
+        }
+    }
+
     pub fn contestant(&self, poses: &[Rows]) -> Contestant {
-        let all = |(r, p): (Matrix3<f64>, Vector3<f64>)| -> Vec<Joints> {
-            self.solver.ik(r, p).iter().map(|(q, _)| std::array::from_fn(|k| q[k])).collect()
-        };
-        let answers = self.given(poses).into_iter().map(all).collect();
+        let answers = (0..poses.len()).map(self.solver(poses)).collect();
         let run = Box::new(self.runner(poses));
         Contestant { name: "ik-geo 0.1.2".into(), limit: None, answers, run }
     }

@@ -2,7 +2,7 @@
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use denavit::description::Convention;
-use denavit::inverse::Goal;
+use denavit::inverse::{Criterion, Goal};
 use denavit_program::emit::Language;
 use std::path::PathBuf;
 
@@ -144,6 +144,12 @@ pub struct IkArguments {
     /// Give the solution nearest to these joint variables as well, whole turns within the limits
     #[arg(long, value_name = "Q", allow_hyphen_values = true)]
     pub near: Option<String>,
+    /// Give the best solution by a criterion as well
+    #[arg(long, value_name = "CRITERION", value_enum, conflicts_with_all = ["near", "follow"])]
+    pub best: Option<CriterionName>,
+    /// One solution of each pose, within the limits if one is, near to --near: quick for arms with many
+    #[arg(long)]
+    pub one: bool,
     /// With --input: each pose takes the solution nearest to that of the line before (the first to --near, or to 0)
     #[arg(long, requires = "input")]
     pub follow: bool,
@@ -163,6 +169,24 @@ pub struct IkArguments {
     /// Print JSON
     #[arg(long, conflicts_with = "format")]
     pub json: bool,
+}
+
+/// What makes a solution good.
+#[derive(Clone, Copy, ValueEnum)]
+pub enum CriterionName {
+    /// In the middle of the limits: the joint nearest to a limit is as far from it as can be
+    Limits,
+    /// Able to move in every direction: the smallest singular value of the Jacobian is as large as can be
+    Singularities,
+}
+
+impl From<CriterionName> for Criterion {
+    fn from(name: CriterionName) -> Self {
+        match name {
+            CriterionName::Limits => Criterion::FarthestFromLimits,
+            CriterionName::Singularities => Criterion::FarthestFromSingularity,
+        }
+    }
 }
 
 /// `derive`

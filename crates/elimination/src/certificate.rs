@@ -67,7 +67,7 @@ pub(crate) fn verdict<const GROUPS: usize>(
             reaching -= 1;
         } else {
             strangers += 1;
-            marks.add(s.atan2(c), true, 0.0);
+            marks.add(s.atan2(c), true);
         }
     }
     if strangers == 0 && reaching == 0 {
@@ -80,7 +80,7 @@ pub(crate) fn verdict<const GROUPS: usize>(
         }
         let (x, y, r) = at(k);
         // A large disc says that its root may be anywhere near.
-        marks.add(y.atan2(x), open[k] || !(r < VAGUE), r);
+        marks.add(y.atan2(x), open[k] || r >= VAGUE || r.is_nan());
         pairs = pairs
             && (!open[k]
                 || r < PAIR
@@ -94,8 +94,6 @@ pub(crate) fn verdict<const GROUPS: usize>(
 
 /// A disc with a radius larger than this tells little about where its root is.
 const VAGUE: f64 = 1e-2;
-/// No disc reaches further (rad) for neighbours than this.
-const WIDEST: f64 = 0.1;
 /// Largest disc of a root that may be half of a double one.
 const PAIR: f64 = 0.02;
 
@@ -105,20 +103,18 @@ pub(crate) struct Marks {
     pub count: usize,
     pub angles: [f64; 48],
     pub marked: [bool; 48],
-    /// Within which distance neighbours belong to the same crowd, at least.
-    pub reach: [f64; 48],
 }
 
 impl Default for Marks {
     fn default() -> Marks {
-        Marks { count: 0, angles: [0.0; 48], marked: [false; 48], reach: [0.0; 48] }
+        Marks { count: 0, angles: [0.0; 48], marked: [false; 48] }
     }
 }
 
 impl Marks {
     /// Adds an angle in its place.
     #[inline(always)]
-    fn add(&mut self, angle: f64, marked: bool, reach: f64) {
+    fn add(&mut self, angle: f64, marked: bool) {
         if self.count == self.angles.len() {
             return;
         }
@@ -126,12 +122,10 @@ impl Marks {
         while at > 0 && self.angles[at - 1] > angle {
             self.angles[at] = self.angles[at - 1];
             self.marked[at] = self.marked[at - 1];
-            self.reach[at] = self.reach[at - 1];
             at -= 1;
         }
         self.angles[at] = angle;
         self.marked[at] = marked;
-        self.reach[at] = if reach < WIDEST { reach } else { WIDEST };
         self.count += 1;
     }
 }

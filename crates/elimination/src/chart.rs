@@ -6,7 +6,10 @@
 //! the rounding errors there; near a crowd of roots, where all values are small, the errors of the determinant are small
 //! as well.
 
-use crate::lanes::Lanes;
+use crate::{
+    fourier::Trigonometric,
+    lanes::{Lanes, WIDTH},
+};
 
 /// A chart, and the part of the circle that it answers for.
 #[derive(Clone, Copy, Debug)]
@@ -15,21 +18,19 @@ pub struct Chart {
     pub centre: [f64; 2],
     /// `κ`: 1 shows the whole circle as it is.
     pub kappa: f64,
-    /// How far from the centre (rad) its roots count.
-    pub half_width: f64,
     /// How often a part of a part was taken.
     pub depth: u32,
 }
 
 impl Chart {
     /// The whole circle.
-    pub const WHOLE: Chart = Chart { centre: [1.0, 0.0], kappa: 1.0, half_width: 4.0, depth: 0 };
+    pub const WHOLE: Chart = Chart { centre: [1.0, 0.0], kappa: 1.0, depth: 0 };
 
     /// The arc around an angle, seen so that it covers half of the circle.
     #[inline(always)]
     pub fn around(angle: f64, half_width: f64, depth: u32) -> Chart {
         let (s, c) = angle.sin_cos();
-        Chart { centre: [c, s], kappa: (half_width / 2.0).tan(), half_width, depth }
+        Chart { centre: [c, s], kappa: (half_width / 2.0).tan(), depth }
     }
 
     /// The arc around the angle `θ'` as a chart of its own.
@@ -89,60 +90,62 @@ fn stretched(kappa: f64, c: f64, s: f64) -> [f64; 2] {
 /// Largest half width of a part (rad).
 const WIDEST: f64 = 2.8;
 
-/// A sorted list of angles on the circle (rad) with marks on some: the arcs around the marked ones that hold their close
-/// neighbours as well and end half way to the next, as `(centre, half width)`; their number.
+/// The arcs in which there may be roots that are not where they seem to be, as `(centre, half width)`; their number.
+///
+/// `angles` are sorted, those to be looked at are marked. Around each of them the polynomial may vanish as far as it is
+/// below its `noise`: the arc ends on either side where it is certainly not zero.
 #[inline(always)]
-pub fn crowds(angles: &[f64], marked: &[bool], reach: &[f64], out: &mut [(f64, f64); 8]) -> usize {
-    let n = angles.len();
-    let tau = std::f64::consts::TAU;
-    // Angle number k counted on around the circle, as often as needed.
-    let angle = |k: usize| angles[k % n] + tau * (k / n) as f64;
+pub fn crowds<const FUSED: bool>(
+    angles: &[f64],
+    marked: &[bool],
+    polynomial: &Trigonometric,
+    noise: f64,
+    out: &mut [(f64, f64); 8],
+) -> usize {
     let mut found = 0;
-    let mut from = 0;
-    while from < n && found < out.len() {
-        if !marked[from] {
-            from += 1;
+    for (&angle, &marked) in angles.iter().zip(marked) {
+        let known = |&(centre, half_width): &(f64, f64)| {
+            let away = (angle - centre).rem_euclid(std::f64::consts::TAU);
+            away < half_width || std::f64::consts::TAU - away < half_width
+        };
+        if !marked || out[..found].iter().any(known) {
             continue;
         }
-        // Grow to both sides while the next one is near compared to what there is.
-        let (mut low, mut high) = (from + n, from + n);
-        while high - low + 1 < n {
-            let span = angle(high) - angle(low);
-            let (before, after) = (angle(low) - angle(low - 1), angle(high + 1) - angle(high));
-            let near = if span < LEAST { LEAST } else { span * GROWTH };
-            let (left, right) = (reach[low % n], reach[high % n]);
-            let near = if near < left { left } else { near };
-            let near = if near < right { right } else { near };
-            if before <= near && before <= after {
-                low -= 1;
-            } else if after <= near {
-                high += 1;
-            } else if before <= near {
-                low -= 1;
-            } else {
-                break;
-            }
-            if low == 0 {
-                break;
-            }
+        if found == out.len() {
+            return 0;
         }
-        let span = angle(high) - angle(low);
-        let (before, after) = if high - low + 1 < n {
-            ((angle(low) - angle(low - 1)) / 2.0, (angle(high + 1) - angle(high)) / 2.0)
-        } else {
-            ((tau - span) / 2.0, (tau - span) / 2.0)
-        };
-        let margin = if span < LEAST { LEAST } else { span };
-        let least = if before < after { before } else { after };
-        let margin = if least < margin { least } else { margin };
-        out[found] = (angle(low) + span / 2.0, span / 2.0 + margin);
+        let (low, high) =
+            (clear::<FUSED>(polynomial, angle, -1.0, noise), clear::<FUSED>(polynomial, angle, 1.0, noise));
+        out[found] = ((low + high) / 2.0, (high - low) / 2.0);
         found += 1;
-        from = if high >= n { high - n + 1 } else { from + 1 };
     }
     found
 }
 
-/// Least span of a crowd (rad).
-const LEAST: f64 = 1e-3;
-/// A neighbour within this part of the span belongs to the crowd.
-const GROWTH: f64 = 0.5;
+/// The first of steps from an angle to one side at which the polynomial is clear of its noise.
+#[inline(always)]
+fn clear<const FUSED: bool>(polynomial: &Trigonometric, from: f64, side: f64, noise: f64) -> f64 {
+    let mut at = from;
+    let mut step = side * LEAST;
+    for _ in 0..3 {
+        let (mut steps, mut c, mut s) = ([0.0; WIDTH], Lanes::ZERO, Lanes::ZERO);
+        for l in 0..WIDTH {
+            at += step;
+            step *= GROWTH;
+            steps[l] = at;
+            (s.0[l], c.0[l]) = at.sin_cos();
+        }
+        let values = polynomial.values::<FUSED>(c, s).magnitude();
+        for l in 0..WIDTH {
+            if values.0[l] > noise {
+                return steps[l];
+            }
+        }
+    }
+    at
+}
+
+/// The first step (rad),
+const LEAST: f64 = 5e-4;
+/// and how it grows.
+const GROWTH: f64 = 1.3;

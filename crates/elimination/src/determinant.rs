@@ -39,11 +39,9 @@ pub fn strips<const FUSED: bool>(
         let row = &rows[i];
         for w in 0..3 {
             one_by_one();
-            let at = |k: usize| {
-                let known = c.scale_add::<FUSED>(row[9 + 3 * k + w], Lanes::splat(row[3 * k + w]));
-                s.scale_add::<FUSED>(row[18 + 3 * k + w], known)
-            };
-            let (one, first, second) = (at(0), at(1), at(2));
+            let one = entry::<FUSED>(row, w, c, s);
+            let first = entry::<FUSED>(row, 3 + w, c, s);
+            let second = entry::<FUSED>(row, 6 + w, c, s);
             let (a, b, c) = if half {
                 (one.plus(first), second.scale(2.0 * r), one.minus(first))
             } else {
@@ -57,6 +55,12 @@ pub fn strips<const FUSED: bool>(
             lower[i][6 + w] = b;
         }
     }
+}
+
+/// `E₁ + c E_c + s E_s`
+#[inline(always)]
+fn entry<const FUSED: bool>(row: &[f64; 27], k: usize, c: Lanes, s: Lanes) -> Lanes {
+    s.scale_add::<FUSED>(row[18 + k], c.scale_add::<FUSED>(row[9 + k], Lanes::splat(row[k])))
 }
 
 /// Eliminates the first `columns` columns of six rows with partial pivoting; the product of the pivots, signed.

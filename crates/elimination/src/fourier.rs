@@ -35,6 +35,20 @@ impl Default for Trigonometric {
     }
 }
 
+impl Trigonometric {
+    /// Its values at eight angles, given by cosines and sines: `c₀ + 2 Re Σ cₖ zᵏ` by Horner's rule.
+    #[inline(always)]
+    pub fn values<const FUSED: bool>(&self, c: Lanes, s: Lanes) -> Lanes {
+        let (mut re, mut im) = (Lanes::ZERO, Lanes::ZERO);
+        for k in (1..=self.degree).rev() {
+            let (a, b) = (re.plus(Lanes::splat(self.re[k])), im.plus(Lanes::splat(self.im[k])));
+            re = b.mul_sub::<FUSED>(s, a.times(c));
+            im = b.mul_add::<FUSED>(c, a.times(s));
+        }
+        re.scale_add::<FUSED>(2.0, Lanes::splat(self.re[0]))
+    }
+}
+
 /// Where the first node is, as a part of the spacing.
 const START: f64 = 0.381_966_011_250_105_1;
 

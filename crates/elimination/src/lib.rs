@@ -7,10 +7,14 @@
 //!
 //! In reading order: [`Arm`], [`Plan::new`] (offline), [`Plan::solve`] (online), [`Answer`].
 
+// Matrices: equations with row and column read better than iterators over both.
+#![allow(clippy::needless_range_loop)]
+
 mod answer;
 mod arm;
 mod certificate;
 mod chart;
+mod charts;
 mod determinant;
 mod eigen;
 mod eliminate;

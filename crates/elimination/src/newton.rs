@@ -21,13 +21,18 @@ struct Motion {
 /// Where the chain is at the values.
 #[inline(always)]
 fn forward<const FUSED: bool>(arm: &Arm, values: &[Value; 6]) -> Motion {
-    let splat = |v: [f64; 3]| v.map(Lanes::splat);
     let mut at = Motion {
-        rotation: arm.base.rotation.map(splat),
-        position: splat(arm.base.translation),
+        rotation: [[Lanes::ZERO; 3]; 3],
+        position: [Lanes::ZERO; 3],
         axes: [[Lanes::ZERO; 3]; 6],
         points: [[Lanes::ZERO; 3]; 6],
     };
+    for x in 0..3 {
+        at.position[x] = Lanes::splat(arm.base.translation[x]);
+        for k in 0..3 {
+            at.rotation[x][k] = Lanes::splat(arm.base.rotation[x][k]);
+        }
+    }
     for i in 0..6 {
         let [c, s] = values[i];
         let link = &arm.links[i];

@@ -49,7 +49,7 @@ impl std::fmt::Display for Unsuitable {
 impl std::error::Error for Unsuitable {}
 
 /// Poses on which every split is tried, and the best of them again.
-const POSES: [usize; 2] = [60, 240];
+const POSES: [usize; 2] = [32, 96];
 
 /// What a way to solve did on the poses.
 #[derive(Clone, Copy, Debug, Default)]
@@ -66,6 +66,11 @@ impl Score {
     fn merit(&self) -> f64 {
         let n = self.poses.max(1) as f64;
         (self.certified as f64 - 4.0 * self.missed as f64) / n - 0.002 * self.effort as f64 / n
+    }
+
+    /// Whether it is worth using.
+    fn usable(&self) -> bool {
+        2 * self.missed < self.poses && self.certified > 0
     }
 
     /// Counts one pose.
@@ -135,7 +140,7 @@ impl Plan {
                     |way, pose, work| solve_sliding::<false>(arm, way, pose, work),
                 ))
             }
-            _ => Method::Triple(Triple::new(arm).ok_or(Unsuitable::TooManySlides)?),
+            _ => Method::Triple(Box::new(Triple::new(arm).ok_or(Unsuitable::TooManySlides)?)),
         };
         let empty = match &method {
             Method::Splits(ways) => ways.is_empty(),
@@ -180,7 +185,7 @@ fn rank<W>(
             let verdict = solve(way, pose, &mut work);
             score.add(arm, q, verdict, &work);
             // Not worth more time.
-            if score.poses == 8 && score.missed > 6 {
+            if score.poses == 5 && (score.missed > 3 || score.certified == 0) {
                 break;
             }
         }
@@ -195,7 +200,7 @@ fn rank<W>(
     }
     tried.sort_by(order);
     let mut seen = [false; 6];
-    tried.retain(|(way, score)| 2 * score.missed < score.poses && !std::mem::replace(&mut seen[hidden(way)], true));
+    tried.retain(|(way, score)| score.usable() && !std::mem::replace(&mut seen[hidden(way)], true));
     tried.into_iter().map(|(way, _)| way).collect()
 }
 

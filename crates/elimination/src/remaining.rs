@@ -1,9 +1,6 @@
 //! From a null vector at a value of the hidden joint to all six joints, eight candidates at a time.
 
-use crate::{
-    arm::Joint, eliminate::Eliminated, extract::UNKNOWNS, forms::left_alone, lanes::Lanes, rigid::Rigid,
-    split::Split,
-};
+use crate::{arm::Joint, eliminate::Eliminated, extract::UNKNOWNS, lanes::Lanes, rigid::Rigid, split::Split};
 
 /// A joint's value in each lane: cosine and sine, or the slide (scaled) and nothing.
 pub type Value = [Lanes; 2];
@@ -100,17 +97,13 @@ pub fn complete<const FUSED: bool>(
     let normal = p[1].times(l[0]);
     let normal = p[0].times(l[1]).minus(normal);
     let last = pp.times(l[2]).minus(pl.times(p[2]).scale(2.0));
-    let forms = |k: usize| match k {
-        0..3 => p[k],
-        3..6 => l[k - 3],
-        6 => pp,
-        7 => pl,
-        10 => normal,
-        _ => last,
+    let seen = match split.kinds[1] {
+        Joint::Revolute => [p[2], l[2], pp, pl, normal, last],
+        Joint::Prismatic => [p[0], p[1], l[0], l[1], l[2], normal],
     };
     let mut m = [Lanes::ZERO; 2];
-    for (k, form) in left_alone(split.kinds[1]).into_iter().enumerate() {
-        let rest = forms(form).minus(Lanes::splat(eliminated.first[k][0]));
+    for (k, form) in seen.into_iter().enumerate() {
+        let rest = form.minus(Lanes::splat(eliminated.first[k][0]));
         m[0] = rest.scale_add::<FUSED>(first.weights[0][k], m[0]);
         m[1] = rest.scale_add::<FUSED>(first.weights[1][k], m[1]);
     }
@@ -127,15 +120,10 @@ pub fn complete<const FUSED: bool>(
 
     // The same line from the other side, up to the second joint: L₁⁻¹ Z₁⁻¹ L₆⁻¹
     let close = &links[5];
-    let back = |v: [f64; 3], point: bool| {
-        through_back::<FUSED>(
-            &links[0],
-            point,
-            joint_back::<FUSED>(split.kinds[0], &ring[0], point, splat(v)),
-        )
-    };
-    let p2 = back(close.point_back([0.0; 3]), true);
-    let l2 = back(close.rotation[2], false);
+    let p2 = joint_back::<FUSED>(split.kinds[0], &ring[0], true, splat(close.point_back([0.0; 3])));
+    let p2 = through_back::<FUSED>(&links[0], true, p2);
+    let l2 = joint_back::<FUSED>(split.kinds[0], &ring[0], false, splat(close.rotation[2]));
+    let l2 = through_back::<FUSED>(&links[0], false, l2);
     ring[1] = match split.kinds[1] {
         // (x', y') = (c x + s y, c y − s x)
         Joint::Revolute => {

@@ -11,12 +11,13 @@ use crate::{
     arm::{Arm, Joint},
     certificate::{Verdict, verdict},
     chart::Chart,
+    charts::{Charts, NEARBY, near_roots, noise},
     fourier::{Fourier, Trigonometric},
     lanes::{Lanes, WIDTH},
     newton::polish,
     remaining::Value,
     rigid::Rigid,
-    solve::{ACCEPTED, NEARBY, USELESS, add, near_roots, noise, over_charts},
+    solve::{ACCEPTED, USELESS, add},
 };
 
 /// A way round the ring of the four turns.
@@ -102,12 +103,16 @@ impl Sliding {
         let turning: [usize; 4] = of(Joint::Revolute).try_into().ok()?;
         let slides: [usize; 2] = of(Joint::Prismatic).try_into().ok()?;
         // The rotation behind turn number a, up to the next one; behind the last one up to the tool.
-        let product = |from: usize, to: usize| arm.links[from..to].iter().fold(Rigid::IDENTITY, |a, b| a.then(b));
+        let product =
+            |from: usize, to: usize| arm.links[from..to].iter().fold(Rigid::IDENTITY, |a, b| a.then(b));
         let behind: [Rigid; 4] =
-            std::array::from_fn(|a| if a < 3 { product(turning[a], turning[a + 1]) } else { Rigid::IDENTITY });
+            std::array::from_fn(
+                |a| if a < 3 { product(turning[a], turning[a + 1]) } else { Rigid::IDENTITY },
+            );
         let (before, after) = (product(turning[3], 6), arm.base.then(&product(0, turning[0])));
 
-        let order: [usize; 4] = std::array::from_fn(|i| if forwards { (first + i) % 4 } else { (first + 4 - i) % 4 });
+        let order: [usize; 4] =
+            std::array::from_fn(|i| if forwards { (first + i) % 4 } else { (first + 4 - i) % 4 });
         let between: [Rigid; 4] =
             order.map(|a| if forwards { behind[a] } else { behind[(a + 3) % 4].inverse() });
         let pose_at = order.iter().position(|&a| a == if forwards { 3 } else { 0 })?;
@@ -240,11 +245,15 @@ impl Sliding {
             im: left.where_less(Lanes::ZERO, none, Lanes::ZERO),
         };
         let inverse = Lanes::ONE.over(square.larger(Lanes::splat(1e-200)));
-        let along = |of: Lanes, across: Lanes| Complex {
-            re: across.mul_add::<FUSED>(root.re, of.times(k)).times(inverse),
-            im: across.times(root.im).times(inverse),
+        // (c₂, s₂) = ((A, B) K + (−B, A) root) / (A² + B²)
+        let c2 = Complex {
+            re: b.mul_sub::<FUSED>(root.re, a.times(k)).times(inverse),
+            im: b.times(root.im).times(inverse).negated(),
         };
-        let (c2, s2) = (along(a, b.negated()), along(b, a));
+        let s2 = Complex {
+            re: a.mul_add::<FUSED>(root.re, b.times(k)).times(inverse),
+            im: a.times(root.im).times(inverse),
+        };
 
         // h = C₄ Z₁ C₁ Z₂ C₂ e₃ = Z₄⁻¹ C₃ᵀ e₃,   g = C₂ᵀ Z₂ᵀ w = Z₃ C₃ e₃
         let y = [
@@ -260,7 +269,7 @@ impl Sliding {
             y[2],
         ];
         let h = turn::<FUSED>(&between[3], &y);
-        let w = w.map(Complex::real);
+        let w = [Complex::real(w[0]), Complex::real(w[1]), Complex::real(w[2])];
         let y = [
             c2.times::<FUSED>(w[0]).plus(s2.times::<FUSED>(w[1])),
             c2.times::<FUSED>(w[1]).minus(s2.times::<FUSED>(w[0])),
@@ -286,11 +295,13 @@ impl Sliding {
     /// The chain with the slides at 0.
     #[inline(always)]
     fn position<const FUSED: bool>(&self, arm: &Arm, target: &Rigid, values: [[Complex; 2]; 6]) -> Branch {
-        let splat = |x: f64| Complex::real(Lanes::splat(x));
-        let mut rotation = arm.base.rotation.map(|row| row.map(splat));
+        let mut rotation = [[Complex::ZERO; 3]; 3];
         let mut offset = [Complex::ZERO; 3];
         for x in 0..3 {
-            offset[x] = splat(arm.base.translation[x] - target.translation[x]);
+            offset[x].re = Lanes::splat(arm.base.translation[x] - target.translation[x]);
+            for k in 0..3 {
+                rotation[x][k].re = Lanes::splat(arm.base.rotation[x][k]);
+            }
         }
         let mut directions = [[Complex::ZERO; 3]; 2];
         for i in 0..6 {
@@ -364,31 +375,48 @@ pub(crate) fn solve_sliding<const FUSED: bool>(
     work: &mut Work,
 ) -> Verdict {
     let between = sliding.at(target);
-    over_charts(work, |chart, work| {
-        work.marks.count = 0;
-        let samples = sliding.samples::<FUSED>(arm, &between, target, chart);
-        let useful = sliding.fourier.fit::<FUSED>(sliding.degree, &samples, &mut work.polynomial);
-        if !useful || work.polynomial.noise > USELESS {
-            return Verdict::Uncertain;
-        }
-        work.wide.find::<FUSED>(&work.polynomial, noise(&work.polynomial));
-        let mut near = [([0.0; 2], false); NEARBY];
-        let count = near_roots(chart, &work.wide, &mut near);
-        for group in near[..count].chunks(WIDTH) {
-            let [c, s] = gather(group, |(pair, _)| *pair);
-            for side in [1.0, -1.0] {
-                let (branch, _) = sliding.branch::<FUSED>(arm, &between, target, c, s, side, false);
-                let mut values = real_values::<FUSED>(sliding, &branch);
-                let residual = polish::<FUSED>(arm, target, &mut values);
-                for l in 0..group.len() {
-                    if residual.0[l] <= ACCEPTED {
-                        add(arm, &mut work.found, Found { values: lane(&values, l), residual: residual.0[l] });
-                    }
+    work.candidates.clear();
+    let mut charts = Charts::whole();
+    while let Some(chart) = charts.next() {
+        let verdict = solve_chart::<FUSED>(arm, sliding, &between, target, &chart, work);
+        charts.settle::<FUSED>(&chart, verdict, work);
+    }
+    charts.verdict(work)
+}
+
+/// Finds the roots that a chart shows, and the configurations that belong to them.
+#[inline(always)]
+fn solve_chart<const FUSED: bool>(
+    arm: &Arm,
+    sliding: &Sliding,
+    between: &[Rigid; 4],
+    target: &Rigid,
+    chart: &Chart,
+    work: &mut Work,
+) -> Verdict {
+    work.marks.count = 0;
+    let samples = sliding.samples::<FUSED>(arm, between, target, chart);
+    let useful = sliding.fourier.fit::<FUSED>(sliding.degree, &samples, &mut work.polynomial);
+    if !useful || work.polynomial.noise > USELESS {
+        return Verdict::Uncertain;
+    }
+    work.wide.find::<FUSED>(&work.polynomial, noise(&work.polynomial));
+    let mut near = [([0.0; 2], false); NEARBY];
+    let count = near_roots(chart, &work.wide, &mut near);
+    for group in near[..count].chunks(WIDTH) {
+        let [c, s] = gather(group, |(pair, _)| *pair);
+        for side in [1.0, -1.0] {
+            let (branch, _) = sliding.branch::<FUSED>(arm, between, target, c, s, side, false);
+            let mut values = real_values::<FUSED>(sliding, &branch);
+            let residual = polish::<FUSED>(arm, target, &mut values);
+            for l in 0..group.len() {
+                if residual.0[l] <= ACCEPTED {
+                    add(arm, &mut work.found, Found { values: lane(&values, l), residual: residual.0[l] });
                 }
             }
         }
-        verdict(sliding.turns[0], sliding.sign, chart, &work.wide, &work.found, &mut work.marks)
-    })
+    }
+    verdict(sliding.turns[0], sliding.sign, chart, &work.wide, &work.found, &mut work.marks)
 }
 
 /// The joints' values with the slides that come nearest to the position.

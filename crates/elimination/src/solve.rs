@@ -4,33 +4,31 @@ use crate::{
     answer::{Answer, Candidate, Certificate, Found, Solution, Work, gather, lane},
     arm::{Arm, Joint},
     certificate::{Verdict, verdict},
-    chart::{Chart, crowds},
+    chart::Chart,
+    charts::{Charts, NEARBY, TOGETHER, near_roots, noise},
     determinant::determinant,
     eliminate::eliminate,
     extract::{SHARED, SMALL, UNKNOWNS, null_vectors, shared},
-    fourier::{Fourier, Trigonometric},
+    fourier::Fourier,
     lanes::{Lanes, WIDTH},
     newton::{polish, smallest_singular_values},
     remaining::{First, complete},
     rigid::Rigid,
-    roots::Roots,
     slides::{Sliding, solve_sliding},
     split::Split,
     triple::{Triple, solve_triple},
 };
 
-/// Roots within this distance of the circle are tried as real angles: noise moves a double root by its square root.
-const NEAR: f64 = 0.02;
 /// Largest distance to the pose that is accepted.
 pub(crate) const ACCEPTED: f64 = 1e-10;
 /// Configurations closer than this are one.
 const SAME: f64 = 1e-6;
-/// Least noise of the polynomial that the discs allow for.
-const NOISE: f64 = 2e-14;
 /// A fit with more noise than this is of no use.
 pub(crate) const USELESS: f64 = 1e-5;
 /// Smallest singular value below which a configuration counts as double.
 pub(crate) const SINGULAR: f64 = 1e-6;
+/// Bound of the second derivative of the pose, lengths divided by the arm's size.
+const CURVATURE: f64 = 20.0;
 /// Degree of the determinant in the hidden angle.
 pub(crate) const DEGREE: usize = 8;
 
@@ -45,13 +43,6 @@ pub(crate) struct Constants {
     pub fourier: Fourier<3>,
 }
 
-/// Most charts of a split.
-const CHARTS: usize = 12;
-/// How deep charts are taken of parts of charts.
-const DEPTH: u32 = 4;
-/// Roots of the whole circle closer than this (rad) may be one that several configurations share.
-const TOGETHER: f64 = 3e-4;
-
 /// Solves one split and adds what it finds to `work.found`.
 #[inline(always)]
 pub(crate) fn solve_split<const FUSED: bool>(
@@ -63,37 +54,12 @@ pub(crate) fn solve_split<const FUSED: bool>(
     let arm = &constants.arm;
     let closing = arm.links[5].then(&target.inverse()).then(&arm.base);
     eliminate::<FUSED>(split, &closing, &mut work.eliminated);
-    over_charts(work, |chart, work| solve_chart::<FUSED>(constants, split, target, chart, work))
-}
-
-/// Solves in the chart of the whole circle, then in charts of the arcs where something does not fit.
-#[inline(always)]
-pub(crate) fn over_charts(work: &mut Work, mut solve: impl FnMut(&Chart, &mut Work) -> Verdict) -> Verdict {
-    let mut charts = [Chart::WHOLE; CHARTS];
-    let (mut done, mut count) = (0, 1);
-    let mut total = Verdict::Certified;
-    work.effort = 0;
-    while done < count {
-        let chart = charts[done];
-        done += 1;
-        let verdict = solve(&chart, work);
-        work.effort += 8 + work.candidates.len();
-        if verdict == Verdict::Certified {
-            continue;
-        }
-        let mut arcs = [(0.0, 0.0); 8];
-        let (marks, n) = (&work.marks, work.marks.count);
-        let crowds = crowds(&marks.angles[..n], &marks.marked[..n], &marks.reach[..n], &mut arcs);
-        if crowds == 0 || chart.depth == DEPTH || count + crowds > CHARTS {
-            total = if total == Verdict::Uncertain { total } else { verdict };
-            continue;
-        }
-        for &(centre, half_width) in &arcs[..crowds] {
-            charts[count] = chart.part(centre, half_width);
-            count += 1;
-        }
+    let mut charts = Charts::whole();
+    while let Some(chart) = charts.next() {
+        let verdict = solve_chart::<FUSED>(constants, split, target, &chart, work);
+        charts.settle::<FUSED>(&chart, verdict, work);
     }
-    if total == Verdict::Certified && !work.found.len().is_multiple_of(2) { Verdict::Uncertain } else { total }
+    charts.verdict(work)
 }
 
 /// Finds the roots that a chart shows, and the configurations that belong to them.
@@ -127,51 +93,6 @@ fn solve_chart<const FUSED: bool>(
     verdict(split.joints[2], split.sign, chart, &work.roots, &work.found, &mut work.marks)
 }
 
-/// The noise that the discs allow for.
-#[inline(always)]
-pub(crate) fn noise(polynomial: &Trigonometric) -> f64 {
-    if 4.0 * polynomial.noise > NOISE { 4.0 * polynomial.noise } else { NOISE }
-}
-
-/// Most roots near the circle, with the middles of those that are close together.
-pub(crate) const NEARBY: usize = 48;
-
-/// The roots near the circle as cosines and sines of the hidden joint, and the middles of those that are close together
-/// (marked): a root that several configurations share falls apart by the root of the noise, its middle does not.
-#[inline(always)]
-pub(crate) fn near_roots<const GROUPS: usize>(
-    chart: &Chart,
-    roots: &Roots<GROUPS>,
-    near: &mut [([f64; 2], bool); NEARBY],
-) -> usize {
-    let mut count = 0;
-    for k in 0..roots.count {
-        let (x, y) = (roots.re[k / 8].0[k % 8], roots.im[k / 8].0[k % 8]);
-        let modulus = (x * x + y * y).sqrt();
-        let (x, y) = (x / modulus, y / modulus);
-        if (modulus - 1.0).abs() < NEAR && chart.answers_for(x + 0.1) {
-            let mut middle = [0.0; 2];
-            for ([u, v], _) in &near[..count] {
-                if (x - u).abs() + (y - v).abs() < TOGETHER {
-                    let (c, s) = (x + u, y + v);
-                    let length = (c * c + s * s).sqrt();
-                    middle = [c / length, s / length];
-                }
-            }
-            near[count] = ([x, y], false);
-            count += 1;
-            if middle != [0.0; 2] {
-                near[count] = (middle, true);
-                count += 1;
-            }
-        }
-    }
-    for (pair, _) in &mut near[..count] {
-        *pair = chart.outside(*pair);
-    }
-    count
-}
-
 /// Adds the null vectors at the given cosines and sines of the hidden joint to the candidates.
 ///
 /// Where several configurations share a root, the middles of close roots are exact: they serve instead of the roots.
@@ -197,8 +118,8 @@ fn candidates<const FUSED: bool>(split: &Split, near: &[([f64; 2], bool)], work:
     for k in 0..near.len() {
         let ([c, s], middle) = near[k];
         let together = |j: usize| (near[j].0[0] - c).abs() + (near[j].0[1] - s).abs() < 2.0 * TOGETHER;
-        let shared_here = !(small[k] > SMALL);
-        let replaced = !middle && (0..near.len()).any(|j| near[j].1 && !(small[j] > SMALL) && together(j));
+        let shared_here = small[k] <= SMALL || small[k].is_nan();
+        let replaced = !middle && (0..near.len()).any(|j| near[j].1 && small[j] <= SMALL && together(j));
         if replaced || (middle && !shared_here) {
             continue;
         }
@@ -274,12 +195,17 @@ pub(crate) enum Method {
     /// Two slides: the rotations first.
     Slides(Vec<Sliding>),
     /// Three slides: in closed form.
-    Triple(Triple),
+    Triple(Box<Triple>),
 }
 
 /// One way after the other, until one certifies the answer.
 #[inline(always)]
-pub(crate) fn solve<const FUSED: bool>(constants: &Constants, method: &Method, pose: &Rigid, answer: &mut Answer) {
+pub(crate) fn solve<const FUSED: bool>(
+    constants: &Constants,
+    method: &Method,
+    pose: &Rigid,
+    answer: &mut Answer,
+) {
     let target = pose.scaled(1.0 / constants.size);
     let work = &mut answer.work;
     work.found.clear();
@@ -316,7 +242,7 @@ pub(crate) fn solve<const FUSED: bool>(constants: &Constants, method: &Method, p
 #[inline(always)]
 fn report<const FUSED: bool>(constants: &Constants, last: Verdict, answer: &mut Answer) {
     answer.solutions.clear();
-    let mut least = f64::INFINITY;
+    let mut all_isolated = true;
     for group in answer.work.found.chunks(WIDTH) {
         let flat: [Lanes; 12] = gather(group, |found| {
             let mut flat = [0.0; 12];
@@ -343,13 +269,15 @@ fn report<const FUSED: bool>(constants: &Constants, last: Verdict, answer: &mut 
                 };
             }
             let singular = if singular.0[l].is_finite() { singular.0[l] } else { 0.0 };
-            least = if singular < least { singular } else { least };
+            // Newton and Kantorovich: a root of its own lies near if 2 K residual ≤ σ², K bounds the second derivative.
+            let isolated = singular > SINGULAR && 2.0 * CURVATURE * found.residual <= singular * singular;
+            all_isolated = all_isolated && isolated;
             let multiplicity = if singular < SINGULAR { 2 } else { 1 };
             answer.solutions.push(Solution { q, residual: found.residual, singular, multiplicity });
         }
     }
     answer.certificate = match last {
-        _ if least < SINGULAR => Certificate::NearDoubleRoot,
+        _ if !all_isolated => Certificate::NearDoubleRoot,
         Verdict::Certified => Certificate::Complete,
         Verdict::Pairs => Certificate::NearDoubleRoot,
         Verdict::Uncertain => Certificate::Undecided,

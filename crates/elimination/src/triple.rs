@@ -32,7 +32,8 @@ impl Triple {
         let of = |kind: Joint| (0..6).filter(|&i| arm.joints[i] == kind).collect::<Vec<usize>>();
         let turns: [usize; 3] = of(Joint::Revolute).try_into().ok()?;
         let slides: [usize; 3] = of(Joint::Prismatic).try_into().ok()?;
-        let product = |from: usize, to: usize| arm.links[from..to].iter().fold(Rigid::IDENTITY, |a, b| a.then(b));
+        let product =
+            |from: usize, to: usize| arm.links[from..to].iter().fold(Rigid::IDENTITY, |a, b| a.then(b));
         Some(Triple {
             turns,
             slides,
@@ -47,7 +48,12 @@ const MEETING: f64 = 1e-7;
 
 /// Both branches, polished.
 #[inline(always)]
-pub(crate) fn solve_triple<const FUSED: bool>(arm: &Arm, triple: &Triple, target: &Rigid, work: &mut Work) -> Verdict {
+pub(crate) fn solve_triple<const FUSED: bool>(
+    arm: &Arm,
+    triple: &Triple,
+    target: &Rigid,
+    work: &mut Work,
+) -> Verdict {
     let [first, second] = &triple.between;
     let closing = triple.around_pose[0].then(&target.inverse()).then(&triple.around_pose[1]);
     // (C₃ Z₁ C₁)₃₃ = A cos q₁ + B sin q₁ + C
@@ -59,9 +65,12 @@ pub(crate) fn solve_triple<const FUSED: bool>(arm: &Arm, triple: &Triple, target
     let square = a * a + b * b;
     let left = square - k * k;
     let root = if left > 0.0 { left.sqrt() } else { 0.0 };
-    let close = root < MEETING || !(square > 0.0);
-    if left < -MEETING * MEETING || !(square > 0.0) {
-        return if square > 0.0 { Verdict::Certified } else { Verdict::Uncertain };
+    let close = root < MEETING;
+    if square < 1e-24 || square.is_nan() {
+        return Verdict::Uncertain;
+    }
+    if left < -MEETING * MEETING {
+        return Verdict::Certified;
     }
     let mut all = true;
     for side in [root, -root] {
@@ -104,7 +113,10 @@ pub(crate) fn solve_triple<const FUSED: bool>(arm: &Arm, triple: &Triple, target
         for x in 0..3 {
             pairs[triple.slides[x]][0] = dot(rest, cross(axes[(x + 1) % 3], axes[(x + 2) % 3])) / det;
         }
-        let mut values = pairs.map(|pair| pair.map(Lanes::splat));
+        let mut values = [[Lanes::ZERO; 2]; 6];
+        for (value, [c, s]) in values.iter_mut().zip(pairs) {
+            *value = [Lanes::splat(c), Lanes::splat(s)];
+        }
         let residual = polish::<FUSED>(arm, target, &mut values).0[0];
         if residual <= ACCEPTED {
             add(arm, &mut work.found, Found { values: lane(&values, 0), residual });

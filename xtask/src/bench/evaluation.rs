@@ -4,6 +4,7 @@ use crate::{cargo, path};
 use anyhow::{Context, Result, bail};
 use serde_json::Value;
 use std::fmt::Write;
+use std::path::PathBuf;
 use std::process::Stdio;
 
 /// Measures, prints the tables, and gives the section of the page.
@@ -29,7 +30,8 @@ pub fn measured(arguments: &[&str]) -> Result<Value> {
     let mut cargo = cargo();
     cargo.args(["run", "--release", "--quiet", "--manifest-path"]).arg(path("bench/Cargo.toml"));
     cargo.arg("--").args(arguments);
-    cargo.env("CARGO_TARGET_DIR", path("target/bench")).stderr(Stdio::inherit());
+    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| path("target"), PathBuf::from);
+    cargo.env("CARGO_TARGET_DIR", target.join("bench")).stderr(Stdio::inherit());
     if cfg!(target_arch = "x86_64") {
         cargo.env("RUSTFLAGS", "-C target-cpu=x86-64-v3");
     }

@@ -1,5 +1,6 @@
 //! Benchmarks, and the page that keeps their results.
 
+mod arms;
 mod closed_form;
 mod derivation;
 mod evaluation;
@@ -14,22 +15,29 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 const PAGE: &str = "docs/performance.md";
 
-/// What can be measured: its name, the title of its section, and the measurement.
-type Part = (&'static str, &'static str, fn() -> Result<String>);
+/// What can be measured: its name, the title of its section, and the measurement, with fewer poses if that is true.
+type Part = (&'static str, &'static str, fn(bool) -> Result<String>);
 
 const PARTS: &[Part] = &[
-    ("evaluation", "Evaluation", evaluation::run),
-    ("inverse", "Inverse kinematics", inverse::run),
-    ("derivation", "Derivation", derivation::run),
+    ("evaluation", "Evaluation", |_| evaluation::run()),
+    ("inverse", "Inverse kinematics", |_| inverse::run()),
+    ("arms", "Every arm", arms::run),
+    ("derivation", "Derivation", |_| derivation::run()),
 ];
 /// What stands behind a figure that is above its limit.
 const MISSED: &str = "**missed**";
+
+/// Takes fewer poses, where a part can: to see that it works.
+const QUICK: &str = "--quick";
 
 /// Measures the parts named, or all of them; with `write` their sections of the page are renewed.
 ///
 /// # Errors
 /// If a measurement fails, a limit is missed, there is no such part, or the page cannot be written.
-pub fn run(wanted: &[&str], write: bool) -> Result<()> {
+pub fn run(arguments: &[&str], write: bool) -> Result<()> {
+    let is_quick = arguments.contains(&QUICK);
+    anyhow::ensure!(!(is_quick && write), "figures of a quick run are not kept");
+    let wanted: Vec<&str> = arguments.iter().copied().filter(|a| *a != QUICK).collect();
     if let Some(unknown) = wanted.iter().find(|w| PARTS.iter().all(|p| p.0 != **w)) {
         let known: Vec<&str> = PARTS.iter().map(|p| p.0).collect();
         anyhow::bail!("no benchmark `{unknown}`; there are {}", known.join(", "));
@@ -37,7 +45,7 @@ pub fn run(wanted: &[&str], write: bool) -> Result<()> {
     let mut missed = 0;
     for (_, title, measure) in PARTS.iter().filter(|p| wanted.is_empty() || wanted.contains(&p.0)) {
         println!("\n━━ {title} ━━");
-        let section = measure()?;
+        let section = measure(is_quick)?;
         missed += section.matches(MISSED).count();
         if write {
             renew(title, &section)?;
@@ -48,13 +56,20 @@ pub fn run(wanted: &[&str], write: bool) -> Result<()> {
     Ok(())
 }
 
-/// Replaces one section of the page, from its heading to the next one of that rank.
+/// Replaces one section of the page, from its heading to the next one of that rank, or adds it.
 fn renew(title: &str, section: &str) -> Result<()> {
     let page = fs::read_to_string(path(PAGE)).context(PAGE)?;
+    let place = |title: &str| page.find(&format!("## {title}\n"));
     let heading = format!("## {title}\n");
-    let start = page.find(&heading).with_context(|| format!("{PAGE} has no section {title}"))?;
-    let rest = start + heading.len();
-    let end = page[rest..].find("\n## ").map_or(page.len(), |n| rest + n + 1);
+    let (start, end) = if let Some(start) = place(title) {
+        let rest = start + heading.len();
+        (start, page[rest..].find("\n## ").map_or(page.len(), |n| rest + n + 1))
+    } else {
+        // A new section stands before the first of those that follow it.
+        let following = PARTS.iter().skip_while(|p| p.1 != title).skip(1);
+        let start = following.filter_map(|p| place(p.1)).min().unwrap_or(page.len());
+        (start, start)
+    };
     let today = date(SystemTime::now().duration_since(UNIX_EPOCH)?.as_secs() / 86_400);
     let text = format!(
         "{}{heading}\nMeasured {today} on {}.\n\n{}\n{}",

@@ -1,7 +1,13 @@
 //! Arms to test on, from their tables, and pseudo-random numbers.
 #![allow(dead_code)]
 
-use denavit_elimination::{Arm, Joint, Rigid};
+use denavit_elimination::{Answer, Arm, Joint, Plan, Rigid};
+
+/// The solver, compiled once a test program.
+#[inline(never)]
+pub fn solve(plan: &Plan, pose: &Rigid, answer: &mut Answer) {
+    plan.solve::<false>(pose, answer);
+}
 
 /// Pseudo-random numbers (xorshift64*).
 pub struct Draws(pub u64);
@@ -57,8 +63,8 @@ fn exact(mut rigid: Rigid) -> Rigid {
 pub fn standard(rows: [[f64; 4]; 6]) -> Arm {
     let mut links = rows.map(|[a, d, alpha, _]| shift(a, d).then(&exact(rx(alpha.to_radians()))));
     let offset = |i: usize| exact(rz(rows[i][3].to_radians()));
-    for i in 0..5 {
-        links[i] = links[i].then(&offset(i + 1));
+    for (i, link) in links.iter_mut().enumerate().take(5) {
+        *link = link.then(&offset(i + 1));
     }
     Arm { base: offset(0), joints: [Joint::Revolute; 6], links }
 }
@@ -268,4 +274,96 @@ pub fn named() -> Vec<(&'static str, Arm)> {
         ("3P3R, slides 1 2 3", sliding(&[0, 1, 2], 18)),
         ("3P3R, slides 2 4 5", sliding(&[1, 3, 4], 19)),
     ]
+}
+
+/// The largest difference between two configurations: angles as chords, slides in parts of the arm's size.
+pub fn apart(arm: &Arm, a: &[f64; 6], b: &[f64; 6]) -> f64 {
+    let size = arm.size();
+    (0..6)
+        .map(|i| match arm.joints[i] {
+            Joint::Revolute => 2.0 * ((a[i] - b[i]) / 2.0).sin().abs(),
+            Joint::Prismatic => (a[i] - b[i]).abs() / size,
+        })
+        .fold(0.0, f64::max)
+}
+
+/// The distance of two poses, lengths in parts of the arm's size.
+pub fn distance(arm: &Arm, a: &Rigid, b: &Rigid) -> f64 {
+    let mut square = 0.0;
+    for i in 0..3 {
+        square += ((a.translation[i] - b.translation[i]) / arm.size()).powi(2);
+        for k in 0..3 {
+            square += (a.rotation[i][k] - b.rotation[i][k]).powi(2) / 2.0;
+        }
+    }
+    square.sqrt()
+}
+
+/// The arm read from the tool to the base: `T⁻¹ = A₆⁻¹ Z₆(−q₆) A₅⁻¹ … Z₁(−q₁) B⁻¹`, where `Z(−q)` is `Z(q)` between half
+/// turns about x.
+pub fn reversed(arm: &Arm) -> Arm {
+    let flip =
+        Rigid { rotation: [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, -1.0]], translation: [0.0; 3] };
+    let links = std::array::from_fn(|i| match i {
+        5 => flip.then(&arm.base.inverse()),
+        _ => flip.then(&arm.links[4 - i].inverse()).then(&flip),
+    });
+    let mut joints = arm.joints;
+    joints.reverse();
+    Arm { base: arm.links[5].inverse().then(&flip), joints, links }
+}
+
+/// Levenberg and Marquardt's steps with a Jacobian by differences: nothing in common with the solver.
+pub fn newton(arm: &Arm, pose: &Rigid, mut q: [f64; 6]) -> Option<[f64; 6]> {
+    let size = arm.size();
+    let rest = |q: &[f64; 6]| -> [f64; 12] {
+        let at = arm.pose(q);
+        std::array::from_fn(|k| match k {
+            0..3 => (at.translation[k] - pose.translation[k]) / size,
+            _ => at.rotation[(k - 3) / 3][(k - 3) % 3] - pose.rotation[(k - 3) / 3][(k - 3) % 3],
+        })
+    };
+    let norm = |r: &[f64; 12]| r.iter().map(|x| x * x).sum::<f64>();
+    let mut damping = 1e-2;
+    for _ in 0..60 {
+        let r = rest(&q);
+        if norm(&r) < 1e-24 {
+            return Some(q);
+        }
+        let columns: [[f64; 12]; 6] = std::array::from_fn(|i| {
+            let (mut a, mut b) = (q, q);
+            a[i] += 1e-6;
+            b[i] -= 1e-6;
+            let (a, b) = (rest(&a), rest(&b));
+            std::array::from_fn(|k| (a[k] - b[k]) / 2e-6)
+        });
+        let mut m = [[0.0; 7]; 6];
+        for i in 0..6 {
+            for j in 0..6 {
+                m[i][j] = columns[i].iter().zip(&columns[j]).map(|(a, b)| a * b).sum();
+            }
+            m[i][i] += damping * (1e-3 + m[i][i]);
+            m[i][6] = -columns[i].iter().zip(&r).map(|(a, b)| a * b).sum::<f64>();
+        }
+        for k in 0..6 {
+            let pivot = m[k];
+            for (_, row) in m.iter_mut().enumerate().filter(|(i, _)| *i != k) {
+                let factor = row[k] / pivot[k];
+                for (entry, pivot) in row.iter_mut().zip(pivot) {
+                    *entry -= factor * pivot;
+                }
+            }
+        }
+        let mut next = q;
+        for i in 0..6 {
+            next[i] += m[i][6] / m[i][i];
+        }
+        if norm(&rest(&next)) < norm(&r) {
+            q = next;
+            damping /= 8.0;
+        } else {
+            damping *= 4.0;
+        }
+    }
+    None
 }

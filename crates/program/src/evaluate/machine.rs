@@ -84,9 +84,35 @@ impl Isa {
         }
     }
 
+    /// Does some work, compiled for this set with the arithmetic that is its [own](Self::arithmetic): half the code of
+    /// [`run`](Self::run), for work that is long.
+    #[inline]
+    pub fn run_natively<W: Work>(self, work: W) {
+        #[cfg(target_arch = "x86_64")]
+        #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
+        fn avx512<W: Work>(work: W) {
+            work.run::<true>();
+        }
+        #[cfg(target_arch = "x86_64")]
+        #[target_feature(enable = "avx2,fma")]
+        fn avx2<W: Work>(work: W) {
+            work.run::<true>();
+        }
+        // SAFETY of the calls: as in `run`.
+        match self.0 {
+            #[cfg(target_arch = "x86_64")]
+            Set::Avx512 => unsafe { avx512(work) },
+            #[cfg(target_arch = "x86_64")]
+            Set::Avx2 => unsafe { avx2(work) },
+            Set::Portable => {
+                work.run::<{ cfg!(any(target_arch = "aarch64", target_feature = "fma")) }>();
+            }
+        }
+    }
+
     /// Does some work, compiled for this set.
     #[inline]
-    pub fn run<W: Work>(self, arithmetic: Arithmetic, work: W) {
+    pub(crate) fn run<W: Work>(self, arithmetic: Arithmetic, work: W) {
         #[cfg(target_arch = "x86_64")]
         #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
         fn avx512<W: Work, const FUSED: bool>(work: W) {

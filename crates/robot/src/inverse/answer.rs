@@ -42,6 +42,8 @@ pub enum Doubt {
     Uncounted,
     /// Solutions were searched for by descent from several starts, and there may be any number.
     Searched,
+    /// One solution was asked for.
+    OneAsked,
 }
 
 impl Doubt {
@@ -52,6 +54,7 @@ impl Doubt {
             Doubt::DoubleRoot => "undecided near a double root",
             Doubt::Uncounted => "the roots could not be counted",
             Doubt::Searched => "searched for from several starts",
+            Doubt::OneAsked => "one was asked for",
         }
     }
 }

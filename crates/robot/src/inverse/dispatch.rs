@@ -9,18 +9,20 @@
 //!
 //! Nothing is rounded to a special arm here: see [`idealised`](crate::idealise::idealised).
 
-use super::answer::{Answer, Doubt, Obstacle, Solution};
+use super::answer::{Answer, Doubt, Family, Obstacle, Solution};
 use super::closed::InverseSolver;
-use super::derivation::{Goal, InverseModel, Options, Refusal};
+use super::derivation::{Goal, InverseModel, Options, Random, Refusal};
 use super::general::GeneralSolver;
 use super::newton;
 use super::numeric::NumericSolver;
-use super::redundant::RedundantSolver;
-use super::space::JointSpace;
+use super::redundant::{Criterion, RedundantSolver};
+use super::self_motion::follow;
+use super::space::{JointSpace, norm};
 use crate::description::Description;
 use crate::geometry::Transform;
 use crate::robot::{MissingValue, Robot};
 use crate::structure::{NearlySpecial, Structure};
+use std::f64::consts::{PI, TAU};
 use std::fmt;
 use std::num::NonZero;
 
@@ -88,6 +90,24 @@ pub struct Nearest {
     pub distance: f64,
     /// Whether the limits allow it.
     pub within_limits: bool,
+}
+
+impl Nearest {
+    /// The copy of a configuration that is nearest to another.
+    fn of(space: &JointSpace, q: &[f64], to: &[f64]) -> Self {
+        let within_limits = space.within(q);
+        let copy = space.nearest_copy(q, to);
+        // What the limits do not allow anyhow goes to the nearest copy of all.
+        let q = if within_limits {
+            copy
+        } else {
+            to.iter().zip(space.moved(to, q)).map(|(x, d)| x + d).collect()
+        };
+        let unit = |&is_angle: &bool| if is_angle { 1.0 } else { space.reach };
+        let by = |((x, y), is_angle): ((&f64, &f64), &bool)| (x - y).abs() / unit(is_angle);
+        let distance = q.iter().zip(to).zip(&space.is_angle).map(by).fold(0.0, f64::max);
+        Nearest { q, distance, within_limits }
+    }
 }
 
 impl InverseKinematics {
@@ -221,29 +241,107 @@ impl InverseKinematics {
     }
 
     /// The configuration of an answer that is nearest to another, families included: within the limits if one is.
-    pub fn nearest(&self, pose: &Transform<f64>, answer: &Answer, to: &[f64]) -> Option<Nearest> {
-        let mut best: Option<Nearest> = None;
-        let mut offer = |q: &[f64]| {
-            let q = self.space.nearest_copy(q, to);
-            let by = |(x, y): (&f64, &f64), is_angle: bool| {
-                (x - y).abs() / if is_angle { 1.0 } else { self.space.reach }
-            };
-            let distance =
-                q.iter().zip(to).zip(&self.space.is_angle).map(|(p, &a)| by(p, a)).fold(0.0, f64::max);
-            let within_limits = self.space.within(&q);
-            let is_better = |b: &Nearest| (within_limits, -distance) > (b.within_limits, -b.distance);
-            if best.as_ref().is_none_or(is_better) {
-                best = Some(Nearest { q, distance, within_limits });
-            }
-        };
-        answer.solutions.iter().for_each(|s| offer(&s.q));
+    pub fn nearest(&mut self, pose: &Transform<f64>, answer: &Answer, to: &[f64]) -> Option<Nearest> {
+        let size = self.size(pose);
+        let mut candidates: Vec<Vec<f64>> = answer.solutions.iter().map(|s| s.q.clone()).collect();
+        if let Method::Redundant(solver) = &mut self.method {
+            candidates.extend(solver.best(pose, &Criterion::Nearest(to.to_vec())).map(|s| s.q));
+        }
+        let way = |q: &[f64]| self.space.moved(q, to);
         for family in &answer.families {
-            let starts = std::iter::once(&family.representative.q).chain(&family.curve);
-            for q in starts {
-                offer(&newton::slide(&self.robot, self.goal, pose, q, (&self.given, to), self.size(pose)));
+            for q in self.starts(pose, family, |q| norm(&way(q))) {
+                candidates.push(newton::slide(&self.robot, self.goal, pose, &q, (&self.given, way), size));
             }
         }
-        best
+        let rank = |n: &Nearest| (!n.within_limits, n.distance);
+        candidates.iter().map(|q| Nearest::of(&self.space, q, to)).min_by(|a, b| {
+            let (a, b) = (rank(a), rank(b));
+            a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+        })
+    }
+
+    /// Where to start on a family to get near: members of its curve that are nearer than their neighbours; members here
+    /// and there, if it has more parameters than one.
+    fn starts(&self, pose: &Transform<f64>, family: &Family, away: impl Fn(&[f64]) -> f64) -> Vec<Vec<f64>> {
+        let representative = &family.representative.q;
+        if family.is_affine && family.curve.is_empty() {
+            return vec![representative.clone()];
+        }
+        if family.dimension > 1 {
+            let mut random = Random(1);
+            let mut anywhere = || {
+                let to: Vec<f64> = representative.iter().map(|x| x + TAU * random.unit() - PI).collect();
+                let way = |q: &[f64]| self.space.moved(q, &to);
+                newton::slide(
+                    &self.robot,
+                    self.goal,
+                    pose,
+                    representative,
+                    (&self.given, way),
+                    self.size(pose),
+                )
+            };
+            return std::iter::once(representative.clone())
+                .chain((0..ANYWHERE).map(|_| anywhere()))
+                .collect();
+        }
+        let is_given = !self.given.is_empty();
+        let followed = match family.curve.is_empty() && !is_given {
+            true => follow(&self.robot, &self.space, self.goal, pose, representative).curve,
+            false => family.curve.clone(),
+        };
+        let distances: Vec<f64> = followed.iter().map(|q| away(q)).collect();
+        let at = |k: usize| distances.get(k).copied().unwrap_or(f64::INFINITY);
+        let is_dip = |k: &usize| at(*k) <= at(k + 1) && (*k == 0 || at(*k) <= at(k - 1));
+        let dips = (0..distances.len()).filter(is_dip).map(|k| followed[k].clone());
+        std::iter::once(representative.clone()).chain(dips).collect()
+    }
+
+    /// The best configuration of an answer by a criterion, within the limits if one is; of a family that was not followed its
+    /// representative stands for all.
+    pub fn best(&mut self, pose: &Transform<f64>, answer: &Answer, criterion: &Criterion) -> Option<Nearest> {
+        if let Criterion::Nearest(to) = criterion {
+            return self.nearest(pose, answer, to);
+        }
+        let middle = self.space.middle();
+        if let Method::Redundant(solver) = &mut self.method
+            && let Some(s) = solver.best(pose, criterion)
+        {
+            return Some(Nearest::of(&self.space, &s.q, &middle));
+        }
+        let followed =
+            answer.families.iter().flat_map(|f| std::iter::once(&f.representative.q).chain(&f.curve));
+        let all = answer.solutions.iter().map(|s| &s.q).chain(followed);
+        let cost = |q: &[f64]| criterion.of(&self.robot, &self.space, self.goal, q);
+        let copies = all.map(|q| Nearest::of(&self.space, q, &middle));
+        let ranked = copies.map(|n| (!n.within_limits, cost(&n.q), n));
+        ranked.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))).map(|r| r.2)
+    }
+
+    /// One solution, within the limits if one is, and as near to `seed` as comes quickly. Where many are wanted see
+    /// [`solve`](Self::solve).
+    ///
+    /// # Panics
+    /// If there is not one value per given joint.
+    pub fn one(&mut self, pose: &Transform<f64>, given: &[f64], seed: Option<&[f64]>) -> Answer {
+        let mut answer = match &mut self.method {
+            Method::Redundant(solver) => match solver.within_limits(pose, seed) {
+                Some(s) => Answer { solutions: vec![s], ..Answer::empty() },
+                None => self.solve(pose, given),
+            },
+            _ => self.solve(pose, given),
+        };
+        let away = |s: &Solution| seed.map_or(0.0, |to| self.space.distance(&s.q, to));
+        let representatives = answer.families.drain(..).map(|f| f.representative);
+        let all: Vec<Solution> = representatives.chain(answer.solutions.drain(..)).collect();
+        let better = |a: &Solution, b: &Solution| {
+            b.within_limits.cmp(&a.within_limits).then(away(a).total_cmp(&away(b)))
+        };
+        answer.solutions = all.into_iter().min_by(better).into_iter().collect();
+        if answer.is_reachable() {
+            answer.doubt = Some(Doubt::OneAsked);
+        }
+        answer
     }
 
     /// All solutions of many poses, in their order, by as many threads; the same whatever their number.
@@ -260,6 +358,8 @@ impl InverseKinematics {
     }
 }
 
+/// Members of a family with several parameters from which the way to another configuration is tried.
+const ANYWHERE: usize = 16;
 /// What a solution that was searched for may miss the pose by.
 const TOLERANCE: f64 = 1e-9;
 

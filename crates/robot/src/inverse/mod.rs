@@ -22,7 +22,7 @@ pub use answer::{Answer, Doubt, Family, Obstacle, Solution};
 pub use closed::{InverseSolver, variables};
 pub use derivation::*;
 pub use dispatch::{InverseKinematics, Nearest, Unprepared};
+pub use numeric::NumericSolver;
 pub use redundant::{Component, Criterion, Manifold, NotSolved, RedundantSolver};
 pub use self_motion::{CurveEnd, SelfMotion};
-pub use numeric::NumericSolver;
 pub use space::JointSpace;

@@ -183,26 +183,27 @@ pub fn rank(robot: &Robot<f64>, goal: Goal) -> usize {
 }
 
 /// Moves along the solutions of a pose from one of them to where they are nearest to a configuration: each step is the
-/// part of the way there that the hand does not see, then corrected. `given` joints stay.
+/// part of the way there that the hand does not see, then corrected. `given` joints stay; `way` says how configurations
+/// differ.
 pub fn slide(
     robot: &Robot<f64>,
     goal: Goal,
     wanted: &Transform<f64>,
     q: &[f64],
-    (given, to): (&[usize], &[f64]),
+    (given, way): (&[usize], impl Fn(&[f64]) -> Vec<f64>),
     size: f64,
 ) -> Vec<f64> {
     const MOST: usize = 60;
-    let away = |q: &[f64]| q.iter().zip(to).map(|(x, y)| (x - y) * (x - y)).sum::<f64>();
+    let away = |q: &[f64]| way(q).iter().map(|x| x * x).sum::<f64>();
     let mut at = q.to_vec();
     let mut length = 1.0;
     for _ in 0..MOST {
         let columns = jacobian(robot, goal, &at, given, size);
-        let way: Vec<f64> =
-            (0..at.len()).map(|j| if given.contains(&j) { 0.0 } else { to[j] - at[j] }).collect();
-        let seen: [f64; 6] = std::array::from_fn(|i| columns.iter().zip(&way).map(|(c, x)| c[i] * x).sum());
+        let mut there = way(&at);
+        given.iter().for_each(|&j| there[j] = 0.0);
+        let seen: [f64; 6] = std::array::from_fn(|i| columns.iter().zip(&there).map(|(c, x)| c[i] * x).sum());
         let back = damped(&columns, &seen, 1e-11);
-        let step: Vec<f64> = way.iter().zip(&back).map(|(x, y)| length * (x - y)).collect();
+        let step: Vec<f64> = there.iter().zip(&back).map(|(x, y)| length * (x - y)).collect();
         if step.iter().all(|x| x.abs() < 1e-10) {
             break;
         }

@@ -63,6 +63,11 @@ impl JointSpace {
         self.distance(a, b) <= SAME
     }
 
+    /// The middle of the limits; 0 where there are none.
+    pub fn middle(&self) -> Vec<f64> {
+        self.limits.iter().map(|l| l.map_or(0.0, |[low, high]| f64::midpoint(low, high))).collect()
+    }
+
     /// Brings angles to (−π, π].
     pub fn wrap(&self, q: &mut [f64]) {
         for (x, _) in q.iter_mut().zip(&self.is_angle).filter(|p| *p.1) {

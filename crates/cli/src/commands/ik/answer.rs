@@ -5,7 +5,9 @@ use crate::terminal::{Align, FAINT, HEADING, NAME, matrix, number, styled, table
 use denavit::description::{Description, JointKind};
 use denavit::geometry::Transform;
 use denavit::idealise::{Ideal, Snap};
-use denavit::inverse::{Answer, Family, InverseKinematics, JointSpace, Nearest, Obstacle, Solution};
+use denavit::inverse::{
+    Answer, Criterion, Family, InverseKinematics, JointSpace, Nearest, Obstacle, Solution,
+};
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
 
@@ -14,8 +16,10 @@ use std::f64::consts::TAU;
 pub struct Question {
     /// The values of the given joints.
     pub given: Vec<f64>,
-    /// The solution nearest to these joint variables is wanted as well.
-    pub near: Option<Vec<f64>>,
+    /// The best solution by this is wanted as well.
+    pub criterion: Option<Criterion>,
+    /// One solution is wanted.
+    pub one: bool,
     robot: String,
     method: &'static str,
     names: Vec<(String, f64)>,
@@ -29,7 +33,7 @@ impl Question {
         description: &Description,
         solver: &InverseKinematics,
         given: Vec<f64>,
-        near: Option<Vec<f64>>,
+        (criterion, one): (Option<Criterion>, bool),
         ideal: Option<&Ideal>,
     ) -> Self {
         let variables = description.variables();
@@ -44,17 +48,26 @@ impl Question {
             })
         });
         let (robot, method, space) = (description.name.clone(), solver.method(), solver.space.clone());
-        Question { given, near, robot, method, names, space, ideal }
+        Question { given, criterion, one, robot, method, names, space, ideal }
     }
 
-    /// The solution nearest to what was asked for, if anything was.
-    pub fn nearest(
-        &self,
-        solver: &InverseKinematics,
-        pose: &Transform<f64>,
-        answer: &Answer,
-    ) -> Option<Nearest> {
-        solver.nearest(pose, answer, self.near.as_ref()?)
+    /// The answer, and the solution that is best by the criterion, if there is one.
+    pub fn ask(&self, solver: &mut InverseKinematics, pose: &Transform<f64>) -> (Answer, Option<Nearest>) {
+        let answer = match (&self.criterion, self.one) {
+            (Some(Criterion::Nearest(to)), true) => solver.one(pose, &self.given, Some(to)),
+            (_, true) => solver.one(pose, &self.given, None),
+            _ => solver.solve(pose, &self.given),
+        };
+        let best = self.criterion.as_ref().and_then(|c| solver.best(pose, &answer, c));
+        (answer, best)
+    }
+
+    /// What the best solution is called.
+    fn superlative(&self) -> &'static str {
+        match self.criterion {
+            Some(Criterion::Nearest(_)) => "nearest",
+            _ => "best",
+        }
     }
 
     /// The answer on one line.
@@ -81,7 +94,11 @@ impl Question {
             value["idealised"] = ideal.clone();
         }
         if let Some(Nearest { q, distance, within_limits }) = nearest {
-            value["nearest"] = json!({"q": q, "distance": distance, "within_limits": within_limits});
+            let mut best = json!({"q": q, "within_limits": within_limits});
+            if matches!(self.criterion, Some(Criterion::Nearest(_))) {
+                best["distance"] = (*distance).into();
+            }
+            value[self.superlative()] = best;
         }
         if let Some(Obstacle { unknown, q, angle, distance, violated }) = &answer.obstacle {
             let violated: Vec<Value> =
@@ -207,7 +224,7 @@ impl Report<'_> {
             let at: Vec<String> =
                 d.variables().iter().zip(&nearest.q).map(|(v, &x)| reading(x, v.kind)).collect();
             let note = if nearest.within_limits { "" } else { ", outside the limits" };
-            text += &format!("\n  nearest to --near{note}: {}\n", at.join(", "));
+            text += &format!("\n  {}{note}: {}\n", self.question.superlative(), at.join(", "));
         }
         if let Some(doubt) = answer.doubt {
             text += &format!("  not complete, there may be more: {}\n", doubt.words());

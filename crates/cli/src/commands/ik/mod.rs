@@ -15,7 +15,7 @@ use answer::{Question, Report};
 use denavit::description::{Description, JointKind};
 use denavit::idealise::{Ideal, idealised};
 use denavit::inverse::explain::Explanation;
-use denavit::inverse::{Goal, InverseKinematics, InverseModel, Options, Refusal, Unprepared};
+use denavit::inverse::{Criterion, Goal, InverseKinematics, InverseModel, Options, Refusal, Unprepared};
 use std::io::Write;
 
 /// Solves a pose, or shows the derivation.
@@ -51,12 +51,11 @@ pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
         writeln!(anstream::stderr(), "note: {near}; solved as it stands, `--idealise` takes it so")?;
     }
     let at = arguments.q.as_deref().map(|text| configuration(&description, text)).transpose()?;
-    let mut near = arguments.near.as_deref().map(|text| configuration(&description, text)).transpose()?;
-    if arguments.follow && near.is_none() {
-        near = Some(vec![0.0; solver.robot.joints]);
-    }
+    let near = arguments.near.as_deref().map(|text| configuration(&description, text)).transpose()?;
+    let near = near.or_else(|| arguments.follow.then(|| vec![0.0; solver.robot.joints]));
+    let criterion = near.map(Criterion::Nearest).or_else(|| arguments.best.map(Criterion::from));
     let values = values(&description, &solver.given, &given, at.as_deref())?;
-    let question = Question::new(&description, &solver, values, near, ideal.as_ref());
+    let question = Question::new(&description, &solver, values, (criterion, arguments.one), ideal.as_ref());
     if let Some(path) = &arguments.input {
         return stream::run(&solver, &question, path, arguments.follow);
     }
@@ -65,8 +64,7 @@ pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
         (None, Some(text)) => pose::read(text, &arguments.orientation, goal)?,
         (None, None) => return Ok(()),
     };
-    let answer = solver.solve(&pose, &question.given);
-    let nearest = question.nearest(&solver, &pose, &answer);
+    let (answer, nearest) = question.ask(&mut solver, &pose);
     let text = if arguments.json {
         question.json(&pose, &answer, nearest.as_ref())
     } else {

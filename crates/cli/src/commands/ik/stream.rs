@@ -5,7 +5,7 @@ use super::pose;
 use crate::commands::stream::{self, Chunk, Worker, complaint, parsed};
 use crate::failure::Failure;
 use denavit::geometry::Transform;
-use denavit::inverse::InverseKinematics;
+use denavit::inverse::{Criterion, InverseKinematics};
 use std::path::Path;
 
 /// Answers a line for each line; where a path is followed, one after the other.
@@ -30,13 +30,14 @@ struct Poses {
 
 impl Poses {
     fn solved(&mut self, pose: &Transform<f64>) -> String {
-        let answer = self.solver.solve(pose, &self.question.given);
-        let nearest = self.question.nearest(&self.solver, pose, &answer);
+        let (mut answer, nearest) = self.question.ask(&mut self.solver, pose);
+        // Curves are long; they are for one pose.
+        answer.families.iter_mut().for_each(|f| f.curve.clear());
         let text = self.question.json(pose, &answer, nearest.as_ref());
         if self.follow
             && let Some(nearest) = nearest
         {
-            self.question.near = Some(nearest.q);
+            self.question.criterion = Some(Criterion::Nearest(nearest.q));
         }
         text
     }

@@ -2,9 +2,10 @@
 
 use super::arm::{SixAxes, Unsuited, rigid};
 use crate::geometry::Transform;
-use crate::inverse::answer::{Answer, Doubt, Solution};
+use crate::inverse::answer::{Answer, Doubt, Family, Solution};
 use crate::inverse::derivation::Goal;
 use crate::inverse::newton;
+use crate::inverse::self_motion::{follow, is_self_motion};
 use crate::inverse::space::JointSpace;
 use crate::robot::Robot;
 use denavit_elimination::{self as elimination, Certificate, Plan};
@@ -25,6 +26,12 @@ pub struct GeneralSolver {
 
 /// A solution may miss the pose by this (see [`Solution::residual`]).
 const TOLERANCE: f64 = 1e-9;
+/// A smallest singular value below this may belong to a self-motion.
+const SINGULAR: f64 = 1e-5;
+/// Members of a curve are not further apart (radians, lengths by the reach).
+const NEXT: f64 = 0.2;
+/// A configuration this near to a curve is on it.
+const SAME: f64 = 1e-5;
 /// A residual above this is more than rounding.
 const ROUGH: f64 = 1e-12;
 
@@ -47,10 +54,15 @@ impl GeneralSolver {
         })
     }
 
+    /// How many splits of the loop the last pose took.
+    pub fn splits(&self) -> u32 {
+        self.found.splits
+    }
+
     /// All solutions of a pose of the tool in the base, in ascending order of their joint variables.
     pub fn solve(&mut self, pose: &Transform<f64>) -> Answer {
         let work = Eliminate { plan: &self.plan, pose: rigid(pose), found: &mut self.found };
-        self.isa.run(self.isa.arithmetic(), work);
+        self.isa.run_natively(work);
         let mut answer = Answer::empty();
         answer.doubt = match self.found.certificate {
             Certificate::Complete => None,
@@ -75,11 +87,53 @@ impl GeneralSolver {
             let (branch, multiplicity, guard) = (String::new(), found.multiplicity, found.singular);
             answer.solutions.push(Solution { q, residual, branch, multiplicity, within_limits, guard });
         }
+        self.families(pose, size, &mut answer);
         answer.solutions.sort_by(|a, b| {
             let unequal = a.q.iter().zip(&b.q).map(|(x, y)| x.total_cmp(y)).find(|o| o.is_ne());
             unequal.unwrap_or(std::cmp::Ordering::Equal)
         });
         answer
+    }
+
+    /// Where the Jacobian is singular at a solution, the arm may move with its hand still: the curve is followed, and
+    /// what lies on it is no solution of its own.
+    fn families(&self, pose: &Transform<f64>, size: f64, answer: &mut Answer) {
+        let (robot, space, goal) = (&self.robot, &self.space, Goal::Pose);
+        for s in std::mem::take(&mut answer.solutions) {
+            let is_known = answer.families.iter().any(|f| self.is_on(pose, size, &f.curve, &s.q));
+            let direction =
+                if s.guard > SINGULAR || is_known { None } else { is_self_motion(robot, space, goal, &s.q) };
+            let Some(direction) = direction else {
+                if !is_known {
+                    answer.solutions.push(s);
+                }
+                continue;
+            };
+            let motion = follow(robot, space, goal, pose, &s.q);
+            answer.solutions.retain(|t| !self.is_on(pose, size, &motion.curve, &t.q));
+            answer.families.push(Family {
+                representative: s,
+                dimension: 1,
+                free: vec!["s".into()],
+                direction,
+                is_affine: motion.is_affine,
+                interval: None,
+                curve: motion.curve,
+                at: vec![],
+                signs: vec![],
+            });
+        }
+    }
+
+    /// True if a configuration lies on a curve of members.
+    fn is_on(&self, pose: &Transform<f64>, size: f64, curve: &[Vec<f64>], q: &[f64]) -> bool {
+        let away = |p: &Vec<f64>| self.space.distance(p, q);
+        let Some(nearest) = curve.iter().min_by(|a, b| away(a).total_cmp(&away(b))) else { return false };
+        let way = |p: &[f64]| self.space.moved(p, q);
+        away(nearest) < NEXT && {
+            let slid = newton::slide(&self.robot, Goal::Pose, pose, nearest, (&[], way), size);
+            self.space.distance(&slid, q) < SAME
+        }
     }
 }
 

@@ -18,11 +18,8 @@ pub(super) fn solve6(a: &mut [[f64; 6]; 6], b: &[f64; 6]) -> [f64; 6] {
         inverse[k] = if pivot > RANK * a[k][k] { 1.0 / pivot.sqrt() } else { 0.0 };
         x[k] = right * inverse[k];
         for j in k + 1..6 {
-            let mut entry = a[j][k];
-            for i in 0..k {
-                entry -= a[j][i] * a[k][i];
-            }
-            a[j][k] = entry * inverse[k];
+            let done: f64 = (0..k).map(|i| a[j][i] * a[k][i]).sum();
+            a[j][k] = (a[j][k] - done) * inverse[k];
         }
     }
     for k in (0..6).rev() {

@@ -40,7 +40,7 @@ pub enum Status {
     /// were too few of them.
     LocalMinimum,
     /// There is no solution: proved, if the outcome says how far beyond reach the target is. Otherwise as far as starts
-    /// tell: none of at least sixteen led to a solution, and from at least three of them descents to the bottom ended
+    /// tell: none of at least 64 led to a solution, and from at least three of them descents to the bottom ended
     /// at the same smallest error.
     Unreachable,
     /// The search was stopped before it knew.

@@ -27,13 +27,13 @@ const PATIENCE_WITH_SEED: usize = 8;
 const MOST_PATIENCE: usize = 12;
 /// Starts after which patience grows by one.
 const FAILURES: usize = 16;
-/// Starts that a target which is proved to be out of reach gets.
+/// Starts that a target which is proved to be out of reach gets, if the nearest configuration is not asked for.
 const STARTS_BEYOND_REACH: usize = 32;
 /// Descents that are led to the bottom when none solves, and by how many the lowest must be found.
-const BOTTOMS: usize = 24;
+const BOTTOMS: usize = 48;
 const AGREEING: usize = 3;
 /// Starts that it takes to call a target unreachable without proof.
-const STARTS_FOR_UNREACHABLE: usize = 16;
+const STARTS_FOR_UNREACHABLE: usize = 64;
 /// Errors, radians and lengths of the arm, that are the same.
 const SAME: f64 = 1e-6;
 
@@ -140,7 +140,7 @@ impl NumericSolver {
     /// # Panics
     /// As [`NumericSolver::solve`].
     pub fn nearest(&mut self, pose: &Transform<f64>, from: Option<&[f64]>) -> Outcome {
-        self.search(std::slice::from_ref(pose), from, BOTTOMS)
+        self.search(std::slice::from_ref(pose), from, true)
     }
 
     /// A configuration for targets, one for each task.
@@ -148,7 +148,7 @@ impl NumericSolver {
     /// # Panics
     /// If there is not one target per task, or `seed` has not one value per joint.
     pub fn solve_tasks(&mut self, targets: &[Transform<f64>], seed: Option<&[f64]>) -> Outcome {
-        self.search(targets, seed, AGREEING)
+        self.search(targets, seed, false)
     }
 
     /// [`NumericSolver::solve`] for many poses, on all cores or as many threads as `threads` says. Each outcome is that
@@ -184,7 +184,7 @@ impl NumericSolver {
         self.hard.size
     }
 
-    fn search(&mut self, targets: &[Transform<f64>], seed: Option<&[f64]>, confirm: usize) -> Outcome {
+    fn search(&mut self, targets: &[Transform<f64>], seed: Option<&[f64]>, is_thorough: bool) -> Outcome {
         assert_eq!(targets.len(), self.is_hard.len(), "one target per task");
         assert!(seed.is_none_or(|q| q.len() == self.hard.motion.joints), "one value per joint");
         self.hard.tolerance = [self.options.angle, self.options.distance];
@@ -200,14 +200,14 @@ impl NumericSolver {
 
         let beyond_reach = self.beyond_reach(&targets);
         let mut most_starts = self.options.max_restarts.saturating_add(1);
-        if beyond_reach.is_some() {
+        if beyond_reach.is_some() && !is_thorough {
             most_starts = most_starts.min(STARTS_BEYOND_REACH);
         }
         let mut found = Found { candidates: vec![], starts: 0, steps: 0, stopped: false };
         let solution = self.descents(&targets, near.as_deref(), most_starts, &mut found);
         let (mut q, bottom) = match solution {
             Some(q) => (q, Bottom::Met),
-            None => self.lowest(&targets, &mut found, confirm),
+            None => self.lowest(&targets, &mut found, if is_thorough { BOTTOMS } else { AGREEING }),
         };
         let is_solved = bottom == Bottom::Met;
         let agreeing = if let Bottom::Above(n) = bottom { n } else { 0 };

@@ -35,11 +35,11 @@ impl Stepper {
                 _ => self.several_tasks(&point.c, n, damping),
             }
             let mut all_within = true;
-            for j in 0..n {
+            for (j, unit) in units.iter().enumerate() {
                 if !self.free[j] {
                     continue;
                 }
-                let to = point.q[j] + units[j] * self.delta[j];
+                let to = point.q[j] + unit * self.delta[j];
                 let bound = if to > limits.high[j] {
                     limits.high[j]
                 } else if to < limits.low[j] {
@@ -47,7 +47,7 @@ impl Stepper {
                 } else {
                     continue;
                 };
-                let moved = (bound - point.q[j]) / units[j];
+                let moved = (bound - point.q[j]) / unit;
                 self.free[j] = false;
                 self.delta[j] = moved;
                 all_within = false;

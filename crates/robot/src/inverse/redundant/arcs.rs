@@ -60,6 +60,18 @@ impl Arcs {
         Arcs(arcs)
     }
 
+    /// What lies in an arc, with values as they count there.
+    pub fn inside(&self, arc: [f64; 2]) -> Arcs {
+        let mut found = self.intersection(&Arcs(vec![arc]));
+        if arc != CIRCLE {
+            for part in found.0.iter_mut().filter(|part| part[0] < arc[0]) {
+                *part = [part[0] + TAU, part[1] + TAU];
+            }
+            found.0.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        }
+        found
+    }
+
     /// What is in both.
     pub fn intersection(&self, other: &Arcs) -> Arcs {
         if self.0.first() == Some(&CIRCLE) {

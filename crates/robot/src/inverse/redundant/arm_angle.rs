@@ -246,7 +246,26 @@ impl ArmAngle {
     pub fn within(&self, pose: &Transform<f64>, seed: Option<&[f64]>) -> Option<Found> {
         let elbows = self.elbows(pose);
         let allowed = || elbows.iter().flatten().filter(|e| self.elbow_range.excess(e.q) <= SLACK);
-        let start = seed.and_then(|q| self.angle_of(q)).unwrap_or(0.0);
+        let angle = seed.and_then(|q| Some((q, self.angle_of(q)?)));
+        if let Some((seed, psi)) = angle {
+            let mut near: Option<(f64, Found)> = None;
+            for elbow in allowed() {
+                for (i, j) in BRANCHES {
+                    let Some(q) = self.at(elbow, psi, SIGNS[i], SIGNS[j]).filter(|q| self.is_within(q))
+                    else {
+                        continue;
+                    };
+                    let away = q.iter().zip(seed).map(|(x, y)| wrapped(x - y).abs()).fold(0.0, f64::max);
+                    if near.as_ref().is_none_or(|n| away < n.0) {
+                        near = Some((away, self.found(elbow, q, i, j)));
+                    }
+                }
+            }
+            if let Some((_, found)) = near {
+                return Some(found);
+            }
+        }
+        let start = angle.map_or(0.0, |a| a.1);
         for away in TRIES {
             for elbow in allowed() {
                 if let Some(found) = self.quick(elbow, start + away) {
@@ -345,7 +364,7 @@ impl ArmAngle {
                         branch: branch(elbow, i, j),
                         parameter: "ψ".into(),
                         domain: *domain,
-                        feasible: feasible.intersection(&Arcs(vec![*domain])).0,
+                        feasible: feasible.inside(*domain).0,
                         is_closed: *domain == super::arcs::CIRCLE,
                         chart: Chart::ArmAngle { elbow: number, shoulder: SIGNS[i], wrist: SIGNS[j] },
                     });

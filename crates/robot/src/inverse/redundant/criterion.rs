@@ -1,8 +1,11 @@
 //! The best configuration of a manifold by a criterion.
 
 use super::limits::Range;
+use crate::inverse::derivation::Goal;
+use crate::inverse::newton;
 use crate::inverse::self_motion::Frame;
 use crate::inverse::space::JointSpace;
+use crate::robot::Robot;
 
 /// What makes a configuration good.
 #[derive(Clone, PartialEq, Debug)]
@@ -24,6 +27,18 @@ const VALUES: usize = 24;
 const DIVISIONS: usize = 50;
 
 impl Criterion {
+    /// How bad a configuration of a robot is: less is better.
+    pub(in crate::inverse) fn of(
+        &self,
+        robot: &Robot<f64>,
+        space: &JointSpace,
+        goal: Goal,
+        q: &[f64],
+    ) -> f64 {
+        let frame = Frame { robot, goal, is_angle: &space.is_angle, size: space.reach.max(1e-3) };
+        self.cost((&frame, newton::rank(robot, goal)), space, &Range::all(space), q)
+    }
+
     /// How bad a configuration is; the Jacobian has `rank` singular values that are not 0 in general.
     pub(super) fn cost(
         &self,

@@ -19,7 +19,7 @@ use std::f64::consts::{PI, TAU};
 const SOLVED: f64 = 1e-9;
 const SHARP: f64 = 1e-11;
 /// Values that are tried before a manifold is computed.
-const TRIES: usize = 24;
+const TRIES: usize = 128;
 /// Values all round, before they become denser, and how often they may.
 const VALUES: usize = 96;
 const DENSER: usize = 6;
@@ -95,7 +95,7 @@ impl ByJoint {
         let mut inputs = variables(self.goal, pose, &vec![0.0; m]);
         let first = inputs.len() - m;
         let spans: Vec<[f64; 2]> = self.given.iter().map(|&j| self.span(j)).collect();
-        let tries = TRIES * m * m * m;
+        let tries = TRIES * m.pow(3);
         for number in 0..tries + usize::from(seed.is_some()) {
             for (k, [low, high]) in spans.iter().enumerate() {
                 inputs[first + k] = match (seed, number) {
@@ -144,7 +144,14 @@ impl ByJoint {
             *last = x;
         }
         let leaves = self.scalar.solve(inputs, &[]);
-        let leaf = leaves.iter().find(|l| l.signs == signs && l.free == 0 && l.residual <= most)?;
+        let good = |l: &Leaf| l.free == 0 && l.residual <= most;
+        // At its very end a branch is one with another, whose signs are kept.
+        let other = |l: &Leaf| l.signs.iter().zip(signs).filter(|(a, b)| a != b).count();
+        let leaf = leaves
+            .iter()
+            .filter(good)
+            .find(|l| l.signs == signs)
+            .or_else(|| leaves.iter().filter(good).filter(|l| l.multiplicity > 1).min_by_key(other))?;
         Some(leaf.outputs.to_vec())
     }
 

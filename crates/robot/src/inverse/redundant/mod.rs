@@ -47,7 +47,7 @@ const SOLVED: f64 = 1e-9;
 const FINE: f64 = 0.1;
 /// Parts of a sampled curve at first, and how often each may be halved.
 const PARTS: usize = 48;
-const HALVINGS: usize = 7;
+const HALVINGS: usize = 14;
 
 /// Finds the configurations of poses for a redundant robot with numbers.
 #[derive(Clone, Debug)]
@@ -146,6 +146,20 @@ impl RedundantSolver {
             Method::ArmAngle(_) => "ψ",
             Method::Joint(by) => &by.name,
             Method::Curve(_) => "s",
+        }
+    }
+
+    /// The value of the parameter at a configuration, on whatever component; nothing for the length along a curve, which
+    /// has no zero of its own.
+    ///
+    /// # Panics
+    /// If there is not one entry per joint.
+    pub fn parameter_at(&self, q: &[f64]) -> Option<f64> {
+        assert_eq!(q.len(), self.robot.joints, "one entry per joint");
+        match &self.method {
+            Method::ArmAngle(arm) => arm.angle_of(q),
+            Method::Joint(by) => by.given.last().map(|&j| q[j]),
+            Method::Curve(_) => None,
         }
     }
 

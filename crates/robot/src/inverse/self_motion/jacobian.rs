@@ -109,16 +109,18 @@ fn singular(mut columns: Vec<[f64; 6]>) -> Singular {
     let n = columns.len();
     let mut v: Vec<Vec<f64>> =
         (0..n).map(|i| (0..n).map(|j| f64::from(u8::from(i == j))).collect()).collect();
+    let total: f64 = columns.iter().map(|c| dot(c, c)).sum();
     for _ in 0..30 {
         let mut is_done = true;
         for i in 0..n {
             for j in i + 1..n {
                 let (a, b) = (dot(&columns[i], &columns[i]), dot(&columns[j], &columns[j]));
                 let c = dot(&columns[i], &columns[j]);
-                if c.abs() <= 1e-16 * (a * b).sqrt() || c.abs() < f64::MIN_POSITIVE {
+                // A column of rounding errors has no direction.
+                if c * c <= 1e-31 * a * b || a.min(b) <= 1e-31 * total {
                     continue;
                 }
-                is_done &= c.abs() <= 1e-15 * (a * b).sqrt();
+                is_done = false;
                 let zeta = (b - a) / (2.0 * c);
                 let t = zeta.signum() / (zeta.abs() + zeta.hypot(1.0));
                 let (cos, sin) = (1.0 / t.hypot(1.0), t / t.hypot(1.0));
