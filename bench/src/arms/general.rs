@@ -28,7 +28,7 @@ const OBLIQUE: &str = "oblique-6r";
 const MEANS: [f64; 2] = [25.0, 40.0];
 /// The most that 99 of 100 poses may take, µs.
 const P99: f64 = 150.0;
-/// Poses for `ik-geo`, which takes about a millisecond for one.
+/// Poses for `ik-geo`, which takes milliseconds for one.
 const PEER_POSES: usize = 50;
 
 /// The UR10e with errors of 1e-3 to 6e-3 (radians, metres) in each angle and length, as a calibration finds them.
@@ -110,11 +110,12 @@ pub fn measure(poses: usize, random: &mut impl FnMut() -> f64) -> Result<Value> 
     let lacking: Vec<String> = lacking.collect();
     ensure!(lacking.is_empty(), "{}", lacking.join("\n"));
 
-    let (mut arms, mut reference) = (vec![], Value::Null);
+    let (mut arms, mut peers) = (vec![], vec![]);
     for (case, worth) in cases.iter_mut().zip(worth) {
         let times = case.times();
         if case.name == OBLIQUE {
-            reference = case.reference(&times);
+            peers.push(case.peer("gen_six_dof", Family::General, &times)?);
+            peers.push(case.peer("two_intersecting", Family::TwoMeet, &times)?);
         }
         let mean = MEANS[usize::from(case.name != OBLIQUE)];
         let share = |n: usize| n as f64 / poses as f64;
@@ -124,7 +125,7 @@ pub fn measure(poses: usize, random: &mut impl FnMut() -> f64) -> Result<Value> 
             "complete": share(worth.complete), "worst": worth.check.worst,
         }));
     }
-    Ok(json!({"arms": arms, "reference": reference}))
+    Ok(json!({"arms": arms, "peers": peers}))
 }
 
 impl Case {
@@ -168,9 +169,13 @@ impl Case {
     }
 
     /// `ik-geo` on the first poses, beside our times.
-    fn reference(&self, ours: &[f64]) -> Value {
+    fn peer(&self, name: &str, family: Family, ours: &[f64]) -> Result<Value> {
+        let geo = Geo::new(&self.arm.robot, family);
+        let (theirs, own) = (geo.position(&self.drawn[0]), self.poses[0].translation.0);
+        let apart = theirs.iter().zip(own).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        ensure!(apart < 1e-12, "{} is another arm for `ik-geo`", self.arm.description.name);
         let poses: Vec<Rows> = self.poses.iter().take(PEER_POSES).map(rows).collect();
-        let mut solve = Geo::new(&self.arm.robot, Family::General).solver(&poses);
+        let mut solve = geo.solver(&poses);
         let answers: Vec<Vec<Joints>> = (0..poses.len()).map(&mut solve).collect();
         let check = self.check(&answers);
         let misses = answers
@@ -182,11 +187,11 @@ impl Case {
             black_box(solve(k));
         });
         let ratio = theirs.iter().sum::<f64>() / ours[..poses.len()].iter().sum::<f64>();
-        json!({
-            "title": self.arm.description.name, "poses": poses.len(), "times": figure(&theirs, [None; 2]),
+        Ok(json!({
+            "title": self.arm.description.name, "name": name, "poses": poses.len(), "times": figure(&theirs, [None; 2]),
             "ratio": ratio, "answers": misses.len(), "valid": misses.iter().filter(|m| **m <= VALID).count(),
             "best": misses.into_iter().fold(f64::INFINITY, f64::min), "drawn_found": check.drawn_found,
-        })
+        }))
     }
 }
 

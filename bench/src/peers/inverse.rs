@@ -20,7 +20,9 @@ pub enum Family {
     ThreeParallel,
     /// A spherical wrist, and two parallel axes.
     Wrist,
-    /// Nothing.
+    /// Axes 5 and 6 meet where frame 5 is.
+    TwoMeet,
+    /// Nothing that is made use of.
     General,
 }
 
@@ -44,9 +46,17 @@ impl Geo {
             x = x * link.transform(&zero);
         }
         x = x * robot.tool;
-        if family == Family::Wrist {
+        match family {
+            Family::ThreeParallel => {}
             // A point of axis 4 where it meets the others.
-            points[3] = points[4];
+            Family::Wrist => points[3] = points[4],
+            Family::TwoMeet => points[4] = points[5],
+            // Points away from those where axes meet, which the search would take for special cases.
+            Family::General => {
+                for k in [3, 5] {
+                    points[k] = std::array::from_fn(|r| points[k][r] + 0.1 * axes[k][r]);
+                }
+            }
         }
         points.push(x.translation.0);
         let h = Matrix3x6::from_fn(|r, c| axes[c][r]);
@@ -55,10 +65,16 @@ impl Geo {
         let make = match family {
             Family::ThreeParallel => robot::three_parallel_two_intersecting,
             Family::Wrist => robot::spherical_two_parallel,
+            Family::TwoMeet => robot::two_intersecting,
             Family::General => robot::gen_six_dof,
         };
         let last = Matrix3::from_fn(|r, c| x.rotation.rows()[r][c]);
         Geo { solver: Rc::new(make(h, p)), last }
+    }
+
+    /// Where its hand is, metres.
+    pub fn position(&self, q: &Joints) -> [f64; 3] {
+        self.solver.fk(q).1.into()
     }
 
     /// What it takes: the rotation relative to that at zero, and the position.

@@ -37,6 +37,12 @@ poses that one elimination did not settle. Complete: poses whose answer is certi
 | | mean µs | median µs | p99 µs | solutions a pose | second split | complete | largest error | limit of the mean | limit of p99 |\n\
 |---|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n";
 
+const PEERS: &str = "\
+\nThe crate `ik-geo` 0.1.2 on the first @poses@ poses of the arm \"@title@\": its solver for any arm, and the one for arms of\n\
+which two axes meet, which this one's last two do. Both search.\n\n\
+| | mean µs | of ours on these poses | answers a pose | valid to 1e-6 | the best misses by | configurations found |\n\
+|---|---:|---:|---:|---:|---:|---:|\n";
+
 const REDUNDANT: &str = "\
 \n### A joint too many\n\n\
 One configuration within the limits, for poses of configurations within the limits, without a start. All must be solved.\n\n\
@@ -67,21 +73,23 @@ fn general(measured: &Value) -> Result<String> {
             limit(arm, "p99", 1),
         );
     }
-    let peer = &measured["reference"];
-    let poses = number(&peer["poses"]);
-    let _ = writeln!(
-        text,
-        "\n`ik-geo` 0.1.2 (`gen_six_dof`) on the first {poses} poses of {}: {:.0} µs a pose in the mean, {:.0} times ours on these;\n\
-         {:.2} answers a pose, {} of all {} valid to 1e-6 (the best misses by {:.0e}); {} of {poses} configurations found.",
-        title(peer)?,
-        number(&peer["times"]["mean"]),
-        number(&peer["ratio"]),
-        number(&peer["answers"]) / poses,
-        peer["valid"],
-        peer["answers"],
-        number(&peer["best"]),
-        peer["drawn_found"],
-    );
+    let peers = measured["peers"].as_array().context("a list of peers")?;
+    let first = peers.first().context("a peer")?;
+    let (poses, title) = (&first["poses"], title(first)?);
+    text += &PEERS.replace("@poses@", &poses.to_string()).replace("@title@", title);
+    for peer in peers {
+        let best = peer["best"].as_f64().map_or(String::new(), |best| format!("{best:.1e}"));
+        let _ = writeln!(
+            text,
+            "| {} | {:.0} | {:.0} | {:.2} | {} | {best} | {} |",
+            peer["name"].as_str().unwrap_or_default(),
+            number(&peer["times"]["mean"]),
+            number(&peer["ratio"]),
+            number(&peer["answers"]) / number(poses),
+            peer["valid"],
+            peer["drawn_found"],
+        );
+    }
     Ok(text)
 }
 

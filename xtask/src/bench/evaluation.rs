@@ -39,7 +39,9 @@ pub fn measured(arguments: &[&str]) -> Result<Value> {
     if !output.status.success() {
         bail!("the benchmark failed");
     }
-    serde_json::from_slice(&output.stdout).context("the benchmark prints JSON")
+    // Peers may print, too: the last line is ours.
+    let last = output.stdout.trim_ascii_end().rsplit(|b| *b == b'\n').next().unwrap_or_default();
+    serde_json::from_slice(last).context("the benchmark prints JSON")
 }
 
 fn table(measured: &Value) -> Result<String> {

@@ -267,7 +267,7 @@ impl InverseKinematics {
         if family.is_affine && family.curve.is_empty() {
             return vec![representative.clone()];
         }
-        if family.dimension > 1 {
+        if family.dimension > 1 && family.curve.is_empty() {
             let mut random = Random(1);
             let mut anywhere = || {
                 let to: Vec<f64> = representative.iter().map(|x| x + TAU * random.unit() - PI).collect();

@@ -194,6 +194,8 @@ pub fn slide(
     size: f64,
 ) -> Vec<f64> {
     const MOST: usize = 60;
+    // Next to a singularity a family is one up to what solutions may miss.
+    const MISSED: f64 = 1e-9;
     let away = |q: &[f64]| way(q).iter().map(|x| x * x).sum::<f64>();
     let mut at = q.to_vec();
     let mut length = 1.0;
@@ -209,7 +211,7 @@ pub fn slide(
         }
         let next: Vec<f64> = at.iter().zip(&step).map(|(x, d)| x + d).collect();
         match polish(robot, goal, wanted, &next, given, size) {
-            Some((next, residual)) if residual <= 1e-10 && away(&next) < away(&at) => {
+            Some((next, residual)) if residual <= MISSED && away(&next) < away(&at) => {
                 at = next;
                 length = (2.0 * length).min(1.0);
             }

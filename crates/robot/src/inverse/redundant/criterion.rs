@@ -1,6 +1,5 @@
 //! The best configuration of a manifold by a criterion.
 
-use super::limits::Range;
 use crate::inverse::derivation::Goal;
 use crate::inverse::newton;
 use crate::inverse::self_motion::Frame;
@@ -36,26 +35,24 @@ impl Criterion {
         q: &[f64],
     ) -> f64 {
         let frame = Frame { robot, goal, is_angle: &space.is_angle, size: space.reach.max(1e-3) };
-        self.cost((&frame, newton::rank(robot, goal)), space, &Range::all(space), q)
+        self.cost((&frame, newton::rank(robot, goal)), space, q)
     }
 
     /// How bad a configuration is; the Jacobian has `rank` singular values that are not 0 in general.
-    pub(super) fn cost(
-        &self,
-        (frame, rank): (&Frame, usize),
-        space: &JointSpace,
-        ranges: &[Range],
-        q: &[f64],
-    ) -> f64 {
+    pub(super) fn cost(&self, (frame, rank): (&Frame, usize), space: &JointSpace, q: &[f64]) -> f64 {
         match self {
             Criterion::Nearest(to) => {
                 let copy = space.nearest_copy(q, to);
                 (0..q.len()).map(|j| ((copy[j] - to[j]) / frame.unit(j)).powi(2)).sum()
             }
             Criterion::FarthestFromLimits => {
-                let used =
-                    |(r, &x): (&Range, &f64)| r.half.is_finite().then(|| r.excess(x) / r.half.max(1e-12));
-                ranges.iter().zip(q).filter_map(used).fold(f64::NEG_INFINITY, f64::max).max(-1.0)
+                let middle = space.middle();
+                let copy = space.nearest_copy(q, &middle);
+                let used = |j: usize| {
+                    let [low, high] = space.limits[j]?;
+                    Some((copy[j] - middle[j]).abs() / ((high - low) / 2.0).max(1e-12) - 1.0)
+                };
+                (0..q.len()).filter_map(used).fold(-1.0, f64::max)
             }
             Criterion::FarthestFromSingularity => {
                 let values = frame.singular(q).values;

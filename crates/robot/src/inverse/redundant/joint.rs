@@ -22,7 +22,7 @@ const SHARP: f64 = 1e-11;
 const TRIES: usize = 128;
 /// Values all round, before they become denser, and how often they may.
 const VALUES: usize = 96;
-const DENSER: usize = 6;
+const DENSER: usize = 14;
 /// Neighbours further apart than this have a value between them.
 const APART: f64 = 0.3;
 /// How often the place where a gap is least is closed in on.

@@ -187,7 +187,7 @@ impl RedundantSolver {
             for interval in &piece.feasible {
                 let found = criterion::least(*interval, |x| {
                     let q = self.configuration(pose, &piece.chart, x)?;
-                    Some(criterion.cost((&self.frame(), self.rank()), &self.space, &self.ranges, &q))
+                    Some(criterion.cost((&self.frame(), self.rank()), &self.space, &q))
                 });
                 let Some((x, cost)) = found else { continue };
                 if best.as_ref().is_none_or(|b| cost < b.0)

@@ -45,13 +45,9 @@ pub(super) struct Swivel {
 impl Swivel {
     #[inline]
     pub fn at(&self, sin: f64, cos: f64) -> Matrix {
-        let mut r = self.c;
-        for i in 0..3 {
-            for j in 0..3 {
-                r[i][j] += self.a[i][j] * sin + self.b[i][j] * cos;
-            }
-        }
-        r
+        std::array::from_fn(|i| {
+            std::array::from_fn(|j| self.c[i][j] + self.a[i][j] * sin + self.b[i][j] * cos)
+        })
     }
 
     /// L·R(ψ)·M.

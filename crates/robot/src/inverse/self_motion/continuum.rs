@@ -37,7 +37,7 @@ pub(super) fn direction(tracker: &Tracker, q: &[f64]) -> Option<Vec<f64>> {
         .collect();
     lowest.sort_by(|&i, &j| tried[i].total_cmp(&tried[j]));
     lowest.into_iter().take(6).find_map(|k| {
-        let phi = least(&miss, at(k) - at(1), at(k) + at(1));
+        let phi = least(miss, at(k) - at(1), at(k) + at(1));
         let v = mix(phi);
         (miss(phi) <= MISSED).then_some(v)
     })
