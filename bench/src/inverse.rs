@@ -79,7 +79,7 @@ fn arm(name: &str, title: &str, generated: Generated, random: &mut impl FnMut() 
     let mut counts: Option<Vec<usize>> = None;
     let mut checks = vec![];
     for c in &contestants {
-        let check = Check::new(&c.answers, &poses, &drawn, &rows);
+        let check = Check::new(&c.answers, &poses, &drawn, rows);
         checks.push(json!({
             "name": c.name, "solutions": check.distinct.iter().sum::<usize>() as f64 / POSES as f64,
             "returned": check.returned as f64 / POSES as f64, "worst": check.worst,

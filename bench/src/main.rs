@@ -126,6 +126,9 @@ pub(crate) fn entry<'a>(
     Entry { group, name: name.into(), items, limit, run: Box::new(run) }
 }
 
+/// Somebody's way to a pose.
+type Pose = Box<dyn FnMut(&[f64; 6])>;
+
 /// A pose of a UR5 by everybody.
 fn one_configuration<'a>(
     ur5: &Description,
@@ -149,7 +152,7 @@ fn one_configuration<'a>(
     let mut scalar = pose.scalar();
     let machine = MachineCode::compile(pose).map_err(|e| anyhow::anyhow!("{e}"))?;
     let mut results = [0.0; 16];
-    let each = move |name: &str, limit, mut f: Box<dyn FnMut(&[f64; 6])>| {
+    let each = move |name: &str, limit, mut f: Pose| {
         entry(group, name, count, limit, move || configurations.iter().for_each(|q| f(black_box(q))))
     };
     Ok(vec![

@@ -16,7 +16,7 @@ use super::general::GeneralSolver;
 use super::newton;
 use super::numeric::NumericSolver;
 use super::redundant::{Criterion, RedundantSolver};
-use super::self_motion::follow;
+use super::self_motion::{follow, follow_loosely};
 use super::space::{JointSpace, norm};
 use crate::description::Description;
 use crate::geometry::Transform;
@@ -209,13 +209,68 @@ impl InverseKinematics {
                     None => Answer { doubt: Some(Doubt::Searched), ..Answer::empty() },
                 }
             }
-            Method::Redundant(solver) => solver.manifold(pose).answer(),
+            Method::Redundant(solver) => {
+                let mut answer = solver.manifold(pose).answer();
+                if answer.doubt.is_some() {
+                    self.follow_more(pose, &mut answer);
+                }
+                answer
+            }
             Method::Numeric => Answer { doubt: Some(Doubt::Searched), ..Answer::empty() },
         };
         if !answer.is_reachable() {
             self.search(pose, &mut answer);
         }
         answer
+    }
+
+    /// Self-motions that a parameter's samples miss, because it stays the same along them or nearly so: found by descent
+    /// from configurations all over, and followed.
+    fn follow_more(&mut self, pose: &Transform<f64>, answer: &mut Answer) {
+        let mut random = Random(1);
+        let size = self.size(pose);
+        let span = |j: usize| {
+            self.space.limits[j].unwrap_or(if self.space.is_angle[j] { [-PI, PI] } else { [0.0, size] })
+        };
+        let spans: Vec<[f64; 2]> = (0..self.robot.joints).map(span).collect();
+        for _ in 0..DESCENTS {
+            let seed: Vec<f64> = spans.iter().map(|[low, high]| low + random.unit() * (high - low)).collect();
+            let outcome = self.numeric.solve(pose, Some(&seed));
+            let residual = newton::distance(&self.robot, self.goal, pose, &outcome.q, size);
+            let mut q = outcome.q;
+            self.space.wrap(&mut q);
+            if residual > TOLERANCE || answer.families.iter().any(|f| self.is_near(f, &q)) {
+                continue;
+            }
+            let motion = follow(&self.robot, &self.space, self.goal, pose, &q);
+            let within_limits = self.space.within(&q);
+            let (branch, guard) = (String::new(), 0.0);
+            answer.families.push(Family {
+                representative: Solution { q, residual, branch, multiplicity: 1, within_limits, guard },
+                dimension: 1,
+                free: vec!["s".into()],
+                direction: motion.direction,
+                is_affine: motion.is_affine,
+                interval: None,
+                curve: motion.curve,
+                at: vec![],
+                signs: vec![],
+            });
+        }
+    }
+
+    /// True if a configuration lies between members of a family that are next to each other.
+    fn is_near(&self, family: &Family, q: &[f64]) -> bool {
+        let mut pairs = family.curve.windows(2);
+        pairs.any(|pair| {
+            let (along, to) = (self.space.moved(&pair[0], &pair[1]), self.space.moved(&pair[0], q));
+            let square: f64 = along.iter().map(|x| x * x).sum();
+            let part = along.iter().zip(&to).map(|(x, y)| x * y).sum::<f64>() / square.max(f64::MIN_POSITIVE);
+            let off =
+                to.iter().zip(&along).map(|(y, x)| (y - part.clamp(0.0, 1.0) * x).abs()).fold(0.0, f64::max);
+            // A chord leaves the curve by an eighth of its bend.
+            off <= 0.1 * square.sqrt() + 1e-6
+        })
     }
 
     /// By descent: a solution, or the nearest configuration.
@@ -247,6 +302,12 @@ impl InverseKinematics {
         if let Method::Redundant(solver) = &mut self.method {
             candidates.extend(solver.best(pose, &Criterion::Nearest(to.to_vec())).map(|s| s.q));
         }
+        if let Method::Closed(solver) = &mut self.method {
+            for family in &answer.families {
+                let given: Vec<f64> = self.given.iter().map(|&j| family.representative.q[j]).collect();
+                candidates.extend(solver.members_at(pose, &given, family, to).into_iter().map(|s| s.q));
+            }
+        }
         let way = |q: &[f64]| self.space.moved(q, to);
         for family in &answer.families {
             for q in self.starts(pose, family, |q| norm(&way(q))) {
@@ -267,9 +328,22 @@ impl InverseKinematics {
         if family.is_affine && family.curve.is_empty() {
             return vec![representative.clone()];
         }
-        if family.dimension > 1 && family.curve.is_empty() {
+        let followed = match family.curve.is_empty() && self.given.is_empty() {
+            true => {
+                let arm = (&self.robot, &self.space, self.goal);
+                follow_loosely(arm, pose, representative, TOLERANCE).curve
+            }
+            false => family.curve.clone(),
+        };
+        let distances: Vec<f64> = followed.iter().map(|q| away(q)).collect();
+        let at = |k: usize| distances.get(k).copied().unwrap_or(f64::INFINITY);
+        let is_dip = |k: &usize| at(*k) <= at(k + 1) && (*k == 0 || at(*k) <= at(k - 1));
+        let dips = (0..distances.len()).filter(is_dip).map(|k| followed[k].clone());
+        let mut starts: Vec<Vec<f64>> = std::iter::once(representative.clone()).chain(dips).collect();
+        if family.curve.is_empty() {
+            // What is a family up to rounding only cannot be followed all the way, nor one with several parameters.
             let mut random = Random(1);
-            let mut anywhere = || {
+            starts.extend((0..ANYWHERE).map(|_| {
                 let to: Vec<f64> = representative.iter().map(|x| x + TAU * random.unit() - PI).collect();
                 let way = |q: &[f64]| self.space.moved(q, &to);
                 newton::slide(
@@ -280,21 +354,9 @@ impl InverseKinematics {
                     (&self.given, way),
                     self.size(pose),
                 )
-            };
-            return std::iter::once(representative.clone())
-                .chain((0..ANYWHERE).map(|_| anywhere()))
-                .collect();
+            }));
         }
-        let is_given = !self.given.is_empty();
-        let followed = match family.curve.is_empty() && !is_given {
-            true => follow(&self.robot, &self.space, self.goal, pose, representative).curve,
-            false => family.curve.clone(),
-        };
-        let distances: Vec<f64> = followed.iter().map(|q| away(q)).collect();
-        let at = |k: usize| distances.get(k).copied().unwrap_or(f64::INFINITY);
-        let is_dip = |k: &usize| at(*k) <= at(k + 1) && (*k == 0 || at(*k) <= at(k - 1));
-        let dips = (0..distances.len()).filter(is_dip).map(|k| followed[k].clone());
-        std::iter::once(representative.clone()).chain(dips).collect()
+        starts
     }
 
     /// The best configuration of an answer by a criterion, within the limits if one is; of a family that was not followed its
@@ -360,6 +422,8 @@ impl InverseKinematics {
 
 /// Members of a family with several parameters from which the way to another configuration is tried.
 const ANYWHERE: usize = 16;
+/// Descents that look for self-motions.
+const DESCENTS: usize = 64;
 /// What a solution that was searched for may miss the pose by.
 const TOLERANCE: f64 = 1e-9;
 

@@ -72,6 +72,8 @@ pub(in crate::inverse) struct Tracker<'a> {
     pub frame: Frame<'a>,
     pub space: &'a JointSpace,
     pub pose: &'a Transform<f64>,
+    /// What members may miss the pose by.
+    pub missed: f64,
 }
 
 /// The self-motion through a configuration that has this pose (of the tool in the base).
@@ -100,10 +102,20 @@ pub fn is_self_motion(robot: &Robot<f64>, space: &JointSpace, goal: Goal, q: &[f
     Some(tracker.in_joints(&direction))
 }
 
+/// The same for members that miss the pose by up to `missed`: next to a singularity, what is a curve there is nearly one.
+pub(super) fn follow_loosely(
+    (robot, space, goal): (&Robot<f64>, &JointSpace, Goal),
+    pose: &Transform<f64>,
+    q: &[f64],
+    missed: f64,
+) -> SelfMotion {
+    Tracker { missed, ..Tracker::new(robot, space, goal, pose) }.follow(q)
+}
+
 impl<'a> Tracker<'a> {
     pub fn new(robot: &'a Robot<f64>, space: &'a JointSpace, goal: Goal, pose: &'a Transform<f64>) -> Self {
         let size = space.reach.max(1e-3);
-        Tracker { frame: Frame { robot, goal, is_angle: &space.is_angle, size }, space, pose }
+        Tracker { frame: Frame { robot, goal, is_angle: &space.is_angle, size }, space, pose, missed: MISSED }
     }
 
     /// A direction in radians and metres, normalised.
@@ -208,7 +220,7 @@ impl<'a> Tracker<'a> {
         let moved = self.scaled(at, &next);
         let ahead: f64 = moved.iter().zip(along).map(|(x, y)| x * y).sum();
         let largest = moved.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-        let good = missed <= MISSED && cosine.abs() >= BEND.cos() && ahead > 0.5 * step && largest <= 0.1;
+        let good = missed <= self.missed && cosine.abs() >= BEND.cos() && ahead > 0.5 * step && largest <= 0.1;
         good.then_some((next, turned))
     }
 
@@ -255,7 +267,7 @@ impl<'a> Tracker<'a> {
             let part = (limit - last[joint]) / step;
             let guess: Vec<f64> = (0..at.len()).map(|j| last[j] + part * (next[j] - at[j])).collect();
             let (found, missed) = self.corrected(&guess, at.len() - 1);
-            if missed > MISSED {
+            if missed > self.missed {
                 break;
             }
             step = next[joint] - at[joint];
