@@ -59,12 +59,18 @@ pub fn run(seconds: u32, wanted: &[&str]) -> Result<()> {
     Ok(())
 }
 
-/// The tests of inverse models in full: 100,000 random configurations a robot, the whole grid of special ones, more
-/// singularities; about an hour.
+/// The tests of inverse kinematics in full: 100,000 random configurations for each closed form, the whole grid of special
+/// ones, a million for each arm by elimination, singular poses by thousands; hours.
 fn inverse() -> Result<()> {
     println!("\n━━ {INVERSE} ━━");
-    let arguments = ["test", "--release", "-p", "denavit", "--test", "inverse", "--", "--nocapture"];
-    succeed(command("cargo").args(arguments).env("DENAVIT_SOAK", "1"))
+    let closed = ["-p", "denavit", "--test", "inverse", "--test", "singular", "--test", "redundant", "--test", "numeric"];
+    let tests: [&[&str]; 2] = [&closed, &["-p", "denavit-elimination"]];
+    for test in tests {
+        let mut cargo = command("cargo");
+        cargo.args(["test", "--release", "--no-fail-fast"]).args(test).args(["--", "--nocapture"]);
+        succeed(cargo.env("DENAVIT_SOAK", "1"))?;
+    }
+    Ok(())
 }
 
 /// `cargo fuzz` of the nightly toolchain, which the instrumentation needs.

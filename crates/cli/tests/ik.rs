@@ -168,8 +168,8 @@ fn derivations() {
 fn refusals() {
     let (code, out, err) = ik(&["oblique-6r"]);
     assert!(code == 4 && out.contains("not found") && err.contains("no closed form"), "{out}{err}");
-    let (code, out, err) = ik(&["oblique-6r", "--pose", "1,0,0,0,0,0"]);
-    assert!(code == 4 && out.is_empty() && err.contains("no closed form"), "{out}{err}");
+    let (code, _, err) = ik(&["oblique-6r", "--pose", "9,0,0,0,0,0"]);
+    assert!(code == 1 && err.contains("unreachable"), "{err}");
     let value = json(&["oblique-6r"], 4);
     assert_eq!(value["status"], "refused");
     for (arguments, says) in [
@@ -182,6 +182,87 @@ fn refusals() {
     }
     let (code, _, err) = ik(&["prrrrp", "--pose", "1,0,0,0,0,0"]);
     assert!(code == 3 && err.contains("no value for"), "{err}");
+}
+
+/// Arms without a closed form, redundant ones, nearly special ones.
+#[test]
+fn every_arm() {
+    let crx = json(&["fanuc-crx10ia-l", "-q", "20deg,30deg,-40deg,50deg,60deg,70deg"], 0);
+    assert_eq!((&crx["method"], &crx["complete"]), (&"elimination".into(), &true.into()));
+    assert_eq!(solutions(&crx).len(), 8);
+    let iiwa = json(&["kuka-iiwa-14", "-q", "0.1,0.2,0.3,-1.5,0.5,1.2,0.7", "--near", "0,0,0,-1,0,1,0"], 0);
+    assert_eq!(iiwa["families"].as_array().map(Vec::len), Some(8));
+    assert_eq!(iiwa["families"][0]["free"][0], "ψ");
+    assert!(iiwa["nearest"]["within_limits"] == true && iiwa["nearest"]["distance"].as_f64() < Some(1.0));
+    let some_are_within =
+        iiwa["families"].as_array().expect("a list").iter().any(|f| f["feasible"].is_array());
+    assert!(some_are_within);
+    let one = json(&["franka-panda", "-q", "0.1,0.2,0.3,-1.5,0.5,1.2,0.7", "--one", "--best", "limits"], 0);
+    assert_eq!((solutions(&one).len(), &one["best"]["within_limits"]), (1, &true.into()));
+    let turns = json(&["ur5", "-q", "0.1,-1,1.2,0.3,0.5,0.2", "--near", "6.2,-1,1,0,0,0"], 0);
+    assert_eq!(turns["solutions"][0]["turns"].as_array().map(Vec::len), Some(6));
+    assert!(turns["nearest"]["q"][0].as_f64() > Some(3.2), "{}", turns["nearest"]);
+}
+
+/// What is nearly special is said and solved as it is; made special on request.
+#[test]
+fn nearly_special() {
+    let text = "name = \"N\"\nconvention = \"standard\"\n[[joints]]\ntheta = \"q1\"\nd = 0.3\nalpha = 1.5708\n[[joints]]\ntheta = \"q2\"\na = 0.4\n[[joints]]\ntheta = \"q3\"\na = 0.3\nalpha = 1e-4\n[[joints]]\ntheta = \"q4\"\nd = 0.1\nalpha = \"90 deg\"\n[[joints]]\ntheta = \"q5\"\nd = 0.1\nalpha = \"-90 deg\"\n[[joints]]\ntheta = \"q6\"\nd = 0.1\n";
+    let path = std::env::temp_dir().join(format!("denavit-nearly-{}.toml", std::process::id()));
+    std::fs::write(&path, text).expect("a file");
+    let robot = path.to_str().expect("a name");
+    let q = "0.1,-1,1.2,0.3,0.5,0.2";
+    let (code, _, err) = ik(&[robot, "-q", q]);
+    assert!(code == 0 && err.contains("axes 3 and 4 are nearly parallel: 1.000e-4 rad off"), "{err}");
+    let as_it_is = json(&[robot, "-q", q], 0);
+    assert_eq!((&as_it_is["method"], &as_it_is["complete"]), (&"elimination".into(), &true.into()));
+    let ideal = json(&[robot, "-q", q, "--idealise=0.001"], 0);
+    assert_eq!(ideal["method"], "closed form");
+    assert_eq!(ideal["idealised"]["changes"].as_array().map(Vec::len), Some(2));
+    assert!(ideal["idealised"]["position_error"].as_f64() < Some(1e-3));
+    assert_eq!(solutions(&ideal).len(), solutions(&as_it_is).len());
+    std::fs::remove_file(&path).expect("it was there");
+}
+
+/// A thousand lines, reachable, out of reach, singular and malformed ones: an answer each, in order.
+#[test]
+fn a_thousand_poses() {
+    let pose = |q: &str| json(&["ur5", "-q", q], 0)["pose"].to_string();
+    let singular = pose("0.1,-1,1.2,0.3,0,0.2");
+    let far = "[[1,0,0,9],[0,1,0,0],[0,0,1,0],[0,0,0,1]]".to_string();
+    let bent = "[[1,0.5,0,0.4],[0,1,0,0],[0,0,1,0],[0,0,0,1]]".to_string();
+    let kinds = [pose("0.1,-1,1.2,0.3,0.5,0.2"), far, singular, bent, "[1,2]".into(), "[[NaN]]".into()];
+    let lines: Vec<&str> = (0..1000).map(|k| kinds[k % kinds.len()].as_str()).collect();
+    let output = fed(&["ik", "ur5", "--input", "-"], &(lines.join("\n") + "\n"));
+    assert_eq!(output.status.code(), Some(3));
+    let text = String::from_utf8(output.stdout).expect("UTF-8");
+    let answers: Vec<Value> = text.lines().map(|l| serde_json::from_str(l).expect("JSON")).collect();
+    assert_eq!(answers.len(), 1000);
+    for (k, answer) in answers.iter().enumerate() {
+        match k % kinds.len() {
+            0 => assert_eq!(solutions(answer).len(), 8),
+            1 => assert_eq!(answer["status"], "unreachable"),
+            2 => assert!(!answer["families"].as_array().expect("a list").is_empty()),
+            _ => assert_eq!((&answer["line"], answer["error"].is_string()), (&(k + 1).into(), true)),
+        }
+    }
+}
+
+/// A path: each pose takes the branch of the one before.
+#[test]
+fn a_path_is_followed() {
+    let at = |k: u32| format!("{},-1,1.2,0.3,0.5,0.2", 0.1 + 0.05 * f64::from(k));
+    let poses: Vec<String> = (0..20).map(|k| json(&["ur5", "-q", &at(k)], 0)["pose"].to_string()).collect();
+    let output =
+        fed(&["ik", "ur5", "--input", "-", "--follow", "--near", &at(0)], &(poses.join("\n") + "\n"));
+    let text = String::from_utf8(output.stdout).expect("UTF-8");
+    let answers: Vec<Value> = text.lines().map(|l| serde_json::from_str(l).expect("JSON")).collect();
+    assert_eq!(answers.len(), 20);
+    for (k, answer) in (0..).zip(&answers) {
+        let q1 = answer["nearest"]["q"][0].as_f64().expect("a number");
+        assert!((q1 - 0.1 - 0.05 * f64::from(k)).abs() < 1e-6, "{answer}");
+        assert!(answer["nearest"]["distance"].as_f64() < Some(0.06));
+    }
 }
 
 /// Only the position, or the position and a direction.

@@ -92,6 +92,9 @@ pub struct Family {
     pub is_affine: bool,
     /// For one free unknown, the values for which there is a solution (radians or metres), from the sampling.
     pub interval: Option<[f64; 2]>,
+    /// The values of the free unknown at which the limits allow the configuration, or a copy of it whole turns away, in
+    /// order; for the curves of a redundant arm.
+    pub feasible: Vec<[f64; 2]>,
     /// Members along it, neighbours next to each other, where it is not affine and was followed; the first again at
     /// the end if it is closed.
     pub curve: Vec<Vec<f64>>,

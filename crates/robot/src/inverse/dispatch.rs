@@ -252,6 +252,7 @@ impl InverseKinematics {
                 direction: motion.direction,
                 is_affine: motion.is_affine,
                 interval: None,
+                feasible: vec![],
                 curve: motion.curve,
                 at: vec![],
                 signs: vec![],
@@ -286,6 +287,10 @@ impl InverseKinematics {
             answer.doubt = Some(Doubt::Searched);
             answer.solutions.push(Solution { q, residual, branch, multiplicity: 1, within_limits, guard });
             return;
+        }
+        if outcome.beyond_reach.is_some() {
+            // That there is none is proved.
+            answer.doubt = None;
         }
         let (angle, distance) = newton::gap(&self.robot, self.goal, pose, &outcome.q);
         answer.obstacle = Some(Obstacle { unknown: None, q: outcome.q, angle, distance, violated: vec![] });

@@ -130,6 +130,9 @@ fn family(f: &Family, space: &JointSpace) -> Value {
     value["direction"] = f.direction.clone().into();
     value["affine"] = f.is_affine.into();
     value["interval"] = f.interval.map(|i| i.to_vec()).into();
+    if !f.feasible.is_empty() {
+        value["feasible"] = json!(f.feasible);
+    }
     if !f.curve.is_empty() {
         value["curve"] = json!(f.curve);
     }
@@ -288,12 +291,18 @@ impl Report<'_> {
         );
         let free = f.free.join(", ");
         let mut of = format!("free: {free}");
+        let shown = |x: f64| match self.description.variables().iter().find(|v| *v.symbol.name() == *free) {
+            Some(v) => reading(x, v.kind),
+            None if free == "s" => number(x, 1e-9),
+            None => reading(x, JointKind::Revolute),
+        };
         if let Some([low, high]) = f.interval {
-            let kind = match self.description.variables().iter().find(|v| *v.symbol.name() == *free) {
-                Some(v) => v.kind,
-                None => JointKind::Revolute,
-            };
-            of += &format!(", from {} to {}", reading(low, kind), reading(high, kind));
+            of += &format!(", from {} to {}", shown(low), shown(high));
+        }
+        if !f.feasible.is_empty() {
+            let stretch = |[low, high]: &[f64; 2]| format!("{} to {}", shown(*low), shown(*high));
+            let stretches: Vec<String> = f.feasible.iter().map(stretch).collect();
+            of += &format!("; within the limits {}", stretches.join(", "));
         }
         if f.dimension > 1 {
             of += &format!("; {} parameters", f.dimension);

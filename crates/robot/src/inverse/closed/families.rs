@@ -274,6 +274,7 @@ impl InverseSolver {
                 direction,
                 is_affine,
                 interval: (free.len() == 1).then(|| self.interval(pose, given, (free[0], steps), &group)),
+                feasible: vec![],
                 curve: vec![],
                 at,
                 signs,

@@ -89,6 +89,7 @@ impl Manifold {
             direction: c.direction,
             is_affine: false,
             interval: Some(c.domain),
+            feasible: c.feasible,
             curve: c.curve,
             at: vec![],
             signs: vec![],
