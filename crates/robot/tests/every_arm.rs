@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::robot;
+use common::{Random, robot};
 use denavit::catalogue;
 use denavit::description::{Description, read_toml};
 use denavit::geometry::Transform;
@@ -12,25 +12,12 @@ use denavit::robot::Robot;
 use std::f64::consts::{PI, TAU};
 use std::num::NonZero;
 
-/// A small generator of numbers that look random (splitmix64).
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// A configuration within the limits.
-    fn configuration(&mut self, solver: &InverseKinematics) -> Vec<f64> {
-        let space = &solver.space;
-        let far = |is_angle: bool| if is_angle { PI } else { 1.0 };
-        let range = space.limits.iter().zip(&space.is_angle).map(|(l, &a)| l.unwrap_or([-far(a), far(a)]));
-        range.map(|[low, high]| low + self.unit() * (high - low)).collect()
-    }
+/// A configuration within the limits.
+fn configuration(random: &mut Random, solver: &InverseKinematics) -> Vec<f64> {
+    let space = &solver.space;
+    let far = |is_angle: bool| if is_angle { PI } else { 1.0 };
+    let range = space.limits.iter().zip(&space.is_angle).map(|(l, &a)| l.unwrap_or([-far(a), far(a)]));
+    range.map(|[low, high]| low + random.unit() * (high - low)).collect()
 }
 
 fn solver(description: &Description) -> InverseKinematics {
@@ -56,7 +43,7 @@ fn every_robot_is_solved() {
         let mut solver = solver(&description);
         let mut random = Random(1);
         for _ in 0..20 {
-            let q = random.configuration(&solver);
+            let q = configuration(&mut random, &solver);
             let pose = solver.robot.pose(&q);
             let given: Vec<f64> = solver.given.iter().map(|&j| q[j]).collect();
             let answer = solver.solve(&pose, &given);
@@ -76,7 +63,7 @@ fn one_is_within_the_limits() {
         let mut solver = solver(&description);
         let mut random = Random(2);
         for _ in 0..20 {
-            let q = random.configuration(&solver);
+            let q = configuration(&mut random, &solver);
             let pose = solver.robot.pose(&q);
             let given: Vec<f64> = solver.given.iter().map(|&j| q[j]).collect();
             let answer = solver.one(&pose, &given, None);
@@ -119,7 +106,7 @@ fn nearly_special_arms_are_solved_as_they_are() {
             let mut random = Random(4);
             let mut doubtful = 0;
             for _ in 0..100 {
-                let q = random.configuration(&solver);
+                let q = configuration(&mut random, &solver);
                 let pose = solver.robot.pose(&q);
                 let answer = solver.solve(&pose, &[]);
                 assert!(
@@ -138,7 +125,7 @@ fn nearly_special_arms_are_solved_as_they_are() {
 fn unreachable_poses_say_how_near_the_arm_comes() {
     for name in ["fanuc-crx10ia-l", "kuka-iiwa-14", "ur5"] {
         let mut solver = solver(&robot(name));
-        let q = Random(5).configuration(&solver);
+        let q = configuration(&mut Random(5), &solver);
         let mut pose = solver.robot.pose(&q);
         let direction = pose.translation.scale(1.0 / pose.translation.norm());
         pose.translation = direction.scale(10.0);
@@ -159,7 +146,7 @@ fn many_poses_are_solved_in_order_on_any_number_of_threads() {
         let solver = solver(&robot(name));
         let mut random = Random(6);
         let poses: Vec<Transform<f64>> =
-            (0..60).map(|_| solver.robot.pose(&random.configuration(&solver))).collect();
+            (0..60).map(|_| solver.robot.pose(&configuration(&mut random, &solver))).collect();
         let by = |threads: usize| solver.solve_all(&poses, &[], NonZero::new(threads).expect("some"));
         let one = by(1);
         assert_eq!(one.len(), poses.len());
@@ -188,7 +175,7 @@ fn whole_turns_within_the_limits() {
 fn the_best_solution_by_a_criterion() {
     for name in ["ur5", "fanuc-crx10ia-l", "franka-panda"] {
         let mut solver = solver(&robot(name));
-        let q = Random(8).configuration(&solver);
+        let q = configuration(&mut Random(8), &solver);
         let pose = solver.robot.pose(&q);
         let answer = solver.solve(&pose, &[]);
         let margin = |solver: &InverseKinematics, q: &[f64]| {
@@ -212,7 +199,7 @@ fn given_joints_without_a_closed_form() {
     assert_eq!((solver.method(), solver.given.as_slice()), ("elimination", [2].as_slice()));
     let mut random = Random(9);
     for _ in 0..5 {
-        let q = random.configuration(&solver);
+        let q = configuration(&mut random, &solver);
         let pose = solver.robot.pose(&q);
         let answer = solver.solve(&pose, &[q[2]]);
         assert!(holds(&mut solver, &pose, &answer, &q), "{q:?} is not among {answer:#?}");

@@ -3,24 +3,11 @@
 
 mod common;
 
-use common::robot;
+use common::{Random, robot};
 use denavit::geometry::Transform;
 use denavit::inverse::{Answer, InverseKinematics, Options};
 use denavit::robot::Robot;
 use std::f64::consts::{PI, TAU};
-
-/// A small generator of numbers that look random (splitmix64).
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
 
 const OFFSETS: [f64; 7] = [0.0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-4, 1e-2];
 
