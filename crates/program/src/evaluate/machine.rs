@@ -85,7 +85,7 @@ impl Isa {
     }
 
     /// Does some work, compiled for this set with the arithmetic that is its [own](Self::arithmetic): half the code of
-    /// [`run`](Self::run), for work that is long.
+    /// what serves every arithmetic, for work that is long.
     #[inline]
     pub fn run_natively<W: Work>(self, work: W) {
         #[cfg(target_arch = "x86_64")]
