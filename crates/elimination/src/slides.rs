@@ -133,6 +133,13 @@ impl Sliding {
         })
     }
 
+    /// The same with the power and the degree known; `None` also if the degree is too large.
+    pub fn settled(arm: &Arm, first: usize, forwards: bool, power: usize, degree: usize) -> Option<Sliding> {
+        let way = Sliding::new(arm, first, forwards)?;
+        let is_degree = (1..=DEGREE).contains(&degree);
+        is_degree.then(|| Sliding { power, degree, fourier: Fourier::new(degree), ..way })
+    }
+
     /// Finds the power and the degree from the samples at some poses: the least degree that fits; false if none does.
     pub fn settle(&mut self, arm: &Arm, poses: &[Rigid]) -> bool {
         let mut best = None;

@@ -164,7 +164,8 @@ fn report(generated: &Generated, language: Language, folder: &Path) -> String {
 
 /// `closed form, at most 8 solutions (shoulder, wrist, elbow); q3 is given`
 fn in_words(ik: &Inverse) -> String {
-    let mut text = format!("closed form, at most {}", ik.at_most());
+    let how = if ik.by_elimination { "by elimination" } else { "closed form" };
+    let mut text = format!("{how}, at most {}", ik.at_most());
     if !ik.branches.is_empty() {
         text += &format!(" ({})", ik.branches.join(", "));
     }
@@ -195,6 +196,7 @@ fn as_json(generated: &Generated, language: Language, folder: &Path) -> serde_js
     };
     let inverse = generated.inverse.as_ref().map(|ik| {
         json!({
+            "method": if ik.by_elimination { "elimination" } else { "closed form" },
             "max_solutions": ik.max_solutions,
             "branches": ik.branches,
             "given": names(ik.given.clone()),

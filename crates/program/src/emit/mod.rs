@@ -92,8 +92,41 @@ pub struct Library<'a> {
     pub routines: Vec<Routine<'a>>,
     /// The functions that find all solutions.
     pub solvers: Vec<SolverRoutine<'a>>,
+    /// Functions that are no programs.
+    pub attachments: Vec<Attachment>,
     /// Numbers of the emitted code.
     pub precision: Precision,
+}
+
+/// A function that is no program, written out in the language of the library (C, Rust; other languages leave it out).
+///
+/// In all its texts `@name@` stands for the name of the library, `@NAME@` for the same in capitals.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Attachment {
+    /// Its name, such as `inverse`.
+    pub name: String,
+    /// What callers see: C, for the header; Rust, for the root of the package.
+    pub declarations: String,
+    /// C: for the source file.
+    pub definitions: String,
+    /// C: for the test, with a function `test_…` of the attachment's name.
+    pub test: String,
+    /// Files of its own, besides.
+    pub files: Vec<File>,
+}
+
+impl Attachment {
+    /// A text with the name of the library in it.
+    pub(crate) fn named(text: &str, library: &str) -> String {
+        text.replace("@name@", library).replace("@NAME@", &library.to_uppercase())
+    }
+
+    /// Its files with the name of the library in them.
+    pub(crate) fn named_files(&self, library: &str) -> impl Iterator<Item = File> {
+        self.files
+            .iter()
+            .map(|f| File { path: Self::named(&f.path, library), text: Self::named(&f.text, library) })
+    }
 }
 
 /// A parameter of emitted code.

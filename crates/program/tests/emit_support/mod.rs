@@ -66,6 +66,7 @@ impl Sample {
                 .collect(),
             routines: routines.collect(),
             solvers: vec![],
+            attachments: vec![],
             precision,
         }
     }

@@ -159,6 +159,7 @@ pub fn folder(language: Language, words: Words, given: Given) -> Vec<File> {
             .collect(),
         routines: routines.into_iter().map(routine).collect(),
         solvers: vec![],
+        attachments: vec![],
         precision: Precision::Double,
     };
     emit(&library, language)

@@ -50,6 +50,7 @@ impl Sample {
                 result: self.result.into(),
                 vectors: self.vectors.clone(),
             }],
+            attachments: vec![],
             precision: Precision::Double,
         }
     }

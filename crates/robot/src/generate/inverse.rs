@@ -18,6 +18,8 @@ use std::f64::consts::TAU;
 /// What is known of a generated inverse function.
 #[derive(Clone, Debug)]
 pub struct Inverse {
+    /// True if it is no closed form: the joints are eliminated with numbers.
+    pub by_elimination: bool,
     /// The largest number of solutions.
     pub max_solutions: usize,
     /// What its branches are called: shoulder, elbow, wrist.
@@ -68,6 +70,7 @@ impl Closed {
             && matches!(options.language, Language::C | Language::Cuda);
         let vectors = Tester::new(d, &model, &assumed, is_single).vectors(d);
         let facts = Inverse {
+            by_elimination: false,
             max_solutions: model.max_solutions(),
             branches: model.labels.iter().flatten().cloned().collect(),
             given: model.given.iter().map(|&j| model.chain.variables[j]).collect(),

@@ -1,6 +1,7 @@
 //! Source code for one robot: what to emit, the words around it, and the vectors that its tests hold.
 
 mod forward;
+mod general;
 mod inverse;
 mod samples;
 mod words;
@@ -15,6 +16,7 @@ use denavit_program::Count;
 use denavit_program::emit::{self, File, Language, Library, Parameter, Precision};
 use denavit_symbolic::{Expr, Symbol};
 use forward::Forward;
+use general::General;
 use inverse::Closed;
 use std::fmt;
 use std::str::FromStr;
@@ -83,13 +85,14 @@ pub struct Generated {
     pub files: Vec<File>,
     /// For each forward function its operations and whether it is proved equal to the product of the link transforms.
     pub functions: Vec<(Wanted, Count, Proof)>,
-    /// The inverse function, if it was asked for and there is a closed form.
+    /// The inverse function, if it was asked for and there is a closed form, or elimination in the language.
     pub inverse: Option<Inverse>,
     /// Why there is none although it was asked for.
     pub refused: Option<String>,
 }
 
-/// Generates source code for a robot. An inverse function that has no closed form is left out.
+/// Generates source code for a robot. An inverse function that has no closed form is by elimination in C and Rust, and
+/// left out in other languages.
 ///
 /// # Errors
 /// With `fixed`: if a parameter has no value.
@@ -103,23 +106,30 @@ pub fn generate(description: &Description, options: &Options) -> Result<Generate
     };
     let programs: Vec<Forward> = options.functions.iter().filter_map(|&w| Forward::new(d, w)).collect();
     let asked = options.functions.contains(&Wanted::Inverse);
-    let (closed, refused) = match asked.then(|| Closed::new(d, options)) {
-        None => (None, None),
-        Some(Ok(closed)) => (Some(closed), None),
-        Some(Err(why)) => (None, Some(why.to_string())),
-    };
+    let (mut closed, mut general, mut refused) = (None, None, None);
+    match asked.then(|| Closed::new(d, options)) {
+        None => {}
+        Some(Ok(found)) => closed = Some(found),
+        Some(Err(why)) => match General::new(d, options) {
+            Ok(found) => general = Some(found),
+            Err(Some(also)) => refused = Some(format!("{why}; {also}")),
+            Err(None) => refused = Some(why.to_string()),
+        },
+    }
     let functions = programs.iter().map(|f| (f.wanted, f.program.count(), f.proof)).collect();
-    if programs.is_empty() && closed.is_none() {
+    if programs.is_empty() && closed.is_none() && general.is_none() {
         return Ok(Generated { files: vec![], functions, inverse: None, refused });
     }
     let samples = samples::samples(d);
     let variables = d.variables();
     let parameters: Vec<Parameter> =
         d.parameters.iter().map(|p| words::parameter(d, p.symbol, p.value)).collect();
+    let about: Vec<String> =
+        closed.iter().flat_map(Closed::header).chain(general.iter().flat_map(General::header)).collect();
     let library = Library {
         title: d.name.clone(),
         name: options.name.clone().unwrap_or_else(|| d.name.clone()),
-        header: words::header(description, d, &programs, closed.as_ref()),
+        header: words::header(description, d, &programs, &about),
         // Those of the forward functions.
         variables: variables
             .iter()
@@ -129,10 +139,12 @@ pub fn generate(description: &Description, options: &Options) -> Result<Generate
         parameters,
         routines: programs.iter().map(|f| f.routine(d, &samples)).collect(),
         solvers: closed.iter().map(Closed::routine).collect(),
+        attachments: general.iter().map(General::attachment).collect(),
         precision: options.precision,
     };
     let files = emit::emit(&library, options.language);
-    Ok(Generated { files, functions, inverse: closed.as_ref().map(Closed::facts), refused })
+    let inverse = closed.as_ref().map(Closed::facts).or(general.as_ref().map(General::facts));
+    Ok(Generated { files, functions, inverse, refused })
 }
 
 /// The description with values in place of its parameters.

@@ -14,7 +14,7 @@ use crate::emit::names::{Names, brief};
 use crate::emit::solver::{Plan, plans};
 use crate::emit::spelling::Spelling;
 use crate::emit::wrap::comments;
-use crate::emit::{File, Language, Library, Parameter, Precision};
+use crate::emit::{Attachment, File, Language, Library, Parameter, Precision};
 use denavit_symbolic::{Expr, Symbol};
 use std::fmt::Write;
 
@@ -142,12 +142,15 @@ pub(crate) fn emit(library: &Library) -> Vec<File> {
     let head = brief(library, &format!("{}.h", source.name));
     let head = head.iter().map(String::as_str);
     let makefile = include_str!("Makefile.txt").replace("@name@", &source.name);
-    vec![
+    let attached = library.attachments.iter().flat_map(|a| a.named_files(&source.name));
+    let mut files = vec![
         file(format!("{}.h", source.name), source.header()),
         file(format!("{}.c", source.name), source.body()),
         file(format!("test_{}.c", source.name), source.test()),
         file("Makefile".into(), format!("{}\n{makefile}", lines(&comments(head, "# ", WIDTH)))),
-    ]
+    ];
+    files.extend(attached);
+    files
 }
 
 /// The solvers, whose names are none of functions.
@@ -270,6 +273,7 @@ impl Source<'_> {
             let _ = write!(text, "\n/* {words} */\n{};\n", self.block_signature(f, "", ""));
         }
         self.plans.iter().for_each(|plan| text.push_str(&self.declaration(plan)));
+        text.push_str(&self.attached(|a| &a.declarations));
         text.push_str("\n#ifdef __cplusplus\n}\n#endif\n\n#endif\n");
         text
     }
@@ -344,7 +348,7 @@ impl Source<'_> {
         let single = self.library.precision == Precision::Single;
         let pairs = Function::any_pair(&self.functions) || !single && Plan::any_pair(&self.plans);
         let atan2 = Function::any_atan2(&self.functions) || !single && Plan::any_atan2(&self.plans);
-        if pairs || atan2 {
+        if pairs || atan2 || !self.library.attachments.is_empty() {
             let fma = if single { "fmaf" } else { "fma" };
             text.push_str(&include_str!("class.c").replace("@NAME@", &upper).replace("@FMA@", fma));
         }
@@ -376,7 +380,12 @@ impl Source<'_> {
             text.push_str(&self.one(f));
             text.push_str(&self.block(f));
         }
-        text + &self.solvers()
+        text + &self.solvers() + &self.attached(|a| &a.definitions)
+    }
+
+    /// A text of all attachments.
+    fn attached(&self, text: fn(&Attachment) -> &str) -> String {
+        self.library.attachments.iter().map(|a| Attachment::named(text(a), &self.name)).collect()
     }
 
     fn one(&self, f: &Function) -> String {

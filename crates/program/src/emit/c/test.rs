@@ -27,8 +27,10 @@ impl Source<'_> {
         }
         let solved = || self.plans.iter().filter(|p| !p.routine.vectors.is_empty());
         solved().for_each(|plan| text.push_str(&self.solver_test(plan)));
+        text.push_str(&self.attached(|a| &a.test));
         text.push_str("\nint main(void)\n{\n");
-        for name in tested.iter().map(|f| &f.name).chain(solved().map(|p| &p.name)) {
+        let attached = self.library.attachments.iter().map(|a| &a.name);
+        for name in tested.iter().map(|f| &f.name).chain(solved().map(|p| &p.name)).chain(attached) {
             let _ = writeln!(text, "    test_{name}();");
         }
         let _ = write!(

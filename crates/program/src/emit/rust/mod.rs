@@ -16,7 +16,7 @@ use crate::emit::names::{Names, brief, comment};
 use crate::emit::solver::{Kind, Plan, plans};
 use crate::emit::spelling::Spelling;
 use crate::emit::wrap::comments;
-use crate::emit::{File, Language, Library, Precision};
+use crate::emit::{Attachment, File, Language, Library, Precision};
 use denavit_symbolic::{Expr, Symbol};
 use std::fmt::Write;
 
@@ -113,6 +113,7 @@ pub(crate) fn emit(library: &Library) -> Vec<File> {
         files.push(file("src/roots.rs", source.roots()));
     }
     files.push(file("tests/vectors.rs", source.test()));
+    files.extend(library.attachments.iter().flat_map(|a| a.named_files(&source.name)));
     files
 }
 
@@ -231,8 +232,14 @@ impl Source<'_> {
         let opening: String = self.head("//! ", &[]).replace("```", "'''");
         let mut text = format!("//! ```text\n{opening}//! ```\n");
         text.push_str(&lines(&comments(more, "//! ", WIDTH)));
+        let is_attached = !self.library.attachments.is_empty();
+        text.push_str(if is_attached {
+            "\n#![cfg_attr(not(feature = \"std\"), no_std)]\n"
+        } else {
+            "\n#![no_std]\n"
+        });
         text.push_str(
-            "\n#![no_std]\n#![forbid(unsafe_code)]\n#![allow(non_snake_case, clippy::approx_constant)]\n\n\
+            "#![forbid(unsafe_code)]\n#![allow(non_snake_case, clippy::approx_constant)]\n\n\
              #[cfg(feature = \"std\")]\nextern crate std;\n",
         );
         if self.needs_kernel() {
@@ -240,6 +247,9 @@ impl Source<'_> {
         }
         if !self.plans.is_empty() {
             text.push_str("mod roots;\n");
+        }
+        for attachment in &self.library.attachments {
+            text.push_str(&Attachment::named(&attachment.declarations, &self.name));
         }
         let code = self.code();
         let used: Vec<&str> = KERNEL.iter().copied().filter(|word| is_called(&code, word)).collect();

@@ -34,11 +34,12 @@ impl std::error::Error for Unsuited {}
 
 /// An arm of six axes, and what its axes are in joint variables: x = C·q + c.
 #[derive(Clone, Debug)]
-pub(super) struct SixAxes {
+pub(crate) struct SixAxes {
     pub arm: Arm,
-    offsets: [f64; 6],
+    /// c.
+    pub offsets: [f64; 6],
     /// C⁻¹.
-    inverse: [[f64; 6]; 6],
+    pub inverse: [[f64; 6]; 6],
 }
 
 impl SixAxes {

@@ -54,6 +54,11 @@ impl GeneralSolver {
         })
     }
 
+    /// The arm, and how it is solved.
+    pub(crate) fn parts(&self) -> (&SixAxes, &Plan) {
+        (&self.axes, &self.plan)
+    }
+
     /// How many splits of the loop the last pose took.
     pub fn splits(&self) -> u32 {
         self.found.splits
@@ -118,6 +123,7 @@ impl GeneralSolver {
                 direction,
                 is_affine: motion.is_affine,
                 interval: None,
+                feasible: vec![],
                 curve: motion.curve,
                 at: vec![],
                 signs: vec![],

@@ -220,7 +220,8 @@ impl<'a> Tracker<'a> {
         let moved = self.scaled(at, &next);
         let ahead: f64 = moved.iter().zip(along).map(|(x, y)| x * y).sum();
         let largest = moved.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-        let good = missed <= self.missed && cosine.abs() >= BEND.cos() && ahead > 0.5 * step && largest <= 0.1;
+        let good =
+            missed <= self.missed && cosine.abs() >= BEND.cos() && ahead > 0.5 * step && largest <= 0.1;
         good.then_some((next, turned))
     }
 

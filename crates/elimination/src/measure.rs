@@ -1,0 +1,187 @@
+//! Offline: which splits of an arm's loop to solve, and in which order.
+//!
+//! Which split is good for an arm is not guessed from its geometry but measured: each is tried on the same
+//! pseudo-random poses.
+
+use crate::{
+    answer::Work,
+    arm::{Arm, Joint},
+    certificate::Verdict,
+    fourier::Fourier,
+    plan::{Plan, Unsuitable, check},
+    rigid::Rigid,
+    slides::{Sliding, solve_sliding},
+    solve::{Constants, DEGREE, Method, solve_split},
+    split::Split,
+    triple::Triple,
+};
+
+/// Poses on which every split is tried, and the best of them again.
+const POSES: [usize; 2] = [32, 96];
+
+/// What a way to solve did on the poses.
+#[derive(Clone, Copy, Debug, Default)]
+struct Score {
+    poses: usize,
+    missed: usize,
+    certified: usize,
+    /// Sum of the numbers of charts and of candidates, which cost time.
+    effort: usize,
+}
+
+impl Score {
+    /// The larger the better: certified poses, then little effort.
+    fn merit(&self) -> f64 {
+        let n = self.poses.max(1) as f64;
+        (self.certified as f64 - 4.0 * self.missed as f64) / n - 0.002 * self.effort as f64 / n
+    }
+
+    /// Whether it is worth using.
+    fn usable(&self) -> bool {
+        2 * self.missed < self.poses && self.certified > 0
+    }
+
+    /// Counts one pose.
+    fn add(&mut self, arm: &Arm, q: &[f64; 6], verdict: Verdict, work: &Work) {
+        self.poses += 1;
+        self.certified += usize::from(verdict == Verdict::Certified);
+        self.effort += work.effort;
+        let known = work.found.iter().any(|found| {
+            (0..6).all(|i| {
+                let [c, s] = found.values[i];
+                match arm.joints[i] {
+                    Joint::Revolute => (c - q[i].cos()).abs() + (s - q[i].sin()).abs() < 1e-5,
+                    Joint::Prismatic => (c - q[i]).abs() < 1e-5,
+                }
+            })
+        });
+        self.missed += usize::from(!known);
+    }
+}
+
+impl Plan {
+    /// Measures every split on deterministic pseudo-random poses and ranks them.
+    ///
+    /// # Errors
+    /// If the arm has no isolated configurations in general, or no split works for it.
+    pub fn new(arm: &Arm) -> Result<Plan, Unsuitable> {
+        let size = arm.size();
+        let scaled = arm.scaled(1.0 / size);
+        check(arm)?;
+        if is_singular(&scaled) {
+            return Err(Unsuitable::Singular);
+        }
+        let constants = Constants { arm: scaled, size, fourier: Fourier::new(DEGREE) };
+        let mut draws = Draws(0x9e37_79b9_7f4a_7c15);
+        let poses: Vec<([f64; 6], Rigid)> = (0..POSES[0] + POSES[1])
+            .map(|_| {
+                let q = draws.configuration(&constants.arm);
+                (q, constants.arm.pose(&q))
+            })
+            .collect();
+
+        let slides = arm.joints.iter().filter(|&&joint| joint == Joint::Prismatic).count();
+        let arm = &constants.arm;
+        let method = match slides {
+            0 | 1 => {
+                let ways = (0..6)
+                    .flat_map(|hidden| [true, false].map(|last| Split::new(arm, hidden, last)))
+                    .flatten()
+                    .collect();
+                Method::Splits(rank(
+                    arm,
+                    ways,
+                    &poses,
+                    |split| split.joints[2],
+                    |split, pose, work| solve_split::<false>(&constants, split, pose, work),
+                ))
+            }
+            2 => {
+                let some: Vec<Rigid> = poses[..6].iter().map(|(_, pose)| *pose).collect();
+                let ways = (0..4)
+                    .flat_map(|first| [true, false].map(|forwards| Sliding::new(arm, first, forwards)))
+                    .flatten()
+                    .filter_map(|mut way| way.settle(arm, &some).then_some(way))
+                    .collect();
+                Method::Slides(rank(
+                    arm,
+                    ways,
+                    &poses,
+                    |way| way.turns[0],
+                    |way, pose, work| solve_sliding::<false>(arm, way, pose, work),
+                ))
+            }
+            _ => Method::Triple(Box::new(Triple::new(arm).ok_or(Unsuitable::TooManySlides)?)),
+        };
+        let empty = match &method {
+            Method::Splits(ways) => ways.is_empty(),
+            Method::Slides(ways) => ways.is_empty(),
+            Method::Triple(_) => false,
+        };
+        if empty { Err(Unsuitable::NoSplit) } else { Ok(Plan { constants, method }) }
+    }
+}
+
+/// Tries all ways on the poses; the best for each hidden joint, the best of them first.
+fn rank<W>(
+    arm: &Arm,
+    ways: Vec<W>,
+    poses: &[([f64; 6], Rigid)],
+    hidden: impl Fn(&W) -> usize,
+    solve: impl Fn(&W, &Rigid, &mut Work) -> Verdict,
+) -> Vec<W> {
+    let mut work = Work::default();
+    let mut tried: Vec<(W, Score)> = ways.into_iter().map(|way| (way, Score::default())).collect();
+    let mut measure = |(way, score): &mut (W, Score), poses: &[([f64; 6], Rigid)]| {
+        for (q, pose) in poses {
+            work.found.clear();
+            let verdict = solve(way, pose, &mut work);
+            score.add(arm, q, verdict, &work);
+            // Not worth more time.
+            if score.poses == 5 && (score.missed > 3 || score.certified == 0) {
+                break;
+            }
+        }
+    };
+    let order = |a: &(W, Score), b: &(W, Score)| b.1.merit().total_cmp(&a.1.merit());
+    for one in &mut tried {
+        measure(one, &poses[..POSES[0]]);
+    }
+    tried.sort_by(order);
+    for one in tried.iter_mut().take(4) {
+        measure(one, &poses[POSES[0]..]);
+    }
+    tried.sort_by(order);
+    let mut seen = [false; 6];
+    tried.retain(|(way, score)| score.usable() && !std::mem::replace(&mut seen[hidden(way)], true));
+    tried.into_iter().map(|(way, _)| way).collect()
+}
+
+/// Whether the Jacobian is singular wherever it is looked at.
+fn is_singular(scaled: &Arm) -> bool {
+    let mut draws = Draws(0x2545_f491_4f6c_dd1d);
+    (0..9).all(|_| {
+        let q = draws.configuration(scaled);
+        crate::arm::smallest_singular_value(scaled.jacobian(&q)) < 1e-9
+    })
+}
+
+/// Pseudo-random numbers (Marsaglia's xorshift with a multiplier).
+struct Draws(u64);
+
+impl Draws {
+    fn next(&mut self) -> f64 {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        (self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Angles anywhere, slides between −1 and 1 times the arm's size.
+    fn configuration(&mut self, scaled: &Arm) -> [f64; 6] {
+        scaled.joints.map(|joint| match joint {
+            Joint::Revolute => (2.0 * self.next() - 1.0) * std::f64::consts::PI,
+            Joint::Prismatic => 2.0 * self.next() - 1.0,
+        })
+    }
+}
