@@ -63,7 +63,18 @@ pub fn run(seconds: u32, wanted: &[&str]) -> Result<()> {
 /// ones, a million for each arm by elimination, singular poses by thousands; hours.
 fn inverse() -> Result<()> {
     println!("\n━━ {INVERSE} ━━");
-    let closed = ["-p", "denavit", "--test", "inverse", "--test", "singular", "--test", "redundant", "--test", "numeric"];
+    let closed = [
+        "-p",
+        "denavit",
+        "--test",
+        "inverse",
+        "--test",
+        "singular",
+        "--test",
+        "redundant",
+        "--test",
+        "numeric",
+    ];
     let tests: [&[&str]; 2] = [&closed, &["-p", "denavit-elimination"]];
     for test in tests {
         let mut cargo = command("cargo");
