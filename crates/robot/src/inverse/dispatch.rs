@@ -39,8 +39,12 @@ pub struct InverseKinematics {
     pub given: Vec<usize>,
     /// What is nearly special about the arm: no closed form rests on it.
     pub nearly: Vec<NearlySpecial>,
+    /// Where descents start, if they are needed.
+    pub seed: Option<Vec<f64>>,
     method: Method,
     numeric: NumericSolver,
+    /// The same where limits do not count.
+    unlimited: NumericSolver,
 }
 
 /// How the solutions are found.
@@ -120,6 +124,9 @@ impl InverseKinematics {
         let robot = Robot::numeric(description)?;
         let space = JointSpace::new(description, robot.reach());
         let numeric = NumericSolver::new(description, options.goal)?;
+        let mut free = description.clone();
+        free.rows.iter_mut().for_each(|r| r.limits = None);
+        let unlimited = NumericSolver::new(&free, options.goal)?;
         let nearly = Structure::of(description).nearly;
         let surplus = robot.joints - newton::rank(&robot, options.goal);
         let of_pose = options.goal == Goal::Pose;
@@ -129,8 +136,10 @@ impl InverseKinematics {
             goal: options.goal,
             given: vec![],
             nearly,
+            seed: None,
             method: Method::Numeric,
             numeric,
+            unlimited,
         };
         if surplus > 0
             && of_pose
@@ -138,6 +147,10 @@ impl InverseKinematics {
             && let Ok(solver) = RedundantSolver::new(description, options.goal)
         {
             this.method = Method::Redundant(Box::new(solver));
+            return Ok(this);
+        }
+        if surplus > 0 && !of_pose && options.given.is_none() {
+            // Joints that were held at some value would make a target unreachable that is not.
             return Ok(this);
         }
         let asked = options.given.clone().unwrap_or_default();
@@ -183,10 +196,17 @@ impl InverseKinematics {
     ///
     /// # Panics
     /// If there is not one value per given joint.
+    ///
+    /// A pose is taken to be as precise as its rotation is orthonormal: the nearest rotation is meant.
     pub fn solve(&mut self, pose: &Transform<f64>, given: &[f64]) -> Answer {
         assert_eq!(given.len(), self.given.len(), "one value per given joint");
+        if let Method::Closed(solver) = &mut self.method {
+            return solver.solve(pose, given);
+        }
+        let pose = &newton::nearest_rigid(pose).0;
         let mut answer = match &mut self.method {
-            Method::Closed(solver) => return solver.solve(pose, given),
+            // Served above.
+            Method::Closed(_) => Answer::empty(),
             Method::General(general, closed) => {
                 let mut answer = general.solve(pose);
                 if answer.doubt.is_some()
@@ -218,6 +238,9 @@ impl InverseKinematics {
             }
             Method::Numeric => Answer { doubt: Some(Doubt::Searched), ..Answer::empty() },
         };
+        // Numbers so large that nothing follows from them.
+        answer.solutions.retain(|s| s.residual.is_finite());
+        answer.families.retain(|f| f.representative.residual.is_finite());
         if !answer.is_reachable() {
             self.search(pose, &mut answer);
         }
@@ -276,9 +299,15 @@ impl InverseKinematics {
 
     /// By descent: a solution, or the nearest configuration.
     fn search(&mut self, pose: &Transform<f64>, answer: &mut Answer) {
-        let outcome = self.numeric.nearest(pose, None);
         let size = self.size(pose);
-        let residual = newton::distance(&self.robot, self.goal, pose, &outcome.q, size);
+        let miss = |q: &[f64]| newton::distance(&self.robot, self.goal, pose, q, size);
+        let mut outcome = self.numeric.solve(pose, self.seed.as_deref());
+        if miss(&outcome.q) > TOLERANCE && outcome.beyond_reach.is_none() {
+            let unlimited = self.unlimited.solve(pose, self.seed.as_deref());
+            outcome =
+                if miss(&unlimited.q) <= TOLERANCE { unlimited } else { self.numeric.nearest(pose, None) };
+        }
+        let residual = miss(&outcome.q);
         if residual <= TOLERANCE {
             let mut q = outcome.q;
             self.space.wrap(&mut q);

@@ -51,7 +51,12 @@ pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
         writeln!(anstream::stderr(), "note: {near}; solved as it stands, `--idealise` takes it so")?;
     }
     let at = arguments.q.as_deref().map(|text| configuration(&description, text)).transpose()?;
-    let near = arguments.near.as_deref().map(|text| configuration(&description, text)).transpose()?;
+    let read = |text: &str| configuration(&description, text);
+    let near = arguments.near.as_deref().map(read).transpose().map_err(|e| match e {
+        Failure::Usage(text) => Failure::Usage(text.replacen("-q:", "--near:", 1)),
+        other => other,
+    })?;
+    solver.seed = near.clone().or_else(|| at.clone());
     let near = near.or_else(|| arguments.follow.then(|| vec![0.0; solver.robot.joints]));
     let criterion = near.map(Criterion::Nearest).or_else(|| arguments.best.map(Criterion::from));
     let values = values(&description, &solver.given, &given, at.as_deref())?;
@@ -101,6 +106,10 @@ fn ideal(description: &Description, name: &str, tolerance: f64) -> Result<Ideal,
             snap.axes.1
         )?;
     }
+    if ideal.snaps.is_empty() {
+        writeln!(err, "note: nothing is nearly special up to {tolerance}")?;
+        return Ok(ideal);
+    }
     let (turn, shift) = (ideal.rotation_error, ideal.position_error);
     writeln!(err, "note: the hand is off by up to {turn:.1e} rad and {shift:.1e} m for that")?;
     Ok(ideal)
@@ -139,7 +148,8 @@ fn refused(
         }
         None => {}
     }
-    Ok(Failure::Unsupported(why))
+    let numbers = "; `--pose` and `-q` are answered in numbers all the same";
+    Ok(Failure::Unsupported(format!("{why}{numbers}")))
 }
 
 /// Joints by name or number, with values where they are said.

@@ -26,6 +26,8 @@ pub struct GeneralSolver {
 
 /// A solution may miss the pose by this (see [`Solution::residual`]).
 const TOLERANCE: f64 = 1e-9;
+/// How far beside a pose that elimination does not settle (radians).
+const TILT: f64 = 1e-6;
 /// A smallest singular value below this may belong to a self-motion.
 const SINGULAR: f64 = 1e-5;
 /// Members of a curve are not further apart (radians, lengths by the reach).
@@ -66,31 +68,22 @@ impl GeneralSolver {
 
     /// All solutions of a pose of the tool in the base, in ascending order of their joint variables.
     pub fn solve(&mut self, pose: &Transform<f64>) -> Answer {
-        let work = Eliminate { plan: &self.plan, pose: rigid(pose), found: &mut self.found };
-        self.isa.run_natively(work);
         let mut answer = Answer::empty();
+        self.eliminate(pose);
         answer.doubt = match self.found.certificate {
             Certificate::Complete => None,
             Certificate::NearDoubleRoot => Some(Doubt::DoubleRoot),
             Certificate::Undecided => Some(Doubt::Uncounted),
         };
         let size = self.space.reach.hypot(pose.translation.norm()).max(f64::MIN_POSITIVE);
-        for found in &self.found.solutions {
-            let mut q = self.axes.joints(&found.q);
-            let mut residual = newton::distance(&self.robot, Goal::Pose, pose, &q, size);
-            if residual > ROUGH
-                && let Some((polished, better)) = newton::polish(&self.robot, Goal::Pose, pose, &q, &[], size)
-                && better < residual
-            {
-                (q, residual) = (polished, better);
+        self.collect(pose, size, &mut answer);
+        if answer.doubt.is_some() {
+            // Where the last axis is parallel to the first, the cuts of the loop lose their rank. What is found beside
+            // the pose leads back to it; the doubt stays.
+            for tilt in [TILT, -TILT] {
+                self.eliminate(&(*pose * tilted(tilt)));
+                self.collect(pose, size, &mut answer);
             }
-            if residual > TOLERANCE {
-                continue;
-            }
-            self.space.wrap(&mut q);
-            let within_limits = self.space.within(&q);
-            let (branch, multiplicity, guard) = (String::new(), found.multiplicity, found.singular);
-            answer.solutions.push(Solution { q, residual, branch, multiplicity, within_limits, guard });
         }
         self.families(pose, size, &mut answer);
         answer.solutions.sort_by(|a, b| {
@@ -98,6 +91,45 @@ impl GeneralSolver {
             unequal.unwrap_or(std::cmp::Ordering::Equal)
         });
         answer
+    }
+
+    /// Solves a pose by elimination.
+    fn eliminate(&mut self, pose: &Transform<f64>) {
+        let work = Eliminate { plan: &self.plan, pose: rigid(pose), found: &mut self.found };
+        self.isa.run_natively(work);
+    }
+
+    /// Adds what was found and solves the pose.
+    fn collect(&self, pose: &Transform<f64>, size: f64, answer: &mut Answer) {
+        let miss = |q: &[f64]| newton::distance(&self.robot, Goal::Pose, pose, q, size);
+        for found in &self.found.solutions {
+            let mut q = self.axes.joints(&found.q);
+            let mut residual = miss(&q);
+            if residual > ROUGH
+                && let Some((polished, better)) = newton::polish(&self.robot, Goal::Pose, pose, &q, &[], size)
+                && better < residual
+            {
+                (q, residual) = (polished, better);
+            }
+            if residual > TOLERANCE || residual.is_nan() {
+                continue;
+            }
+            self.space.wrap(&mut q);
+            // Two that have a solution between them are one.
+            let between = |a: &[f64]| -> Vec<f64> {
+                a.iter().zip(self.space.moved(a, &q)).map(|(x, d)| x + d / 2.0).collect()
+            };
+            let is_known = |s: &Solution| {
+                let away = self.space.distance(&s.q, &q);
+                away <= SAME || away <= NEXT / 10.0 && s.guard < SINGULAR && miss(&between(&s.q)) <= ROUGH
+            };
+            if answer.solutions.iter().any(is_known) {
+                continue;
+            }
+            let within_limits = self.space.within(&q);
+            let (branch, multiplicity, guard) = (String::new(), found.multiplicity, found.singular);
+            answer.solutions.push(Solution { q, residual, branch, multiplicity, within_limits, guard });
+        }
     }
 
     /// Where the Jacobian is singular at a solution, the arm may move with its hand still: the curve is followed, and
@@ -141,6 +173,11 @@ impl GeneralSolver {
             self.space.distance(&slid, q) < SAME
         }
     }
+}
+
+/// A pose a little beside the one that it stands behind, in no special direction.
+fn tilted(by: f64) -> Transform<f64> {
+    Transform::rotation_x(0.6 * by) * Transform::rotation_y(0.8 * by) * Transform::translation_x(0.3 * by)
 }
 
 struct Eliminate<'a> {
