@@ -1,28 +1,13 @@
 //! The inverse model in numbers: complete on random configurations, on special ones, near singular ones, and in
 //! agreement with what peers count (`tests/peers/ik.json`).
 
+mod common;
+
+use common::{Random, share};
 use denavit::geometry::{Transform, Vector};
 use denavit::inverse::{Answer, Goal, InverseModel, InverseSolver, Options, Refusal};
 use denavit::{Description, Robot, catalogue, description};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-
-/// A small generator of numbers that look random (splitmix64).
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
-
-/// A whole soak takes minutes; a test run takes a part of it (`cargo xtask soak`).
-fn share(of: usize, usual: usize) -> usize {
-    if std::env::var_os("DENAVIT_SOAK").is_some() { of } else { usual }
-}
 
 /// Arms without a closed form, as general as a 6R arm can be, or a 7R arm with an offset in the wrist.
 const REFUSED: [&str; 9] = [

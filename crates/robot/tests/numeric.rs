@@ -3,6 +3,9 @@
 //!
 //! A solution is judged by the plain product of the table's link transforms, never by what the solver computes with.
 
+mod common;
+
+use common::{Random, share};
 use denavit::description::{Description, read_toml};
 use denavit::geometry::{Axis, Rotation, Transform, Vector};
 use denavit::inverse::numeric::{Axes, Frame, NumericSolver, Outcome, Preference, Status, Task, TaskKind};
@@ -11,24 +14,6 @@ use denavit::{Robot, catalogue};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt::Write;
 use std::num::NonZero;
-
-/// A small generator of numbers that look random (splitmix64).
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
-
-/// A whole soak takes minutes; a test run takes a part of it (`cargo xtask soak`).
-fn share(of: usize, usual: usize) -> usize {
-    if std::env::var_os("DENAVIT_SOAK").is_some() { of } else { usual }
-}
 
 struct Case {
     description: Description,

@@ -1,36 +1,16 @@
 //! Redundant arms: the manifold of a pose is complete and exact, limits cut it exactly, and one configuration within the
 //! limits is found whenever there is one. Self-motions: curves are closed, and agree with closed forms.
 
+mod common;
+
+use common::{Random, robot, share};
 use denavit::geometry::{Transform, Vector};
 use denavit::inverse::{
     Component, Criterion, CurveEnd, Goal, JointSpace, Manifold, NotSolved, RedundantSolver, SelfMotion,
     self_motion,
 };
-use denavit::{Description, Robot, catalogue, description};
+use denavit::{Description, Robot, description};
 use std::f64::consts::{PI, TAU};
-
-/// A small generator of numbers that look random (splitmix64).
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
-
-/// A whole soak takes minutes; a test run takes a part of it (`cargo xtask soak`).
-fn share(of: usize, usual: usize) -> usize {
-    if std::env::var_os("DENAVIT_SOAK").is_some() { of } else { usual }
-}
-
-fn robot(name: &str) -> Description {
-    let text = catalogue::text(name).expect("the catalogue has it");
-    description::read_toml(text).expect("the catalogue can be read").0
-}
 
 fn solver(d: &Description) -> RedundantSolver {
     RedundantSolver::new(d, Goal::Pose).unwrap_or_else(|e| panic!("{}: {e}", d.name))

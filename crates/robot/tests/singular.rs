@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{Random, robot};
+use common::{Random, robot, share};
 use denavit::geometry::Transform;
 use denavit::inverse::{Answer, InverseKinematics, Options};
 use denavit::robot::Robot;
@@ -130,37 +130,32 @@ fn solve_near_singular(name: &str, count: usize) {
     assert!(empty.is_empty() && missed.is_empty(), "{name}: empty {empty:?}, missed {missed:?}");
 }
 
-/// Poses a singularity and offset: all of them with DENAVIT_SOAK=1.
-fn count() -> usize {
-    if std::env::var_os("DENAVIT_SOAK").is_some() { 1000 } else { 40 }
-}
-
 #[test]
 fn ur5() {
-    solve_near_singular("ur5", count());
+    solve_near_singular("ur5", share(1000, 40));
 }
 
 #[test]
 fn puma() {
-    solve_near_singular("puma560", count());
+    solve_near_singular("puma560", share(1000, 40));
 }
 
 #[test]
 fn rx90() {
-    solve_near_singular("staubli-rx90", count());
+    solve_near_singular("staubli-rx90", share(1000, 40));
 }
 
 #[test]
 fn crx() {
-    solve_near_singular("fanuc-crx10ia-l", count());
+    solve_near_singular("fanuc-crx10ia-l", share(1000, 40));
 }
 
 #[test]
 fn iiwa() {
-    solve_near_singular("kuka-iiwa-14", count());
+    solve_near_singular("kuka-iiwa-14", share(1000, 40));
 }
 
 #[test]
 fn panda() {
-    solve_near_singular("franka-panda", count());
+    solve_near_singular("franka-panda", share(1000, 40));
 }
