@@ -141,7 +141,8 @@ pub struct IkArguments {
     /// What of the tool is to be met
     #[arg(long, value_enum, default_value_t = GoalName::Pose)]
     pub goal: GoalName,
-    /// Give the solution nearest to these joint variables as well, whole turns within the limits
+    /// Give the solution nearest to these joint variables as well, moved by whole turns; solutions within the limits come
+    /// first, however far
     #[arg(long, value_name = "Q", allow_hyphen_values = true)]
     pub near: Option<String>,
     /// Give the best solution by a criterion as well
@@ -151,9 +152,9 @@ pub struct IkArguments {
     #[arg(long)]
     pub one: bool,
     /// With --input: each pose takes the solution nearest to that of the line before (the first to --near, or to 0)
-    #[arg(long, requires = "input")]
+    #[arg(long)]
     pub follow: bool,
-    /// Take axes that are nearly parallel, perpendicular or meeting as exactly so, up to TOL (radians, and lengths by the
+    /// Take axes that are nearly parallel, perpendicular or meeting as exactly so, up to TOL (0 to 0.1; radians, and lengths by the
     /// arm's size); says what changed and what it costs
     #[arg(long, value_name = "TOL", num_args = 0..=1, default_missing_value = "0.01", require_equals = true)]
     pub idealise: Option<f64>,

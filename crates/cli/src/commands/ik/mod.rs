@@ -34,6 +34,9 @@ pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
     let given = given(&description, arguments.given.as_deref())?;
     let options =
         Options { goal, given: arguments.given.is_some().then(|| given.iter().map(|g| g.0).collect()) };
+    if arguments.follow && arguments.input.is_none() {
+        return Err(Failure::Usage("--follow goes with --input".into()));
+    }
     let is_numeric = arguments.pose.is_some() || arguments.q.is_some() || arguments.input.is_some();
     if !is_numeric {
         let model = match InverseModel::derive(&description, &options) {
