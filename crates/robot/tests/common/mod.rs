@@ -1,5 +1,5 @@
-//! What several test files share; none uses all of it.
-#![allow(dead_code)]
+//! What several test files share.
+#![allow(dead_code, reason = "none of the tests uses all of it")]
 
 use denavit::catalogue;
 use denavit::description::{Description, Diagnostic, line_column, read_toml, render};
