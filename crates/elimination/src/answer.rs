@@ -2,7 +2,7 @@
 
 use crate::{
     certificate::Marks, eliminate::Eliminated, extract::UNKNOWNS, fourier::Trigonometric, lanes::Lanes,
-    remaining::Value, roots::Roots,
+    remaining::Value, roots::Roots, wide::Wide,
 };
 
 /// One configuration of the arm at the pose.
@@ -38,7 +38,7 @@ pub struct Answer {
     pub solutions: Vec<Solution>,
     /// Whether these are all.
     pub certificate: Certificate,
-    /// How many splits of the loop were solved.
+    /// How many splits of the loop were solved; one counts again if its wider matrix was needed.
     pub splits: u32,
     /// Working memory.
     pub(crate) work: Work,
@@ -51,6 +51,7 @@ pub(crate) struct Work {
     pub polynomial: Trigonometric,
     pub roots: Roots<2>,
     pub wide: Roots<3>,
+    pub matrix: Wide,
     /// Charts and candidates of the last way to solve.
     pub effort: usize,
     pub marks: Marks,

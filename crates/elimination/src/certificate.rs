@@ -22,7 +22,8 @@ const REACH: f64 = 3.0;
 const CLOSE: f64 = 1e-7;
 
 /// Compares the discs in a chart with the configurations for which the chart answers; the angles at which something does
-/// not fit are marked. `hidden` is the joint whose angles the roots are, times `sign`.
+/// not fit are marked. `hidden` is the joint whose angles the roots are, times `sign`. A root with a negative radius is known
+/// to belong to no configuration.
 #[inline(always)]
 pub(crate) fn verdict<const GROUPS: usize>(
     hidden: usize,

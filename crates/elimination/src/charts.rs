@@ -13,11 +13,11 @@ const CHARTS: usize = 12;
 /// A value larger than this many times the noise is not zero.
 const CLEAR: f64 = 2.0;
 /// How deep charts are taken of parts of charts.
-const DEPTH: u32 = 4;
+pub(crate) const DEEPEST: u32 = 4;
 /// Roots of the whole circle closer than this (rad) may be one that several configurations share.
 pub(crate) const TOGETHER: f64 = 3e-4;
 /// Roots within this distance of the circle are tried as real angles: noise moves a double root by its square root.
-const NEAR: f64 = 0.02;
+pub(crate) const NEAR: f64 = 0.02;
 /// Least noise of the polynomial that the discs allow for.
 const NOISE: f64 = 2e-14;
 
@@ -26,14 +26,15 @@ pub(crate) struct Charts {
     list: [Chart; CHARTS],
     done: usize,
     count: usize,
+    depth: u32,
     total: Verdict,
 }
 
 impl Charts {
-    /// The whole circle.
+    /// The whole circle, parts to be taken up to a depth.
     #[inline(always)]
-    pub fn whole() -> Charts {
-        Charts { list: [Chart::WHOLE; CHARTS], done: 0, count: 1, total: Verdict::Certified }
+    pub fn whole(depth: u32) -> Charts {
+        Charts { list: [Chart::WHOLE; CHARTS], done: 0, count: 1, depth, total: Verdict::Certified }
     }
 
     /// The next chart to solve in.
@@ -62,7 +63,7 @@ impl Charts {
         let threshold = CLEAR * noise(&work.polynomial);
         let crowds =
             crowds::<FUSED>(&marks.angles[..n], &marks.marked[..n], &work.polynomial, threshold, &mut arcs);
-        if crowds == 0 || chart.depth == DEPTH || self.count + crowds > CHARTS {
+        if crowds == 0 || chart.depth == self.depth || self.count + crowds > CHARTS {
             self.total = if self.total == Verdict::Uncertain { self.total } else { verdict };
             return;
         }

@@ -2,15 +2,20 @@
 
 use crate::extract::SHARED;
 
-/// The eigenvalues of the leading `size × size` block that are real or almost; their number.
+/// The eigenvalues of the leading `size × size` block that are real up to a relative tolerance; their number.
 ///
 /// The characteristic polynomial by Faddeev and LeVerrier, its roots by Weierstrass' simultaneous iteration.
-pub fn real_eigenvalues(m: &[[f64; SHARED]; SHARED], size: usize, out: &mut [f64; SHARED]) -> usize {
+pub fn real_eigenvalues(
+    m: &[[f64; SHARED]; SHARED],
+    size: usize,
+    tolerance: f64,
+    out: &mut [f64; SHARED],
+) -> usize {
     if size == 2 {
         let (half, difference) = ((m[0][0] + m[1][1]) / 2.0, (m[0][0] - m[1][1]) / 2.0);
         let under = difference * difference + m[0][1] * m[1][0];
         // A pair that is complex by a little is a double one.
-        if under < -1e-3 * (half * half + difference * difference + 1e-12) {
+        if under < -tolerance * tolerance * (half * half + difference * difference + 1e-12) {
             return 0;
         }
         let root = under.max(0.0).sqrt();
@@ -69,7 +74,7 @@ pub fn real_eigenvalues(m: &[[f64; SHARED]; SHARED], size: usize, out: &mut [f64
     }
     let mut found = 0;
     for z in &z[..size] {
-        if z.1.abs() <= 0.03 * (1.0 + z.0.abs()) {
+        if z.1.abs() <= tolerance * (1.0 + z.0.abs()) {
             out[found] = z.0;
             found += 1;
         }

@@ -12,6 +12,8 @@ use crate::{
 pub struct Eliminated {
     /// Rows over the 27 monomials of [`Split::left`], the largest entry of each row 1.
     pub rows: [[f64; 27]; 6],
+    /// The largest entries before: rounding errors are the same for all.
+    pub sizes: [f64; 6],
     /// The links with the pose in its place.
     pub links: [Rigid; 6],
     /// The forms that the second joint leaves alone, over `(1, c, s)` or `(1, d, d²)` of the first.
@@ -20,7 +22,12 @@ pub struct Eliminated {
 
 impl Default for Eliminated {
     fn default() -> Eliminated {
-        Eliminated { rows: [[0.0; 27]; 6], links: [Rigid::IDENTITY; 6], first: [[0.0; 3]; 6] }
+        Eliminated {
+            rows: [[0.0; 27]; 6],
+            sizes: [0.0; 6],
+            links: [Rigid::IDENTITY; 6],
+            first: [[0.0; 3]; 6],
+        }
     }
 }
 
@@ -112,6 +119,7 @@ pub fn eliminate<const FUSED: bool>(split: &Split, closing: &Rigid, out: &mut El
         }
         let top = top.largest();
         let scale = if top > 0.0 { 1.0 / top } else { 0.0 };
+        out.sizes[i] = top;
         for (k, x) in out.rows[i].iter_mut().enumerate() {
             *x = mixed[1 + k / 8].0[k % 8] * scale;
         }

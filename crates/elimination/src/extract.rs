@@ -174,7 +174,7 @@ pub fn shared(
     }
     let mut found = 0;
     let mut values = [0.0; SHARED];
-    let real = crate::eigen::real_eigenvalues(&x, count, &mut values);
+    let real = crate::eigen::real_eigenvalues(&x, count, ALMOST, &mut values);
     for &value in &values[..real] {
         let mut shifted = x;
         for (i, row) in shifted.iter_mut().enumerate().take(count) {
@@ -192,6 +192,9 @@ pub fn shared(
     }
     found
 }
+
+/// Eigenvalues with a smaller relative imaginary part may be real: rounding makes pairs of double ones.
+pub const ALMOST: f64 = 0.03;
 
 fn product(a: &[f64; 9], b: &[f64; 9]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
@@ -251,7 +254,7 @@ fn null_space(m: &mut [[f64; UNKNOWNS]; UNKNOWNS], basis: &mut [[f64; UNKNOWNS];
 }
 
 /// Solves `[A | B]` in place for square `A` of the given size; false if it is singular.
-fn gauss_jordan(m: &mut [[f64; 2 * SHARED]; SHARED], size: usize) -> bool {
+pub(crate) fn gauss_jordan(m: &mut [[f64; 2 * SHARED]; SHARED], size: usize) -> bool {
     for k in 0..size {
         let mut row = k;
         for r in k + 1..size {

@@ -4,6 +4,7 @@
 //! the determinant that remains is a trigonometric polynomial of degree 8 in one joint's angle: its 16 complex roots
 //! hold every configuration. It is sampled on the circle, so that no root is at infinity; each real root gives the other
 //! joints, and Newton's method on the pose the last digits. Discs around the roots certify that nothing is missing.
+//! At poses where this determinant vanishes identically (the last axis parallel to the first, say), a wider matrix serves.
 //!
 //! In reading order: [`Arm`], [`Plan::new`] (offline), [`Plan::solve`] (online), [`Answer`].
 
@@ -25,6 +26,7 @@ mod lanes;
 mod measure;
 mod newton;
 mod plan;
+mod products;
 mod remaining;
 mod rigid;
 mod roots;
@@ -34,6 +36,7 @@ pub mod source;
 mod split;
 mod tables;
 mod triple;
+mod wide;
 
 pub use answer::{Answer, Certificate, Solution};
 pub use arm::{Arm, Joint};

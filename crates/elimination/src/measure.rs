@@ -14,6 +14,7 @@ use crate::{
     solve::{Constants, DEGREE, Method, solve_split},
     split::Split,
     triple::Triple,
+    wide,
 };
 
 /// Poses on which every split is tried, and the best of them again.
@@ -71,7 +72,8 @@ impl Plan {
         if is_singular(&scaled) {
             return Err(Unsuitable::Singular);
         }
-        let constants = Constants { arm: scaled, size, fourier: Fourier::new(DEGREE) };
+        let constants =
+            Constants { arm: scaled, size, fourier: Fourier::new(DEGREE), wide: Fourier::new(wide::DEGREE) };
         let mut draws = Draws(0x9e37_79b9_7f4a_7c15);
         let poses: Vec<([f64; 6], Rigid)> = (0..POSES[0] + POSES[1])
             .map(|_| {
@@ -93,7 +95,7 @@ impl Plan {
                     ways,
                     &poses,
                     |split| split.joints[2],
-                    |split, pose, work| solve_split::<false>(&constants, split, pose, work),
+                    |split, pose, work| solve_split::<false>(&constants, split, false, pose, work),
                 ))
             }
             2 => {

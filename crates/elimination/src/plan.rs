@@ -9,6 +9,7 @@ use crate::{
     solve::{Constants, DEGREE, Method, solve},
     split::Split,
     triple::Triple,
+    wide,
 };
 
 /// The splits of an arm in the order in which they are solved, and their constants.
@@ -64,7 +65,8 @@ impl Plan {
         check(arm)?;
         let size = arm.size();
         let scaled = arm.scaled(1.0 / size);
-        let constants = Constants { arm: scaled, size, fourier: Fourier::new(DEGREE) };
+        let constants =
+            Constants { arm: scaled, size, fourier: Fourier::new(DEGREE), wide: Fourier::new(wide::DEGREE) };
         let arm = &constants.arm;
         let is_empty = match ranking {
             Ranking::Splits(ways) => ways.is_empty(),

@@ -11,7 +11,7 @@ use crate::{
     arm::{Arm, Joint},
     certificate::{Verdict, verdict},
     chart::Chart,
-    charts::{Charts, NEARBY, near_roots, noise},
+    charts::{Charts, DEEPEST, NEARBY, near_roots, noise},
     fourier::{Fourier, Trigonometric},
     lanes::{Lanes, WIDTH},
     newton::polish,
@@ -383,7 +383,7 @@ pub(crate) fn solve_sliding<const FUSED: bool>(
 ) -> Verdict {
     let between = sliding.at(target);
     work.candidates.clear();
-    let mut charts = Charts::whole();
+    let mut charts = Charts::whole(DEEPEST);
     while let Some(chart) = charts.next() {
         let verdict = solve_chart::<FUSED>(arm, sliding, &between, target, &chart, work);
         charts.settle::<FUSED>(&chart, verdict, work);

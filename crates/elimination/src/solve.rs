@@ -5,7 +5,7 @@ use crate::{
     arm::{Arm, Joint},
     certificate::{Verdict, verdict},
     chart::Chart,
-    charts::{Charts, NEARBY, TOGETHER, near_roots, noise},
+    charts::{self, Charts, NEARBY, TOGETHER, near_roots, noise},
     determinant::determinant,
     eliminate::eliminate,
     extract::{SHARED, SMALL, UNKNOWNS, null_vectors, shared},
@@ -17,6 +17,7 @@ use crate::{
     slides::{Sliding, solve_sliding},
     split::Split,
     triple::{Triple, solve_triple},
+    wide::{self, wide_candidates, wide_verdict},
 };
 
 /// Largest distance to the pose that is accepted.
@@ -41,22 +42,28 @@ pub(crate) struct Constants {
     pub size: f64,
     /// Nodes and transform.
     pub fourier: Fourier<3>,
+    /// The same for the wider matrix.
+    pub wide: Fourier<4>,
 }
 
-/// Solves one split and adds what it finds to `work.found`.
+/// Solves one split, by the 12 × 12 matrix or by the wider one, and adds what it finds to `work.found`.
 #[inline(always)]
 pub(crate) fn solve_split<const FUSED: bool>(
     constants: &Constants,
     split: &Split,
+    wide: bool,
     target: &Rigid,
     work: &mut Work,
 ) -> Verdict {
     let arm = &constants.arm;
     let closing = arm.links[5].then(&target.inverse()).then(&arm.base);
     eliminate::<FUSED>(split, &closing, &mut work.eliminated);
-    let mut charts = Charts::whole();
+    if wide {
+        work.matrix.fill(&work.eliminated, split);
+    }
+    let mut charts = Charts::whole(if wide { wide::DEEPEST } else { charts::DEEPEST });
     while let Some(chart) = charts.next() {
-        let verdict = solve_chart::<FUSED>(constants, split, target, &chart, work);
+        let verdict = solve_chart::<FUSED>(constants, split, wide, target, &chart, work);
         charts.settle::<FUSED>(&chart, verdict, work);
     }
     charts.verdict(work)
@@ -67,10 +74,37 @@ pub(crate) fn solve_split<const FUSED: bool>(
 fn solve_chart<const FUSED: bool>(
     constants: &Constants,
     split: &Split,
+    wide: bool,
     target: &Rigid,
     chart: &Chart,
     work: &mut Work,
 ) -> Verdict {
+    work.marks.count = 0;
+    let is_useful = if wide {
+        wide_candidates(&constants.wide, split, chart, work)
+    } else {
+        narrow_candidates::<FUSED>(constants, split, chart, work)
+    };
+    if !is_useful {
+        return Verdict::Uncertain;
+    }
+    accept::<FUSED>(&constants.arm, split, target, work);
+    let (hidden, sign) = (split.joints[2], split.sign);
+    if wide {
+        wide_verdict(hidden, sign, chart, work)
+    } else {
+        verdict(hidden, sign, chart, &work.roots, &work.found, &mut work.marks)
+    }
+}
+
+/// Finds the roots that a chart shows, and what may belong to them; false if the samples are of no use.
+#[inline(always)]
+fn narrow_candidates<const FUSED: bool>(
+    constants: &Constants,
+    split: &Split,
+    chart: &Chart,
+    work: &mut Work,
+) -> bool {
     let (multiplied, _) = split.multiplied_and_other();
     let mut samples = [Lanes::ZERO; 3];
     for (g, sample) in samples.iter_mut().enumerate() {
@@ -79,18 +113,16 @@ fn solve_chart<const FUSED: bool>(
         let square = square.times(square);
         *sample = determinant::<FUSED>(&work.eliminated.rows, multiplied, c, s).times(square.times(square));
     }
-    work.marks.count = 0;
     let useful = constants.fourier.fit::<FUSED>(DEGREE, &samples, &mut work.polynomial);
     if !useful || work.polynomial.noise > USELESS {
-        return Verdict::Uncertain;
+        return false;
     }
     work.roots.find::<FUSED>(&work.polynomial, noise(&work.polynomial));
 
     let mut near = [([0.0; 2], false); NEARBY];
     let count = near_roots(chart, &work.roots, &mut near);
     candidates::<FUSED>(split, &near[..count], work);
-    accept::<FUSED>(&constants.arm, split, target, work);
-    verdict(split.joints[2], split.sign, chart, &work.roots, &work.found, &mut work.marks)
+    true
 }
 
 /// Adds the null vectors at the given cosines and sines of the hidden joint to the candidates.
@@ -213,8 +245,13 @@ pub(crate) fn solve<const FUSED: bool>(
     let mut last = Verdict::Uncertain;
     match method {
         Method::Splits(splits) => {
-            for split in splits {
-                last = solve_split::<FUSED>(constants, split, &target, work);
+            // The wider matrices last: they take ten times as long, and never vanish.
+            for turn in 0..2 * splits.len() {
+                let (wide, split) = (turn >= splits.len(), &splits[turn % splits.len()]);
+                if wide && last == Verdict::Pairs {
+                    break;
+                }
+                last = solve_split::<FUSED>(constants, split, wide, &target, work);
                 answer.splits += 1;
                 if last == Verdict::Certified {
                     break;

@@ -16,6 +16,7 @@ pub const FILES: &[(&str, &str)] = &[
     ("lanes.rs", include_str!("lanes.rs")),
     ("newton.rs", include_str!("newton.rs")),
     ("plan.rs", include_str!("plan.rs")),
+    ("products.rs", include_str!("products.rs")),
     ("remaining.rs", include_str!("remaining.rs")),
     ("rigid.rs", include_str!("rigid.rs")),
     ("roots.rs", include_str!("roots.rs")),
@@ -23,6 +24,7 @@ pub const FILES: &[(&str, &str)] = &[
     ("solve.rs", include_str!("solve.rs")),
     ("split.rs", include_str!("split.rs")),
     ("triple.rs", include_str!("triple.rs")),
+    ("wide.rs", include_str!("wide.rs")),
 ];
 
 /// The root, whose list of modules names also what is not among [`FILES`].

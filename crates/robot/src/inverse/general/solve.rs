@@ -26,8 +26,6 @@ pub struct GeneralSolver {
 
 /// A solution may miss the pose by this (see [`Solution::residual`]).
 const TOLERANCE: f64 = 1e-9;
-/// How far beside a pose that elimination does not settle (radians).
-const TILT: f64 = 1e-6;
 /// A smallest singular value below this may belong to a self-motion.
 const SINGULAR: f64 = 1e-5;
 /// Members of a curve are not further apart (radians, lengths by the reach).
@@ -77,14 +75,6 @@ impl GeneralSolver {
         };
         let size = self.space.reach.hypot(pose.translation.norm()).max(f64::MIN_POSITIVE);
         self.collect(pose, size, &mut answer);
-        if answer.doubt.is_some() {
-            // Where the last axis is parallel to the first, the cuts of the loop lose their rank. What is found beside
-            // the pose leads back to it; the doubt stays.
-            for tilt in [TILT, -TILT] {
-                self.eliminate(&(*pose * tilted(tilt)));
-                self.collect(pose, size, &mut answer);
-            }
-        }
         self.families(pose, size, &mut answer);
         answer.solutions.sort_by(|a, b| {
             let unequal = a.q.iter().zip(&b.q).map(|(x, y)| x.total_cmp(y)).find(|o| o.is_ne());
@@ -173,11 +163,6 @@ impl GeneralSolver {
             self.space.distance(&slid, q) < SAME
         }
     }
-}
-
-/// A pose a little beside the one that it stands behind, in no special direction.
-fn tilted(by: f64) -> Transform<f64> {
-    Transform::rotation_x(0.6 * by) * Transform::rotation_y(0.8 * by) * Transform::translation_x(0.3 * by)
 }
 
 struct Eliminate<'a> {
