@@ -3,6 +3,7 @@
 //! - [`Expr`]: a handle into a hash-consed graph, written with `+ − × ÷`, powers, roots, sines and arctangents.
 //! - [`equal`]: decides whether two formulas are the same function, exactly.
 //! - [`Ring`]: the canonical form behind it; [`readable`]: the form that a person would write.
+//! - [`factor`]: a formula as a product, and where a factor is 0.
 //!
 //! This crate knows formulas, not where they come from.
 
@@ -10,6 +11,7 @@ pub mod angle;
 pub mod ball;
 pub mod equality;
 pub mod expr;
+pub mod factor;
 pub mod fraction;
 mod greek;
 mod lattice;

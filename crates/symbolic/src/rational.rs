@@ -36,6 +36,11 @@ impl Rational {
         Self::from_i128(n.into(), d.into())
     }
 
+    /// An integer of two machine words.
+    pub(crate) fn from_integer(n: i128) -> Self {
+        Self::from_i128(n, 1)
+    }
+
     fn from_i128(n: i128, d: i128) -> Self {
         debug_assert!(d != 0);
         if let (1, Ok(n)) = (d, i64::try_from(n)) {

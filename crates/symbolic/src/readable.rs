@@ -26,7 +26,12 @@ pub struct Simplified {
 /// # Errors
 /// If no canonical form exists or it is too large; see [`Refusal`].
 pub fn simplify(e: Expr, symbols: &[Symbol]) -> Result<Simplified, Refusal> {
-    let mut ring = Ring::new(&[e], symbols);
+    let mut ring = shortened(Ring::new(&[e], symbols), e, symbols)?;
+    simplify_in(&mut ring, e)
+}
+
+/// The ring with the basis of angle sums over which a formula has the fewest terms, sought from that of `ring`.
+pub(crate) fn shortened(mut ring: Ring, e: Expr, symbols: &[Symbol]) -> Result<Ring, Refusal> {
     let mut fewest = terms(&mut ring, e)?;
     let mut basis = ring.basis().to_vec();
     // Exchange one generator for its sum or difference with another while that leaves fewer terms.
@@ -51,7 +56,7 @@ pub fn simplify(e: Expr, symbols: &[Symbol]) -> Result<Simplified, Refusal> {
             None => break,
         }
     }
-    simplify_in(&mut ring, e)
+    Ok(ring)
 }
 
 /// The number of terms of the canonical form.

@@ -135,6 +135,19 @@ impl Ring {
         self.generators.iter().map(|g| (g.cos, g.sin))
     }
 
+    /// The angle of an atom that is its sine or cosine.
+    pub(crate) fn angle_of(&self, atom: Atom) -> Option<&Angle> {
+        match self.kind(atom) {
+            AtomKind::Cos(g) | AtomKind::Sin(g) => Some(&self.generators[*g].angle),
+            _ => None,
+        }
+    }
+
+    /// The atom of a symbol.
+    pub(crate) fn atom_of(&self, symbol: Symbol) -> Option<Atom> {
+        self.numbers.get(&AtomKind::Symbol(symbol)).copied()
+    }
+
     /// True if different normal forms prove different functions: every atom is free, a sine or cosine of an
     /// independent angle, or the root of a squarefree integer.
     pub fn is_independent(&self, p: &Poly) -> bool {
