@@ -30,6 +30,10 @@ pub enum Command {
     Fk(FkArguments),
     /// Find all joint variables for a pose, or derive and explain the formulas for them
     Ik(IkArguments),
+    /// Compute Jacobians, velocities, forces and how near a singularity is, or derive the formulas and the singularities
+    Jacobian(JacobianArguments),
+    /// Plan a path of the joints or the hand: followed on one branch, timed within limits, sampled
+    Path(PathArguments),
     /// Derive link transforms, the simplified forward model, and the shortest algorithm for it
     Derive(DeriveArguments),
     /// Write source code in a chosen language, in a folder that builds and tests itself
@@ -170,6 +174,179 @@ pub struct IkArguments {
     /// Print JSON
     #[arg(long, conflicts_with = "format")]
     pub json: bool,
+}
+
+/// `jacobian`
+#[derive(Args)]
+pub struct JacobianArguments {
+    /// The robot.
+    #[command(flatten)]
+    pub robot: RobotArguments,
+    /// The joint variables, as in `fk`
+    #[arg(short, long = "joints", value_name = "Q", allow_hyphen_values = true)]
+    pub q: Option<String>,
+    /// Read one JSON array of joint variables a line from a file (- for standard input), answer a line each
+    #[arg(long, value_name = "FILE", conflicts_with = "q")]
+    pub input: Option<PathBuf>,
+    /// Along whose axes: `base`, `tool`, the number of a frame, or `shortest` for the frame and point where the formulas
+    /// are shortest
+    #[arg(long, value_name = "FRAME", default_value = "base")]
+    pub frame: String,
+    /// Whose velocity: `tool`, or the number of a link's frame
+    #[arg(long, value_name = "BODY", default_value = "tool")]
+    pub of: String,
+    /// At which point: the origin of a frame (`tool`, a number), or `x, y, z` from the origin of the body's own frame
+    #[arg(long, value_name = "POINT", allow_hyphen_values = true)]
+    pub at: Option<String>,
+    /// The analytic Jacobian: how fast these values change (quaternion, axis-angle, rpy, or an Euler set such as zyz)
+    #[arg(long, value_name = "SET", conflicts_with = "input")]
+    pub orientation: Option<String>,
+    /// Joint velocities: gives the twist, and how the Jacobian changes
+    #[arg(long, value_name = "RATES", allow_hyphen_values = true, requires = "q")]
+    pub rates: Option<String>,
+    /// A twist `vx, vy, vz, wx, wy, wz` (m/s and rad/s; `-` where any will do): gives the joint velocities for it,
+    /// damped near singularities and within the robot file's limits
+    #[arg(long, value_name = "TWIST", allow_hyphen_values = true, requires = "q")]
+    pub twist: Option<String>,
+    /// Below which singular value (lengths by the arm's size) velocities are damped, and by how much at most
+    #[arg(long, value_name = "THRESHOLD,LARGEST", requires = "twist")]
+    pub damping: Option<String>,
+    /// Joint velocities that are wished as far as the twist leaves the joints free
+    #[arg(long, value_name = "RATES", allow_hyphen_values = true, requires = "twist")]
+    pub wish: Option<String>,
+    /// A wrench `fx, fy, fz, mx, my, mz` that the body exerts (N and N m): gives the torques that hold it
+    #[arg(long, value_name = "WRENCH", allow_hyphen_values = true, requires = "q")]
+    pub wrench: Option<String>,
+    /// The largest torques (N m; N for slides): says how far the wrench can grow
+    #[arg(long, value_name = "TORQUES", requires = "wrench")]
+    pub torques: Option<String>,
+    /// The derivatives of the Jacobian by each joint as well
+    #[arg(long, requires = "q")]
+    pub hessian: bool,
+    /// Print the formulas: the matrix, its algorithm and its operation count, proved
+    #[arg(long, conflicts_with_all = ["q", "input"])]
+    pub symbolic: bool,
+    /// Print the matrix where it is shortest, its determinant in factors, and what happens at each singularity
+    #[arg(long, conflicts_with_all = ["q", "input", "symbolic"])]
+    pub explain: bool,
+    /// How to print --symbolic and --explain
+    #[arg(long, value_enum, default_value_t = Format::Terminal, conflicts_with_all = ["q", "input"])]
+    pub format: Format,
+    /// Print JSON
+    #[arg(long, conflicts_with = "format")]
+    pub json: bool,
+}
+
+/// `path`
+#[derive(Args)]
+pub struct PathArguments {
+    /// The robot.
+    #[command(flatten)]
+    pub robot: RobotArguments,
+    /// Where the joints start, as in `fk`
+    #[arg(short, long = "joints", value_name = "Q", allow_hyphen_values = true)]
+    pub q: Option<String>,
+    /// Where the hand starts, a pose as in `ik`; the best of all branches is taken
+    #[arg(long, value_name = "POSE", allow_hyphen_values = true, conflicts_with = "q")]
+    pub from: Option<String>,
+    /// A straight line of the hand to a pose, or by a displacement along the base's axes, as in `--line "+0.1,0,0"` (can
+    /// be repeated: one after another)
+    #[arg(long, value_name = "POSE", allow_hyphen_values = true)]
+    pub line: Vec<String>,
+    /// An arc of the hand through a point to a pose, as in `--arc "0.5,0.1,0.3 -> 0.5,0,0.4,0,180deg,0"` (can be repeated)
+    #[arg(long, value_name = "POINT -> POSE", allow_hyphen_values = true, conflicts_with = "line")]
+    pub arc: Vec<String>,
+    /// A move of the joints (repeated: a smooth curve through all)
+    #[arg(long, value_name = "Q", allow_hyphen_values = true, conflicts_with_all = ["line", "arc", "from"])]
+    pub joint: Vec<String>,
+    /// A smooth path through the way-points of a file (- for standard input), one JSON array of joint variables, or one 4×4
+    /// matrix, a line
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["line", "arc", "joint", "from"])]
+    pub via: Option<PathBuf>,
+    /// What the values behind a position are: quaternion, axis-angle, rpy, or an Euler set such as zyz
+    #[arg(long, value_name = "SET", default_value = "rpy")]
+    pub orientation: String,
+    /// Lines as screws: turning about and moving along one axis in space
+    #[arg(long, requires = "line")]
+    pub screw: bool,
+    /// How far the hand may leave its path between samples of the joints, metres
+    #[arg(long, value_name = "METRES", value_parser = positive)]
+    pub max_deviation: Option<f64>,
+    /// Seconds between samples
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    pub dt: Option<f64>,
+    /// Seconds for the whole path where joint limits are not known
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    pub duration: Option<f64>,
+    /// Largest joint velocities, rad/s or m/s: one for all or one each (else the robot file's)
+    #[arg(long, value_name = "LIMITS")]
+    pub velocity: Option<String>,
+    /// Largest joint accelerations, rad/s² or m/s²
+    #[arg(long, value_name = "LIMITS")]
+    pub acceleration: Option<String>,
+    /// Largest joint jerks, rad/s³ or m/s³
+    #[arg(long, value_name = "LIMITS")]
+    pub jerk: Option<String>,
+    /// The time law of a joint move
+    #[arg(long, value_enum, requires = "joint")]
+    pub law: Option<LawName>,
+    /// Say what comes of every configuration in which the path can start
+    #[arg(long)]
+    pub alternatives: bool,
+    /// Write a plot of joints, velocities and manipulability
+    #[arg(long, value_name = "FILE.svg")]
+    pub plot: Option<PathBuf>,
+    /// What to print
+    #[arg(long, value_enum, default_value_t = PathFormat::Text)]
+    pub format: PathFormat,
+    /// Print JSON (the same as --format json)
+    #[arg(long, conflicts_with = "format")]
+    pub json: bool,
+}
+
+/// What a path is printed as.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum PathFormat {
+    /// A summary and a short table
+    Text,
+    /// A line a sample, with a header
+    Csv,
+    /// A JSON object a sample
+    Ndjson,
+    /// One JSON object
+    Json,
+}
+
+/// Time laws by name.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum LawName {
+    /// Third degree
+    Cubic,
+    /// Fifth degree: no acceleration at the ends
+    Quintic,
+    /// The fastest under limits of velocity and acceleration
+    Trapezoidal,
+    /// The fastest under limits of velocity, acceleration and jerk
+    JerkLimited,
+}
+
+impl LawName {
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            LawName::Cubic => "a cubic",
+            LawName::Quintic => "a quintic",
+            LawName::Trapezoidal => "a trapezoidal",
+            LawName::JerkLimited => "a jerk-limited",
+        }
+    }
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x.is_finite() && x > 0.0 => Ok(x),
+        _ => Err("a positive number is needed".into()),
+    }
 }
 
 /// What makes a solution good.

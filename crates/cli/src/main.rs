@@ -17,6 +17,8 @@ fn main() -> ExitCode {
         Command::Show(a) => commands::show::run(&a),
         Command::Fk(a) => commands::fk::run(&a),
         Command::Ik(a) => commands::ik::run(&a),
+        Command::Jacobian(a) => commands::jacobian::run(&a),
+        Command::Path(a) => commands::path::run(&a),
         Command::Derive(a) => commands::derive::run(&a),
         Command::Generate(a) => commands::generate::run(&a),
     };

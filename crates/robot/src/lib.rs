@@ -8,18 +8,24 @@
 //! - [`inverse`]: inverse kinematics of any arm: closed forms with their derivation, elimination, redundancy, descent.
 //! - [`catalogue`]: robots that people own or study.
 //! - [`forward`]: link transforms, the simplified forward model, the shortest algorithm for it.
+//! - [`velocity`]: Jacobians, singularities, velocities and forces.
+//! - [`explain`]: derivations as documents.
+//! - [`motion`]: paths of joints and hand, followed and timed.
 //! - [`generate`]: source code in several languages.
 
 pub mod catalogue;
 pub mod description;
+pub mod explain;
 pub mod forward;
 pub mod generate;
 pub mod geometry;
 pub mod idealise;
 pub mod inverse;
+pub mod motion;
 pub mod robot;
 pub mod scalar;
 pub mod structure;
+pub mod velocity;
 
 pub use description::Description;
 pub use robot::Robot;

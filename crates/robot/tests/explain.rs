@@ -2,7 +2,8 @@
 
 use denavit::catalogue;
 use denavit::description::{Description, read_toml};
-use denavit::inverse::explain::{Explanation, Math, Proof, math, text};
+use denavit::explain::{Math, Proof, math, text};
+use denavit::inverse::explain::Explanation;
 use denavit::inverse::{Goal, InverseModel, Options, Refusal};
 use denavit_symbolic::print::Style;
 use denavit_symbolic::{Expr, Node, Symbol};

@@ -1,35 +1,18 @@
 //! Forward models of every robot of the catalogue: proved, equal to numbers that somebody else computed, and short.
 
-use denavit::description::{Description, read_toml};
+mod common;
+
+use common::{numbers, robot, with_values};
 use denavit::forward::{ForwardModel, Outputs, Proof, Reference};
 use denavit::geometry::Transform;
 use denavit::{Robot, catalogue};
-use denavit_symbolic::{Expr, Rational, Symbol, equal};
+use denavit_symbolic::{Expr, Symbol, equal};
 use serde_json::Value;
 use std::collections::BTreeMap;
-
-fn robot(name: &str) -> Description {
-    let text = catalogue::text(name).unwrap_or_else(|| panic!("no robot {name}"));
-    read_toml(text).unwrap_or_else(|errors| panic!("{name}: {errors:?}")).0
-}
 
 /// Poses that Pinocchio computed from the same tables; the file says with which versions.
 fn peer() -> Value {
     serde_json::from_str(include_str!("peers/fk.json")).expect("valid JSON")
-}
-
-/// The robot with the parameter values that the peer used where the file gives none.
-fn with_values(mut d: Description, values: &Value) -> Description {
-    for p in &mut d.parameters {
-        if let (None, Some(x)) = (p.value, values[&*p.symbol.name()].as_f64()) {
-            p.value = Rational::from_f64(x).map(Expr::from);
-        }
-    }
-    d
-}
-
-fn numbers(v: &Value) -> Vec<f64> {
-    v.as_array().map(|a| a.iter().filter_map(Value::as_f64).collect()).unwrap_or_default()
 }
 
 fn distance(x: &Transform<f64>, rows: &Value) -> f64 {

@@ -5,7 +5,7 @@ mod common;
 
 use common::{Random, share};
 use denavit::geometry::{Transform, Vector};
-use denavit::inverse::{Answer, Goal, InverseModel, InverseSolver, Options, Refusal};
+use denavit::inverse::{Answer, Goal, InverseModel, InverseSolver, MOST_WORK, Options, Refusal, Stuck};
 use denavit::{Description, Robot, catalogue, description};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -299,6 +299,32 @@ fn long_chains_are_refused_at_once() {
     match InverseModel::derive(&d, &Options::default()) {
         Err(Refusal::Unsuitable(why)) => assert!(why.to_string().contains("30 joints"), "{why}"),
         other => panic!("{other:?}"),
+    }
+}
+
+/// An arm of joints with these rows: offset along the axis, length, twist (radians).
+fn stuck(rows: impl Iterator<Item = [f64; 3]>) -> Stuck {
+    let joint = |(k, [d, a, alpha]): (usize, [f64; 3])| {
+        format!("[[joints]]\ntheta = \"q{}\"\nd = {d}\na = {a}\nalpha = {alpha}\n", k + 1)
+    };
+    let joints: String = rows.enumerate().map(joint).collect();
+    let text = format!("name = \"Random\"\nconvention = \"standard\"\n{joints}");
+    let d = description::read_toml(&text).expect("a robot").0;
+    match InverseModel::derive(&d, &Options::default()) {
+        Err(Refusal::Stuck(stuck)) => *stuck,
+        other => panic!("{other:?}"),
+    }
+}
+
+/// Arms with two joints too many and nothing special about them: refused with little work.
+#[test]
+fn general_arms_with_eight_joints_are_refused_soon() {
+    for seed in 1..=3 {
+        let mut random = Random(seed);
+        let found =
+            stuck((0..8).map(|_| [0.1 + random.unit(), 0.1 + random.unit(), 3.0 * random.unit() - 1.5]));
+        assert!(found.missing.len() == 8 && found.steps.is_empty());
+        assert!(!found.is_spent && found.work <= MOST_WORK, "{}", found.work);
     }
 }
 

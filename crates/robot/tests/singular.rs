@@ -98,11 +98,49 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| ((x - y) - TAU * ((x - y) / TAU).round()).abs()).fold(0.0, f64::max)
 }
 
+/// The smallest singular value of the Jacobian, by rotations between pairs of its rows (Hestenes 1958): exact to the
+/// rounding of its largest.
+fn least_singular_value(robot: &Robot<f64>, q: &[f64]) -> f64 {
+    let columns = jacobian(robot, q);
+    let mut rows: Vec<Vec<f64>> = (0..6).map(|i| columns.iter().map(|c| c[i]).collect()).collect();
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
+    for (i, k) in (0..12).flat_map(|_| (0..6).flat_map(|i| (i + 1..6).map(move |k| (i, k)))) {
+        let (a, b) = (rows[i].clone(), rows[k].clone());
+        let angle = 0.5 * (2.0 * dot(&a, &b)).atan2(dot(&a, &a) - dot(&b, &b));
+        let (s, c) = angle.sin_cos();
+        rows[i] = a.iter().zip(&b).map(|(x, y)| c * x + s * y).collect();
+        rows[k] = a.iter().zip(&b).map(|(x, y)| c * y - s * x).collect();
+    }
+    rows.iter().map(|r| dot(r, r).sqrt()).fold(f64::INFINITY, f64::min)
+}
+
+/// What a pose of doubles is rounded to, twice: when it is made and when it is solved.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
+/// Whether two configurations cannot be told apart by a pose of doubles: their poses differ by no more than rounding,
+/// and so do those of all configurations between them, which differ by σ·distance, σ the smallest singular value.
+fn is_same(robot: &Robot<f64>, found: &[f64], q: &[f64]) -> bool {
+    let away = distance(found, q);
+    let sigma = || least_singular_value(robot, found).max(least_singular_value(robot, q));
+    away <= 1e-4 || away <= 0.1 && away * sigma() <= ROUNDING
+}
+
 /// Whether a configuration is among the solutions or in a family.
 fn holds(solver: &mut InverseKinematics, pose: &Transform<f64>, answer: &Answer, q: &[f64]) -> bool {
-    // Near a double root a solution is known to the square root of rounding only, by what the arm's shape makes of it.
-    let near = |found: &[f64]| distance(found, q) <= 1e-4;
-    answer.solutions.iter().any(|s| near(&s.q)) || solver.nearest(pose, answer, q).is_some_and(|n| near(&n.q))
+    let robot = solver.robot.clone();
+    answer.solutions.iter().any(|s| is_same(&robot, &s.q, q))
+        || solver.nearest(pose, answer, q).is_some_and(|n| is_same(&robot, &n.q, q))
+}
+
+/// Every solution that is returned reaches the pose.
+fn reach_the_pose(solver: &InverseKinematics, pose: &Transform<f64>, answer: &Answer) -> bool {
+    let all = answer.solutions.iter().chain(answer.families.iter().map(|f| &f.representative));
+    all.map(|s| solver.robot.pose(&s.q)).all(|have| {
+        let away = (have.translation - pose.translation).norm() / solver.robot.reach();
+        let turned =
+            have.rotation.rows().into_iter().flatten().zip(pose.rotation.rows().into_iter().flatten());
+        turned.map(|(a, b)| (a - b).abs()).fold(away, f64::max) <= 1e-9
+    })
 }
 
 fn solve_near_singular(name: &str, count: usize) {
@@ -119,6 +157,7 @@ fn solve_near_singular(name: &str, count: usize) {
             let pose = solver.robot.pose(&q);
             let answer = solver.solve(&pose, &[]);
             tried += 1;
+            assert!(reach_the_pose(&solver, &pose, &answer), "{name} at {q:?}: {answer:?}");
             if !answer.is_reachable() {
                 empty.push((offset, q));
             } else if !holds(&mut solver, &pose, &answer, &q) {

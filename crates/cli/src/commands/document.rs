@@ -1,18 +1,17 @@
-//! A derivation in each format of documents.
+//! A derivation in each format of documents: a document tree to text, LaTeX, Typst, HTML.
 
 use crate::arguments::Format;
 use crate::commands::derive::{html, latex, typst};
 use crate::terminal::{FAINT, HEADING, NAME, styled};
-use denavit::inverse::explain::{Block, Branch, Explanation, Line, Mark, Math, Piece, Proof, math, text};
+use denavit::explain::{Block, Branch, Line, Mark, Math, Piece, Proof, math, text};
 use denavit_symbolic::print::Style;
 use denavit_symbolic::vocabulary::Vocabulary;
 use std::fmt::Write;
 
-/// The document; JSON is not made here.
-pub fn document(e: &Explanation, blocks: &[Block], format: Format) -> String {
-    let names = e.names();
+/// The document, with a title for the page; JSON is not made here.
+pub fn document(title: &str, names: &Vocabulary, blocks: &[Block], format: Format) -> String {
     match format {
-        Format::Terminal | Format::Json => text(blocks, &names, &|mark, words| {
+        Format::Terminal | Format::Json => text(blocks, names, &|mark, words| {
             let style = match mark {
                 Mark::Heading => HEADING,
                 Mark::Strong => NAME,
@@ -20,9 +19,9 @@ pub fn document(e: &Explanation, blocks: &[Block], format: Format) -> String {
             };
             styled(words, style)
         }),
-        Format::Latex => in_latex(blocks, &names),
-        Format::Typst => in_typst(blocks, &names),
-        Format::Html => in_html(e, blocks, &names),
+        Format::Latex => in_latex(blocks, names),
+        Format::Typst => in_typst(blocks, names),
+        Format::Html => in_html(title, blocks, names),
     }
 }
 
@@ -145,7 +144,7 @@ fn in_typst(blocks: &[Block], names: &Vocabulary) -> String {
     out
 }
 
-fn in_html(e: &Explanation, blocks: &[Block], names: &Vocabulary) -> String {
+fn in_html(title: &str, blocks: &[Block], names: &Vocabulary) -> String {
     let formula = |m: &Math| math(m, names, Style::MathMl);
     let words = |line: &Line| -> String {
         line.0
@@ -157,7 +156,7 @@ fn in_html(e: &Explanation, blocks: &[Block], names: &Vocabulary) -> String {
             })
             .collect()
     };
-    let mut out = html::head(&format!("Inverse kinematics of the {}", e.description.name));
+    let mut out = html::head(title);
     for block in blocks {
         match block {
             // The page has its title.

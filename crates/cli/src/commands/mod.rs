@@ -1,9 +1,12 @@
 //! One file a verb; `stream` is what the verbs with `--input` share.
 
 pub mod derive;
+pub mod document;
 pub mod fk;
 pub mod generate;
 pub mod ik;
+pub mod jacobian;
+pub mod path;
 pub mod robots;
 pub mod show;
 mod stream;

@@ -119,6 +119,8 @@ pub enum Math {
     Products(Vec<Factor>, Vec<Factor>),
     /// A matrix by its entries.
     Matrix(Factor, Vec<Vec<Expr>>),
+    /// The determinant of a matrix.
+    Determinant(Factor, Expr),
 }
 
 impl From<Expr> for Math {
@@ -141,7 +143,7 @@ impl Math {
     /// All expressions in it.
     pub fn exprs(&self) -> Vec<Expr> {
         match self {
-            Math::Expr(e) => vec![*e],
+            Math::Expr(e) | Math::Determinant(_, e) => vec![*e],
             Math::Chain(a, rest) => [*a].into_iter().chain(rest.iter().map(|r| r.1)).collect(),
             Math::Product(_) | Math::Products(..) => vec![],
             Math::Matrix(_, rows) => rows.iter().flatten().copied().collect(),

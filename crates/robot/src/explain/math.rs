@@ -42,6 +42,14 @@ impl Writer<'_> {
                 .fold(self.expr(*first), |text, (sign, e)| text + self.sign(*sign) + &self.expr(*e)),
             Math::Product(factors) => self.product(factors),
             Math::Products(left, right) => self.product(left) + self.sign(Sign::Equal) + &self.product(right),
+            Math::Determinant(of, e) => {
+                let det = match self.style {
+                    Style::Latex => "\\det ",
+                    Style::MathMl => "<mi>det</mi>",
+                    Style::Ascii | Style::Unicode | Style::Typst => "det ",
+                };
+                det.to_string() + &self.factor(of) + self.sign(Sign::Equal) + &self.expr(*e)
+            }
             Math::Matrix(name, rows) => self.factor(name) + self.sign(Sign::Equal) + &self.matrix(rows),
         };
         match self.style {

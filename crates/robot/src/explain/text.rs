@@ -1,7 +1,8 @@
 //! A document as text of bounded width.
 
-use super::document::{Block, Branch, Line, Piece, Proof};
+use super::document::{Block, Branch, Factor, Line, Math, Piece, Proof};
 use super::math::math;
+use denavit_symbolic::Expr;
 use denavit_symbolic::print::Style;
 use denavit_symbolic::vocabulary::Vocabulary;
 
@@ -39,6 +40,10 @@ pub fn text(blocks: &[Block], names: &Vocabulary, mark: &dyn Fn(Mark, &str) -> S
                 for line in lines {
                     out += &writer.wrapped(line, "  - ", "    ");
                 }
+            }
+            Block::Formula { math: Math::Matrix(name, rows), number: None, proof } => {
+                let tail = sign(*proof).trim_start();
+                out += &writer.matrix(name, rows, tail);
             }
             Block::Formula { math: m, number, proof } => {
                 let formula = math(m, names, Style::Unicode);
@@ -109,6 +114,45 @@ struct Writer<'a> {
 }
 
 impl Writer<'_> {
+    /// A matrix in aligned columns; one that is too wide entry by entry, without those that are 0.
+    fn matrix(&self, name: &Factor, rows: &[Vec<Expr>], tail: &str) -> String {
+        let name = math(&Math::Product(vec![name.clone()]), self.names, Style::Unicode);
+        let cell = |&e: &Expr| math(&Math::Expr(e), self.names, Style::Unicode);
+        let cells: Vec<Vec<String>> = rows.iter().map(|row| row.iter().map(cell).collect()).collect();
+        let columns = rows.first().map_or(0, Vec::len);
+        let width = |c: usize| cells.iter().map(|row| row[c].chars().count()).max().unwrap_or(0);
+        let widths: Vec<usize> = (0..columns).map(width).collect();
+        let tail =
+            if tail.is_empty() { String::new() } else { format!("   {}", (self.mark)(Mark::Faint, tail)) };
+        let mut out = String::new();
+        if widths.iter().sum::<usize>() + 2 * columns + name.chars().count() + 12 > WIDTH {
+            for (r, row) in cells.iter().enumerate() {
+                for (c, entry) in row.iter().enumerate().filter(|(_, entry)| *entry != "0") {
+                    let between = if columns > 9 { "," } else { "" };
+                    out += &format!("      {name}{}{between}{} = {entry}\n", r + 1, c + 1);
+                }
+            }
+            return format!("{out}      (the other entries are 0){tail}\n");
+        }
+        for (r, row) in cells.iter().enumerate() {
+            let (open, close) = match (r, cells.len()) {
+                (_, 1) => ('[', ']'),
+                (0, _) => ('⎡', '⎤'),
+                (r, n) if r + 1 == n => ('⎣', '⎦'),
+                _ => ('⎢', '⎥'),
+            };
+            let is_middle = r == cells.len().saturating_sub(1) / 2;
+            let front = if is_middle { format!("{name} = ") } else { " ".repeat(name.chars().count() + 3) };
+            let padded = row.iter().zip(&widths).map(|(text, w)| format!("{text:<w$}"));
+            let line = padded.collect::<Vec<_>>().join("  ");
+            out += &format!(
+                "      {front}{open} {line} {close}{}\n",
+                if is_middle { tail.as_str() } else { "" }
+            );
+        }
+        out
+    }
+
     fn plain(&self, line: &Line) -> String {
         line.0
             .iter()

@@ -83,21 +83,21 @@ pub fn frames_program(description: &Description, of: &[Reference]) -> Program {
     let parameters: Vec<Symbol> = description.parameters.iter().map(|p| p.symbol).collect();
     let taken: FxHashSet<String> =
         variables.iter().chain(&parameters).map(|s| s.name().to_string()).collect();
-    let (frames, tool) = along_the_chain(description);
+    let walked = Walked::new(description);
     let mut graph = Graph::new(&variables, &parameters);
     let mut entries = |frame: Reference| -> Vec<(String, Value)> {
-        let (x, label) = match frame {
-            Reference::Base => (Transform::identity(), "tb_".into()),
-            Reference::Frame(i) => (frames[i], format!("t{i}_")),
-            Reference::Tool => (tool, "t".to_string()),
+        let label = match frame {
+            Reference::Base => "tb_".into(),
+            Reference::Frame(i) => format!("t{i}_"),
+            Reference::Tool => "t".to_string(),
         };
-        let matrix = x.matrix();
+        let matrix = walked.place(frame).matrix();
         let name = |place| entry_name(place).replacen('t', &label, 1);
         places().map(|(r, c)| (name((r, c)), graph.trace(matrix[r][c]))).collect()
     };
     // A shared value that is no result has the name of the first frame in which it stands.
     let mut names: FxHashMap<u32, String> = FxHashMap::default();
-    for i in 0..frames.len() {
+    for i in 0..walked.frames.len() {
         for (name, v) in entries(Reference::Frame(i)) {
             names.entry(v.node).or_insert(name);
         }
@@ -106,31 +106,54 @@ pub fn frames_program(description: &Description, of: &[Reference]) -> Program {
     Program::new(&graph, &results, |node| names.get(&node).cloned(), &taken)
 }
 
-/// Frames 0 … n, and the tool, in the base.
-fn along_the_chain(description: &Description) -> (Vec<Transform<Expr>>, Transform<Expr>) {
-    let n = description.rows.len();
-    let mut walk = Walk {
-        x: description.base,
-        before: description.base.rotation,
-        angle: Expr::int(0),
-        since: Rotation::identity(),
-    };
-    let mut frames = vec![walk.x];
-    for e in elements(description, 0, n, false, true) {
-        match e {
-            Elementary::Turn(Axis::Z, angle) => walk.joint(angle),
-            Elementary::Turn(axis, angle) => walk.turn(Rotation::about(axis, angle)),
-            Elementary::Shift(axis, length) => walk.shift(axis, length),
-            Elementary::EndOfRow(_) => frames.push(walk.x),
-            Elementary::Fixed(tool) => {
-                for axis in Axis::ALL {
-                    walk.shift(axis, tool.translation.0[axis.index()]);
+/// Every frame in the base as a product along the chain, each from the one before.
+#[derive(Clone, Debug)]
+pub struct Walked {
+    /// Frames 0 … n.
+    frames: Vec<Transform<Expr>>,
+    tool: Transform<Expr>,
+}
+
+impl Walked {
+    /// The frames of a robot. The only rule besides multiplication is Rz(a)·Rz(b) = Rz(a+b), for axes that are exactly
+    /// parallel.
+    pub fn new(description: &Description) -> Self {
+        let n = description.rows.len();
+        let mut walk = Walk {
+            x: description.base,
+            before: description.base.rotation,
+            angle: Expr::int(0),
+            since: Rotation::identity(),
+        };
+        let mut frames = vec![walk.x];
+        for e in elements(description, 0, n, false, true) {
+            match e {
+                Elementary::Turn(Axis::Z, angle) => walk.joint(angle),
+                Elementary::Turn(axis, angle) => walk.turn(Rotation::about(axis, angle)),
+                Elementary::Shift(axis, length) => walk.shift(axis, length),
+                Elementary::EndOfRow(_) => frames.push(walk.x),
+                Elementary::Fixed(tool) => {
+                    for axis in Axis::ALL {
+                        walk.shift(axis, tool.translation.0[axis.index()]);
+                    }
+                    walk.turn(tool.rotation);
                 }
-                walk.turn(tool.rotation);
             }
         }
+        Walked { frames, tool: walk.x }
     }
-    (frames, walk.x)
+
+    /// A frame in the base.
+    ///
+    /// # Panics
+    /// If the robot has no such frame.
+    pub fn place(&self, frame: Reference) -> Transform<Expr> {
+        match frame {
+            Reference::Base => Transform::identity(),
+            Reference::Frame(i) => self.frames[i],
+            Reference::Tool => self.tool,
+        }
+    }
 }
 
 /// The place reached: its rotation is `before · Rz(angle) · since`, with a constant `since`.

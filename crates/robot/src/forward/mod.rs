@@ -7,5 +7,5 @@ mod model;
 
 pub use algorithm::{Outputs, Proof};
 pub use chain::Chain;
-pub use frames::{frames_program, pose_program};
+pub use frames::{Walked, frames_program, pose_program};
 pub use model::{ForwardModel, Reference, link_transforms, prove, symbol_order};

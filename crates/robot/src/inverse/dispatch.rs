@@ -200,13 +200,11 @@ impl InverseKinematics {
     /// A pose is taken to be as precise as its rotation is orthonormal: the nearest rotation is meant.
     pub fn solve(&mut self, pose: &Transform<f64>, given: &[f64]) -> Answer {
         assert_eq!(given.len(), self.given.len(), "one value per given joint");
-        if let Method::Closed(solver) = &mut self.method {
-            return solver.solve(pose, given);
-        }
+        let as_given = pose;
         let pose = &newton::nearest_rigid(pose).0;
         let mut answer = match &mut self.method {
-            // Served above.
-            Method::Closed(_) => Answer::empty(),
+            // What it may miss the pose by follows from the pose as it is given.
+            Method::Closed(solver) => return solver.solve(as_given, given),
             Method::General(general, closed) => {
                 let mut answer = general.solve(pose);
                 if answer.doubt.is_some()

@@ -12,7 +12,7 @@ pub mod derivation;
 mod dispatch;
 pub mod explain;
 pub mod general;
-mod newton;
+pub(crate) mod newton;
 pub mod numeric;
 pub mod redundant;
 pub mod self_motion;

@@ -40,3 +40,18 @@ impl Random {
 pub fn share(of: usize, usual: usize) -> usize {
     if std::env::var_os("DENAVIT_SOAK").is_some() { of } else { usual }
 }
+
+/// The robot with the parameter values that the peer used where the file gives none.
+pub fn with_values(mut d: Description, values: &serde_json::Value) -> Description {
+    for p in &mut d.parameters {
+        if let (None, Some(x)) = (p.value, values[&*p.symbol.name()].as_f64()) {
+            p.value = denavit_symbolic::Rational::from_f64(x).map(denavit_symbolic::Expr::from);
+        }
+    }
+    d
+}
+
+/// The numbers of a JSON array.
+pub fn numbers(v: &serde_json::Value) -> Vec<f64> {
+    v.as_array().map(|a| a.iter().filter_map(serde_json::Value::as_f64).collect()).unwrap_or_default()
+}

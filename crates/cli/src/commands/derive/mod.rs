@@ -46,7 +46,11 @@ pub fn matrix_only(robot: &RobotArguments, format: Format) -> Result<(), Failure
     derivation.verdict()
 }
 
-fn reference(d: &Description, text: &str, option: &str) -> Result<Reference, Failure> {
+/// A frame by name or number.
+///
+/// # Errors
+/// If the robot has no such frame.
+pub fn reference(d: &Description, text: &str, option: &str) -> Result<Reference, Failure> {
     let last = d.rows.len();
     match (text, text.parse::<usize>()) {
         ("base", _) => Ok(Reference::Base),

@@ -5,7 +5,7 @@ use denavit::description::Description;
 use denavit::forward::{Reference, frames_program};
 use denavit::geometry::orientation::{OrientationSet, extract};
 use denavit::geometry::{Rotation, Transform, Vector};
-use denavit_program::{Arithmetic, Function};
+use denavit_program::{Arithmetic, Function, Program};
 use std::io::Write;
 
 /// Entries of a pose.
@@ -15,7 +15,11 @@ const POSE: usize = 16;
 ///
 /// `-q` and `--input` both use it, so that a configuration has one answer, to the last bit.
 pub fn function(description: &Description, of: &[Reference]) -> Function {
-    let program = frames_program(description, of);
+    strict(description, &frames_program(description, of))
+}
+
+/// A program at the robot's own values, as one function that rounds the same on every machine.
+pub fn strict(description: &Description, program: &Program) -> Function {
     let value = |s| description.parameters.iter().find(|p| p.symbol == s)?.value?.eval(|_| None).ok();
     // One without a value is in no formula: the robot over numbers exists.
     let values: Vec<f64> = program.parameters().iter().map(|s| value(*s).unwrap_or(f64::NAN)).collect();

@@ -9,6 +9,7 @@ use crate::failure::Failure;
 use crate::load;
 use crate::terminal::{Align, HEADING, NAME, decimals, lowered, matrix, number, raised, styled};
 use answer::Answers;
+pub use answer::strict;
 use denavit::Robot;
 use denavit::description::{Description, JointKind, Measure, Variable};
 use denavit::forward::Reference;

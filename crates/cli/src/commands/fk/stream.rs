@@ -1,8 +1,7 @@
 //! `fk --input`: a line of joint variables in, a line with the pose out.
 
 use crate::commands::fk::answer::Answers;
-use crate::commands::fk::plural;
-use crate::commands::stream::{self, Chunk, Worker, complaint, parsed};
+use crate::commands::stream::{self, Chunk, Worker, complaint, joints};
 use crate::failure::Failure;
 use denavit_program::Batch;
 use std::path::Path;
@@ -30,7 +29,7 @@ impl Worker for Poses {
         // For each line that is not blank what is wrong with it.
         let found: Vec<Option<(usize, String)>> = chunk
             .lines()
-            .map(|(number, line)| parse(line, n, &mut rows).err().map(|why| (number, why)))
+            .map(|(number, line)| joints(line, n, &mut rows).err().map(|why| (number, why)))
             .collect();
         let good = found.iter().filter(|f| f.is_none()).count();
         let mut results = vec![0.0; good * m];
@@ -51,14 +50,4 @@ impl Worker for Poses {
         }
         bad
     }
-}
-
-/// Appends the values of a line, one a joint.
-fn parse(line: &[u8], joints: usize, rows: &mut Vec<f64>) -> Result<(), String> {
-    let q: Vec<f64> = parsed(line, "a JSON array of numbers", |l| serde_json::from_slice(l))?;
-    if q.len() != joints {
-        return Err(format!("{}, the robot has {}", plural(q.len(), "value"), plural(joints, "joint")));
-    }
-    rows.extend(q);
-    Ok(())
 }

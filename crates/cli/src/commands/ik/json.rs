@@ -1,7 +1,8 @@
 //! The derivation as JSON; formulas are plain text that parses back.
 
 use denavit::description::Description;
-use denavit::inverse::explain::{Explanation, Math, Statement, math};
+use denavit::explain::{Math, math};
+use denavit::inverse::explain::{Explanation, Statement};
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::{Style, print};
 use serde_json::{Value, json};

@@ -1,18 +1,19 @@
 //! `denavit ik`: joint variables for a pose; the derivation of their formulas.
 
 mod answer;
-mod formats;
 mod json;
-mod pose;
+pub mod pose;
 mod stream;
 mod summary;
 
 use crate::arguments::{Format, IkArguments};
+use crate::commands::document;
 use crate::commands::fk::{configuration, reading, without_values};
 use crate::failure::Failure;
 use crate::load;
 use answer::{Question, Report};
 use denavit::description::{Description, JointKind};
+use denavit::explain::Block;
 use denavit::idealise::{Ideal, idealised};
 use denavit::inverse::explain::Explanation;
 use denavit::inverse::{Criterion, Goal, InverseKinematics, InverseModel, Options, Refusal, Unprepared};
@@ -46,10 +47,8 @@ pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
         write!(anstream::stdout(), "{}", printed(arguments, &Explanation::of(&model)))?;
         return Ok(());
     }
-    let mut solver = InverseKinematics::new(&description, &options).map_err(|e| match e {
-        Unprepared::Missing(missing) => without_values(&description, name, &missing),
-        Unprepared::Given(why) => Failure::Usage(format!("--given: {why}")),
-    })?;
+    let mut solver =
+        InverseKinematics::new(&description, &options).map_err(|why| unprepared(&description, name, &why))?;
     for near in &solver.nearly {
         writeln!(anstream::stderr(), "note: {near}; solved as it stands, `--idealise` takes it so")?;
     }
@@ -90,6 +89,14 @@ pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
     if answer.is_reachable() { Ok(()) } else { Err(Failure::No(answer::obstacle(&description, &answer))) }
 }
 
+/// The robot cannot be solved as it is given.
+pub fn unprepared(description: &Description, name: &str, why: &Unprepared) -> Failure {
+    match why {
+        Unprepared::Missing(missing) => without_values(description, name, missing),
+        Unprepared::Given(why) => Failure::Usage(format!("--given: {why}")),
+    }
+}
+
 /// The special arm beside a nearly special one; what changed goes to standard error.
 fn ideal(description: &Description, name: &str, tolerance: f64) -> Result<Ideal, Failure> {
     if !(0.0..=0.1).contains(&tolerance) {
@@ -120,13 +127,15 @@ fn ideal(description: &Description, name: &str, tolerance: f64) -> Result<Ideal,
 
 fn printed(arguments: &IkArguments, e: &Explanation) -> String {
     let format = if arguments.json { Format::Json } else { arguments.format };
+    let title = format!("Inverse kinematics of the {}", e.description.name);
+    let written = |blocks: &[Block]| document::document(&title, &e.names(), blocks, format);
     match (format, arguments.explain, arguments.symbolic) {
         (Format::Json, ..) => json::document(e),
-        (_, true, _) => formats::document(e, &e.document(), format),
-        (_, _, true) => formats::document(e, &e.summary(), format),
+        (_, true, _) => written(&e.document()),
+        (_, _, true) => written(&e.summary()),
         (Format::Terminal, ..) => summary::text(e),
         // A format was asked for: the formulas.
-        (_, false, false) => formats::document(e, &e.summary(), format),
+        (_, false, false) => written(&e.summary()),
     }
 }
 

@@ -2,7 +2,8 @@
 
 use crate::commands::show::title;
 use crate::terminal::{Align, FAINT, HEADING, NAME, styled, table};
-use denavit::inverse::explain::{Explanation, Math, Sign, math};
+use denavit::explain::{Math, Sign, math};
+use denavit::inverse::explain::Explanation;
 use denavit::structure::Structure;
 use denavit_symbolic::print::{Style, print};
 

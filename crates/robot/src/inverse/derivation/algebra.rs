@@ -7,6 +7,7 @@ use denavit_symbolic::poly::{Atom, Monomial, Poly};
 use denavit_symbolic::ring::{AtomKind, Ring};
 use denavit_symbolic::{Expr, Rational};
 use rustc_hash::FxHashMap;
+use std::cell::Cell;
 
 /// What an atom stands for.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -23,6 +24,11 @@ pub enum Kind {
     Constant(Expr),
 }
 
+/// The most that a derivation may take: several times what the longest of the catalogue takes.
+pub const MOST_WORK: u64 = 2_000_000;
+/// What a coefficient takes that does not fit two machine words.
+const LONG: u64 = 12;
+
 /// Atoms, their rules, their formulas.
 #[derive(Debug, Default)]
 pub struct Algebra {
@@ -30,6 +36,8 @@ pub struct Algebra {
     exprs: Vec<Expr>,
     rules: Vec<Option<Poly>>,
     numbers: FxHashMap<Kind, Atom>,
+    /// Products of terms that were formed.
+    work: Cell<u64>,
 }
 
 impl Algebra {
@@ -76,6 +84,21 @@ impl Algebra {
         self.kinds.len()
     }
 
+    /// What was done so far, as products of two terms: the same on every machine.
+    pub fn work(&self) -> u64 {
+        self.work.get()
+    }
+
+    /// True if that is as much as a derivation may take.
+    pub fn is_spent(&self) -> bool {
+        self.work.get() > MOST_WORK
+    }
+
+    /// What is done counts from here on.
+    pub(in crate::inverse) fn restart(&self) {
+        self.work.set(0);
+    }
+
     /// The product, squares of sines and roots replaced.
     pub fn times(&self, a: &Poly, b: &Poly) -> Poly {
         if let Some(r) = a.as_constant() {
@@ -86,9 +109,12 @@ impl Algebra {
         }
         let mut terms = Vec::with_capacity(a.terms().len() * b.terms().len());
         let mut pending: Vec<(Monomial, Rational)> = vec![];
+        let mut long = 0;
         for (m, r) in a.terms() {
             for (n, t) in b.terms() {
-                pending.push((m.times(n), r * t));
+                let product = r * t;
+                long += u64::from(product.to_parts().is_none());
+                pending.push((m.times(n), product));
                 while let Some((m, r)) = pending.pop() {
                     let square = m
                         .factors()
@@ -106,6 +132,8 @@ impl Algebra {
                 }
             }
         }
+        let products = (a.terms().len() * b.terms().len()) as u64;
+        self.work.set(self.work.get() + products + LONG * long);
         Poly::from_terms(terms)
     }
 

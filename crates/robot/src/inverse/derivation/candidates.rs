@@ -101,7 +101,7 @@ impl Problem<'_> {
             };
             found.push(Seen { unknowns, zero: zero.into(), degree: e.degree, origin });
         }
-        for s in self.splits {
+        for s in self.splits.iter().take_while(|_| !self.chain.algebra.is_spent()) {
             found.extend(self.squares(known, s));
         }
         found.sort_by_key(|s| s.zero.plus.terms().len() + s.zero.squares.len());
@@ -385,6 +385,9 @@ impl Problem<'_> {
             }
         }
         for (x, y) in bases {
+            if self.chain.algebra.is_spent() {
+                return;
+            }
             let spans = |s: &&Seen| {
                 s.unknowns.len() > 1 && {
                     let mut all = s.unknowns.clone();

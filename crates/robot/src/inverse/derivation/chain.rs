@@ -101,6 +101,8 @@ pub enum Unsuitable {
     TooLong(usize),
 }
 
+/// Terms of an element of a product that is worked with.
+const LONGEST: usize = 3_000;
 /// Joints of the longest chain that is derived.
 const MAX_AXES: usize = 8;
 
@@ -293,8 +295,8 @@ impl Chain {
         if from < to { (c, s) } else { (c, s.scaled(&-Rational::ONE)) }
     }
 
-    /// The product of elements `from..to` for all `to`, as rotation and position; parallel axes are merged before
-    /// anything is multiplied.
+    /// The product of elements `from..to` for all `to`, as rotation and position, up to the first that is too long to
+    /// work with; parallel axes are merged before anything is multiplied.
     pub fn products_from(&self, from: usize) -> Vec<(Matrix, Column)> {
         let a = &self.algebra;
         let mut before = identity();
@@ -342,7 +344,11 @@ impl Chain {
                     },
                 },
             }
-            found.push((whole(&before, group, &since), position.clone()));
+            let rotation = whole(&before, group, &since);
+            if rotation.iter().flatten().chain(&position).any(|p| p.terms().len() > LONGEST) {
+                break;
+            }
+            found.push((rotation, position.clone()));
         }
         found
     }

@@ -83,7 +83,8 @@ const TERMS: usize = 160;
 /// Products of terms that an entry may take.
 const PRODUCTS: usize = 1_500;
 
-/// All equations of a chain, short ones first, and the positions for sums of squares.
+/// All equations of a chain, short ones first, and the positions for sums of squares; not all of them where the work is
+/// [spent](Algebra::is_spent).
 pub fn equations(chain: &Chain, goal: Goal) -> (Vec<Equation>, Vec<Split>) {
     let a = &chain.algebra;
     let n = chain.elements.len();
@@ -99,7 +100,7 @@ pub fn equations(chain: &Chain, goal: Goal) -> (Vec<Equation>, Vec<Split>) {
     let rights: Vec<usize> = if goal == Goal::Pose { (0..=n).collect() } else { vec![n] };
     for &v in &rights {
         // W = U · right⁻¹
-        let (r_right, p_right) = &products[v][n - v];
+        let Some((r_right, p_right)) = products[v].get(n - v) else { continue };
         let back = transposed(r_right);
         let rotation: [[Option<Poly>; 3]; 3] = std::array::from_fn(|i| {
             std::array::from_fn(|j| {
@@ -115,8 +116,11 @@ pub fn equations(chain: &Chain, goal: Goal) -> (Vec<Equation>, Vec<Split>) {
             Some(u(i, 3)?.minus(&shift))
         });
         for left in 0..=v {
-            let (r_left, p_left) = &products[0][left];
-            let (r_middle, p_middle) = &products[left][v - left];
+            let (Some((r_left, p_left)), Some((r_middle, p_middle))) =
+                (products[0].get(left), products[left].get(v - left))
+            else {
+                continue;
+            };
             let moved: [Option<Poly>; 3] =
                 std::array::from_fn(|i| Some(position[i].as_ref()?.minus(&p_left[i])));
             let entry_of = |column: &dyn Fn(usize) -> Option<Poly>, i: usize| {
@@ -151,10 +155,12 @@ pub fn equations(chain: &Chain, goal: Goal) -> (Vec<Equation>, Vec<Split>) {
                 // middle⁻¹'s position: −Rᵀp on both sides
                 let pose = dot(a, (0..3).map(|k| (rotation[k][i].clone(), &moved[k])).filter_map(flat));
                 let pose = pose.map(|p| p.scaled(&-Rational::ONE));
-                let chain_side =
-                    (0..3).fold(Poly::zero(), |sum, k| sum.minus(&a.times(&r_middle[k][i], &p_middle[k])));
                 let complete = (0..3).all(|k| rotation[k][i].is_some() && moved[k].is_some());
-                push(Entry::Inverse(i), pose.filter(|_| complete), &chain_side, 1);
+                let sum = dot(a, (0..3).map(|k| (Some(r_middle[k][i].clone()), &p_middle[k])));
+                let chain_side = sum.map(|p| p.scaled(&-Rational::ONE));
+                if let Some(chain_side) = chain_side.filter(|_| complete) {
+                    push(Entry::Inverse(i), pose, &chain_side, 1);
+                }
             }
             splits.push(Split {
                 left,
@@ -174,7 +180,7 @@ fn flat((x, y): (Option<Poly>, &Option<Poly>)) -> Option<(Option<Poly>, &Poly)> 
     y.as_ref().map(|y| (x, y))
 }
 
-/// Σ x·y, or nothing if a factor is missing or it takes too many products.
+/// Σ x·y, or nothing if a factor is missing, it takes too many products, or the work is spent.
 fn dot<'a>(a: &Algebra, pairs: impl Iterator<Item = (Option<Poly>, &'a Poly)>) -> Option<Poly> {
     let mut sum = Poly::zero();
     for (x, y) in pairs {
@@ -182,7 +188,7 @@ fn dot<'a>(a: &Algebra, pairs: impl Iterator<Item = (Option<Poly>, &'a Poly)>) -
             continue;
         }
         let x = x?;
-        if x.terms().len() * y.terms().len() > PRODUCTS {
+        if x.terms().len() * y.terms().len() > PRODUCTS || a.is_spent() {
             return None;
         }
         sum = sum.plus(&a.times(&x, y));

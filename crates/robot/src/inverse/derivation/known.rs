@@ -4,7 +4,7 @@
 //! θ34 known for free. Two angles that differ by a known one are one unknown.
 
 use super::algebra::{Algebra, Kind};
-use super::chain::{Chain, Difference, Motion};
+use super::chain::{Chain, Difference, Element, Motion};
 use crate::geometry::{Rotation, Transform, Vector};
 use denavit_symbolic::poly::{Atom, Monomial, Poly};
 use denavit_symbolic::{Expr, Rational, Symbol};
@@ -327,14 +327,29 @@ fn set_axes(chain: &Chain, axes: &[f64], atoms: &mut [f64]) {
             Kind::Pose(_) | Kind::Constant(_) => {}
         }
     }
-    if let Some((r, p)) = chain.products_from(0).last() {
-        for i in 0..3 {
-            for j in 0..3 {
-                atoms[i * 4 + j] = Algebra::value(&r[i][j], atoms);
-            }
-            atoms[i * 4 + 3] = Algebra::value(&p[i], atoms);
-        }
+    let pose = pose(chain, axes, atoms);
+    let (r, p) = (pose.rotation.rows(), pose.translation);
+    for i in 0..3 {
+        atoms[i * 4..i * 4 + 3].copy_from_slice(&r[i]);
+        atoms[i * 4 + 3] = p[i];
     }
+}
+
+/// The product of the chain's elements, with these values of its axes and of its constants.
+fn pose(chain: &Chain, axes: &[f64], atoms: &[f64]) -> Transform<f64> {
+    let value = |p: &Poly| Algebra::value(p, atoms);
+    chain.elements.iter().fold(Transform::identity(), |pose, element| {
+        pose * match element {
+            Element::Constant(constant) => {
+                let (r, p) = &**constant;
+                let rows = std::array::from_fn(|i| std::array::from_fn(|j| value(&r[i][j])));
+                let p = Vector(std::array::from_fn(|i| value(&p[i])));
+                Transform::from_rotation_translation(Rotation::from_rows(rows), p)
+            }
+            Element::Axis(k) if chain.axes[*k].motion == Motion::Slide => Transform::translation_z(axes[*k]),
+            Element::Axis(k) => Transform::rotation_z(axes[*k]),
+        }
+    })
 }
 
 /// A small generator of numbers that look random (splitmix64).

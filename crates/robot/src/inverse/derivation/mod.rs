@@ -11,7 +11,7 @@ mod model;
 mod plan;
 mod search;
 
-pub use algebra::{Algebra, Kind};
+pub use algebra::{Algebra, Kind, MOST_WORK};
 pub(super) use chain::settled;
 pub use chain::{Axis, Chain, Difference, Element, End, Motion, Unsuitable};
 pub use compile::{Compiled, Inputs};

@@ -99,6 +99,10 @@ pub struct Stuck {
     pub surplus: usize,
     /// The joint variables that were given.
     pub given: Vec<usize>,
+    /// What the derivation took, as products of two terms.
+    pub work: u64,
+    /// True if that was all that a derivation may take: there may be a closed form that was not found.
+    pub is_spent: bool,
 }
 
 impl fmt::Display for Refusal {
@@ -112,10 +116,16 @@ impl fmt::Display for Refusal {
                 let found: Vec<String> =
                     stuck.steps.iter().map(|s| stuck.chain.describe(s.unknown)).collect();
                 let found = if found.is_empty() { "nothing".into() } else { found.join(", ") };
+                let missing = missing.join(", ");
+                if stuck.is_spent {
+                    return write!(
+                        f,
+                        "no closed form within the bound on work: found {found} so far; open: {missing}"
+                    );
+                }
                 write!(
                     f,
-                    "no closed form: found {found}; no equation of degree up to 4 in one unknown is left for {}",
-                    missing.join(", ")
+                    "no closed form: found {found}; no equation of degree up to 4 in one unknown is left for {missing}"
                 )
             }
         }
@@ -156,10 +166,19 @@ impl InverseModel {
             return Err(Refusal::Given(too_many(&asked, surplus)));
         }
         let (given, outcome) = choose(&problem, &asked, surplus);
-        if !outcome.is_complete() {
+        if !outcome.is_complete() || !is_whole(&chain, &splits) {
             let missing = missing(&chain, &outcome, &given);
-            let steps = outcome.steps;
-            return Err(Refusal::Stuck(Box::new(Stuck { chain, steps, missing, surplus, given })));
+            let (steps, work) = (outcome.steps, chain.algebra.work());
+            let is_spent = chain.algebra.is_spent() || !is_whole(&chain, &splits);
+            return Err(Refusal::Stuck(Box::new(Stuck {
+                chain,
+                steps,
+                missing,
+                surplus,
+                given,
+                work,
+                is_spent,
+            })));
         }
         let labels = labels(&chain, &outcome.steps);
         let [of_position, with_axis] =
@@ -215,6 +234,11 @@ impl InverseModel {
     }
 }
 
+/// True if the product of the whole chain was not too long to be formed.
+fn is_whole(chain: &Chain, splits: &[Split]) -> bool {
+    splits.iter().any(|s| s.left == 0 && s.right == chain.elements.len())
+}
+
 fn too_many(asked: &[usize], surplus: usize) -> String {
     let joints = |k: usize| if k == 1 { "1 joint".into() } else { format!("{k} joints") };
     match surplus {
@@ -256,6 +280,9 @@ fn choose(problem: &Problem, asked: &[usize], surplus: usize) -> (Vec<usize>, Ou
     open.sort_by_key(|&j| (chain.is_angle(j), place(j), j));
     let mut best: Option<(Price, Vec<usize>, Outcome)> = None;
     for set in subsets(&open, more).into_iter().take(TRIALS) {
+        if chain.algebra.is_spent() {
+            break;
+        }
         let mut given: Vec<usize> = asked.iter().chain(&set).copied().collect();
         given.sort_unstable();
         let outcome = search::search(problem, &axes_of(chain, &given));

@@ -30,7 +30,7 @@ impl Outcome {
     }
 }
 
-/// Searches with the values of some axes given.
+/// Searches with the values of some axes given, until the work is spent.
 pub fn search(problem: &Problem, given: &[usize]) -> Outcome {
     search_on(problem, given, vec![])
 }
@@ -41,7 +41,7 @@ fn search_on(problem: &Problem, given: &[usize], mut steps: Vec<Step>) -> Outcom
     let mut known = Known::new(chain, given);
     steps.iter().for_each(|s| known.learn(s.unknown));
     let mut leaves: usize = steps.iter().map(|s| usize::from(s.cost.roots)).product();
-    while !known.everything() {
+    while !known.everything() && !chain.algebra.is_spent() {
         let mut found = problem.candidates(&known);
         found.retain(|s| leaves * usize::from(s.cost.roots) <= MAX_LEAVES);
         let Some(best) = found.into_iter().min_by_key(|s| (s.cost, order(s))) else { break };

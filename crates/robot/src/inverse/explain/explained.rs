@@ -1,6 +1,6 @@
 //! What is said of a step.
 
-use super::document::{Factor, Line, Math, Proof};
+use crate::explain::{Factor, Line, Math, Proof};
 use denavit_symbolic::Expr;
 
 /// A formula that is printed.

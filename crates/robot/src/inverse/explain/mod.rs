@@ -1,30 +1,25 @@
 //! The derivation in words and formulas, every formula proved.
 //!
-//! An [`Explanation`] holds what is said, step by step; [`Explanation::document`] says it, in a tree of headings,
-//! paragraphs and formulas that knows no notation; [`text`] is the tree for a terminal, [`math()`] a formula in any style.
+//! An [`Explanation`] holds what is said, step by step; [`Explanation::document`] says it, as a tree of
+//! [`crate::explain`].
 
-mod document;
 mod explained;
-mod math;
 mod names;
 mod origin;
 mod prove;
 mod reading;
 mod step;
-mod text;
 mod words;
 
-pub use document::{Block, Branch, Factor, Line, Math, Piece, Proof, Sign};
 pub use explained::{Case, Explained, Source, Statement};
-pub use math::math;
 pub use origin::listed;
-pub use text::{Mark, text};
 
 use super::derivation::{
     Chain, Condition, Form, Goal, InverseModel, Motion, Norm, Split, Step, Stuck, Task, Unknown,
     axis_unknown, equations, settled,
 };
 use crate::description::Description;
+use crate::explain::{Block, Branch, Factor, Line, Math, Proof};
 use crate::geometry::Transform;
 use denavit_symbolic::poly::Poly;
 use denavit_symbolic::vocabulary::Vocabulary;
@@ -109,6 +104,7 @@ impl Explanation {
     /// Explains how far a derivation came that ended early.
     pub fn of_stuck(description: &Description, stuck: &Stuck, goal: Goal) -> Self {
         let settled = settled(description);
+        stuck.chain.algebra.restart();
         let (_, splits) = equations(&stuck.chain, goal);
         let labels = vec![None; stuck.steps.len()];
         let facts = Facts {

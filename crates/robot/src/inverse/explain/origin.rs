@@ -1,8 +1,8 @@
 //! Where an equation comes from: which matrices are moved, and which element of the two sides it is.
 
-use super::document::Factor;
 use super::reading::{Reading, negated};
 use crate::description::Convention;
+use crate::explain::Factor;
 use crate::inverse::derivation::Kind;
 use crate::inverse::derivation::{Chain, Element, Motion};
 use crate::inverse::derivation::{Entry, Source, Split};

@@ -1,8 +1,8 @@
 //! Whether a printed formula is true: the entries of the pose are replaced by the product of the chain's matrices, and
 //! what is left must vanish identically.
 
-use super::document::Proof;
 use super::reading::Reading;
+use crate::explain::Proof;
 use crate::inverse::derivation::Random;
 use denavit_symbolic::{Expr, Symbol, Verdict, equal};
 use rustc_hash::FxHashMap;

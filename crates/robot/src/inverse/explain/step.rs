@@ -1,11 +1,11 @@
 //! One step: from where its equation comes, of which type it is, its solution, what can go wrong.
 
-use super::document::{Line, Math, Proof, Sign};
 use super::explained::{Case, Explained, Source, Statement};
 use super::names::Names;
 use super::origin::Matrices;
 use super::prove::{Prover, identity};
 use super::reading::{Reading, negated};
+use crate::explain::{Line, Math, Proof, Sign};
 use crate::inverse::derivation::{Determinant, Elimination, Form, Norm, Origin, Row, Step};
 use denavit_symbolic::poly::{Monomial, Poly};
 use denavit_symbolic::{Expr, Rational};

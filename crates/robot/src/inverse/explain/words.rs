@@ -1,9 +1,9 @@
 //! What an explanation says.
 
 use super::Explanation;
-use super::document::{Block, Factor, Line, Math, Proof};
 use super::explained::{Explained, Source, Statement, ordinal};
 use super::origin::listed;
+use crate::explain::{Block, Factor, Line, Math, Proof};
 use crate::inverse::derivation::Goal;
 use denavit_symbolic::Expr;
 use denavit_symbolic::readable::literals;

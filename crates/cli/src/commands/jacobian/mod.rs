@@ -1,0 +1,210 @@
+//! `denavit jacobian`: Jacobians, velocities and forces in numbers; formulas and singularities.
+
+mod answer;
+mod report;
+mod stream;
+mod symbolic;
+
+use crate::arguments::{Format, JacobianArguments};
+use crate::commands::derive::reference;
+use crate::commands::fk::{configuration, plural, without_values};
+use crate::failure::Failure;
+use crate::load;
+use answer::{Answer, Questions};
+use denavit::Robot;
+use denavit::description::{Description, JointKind, Measure};
+use denavit::forward::Reference;
+use denavit::geometry::Vector;
+use denavit::geometry::orientation::OrientationSet;
+use denavit::velocity::{Damping, JacobianModel, Viewpoint};
+use denavit_symbolic::Expr;
+use std::io::Write;
+
+/// Answers what is asked about velocities and forces.
+///
+/// # Errors
+/// If the robot, the configuration or an option cannot be read, a parameter has no value, or nothing can be written.
+pub fn run(arguments: &JacobianArguments) -> Result<(), Failure> {
+    let description = load::robot(&arguments.robot)?;
+    if arguments.symbolic || arguments.explain {
+        let format = if arguments.json { Format::Json } else { arguments.format };
+        let view = (arguments.frame != "shortest").then(|| viewpoint(&description, arguments)).transpose()?;
+        let body = body(&description, arguments)?;
+        let text = symbolic::document(&description, body, view, arguments.explain, format)?;
+        write!(anstream::stdout(), "{text}")?;
+        return Ok(());
+    }
+    let view = match arguments.frame.as_str() {
+        "shortest" => JacobianModel::shortest(&description, body(&description, arguments)?).view,
+        _ => viewpoint(&description, arguments)?,
+    };
+    let robot = Robot::numeric(&description)
+        .map_err(|missing| without_values(&description, &arguments.robot.robot, &missing))?;
+    match (&arguments.input, &arguments.q) {
+        (Some(path), _) => stream::run(&description, &view, path),
+        (None, Some(text)) => {
+            let q = configuration(&description, text)?;
+            let questions = questions(&description, arguments, robot.joints)?;
+            let answer = Answer::new(&description, &robot, view, &q, questions);
+            let text = if arguments.json { answer.json() } else { report::text(&answer) };
+            write!(anstream::stdout(), "{text}")?;
+            Ok(())
+        }
+        (None, None) => Err(Failure::Usage(format!(
+            "say where the joints are: -q with {}; or --symbolic or --explain for formulas",
+            plural(robot.joints, "value"),
+        ))),
+    }
+}
+
+fn body(description: &Description, arguments: &JacobianArguments) -> Result<Reference, Failure> {
+    match reference(description, &arguments.of, "--of")? {
+        Reference::Base | Reference::Frame(0) => {
+            Err(Failure::Usage(format!("--of {}: the base does not move", arguments.of)))
+        }
+        body => Ok(body),
+    }
+}
+
+fn viewpoint(description: &Description, arguments: &JacobianArguments) -> Result<Viewpoint<Expr>, Failure> {
+    let body = body(description, arguments)?;
+    let axes = reference(description, &arguments.frame, "--frame")?;
+    let mut view = Viewpoint::of(body, axes);
+    match arguments.at.as_deref() {
+        None => {}
+        Some(text) if text.contains(',') => {
+            let parts: Vec<&str> = text.split(',').map(str::trim).collect();
+            let [x, y, z] = parts[..] else {
+                return Err(Failure::Usage(format!("--at {text}: a frame, or three lengths x, y, z")));
+            };
+            let length = |part: &str| {
+                load::value_of(part, Measure::Length).map_err(|why| Failure::Usage(format!("--at: {why}")))
+            };
+            view.offset = Vector([length(x)?, length(y)?, length(z)?]);
+        }
+        Some(text) => view.at = reference(description, text, "--at")?,
+    }
+    Ok(view)
+}
+
+/// What is asked besides the Jacobian.
+fn questions(
+    description: &Description,
+    arguments: &JacobianArguments,
+    joints: usize,
+) -> Result<Questions, Failure> {
+    let set = arguments.orientation.as_deref().map(str::parse::<OrientationSet>).transpose();
+    let orientation = set.map_err(|e| Failure::Usage(format!("--orientation: {e}")))?;
+    if orientation.is_some() && (arguments.frame != "base" || arguments.at.is_some()) {
+        return Err(Failure::Usage(
+            "--orientation: the analytic Jacobian is of the body's own origin in the base; leave --frame and --at away"
+                .into(),
+        ));
+    }
+    let many = |text: &Option<String>, option: &str, n: usize| -> Result<Option<Vec<f64>>, Failure> {
+        text.as_deref().map(|t| numbers(t, option, n)).transpose()
+    };
+    let twist = arguments.twist.as_deref().map(|t| twist(t)).transpose()?;
+    let damping = match &arguments.damping {
+        None => Damping::default(),
+        Some(text) => match numbers(text, "--damping", 2)?[..] {
+            [threshold, largest] if threshold >= 0.0 && (0.0..=threshold).contains(&largest) => {
+                Damping { threshold, largest }
+            }
+            _ => {
+                return Err(Failure::Usage(format!(
+                    "--damping {text}: a threshold that is not negative, and at most as much damping, as in 0.04,0.02"
+                )));
+            }
+        },
+    };
+    let torques = many(&arguments.torques, "--torques", joints)?;
+    if torques.iter().flatten().any(|&t| t <= 0.0) {
+        return Err(Failure::Usage("--torques: largest torques are positive".into()));
+    }
+    let rates = match &arguments.rates {
+        None => None,
+        Some(text) => Some(joint_rates(description, text, "--rates")?),
+    };
+    let wish = match &arguments.wish {
+        None => vec![],
+        Some(text) => joint_rates(description, text, "--wish")?,
+    };
+    Ok(Questions {
+        orientation,
+        rates,
+        twist,
+        damping,
+        wish,
+        wrench: many(&arguments.wrench, "--wrench", 6)?.and_then(|w| w.try_into().ok()),
+        torques,
+        hessian: arguments.hessian,
+    })
+}
+
+/// Numbers separated by commas or blanks.
+fn numbers(text: &str, option: &str, n: usize) -> Result<Vec<f64>, Failure> {
+    let parts = parts(text);
+    if parts.len() != n {
+        return Err(Failure::Usage(format!("{option}: {} given, {n} needed", plural(parts.len(), "value"))));
+    }
+    let number = |part: &&str| match part.parse::<f64>() {
+        Ok(x) if x.is_finite() => Ok(x),
+        _ => Err(Failure::Usage(format!("{option}: `{part}` is no finite number"))),
+    };
+    parts.iter().map(number).collect()
+}
+
+fn parts(text: &str) -> Vec<&str> {
+    let text = text.trim().trim_start_matches('[').trim_end_matches(']');
+    text.split(|c: char| c == ',' || c == ';' || c.is_whitespace()).filter(|p| !p.is_empty()).collect()
+}
+
+/// Six components, `-` where any will do.
+fn twist(text: &str) -> Result<([f64; 6], [bool; 6]), Failure> {
+    let given = parts(text);
+    if given.len() != 6 {
+        let found = plural(given.len(), "value");
+        return Err(Failure::Usage(format!("--twist: {found} given, 6 needed: vx, vy, vz, wx, wy, wz")));
+    }
+    let (mut twist, mut rows) = ([0.0; 6], [true; 6]);
+    for (k, part) in given.iter().enumerate() {
+        if *part == "-" {
+            rows[k] = false;
+        } else {
+            twist[k] = numbers(part, "--twist", 1)?[0];
+        }
+    }
+    Ok((twist, rows))
+}
+
+/// Joint velocities: radians or metres a second, degrees and millimetres where a value says so.
+fn joint_rates(description: &Description, text: &str, option: &str) -> Result<Vec<f64>, Failure> {
+    let variables = description.variables();
+    let separated: Vec<&str> = if text.contains([',', ';']) {
+        text.split([',', ';']).map(str::trim).collect()
+    } else {
+        text.split_whitespace().collect()
+    };
+    if separated.len() != variables.len() {
+        let found = plural(separated.len(), "value");
+        return Err(Failure::Usage(format!("{option}: {found} given, one a joint: {}", variables.len())));
+    }
+    let mut rates = vec![];
+    for (part, variable) in separated.iter().zip(&variables) {
+        let value = part.trim_end_matches("/s");
+        let read = load::value_of(value, variable.kind.into()).and_then(crate::commands::fk::value);
+        rates.push(
+            read.map_err(|why| Failure::Usage(format!("{option}: {}: {why}", variable.symbol.name())))?,
+        );
+    }
+    Ok(rates)
+}
+
+/// The unit of a joint's velocity.
+fn rate(x: f64, kind: JointKind) -> String {
+    match kind {
+        JointKind::Revolute => format!("{}°/s", crate::terminal::decimals(x.to_degrees(), 4)),
+        JointKind::Prismatic => format!("{} m/s", crate::terminal::decimals(x, 6)),
+    }
+}

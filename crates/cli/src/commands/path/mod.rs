@@ -1,0 +1,48 @@
+//! `denavit path`: joint and Cartesian paths, followed, timed and sampled.
+
+mod limits;
+mod motion;
+mod plot;
+mod report;
+mod request;
+mod samples;
+
+use crate::arguments::{PathArguments, PathFormat};
+use crate::commands::fk::without_values;
+use crate::failure::Failure;
+use crate::load;
+use denavit::Robot;
+use motion::Planned;
+use samples::Sampled;
+use std::io::Write;
+
+/// Plans a path and prints it.
+///
+/// # Errors
+/// If the robot, a way-point or an option cannot be read; if the path cannot be followed to its end; if nothing can be
+/// written.
+pub fn run(arguments: &PathArguments) -> Result<(), Failure> {
+    let description = load::robot(&arguments.robot)?;
+    let robot = Robot::numeric(&description)
+        .map_err(|missing| without_values(&description, &arguments.robot.robot, &missing))?;
+    let request = request::read(&description, &robot, arguments)?;
+    let limits = limits::read(&description, arguments)?;
+    let planned = Planned::new(&description, &robot, request, limits, arguments)?;
+    let sampled = Sampled::new(&description, &robot, &planned, arguments.dt)?;
+    let format = if arguments.json { PathFormat::Json } else { arguments.format };
+    let text = match format {
+        PathFormat::Text => report::text(&description, &planned, &sampled),
+        PathFormat::Csv => sampled.csv(&description),
+        PathFormat::Ndjson => sampled.ndjson(),
+        PathFormat::Json => report::json(&description, &planned, &sampled),
+    };
+    if let Some(file) = &arguments.plot {
+        let picture = plot::svg(&description, &planned, &sampled).map_err(Failure::GaveUp)?;
+        std::fs::write(file, picture)?;
+    }
+    write!(anstream::stdout(), "{text}")?;
+    if matches!(format, PathFormat::Csv | PathFormat::Ndjson) {
+        write!(anstream::stderr(), "{}", report::remarks(&description, &planned))?;
+    }
+    planned.verdict()
+}

@@ -1,0 +1,183 @@
+//! The path in words: what was met, what else is possible, how it was timed.
+
+use super::motion::Planned;
+use super::samples::Sampled;
+use crate::commands::fk::reading;
+use crate::terminal::{Align, HEADING, NAME, decimals, styled, table};
+use denavit::description::{Description, JointKind};
+use denavit::motion::follow::{Alternative, Event, EventKind};
+use denavit_symbolic::Expr;
+use denavit_symbolic::print::{Style, print};
+use serde_json::{Value, json};
+
+/// Rows of the table.
+const ROWS: usize = 11;
+
+/// Everything for reading.
+pub fn text(d: &Description, planned: &Planned, sampled: &Sampled) -> String {
+    let duration = planned.trajectory.duration();
+    let mut text = format!("{}: {}, {} s\n", styled(&d.name, HEADING), planned.words, decimals(duration, 4));
+    text += &remarks(d, planned);
+    let variables = d.variables();
+    let mut header = vec!["t / s".to_string()];
+    header.extend(variables.iter().map(|v| v.symbol.name().to_string()));
+    header.extend(["x / m", "y / m", "z / m", "manipulability"].map(String::from));
+    let last = sampled.samples.len() - 1;
+    let count = ROWS.min(last + 1);
+    let row = |k: usize| {
+        let s = &sampled.samples[if count > 1 { k * last / (count - 1) } else { 0 }];
+        let mut cells = vec![decimals(s.t, 4)];
+        cells.extend(variables.iter().zip(&s.state.q).map(|(v, &x)| match v.kind {
+            JointKind::Revolute => format!("{}°", decimals(x.to_degrees(), 2)),
+            JointKind::Prismatic => decimals(x, 4),
+        }));
+        cells.extend(s.pose.translation.0.map(|x| decimals(x, 4)));
+        cells.push(decimals(s.manipulability, 5));
+        cells
+    };
+    let rows: Vec<Vec<String>> = (0..count).map(row).collect();
+    let heads: Vec<&str> = header.iter().map(String::as_str).collect();
+    text += "\n";
+    text += &table(&heads, &vec![Align::Right; heads.len()], &rows);
+    if last + 1 > count {
+        let every = decimals(sampled.dt, 6);
+        text += &format!("  {} samples, one every {every} s: --format csv, ndjson or json\n", last + 1);
+    }
+    text
+}
+
+/// Timing, events, alternatives.
+pub fn remarks(d: &Description, planned: &Planned) -> String {
+    let mut text = format!("  timing: {}\n", planned.timing);
+    let Some(followed) = &planned.followed else { return text };
+    for event in &followed.events {
+        text += &format!("  {}\n", self::event(d, event));
+    }
+    if followed.events.is_empty() {
+        text += "  no singular configuration and no joint limit is met\n";
+    }
+    text += &format!(
+        "  the hand leaves its path by {} mm and {}° at most (measured at eight places between each two of {} samples)\n",
+        decimals(1e3 * followed.deviation, 5),
+        decimals(followed.turned.to_degrees(), 5),
+        followed.joints.parameters().len()
+    );
+    text += match followed.certified {
+        Some(true) => {
+            "  between the samples the factors of det J keep their signs: no other singular configuration is passed\n"
+        }
+        Some(false) => {
+            "  between some samples a factor of det J comes so near to 0 that its sign is not certain\n"
+        }
+        None => "  singular configurations were looked for at the samples; none between them is excluded\n",
+    };
+    if !planned.alternatives.is_empty() {
+        text += "  starts:\n";
+        for a in &planned.alternatives {
+            text += &format!("    {}\n", alternative(d, a));
+        }
+    }
+    text
+}
+
+fn event(d: &Description, event: &Event) -> String {
+    let at = format!("at {} %", decimals(100.0 * event.s, 3));
+    let names = d.vocabulary();
+    let zero = |factor: &Option<Expr>| {
+        factor.map(|f| format!("{} = 0", print(f, &names, Style::Unicode))).unwrap_or_default()
+    };
+    let why = |factor: &Option<Expr>, place: &Option<denavit::velocity::Place>| {
+        let parts: Vec<String> = [zero(factor), place.as_ref().map(ToString::to_string).unwrap_or_default()]
+            .into_iter()
+            .filter(|p| !p.is_empty())
+            .collect();
+        if parts.is_empty() { String::new() } else { format!(": {}", parts.join("; ")) }
+    };
+    let variables = d.variables();
+    match &event.kind {
+        EventKind::Singular { factor, place, crossed } => {
+            let how = if *crossed { "passes through" } else { "touches, or nearly," };
+            format!("{at} it {how} a singular configuration{}", why(factor, place))
+        }
+        EventKind::Limit { joint, limit } => {
+            let v = variables[*joint];
+            format!("{at} {} leaves its limit {}", v.symbol.name(), reading(*limit, v.kind))
+        }
+        EventKind::WithinLimits { joint } => {
+            format!("{at} {} is within its limits again", variables[*joint].symbol.name())
+        }
+        EventKind::End { reachable: false, factor, place } => {
+            format!("{at} it {}{}", styled("leaves what the hand can reach", NAME), why(factor, place))
+        }
+        EventKind::End { reachable: true, factor, place } => {
+            format!(
+                "{at} {}{}",
+                styled("the branch ends; the hand can go on with another", NAME),
+                why(factor, place)
+            )
+        }
+    }
+}
+
+fn alternative(d: &Description, a: &Alternative) -> String {
+    let q: Vec<String> = d.variables().iter().zip(&a.start).map(|(v, &x)| reading(x, v.kind)).collect();
+    let far = if a.reached >= 1.0 {
+        "goes to the end".to_string()
+    } else {
+        format!("ends at {} %", decimals(100.0 * a.reached, 2))
+    };
+    let limits = if a.within_limits { "" } else { ", leaves the limits" };
+    let singular = match a.singular {
+        0 => String::new(),
+        n => format!(", {}", crate::commands::fk::plural(n, "singular configuration")),
+    };
+    let branch = if a.branch.is_empty() { String::new() } else { format!("  ({})", a.branch) };
+    format!("{}{branch}: {far}{limits}{singular}", q.join(", "))
+}
+
+/// Schema 1 of `path`.
+pub fn json(d: &Description, planned: &Planned, sampled: &Sampled) -> String {
+    let names = d.vocabulary();
+    let text = |e: Expr| print(e, &names, Style::Ascii);
+    let event = |e: &Event| -> Value {
+        let mut object = match &e.kind {
+            EventKind::Singular { factor, place, crossed } => json!({
+                "kind": "singular", "factor": factor.map(text), "why": place.as_ref().map(ToString::to_string),
+                "crossed": crossed,
+            }),
+            EventKind::Limit { joint, limit } => json!({"kind": "limit", "joint": joint + 1, "limit": limit}),
+            EventKind::WithinLimits { joint } => json!({"kind": "within_limits", "joint": joint + 1}),
+            EventKind::End { reachable, factor, place } => json!({
+                "kind": "end", "reachable": reachable, "factor": factor.map(text),
+                "why": place.as_ref().map(ToString::to_string),
+            }),
+        };
+        object["s"] = e.s.into();
+        object["q"] = json!(e.q);
+        object
+    };
+    let mut object = json!({
+        "schema": 1,
+        "robot": d.name,
+        "path": planned.words,
+        "timing": planned.timing,
+        "duration": planned.trajectory.duration(),
+        "samples": sampled.samples.iter().map(super::samples::Sample::json).collect::<Vec<_>>(),
+    });
+    if let Some(f) = &planned.followed {
+        object["reached"] = f.reached.into();
+        object["events"] = f.events.iter().map(event).collect();
+        object["deviation"] = json!({"position": f.deviation, "angle": f.turned});
+        object["certified"] = json!(f.certified);
+    }
+    if !planned.alternatives.is_empty() {
+        let one = |a: &Alternative| {
+            json!({
+                "q": a.start, "branch": a.branch, "reached": a.reached, "singular": a.singular,
+                "within_limits": a.within_limits,
+            })
+        };
+        object["starts"] = planned.alternatives.iter().map(one).collect();
+    }
+    format!("{object}\n")
+}

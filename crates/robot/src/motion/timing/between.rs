@@ -1,0 +1,96 @@
+//! What exceeds the limits between grid points.
+//!
+//! Some points of each interval are measured, and where a limit is exceeded the limits of the interval are tightened
+//! and the passes run again.
+
+use super::passes;
+use super::stage::Program;
+use crate::motion::limits::Limits;
+use crate::motion::path::{JointPath, PathPoint, Side};
+
+/// Where an interval is measured.
+const PLACES: [f64; 2] = [0.27, 0.73];
+/// By how much more than the excess measured a limit is tightened: x(1 − x) and x(1 − x)(1 − 2x) are greater elsewhere
+/// than at the places by a tenth.
+const INFLATION: f64 = 1.25;
+const ROUNDS: usize = 4;
+/// An excess below this is left to the end, where everything is slowed down by as much.
+const EXCESS: f64 = 1e-6;
+
+/// Tightens limits until they hold between grid points too. Where path speeds are given at the ends, what is left in
+/// the end stays exceeded: some 10⁻⁶, or more if tighter limits do not admit those speeds.
+pub(super) fn hold<P: JointPath>(
+    path: &P,
+    limits: &Limits,
+    program: &mut Program,
+    ends: [f64; 2],
+    x: &mut Vec<f64>,
+) {
+    let measured = measure(path, program);
+    let mut excess = tighten(&measured, limits, program, x);
+    for _ in 0..ROUNDS {
+        if excess <= EXCESS {
+            break;
+        }
+        // Only speeds at the ends can be too much for tighter limits.
+        let Ok(slower) = passes::solve(program, ends) else { return };
+        *x = slower;
+        excess = tighten(&measured, limits, program, x);
+    }
+    if ends == [0.0; 2] && excess > 0.0 {
+        let slower = (1.0 + INFLATION * excess).powi(-2);
+        x.iter_mut().for_each(|x| *x *= slower);
+    }
+}
+
+/// q' and q'' at the places of all intervals, one after the other.
+fn measure<P: JointPath>(path: &P, program: &Program) -> Vec<f64> {
+    let mut point = PathPoint::zeros(path.dof());
+    let mut measured = Vec::with_capacity(program.share.len() * 2 * PLACES.len() * path.dof());
+    for s in program.s.windows(2) {
+        for place in PLACES {
+            path.eval_into(s[0] + place * (s[1] - s[0]), Side::Behind, &mut point);
+            measured.extend_from_slice(&point.dq);
+            measured.extend_from_slice(&point.ddq);
+        }
+    }
+    measured
+}
+
+/// Tightens what is exceeded; by which share at most it is.
+fn tighten(measured: &[f64], limits: &Limits, program: &mut Program, x: &[f64]) -> f64 {
+    let dof = limits.dof();
+    let mut excess = 0.0f64;
+    let inverse =
+        |ranges: &[crate::motion::Range]| -> Vec<[f64; 2]> { ranges.iter().map(|r| r.inverse()).collect() };
+    let (velocity, acceleration) = (inverse(limits.velocity()), inverse(limits.acceleration()));
+    for (i, places) in measured.chunks_exact(2 * PLACES.len() * dof).enumerate() {
+        let u = (x[i + 1] - x[i]) / (2.0 * (program.s[i + 1] - program.s[i]));
+        let (mut v, mut a) = (0.0f64, 0.0f64);
+        for (place, derivatives) in PLACES.iter().zip(places.chunks_exact(2 * dof)) {
+            let x = x[i] + place * (x[i + 1] - x[i]);
+            let speed = x.sqrt();
+            let (dq, ddq) = derivatives.split_at(dof);
+            for joint in 0..dof {
+                let [low, high] = velocity[joint];
+                let qd = dq[joint] * speed;
+                v = v.max((qd * low).max(qd * high));
+                let [low, high] = acceleration[joint];
+                let qdd = dq[joint] * u + ddq[joint] * x;
+                a = a.max((qdd * low).max(qdd * high));
+            }
+        }
+        // Limits of zero are held by standing still.
+        let (v, a) = (if v.is_finite() { v } else { 0.0 }, if a.is_finite() { a } else { 0.0 });
+        excess = excess.max(v - 1.0).max(a - 1.0);
+        if v > 1.0 + EXCESS {
+            let share = (1.0 + INFLATION * (v - 1.0)).powi(-2);
+            program.highest[i] *= share;
+            program.highest[i + 1] *= share;
+        }
+        if a > 1.0 + EXCESS {
+            program.share[i] /= 1.0 + INFLATION * (a - 1.0);
+        }
+    }
+    excess
+}

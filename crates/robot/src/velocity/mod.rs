@@ -1,0 +1,28 @@
+//! Differential kinematics: velocities, singularities, forces.
+//!
+//! A twist has six components, linear first (`vw`): the velocity of a point of the moving body, metres a second, and
+//! the body's angular velocity, radians a second. A [`Viewpoint`] says which body, which point, and along whose axes.
+
+mod analytic;
+mod derivatives;
+mod geometric;
+mod measures;
+mod model;
+mod program;
+mod singular;
+mod solve;
+mod svd;
+mod words;
+mod wrench;
+
+pub use analytic::{AnalyticJacobian, analytic, determinant, rates};
+pub use derivatives::{hessian_program, rate_program};
+pub use geometric::{Jacobian, ROWS, Viewpoint, geometric};
+pub use measures::{Block, Measures, NearestSingularity, RANK, Whole, measures, nearest_singularity};
+pub use model::JacobianModel;
+pub use program::{jacobian_and_pose_program, jacobian_program};
+pub use singular::{Example, MAX_JOINTS, Minor, Obstacle, Place, Singularities, Singularity};
+pub use solve::{Damping, JointRates, RateSolver};
+pub use svd::{Svd, svd};
+pub use words::{jacobian_document, singularities_document};
+pub use wrench::{Wrench, largest_wrench, torques};

@@ -1,0 +1,98 @@
+//! Determinants of square parts of a Jacobian, in factors.
+
+use crate::velocity::geometric::Jacobian;
+use denavit_symbolic::factor::{Factored, factored};
+use denavit_symbolic::poly::Poly;
+use denavit_symbolic::{Expr, Refusal, Ring, Symbol};
+use rustc_hash::FxHashMap;
+
+/// The determinant of a square part.
+#[derive(Clone, Debug)]
+pub struct Minor {
+    /// Which rows it has, from 0.
+    pub rows: Vec<usize>,
+    /// Which joints it has, from 0.
+    pub joints: Vec<usize>,
+    /// The determinant in factors.
+    pub determinant: Factored,
+}
+
+/// The largest square parts whose determinants are not identically 0; none if all are.
+pub fn all(matrix: &Jacobian<Expr>, order: &[Symbol]) -> Result<Vec<Minor>, Refusal> {
+    let n = matrix.columns.len();
+    let size = n.min(6);
+    let entries: Vec<Expr> = matrix.columns.iter().flatten().copied().collect();
+    let mut ring = Ring::new(&entries, order);
+    let mut rows: Vec<Vec<Poly>> = vec![];
+    for row in matrix.rows() {
+        rows.push(row.into_iter().map(|e| ring.polynomial(e)).collect::<Result<_, _>>()?);
+    }
+    let mut minors = vec![];
+    for chosen in subsets(6, size) {
+        for joints in subsets(n, size) {
+            let part: Vec<Vec<&Poly>> =
+                chosen.iter().map(|&r| joints.iter().map(|&j| &rows[r][j]).collect()).collect();
+            let p = determinant(&mut ring, part)?;
+            if !p.is_zero() {
+                let determinant = factored(ring.poly_expr(&p), order)?;
+                minors.push(Minor { rows: chosen.clone(), joints, determinant });
+            }
+        }
+    }
+    Ok(minors)
+}
+
+/// The number of rows, or of joints, if that is less.
+pub fn rank(matrix: &Jacobian<Expr>) -> usize {
+    matrix.columns.len().min(6)
+}
+
+/// All ways to choose `k` of `0 … n−1`, in order.
+fn subsets(n: usize, k: usize) -> Vec<Vec<usize>> {
+    let of = |mask: u32| (0..n).filter(|i| mask >> i & 1 == 1).collect::<Vec<usize>>();
+    let mut all: Vec<Vec<usize>> = (0..1_u32 << n).filter(|m| m.count_ones() as usize == k).map(of).collect();
+    all.sort();
+    all
+}
+
+/// By Laplace's rule, rows with many zeros first; what is left over of the columns is expanded once.
+fn determinant(ring: &mut Ring, mut rows: Vec<Vec<&Poly>>) -> Result<Poly, Refusal> {
+    let n = rows.len();
+    // Exchanging rows changes the sign.
+    let mut order: Vec<usize> = (0..n).collect();
+    order.sort_by_key(|&r| rows[r].iter().filter(|p| !p.is_zero()).count());
+    let inversions =
+        (0..n).flat_map(|i| (0..i).map(move |j| (j, i))).filter(|&(j, i)| order[j] > order[i]).count();
+    rows = order.iter().map(|&r| rows[r].clone()).collect();
+    let mut known = FxHashMap::default();
+    let p = expanded(ring, &rows, 0, (1 << n) - 1, &mut known)?;
+    Ok(if inversions % 2 == 1 { Poly::zero().minus(&p) } else { p })
+}
+
+/// The determinant of the rows from `row` on, over the columns of a mask.
+fn expanded(
+    ring: &mut Ring,
+    rows: &[Vec<&Poly>],
+    row: usize,
+    mask: u32,
+    known: &mut FxHashMap<u32, Poly>,
+) -> Result<Poly, Refusal> {
+    if row == rows.len() {
+        return Ok(Poly::one());
+    }
+    if let Some(p) = known.get(&mask) {
+        return Ok(p.clone());
+    }
+    let mut sum = Poly::zero();
+    let mut is_minus = false;
+    for c in (0..rows.len()).filter(|c| mask >> c & 1 == 1) {
+        if !rows[row][c].is_zero() {
+            let rest = expanded(ring, rows, row + 1, mask & !(1 << c), known)?;
+            let part = ring.times(rows[row][c], &rest)?;
+            sum = if is_minus { sum.minus(&part) } else { sum.plus(&part) };
+        }
+        is_minus = !is_minus;
+    }
+    known.insert(mask, sum.clone());
+    Ok(sum)
+}

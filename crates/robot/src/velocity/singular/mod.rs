@@ -1,0 +1,168 @@
+//! Singular configurations as formulas: where the Jacobian loses rank, what is lost there, what comes free.
+
+mod minors;
+mod place;
+mod sample;
+
+pub use minors::Minor;
+pub use place::Place;
+
+use super::geometric::{Viewpoint, geometric};
+use super::measures::Whole;
+use super::model::JacobianModel;
+use crate::description::Description;
+use crate::forward::{Reference, symbol_order};
+use crate::geometry::Vector;
+use crate::inverse::JointSpace;
+use crate::robot::Robot;
+use denavit_symbolic::factor::{Factored, Zero, zeros};
+use denavit_symbolic::{Expr, Refusal};
+use std::fmt;
+
+/// Joints beyond which minors are not expanded.
+pub const MAX_JOINTS: usize = 8;
+
+/// Why the singularities are not known as formulas.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Obstacle {
+    /// The Jacobian or a determinant is too large to expand.
+    TooLarge(Refusal),
+    /// More joints than [`MAX_JOINTS`].
+    ManyJoints(usize),
+    /// The body has fewer freedoms than joints in every configuration: so many at most.
+    AlwaysSingular(usize),
+}
+
+impl fmt::Display for Obstacle {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Obstacle::TooLarge(why) => write!(f, "the determinant is not expanded: {why}"),
+            Obstacle::ManyJoints(n) => {
+                write!(f, "{n} joints are too many: minors are expanded up to {MAX_JOINTS}")
+            }
+            Obstacle::AlwaysSingular(rank) => {
+                write!(f, "every configuration is singular: the rank is {rank} at the most")
+            }
+        }
+    }
+}
+
+/// Where an arm is singular.
+#[derive(Clone, Debug)]
+pub struct Singularities {
+    /// The Jacobian where it is shortest; its determinant is the same in every frame and at every point.
+    pub jacobian: JacobianModel,
+    /// The largest square parts that are not identically 0. With six joints the determinant itself; with fewer, of some
+    /// rows; with more, of some joints. The arm is singular where all of them are 0.
+    pub minors: Vec<Minor>,
+    /// The factors that all minors share, each a singularity of its own.
+    pub common: Vec<Singularity>,
+    /// Whether the factors have no common zeros beside: a single minor, or nothing left of one.
+    pub is_complete: bool,
+}
+
+/// One singularity: the zeros of a factor.
+#[derive(Clone, Debug)]
+pub struct Singularity {
+    /// What is 0 there.
+    pub factor: Expr,
+    /// How often it divides the determinant.
+    pub power: u32,
+    /// The factor solved for an angle, where that is simple.
+    pub zeros: Vec<Zero>,
+    /// A configuration where this factor alone is 0, and what happens there; `None` if there is none: the factor is
+    /// never 0 with the lengths of the robot.
+    pub example: Option<Example>,
+}
+
+/// What happens at a singular configuration.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Example {
+    /// The configuration.
+    pub q: Vec<f64>,
+    /// A motion of the joints that leaves the body where it is, the largest component 1 or −1 (radians, metres).
+    pub free: Vec<Vec<f64>>,
+    /// Twists that cannot be had, in the frame and at the point of the Jacobian: whatever the joints do, the sum of
+    /// products with the twist's components is 0.
+    pub lost: Vec<[f64; 6]>,
+    /// How the axes lie that makes it singular.
+    pub place: Place,
+}
+
+impl Singularities {
+    /// Those of a body.
+    ///
+    /// # Errors
+    /// See [`Obstacle`].
+    pub fn derive(description: &Description, body: Reference) -> Result<Self, Obstacle> {
+        let jacobian = JacobianModel::shortest(description, body);
+        let matrix = jacobian.matrix.as_ref().map_err(|why| Obstacle::TooLarge(why.clone()))?;
+        if matrix.columns.len() > MAX_JOINTS {
+            return Err(Obstacle::ManyJoints(matrix.columns.len()));
+        }
+        let minors = minors::all(matrix, &symbol_order(description)).map_err(Obstacle::TooLarge)?;
+        let Some(first) = minors.first() else {
+            return Err(Obstacle::AlwaysSingular(minors::rank(matrix).saturating_sub(1)));
+        };
+        let shared: Vec<(Expr, u32)> = first
+            .determinant
+            .factors
+            .iter()
+            .filter_map(|&(f, n)| Some((f, n.min(minors.iter().map(|m| power(&m.determinant, f)).min()?))))
+            .filter(|&(f, n)| n > 0 && varies(description, f))
+            .collect();
+        let left = |m: &Minor| {
+            m.determinant.factors.iter().any(|&(f, n)| {
+                let own = shared.iter().find(|s| s.0 == f).map_or(0, |s| s.1);
+                n > own && varies(description, f)
+            })
+        };
+        let is_complete = minors.iter().any(|m| !left(m));
+        let finder = sample::Finder::new(description);
+        let all: Vec<Expr> = shared.iter().map(|s| s.0).collect();
+        let common = shared
+            .iter()
+            .map(|&(factor, power)| {
+                let example = finder
+                    .find(factor, &all)
+                    .map(|(robot, q)| example(description, &robot, &jacobian.view, q));
+                Singularity { factor, power, zeros: zeros(factor), example }
+            })
+            .collect();
+        Ok(Singularities { jacobian, minors, common, is_complete })
+    }
+}
+
+fn power(determinant: &Factored, factor: Expr) -> u32 {
+    determinant.factors.iter().find(|f| f.0 == factor).map_or(0, |f| f.1)
+}
+
+/// Whether a formula depends on the configuration.
+fn varies(description: &Description, e: Expr) -> bool {
+    let variables = description.variables();
+    e.symbols().iter().any(|s| variables.iter().any(|v| v.symbol == *s))
+}
+
+/// What happens at a configuration.
+fn example(description: &Description, robot: &Robot<f64>, view: &Viewpoint<Expr>, q: Vec<f64>) -> Example {
+    let space = JointSpace::new(description, robot.reach());
+    let length = if space.reach > 0.0 { space.reach } else { 1.0 };
+    // The shortest Jacobian is taken at an origin.
+    let view = Viewpoint { axes: view.axes, body: view.body, at: view.at, offset: Vector::zero() };
+    let whole = Whole::new(&geometric(robot, &q, &view), &space.is_angle, length);
+    let unit = |j: usize| if space.is_angle[j] { 1.0 } else { length };
+    let in_units = |v: &Vec<f64>| normal(v.iter().enumerate().map(|(j, x)| x * unit(j)).collect());
+    let free: Vec<Vec<f64>> = whole.free.iter().map(in_units).collect();
+    let lost = whole.lost.iter().map(|w| {
+        let n = normal((0..6).map(|k| if k < 3 { w[k] / length } else { w[k] }).collect());
+        std::array::from_fn(|k| n[k])
+    });
+    let place = Place::of(robot, view.body, &q, &free);
+    Example { lost: lost.collect(), q, free, place }
+}
+
+/// The largest component made 1, rounding errors made 0.
+fn normal(v: Vec<f64>) -> Vec<f64> {
+    let largest = v.iter().fold(0.0_f64, |m, x| if x.abs() > m.abs() + 1e-9 { *x } else { m });
+    v.iter().map(|x| if x.abs() < 1e-7 * largest.abs() { 0.0 } else { x / largest }).collect()
+}

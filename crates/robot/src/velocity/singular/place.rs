@@ -1,0 +1,220 @@
+//! How the axes lie at a singular configuration.
+
+use crate::forward::Reference;
+use crate::geometry::Vector;
+use crate::robot::Robot;
+use crate::velocity::geometric::{Seen, Viewpoint, geometric};
+use crate::velocity::measures::Whole;
+use std::fmt;
+
+/// What makes a configuration singular. Joints are counted from 0; shown from 1.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Place {
+    /// The axes of two joints that turn lie on one line.
+    OneLine(usize, usize),
+    /// Three parallel axes lie in one plane.
+    OnePlane(Vec<usize>),
+    /// More than three axes are parallel.
+    Parallel(Vec<usize>),
+    /// The point where the axes of a wrist meet lies on another axis.
+    CentreOnAxis {
+        /// The joints of the wrist.
+        wrist: Vec<usize>,
+        /// The other axis.
+        axis: usize,
+    },
+    /// The point where the axes of a wrist meet lies in a plane with two others, parallel or meeting.
+    CentreInPlane {
+        /// The joints of the wrist.
+        wrist: Vec<usize>,
+        /// The others.
+        axes: [usize; 2],
+        /// Whether these are parallel: then the arm is stretched or folded.
+        parallel: bool,
+    },
+    /// A line meets some axes and is parallel to the others, and at right angles to what slides: a force along it moves
+    /// no joint.
+    Line {
+        /// The axes that it meets.
+        meets: Vec<usize>,
+        /// The axes that it is parallel to.
+        parallel: Vec<usize>,
+    },
+    /// These joints can move while the body stands still.
+    SelfMotion(Vec<usize>),
+    /// No joint is free: directions are lost because the arm has less than six.
+    Lost,
+}
+
+/// Axes nearer than this, by the arm's size, meet.
+const TOUCH: f64 = 1e-6;
+
+/// The axis of a joint.
+#[derive(Clone, Copy)]
+struct Axis {
+    z: Vector<f64>,
+    o: Vector<f64>,
+    turns: bool,
+}
+
+impl Place {
+    /// From the motions of the joints that leave the body where it is.
+    pub fn of(robot: &Robot<f64>, body: Reference, q: &[f64], free: &[Vec<f64>]) -> Self {
+        let [free] = free else {
+            return match free.first() {
+                None => Place::Lost,
+                Some(_) => Place::SelfMotion(moving(&free.concat(), q.len())),
+            };
+        };
+        let support = moving(free, q.len());
+        let Some(axes) = axes(robot, q) else { return Place::SelfMotion(support) };
+        let size = robot.reach().max(1e-9);
+        Self::recognised(&axes, &support, size)
+            .or_else(|| line(robot, body, q, &axes, size))
+            .unwrap_or(Place::SelfMotion(support))
+    }
+
+    fn recognised(axes: &[Axis], support: &[usize], size: f64) -> Option<Self> {
+        let all_turn = support.iter().all(|&j| axes[j].turns);
+        let is_parallel = |i: usize, j: usize| axes[i].z.cross(axes[j].z).norm() < TOUCH;
+        if !all_turn {
+            return None;
+        }
+        if let [i, j] = support
+            && is_parallel(*i, *j)
+            && distance(axes[*i].o, &axes[*j]) < TOUCH * size
+        {
+            return Some(Place::OneLine(*i, *j));
+        }
+        if support.len() >= 3 && support.iter().all(|&j| is_parallel(support[0], j)) {
+            let support = support.to_vec();
+            return Some(if support.len() == 3 {
+                Place::OnePlane(support)
+            } else {
+                Place::Parallel(support)
+            });
+        }
+        // A wrist: the most joints at the end of the arm whose axes meet.
+        let n = axes.len();
+        let first = (0..n.saturating_sub(2))
+            .find(|&k| (k..n).all(|j| axes[j].turns) && centre(&axes[k..], size).is_some())?;
+        let centre = centre(&axes[first..], size)?;
+        let wrist: Vec<usize> = (first..n).collect();
+        let others: Vec<usize> = support.iter().copied().filter(|&j| j < first).collect();
+        match others[..] {
+            [axis] if distance(centre, &axes[axis]) < TOUCH * size => {
+                Some(Place::CentreOnAxis { wrist, axis })
+            }
+            [i, j] if in_plane(centre, &axes[i], &axes[j], size) => {
+                Some(Place::CentreInPlane { wrist, axes: [i, j], parallel: is_parallel(i, j) })
+            }
+            _ => None,
+        }
+    }
+}
+
+/// The line along which no force reaches a joint, if what is lost is such a line.
+fn line(robot: &Robot<f64>, body: Reference, q: &[f64], axes: &[Axis], size: f64) -> Option<Place> {
+    let view = Viewpoint { axes: Reference::Base, body, at: Reference::Base, offset: Vector::zero() };
+    let is_angle: Vec<bool> = axes.iter().map(|a| a.turns).collect();
+    let lost = Whole::new(&geometric(robot, q, &view), &is_angle, size).lost;
+    let [w] = lost[..] else { return None };
+    let (f, m) = (Vector([w[0], w[1], w[2]]), Vector([w[3], w[4], w[5]]));
+    if f.norm() < TOUCH || f.dot(m).abs() > TOUCH * f.norm() {
+        return None;
+    }
+    let (mut meets, mut parallel) = (vec![], vec![]);
+    for (j, _) in axes.iter().enumerate().filter(|(_, a)| a.turns) {
+        let is_parallel = axes[j].z.cross(f).norm() < TOUCH * f.norm();
+        if is_parallel { parallel.push(j) } else { meets.push(j) }
+    }
+    Some(Place::Line { meets, parallel })
+}
+
+/// Which joints move.
+fn moving(free: &[f64], joints: usize) -> Vec<usize> {
+    let moves = |j: usize| free.iter().skip(j).step_by(joints.max(1)).any(|x| x.abs() > 1e-6);
+    (0..joints).filter(|&j| moves(j)).collect()
+}
+
+/// The axes in the base, if each joint moves one row.
+fn axes(robot: &Robot<f64>, q: &[f64]) -> Option<Vec<Axis>> {
+    let seen = Seen::from(robot, q, Reference::Base);
+    let mut axes: Vec<Option<Axis>> = vec![None; robot.joints];
+    for (link, screw) in robot.links.iter().zip(&seen.screws) {
+        for (terms, turns) in [(&link.theta.terms, true), (&link.d.terms, false)] {
+            for &(j, _) in terms {
+                let axis = Axis { z: screw.rotation.z(), o: screw.translation, turns };
+                if axes[j].replace(axis).is_some() {
+                    return None;
+                }
+            }
+        }
+    }
+    axes.into_iter().collect()
+}
+
+fn distance(p: Vector<f64>, axis: &Axis) -> f64 {
+    axis.z.cross(p - axis.o).norm()
+}
+
+/// The point where at least three axes meet, if they do.
+fn centre(axes: &[Axis], size: f64) -> Option<Vector<f64>> {
+    let (a, b) = axes.first().zip(axes[1..].iter().find(|b| axes[0].z.cross(b.z).norm() > 1e-3))?;
+    // The point of a nearest to b.
+    let n = a.z.cross(b.z);
+    let t = (b.o - a.o).cross(b.z).dot(n) / n.dot(n);
+    let point = a.o + a.z.scale(t);
+    axes.iter().all(|axis| distance(point, axis) < TOUCH * size).then_some(point)
+}
+
+/// Whether a point and two axes lie in one plane.
+fn in_plane(p: Vector<f64>, a: &Axis, b: &Axis, size: f64) -> bool {
+    let between = b.o - a.o;
+    let normal = if a.z.cross(b.z).norm() < TOUCH { a.z.cross(between) } else { a.z.cross(b.z) };
+    let length = normal.norm();
+    length > TOUCH * size.min(1.0)
+        && (between.dot(normal) / length).abs() < TOUCH * size
+        && ((p - a.o).dot(normal) / length).abs() < TOUCH * size
+}
+
+fn numbers(joints: &[usize]) -> String {
+    let names: Vec<String> = joints.iter().map(|j| (j + 1).to_string()).collect();
+    match names.split_last() {
+        Some((last, rest)) if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
+        _ => names.concat(),
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Place::OneLine(i, j) => write!(f, "axes {} and {} lie on one line", i + 1, j + 1),
+            Place::OnePlane(axes) => {
+                write!(f, "the parallel axes {} lie in one plane: stretched or folded", numbers(axes))
+            }
+            Place::CentreOnAxis { wrist, axis } => {
+                write!(f, "the point where axes {} meet lies on axis {}", numbers(wrist), axis + 1)
+            }
+            Place::CentreInPlane { wrist, axes, parallel } => {
+                let (wrist, axes) = (numbers(wrist), numbers(axes));
+                write!(f, "the point where axes {wrist} meet lies in one plane with axes {axes}")?;
+                f.write_str(if *parallel { ": stretched or folded" } else { "" })
+            }
+            Place::Parallel(axes) => write!(f, "axes {} are parallel", numbers(axes)),
+            Place::Line { meets, parallel } => {
+                write!(f, "one line meets axes {}", numbers(meets))?;
+                if parallel.is_empty() {
+                    Ok(())
+                } else {
+                    write!(f, " and is parallel to axes {}", numbers(parallel))
+                }
+            }
+            Place::SelfMotion(joints) => match joints[..] {
+                [j] => write!(f, "joint {} moves nothing", j + 1),
+                _ => write!(f, "joints {} can move together while the body stands still", numbers(joints)),
+            },
+            Place::Lost => f.write_str("the joints that there are have one direction less"),
+        }
+    }
+}
