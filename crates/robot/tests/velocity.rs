@@ -8,8 +8,8 @@ use denavit::forward::{Proof, Reference};
 use denavit::geometry::orientation::{EulerSet, OrientationSet, extract};
 use denavit::geometry::{Axis, Transform, Vector};
 use denavit::velocity::{
-    Damping, Jacobian, JacobianModel, ROWS, RateSolver, Viewpoint, analytic, determinant, geometric,
-    hessian_program, jacobian_and_pose_program, jacobian_program, largest_wrench, measures,
+    Damping, Jacobian, JacobianModel, ROWS, RateSolver, Singularities, Viewpoint, analytic, determinant,
+    geometric, hessian_program, jacobian_and_pose_program, jacobian_program, largest_wrench, measures,
     nearest_singularity, rate_program, torques,
 };
 use denavit::{Robot, catalogue};
@@ -389,4 +389,101 @@ fn wrenches() {
     // A force along the axes of both joints is held by the structure.
     assert_eq!(largest_wrench(&jacobian, &[10.0, 0.5], &[0.0, 0.0, 1.0, 0.0, 0.0, 0.0]), None);
     assert_eq!(ROWS.len(), 6);
+}
+
+/// det J in factors, and what happens where each is 0.
+#[test]
+fn singularities_have_names() {
+    let body = |d: &Description| Reference::Frame(d.rows.len());
+    let expected: [(&str, &str, &[&str]); 6] = [
+        (
+            "staubli-rx90",
+            "D3*RL4*cos(q3)*sin(q5)*(D3*cos(q2) - RL4*sin(q2 + q3))",
+            &[
+                "the point where axes 4, 5 and 6 meet lies in one plane with axes 2 and 3: stretched or folded",
+                "axes 4 and 6 lie on one line",
+                "the point where axes 4, 5 and 6 meet lies on axis 1",
+            ],
+        ),
+        (
+            "ur5",
+            "a2*a3*sin(q3)*sin(q5)*(a2*cos(q2) + a3*cos(q2 + q3) + d5*sin(q2 + q3 + q4))",
+            &[
+                "the parallel axes 2, 3 and 4 lie in one plane: stretched or folded",
+                "axes 2, 3, 4 and 6 are parallel",
+                "one line meets axes 1, 5 and 6 and is parallel to axes 2, 3 and 4",
+            ],
+        ),
+        (
+            "puma560",
+            "a2*sin(q5)*(d4*cos(q3) + a3*sin(q3))*(a2*cos(q2) + a3*cos(q2 + q3) - d4*sin(q2 + q3))",
+            &[
+                "axes 4 and 6 lie on one line",
+                "the point where axes 4, 5 and 6 meet lies in one plane with axes 2 and 3: stretched or folded",
+                "the point where axes 4, 5 and 6 meet lies in one plane with axes 1 and 2",
+            ],
+        ),
+        (
+            "stanford",
+            "q3^2*sin(q2)*sin(q5)",
+            &[
+                "the point where axes 4, 5 and 6 meet lies on axis 2",
+                "the point where axes 4, 5 and 6 meet lies in one plane with axes 1 and 2",
+                "axes 4 and 6 lie on one line",
+            ],
+        ),
+        ("scara", "-a1*a2*sin(q2)", &["the parallel axes 1, 2 and 4 lie in one plane: stretched or folded"]),
+        (
+            "cylindrical-wrist",
+            "(a3 + a4 + a5 + q3)*sin(q5)",
+            &["the point where axes 4, 5 and 6 meet lies on axis 2", "axes 4 and 6 lie on one line"],
+        ),
+    ];
+    for (name, determinant, places) in expected {
+        let d = robot(name);
+        let found = Singularities::derive(&d, body(&d)).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert!(found.is_complete && found.minors.len() == 1, "{name}");
+        assert_eq!(found.minors[0].determinant.to_string(), determinant, "{name}");
+        let why: Vec<String> = found
+            .common
+            .iter()
+            .map(|s| s.example.as_ref().map_or(String::new(), |e| e.place.to_string()))
+            .collect();
+        assert_eq!(why, places, "{name}");
+    }
+}
+
+/// At each example the Jacobian has lost one rank, and what is said to be free moves nothing.
+#[test]
+fn examples_are_singular() {
+    for name in ["staubli-rx90", "puma560", "ur5", "smart5-six-rail", "abb-irb2400-10"] {
+        let (d, numeric) = numeric(name);
+        let found = Singularities::derive(&d, Reference::Tool).unwrap_or_else(|e| panic!("{name}: {e}"));
+        for s in &found.common {
+            let Some(example) = &s.example else { continue };
+            let jacobian = geometric(&numeric, &example.q, &Viewpoint::tool());
+            let whole = measures(&jacobian, &angles(&d), numeric.reach()).whole;
+            assert_eq!(whole.rank, numeric.joints.min(6) - 1, "{name} {}", s.factor);
+            for free in &example.free {
+                assert!(jacobian.twist(free).iter().all(|t| t.abs() < 1e-6), "{name} {}", s.factor);
+            }
+        }
+    }
+}
+
+/// An S-R-S arm: S4 = 0 in all minors; with joint 3 held what its six others lose.
+#[test]
+fn singularities_of_a_redundant_arm() {
+    let d = robot("kuka-iiwa-14");
+    let found = Singularities::derive(&d, Reference::Frame(d.rows.len())).expect("short enough");
+    assert_eq!(found.minors.len(), 6);
+    let held = found.minors.iter().find(|m| !m.joints.contains(&2)).expect("joint 3 held");
+    let factors: Vec<String> = held.determinant.factors.iter().map(|f| f.0.to_string()).collect();
+    assert!(
+        factors.contains(&"sin(q4)".to_string()) && factors.contains(&"sin(q6)".to_string()),
+        "{factors:?}"
+    );
+    let common: Vec<String> = found.common.iter().map(|s| s.factor.to_string()).collect();
+    assert_eq!(common, ["sin(q4)"]);
+    assert!(!found.is_complete);
 }

@@ -3,6 +3,7 @@
 use super::derivation::{Goal, Random};
 use crate::geometry::{Axis, Rotation, Transform, Vector};
 use crate::robot::Robot;
+use crate::velocity;
 
 /// Steps of a polish; two or three are usual.
 const STEPS: usize = 20;
@@ -67,28 +68,18 @@ pub fn gap(robot: &Robot<f64>, goal: Goal, wanted: &Transform<f64>, q: &[f64]) -
 }
 
 /// The derivative of the error's parts by the joint variables, one column a joint; that of given joints is 0.
-fn jacobian(robot: &Robot<f64>, goal: Goal, q: &[f64], given: &[usize], size: f64) -> Vec<[f64; 6]> {
-    let p = robot.pose(q).translation;
-    let tool = robot.pose(q).rotation.z();
-    let mut columns = vec![[0.0; 6]; q.len()];
-    let mut before = robot.base;
-    for link in &robot.links {
-        let screw = before * link.before;
-        let z = screw.rotation.z();
-        let lever = z.cross(p - screw.translation);
-        for &(j, k) in &link.theta.terms {
-            for i in 0..3 {
-                columns[j][i] += k * z[i];
-                columns[j][3 + i] += k * lever[i] / size;
-            }
-        }
-        for &(j, k) in &link.d.terms {
-            for i in 0..3 {
-                columns[j][3 + i] += k * z[i] / size;
-            }
-        }
-        before = before * link.transform(q);
-    }
+pub(super) fn jacobian(
+    robot: &Robot<f64>,
+    goal: Goal,
+    q: &[f64],
+    given: &[usize],
+    size: f64,
+) -> Vec<[f64; 6]> {
+    let hand = robot.pose(q);
+    let tool = hand.rotation.z();
+    let by_size = |[x, y, z, a, b, c]: [f64; 6]| [a, b, c, x / size, y / size, z / size];
+    let mut columns: Vec<[f64; 6]> =
+        velocity::of_tool(robot, q, hand.translation).into_iter().map(by_size).collect();
     for (j, c) in columns.iter_mut().enumerate() {
         if given.contains(&j) {
             *c = [0.0; 6];

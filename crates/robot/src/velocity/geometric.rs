@@ -2,7 +2,7 @@
 
 use crate::forward::Reference;
 use crate::geometry::{Transform, Vector};
-use crate::robot::Robot;
+use crate::robot::{Link, Robot};
 use crate::scalar::Scalar;
 
 /// The rows of a geometric Jacobian, and the components of a twist.
@@ -125,16 +125,33 @@ pub fn geometric<T: Scalar>(robot: &Robot<T>, q: &[T], view: &Viewpoint<T>) -> J
     let point = seen.place(view.at).act_on_point(view.offset);
     let mut columns = vec![[T::zero(); 6]; robot.joints];
     for (link, screw) in robot.links.iter().zip(&seen.screws).take(rows_before(robot, view.body)) {
-        let z = screw.rotation.z();
-        let lever = z.cross(point - screw.translation);
-        for &(j, k) in &link.theta.terms {
-            add(&mut columns[j], lever, z, k);
-        }
-        for &(j, k) in &link.d.terms {
-            add(&mut columns[j], z, Vector::zero(), k);
-        }
+        add_screw(&mut columns, link, screw, point);
     }
     Jacobian { columns }
+}
+
+/// The Jacobian of the tool at a point given in the base, along the axes of the base: what [`geometric`] gives there, in one
+/// walk along the chain.
+pub(crate) fn of_tool(robot: &Robot<f64>, q: &[f64], point: Vector<f64>) -> Vec<[f64; 6]> {
+    let mut columns = vec![[0.0; 6]; q.len()];
+    let mut before = robot.base;
+    for link in &robot.links {
+        add_screw(&mut columns, link, &(before * link.before), point);
+        before = before * link.transform(q);
+    }
+    columns
+}
+
+/// Adds what the joints of a row do to a point.
+fn add_screw<T: Scalar>(columns: &mut [[T; 6]], link: &Link<T>, screw: &Transform<T>, point: Vector<T>) {
+    let z = screw.rotation.z();
+    let lever = z.cross(point - screw.translation);
+    for &(j, k) in &link.theta.terms {
+        add(&mut columns[j], lever, z, k);
+    }
+    for &(j, k) in &link.d.terms {
+        add(&mut columns[j], z, Vector::zero(), k);
+    }
 }
 
 fn add<T: Scalar>(column: &mut [T; 6], linear: Vector<T>, angular: Vector<T>, factor: T) {

@@ -17,6 +17,7 @@ mod wrench;
 
 pub use analytic::{AnalyticJacobian, analytic, determinant, rates};
 pub use derivatives::{hessian_program, rate_program};
+pub(crate) use geometric::of_tool;
 pub use geometric::{Jacobian, ROWS, Viewpoint, geometric};
 pub use measures::{Block, Measures, NearestSingularity, RANK, Whole, measures, nearest_singularity};
 pub use model::JacobianModel;
