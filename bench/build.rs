@@ -19,6 +19,8 @@ struct Source {
 const UR5: Source = Source { robot: "ur5", name: "ur5", wanted: Wanted::Pose, precision: Precision::Double };
 const UR5_SINGLE: Source = Source { name: "ur5f", precision: Precision::Single, ..UR5 };
 const PANDA: Source = Source { robot: "franka-panda", name: "panda", wanted: Wanted::Frames, ..UR5 };
+const UR5_JACOBIAN: Source = Source { name: "ur5j", wanted: Wanted::JacobianAndPose, ..UR5 };
+const PANDA_JACOBIAN: Source = Source { robot: "franka-panda", name: "pandaj", ..UR5_JACOBIAN };
 const UR5_INVERSE: Source = Source { name: "ur5_ik", wanted: Wanted::Inverse, ..UR5 };
 const IRB_INVERSE: Source = Source { robot: "abb-irb2400-10", name: "irb2400_ik", ..UR5_INVERSE };
 
@@ -33,10 +35,10 @@ fn main() {
     let is_x86 = env::var("CARGO_CFG_TARGET_ARCH").is_ok_and(|a| a == "x86_64");
     for level in LEVELS {
         let target = if is_x86 { format!("x86-64-{level}") } else { "native".into() };
-        for source in [&UR5, &PANDA, &UR5_INVERSE, &IRB_INVERSE] {
+        for source in [&UR5, &PANDA, &UR5_JACOBIAN, &PANDA_JACOBIAN, &UR5_INVERSE, &IRB_INVERSE] {
             rust(&out, source, level, &target);
         }
-        for source in [&UR5, &UR5_SINGLE, &PANDA] {
+        for source in [&UR5, &UR5_SINGLE, &PANDA, &UR5_JACOBIAN, &PANDA_JACOBIAN] {
             for compiler in ["gcc", "clang"] {
                 c(&out, source, compiler, level, &target);
             }
@@ -69,7 +71,8 @@ fn c(out: &Path, source: &Source, compiler: &str, level: &str, target: &str) {
     if level == "v4" {
         command.arg("-mprefer-vector-width=512");
     }
-    for symbol in ["fk", "fk_block", "frames", "frames_block", "defaults"] {
+    for symbol in ["fk", "fk_block", "frames", "frames_block", "jacobian_fk", "jacobian_fk_block", "defaults"]
+    {
         command.arg(format!("-D{name}_{symbol}={own}_{symbol}"));
     }
     run(command.arg("-c").arg(folder.join(format!("{name}.c"))).arg("-o").arg(&object));

@@ -7,14 +7,19 @@ extern crate irb2400_ik_v3;
 extern crate irb2400_ik_v4;
 extern crate panda_v3;
 extern crate panda_v4;
+extern crate pandaj_v3;
+extern crate pandaj_v4;
 extern crate ur5_ik_v3;
 extern crate ur5_ik_v4;
 extern crate ur5_v3;
 extern crate ur5_v4;
+extern crate ur5j_v3;
+extern crate ur5j_v4;
 
 mod arms;
 mod compiled;
 mod inverse;
+mod jacobian;
 mod measure;
 mod memory;
 mod peers;
@@ -92,6 +97,7 @@ fn main() -> Result<()> {
         let run = move || batch.run_parallel(threads, black_box(&rows), black_box(&mut out));
         entries.push(entry("batch", name, ROWS, None, run));
     }
+    entries.extend(jacobian::entries(&ur5, &panda, &angles)?);
     entries.extend(memory::entries(&pose, &mut random));
     entries.extend(compilation(&ur5, &pose_program(&ur5), &pose));
 

@@ -63,7 +63,7 @@ fn one(robot: &str, python: &Path, folder: &Path) -> Result<()> {
     let stem = Path::new(robot).file_stem().and_then(|s| s.to_str()).context("a name")?;
     let generate = |language: &str, extra: &[&str]| -> Result<PathBuf> {
         let target = folder.join(format!("{stem}-{language}{}", extra.concat()));
-        let functions = ["--functions", "fk,frames,ik", "--language", language, "--output"];
+        let functions = ["--functions", "fk,frames,jacobian,ik", "--language", language, "--output"];
         let output = command(path("target/debug/denavit"))
             .args(["generate", robot])
             .args(functions)

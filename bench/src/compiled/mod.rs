@@ -3,6 +3,21 @@
 
 pub mod inverse;
 
+// Modules that use a macro stand behind it.
+macro_rules! c {
+    ($number:ty, $compiler:literal, $level:literal, $one:ident, $block:ident, $defaults:ident) => {{
+        unsafe extern "C" {
+            fn $one(q: *const $number, parameters: *const c_void, results: *mut $number);
+            fn $block(q: *const $number, parameters: *const c_void, results: *mut $number);
+            static $defaults: c_void;
+        }
+        let parameters = &raw const $defaults;
+        C { compiler: $compiler, level: $level, one: $one, block: $block, parameters }
+    }};
+}
+
+pub mod jacobian;
+
 use crate::entry;
 use crate::measure::Entry;
 use std::ffi::c_void;
@@ -28,18 +43,6 @@ struct C<T> {
     one: Function<T>,
     block: Function<T>,
     parameters: *const c_void,
-}
-
-macro_rules! c {
-    ($number:ty, $compiler:literal, $level:literal, $one:ident, $block:ident, $defaults:ident) => {{
-        unsafe extern "C" {
-            fn $one(q: *const $number, parameters: *const c_void, results: *mut $number);
-            fn $block(q: *const $number, parameters: *const c_void, results: *mut $number);
-            static $defaults: c_void;
-        }
-        let parameters = &raw const $defaults;
-        C { compiler: $compiler, level: $level, one: $one, block: $block, parameters }
-    }};
 }
 
 fn ur5() -> [C<f64>; 4] {

@@ -399,8 +399,8 @@ pub struct GenerateArguments {
     /// The language
     #[arg(long, short, value_enum)]
     pub language: LanguageName,
-    /// Functions, separated by commas: fk (pose of the tool), frames (all link frames), ik (all joint variables for a
-    /// pose)
+    /// Functions, separated by commas: fk (pose of the tool), frames (all link frames), jacobian (of the tool),
+    /// jacobian_fk (both in one pass; comes with `fk,jacobian`), ik (all joint variables for a pose)
     #[arg(long, short, value_name = "NAMES", default_value = "fk,ik")]
     pub functions: String,
     /// For ik: joint variables to be given beside the pose, as in `--given q3` (names or numbers, separated by commas);

@@ -58,6 +58,36 @@ fn every_language_writes_what_it_says() {
 }
 
 #[test]
+fn every_language_has_jacobians() {
+    for (language, function) in [
+        ("rust", "pub fn jacobian(q: &[f64; 7], parameters: &Parameters) -> [[f64; 7]; 6]"),
+        ("c", "double jacobian[6][7]"),
+        ("python", "def jacobian("),
+        ("matlab", "function jacobian = franka_panda_jacobian("),
+        ("javascript", "export function jacobian("),
+        ("cuda", "franka_panda_jacobian("),
+    ] {
+        let folder = folder(&format!("jacobian-{language}"));
+        let answer = generated("franka-panda", language, &folder, &["--functions", "jacobian"]);
+        assert_eq!(answer["functions"].as_array().map(Vec::len), Some(1));
+        assert_eq!(answer["functions"][0]["proved"], true, "{answer}");
+        let text = texts(&folder, &answer).concat();
+        assert!(text.contains(function), "{text}");
+        assert!(text.contains("proved equal to the derivative of the product of the link transforms"));
+    }
+}
+
+#[test]
+fn pose_and_jacobian_together_are_one_pass_too() {
+    let folder = folder("one-pass");
+    let answer = generated("ur5", "c", &folder, &["--functions", "jacobian,fk"]);
+    let names: Vec<&Value> =
+        answer["functions"].as_array().expect("a list").iter().map(|f| &f["name"]).collect();
+    assert_eq!(names, ["jacobian", "fk", "jacobian_fk"]);
+    assert!(texts(&folder, &answer).concat().contains("double jacobian_and_pose[52]"));
+}
+
+#[test]
 fn files_of_others_are_not_overwritten() {
     let folder = folder("in-the-way");
     fs::create_dir_all(&folder).expect("a folder");
@@ -82,7 +112,7 @@ fn refusals() {
     refused(
         &["generate", "ur5", "--language", "c", "-o", "x", "--functions", "ik2"],
         2,
-        "known are fk, frames, ik",
+        "known are fk, frames, jacobian, jacobian_fk, ik",
     );
     refused(&["generate", "ur5", "--language", "python", "-o", "x", "--float"], 2, "double precision");
     refused(&["generate", "ur5", "--language", "c", "-o", "x", "--name", "/"], 2, "--name needs");

@@ -1,5 +1,6 @@
-//! What the tests of generated inverse kinematics hold.
+//! What the tests of generated functions hold.
 
+use denavit::forward::Proof;
 use denavit::generate::{Generated, Options, Wanted, generate};
 use denavit::inverse::{self, Goal};
 use denavit::{catalogue, description};
@@ -10,11 +11,16 @@ fn generated(name: &str, goal: Goal, given: Option<Vec<usize>>) -> Generated {
 }
 
 fn generated_for(text: &str, goal: Goal, given: Option<Vec<usize>>) -> Generated {
+    let inverse = inverse::Options { goal, given };
+    functions(text, &[Wanted::Pose, Wanted::Inverse], inverse)
+}
+
+fn functions(text: &str, wanted: &[Wanted], inverse: inverse::Options) -> Generated {
     let d = description::read_toml(text).expect("it can be read").0;
     let options = Options {
         language: Language::Python,
-        functions: vec![Wanted::Pose, Wanted::Inverse],
-        inverse: inverse::Options { goal, given },
+        functions: wanted.to_vec(),
+        inverse,
         precision: Precision::Double,
         name: None,
         fixed: false,
@@ -64,4 +70,29 @@ fn an_arm_in_general_position_is_refused() {
     assert!(found.inverse.is_none());
     assert!(found.refused.expect("a reason").starts_with("no closed form"));
     assert!(!found.files.is_empty(), "the forward model is there");
+}
+
+/// Arms that slide, couplings, symbols without value, more joints than directions.
+#[test]
+fn jacobians_are_proved_to_be_derivatives() {
+    let catalogue = ["stanford", "parallelogram-5r", "prrrrp", "franka-panda", "oblique-6r"];
+    let texts = catalogue.map(|name| catalogue::text(name).expect("the catalogue has it"));
+    for text in texts.into_iter().chain([include_str!("generated/symbols.toml")]) {
+        let found = functions(text, &[Wanted::Jacobian, Wanted::JacobianAndPose], Default::default());
+        assert!(found.functions.iter().all(|f| f.2 == Proof::Proved), "{:?}", found.functions);
+    }
+}
+
+/// Both in one pass take one sine and cosine an angle, and fewer operations than one after the other.
+#[test]
+fn pose_and_jacobian_come_in_one_pass() {
+    let text = catalogue::text("ur5").expect("the catalogue has it");
+    let wanted = |list: &[Wanted]| functions(text, list, Default::default()).functions;
+    let both = wanted(&[Wanted::Pose, Wanted::Jacobian]);
+    let [(_, pose, _), (_, jacobian, _), (third, one_pass, _)] = both[..] else { panic!("{both:?}") };
+    assert_eq!(third, Wanted::JacobianAndPose);
+    assert_eq!(one_pass.sincos, pose.sincos);
+    assert!(one_pass.cost() < pose.cost() + jacobian.cost());
+    assert_eq!(wanted(&[Wanted::Jacobian]).len(), 1);
+    assert_eq!(wanted(&[Wanted::JacobianAndPose]).len(), 1);
 }

@@ -8,9 +8,9 @@ use denavit::forward::{Proof, Reference};
 use denavit::geometry::orientation::{EulerSet, OrientationSet, extract};
 use denavit::geometry::{Axis, Transform, Vector};
 use denavit::velocity::{
-    Damping, Jacobian, JacobianModel, ROWS, RateSolver, Singularities, Viewpoint, analytic, determinant,
-    geometric, hessian_program, jacobian_and_pose_program, jacobian_program, largest_wrench, measures,
-    nearest_singularity, rate_program, torques,
+    Damping, Jacobian, JacobianModel, ROWS, RateFormulas, RateSolver, Singularities, Viewpoint, analytic,
+    determinant, geometric, hessian_program, jacobian_and_pose_program, jacobian_program, largest_wrench,
+    measures, nearest_singularity, rate_program, torques,
 };
 use denavit::{Robot, catalogue};
 use denavit_program::Program;
@@ -486,4 +486,48 @@ fn singularities_of_a_redundant_arm() {
     let common: Vec<String> = found.common.iter().map(|s| s.factor.to_string()).collect();
     assert_eq!(common, ["sin(q4)"]);
     assert!(!found.is_complete);
+}
+
+/// The formulas for joint velocities undo the Jacobian, by proof and in numbers.
+#[test]
+fn joint_velocities_as_formulas() {
+    for name in ["staubli-rx90", "puma560", "stanford", "cylindrical-wrist", "articulated-3r"] {
+        let d = robot(name);
+        let jacobian = JacobianModel::shortest(&d, Reference::Frame(d.rows.len()));
+        let rates =
+            RateFormulas::derive(&d, &jacobian).expect("short").unwrap_or_else(|| panic!("{name}: blocks"));
+        assert!(rates.is_proved, "{name}");
+        let mut known: Vec<(String, f64)> = vec![];
+        let variables = d.variables();
+        let mut random = Random(12);
+        for (k, row) in ROWS.iter().enumerate() {
+            known.push((row.to_string(), 0.1 * (k as f64) - 0.2));
+        }
+        for p in &d.parameters {
+            let value = p.value.and_then(|e| e.eval(|_| None).ok()).unwrap_or(0.3 + random.unit());
+            known.push((p.symbol.name().to_string(), value));
+        }
+        for v in &variables {
+            known.push((v.symbol.name().to_string(), 0.4 + random.unit()));
+        }
+        let value = |known: &[(String, f64)], e: Expr| {
+            e.eval(|s| known.iter().find(|k| k.0 == *s.name()).map(|k| k.1)).expect("all is known")
+        };
+        for (step, e) in &rates.steps {
+            let x = value(&known, *e);
+            known.push((step.clone(), x));
+        }
+        let matrix = jacobian.matrix.expect("short");
+        for (r, row) in matrix.rows().iter().enumerate().take(variables.len()) {
+            let entries = row.iter().map(|&e| value(&known, e));
+            let rate = |v: &denavit::description::Variable| {
+                value(&known, Expr::symbol(&format!("d{}", v.symbol.name())))
+            };
+            let found: f64 = entries.zip(&variables).map(|(e, v)| e * rate(v)).sum();
+            assert!((found - (0.1 * (r as f64) - 0.2)).abs() < 1e-10, "{name} {r}");
+        }
+    }
+    let ur5 = robot("ur5");
+    let whole = JacobianModel::shortest(&ur5, Reference::Frame(6));
+    assert!(RateFormulas::derive(&ur5, &whole).expect("short").is_none(), "no blocks");
 }

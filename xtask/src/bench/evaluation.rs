@@ -22,6 +22,8 @@ The unit U is the time of six direct calls of the C library's `sincos` on angles
 before each entry. Figures are medians of the ratios to U over 25 rounds in which all entries take turns, and their\n\
 quartiles; each time is the least of five runs. One thread unless the entry says otherwise. The pose is a UR5's, all sixteen\n\
 entries of its matrix, link lengths as parameters. A limit is what the project demands of itself.\n\n\
+Jacobian and pose are computed in one pass: 6 × 6 and 4 × 4 entries of a UR5, 6 × 7 and 4 × 4 of a Panda. For comparison,\n\
+not measured in this run: Pinocchio 4.1 in C++ takes 315 and 339 ns for them on a core whose U is 72 ns: 4.4 and 4.7 U.\n\n\
 The interpreters choose their instructions when they run; generated code is compiled for AVX2 (x86-64-v3) and for\n\
 AVX-512 (x86-64-v4); everything else, the peers among it, for x86-64-v3.\n";
 

@@ -63,7 +63,7 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
     write(&generated, &arguments.output, arguments.force)?;
     for (wanted, _, proof) in &generated.functions {
         if *proof != Proof::Proved {
-            writeln!(anstream::stderr(), "warning: {wanted} is {proof}")?;
+            writeln!(anstream::stderr(), "warning: {wanted} is {}", wanted.claim(*proof))?;
         }
     }
     let mut out = anstream::stdout();
@@ -153,7 +153,7 @@ fn report(generated: &Generated, language: Language, folder: &Path) -> String {
         );
     }
     for (wanted, count, proof) in &generated.functions {
-        text += &format!("{}: {count}; {proof}\n", styled(wanted.name(), NAME));
+        text += &format!("{}: {count}; {}\n", styled(wanted.name(), NAME), wanted.claim(*proof));
     }
     if let Some(ik) = &generated.inverse {
         text += &format!("{}: {}\n", styled("ik", NAME), in_words(ik));

@@ -28,20 +28,40 @@ pub enum Wanted {
     Pose,
     /// `frames`: frames 0 … n in the base.
     Frames,
+    /// `jacobian`: the geometric Jacobian of the tool in the base.
+    Jacobian,
+    /// `jacobian_fk`: that and the tool in the base, in one pass.
+    JacobianAndPose,
     /// `ik`: all joint variables that bring the tool to a pose.
     Inverse,
 }
 
 impl Wanted {
     /// All of them.
-    pub const ALL: [Wanted; 3] = [Wanted::Pose, Wanted::Frames, Wanted::Inverse];
+    pub const ALL: [Wanted; 5] =
+        [Wanted::Pose, Wanted::Frames, Wanted::Jacobian, Wanted::JacobianAndPose, Wanted::Inverse];
 
     /// Its name.
     pub fn name(self) -> &'static str {
         match self {
             Wanted::Pose => "fk",
             Wanted::Frames => "frames",
+            Wanted::Jacobian => "jacobian",
+            Wanted::JacobianAndPose => "jacobian_fk",
             Wanted::Inverse => "ik",
+        }
+    }
+
+    /// What a proof says of it.
+    pub fn claim(self, proof: Proof) -> String {
+        match (self, proof) {
+            (Wanted::Jacobian, Proof::Proved) => {
+                "proved equal to the derivative of the product of the link transforms".into()
+            }
+            (Wanted::JacobianAndPose, Proof::Proved) => {
+                "proved equal to the product of the link transforms and its derivative".into()
+            }
+            _ => proof.to_string(),
         }
     }
 }
@@ -83,7 +103,7 @@ pub struct Options {
 pub struct Generated {
     /// The files of a folder that builds and tests itself; none if there is no function.
     pub files: Vec<File>,
-    /// For each forward function its operations and whether it is proved equal to the product of the link transforms.
+    /// For each function of the joints its operations and whether it is proved; [`Wanted::claim`] says equal to what.
     pub functions: Vec<(Wanted, Count, Proof)>,
     /// The inverse function, if it was asked for and there is a closed form, or elimination in the language.
     pub inverse: Option<Inverse>,
@@ -92,7 +112,7 @@ pub struct Generated {
 }
 
 /// Generates source code for a robot. An inverse function that has no closed form is by elimination in C and Rust, and
-/// left out in other languages.
+/// left out in other languages. Where `fk` and `jacobian` are both asked for, `jacobian_fk` comes with them.
 ///
 /// # Errors
 /// With `fixed`: if a parameter has no value.
@@ -104,7 +124,8 @@ pub fn generate(description: &Description, options: &Options) -> Result<Generate
     } else {
         description
     };
-    let programs: Vec<Forward> = options.functions.iter().filter_map(|&w| Forward::new(d, w)).collect();
+    let programs: Vec<Forward> =
+        with_one_pass(&options.functions).into_iter().filter_map(|w| Forward::new(d, w)).collect();
     let asked = options.functions.contains(&Wanted::Inverse);
     let (mut closed, mut general, mut refused) = (None, None, None);
     match asked.then(|| Closed::new(d, options)) {
@@ -130,7 +151,7 @@ pub fn generate(description: &Description, options: &Options) -> Result<Generate
         title: d.name.clone(),
         name: options.name.clone().unwrap_or_else(|| d.name.clone()),
         header: words::header(description, d, &programs, &about),
-        // Those of the forward functions.
+        // Those of the functions of the joints.
         variables: variables
             .iter()
             .filter(|_| !programs.is_empty())
@@ -145,6 +166,13 @@ pub fn generate(description: &Description, options: &Options) -> Result<Generate
     let files = emit::emit(&library, options.language);
     let inverse = closed.as_ref().map(Closed::facts).or(general.as_ref().map(General::facts));
     Ok(Generated { files, functions, inverse, refused })
+}
+
+/// The functions asked for, and where pose and Jacobian are among them, both in one pass.
+fn with_one_pass(functions: &[Wanted]) -> Vec<Wanted> {
+    let has = |w| functions.contains(&w);
+    let is_one_more = has(Wanted::Pose) && has(Wanted::Jacobian) && !has(Wanted::JacobianAndPose);
+    functions.iter().copied().chain(is_one_more.then_some(Wanted::JacobianAndPose)).collect()
 }
 
 /// The description with values in place of its parameters.

@@ -83,7 +83,7 @@ impl Shortener {
 
     fn entry(&mut self, e: Expr) -> Result<Expr, Refusal> {
         let shorter = || readable::simplify(e, &self.order).map(|form| form.expr);
-        self.known.entry(e).or_insert_with(shorter).clone()
+        *self.known.entry(e).or_insert_with(shorter)
     }
 
     fn matrix(&mut self, plain: &Jacobian<Expr>) -> Result<Jacobian<Expr>, Refusal> {

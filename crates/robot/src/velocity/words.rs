@@ -4,7 +4,7 @@ use super::geometric::{ROWS, Viewpoint};
 use super::model::JacobianModel;
 use super::singular::{Example, Minor, Place, Singularities, Singularity};
 use crate::description::Description;
-use crate::explain::{Block, Factor, Line, Math, Proof};
+use crate::explain::{Block, Factor, Line, Math, Proof, Sign};
 use crate::forward::{Proof as Forward, Reference};
 use denavit_symbolic::Expr;
 use denavit_symbolic::factor::Zero;
@@ -39,6 +39,30 @@ pub fn singularities_document(description: &Description, found: &Singularities) 
         blocks.push(Block::Paragraph(Line::new(
             "Besides, the arm is singular where all of the determinants above are 0 at once.",
         )));
+    }
+    blocks.extend(rates(found));
+    blocks
+}
+
+/// The joint velocities for a twist.
+fn rates(found: &Singularities) -> Vec<Block> {
+    let Some(rates) = &found.rates else { return vec![] };
+    let mut blocks = vec![Block::Heading(2, Line::new("Joint velocities for a twist"))];
+    let text = match rates.steps.len() {
+        3 => "The linear rows give the velocities of the three joints.",
+        _ => {
+            "The last three joints do not move the point: the linear rows give the velocities of the first three joints, the \
+             angular rows then those of the others."
+        }
+    };
+    blocks.push(Block::Paragraph(Line::new(text)));
+    for (name, value) in &rates.steps {
+        let math = Math::equation(Expr::symbol(name), *value);
+        blocks.push(Block::Formula { math, number: None, proof: rates.is_proved.then_some(Proof::Proved) });
+    }
+    let different = rates.conditions.iter().map(|&c| Math::relation(c, Sign::Different, Expr::int(0)));
+    if !rates.conditions.is_empty() {
+        blocks.push(Block::List(vec![Line::new("where ").list(different)]));
     }
     blocks
 }

@@ -28,6 +28,13 @@ pub struct Questions {
     pub hessian: bool,
 }
 
+/// What holds a wrench.
+pub struct Held {
+    pub torques: Vec<f64>,
+    /// By what the wrench can be multiplied until which joint is at its limit.
+    pub largest: Option<(f64, usize)>,
+}
+
 /// The answers.
 pub struct Answer<'a> {
     pub description: &'a Description,
@@ -40,8 +47,7 @@ pub struct Answer<'a> {
     /// The twist at the joint velocities, J̇, and J̇q̇.
     pub motion: Option<([f64; 6], Jacobian<f64>, [f64; 6])>,
     pub solved: Option<JointRates>,
-    /// The torques, and by what the wrench can be multiplied until which joint is at its limit.
-    pub held: Option<(Vec<f64>, Option<(f64, usize)>)>,
+    pub held: Option<Held>,
     /// For each joint the derivative of the Jacobian.
     pub hessian: Option<Vec<Jacobian<f64>>>,
     pub questions: Questions,
@@ -82,7 +88,10 @@ impl<'a> Answer<'a> {
         });
         let held = questions.wrench.map(|wrench| {
             let limits = questions.torques.as_ref();
-            (torques(&jacobian, &wrench), limits.and_then(|l| largest_wrench(&jacobian, l, &wrench)))
+            Held {
+                torques: torques(&jacobian, &wrench),
+                largest: limits.and_then(|l| largest_wrench(&jacobian, l, &wrench)),
+            }
         });
         let hessian = questions.hessian.then(|| {
             let found = run(description, &hessian_program(description, &view), q);
@@ -156,7 +165,7 @@ impl<'a> Answer<'a> {
             });
             put("joint_rates", rates);
         }
-        if let Some((torques, largest)) = &self.held {
+        if let Some(Held { torques, largest }) = &self.held {
             put("torques", json!(torques));
             if let Some((factor, joint)) = largest {
                 put("largest_wrench", json!({"factor": factor, "joint": joint + 1}));

@@ -104,7 +104,7 @@ fn questions(
     let many = |text: &Option<String>, option: &str, n: usize| -> Result<Option<Vec<f64>>, Failure> {
         text.as_deref().map(|t| numbers(t, option, n)).transpose()
     };
-    let twist = arguments.twist.as_deref().map(|t| twist(t)).transpose()?;
+    let twist = arguments.twist.as_deref().map(twist).transpose()?;
     let damping = match &arguments.damping {
         None => Damping::default(),
         Some(text) => match numbers(text, "--damping", 2)?[..] {

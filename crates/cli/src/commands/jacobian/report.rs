@@ -1,6 +1,6 @@
 //! The answer for reading.
 
-use super::answer::{Answer, name};
+use super::answer::{Answer, Held, name};
 use super::rate;
 use crate::commands::fk::reading;
 use crate::terminal::{Align, FAINT, HEADING, NAME, decimals, number, styled, table};
@@ -38,7 +38,7 @@ pub fn text(a: &Answer) -> String {
         );
     }
     text += &joint_rates(a);
-    if let Some((torques, largest)) = &a.held {
+    if let Some(Held { torques, largest }) = &a.held {
         let values: Vec<String> = variables
             .iter()
             .zip(torques)

@@ -63,8 +63,12 @@ fn algorithm(model: &JacobianModel) -> Vec<Block> {
     blocks
 }
 
+/// The robot's names, those of the algorithm's steps, and those of velocities.
 fn names(description: &Description, model: &JacobianModel) -> Vocabulary {
-    model.algorithm.steps().iter().fold(description.vocabulary(), |v, step| v.symbol(&step.name))
+    let rates = description.variables().into_iter().map(|v| format!("d{}", v.symbol.name()));
+    let twist = ROWS.iter().flat_map(|r| [r.to_string(), format!("{r}_")]);
+    let steps = model.algorithm.steps().into_iter().map(|step| step.name);
+    rates.chain(twist).chain(steps).fold(description.vocabulary(), |v, name| v.symbol(&name))
 }
 
 fn printed(description: &Description, model: &JacobianModel, blocks: Vec<Block>, format: Format) -> String {
@@ -130,5 +134,14 @@ fn singularities_json(description: &Description, found: &Singularities) -> Strin
     map.insert("determinants".into(), found.minors.iter().map(minor).collect());
     map.insert("singularities".into(), found.common.iter().map(singularity).collect());
     map.insert("complete".into(), found.is_complete.into());
+    if let Some(rates) = &found.rates {
+        let steps: Vec<Value> =
+            rates.steps.iter().map(|(name, value)| json!({"name": name, "value": text(*value)})).collect();
+        let different: Vec<String> = rates.conditions.iter().map(|&c| text(c)).collect();
+        map.insert(
+            "joint_rates".into(),
+            json!({"steps": steps, "not_zero": different, "proved": rates.is_proved}),
+        );
+    }
     format!("{}\n", Value::Object(map))
 }

@@ -77,9 +77,10 @@ fn draw(
         let mut chart = ChartBuilder::on(panel)
             .caption(title, ("sans-serif", 15))
             .margin(8)
-            .x_label_area_size(28)
+            .x_label_area_size(40)
             .y_label_area_size(64)
-            .build_cartesian_2d(0.0..end, low - margin..high + margin)?;
+            // Room for the names on the right.
+            .build_cartesian_2d(0.0..1.12 * end, low - margin..high + margin)?;
         chart.configure_mesh().light_line_style(TRANSPARENT).x_desc("t / s").draw()?;
         for &t in &marks {
             let line = [(t, low - margin), (t, high + margin)];

@@ -8,6 +8,7 @@ pub use minors::Minor;
 pub use place::Place;
 
 use super::geometric::{Viewpoint, geometric};
+use super::inverse::RateFormulas;
 use super::measures::Whole;
 use super::model::JacobianModel;
 use crate::description::Description;
@@ -59,6 +60,8 @@ pub struct Singularities {
     pub common: Vec<Singularity>,
     /// Whether the factors have no common zeros beside: a single minor, or nothing left of one.
     pub is_complete: bool,
+    /// The joint velocities for a twist as formulas, where they are short.
+    pub rates: Option<RateFormulas>,
 }
 
 /// One singularity: the zeros of a factor.
@@ -96,7 +99,7 @@ impl Singularities {
     /// See [`Obstacle`].
     pub fn derive(description: &Description, body: Reference) -> Result<Self, Obstacle> {
         let jacobian = JacobianModel::shortest(description, body);
-        let matrix = jacobian.matrix.as_ref().map_err(|why| Obstacle::TooLarge(why.clone()))?;
+        let matrix = jacobian.matrix.as_ref().map_err(|why| Obstacle::TooLarge(*why))?;
         if matrix.columns.len() > MAX_JOINTS {
             return Err(Obstacle::ManyJoints(matrix.columns.len()));
         }
@@ -129,7 +132,8 @@ impl Singularities {
                 Singularity { factor, power, zeros: zeros(factor), example }
             })
             .collect();
-        Ok(Singularities { jacobian, minors, common, is_complete })
+        let rates = RateFormulas::derive(description, &jacobian).map_err(Obstacle::TooLarge)?;
+        Ok(Singularities { jacobian, minors, common, is_complete, rates })
     }
 }
 
