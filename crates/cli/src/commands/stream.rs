@@ -250,6 +250,19 @@ impl Progress {
     }
 }
 
+/// Appends the joint variables of a line, one a joint.
+///
+/// # Errors
+/// What is wrong with the line.
+pub fn joints(line: &[u8], joints: usize, rows: &mut Vec<f64>) -> Result<(), String> {
+    let q: Vec<f64> = parsed(line, "a JSON array of numbers", |l| serde_json::from_slice(l))?;
+    if q.len() != joints {
+        return Err(format!("{}, the robot has {}", plural(q.len(), "value"), plural(joints, "joint")));
+    }
+    rows.extend(q);
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -315,17 +328,4 @@ mod tests {
             );
         }
     }
-}
-
-/// Appends the joint variables of a line, one a joint.
-///
-/// # Errors
-/// What is wrong with the line.
-pub fn joints(line: &[u8], joints: usize, rows: &mut Vec<f64>) -> Result<(), String> {
-    let q: Vec<f64> = parsed(line, "a JSON array of numbers", |l| serde_json::from_slice(l))?;
-    if q.len() != joints {
-        return Err(format!("{}, the robot has {}", plural(q.len(), "value"), plural(joints, "joint")));
-    }
-    rows.extend(q);
-    Ok(())
 }
