@@ -16,12 +16,12 @@ pub fn math(m: &Math, names: &Vocabulary, style: Style) -> String {
     Writer { names: &names, style }.math(m)
 }
 
-/// An entry of the pose with its index apart.
+/// An entry of the pose, or a component of a velocity, with its index apart.
 fn indexed(s: Symbol) -> Option<Expr> {
     let name = s.name();
     let mut letters = name.chars();
     match (letters.next(), letters.next(), letters.next()) {
-        (Some(a @ ('n' | 'o' | 'a' | 'p')), Some(b @ ('x' | 'y' | 'z')), None) => {
+        (Some(a @ ('n' | 'o' | 'a' | 'p' | 'v' | 'w' | 'r')), Some(b @ ('x' | 'y' | 'z')), None) => {
             Some(Expr::symbol(&format!("{a}_{b}")))
         }
         _ => None,

@@ -17,14 +17,17 @@ use denavit_symbolic::{Expr, Refusal, Ring, Symbol, equal};
 /// The joint velocities for a twist, one formula after another.
 #[derive(Clone, Debug)]
 pub struct RateFormulas {
-    /// Name and value: `wx_`, `wy_`, `wz_` (what the first three joints leave of ω), and `d<joint>`. The twist is `vx` … `wz`
-    /// in the frame and at the point of the Jacobian.
+    /// Name and value: [`REST`] (what the first three joints leave of ω), and `d<joint>`. The twist is `vx` … `wz` in the
+    /// frame and at the point of the Jacobian.
     pub steps: Vec<(String, Expr)>,
     /// What must not be 0.
     pub conditions: Vec<Expr>,
     /// Whether the blocks times their inverses are proved to be 1.
     pub is_proved: bool,
 }
+
+/// Names of what the first three joints leave of the angular velocity.
+pub const REST: [&str; 3] = ["rx", "ry", "rz"];
 
 type Block = [[Expr; 3]; 3];
 
@@ -60,10 +63,9 @@ impl RateFormulas {
             let Some(inverse_b) = Inverse::new(&b, &order)? else { return Ok(None) };
             let c = block(matrix, 3, 0);
             let rates = [0, 1, 2].map(|k| Expr::symbol(&joints[k]));
-            let left = [0, 1, 2].map(|k| Expr::symbol(&format!("{}_", ROWS[3 + k])));
+            let left = REST.map(Expr::symbol);
             for (k, entries) in c.iter().enumerate() {
-                let name = format!("{}_", ROWS[3 + k]);
-                found.steps.push((name, twist(3 + k) - row(entries, &rates)));
+                found.steps.push((REST[k].into(), twist(3 + k) - row(entries, &rates)));
             }
             for (joint, entries) in joints[3..].iter().zip(&inverse_b.entries) {
                 found.steps.push((joint.clone(), row(entries, &left)));

@@ -20,7 +20,7 @@ pub use analytic::{AnalyticJacobian, analytic, determinant, rates};
 pub use derivatives::{hessian_program, rate_program};
 pub(crate) use geometric::of_tool;
 pub use geometric::{Jacobian, ROWS, Viewpoint, geometric};
-pub use inverse::RateFormulas;
+pub use inverse::{REST, RateFormulas};
 pub use measures::{Block, Measures, NearestSingularity, RANK, Whole, measures, nearest_singularity};
 pub use model::JacobianModel;
 pub use program::{jacobian_and_pose_program, jacobian_program};

@@ -51,8 +51,8 @@ fn rates(found: &Singularities) -> Vec<Block> {
     let text = match rates.steps.len() {
         3 => "The linear rows give the velocities of the three joints.",
         _ => {
-            "The last three joints do not move the point: the linear rows give the velocities of the first three joints, the \
-             angular rows then those of the others."
+            "The last three joints do not move the point: the linear rows give the velocities of the first three joints. rx, ry \
+             and rz are what these leave of the angular velocity for the others."
         }
     };
     blocks.push(Block::Paragraph(Line::new(text)));

@@ -8,7 +8,7 @@ use denavit::description::Description;
 use denavit::explain::{Block, Line, Math};
 use denavit::forward::Reference;
 use denavit::velocity::{
-    JacobianModel, Minor, ROWS, Singularities, Singularity, Viewpoint, jacobian_document,
+    JacobianModel, Minor, REST, ROWS, Singularities, Singularity, Viewpoint, jacobian_document,
     singularities_document,
 };
 use denavit_symbolic::Expr;
@@ -66,7 +66,7 @@ fn algorithm(model: &JacobianModel) -> Vec<Block> {
 /// The robot's names, those of the algorithm's steps, and those of velocities.
 fn names(description: &Description, model: &JacobianModel) -> Vocabulary {
     let rates = description.variables().into_iter().map(|v| format!("d{}", v.symbol.name()));
-    let twist = ROWS.iter().flat_map(|r| [r.to_string(), format!("{r}_")]);
+    let twist = ROWS.iter().chain(&REST).map(ToString::to_string);
     let steps = model.algorithm.steps().into_iter().map(|step| step.name);
     rates.chain(twist).chain(steps).fold(description.vocabulary(), |v, name| v.symbol(&name))
 }
