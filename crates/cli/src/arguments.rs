@@ -290,6 +290,10 @@ pub struct PathArguments {
     /// The time law of a joint move
     #[arg(long, value_enum, requires = "joint")]
     pub law: Option<LawName>,
+    /// Between several joint configurations go straight, and round each corner at this distance (Euclidean, radians and
+    /// metres), instead of a smooth curve through them
+    #[arg(long, value_name = "DISTANCE", value_parser = positive, conflicts_with_all = ["line", "arc"])]
+    pub blend: Option<f64>,
     /// Say what comes of every configuration in which the path can start
     #[arg(long)]
     pub alternatives: bool,

@@ -9,7 +9,7 @@ use denavit::description::Description;
 use denavit::inverse::JointSpace;
 use denavit::motion::follow::{Alternative, Followed, Follower, Options};
 use denavit::motion::hand::HandPath;
-use denavit::motion::path::{Ends, JointPath, cubic_spline, cubic_spline_at};
+use denavit::motion::path::{Blend, Ends, JointPath, PiecewisePath, blended, cubic_spline, cubic_spline_at};
 use denavit::motion::profile::{Law, Polynomial, Profile, synchronised};
 use denavit::motion::{
     JerkLimited, JointState, Limits, MotionError, TimeOptimal, Trajectory, move_within_limits,
@@ -81,13 +81,16 @@ fn joints(
     let is_one = points.len() == 2;
     let words = match is_one {
         true => "joint move".to_string(),
+        false if arguments.blend.is_some() => {
+            format!("straight joint moves past {} way-points", points.len())
+        }
         false => format!("joint spline through {} way-points", points.len()),
     };
     let (trajectory, timing): (Box<dyn Trajectory>, String) = match (&limits, arguments.law) {
         (None, _) => {
             // Without limits a duration; with it the law of the whole.
             let duration = arguments.duration.unwrap_or(1.0);
-            let path = cubic_spline(&points, &Ends::Natural).map_err(refused)?;
+            let path = through(&points, arguments.blend)?;
             let timed = InTime::new(path, duration).map_err(refused)?;
             (Box::new(timed), format!("a quintic law over {duration} s (no limits are known)"))
         }
@@ -106,10 +109,7 @@ fn joints(
                 (Box::new(found), format!("{} law, all joints together, within the limits", law.words()))
             }
         }
-        (Some(limits), _) => {
-            let path = cubic_spline(&points, &Ends::Natural).map_err(refused)?;
-            timed(path, limits)?
-        }
+        (Some(limits), _) => timed(through(&points, arguments.blend)?, limits)?,
     };
     let space = JointSpace::new(description, 1.0);
     let outside = (0..n).find(|&j| {
@@ -121,6 +121,16 @@ fn joints(
         return Err(Failure::No(format!("a way-point has {name} outside of its limits")));
     }
     Ok(Planned { trajectory, words, timing, followed: None, alternatives: vec![] })
+}
+
+/// A smooth curve through way-points, or straight lines between them with rounded corners.
+fn through(points: &[Vec<f64>], blend: Option<f64>) -> Result<PiecewisePath, Failure> {
+    match blend {
+        Some(distance) if points.len() > 2 => {
+            blended(points, &vec![distance; points.len() - 2], Blend::Quintic).map_err(refused)
+        }
+        _ => cubic_spline(points, &Ends::Natural).map_err(refused),
+    }
 }
 
 /// The fastest timing of a path.
