@@ -23,9 +23,9 @@ pub fn entries<'a>(ur5: &Description, panda: &Description, angles: &'a [f64]) ->
     entries.extend(generated::ur5(ONE, six));
     entries.extend(evaluated("Panda", panda, &of_panda, seven)?);
     entries.extend(generated::panda(ONE, seven));
-    entries.extend(blocks("UR5", &of_ur5));
+    entries.extend(blocks("UR5", &of_ur5, Some(generated::BATCH_LIMIT)));
     entries.extend(generated::ur5_blocks(BATCH));
-    entries.extend(blocks("Panda", &of_panda));
+    entries.extend(blocks("Panda", &of_panda, None));
     entries.extend(generated::panda_blocks(BATCH));
     Ok(entries)
 }
@@ -69,11 +69,12 @@ fn evaluated<'a, const J: usize>(
     ])
 }
 
-/// Blocks that stay in the cache.
-fn blocks(arm: &str, function: &Function) -> Vec<Entry<'static>> {
+/// Blocks that stay in the cache; the limit is that with AVX-512.
+fn blocks(arm: &str, function: &Function, limit: Option<f64>) -> Vec<Entry<'static>> {
     let on = |isa: Isa| {
         let name = format!("interpreter over blocks, {arm}, {}", isa.name());
-        block::<f64>(BATCH, name, &function.on(isa, isa.arithmetic()), None)
+        let limit = limit.filter(|_| isa.name() == "AVX-512");
+        block::<f64>(BATCH, name, &function.on(isa, isa.arithmetic()), limit)
     };
     Isa::available().into_iter().map(on).collect()
 }

@@ -9,7 +9,7 @@ use std::hint::black_box;
 /// The most that one configuration may take, U.
 pub const LIMIT: f64 = 1.1;
 /// The most that a configuration in a batch may take with AVX-512, U.
-const BATCH_LIMIT: f64 = 0.25;
+pub const BATCH_LIMIT: f64 = 0.25;
 
 /// Results: the Jacobian of six or seven joints, and a pose.
 const UR5: usize = 6 * 6 + 16;

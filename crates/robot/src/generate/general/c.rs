@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 
 /// The parts of the source file behind the types and the tables.
-const PARTS: [&str; 8] = [
+const PARTS: [&str; 9] = [
     include_str!("eliminate.c"),
     include_str!("determinant.c"),
     include_str!("roots.c"),
@@ -15,6 +15,7 @@ const PARTS: [&str; 8] = [
     include_str!("extract.c"),
     include_str!("complete.c"),
     include_str!("newton.c"),
+    include_str!("wide.c"),
     include_str!("solve.c"),
 ];
 /// Width of a line.
@@ -56,18 +57,27 @@ fn constants(general: &General, tables: &Tables) -> String {
     text.push_str(
         "\n/* Angles at which the determinant is sampled, and what the samples add to harmonics. */\n",
     );
-    text.push_str(&vector("ik_cosines[IK_SAMPLES]", &tables.cosines));
-    text.push_str(&vector("ik_sines[IK_SAMPLES]", &tables.sines));
-    text.push_str(&matrix("ik_transform[IK_SAMPLES][IK_SAMPLES]", &tables.transform));
+    let at = &tables.samples;
+    text.push_str(&samples("ik_", "IK_SAMPLES", [&at.cosines, &at.sines], &at.transform));
     text.push_str("\n/* Where the search for roots starts. */\n");
     let starts: Vec<[f64; 2]> =
         (0..16).map(|k| TAU * (f64::from(k) + 0.3) / 16.0).map(|a| [a.cos(), a.sin()]).collect();
     text.push_str(&matrix("ik_start[IK_ROOTS][2]", &starts));
 
+    text.push_str("\n/* The same of the wider matrix. */\n");
+    let at = &tables.wide;
+    text.push_str(&samples("ik_wide_", "IK_WIDE_SAMPLES", [&at.cosines, &at.sines], &at.transform));
+
     text.push_str("\n/* The splits in the order in which they are tried. */\n");
     let splits: Vec<String> = tables.splits.iter().map(split).collect();
     let _ = write!(text, "static const ik_split ik_splits[IK_SPLITS] = {{\n{}\n}};\n", splits.join(",\n"));
     text
+}
+
+fn samples(prefix: &str, count: &str, [cosines, sines]: [&[f64]; 2], transform: &[Vec<f64>]) -> String {
+    vector(&format!("{prefix}cosines[{count}]"), cosines)
+        + &vector(&format!("{prefix}sines[{count}]"), sines)
+        + &matrix(&format!("{prefix}transform[{count}][{count}]"), transform)
 }
 
 fn split(split: &Split) -> String {

@@ -33,6 +33,24 @@ static void ik_inside(const ik_chart *chart, double c, double s, double out[2])
     ik_stretched(1.0 / chart->kappa, c * o[0] + s * o[1], s * o[0] - c * o[1], out);
 }
 
+/* Cosines and sines on the circle at eight nodes of a chart, and the weights
+   cos(b / 2)^2 + kappa^2 sin(b / 2)^2. */
+INLINE void ik_nodes(
+    const ik_chart *chart, const double *RESTRICT cosines, const double *RESTRICT sines,
+    double *RESTRICT c, double *RESTRICT s, double *RESTRICT weight)
+{
+    for (int l = 0; l < IK_LANES; l++) {
+        const double near = 1.0 + cosines[l];
+        const double far = (1.0 - cosines[l]) * chart->kappa * chart->kappa;
+        const double sum = near + far;
+        const double a = (near - far) / sum;
+        const double b = sines[l] * 2.0 * chart->kappa / sum;
+        c[l] = a * chart->centre[0] - b * chart->centre[1];
+        s[l] = a * chart->centre[1] + b * chart->centre[0];
+        weight[l] = 0.5 * sum;
+    }
+}
+
 INLINE int ik_answers_for(const ik_chart *chart, double cosine)
 {
     return chart->depth == 0 || cosine >= 0.0;
@@ -75,7 +93,7 @@ static double ik_clear(const ik_work *work, double from, double side, double noi
         step *= 1.3;
         const double c = cos(at);
         const double s = sin(at);
-        for (int d = IK_DEGREE; d > 0; d--) {
+        for (int d = work->degree; d > 0; d--) {
             const double a = re + work->re[d];
             const double b = im + work->im[d];
             re = a * c - b * s;
@@ -136,7 +154,7 @@ static void ik_mark(ik_work *work, double angle, int marked)
    circle must belong to a configuration of its own. */
 static int ik_verdict(const ik_split *split, const ik_chart *chart, ik_work *work)
 {
-    int open[IK_ROOTS], all[IK_ROOTS];
+    int open[IK_WIDE_ROOTS], all[IK_WIDE_ROOTS];
     int reaching = 0, strangers = 0, inside = 0, pairs;
     work->marks = 0;
     for (int k = 0; k < work->roots; k++) {

@@ -16,6 +16,11 @@ INLINE int ik_multiplied_slides(const ik_split *split)
     return split->slides[split->last_multiplied ? 4 : 3];
 }
 
+INLINE int ik_other_slides(const ik_split *split)
+{
+    return split->slides[split->last_multiplied ? 3 : 4];
+}
+
 /* The strips [A | B/r C/r] and [C | A/r B/r]. */
 static void ik_strips(
     const ik_eliminated *e, int slides, const double *RESTRICT c, const double *RESTRICT s,

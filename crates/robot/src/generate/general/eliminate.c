@@ -297,6 +297,7 @@ static void ik_eliminate(const ik_split *split, const ik_rigid *closing, ik_elim
             top = fabs(mixed[c]) > top ? fabs(mixed[c]) : top;
         }
         const double scale = top > 0.0 ? 1.0 / top : 0.0;
+        out->sizes[i] = top;
         for (int c = 0; c < 27; c++) {
             out->rows[i][c] = mixed[c] * scale;
         }

@@ -224,9 +224,13 @@ static int ik_gauss_jordan(double m[IK_SHARED][2 * IK_SHARED], int size)
     return 1;
 }
 
-/* The eigenvalues that are real or almost: the characteristic polynomial by Faddeev and LeVerrier, its
-   roots by Weierstrass' iteration. */
-static int ik_real_eigenvalues(double m[IK_SHARED][IK_SHARED], int size, double out[IK_SHARED])
+/* Eigenvalues with a smaller relative imaginary part may be real: rounding makes pairs of double ones. */
+static const double ik_almost = 0.03;
+
+/* The eigenvalues that are real up to a relative tolerance: the characteristic polynomial by Faddeev and
+   LeVerrier, its roots by Weierstrass' iteration. */
+static int ik_real_eigenvalues(
+    double m[IK_SHARED][IK_SHARED], int size, double tolerance, double out[IK_SHARED])
 {
     double c[IK_SHARED + 1];
     double product[IK_SHARED][IK_SHARED];
@@ -238,7 +242,7 @@ static int ik_real_eigenvalues(double m[IK_SHARED][IK_SHARED], int size, double 
         const double difference = (m[0][0] - m[1][1]) / 2.0;
         const double under = difference * difference + m[0][1] * m[1][0];
         /* A pair that is complex by a little is a double one. */
-        if (under < -1e-3 * (half * half + difference * difference + 1e-12)) {
+        if (under < -tolerance * tolerance * (half * half + difference * difference + 1e-12)) {
             return 0;
         }
         const double root = under > 0.0 ? sqrt(under) : 0.0;
@@ -310,7 +314,7 @@ static int ik_real_eigenvalues(double m[IK_SHARED][IK_SHARED], int size, double 
         }
     }
     for (int k = 0; k < size; k++) {
-        if (fabs(zi[k]) <= 0.03 * (1.0 + fabs(zr[k]))) {
+        if (fabs(zi[k]) <= tolerance * (1.0 + fabs(zr[k]))) {
             out[found++] = zr[k];
         }
     }
@@ -433,7 +437,7 @@ static int ik_shared(
             x[i][j] = system[i][count + j];
         }
     }
-    const int real_values = ik_real_eigenvalues(x, count, values);
+    const int real_values = ik_real_eigenvalues(x, count, ik_almost, values);
     for (int n = 0; n < real_values; n++) {
         double shifted[IK_SHARED][IK_SHARED];
         double g[IK_SHARED];

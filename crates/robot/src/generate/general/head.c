@@ -20,12 +20,21 @@ enum {
     IK_DEGREE = 8,
     IK_SAMPLES = 24,
     IK_ROOTS = 16,
+    /* The wider matrix: unknowns, equations, and the same of its determinant. */
+    IK_MONOMIALS = 16,
+    IK_EQUATIONS = 24,
+    IK_WIDE_DEGREE = 12,
+    IK_WIDE_SAMPLES = 32,
+    IK_WIDE_ROOTS = 24,
     /* Roots near the circle with the middles of pairs. */
     IK_NEARBY = 2 * IK_ROOTS,
     /* Solutions that can share a root. */
     IK_SHARED = 6,
     IK_CANDIDATES = IK_NEARBY * (1 + IK_SHARED),
     IK_CHARTS = 12,
+    /* How deep charts are taken of parts of charts, with either matrix. */
+    IK_DEPTH = 4,
+    IK_WIDE_DEPTH = 2,
     IK_FOUND = 64
 };
 
@@ -51,15 +60,24 @@ typedef struct ik_split {
     double left[IK_FORMS][27];
 } ik_split;
 
-/* Six equations that are free of a1 and a2, and what these two are found from. */
+/* Six equations that are free of a1 and a2, the largest entry of each 1 and what it was before, and what
+   these two are found from. */
 typedef struct ik_eliminated {
     double rows[6][27];
+    double sizes[6];
     ik_rigid links[6];
     double first[6][3];
     double weights[2][6];
     int is_open;
     double open[2];
 } ik_eliminated;
+
+/* The equations in half angles of a4 and a5, and mixtures of them: over (1, c, s) of a3, forms of degree 2
+   in either pair. */
+typedef struct ik_wide {
+    double own[6][3][9];
+    double mixed[IK_MONOMIALS][3][9];
+} ik_wide;
 
 /* A part of the circle, magnified: tan((a - centre) / 2) = kappa tan(b / 2). */
 typedef struct ik_chart {
@@ -81,15 +99,18 @@ typedef struct ik_found {
 
 typedef struct ik_work {
     ik_eliminated eliminated;
+    ik_wide wide;
     /* The polynomial, its largest sample 1, and its noise. */
-    double re[IK_DEGREE + 1];
-    double im[IK_DEGREE + 1];
+    int degree;
+    double re[IK_WIDE_DEGREE + 1];
+    double im[IK_WIDE_DEGREE + 1];
     double noise;
-    /* Its roots, and how far they may be off. */
+    /* Its roots, and how far they may be off; less than 0 where a root is known to belong to no
+       configuration. */
     int roots;
-    double x[IK_ROOTS];
-    double y[IK_ROOTS];
-    double radius[IK_ROOTS];
+    double x[IK_WIDE_ROOTS];
+    double y[IK_WIDE_ROOTS];
+    double radius[IK_WIDE_ROOTS];
     /* Angles in a chart, and which of them do not fit. */
     int marks;
     double angles[48];

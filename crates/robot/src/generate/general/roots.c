@@ -4,30 +4,32 @@
  */
 
 /* The polynomial through the samples, the largest of them 1; 0 if they are of no use. */
-static int ik_fit(ik_work *work, const double *samples)
+INLINE int ik_fit(
+    ik_work *work, int degree, int count, const double *transform, const double *samples)
 {
     double top = 0.0;
-    double sums[IK_SAMPLES];
+    double sums[IK_WIDE_SAMPLES];
     double noise = 0.0;
-    for (int k = 0; k < IK_SAMPLES; k++) {
+    for (int k = 0; k < count; k++) {
         top = fabs(samples[k]) > top ? fabs(samples[k]) : top;
         sums[k] = 0.0;
     }
     if (!(top > 1e-250 && top < 1e250)) {
         return 0;
     }
-    for (int node = 0; node < IK_SAMPLES; node++) {
-        for (int k = 0; k < IK_SAMPLES; k++) {
-            sums[k] = IK_ADD(ik_transform[node][k], samples[node], sums[k]);
+    for (int node = 0; node < count; node++) {
+        for (int k = 0; k < count; k++) {
+            sums[k] = IK_ADD(transform[node * count + k], samples[node], sums[k]);
         }
     }
+    work->degree = degree;
     work->re[0] = sums[0] / top;
     work->im[0] = 0.0;
-    for (int k = 1; k <= IK_DEGREE; k++) {
+    for (int k = 1; k <= degree; k++) {
         work->re[k] = sums[k] / top;
-        work->im[k] = sums[IK_DEGREE + k] / top;
+        work->im[k] = sums[degree + k] / top;
     }
-    for (int k = 2 * IK_DEGREE + 1; k < IK_SAMPLES; k++) {
+    for (int k = 2 * degree + 1; k < count; k++) {
         noise += (sums[k] / top) * (sums[k] / top);
     }
     work->noise = sqrt(noise);
@@ -166,12 +168,13 @@ static void ik_bound(
     }
 }
 
-/* All roots at once (Aberth 1973, Ehrlich 1967). */
-static void ik_find_roots(ik_work *work)
+/* All roots at once (Aberth 1973, Ehrlich 1967); not inlined, so that compilers make one copy of it. */
+static NOINLINE void ik_find_roots(ik_work *work)
 {
-    double re[2 * IK_DEGREE + 1], im[2 * IK_DEGREE + 1];
-    double live[IK_ROOTS], next_x[IK_ROOTS], next_y[IK_ROOTS];
-    int degree = IK_DEGREE;
+    const int room = work->degree == IK_DEGREE ? IK_ROOTS : IK_WIDE_ROOTS;
+    double re[2 * IK_WIDE_DEGREE + 1], im[2 * IK_WIDE_DEGREE + 1];
+    double live[IK_WIDE_ROOTS], next_x[IK_WIDE_ROOTS], next_y[IK_WIDE_ROOTS];
+    int degree = work->degree;
     while (degree > 0
            && work->re[degree] * work->re[degree] + work->im[degree] * work->im[degree] < 1e-28) {
         degree--;
@@ -186,30 +189,31 @@ static void ik_find_roots(ik_work *work)
         im[degree + k] = work->im[k];
         im[degree - k] = -work->im[k];
     }
-    for (int k = 0; k < IK_ROOTS; k++) {
+    for (int k = 0; k < room; k++) {
         const double angle = IK_TURN * (k + 0.3) / count;
         const double radius = k % 2 == 0 ? 1.05 : 1.0 / 1.05;
         const int exists = k < count;
-        const double c = count == IK_ROOTS ? ik_start[k][0] : cos(angle);
-        const double s = count == IK_ROOTS ? ik_start[k][1] : sin(angle);
+        const int is_known = room == IK_ROOTS && count == IK_ROOTS;
+        const double c = is_known ? ik_start[k][0] : cos(angle);
+        const double s = is_known ? ik_start[k][1] : sin(angle);
         work->x[k] = exists ? radius * c : 1e30;
         work->y[k] = exists ? radius * s : 1e30 * (k + 1);
         live[k] = exists ? 1.0 : 0.0;
     }
     for (int turn = 0; turn < 40; turn++) {
         double largest = 0.0;
-        for (int from = 0; from < IK_ROOTS; from += IK_LANES) {
+        for (int from = 0; from < room; from += IK_LANES) {
             const double step =
                 ik_step(work, re, im, degree, from, live + from, next_x + from, next_y + from);
             largest = step > largest ? step : largest;
         }
-        memcpy(work->x, next_x, sizeof next_x);
-        memcpy(work->y, next_y, sizeof next_y);
+        memcpy(work->x, next_x, (size_t)room * sizeof *next_x);
+        memcpy(work->y, next_y, (size_t)room * sizeof *next_y);
         if (largest < 1e-22) {
             break;
         }
     }
-    for (int from = 0; from < IK_ROOTS; from += IK_LANES) {
+    for (int from = 0; from < room; from += IK_LANES) {
         ik_bound(work, re, im, degree, ik_noise(work), from);
     }
 }

@@ -150,44 +150,47 @@ static void ik_accept(const ik_split *split, const ik_rigid *goal, ik_work *work
     }
 }
 
-/* Finds the roots that a chart shows, and the configurations that belong to them. */
-static int ik_solve_chart(
-    const ik_split *split, const ik_rigid *goal, const ik_chart *chart, ik_work *work)
+/* Finds the roots that a chart shows, and what may belong to them; 0 if the samples are of no use. */
+INLINE int ik_narrow_candidates(const ik_split *split, const ik_chart *chart, ik_work *work)
 {
     const int slides = ik_multiplied_slides(split);
     double samples[IK_SAMPLES];
     for (int from = 0; from < IK_SAMPLES; from += IK_LANES) {
         double c[IK_LANES], s[IK_LANES], weight[IK_LANES];
-        for (int l = 0; l < IK_LANES; l++) {
-            const double near = 1.0 + ik_cosines[from + l];
-            const double far = (1.0 - ik_cosines[from + l]) * chart->kappa * chart->kappa;
-            const double sum = near + far;
-            const double a = (near - far) / sum;
-            const double b = ik_sines[from + l] * 2.0 * chart->kappa / sum;
-            const double half = 0.25 * sum * sum;
-            c[l] = a * chart->centre[0] - b * chart->centre[1];
-            s[l] = a * chart->centre[1] + b * chart->centre[0];
-            weight[l] = half * half * half * half;
-        }
+        ik_nodes(chart, ik_cosines + from, ik_sines + from, c, s, weight);
         ik_determinant(&work->eliminated, slides, c, s, samples + from);
         for (int l = 0; l < IK_LANES; l++) {
-            samples[from + l] *= weight[l];
+            const double square = weight[l] * weight[l];
+            samples[from + l] *= square * square * square * square;
         }
     }
-    work->marks = 0;
-    work->candidates = 0;
-    if (!ik_fit(work, samples)) {
-        return IK_UNCERTAIN;
+    if (!ik_fit(work, IK_DEGREE, IK_SAMPLES, &ik_transform[0][0], samples)) {
+        return 0;
     }
     ik_find_roots(work);
     ik_candidates(split, chart, work);
+    return 1;
+}
+
+/* Finds the roots that a chart shows, and the configurations that belong to them. */
+INLINE int ik_solve_chart(
+    const ik_split *split, int is_wide, const ik_rigid *goal, const ik_chart *chart, ik_work *work)
+{
+    work->marks = 0;
+    work->candidates = 0;
+    if (!(is_wide ? ik_wide_candidates(split, chart, work)
+                  : ik_narrow_candidates(split, chart, work))) {
+        return IK_UNCERTAIN;
+    }
     ik_accept(split, goal, work);
     return ik_verdict(split, chart, work);
 }
 
 /* The whole circle first, then charts of the arcs where something does not fit. */
-static int ik_solve_split(const ik_split *split, const ik_rigid *goal, ik_work *work)
+static int ik_solve_split(
+    const ik_split *split, int is_wide, const ik_rigid *goal, ik_work *work)
 {
+    const int deepest = is_wide ? IK_WIDE_DEPTH : IK_DEPTH;
     ik_chart list[IK_CHARTS];
     int count = 1;
     int total = IK_CERTIFIED;
@@ -195,15 +198,18 @@ static int ik_solve_split(const ik_split *split, const ik_rigid *goal, ik_work *
     ik_rigid closing = ik_then(&ik_links[5], &back);
     closing = ik_then(&closing, &ik_base);
     ik_eliminate(split, &closing, &work->eliminated);
+    if (is_wide) {
+        ik_fill_wide(split, work);
+    }
     list[0] = ik_whole;
     for (int k = 0; k < count; k++) {
         double arcs[8][2];
-        const int verdict = ik_solve_chart(split, goal, &list[k], work);
+        const int verdict = ik_solve_chart(split, is_wide, goal, &list[k], work);
         if (verdict == IK_CERTIFIED) {
             continue;
         }
         const int crowds = ik_crowds(work, arcs);
-        if (crowds == 0 || list[k].depth == 4 || count + crowds > IK_CHARTS) {
+        if (crowds == 0 || list[k].depth == deepest || count + crowds > IK_CHARTS) {
             total = total == IK_UNCERTAIN ? total : verdict;
             continue;
         }
@@ -247,7 +253,11 @@ int @name@_ik(
     }
     work.count = 0;
     for (int k = 0; k < IK_SPLITS && last != IK_CERTIFIED; k++) {
-        last = ik_solve_split(&ik_splits[k], &goal, &work);
+        last = ik_solve_split(&ik_splits[k], 0, &goal, &work);
+    }
+    /* The wider matrices last: they take ten times as long, and their determinants never vanish. */
+    for (int k = 0; k < IK_SPLITS && last == IK_UNCERTAIN; k++) {
+        last = ik_solve_split(&ik_splits[k], 1, &goal, &work);
     }
     const int count = work.count < @NAME@_IK_MAX ? work.count : @NAME@_IK_MAX;
     for (int from = 0; from < count; from += IK_LANES) {
