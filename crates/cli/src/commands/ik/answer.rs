@@ -181,12 +181,16 @@ pub struct Report<'a> {
     pub answer: &'a Answer,
     /// The configuration that the pose was taken from.
     pub at: Option<&'a [f64]>,
+    /// How far the nearest of all solutions, members of families included, is from that configuration.
+    pub away: Option<f64>,
     /// The solution nearest to what was asked for.
     pub nearest: Option<&'a Nearest>,
 }
 
 /// Joint values closer than this are shown as the same configuration.
 const SAME: f64 = 1e-6;
+/// Solutions this far apart do not nearly coincide.
+const FAR: f64 = 0.1;
 
 impl Report<'_> {
     /// Pose, solutions, families.
@@ -229,10 +233,31 @@ impl Report<'_> {
             let note = if nearest.within_limits { "" } else { ", outside the limits" };
             text += &format!("\n  {}{note}: {}\n", self.question.superlative(), at.join(", "));
         }
+        text += &self.unmarked();
         if let Some(doubt) = answer.doubt {
             text += &format!("  not complete, there may be more: {}\n", doubt.words());
         }
         text
+    }
+
+    /// Where the configuration that the pose was taken from is, if it is none of the rows.
+    fn unmarked(&self) -> String {
+        let (Some(at), Some(away)) = (self.at, self.away) else { return String::new() };
+        let representatives = self.answer.families.iter().map(|f| &f.representative);
+        if self.answer.solutions.iter().chain(representatives).any(|s| self.same(at, &s.q)) {
+            return String::new();
+        }
+        // Outside of the limits its copies are far away.
+        if away > FAR {
+            return String::new();
+        }
+        match away <= SAME {
+            true => "\n  -q is a member of a family\n".into(),
+            false => format!(
+                "\n  -q is {} from the nearest of these: so close are solutions to each other where the arm is nearly singular\n",
+                reading(away, JointKind::Revolute)
+            ),
+        }
     }
 
     fn table<'s>(&self, solutions: impl Iterator<Item = &'s Solution>) -> String {

@@ -81,6 +81,7 @@ pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
             pose: &pose,
             answer: &answer,
             at: at.as_deref(),
+            away: at.as_deref().and_then(|q| solver.nearest(&pose, &answer, q)).map(|n| n.distance),
             nearest: nearest.as_ref(),
         }
         .text()
