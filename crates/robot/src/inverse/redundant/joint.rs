@@ -25,8 +25,12 @@ const VALUES: usize = 96;
 const DENSER: usize = 14;
 /// Neighbours further apart than this have a value between them.
 const APART: f64 = 0.3;
-/// How often the place where a gap is least is closed in on.
+/// How often the place where a gap is least is closed in on; with a double root there, which may be two that are not
+/// quite real, how often in all.
 const DIVISIONS: usize = 24;
+const CLOSER: usize = 48;
+/// What a residual counts for as a gap: less than any gap of an equation without a root.
+const NEARLY: f64 = 1e-3;
 /// Values of each further joint that is given.
 const SLICES: usize = 7;
 
@@ -47,14 +51,22 @@ pub(super) struct ByJoint {
 /// A value of the parameter with its branches.
 struct Sample {
     x: f64,
-    branches: Vec<(Vec<i8>, Vec<f64>)>,
+    branches: Vec<Branch>,
     /// For each node, how far the nearest branch that ended there is from going on; infinite if none ended.
     gaps: Vec<f64>,
 }
 
+/// A solution for a value of the parameter.
+struct Branch {
+    signs: Vec<i8>,
+    q: Vec<f64>,
+    /// Whether two branches are one here: where they meet, or between them where neither is quite real.
+    is_double: bool,
+}
+
 impl Sample {
     fn on(&self, signs: &[i8]) -> Option<&Vec<f64>> {
-        self.branches.iter().find(|b| b.0 == signs).map(|b| &b.1)
+        self.branches.iter().find(|b| b.signs == signs).map(|b| &b.q)
     }
 }
 
@@ -161,9 +173,18 @@ impl ByJoint {
         }
         let leaves = self.scalar.solve(inputs, &[]);
         let good = leaves.iter().filter(|l| l.free == 0 && l.residual <= SOLVED);
-        let branches = good.map(|l| (l.signs.to_vec(), l.outputs.to_vec())).collect();
+        let branch = |l: Leaf| Branch {
+            signs: l.signs.to_vec(),
+            q: l.outputs.to_vec(),
+            is_double: l.multiplicity > 1,
+        };
+        let branches = good.map(branch).collect();
         let mut gaps = vec![f64::INFINITY; self.labels.len()];
         leaves.ended().for_each(|end| gaps[end.node] = end.gap);
+        // Where two roots that are not quite real were taken as one, the residual says how far they are from it.
+        let doubles = leaves.iter().filter(|l| l.free == 0 && l.multiplicity > 1);
+        let nearly = doubles.map(|l| NEARLY * l.residual).fold(f64::INFINITY, f64::min);
+        gaps.iter_mut().for_each(|gap| *gap = gap.min(nearly));
         Sample { x, branches, gaps }
     }
 
@@ -197,8 +218,8 @@ impl ByJoint {
         let samples = self.samples(&mut inputs, [low, high]);
         let mut known: Vec<&Vec<i8>> = vec![];
         for s in samples.iter().flat_map(|s| &s.branches) {
-            if !known.contains(&&s.0) {
-                known.push(&s.0);
+            if !known.contains(&&s.signs) {
+                known.push(&s.signs);
             }
         }
         known.sort_by(|a, b| b.cmp(a));
@@ -238,8 +259,11 @@ impl ByJoint {
                     points.splice(0..0, first);
                     points.extend(after);
                 }
-                if points.len() < 2 {
-                    continue;
+                match points[..] {
+                    [] => continue,
+                    // At the border of what can be reached there may be a single value.
+                    [only] => points.push(only),
+                    _ => {}
                 }
                 let mut along = |x: f64| {
                     let x = if is_angle { super::wrapped(x) } else { x };
@@ -248,6 +272,9 @@ impl ByJoint {
                 };
                 let mut parts = feasible::intervals(&points, &mut along);
                 let mut domain = [points[0].0, points[points.len() - 1].0];
+                if domain[0] == domain[1] && points[0].1 <= SLACK {
+                    parts = vec![domain];
+                }
                 if whole {
                     domain = [-PI, PI];
                     join_round(&mut parts);
@@ -272,10 +299,14 @@ impl ByJoint {
         let at = (0..=VALUES).map(|k| low + (high - low) * k as f64 / VALUES as f64);
         let mut samples: Vec<Sample> = at.map(|x| self.sample(inputs, x)).collect();
         for k in (1..samples.len() - 1).rev() {
-            let [a, b, c] = [k - 1, k, k + 1].map(|k| &samples[k]);
-            if let Some(island) = self.island(inputs, [a, b, c]) {
-                samples.insert(if island.x < b.x { k } else { k + 1 }, island);
+            let three = [k - 1, k, k + 1].map(|k| &samples[k]);
+            let between = [k - 1, k + 1].map(|k| samples[k].x);
+            if let Some(found) = self.hidden(inputs, three, between) {
+                samples.insert(if found.x < samples[k].x { k } else { k + 1 }, found);
             }
+        }
+        if high - low >= TAU && self.space.is_angle[self.parameter()] {
+            self.hidden_at_the_seam(inputs, &mut samples);
         }
         for _ in 0..DENSER {
             let mut denser: Vec<Sample> = vec![];
@@ -298,27 +329,110 @@ impl ByJoint {
         samples
     }
 
-    /// A place between three neighbours with branches that none of them has: where a gap that is least at the middle one
-    /// closes.
-    fn island(&mut self, inputs: &mut [f64], [a, b, c]: [&Sample; 3]) -> Option<Sample> {
+    /// Adds what is [hidden](Self::hidden) where the circle is cut: the first and the last sample are one.
+    fn hidden_at_the_seam(&mut self, inputs: &mut [f64], samples: &mut Vec<Sample>) {
+        let last = samples.len() - 1;
+        let three = [last - 1, 0, 1].map(|k| &samples[k]);
+        let between = [samples[last - 1].x - TAU, samples[1].x];
+        let Some(found) = self.hidden(inputs, three, between) else { return };
+        if found.x >= samples[0].x {
+            samples.insert(1, found);
+        } else {
+            let found = self.sample(inputs, found.x + TAU);
+            samples.insert(last, found);
+        }
+    }
+
+    /// A place near the middle one of three neighbours, between the others: with branches that the two beside it do not
+    /// have (an island), or without branches that they have (a hole).
+    fn hidden(&mut self, inputs: &mut [f64], three: [&Sample; 3], between: [f64; 2]) -> Option<Sample> {
+        let [a, b, c] = three;
         let is_least = |&i: &usize| b.gaps[i].is_finite() && b.gaps[i] <= a.gaps[i] && b.gaps[i] < c.gaps[i];
-        for node in (0..b.gaps.len()).filter(is_least).collect::<Vec<_>>() {
-            let (mut low, mut high) = (a.x, c.x);
-            let mut best = (b.x, b.gaps[node]);
-            for _ in 0..DIVISIONS {
-                let is_left = best.0 - low > high - best.0;
-                let side = if is_left { low - best.0 } else { high - best.0 };
-                let found = self.sample(inputs, best.0 + 0.38 * side);
-                if found.branches.iter().any(|(signs, _)| [a, b, c].iter().all(|s| s.on(signs).is_none())) {
-                    return Some(found);
+        let nodes: Vec<usize> = (0..b.gaps.len()).filter(is_least).collect();
+        let island = nodes.into_iter().find_map(|node| self.island(inputs, three, between, node));
+        island.or_else(|| {
+            let pairs = self.nearing(three);
+            pairs.into_iter().find_map(|pair| self.hole(inputs, b, between, &pair))
+        })
+    }
+
+    /// Where the gap of a node closes that is least at the middle one of three neighbours.
+    fn island(
+        &mut self,
+        inputs: &mut [f64],
+        [a, b, c]: [&Sample; 3],
+        between: [f64; 2],
+        node: usize,
+    ) -> Option<Sample> {
+        let mut search = Lowest::new(between, (b.x, b.gaps[node]));
+        let mut reached: Option<Sample> = None;
+        for division in 0..CLOSER {
+            if division >= DIVISIONS && reached.is_none() {
+                break;
+            }
+            let found = self.sample(inputs, search.next());
+            search.take(found.gaps[node]);
+            let beside = if found.x < b.x { a } else { c };
+            let is_new = |s: &&Branch| b.on(&s.signs).is_none() && beside.on(&s.signs).is_none();
+            match found.branches.iter().filter(is_new).map(|s| s.is_double).reduce(|p, q| p && q) {
+                None => {}
+                Some(false) => return Some(found),
+                // Two real roots may be near.
+                Some(true) if reached.as_ref().is_none_or(|r| found.gaps[node] < r.gaps[node]) => {
+                    reached = Some(found);
                 }
-                let (x, gap) = (found.x, found.gaps[node]);
-                match (gap < best.1, is_left) {
-                    (true, true) => (high, best) = (best.0, (x, gap)),
-                    (true, false) => (low, best) = (best.0, (x, gap)),
-                    (false, true) => low = x,
-                    (false, false) => high = x,
+                Some(true) => {}
+            }
+        }
+        reached
+    }
+
+    /// Branches that differ in one sign and may meet between three neighbours.
+    fn nearing(&self, [a, b, c]: [&Sample; 3]) -> Vec<[Vec<i8>; 2]> {
+        let mut found = vec![];
+        for (number, s) in b.branches.iter().enumerate() {
+            for t in &b.branches[number + 1..] {
+                if s.signs.iter().zip(&t.signs).filter(|(x, y)| x != y).count() != 1 {
+                    continue;
                 }
+                let pair = [&s.signs, &t.signs];
+                let apart = |at: &Sample| self.apart(at, pair);
+                if let Some(middle) = apart(b)
+                    && let Some(before) = apart(a).filter(|&x| middle <= x)
+                    && let Some(after) = apart(c).filter(|&x| middle < x)
+                    && comes_down([before, middle, after])
+                {
+                    found.push(pair.map(Clone::clone));
+                }
+            }
+        }
+        found
+    }
+
+    /// The distance of two branches.
+    fn apart(&self, at: &Sample, [s, t]: [&Vec<i8>; 2]) -> Option<f64> {
+        Some(self.space.distance(at.on(s)?, at.on(t)?))
+    }
+
+    /// A place where two branches that come near one another have ended.
+    fn hole(
+        &mut self,
+        inputs: &mut [f64],
+        middle: &Sample,
+        between: [f64; 2],
+        [s, t]: &[Vec<i8>; 2],
+    ) -> Option<Sample> {
+        let mut search = Lowest::new(between, (middle.x, self.apart(middle, [s, t])?));
+        for _ in 0..DIVISIONS {
+            let found = self.sample(inputs, search.next());
+            let is_one = |b: &Branch| b.is_double && (b.signs == *s || b.signs == *t);
+            match self.apart(&found, [s, t]) {
+                Some(distance) => search.take(distance),
+                // Further on into the hole roots are less real.
+                None if found.branches.iter().any(is_one) => {
+                    search.take(-found.gaps.iter().copied().fold(f64::INFINITY, f64::min));
+                }
+                None => return Some(found),
             }
         }
         None
@@ -326,11 +440,11 @@ impl ByJoint {
 
     /// True if a branch has moved far, or has come to an end.
     fn is_rough(&self, a: &Sample, b: &Sample) -> bool {
-        let moved = |(signs, q): &(Vec<i8>, Vec<f64>)| match b.on(signs) {
-            Some(p) => self.space.distance(q, p) > APART,
+        let moved = |s: &Branch| match b.on(&s.signs) {
+            Some(p) => self.space.distance(&s.q, p) > APART,
             None => true,
         };
-        a.branches.iter().any(moved) || b.branches.iter().any(|(signs, _)| a.on(signs).is_none())
+        a.branches.iter().any(moved) || b.branches.iter().any(|s| a.on(&s.signs).is_none())
     }
 
     /// The last place of a branch between one where it exists and one where it does not.
@@ -355,6 +469,48 @@ impl ByJoint {
             }
         }
         last.map(|q| (inside + turn, excess(&self.ranges, &q)))
+    }
+}
+
+/// True if a distance that is least at the middle one of three places may come down to 0 between them: its square is
+/// nearly a parabola where two roots meet, and has its lowest point there.
+fn comes_down(distances: [f64; 3]) -> bool {
+    let [before, middle, after] = distances.map(|x| x * x);
+    let bend = before + after - 2.0 * middle;
+    middle - (after - before).powi(2) / (8.0 * bend) <= 0.05 * (before + after)
+}
+
+/// The search for the lowest point of a function between two places: the larger side of the best is divided.
+struct Lowest {
+    between: [f64; 2],
+    best: (f64, f64),
+    tried: f64,
+}
+
+impl Lowest {
+    fn new(between: [f64; 2], best: (f64, f64)) -> Self {
+        Lowest { between, best, tried: best.0 }
+    }
+
+    /// Where the function is wanted.
+    fn next(&mut self) -> f64 {
+        let [low, high] = self.between;
+        let (x, _) = self.best;
+        let side = if x - low > high - x { low - x } else { high - x };
+        self.tried = x + 0.38 * side;
+        self.tried
+    }
+
+    /// Its value there.
+    fn take(&mut self, value: f64) {
+        let is_left = self.tried < self.best.0;
+        let ends = usize::from(!is_left);
+        if value < self.best.1 {
+            self.between[1 - ends] = self.best.0;
+            self.best = (self.tried, value);
+        } else {
+            self.between[ends] = self.tried;
+        }
     }
 }
 
