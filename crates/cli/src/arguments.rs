@@ -199,7 +199,7 @@ pub struct JacobianArguments {
     #[arg(long, value_name = "POINT", allow_hyphen_values = true)]
     pub at: Option<String>,
     /// The analytic Jacobian: how fast these values change (quaternion, axis-angle, rpy, or an Euler set such as zyz)
-    #[arg(long, value_name = "SET", conflicts_with = "input")]
+    #[arg(long, value_name = "SET", requires = "q")]
     pub orientation: Option<String>,
     /// Joint velocities: gives the twist, and how the Jacobian changes
     #[arg(long, value_name = "RATES", allow_hyphen_values = true, requires = "q")]
@@ -209,7 +209,7 @@ pub struct JacobianArguments {
     #[arg(long, value_name = "TWIST", allow_hyphen_values = true, requires = "q")]
     pub twist: Option<String>,
     /// Below which singular value (lengths by the arm's size) velocities are damped, and by how much at most
-    #[arg(long, value_name = "THRESHOLD,LARGEST", requires = "twist")]
+    #[arg(long, value_name = "THRESHOLD,LARGEST", requires = "twist", allow_hyphen_values = true)]
     pub damping: Option<String>,
     /// Joint velocities that are wished as far as the twist leaves the joints free
     #[arg(long, value_name = "RATES", allow_hyphen_values = true, requires = "twist")]
@@ -218,7 +218,7 @@ pub struct JacobianArguments {
     #[arg(long, value_name = "WRENCH", allow_hyphen_values = true, requires = "q")]
     pub wrench: Option<String>,
     /// The largest torques (N m; N for slides): says how far the wrench can grow
-    #[arg(long, value_name = "TORQUES", requires = "wrench")]
+    #[arg(long, value_name = "TORQUES", requires = "wrench", allow_hyphen_values = true)]
     pub torques: Option<String>,
     /// The derivatives of the Jacobian by each joint as well
     #[arg(long, requires = "q")]
@@ -229,6 +229,9 @@ pub struct JacobianArguments {
     /// Print the matrix where it is shortest, its determinant in factors, and what happens at each singularity
     #[arg(long, conflicts_with_all = ["q", "input", "symbolic"])]
     pub explain: bool,
+    /// With --explain: singularities of the position alone, as of a planar arm
+    #[arg(long, requires = "explain")]
+    pub position: bool,
     /// How to print --symbolic and --explain
     #[arg(long, value_enum, default_value_t = Format::Terminal, conflicts_with_all = ["q", "input"])]
     pub format: Format,
@@ -270,24 +273,28 @@ pub struct PathArguments {
     #[arg(long, requires = "line")]
     pub screw: bool,
     /// How far the hand may leave its path between samples of the joints, metres
-    #[arg(long, value_name = "METRES", value_parser = positive)]
+    #[arg(long, value_name = "METRES", value_parser = positive, allow_hyphen_values = true)]
     pub max_deviation: Option<f64>,
     /// Seconds between samples
-    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    #[arg(long, value_name = "SECONDS", value_parser = positive, allow_hyphen_values = true)]
     pub dt: Option<f64>,
-    /// Seconds for the whole path where joint limits are not known
-    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    /// Seconds for the whole path, no less than the limits allow
+    #[arg(long, value_name = "SECONDS", value_parser = positive, allow_hyphen_values = true)]
     pub duration: Option<f64>,
-    /// Largest joint velocities, rad/s or m/s: one for all or one each (else the robot file's)
+    /// The hand's speed on the average where no accelerations are known, m/s
+    #[arg(long, value_name = "SPEED", value_parser = positive, conflicts_with = "duration", default_value_t = 0.25)]
+    pub speed: f64,
+    /// Largest joint velocities, as in `100deg/s`, without unit rad/s or m/s: one for all or one each (else the robot
+    /// file's)
     #[arg(long, value_name = "LIMITS")]
     pub velocity: Option<String>,
-    /// Largest joint accelerations, rad/s² or m/s²
+    /// Largest joint accelerations, without unit rad/s² or m/s² (else the robot file's)
     #[arg(long, value_name = "LIMITS")]
     pub acceleration: Option<String>,
-    /// Largest joint jerks, rad/s³ or m/s³
+    /// Largest joint jerks, without unit rad/s³ or m/s³
     #[arg(long, value_name = "LIMITS")]
     pub jerk: Option<String>,
-    /// The time law of a joint move
+    /// The time law of a move from one configuration to another; needs velocities and accelerations
     #[arg(long, value_enum, requires = "joint")]
     pub law: Option<LawName>,
     /// Between several joint configurations go straight, and round each corner at this distance (Euclidean, radians and

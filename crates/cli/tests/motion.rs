@@ -108,6 +108,13 @@ fn refusals() {
     refused(&["path", "ur5", "-q", "0,0,0,0,0,0"], 2, "say where the path goes");
     refused(&["path", "ur5", "--line", "+0.1,0,0"], 2, "say where the path starts");
     refused(&["path", "ur5", "-q", "0,0,0,0,0,0", "--arc", "1,2,3"], 2, "a point and a pose");
+    let start = ["path", "ur5", "-q", "0,0,0,0,0,0"];
+    let one = ["--joint", "1,1,1,1,1,1"];
+    refused(&[&start[..], &one, &["--velocity", "1,2"]].concat(), 2, "2 values");
+    refused(&[&start[..], &one, &["--jerk", "10"]].concat(), 2, "are needed too");
+    refused(&[&start[..], &one, &["--duration", "0.1"]].concat(), 1, "its limit is");
+    refused(&[&start[..], &["--line", "-0.1,0,0"]].concat(), 2, "a displacement with a plus");
+    refused(&["jacobian", "ur5", "--symbolic", "--frame", "shortest", "--at", "3"], 2, "leave --at away");
     refused(&["path", "ur5", "-q", "0,0,0,0,0,0", "--line", "+0.1,0,0", "--dt", "0"], 2, "positive number");
     refused(
         &["path", "ur5", "-q", "0,0,0,0,0,0", "--joint", "1,1,1,1,1,1", "--velocity", "1,2"],

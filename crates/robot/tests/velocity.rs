@@ -531,3 +531,40 @@ fn joint_velocities_as_formulas() {
     let whole = JacobianModel::shortest(&ur5, Reference::Frame(6));
     assert!(RateFormulas::derive(&ur5, &whole).expect("short").is_none(), "no blocks");
 }
+
+/// The textbook's determinants: of the position alone.
+#[test]
+fn singularities_of_the_position() {
+    for (name, determinant) in [("planar-2r", "a1*a2*sin(q2)"), ("articulated-3r", "")] {
+        let d = robot(name);
+        let found = Singularities::of_position(&d, Reference::Tool).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert!(found.is_complete, "{name}");
+        if !determinant.is_empty() {
+            assert_eq!(found.minors[0].determinant.to_string(), determinant);
+        }
+        for s in &found.common {
+            let example = s.example.as_ref().unwrap_or_else(|| panic!("{name} {}", s.factor));
+            assert!(example.lost.iter().all(|w| w[3..].iter().all(|x| *x == 0.0)), "{name}");
+        }
+    }
+    // A link in the middle of the arm: joints behind it do not count.
+    let d = robot("ur5");
+    let found = Singularities::derive(&d, Reference::Frame(3)).expect("three joints move it");
+    assert!(found.minors.iter().all(|m| m.joints == [0, 1, 2]));
+}
+
+/// Moving joint 5 alone makes a UR5 singular: nothing further away is called the nearest.
+#[test]
+fn the_nearest_singularity_is_no_further_than_one_joint_away() {
+    let mut random = Random(13);
+    for name in ["ur5", "puma560", "abb-irb120", "stanford-manipulator"] {
+        let (d, numeric) = numeric(name);
+        for _ in 0..10 {
+            let q = random_configuration(&mut random, 6);
+            let found = nearest_singularity(&numeric, &Viewpoint::tool(), &angles(&d), numeric.reach(), &q);
+            let found = found.unwrap_or_else(|| panic!("{name}"));
+            let wrist = q[4].sin().abs().asin();
+            assert!(found.distance <= wrist + 1e-6, "{name}: {} {wrist}", found.distance);
+        }
+    }
+}

@@ -98,8 +98,11 @@ fn shift(c: char, digits: &str) -> char {
     c.to_digit(10).and_then(|d| digits.chars().nth(d as usize)).unwrap_or(c)
 }
 
-/// A number of a pose for reading: rounding noise below `noise` is 0.
+/// A number of a pose for reading: rounding noise below `noise` is 0, what is not finite a dash.
 pub fn number(x: f64, noise: f64) -> String {
+    if !x.is_finite() {
+        return "—".into();
+    }
     if x.abs() <= noise {
         return "0".into();
     }

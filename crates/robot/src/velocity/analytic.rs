@@ -8,7 +8,7 @@ use crate::scalar::Scalar;
 /// The position's rates, then those of the orientation's values, one column a joint.
 #[derive(Clone, PartialEq, Debug)]
 pub struct AnalyticJacobian<T> {
-    /// x, y, z, then the names of the set's values.
+    /// x, y, z, then the names of the set's values: `qx` … `qw` of a quaternion, `ux` … `uz` and `angle`.
     pub names: Vec<String>,
     /// As many rows as names; one row has an entry a joint.
     pub rows: Vec<Vec<T>>,
@@ -26,7 +26,14 @@ pub fn analytic<T: Scalar>(jacobian: &Jacobian<T>, set: OrientationSet, values: 
     };
     let mut rows = vec![x.clone(), y.clone(), z.clone()];
     rows.extend(rates(set, values).iter().map(turning));
-    let names = ["x", "y", "z"].iter().chain(set.names()).map(|s| s.to_string()).collect();
+    // Components of a quaternion and of an axis are called x, y, z too.
+    let letter = match set {
+        OrientationSet::Quaternion => "q",
+        OrientationSet::AxisAngle => "u",
+        _ => "",
+    };
+    let own = |name: &&str| if name.len() == 1 { format!("{letter}{name}") } else { name.to_string() };
+    let names = ["x", "y", "z"].map(String::from).into_iter().chain(set.names().iter().map(own)).collect();
     AnalyticJacobian { names, rows }
 }
 

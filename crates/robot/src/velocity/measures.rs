@@ -7,9 +7,9 @@ use crate::robot::Robot;
 /// What one block of rows can do: the linear one in metres a radian, or the angular one without unit.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Block {
-    /// The singular values, descending, three at most.
+    /// The singular values, descending: three, or one a joint if those are fewer.
     pub singular_values: Vec<f64>,
-    /// Yoshikawa's measure √det(J Jᵀ), the product of three singular values (1985); 0 with fewer than three joints.
+    /// Yoshikawa's measure (1985), the product of the singular values: √det(J Jᵀ), with fewer than three joints √det(Jᵀ J).
     pub manipulability: f64,
     /// The largest singular value by the smallest; infinite where the block is singular.
     pub condition: f64,
@@ -88,9 +88,9 @@ fn block(columns: Vec<[f64; 6]>) -> Block {
     let values = svd(columns).values;
     let singular_values: Vec<f64> = values.into_iter().take(3).collect();
     let largest = singular_values.first().copied().unwrap_or(0.0);
-    let is_full = singular_values.len() == 3 && singular_values.iter().all(|&v| v > RANK * largest);
+    let is_full = !singular_values.is_empty() && singular_values.iter().all(|&v| v > RANK * largest);
     Block {
-        manipulability: if singular_values.len() == 3 { singular_values.iter().product() } else { 0.0 },
+        manipulability: singular_values.iter().product(),
         condition: condition(&singular_values, is_full),
         singular_values,
     }
@@ -159,9 +159,9 @@ const STEPS: usize = 60;
 /// A step is not longer than this (radians, slides by the arm's length).
 const LONGEST: f64 = 0.3;
 
-/// A singular configuration near `q`, found by Newton's method on the smallest singular value, whose derivative by a
-/// joint is uᵀ (∂J/∂q) v; `None` where it leads to none. It is the nearest in the direction of steepest descent, not
-/// certainly the nearest of all.
+/// A singular configuration near `q`: the nearest of those that Newton's method on the smallest singular value leads to
+/// (whose derivative by a joint is uᵀ (∂J/∂q) v) from `q` itself and from where a joint moved alone comes near to one;
+/// `None` if there are none. Not certainly the nearest of all.
 ///
 /// # Panics
 /// If `q` has not one entry a joint, or the robot has no such frame.
@@ -172,10 +172,70 @@ pub fn nearest_singularity(
     length: f64,
     q: &[f64],
 ) -> Option<NearestSingularity> {
+    let descended = |from: &[f64]| descend(robot, view, is_angle, length, from, q);
+    let mut best = descended(q);
+    for start in alone(robot, view, is_angle, length, q) {
+        let found = descended(&start);
+        let distance = |n: &Option<NearestSingularity>| n.as_ref().map_or(f64::INFINITY, |n| n.distance);
+        if distance(&found) < distance(&best) {
+            best = found;
+        }
+    }
+    best
+}
+
+/// Steps of a joint that is moved alone, up to half a turn or the arm's length either way.
+const ALONE: i32 = 32;
+
+/// For each joint and direction, the first place where the smallest singular value has a minimum.
+fn alone(
+    robot: &Robot<f64>,
+    view: &Viewpoint<f64>,
+    is_angle: &[bool],
+    length: f64,
+    q: &[f64],
+) -> Vec<Vec<f64>> {
+    let smallest = |q: &[f64]| {
+        let whole = Whole::new(&geometric(robot, q, view), is_angle, length);
+        whole.singular_values.last().copied().unwrap_or(0.0)
+    };
+    let here = smallest(q);
+    let mut found = vec![];
+    for j in 0..q.len() {
+        let reach = if is_angle[j] { std::f64::consts::PI } else { length };
+        for way in [reach, -reach] {
+            let at = |k: i32| {
+                let mut q = q.to_vec();
+                q[j] += way * f64::from(k) / f64::from(ALONE);
+                q
+            };
+            let (mut before, mut value) = (f64::INFINITY, here);
+            for k in 1..=ALONE {
+                let next = smallest(&at(k));
+                if value < before && value < next && value < 0.5 * here {
+                    found.push(at(k - 1));
+                    break;
+                }
+                (before, value) = (value, next);
+            }
+        }
+    }
+    found
+}
+
+/// Newton's method from a configuration; the distance is from `q`.
+fn descend(
+    robot: &Robot<f64>,
+    view: &Viewpoint<f64>,
+    is_angle: &[bool],
+    length: f64,
+    from: &[f64],
+    q: &[f64],
+) -> Option<NearestSingularity> {
     let unit = |j: usize| if is_angle[j] { 1.0 } else { length };
     let at = |q: &[f64]| svd(scaled(&geometric(robot, q, view), is_angle, length));
     let smallest = |s: &Svd| s.values.get(q.len().min(6).saturating_sub(1)).copied();
-    let mut here = q.to_vec();
+    let mut here = from.to_vec();
     for _ in 0..STEPS {
         let decomposed = at(&here);
         let value = smallest(&decomposed)?;

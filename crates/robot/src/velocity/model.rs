@@ -38,6 +38,18 @@ impl JacobianModel {
     /// all entries. The twist in any other frame and at any other point of the body follows from
     /// it by a rotation and a lever arm.
     pub fn shortest(description: &Description, body: Reference) -> Self {
+        let frames = rows_before(&Robot::symbolic(description), body);
+        let points: Vec<Reference> = (0..=frames).rev().map(Reference::Frame).collect();
+        Self::shortest_of(description, body, &points)
+    }
+
+    /// The same at the body's own origin.
+    pub fn shortest_at_origin(description: &Description, body: Reference) -> Self {
+        Self::shortest_of(description, body, &[body])
+    }
+
+    /// The shortest along the axes of any frame at one of these origins.
+    fn shortest_of(description: &Description, body: Reference, points: &[Reference]) -> Self {
         let robot = Robot::symbolic(description);
         let q = variables(description);
         let n = rows_before(&robot, body);
@@ -47,8 +59,8 @@ impl JacobianModel {
         middle_first.sort_by_key(|&i| (2 * i).abs_diff(n));
         let mut best: Option<(u64, Viewpoint<Expr>)> = None;
         for &axes in &middle_first {
-            for at in (0..=n).rev() {
-                let [axes, at] = [axes, at].map(Reference::Frame);
+            for &at in points {
+                let axes = Reference::Frame(axes);
                 let view = Viewpoint { axes, body, at, offset: Vector::zero() };
                 let bound = best.as_ref().map_or(u64::MAX, |b| b.0);
                 if let Some(length) = shortener.length(&geometric(&robot, &q, &view), bound) {

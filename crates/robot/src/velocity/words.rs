@@ -27,9 +27,11 @@ pub fn singularities_document(description: &Description, found: &Singularities) 
     blocks.extend(determinants(found));
     blocks.push(Block::Heading(2, Line::new("Singularities")));
     if found.common.is_empty() {
-        blocks.push(Block::Paragraph(Line::new(
-            "No factor that depends on the joints is shared by all of them.",
-        )));
+        blocks.push(Block::Paragraph(Line::new(if found.is_complete {
+            "There are none: a determinant is never 0."
+        } else {
+            "No factor that depends on the joints is shared by all of the determinants."
+        })));
     }
     for (k, s) in found.common.iter().enumerate() {
         blocks.push(Block::Heading(3, Line::new(format!("{}. ", k + 1)).math(vanishing(s.factor))));
@@ -110,7 +112,7 @@ fn matrix(model: &JacobianModel) -> Vec<Block> {
 
 fn determinants(found: &Singularities) -> Vec<Block> {
     let mut blocks = vec![];
-    let is_whole = |m: &Minor| m.rows.len() == 6 && found.minors.len() == 1;
+    let is_whole = |_: &Minor| found.minors.len() == 1;
     if !found.minors.iter().any(is_whole) {
         let text = match found.minors.first() {
             Some(m) if m.rows.len() == 6 => {

@@ -26,11 +26,19 @@ use std::io::Write;
 /// If the robot, the configuration or an option cannot be read, a parameter has no value, or nothing can be written.
 pub fn run(arguments: &JacobianArguments) -> Result<(), Failure> {
     let description = load::robot(&arguments.robot)?;
+    if arguments.frame == "shortest" && arguments.at.is_some() {
+        return Err(Failure::Usage("--frame shortest chooses the point itself; leave --at away".into()));
+    }
     if arguments.symbolic || arguments.explain {
         let format = if arguments.json { Format::Json } else { arguments.format };
         let view = (arguments.frame != "shortest").then(|| viewpoint(&description, arguments)).transpose()?;
         let body = body(&description, arguments)?;
-        let text = symbolic::document(&description, body, view, arguments.explain, format)?;
+        let what = match (arguments.explain, arguments.position) {
+            (false, _) => symbolic::What::Matrix(view),
+            (true, false) => symbolic::What::Singularities,
+            (true, true) => symbolic::What::PositionSingularities,
+        };
+        let text = symbolic::document(&description, body, what, format)?;
         write!(anstream::stdout(), "{text}")?;
         return Ok(());
     }
@@ -201,8 +209,8 @@ fn joint_rates(description: &Description, text: &str, option: &str) -> Result<Ve
     Ok(rates)
 }
 
-/// The unit of a joint's velocity.
-fn rate(x: f64, kind: JointKind) -> String {
+/// A joint's velocity for reading: degrees or metres a second.
+pub fn rate(x: f64, kind: JointKind) -> String {
     match kind {
         JointKind::Revolute => format!("{}°/s", crate::terminal::decimals(x.to_degrees(), 4)),
         JointKind::Prismatic => format!("{} m/s", crate::terminal::decimals(x, 6)),

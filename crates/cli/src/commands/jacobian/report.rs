@@ -75,7 +75,15 @@ fn seen(a: &Answer) -> String {
         true => String::new(),
         false => format!(", at the origin of {}", frame(a.view.at)),
     };
-    format!("{body}{point}, along the axes of {axes}")
+    let offset = match a.view.offset.0.iter().any(|e| !e.is_zero()) {
+        true => {
+            let parts: Vec<String> =
+                a.view.offset.0.iter().map(|e| decimals(e.eval(|_| None).unwrap_or(f64::NAN), 6)).collect();
+            format!(", at ({}) m from its origin", parts.join(", "))
+        }
+        false => String::new(),
+    };
+    format!("{body}{point}{offset}, along the axes of {axes}")
 }
 
 fn matrix(a: &Answer, j: &Jacobian<f64>) -> String {
@@ -197,6 +205,14 @@ fn joint_rates(a: &Answer) -> String {
     let achieved = components(&solved.achieved, ["m/s", "rad/s"]);
     let any = if rows.iter().all(|&r| r) { "" } else { " (some components were left open)" };
     text += &format!("  give the twist {achieved}{any}\n");
+    let Some((wanted, _)) = &a.questions.twist else { return text };
+    let size = wanted.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let off = (0..6)
+        .filter(|&k| rows[k])
+        .any(|k| (solved.achieved[k] / solved.scale - wanted[k]).abs() > 1e-9 * size);
+    if off && solved.damped.is_empty() && solved.scale > 0.0 {
+        text += "  the rest of the twist cannot be had with these joints here\n";
+    }
     if !solved.damped.is_empty() {
         let d = a.questions.damping;
         let values: Vec<String> = solved.damped.iter().map(|&v| number(v, 1e-12)).collect();

@@ -6,9 +6,9 @@ use crate::commands::document;
 use crate::failure::Failure;
 use denavit::description::Description;
 use denavit::explain::{Block, Line, Math};
-use denavit::forward::Reference;
+use denavit::forward::{Proof, Reference};
 use denavit::velocity::{
-    JacobianModel, Minor, REST, ROWS, Singularities, Singularity, Viewpoint, jacobian_document,
+    JacobianModel, Minor, Obstacle, REST, ROWS, Singularities, Singularity, Viewpoint, jacobian_document,
     singularities_document,
 };
 use denavit_symbolic::Expr;
@@ -16,38 +16,70 @@ use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::vocabulary::Vocabulary;
 use serde_json::{Value, json};
 
-/// The matrix at a viewpoint, or where it is shortest; with its singularities if they are asked for.
+/// What is asked for.
+pub enum What {
+    /// The matrix at a viewpoint, or where it is shortest.
+    Matrix(Option<Viewpoint<Expr>>),
+    /// Where the arm is singular.
+    Singularities,
+    /// Where the position is, the orientation left aside.
+    PositionSingularities,
+}
+
+/// The document in a format.
 ///
 /// # Errors
 /// If a formula is too large.
 pub fn document(
     description: &Description,
     body: Reference,
-    view: Option<Viewpoint<Expr>>,
-    explain: bool,
+    what: What,
     format: Format,
 ) -> Result<String, Failure> {
-    if explain {
-        let found =
-            Singularities::derive(description, body).map_err(|why| Failure::GaveUp(why.to_string()))?;
-        return Ok(match format {
-            Format::Json => singularities_json(description, &found),
-            _ => printed(description, &found.jacobian, singularities_document(description, &found), format),
-        });
-    }
-    let model = match view {
-        Some(view) => JacobianModel::derive(description, view),
-        None => JacobianModel::shortest(description, body),
+    let found = match what {
+        What::Singularities => Singularities::derive(description, body),
+        What::PositionSingularities => Singularities::of_position(description, body),
+        What::Matrix(view) => {
+            let model = match view {
+                Some(view) => JacobianModel::derive(description, view),
+                None => JacobianModel::shortest(description, body),
+            };
+            return matrix(description, &model, format);
+        }
     };
+    match found {
+        Ok(found) if format == Format::Json => Ok(singularities_json(description, &found)),
+        Ok(found) => {
+            Ok(printed(description, &found.jacobian, singularities_document(description, &found), format))
+        }
+        // The matrix is there all the same.
+        Err(why @ Obstacle::AlwaysSingular(_)) => {
+            let model = JacobianModel::shortest(description, body);
+            if format == Format::Json {
+                let mut map = model_json(description, &model);
+                map.insert("always_singular".into(), why.to_string().into());
+                return Ok(format!("{}\n", Value::Object(map)));
+            }
+            let mut blocks = jacobian_document(description, &model);
+            blocks.push(Block::Heading(2, Line::new("Singularities")));
+            blocks.push(Block::Paragraph(Line::new(format!("{why}."))));
+            Ok(printed(description, &model, blocks, format))
+        }
+        Err(why) => Err(Failure::GaveUp(why.to_string())),
+    }
+}
+
+/// The matrix and its algorithm.
+fn matrix(description: &Description, model: &JacobianModel, format: Format) -> Result<String, Failure> {
     if let Err(why) = &model.matrix {
         return Err(Failure::GaveUp(format!("the matrix is not expanded: {why}")));
     }
     Ok(match format {
-        Format::Json => format!("{}\n", Value::Object(model_json(description, &model))),
+        Format::Json => format!("{}\n", Value::Object(model_json(description, model))),
         _ => {
-            let mut blocks = jacobian_document(description, &model);
-            blocks.extend(algorithm(&model));
-            printed(description, &model, blocks, format)
+            let mut blocks = jacobian_document(description, model);
+            blocks.extend(algorithm(model));
+            printed(description, model, blocks, format)
         }
     })
 }
@@ -99,7 +131,10 @@ fn model_json(description: &Description, model: &JacobianModel) -> serde_json::M
         "count": {
             "multiplications": count.multiplications, "additions": count.additions, "sincos": count.sincos,
         },
-        "proof": model.proof.to_string(),
+        "proof": match model.proof {
+            Proof::Proved => "proved equal to the derivative of the product of the link transforms".to_string(),
+            other => other.to_string(),
+        },
     });
     match object {
         Value::Object(map) => map,

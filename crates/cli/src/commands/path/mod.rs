@@ -38,7 +38,8 @@ pub fn run(arguments: &PathArguments) -> Result<(), Failure> {
     };
     if let Some(file) = &arguments.plot {
         let picture = plot::svg(&description, &planned, &sampled).map_err(Failure::GaveUp)?;
-        std::fs::write(file, picture)?;
+        std::fs::write(file, picture)
+            .map_err(|e| Failure::Input(format!("error: --plot {}: {e}", file.display())))?;
     }
     write!(anstream::stdout(), "{text}")?;
     if matches!(format, PathFormat::Csv | PathFormat::Ndjson) {

@@ -1,9 +1,12 @@
 //! The motion: followed, and timed.
 
+use super::limits::Known;
 use super::request::Request;
 use crate::arguments::{LawName, PathArguments};
 use crate::commands::ik::unprepared;
+use crate::commands::jacobian::rate;
 use crate::failure::Failure;
+use crate::terminal::decimals;
 use denavit::Robot;
 use denavit::description::Description;
 use denavit::inverse::JointSpace;
@@ -29,9 +32,6 @@ pub struct Planned {
     pub alternatives: Vec<Alternative>,
 }
 
-/// The speed of the hand where nothing else is known, m/s.
-const SPEED: f64 = 0.25;
-
 impl Planned {
     /// Follows and times.
     ///
@@ -41,7 +41,7 @@ impl Planned {
         description: &Description,
         robot: &Robot<f64>,
         request: Request,
-        limits: Option<Limits>,
+        limits: Known,
         arguments: &PathArguments,
     ) -> Result<Self, Failure> {
         match request {
@@ -49,7 +49,7 @@ impl Planned {
             Request::Hand { path, start, words } => {
                 let mut follower = Follower::new(description)
                     .map_err(|why| unprepared(description, &arguments.robot.robot, &why))?;
-                hand(robot, &mut follower, (path, start, words), limits, arguments)
+                hand(description, robot, &mut follower, (path, start, words), limits, arguments)
             }
         }
     }
@@ -59,7 +59,7 @@ impl Planned {
         match &self.followed {
             Some(f) if f.reached < 1.0 => Err(Failure::No(format!(
                 "the path cannot be followed beyond {} % of its way",
-                crate::terminal::decimals(100.0 * f.reached, 4)
+                decimals(100.0 * f.reached, 4)
             ))),
             Some(f) if !f.is_clean() => Err(Failure::No("the path leaves the limits of the joints".into())),
             _ => Ok(()),
@@ -74,7 +74,7 @@ fn refused(e: MotionError) -> Failure {
 fn joints(
     description: &Description,
     points: Vec<Vec<f64>>,
-    limits: Option<Limits>,
+    limits: Known,
     arguments: &PathArguments,
 ) -> Result<Planned, Failure> {
     let n = description.variables().len();
@@ -86,13 +86,10 @@ fn joints(
         }
         false => format!("joint spline through {} way-points", points.len()),
     };
-    let (trajectory, timing): (Box<dyn Trajectory>, String) = match (&limits, arguments.law) {
+    let (trajectory, timing): (Box<dyn Trajectory>, String) = match (&limits.all, arguments.law) {
         (None, _) => {
-            // Without limits a duration; with it the law of the whole.
-            let duration = arguments.duration.unwrap_or(1.0);
             let path = through(&points, arguments.blend)?;
-            let timed = InTime::new(path, duration).map_err(refused)?;
-            (Box::new(timed), format!("a quintic law over {duration} s (no limits are known)"))
+            by_quintic(description, path, (1.0, arguments.duration), limits.velocity.as_deref())?
         }
         (Some(limits), law) if is_one => {
             let law = law.unwrap_or(if limits.jerk().is_some() {
@@ -100,16 +97,20 @@ fn joints(
             } else {
                 LawName::Trapezoidal
             });
-            if law == LawName::JerkLimited && limits.jerk().is_some() {
-                let [a, b] = [0, 1].map(|k| JointState::at_rest(&points[k]));
-                let found = move_within_limits(&a, &b, limits).map_err(refused)?;
-                (Box::new(found), "the fastest within velocity, acceleration and jerk limits".into())
-            } else {
-                let found = synchronised(&points[0], &points[1], limits, law.into()).map_err(refused)?;
-                (Box::new(found), format!("{} law, all joints together, within the limits", law.words()))
-            }
+            let found: (Box<dyn Trajectory>, String) =
+                if law == LawName::JerkLimited && limits.jerk().is_some() {
+                    let [a, b] = [0, 1].map(|k| JointState::at_rest(&points[k]));
+                    let found = move_within_limits(&a, &b, limits).map_err(refused)?;
+                    (Box::new(found), "the fastest within velocity, acceleration and jerk limits".into())
+                } else {
+                    let found = synchronised(&points[0], &points[1], limits, law.into()).map_err(refused)?;
+                    (Box::new(found), format!("{} law, all joints together, within the limits", law.words()))
+                };
+            over_duration(found, arguments.duration)?
         }
-        (Some(limits), _) => timed(through(&points, arguments.blend)?, limits)?,
+        (Some(limits), _) => {
+            over_duration(timed(through(&points, arguments.blend)?, limits)?, arguments.duration)?
+        }
     };
     let space = JointSpace::new(description, 1.0);
     let outside = (0..n).find(|&j| {
@@ -144,10 +145,11 @@ fn timed<P: JointPath + 'static>(path: P, limits: &Limits) -> Result<(Box<dyn Tr
 }
 
 fn hand(
+    description: &Description,
     robot: &Robot<f64>,
     follower: &mut Follower,
     (path, start, words): (Box<dyn HandPath + Send + Sync>, Option<Vec<f64>>, String),
-    limits: Option<Limits>,
+    limits: Known,
     arguments: &PathArguments,
 ) -> Result<Planned, Failure> {
     let mut options = Options::default();
@@ -180,22 +182,16 @@ fn hand(
     let (trajectory, timing): (Box<dyn Trajectory>, String) = if followed.reached <= 0.0 {
         (Box::new(Still(start)), "it does not start".into())
     } else {
-        match &limits {
+        match &limits.all {
             Some(limits) if limits.jerk().is_some() => {
                 let smooth = smooth(robot, &*path, &mut followed)?;
-                timed(smooth, limits)?
+                over_duration(timed(smooth, limits)?, arguments.duration)?
             }
-            Some(limits) => timed(followed.joints.clone(), limits)?,
+            Some(limits) => over_duration(timed(followed.joints.clone(), limits)?, arguments.duration)?,
             None => {
-                let length = path.length() * followed.reached;
-                let duration = arguments.duration.unwrap_or((length / SPEED).max(0.5));
-                let timing = match arguments.duration {
-                    Some(_) => format!("a quintic law over {duration} s"),
-                    None => {
-                        format!("a quintic law at {SPEED} m/s on the average (no joint limits are known)")
-                    }
-                };
-                (Box::new(InTime::new(followed.joints.clone(), duration).map_err(refused)?), timing)
+                let usual = (path.length() * followed.reached / arguments.speed).max(0.5);
+                let velocity = limits.velocity.as_deref();
+                by_quintic(description, followed.joints.clone(), (usual, arguments.duration), velocity)?
             }
         }
     };
@@ -229,6 +225,117 @@ impl<P: JointPath> InTime<P> {
     fn new(path: P, duration: f64) -> Result<Self, MotionError> {
         let law = Polynomial::quintic([0.0; 3], [path.end(), 0.0, 0.0], duration)?;
         Ok(InTime { path, law })
+    }
+
+    /// The largest velocity of each joint, looked for at many parameters, the knots of the path among them.
+    fn fastest(&self) -> Vec<f64> {
+        let end = self.path.end();
+        let between = (0..=1000).map(|k| end * f64::from(k) / 1000.0);
+        let mut fastest = vec![0.0_f64; self.path.dof()];
+        for s in between.chain(self.path.knots().iter().copied()) {
+            let speed = self.law.at(self.time(s)).velocity;
+            for (f, d) in fastest.iter_mut().zip(self.path.eval(s).dq) {
+                *f = f.max((d * speed).abs());
+            }
+        }
+        fastest
+    }
+
+    /// When a parameter is reached: the law grows.
+    fn time(&self, s: f64) -> f64 {
+        let (mut low, mut high) = (0.0, self.law.duration());
+        for _ in 0..40 {
+            let middle = f64::midpoint(low, high);
+            if self.law.at(middle).position < s { low = middle } else { high = middle }
+        }
+        f64::midpoint(low, high)
+    }
+}
+
+/// A path by a quintic law: over the duration asked for, or the usual one, longer if velocities are limited.
+fn by_quintic<P: JointPath + Clone + 'static>(
+    description: &Description,
+    path: P,
+    (usual, asked): (f64, Option<f64>),
+    velocity: Option<&[f64]>,
+) -> Result<(Box<dyn Trajectory>, String), Failure> {
+    let duration = asked.unwrap_or(usual);
+    let timed = InTime::new(path.clone(), duration).map_err(refused)?;
+    let variables = description.variables();
+    let name = |j: usize| variables[j].symbol.name();
+    let fastest = timed.fastest();
+    let Some(limits) = velocity else {
+        let most = fastest.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
+        let most = most.map(|(j, v)| {
+            format!("; the fastest joint, {}, turns at {}", name(j), rate(*v, variables[j].kind))
+        });
+        let words = format!(
+            "a quintic law over {} s, no limits are known{}",
+            decimals(duration, 4),
+            most.unwrap_or_default()
+        );
+        return Ok((Box::new(timed), words));
+    };
+    let over = fastest.iter().zip(limits).map(|(v, l)| v / l).enumerate();
+    let (joint, ratio) = over.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0));
+    match asked {
+        Some(d) if ratio > 1.0 + 1e-9 => Err(Failure::No(format!(
+            "--duration {d}: {} would turn at {}, its limit is {}; {} s are needed",
+            name(joint),
+            rate(fastest[joint], variables[joint].kind),
+            rate(limits[joint], variables[joint].kind),
+            decimals(d * ratio, 4)
+        ))),
+        _ => {
+            let needed = duration * ratio.max(if asked.is_some() { 1.0 } else { 1e-6 });
+            let duration = if asked.is_some() { duration } else { needed.max(usual) };
+            let words = format!(
+                "a quintic law over {} s within the velocity limits, no accelerations are known",
+                decimals(duration, 4)
+            );
+            Ok((Box::new(InTime::new(path, duration).map_err(refused)?), words))
+        }
+    }
+}
+
+/// A motion that takes longer, or as long as it does.
+fn over_duration(
+    (motion, words): (Box<dyn Trajectory>, String),
+    asked: Option<f64>,
+) -> Result<(Box<dyn Trajectory>, String), Failure> {
+    let own = motion.duration();
+    match asked {
+        None => Ok((motion, words)),
+        Some(d) if d < own * (1.0 - 1e-9) => {
+            Err(Failure::No(format!("--duration {d}: the limits allow no less than {} s", decimals(own, 4))))
+        }
+        Some(d) => {
+            let factor = if own > 0.0 { d / own } else { 1.0 };
+            Ok((Box::new(Slowed { motion, factor }), format!("{words}, slowed down to {d} s")))
+        }
+    }
+}
+
+/// A motion slowed down.
+struct Slowed {
+    motion: Box<dyn Trajectory>,
+    factor: f64,
+}
+
+impl Trajectory for Slowed {
+    fn dof(&self) -> usize {
+        self.motion.dof()
+    }
+
+    fn duration(&self) -> f64 {
+        self.motion.duration() * self.factor
+    }
+
+    fn eval(&self, t: f64) -> JointState {
+        let mut state = self.motion.eval(t / self.factor);
+        state.qd.iter_mut().for_each(|v| *v /= self.factor);
+        state.qdd.iter_mut().for_each(|a| *a /= self.factor * self.factor);
+        state
     }
 }
 

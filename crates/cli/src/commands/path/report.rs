@@ -96,16 +96,26 @@ fn event(d: &Description, event: &Event) -> String {
     let variables = d.variables();
     match &event.kind {
         EventKind::Singular { factor, place, crossed } => {
-            let how = if *crossed { "passes through" } else { "touches, or nearly," };
+            let how = match (crossed, event.s) {
+                (false, 0.0) => "starts in",
+                (true, _) => "passes through",
+                _ => "touches, or nearly,",
+            };
             format!("{at} it {how} a singular configuration{}", why(factor, place))
         }
         EventKind::Limit { joint, limit } => {
             let v = variables[*joint];
-            format!("{at} {} leaves its limit {}", v.symbol.name(), reading(*limit, v.kind))
+            let how = if event.s == 0.0 { "is beyond" } else { "leaves" };
+            format!("{at} {} {how} its limit {}", v.symbol.name(), reading(*limit, v.kind))
         }
         EventKind::WithinLimits { joint } => {
             format!("{at} {} is within its limits again", variables[*joint].symbol.name())
         }
+        EventKind::End { reachable: false, .. } if event.s == 0.0 && variables.len() < 6 => format!(
+            "{at} it {}: the orientation is to be kept too, and {} joints cannot do both",
+            styled("leaves what the hand can reach", NAME),
+            variables.len()
+        ),
         EventKind::End { reachable: false, factor, place } => {
             format!("{at} it {}{}", styled("leaves what the hand can reach", NAME), why(factor, place))
         }

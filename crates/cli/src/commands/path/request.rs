@@ -85,12 +85,21 @@ fn a_pose(
     arguments: &PathArguments,
     before: Option<&Transform<f64>>,
 ) -> Result<Transform<f64>, Failure> {
+    let named = |e: Failure| match e {
+        Failure::Usage(why) => {
+            let why = why.replacen("--pose: ", "", 1);
+            Failure::Usage(format!(
+                "`{text}`: {why}, or a displacement with a plus in front, as in +0.1,0,-0.2"
+            ))
+        }
+        other => other,
+    };
     match (text.trim().strip_prefix('+'), before) {
         (Some(rest), Some(before)) => {
-            let by = pose::read(rest, &arguments.orientation, Goal::Position)?;
+            let by = pose::read(rest, &arguments.orientation, Goal::Position).map_err(named)?;
             Ok(Transform::from_rotation_translation(before.rotation, before.translation + by.translation))
         }
-        _ => pose::read(text.trim(), &arguments.orientation, Goal::Pose),
+        _ => pose::read(text.trim(), &arguments.orientation, Goal::Pose).map_err(named),
     }
 }
 

@@ -78,7 +78,8 @@ impl Sampled {
                 .chain(s.pose.translation.0)
                 .chain(rotation.into_iter().flatten())
                 .chain([s.manipulability]);
-            let line: Vec<String> = values.map(|x| (x + 0.0).to_string()).collect();
+            // The shortest decimals that read back as the same double.
+            let line: Vec<String> = values.map(|x| serde_json::json!(x + 0.0).to_string()).collect();
             // Writing to memory does not fail.
             let _ = writeln!(out, "{}", line.join(","));
         }

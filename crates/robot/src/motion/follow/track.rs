@@ -96,10 +96,16 @@ pub struct Follower {
 const SINGULAR: f64 = 1e-3;
 /// Places between samples at which the deviation is measured.
 const PLACES: usize = 8;
+/// A factor this small is 0.
+const ZERO: f64 = 1e-13;
 /// A configuration solves a pose if it misses it by no more (see [`crate::inverse::Solution::residual`]).
 const SOLVED: f64 = 1e-9;
 /// How strongly joints to spare go to the middle of their limits, by s.
 const CENTRING: f64 = 2.0;
+/// Steps of s below this are taken however far the hand is from its path between their ends.
+const SMALL: f64 = 1e-5;
+/// Two singular configurations by the same factor within this of s are one.
+const TOGETHER: f64 = 2e-3;
 /// Halvings of a step in search of a zero of a factor.
 const HALVINGS: u32 = 12;
 
@@ -375,7 +381,7 @@ impl<'a> Walk<'a> {
         let size = self.follower.size();
         let fits =
             deviation[0] <= self.options.max_deviation && deviation[1] * size <= self.options.max_deviation;
-        fits.then_some(Step { s: to, q, slopes: [before, behind], deviation })
+        (fits || h < SMALL).then_some(Step { s: to, q, slopes: [before, behind], deviation })
     }
 
     fn take(&mut self, step: Step) {
@@ -414,10 +420,13 @@ impl<'a> Walk<'a> {
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
         for (u, mut kind) in found {
             let (s, q) = (self.s + u * (step.s - self.s), self.at(step, u));
-            if let EventKind::Singular { place, .. } = &mut kind {
+            if let EventKind::Singular { place, factor, .. } = &mut kind {
                 // One that was met a moment ago is the same.
-                let is_same =
-                    |e: &Event| matches!(e.kind, EventKind::Singular { .. }) && (e.s - s).abs() < 1e-7;
+                let own = *factor;
+                let is_same = |e: &Event| {
+                    matches!(e.kind, EventKind::Singular { factor, .. } if factor == own)
+                        && (e.s - s).abs() < TOGETHER
+                };
                 if self.events.iter().any(is_same) {
                     continue;
                 }
@@ -439,7 +448,20 @@ impl<'a> Walk<'a> {
     ) {
         let expr = self.follower.factors.as_ref().and_then(|f| f.get(k)).map(|f| f.expr);
         let singular = |crossed: bool| EventKind::Singular { factor: expr, place: None, crossed };
-        if (a < 0.0) != (b < 0.0) || a == 0.0 {
+        if a.abs() <= ZERO || b.abs() <= ZERO {
+            // The rest of the part, without the end that is 0.
+            let is_first = a.abs() <= ZERO;
+            found.push((if is_first { from } else { to }, singular(false)));
+            let beside = 1e-3 * (to - from);
+            let (low, high) = if is_first { (from + beside, to) } else { (from, to - beside) };
+            let value = self.follower.values(&self.at(step, if is_first { low } else { high }))[k];
+            if depth > 0 && value.abs() > ZERO {
+                let ends = if is_first { [value, b] } else { [a, value] };
+                self.factor(step, k, [low, high], ends, depth - 1, found);
+            }
+            return;
+        }
+        if (a < 0.0) != (b < 0.0) {
             let (mut low, mut high) = (from, to);
             for _ in 0..50 {
                 let middle = f64::midpoint(low, high);
@@ -526,6 +548,10 @@ impl<'a> Walk<'a> {
             .and_then(|(k, _)| self.follower.factors.as_ref()?.get(k))
             .map(|f| f.expr);
         let place = self.follower.place(&self.q);
+        // What is met right before the end is the end itself.
+        let end = self.s;
+        self.events
+            .retain(|e| !(matches!(e.kind, EventKind::Singular { .. }) && end - e.s < TOGETHER && e.s > 0.0));
         let kind = EventKind::End { reachable, factor, place };
         self.events.push(Event { s: self.s, q: self.q.clone(), kind });
     }

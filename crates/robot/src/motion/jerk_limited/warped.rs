@@ -61,6 +61,8 @@ pub(super) fn smooth<P: JointPath>(path: &P) -> Result<(), MotionError> {
             return Err(MotionError::Kink { s });
         }
         greatest = before.ddq.iter().chain(&behind.ddq).fold(greatest, |m, a| m.max(a.abs()));
+        // On a line all of q'' is rounding.
+        greatest = before.dq.iter().fold(greatest, |m, v| m.max(v.abs() / path.end()));
         let pairs = before.ddq.iter().zip(&behind.ddq);
         jumps.push((s, pairs.fold(0.0f64, |m, (a, b)| m.max((a - b).abs()))));
         last = s;

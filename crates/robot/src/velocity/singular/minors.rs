@@ -17,10 +17,12 @@ pub struct Minor {
     pub determinant: Factored,
 }
 
-/// The largest square parts whose determinants are not identically 0; none if all are.
-pub fn all(matrix: &Jacobian<Expr>, order: &[Symbol]) -> Result<Vec<Minor>, Refusal> {
-    let n = matrix.columns.len();
-    let size = n.min(6);
+/// The largest square parts of some rows whose determinants are not identically 0; none if all are. Joints that do not move
+/// the body at all are left out.
+pub fn all(matrix: &Jacobian<Expr>, allowed: &[usize], order: &[Symbol]) -> Result<Vec<Minor>, Refusal> {
+    let moving = moving(matrix, allowed);
+    let n = moving.len();
+    let size = n.min(allowed.len());
     let entries: Vec<Expr> = matrix.columns.iter().flatten().copied().collect();
     let mut ring = Ring::new(&entries, order);
     let mut rows: Vec<Vec<Poly>> = vec![];
@@ -28,8 +30,10 @@ pub fn all(matrix: &Jacobian<Expr>, order: &[Symbol]) -> Result<Vec<Minor>, Refu
         rows.push(row.into_iter().map(|e| ring.polynomial(e)).collect::<Result<_, _>>()?);
     }
     let mut minors = vec![];
-    for chosen in subsets(6, size) {
+    for chosen in subsets(allowed.len(), size) {
+        let chosen: Vec<usize> = chosen.into_iter().map(|r| allowed[r]).collect();
         for joints in subsets(n, size) {
+            let joints: Vec<usize> = joints.into_iter().map(|j| moving[j]).collect();
             let part: Vec<Vec<&Poly>> =
                 chosen.iter().map(|&r| joints.iter().map(|&j| &rows[r][j]).collect()).collect();
             let p = determinant(&mut ring, part)?;
@@ -42,9 +46,15 @@ pub fn all(matrix: &Jacobian<Expr>, order: &[Symbol]) -> Result<Vec<Minor>, Refu
     Ok(minors)
 }
 
-/// The number of rows, or of joints, if that is less.
-pub fn rank(matrix: &Jacobian<Expr>) -> usize {
-    matrix.columns.len().min(6)
+/// The joints that move the body in some of these rows.
+fn moving(matrix: &Jacobian<Expr>, allowed: &[usize]) -> Vec<usize> {
+    let moves = |j: &usize| allowed.iter().any(|&r| !matrix.columns[*j][r].is_zero());
+    (0..matrix.columns.len()).filter(moves).collect()
+}
+
+/// The number of rows, or of joints that move the body, if that is less.
+pub fn rank(matrix: &Jacobian<Expr>, allowed: &[usize]) -> usize {
+    moving(matrix, allowed).len().min(allowed.len())
 }
 
 /// All ways to choose `k` of `0 … n−1`, in order.

@@ -7,7 +7,7 @@ mod sample;
 pub use minors::Minor;
 pub use place::Place;
 
-use super::geometric::{Viewpoint, geometric};
+use super::geometric::{Jacobian, Viewpoint, geometric};
 use super::inverse::RateFormulas;
 use super::measures::Whole;
 use super::model::JacobianModel;
@@ -98,14 +98,26 @@ impl Singularities {
     /// # Errors
     /// See [`Obstacle`].
     pub fn derive(description: &Description, body: Reference) -> Result<Self, Obstacle> {
-        let jacobian = JacobianModel::shortest(description, body);
+        Self::of(description, JacobianModel::shortest(description, body), &[0, 1, 2, 3, 4, 5])
+    }
+
+    /// Those of the position of a body's origin, its orientation left aside.
+    ///
+    /// # Errors
+    /// See [`Obstacle`].
+    pub fn of_position(description: &Description, body: Reference) -> Result<Self, Obstacle> {
+        Self::of(description, JacobianModel::shortest_at_origin(description, body), &[0, 1, 2])
+    }
+
+    /// Those of some rows of a Jacobian.
+    fn of(description: &Description, jacobian: JacobianModel, rows: &[usize]) -> Result<Self, Obstacle> {
         let matrix = jacobian.matrix.as_ref().map_err(|why| Obstacle::TooLarge(*why))?;
         if matrix.columns.len() > MAX_JOINTS {
             return Err(Obstacle::ManyJoints(matrix.columns.len()));
         }
-        let minors = minors::all(matrix, &symbol_order(description)).map_err(Obstacle::TooLarge)?;
+        let minors = minors::all(matrix, rows, &symbol_order(description)).map_err(Obstacle::TooLarge)?;
         let Some(first) = minors.first() else {
-            return Err(Obstacle::AlwaysSingular(minors::rank(matrix).saturating_sub(1)));
+            return Err(Obstacle::AlwaysSingular(minors::rank(matrix, rows).saturating_sub(1)));
         };
         let shared: Vec<(Expr, u32)> = first
             .determinant
@@ -128,7 +140,7 @@ impl Singularities {
             .map(|&(factor, power)| {
                 let example = finder
                     .find(factor, &all)
-                    .map(|(robot, q)| example(description, &robot, &jacobian.view, q));
+                    .map(|(robot, q)| example(description, &robot, &jacobian.view, rows, q));
                 Singularity { factor, power, zeros: zeros(factor), example }
             })
             .collect();
@@ -147,17 +159,38 @@ fn varies(description: &Description, e: Expr) -> bool {
     e.symbols().iter().any(|s| variables.iter().any(|v| v.symbol == *s))
 }
 
-/// What happens at a configuration.
-fn example(description: &Description, robot: &Robot<f64>, view: &Viewpoint<Expr>, q: Vec<f64>) -> Example {
+/// What happens at a configuration, in some rows.
+fn example(
+    description: &Description,
+    robot: &Robot<f64>,
+    view: &Viewpoint<Expr>,
+    rows: &[usize],
+    q: Vec<f64>,
+) -> Example {
     let space = JointSpace::new(description, robot.reach());
     let length = if space.reach > 0.0 { space.reach } else { 1.0 };
-    // The shortest Jacobian is taken at an origin.
+    // The Jacobian is taken at an origin.
     let view = Viewpoint { axes: view.axes, body: view.body, at: view.at, offset: Vector::zero() };
-    let whole = Whole::new(&geometric(robot, &q, &view), &space.is_angle, length);
-    let unit = |j: usize| if space.is_angle[j] { 1.0 } else { length };
-    let in_units = |v: &Vec<f64>| normal(v.iter().enumerate().map(|(j, x)| x * unit(j)).collect());
+    let mut jacobian = geometric(robot, &q, &view);
+    for column in &mut jacobian.columns {
+        (0..6).filter(|r| !rows.contains(r)).for_each(|r| column[r] = 0.0);
+    }
+    // Joints that do not move the body are free in every configuration.
+    let moving: Vec<usize> =
+        (0..q.len()).filter(|&j| jacobian.columns[j].iter().any(|x| *x != 0.0)).collect();
+    let part = Jacobian { columns: moving.iter().map(|&j| jacobian.columns[j]).collect() };
+    let is_angle: Vec<bool> = moving.iter().map(|&j| space.is_angle[j]).collect();
+    let whole = Whole::new(&part, &is_angle, length);
+    let in_units = |v: &Vec<f64>| {
+        let mut all = vec![0.0; q.len()];
+        for (&j, x) in moving.iter().zip(v) {
+            all[j] = if space.is_angle[j] { *x } else { x * length };
+        }
+        normal(all)
+    };
     let free: Vec<Vec<f64>> = whole.free.iter().map(in_units).collect();
-    let lost = whole.lost.iter().map(|w| {
+    let is_asked = |w: &&[f64; 6]| (0..6).all(|r| rows.contains(&r) || w[r].abs() < 1e-9);
+    let lost = whole.lost.iter().filter(is_asked).map(|w| {
         let n = normal((0..6).map(|k| if k < 3 { w[k] / length } else { w[k] }).collect());
         std::array::from_fn(|k| n[k])
     });
