@@ -202,7 +202,8 @@ fn gained(example: &Example) -> Option<Line> {
         }
         _ => {
             let names: Vec<String> = moving.iter().map(|j| (j + 1).to_string()).collect();
-            format!("gained: joints {} move at first with the body at rest", names.join(", "))
+            let verb = if let [_] = names[..] { "joint {} moves" } else { "joints {} move" };
+            format!("gained: {} at first with the body at rest", verb.replace("{}", &names.join(", ")))
         }
     };
     Some(Line::new(text))
