@@ -356,8 +356,8 @@ impl<'a> Walk<'a> {
         let guess: Vec<f64> = self.q.iter().zip(&self.slope).map(|(q, d)| q + h * d).collect();
         let q = self.follower.corrected(self.path, to, &guess)?;
         // Another branch is further from the guess than this one curves.
-        let moved = distance(self.follower.space(), &self.q, &q);
-        let off = distance(self.follower.space(), &guess, &q);
+        let moved = self.distance(&self.q, &q);
+        let off = self.distance(&guess, &q);
         if off > 0.3 * moved + 1e-7 || moved > 0.3 {
             return None;
         }
@@ -382,6 +382,13 @@ impl<'a> Walk<'a> {
         let fits =
             deviation[0] <= self.options.max_deviation && deviation[1] * size <= self.options.max_deviation;
         (fits || h < SMALL).then_some(Step { s: to, q, slopes: [before, behind], deviation })
+    }
+
+    /// The largest difference of a joint, slides by the arm's size; whole turns count.
+    fn distance(&self, a: &[f64], b: &[f64]) -> f64 {
+        let is_angle = &self.follower.space().is_angle;
+        let unit = |j: usize| if is_angle[j] { 1.0 } else { self.follower.size() };
+        a.iter().zip(b).enumerate().map(|(j, (x, y))| (x - y).abs() / unit(j)).fold(0.0, f64::max)
     }
 
     fn take(&mut self, step: Step) {
@@ -567,10 +574,4 @@ impl<'a> Walk<'a> {
             certified: is_known.then_some(self.certified),
         }
     }
-}
-
-/// The largest difference of a joint, slides by the reach; whole turns count.
-fn distance(space: &JointSpace, a: &[f64], b: &[f64]) -> f64 {
-    let unit = |j: usize| if space.is_angle[j] { 1.0 } else { space.reach.max(1e-3) };
-    a.iter().zip(b).enumerate().map(|(j, (x, y))| (x - y).abs() / unit(j)).fold(0.0, f64::max)
 }
