@@ -1,40 +1,25 @@
 //! The built command: what it prints, where, and how it ends.
 
+mod common;
+
+use common::{fed, text};
 use denavit::catalogue;
 use denavit_symbolic::parse::parse;
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Expr, Symbol, equal};
 use serde_json::Value;
-use std::io::Write;
 use std::process::{Command, Output, Stdio};
 
 fn denavit(arguments: &[&str]) -> Output {
     fed(arguments, "")
 }
 
-/// Runs the command with text on standard input.
-fn fed(arguments: &[&str], input: &str) -> Output {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_denavit"))
-        .args(arguments)
-        .env("NO_COLOR", "1")
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the command starts");
-    let mut stdin = child.stdin.take().expect("a pipe");
-    // The command may end without reading its input.
-    let _ = stdin.write_all(input.as_bytes());
-    drop(stdin);
-    child.wait_with_output().expect("the command ends")
-}
-
 fn stdout(output: &Output) -> String {
-    String::from_utf8(output.stdout.clone()).expect("UTF-8")
+    text(&output.stdout)
 }
 
 fn stderr(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).expect("UTF-8")
+    text(&output.stderr)
 }
 
 fn json(arguments: &[&str]) -> Value {

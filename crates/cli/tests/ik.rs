@@ -1,31 +1,15 @@
 //! `denavit ik`: solutions, derivations, refusals, as the built command prints them.
 
-use serde_json::Value;
-use std::io::Write;
-use std::process::{Command, Output, Stdio};
+mod common;
 
-fn fed(arguments: &[&str], input: &str) -> Output {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_denavit"))
-        .args(arguments)
-        .env("NO_COLOR", "1")
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the command starts");
-    let mut stdin = child.stdin.take().expect("a pipe");
-    // The command may end without reading its input.
-    let _ = stdin.write_all(input.as_bytes());
-    drop(stdin);
-    child.wait_with_output().expect("the command ends")
-}
+use common::{fed, text};
+use serde_json::Value;
 
 /// Exit code, standard output, standard error.
 fn ik(arguments: &[&str]) -> (i32, String, String) {
     let all: Vec<&str> = ["ik"].iter().chain(arguments).copied().collect();
     let output = fed(&all, "");
-    let text = |b: Vec<u8>| String::from_utf8(b).expect("UTF-8");
-    (output.status.code().unwrap_or(-1), text(output.stdout), text(output.stderr))
+    (output.status.code().unwrap_or(-1), text(&output.stdout), text(&output.stderr))
 }
 
 fn json(arguments: &[&str], code: i32) -> Value {

@@ -1,32 +1,13 @@
 //! `jacobian` and `path`: what they print, and what they refuse.
 
+mod common;
+
+use common::{fed, text};
 use serde_json::Value;
-use std::io::Write;
-use std::process::{Command, Output, Stdio};
-
-fn denavit(arguments: &[&str], input: &str) -> Output {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_denavit"))
-        .args(arguments)
-        .env("NO_COLOR", "1")
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the command starts");
-    let mut stdin = child.stdin.take().expect("a pipe");
-    // The command may end without reading its input.
-    let _ = stdin.write_all(input.as_bytes());
-    drop(stdin);
-    child.wait_with_output().expect("the command ends")
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).expect("UTF-8")
-}
 
 #[track_caller]
 fn printed(arguments: &[&str], code: i32) -> String {
-    let output = denavit(arguments, "");
+    let output = fed(arguments, "");
     assert_eq!(output.status.code(), Some(code), "{arguments:?}: {}", text(&output.stderr));
     text(&output.stdout)
 }
@@ -40,7 +21,7 @@ fn json(arguments: &[&str], code: i32) -> Value {
 
 #[track_caller]
 fn refused(arguments: &[&str], code: i32, says: &str) {
-    let output = denavit(arguments, "");
+    let output = fed(arguments, "");
     let why = text(&output.stderr);
     assert_eq!(output.status.code(), Some(code), "{arguments:?}: {why}");
     assert!(why.contains(says), "{arguments:?}: {why}");
@@ -59,7 +40,7 @@ fn a_jacobian_in_numbers() {
     assert_eq!(column[3..], [0.0, 0.0, 1.0]);
     assert_eq!(found["rank"], 6);
     // The same line in a stream, to the last bit.
-    let output = denavit(&["jacobian", "ur5", "--input", "-"], "[0.1,-0.5,0.7,0.2,0.4,0.3]\n[1]\n");
+    let output = fed(&["jacobian", "ur5", "--input", "-"], "[0.1,-0.5,0.7,0.2,0.4,0.3]\n[1]\n");
     assert_eq!(output.status.code(), Some(3));
     let lines: Vec<Value> =
         text(&output.stdout).lines().map(|l| serde_json::from_str(l).expect("JSON")).collect();
@@ -175,12 +156,12 @@ fn joint_moves_keep_their_limits() {
 
 #[test]
 fn way_points_from_a_file() {
-    let output = denavit(
+    let output = fed(
         &["path", "ur5", "--via", "-", "--json"],
         "[0,-1,1,0,1,0]\n[0.3,-1,1.2,0,1,0]\n\n[0.5,-0.7,1,0,1,0.4]\n",
     );
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let wrong = denavit(&["path", "ur5", "--via", "-"], "[0,-1,1,0,1,0]\n[1,2]\nhello\n");
+    let wrong = fed(&["path", "ur5", "--via", "-"], "[0,-1,1,0,1,0]\n[1,2]\nhello\n");
     assert_eq!(wrong.status.code(), Some(3));
     let why = text(&wrong.stderr);
     assert!(why.contains("-:2: 2 values") && why.contains("-:3: not JSON"), "{why}");
