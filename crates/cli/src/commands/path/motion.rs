@@ -163,9 +163,10 @@ fn hand(
     };
     let start = match start {
         Some(q) => q,
-        // The branch that goes furthest, within the limits, past the fewest singular configurations.
+        // The branch that goes furthest, within the limits, past the fewest singular configurations; of equals the first.
         None => alternatives
             .iter()
+            .rev()
             .max_by(|a, b| {
                 let key =
                     |x: &Alternative| (x.reached >= 1.0, x.within_limits, std::cmp::Reverse(x.singular));
