@@ -26,9 +26,13 @@ pub struct JacobianModel {
 impl JacobianModel {
     /// The Jacobian at a viewpoint.
     pub fn derive(description: &Description, view: Viewpoint<Expr>) -> Self {
+        Self::with(description, view, &mut Shortener::new(description))
+    }
+
+    fn with(description: &Description, view: Viewpoint<Expr>, shortener: &mut Shortener) -> Self {
         let robot = Robot::symbolic(description);
         let plain = geometric(&robot, &variables(description), &view);
-        let matrix = Shortener::new(description).matrix(&plain);
+        let matrix = shortener.matrix(&plain);
         let algorithm = traced(description, matrix.as_ref().unwrap_or(&plain));
         let proof = proof(description, &robot, &view, &algorithm);
         JacobianModel { view, matrix, algorithm, proof }
@@ -63,14 +67,23 @@ impl JacobianModel {
                 let axes = Reference::Frame(axes);
                 let view = Viewpoint { axes, body, at, offset: Vector::zero() };
                 let bound = best.as_ref().map_or(u64::MAX, |b| b.0);
+                if best.is_some() && shortener.written > ENOUGH {
+                    break;
+                }
                 if let Some(length) = shortener.length(&geometric(&robot, &q, &view), bound) {
                     best = Some((length, view));
                 }
             }
         }
-        Self::derive(description, best.map_or(Viewpoint::of(body, Reference::Base), |b| b.1))
+        let view = best.map_or(Viewpoint::of(body, Reference::Base), |b| b.1);
+        Self::with(description, view, &mut shortener)
     }
 }
+
+/// Symbols written after which no more viewpoints are tried.
+const ENOUGH: u64 = 4_000;
+/// What an entry counts that is too long to be written.
+const REFUSED: u64 = 500;
 
 /// Symbols printed; 0 and ±1 cost nothing.
 fn weight(e: Expr) -> u64 {
@@ -86,16 +99,24 @@ pub(super) fn variables(description: &Description) -> Vec<Expr> {
 struct Shortener {
     order: Vec<Symbol>,
     known: FxHashMap<Expr, Result<Expr, Refusal>>,
+    /// The symbols of all entries written so far.
+    written: u64,
 }
 
 impl Shortener {
     fn new(description: &Description) -> Self {
-        Shortener { order: symbol_order(description), known: FxHashMap::default() }
+        Shortener { order: symbol_order(description), known: FxHashMap::default(), written: 0 }
     }
 
     fn entry(&mut self, e: Expr) -> Result<Expr, Refusal> {
-        let shorter = || readable::simplify(e, &self.order).map(|form| form.expr);
-        *self.known.entry(e).or_insert_with(shorter)
+        if let Some(known) = self.known.get(&e) {
+            return *known;
+        }
+        let shorter = readable::simplify(e, &self.order).map(|form| form.expr);
+        // What is refused was worked at as well.
+        self.written += shorter.map_or(REFUSED, weight);
+        self.known.insert(e, shorter);
+        shorter
     }
 
     fn matrix(&mut self, plain: &Jacobian<Expr>) -> Result<Jacobian<Expr>, Refusal> {

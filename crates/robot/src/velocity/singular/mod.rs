@@ -98,6 +98,7 @@ impl Singularities {
     /// # Errors
     /// See [`Obstacle`].
     pub fn derive(description: &Description, body: Reference) -> Result<Self, Obstacle> {
+        bounded(description)?;
         Self::of(description, JacobianModel::shortest(description, body), &[0, 1, 2, 3, 4, 5])
     }
 
@@ -106,15 +107,13 @@ impl Singularities {
     /// # Errors
     /// See [`Obstacle`].
     pub fn of_position(description: &Description, body: Reference) -> Result<Self, Obstacle> {
+        bounded(description)?;
         Self::of(description, JacobianModel::shortest_at_origin(description, body), &[0, 1, 2])
     }
 
     /// Those of some rows of a Jacobian.
     fn of(description: &Description, jacobian: JacobianModel, rows: &[usize]) -> Result<Self, Obstacle> {
         let matrix = jacobian.matrix.as_ref().map_err(|why| Obstacle::TooLarge(*why))?;
-        if matrix.columns.len() > MAX_JOINTS {
-            return Err(Obstacle::ManyJoints(matrix.columns.len()));
-        }
         let minors = minors::all(matrix, rows, &symbol_order(description)).map_err(Obstacle::TooLarge)?;
         let Some(first) = minors.first() else {
             return Err(Obstacle::AlwaysSingular(minors::rank(matrix, rows).saturating_sub(1)));
@@ -147,6 +146,12 @@ impl Singularities {
         let rates = RateFormulas::derive(description, &jacobian).map_err(Obstacle::TooLarge)?;
         Ok(Singularities { jacobian, minors, common, is_complete, rates })
     }
+}
+
+/// Whether there are few enough joints.
+fn bounded(description: &Description) -> Result<(), Obstacle> {
+    let joints = description.variables().len();
+    if joints > MAX_JOINTS { Err(Obstacle::ManyJoints(joints)) } else { Ok(()) }
 }
 
 fn power(determinant: &Factored, factor: Expr) -> u32 {
