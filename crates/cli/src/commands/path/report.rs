@@ -64,7 +64,7 @@ pub fn remarks(d: &Description, planned: &Planned) -> String {
     );
     text += match followed.certified {
         Some(true) => {
-            "  between the samples the factors of det J keep their signs: no other singular configuration is passed\n"
+            "  no other change of sign of a factor of det J between the samples (intervals over estimated boxes of joints)\n"
         }
         Some(false) => {
             "  between some samples a factor of det J comes so near to 0 that its sign is not certain\n"
