@@ -14,6 +14,7 @@
 mod error;
 pub mod follow;
 pub mod hand;
+mod in_time;
 pub mod jerk_limited;
 mod limits;
 pub mod path;
@@ -23,6 +24,7 @@ pub mod timing;
 mod trajectory;
 
 pub use error::MotionError;
+pub use in_time::{InTime, Slowed};
 pub use jerk_limited::JerkLimited;
 pub use limits::{Limits, Range};
 pub use path::JointPath;

@@ -13,9 +13,9 @@ use denavit::inverse::JointSpace;
 use denavit::motion::follow::{Alternative, Followed, Follower, Options};
 use denavit::motion::hand::HandPath;
 use denavit::motion::path::{Blend, Ends, JointPath, PiecewisePath, blended, cubic_spline, cubic_spline_at};
-use denavit::motion::profile::{Law, Polynomial, Profile, synchronised};
+use denavit::motion::profile::{Law, synchronised};
 use denavit::motion::{
-    JerkLimited, JointState, Limits, MotionError, TimeOptimal, Trajectory, move_within_limits,
+    InTime, JerkLimited, JointState, Limits, MotionError, Slowed, TimeOptimal, Trajectory, move_within_limits,
 };
 
 /// A path with its timing.
@@ -216,43 +216,6 @@ fn smooth(
     Ok(spline)
 }
 
-/// A path run through by a quintic law.
-struct InTime<P> {
-    path: P,
-    law: Polynomial,
-}
-
-impl<P: JointPath> InTime<P> {
-    fn new(path: P, duration: f64) -> Result<Self, MotionError> {
-        let law = Polynomial::quintic([0.0; 3], [path.end(), 0.0, 0.0], duration)?;
-        Ok(InTime { path, law })
-    }
-
-    /// The largest velocity of each joint, looked for at many parameters, the knots of the path among them.
-    fn fastest(&self) -> Vec<f64> {
-        let end = self.path.end();
-        let between = (0..=1000).map(|k| end * f64::from(k) / 1000.0);
-        let mut fastest = vec![0.0_f64; self.path.dof()];
-        for s in between.chain(self.path.knots().iter().copied()) {
-            let speed = self.law.at(self.time(s)).velocity;
-            for (f, d) in fastest.iter_mut().zip(self.path.eval(s).dq) {
-                *f = f.max((d * speed).abs());
-            }
-        }
-        fastest
-    }
-
-    /// When a parameter is reached: the law grows.
-    fn time(&self, s: f64) -> f64 {
-        let (mut low, mut high) = (0.0, self.law.duration());
-        for _ in 0..40 {
-            let middle = f64::midpoint(low, high);
-            if self.law.at(middle).position < s { low = middle } else { high = middle }
-        }
-        f64::midpoint(low, high)
-    }
-}
-
 /// A path by a quintic law: over the duration asked for, or the usual one, longer if velocities are limited.
 fn by_quintic<P: JointPath + Clone + 'static>(
     description: &Description,
@@ -312,51 +275,7 @@ fn over_duration(
         }
         Some(d) => {
             let factor = if own > 0.0 { d / own } else { 1.0 };
-            Ok((Box::new(Slowed { motion, factor }), format!("{words}, slowed down to {d} s")))
-        }
-    }
-}
-
-/// A motion slowed down.
-struct Slowed {
-    motion: Box<dyn Trajectory>,
-    factor: f64,
-}
-
-impl Trajectory for Slowed {
-    fn dof(&self) -> usize {
-        self.motion.dof()
-    }
-
-    fn duration(&self) -> f64 {
-        self.motion.duration() * self.factor
-    }
-
-    fn eval(&self, t: f64) -> JointState {
-        let mut state = self.motion.eval(t / self.factor);
-        state.qd.iter_mut().for_each(|v| *v /= self.factor);
-        state.qdd.iter_mut().for_each(|a| *a /= self.factor * self.factor);
-        state
-    }
-}
-
-impl<P: JointPath> Trajectory for InTime<P> {
-    fn dof(&self) -> usize {
-        self.path.dof()
-    }
-
-    fn duration(&self) -> f64 {
-        self.law.duration()
-    }
-
-    fn eval(&self, t: f64) -> JointState {
-        let at = self.law.at(t);
-        let point = self.path.eval(at.position);
-        let pairs = point.dq.iter().zip(&point.ddq);
-        JointState {
-            qd: point.dq.iter().map(|d| d * at.velocity).collect(),
-            qdd: pairs.map(|(d, dd)| d * at.acceleration + dd * at.velocity * at.velocity).collect(),
-            q: point.q,
+            Ok((Box::new(Slowed::new(motion, factor)), format!("{words}, slowed down to {d} s")))
         }
     }
 }
