@@ -36,6 +36,8 @@ pub enum Command {
     Path(PathArguments),
     /// Derive link transforms, the simplified forward model, and the shortest algorithm for it
     Derive(DeriveArguments),
+    /// Hold formulas that somebody printed against the robot: proved, or wrong and where the slip is
+    Check(CheckArguments),
     /// Write source code in a chosen language, in a folder that builds and tests itself
     Generate(GenerateArguments),
 }
@@ -173,6 +175,43 @@ pub struct IkArguments {
     pub format: Format,
     /// Print JSON
     #[arg(long, conflicts_with = "format")]
+    pub json: bool,
+}
+
+/// `check`
+///
+/// Reads single equations, matrices, products, chains of definitions, Jacobians, inverse formulas and numeric answers in
+/// Markdown, LaTeX, plain text or TOML, and straight-line code in Python or MATLAB. With one argument, the robot is the
+/// Denavit-Hartenberg table that stands in the document. Exit codes: 0 all is right, 1 something is wrong, 3 something
+/// cannot be read (and nothing is wrong).
+#[derive(Args)]
+pub struct CheckArguments {
+    /// The robot; may be left out where the document holds its table
+    #[command(flatten)]
+    pub robot: RobotArguments,
+    /// The document (.md, .tex, .txt, .toml, .py, .m)
+    pub file: Option<PathBuf>,
+    /// What the left side of the first statement means: `T06`, `A3`, `R03`, `"T06 3,4"` for an entry
+    #[arg(long, value_name = "NAME")]
+    pub claim: Option<String>,
+    /// How far a numeric answer may be off, in its own unit (default: half a unit of its last digit, or what rounded
+    /// angles explain)
+    #[arg(long, value_name = "TOLERANCE")]
+    pub tolerance: Option<f64>,
+    /// Points for each claim, from a TOML file: prints a sheet for the teacher
+    #[arg(long, value_name = "FILE")]
+    pub rubric: Option<PathBuf>,
+    /// List the claims that are right, too
+    #[arg(short, long)]
+    pub all: bool,
+    /// Write the document with its slips marked
+    #[arg(long, value_name = "FILE")]
+    pub html: Option<PathBuf>,
+    /// Print the list as Markdown
+    #[arg(long, conflicts_with = "json")]
+    pub markdown: bool,
+    /// Print JSON
+    #[arg(long)]
     pub json: bool,
 }
 

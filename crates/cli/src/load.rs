@@ -83,7 +83,7 @@ fn from_file(arguments: &RobotArguments) -> Result<Description, Failure> {
     let text = contents(name).map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
     let outcome = match kind {
         None => read_toml(&text),
-        Some(kind) => read_table(&text, kind, &options(arguments)),
+        Some(kind) => read_table(&text, kind, &table_options(arguments)),
     };
     read(name, &text, outcome)
 }
@@ -100,7 +100,8 @@ fn contents(name: &str) -> io::Result<String> {
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
-fn options(arguments: &RobotArguments) -> TableOptions {
+/// How tables are to be read.
+pub fn table_options(arguments: &RobotArguments) -> TableOptions {
     TableOptions {
         convention: arguments.convention.map(Into::into),
         angles_in_degrees: arguments.angles.map(|u| u == AngleUnit::Deg),

@@ -14,6 +14,7 @@
 //! - [`generate`]: source code in several languages.
 
 pub mod catalogue;
+pub mod check;
 pub mod description;
 pub mod explain;
 pub mod forward;

@@ -44,3 +44,9 @@ pub(crate) fn is_letter(c: char) -> bool {
 pub fn name(letter: char) -> Option<&'static str> {
     LETTERS.iter().find(|g| g.1 == letter).map(|g| g.0)
 }
+
+/// The letter with a name, that of TeX; `vartheta` and `varphi` are θ and φ.
+pub fn letter(name: &str) -> Option<char> {
+    let name = name.strip_prefix("var").unwrap_or(name);
+    LETTERS.iter().find(|g| g.0 == name).map(|g| g.1)
+}

@@ -13,7 +13,7 @@ pub mod equality;
 pub mod expr;
 pub mod factor;
 pub mod fraction;
-mod greek;
+pub mod greek;
 mod lattice;
 pub mod parse;
 pub mod poly;
@@ -21,6 +21,7 @@ pub mod print;
 pub mod rational;
 pub mod readable;
 pub mod ring;
+pub mod slip;
 pub mod vocabulary;
 
 pub use angle::Angle;

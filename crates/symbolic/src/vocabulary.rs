@@ -115,6 +115,21 @@ impl Vocabulary {
         self.in_degrees
     }
 
+    /// The words that are declared as such, in alphabetical order.
+    pub fn declared(&self) -> impl Iterator<Item = &str> {
+        self.words.keys().map(String::as_str)
+    }
+
+    /// True if [`Vocabulary::words`] has the word.
+    pub fn is_declared(&self, word: &str) -> bool {
+        let number = |rest: &str| rest.parse::<u32>().ok().filter(|n| n.to_string() == rest);
+        let angle = |rest: &str| number(rest).is_some_and(|n| self.angles.contains_key(&n));
+        let sliding = |rest: &str| number(rest).is_some_and(|n| self.sliding.contains_key(&n));
+        self.words.contains_key(word)
+            || word.strip_prefix('q').is_some_and(|rest| angle(rest) || sliding(rest))
+            || word.strip_prefix('θ').is_some_and(angle)
+    }
+
     /// The declared words in alphabetical order, the spellings of numbered variables included.
     pub fn words(&self) -> Vec<String> {
         let numbered = self.angles.keys().flat_map(|n| ["q", "θ"].map(|letter| format!("{letter}{n}")));

@@ -287,10 +287,10 @@ fn refused_words() {
     check_error(&v, "C7", 0..2, "there is no angle number 7", None);
     check_error(
         &v,
-        "a + tan(q1)",
+        "a + log(q1)",
         4..7,
-        "unknown function `tan`",
-        Some("the functions are sin, cos, sqrt and atan2"),
+        "unknown function `log`",
+        Some("the functions are sin, cos, tan, sqrt, atan2, arcsin, arccos and arctan"),
     );
     check_error(
         &v,
@@ -383,9 +383,9 @@ fn refused_structure() {
         "cos^{-1}(q1)",
         0..12,
         "a negative power of a function has two readings",
-        Some("write `1/cos(…)`, or use atan2 for the inverse function"),
+        Some("write `1/cos(…)`, or `arccos(…)` for the inverse function"),
     );
-    let errors = parse("zz + \u{200b} + tan(a) )", &v).unwrap_err();
+    let errors = parse("zz + \u{200b} + log(a) )", &v).unwrap_err();
     let spans: Vec<_> = errors.iter().map(|e| e.span.clone()).collect();
     assert_eq!(spans, [0..2, 5..8, 11..14], "{errors:?}");
 }

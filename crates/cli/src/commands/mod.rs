@@ -1,5 +1,6 @@
 //! One file a verb; `stream` is what the verbs with `--input` share.
 
+pub mod check;
 pub mod derive;
 pub mod document;
 pub mod fk;

@@ -1,9 +1,10 @@
 //! Powers and functions, angles in degrees, and the bounds on what is built.
 
+use super::functions::Function;
 use super::grammar::{Parser, Read, Value};
 use super::lexer::Kind;
 use super::measured::Context;
-use super::words::Function;
+use super::syntax::SyntaxKind;
 use super::{MAX_EXPONENT, MAX_OPERATORS, ParseError};
 use crate::angle::Angle;
 use crate::expr::{Expr, Node, Symbol};
@@ -11,6 +12,8 @@ use crate::rational::Rational;
 
 /// The most operators on one way from the whole formula to a name in it.
 const MAX_HEIGHT: u32 = 3_000;
+/// The most nodes of an expression that is written out, where tangents and arcs write their argument twice.
+const MAX_SIZE: u64 = 1_000_000;
 /// The largest number, in bits of numerator and denominator.
 const MAX_BITS: u64 = 4_096;
 /// The largest number under a root, which is tried for being a square.
@@ -34,7 +37,8 @@ impl Parser<'_> {
         }
         let power = base.expr.powi(n);
         let scaled = base.bits.saturating_mul(u64::from(n.unsigned_abs()));
-        self.made(power, &[Value { bits: scaled, ..base }], start)
+        let value = self.made(power, &[Value { bits: scaled, ..base }], start)?;
+        Ok(self.part(value, start, |p| SyntaxKind::Power(p.boxed(base.part), n)))
     }
 
     /// `^` and a whole number, if `^` comes next.
@@ -76,16 +80,65 @@ impl Parser<'_> {
 
     pub fn call(&mut self, f: Function, start: usize) -> Read<Value> {
         self.at += 1;
-        let power = self.exponent()?;
-        let open = self.at;
-        let Some(Kind::Open(closing)) = self.peek().cloned() else {
-            return Err(self
-                .unexpected("`(`")
-                .hint(format!("`{}` takes its argument in brackets", f.name())));
+        let is_letter = self.span_of(start).len() == 1;
+        let (f, power) = match (self.exponent()?, f.inverse()) {
+            (Some(-1), Some(inverse)) if self.parts.is_some() && !is_letter => (inverse, None),
+            (power, _) => (f, power),
         };
-        self.at += 1;
+        let open = self.at;
         let outer = self.context;
         self.context = if f.takes_angle() { Context::Angle } else { Context::Plain };
+        let (first, second) = self.arguments(f)?;
+        self.context = outer;
+        if power.is_some_and(i32::is_negative) {
+            let e = ParseError::new(self.span_from(start), "a negative power of a function has two readings");
+            return Err(match f.inverse() {
+                Some(inverse) => e.hint(format!(
+                    "write `1/{}(…)`, or `{}(…)` for the inverse function",
+                    f.name(),
+                    inverse.name()
+                )),
+                None => e.hint(format!("write `1/{}(…)`", f.name())),
+            });
+        }
+        let first = if f.takes_angle() { self.angle(first, open)? } else { first };
+        if is_letter && !is_linear(first.expr) {
+            let e = ParseError::new(self.span_from(start), "the argument is not a sum of angles");
+            return Err(e.hint("write `cos(…)` for a cosine, or the missing index"));
+        }
+        let value = self.called(f, first, second, start)?;
+        let value = self.part(value, start, |p| match f {
+            Function::Sqrt => SyntaxKind::Root(Box::new(p.unbracketed(first.part))),
+            _ => {
+                SyntaxKind::Call(f, [Some(first), second].iter().flatten().map(|a| p.take(a.part)).collect())
+            }
+        });
+        match power {
+            Some(n) => self.raised(value, n, start),
+            None => Ok(value),
+        }
+    }
+
+    /// The arguments of a function: in brackets, or one fraction or root.
+    fn arguments(&mut self, f: Function) -> Read<(Value, Option<Value>)> {
+        let open = self.at;
+        let closing = match self.peek() {
+            Some(Kind::Open(closing)) => *closing,
+            Some(Kind::Fraction | Kind::Root) if f != Function::Atan2 => {
+                let argument = self.primary()?;
+                if let Some(Kind::Caret) = self.peek() {
+                    let e =
+                        ParseError::new(self.span_from(open), "a power behind an argument without brackets");
+                    return Err(e.hint(format!("write `{}(…)^2` or `{0}((…)^2)`", f.name())));
+                }
+                return Ok((argument, None));
+            }
+            _ => {
+                let hint = format!("`{}` takes its argument in brackets", f.name());
+                return Err(self.unexpected("`(`").hint(hint));
+            }
+        };
+        self.at += 1;
         let first = self.sum(true)?;
         let second = match (f, self.peek()) {
             (Function::Atan2, Some(Kind::Comma)) => {
@@ -97,42 +150,50 @@ impl Parser<'_> {
             }
             _ => None,
         };
-        self.context = outer;
         self.close(closing, open)?;
-        if power.is_some_and(i32::is_negative) {
-            let e = ParseError::new(self.span_from(start), "a negative power of a function has two readings");
-            return Err(e.hint(format!("write `1/{}(…)`, or use atan2 for the inverse function", f.name())));
-        }
-        let value = match (f, second) {
-            (Function::Sin | Function::Cos, _) => {
-                let angle = self.angle(first, open)?;
-                if self.span_of(start).len() == 1 && !is_linear(angle.expr) {
-                    let e = ParseError::new(self.span_from(start), "the argument is not a sum of angles");
-                    return Err(e.hint("write `cos(…)` for a cosine, or the missing index"));
+        Ok((first, second))
+    }
+
+    /// The value of a function.
+    fn called(&self, f: Function, first: Value, second: Option<Value>, start: usize) -> Read<Value> {
+        let error = |message: &str| Err(ParseError::new(self.span_from(start), message));
+        match f {
+            Function::Sin | Function::Cos => {
+                let expr = f.of(&[first.expr]);
+                Ok(Value { height: first.height + 2, bits: 0, expr, has_unit: false, ..first })
+            }
+            Function::Tan => {
+                if first.expr.cos().is_zero() {
+                    return error("the value is not a finite number");
                 }
-                let trig = if f == Function::Sin { angle.expr.sin() } else { angle.expr.cos() };
-                Value { height: angle.height + 2, bits: 0, expr: trig, has_unit: false, ..angle }
+                let made = self.made(f.of(&[first.expr]), &[first, first], start)?;
+                Ok(Value { height: first.height + 3, bits: 0, has_unit: false, ..made })
             }
-            (Function::Tan, _) => {
-                let (sin, cos) = self.angle(first, open)?.expr.sin_cos();
-                if cos.is_zero() {
-                    return Err(ParseError::new(self.span_from(start), "the value is not a finite number"));
+            Function::Sqrt => self.root(first, start),
+            Function::Arcsin | Function::Arccos => {
+                if let Some(r) = first.expr.as_number() {
+                    if 2 * bits(&r) > MAX_ROOT_BITS {
+                        return Err(self.too_large(start));
+                    }
+                    if (&Rational::ONE - &(&r * &r)).is_negative() {
+                        return error("no real angle has this sine or cosine");
+                    }
                 }
-                Value { height: first.height + 3, bits: 0, expr: sin / cos, has_unit: false, ..first }
+                let made = self.made(f.of(&[first.expr]), &[first, first], start)?;
+                Ok(Value { height: first.height + 5, has_unit: true, ..made })
             }
-            (Function::Sqrt, _) => self.root(first, start)?,
-            (Function::Atan2, Some(x)) => {
-                Value { has_unit: true, ..self.made(first.expr.atan2(x.expr), &[first, x], start)? }
+            Function::Arctan => {
+                Ok(Value { has_unit: true, ..self.made(f.of(&[first.expr]), &[first], start)? })
             }
-            (Function::Atan2, None) => first,
-        };
-        match power {
-            Some(n) => self.raised(value, n, start),
-            None => Ok(value),
+            Function::Atan2 => {
+                let Some(x) = second else { return error("`atan2(y, x)` takes two arguments") };
+                let expr = f.of(&[first.expr, x.expr]);
+                Ok(Value { has_unit: true, ..self.made(expr, &[first, x], start)? })
+            }
         }
     }
 
-    pub fn root(&mut self, inner: Value, start: usize) -> Read<Value> {
+    pub fn root(&self, inner: Value, start: usize) -> Read<Value> {
         if inner.expr.as_number().is_some_and(|r| r.is_negative()) {
             return Err(ParseError::new(self.span_from(start), "the root of a negative number"));
         }
@@ -153,7 +214,9 @@ impl Parser<'_> {
         let mut angle = Angle::of(value.expr);
         let degrees = std::mem::take(&mut angle.radians);
         angle.turns = &angle.turns + &(&degrees / &Rational::from(180));
-        Ok(Value { expr: self.without_radians(angle.to_expr()), ..value })
+        let value = Value { expr: self.without_radians(angle.to_expr()), ..value };
+        self.part_in_degrees(&value, !degrees.is_zero())?;
+        Ok(value)
     }
 
     pub fn without_radians(&self, e: Expr) -> Expr {
@@ -174,9 +237,13 @@ impl Parser<'_> {
         if height > MAX_HEIGHT {
             return Err(ParseError::new(self.span_from(start), "too many operators inside one another"));
         }
+        let size = parts.iter().fold(1_u64, |s, p| s.saturating_add(p.size));
+        if size > MAX_SIZE {
+            return Err(ParseError::new(self.span_from(start), "the formula becomes too large"));
+        }
         let has_name = parts.iter().any(|p| p.has_name);
         let has_unit = parts.iter().any(|p| p.has_unit);
-        Ok(Value { expr, height, bits: sum, has_name, has_unit })
+        Ok(Value { expr, height, bits: sum, has_name, has_unit, size, part: 0 })
     }
 
     pub fn too_large(&self, start: usize) -> ParseError {

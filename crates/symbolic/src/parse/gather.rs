@@ -2,8 +2,8 @@
 
 use super::ParseError;
 use super::lexer::{Kind, Lexer, Token};
-use super::normalise::is_greek;
-use super::words::{self, Letter, Piece};
+use super::normalise::{Glyph, is_greek};
+use super::words::{self, Letter, Next, Piece};
 use crate::expr::Expr;
 
 /// The longest word, in letters and digits.
@@ -18,6 +18,9 @@ impl Lexer<'_> {
         while let Some(c) = self.char(self.at) {
             let next = self.after_space(self.at);
             let next_char = self.char(next);
+            if is_greek(c) && words::ends_in_inverse_name(&letters) {
+                break;
+            }
             if c.is_alphabetic()
                 && let Some(length) = self.declared_with_brackets()
             {
@@ -70,7 +73,7 @@ impl Lexer<'_> {
             self.tokens.push(Token { kind: Kind::Atom(Expr::int(1)), span });
             return;
         }
-        match words::split(&letters, self.is_called(), &self.names, self.text) {
+        match words::split(&letters, self.next(), &self.names, self.text) {
             Ok(pieces) => self.tokens.extend(pieces.into_iter().map(|(piece, span)| match piece {
                 Piece::Atom(e) => Token { kind: Kind::Atom(e), span },
                 Piece::Function(f) => Token { kind: Kind::Function(f), span },
@@ -127,13 +130,17 @@ impl Lexer<'_> {
         c.is_alphabetic() && (is_full || is_greek(c) && c != 'π' && !letters.last().is_some_and(is_symbol))
     }
 
-    /// True if a bracket follows, perhaps behind a power.
-    fn is_called(&self) -> bool {
+    /// What follows a word that ends here.
+    fn next(&self) -> Next {
         let mut at = self.after_space(self.at);
         if let Some((_, end, _)) = self.exponent(at) {
             at = self.after_space(end);
         }
-        matches!(self.char(at), Some('(' | '[' | '{'))
+        match self.marks.get(at).map(|m| &m.glyph) {
+            Some(Glyph::Char('(' | '[' | '{')) => Next::Bracket,
+            Some(Glyph::Char('√') | Glyph::Fraction) => Next::Argument,
+            _ => Next::Other,
+        }
     }
 
     /// A whole exponent at `at`: whether it has a sign, the place behind it, and its digits.

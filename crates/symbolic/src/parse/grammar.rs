@@ -1,17 +1,21 @@
-//! Tokens to an expression.
+//! Tokens to an expression, and to the parts of the printed formula where these are asked for.
 //!
 //! ```text
-//! sum     = ["-"] product { ("+" | "-") product }
+//! sum     = [sign] product { sign product }
+//! sign    = "+" | "-" | "±" | "∓"                     the last two only with the parts
 //! product = factor { ["*"] factor | "/" factor }      from left to right; "/" and then no sign is refused;
 //!                                                     of whole words: a unit behind any factor is that of all before it
 //! factor  = {"-"} primary ["^" integer]
-//! primary = number [unit] | name | "(" sum ")" | "√" primary | function ["^" integer] "(" sum { "," sum } ")"
-//!         | "\frac" "{" sum "}" "{" sum "}"
+//! primary = number [unit] | name | "(" sum ")" | "√" primary | function ["^" integer] arguments
+//!         | "\frac" "{" sum "}" "{" sum "}"          with the parts, `cos^{-1}` is the inverse function
+//! arguments = "(" sum { "," sum } ")" | "√" primary | "\frac" "{" sum "}" "{" sum "}"
 //! ```
 
 use super::calls::{RADIAN, bits};
 use super::lexer::{Kind, Token};
 use super::measured::{Context, Measures, Term};
+use super::parts::Parts;
+use super::syntax::{Sign, Syntax, SyntaxKind};
 use super::{MAX_NESTING, ParseError};
 use crate::expr::Expr;
 use crate::vocabulary::Vocabulary;
@@ -25,18 +29,28 @@ pub(super) fn formula<'a>(
     measures: Option<&'a mut dyn Measures>,
     is_angle: bool,
 ) -> (Option<Expr>, Vec<ParseError>) {
-    let mut p = Parser {
-        text,
-        tokens,
-        vocabulary,
-        measures,
-        context: Context::Whole,
-        at: 0,
-        depth: 0,
-        errors: vec![],
-    };
+    let mut p = Parser::new(text, tokens, vocabulary, measures);
     match p.whole(is_angle) {
-        Ok(e) => (Some(e), p.errors),
+        Ok(value) => (Some(p.without_radians(value.expr)), p.errors),
+        Err(e) => {
+            p.errors.push(e);
+            (None, p.errors)
+        }
+    }
+}
+
+/// As [`formula`], with the parts of it, and in the further notations of print.
+pub(super) fn syntax(
+    text: &str,
+    tokens: &[Token],
+    vocabulary: &Vocabulary,
+) -> (Option<(Expr, Syntax)>, Vec<ParseError>) {
+    let mut p = Parser { parts: Some(Parts::default()), ..Parser::new(text, tokens, vocabulary, None) };
+    match p.whole(false) {
+        Ok(value) => {
+            let expr = p.without_radians(value.expr);
+            (p.parts.map(|mut parts| (expr, parts.take(value.part))), p.errors)
+        }
         Err(e) => {
             p.errors.push(e);
             (None, p.errors)
@@ -54,12 +68,16 @@ pub(super) struct Value {
     pub has_name: bool,
     /// A unit occurs that no other one cancels.
     pub has_unit: bool,
+    /// The nodes of the expression, written out.
+    pub size: u64,
+    /// The number of the part it came from, where parts are asked for.
+    pub part: usize,
 }
 
 impl Value {
     /// A number, or what is made of numbers.
     pub fn plain(expr: Expr, height: u32, bits: u64) -> Self {
-        Value { expr, height, bits, has_name: false, has_unit: false }
+        Value { expr, height, bits, has_name: false, has_unit: false, size: 1, part: 0 }
     }
 }
 
@@ -72,6 +90,8 @@ pub(super) struct Parser<'a> {
     pub context: Context,
     pub at: usize,
     pub depth: usize,
+    /// The parts of the formula, if they are asked for; `±` and `cos^{-1}` are read then.
+    pub parts: Option<Parts>,
     /// What is wrong without being in the way of reading on.
     pub errors: Vec<ParseError>,
 }
@@ -79,7 +99,17 @@ pub(super) struct Parser<'a> {
 /// What a rule of the grammar gives.
 pub(super) type Read<T> = Result<T, ParseError>;
 
-impl Parser<'_> {
+impl<'a> Parser<'a> {
+    fn new(
+        text: &'a str,
+        tokens: &'a [Token],
+        vocabulary: &'a Vocabulary,
+        measures: Option<&'a mut dyn Measures>,
+    ) -> Self {
+        let context = Context::Whole;
+        Parser { text, tokens, vocabulary, measures, context, at: 0, depth: 0, parts: None, errors: vec![] }
+    }
+
     pub fn peek(&self) -> Option<&Kind> {
         self.tokens.get(self.at).map(|t| &t.kind)
     }
@@ -99,7 +129,7 @@ impl Parser<'_> {
         self.text.get(span.clone()).unwrap_or_default()
     }
 
-    fn whole(&mut self, is_angle: bool) -> Read<Expr> {
+    fn whole(&mut self, is_angle: bool) -> Read<Value> {
         if self.tokens.is_empty() {
             return Err(ParseError::new(0..self.text.len(), "no formula"));
         }
@@ -110,7 +140,7 @@ impl Parser<'_> {
         if is_angle {
             value = self.angle(value, 0)?;
         }
-        Ok(self.without_radians(value.expr))
+        Ok(value)
     }
 
     /// An error at the present token, where `wanted` should stand.
@@ -120,6 +150,10 @@ impl Parser<'_> {
             None => return ParseError::new(span, format!("the formula ends where {wanted} should stand")),
             Some(Kind::Degree | Kind::Radian) => {
                 return ParseError::new(span, "a unit stands directly behind a number");
+            }
+            Some(Kind::PlusMinus | Kind::MinusPlus) if self.parts.is_none() => {
+                let message = format!("`{}` stands for two formulas", self.source(&span));
+                return ParseError::new(span, message).hint("write each of them by itself");
             }
             Some(_) => ParseError::new(span.clone(), format!("unexpected `{}`", self.source(&span))),
         };
@@ -134,44 +168,63 @@ impl Parser<'_> {
     /// A sum; `is_whole` where it is all that a bracket of a function, or the text, holds.
     pub fn sum(&mut self, is_whole: bool) -> Read<Value> {
         let start = self.at;
-        let mut is_minus = matches!(self.peek(), Some(Kind::Minus));
-        self.at += usize::from(matches!(self.peek(), Some(Kind::Plus | Kind::Minus)));
+        let first_sign = self.sign();
+        let mut sign = first_sign.unwrap_or(Sign::Plus);
         let mut terms = vec![];
         loop {
             let from = self.at;
             let term = self.product()?;
-            terms.push((is_minus, term, self.span_from(from)));
+            terms.push((sign, term, self.span_from(from)));
             self.chain(terms.len() - 1, start)?;
-            match self.peek() {
-                Some(Kind::Plus) => is_minus = false,
-                Some(Kind::Minus) => is_minus = true,
-                _ => break,
+            match self.sign() {
+                Some(next) => sign = next,
+                None => break,
             }
-            self.at += 1;
         }
         // A number without unit has one where a name or a unit stands beside it.
         let takes_unit = is_whole || terms.iter().any(|(_, t, _)| t.has_name || t.has_unit);
+        let parts: Vec<(Sign, usize)> = terms.iter().map(|(sign, t, _)| (*sign, t.part)).collect();
         let mut sum: Option<Value> = None;
-        for (is_minus, mut term, span) in terms {
+        for (sign, mut term, span) in terms {
             if let Some(m) = self.measures.as_deref_mut()
                 && takes_unit
                 && !(term.has_name || term.has_unit)
             {
                 term.expr = m.bare(&Term::new(&term, span), self.context);
             }
-            sum = Some(match (sum, is_minus) {
+            sum = Some(match (sum, sign.is_minus()) {
                 (None, false) => term,
                 (None, true) => self.made(-term.expr, &[term], start)?,
                 (Some(sum), false) => self.made(sum.expr + term.expr, &[sum, term], start)?,
                 (Some(sum), true) => self.made(sum.expr - term.expr, &[sum, term], start)?,
             });
         }
-        sum.ok_or_else(|| self.unexpected("a name or a number"))
+        let sum = sum.ok_or_else(|| self.unexpected("a name or a number"))?;
+        if first_sign.is_none() && parts.len() == 1 {
+            return Ok(sum);
+        }
+        Ok(self.part(sum, start, |p| {
+            SyntaxKind::Sum(parts.into_iter().map(|(sign, part)| (sign, p.take(part))).collect())
+        }))
+    }
+
+    /// The sign of a term, if one stands here.
+    fn sign(&mut self) -> Option<Sign> {
+        let sign = match self.peek()? {
+            Kind::Plus => Sign::Plus,
+            Kind::Minus => Sign::Minus,
+            Kind::PlusMinus if self.parts.is_some() => Sign::PlusMinus,
+            Kind::MinusPlus if self.parts.is_some() => Sign::MinusPlus,
+            _ => return None,
+        };
+        self.at += 1;
+        Some(sign)
     }
 
     fn product(&mut self) -> Read<Value> {
         let start = self.at;
         let mut product = self.factor()?;
+        let mut factors = vec![(false, product.part)];
         let mut divisor = None;
         let mut count = 0;
         let mut is_behind_unit = false;
@@ -232,7 +285,8 @@ impl Parser<'_> {
                     }
                     (product.expr * factor.expr, factor)
                 }
-                _ => return Ok(product),
+                _ if factors.len() == 1 => return Ok(product),
+                _ => break,
             };
             count += 1;
             let is_over = matches!(self.tokens[operator].kind, Kind::Divide);
@@ -240,10 +294,14 @@ impl Parser<'_> {
                 return Err(ParseError::new(self.span_from(start), "a product of two quantities with units"));
             }
             let has_unit = product.has_unit != expr.1.has_unit;
+            factors.push((is_over, expr.1.part));
             product = Value { has_unit, ..self.made(expr.0, &[product, expr.1], start)? };
             is_behind_unit = false;
             self.chain(count, start)?;
         }
+        Ok(self.part(product, start, |p| {
+            SyntaxKind::Product(factors.into_iter().map(|(is_over, part)| (is_over, p.take(part))).collect())
+        }))
     }
 
     fn factor(&mut self) -> Read<Value> {
@@ -254,7 +312,14 @@ impl Parser<'_> {
             self.at += 1;
         }
         let value = self.powered()?;
-        if negative { self.made(-value.expr, &[value], start) } else { Ok(value) }
+        if self.at == start || !matches!(self.tokens[start].kind, Kind::Minus) {
+            return Ok(value);
+        }
+        let (sign, signed) = match negative {
+            true => (Sign::Minus, self.made(-value.expr, &[value], start)?),
+            false => (Sign::Plus, value),
+        };
+        Ok(self.part(signed, start, |p| SyntaxKind::Sum(vec![(sign, p.take(value.part))])))
     }
 
     fn powered(&mut self) -> Read<Value> {
@@ -264,39 +329,47 @@ impl Parser<'_> {
         self.raised(base, n, start)
     }
 
-    fn primary(&mut self) -> Read<Value> {
+    pub fn primary(&mut self) -> Read<Value> {
         let start = self.at;
         let Some(kind) = self.peek().cloned() else { return Err(self.unexpected("a name or a number")) };
         match kind {
             Kind::Number(r) => {
                 self.at += 1;
                 let size = bits(&r);
-                let number = Expr::from(r);
-                let expr = match self.peek() {
-                    _ if self.measures.is_some() => {
-                        return self.made(number, &[Value::plain(number, 0, size)], start);
+                let number = Expr::from(r.clone());
+                let (expr, meaning) = match self.peek() {
+                    Some(Kind::Degree) if self.measures.is_none() => {
+                        let angle = number * Expr::pi() / Expr::int(180);
+                        (angle, angle)
                     }
-                    Some(Kind::Degree) => number * Expr::pi() / Expr::int(180),
-                    Some(Kind::Radian) if self.vocabulary.in_degrees() => number * Expr::symbol(RADIAN),
-                    Some(Kind::Radian) => number,
-                    _ => return self.made(number, &[Value::plain(number, 0, size)], start),
+                    Some(Kind::Radian) if self.vocabulary.in_degrees() => {
+                        (number * Expr::symbol(RADIAN), number)
+                    }
+                    Some(Kind::Radian) => (number, number),
+                    _ => {
+                        let value = self.made(number, &[Value::plain(number, 0, size)], start)?;
+                        return Ok(self.part(value, start, |_| SyntaxKind::Number(r)));
+                    }
                 };
                 self.at += 1;
-                self.made(expr, &[Value::plain(expr, 1, size + 8)], start)
+                let value = self.made(expr, &[Value::plain(expr, 1, size + 8)], start)?;
+                Ok(self.part(value, start, |_| SyntaxKind::Name(meaning)))
             }
             Kind::Atom(expr) => {
                 self.at += 1;
-                Ok(Value::plain(expr, 4, 0))
+                Ok(self.part(Value::plain(expr, 4, 0), start, |_| SyntaxKind::Name(expr)))
             }
             Kind::Word(word) => self.named(&word, start),
             Kind::Open(closing) => {
                 self.at += 1;
-                self.nested(start, |p| p.bracket(closing, start))
+                let inner = self.nested(start, |p| p.bracket(closing, start))?;
+                Ok(self.part(inner, start, |p| SyntaxKind::Bracket(p.boxed(inner.part))))
             }
             Kind::Root => {
                 self.at += 1;
                 let inner = self.nested(start, Self::primary)?;
-                self.root(inner, start)
+                let root = self.root(inner, start)?;
+                Ok(self.part(root, start, |p| SyntaxKind::Root(Box::new(p.unbracketed(inner.part)))))
             }
             Kind::Fraction => {
                 self.at += 1;
@@ -305,7 +378,8 @@ impl Parser<'_> {
                 if under.expr.is_zero() {
                     return Err(ParseError::new(self.span_from(start), "division by zero"));
                 }
-                self.made(over.expr / under.expr, &[over, under], start)
+                let value = self.made(over.expr / under.expr, &[over, under], start)?;
+                Ok(self.part(value, start, |p| SyntaxKind::Fraction(p.boxed(over.part), p.boxed(under.part))))
             }
             Kind::Function(f) => self.nested(start, |p| p.call(f, start)),
             _ => Err(self.unexpected("a name, a number or a bracket")),

@@ -1,8 +1,8 @@
 //! Marks to tokens: numbers, signs and brackets; runs of letters are gathered here and cut in `words`.
 
+use super::functions::Function;
 use super::names::Names;
 use super::normalise::{Glyph, Mark};
-use super::words::Function;
 use super::{MAX_ERRORS, ParseError};
 use crate::expr::Expr;
 use crate::rational::Rational;
@@ -19,6 +19,8 @@ pub(super) enum Kind {
     Function(Function),
     Plus,
     Minus,
+    PlusMinus,
+    MinusPlus,
     Times,
     Divide,
     Caret,
@@ -188,6 +190,8 @@ impl Lexer<'_> {
             '.' => self.point(),
             '+' => self.push(Kind::Plus, 1),
             '-' => self.push(Kind::Minus, 1),
+            '±' => self.push(Kind::PlusMinus, 1),
+            '∓' => self.push(Kind::MinusPlus, 1),
             '*' if self.char(self.at + 1) == Some('*') => self.push(Kind::Caret, 2),
             '*' => self.push(Kind::Times, 1),
             '/' => self.push(Kind::Divide, 1),

@@ -2,9 +2,9 @@
 //!
 //! A word is never cut; what it means and what a unit is says a [`Measures`]. A unit holds for the product before it.
 
+use super::functions::{CALLED, Function};
 use super::grammar::{Parser, Read, Value, formula};
 use super::lexer::{self, Kind};
-use super::words::{CALLED, Function};
 use super::{ParseError, checked, finish, normalise};
 use crate::expr::Expr;
 use crate::vocabulary::Vocabulary;

@@ -1,21 +1,28 @@
 //! Reading formulas as people print them: `C1(C23C4 − S4)`, `\frac{a_2}{2}\cos\theta_1`, `c2.(D_7 + s_{34}.r_7)`.
 //!
 //! Text → marks (`normalise`: Unicode and LaTeX spellings become plain characters) → tokens (`lexer`; words are taken
-//! up by `gather` and cut into names and sines by `words` and `trig`) → [`Expr`] (`grammar`, `calls`). Places are bytes of the text as it came in.
-//! What has two readings is refused with both of them.
+//! up by `gather` and cut into names and sines by `words` and `trig`) → [`Expr`] (`grammar`, `calls`), and the same
+//! formula as it is printed, [`Syntax`] (`parts`, `signs`), where that is asked for. Places are bytes of the text as it
+//! came in. What has two readings is refused with both of them.
 
 mod calls;
+mod functions;
 mod gather;
 mod grammar;
 mod lexer;
 mod measured;
 mod names;
 mod normalise;
+mod parts;
+mod signs;
+mod syntax;
 mod trig;
 mod words;
 
+pub use functions::Function;
 pub use measured::{Context, Measures, Term, parse_measured, whole_word};
 pub use normalise::{greek_name, subscript};
+pub use syntax::{Sign, Syntax, SyntaxKind};
 
 use crate::expr::Expr;
 use crate::vocabulary::Vocabulary;
@@ -28,6 +35,8 @@ pub const MAX_BYTES: usize = 65_536;
 pub const MAX_NESTING: usize = 100;
 /// The most operators in one sum or product.
 pub const MAX_OPERATORS: usize = 2_000;
+/// The most signs of two values in one formula that are chosen by themselves.
+pub const MAX_SIGN_CHOICES: usize = 6;
 /// The largest magnitude of an exponent.
 pub const MAX_EXPONENT: i32 = 1_000;
 /// No more errors than these are reported for one text.
@@ -117,6 +126,32 @@ fn read(text: &str, vocabulary: &Vocabulary, is_angle: bool) -> Result<Expr, Vec
     let (value, structure) = grammar::formula(text, &tokens, vocabulary, None, is_angle);
     errors.extend(structure.into_iter().filter(|_| is_whole));
     finish(value, errors)
+}
+
+/// Reads a formula as it is printed, with every sign, bracket and name at its place. Its value is what [`parse`] gives.
+///
+/// Two more notations are read: signs of two values, `±` and `∓`, and `cos^{-1}(x)` for the inverse function.
+///
+/// ```
+/// use denavit_symbolic::{parse::{parse, parse_syntax}, vocabulary::Vocabulary};
+/// let open = Vocabulary::new().open(true);
+/// let text = r"\pm\cos^{-1}\left(\frac{a^2 - b^2}{2 a b}\right)";
+/// let [upper, lower] = &parse_syntax(text, &open).unwrap().variants()[..] else { panic!() };
+/// assert_eq!(upper.value(), parse("arccos((a^2 - b^2)/(2*a*b))", &open).unwrap());
+/// assert_eq!(lower.value(), -upper.value());
+/// assert_eq!(upper.span, 0..text.len());
+/// ```
+///
+/// # Errors
+/// As [`parse`], of every formula that the signs give.
+pub fn parse_syntax(text: &str, vocabulary: &Vocabulary) -> Result<Syntax, Vec<ParseError>> {
+    let (marks, mut errors) = normalise::normalise(checked(text)?);
+    let (tokens, is_whole) = lexer::tokens(text, &marks, vocabulary, false, &mut errors);
+    let (read, structure) = grammar::syntax(text, &tokens, vocabulary);
+    errors.extend(structure.into_iter().filter(|_| is_whole));
+    let (_, syntax) = finish(read, errors)?;
+    signs::check(text, &tokens, vocabulary, &syntax)?;
+    Ok(syntax)
 }
 
 /// Reads a definition, `name = formula`; a `;`, `,` or `.` may end it.

@@ -1,6 +1,7 @@
 //! The vocabulary as the parser asks it: spellings of Greek letters, names in backquotes, the nearest known name.
 
 use super::ParseError;
+use super::functions::is_function_name;
 use super::normalise::{greek_name, greek_prefix};
 use crate::expr::Expr;
 use crate::vocabulary::{Vocabulary, plain_name};
@@ -9,7 +10,6 @@ use std::ops::Range;
 /// A vocabulary, prepared for one text.
 pub(super) struct Names<'a> {
     pub vocabulary: &'a Vocabulary,
-    words: Vec<String>,
     /// Declared names that are more than one word: `d(O2,O3)`.
     pub with_brackets: Vec<Vec<char>>,
     /// No known name has more letters.
@@ -18,11 +18,14 @@ pub(super) struct Names<'a> {
 
 impl<'a> Names<'a> {
     pub fn new(vocabulary: &'a Vocabulary) -> Self {
-        let words = vocabulary.words();
-        let longest = words.iter().map(|w| w.chars().count()).max().unwrap_or(0).max(16) + 16;
-        let is_split = |w: &&String| w.contains('(') && w.starts_with(char::is_alphabetic);
-        let with_brackets = words.iter().filter(is_split).map(|w| w.chars().collect()).collect();
-        Names { vocabulary, words, with_brackets, longest }
+        let (mut longest, mut with_brackets) = (16, vec![]);
+        for word in vocabulary.declared() {
+            longest = longest.max(word.len());
+            if word.contains('(') && word.starts_with(char::is_alphabetic) {
+                with_brackets.push(word.chars().collect());
+            }
+        }
+        Names { vocabulary, with_brackets, longest: longest + 16 }
     }
 
     pub fn is_open(&self) -> bool {
@@ -31,7 +34,7 @@ impl<'a> Names<'a> {
 
     /// True if the word itself is declared.
     pub fn is_declared(&self, word: &str) -> bool {
-        self.words.binary_search_by(|w| w.as_str().cmp(word)).is_ok()
+        self.vocabulary.is_declared(word)
     }
 
     /// The meaning of a whole word; Greek letters may be spelled out.
@@ -62,7 +65,7 @@ impl<'a> Names<'a> {
 
     /// The error for a word that means nothing.
     pub fn unknown(&self, word: &str, is_function: bool, span: Range<usize>) -> ParseError {
-        if matches!(word, "cos" | "sin" | "sqrt" | "atan2" | "arctan2") {
+        if is_function_name(word) {
             let e = ParseError::new(span, format!("`{word}` takes its argument in brackets"));
             return e;
         }
@@ -72,7 +75,7 @@ impl<'a> Names<'a> {
         let nearest = self.nearest(word);
         if is_function && nearest.is_none() && word.chars().count() > 1 {
             let e = ParseError::new(span, format!("unknown function `{word}`"));
-            return e.hint("the functions are sin, cos, sqrt and atan2");
+            return e.hint("the functions are sin, cos, tan, sqrt, atan2, arcsin, arccos and arctan");
         }
         let e = ParseError::new(span, format!("unknown `{word}`"));
         match nearest {
@@ -88,15 +91,16 @@ impl<'a> Names<'a> {
         Some(ParseError::new(span.clone(), format!("variable {n} is a length, not an angle")))
     }
 
-    fn nearest(&self, word: &str) -> Option<&str> {
+    fn nearest(&self, word: &str) -> Option<String> {
         let letters = word.chars().count();
         if letters > 40 {
             return None;
         }
         let limit = (letters / 2).max(1);
-        let distances = self.words.iter().map(|w| (distance(word, w), w));
+        let words = self.vocabulary.words();
+        let distances = words.into_iter().map(|w| (distance(word, &w), w));
         let found = distances.filter(|(d, w)| *d <= limit && *d < letters.max(w.chars().count()));
-        found.min_by_key(|(d, _)| *d).map(|(_, w)| w.as_str())
+        found.min_by_key(|(d, _)| *d).map(|(_, w)| w)
     }
 }
 

@@ -52,10 +52,13 @@ const COMMANDS: &[(&str, char)] = &[
     ("degree", '°'),
     ("quad", ' '),
     ("qquad", ' '),
+    ("pm", '±'),
+    ("mp", '∓'),
 ];
 
 /// LaTeX commands for a word of several letters.
-const WORDS: &[&str] = &["cos", "sin", "tan", "deg", "rad", "mm", "cm"];
+const WORDS: &[&str] =
+    &["cos", "sin", "tan", "arccos", "arcsin", "arctan", "acos", "asin", "atan", "deg", "rad", "mm", "cm"];
 
 /// LaTeX commands that only change the looks, with an argument in braces, and without one.
 const WRAPPERS: &[&str] = &[
@@ -178,8 +181,20 @@ impl Normaliser<'_> {
                 let message = format!("invisible character U+{:04X}", c as u32);
                 self.errors.push(ParseError::new(span, message).hint("delete it"));
             }
+            '&' if self.is_beside_sign() => self.push(' ', span),
             _ => self.push(plain(c), span),
         }
+    }
+
+    /// True if a sign, or an end of the text, is before or behind this place: a line is broken or aligned there.
+    fn is_beside_sign(&self) -> bool {
+        const SIGNS: [&str; 4] = [r"\pm", r"\mp", r"\\", r"\cdot"];
+        let is_sign = |c: char| matches!(plain(c), '+' | '-' | '±' | '∓' | '=' | '*' | '/' | '&');
+        let rest = self.text[self.at..].trim_start();
+        let before = || self.marks.iter().rev().find(|m| !m.is_space());
+        rest.chars().next().is_none_or(is_sign)
+            || SIGNS.iter().any(|s| rest.starts_with(s))
+            || before().is_none_or(|m| m.char().is_some_and(is_sign))
     }
 
     /// A run of Unicode subscripts or superscripts, as a group in braces.
@@ -214,6 +229,7 @@ impl Normaliser<'_> {
             match c {
                 ',' | ';' | ':' | '!' | '>' | ' ' | '(' | ')' | '[' | ']' | '*' => self.push(' ', span),
                 '{' | '}' | '_' => self.push(c, span),
+                '\\' if self.is_beside_sign() => self.push(' ', span),
                 _ => self.errors.push(ParseError::new(span, format!("unknown command `\\{c}`"))),
             }
         } else if let Some(c) = command(name) {
@@ -236,6 +252,12 @@ impl Normaliser<'_> {
             }
         } else if !IGNORED.contains(&name) {
             self.errors.push(ParseError::new(span, format!("unknown command `\\{name}`")));
+        } else if matches!(name, "left" | "right") {
+            // `\left.` is a bracket that is not seen.
+            let rest = self.text[self.at..].trim_start();
+            if let Some(behind) = rest.strip_prefix('.') {
+                self.at = self.text.len() - behind.len();
+            }
         }
     }
 

@@ -1,10 +1,9 @@
 //! Sines and cosines inside a word: `C23`, `s_{2-3}`, `cosθ1`, `c_{θ_1}`, `sα_j`.
 
 use super::ParseError;
+use super::functions::{FUNCTIONS, Function};
 use super::names::Names;
-use super::words::{
-    FUNCTIONS, Function, KNOWN, Letter, Piece, REFUSED, TRIG, ends, is_angle_letter, spelled,
-};
+use super::words::{KNOWN, Letter, Next, Piece, REFUSED, TRIG, ends, is_angle_letter, spelled};
 use crate::expr::Expr;
 use std::ops::Range;
 
@@ -16,7 +15,7 @@ pub(super) struct Edge {
 }
 
 /// The functions that begin at `from`, with their arguments.
-pub(super) fn edges(letters: &[Letter], from: usize, is_called: bool, names: &Names) -> Vec<Edge> {
+pub(super) fn edges(letters: &[Letter], from: usize, next: Next, names: &Names) -> Vec<Edge> {
     let mut found = vec![];
     for &(name, function) in FUNCTIONS {
         let length = name.chars().count();
@@ -27,10 +26,12 @@ pub(super) fn edges(letters: &[Letter], from: usize, is_called: bool, names: &Na
         }
         let after = from + length;
         if after == letters.len() {
-            if is_called {
-                found.push(Edge { to: after, cost: TRIG, meaning: Ok(Piece::Function(function)) });
+            if next == Next::Bracket || next == Next::Argument && length > 1 {
+                // Where `a` is itself a known symbol, `acos` is as well the product a·cos: both cost the same.
+                let cost = if matches!(name, "asin" | "acos" | "atan") { KNOWN + TRIG } else { TRIG };
+                found.push(Edge { to: after, cost, meaning: Ok(Piece::Function(function)) });
             }
-        } else if matches!(function, Function::Sin | Function::Cos) {
+        } else if function.takes_angle() {
             found.extend(arguments(letters, from, after, function, names));
         }
     }
@@ -40,13 +41,13 @@ pub(super) fn edges(letters: &[Letter], from: usize, is_called: bool, names: &Na
 /// What the sine from `from` to `after` may have as its argument.
 fn arguments(letters: &[Letter], from: usize, after: usize, function: Function, names: &Names) -> Vec<Edge> {
     let (power, at) = power(letters, after);
-    let value = |angle: Expr| {
-        let e = if function == Function::Sin { angle.sin() } else { angle.cos() };
-        Piece::Atom(e.powi(power))
-    };
+    let value = |angle: Expr| Piece::Atom(function.of(&[angle]).powi(power));
     let span = |to: usize| letters[from].span.start..letters[to - 1].span.end;
     let Some(first) = letters.get(at) else { return vec![] };
     let mut found = vec![];
+    if first.glued && function == Function::Tan {
+        return found;
+    }
     if first.glued {
         let to = ends(letters, at).next().unwrap_or(letters.len());
         let indices = spelled(&letters[at..to]);

@@ -4,6 +4,7 @@
 //! the sines, and fewer pieces over more. Two cheapest paths that mean different things are an error.
 
 use super::ParseError;
+use super::functions::Function;
 use super::names::Names;
 use super::normalise::is_greek;
 use super::trig;
@@ -19,50 +20,15 @@ pub(super) struct Letter {
     pub span: Range<usize>,
 }
 
-/// What is written before brackets.
+/// What follows a word.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Function {
-    Sin,
-    Cos,
-    Tan,
-    Sqrt,
-    Atan2,
+pub(super) enum Next {
+    /// A bracket, perhaps behind a power.
+    Bracket,
+    /// A fraction or a root, likewise: the argument of a function with a full name.
+    Argument,
+    Other,
 }
-
-impl Function {
-    /// Its usual name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Function::Sin => "sin",
-            Function::Cos => "cos",
-            Function::Tan => "tan",
-            Function::Sqrt => "sqrt",
-            Function::Atan2 => "atan2",
-        }
-    }
-
-    /// Whether its argument is an angle.
-    pub fn takes_angle(self) -> bool {
-        matches!(self, Function::Sin | Function::Cos | Function::Tan)
-    }
-}
-
-/// The functions that a whole word may call.
-pub(super) const CALLED: [Function; 5] =
-    [Function::Sin, Function::Cos, Function::Tan, Function::Sqrt, Function::Atan2];
-
-/// The names of functions; the sines may also stand without brackets.
-pub(super) const FUNCTIONS: &[(&str, Function)] = &[
-    ("cos", Function::Cos),
-    ("sin", Function::Sin),
-    ("C", Function::Cos),
-    ("S", Function::Sin),
-    ("c", Function::Cos),
-    ("s", Function::Sin),
-    ("sqrt", Function::Sqrt),
-    ("atan2", Function::Atan2),
-    ("arctan2", Function::Atan2),
-];
 
 /// What a piece of a word means.
 #[derive(Clone, Debug, PartialEq)]
@@ -105,10 +71,10 @@ struct Way {
     pieces: Vec<(Piece, usize)>,
 }
 
-/// The pieces of a word, with their places. `is_called` says that a bracket follows.
+/// The pieces of a word, with their places.
 pub(super) fn split(
     letters: &[Letter],
-    is_called: bool,
+    next: Next,
     names: &Names,
     text: &str,
 ) -> Result<Vec<(Piece, Range<usize>)>, Vec<ParseError>> {
@@ -132,7 +98,7 @@ pub(super) fn split(
             }
         };
         known_edges(letters, from, names, &mut offer);
-        for edge in trig::edges(letters, from, is_called, names) {
+        for edge in trig::edges(letters, from, next, names) {
             let mut meaning = Some(edge.meaning);
             offer(edge.to, edge.cost, &mut || match meaning.take() {
                 Some(Ok(piece)) => EdgeKind::Piece(piece),
@@ -140,10 +106,10 @@ pub(super) fn split(
                 None => EdgeKind::Unknown,
             });
         }
-        other_edges(letters, from, is_called, names, &mut offer);
+        other_edges(letters, from, next == Next::Bracket, names, &mut offer);
     }
     if best[n] >= REFUSED {
-        return Err(failures(letters, &into, is_called, names));
+        return Err(failures(letters, &into, next == Next::Bracket, names));
     }
     let ways = ways(letters, &into);
     if let [one, other] = ways.as_slice() {
@@ -151,7 +117,13 @@ pub(super) fn split(
         let word = spelled(letters);
         let span = letters[0].span.start..letters[n - 1].span.end;
         let e = ParseError::new(span, format!("`{word}` reads as `{a}` or as `{b}`"));
-        return Err(vec![e.hint("write `*` between the factors")]);
+        let inverse = [one, other].into_iter().find_map(|w| w.last.filter(|f| f.is_inverse()));
+        return Err(vec![match inverse {
+            Some(f) => {
+                e.hint(format!("write `{}` for the inverse function, or `*` between the factors", f.name()))
+            }
+            None => e.hint("write `*` between the factors"),
+        }]);
     }
     let mut from = 0;
     let pieces = ways.into_iter().next().map(|w| w.pieces).unwrap_or_default();
@@ -211,6 +183,7 @@ fn other_edges(
         }
         offer(to, UNKNOWN + 100 * (to - from) as u64, &mut || EdgeKind::Unknown);
         let is_function = is_called && to == n && !has_index && to - from > 1;
+        let is_function = is_function || to == n && is_inverse_name(&letters[from..to]);
         if names.is_open() && is_name && !is_function && to - from <= MAX_NAME {
             // `aC1` may be a·C1: as dear as these two pieces. `RC4` and `pos2` are names.
             let tail =
@@ -296,21 +269,30 @@ pub(super) fn spelled(letters: &[Letter]) -> String {
     letters.iter().map(|l| l.c).collect()
 }
 
-/// True if the letters end in `sin` or `cos`.
+/// True if the letters end in `sin`, `cos` or `tan`.
 pub(super) fn ends_in_full_name(letters: &[Letter]) -> bool {
     match letters {
         [.., a, b, c] => {
-            let name = [a.c, b.c, c.c];
-            (name == ['s', 'i', 'n'] || name == ['c', 'o', 's']) && !(a.glued || b.glued || c.glued)
+            let is_name = matches!([a.c, b.c, c.c], ['s', 'i', 'n'] | ['c', 'o', 's'] | ['t', 'a', 'n']);
+            is_name && !(a.glued || b.glued || c.glued)
         }
         _ => false,
     }
 }
 
+/// True if the letters end in `arcsin`, `arccos` or `arctan`.
+pub(super) fn ends_in_inverse_name(letters: &[Letter]) -> bool {
+    letters.len().checked_sub(6).is_some_and(|from| is_inverse_name(&letters[from..]))
+}
+
+fn is_inverse_name(letters: &[Letter]) -> bool {
+    letters.len() == 6 && matches!(spelled(letters).as_str(), "arcsin" | "arccos" | "arctan")
+}
+
 /// True if the letters may end in a sine that still lacks its argument.
 pub(super) fn awaits_argument(letters: &[Letter]) -> bool {
     let is_letter = |l: &Letter| !l.glued && matches!(l.c, 'C' | 'S' | 'c' | 's');
-    ends_in_full_name(letters) || letters.last().is_some_and(is_letter)
+    !ends_in_inverse_name(letters) && (ends_in_full_name(letters) || letters.last().is_some_and(is_letter))
 }
 
 /// True if a Greek letter begins at `at` (other than π).

@@ -6,6 +6,7 @@ use crate::description::units::Unit;
 use std::ops::Range;
 
 /// A Denavit–Hartenberg table, not yet read.
+#[derive(Clone)]
 pub(super) struct Layout {
     pub columns: Vec<Column>,
     /// The heads, for messages.

@@ -28,6 +28,7 @@
 //! blank line or a line of text that do not go on counting; empty cells are 0, and a note says so.
 
 mod columns;
+mod each;
 mod find;
 mod joint;
 mod latex;
@@ -37,6 +38,8 @@ mod limits;
 mod lines;
 mod read;
 mod values;
+
+pub use each::{PrintedTable, tables};
 
 use super::diagnostic::{Diagnostic, Diagnostics};
 use super::{Convention, Description, MAX_BYTES, MAX_ROWS};
@@ -99,7 +102,7 @@ pub fn read_table(
         }
         chosen => {
             let around = Around::of(chosen, &layouts, text.len());
-            read::description(text, chosen, &lines, &around, options, &mut out)
+            read::description(text, chosen, &lines, &around, options, &mut out).map(|r| r.description)
         }
     };
     out.finish(description)

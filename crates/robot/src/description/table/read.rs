@@ -18,6 +18,18 @@ use rustc_hash::FxHashSet;
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
+/// What a table says.
+pub(super) struct Reading {
+    pub description: Description,
+    /// The names that the table gives the joint variables.
+    pub variables: Vec<Option<String>>,
+    /// The letters of the columns for the lengths along x and z.
+    pub along_x: Option<&'static str>,
+    pub along_z: Option<&'static str>,
+    /// The index of the length along x is that of the row before: `a_{i-1}`.
+    pub previous: bool,
+}
+
 /// A cell of the table.
 #[derive(Clone, Debug)]
 pub(super) struct TableCell {
@@ -101,7 +113,7 @@ pub(super) fn description(
     around: &Around,
     options: &TableOptions,
     out: &mut Diagnostics,
-) -> Option<Description> {
+) -> Option<Reading> {
     let mut told_columns = vec![];
     for layout in layouts {
         told_columns.push(columns(layout, lines, options, out)?);
@@ -148,7 +160,7 @@ struct Tables<'a> {
 }
 
 /// The description under a convention.
-fn read_as(letters: &Letters, tables: &Tables, out: &mut Diagnostics) -> Description {
+fn read_as(letters: &Letters, tables: &Tables, out: &mut Diagnostics) -> Reading {
     let &Tables { text, layouts, columns: told_columns, lines, around, options } = tables;
     let at = layouts[0].span.start;
     for (layout, columns) in layouts.iter().zip(told_columns) {
@@ -229,16 +241,26 @@ fn read_as(letters: &Letters, tables: &Tables, out: &mut Diagnostics) -> Descrip
         })
         .collect();
     let name = lines.value("name", at).or(lines.title(at)).unwrap_or("table");
-    Description {
-        name: name.to_string(),
-        source: None,
-        convention: letters.convention,
-        parameters,
-        rows,
-        base: Transform::identity(),
-        tool: Transform::identity(),
-        poses: vec![],
-        gravity: None,
+    let moves = joints.iter().filter_map(|j| match j {
+        Joint::Moves(_, name) => Some(name.clone()),
+        Joint::Fixed => None,
+    });
+    Reading {
+        variables: moves.collect(),
+        along_x: letters.x.map(Role::letter),
+        along_z: letters.z.map(Role::letter),
+        previous: told_columns[0].iter().any(|c| Some(c.role) == letters.x && c.previous),
+        description: Description {
+            name: name.to_string(),
+            source: None,
+            convention: letters.convention,
+            parameters,
+            rows,
+            base: Transform::identity(),
+            tool: Transform::identity(),
+            poses: vec![],
+            gravity: None,
+        },
     }
 }
 

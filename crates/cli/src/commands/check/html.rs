@@ -1,0 +1,227 @@
+//! The document with its slips marked, as a page of its own.
+
+use super::Document;
+use super::marked::{Piece, pieces};
+use super::terminal::{at, entry_name};
+use denavit::check::{Claim, Entry, Finding, Patch, Standing};
+use std::fmt::Write;
+use std::ops::Range;
+
+const STYLE: &str = "
+:root { color-scheme: light dark; --good: #1a7f37; --bad: #c4262e; --doubt: #9a6700; --line: #8884; --card: #8881; }
+@media (prefers-color-scheme: dark) { :root { --good: #4ac26b; --bad: #ff7b72; --doubt: #d4a72c; } }
+body { max-width: 72rem; margin: 2rem auto; padding: 0 1rem; font: 16px/1.5 system-ui, sans-serif; }
+h1 { font-size: 1.5rem; margin-bottom: .2rem; }
+pre { font: 13px/1.55 ui-monospace, monospace; white-space: pre-wrap; overflow-wrap: anywhere; margin: 0; }
+mark { background: none; color: inherit; border-bottom: 2px solid; }
+mark.equal { border-color: var(--good); }
+mark.wrong { border-color: var(--bad); }
+mark.other { border-color: var(--doubt); }
+del { color: var(--bad); font-weight: 600; }
+ins { color: var(--good); font-weight: 600; text-decoration: none; border: 1px solid; border-radius: 3px; padding: 0 .2em; }
+aside { margin: .4rem 0 .8rem 1.5rem; padding: .5rem .8rem; border-left: 3px solid; background: var(--card);
+  font: 14px/1.5 system-ui, sans-serif; white-space: normal; }
+aside.wrong { border-color: var(--bad); }
+aside.other { border-color: var(--doubt); }
+aside code { font: 12.5px/1.5 ui-monospace, monospace; overflow-wrap: anywhere; }
+aside p { margin: .2rem 0; }
+.faint { opacity: .7; font-size: .9em; }
+ul.legend { list-style: none; padding: 0; display: flex; gap: 1.5rem; flex-wrap: wrap; }
+";
+
+/// The page.
+pub fn page(document: &Document) -> String {
+    let checked = document.checked;
+    let tally = checked.tally();
+    let name = escaped(document.name);
+    let mut out = format!(
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <title>{name}, checked</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>{name}</h1>\n"
+    );
+    let robots: Vec<String> = checked.robots.iter().take(1).map(|r| escaped(&r.name)).collect();
+    let _ = writeln!(out, "<p>Held against {}: {} claims.</p>", robots.concat(), checked.claims.len());
+    out += "<ul class=\"legend\">\n";
+    for (count, class, word) in [
+        (tally.equal, "equal", "proved equal"),
+        (tally.wrong, "wrong", "wrong"),
+        (tally.conditional, "other", "right under a condition"),
+        (tally.undecided, "other", "not decided"),
+        (tally.unreadable, "other", "not readable"),
+    ] {
+        if count > 0 {
+            let _ = writeln!(out, "<li><mark class=\"{class}\">{count} {word}</mark></li>");
+        }
+    }
+    out += "</ul>\n";
+    for cause in &checked.causes {
+        let _ = writeln!(
+            out,
+            "<aside class=\"wrong\"><p><strong>{}</strong> would turn {} formulas right and {} wrong; {} would stay \
+             wrong.</p></aside>",
+            escaped(&cause.change),
+            cause.turns_right.len(),
+            cause.turns_wrong.len(),
+            cause.stays_wrong.len()
+        );
+    }
+    out += &body(document);
+    out + "</main>\n</body>\n</html>\n"
+}
+
+/// A part of the text and what it is.
+struct Marked {
+    span: Range<usize>,
+    class: &'static str,
+    patches: Vec<Patch>,
+}
+
+fn class(standing: Standing) -> &'static str {
+    match standing {
+        Standing::Equal => "equal",
+        Standing::Wrong => "wrong",
+        _ => "other",
+    }
+}
+
+/// The text with marks, and a note below the line in which a claim ends.
+fn body(document: &Document) -> String {
+    let text = document.text;
+    let mut marks: Vec<Marked> = vec![];
+    let mut notes: Vec<(usize, String)> = vec![];
+    for claim in &document.checked.claims {
+        for entry in &claim.entries {
+            let patches = match &entry.finding {
+                Finding::Wrong(w) => w.slip.as_ref().map(|s| s.patches.clone()).unwrap_or_default(),
+                _ => vec![],
+            };
+            marks.push(Marked { span: entry.span.clone(), class: class(entry.finding.standing()), patches });
+        }
+        if let Some(note) = note(document, claim) {
+            let end = text[claim.span.end.min(text.len())..]
+                .find('\n')
+                .map_or(text.len(), |n| claim.span.end + n + 1);
+            notes.push((end, note));
+        }
+    }
+    marks.sort_by_key(|m| (m.span.start, m.span.end));
+    notes.sort_by_key(|n| n.0);
+    let mut notes = notes.into_iter().peekable();
+    let mut out = String::from("<pre>");
+    let mut at = 0;
+    let plain = |out: &mut String,
+                 to: usize,
+                 at: &mut usize,
+                 notes: &mut std::iter::Peekable<std::vec::IntoIter<(usize, String)>>| {
+        while let Some((end, note)) = notes.next_if(|n| n.0 <= to) {
+            let end = end.max(*at);
+            let _ = write!(out, "{}</pre>\n{note}<pre>", escaped(text.get(*at..end).unwrap_or_default()));
+            *at = end;
+        }
+        out.push_str(&escaped(text.get(*at..to).unwrap_or_default()));
+        *at = to;
+    };
+    for mark in marks {
+        if mark.span.start < at || mark.span.is_empty() {
+            continue;
+        }
+        plain(&mut out, mark.span.start, &mut at, &mut notes);
+        let _ =
+            write!(out, "<mark class=\"{}\">{}</mark>", mark.class, changed(text, &mark.span, &mark.patches));
+        at = mark.span.end;
+    }
+    plain(&mut out, text.len(), &mut at, &mut notes);
+    out + "</pre>\n"
+}
+
+fn changed(text: &str, span: &Range<usize>, patches: &[Patch]) -> String {
+    if patches.is_empty() {
+        return escaped(text.get(span.clone()).unwrap_or_default());
+    }
+    let shown = pieces(text, span, patches).into_iter().map(|piece| match piece {
+        Piece::Plain(text) => escaped(&text),
+        Piece::Changed { was, now } => {
+            let tag = |name: &str, text: &str| match text.trim() {
+                "" => String::new(),
+                _ => format!("<{name}>{}</{name}>", escaped(text)),
+            };
+            tag("del", &was) + &tag("ins", &now)
+        }
+    });
+    shown.collect()
+}
+
+/// What is said below a claim that is not simply right.
+fn note(document: &Document, claim: &Claim) -> Option<String> {
+    let standing = claim.standing();
+    if standing == Standing::Equal && claim.remarks.is_empty() {
+        return None;
+    }
+    let mut out = format!("<aside class=\"{}\">", class(standing));
+    for entry in claim.entries.iter().filter(|e| e.finding.standing() != Standing::Equal) {
+        let name = escaped(&entry_name(claim, entry.place));
+        let _ = write!(out, "<p><strong><code>{name}</code></strong>: {}</p>", finding(document, entry));
+    }
+    claim.remarks.iter().for_each(|r| {
+        let _ = write!(out, "<p>{}</p>", escaped(r));
+    });
+    Some(out + "</aside>\n")
+}
+
+fn finding(document: &Document, entry: &Entry) -> String {
+    let code = |text: &str| format!("<code>{}</code>", escaped(text));
+    match &entry.finding {
+        Finding::Equal { .. } => "proved equal".into(),
+        Finding::Undecided { why } => escaped(why),
+        Finding::Unreadable(errors) => {
+            let first = errors.first();
+            format!("cannot be read: {}", first.map_or(String::new(), |e| escaped(&e.message)))
+        }
+        Finding::Conditional { condition, correct, remarks } => {
+            let everywhere = correct.as_ref().map_or(String::new(), |c| format!("; everywhere {}", code(c)));
+            let remarks: String = remarks.iter().map(|r| format!("; {}", escaped(r))).collect();
+            format!("right {}{everywhere}{remarks}", escaped(condition))
+        }
+        Finding::Wrong(wrong) => {
+            let patches = wrong.slip.as_ref().map_or(&[][..], |s| &s.patches);
+            let mut out = match &wrong.slip {
+                Some(slip) => {
+                    format!(
+                        "{}: <code>{}</code>",
+                        escaped(&slip.kind),
+                        changed(document.text, &entry.span, patches)
+                    )
+                }
+                None => "wrong".into(),
+            };
+            if let (None, Some(correct)) = (&wrong.slip, &wrong.correct) {
+                let _ = write!(out, "; right is {}", code(correct));
+            }
+            if let Some((cause, slip)) = &wrong.under_cause {
+                let _ = write!(out, "; by cause {}: {}", cause + 1, escaped(&slip.kind));
+            }
+            if let Some(example) = &wrong.counterexample {
+                let _ = write!(out, "<br><span class=\"faint\">{}</span>", escaped(&at(example)));
+            }
+            for remark in &wrong.remarks {
+                let _ = write!(out, "<br>{}", escaped(remark));
+            }
+            out
+        }
+    }
+}
+
+fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            c if c.is_control() && !matches!(c, '\n' | '\t') => out.push('\u{fffd}'),
+            c => out.push(c),
+        }
+    }
+    out
+}

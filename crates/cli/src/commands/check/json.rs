@@ -1,0 +1,135 @@
+//! The answer as JSON; `docs/json.md` describes it.
+
+use super::Document;
+use super::terminal::entry_name;
+use denavit::check::{Cause, Claim, Counterexample, Entry, Finding, Slip};
+use denavit::description::line_column;
+use serde_json::{Value, json};
+use std::ops::Range;
+
+/// All claims with their verdicts.
+pub fn answer(document: &Document) -> Value {
+    let checked = document.checked;
+    let tally = checked.tally();
+    json!({
+        "schema": 1,
+        "document": document.name,
+        "robots": checked.robots.iter().map(|r| r.name.as_str()).collect::<Vec<_>>(),
+        "tally": {
+            "equal": tally.equal,
+            "wrong": tally.wrong,
+            "conditional": tally.conditional,
+            "undecided": tally.undecided,
+            "unreadable": tally.unreadable,
+        },
+        "causes": checked.causes.iter().map(|c| cause(document, c)).collect::<Vec<_>>(),
+        "claims": checked.claims.iter().map(|c| claim(document, c)).collect::<Vec<_>>(),
+        "notes": checked.notes.iter().map(|n| json!({
+            "severity": n.severity.name(),
+            "at": place(document, &n.span),
+            "message": n.message,
+            "hint": n.hint,
+        })).collect::<Vec<_>>(),
+    })
+}
+
+fn place(document: &Document, span: &Range<usize>) -> Value {
+    let (line, column) = line_column(document.text, span.start);
+    json!({ "line": line, "column": column, "bytes": [span.start, span.end] })
+}
+
+fn cause(document: &Document, cause: &Cause) -> Value {
+    let names = |places: &[(usize, usize)]| {
+        let name = |&(c, e): &(usize, usize)| {
+            let claim = document.checked.claims.get(c)?;
+            Some(entry_name(claim, claim.entries.get(e)?.place))
+        };
+        places.iter().filter_map(name).collect::<Vec<String>>()
+    };
+    json!({
+        "change": cause.change,
+        "turns_right": names(&cause.turns_right),
+        "turns_wrong": names(&cause.turns_wrong),
+        "stays_wrong": names(&cause.stays_wrong),
+    })
+}
+
+fn claim(document: &Document, claim: &Claim) -> Value {
+    let entries: Vec<Value> = claim.entries.iter().map(|e| entry(document, e)).collect();
+    // The first entry with the claim's own verdict speaks for it.
+    let standing = claim.standing();
+    let speaker = claim.entries.iter().position(|e| e.finding.standing() == standing);
+    let of = |key: &str| speaker.and_then(|i| entries[i].get(key)).cloned().unwrap_or(Value::Null);
+    json!({
+        "claim": claim.name,
+        "about": claim.about,
+        "at": place(document, &claim.span),
+        "robot": claim.robot,
+        "verdict": standing.name(),
+        "correct": of("correct"),
+        "slip": of("slip"),
+        "remarks": claim.remarks,
+        "entries": entries,
+    })
+}
+
+fn entry(document: &Document, entry: &Entry) -> Value {
+    let mut value = json!({
+        "verdict": entry.finding.standing().name(),
+        "at": place(document, &entry.span),
+        "printed": document.source(&entry.span),
+    });
+    let mut set = |key: &str, v: Value| value[key] = v;
+    if let Some((row, column)) = entry.place {
+        set("row", row.into());
+        set("column", column.into());
+    }
+    match &entry.finding {
+        Finding::Equal { unless_zero } => {
+            if !unless_zero.is_empty() {
+                set("unless_zero", json!(unless_zero));
+            }
+        }
+        Finding::Conditional { condition, correct, remarks } => {
+            set("condition", json!(condition));
+            set("correct", json!(correct));
+            set("remarks", json!(remarks));
+        }
+        Finding::Undecided { why } => set("why", json!(why)),
+        Finding::Unreadable(findings) => {
+            let of = |d: &denavit::description::Diagnostic| json!({ "at": place(document, &d.span), "message": d.message, "hint": d.hint });
+            set("errors", findings.iter().map(of).collect());
+        }
+        Finding::Wrong(wrong) => {
+            set("correct", json!(wrong.correct));
+            set("slip", json!(wrong.slip.as_ref().map(|s| slip(document, s))));
+            set("rivals", wrong.rivals.iter().map(|s| slip(document, s)).collect());
+            set("difference", json!(wrong.difference));
+            set("counterexample", json!(wrong.counterexample.as_ref().map(example)));
+            set("holds_if", json!(wrong.holds_if));
+            set("remarks", json!(wrong.remarks));
+            if let Some((cause, under)) = &wrong.under_cause {
+                set("under_cause", json!({ "cause": cause, "slip": slip(document, under) }));
+            }
+        }
+    }
+    value
+}
+
+fn slip(document: &Document, slip: &Slip) -> Value {
+    let patches = slip
+        .patches
+        .iter()
+        .map(|p| json!({ "at": place(document, &p.span), "was": document.source(&p.span), "now": p.now }));
+    json!({
+        "kind": slip.id,
+        "words": slip.kind,
+        "patches": patches.collect::<Vec<_>>(),
+        "formula": slip.formula,
+    })
+}
+
+fn example(example: &Counterexample) -> Value {
+    let at: serde_json::Map<String, Value> = example.at.iter().map(|(n, x)| (n.clone(), json!(x))).collect();
+    json!({ "at": at, "printed": example.printed, "right": example.right })
+}

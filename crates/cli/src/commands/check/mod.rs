@@ -1,0 +1,129 @@
+//! `denavit check`: formulas that somebody printed, held against the robot.
+
+mod html;
+mod json;
+mod markdown;
+mod marked;
+mod rubric;
+mod terminal;
+
+use crate::arguments::CheckArguments;
+use crate::failure::Failure;
+use crate::load;
+use denavit::check::document::Format;
+use denavit::check::{Checked, MAX_BYTES, Options, check};
+use denavit::description::{Severity, line_column, render};
+use std::fs;
+use std::io::{self, Read, Write};
+use std::path::Path;
+
+/// A document with what was found in it.
+struct Document<'a> {
+    /// As the command line names it.
+    name: &'a str,
+    text: &'a str,
+    checked: &'a Checked,
+}
+
+impl Document<'_> {
+    /// The line of a place.
+    fn line(&self, at: usize) -> usize {
+        line_column(self.text, at).0
+    }
+
+    /// The part of the document at a place, blanks run together.
+    fn source(&self, span: &std::ops::Range<usize>) -> String {
+        let source = self.text.get(span.clone()).unwrap_or_default();
+        source.split_whitespace().collect::<Vec<_>>().join(" ")
+    }
+}
+
+/// Checks a document.
+///
+/// # Errors
+/// 1 if something in it is wrong, 3 if something cannot be read; and where there is no such robot or file.
+pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
+    let (robot, name) = match &arguments.file {
+        Some(file) => (Some(load::robot(&arguments.robot)?), file.to_string_lossy().into_owned()),
+        None => (None, arguments.robot.robot.clone()),
+    };
+    if let (None, Some(setting)) = (&robot, arguments.robot.set.first()) {
+        return Err(Failure::Usage(format!("--set {setting}: name the robot before the file")));
+    }
+    let text = contents(&name)?;
+    let options = Options {
+        table: load::table_options(&arguments.robot),
+        claim: arguments.claim.clone(),
+        tolerance: arguments.tolerance,
+    };
+    let format = Format::of(&name, &text);
+    let checked = check(&text, format, robot.as_ref(), &options)
+        .map_err(|findings| Failure::Input(render(&findings, &name, &text)))?;
+    let document = Document { name: &name, text: &text, checked: &checked };
+    let worth = checked.notes.iter().filter(|n| arguments.all || n.severity != Severity::Note);
+    let notes: Vec<_> = worth.cloned().collect();
+    write!(anstream::stderr(), "{}", render(&notes, &name, &text))?;
+    let mut out = anstream::stdout();
+    if let Some(file) = &arguments.html {
+        fs::write(file, html::page(&document))
+            .map_err(|e| Failure::Input(format!("error: {}: {e}", file.display())))?;
+    }
+    if let Some(file) = &arguments.rubric {
+        let name = file.to_string_lossy();
+        let rubric = fs::read_to_string(file).map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
+        write!(out, "{}", rubric::sheet(&document, &name, &rubric)?)?;
+    } else if arguments.json {
+        writeln!(out, "{}", json::answer(&document))?;
+    } else if arguments.markdown {
+        write!(out, "{}", markdown::list(&document))?;
+    } else {
+        write!(out, "{}", terminal::report(&document, arguments.all))?;
+    }
+    verdict(&document)
+}
+
+/// The exit code.
+fn verdict(document: &Document) -> Result<(), Failure> {
+    let tally = document.checked.tally();
+    let plural = |n: usize, one: &str, many: &str| format!("{n} {}", if n == 1 { one } else { many });
+    if tally.wrong + tally.conditional > 0 {
+        let mut parts = vec![];
+        if tally.wrong > 0 {
+            parts.push(plural(tally.wrong, "claim is wrong", "claims are wrong"));
+        }
+        if tally.conditional > 0 {
+            parts.push(plural(
+                tally.conditional,
+                "is right under a condition",
+                "are right under a condition",
+            ));
+        }
+        return Err(Failure::No(parts.join(", ")));
+    }
+    if tally.unreadable + tally.undecided > 0 {
+        let count = tally.unreadable + tally.undecided;
+        return Err(Failure::Input(plural(count, "claim is not decided", "claims are not decided")));
+    }
+    if document.checked.claims.is_empty() {
+        let hint = "a claim is an equation such as `P_x = …`, `T06 = […]` or `θ1 = atan2(…)`; say what a left side means \
+             with --claim, or with a comment `check: claim T06` before it";
+        return Err(Failure::Input(format!(
+            "error: {}: no formula about the robot was found\n  = hint: {hint}",
+            document.name
+        )));
+    }
+    Ok(())
+}
+
+/// The text of a file or of standard input.
+fn contents(name: &str) -> Result<String, Failure> {
+    let limit = MAX_BYTES as u64 + 1;
+    let mut bytes = vec![];
+    let read = if name == "-" {
+        io::stdin().lock().take(limit).read_to_end(&mut bytes)
+    } else {
+        fs::File::open(Path::new(name)).and_then(|f| f.take(limit).read_to_end(&mut bytes))
+    };
+    read.map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}

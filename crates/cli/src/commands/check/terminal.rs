@@ -1,0 +1,198 @@
+//! What a person reads in a terminal.
+
+use super::Document;
+use super::marked::{Piece, pieces};
+use crate::terminal::{FAINT, HEADING, NAME, decimals, styled};
+use anstyle::{AnsiColor, Style};
+use denavit::check::{Cause, Claim, Counterexample, Entry, Finding, Patch, Slip, Standing, Wrong};
+use std::ops::Range;
+
+const GOOD: Style = AnsiColor::Green.on_default();
+const BAD: Style = AnsiColor::Red.on_default().bold();
+const DOUBT: Style = AnsiColor::Yellow.on_default();
+
+/// The verdicts, those on wrong claims with what is wrong; with `all`, the right ones too.
+pub fn report(document: &Document, all: bool) -> String {
+    let checked = document.checked;
+    let tally = checked.tally();
+    let mut out = String::new();
+    for (n, cause) in (1..).zip(&checked.causes) {
+        out += &told(document, n, cause);
+    }
+    for claim in &checked.claims {
+        let standing = claim.standing();
+        if standing != Standing::Equal || all || !claim.remarks.is_empty() {
+            out += &shown(document, claim);
+        }
+    }
+    let names: Vec<&str> = checked.robots.iter().map(|r| r.name.as_str()).collect();
+    let mut robots = names.clone();
+    robots.dedup();
+    let mut parts = vec![format!("{} proved", styled(&tally.equal.to_string(), GOOD))];
+    for (count, word, style) in [
+        (tally.wrong, "wrong", BAD),
+        (tally.conditional, "right under a condition", DOUBT),
+        (tally.undecided, "not decided", DOUBT),
+        (tally.unreadable, "not readable", DOUBT),
+    ] {
+        if count > 0 {
+            parts.push(format!("{} {word}", styled(&count.to_string(), style)));
+        }
+    }
+    let count = checked.claims.len();
+    let plural = if count == 1 { "claim" } else { "claims" };
+    let about = robots.first().map_or(String::new(), |r| format!(" about {r}"));
+    out + &format!("{}: {count} {plural}{about}: {}\n", styled(document.name, HEADING), parts.join(", "))
+}
+
+fn told(document: &Document, n: usize, cause: &Cause) -> String {
+    let names = |places: &[(usize, usize)]| {
+        let mut names: Vec<String> = vec![];
+        for &(c, e) in places {
+            let Some(claim) = document.checked.claims.get(c) else { continue };
+            let name = entry_name(claim, claim.entries.get(e).and_then(|e| e.place));
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+        let more = names.len().saturating_sub(12);
+        names.truncate(12);
+        format!("{}{}", names.join(", "), if more > 0 { format!(" and {more} more") } else { String::new() })
+    };
+    let mut out = format!("{} {}\n", styled(&format!("cause {n}:"), HEADING), cause.change);
+    for (what, places) in [
+        ("turns right", &cause.turns_right),
+        ("turns wrong", &cause.turns_wrong),
+        ("stays wrong", &cause.stays_wrong),
+    ] {
+        if !places.is_empty() {
+            out += &format!("  {what} ({}): {}\n", places.len(), names(places));
+        }
+    }
+    out + "\n"
+}
+
+/// `H_6^3, row 3, column 2`
+pub fn entry_name(claim: &Claim, place: Option<(usize, usize)>) -> String {
+    match place {
+        Some((r, c)) => format!("{}, row {r}, column {c}", claim.name),
+        None => claim.name.clone(),
+    }
+}
+
+fn shown(document: &Document, claim: &Claim) -> String {
+    let standing = claim.standing();
+    let (sign, style) = match standing {
+        Standing::Equal => ("✓", GOOD),
+        Standing::Wrong => ("✗", BAD),
+        _ => ("?", DOUBT),
+    };
+    let word = match standing {
+        Standing::Equal => "proved equal",
+        Standing::Wrong => "wrong",
+        Standing::Conditional => "right under a condition",
+        Standing::Undecided => "not decided",
+        Standing::Unreadable => "cannot be read",
+    };
+    let line = document.line(claim.span.start);
+    let about = if claim.about.is_empty() { String::new() } else { format!(" ({})", claim.about) };
+    let mut out = format!(
+        "{} {}{about}, line {line}: {}\n",
+        styled(sign, style),
+        styled(&claim.name, NAME),
+        styled(word, style)
+    );
+    for entry in &claim.entries {
+        out += &finding(document, entry);
+    }
+    for remark in &claim.remarks {
+        out += &format!("    {remark}\n");
+    }
+    out + "\n"
+}
+
+fn finding(document: &Document, entry: &Entry) -> String {
+    let place = entry.place.map_or(String::new(), |(r, c)| format!("row {r}, column {c}: "));
+    match &entry.finding {
+        Finding::Equal { unless_zero } if unless_zero.is_empty() => String::new(),
+        Finding::Equal { unless_zero } => format!("    {place}where {} is not 0\n", unless_zero.join(", ")),
+        Finding::Undecided { why } => format!("    {place}{why}\n"),
+        Finding::Unreadable(findings) => findings
+            .iter()
+            .take(3)
+            .map(|d| {
+                format!("    {}", d.render(document.name, document.text).replace('\n', "\n    ").trim_end())
+                    + "\n"
+            })
+            .collect(),
+        Finding::Conditional { condition, correct, remarks } => {
+            let mut out = format!("    {place}{}\n    right {condition}\n", document.source(&entry.span));
+            if let Some(correct) = correct {
+                out += &format!("    everywhere  {}\n", styled(correct, GOOD));
+            }
+            remarks.iter().for_each(|r| out += &format!("    {r}\n"));
+            out
+        }
+        Finding::Wrong(w) => wrong(document, entry, &place, w),
+    }
+}
+
+fn wrong(document: &Document, entry: &Entry, place: &str, wrong: &Wrong) -> String {
+    let mut out = String::new();
+    let patches: &[Patch] = wrong.slip.as_ref().map_or(&[], |s| &s.patches);
+    out += &format!("    {place}{}\n", marked(document, &entry.span, patches));
+    if let Some(correct) = &wrong.correct {
+        let correct = correct.split_whitespace().collect::<Vec<_>>().join(" ");
+        out += &format!("    right       {}\n", styled(&correct, GOOD));
+    }
+    if let Some(slip) = &wrong.slip {
+        let rivals: Vec<String> = wrong.rivals.iter().map(|r| rival(document, &entry.span, r)).collect();
+        let or = if rivals.is_empty() { String::new() } else { format!("; or {}", rivals.join("; or ")) };
+        out += &format!("    the slip    {}{or}\n", slip.kind);
+    }
+    if let Some((cause, slip)) = &wrong.under_cause {
+        out += &format!(
+            "    by cause {}  {}: {}\n",
+            cause + 1,
+            slip.kind,
+            marked(document, &entry.span, &slip.patches)
+        );
+    }
+    if let Some(example) = &wrong.counterexample {
+        out += &format!("    {}\n", styled(&at(example), FAINT));
+    }
+    if let Some(condition) = &wrong.holds_if {
+        out += &format!("    right only if {condition}\n");
+    }
+    wrong.remarks.iter().for_each(|r| out += &format!("    {r}\n"));
+    out
+}
+
+fn rival(document: &Document, span: &Range<usize>, slip: &Slip) -> String {
+    format!("{}: {}", slip.kind, marked(document, span, &slip.patches))
+}
+
+/// The values at a configuration.
+pub fn at(example: &Counterexample) -> String {
+    let values: Vec<String> =
+        example.at.iter().map(|(name, x)| format!("{name} = {}", decimals(*x, 4))).collect();
+    format!(
+        "at {}: printed {}, right {}",
+        values.join(", "),
+        decimals(example.printed, 6),
+        decimals(example.right, 6)
+    )
+}
+
+/// The printed formula, `[C6 → S6]` where it should read otherwise.
+fn marked(document: &Document, span: &Range<usize>, patches: &[Patch]) -> String {
+    let shown = pieces(document.text, span, patches).into_iter().map(|piece| match piece {
+        Piece::Plain(text) => text,
+        Piece::Changed { was, now } => {
+            let was = if was.trim().is_empty() { "nothing".to_string() } else { was };
+            let now = if now.trim().is_empty() { "nothing".to_string() } else { now };
+            format!("[{} → {}]", styled(&was, BAD), styled(&now, GOOD))
+        }
+    });
+    shown.collect()
+}

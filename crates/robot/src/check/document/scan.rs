@@ -1,0 +1,625 @@
+//! Where the formulas of a document stand: between `$`, in environments and fences, on lines of their own.
+
+use super::lexer::{DISPLAYS, Kind, lex};
+use super::lines::{Lead, goes_on, is_foreign, is_rule, lead, line, trimmed};
+use super::statements::{Manner, Reader};
+use super::{CodeBlock, Format, MAX_FORMULA, Place, cut, drawn, words};
+use std::ops::Range;
+
+/// The most lines that one formula without marks may have.
+const MOST_LINES: usize = 400;
+/// The longest formula between single `$` or backquotes.
+const LONGEST_INLINE: usize = 20_000;
+
+/// LaTeX environments without statements.
+const SKIPPED: [&str; 12] = [
+    "tabular",
+    "tabular*",
+    "tabularx",
+    "longtable",
+    "tabulary",
+    "tikzpicture",
+    "comment",
+    "thebibliography",
+    "verbatim",
+    "lstlisting",
+    "minted",
+    "filecontents",
+];
+
+pub(super) fn read(reader: &mut Reader, format: Format) {
+    let text = reader.text;
+    let mut start = usize::from(text.starts_with('\u{feff}')) * 3;
+    let (mut end, mut bare) = (text.len(), true);
+    if format == Format::Markdown {
+        start = behind_front_matter(text, start);
+    }
+    if format == Format::Latex {
+        const BEGIN: &str = "\\begin{document}";
+        if let Some(begin) = text.find(BEGIN) {
+            start = begin + BEGIN.len();
+            end = text.get(start..).and_then(|t| t.find("\\end{document}")).map_or(end, |i| start + i);
+        }
+        bare = !text.contains("\\documentclass") && start == 0;
+    }
+    let style = Style {
+        marks: format == Format::Markdown,
+        dollars: true,
+        latex: format == Format::Latex,
+        sums: format == Format::Plain,
+        bare,
+    };
+    Scanner { reader, style, missing: vec![], quotes: [0; 4] }.lines(start..end);
+}
+
+/// What counts as a mark.
+#[derive(Clone, Copy)]
+struct Style {
+    /// Headings, fences, tables and backquotes of Markdown.
+    marks: bool,
+    /// `$…$`
+    dollars: bool,
+    latex: bool,
+    /// Sums may be left sides of lines on their own.
+    sums: bool,
+    /// Lines without marks are read.
+    bare: bool,
+}
+
+struct Scanner<'r, 't> {
+    reader: &'r mut Reader<'t>,
+    style: Style,
+    /// What does not occur any more from here on.
+    missing: Vec<&'static str>,
+    /// Up to where no run of so many backquotes is closed.
+    quotes: [usize; 4],
+}
+
+fn behind_front_matter(text: &str, start: usize) -> usize {
+    for fence in ["---", "+++"] {
+        let (first, mut at) = line(text, start, text.len());
+        if cut(text, &first).trim_end() != fence {
+            continue;
+        }
+        for _ in 0..500 {
+            let (span, next) = line(text, at, text.len());
+            if cut(text, &span).trim_end() == fence {
+                return next;
+            }
+            if next <= at {
+                break;
+            }
+            at = next;
+        }
+    }
+    start
+}
+
+impl<'t> Scanner<'_, 't> {
+    fn text(&self) -> &'t str {
+        self.reader.text
+    }
+
+    fn manner(&self, place: Place) -> Manner {
+        Manner { place, lines: place == Place::Line, sums: self.style.sums }
+    }
+
+    fn lines(&mut self, range: Range<usize>) {
+        let (mut at, limit) = (range.start, range.end);
+        while at < limit && !self.reader.full() {
+            let (span, next) = line(self.text(), at, limit);
+            let shown = cut(self.text(), &span);
+            let after = if shown.trim().is_empty() {
+                Some(next)
+            } else if self.style.marks {
+                self.markdown_block(&span, next, limit)
+            } else if self.style.latex {
+                self.latex_block(&span, next, limit)
+            } else {
+                None
+            };
+            at = match after {
+                Some(after) => after,
+                None => self.line(span, next, limit),
+            }
+            .max(at + 1);
+        }
+    }
+
+    /// Fences, headings, tables and comments; where the line behind it begins.
+    fn markdown_block(&mut self, span: &Range<usize>, next: usize, limit: usize) -> Option<usize> {
+        let text = self.text();
+        let shown = cut(text, span).trim();
+        let (following, _) = line(text, next, limit);
+        if let Some(fence) = ["```", "~~~"].iter().find(|f| shown.starts_with(*f)) {
+            let mark = fence.chars().next()?;
+            let length = shown.chars().take_while(|&c| c == mark).count();
+            // ```` ``` x = y ``` ```` is a formula in a line.
+            if !shown.get(length..)?.contains(mark) {
+                return Some(self.fence(shown, mark, length, next, limit));
+            }
+        }
+        let level = shown.bytes().take_while(|&b| b == b'#').count();
+        if (1..=6).contains(&level)
+            && shown.get(level..).is_some_and(|r| r.is_empty() || r.starts_with([' ', '\t']))
+        {
+            let heading = trimmed(text, span);
+            let start = heading.start + level;
+            self.headed(trimmed(text, &(start..heading.end)));
+            return Some(next);
+        }
+        let under = cut(text, &following).trim();
+        if is_rule(shown) {
+            return Some(next);
+        }
+        let ruled = under.contains('-') && under.contains('|') && under.chars().all(|c| "|-: \t".contains(c));
+        if shown.contains('|') && ruled {
+            let manner = self.manner(Place::Display);
+            return Some(drawn::table(self.reader, span.start, limit, manner));
+        }
+        let bars = shown.bytes().filter(|&b| b == b'|').count();
+        if shown.starts_with('|') && shown.ends_with('|') && bars > 2 && !shown.contains('=') {
+            let manner = self.manner(Place::Display);
+            return Some(drawn::table(self.reader, span.start, limit, manner));
+        }
+        if is_rule(under) && !shown.contains(['$', '`', '=']) {
+            self.headed(trimmed(text, span));
+            return Some(next);
+        }
+        // `[name]: https://…`
+        (shown.starts_with('[') && shown.contains("]: ")).then_some(next)
+    }
+
+    fn headed(&mut self, span: Range<usize>) {
+        self.reader.heading = Some(span);
+        (self.reader.prose, self.reader.label) = (None, None);
+    }
+
+    /// A fence whose first line was read.
+    fn fence(&mut self, first: &str, mark: char, length: usize, start: usize, limit: usize) -> usize {
+        let text = self.text();
+        let (mut at, mut end) = (start, limit);
+        let mut after = limit;
+        while at < limit {
+            let (span, next) = line(text, at, limit);
+            let shown = cut(text, &span).trim();
+            if shown.chars().count() >= length && shown.chars().all(|c| c == mark) {
+                (end, after) = (span.start, next);
+                break;
+            }
+            at = next.max(at + 1);
+        }
+        let info = first.trim_start_matches(mark).trim_start().trim_start_matches(['{', '.']);
+        let language: String =
+            info.chars().take_while(|c| c.is_alphanumeric() || "+-_".contains(*c)).collect();
+        let language = language.to_lowercase();
+        let content = start..end;
+        let shown = cut(text, &content);
+        match language.as_str() {
+            "math" | "latex" | "tex" | "katex" if !["$", "\\[", "\\("].iter().any(|m| shown.contains(m)) => {
+                self.reader.fences.push(content.clone());
+                let manner = self.manner(Place::Display);
+                self.reader.region(content, manner);
+            }
+            "" | "text" | "txt" | "plain" | "plaintext" | "math" | "latex" | "tex" | "katex" | "equation" => {
+                self.reader.fences.push(content.clone());
+                let tex = matches!(language.as_str(), "latex" | "tex" | "math" | "katex");
+                let inner = Style { marks: false, dollars: tex, latex: tex, sums: true, bare: true };
+                let outer = std::mem::replace(&mut self.style, inner);
+                self.lines(content);
+                self.style = outer;
+            }
+            _ => self.reader.code.push(CodeBlock { span: content, language, directives: vec![] }),
+        }
+        after
+    }
+
+    /// Headings and environments that are skipped.
+    fn latex_block(&mut self, span: &Range<usize>, next: usize, limit: usize) -> Option<usize> {
+        let text = self.text();
+        let shown = cut(text, span).trim();
+        let command = shown.strip_prefix('\\')?;
+        for heading in ["section", "subsection", "subsubsection", "chapter", "paragraph", "title"] {
+            let Some(rest) = command.strip_prefix(heading) else { continue };
+            let rest = rest.strip_prefix('*').unwrap_or(rest);
+            if rest.starts_with('{') {
+                let end = trimmed(text, span).end;
+                let inner = end - rest.len() + 1..end;
+                let close = cut(text, &inner).rfind('}').map_or(inner.end, |i| inner.start + i);
+                self.headed(inner.start..close);
+                return Some(next);
+            }
+        }
+        for defining in
+            ["newcommand", "renewcommand", "def\\", "usepackage", "set", "include", "input", "graphicspath"]
+        {
+            if command.starts_with(defining) {
+                return Some(next);
+            }
+        }
+        let name = command.strip_prefix("begin{")?;
+        let name = SKIPPED.iter().find(|s| name.strip_prefix(**s).is_some_and(|r| r.starts_with('}')))?;
+        let start = trimmed(text, span).start;
+        let Some(end) = self.end_of(name, start, limit) else { return Some(next) };
+        if matches!(*name, "lstlisting" | "minted") {
+            let language = shown.split("language=").nth(1).or(shown.rsplit('{').next()).unwrap_or("");
+            let language =
+                language.chars().take_while(|c| c.is_alphanumeric()).collect::<String>().to_lowercase();
+            self.reader.code.push(CodeBlock {
+                span: next..end.start.max(next),
+                language,
+                directives: vec![],
+            });
+        }
+        Some(line(text, end.end, limit).1)
+    }
+
+    /// The next `\end{name}`.
+    fn end_of(&mut self, name: &'static str, from: usize, limit: usize) -> Option<Range<usize>> {
+        if self.missing.contains(&name) {
+            return None;
+        }
+        let end = format!("\\end{{{name}}}");
+        match self.text().get(from..limit).and_then(|t| t.find(&end)) {
+            Some(at) => Some(from + at..from + at + end.len()),
+            None => {
+                self.missing.push(name);
+                None
+            }
+        }
+    }
+
+    /// A line with formulas between marks, or one on its own, or prose. Where the line behind it begins.
+    fn line(&mut self, span: Range<usize>, next: usize, limit: usize) -> usize {
+        let text = self.text();
+        let lead = lead(text, &span);
+        let (mut cursor, mut end, mut next) = (lead.rest.min(span.end), span.end, next);
+        let mut marked = false;
+        while cursor < end {
+            let Some(mark) = self.mark(cursor, end) else { break };
+            let before = trimmed(text, &(span.start..mark));
+            if !marked && lead.label.is_some() && cut(text, &(lead.rest..mark)).trim().is_empty() {
+                self.reader.label = lead.label.clone();
+            } else if has_letters(text, &before) && before.start < before.end {
+                self.reader.prose = Some(before);
+                self.reader.label = None;
+            }
+            let (after, formula) = self.marked(mark, limit);
+            marked |= formula;
+            cursor = after.max(mark + 1);
+            if cursor > end {
+                let (rest, following) = line(text, cursor, limit);
+                (end, next) = (rest.end, following);
+            }
+            if self.reader.full() {
+                return next;
+            }
+        }
+        if marked {
+            if has_letters(text, &(cursor.min(end)..end)) {
+                self.reader.prose = Some(trimmed(text, &span));
+                self.reader.label = None;
+            }
+            return next;
+        }
+        if self.style.bare && next > end || self.style.bare && end == limit {
+            if let Some(after) = self.bare(&span, &lead, next, limit) {
+                return after;
+            }
+        }
+        if has_letters(text, &span) {
+            self.reader.prose = Some(trimmed(text, &span));
+            // `t22:` alone labels what follows.
+            let alone = cut(text, &(lead.rest.min(span.end)..span.end)).trim().is_empty();
+            self.reader.label = lead.label.filter(|_| alone);
+        }
+        next
+    }
+
+    /// The next mark of a formula or comment on a line.
+    fn mark(&self, from: usize, end: usize) -> Option<usize> {
+        let bytes = self.text().as_bytes();
+        let mut at = from;
+        while at < end {
+            match bytes.get(at)? {
+                b'$' if self.style.dollars || bytes.get(at + 1) == Some(&b'$') => return Some(at),
+                b'`' if self.style.marks => return Some(at),
+                b'<' if bytes.get(at..at + 4) == Some(b"<!--") => return Some(at),
+                b'%' if self.style.latex => return Some(at),
+                b'\\' => {
+                    if matches!(bytes.get(at + 1), Some(b'[' | b'('))
+                        || self.display(at).is_some()
+                        || (self.style.latex && bytes.get(at..at + 5) == Some(b"\\verb"))
+                    {
+                        return Some(at);
+                    }
+                    at += 1;
+                }
+                _ => {}
+            }
+            at += 1;
+        }
+        None
+    }
+
+    /// The display environment that begins here, and its name without a star.
+    fn display(&self, at: usize) -> Option<&'static str> {
+        let rest = self.text().get(at..)?.strip_prefix("\\begin{")?;
+        let inner = ["aligned", "alignedat", "split", "gathered"];
+        DISPLAYS
+            .into_iter()
+            .filter(|d| !inner.contains(d))
+            .find(|d| rest.strip_prefix(*d).is_some_and(|r| r.starts_with('}') || r.starts_with("*}")))
+    }
+
+    /// Reads what begins at a mark: where it ends, and whether it was a formula's mark.
+    fn marked(&mut self, at: usize, limit: usize) -> (usize, bool) {
+        let text = self.text();
+        let rest = text.get(at..limit).unwrap_or("");
+        let display = self.manner(Place::Display);
+        let inline = self.manner(Place::Inline);
+        if rest.starts_with("<!--") {
+            if self.missing.contains(&"-->") {
+                return (at + 4, false);
+            }
+            let Some(length) = rest.find("-->") else {
+                self.missing.push("-->");
+                return (at + 4, false);
+            };
+            return (at + length + 3, false);
+        }
+        if rest.starts_with('%') {
+            return (line(text, at, limit).0.end, false);
+        }
+        if let Some(verb) = rest.strip_prefix("\\verb") {
+            let mark = verb.chars().next().filter(|c| !c.is_alphanumeric());
+            let (span, _) = line(text, at, limit);
+            let inner =
+                mark.and_then(|m| cut(text, &(at + 5 + m.len_utf8()..span.end)).find(m).map(|i| (m, i)));
+            return (inner.map_or(at + 5, |(m, i)| at + 5 + 2 * m.len_utf8() + i), false);
+        }
+        if rest.starts_with('`') {
+            return self.quoted(at, limit);
+        }
+        if rest.starts_with("$$") {
+            let close =
+                rest.get(2..).and_then(|r| r.find("$$")).filter(|&i| i < MAX_FORMULA && whole(rest, 2 + i));
+            let Some(length) = close else {
+                self.reader.note(at..at + 2, "`$$` is not closed", "close the formula with `$$`");
+                return (at + 2, false);
+            };
+            self.reader.region(at + 2..at + 2 + length, display);
+            return (at + length + 4, true);
+        }
+        if rest.starts_with("\\[") || rest.starts_with("\\(") {
+            let (close, manner) = if rest.starts_with("\\[") { ("\\]", display) } else { ("\\)", inline) };
+            return match closing(rest, close) {
+                Some(length) => {
+                    self.reader.region(at + 2..at + length, manner);
+                    (at + length + 2, true)
+                }
+                None => (at + 2, false),
+            };
+        }
+        if let Some(name) = self.display(at) {
+            let starred = rest.get(7 + name.len()..).is_some_and(|r| r.starts_with('*'));
+            let end =
+                if starred { self.end_of_starred(name, at, limit) } else { self.end_of(name, at, limit) };
+            let Some(end) = end else {
+                let span = at..at + 7 + name.len();
+                self.reader.note(
+                    span.clone(),
+                    format!("`\\begin{{{name}}}` has no end"),
+                    "close the environment",
+                );
+                return (span.end, false);
+            };
+            self.reader.region(at..end.end, display);
+            return (end.end, true);
+        }
+        self.dollar(at, rest, inline)
+    }
+
+    fn end_of_starred(&mut self, name: &'static str, from: usize, limit: usize) -> Option<Range<usize>> {
+        let end = format!("\\end{{{name}*}}");
+        let window = from..limit.min(from + MAX_FORMULA);
+        let bytes = self.text().as_bytes().get(window)?;
+        let at = bytes.windows(end.len()).position(|w| w == end.as_bytes())?;
+        Some(from + at..from + at + end.len())
+    }
+
+    /// `$…$`
+    fn dollar(&mut self, at: usize, rest: &str, manner: Manner) -> (usize, bool) {
+        let bytes = rest.as_bytes();
+        let mut i = 1;
+        let mut related = false;
+        while let Some(&byte) = bytes.get(i) {
+            match byte {
+                b'\\' => i += 1,
+                b'=' => related = true,
+                b'$' if bytes.get(i + 1) == Some(&b'$') => break,
+                b'$' => {
+                    self.reader.region(at + 1..at + i, manner);
+                    return (at + i + 1, true);
+                }
+                b'\n' if blank_line(rest, i + 1) => break,
+                _ if i > LONGEST_INLINE => break,
+                _ => {}
+            }
+            i += 1;
+        }
+        if related {
+            let hint = "close the formula with `$`, or write `\\$` for the sign";
+            self.reader.note(at..at + 1, "`$` is not closed in its paragraph", hint);
+        }
+        (at + 1, false)
+    }
+
+    /// Code between backquotes.
+    fn quoted(&mut self, at: usize, limit: usize) -> (usize, bool) {
+        let text = self.text();
+        let rest = text.get(at..limit).unwrap_or("");
+        let run = rest.bytes().take_while(|&b| b == b'`').count();
+        let known = self.quotes.get(run).copied();
+        if known.is_none_or(|k| at < k) {
+            return (at + run, false);
+        }
+        let bytes = rest.as_bytes();
+        let mut i = run;
+        while let Some(&byte) = bytes.get(i) {
+            match byte {
+                b'`' => {
+                    let here = bytes.iter().skip(i).take_while(|&&b| b == b'`').count();
+                    if here == run {
+                        let manner = self.manner(Place::Code);
+                        let content = at + run..at + i;
+                        if !is_foreign(cut(text, &content)) {
+                            self.reader.region(content, Manner { sums: true, ..manner });
+                        }
+                        return (at + i + run, true);
+                    }
+                    i += here;
+                    continue;
+                }
+                b'\n' if blank_line(rest, i + 1) => break,
+                _ if i > LONGEST_INLINE => break,
+                _ => {}
+            }
+            i += 1;
+        }
+        if let Some(known) = self.quotes.get_mut(run) {
+            *known = at + i;
+        }
+        (at + run, false)
+    }
+
+    /// A statement that stands alone on its line, with the lines that go on with it. Where the line behind begins.
+    fn bare(&mut self, span: &Range<usize>, lead: &Lead, next: usize, limit: usize) -> Option<usize> {
+        let text = self.text();
+        let shown = cut(text, span);
+        if shown.len() > MAX_FORMULA {
+            return None;
+        }
+        let (mut following, mut after) = line(text, next, limit);
+        let mut manner = self.manner(Place::Line);
+        if drawn::begins(text, span, &following) {
+            return Some(drawn::read(self.reader, span.start, limit, self.manner(Place::Display)));
+        }
+        let content = lead.rest.min(span.end)..span.end;
+        let tokens = lex(text, &content);
+        let related = tokens.iter().any(|t| matches!(t.kind, Kind::Relation(_)));
+        let opens = tokens.iter().any(|t| matches!(t.kind, Kind::Begin(_)));
+        let chain =
+            cut(text, &following).trim_start().starts_with('=') && !is_rule(cut(text, &following).trim());
+        if tokens.is_empty() || !(related || opens || chain) || is_foreign(shown) {
+            return None;
+        }
+        if opens {
+            manner.place = Place::Display;
+        } else {
+            let left = tokens.iter().find(|t| matches!(t.kind, Kind::Relation(_)));
+            let left = content.start..left.map_or(content.end, |t| t.span.start);
+            let label = words::is_left_side(text, &trimmed(text, &left), self.style.sums || !related);
+            let bracket = chain && !words::is_prose(text, &content);
+            let begins = tokens.first().is_some_and(|t| matches!(t.kind, Kind::Relation(_)));
+            // Several statements on a line are looked at one by one.
+            if words::is_prose(text, &content) || !(label || bracket || begins) {
+                return None;
+            }
+        }
+        let mut depth = words::open_brackets(&tokens);
+        let mut last = tokens.last().map(|t| (t.kind, cut(text, &t.span)));
+        let (mut end, mut behind) = (span.end, next);
+        let mut skipped = false;
+        for _ in 0..MOST_LINES {
+            if behind >= limit || following.end - span.start > MAX_FORMULA {
+                break;
+            }
+            let waits = matches!(last, Some((Kind::Relation(_), _)));
+            let open = waits || matches!(last, Some((Kind::Operator, o)) if o != ".");
+            let line_shown = cut(text, &following).trim();
+            if line_shown.is_empty() {
+                let (over, further) = line(text, after, limit);
+                let matrix = cut(text, &over).trim_start().starts_with(['[', '{', '(']);
+                if !(waits && matrix && !skipped && depth == 0)
+                    || drawn::begins(text, &over, &line(text, further, limit).0)
+                {
+                    break;
+                }
+                skipped = true;
+                (behind, following, after) = (after, over, further);
+                continue;
+            }
+            let (second, _) = line(text, after, limit);
+            if waits && (line_shown.starts_with(['|', '$']) || drawn::begins(text, &following, &second)) {
+                break;
+            }
+            if !(depth > 0 || open || goes_on(text, &following, lead.bullet)) {
+                break;
+            }
+            let more = lex(text, &following);
+            for token in &more {
+                match token.kind {
+                    Kind::Open(_) | Kind::Begin(_) => depth += 1,
+                    Kind::Close(_) | Kind::End => depth = depth.saturating_sub(1),
+                    _ => {}
+                }
+            }
+            last = more.last().map(|t| (t.kind, cut(text, &t.span))).or(last);
+            (end, behind) = (following.end, after);
+            (following, after) = line(text, behind, limit);
+        }
+        if lead.label.is_some() {
+            self.reader.label = lead.label.clone();
+        }
+        if !self.reader.region(content.start..end, manner) && has_letters(text, span) {
+            self.reader.prose = Some(trimmed(text, span));
+        }
+        Some(behind)
+    }
+}
+
+/// Whether a display goes on from the start of `rest` to byte `end`: no heading or fence is in it.
+fn whole(rest: &str, end: usize) -> bool {
+    let inner = rest.get(..end).unwrap_or("");
+    !["\n```", "\n~~~", "\n# ", "\n## ", "\n### "].iter().any(|m| inner.contains(m))
+}
+
+/// Where `\]` or `\)` stands, before the next opening and the end of the paragraph.
+fn closing(rest: &str, close: &str) -> Option<usize> {
+    let bytes = rest.as_bytes();
+    let inline = close == "\\)";
+    let mut i = 2;
+    while i < bytes.len().min(MAX_FORMULA) {
+        match bytes.get(i)? {
+            b'\\' => {
+                let pair = bytes.get(i..i + 2)?;
+                if pair == close.as_bytes() {
+                    return Some(i);
+                }
+                if pair == b"\\[" || pair == b"\\(" {
+                    return None;
+                }
+                i += 1;
+            }
+            b'\n' if blank_line(rest, i + 1) && inline => return None,
+            b'\n' if rest.get(i..).is_some_and(|r| r.starts_with("\n```") || r.starts_with("\n# ")) => {
+                return None;
+            }
+            _ => {}
+        }
+        i += 1;
+    }
+    None
+}
+
+/// Whether the line that begins at byte `at` is blank.
+fn blank_line(text: &str, at: usize) -> bool {
+    let rest = text.as_bytes().get(at..).unwrap_or(&[]);
+    let blanks = rest.iter().take(200).take_while(|b| matches!(b, b' ' | b'\t' | b'\r')).count();
+    rest.get(blanks).is_none_or(|&b| b == b'\n')
+}
+
+fn has_letters(text: &str, span: &Range<usize>) -> bool {
+    cut(text, span).chars().any(char::is_alphabetic)
+}
