@@ -6,7 +6,7 @@ use super::judge::Judge;
 use super::outcome::{Cause, Claim, Finding};
 use super::plan::{Plan, Walked};
 use super::subject::Subject;
-use super::walk::{Pair, Piece};
+use super::walk::Piece;
 use crate::description::{Convention, Description, Row};
 use denavit_symbolic::slip::Points;
 use denavit_symbolic::{Expr, equal};
@@ -270,12 +270,4 @@ fn hypotheses(plan: &Plan) -> Vec<Hypothesis> {
         }
     }
     found
-}
-
-/// The pair of formulas of an entry.
-pub(super) fn pair(piece: &Piece) -> Option<&Pair> {
-    match piece {
-        Piece::Pair(pair) => Some(pair),
-        Piece::Unreadable { .. } => None,
-    }
 }

@@ -1,11 +1,13 @@
 //! The verdict on each pair of formulas, by proof; what is wrong with it, and the smallest change that mends it.
 
 use super::lexis::Columns;
+use super::numbers;
 use super::outcome::{Claim, Counterexample, Entry, Finding, Patch, Slip, Wrong};
 use super::plan::{Plan, Walked};
 use super::subject::Subject;
 use super::values;
 use super::walk::{Assertion, Pair, Piece};
+use super::whole;
 use crate::description::{Diagnostic, Severity};
 use denavit_symbolic::parse::{ParseError, Syntax, SyntaxKind};
 use denavit_symbolic::print::{Style, print};
@@ -15,13 +17,19 @@ use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Expr, Symbol, Verdict, equal};
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::rc::Rc;
 
 /// A formula of more literals is not shown.
 const MAX_SHOWN: u64 = 300;
 
 /// The claims of a document with their verdicts.
-pub(super) fn judge(text: &str, plan: &Plan, walked: &Walked) -> (Vec<Claim>, Vec<(Range<usize>, String)>) {
-    let mut judge = Judge::new(text, plan, walked);
+pub(super) fn judge(
+    text: &str,
+    plan: &Plan,
+    walked: &Walked,
+    tolerance: Option<f64>,
+) -> (Vec<Claim>, Vec<(Range<usize>, String)>) {
+    let mut judge = Judge { tolerance, ..Judge::new(text, plan, walked) };
     let mut claims: Vec<Claim> = walked.assertions.iter().map(|a| judge.claim(a)).collect();
     let (values, notes) = values::judge(plan, walked, Columns::of(text));
     for (at, claim) in values {
@@ -38,12 +46,20 @@ pub(super) struct Judge<'a> {
     lexicons: BTreeMap<usize, Option<Lexicon>>,
     /// Spellings of the document, for the lexicons.
     spellings: Vec<(Expr, String)>,
+    /// How far numbers may be off.
+    tolerance: Option<f64>,
+    /// The names of the present claim, where they are its own.
+    own_names: Option<Rc<Vocabulary>>,
+    /// Whether slips are looked for.
+    has_slips: bool,
     /// The work left for slips, in formulas.
     budget: usize,
 }
 
 /// The cost of the largest change that is called a slip; a sign costs 10.
 const MAX_COST: u32 = 60;
+/// The cost of a sign.
+const SIGN: u32 = 10;
 /// No more formulas than these are looked at for slips.
 const MAX_SLIPS: usize = 400;
 
@@ -71,13 +87,40 @@ impl<'a> Judge<'a> {
         }
         spellings.sort_by(|a, b| a.1.cmp(&b.1));
         spellings.dedup();
-        Judge { text, plan, walked, lexicons: BTreeMap::new(), spellings, budget: MAX_SLIPS }
+        Judge {
+            text,
+            plan,
+            walked,
+            lexicons: BTreeMap::new(),
+            spellings,
+            tolerance: None,
+            own_names: None,
+            has_slips: true,
+            budget: MAX_SLIPS,
+        }
     }
 
     fn claim(&mut self, assertion: &Assertion) -> Claim {
-        let entries = assertion.pieces.iter().map(|piece| self.entry(piece, assertion.subject));
+        let instead = whole::instead(assertion, self.plan);
+        let exchanged = if instead.is_some() { vec![] } else { whole::exchanged(assertion) };
+        self.has_slips = instead.is_none();
+        self.own_names = assertion.names.clone();
+        let mut entries: Vec<Entry> = vec![];
+        for (i, piece) in assertion.pieces.iter().enumerate() {
+            let other = exchanged.iter().find_map(|&(a, b)| match i {
+                _ if i == a => Some(b),
+                _ if i == b => Some(a),
+                _ => None,
+            });
+            let mut entry = self.entry(piece, assertion.subject);
+            if let (Some(other), Finding::Wrong(wrong)) = (other, &mut entry.finding) {
+                self.exchange(assertion, i, other, wrong);
+            }
+            entries.push(entry);
+        }
         Claim {
-            entries: entries.collect(),
+            entries,
+            instead,
             span: assertion.span.clone(),
             name: assertion.name.clone(),
             about: assertion.about.clone(),
@@ -86,12 +129,34 @@ impl<'a> Judge<'a> {
         }
     }
 
+    /// Says that an entry stands in another's place.
+    fn exchange(&self, assertion: &Assertion, i: usize, other: usize, wrong: &mut Wrong) {
+        let (Piece::Pair(here), Piece::Pair(there)) = (&assertion.pieces[i], &assertion.pieces[other]) else {
+            return;
+        };
+        let Some((r, c)) = there.place else { return };
+        let now = self.text.get(there.span.clone()).unwrap_or_default().to_string();
+        wrong.correct = Some(now.clone());
+        wrong.rivals = vec![];
+        wrong.slip = Some(Slip {
+            kind: format!("exchanged with row {r}, column {c}"),
+            id: "entries-exchanged".into(),
+            patches: vec![Patch { span: here.span.clone(), now: now.clone() }],
+            formula: now,
+        });
+    }
+
     fn entry(&mut self, piece: &Piece, subject: usize) -> Entry {
         match piece {
             Piece::Unreadable { place, span, errors } => Entry {
                 place: *place,
                 span: span.clone(),
                 finding: Finding::Unreadable(errors.iter().map(diagnostic).collect()),
+            },
+            Piece::Number { place, span, answer } => Entry {
+                place: *place,
+                span: span.clone(),
+                finding: numbers::judge(answer, &self.plan.subjects[subject], self.tolerance),
             },
             Piece::Pair(pair) => {
                 Entry { place: pair.place, span: pair.span.clone(), finding: self.finding(pair, subject) }
@@ -153,6 +218,30 @@ impl<'a> Judge<'a> {
         }
     }
 
+    /// Another entry in place of a short one: 0 for C2, and C2 for 1.
+    fn entire(&self, printed: &Syntax, pair: &Pair, found: Option<&Slip>, cost: u32) -> Option<Slip> {
+        let is_one = pair.value.is_one();
+        let right = simplify(pair.wanted, &pair.wanted.symbols()).ok()?.expr;
+        let number = right.as_number();
+        if matches!(printed.kind, SyntaxKind::Sum(_)) && !is_one || cost <= SIGN {
+            return None;
+        }
+        let now = match (number, found) {
+            (Some(_), _) => print(right, &Vocabulary::new(), Style::Ascii),
+            (None, Some(slip)) if is_one => {
+                let rest = slip.formula.replacen('1', "", 1);
+                rest.replace("\\cdot", "").trim().trim_start_matches(['*', '.', '·', ' ']).to_string()
+            }
+            _ => return None,
+        };
+        Some(Slip {
+            kind: "another entry".into(),
+            id: "entry".into(),
+            patches: vec![Patch { span: pair.span.clone(), now: now.clone() }],
+            formula: now,
+        })
+    }
+
     fn vocabulary(&self, subject: usize) -> &'a Vocabulary {
         self.walked.names_of(subject)
     }
@@ -179,7 +268,7 @@ impl<'a> Judge<'a> {
     /// The smallest changes that make a formula right.
     pub fn slips(&mut self, pair: &Pair, subject: usize) -> Vec<Slip> {
         let Some(printed) = &pair.printed else { return vec![] };
-        if self.budget == 0 {
+        if self.budget == 0 || !self.has_slips {
             return vec![];
         }
         self.budget -= 1;
@@ -193,7 +282,11 @@ impl<'a> Judge<'a> {
         // A change that is larger than this is another formula.
         let best = found.first().map_or(0, |r| r.cost).min(MAX_COST);
         let close = found.into_iter().filter(|r| r.cost <= best).take(4);
-        close.map(|r| slip(r, pair.span.start)).collect()
+        let found: Vec<Slip> = close.map(|r| slip(r, pair.span.start)).collect();
+        match self.entire(printed, pair, found.first(), best.max(u32::from(found.is_empty()) * MAX_COST)) {
+            Some(entire) => vec![entire],
+            None => found,
+        }
     }
 }
 

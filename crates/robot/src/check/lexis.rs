@@ -7,6 +7,7 @@ use super::subject::{Subject, elementary};
 use denavit_symbolic::parse::{ParseError, Syntax, parse_syntax};
 use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
 use denavit_symbolic::{Expr, Symbol};
+use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
@@ -50,7 +51,7 @@ pub(super) struct Lexis {
     matrices: BTreeMap<String, (Matrix, Option<String>)>,
     scalars: Vec<(String, Expr)>,
     /// Frames named by letters are anywhere.
-    pub anywhere: bool,
+    pub anywhere: Cell<bool>,
 }
 
 /// The symbol of an entry of the pose in inverse formulas, row and column from 0.
@@ -69,7 +70,7 @@ impl Lexis {
             right: BTreeSet::new(),
             matrices: BTreeMap::new(),
             scalars: vec![],
-            anywhere: false,
+            anywhere: Cell::new(false),
         };
         let pose = subject.pose().matrix();
         for (r, axis) in AXES.iter().enumerate() {
@@ -140,6 +141,12 @@ impl Lexis {
         self.matrices.insert(name.key(), (value, about));
     }
 
+    /// The names in which inverse formulas are printed.
+    pub fn inverse_names(&self) -> Vocabulary {
+        let places = (0..3).flat_map(|r| (0..4).map(move |c| (r, c)));
+        places.fold(self.inverse.clone(), |names, (r, c)| names.symbol(&self.pose_symbol(r, c).name()))
+    }
+
     /// True if the document has defined this matrix.
     pub fn has_defined(&self, name: &Name) -> bool {
         self.matrices.contains_key(&name.key())
@@ -190,7 +197,7 @@ impl Lexis {
             Some(found) => found.clone(),
             None => {
                 let value = |argument: &str| self.argument(argument);
-                let anywhere = self.anywhere;
+                let anywhere = self.anywhere.get();
                 match elementary(name, &value).or_else(|| subject.meaning(name, anywhere)) {
                     Some((matrix, about)) => (matrix, Some(about)),
                     None => (self.matrices.get(&name.backwards()?.key())?.0.inverse()?, None),
@@ -223,9 +230,6 @@ impl Lexis {
 
     /// The letters that stand for themselves in the arguments of elementary transforms.
     pub fn declare_arguments(&mut self, name: &Name) {
-        if !matches!(name.base.as_str(), "Rot" | "rot" | "Trans" | "trans" | "R") {
-            return;
-        }
         for argument in &name.arguments {
             let Some(value) = self.argument(argument) else { continue };
             for symbol in value.symbols() {

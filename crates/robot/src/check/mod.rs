@@ -6,25 +6,30 @@
 //! then of the formula (`denavit_symbolic::slip`).
 
 mod causes;
+pub mod code;
 pub mod document;
 pub mod inverse;
 mod judge;
 mod lexis;
 mod matrix;
 mod names;
+mod numbers;
 mod outcome;
 mod plan;
 mod product;
+mod programs;
 mod subject;
 mod values;
 mod walk;
+mod whole;
 
 pub use outcome::{
     Cause, Checked, Claim, Counterexample, Entry, Finding, Patch, Slip, Standing, Tally, Wrong,
 };
 
 use crate::description::{Description, Diagnostic, Diagnostics, TableOptions};
-use document::Format;
+use code::Language;
+use document::{Document, Format};
 use plan::Plan;
 
 /// The longest document, in bytes.
@@ -41,6 +46,8 @@ pub struct Options {
     pub claim: Option<String>,
     /// How far a numeric answer may be off, in its own unit.
     pub tolerance: Option<f64>,
+    /// The text is a program in this language.
+    pub language: Option<Language>,
 }
 
 /// Holds a document against a robot, or against the tables that stand in it.
@@ -58,7 +65,10 @@ pub fn check(
         notes.error(0..0, format!("the document has {} bytes; at most {MAX_BYTES} are read", text.len()));
         return Err(notes.list().to_vec());
     }
-    let document = document::read(text, format);
+    let document = match options.language {
+        Some(_) => Document::default(),
+        None => document::read(text, format),
+    };
     let plan = Plan::of(text, format, &document, robot, options, &mut notes)?;
     let walked = plan.walk(text, &document, options);
     if !plan.has_robot && walked.assertions.is_empty() {
@@ -71,12 +81,17 @@ pub fn check(
         return Err(notes.list().to_vec());
     }
     for (span, error) in &walked.skipped {
-        notes.note(span.clone(), format!("passed over: {}", error.message));
+        let finding = notes.note(span.clone(), format!("passed over: {}", error.message));
+        error.hint.iter().for_each(|hint| finding.hint(hint.clone()));
+    }
+    for error in &walked.refused {
+        let finding = notes.warning(error.span.clone(), format!("not read: {}", error.message));
+        error.hint.iter().for_each(|hint| finding.hint(hint.clone()));
     }
     for note in &document.notes {
         notes.warning(note.span.clone(), note.message.clone());
     }
-    let (mut claims, remarks) = judge::judge(text, &plan, &walked);
+    let (mut claims, remarks) = judge::judge(text, &plan, &walked, options.tolerance);
     for (span, remark) in remarks {
         notes.note(span, remark);
     }

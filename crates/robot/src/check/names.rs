@@ -28,6 +28,11 @@ impl Name {
         format!("{}{base}{}{}", mark("^", left), mark("_", sub), mark("^", sup))
     }
 
+    /// True for a base with nothing around it.
+    pub fn is_bare(&self) -> bool {
+        self.left.is_empty() && self.sub.is_empty() && self.sup.is_empty() && self.arguments.is_empty()
+    }
+
     /// The name of the inverse, `{}^jT_i` for `{}^iT_j`.
     pub fn backwards(&self) -> Option<Name> {
         let (left, sub) = (self.sub.clone(), self.left.clone());

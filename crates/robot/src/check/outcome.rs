@@ -59,6 +59,8 @@ pub struct Claim {
     pub about: String,
     /// Its formulas: one, or the entries of a matrix.
     pub entries: Vec<Entry>,
+    /// What a matrix with several wrong entries is as a whole: `its inverse`, `frame 3 in frame 2`.
+    pub instead: Option<String>,
     /// What else is to be said of it.
     pub remarks: Vec<String>,
     /// Which of the robots it is about.

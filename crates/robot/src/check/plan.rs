@@ -1,14 +1,17 @@
 //! Which robot each part of a document is about: tables and directives in their order.
 
 use super::Options;
-use super::document::{Directive, Document, Format};
+use super::code::Language;
+use super::document::{CodeBlock, Directive, Document, Format};
+use super::lexis::{Columns, Lexis};
+use super::programs;
 use super::subject::Subject;
 use super::values::set_in;
 use super::walk::{Assertion, Walk};
 use crate::catalogue;
 use crate::description::table::{PrintedTable, tables};
 use crate::description::{
-    Convention, Description, Diagnostic, Diagnostics, JointKind, Parameter, TableKind, read_toml,
+    Convention, Description, Diagnostic, Diagnostics, JointKind, Parameter, TableKind, line_column, read_toml,
 };
 use crate::geometry::Transform;
 use denavit_symbolic::parse::{ParseError, parse};
@@ -30,14 +33,23 @@ pub(super) struct Plan {
 pub(super) struct Walked {
     pub assertions: Vec<Assertion>,
     pub skipped: Vec<(Range<usize>, ParseError)>,
-    /// The names at the end of the document.
+    /// What of programs could not be read.
+    pub refused: Vec<ParseError>,
+    /// The names of each robot's part of the document, at its end.
     pub names: Vec<Vocabulary>,
+    /// The same with the entries of the pose as symbols.
+    pub inverse_names: Vec<Vocabulary>,
 }
 
 impl Walked {
     /// The names of a robot's part of the document, at its end.
     pub fn names_of(&self, subject: usize) -> &Vocabulary {
         &self.names[subject.min(self.names.len() - 1)]
+    }
+
+    /// The same with the entries of the pose as symbols.
+    pub fn inverse_names_of(&self, subject: usize) -> &Vocabulary {
+        &self.inverse_names[subject.min(self.inverse_names.len() - 1)]
     }
 }
 
@@ -63,7 +75,10 @@ impl Plan {
             let convention = [d.convention.length_x(), d.convention.length_z()];
             let letters = [0, 1].map(|k| table.letters[k].unwrap_or(convention[k]).to_string());
             let subject = Subject::printed(d.clone(), letters, table.variables.clone(), table.previous)?;
-            Some(with_names(subject, &mentioned))
+            let line = line_column(text, table.span.start).0;
+            let mut subject = with_names(subject, &mentioned);
+            subject.title = Some(format!("the table in line {line}"));
+            Some(subject)
         };
         let mut plan = Plan { subjects: vec![], turns: vec![], has_robot: true };
         if let Some(robot) = robot {
@@ -172,7 +187,7 @@ impl Plan {
 
     /// Reads the statements.
     pub fn walk(&self, text: &str, document: &Document, options: &Options) -> Walked {
-        let mut names = vec![];
+        let (mut names, mut inverse_names) = (vec![], vec![]);
         let mut walk = Walk::new(text, &self.subjects[0]);
         let mut turns = self.turns.iter().skip(1).peekable();
         let mut is_off = false;
@@ -180,6 +195,7 @@ impl Plan {
         for statement in &document.statements {
             while let Some(&(_, number)) = turns.next_if(|t| t.0 <= statement.span.start) {
                 names.push(walk.lexis.names.clone());
+                inverse_names.push(walk.lexis.inverse_names());
                 walk.turn_to(&self.subjects[number], number);
             }
             let mut claim = told.take();
@@ -209,7 +225,18 @@ impl Plan {
             }
         }
         names.push(walk.lexis.names.clone());
-        Walked { assertions: walk.assertions, skipped: walk.skipped, names }
+        inverse_names.push(walk.lexis.inverse_names());
+        let (mut assertions, mut refused) = (walk.assertions, vec![]);
+        for (span, language) in programs(text, document, options) {
+            let number = self.turns.iter().rev().find(|t| t.0 <= span.start).map_or(0, |t| t.1);
+            let subject = &self.subjects[number];
+            let lexis = Lexis::new(subject, Columns::of(text));
+            let (found, errors) = programs::assertions(text, &span, language, subject, &lexis, number);
+            assertions.extend(found);
+            refused.extend(errors);
+        }
+        assertions.sort_by_key(|a| a.span.start);
+        Walked { assertions, skipped: walk.skipped, refused, names, inverse_names }
     }
 }
 
@@ -285,6 +312,23 @@ fn with_tool(d: &Description, place: &str) -> Option<Description> {
     }
     d.tool = Transform::translation(x, y, z);
     Some(d)
+}
+
+/// The programs of a document, or the one that it is.
+fn programs(text: &str, document: &Document, options: &Options) -> Vec<(Range<usize>, Language)> {
+    if let Some(language) = options.language {
+        return vec![(0..text.len(), language)];
+    }
+    let of = |block: &CodeBlock| {
+        let language = match block.language.as_str() {
+            "python" | "py" | "python3" | "numpy" => Language::Python,
+            "matlab" | "octave" | "m" => Language::Matlab,
+            _ => return None,
+        };
+        let is_skipped = block.directives.iter().any(|d| matches!(words(d).0, "skip" | "off"));
+        (!is_skipped).then(|| (block.span.clone(), language))
+    };
+    document.code.iter().filter_map(of).collect()
 }
 
 /// All directives of a document.

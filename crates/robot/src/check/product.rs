@@ -12,10 +12,10 @@ use denavit_symbolic::Expr;
 pub(super) enum Factor<'a> {
     /// A matrix in print.
     Grid(&'a Grid),
-    /// A name, with its meaning, and in words what it is if the robot gives it.
-    Named(Name, Matrix, Option<String>),
-    /// A part in brackets, worked out.
-    Worked(Option<Matrix>),
+    /// What a name means, and in words what it is if the robot gives it.
+    Named(Matrix, Option<String>),
+    /// A part in brackets.
+    Worked,
 }
 
 /// A side of an equation between matrices.
@@ -131,7 +131,7 @@ impl<'a> Reader<'a, '_> {
                         (Some(all), Some(about)) => all.push(about.clone()),
                         _ => abouts = None,
                     }
-                    Some((Factor::Named(name, matrix.clone(), about), Some(matrix)))
+                    Some((Factor::Named(matrix.clone(), about), Some(matrix)))
                 }
                 Some(Piece::Token(Token::Open)) => {
                     self.at += 1;
@@ -156,7 +156,7 @@ impl<'a> Reader<'a, '_> {
                         (Some(all), Some(about)) => all.push(about),
                         _ => abouts = None,
                     }
-                    Some((Factor::Worked(worked.clone()), worked))
+                    Some((Factor::Worked, worked))
                 }
                 _ => None,
             };

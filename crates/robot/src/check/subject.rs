@@ -14,6 +14,8 @@ use denavit_symbolic::{Expr, Symbol};
 #[derive(Clone, Debug)]
 pub(super) struct Subject {
     pub description: Description,
+    /// Which table of the document it is, in words.
+    pub title: Option<String>,
     /// The letters of the table for the lengths along x and z.
     pub letters: [String; 2],
     /// What the table calls the joint variables.
@@ -52,7 +54,7 @@ impl Subject {
         }
         let robot = Robot::symbolic(&description);
         let q = description.variables().iter().map(|v| v.symbol.into()).collect();
-        Some(Subject { description, letters, variables, previous, robot, q })
+        Some(Subject { description, title: None, letters, variables, previous, robot, q })
     }
 
     /// The same with another table.
@@ -101,12 +103,6 @@ impl Subject {
     /// The tool in frame 0.
     pub fn pose(&self) -> Transform<Expr> {
         self.transform(Some(0), None).unwrap_or_else(Transform::identity)
-    }
-
-    /// The Jacobian of the tool, linear rows first, along the axes of frame 0.
-    pub fn jacobian(&self) -> Matrix {
-        let rows = geometric(&self.robot, &self.q, &Viewpoint::of(Reference::Tool, Reference::Base)).rows();
-        Matrix(rows.iter().map(|r| r.iter().map(|&e| Some(e)).collect()).collect())
     }
 
     /// Jacobians that people print: of the tool or the last frame, along the axes of frame 0 or their own, linear

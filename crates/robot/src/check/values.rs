@@ -45,10 +45,10 @@ pub(super) fn judge(
         let joints: Vec<_> = of.iter().filter(|s| matches!(s.2, Spoken::Joint { .. })).copied().collect();
         let angles: Vec<_> = of.iter().filter(|s| matches!(s.2, Spoken::Angle { .. })).copied().collect();
         if !joints.is_empty() {
-            let judge = Judge { subject, names: walked.names_of(number), columns };
+            let judge = Judge { subject, names: walked.inverse_names_of(number), columns };
             judge.joints(&joints, &mut claims, &mut notes);
         }
-        claims.extend(orientations(&angles, columns, walked.names_of(number)));
+        claims.extend(orientations(&angles, columns, walked.inverse_names_of(number)));
     }
     claims.sort_by_key(|c| c.0);
     (claims, notes)
@@ -262,6 +262,7 @@ fn claim(assertion: &Assertion, entry: Entry) -> Claim {
         name: assertion.name.clone(),
         about: assertion.about.clone(),
         entries: vec![entry],
+        instead: None,
         remarks: assertion.remarks.clone(),
         robot: assertion.subject,
     }
@@ -391,7 +392,7 @@ fn entry_names(formula: &str, columns: Columns) -> String {
             out = out.replace(&*pose_symbol(columns, r, c).name(), &format!("r{}{}", r + 1, c + 1));
         }
     }
-    out
+    out.replace('`', "")
 }
 
 /// The set of angles that words name: `ZYZ`, `RPY`, `roll-pitch-yaw`.

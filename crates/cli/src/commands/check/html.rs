@@ -158,7 +158,16 @@ fn note(document: &Document, claim: &Claim) -> Option<String> {
         return None;
     }
     let mut out = format!("<aside class=\"{}\">", class(standing));
-    for entry in claim.entries.iter().filter(|e| e.finding.standing() != Standing::Equal) {
+    if let Some(instead) = &claim.instead {
+        let _ = write!(
+            out,
+            "<p><strong><code>{}</code></strong>: what is printed is {}</p>",
+            escaped(&claim.name),
+            escaped(instead)
+        );
+    }
+    let is_told = |e: &&Entry| e.finding.standing() != Standing::Equal && claim.instead.is_none();
+    for entry in claim.entries.iter().filter(is_told) {
         let name = escaped(&entry_name(claim, entry.place));
         let _ = write!(out, "<p><strong><code>{name}</code></strong>: {}</p>", finding(document, entry));
     }

@@ -68,6 +68,7 @@ fn claim(document: &Document, claim: &Claim) -> Value {
         "verdict": standing.name(),
         "correct": of("correct"),
         "slip": of("slip"),
+        "instead": claim.instead,
         "remarks": claim.remarks,
         "entries": entries,
     })

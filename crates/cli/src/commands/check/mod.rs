@@ -10,6 +10,7 @@ mod terminal;
 use crate::arguments::CheckArguments;
 use crate::failure::Failure;
 use crate::load;
+use denavit::check::code::Language;
 use denavit::check::document::Format;
 use denavit::check::{Checked, MAX_BYTES, Options, check};
 use denavit::description::{Severity, line_column, render};
@@ -55,6 +56,7 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
         table: load::table_options(&arguments.robot),
         claim: arguments.claim.clone(),
         tolerance: arguments.tolerance,
+        language: language_of(&name),
     };
     let format = Format::of(&name, &text);
     let checked = check(&text, format, robot.as_ref(), &options)
@@ -80,6 +82,15 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
         write!(out, "{}", terminal::report(&document, arguments.all))?;
     }
     verdict(&document)
+}
+
+/// The language of a program, by its file's ending.
+fn language_of(name: &str) -> Option<Language> {
+    match Path::new(name).extension()?.to_str()? {
+        "py" => Some(Language::Python),
+        "m" => Some(Language::Matlab),
+        _ => None,
+    }
 }
 
 /// The exit code.

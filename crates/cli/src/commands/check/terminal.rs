@@ -102,7 +102,10 @@ fn shown(document: &Document, claim: &Claim) -> String {
         styled(&claim.name, NAME),
         styled(word, style)
     );
-    for entry in &claim.entries {
+    if let Some(instead) = &claim.instead {
+        out += &format!("    what is printed is {instead}\n");
+    }
+    for entry in claim.entries.iter().filter(|_| claim.instead.is_none()) {
         out += &finding(document, entry);
     }
     for remark in &claim.remarks {

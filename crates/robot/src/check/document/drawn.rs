@@ -41,7 +41,7 @@ fn pieces(text: &str, line: &Range<usize>) -> Vec<Piece> {
                             || "│┃".contains(c)
                     }
                 };
-                if mark == '[' && c == '[' {
+                if mark == '[' && matches!(c, '[' | ';') {
                     return vec![];
                 }
                 if closes {

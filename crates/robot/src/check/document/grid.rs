@@ -8,13 +8,29 @@ use std::ops::Range;
 pub(super) type Row = Vec<Range<usize>>;
 
 /// Rows that end in `\\` with cells that end in `&`; `end` is where the last one ends.
+///
+/// Markdown makes `\` of `\\`: without any `\\`, a `\` before a blank ends a row if all rows are then equally long.
 pub(super) fn ruled_rows(text: &str, nodes: &[Node], end: usize) -> Vec<Row> {
+    let rows = rows_ended_by(text, nodes, end, |n| n.is(Kind::Row));
+    let single =
+        |n: &Node| n.is(Kind::Quad) && !cut(text, &n.span).contains(|c: char| c.is_ascii_alphabetic());
+    if rows.len() == 1 && nodes.iter().any(single) {
+        let others = rows_ended_by(text, nodes, end, single);
+        let columns = others.first().map_or(0, Vec::len);
+        if columns > 1 && others.iter().all(|r| r.len() == columns) {
+            return others;
+        }
+    }
+    rows
+}
+
+fn rows_ended_by(text: &str, nodes: &[Node], end: usize, ends: impl Fn(&Node) -> bool) -> Vec<Row> {
     let mut rows = vec![];
     let mut row: Row = vec![];
     let mut first = 0;
     for (i, node) in nodes.iter().enumerate() {
-        let (amp, broken) = (node.is(Kind::Amp), node.is(Kind::Row));
-        if amp || broken {
+        let broken = ends(node);
+        if node.is(Kind::Amp) || broken {
             row.push(cell(text, nodes.get(first..i).unwrap_or(&[]), node.span.start));
             first = i + 1;
         }
@@ -28,7 +44,7 @@ pub(super) fn ruled_rows(text: &str, nodes: &[Node], end: usize) -> Vec<Row> {
         row.push(cell(text, last, end));
         rows.push(row);
     }
-    while rows.last().is_some_and(|r| r.iter().all(Range::is_empty) && r.len() == 1) && rows.len() > 1 {
+    while rows.len() > 1 && rows.last().is_some_and(|r| r.len() == 1 && r.iter().all(Range::is_empty)) {
         rows.pop();
     }
     rows

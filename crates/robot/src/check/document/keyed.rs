@@ -9,8 +9,15 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
+/// The longest file that is read, in bytes.
+const MAX_BYTES: usize = 1 << 20;
+
 pub(super) fn read(reader: &mut Reader) {
     let text = reader.text;
+    if text.len() > MAX_BYTES {
+        let message = format!("the file has {} bytes; {MAX_BYTES} are read of TOML", text.len());
+        return reader.note(0..0, message, "divide the file");
+    }
     let (table, errors) = DeTable::parse_recoverable(text);
     for error in errors.iter().take(20) {
         let span = error.span().filter(|s| text.get(s.clone()).is_some()).unwrap_or(0..0);

@@ -85,7 +85,8 @@ fn name(rest: &str) -> Option<(Range<usize>, usize)> {
     let bare = label.trim_matches(['*', '`', ' ']);
     let named = !bare.is_empty()
         && bare.starts_with(char::is_alphanumeric)
-        && bare.chars().all(|c| c.is_alphanumeric() || "_{},'′()-".contains(c));
+        && bare.chars().all(|c| c.is_alphanumeric() || "_{},'′()-".contains(c))
+        && words::is_label(bare);
     let parted =
         after.get(bold..).is_some_and(|a| a.is_empty() || a.starts_with([' ', '\t', '$', '\r', '`']));
     let start = label.find(bare)?;

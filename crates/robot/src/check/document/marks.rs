@@ -5,7 +5,8 @@ use std::ops::Range;
 
 /// The word that such a comment begins with.
 const CALL: &str = "check:";
-const LONGEST: usize = 2000;
+const LONGEST: usize = 500;
+const MOST: usize = 5000;
 
 /// All directives, but those in programs.
 pub(super) fn directives(
@@ -17,7 +18,11 @@ pub(super) fn directives(
     let mut out = vec![];
     let mut fences = fences.iter().peekable();
     let mut code = code.iter().map(|c| &c.span).peekable();
+    let mut done = 0;
     for (at, _) in text.match_indices(CALL) {
+        if at < done || out.len() >= MOST {
+            continue;
+        }
         while fences.next_if(|f| f.end <= at).is_some() {}
         while code.next_if(|c| c.end <= at).is_some() {}
         if code.peek().is_some_and(|c| c.contains(&at)) {
@@ -28,6 +33,7 @@ pub(super) fn directives(
         let Some(end) = end(before(text, at), rest, format, fenced) else { continue };
         let shown = rest.get(..end).unwrap_or("");
         let start = at + CALL.len() + (shown.len() - shown.trim_start().len());
+        done = at + CALL.len() + end;
         let words = shown.split_whitespace().collect::<Vec<_>>().join(" ");
         out.push(Directive { span: start..start + shown.trim().len(), words });
     }
@@ -45,7 +51,6 @@ fn before(text: &str, at: usize) -> &str {
 
 /// How long the directive is, if what stands before it opens a comment.
 fn end(before: &str, rest: &str, format: Format, fenced: bool) -> Option<usize> {
-    let line = rest.bytes().take(LONGEST).position(|b| b == b'\n').unwrap_or(rest.len().min(LONGEST));
     if let Some(outside) = before.strip_suffix("<!--") {
         let marked = format == Format::Markdown || format == Format::Plain;
         let quoted = outside.ends_with('`');
@@ -65,8 +70,12 @@ fn end(before: &str, rest: &str, format: Format, fenced: bool) -> Option<usize> 
         Some('/') => slashes && matches!(format, Format::Markdown | Format::Plain),
         _ => false,
     };
+    if !opened {
+        return None;
+    }
+    let line = rest.bytes().take(LONGEST).position(|b| b == b'\n').unwrap_or(rest.len().min(LONGEST));
     // `LONGEST` may lie within a character.
-    (opened && rest.is_char_boundary(line)).then_some(line)
+    rest.is_char_boundary(line).then_some(line)
 }
 
 /// Gives every directive to the statement that it stands in or behind, or else to the next statement or program;

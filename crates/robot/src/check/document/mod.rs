@@ -3,8 +3,10 @@
 //! Nothing here knows robots or what a name means. Every span is bytes of the original text, so that whatever is
 //! said about a formula can point at it; [`formula`] gives a span's text ready for reading, at the same places.
 
+mod chain;
 mod drawn;
 mod grid;
+mod inline;
 mod keyed;
 mod lexer;
 mod lines;

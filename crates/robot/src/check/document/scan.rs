@@ -1,6 +1,6 @@
 //! Where the formulas of a document stand: between `$`, in environments and fences, on lines of their own.
 
-use super::lexer::{DISPLAYS, Kind, lex};
+use super::lexer::{Kind, lex};
 use super::lines::{Lead, goes_on, is_foreign, is_rule, lead, line, trimmed};
 use super::statements::{Manner, Reader};
 use super::{CodeBlock, Format, MAX_FORMULA, Place, cut, drawn, words};
@@ -8,8 +8,6 @@ use std::ops::Range;
 
 /// The most lines that one formula without marks may have.
 const MOST_LINES: usize = 400;
-/// The longest formula between single `$` or backquotes.
-const LONGEST_INLINE: usize = 20_000;
 
 /// LaTeX environments without statements.
 const SKIPPED: [&str; 12] = [
@@ -54,25 +52,25 @@ pub(super) fn read(reader: &mut Reader, format: Format) {
 
 /// What counts as a mark.
 #[derive(Clone, Copy)]
-struct Style {
+pub(super) struct Style {
     /// Headings, fences, tables and backquotes of Markdown.
-    marks: bool,
+    pub marks: bool,
     /// `$…$`
-    dollars: bool,
-    latex: bool,
+    pub dollars: bool,
+    pub latex: bool,
     /// Sums may be left sides of lines on their own.
-    sums: bool,
+    pub sums: bool,
     /// Lines without marks are read.
-    bare: bool,
+    pub bare: bool,
 }
 
-struct Scanner<'r, 't> {
-    reader: &'r mut Reader<'t>,
-    style: Style,
+pub(super) struct Scanner<'r, 't> {
+    pub reader: &'r mut Reader<'t>,
+    pub style: Style,
     /// What does not occur any more from here on.
-    missing: Vec<&'static str>,
+    pub missing: Vec<String>,
     /// Up to where no run of so many backquotes is closed.
-    quotes: [usize; 4],
+    pub quotes: [usize; 4],
 }
 
 fn behind_front_matter(text: &str, start: usize) -> usize {
@@ -96,11 +94,11 @@ fn behind_front_matter(text: &str, start: usize) -> usize {
 }
 
 impl<'t> Scanner<'_, 't> {
-    fn text(&self) -> &'t str {
+    pub(super) fn text(&self) -> &'t str {
         self.reader.text
     }
 
-    fn manner(&self, place: Place) -> Manner {
+    pub(super) fn manner(&self, place: Place) -> Manner {
         Manner { place, lines: place == Place::Line, sums: self.style.sums }
     }
 
@@ -206,8 +204,10 @@ impl<'t> Scanner<'_, 't> {
                 let tex = matches!(language.as_str(), "latex" | "tex" | "math" | "katex");
                 let inner = Style { marks: false, dollars: tex, latex: tex, sums: true, bare: true };
                 let outer = std::mem::replace(&mut self.style, inner);
+                // What is missing in the fence may stand behind it.
+                let missing = std::mem::take(&mut self.missing);
                 self.lines(content);
-                self.style = outer;
+                (self.style, self.missing) = (outer, missing);
             }
             _ => self.reader.code.push(CodeBlock { span: content, language, directives: vec![] }),
         }
@@ -255,18 +255,20 @@ impl<'t> Scanner<'_, 't> {
     }
 
     /// The next `\end{name}`.
-    fn end_of(&mut self, name: &'static str, from: usize, limit: usize) -> Option<Range<usize>> {
-        if self.missing.contains(&name) {
+    pub(super) fn end_of(&mut self, name: &str, from: usize, limit: usize) -> Option<Range<usize>> {
+        self.next(&format!("\\end{{{name}}}"), from, limit)
+    }
+
+    /// The next place of `mark`. What was not found once is not looked for again.
+    pub(super) fn next(&mut self, mark: &str, from: usize, limit: usize) -> Option<Range<usize>> {
+        if self.missing.iter().any(|m| m == mark) {
             return None;
         }
-        let end = format!("\\end{{{name}}}");
-        match self.text().get(from..limit).and_then(|t| t.find(&end)) {
-            Some(at) => Some(from + at..from + at + end.len()),
-            None => {
-                self.missing.push(name);
-                None
-            }
+        let at = self.text().get(from..limit).and_then(|t| t.find(mark));
+        if at.is_none() {
+            self.missing.push(mark.to_string());
         }
+        at.map(|at| from + at..from + at + mark.len())
     }
 
     /// A line with formulas between marks, or one on its own, or prose. Where the line behind it begins.
@@ -274,14 +276,14 @@ impl<'t> Scanner<'_, 't> {
         let text = self.text();
         let lead = lead(text, &span);
         let (mut cursor, mut end, mut next) = (lead.rest.min(span.end), span.end, next);
-        let mut marked = false;
+        let (mut marked, mut letters) = (false, has_letters(text, &(span.start..cursor)));
         while cursor < end {
             let Some(mark) = self.mark(cursor, end) else { break };
-            let before = trimmed(text, &(span.start..mark));
+            letters |= has_letters(text, &(cursor..mark));
             if !marked && lead.label.is_some() && cut(text, &(lead.rest..mark)).trim().is_empty() {
                 self.reader.label = lead.label.clone();
-            } else if has_letters(text, &before) && before.start < before.end {
-                self.reader.prose = Some(before);
+            } else if letters {
+                self.reader.prose = Some(trimmed(text, &(span.start..mark)));
                 self.reader.label = None;
             }
             let (after, formula) = self.marked(mark, limit);
@@ -302,10 +304,10 @@ impl<'t> Scanner<'_, 't> {
             }
             return next;
         }
-        if self.style.bare && next > end || self.style.bare && end == limit {
-            if let Some(after) = self.bare(&span, &lead, next, limit) {
-                return after;
-            }
+        if self.style.bare
+            && let Some(after) = self.bare(&span, &lead, next, limit)
+        {
+            return after;
         }
         if has_letters(text, &span) {
             self.reader.prose = Some(trimmed(text, &span));
@@ -314,183 +316,6 @@ impl<'t> Scanner<'_, 't> {
             self.reader.label = lead.label.filter(|_| alone);
         }
         next
-    }
-
-    /// The next mark of a formula or comment on a line.
-    fn mark(&self, from: usize, end: usize) -> Option<usize> {
-        let bytes = self.text().as_bytes();
-        let mut at = from;
-        while at < end {
-            match bytes.get(at)? {
-                b'$' if self.style.dollars || bytes.get(at + 1) == Some(&b'$') => return Some(at),
-                b'`' if self.style.marks => return Some(at),
-                b'<' if bytes.get(at..at + 4) == Some(b"<!--") => return Some(at),
-                b'%' if self.style.latex => return Some(at),
-                b'\\' => {
-                    if matches!(bytes.get(at + 1), Some(b'[' | b'('))
-                        || self.display(at).is_some()
-                        || (self.style.latex && bytes.get(at..at + 5) == Some(b"\\verb"))
-                    {
-                        return Some(at);
-                    }
-                    at += 1;
-                }
-                _ => {}
-            }
-            at += 1;
-        }
-        None
-    }
-
-    /// The display environment that begins here, and its name without a star.
-    fn display(&self, at: usize) -> Option<&'static str> {
-        let rest = self.text().get(at..)?.strip_prefix("\\begin{")?;
-        let inner = ["aligned", "alignedat", "split", "gathered"];
-        DISPLAYS
-            .into_iter()
-            .filter(|d| !inner.contains(d))
-            .find(|d| rest.strip_prefix(*d).is_some_and(|r| r.starts_with('}') || r.starts_with("*}")))
-    }
-
-    /// Reads what begins at a mark: where it ends, and whether it was a formula's mark.
-    fn marked(&mut self, at: usize, limit: usize) -> (usize, bool) {
-        let text = self.text();
-        let rest = text.get(at..limit).unwrap_or("");
-        let display = self.manner(Place::Display);
-        let inline = self.manner(Place::Inline);
-        if rest.starts_with("<!--") {
-            if self.missing.contains(&"-->") {
-                return (at + 4, false);
-            }
-            let Some(length) = rest.find("-->") else {
-                self.missing.push("-->");
-                return (at + 4, false);
-            };
-            return (at + length + 3, false);
-        }
-        if rest.starts_with('%') {
-            return (line(text, at, limit).0.end, false);
-        }
-        if let Some(verb) = rest.strip_prefix("\\verb") {
-            let mark = verb.chars().next().filter(|c| !c.is_alphanumeric());
-            let (span, _) = line(text, at, limit);
-            let inner =
-                mark.and_then(|m| cut(text, &(at + 5 + m.len_utf8()..span.end)).find(m).map(|i| (m, i)));
-            return (inner.map_or(at + 5, |(m, i)| at + 5 + 2 * m.len_utf8() + i), false);
-        }
-        if rest.starts_with('`') {
-            return self.quoted(at, limit);
-        }
-        if rest.starts_with("$$") {
-            let close =
-                rest.get(2..).and_then(|r| r.find("$$")).filter(|&i| i < MAX_FORMULA && whole(rest, 2 + i));
-            let Some(length) = close else {
-                self.reader.note(at..at + 2, "`$$` is not closed", "close the formula with `$$`");
-                return (at + 2, false);
-            };
-            self.reader.region(at + 2..at + 2 + length, display);
-            return (at + length + 4, true);
-        }
-        if rest.starts_with("\\[") || rest.starts_with("\\(") {
-            let (close, manner) = if rest.starts_with("\\[") { ("\\]", display) } else { ("\\)", inline) };
-            return match closing(rest, close) {
-                Some(length) => {
-                    self.reader.region(at + 2..at + length, manner);
-                    (at + length + 2, true)
-                }
-                None => (at + 2, false),
-            };
-        }
-        if let Some(name) = self.display(at) {
-            let starred = rest.get(7 + name.len()..).is_some_and(|r| r.starts_with('*'));
-            let end =
-                if starred { self.end_of_starred(name, at, limit) } else { self.end_of(name, at, limit) };
-            let Some(end) = end else {
-                let span = at..at + 7 + name.len();
-                self.reader.note(
-                    span.clone(),
-                    format!("`\\begin{{{name}}}` has no end"),
-                    "close the environment",
-                );
-                return (span.end, false);
-            };
-            self.reader.region(at..end.end, display);
-            return (end.end, true);
-        }
-        self.dollar(at, rest, inline)
-    }
-
-    fn end_of_starred(&mut self, name: &'static str, from: usize, limit: usize) -> Option<Range<usize>> {
-        let end = format!("\\end{{{name}*}}");
-        let window = from..limit.min(from + MAX_FORMULA);
-        let bytes = self.text().as_bytes().get(window)?;
-        let at = bytes.windows(end.len()).position(|w| w == end.as_bytes())?;
-        Some(from + at..from + at + end.len())
-    }
-
-    /// `$…$`
-    fn dollar(&mut self, at: usize, rest: &str, manner: Manner) -> (usize, bool) {
-        let bytes = rest.as_bytes();
-        let mut i = 1;
-        let mut related = false;
-        while let Some(&byte) = bytes.get(i) {
-            match byte {
-                b'\\' => i += 1,
-                b'=' => related = true,
-                b'$' if bytes.get(i + 1) == Some(&b'$') => break,
-                b'$' => {
-                    self.reader.region(at + 1..at + i, manner);
-                    return (at + i + 1, true);
-                }
-                b'\n' if blank_line(rest, i + 1) => break,
-                _ if i > LONGEST_INLINE => break,
-                _ => {}
-            }
-            i += 1;
-        }
-        if related {
-            let hint = "close the formula with `$`, or write `\\$` for the sign";
-            self.reader.note(at..at + 1, "`$` is not closed in its paragraph", hint);
-        }
-        (at + 1, false)
-    }
-
-    /// Code between backquotes.
-    fn quoted(&mut self, at: usize, limit: usize) -> (usize, bool) {
-        let text = self.text();
-        let rest = text.get(at..limit).unwrap_or("");
-        let run = rest.bytes().take_while(|&b| b == b'`').count();
-        let known = self.quotes.get(run).copied();
-        if known.is_none_or(|k| at < k) {
-            return (at + run, false);
-        }
-        let bytes = rest.as_bytes();
-        let mut i = run;
-        while let Some(&byte) = bytes.get(i) {
-            match byte {
-                b'`' => {
-                    let here = bytes.iter().skip(i).take_while(|&&b| b == b'`').count();
-                    if here == run {
-                        let manner = self.manner(Place::Code);
-                        let content = at + run..at + i;
-                        if !is_foreign(cut(text, &content)) {
-                            self.reader.region(content, Manner { sums: true, ..manner });
-                        }
-                        return (at + i + run, true);
-                    }
-                    i += here;
-                    continue;
-                }
-                b'\n' if blank_line(rest, i + 1) => break,
-                _ if i > LONGEST_INLINE => break,
-                _ => {}
-            }
-            i += 1;
-        }
-        if let Some(known) = self.quotes.get_mut(run) {
-            *known = at + i;
-        }
-        (at + run, false)
     }
 
     /// A statement that stands alone on its line, with the lines that go on with it. Where the line behind begins.
@@ -577,47 +402,6 @@ impl<'t> Scanner<'_, 't> {
         }
         Some(behind)
     }
-}
-
-/// Whether a display goes on from the start of `rest` to byte `end`: no heading or fence is in it.
-fn whole(rest: &str, end: usize) -> bool {
-    let inner = rest.get(..end).unwrap_or("");
-    !["\n```", "\n~~~", "\n# ", "\n## ", "\n### "].iter().any(|m| inner.contains(m))
-}
-
-/// Where `\]` or `\)` stands, before the next opening and the end of the paragraph.
-fn closing(rest: &str, close: &str) -> Option<usize> {
-    let bytes = rest.as_bytes();
-    let inline = close == "\\)";
-    let mut i = 2;
-    while i < bytes.len().min(MAX_FORMULA) {
-        match bytes.get(i)? {
-            b'\\' => {
-                let pair = bytes.get(i..i + 2)?;
-                if pair == close.as_bytes() {
-                    return Some(i);
-                }
-                if pair == b"\\[" || pair == b"\\(" {
-                    return None;
-                }
-                i += 1;
-            }
-            b'\n' if blank_line(rest, i + 1) && inline => return None,
-            b'\n' if rest.get(i..).is_some_and(|r| r.starts_with("\n```") || r.starts_with("\n# ")) => {
-                return None;
-            }
-            _ => {}
-        }
-        i += 1;
-    }
-    None
-}
-
-/// Whether the line that begins at byte `at` is blank.
-fn blank_line(text: &str, at: usize) -> bool {
-    let rest = text.as_bytes().get(at..).unwrap_or(&[]);
-    let blanks = rest.iter().take(200).take_while(|b| matches!(b, b' ' | b'\t' | b'\r')).count();
-    rest.get(blanks).is_none_or(|&b| b == b'\n')
 }
 
 fn has_letters(text: &str, span: &Range<usize>) -> bool {

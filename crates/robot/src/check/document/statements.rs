@@ -1,14 +1,17 @@
 //! Nodes cut into statements: rows, parts of lines, chains, and lines that go on with the one before.
 
+use super::chain::only_stops;
 use super::lexer::{Gap, Kind, Relation, lex};
 use super::tree::{Node, NodeKind, build, has_relation};
 use super::{
-    CodeBlock, Document, Fence, Format, Grid, MAX_FORMULA, MAX_NOTES, MAX_STATEMENTS, Note, Part, Place,
-    Side, Statement,
+    CodeBlock, Document, Format, MAX_FORMULA, MAX_NOTES, MAX_STATEMENTS, Note, Part, Place, Side, Statement,
 };
 use super::{cut, marks, words};
 use std::collections::HashMap;
 use std::ops::Range;
+
+/// The most sides of a chain over several formulas.
+const LONGEST_CHAIN: usize = 1000;
 
 /// A document being read.
 pub(super) struct Reader<'t> {
@@ -23,7 +26,7 @@ pub(super) struct Reader<'t> {
     pub statements: Vec<Statement>,
     pub notes: Vec<Note>,
     /// The names that stood alone on a left side, and the right sides that they had.
-    stated: HashMap<String, String>,
+    pub stated: HashMap<String, Vec<u64>>,
 }
 
 /// How a region is read.
@@ -213,7 +216,10 @@ impl<'t> Reader<'t> {
             let word = node.is(Kind::Word) && node.gap > Gap::None && words::is_link(shown);
             let hard = match node.token() {
                 Some(Kind::Semicolon | Kind::Arrow) => true,
-                Some(Kind::Prose) => i == first || self.begins_statement(next) || is_link_text(shown),
+                Some(Kind::Prose) if related && words::is_condition(prose_of(shown)) => false,
+                Some(Kind::Prose) => {
+                    i == first || self.begins_statement(next) || words::is_link(prose_of(shown))
+                }
                 _ => word && self.begins_statement(next),
             };
             if hard {
@@ -286,9 +292,8 @@ impl<'t> Reader<'t> {
             let shaped = begins_related || words::is_left_side(self.text, &left, manner.sums);
             let drawn = sides.first().is_some_and(Side::has_matrix);
             if !(shaped || drawn) || words::is_prose(self.text, &span) || (!related && !drawn) {
-                if !(related || course.before || manner.place == Place::Code)
-                    && !words::is_prose(self.text, &span)
-                {
+                let waits = !(related || course.before || manner.place == Place::Code);
+                if waits && !words::is_prose(self.text, &span) {
                     // `( … )` with `= …` on the next line.
                     self.push(sides, relations, span, manner, Extra { label, link, aside });
                     (course.before, course.open) = (true, open);
@@ -333,9 +338,11 @@ impl<'t> Reader<'t> {
     /// Whether only marks of formulas stand between the last statement and `span`.
     fn follows(&self, span: &Range<usize>) -> bool {
         self.statements.last().is_some_and(|s| {
-            s.span.end <= span.start && span.start - s.span.end < 200 && {
+            s.sides.len() < LONGEST_CHAIN && s.span.end <= span.start && span.start - s.span.end < 400 && {
                 let gap = cut(self.text, &(s.span.end..span.start));
-                gap.chars().all(|c| c.is_whitespace() || "$`\\[]()&.,;>".contains(c))
+                !gap.contains(['#', '<'])
+                    && !gap.contains("```")
+                    && only_stops(self.text, s.span.end..span.start)
             }
         })
     }
@@ -405,7 +412,7 @@ impl<'t> Reader<'t> {
 
     fn side(&self, nodes: &[Node], end: usize) -> Side {
         let mut side = Side { span: end..end, parts: vec![] };
-        side.add(self.text, trim(self.text, nodes));
+        side.add(trim(self.text, nodes));
         if let (Some(first), Some(last)) = (side.parts.first(), side.parts.last()) {
             let ends = side.parts.iter().map(|p| p.span().end).max().unwrap_or(last.span().end);
             side.span = first.span().start.min(ends)..ends;
@@ -444,39 +451,6 @@ impl<'t> Reader<'t> {
         self.remember(&statement);
         self.statements.push(statement);
     }
-
-    /// `A = [..] B = [..]`: the index of the side with `B` behind the matrix, if `B` was not stated before to be
-    /// something else.
-    fn new_name(&self, statement: &Statement) -> Option<usize> {
-        let sides = &statement.sides;
-        (1..sides.len().saturating_sub(1)).find(|&i| {
-            let (Some(side), Some(next)) = (sides.get(i), sides.get(i + 1)) else { return false };
-            let [.., Part::Matrix(_), Part::Text(name)] = side.parts.as_slice() else { return false };
-            let [Part::Matrix(_), ..] = next.parts.as_slice() else { return false };
-            if !words::is_one_name(self.text, name) {
-                return false;
-            }
-            let before = self.stated.get(&words::bare(self.text, name));
-            before.is_none_or(|b| *b == self.value_of(next))
-        })
-    }
-
-    /// A side's text up to a name behind its first matrices.
-    fn value_of(&self, side: &Side) -> String {
-        let matrix = |p: &&Part| matches!(p, Part::Matrix(_));
-        side.parts.iter().take_while(matrix).map(|p| words::bare(self.text, p.span())).collect()
-    }
-
-    fn remember(&mut self, statement: &Statement) {
-        if let [Side { parts, .. }, next, ..] = statement.sides.as_slice()
-            && let [Part::Text(name)] = parts.as_slice()
-            && name.len() < 60
-            && next.has_matrix()
-        {
-            let value = self.value_of(next);
-            self.stated.insert(words::bare(self.text, name), value);
-        }
-    }
 }
 
 struct Extra {
@@ -485,104 +459,9 @@ struct Extra {
     aside: Option<Range<usize>>,
 }
 
-impl Statement {
-    /// Cuts the text at the end of side `at` off, as the first side of a statement.
-    fn cut_off(&mut self, at: usize) -> Statement {
-        let mut rest = self.clone();
-        let name = match self.sides.get_mut(at) {
-            Some(side) => side.parts.pop(),
-            None => None,
-        };
-        self.sides.truncate(at + 1);
-        self.relations.truncate(at);
-        let end = self.sides.last().and_then(|s| s.parts.last()).map_or(self.span.end, |p| p.span().end);
-        if let Some(side) = self.sides.last_mut() {
-            side.span.end = end;
-        }
-        self.span.end = end;
-        rest.sides.drain(..=at);
-        rest.relations.drain(..at);
-        if let Some(name) = name {
-            rest.span.start = name.span().start;
-            rest.sides.insert(0, Side { span: name.span().clone(), parts: vec![name] });
-        }
-        (rest.label, rest.link) = (None, None);
-        (self.juxtaposed, rest.juxtaposed) = (true, true);
-        self.aside = None;
-        rest
-    }
-}
-
-impl Side {
-    fn has_matrix(&self) -> bool {
-        self.parts.iter().any(|p| matches!(p, Part::Matrix(g) if g.fence != Fence::None))
-    }
-
-    /// Adds parts; text that only marks stand between is one text.
-    fn append(&mut self, text: &str, other: Side) {
-        if self.parts.is_empty() {
-            *self = other;
-            return;
-        }
-        for part in other.parts {
-            match (self.parts.last_mut(), part) {
-                (Some(Part::Text(a)), Part::Text(b)) if only_marks(text, a.end..b.start) => a.end = b.end,
-                (_, part) => self.parts.push(part),
-            }
-        }
-        self.span.end = self.parts.last().map_or(self.span.end, |p| p.span().end);
-    }
-
-    fn add(&mut self, text: &str, nodes: &[Node]) {
-        for node in nodes {
-            match &node.kind {
-                NodeKind::Grid(grid) => self.parts.push(Part::Matrix(Grid::clone(grid))),
-                NodeKind::Group { inner, open, close, .. } if has_grid(inner) => {
-                    self.add_text(node.span.start..*open);
-                    self.add(text, inner);
-                    self.add_text(*close..node.span.end);
-                }
-                NodeKind::Token(Kind::Amp | Kind::Quad | Kind::Row) => {}
-                _ => self.add_text(node.span.clone()),
-            }
-        }
-    }
-
-    fn add_text(&mut self, span: Range<usize>) {
-        match self.parts.last_mut() {
-            // What is drawn over several lines is not in the order of the text.
-            Some(Part::Text(text)) if text.end <= span.start => text.end = span.end,
-            _ => self.parts.push(Part::Text(span)),
-        }
-    }
-}
-
-impl Part {
-    /// Its place.
-    pub fn span(&self) -> &Range<usize> {
-        match self {
-            Part::Text(span) => span,
-            Part::Matrix(grid) => &grid.span,
-        }
-    }
-}
-
-fn has_grid(nodes: &[Node]) -> bool {
-    nodes.iter().any(|n| match &n.kind {
-        NodeKind::Grid(_) => true,
-        NodeKind::Group { inner, .. } => has_grid(inner),
-        _ => false,
-    })
-}
-
-/// Whether [`super::formula`] makes blanks of all that stands in `span`.
-fn only_marks(text: &str, span: Range<usize>) -> bool {
-    span.start <= span.end
-        && lex(text, &span).iter().all(|t| matches!(t.kind, Kind::Amp | Kind::Row | Kind::Quad))
-}
-
-fn is_link_text(shown: &str) -> bool {
-    shown.split_once('{').is_some_and(|(_, inner)| words::is_link(inner.trim_end_matches('}').trim()))
+/// `if` of `\text{ if }`
+fn prose_of(shown: &str) -> &str {
+    shown.split_once('{').map_or("", |(_, inner)| inner.trim_end_matches('}').trim())
 }
 
 /// Without what only sets or ends a formula.

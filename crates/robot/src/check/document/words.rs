@@ -47,6 +47,17 @@ pub(super) fn is_link(word: &str) -> bool {
     word.len() > 1 && LINKS.contains(&word)
 }
 
+fn is_conjunction(word: &str) -> bool {
+    matches!(word, "and" | "et" | "und" | "with" | "avec" | "mit" | "where")
+}
+
+/// Whether a text behind a statement says when it holds: what follows is no statement of its own.
+pub(super) fn is_condition(text: &str) -> bool {
+    const CONDITIONS: [&str; 9] = ["if", "for", "when", "si", "pour", "wenn", "für", "otherwise", "sinon"];
+    let first = text.split(|c: char| !c.is_alphanumeric()).find(|w| !w.is_empty());
+    first.is_some_and(|w| CONDITIONS.contains(&w))
+}
+
 /// The functions, which take what follows them.
 pub(super) fn is_function(word: &str) -> bool {
     const FUNCTIONS: [&str; 19] = [
@@ -73,6 +84,13 @@ fn is_filler(word: &str) -> bool {
         "pour", "und", "der", "die", "das", "ist", "von", "zu", "im", "el", "los", "es",
     ];
     FILLERS.contains(&word.to_lowercase().as_str())
+}
+
+/// Whether a word before a colon can name a formula: `t11`, `n_x`, `RHS`; not `Position`.
+pub(super) fn is_label(word: &str) -> bool {
+    let indexed = word.chars().any(|c| c.is_numeric() || c == '_');
+    let short = word.chars().count() <= 3 && word.chars().all(|c| c < '\u{400}') && !is_plain(word);
+    (indexed && word.chars().all(|c| c < '\u{2e80}')) || short
 }
 
 /// Letters only, and none of the names and functions that formulas are made of.
@@ -108,6 +126,9 @@ pub(super) fn is_prose(text: &str, span: &Range<usize>) -> bool {
             let long = |w: &str| w.chars().count() >= 4;
             long(a) || long(b) || is_filler(a) || is_filler(b)
         }
+        // `x = a and y = b`
+        [_, Some(b)] if is_conjunction(b) => false,
+        [Some(a), _] if is_conjunction(a) => false,
         [Some(a), Some(b)] if is_plain(a) => a.chars().count() >= 4 || is_filler(a) || is_link(b),
         [Some(a), Some(b)] if is_plain(b) => is_filler(b) && a.chars().all(char::is_alphanumeric),
         _ => false,

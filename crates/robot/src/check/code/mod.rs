@@ -1,0 +1,268 @@
+//! Straight-line kinematics in Python and MATLAB, read without running it.
+//!
+//! Text → tokens (`lexer`) → a program in one form for both languages (`tree`; `grammar` and `atoms` read expressions,
+//! `python` and `matlab` statements) → formulas (`machine` runs statements, `eval` and `calls` expressions, `place`
+//! indices, `library`, `builders` and `methods` what NumPy, SymPy and MATLAB bring along), each beside the way it is written. Loops
+//! over known numbers are unrolled, and functions of the text are carried out where they are called. What depends on
+//! values, or cannot be known, is refused with its place; what comes after it is still read as far as it does not need it.
+//!
+//! Arrays of Python are shared between names: setting entries of one that another name may stand for is refused.
+
+mod atoms;
+mod builders;
+mod calls;
+mod eval;
+mod grammar;
+mod known;
+mod lexer;
+mod library;
+mod machine;
+mod matlab;
+mod methods;
+mod place;
+mod python;
+mod records;
+mod report;
+mod scalar;
+#[cfg(test)]
+mod soup;
+#[cfg(test)]
+mod tests;
+#[cfg(test)]
+mod tests_refused;
+mod tree;
+mod value;
+
+use denavit_symbolic::Expr;
+use denavit_symbolic::parse::{ParseError, Syntax};
+use machine::Machine;
+use scalar::Scalar;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+use tree::{Definition, Statement, StatementKind};
+use value::Object;
+
+/// The longest text, in bytes.
+pub const MAX_BYTES: usize = 1_000_000;
+/// The deepest nesting of brackets and blocks.
+pub const MAX_NESTING: usize = 100;
+/// The most statements that are carried out.
+pub const MAX_STATEMENTS: usize = 100_000;
+/// The most rows and columns of a matrix, and items of a list that is counted out.
+pub const MAX_SIDE: usize = 64;
+/// The most turns of a loop.
+pub const MAX_TURNS: usize = 64;
+/// The most operators in a row.
+const MAX_CHAIN: usize = 2_000;
+/// The most calls inside one another.
+const MAX_CALLS: usize = 20;
+/// The most brackets, statements and calls inside one another, counted together.
+const MAX_DEPTH: usize = 400;
+/// The deepest nesting of lists.
+const MAX_LISTS: usize = 16;
+/// The most operations.
+const MAX_WORK: u64 = 1_000_000;
+/// The most nodes of a formula that is written out.
+const MAX_SIZE: u64 = 1_000_000;
+/// The most refusals that are reported.
+const MAX_REFUSALS: usize = 50;
+
+/// A programming language.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Language {
+    /// Python with NumPy, SymPy or `math`.
+    Python,
+    /// MATLAB or Octave.
+    Matlab,
+}
+
+/// What a text computes.
+#[derive(Clone, Debug, Default)]
+pub struct Code {
+    /// The statements outside of functions, if they give a name a value, and the functions, in the order of the text.
+    /// Functions that only others of the text can call, with arguments of their own, are not among them.
+    pub functions: Vec<Reading>,
+    /// What is not read, in the order of the text.
+    pub refusals: Vec<ParseError>,
+}
+
+/// What a function computes.
+#[derive(Clone, Debug)]
+pub struct Reading {
+    /// Its name; empty for statements outside of functions.
+    pub name: String,
+    /// All of it.
+    pub span: Range<usize>,
+    /// The values that names get, in order; loops give theirs again and again.
+    pub assigned: Vec<Assigned>,
+    /// What it gives back; empty if that is not known.
+    pub returned: Vec<Returned>,
+}
+
+/// A name and its value. A matrix whose entries are set one by one is here once, complete, from the first statement that
+/// sets one to the last.
+#[derive(Clone, Debug)]
+pub struct Assigned {
+    /// The name.
+    pub name: String,
+    /// Of the right side.
+    pub span: Range<usize>,
+    /// What the name stands for from here on.
+    pub value: Value,
+}
+
+/// A value that a function gives back.
+#[derive(Clone, Debug)]
+pub struct Returned {
+    /// The name, if one is given back.
+    pub name: Option<String>,
+    /// Where it is given back; in MATLAB where the name got its value.
+    pub span: Range<usize>,
+    /// What it is.
+    pub value: Value,
+}
+
+/// A number or a matrix by rows. An array with one index, and a list of numbers, is a column.
+#[derive(Clone, Debug)]
+pub enum Value {
+    /// A number.
+    Scalar(Cell),
+    /// Rows of equal length, at least one.
+    Matrix(Vec<Vec<Cell>>),
+}
+
+/// A number, or an entry of a matrix.
+#[derive(Clone, Debug)]
+pub struct Cell {
+    /// What it is.
+    pub value: Expr,
+    /// How it is written, if it is: its value is `value`, its places count from the beginning of `span`.
+    pub syntax: Option<Syntax>,
+    /// Where it is written, perhaps in a function that was called, or the operation that it comes from.
+    pub span: Range<usize>,
+}
+
+/// Reads the part of a text that is a program.
+///
+/// `names` gives names without a value in the text their meaning: parameters, joint variables. A function is read if its
+/// arguments have meaning: by name, by default, one argument as the vector of all `joints`, or as many arguments as joints.
+pub fn read(
+    text: &str,
+    span: Range<usize>,
+    language: Language,
+    names: &dyn Fn(&str) -> Option<Expr>,
+    joints: &[Expr],
+) -> Code {
+    let mut code = Code::default();
+    if text.get(span.clone()).is_none_or(|part| part.len() > MAX_BYTES) {
+        let message = format!("a program has at most {MAX_BYTES} bytes");
+        code.refusals.push(ParseError::new(span, message));
+        return code;
+    }
+    let (program, errors) = match language {
+        Language::Python => python::parse(text, &span),
+        Language::Matlab => matlab::parse(text, &span),
+    };
+    let mut machine = Machine::new(language, names, joints);
+    machine.refusals = errors;
+    let definitions: Vec<&Definition> = program.iter().filter_map(definition).collect();
+    machine.functions = definitions.iter().map(|d| (d.name.as_str(), *d)).collect();
+
+    let assigned = machine.script(&program);
+    if !assigned.is_empty() || definitions.is_empty() {
+        code.functions.push(Reading { name: String::new(), span: span.clone(), assigned, returned: vec![] });
+    }
+    let mut of_others = BTreeSet::new();
+    for d in &definitions {
+        let mut names = BTreeSet::new();
+        tree::mentioned(&d.body, &mut names);
+        names.remove(d.name.as_str());
+        of_others.extend(names);
+    }
+    let mut helpers = vec![];
+    for d in &definitions {
+        let is_helper = of_others.contains(d.name.as_str());
+        match arguments(d, &machine, is_helper) {
+            Ok(slots) => code.functions.push(reading(d, slots, &mut machine)),
+            Err(_) if is_helper => helpers.push(*d),
+            Err(e) => machine.refuse(e.into()),
+        }
+    }
+    for d in helpers {
+        // Another function calls it with the joints as they are.
+        if machine.called.contains(&d.name.as_str())
+            && let Ok(slots) = arguments(d, &machine, false)
+        {
+            code.functions.push(reading(d, slots, &mut machine));
+        }
+    }
+    code.functions.sort_by_key(|f| (!f.name.is_empty(), f.span.start));
+    if machine.budget.is_spent() && machine.refusals.len() < MAX_REFUSALS {
+        let e = ParseError::new(span, "the code computes more than is followed")
+            .hint("leave only the kinematics");
+        machine.refusals.push(e);
+    }
+    code.refusals = machine.refusals;
+    code.refusals.sort_by_key(|e| (e.span.start, e.span.end));
+    code
+}
+
+fn definition(statement: &Statement) -> Option<&Definition> {
+    match &statement.kind {
+        StatementKind::Define(d) => Some(d),
+        _ => None,
+    }
+}
+
+fn reading<'a>(
+    d: &'a Definition,
+    slots: BTreeMap<&'a str, Object<'a>>,
+    machine: &mut Machine<'a>,
+) -> Reading {
+    let (assigned, returned) = machine.function(d, slots);
+    Reading { name: d.name.clone(), span: d.span.clone(), assigned, returned }
+}
+
+/// The meaning of the arguments of a function that is read by itself.
+fn arguments<'a>(
+    d: &'a Definition,
+    machine: &Machine<'a>,
+    is_helper: bool,
+) -> Result<BTreeMap<&'a str, Object<'a>>, ParseError> {
+    let mut slots = BTreeMap::new();
+    let mut unknown = vec![];
+    for p in &d.parameters {
+        match (machine.names)(&p.name) {
+            Some(meaning) => {
+                slots.insert(p.name.as_str(), Object::Scalar(Scalar::of(meaning, &p.span)));
+            }
+            None if p.default.is_none() => unknown.push(p),
+            None => {}
+        }
+    }
+    match unknown.as_slice() {
+        [] => {}
+        // One name stands for all joints; a helper has meaning only where it is called.
+        [p] if !is_helper || (d.parameters.len() == 1 && is_vector(&p.name)) => {
+            slots.insert(p.name.as_str(), machine.joint_vector(&p.span));
+        }
+        several if several.len() == machine.joints.len() && !is_helper => {
+            for (p, joint) in several.iter().zip(machine.joints) {
+                slots.insert(p.name.as_str(), Object::Scalar(Scalar::of(*joint, &p.span)));
+            }
+        }
+        [first, ..] => {
+            let message = format!("what `{}` of `{}` stands for is not known", first.name, d.name);
+            let hint = match machine.language {
+                Language::Python => "a function of the joints is `def fk(q):`",
+                Language::Matlab => "a function of the joints is `function T = fk(q)`",
+            };
+            return Err(ParseError::new(first.span.clone(), message).hint(hint));
+        }
+    }
+    Ok(slots)
+}
+
+fn is_vector(name: &str) -> bool {
+    eval::VECTORS.contains(&name)
+}

@@ -1,0 +1,176 @@
+//! What straight-line code computes, as claims about the robot: matrices and scalars whose names say what they are, and
+//! what a function returns.
+
+use super::code::{Cell, Code, Language, Reading, Value, read};
+use super::lexis::Lexis;
+use super::matrix::Matrix;
+use super::subject::Subject;
+use super::walk::{Assertion, Pair, Piece};
+use denavit_symbolic::Expr;
+use denavit_symbolic::parse::ParseError;
+use denavit_symbolic::vocabulary::Vocabulary;
+use std::ops::Range;
+use std::rc::Rc;
+
+/// The claims of a program, and what of it could not be read.
+pub(super) fn assertions(
+    text: &str,
+    span: &Range<usize>,
+    language: Language,
+    subject: &Subject,
+    lexis: &Lexis,
+    number: usize,
+) -> (Vec<Assertion>, Vec<ParseError>) {
+    let joints: Vec<Expr> = subject.description.variables().iter().map(|v| v.symbol.into()).collect();
+    let meaning = |name: &str| lexis.names.lookup(name);
+    let Code { functions, refusals } = read(text, span.clone(), language, &meaning, &joints);
+    let mut found = vec![];
+    for function in &functions {
+        let names = Rc::new(names_in(function, lexis));
+        let program = Program { text, subject, lexis, number, names };
+        found.extend(program.assigned(function));
+        found.extend(program.returned(function));
+    }
+    (found, refusals)
+}
+
+/// The names of the document and those that a function gives its scalars.
+fn names_in(function: &Reading, lexis: &Lexis) -> Vocabulary {
+    function.assigned.iter().fold(lexis.names.clone(), |names, a| match &a.value {
+        Value::Scalar(cell) if a.name.chars().all(char::is_alphanumeric) => names.alias(&a.name, cell.value),
+        _ => names,
+    })
+}
+
+struct Program<'a> {
+    text: &'a str,
+    subject: &'a Subject,
+    lexis: &'a Lexis,
+    number: usize,
+    names: Rc<Vocabulary>,
+}
+
+impl Program<'_> {
+    /// The last values of variables whose names say what they are.
+    fn assigned(&self, function: &Reading) -> Vec<Assertion> {
+        let mut found = vec![];
+        for (i, a) in function.assigned.iter().enumerate() {
+            let is_last = !function.assigned[i + 1..].iter().any(|b| b.name == a.name);
+            // What is returned under that name is judged there.
+            let is_returned = function.returned.iter().any(|r| r.name.as_deref() == Some(a.name.as_str()));
+            if is_last
+                && !is_returned
+                && a.name.contains(|c: char| c.is_ascii_digit() || c == 'x' || c == 'y' || c == 'z')
+            {
+                found.extend(self.named(&a.name, &a.name, &a.span, &a.value));
+            }
+        }
+        found
+    }
+
+    fn returned(&self, function: &Reading) -> Vec<Assertion> {
+        let mut found = vec![];
+        for r in &function.returned {
+            let shown = r.name.clone().unwrap_or_else(|| format!("{}(…)", function.name));
+            let named = r.name.as_ref().and_then(|name| self.named(name, &shown, &r.span, &r.value));
+            found.extend(named.or_else(|| match &r.value {
+                Value::Matrix(rows) => self.pose(function, &shown, &r.span, rows),
+                Value::Scalar(_) => None,
+            }));
+        }
+        found
+    }
+
+    /// A variable whose name has a meaning.
+    fn named(&self, name: &str, shown: &str, span: &Range<usize>, value: &Value) -> Option<Assertion> {
+        match value {
+            Value::Scalar(cell) => {
+                if !self.lexis.is_right(name) {
+                    return None;
+                }
+                let wanted = self.lexis.names.lookup(name)?;
+                let pieces = vec![self.piece(None, cell, wanted)];
+                Some(self.assertion(shown, "an entry".into(), span, pieces, None))
+            }
+            Value::Matrix(rows) => {
+                let name = self.lexis.lone_name(name, &(0..name.len()))?;
+                if name.is_bare() {
+                    return None;
+                }
+                let (matrix, about) = self.lexis.matrix(self.subject, &name)?;
+                let pieces = self.compare(rows, &matrix)?;
+                Some(self.assertion(shown, about?, span, pieces, Some(matrix)))
+            }
+        }
+    }
+
+    /// What a function gives back without a telling name: by its shape the hand's pose, rotation, position or Jacobian.
+    fn pose(
+        &self,
+        function: &Reading,
+        shown: &str,
+        span: &Range<usize>,
+        rows: &[Vec<Cell>],
+    ) -> Option<Assertion> {
+        let pose = self.subject.pose();
+        let columns = rows.first()?.len();
+        let joints = self.subject.description.variables().len();
+        let is_jacobian = function.name.to_lowercase().contains("jac") || shown.starts_with('J');
+        let (matrix, about) = match (rows.len(), columns) {
+            (n, m) if is_jacobian && m == joints && n <= 6 => {
+                let values = Matrix(rows.iter().map(|r| r.iter().map(|c| Some(c.value)).collect()).collect());
+                super::walk::nearest_jacobian(self.subject, &values)?
+            }
+            (4, 4) => (Matrix::of(&pose), "the hand in frame 0".into()),
+            (3, 3) => (Matrix::of_rotation(&pose.rotation), "the rotation of the hand in frame 0".into()),
+            (3, 1) => (Matrix::column(&pose.translation), "the position of the hand".into()),
+            _ => return None,
+        };
+        let pieces = self.compare(rows, &matrix)?;
+        Some(self.assertion(shown, about, span, pieces, Some(matrix)))
+    }
+
+    fn compare(&self, rows: &[Vec<Cell>], matrix: &Matrix) -> Option<Vec<Piece>> {
+        let mut pieces = vec![];
+        for (r, row) in rows.iter().enumerate() {
+            for (c, cell) in row.iter().enumerate() {
+                let wanted = matrix.entry(r, c)?;
+                pieces.push(self.piece(Some((r + 1, c + 1)), cell, wanted));
+            }
+        }
+        Some(pieces)
+    }
+
+    /// A computed value against the right one; lengths that the program has as numbers are numbers in both.
+    fn piece(&self, place: Option<(usize, usize)>, cell: &Cell, wanted: Expr) -> Piece {
+        let d = &self.subject.description;
+        let uses = |e: Expr| e.symbols().iter().any(|s| d.parameters.iter().any(|p| p.symbol == *s));
+        let wanted = match uses(cell.value) {
+            true => wanted,
+            false => wanted.substitute(|s| d.parameters.iter().find(|p| p.symbol == s)?.value),
+        };
+        let printed = cell.syntax.clone().filter(|_| self.text.get(cell.span.clone()).is_some());
+        Piece::Pair(Pair { place, span: cell.span.clone(), printed, value: cell.value, wanted })
+    }
+
+    fn assertion(
+        &self,
+        name: &str,
+        about: String,
+        span: &Range<usize>,
+        pieces: Vec<Piece>,
+        whole: Option<Matrix>,
+    ) -> Assertion {
+        Assertion {
+            span: span.clone(),
+            name: name.to_string(),
+            about,
+            pieces,
+            remarks: vec![],
+            subject: self.number,
+            whole,
+            names: Some(Rc::clone(&self.names)),
+            spoken: None,
+        }
+    }
+}

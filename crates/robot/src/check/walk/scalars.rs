@@ -1,0 +1,286 @@
+//! Equations between scalars: entries, definitions, identities, values of joints and angles.
+
+use super::{Assertion, Pair, Piece, Reference, Scalar, Spoken, Walk};
+use crate::check::document::Statement;
+use crate::check::names::Name;
+use crate::check::values::set_in;
+use crate::geometry::orientation::OrientationSet;
+use denavit_symbolic::parse::{Function, ParseError, Syntax, SyntaxKind};
+use denavit_symbolic::vocabulary::plain_name;
+use denavit_symbolic::{Angle, Expr};
+use std::ops::Range;
+
+impl Walk<'_> {
+    pub(super) fn scalar(&self, span: &Range<usize>) -> Scalar {
+        let errors = match self.lexis.formula(self.text, span) {
+            Ok(syntax) => return Scalar::Formula(span.clone(), syntax),
+            Err(errors) => errors,
+        };
+        match self.lexis.lone_name(self.text, span) {
+            Some(name) if name.left.is_empty() && name.sup.is_empty() && name.arguments.is_empty() => {
+                match self.conventional(&name) {
+                    Some(value) => {
+                        let kind = SyntaxKind::Name(value);
+                        Scalar::Formula(span.clone(), Syntax { kind, span: 0..span.len() })
+                    }
+                    None => Scalar::Lone(name),
+                }
+            }
+            _ => Scalar::Broken(span.clone(), errors),
+        }
+    }
+
+    /// What `x`, `Y`, `x_x` or `z_y` mean by custom, where the document gives no other meaning.
+    pub(super) fn conventional(&self, name: &Name) -> Option<Expr> {
+        let axis = |c: &str| ["x", "y", "z"].iter().position(|a| *a == c.to_lowercase());
+        let plain = format!("{}{}", name.base, name.sub);
+        let pose = self.subject.pose();
+        match (axis(&name.base), name.sub.as_str()) {
+            (Some(r), "" | "p" | "P") => Some(pose.translation.0[r]),
+            (Some(c), sub) => Some(pose.rotation.rows()[axis(sub)?][c]),
+            (None, _) => {
+                let mut letters = plain.chars();
+                let (first, rest) = (letters.next()?.to_string(), letters.as_str());
+                Some(pose.rotation.rows()[axis(rest)?][axis(&first)?])
+            }
+        }
+    }
+
+    /// Reads a statement as one between scalars; false if it is none.
+    pub(super) fn scalars(&mut self, statement: &Statement, claim: Option<&str>) -> bool {
+        let spans: Vec<Range<usize>> = statement.sides.iter().map(|s| s.span.clone()).collect();
+        let read: Vec<Scalar> = spans.iter().map(|s| self.scalar(s)).collect();
+        let is_matrix = |s: &Scalar| match s {
+            Scalar::Lone(name) => self.lexis.matrix(self.subject, name).is_some(),
+            Scalar::Broken(span, _) => self.is_product(span),
+            Scalar::Formula(..) => false,
+        };
+        if !read.iter().any(|s| matches!(s, Scalar::Formula(..))) || read.iter().skip(1).any(is_matrix) {
+            let all_matrices = read.iter().all(|s| is_matrix(s) || matches!(s, Scalar::Lone(_)));
+            if all_matrices || read.iter().any(is_matrix) {
+                return false;
+            }
+        }
+        if self.configuration(&read) {
+            return true;
+        }
+        if let Some(spoken) = self.values(&spans, &read).or_else(|| self.angle(statement, &read)) {
+            let about = match spoken {
+                Spoken::Joint { .. } => "values of a joint".to_string(),
+                Spoken::Angle { set, .. } => format!("an angle of the set {set}"),
+            };
+            let assertion = Assertion { spoken: Some(spoken), ..self.assertion(statement, about) };
+            self.assertions.push(assertion);
+            return true;
+        }
+        let told = claim.and_then(|words| self.told_entry(words));
+        // A name that the document defines here.
+        let is_definition = told.is_none()
+            && match &read[..] {
+                [Scalar::Lone(name), Scalar::Formula(_, syntax), ..] => {
+                    let name = plain_name(&format!("{}{}", name.base, name.sub));
+                    self.lexis.define(&name, syntax.value());
+                    true
+                }
+                _ => false,
+            };
+        let formulas = || {
+            read.iter().enumerate().filter_map(|(i, s)| match s {
+                Scalar::Formula(span, syntax) => Some((i, span, syntax)),
+                _ => None,
+            })
+        };
+        let reference = match told {
+            Some(value) => Some((usize::MAX, value)),
+            None => {
+                let right = formulas().find(|(_, span, _)| self.is_right_name(span));
+                let is_plain = |s: &Syntax| s.sign_choices() == 0 && !has_inverse_function(s);
+                let posed = || formulas().find(|(_, span, s)| is_plain(s) && self.speaks_of_pose(span));
+                let all_posed = formulas().all(|(_, span, _)| self.speaks_of_pose(span));
+                let sine =
+                    || formulas().next().filter(|(i, _, s)| *i == 0 && matches!(s.kind, SyntaxKind::Name(_)));
+                let found = right.or_else(|| sine()).or_else(|| posed().filter(|_| !all_posed));
+                found.or_else(|| formulas().next()).map(|(i, _, s)| (i, s.value()))
+            }
+        };
+        let Some((at, wanted)) = reference else {
+            for s in &read {
+                if let Scalar::Broken(span, errors) = s {
+                    let error = errors.first().cloned();
+                    self.skipped.extend(error.map(|e| (span.clone(), e)));
+                    break;
+                }
+            }
+            return true;
+        };
+        let others = read.iter().enumerate().filter(|(i, _)| *i != at);
+        let mut pieces = vec![];
+        for (i, s) in others {
+            match s {
+                Scalar::Formula(span, syntax)
+                    if syntax.value().symbols().is_empty()
+                        && !wanted.symbols().is_empty()
+                        && self.at.is_complete(self.subject) =>
+                {
+                    pieces.extend(self.number(None, span, syntax.value(), wanted));
+                }
+                Scalar::Formula(span, syntax) => pieces.push(Piece::Pair(Pair {
+                    place: None,
+                    span: span.clone(),
+                    printed: Some(syntax.clone()),
+                    value: syntax.value(),
+                    wanted,
+                })),
+                Scalar::Lone(_) if i == 0 => {}
+                Scalar::Lone(name) => {
+                    let errors = vec![ParseError::new(spans[i].clone(), format!("unknown `{}`", name.key()))];
+                    pieces.push(Piece::Unreadable { place: None, span: spans[i].clone(), errors });
+                }
+                Scalar::Broken(span, errors) => {
+                    pieces.push(Piece::Unreadable {
+                        place: None,
+                        span: span.clone(),
+                        errors: errors.clone(),
+                    });
+                }
+            }
+        }
+        if pieces.is_empty() || is_definition && pieces.iter().all(|p| matches!(p, Piece::Unreadable { .. }))
+        {
+            return true;
+        }
+        let about = if at == usize::MAX || at == 0 && self.is_right_name(&spans[0]) {
+            "an entry".to_string()
+        } else {
+            "an equation".to_string()
+        };
+        let mut assertion = self.assertion(statement, about);
+        assertion.pieces = pieces;
+        self.assertions.push(assertion);
+        true
+    }
+
+    /// Reads `θ_1 = 30°` as a part of a configuration.
+    fn configuration(&mut self, read: &[Scalar]) -> bool {
+        let [Scalar::Formula(_, left), Scalar::Formula(_, right)] = read else { return false };
+        let value = right.value();
+        let joint = match left.kind {
+            SyntaxKind::Name(e) => {
+                let variables = self.subject.description.variables();
+                e.as_symbol().and_then(|s| variables.iter().position(|v| v.symbol == s))
+            }
+            _ => None,
+        };
+        let Some(joint) = joint.filter(|_| value.symbols().is_empty()) else { return false };
+        self.at.set(joint, value);
+        true
+    }
+
+    /// True for a name that the robot gives its meaning.
+    pub(super) fn is_right_name(&self, span: &Range<usize>) -> bool {
+        let source = self.source(span);
+        let Some(name) = self.lexis.lone_name(self.text, span) else { return self.lexis.is_right(source) };
+        let plain = plain_name(&format!("{}{}", name.base, name.sub));
+        self.lexis.is_right(&plain)
+            || self.lexis.formula(self.text, span).is_err() && self.conventional(&name).is_some()
+    }
+
+    /// True if an entry of the pose occurs.
+    pub(super) fn speaks_of_pose(&self, span: &Range<usize>) -> bool {
+        let Ok(syntax) = self.lexis.inverse_formula(self.text, span) else { return false };
+        let symbols = syntax.value().symbols();
+        let is_entry = |r: usize, c: usize| symbols.contains(&self.lexis.pose_symbol(r, c));
+        (0..3).any(|r| (0..4).any(|c| is_entry(r, c)))
+    }
+
+    /// Values for a joint: `θ_1 = atan2(…)`.
+    pub(super) fn values(&self, spans: &[Range<usize>], read: &[Scalar]) -> Option<Spoken> {
+        let (first, rest) = spans.split_first()?;
+        let Some(Scalar::Formula(_, left)) = read.first() else { return None };
+        let SyntaxKind::Name(of) = left.kind else { return None };
+        let variables = self.subject.description.variables();
+        let angle = Angle::of(of);
+        let is_joint = |e: &Expr| e.as_symbol().is_some_and(|s| variables.iter().any(|v| v.symbol == s));
+        let is_sum = !angle.terms.is_empty() && angle.terms.iter().all(|(e, k)| is_joint(e) && k.is_one());
+        if !is_sum || self.is_right_name(first) || rest.is_empty() {
+            return None;
+        }
+        let mut sides = vec![];
+        for span in rest {
+            sides.push((span.clone(), self.lexis.inverse_formula(self.text, span).ok()?));
+        }
+        let is_value = |syntax: &Syntax, span: &Range<usize>| {
+            has_inverse_function(syntax) || self.speaks_of_pose(span) || syntax.sign_choices() > 0
+        };
+        sides.iter().any(|(span, syntax)| is_value(syntax, span)).then_some(Spoken::Joint { of, sides })
+    }
+
+    /// Values for an angle of an orientation: `φ = atan2(R(2,3), R(1,3))`.
+    pub(super) fn angle(&self, statement: &Statement, read: &[Scalar]) -> Option<Spoken> {
+        let set = self.angles.or_else(|| {
+            let words = [&statement.prose, &statement.heading];
+            words.into_iter().flatten().find_map(|span| set_in(self.text.get(span.clone())?))
+        })?;
+        let (side, rest) = statement.sides.split_first()?;
+        let [value] = rest else { return None };
+        let left = self.lexis.lone_name(self.text, &side.span)?;
+        let name = match format!("{}{}", left.base, left.sub).as_str() {
+            "φ" => "phi".to_string(),
+            "θ" | "ϑ" => "theta".to_string(),
+            "ψ" => "psi".to_string(),
+            other => other.to_lowercase(),
+        };
+        let names = set.names();
+        let name = match set {
+            // Roll, pitch and yaw turn about x, y and z; many call them ψ, θ, φ.
+            OrientationSet::Rpy => match name.as_str() {
+                "phi" => "yaw",
+                "theta" => "pitch",
+                "psi" => "roll",
+                other => other,
+            },
+            _ => &name,
+        };
+        let name = (*names.iter().find(|n| **n == name)?).to_string();
+        if matches!(read.first(), Some(Scalar::Formula(..))) && !has_entry(self, &value.span) {
+            return None;
+        }
+        let syntax = self.lexis.inverse_formula(self.text, &value.span).ok()?;
+        has_entry(self, &value.span).then_some(Spoken::Angle {
+            set,
+            name,
+            value: (value.span.clone(), syntax),
+        })
+    }
+
+    /// `T06 3,4`: an entry that a directive names.
+    pub(super) fn told_entry(&self, words: &str) -> Option<Expr> {
+        let (name, place) = words.trim().split_once(' ')?;
+        let (r, c) = place.trim().split_once([',', ' '])?;
+        let (r, c): (usize, usize) = (r.trim().parse().ok()?, c.trim().parse().ok()?);
+        let reference = self.told_matrix(name)?;
+        reference.matrix.entry(r.checked_sub(1)?, c.checked_sub(1)?)
+    }
+
+    pub(super) fn told_matrix(&self, words: &str) -> Option<Reference> {
+        let name = self.lexis.lone_name(words, &(0..words.len()))?;
+        let (matrix, about) = self.lexis.matrix(self.subject, &name)?;
+        Some(Reference { matrix, about: about? })
+    }
+}
+
+/// True if a formula speaks of the orientation.
+fn has_entry(walk: &Walk<'_>, span: &Range<usize>) -> bool {
+    let Ok(syntax) = walk.lexis.inverse_formula(walk.text, span) else { return false };
+    let symbols = syntax.value().symbols();
+    (0..3).any(|r| (0..3).any(|c| symbols.contains(&walk.lexis.pose_symbol(r, c))))
+}
+
+/// True if an arctangent or the like occurs.
+fn has_inverse_function(syntax: &Syntax) -> bool {
+    let is_inverse = match &syntax.kind {
+        SyntaxKind::Call(f, _) => f.is_inverse() || *f == Function::Atan2,
+        _ => false,
+    };
+    is_inverse || syntax.children().into_iter().any(has_inverse_function)
+}
