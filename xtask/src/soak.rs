@@ -10,6 +10,7 @@ const TARGETS: &[(&str, &str)] = &[
     ("formula", "fuzz/seeds/formula"),
     ("robot_file", "crates/robot/catalogue"),
     ("table", "fuzz/seeds/table"),
+    ("document", "examples/documents"),
 ];
 /// The soak that is not a fuzz target.
 const INVERSE: &str = "inverse";

@@ -57,8 +57,13 @@ pub(super) fn causes(
             continue;
         }
         let mut points = Points::new(3);
-        let mut cause =
-            Cause { change: hypothesis.words, turns_right: vec![], turns_wrong: vec![], stays_wrong: vec![] };
+        let mut cause = Cause {
+            change: hypothesis.words,
+            slip: None,
+            turns_right: vec![],
+            turns_wrong: vec![],
+            stays_wrong: vec![],
+        };
         for (c, (a, b)) in walked.assertions.iter().zip(&other.assertions).enumerate() {
             if a.pieces.len() != b.pieces.len() {
                 continue;

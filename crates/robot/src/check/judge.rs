@@ -58,6 +58,9 @@ pub(super) struct Judge<'a> {
 
 /// The cost of the largest change that is called a slip; a sign costs 10.
 const MAX_COST: u32 = 60;
+/// No more right formulas than these make up the vocabulary of repairs, none of more literals.
+const MAX_RIGHT: usize = 60;
+const MAX_LITERALS: u64 = 2_000;
 /// The cost of a sign.
 const SIGN: u32 = 10;
 /// No more formulas than these are looked at for slips.
@@ -265,6 +268,51 @@ impl<'a> Judge<'a> {
         wrong
     }
 
+    /// What formulas about a robot are made of.
+    pub fn lexicon(&mut self, subject: usize) -> Option<&mut Lexicon> {
+        if !self.lexicons.contains_key(&subject) {
+            let right = self.right(subject);
+            let mut made = lexicon(&self.plan.subjects[subject], &self.spellings, right);
+            if let Some(lexicon) = &mut made {
+                self.learn(subject, lexicon);
+            }
+            self.lexicons.insert(subject, made);
+        }
+        self.lexicons.get_mut(&subject)?.as_mut()
+    }
+
+    /// What the document should print, simplified: its parts are what repairs are made of.
+    fn right(&self, subject: usize) -> Vec<Expr> {
+        let mut wanted: Vec<Expr> = vec![];
+        for assertion in self.walked.assertions.iter().filter(|a| a.subject == subject) {
+            for piece in &assertion.pieces {
+                if let Piece::Pair(pair) = piece
+                    && !wanted.contains(&pair.wanted)
+                    && wanted.len() < MAX_RIGHT
+                {
+                    wanted.push(pair.wanted);
+                }
+            }
+        }
+        let short = |e: &Expr| literals(*e) <= MAX_LITERALS;
+        let simple =
+            wanted.into_iter().filter(short).filter_map(|e| Some(simplify(e, &e.symbols()).ok()?.expr));
+        simple.collect()
+    }
+
+    /// Learns from the formulas that are right how the author writes.
+    fn learn(&self, subject: usize, lexicon: &mut Lexicon) {
+        for assertion in self.walked.assertions.iter().filter(|a| a.subject == subject) {
+            for piece in &assertion.pieces {
+                if let Piece::Pair(Pair { printed: Some(syntax), span, value, wanted, .. }) = piece
+                    && lexicon.value(*value).is_some_and(|v| Some(v) == lexicon.value(*wanted))
+                {
+                    lexicon.learn(self.text.get(span.clone()).unwrap_or_default(), syntax);
+                }
+            }
+        }
+    }
+
     /// The smallest changes that make a formula right.
     pub fn slips(&mut self, pair: &Pair, subject: usize) -> Vec<Slip> {
         let Some(printed) = &pair.printed else { return vec![] };
@@ -273,12 +321,11 @@ impl<'a> Judge<'a> {
         }
         self.budget -= 1;
         let source = self.text.get(pair.span.clone()).unwrap_or_default();
-        let (plan, names, spellings) = (self.plan, self.vocabulary(subject), &self.spellings);
-        let lexicon =
-            self.lexicons.entry(subject).or_insert_with(|| lexicon(&plan.subjects[subject], spellings));
-        let Some(lexicon) = lexicon else { return vec![] };
-        let found =
-            repairs(source, printed, &Wanted::Formula(pair.wanted), lexicon, names, Effort::default());
+        let own = self.own_names.clone();
+        let names = own.as_deref().unwrap_or(self.vocabulary(subject));
+        let Some(lexicon) = self.lexicon(subject) else { return vec![] };
+        let wanted = Wanted::Formula(pair.wanted);
+        let found = repairs(source, printed, &wanted, lexicon, names, Effort::default());
         // A change that is larger than this is another formula.
         let best = found.first().map_or(0, |r| r.cost).min(MAX_COST);
         let close = found.into_iter().filter(|r| r.cost <= best).take(4);
@@ -296,7 +343,8 @@ fn visit(syntax: &Syntax, each: &mut dyn FnMut(&Syntax)) {
     syntax.children().into_iter().for_each(|part| visit(part, each));
 }
 
-fn slip(repair: Repair, start: usize) -> Slip {
+/// A repair of the formula that begins at a place of the document.
+pub(super) fn slip(repair: Repair, start: usize) -> Slip {
     let moved = |r: &Range<usize>| r.start + start..r.end + start;
     Slip {
         kind: repair.slip.words(),
@@ -307,7 +355,7 @@ fn slip(repair: Repair, start: usize) -> Slip {
 }
 
 /// What formulas about a robot are made of.
-fn lexicon(subject: &Subject, spellings: &[(Expr, String)]) -> Option<Lexicon> {
+fn lexicon(subject: &Subject, spellings: &[(Expr, String)], right: Vec<Expr>) -> Option<Lexicon> {
     let d = &subject.description;
     let mut atoms: Vec<Expr> = vec![];
     for v in d.variables() {
@@ -319,7 +367,7 @@ fn lexicon(subject: &Subject, spellings: &[(Expr, String)]) -> Option<Lexicon> {
         }
     }
     atoms.extend(d.parameters.iter().map(|p| Expr::from(p.symbol)));
-    let mut vocabulary: Vec<Expr> = vec![];
+    let mut vocabulary: Vec<Expr> = right;
     let n = subject.last();
     for i in 0..=n {
         for j in i + 1..=n {

@@ -72,6 +72,9 @@ impl Lexis {
             scalars: vec![],
             anywhere: Cell::new(false),
         };
+        if subject.last() == 0 {
+            return lexis;
+        }
         let pose = subject.pose().matrix();
         for (r, axis) in AXES.iter().enumerate() {
             for name in [axis.to_string(), axis.to_uppercase()] {

@@ -7,6 +7,7 @@
 
 mod causes;
 pub mod code;
+mod definitions;
 pub mod document;
 pub mod inverse;
 mod judge;
@@ -30,6 +31,7 @@ pub use outcome::{
 use crate::description::{Description, Diagnostic, Diagnostics, TableOptions};
 use code::Language;
 use document::{Document, Format};
+use judge::Judge;
 use plan::Plan;
 
 /// The longest document, in bytes.
@@ -95,7 +97,10 @@ pub fn check(
     for (span, remark) in remarks {
         notes.note(span, remark);
     }
-    let causes = causes::causes(text, &document, &plan, options, &walked, &mut claims);
+    let mut causes = definitions::causes(&mut Judge::new(text, &plan, &walked), text, &walked, &claims);
+    if causes.is_empty() {
+        causes = causes::causes(text, &document, &plan, options, &walked, &mut claims);
+    }
     let mut notes = notes.list().to_vec();
     notes.sort_by_key(|n| n.span.start);
     notes.dedup();

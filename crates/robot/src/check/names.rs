@@ -302,8 +302,13 @@ impl Reader<'_> {
     fn scripts(&mut self, name: &mut Name) -> Option<()> {
         loop {
             let before = self.at;
-            self.skip();
+            self.skip_blanks();
             match self.peek() {
+                Some('^') if !name.left.is_empty() && !self.is_power() => {
+                    // `{}^0T_1^1T_2`: the superscript of the next name.
+                    self.at = before;
+                    return Some(());
+                }
                 Some('_') => {
                     self.at += 1;
                     let index = self.group()?;
@@ -342,6 +347,15 @@ impl Reader<'_> {
                 }
             }
         }
+    }
+
+    /// True if a superscript begins here that is `-1` or `T`.
+    fn is_power(&self) -> bool {
+        let inner = (self.at + 1..).map_while(|i| self.char(i).filter(|c| !matches!(c, '}')));
+        let plain: String = inner.filter(|c| !matches!(c, '{' | ' ' | '\\')).take(6).collect();
+        ["-1", "−1"].iter().any(|p| plain.starts_with(p))
+            || matches!(plain.as_str(), "T" | "t" | "top")
+            || plain.starts_with('T') && !plain.contains('_')
     }
 
     /// True if brackets behind a name are its arguments: they hold no matrix and no sum of names.
@@ -567,6 +581,11 @@ mod tests {
             (r"{}^0T_1(q_1)\,{}^1T_2(q_2)", "^0T_1(q_1) ^1T_2(q_2)"),
             (r"T_{45}\cdot T_{56}", "T_45 · T_56"),
             (r"{}^{j-1}A_j^{-1}", "^j-1A_j'"),
+            (r"{}^0T_1\,{}^1T_2", "^0T_1 ^1T_2"),
+            ("^0T_1 ^1T_2 ^2T_3", "^0T_1 ^1T_2 ^2T_3"),
+            ("{}^0T_1^1T_2", "^0T_1 ^1T_2"),
+            ("H_3^0H_6^3", "H_3^0 H_6^3"),
+            ("{}^0T_1^{T}", "^0T_1~"),
             ("T(1,2)", "T(1;2)"),
             (r"\frac{a}{b}", "-"),
             ("a_2 + 3", "-"),

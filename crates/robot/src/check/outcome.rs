@@ -213,8 +213,10 @@ pub struct Counterexample {
 /// One change that turns several claims right.
 #[derive(Clone, Debug)]
 pub struct Cause {
-    /// The change in words: `α5 = -90° in the table, for 90°`.
+    /// The change in words: `α5 with the opposite sign in the table`.
     pub change: String,
+    /// The place in the document, and what should stand there, if it is a definition.
+    pub slip: Option<Slip>,
     /// Claim and entry (numbers from 0) that it turns right.
     pub turns_right: Vec<(usize, usize)>,
     /// Those that it turns wrong.

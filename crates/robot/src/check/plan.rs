@@ -7,7 +7,7 @@ use super::lexis::{Columns, Lexis};
 use super::programs;
 use super::subject::Subject;
 use super::values::set_in;
-use super::walk::{Assertion, Walk};
+use super::walk::{Assertion, Defined, Walk};
 use crate::catalogue;
 use crate::description::table::{PrintedTable, tables};
 use crate::description::{
@@ -33,6 +33,8 @@ pub(super) struct Plan {
 pub(super) struct Walked {
     pub assertions: Vec<Assertion>,
     pub skipped: Vec<(Range<usize>, ParseError)>,
+    /// Names that the document defines by formulas.
+    pub defined: Vec<Defined>,
     /// What of programs could not be read.
     pub refused: Vec<ParseError>,
     /// The names of each robot's part of the document, at its end.
@@ -97,7 +99,11 @@ impl Plan {
             let found = match event {
                 Event::Table(table) => match &table.robot {
                     Ok((d, found)) => {
-                        found.iter().for_each(|f| notes.add(f.clone()));
+                        // Lines such as `x = 0.5` are claims here, not values of the table.
+                        let own = found
+                            .iter()
+                            .filter(|f| f.span.start >= table.span.start && f.span.end <= table.span.end);
+                        own.for_each(|f| notes.add(f.clone()));
                         from_table(d, table)
                     }
                     Err(errors) => {
@@ -236,7 +242,7 @@ impl Plan {
             refused.extend(errors);
         }
         assertions.sort_by_key(|a| a.span.start);
-        Walked { assertions, skipped: walk.skipped, refused, names, inverse_names }
+        Walked { assertions, skipped: walk.skipped, defined: walk.defined, refused, names, inverse_names }
     }
 }
 

@@ -7,6 +7,7 @@ use crate::forward::Reference;
 use crate::geometry::{Axis, Rotation, Transform, Vector};
 use crate::robot::Robot;
 use crate::velocity::{Viewpoint, geometric};
+use denavit_symbolic::readable::simplify;
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Expr, Symbol};
 
@@ -103,6 +104,21 @@ impl Subject {
     /// The tool in frame 0.
     pub fn pose(&self) -> Transform<Expr> {
         self.transform(Some(0), None).unwrap_or_else(Transform::identity)
+    }
+
+    /// The determinant of the Jacobian: of all rows for six joints, of the linear ones for three, of vx and vy for two.
+    pub fn determinant(&self) -> Option<Expr> {
+        let joints = self.q.len();
+        let rows = match joints {
+            6 | 3 | 2 => joints,
+            _ => return None,
+        };
+        // Along which axes it is written does not matter for square blocks that turn together; the middle is short.
+        let axes = if rows == 2 { 0 } else { self.last().div_ceil(2) };
+        let view = Viewpoint::of(Reference::Frame(self.last()), Reference::Frame(axes));
+        let j = geometric(&self.robot, &self.q, &view).rows();
+        let entry = |e: Expr| simplify(e, &e.symbols()).map_or(e, |s| s.expr);
+        Matrix((0..rows).map(|r| j[r].iter().map(|&e| Some(entry(e))).collect()).collect()).determinant()
     }
 
     /// Jacobians that people print: of the tool or the last frame, along the axes of frame 0 or their own, linear

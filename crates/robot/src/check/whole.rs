@@ -113,29 +113,22 @@ fn candidates(whole: &Matrix, subject: &Subject) -> Vec<(String, Matrix)> {
         (3 | 4, 4) => Some(Matrix::of(x)),
         _ => None,
     };
-    for i in 0..=n {
-        for j in i + 1..=n {
-            let Some(x) = subject.transform(Some(i), Some(j)) else { continue };
-            found.extend(form(&x).map(|m| (format!("frame {j} in frame {i}"), m)));
-            if j - i > 1 {
-                let backwards = (i..j).rev().try_fold(Transform::identity(), |x, k| {
-                    Some(x * subject.transform(Some(k), Some(k + 1))?)
-                });
-                if let Some(m) = backwards.and_then(|x| form(&x)) {
-                    found.push((
-                        format!("the links of frame {j} in frame {i} multiplied in the opposite order"),
-                        m,
-                    ));
-                }
-                for without in i..j {
-                    let links = (i..j).filter(|k| *k != without).try_fold(Transform::identity(), |x, k| {
-                        Some(x * subject.transform(Some(k), Some(k + 1))?)
-                    });
-                    if let Some(m) = links.and_then(|x| form(&x)) {
-                        found.push((format!("frame {j} in frame {i} without link {}", without + 1), m));
-                    }
-                }
-            }
+    let link = |k: usize| subject.transform(Some(k), Some(k + 1));
+    let product = |links: Vec<usize>| {
+        let whole = links.into_iter().try_fold(Transform::identity(), |x, k| Some(x * link(k)?))?;
+        form(&whole)
+    };
+    let pairs = || (0..=n).flat_map(|i| (i + 1..=n).map(move |j| (i, j)));
+    for (i, j) in pairs() {
+        found.extend(product((i..j).collect()).map(|m| (format!("frame {j} in frame {i}"), m)));
+    }
+    for (i, j) in pairs().filter(|(i, j)| j - i > 1) {
+        let backwards = product((i..j).rev().collect());
+        let order = format!("the links of frame {j} in frame {i} multiplied in the opposite order");
+        found.extend(backwards.map(|m| (order, m)));
+        for without in i..j {
+            let rest = product((i..j).filter(|k| *k != without).collect());
+            found.extend(rest.map(|m| (format!("frame {j} in frame {i} without link {}", without + 1), m)));
         }
     }
     found

@@ -48,6 +48,7 @@ fn cause(document: &Document, cause: &Cause) -> Value {
     };
     json!({
         "change": cause.change,
+        "slip": cause.slip.as_ref().map(|s| slip(document, s)),
         "turns_right": names(&cause.turns_right),
         "turns_wrong": names(&cause.turns_wrong),
         "stays_wrong": names(&cause.stays_wrong),

@@ -60,6 +60,19 @@ fn told(document: &Document, n: usize, cause: &Cause) -> String {
         format!("{}{}", names.join(", "), if more > 0 { format!(" and {more} more") } else { String::new() })
     };
     let mut out = format!("{} {}\n", styled(&format!("cause {n}:"), HEADING), cause.change);
+    if let Some(slip) = &cause.slip
+        && let (Some(first), Some(last)) = (slip.patches.first(), slip.patches.last())
+    {
+        let line = |at: usize| document.text[..at].rfind('\n').map_or(0, |n| n + 1);
+        let end =
+            document.text[last.span.end..].find('\n').map_or(document.text.len(), |n| last.span.end + n);
+        let span = line(first.span.start)..end;
+        out += &format!(
+            "  line {}: {}\n",
+            document.line(first.span.start),
+            marked(document, &span, &slip.patches)
+        );
+    }
     for (what, places) in [
         ("turns right", &cause.turns_right),
         ("turns wrong", &cause.turns_wrong),

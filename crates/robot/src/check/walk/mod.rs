@@ -84,6 +84,18 @@ pub(super) enum Spoken {
     Angle { set: OrientationSet, name: String, value: (Range<usize>, Syntax) },
 }
 
+/// A name that the document defines by a formula.
+#[derive(Clone, Debug)]
+pub(super) struct Defined {
+    pub name: String,
+    /// Where the formula stands.
+    pub span: Range<usize>,
+    pub printed: Syntax,
+    pub value: Expr,
+    /// Which of the robots is spoken of.
+    pub subject: usize,
+}
+
 /// The document from beginning to end.
 pub(super) struct Walk<'a> {
     text: &'a str,
@@ -91,6 +103,8 @@ pub(super) struct Walk<'a> {
     pub subject: &'a Subject,
     number: usize,
     pub assertions: Vec<Assertion>,
+    /// Names that the document defines by formulas.
+    pub defined: Vec<Defined>,
     /// The configuration that was stated last.
     pub at: Configuration,
     /// The set of angles that a directive names.
@@ -147,6 +161,7 @@ impl<'a> Walk<'a> {
             subject,
             number: 0,
             assertions: vec![],
+            defined: vec![],
             at: Configuration::default(),
             angles: None,
             skipped: vec![],

@@ -1,6 +1,6 @@
 //! Equations between scalars: entries, definitions, identities, values of joints and angles.
 
-use super::{Assertion, Pair, Piece, Reference, Scalar, Spoken, Walk};
+use super::{Assertion, Defined, Pair, Piece, Reference, Scalar, Spoken, Walk};
 use crate::check::document::Statement;
 use crate::check::names::Name;
 use crate::check::values::set_in;
@@ -16,6 +16,16 @@ impl Walk<'_> {
             Ok(syntax) => return Scalar::Formula(span.clone(), syntax),
             Err(errors) => errors,
         };
+        let plain: String = self.source(span).chars().filter(|c| c.is_alphanumeric() || *c == '|').collect();
+        if matches!(
+            plain.as_str(),
+            "detJ" | "|J|" | "leftJright" | "detJq" | "detleftJright" | "left|Jright|"
+        ) {
+            if let Some(value) = self.subject.determinant() {
+                let kind = SyntaxKind::Name(value);
+                return Scalar::Formula(span.clone(), Syntax { kind, span: 0..span.len() });
+            }
+        }
         match self.lexis.lone_name(self.text, span) {
             Some(name) if name.left.is_empty() && name.sup.is_empty() && name.arguments.is_empty() => {
                 match self.conventional(&name) {
@@ -32,6 +42,12 @@ impl Walk<'_> {
 
     /// What `x`, `Y`, `x_x` or `z_y` mean by custom, where the document gives no other meaning.
     pub(super) fn conventional(&self, name: &Name) -> Option<Expr> {
+        if name.base == "det" && name.sub.is_empty() {
+            return self.subject.determinant();
+        }
+        if self.subject.last() == 0 {
+            return None;
+        }
         let axis = |c: &str| ["x", "y", "z"].iter().position(|a| *a == c.to_lowercase());
         let plain = format!("{}{}", name.base, name.sub);
         let pose = self.subject.pose();
@@ -77,9 +93,16 @@ impl Walk<'_> {
         // A name that the document defines here.
         let is_definition = told.is_none()
             && match &read[..] {
-                [Scalar::Lone(name), Scalar::Formula(_, syntax), ..] => {
+                [Scalar::Lone(name), Scalar::Formula(span, syntax), ..] => {
                     let name = plain_name(&format!("{}{}", name.base, name.sub));
                     self.lexis.define(&name, syntax.value());
+                    self.defined.push(Defined {
+                        name,
+                        span: span.clone(),
+                        printed: syntax.clone(),
+                        value: syntax.value(),
+                        subject: self.number,
+                    });
                     true
                 }
                 _ => false,

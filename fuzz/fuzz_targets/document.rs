@@ -1,0 +1,22 @@
+//! Any text as a document of printed formulas about an arm, in every format.
+
+#![no_main]
+
+use denavit::catalogue;
+use denavit::check::code::Language;
+use denavit::check::document::Format;
+use denavit::check::{Options, check};
+use denavit::description::read_toml;
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|text: &str| {
+    let Some(Ok((robot, _))) = catalogue::text("staubli-rx90").map(read_toml) else { return };
+    for format in [Format::Markdown, Format::Latex, Format::Plain, Format::Toml] {
+        let _ = check(text, format, Some(&robot), &Options::default());
+        let _ = check(text, format, None, &Options::default());
+    }
+    for language in [Language::Python, Language::Matlab] {
+        let options = Options { language: Some(language), ..Options::default() };
+        let _ = check(text, Format::Plain, Some(&robot), &options);
+    }
+});
