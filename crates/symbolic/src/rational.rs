@@ -21,6 +21,9 @@ enum Repr {
 /// The largest exponent of ten that a decimal may carry: 1e400 is a slip, not a length.
 const MAX_DECIMAL_EXPONENT: i64 = 400;
 
+/// Longer powers are not worked out: thousands of them in one product would take minutes.
+const MAX_POWER_BITS: u64 = 4_096;
+
 impl Rational {
     /// 0
     pub const ZERO: Rational = Rational(Repr::Small(0, 1));
@@ -55,7 +58,8 @@ impl Rational {
     }
 
     fn from_big(n: BigInt, d: BigInt) -> Self {
-        let g = n.gcd(&d);
+        // Dividing out 1 takes the square of the length.
+        let g = if d.is_one() { BigInt::one() } else { n.gcd(&d) };
         let (n, d) = if d.is_negative() { (-n / &g, -d / &g) } else { (n / &g, d / &g) };
         match (n.to_i64(), d.to_i64()) {
             (Some(n), Some(d)) => Rational(Repr::Small(n, d)),
@@ -68,6 +72,14 @@ impl Rational {
         match &self.0 {
             Repr::Small(n, d) => ((*n).into(), (*d).into()),
             Repr::Big(b) => (b.0.clone(), b.1.clone()),
+        }
+    }
+
+    /// The length of the longer of numerator and denominator; 64 for all that fit a machine word.
+    pub fn bits(&self) -> u64 {
+        match &self.0 {
+            Repr::Small(..) => 64,
+            Repr::Big(b) => b.0.bits().max(b.1.bits()),
         }
     }
 
@@ -135,14 +147,14 @@ impl Rational {
         Self::from_big(n.div_floor(&d), BigInt::one())
     }
 
-    /// `self` to an integer power; `None` for a negative power of 0 or a result of more than a million bits.
+    /// `self` to an integer power; `None` for a negative power of 0 or a result of more than [`MAX_POWER_BITS`].
     pub fn pow(&self, exponent: i32) -> Option<Self> {
         if exponent < 0 && self.is_zero() {
             return None;
         }
         let (n, d) = self.parts();
         let e = exponent.unsigned_abs();
-        if n.bits().max(d.bits()).saturating_mul(u64::from(e)) > 1_000_000 {
+        if n.bits().max(d.bits()).saturating_mul(u64::from(e)) > MAX_POWER_BITS {
             return None;
         }
         let (n, d) = (n.pow(e), d.pow(e));

@@ -34,6 +34,7 @@ pub fn simplify(e: Expr, symbols: &[Symbol]) -> Result<Simplified, Refusal> {
 pub(crate) fn shortened(mut ring: Ring, e: Expr, symbols: &[Symbol]) -> Result<Ring, Refusal> {
     let mut fewest = terms(&mut ring, e)?;
     let mut basis = ring.basis().to_vec();
+    let mut work = MAX_SEARCH.saturating_sub(ring.spent());
     // Exchange one generator for its sum or difference with another while that leaves fewer terms.
     while basis.len() <= MAX_ANGLES_MERGED {
         let mut improved = None;
@@ -42,8 +43,13 @@ pub(crate) fn shortened(mut ring: Ring, e: Expr, symbols: &[Symbol]) -> Result<R
                 for sign in [1, -1] {
                     let mut candidate = basis.clone();
                     candidate[i] = basis[i].plus(&basis[j].scaled(&Rational::from(sign)));
+                    if work == 0 {
+                        break;
+                    }
                     let mut other = Ring::with_basis(&candidate, &[e], symbols);
-                    if let Ok(n) = terms(&mut other, e)
+                    let found = terms(&mut other, e);
+                    work = work.saturating_sub(other.spent());
+                    if let Ok(n) = found
                         && n < fewest
                     {
                         (fewest, improved) = (n, Some((candidate, other)));
@@ -58,6 +64,9 @@ pub(crate) fn shortened(mut ring: Ring, e: Expr, symbols: &[Symbol]) -> Result<R
     }
     Ok(ring)
 }
+
+/// What the search for a basis may take, in products of terms: some seconds.
+const MAX_SEARCH: u64 = 2_000_000;
 
 /// The number of terms of the canonical form.
 fn terms(ring: &mut Ring, e: Expr) -> Result<usize, Refusal> {
@@ -151,7 +160,7 @@ pub fn literals(e: Expr) -> u64 {
         let n = match part.node() {
             Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Sin(_) | Node::Cos(_) => 1,
             Node::Neg(a) => cost[&a],
-            Node::Sqrt(a) => cost[&a] + 1,
+            Node::Sqrt(a) => cost[&a].saturating_add(1),
             Node::Pow(a, n) => cost[&a].saturating_mul(u64::from(n.unsigned_abs()).min(3)),
             Node::Add(a, b) | Node::Sub(a, b) | Node::Mul(a, b) | Node::Div(a, b) | Node::Atan2(a, b) => {
                 cost[&a].saturating_add(cost[&b])

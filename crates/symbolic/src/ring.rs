@@ -120,6 +120,11 @@ impl Ring {
         ring
     }
 
+    /// The products of terms that were formed so far.
+    pub(crate) fn spent(&self) -> u64 {
+        BUDGET - self.budget
+    }
+
     /// The basis of angles.
     pub fn basis(&self) -> &[Angle] {
         &self.basis
@@ -209,7 +214,9 @@ impl Ring {
     ) -> Result<(), Refusal> {
         let mut pending = vec![(m, r)];
         while let Some((m, r)) = pending.pop() {
-            self.budget = self.budget.checked_sub(1).ok_or(Refusal::TooLarge)?;
+            // Long numbers take the square of their length.
+            let words = r.bits() / 64;
+            self.budget = self.budget.checked_sub(1 + words * words / 16).ok_or(Refusal::TooLarge)?;
             let quadratic =
                 m.factors().iter().copied().find(|&(a, e)| e >= 2 && self.rules[usize::from(a)].is_some());
             match quadratic {

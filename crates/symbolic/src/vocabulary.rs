@@ -2,6 +2,7 @@
 
 use crate::expr::{Expr, Symbol};
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 /// Known symbols, numbered angles, and how to read what is not declared.
 ///
@@ -18,6 +19,10 @@ use std::collections::BTreeMap;
 #[derive(Clone, Debug, Default)]
 pub struct Vocabulary {
     words: BTreeMap<String, Expr>,
+    /// Declared names that are more than one word: `d(O2,O3)`.
+    bracketed: Rc<Vec<Vec<char>>>,
+    /// No declared name is longer, in bytes.
+    longest: usize,
     angles: BTreeMap<u32, Symbol>,
     sliding: BTreeMap<u32, Symbol>,
     is_open: bool,
@@ -42,7 +47,12 @@ impl Vocabulary {
 
     /// Declares a name for an expression. A later declaration of the same name wins.
     pub fn alias(mut self, name: &str, meaning: Expr) -> Self {
-        self.words.insert(plain_name(name), meaning);
+        let word = plain_name(name);
+        self.longest = self.longest.max(word.len());
+        let is_bracketed = word.contains('(') && word.starts_with(char::is_alphabetic);
+        if self.words.insert(word.clone(), meaning).is_none() && is_bracketed {
+            Rc::make_mut(&mut self.bracketed).push(word.chars().collect());
+        }
         self
     }
 
@@ -128,6 +138,16 @@ impl Vocabulary {
         self.words.contains_key(word)
             || word.strip_prefix('q').is_some_and(|rest| angle(rest) || sliding(rest))
             || word.strip_prefix('θ').is_some_and(angle)
+    }
+
+    /// The declared names that are more than one word.
+    pub(crate) fn bracketed(&self) -> &[Vec<char>] {
+        &self.bracketed
+    }
+
+    /// The length of the longest declared name, in bytes.
+    pub(crate) fn longest(&self) -> usize {
+        self.longest
     }
 
     /// The declared words in alphabetical order, the spellings of numbered variables included.

@@ -3,7 +3,7 @@
 use super::Options;
 use super::document::Document;
 use super::judge::Judge;
-use super::outcome::{Cause, Claim, Finding};
+use super::outcome::{Cause, Claim, Entry, Finding};
 use super::plan::{Plan, Walked};
 use super::subject::Subject;
 use super::walk::Piece;
@@ -39,8 +39,13 @@ pub(super) fn causes(
         .map(|c| c.entries.iter().map(|e| matches!(e.finding, Finding::Equal { .. })).collect())
         .collect();
     let is_wrong = |c: usize, e: usize| matches!(claims[c].entries[e].finding, Finding::Wrong(_));
-    let wrong: usize =
-        claims.iter().flat_map(|c| &c.entries).filter(|e| matches!(e.finding, Finding::Wrong(_))).count();
+    // Two entries that were exchanged are one slip.
+    let weight = |e: &Entry| match &e.finding {
+        Finding::Wrong(wrong) if wrong.slip.as_ref().is_some_and(|s| s.id == "transposed") => 1,
+        Finding::Wrong(_) => 2,
+        _ => 0,
+    };
+    let wrong = claims.iter().flat_map(|c| &c.entries).map(weight).sum::<usize>() / 2;
     let all: usize = standing.iter().map(Vec::len).sum();
     if wrong < 2 || all > MAX_FORMULAS {
         return vec![];

@@ -12,7 +12,7 @@ use crate::description::{Diagnostic, Severity};
 use denavit_symbolic::parse::{ParseError, Syntax, SyntaxKind};
 use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::readable::{literals, simplify};
-use denavit_symbolic::slip::{Effort, Lexicon, Points, Repair, Wanted, repairs};
+use denavit_symbolic::slip::{Effort, Lexicon, Points, Repair, Slip as Kind, Wanted, repairs};
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Expr, Symbol, Verdict, equal};
 use std::collections::BTreeMap;
@@ -52,15 +52,16 @@ pub(super) struct Judge<'a> {
     own_names: Option<Rc<Vocabulary>>,
     /// Whether slips are looked for.
     has_slips: bool,
+    /// Right formulas as a person would write them.
+    readable: BTreeMap<Expr, Expr>,
     /// The work left for slips, in formulas.
     budget: usize,
 }
 
 /// The cost of the largest change that is called a slip; a sign costs 10.
 const MAX_COST: u32 = 60;
-/// No more right formulas than these make up the vocabulary of repairs, none of more literals.
-const MAX_RIGHT: usize = 60;
-const MAX_LITERALS: u64 = 2_000;
+/// The cost of the largest lost term, which may be long.
+const MAX_TERM: u32 = 100;
 /// The cost of a sign.
 const SIGN: u32 = 10;
 /// No more formulas than these are looked at for slips.
@@ -99,22 +100,19 @@ impl<'a> Judge<'a> {
             tolerance: None,
             own_names: None,
             has_slips: true,
+            readable: BTreeMap::new(),
             budget: MAX_SLIPS,
         }
     }
 
     fn claim(&mut self, assertion: &Assertion) -> Claim {
         let instead = whole::instead(assertion, self.plan);
-        let exchanged = if instead.is_some() { vec![] } else { whole::exchanged(assertion) };
+        let exchanged = if instead.is_some() { BTreeMap::new() } else { whole::exchanged(assertion) };
         self.has_slips = instead.is_none();
         self.own_names = assertion.names.clone();
         let mut entries: Vec<Entry> = vec![];
         for (i, piece) in assertion.pieces.iter().enumerate() {
-            let other = exchanged.iter().find_map(|&(a, b)| match i {
-                _ if i == a => Some(b),
-                _ if i == b => Some(a),
-                _ => None,
-            });
+            let other = exchanged.get(&i).copied();
             let mut entry = self.entry(piece, assertion.subject);
             if let (Some(other), Finding::Wrong(wrong)) = (other, &mut entry.finding) {
                 self.exchange(assertion, i, other, wrong);
@@ -138,14 +136,19 @@ impl<'a> Judge<'a> {
             return;
         };
         let Some((r, c)) = there.place else { return };
-        let now = self.text.get(there.span.clone()).unwrap_or_default().to_string();
-        wrong.correct = Some(now.clone());
+        let source = |p: &Pair| self.text.get(p.span.clone()).unwrap_or_default().trim().to_string();
+        let mut patches = vec![
+            Patch { span: here.span.clone(), now: source(there) },
+            Patch { span: there.span.clone(), now: source(here) },
+        ];
+        patches.sort_by_key(|p| p.span.start);
+        wrong.correct = Some(source(there));
         wrong.rivals = vec![];
         wrong.slip = Some(Slip {
             kind: format!("exchanged with row {r}, column {c}"),
-            id: "entries-exchanged".into(),
-            patches: vec![Patch { span: here.span.clone(), now: now.clone() }],
-            formula: now,
+            id: "transposed".into(),
+            patches,
+            formula: source(there),
         });
     }
 
@@ -221,6 +224,14 @@ impl<'a> Judge<'a> {
         }
     }
 
+    /// A right formula, simplified, unless it is too long: the parts that an author may have lost stand in it.
+    fn readable(&mut self, right: Expr) -> Expr {
+        *self.readable.entry(right).or_insert_with(|| {
+            let is_short = literals(right) <= 20 * MAX_SHOWN;
+            is_short.then(|| simplify(right, &right.symbols()).ok()).flatten().map_or(right, |s| s.expr)
+        })
+    }
+
     /// Another entry in place of a short one: 0 for C2, and C2 for 1.
     fn entire(&self, printed: &Syntax, pair: &Pair, found: Option<&Slip>, cost: u32) -> Option<Slip> {
         let is_one = pair.value.is_one();
@@ -271,33 +282,13 @@ impl<'a> Judge<'a> {
     /// What formulas about a robot are made of.
     pub fn lexicon(&mut self, subject: usize) -> Option<&mut Lexicon> {
         if !self.lexicons.contains_key(&subject) {
-            let right = self.right(subject);
-            let mut made = lexicon(&self.plan.subjects[subject], &self.spellings, right);
+            let mut made = lexicon(&self.plan.subjects[subject], &self.spellings);
             if let Some(lexicon) = &mut made {
                 self.learn(subject, lexicon);
             }
             self.lexicons.insert(subject, made);
         }
         self.lexicons.get_mut(&subject)?.as_mut()
-    }
-
-    /// What the document should print, simplified: its parts are what repairs are made of.
-    fn right(&self, subject: usize) -> Vec<Expr> {
-        let mut wanted: Vec<Expr> = vec![];
-        for assertion in self.walked.assertions.iter().filter(|a| a.subject == subject) {
-            for piece in &assertion.pieces {
-                if let Piece::Pair(pair) = piece
-                    && !wanted.contains(&pair.wanted)
-                    && wanted.len() < MAX_RIGHT
-                {
-                    wanted.push(pair.wanted);
-                }
-            }
-        }
-        let short = |e: &Expr| literals(*e) <= MAX_LITERALS;
-        let simple =
-            wanted.into_iter().filter(short).filter_map(|e| Some(simplify(e, &e.symbols()).ok()?.expr));
-        simple.collect()
     }
 
     /// Learns from the formulas that are right how the author writes.
@@ -321,14 +312,15 @@ impl<'a> Judge<'a> {
         }
         self.budget -= 1;
         let source = self.text.get(pair.span.clone()).unwrap_or_default();
+        let wanted = Wanted::Formula(self.readable(pair.wanted));
         let own = self.own_names.clone();
         let names = own.as_deref().unwrap_or(self.vocabulary(subject));
         let Some(lexicon) = self.lexicon(subject) else { return vec![] };
-        let wanted = Wanted::Formula(pair.wanted);
         let found = repairs(source, printed, &wanted, lexicon, names, Effort::default());
         // A change that is larger than this is another formula.
-        let best = found.first().map_or(0, |r| r.cost).min(MAX_COST);
-        let close = found.into_iter().filter(|r| r.cost <= best).take(4);
+        let limit = |r: &Repair| if r.slip == Kind::LostTerm { MAX_TERM } else { MAX_COST };
+        let best = found.first().map_or(0, |r| r.cost);
+        let close = found.into_iter().filter(|r| r.cost <= best.min(limit(r))).take(4);
         let found: Vec<Slip> = close.map(|r| slip(r, pair.span.start)).collect();
         match self.entire(printed, pair, found.first(), best.max(u32::from(found.is_empty()) * MAX_COST)) {
             Some(entire) => vec![entire],
@@ -355,7 +347,7 @@ pub(super) fn slip(repair: Repair, start: usize) -> Slip {
 }
 
 /// What formulas about a robot are made of.
-fn lexicon(subject: &Subject, spellings: &[(Expr, String)], right: Vec<Expr>) -> Option<Lexicon> {
+fn lexicon(subject: &Subject, spellings: &[(Expr, String)]) -> Option<Lexicon> {
     let d = &subject.description;
     let mut atoms: Vec<Expr> = vec![];
     for v in d.variables() {
@@ -367,7 +359,7 @@ fn lexicon(subject: &Subject, spellings: &[(Expr, String)], right: Vec<Expr>) ->
         }
     }
     atoms.extend(d.parameters.iter().map(|p| Expr::from(p.symbol)));
-    let mut vocabulary: Vec<Expr> = right;
+    let mut vocabulary: Vec<Expr> = vec![];
     let n = subject.last();
     for i in 0..=n {
         for j in i + 1..=n {

@@ -6,11 +6,15 @@ use super::names::{Name, Token, tokens};
 use super::subject::{Subject, elementary};
 use denavit_symbolic::parse::{ParseError, Syntax, parse_syntax};
 use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
-use denavit_symbolic::{Expr, Symbol};
+use denavit_symbolic::{Expr, Node, Symbol};
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
+/// No more names are kept.
+const MAX_NAMES: usize = 2_000;
+/// Names for longer numbers are not kept.
+const MAX_NUMBER_BITS: u64 = 4_096;
 /// The axes of coordinates.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -124,8 +128,17 @@ impl Lexis {
         }
     }
 
-    /// A name that the document gives its meaning.
+    /// A name that the document gives its meaning. What is no formula that a person would print is given none:
+    /// squares of squares double their numbers each time.
     pub fn define(&mut self, name: &str, meaning: Expr) {
+        let factor = match meaning.node() {
+            Node::Mul(a, _) | Node::Div(a, _) => a,
+            _ => meaning,
+        };
+        let is_long = factor.as_number().is_some_and(|r| r.bits() > MAX_NUMBER_BITS);
+        if is_long || self.scalars.len() >= MAX_NAMES {
+            return;
+        }
         self.names = std::mem::take(&mut self.names).alias(name, meaning);
         self.inverse = std::mem::take(&mut self.inverse).alias(name, meaning);
         self.right.remove(&plain_name(name));

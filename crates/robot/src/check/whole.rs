@@ -5,8 +5,9 @@ use super::plan::Plan;
 use super::subject::Subject;
 use super::walk::{Assertion, Pair, Piece};
 use crate::geometry::Transform;
-use denavit_symbolic::slip::Points;
+use denavit_symbolic::slip::{Points, Value};
 use denavit_symbolic::{Expr, equal};
+use std::collections::BTreeMap;
 
 /// A matrix of more entries is not looked at as a whole.
 const MAX_ENTRIES: usize = 64;
@@ -134,25 +135,37 @@ fn candidates(whole: &Matrix, subject: &Subject) -> Vec<(String, Matrix)> {
     found
 }
 
-/// Two wrong entries each of which is printed in the other's place; their numbers among the pieces.
-pub(super) fn exchanged(assertion: &Assertion) -> Vec<(usize, usize)> {
+/// The entries of a matrix that stand in each other's place, by their numbers among the pieces.
+pub(super) fn exchanged(assertion: &Assertion) -> BTreeMap<usize, usize> {
     let mut points = Points::new(5);
-    let mut wrong = vec![];
-    for (i, piece) in assertion.pieces.iter().enumerate() {
-        let Piece::Pair(pair) = piece else { continue };
-        let (printed, wanted) = (points.value(pair.value), points.value(pair.wanted));
-        if pair.place.is_some() && pair.printed.is_some() && printed.is_some() && printed != wanted {
-            wrong.push((i, printed, wanted));
+    let mut wrong: BTreeMap<(Value, Value), Vec<usize>> = BTreeMap::new();
+    let mut found = BTreeMap::new();
+    let pair_of = |i: usize| match assertion.pieces.get(i) {
+        Some(Piece::Pair(pair)) => Some(pair),
+        _ => None,
+    };
+    for i in 0..assertion.pieces.len() {
+        let Some(pair) = pair_of(i).filter(|p| p.place.is_some() && p.printed.is_some()) else { continue };
+        let (Some(printed), Some(right)) = (points.value(pair.value), points.value(pair.wanted)) else {
+            continue;
+        };
+        if printed == right {
+            continue;
         }
-    }
-    let mut found: Vec<(usize, usize)> = vec![];
-    for (k, a) in wrong.iter().enumerate() {
-        let is_free = |i: usize| !found.iter().any(|f| f.0 == i || f.1 == i);
-        if let Some(b) =
-            wrong[k + 1..].iter().find(|b| a.1 == b.2 && b.1 == a.2 && is_free(b.0) && is_free(a.0))
+        let others = wrong.get(&(right, printed)).into_iter().flatten().copied();
+        let mut others = others.filter(|k| !found.contains_key(k));
+        // Of several the one across the diagonal.
+        let across = pair.place.map(|(r, c)| (c, r));
+        let other =
+            others.clone().find(|&k| pair_of(k).and_then(|p| p.place) == across).or_else(|| others.next());
+        if let Some(other) = other
+            && let Some(b) = pair_of(other)
+            && equal(pair.value, b.wanted).is_equal()
+            && equal(b.value, pair.wanted).is_equal()
         {
-            found.push((a.0, b.0));
+            found.extend([(i, other), (other, i)]);
         }
+        wrong.entry((printed, right)).or_default().push(i);
     }
     found
 }

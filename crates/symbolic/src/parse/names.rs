@@ -7,25 +7,25 @@ use crate::expr::Expr;
 use crate::vocabulary::{Vocabulary, plain_name};
 use std::ops::Range;
 
+/// Among more names the nearest is not looked for.
+const MAX_NEAR: usize = 1_000;
+
 /// A vocabulary, prepared for one text.
 pub(super) struct Names<'a> {
     pub vocabulary: &'a Vocabulary,
     /// Declared names that are more than one word: `d(O2,O3)`.
-    pub with_brackets: Vec<Vec<char>>,
+    pub with_brackets: &'a [Vec<char>],
     /// No known name has more letters.
     pub longest: usize,
 }
 
 impl<'a> Names<'a> {
     pub fn new(vocabulary: &'a Vocabulary) -> Self {
-        let (mut longest, mut with_brackets) = (16, vec![]);
-        for word in vocabulary.declared() {
-            longest = longest.max(word.len());
-            if word.contains('(') && word.starts_with(char::is_alphabetic) {
-                with_brackets.push(word.chars().collect());
-            }
+        Names {
+            vocabulary,
+            with_brackets: vocabulary.bracketed(),
+            longest: vocabulary.longest().max(16) + 16,
         }
-        Names { vocabulary, with_brackets, longest: longest + 16 }
     }
 
     pub fn is_open(&self) -> bool {
@@ -98,6 +98,9 @@ impl<'a> Names<'a> {
         }
         let limit = (letters / 2).max(1);
         let words = self.vocabulary.words();
+        if words.len() > MAX_NEAR {
+            return None;
+        }
         let distances = words.into_iter().map(|w| (distance(word, &w), w));
         let found = distances.filter(|(d, w)| *d <= limit && *d < letters.max(w.chars().count()));
         found.min_by_key(|(d, _)| *d).map(|(_, w)| w)

@@ -87,15 +87,24 @@ fn flatten(text: &str, tree: &Tree, values: &[Value], part: usize, marks: &mut V
             let inner = tree.parts[own.kids[0]].span.clone();
             let between = |from: usize, to: usize| text.get(from..to).unwrap_or_default();
             let open = between(own.span.start, inner.start).trim_end().len();
-            let close = between(inner.end, own.span.end).trim_start().len();
-            push(Mark::Open, own.span.start, own.span.start + open);
+            let close = between(inner.end, own.span.end).trim_start();
+            let close = close.strip_prefix("\\right").map_or(close, str::trim_start).len();
+            push(Mark::Open, sized(text, own.span.start), own.span.start + open);
             flatten(text, tree, values, own.kids[0], marks);
-            marks.push(Placed { mark: Mark::Close, start: own.span.end - close, end: own.span.end });
+            let end = own.span.end;
+            marks.push(Placed { mark: Mark::Close, start: sized(text, end - close), end });
         }
         Kind::Leaf(_) | Kind::Product(_) | Kind::Power(_) | Kind::Root | Kind::Arctangent => {
             push(Mark::Value(values[part]), own.span.start, own.span.end);
         }
     }
+}
+
+/// The place of a bracket with the `\left` or `\right` before it.
+fn sized(text: &str, bracket: usize) -> usize {
+    let before = text.get(..bracket).unwrap_or_default().trim_end();
+    let word = ["\\left", "\\right"].into_iter().find(|w| before.ends_with(w));
+    word.map_or(bracket, |w| before.len() - w.len())
 }
 
 /// Brackets taken away, and brackets put before a mark; true for an opening one.
@@ -133,11 +142,12 @@ impl Search<'_> {
         let mut moves: Vec<Move> = vec![];
         for &(open, close) in &pairs {
             let base = if is_idle(open, close) { 10 } else { 18 };
-            for at in (0..=count).filter(|&i| closes(i) && i > open + 1 && i != close && i != close + 1) {
+            // Beyond the other bracket of the pair it closes another one.
+            for at in (0..=count).filter(|&i| closes(i) && i != close && i != close + 1) {
                 let steps = self.steps(at, close);
                 moves.push(Move { gone: vec![close], new: vec![(at, false)], cost: base + 2 * steps });
             }
-            for at in (0..close).filter(|&i| opens(i) && i != open && i != open + 1) {
+            for at in (0..count).filter(|&i| opens(i) && i != open && i != open + 1) {
                 let steps = self.steps(at, open);
                 moves.push(Move { gone: vec![open], new: vec![(at, true)], cost: base + 2 * steps });
             }

@@ -124,6 +124,15 @@ impl Lexicon {
         }
     }
 
+    /// Makes sure that what a right formula is made of is listed.
+    pub(super) fn add_formula(&mut self, right: Expr) {
+        let parts = Expr::postorder(&[right]);
+        for &e in &parts {
+            self.add_atom(e);
+        }
+        self.list_phrases(&parts);
+    }
+
     /// Makes sure that an atom of a printed formula is listed.
     pub(super) fn add_atom(&mut self, e: Expr) {
         if is_atom(e) && !self.numbers.contains_key(&e) {

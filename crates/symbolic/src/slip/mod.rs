@@ -117,6 +117,9 @@ pub fn repairs(
     for (_, e) in tree.leaves() {
         lexicon.add_atom(e);
     }
+    if let Wanted::Formula(right) = wanted {
+        lexicon.add_formula(*right);
+    }
     lexicon.learn_spellings(text, printed);
     let Some(search) = Search::new(text, (&tree, printed), lexicon, wanted) else { return vec![] };
     let target = *search.wanted();

@@ -8,6 +8,7 @@ use crate::check::product::{Factor, NotMatrices, Product};
 use crate::check::subject::Subject;
 use crate::geometry::Transform;
 use denavit_symbolic::parse::ParseError;
+use denavit_symbolic::readable::literals;
 use denavit_symbolic::slip::Points;
 use denavit_symbolic::{Expr, equal};
 use std::ops::Range;
@@ -80,8 +81,14 @@ impl Walk<'_> {
                 self.compare_grid(grid, &reference.matrix, out);
             }
             Some(factors) if factors.len() > 1 && factors.iter().all(is_grid) => {
-                if self.compare_value(product.value.as_ref(), &reference.matrix, span, &mut out.clone()) {
-                    self.compare_value(product.value.as_ref(), &reference.matrix, span, out);
+                let mut worked = out.clone();
+                let is_long = is_too_long(product.value.as_ref());
+                if is_long || self.compare_value(product.value.as_ref(), &reference.matrix, span, &mut worked)
+                {
+                    if is_long {
+                        worked.pieces.push(too_long(span));
+                    }
+                    *out = worked;
                     return;
                 }
                 // The product is wrong: which of its factors is?
@@ -99,6 +106,7 @@ impl Walk<'_> {
                     }
                 }
             }
+            _ if is_too_long(product.value.as_ref()) => out.pieces.push(too_long(span)),
             _ => {
                 self.compare_value(product.value.as_ref(), &reference.matrix, span, out);
             }
@@ -264,6 +272,19 @@ impl Walk<'_> {
         out.pieces.extend(same.filter(|_| is_right).map(Piece::Pair));
         is_right
     }
+}
+
+/// The longest product of matrices that is worked out, in literals of its longest entry.
+const MAX_PRODUCT: u64 = 2_000_000;
+
+/// True for a product that nobody works out.
+fn is_too_long(value: Option<&Matrix>) -> bool {
+    value.is_some_and(|m| m.0.iter().flatten().flatten().any(|&e| literals(e) > MAX_PRODUCT))
+}
+
+fn too_long(span: &Range<usize>) -> Piece {
+    let errors = vec![ParseError::new(span.clone(), "the product is too long to be worked out")];
+    Piece::Unreadable { place: None, span: span.clone(), errors }
 }
 
 /// Of the Jacobians that people print, the one that agrees with a matrix in most entries.

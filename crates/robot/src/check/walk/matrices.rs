@@ -1,6 +1,6 @@
 //! Equations between matrices: what is known of a side, what is compared, what is defined.
 
-use super::{Assertion, Cell, Cells, Definition, Piece, Reference, Scalar, Walk};
+use super::{Assertion, Cell, Cells, Definition, MAX_ELEMENTS, Piece, Reference, Scalar, Walk};
 use crate::check::document::{Fence, Grid, Part, Side, Statement, sides};
 use crate::check::matrix::Matrix;
 use crate::check::names::{Name, Token, tokens};
@@ -71,8 +71,15 @@ impl Walk<'_> {
         if let Some(known) = self.cells.borrow().get(&grid.span.start) {
             return Rc::clone(known);
         }
-        let cells = grid.rows.iter().map(|row| row.iter().map(|span| self.cell(span, grid)).collect());
-        let cells: Rc<Cells> = Rc::new(cells.collect());
+        let count = elements(grid);
+        let cells: Cells = if count > MAX_ELEMENTS {
+            let message = format!("the matrix has {count} elements; at most {MAX_ELEMENTS} are read");
+            let errors = vec![ParseError::new(grid.span.clone(), message)];
+            vec![vec![Cell::Broken(grid.span.clone(), errors)]]
+        } else {
+            grid.rows.iter().map(|row| row.iter().map(|span| self.cell(span, grid)).collect()).collect()
+        };
+        let cells = Rc::new(cells);
         self.cells.borrow_mut().insert(grid.span.start, Rc::clone(&cells));
         cells
     }
@@ -99,6 +106,9 @@ impl Walk<'_> {
 
     /// Gives names in cells their meaning: `c_4 c_5 = D_1`.
     pub(super) fn define_cells(&mut self, grid: &Grid, definitions: &mut Vec<Definition>) {
+        if elements(grid) > MAX_ELEMENTS {
+            return;
+        }
         for span in grid.rows.iter().flatten() {
             let parts = sides(self.text, span);
             if parts.len() < 2 {
@@ -376,6 +386,11 @@ impl Walk<'_> {
         let mut spans = grid.rows.iter().flatten();
         spans.clone().count() > 1 && spans.all(|s| self.is_right_name(s))
     }
+}
+
+/// The number of elements of a printed matrix.
+fn elements(grid: &Grid) -> usize {
+    grid.rows.iter().map(Vec::len).sum()
 }
 
 /// The matrix that a factor names.

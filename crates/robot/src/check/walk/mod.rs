@@ -96,6 +96,9 @@ pub(super) struct Defined {
     pub subject: usize,
 }
 
+/// The most elements of a matrix that are read.
+const MAX_ELEMENTS: usize = 4_096;
+
 /// The document from beginning to end.
 pub(super) struct Walk<'a> {
     text: &'a str,
