@@ -2,6 +2,7 @@
 
 mod bench;
 mod counts;
+mod errata;
 mod languages;
 mod soak;
 mod test;
@@ -9,6 +10,7 @@ mod tidy;
 
 use anyhow::{Context, Result, bail};
 use denavit::{Description, catalogue, description};
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
@@ -25,6 +27,7 @@ cargo xtask bench [--write | --quick] [evaluation] [inverse] [arms] [derivation]
 cargo xtask languages            builds and runs generated source code in every language
 cargo xtask counts [--check]     writes docs/operation-counts.md; --check fails if it is not up to date,
                                  or if SymPy needs fewer operations for some robot
+cargo xtask errata [--write]     compares docs/errata.md with what `denavit check` says of the documents; --write renews it
 cargo xtask soak [--seconds N] [TARGET...]
                                  feeds random bytes to the readers, N seconds each (60)
 cargo xtask miri                 the evaluators' conformance suite under Miri (half an hour)
@@ -53,6 +56,8 @@ fn dispatch(arguments: &[String]) -> Result<()> {
         ["miri"] => soak::miri(),
         ["counts"] => counts::run(false),
         ["counts", "--check"] => counts::run(true),
+        ["errata"] => errata::run(false),
+        ["errata", "--write"] => errata::run(true),
         ["soak", "--seconds", n, ref targets @ ..] => {
             soak::run(n.parse().context("--seconds takes a whole number")?, targets)
         }
@@ -76,7 +81,7 @@ fn path(relative: &str) -> PathBuf {
 }
 
 /// A command that runs in the root.
-fn command(program: impl AsRef<std::ffi::OsStr>) -> Command {
+fn command(program: impl AsRef<OsStr>) -> Command {
     let mut command = Command::new(program);
     command.current_dir(root());
     command
@@ -94,6 +99,17 @@ fn succeed(command: &mut Command) -> Result<()> {
         bail!("{command:?} failed ({status})");
     }
     Ok(())
+}
+
+/// What the command line prints on standard output, whatever its exit code.
+fn denavit<W: AsRef<OsStr>>(words: impl IntoIterator<Item = W>) -> Result<String> {
+    let mut run = cargo();
+    run.args(["run", "--release", "--quiet", "--package", "denavit-cli", "--"]).args(words);
+    let output = run.env("NO_COLOR", "1").output()?;
+    if output.stdout.is_empty() {
+        bail!("{run:?} prints nothing: {}", String::from_utf8_lossy(&output.stderr).trim());
+    }
+    Ok(String::from_utf8(output.stdout)?)
 }
 
 /// A robot of the catalogue.

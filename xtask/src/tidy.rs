@@ -1,6 +1,6 @@
 //! The rules of the project that a program can check. One line a violation, with its place.
 
-use crate::{cargo, command, path};
+use crate::{cargo, command, denavit, path};
 use anyhow::{Context, Result, bail};
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -327,7 +327,7 @@ fn sessions(files: &[File], report: &mut Report) -> Result<()> {
             }
             let block: Vec<&str> =
                 lines.by_ref().map(|(_, l)| l).take_while(|l| !l.starts_with("```")).collect();
-            let printed = denavit(marked)?;
+            let printed = denavit(words_of(marked))?;
             let shown = block.strip_prefix(&[""][..]).unwrap_or(&block);
             let shown = if shown.first().is_some_and(|l| l.starts_with("$ ")) { &shown[1..] } else { shown };
             if let Err(k) = agrees(shown, &printed.lines().collect::<Vec<_>>()) {
@@ -337,23 +337,6 @@ fn sessions(files: &[File], report: &mut Report) -> Result<()> {
         }
     }
     Ok(())
-}
-
-/// What the command line prints on standard output.
-fn denavit(arguments: &str) -> Result<String> {
-    let output = cargo()
-        .args(["run", "--release", "--quiet", "--package", "denavit-cli", "--"])
-        .args(words_of(arguments))
-        .env("NO_COLOR", "1")
-        .output()?;
-    if output.stdout.is_empty() {
-        bail!(
-            "`denavit {}` prints nothing: {}",
-            arguments.trim(),
-            String::from_utf8_lossy(&output.stderr).trim()
-        );
-    }
-    Ok(String::from_utf8(output.stdout)?)
 }
 
 /// Words as a shell separates them; quotes hold together what stands between them.

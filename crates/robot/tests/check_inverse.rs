@@ -1,5 +1,5 @@
 //! Printed inverse formulas through `denavit::check::inverse`: the verdicts are those of the documents' claims
-//! (`sources/*_inverse.toml`, `docs/errata.md`), and what is changed in a right formula is found.
+//! (`sources/*_inverse.toml`), and what is changed in a right formula is found.
 
 #[path = "common/printed.rs"]
 mod printed;

@@ -3,7 +3,7 @@
 //! `sources/*_inverse.toml` holds what is printed, as printed, and the verdict that is expected. Equations are proved or
 //! refuted with the forward model in place of the pose; printed values are compared with all solutions of random poses,
 //! which the derived inverse model gives. Corrections are held in the same way, and their values proved to solve
-//! equations that are proved. `docs/errata.md` tells it in words.
+//! equations that are proved. `docs/errata-remarks.md` tells it in words.
 
 #[path = "common/printed.rs"]
 mod printed;

@@ -2,7 +2,7 @@
 //!
 //! `sources/*_jacobian.toml` holds what is printed, as printed, and the verdict that is expected; the verdict itself is
 //! by proof, against Jacobians that are proved to be the derivative of the product of the link transforms. Corrections,
-//! and what the documents leave out, are held in the same way. `docs/errata.md` tells it in words.
+//! and what the documents leave out, are held in the same way. `docs/errata-remarks.md` tells it in words.
 
 #[allow(dead_code, reason = "values of inverse kinematics are not read here")]
 #[path = "common/printed.rs"]

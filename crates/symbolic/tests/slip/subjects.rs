@@ -16,7 +16,7 @@ pub fn names(symbols: &[&str], angles: &[u32]) -> Vocabulary {
     names.symbols(symbols.iter().copied())
 }
 
-/// crates/robot/tests/sources/rx90.toml, with n_x and n_y mended.
+/// examples/documents/rx90.md, with n_x and n_y mended.
 pub fn rx90() -> Subject {
     Subject {
         names: names(&["D3", "RL4"], &[1, 2, 3, 4, 5, 6]).alias("R4", Expr::symbol("RL4")),
@@ -37,7 +37,7 @@ pub fn rx90() -> Subject {
     }
 }
 
-/// crates/robot/tests/sources/prrrrp.toml, the definitions written out in part.
+/// examples/documents/prrrrp.md, the definitions written out in part.
 pub fn prrrrp() -> Subject {
     let names = names(&["a_2", "a_3", "q_1", "q_6", "r_7"], &[2, 3, 4, 5]);
     let define = |v: Vocabulary, name: &str, text: &str| {
@@ -74,7 +74,7 @@ pub fn prrrrp() -> Subject {
     }
 }
 
-/// crates/robot/tests/sources/ur3.toml, mended by the report's own table.
+/// examples/documents/ur3.md, mended by the report's own table.
 pub fn ur3() -> Subject {
     Subject {
         names: names(&["a_2", "a_3", "d_1", "d_2", "d_3", "d_4", "d_5", "d_6"], &[1, 2, 3, 4, 5, 6]),
@@ -103,7 +103,7 @@ pub fn ur3() -> Subject {
     }
 }
 
-/// The wrist of crates/robot/tests/sources/cylindrical.toml, and what LaTeX makes of it.
+/// The wrist of examples/documents/cylindrical.md, and what LaTeX makes of it.
 pub fn wrist() -> Subject {
     Subject {
         names: names(&["a_3", "a_4", "a_5", "a_6", "a_7", "d_3"], &[2, 4, 5, 6]),

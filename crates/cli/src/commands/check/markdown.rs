@@ -2,7 +2,8 @@
 
 use super::Document;
 use super::terminal::entry_name;
-use denavit::check::{Finding, Slip, Standing};
+use denavit::check::{Claim, Finding, Standing};
+use std::ops::Range;
 
 /// Counts, causes, and a table of what is not right.
 pub fn list(document: &Document) -> String {
@@ -17,46 +18,54 @@ pub fn list(document: &Document) -> String {
         t.undecided,
         t.unreadable
     );
-    for cause in &checked.causes {
-        let count = |places: &[(usize, usize)]| places.len();
-        out += &format!(
-            "\n**{}**: turns {} right, {} wrong; {} stay wrong.\n",
-            cause.change,
-            count(&cause.turns_right),
-            count(&cause.turns_wrong),
-            count(&cause.stays_wrong)
-        );
+    for (n, cause) in (1..).zip(&checked.causes) {
+        out += &format!("\n**Cause {n}: {}.**", escaped(&cause.change));
+        for (what, places) in [
+            ("turns right", &cause.turns_right),
+            ("turns wrong", &cause.turns_wrong),
+            ("leaves wrong", &cause.stays_wrong),
+        ] {
+            if !places.is_empty() {
+                out += &format!(" It {what}: {}.", names(document, places));
+            }
+        }
+        out += "\n";
     }
     let mut rows = vec![];
     for claim in checked.claims.iter().filter(|c| c.standing() != Standing::Equal) {
+        if let Some((span, wrong)) = as_a_whole(claim) {
+            let (name, printed, line) =
+                (code(&claim.name), code(&document.source(span)), document.line(span.start));
+            rows.push(format!("| {name} | {line} | wrong | {printed} | | in {wrong} elements |\n"));
+            continue;
+        }
         for entry in &claim.entries {
             let name = code(&entry_name(claim, entry.place));
             let line = document.line(entry.span.start);
             let printed = code(&document.source(&entry.span));
-            let (verdict, right, slip) = match &entry.finding {
+            let (verdict, right, said) = match &entry.finding {
                 Finding::Equal { .. } => continue,
                 Finding::Wrong(w) => {
-                    let under =
-                        w.under_cause.as_ref().map(|(_, s)| format!(" (by the first cause: {})", words(s)));
-                    let slip = w.slip.as_ref().map(words).unwrap_or_default() + &under.unwrap_or_default();
-                    let remarks: String = w.remarks.iter().map(|r| format!("; {r}")).collect();
-                    ("wrong", w.correct.as_deref().map(code).unwrap_or_default(), slip + &remarks)
+                    let slip = w.slip.iter().map(|s| escaped(&s.kind));
+                    let under = w.under_cause.iter().map(|(cause, s)| {
+                        format!("by cause {}, {}: {}", cause + 1, escaped(&s.kind), code(&s.formula))
+                    });
+                    let remarks = w.remarks.iter().map(|r| escaped(r));
+                    let said: Vec<String> = slip.chain(under).chain(remarks).collect();
+                    ("wrong", w.correct.as_deref().map(code).unwrap_or_default(), said.join("; "))
                 }
                 Finding::Conditional { condition, correct, remarks } => {
-                    let remarks: String = remarks.iter().map(|r| format!("; {r}")).collect();
-                    let right = correct.as_deref().map(code).unwrap_or_default();
-                    ("conditional", right, format!("right {condition}{remarks}"))
+                    let said = [format!("right {condition}")];
+                    let said: Vec<String> = said.iter().chain(remarks).map(|r| escaped(r)).collect();
+                    ("conditional", correct.as_deref().map(code).unwrap_or_default(), said.join("; "))
                 }
-                Finding::Undecided { why } => ("undecided", String::new(), why.clone()),
+                Finding::Undecided { why } => ("undecided", String::new(), escaped(why)),
                 Finding::Unreadable(errors) => {
-                    let why = errors.first().map(|e| e.message.clone()).unwrap_or_default();
+                    let why = errors.first().map(|e| escaped(&e.message)).unwrap_or_default();
                     ("unreadable", String::new(), why)
                 }
             };
-            rows.push(format!(
-                "| {name} | {line} | {verdict} | {printed} | {right} | {} |\n",
-                escaped(&slip)
-            ));
+            rows.push(format!("| {name} | {line} | {verdict} | {printed} | {right} | {said} |\n"));
         }
         for remark in &claim.remarks {
             let (name, line) = (code(&claim.name), document.line(claim.span.start));
@@ -70,16 +79,42 @@ pub fn list(document: &Document) -> String {
     out
 }
 
-fn words(slip: &Slip) -> String {
-    slip.kind.clone()
+/// Where a matrix stands whose elements are not printed one by one, and how many of them are wrong.
+fn as_a_whole(claim: &Claim) -> Option<(&Range<usize>, usize)> {
+    let span = &claim.entries.first()?.span;
+    let is_whole = claim.entries.len() > 1 && claim.entries.iter().all(|e| e.span == *span);
+    let wrong = claim.entries.iter().filter(|e| e.finding.standing() == Standing::Wrong).count();
+    (is_whole && wrong > 0).then_some((span, wrong))
+}
+
+/// Claims and entries by their names.
+fn names(document: &Document, places: &[(usize, usize)]) -> String {
+    let name = |&(c, e): &(usize, usize)| {
+        let claim = document.checked.claims.get(c)?;
+        Some(code(&entry_name(claim, claim.entries.get(e)?.place)))
+    };
+    places.iter().filter_map(name).collect::<Vec<_>>().join(", ")
 }
 
 /// A text in backquotes inside a table.
 fn code(text: &str) -> String {
-    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    if text.is_empty() { text } else { format!("`{}`", escaped(&text.replace('`', "'"))) }
+    let text = text.split_whitespace().collect::<Vec<_>>().join(" ").replace('|', "\\|");
+    match &text[..] {
+        "" => text,
+        quoted if quoted.contains('`') => format!("`` {quoted} ``"),
+        _ => format!("`{text}`"),
+    }
 }
 
+/// A text inside a table, its own marks without effect; what stands in backquotes is left as it is.
 fn escaped(text: &str) -> String {
-    text.replace('|', "\\|")
+    let part = |(k, part): (usize, &str)| {
+        let marks: &[char] = if k % 2 == 0 { &['\\', '*', '_', '|', '<', '['] } else { &['|'] };
+        part.chars().fold(String::new(), |mut out, c| {
+            out.extend(marks.contains(&c).then_some('\\'));
+            out.push(c);
+            out
+        })
+    };
+    text.split('`').enumerate().map(part).collect::<Vec<_>>().join("`")
 }
