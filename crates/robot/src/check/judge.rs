@@ -237,7 +237,8 @@ impl<'a> Judge<'a> {
         let is_one = pair.value.is_one();
         let right = simplify(pair.wanted, &pair.wanted.symbols()).ok()?.expr;
         let number = right.as_number();
-        if matches!(printed.kind, SyntaxKind::Sum(_)) && !is_one || cost <= SIGN {
+        let is_sum = matches!(&printed.kind, SyntaxKind::Sum(terms) if terms.len() > 1);
+        if is_sum && !is_one || cost <= SIGN {
             return None;
         }
         let now = match (number, found) {

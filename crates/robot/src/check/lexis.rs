@@ -145,6 +145,13 @@ impl Lexis {
         self.scalars.push((name.to_string(), meaning));
     }
 
+    /// What a name that the document defines means in inverse formulas.
+    pub fn define_inverse(&mut self, name: &str, meaning: Expr) {
+        if self.names.lookup(name).is_some() {
+            self.inverse = std::mem::take(&mut self.inverse).alias(name, meaning);
+        }
+    }
+
     /// A name for an entry of a matrix that is known from the robot.
     pub fn define_right(&mut self, name: &str, meaning: Expr, in_inverse: Expr) {
         self.define(name, meaning);
@@ -209,7 +216,8 @@ impl Lexis {
 
     /// What a matrix's name means, powers included, and in words what that is if it is known from the robot.
     pub fn matrix(&self, subject: &Subject, name: &Name) -> Option<(Matrix, Option<String>)> {
-        let found = match self.matrices.get(&name.key()) {
+        let known = self.matrices.get(&name.key()).filter(|_| !self.anywhere.get());
+        let found = match known {
             Some(found) => found.clone(),
             None => {
                 let value = |argument: &str| self.argument(argument);

@@ -11,6 +11,8 @@ use std::f64::consts::TAU;
 pub(super) struct Configuration {
     /// Values, and whether they have a unit.
     values: Vec<Option<(f64, bool)>>,
+    /// Lengths that the document states, metres.
+    lengths: Vec<(Symbol, f64)>,
 }
 
 /// How a value without unit is read.
@@ -42,6 +44,14 @@ impl Configuration {
         }
     }
 
+    /// States a length.
+    pub fn give(&mut self, symbol: Symbol, value: Expr) {
+        if let Ok(x) = value.eval(|_| None) {
+            self.lengths.retain(|l| l.0 != symbol);
+            self.lengths.push((symbol, x));
+        }
+    }
+
     /// True if all joints of a robot have values.
     pub fn is_complete(&self, subject: &Subject) -> bool {
         let joints = subject.description.variables().len();
@@ -62,7 +72,8 @@ impl Configuration {
                     () => x,
                 });
             }
-            d.parameters.iter().find(|p| p.symbol == s)?.value?.eval(|_| None).ok()
+            let stated = self.lengths.iter().find(|l| l.0 == s).map(|l| l.1);
+            stated.or_else(|| d.parameters.iter().find(|p| p.symbol == s)?.value?.eval(|_| None).ok())
         };
         e.eval(value).ok().filter(|x| x.is_finite())
     }
@@ -95,9 +106,7 @@ pub(super) fn judge(answer: &Answer, subject: &Subject, tolerance: Option<f64>) 
     };
     let at = |unit, turned| answer.at.value(answer.wanted, subject, unit, turned);
     let Some(right) = at(units[0], false) else {
-        return Finding::Undecided {
-            why: "a length has no value: give it in the robot's table or with --set".into(),
-        };
+        return Finding::Undecided { why: "a length has no value: state it before, `a1 = 0.5 m`".into() };
     };
     let near = |x: f64, allowed: f64| (x - answer.printed).abs() <= allowed;
     if near(right, allowed) {

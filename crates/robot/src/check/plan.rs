@@ -87,7 +87,9 @@ impl Plan {
             plan.push(0, named(robot));
         }
         let kind = if format == Format::Latex { TableKind::Latex } else { TableKind::Markdown };
-        let printed = if format == Format::Toml { vec![] } else { tables(text, kind, &options.table) };
+        let mut reading = options.table.clone();
+        reading.convention = reading.convention.or_else(|| said(text, notes));
+        let printed = if format == Format::Toml { vec![] } else { tables(text, kind, &reading) };
         let mut events: Vec<(usize, Event)> =
             directives(document).map(|d| (d.span.start, Event::Directive(d))).collect();
         if robot.is_none() {
@@ -249,6 +251,43 @@ impl Plan {
 enum Event<'a> {
     Table(&'a PrintedTable),
     Directive(&'a Directive),
+}
+
+/// The convention that a text names in its words, if it names one only and has no line for it.
+fn said(text: &str, notes: &mut Diagnostics) -> Option<Convention> {
+    if text.lines().any(|l| l.trim_start().to_lowercase().starts_with("convention:")) {
+        return None;
+    }
+    let lower = text.to_ascii_lowercase();
+    let find = |words: &[&str]| words.iter().filter_map(|w| Some((lower.find(w)?, w.len()))).min();
+    let found = [
+        (
+            Convention::Standard,
+            find(&[
+                "standard dh",
+                "standard denavit",
+                "standard (distal",
+                "standard convention",
+                "classical dh",
+                "distal convention",
+            ]),
+        ),
+        (
+            Convention::Craig,
+            find(&[
+                "craig's convention",
+                "craig convention",
+                "modified dh",
+                "modified denavit",
+                "proximal convention",
+            ]),
+        ),
+        (Convention::Khalil, find(&["khalil"])),
+    ];
+    let mut named = found.iter().filter_map(|(c, at)| Some((*c, (*at)?)));
+    let (convention, (at, length)) = named.next().filter(|_| named.next().is_none())?;
+    notes.note(at..at + length, format!("tables are read as {convention}: the text says so"));
+    Some(convention)
 }
 
 /// A robot without links, for what holds of any.

@@ -1,14 +1,14 @@
 //! What straight-line code computes, as claims about the robot: matrices and scalars whose names say what they are, and
 //! what a function returns.
 
-use super::code::{Cell, Code, Language, Reading, Value, read};
+use super::code::{Assigned, Cell, Code, Language, Reading, Value, read};
 use super::lexis::Lexis;
 use super::matrix::Matrix;
 use super::subject::Subject;
 use super::walk::{Assertion, Pair, Piece};
-use denavit_symbolic::Expr;
 use denavit_symbolic::parse::ParseError;
 use denavit_symbolic::vocabulary::Vocabulary;
+use denavit_symbolic::{Expr, Symbol};
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -23,15 +23,35 @@ pub(super) fn assertions(
 ) -> (Vec<Assertion>, Vec<ParseError>) {
     let joints: Vec<Expr> = subject.description.variables().iter().map(|v| v.symbol.into()).collect();
     let meaning = |name: &str| lexis.names.lookup(name);
-    let Code { functions, refusals } = read(text, span.clone(), language, &meaning, &joints);
+    let Code { functions, mut refusals } = read(text, span.clone(), language, &meaning, &joints);
     let mut found = vec![];
     for function in &functions {
         let names = Rc::new(names_in(function, lexis));
-        let program = Program { text, subject, lexis, number, names };
+        let given = functions.iter().filter(|f| f.name.is_empty() || f.name == function.name);
+        let given = given.flat_map(|f| given_in(f, subject, lexis)).collect();
+        let program = Program { text, subject, lexis, number, names, given };
+        let before = found.len();
         found.extend(program.assigned(function));
         found.extend(program.returned(function));
+        if found.len() == before && !function.returned.is_empty() {
+            let message = format!("nothing says what `{}` returns", function.name);
+            let hint = "return a pose, a position or a Jacobian as an array, or give what is returned a name such as T06, px, J";
+            refusals.push(ParseError::new(function.span.clone(), message).hint(hint));
+        }
     }
     (found, refusals)
+}
+
+/// Lengths of the robot that a program sets to numbers.
+fn given_in(function: &Reading, subject: &Subject, lexis: &Lexis) -> Vec<(Symbol, Expr)> {
+    let parameters = &subject.description.parameters;
+    let of = |a: &Assigned| {
+        let Value::Scalar(cell) = &a.value else { return None };
+        let symbol = lexis.names.lookup(&a.name)?.as_symbol()?;
+        let is_length = parameters.iter().any(|p| p.symbol == symbol);
+        (is_length && cell.value.symbols().is_empty()).then_some((symbol, cell.value))
+    };
+    function.assigned.iter().filter_map(of).collect()
 }
 
 /// The names of the document and those that a function gives its scalars.
@@ -48,6 +68,8 @@ struct Program<'a> {
     lexis: &'a Lexis,
     number: usize,
     names: Rc<Vocabulary>,
+    /// Lengths that the program has as numbers.
+    given: Vec<(Symbol, Expr)>,
 }
 
 impl Program<'_> {
@@ -85,10 +107,11 @@ impl Program<'_> {
     fn named(&self, name: &str, shown: &str, span: &Range<usize>, value: &Value) -> Option<Assertion> {
         match value {
             Value::Scalar(cell) => {
-                if !self.lexis.is_right(name) {
-                    return None;
-                }
-                let wanted = self.lexis.names.lookup(name)?;
+                let axis = ["x", "y", "z"].iter().position(|a| *a == name.to_lowercase());
+                let wanted = match axis.filter(|_| self.lexis.names.lookup(name).is_none()) {
+                    Some(r) => self.subject.pose().translation.0[r],
+                    None => self.lexis.names.lookup(name).filter(|_| self.lexis.is_right(name))?,
+                };
                 let pieces = vec![self.piece(None, cell, wanted)];
                 Some(self.assertion(shown, "an entry".into(), span, pieces, None))
             }
@@ -147,7 +170,10 @@ impl Program<'_> {
         let uses = |e: Expr| e.symbols().iter().any(|s| d.parameters.iter().any(|p| p.symbol == *s));
         let wanted = match uses(cell.value) {
             true => wanted,
-            false => wanted.substitute(|s| d.parameters.iter().find(|p| p.symbol == s)?.value),
+            false => wanted.substitute(|s| {
+                let given = self.given.iter().rev().find(|g| g.0 == s).map(|g| g.1);
+                given.or_else(|| d.parameters.iter().find(|p| p.symbol == s)?.value)
+            }),
         };
         let printed = cell.syntax.clone().filter(|_| self.text.get(cell.span.clone()).is_some());
         Piece::Pair(Pair { place, span: cell.span.clone(), printed, value: cell.value, wanted })

@@ -73,9 +73,8 @@ impl Judge<'_> {
         let mut all: Vec<Values> = vec![];
         let mut spans: Option<Range<usize>> = None;
         for (_, assertion, spoken) in statements {
-            let Spoken::Joint { of, sides } = spoken else { continue };
-            let branches = sides.iter().flat_map(|(_, s)| s.variants());
-            let branches = branches.map(|s| vec![s.value()]).collect();
+            let Spoken::Joint { of, branches, .. } = spoken else { continue };
+            let branches = branches.iter().map(|e| vec![*e]).collect();
             all.push(Values { of: vec![*of], branches, of_first_rows: None });
             spans = Some(spans.map_or(assertion.span.clone(), |s| s.start..assertion.span.end));
         }
@@ -89,9 +88,14 @@ impl Judge<'_> {
         let goal = if (0..3).any(speaks_of) { Goal::Pose } else { Goal::Position };
         let mut inverse = Inverse::new(&self.subject.description, pose, goal);
         let mut known: Vec<Expr> = vec![];
+        // A second formula for a joint takes as known what the first one did.
+        let mut before: Vec<(Expr, Vec<Expr>)> = vec![];
         for ((at, assertion, spoken), values) in statements.iter().zip(&all) {
             let Spoken::Joint { sides, .. } = spoken else { continue };
-            let judgement = inverse.values(values, &known);
+            let first = before.iter().find(|b| b.0 == values.of[0]).map(|b| b.1.clone());
+            let taken = first.unwrap_or_else(|| known.clone());
+            before.push((values.of[0], taken.clone()));
+            let judgement = inverse.values(values, &taken);
             let place =
                 sides.first().map_or(assertion.span.clone(), |s| s.0.start..sides[sides.len() - 1].0.end);
             let finding = self.finding(&judgement, sides);
@@ -196,7 +200,7 @@ impl Judge<'_> {
     }
 
     fn fault(&self, fault: &Fault, j: &Judgement, sides: &[(Range<usize>, Syntax)]) -> Option<String> {
-        let count: usize = sides.iter().map(|(_, s)| s.variants().len()).sum();
+        let count: usize = sides.iter().map(|(_, s)| 1 << s.sign_choices().min(6)).sum();
         let which = |branch: usize| if count > 1 { format!("value {} ", branch + 1) } else { String::new() };
         let share = |x: f64| format!("{} %", (100.0 * x).round());
         Some(match fault {

@@ -71,7 +71,8 @@ pub fn sheet(document: &Document, name: &str, text: &str) -> Result<String, Fail
                     .map(|c| c.name.as_str())
                     .take(6)
                     .collect();
-                let which = if wrong.is_empty() { String::new() } else { format!(": {}", wrong.join(", ")) };
+                let which =
+                    if wrong.is_empty() { String::new() } else { format!(", not {}", wrong.join(", ")) };
                 format!("{right} of {n} right{which}")
             }
         };

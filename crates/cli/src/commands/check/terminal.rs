@@ -192,12 +192,8 @@ fn rival(document: &Document, span: &Range<usize>, slip: &Slip) -> String {
 pub fn at(example: &Counterexample) -> String {
     let values: Vec<String> =
         example.at.iter().map(|(name, x)| format!("{name} = {}", decimals(*x, 4))).collect();
-    format!(
-        "at {}: printed {}, right {}",
-        values.join(", "),
-        decimals(example.printed, 6),
-        decimals(example.right, 6)
-    )
+    let place = if values.is_empty() { String::new() } else { format!("at {}: ", values.join(", ")) };
+    format!("{place}printed {}, right {}", decimals(example.printed, 6), decimals(example.right, 6))
 }
 
 /// The printed formula, `[C6 → S6]` where it should read otherwise.

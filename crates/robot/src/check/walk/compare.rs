@@ -176,12 +176,24 @@ impl Walk<'_> {
             Cell::LeftOut => true,
             _ => false,
         };
+        if cells.len() > wanted.0.len() {
+            out.remarks.push(format!("{} rows are printed for {}", cells.len(), wanted.0.len()));
+        }
         let depends = wanted.0.iter().flatten().flatten().any(|e| !e.symbols().is_empty());
         let is_numeric =
             depends && self.at.is_complete(self.subject) && cells.iter().flatten().all(is_number);
         for (r, row) in cells.iter().enumerate() {
             if row.len() < width {
-                out.remarks.push(format!("row {} has {} elements for {width}", r + 1, row.len()));
+                let message = format!("row {} has {} elements for {width}", r + 1, row.len());
+                // The last row of a homogeneous matrix says nothing.
+                if (r, width) == (3, 4) {
+                    out.remarks.push(message);
+                    continue;
+                }
+                let first = grid.rows[r].first().map_or(grid.span.start, |s| s.start);
+                let last = grid.rows[r].last().map_or(grid.span.end, |s| s.end);
+                let errors = vec![ParseError::new(first..last.max(first), message)];
+                out.pieces.push(Piece::Unreadable { place: None, span: first..last.max(first), errors });
                 continue;
             }
             for (c, cell) in row.iter().enumerate() {
@@ -255,7 +267,7 @@ impl Walk<'_> {
             (Some((4, 4)), Some((3, 3))) => &value.rotation_part(),
             _ => value,
         };
-        let (mut same, mut different) = (None, false);
+        let (mut same, mut different) = (None, vec![]);
         for (r, row) in wanted.0.iter().enumerate() {
             for (c, wanted) in row.iter().enumerate() {
                 let (Some(value), &Some(wanted)) = (value.entry(r, c), wanted) else { continue };
@@ -263,12 +275,17 @@ impl Walk<'_> {
                 if equal(value, wanted).is_equal() {
                     same = Some(pair(None));
                 } else {
-                    different = true;
-                    out.pieces.push(Piece::Pair(pair(Some((r + 1, c + 1)))));
+                    different.push(pair(Some((r + 1, c + 1))));
                 }
             }
         }
-        let is_right = !different && same.is_some();
+        let is_right = different.is_empty() && same.is_some();
+        if different.len() > 1 {
+            let places: Vec<String> =
+                different[1..].iter().filter_map(|p| p.place).map(|(r, c)| format!("{r},{c}")).collect();
+            out.remarks.push(format!("worked out, entries {} differ, too", places.join("; ")));
+        }
+        out.pieces.extend(different.into_iter().take(1).map(Piece::Pair));
         out.pieces.extend(same.filter(|_| is_right).map(Piece::Pair));
         is_right
     }
@@ -306,5 +323,6 @@ pub(in crate::check) fn nearest_jacobian(subject: &Subject, printed: &Matrix) ->
             best = Some((count, about, matrix));
         }
     }
-    best.map(|(_, about, matrix)| (matrix, about))
+    let part = if matches!(rows, 2 | 3 | 6) { String::new() } else { format!(", {rows} rows of 6") };
+    best.map(|(_, about, matrix)| (matrix, about + &part))
 }

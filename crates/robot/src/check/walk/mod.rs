@@ -79,7 +79,7 @@ pub(super) struct Assertion {
 #[derive(Clone, Debug)]
 pub(super) enum Spoken {
     /// Of a joint, or of a sum of joints, each value in print.
-    Joint { of: Expr, sides: Vec<(Range<usize>, Syntax)> },
+    Joint { of: Expr, sides: Vec<(Range<usize>, Syntax)>, branches: Vec<Expr> },
     /// Of an angle of an orientation.
     Angle { set: OrientationSet, name: String, value: (Range<usize>, Syntax) },
 }
@@ -108,12 +108,16 @@ pub(super) struct Walk<'a> {
     pub assertions: Vec<Assertion>,
     /// Names that the document defines by formulas.
     pub defined: Vec<Defined>,
+    /// Sines and cosines of joints that the document gives formulas for, the entries of the pose as symbols.
+    pub sines: Vec<(Expr, Vec<Expr>)>,
     /// The configuration that was stated last.
     pub at: Configuration,
     /// The set of angles that a directive names.
     pub angles: Option<OrientationSet>,
     /// Statements that say nothing of the robot and could not be read.
     pub skipped: Vec<(Range<usize>, ParseError)>,
+    /// The prose that was looked at last.
+    last_prose: Range<usize>,
     /// The cells of the matrices of the present statement.
     cells: RefCell<FxHashMap<usize, Rc<Cells>>>,
 }
@@ -165,6 +169,8 @@ impl<'a> Walk<'a> {
             number: 0,
             assertions: vec![],
             defined: vec![],
+            sines: vec![],
+            last_prose: 0..0,
             at: Configuration::default(),
             angles: None,
             skipped: vec![],
@@ -200,6 +206,12 @@ impl<'a> Walk<'a> {
 
     /// Reads a statement; `claim` says what its left side means, where that is told.
     pub fn statement(&mut self, statement: &Statement, claim: Option<&str>) {
+        if let Some(prose) = &statement.prose
+            && *prose != self.last_prose
+        {
+            self.last_prose = prose.clone();
+            self.told_in(prose);
+        }
         if statement.sides.iter().flat_map(|s| &s.parts).all(|p| matches!(p, Part::Text(_)))
             && self.scalars(statement, claim)
         {

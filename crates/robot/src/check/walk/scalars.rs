@@ -4,10 +4,11 @@ use super::{Assertion, Defined, Pair, Piece, Reference, Scalar, Spoken, Walk};
 use crate::check::document::Statement;
 use crate::check::names::Name;
 use crate::check::values::set_in;
+use crate::description::read_value;
 use crate::geometry::orientation::OrientationSet;
 use denavit_symbolic::parse::{Function, ParseError, Syntax, SyntaxKind};
 use denavit_symbolic::vocabulary::plain_name;
-use denavit_symbolic::{Angle, Expr};
+use denavit_symbolic::{Angle, Expr, Node};
 use std::ops::Range;
 
 impl Walk<'_> {
@@ -48,6 +49,11 @@ impl Walk<'_> {
         if self.subject.last() == 0 {
             return None;
         }
+        let digits: Vec<u32> = name.sub.chars().filter_map(|c| c.to_digit(10)).collect();
+        if let ("J", [r, c]) = (name.base.as_str(), &digits[..]) {
+            let (_, j) = self.subject.jacobians(6).into_iter().next()?;
+            return j.entry((*r as usize).checked_sub(1)?, (*c as usize).checked_sub(1)?);
+        }
         let axis = |c: &str| ["x", "y", "z"].iter().position(|a| *a == c.to_lowercase());
         let plain = format!("{}{}", name.base, name.sub);
         let pose = self.subject.pose();
@@ -77,7 +83,7 @@ impl Walk<'_> {
                 return false;
             }
         }
-        if self.configuration(&read) {
+        if self.configuration(&spans, &read) {
             return true;
         }
         if let Some(spoken) = self.values(&spans, &read).or_else(|| self.angle(statement, &read)) {
@@ -89,13 +95,17 @@ impl Walk<'_> {
             self.assertions.push(assertion);
             return true;
         }
+        self.record_sine(&spans, &read);
         let told = claim.and_then(|words| self.told_entry(words));
         // A name that the document defines here.
         let is_definition = told.is_none()
             && match &read[..] {
                 [Scalar::Lone(name), Scalar::Formula(span, syntax), ..] => {
                     let name = plain_name(&format!("{}{}", name.base, name.sub));
+                    let inverse = self.lexis.inverse_formula(self.text, span);
+                    let inverse = inverse.map_or(syntax.value(), |s| s.value());
                     self.lexis.define(&name, syntax.value());
+                    self.lexis.define_inverse(&name, inverse);
                     self.defined.push(Defined {
                         name,
                         span: span.clone(),
@@ -147,6 +157,14 @@ impl Walk<'_> {
                 {
                     pieces.extend(self.number(None, span, syntax.value(), wanted));
                 }
+                Scalar::Formula(span, syntax)
+                    if is_measured(syntax.value()) && !wanted.symbols().is_empty() =>
+                {
+                    let message = "a number, but the joints have no values here";
+                    let hint = "state them before: `θ1 = 30°, θ2 = 45°`, or `q = [0.5, 0.8]`";
+                    let errors = vec![ParseError::new(span.clone(), message).hint(hint)];
+                    pieces.push(Piece::Unreadable { place: None, span: span.clone(), errors });
+                }
                 Scalar::Formula(span, syntax) => pieces.push(Piece::Pair(Pair {
                     place: None,
                     span: span.clone(),
@@ -183,8 +201,77 @@ impl Walk<'_> {
         true
     }
 
-    /// Reads `θ_1 = 30°` as a part of a configuration.
-    fn configuration(&mut self, read: &[Scalar]) -> bool {
+    /// Keeps what is printed for the sine or cosine of a joint: `c_3 = D`, `s_3 = ±√(1 − D²)`.
+    fn record_sine(&mut self, spans: &[Range<usize>], read: &[Scalar]) {
+        let ([_, right], [Scalar::Formula(_, left), _]) = (spans, read) else { return };
+        let sine = left.value();
+        if !matches!(sine.node(), Node::Sin(_) | Node::Cos(_)) {
+            return;
+        }
+        let Ok(syntax) = self.lexis.inverse_formula(self.text, right) else { return };
+        let known: Vec<(Expr, Expr)> = self.sines.iter().filter_map(|s| Some((s.0, *s.1.first()?))).collect();
+        let values: Vec<Expr> = syntax.variants().iter().map(|s| replaced(s, &known, 0)).collect();
+        self.sines.retain(|s| s.0 != sine);
+        if !values.iter().any(|v| v.symbols().iter().any(|s| sine.symbols().contains(s))) {
+            self.sines.push((sine, values));
+        }
+    }
+
+    /// Reads the values that a line of prose gives: `with a1 = 1 and θ1 = 30°`.
+    pub(super) fn told_in(&mut self, prose: &Range<usize>) {
+        let Some(line) = self.text.get(prose.clone()).filter(|l| l.len() < 500) else { return };
+        let joined = line.replace('$', " ");
+        let parts: Vec<&str> = joined.split('=').collect();
+        for pair in parts.windows(2) {
+            let name = pair[0].trim().rsplit([' ', ',', ';', '(']).next().unwrap_or_default();
+            let value = pair[1].trim_start();
+            let value = value.split([',', ';', ')']).next().unwrap_or_default();
+            let value = value.split(" and ").next().unwrap_or_default().trim().trim_end_matches([':', '.']);
+            // `0.8 we get`: the number alone.
+            let number = value.split(' ').next().unwrap_or_default();
+            if name.is_empty() || !self.assign(name, value) {
+                self.assign(name, number);
+            }
+        }
+    }
+
+    /// Gives a joint or a length a value; false if that is not what is written.
+    fn assign(&mut self, name: &str, value: &str) -> bool {
+        let Some(symbol) = self.lexis.names.lookup(name).and_then(|e| e.as_symbol()) else { return false };
+        let d = &self.subject.description;
+        if let Some(joint) = d.variables().iter().position(|v| v.symbol == symbol) {
+            let Ok(read) = crate::check::lexis::read(value, &(0..value.len()), &self.lexis.names) else {
+                return false;
+            };
+            let constant = read.value();
+            if constant.symbols().is_empty() {
+                self.at.set(joint, constant);
+                return true;
+            }
+            return false;
+        }
+        let Ok(constant) = read_value(value, d.measure(symbol)) else { return false };
+        self.at.give(symbol, constant);
+        true
+    }
+
+    /// Reads `θ_1 = 30°` or `a_1 = 500 mm` as a part of a configuration.
+    fn configuration(&mut self, spans: &[Range<usize>], read: &[Scalar]) -> bool {
+        if let ([name, value], [Scalar::Formula(_, left), right]) = (spans, read)
+            && let SyntaxKind::Name(e) = left.kind
+            && let Some(symbol) = e.as_symbol()
+            && self.subject.description.parameters.iter().any(|p| p.symbol == symbol)
+        {
+            let is_constant = match right {
+                Scalar::Formula(_, s) => s.value().symbols().is_empty(),
+                Scalar::Broken(..) => true,
+                Scalar::Lone(_) => false,
+            };
+            let (name, value) = (self.source(name), self.source(value));
+            if is_constant && self.assign(name, value) {
+                return true;
+            }
+        }
         let [Scalar::Formula(_, left), Scalar::Formula(_, right)] = read else { return false };
         let value = right.value();
         let joint = match left.kind {
@@ -235,7 +322,29 @@ impl Walk<'_> {
         let is_value = |syntax: &Syntax, span: &Range<usize>| {
             has_inverse_function(syntax) || self.speaks_of_pose(span) || syntax.sign_choices() > 0
         };
-        sides.iter().any(|(span, syntax)| is_value(syntax, span)).then_some(Spoken::Joint { of, sides })
+        if !sides.iter().any(|(span, syntax)| is_value(syntax, span)) {
+            return None;
+        }
+        // What was printed for the joint's own sine and cosine stands for them.
+        let own: Vec<&(Expr, Vec<Expr>)> =
+            self.sines.iter().filter(|s| s.0 == of.sin() || s.0 == of.cos()).collect();
+        let mut branches: Vec<Expr> = vec![];
+        for syntax in sides.iter().flat_map(|(_, s)| s.variants()) {
+            let choices = own.iter().map(|s| s.1.len()).product::<usize>().clamp(1, 64);
+            for choice in 0..choices {
+                let mut rest = choice;
+                let mut chosen = vec![];
+                for (sine, values) in &own {
+                    chosen.push((*sine, values[rest % values.len()]));
+                    rest /= values.len();
+                }
+                let value = replaced(&syntax, &chosen, 0);
+                if !branches.contains(&value) {
+                    branches.push(value);
+                }
+            }
+        }
+        Some(Spoken::Joint { of, sides, branches })
     }
 
     /// Values for an angle of an orientation: `φ = atan2(R(2,3), R(1,3))`.
@@ -289,6 +398,46 @@ impl Walk<'_> {
         let name = self.lexis.lone_name(words, &(0..words.len()))?;
         let (matrix, about) = self.lexis.matrix(self.subject, &name)?;
         Some(Reference { matrix, about: about? })
+    }
+}
+
+/// True for a number that somebody computed: neither 0 nor ±1.
+pub(super) fn is_measured(e: Expr) -> bool {
+    e.as_number().is_some_and(|r| !r.is_zero() && !r.is_one() && !(-&r).is_one())
+}
+
+/// The value of a formula with other values for some sines.
+pub(super) fn replaced(syntax: &Syntax, by: &[(Expr, Expr)], depth: usize) -> Expr {
+    if depth > 200 || by.is_empty() {
+        return syntax.value();
+    }
+    let inner = |s: &Syntax| replaced(s, by, depth + 1);
+    match &syntax.kind {
+        SyntaxKind::Name(e) => by.iter().find(|b| b.0 == *e).map_or(*e, |b| b.1),
+        SyntaxKind::Number(_) => syntax.value(),
+        SyntaxKind::Sum(terms) => {
+            terms.iter().fold(Expr::int(0), |sum, (sign, term)| match sign.is_minus() {
+                true => sum - inner(term),
+                false => sum + inner(term),
+            })
+        }
+        SyntaxKind::Product(factors) => {
+            factors.iter().fold(Expr::int(1), |product, (is_over, factor)| match is_over {
+                true => product / inner(factor),
+                false => product * inner(factor),
+            })
+        }
+        SyntaxKind::Fraction(a, b) => inner(a) / inner(b),
+        SyntaxKind::Power(a, n) => inner(a).powi(*n),
+        SyntaxKind::Root(a) => inner(a).sqrt(),
+        SyntaxKind::Call(f, arguments) => {
+            let whole = syntax.value();
+            match by.iter().find(|b| b.0 == whole) {
+                Some(b) => b.1,
+                None => f.of(&arguments.iter().map(inner).collect::<Vec<Expr>>()),
+            }
+        }
+        SyntaxKind::Bracket(a) => inner(a),
     }
 }
 
