@@ -174,7 +174,7 @@ fn mended(text: &str, before: &Checked, change: (&str, &str), slip: fn(&Entry) -
     let pairs = before.claims.iter().zip(&after.claims);
     let of_slips: Vec<_> = pairs.filter(|(b, _)| b.entries.iter().any(|e| slip(e).is_some())).collect();
     for (b, a) in &of_slips {
-        assert_eq!((&b.name, a.standing()), (&a.name, Standing::Equal), "{}", block(&text, a).join("\n"));
+        assert_eq!(a.standing(), Standing::Equal, "{}: {}", b.name, block(&text, a).join("\n"));
     }
     of_slips.len()
 }

@@ -24,7 +24,7 @@ const ROBOTS: [&str; 12] = [
     "ur5",
     "scara",
     "puma560",
-    "cylindrical-rpp",
+    "cylindrical-wrist",
     "kuka-iiwa-14",
     "planar-3r",
     "gantry-wrist",
@@ -338,7 +338,7 @@ impl Study {
             let sheet = draw.of(&self.sheets)?;
             let (r, c) = (draw.below(sheet.rows.len()), draw.below(sheet.rows[0].len()));
             if kind == 7 {
-                let is_pair = sheet.is_matrix() && r < 3 && c < r;
+                let is_pair = sheet.is_matrix() && c < r;
                 if !is_pair {
                     continue;
                 }

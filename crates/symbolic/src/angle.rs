@@ -5,6 +5,7 @@
 use crate::expr::{Expr, Node, natural_order};
 use crate::rational::Rational;
 use std::cmp::Ordering;
+use std::collections::BTreeMap;
 
 /// A linear form in angles. Terms are sorted, without zero coefficients; `turns` counts multiples of π.
 #[derive(Clone, PartialEq, Eq, Hash, Debug, Default)]
@@ -21,44 +22,45 @@ impl Angle {
     /// The linear form of an expression; what is not linear becomes a term of its own.
     pub fn of(e: Expr) -> Self {
         let mut angle = Angle::default();
-        angle.accumulate(e, &Rational::ONE);
-        angle.terms.sort_by(|a, b| term_order(a.0, b.0));
-        angle.terms.dedup_by(|b, a| {
-            let same = a.0 == b.0;
-            if same {
-                a.1 = &a.1 + &b.1;
+        if e.as_symbol().is_some() {
+            angle.terms.push((e, Rational::ONE));
+            return angle;
+        }
+        // A node is newer than its parts: each is met once, with all that it counts, however often it is shared.
+        let mut pending = BTreeMap::from([(e, Rational::ONE)]);
+        while let Some((e, k)) = pending.pop_last() {
+            let mut add = |part: Expr, k: Rational| {
+                let sum = pending.entry(part).or_insert(Rational::ZERO);
+                *sum = &*sum + &k;
+            };
+            match e.node() {
+                Node::Number(r) => angle.radians = &angle.radians + &(&r * &k),
+                Node::Pi => angle.turns = &angle.turns + &k,
+                Node::Neg(a) => add(a, -k),
+                Node::Add(a, b) => {
+                    add(a, k.clone());
+                    add(b, k);
+                }
+                Node::Sub(a, b) => {
+                    add(a, k.clone());
+                    add(b, -k);
+                }
+                Node::Mul(a, b) => match a.as_number() {
+                    Some(r) => add(b, &r * &k),
+                    None => angle.terms.push((e, k)),
+                },
+                Node::Symbol(_)
+                | Node::Div(..)
+                | Node::Pow(..)
+                | Node::Sqrt(_)
+                | Node::Sin(_)
+                | Node::Cos(_)
+                | Node::Atan2(..) => angle.terms.push((e, k)),
             }
-            same
-        });
+        }
+        angle.terms.sort_by(|a, b| term_order(a.0, b.0));
         angle.terms.retain(|t| !t.1.is_zero());
         angle
-    }
-
-    fn accumulate(&mut self, e: Expr, k: &Rational) {
-        match e.node() {
-            Node::Number(r) => self.radians = &self.radians + &(&r * k),
-            Node::Pi => self.turns = &self.turns + k,
-            Node::Neg(a) => self.accumulate(a, &-k),
-            Node::Add(a, b) => {
-                self.accumulate(a, k);
-                self.accumulate(b, k);
-            }
-            Node::Sub(a, b) => {
-                self.accumulate(a, k);
-                self.accumulate(b, &-k);
-            }
-            Node::Mul(a, b) => match a.as_number() {
-                Some(r) => self.accumulate(b, &(&r * k)),
-                None => self.terms.push((e, k.clone())),
-            },
-            Node::Symbol(_)
-            | Node::Div(..)
-            | Node::Pow(..)
-            | Node::Sqrt(_)
-            | Node::Sin(_)
-            | Node::Cos(_)
-            | Node::Atan2(..) => self.terms.push((e, k.clone())),
-        }
     }
 
     /// The expression: terms in order, a positive one first, constants last.

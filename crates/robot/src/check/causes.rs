@@ -22,6 +22,12 @@ struct Hypothesis {
 
 /// No more causes than these are told.
 const MAX_CAUSES: usize = 3;
+/// No more formulas are explained under a cause.
+const MAX_REST: usize = 100;
+/// The hypotheses that are tried, times the formulas that each is tried on.
+const MAX_WORK: usize = 40_000;
+/// The robots of a document whose tables are doubted.
+const MAX_ROBOTS: usize = 8;
 /// The most formulas of a document for which causes are looked for.
 const MAX_FORMULAS: usize = 2_000;
 
@@ -51,7 +57,7 @@ pub(super) fn causes(
         return vec![];
     }
     let mut found: Vec<(i64, Cause, Plan)> = vec![];
-    for hypothesis in hypotheses(plan) {
+    for hypothesis in hypotheses(plan).into_iter().take(MAX_WORK / all.max(1)) {
         let changed = plan.with(&|s: &Subject| {
             let is_meant = std::ptr::eq(s, &raw const plan.subjects[hypothesis.robot]);
             let same = same_row(s, &plan.subjects[hypothesis.robot]);
@@ -135,7 +141,7 @@ fn explain_rest(
 ) {
     let walked = changed.walk(text, document, options);
     let mut judge = Judge::new(text, changed, &walked);
-    for &(c, e) in &cause.stays_wrong {
+    for &(c, e) in cause.stays_wrong.iter().take(MAX_REST) {
         let Some(assertion) = walked.assertions.get(c) else { continue };
         let Some(Piece::Pair(pair)) = assertion.pieces.get(e) else { continue };
         if equal(pair.value, pair.wanted).is_equal() {
@@ -152,7 +158,7 @@ fn explain_rest(
 
 fn hypotheses(plan: &Plan) -> Vec<Hypothesis> {
     let mut found: Vec<Hypothesis> = vec![];
-    for (robot, subject) in plan.subjects.iter().enumerate() {
+    for (robot, subject) in plan.subjects.iter().enumerate().take(MAX_ROBOTS) {
         // A longer table of the same robot speaks for the shorter ones.
         if plan.subjects[..robot].iter().any(|s| same_row(s, subject) && s.last() >= subject.last()) {
             continue;

@@ -65,7 +65,7 @@ const MAX_TERM: u32 = 100;
 /// The cost of a sign.
 const SIGN: u32 = 10;
 /// No more formulas than these are looked at for slips.
-const MAX_SLIPS: usize = 400;
+const MAX_SLIPS: usize = 150;
 
 impl<'a> Judge<'a> {
     pub fn new(text: &'a str, plan: &'a Plan, walked: &'a Walked) -> Self {
@@ -106,8 +106,8 @@ impl<'a> Judge<'a> {
     }
 
     fn claim(&mut self, assertion: &Assertion) -> Claim {
+        let exchanged = whole::exchanged(assertion);
         let instead = whole::instead(assertion, self.plan);
-        let exchanged = if instead.is_some() { BTreeMap::new() } else { whole::exchanged(assertion) };
         self.has_slips = instead.is_none();
         self.own_names = assertion.names.clone();
         let mut entries: Vec<Entry> = vec![];

@@ -12,6 +12,9 @@ use std::collections::BTreeMap;
 /// A matrix of more entries is not looked at as a whole.
 const MAX_ENTRIES: usize = 64;
 
+/// Of longer arms only the single links are tried.
+const MAX_LINKS: usize = 9;
+
 /// The pairs of an assertion that have a place.
 fn pairs(assertion: &Assertion) -> Vec<&Pair> {
     let pairs = assertion.pieces.iter().filter_map(|p| match p {
@@ -119,7 +122,8 @@ fn candidates(whole: &Matrix, subject: &Subject) -> Vec<(String, Matrix)> {
         let whole = links.into_iter().try_fold(Transform::identity(), |x, k| Some(x * link(k)?))?;
         form(&whole)
     };
-    let pairs = || (0..=n).flat_map(|i| (i + 1..=n).map(move |j| (i, j)));
+    let longest = if n > MAX_LINKS { 1 } else { n };
+    let pairs = || (0..=n).flat_map(|i| (i + 1..=n.min(i + longest)).map(move |j| (i, j)));
     for (i, j) in pairs() {
         found.extend(product((i..j).collect()).map(|m| (format!("frame {j} in frame {i}"), m)));
     }
