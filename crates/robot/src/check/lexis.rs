@@ -216,12 +216,14 @@ impl Lexis {
 
     /// What a matrix's name means, powers included, and in words what that is if it is known from the robot.
     pub fn matrix(&self, subject: &Subject, name: &Name) -> Option<(Matrix, Option<String>)> {
-        let known = self.matrices.get(&name.key()).filter(|_| !self.anywhere.get());
+        let anywhere = self.anywhere.get();
+        let is_free =
+            || crate::check::subject::frames(name).is_some_and(|(i, j)| i.is_letter() && j.is_letter());
+        let known = self.matrices.get(&name.key()).filter(|_| !(anywhere && is_free()));
         let found = match known {
             Some(found) => found.clone(),
             None => {
                 let value = |argument: &str| self.argument(argument);
-                let anywhere = self.anywhere.get();
                 match elementary(name, &value).or_else(|| subject.meaning(name, anywhere)) {
                     Some((matrix, about)) => (matrix, Some(about)),
                     None => (self.matrices.get(&name.backwards()?.key())?.0.inverse()?, None),

@@ -483,6 +483,13 @@ pub(super) enum Index {
     End,
 }
 
+impl Index {
+    /// True for a letter that stands for any frame.
+    pub fn is_letter(&self) -> bool {
+        matches!(self, Index::Letter(..))
+    }
+}
+
 /// `0`, `j-1`, `n`.
 pub(super) fn index(text: &str) -> Option<Index> {
     if let Ok(n) = text.parse::<usize>() {
