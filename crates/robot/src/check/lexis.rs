@@ -5,6 +5,7 @@ use super::matrix::Matrix;
 use super::names::{Name, Token, tokens};
 use super::subject::{Subject, elementary};
 use denavit_symbolic::parse::{ParseError, Syntax, parse_syntax};
+use denavit_symbolic::readable::literals;
 use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
 use denavit_symbolic::{Expr, Node, Symbol};
 use std::cell::Cell;
@@ -13,6 +14,8 @@ use std::ops::Range;
 
 /// No more names are kept.
 const MAX_NAMES: usize = 2_000;
+/// Names for longer formulas are not kept.
+const MAX_LITERALS: u64 = 20_000;
 /// Names for longer numbers are not kept.
 const MAX_NUMBER_BITS: u64 = 4_096;
 /// The axes of coordinates.
@@ -135,7 +138,8 @@ impl Lexis {
             Node::Mul(a, _) | Node::Div(a, _) => a,
             _ => meaning,
         };
-        let is_long = factor.as_number().is_some_and(|r| r.bits() > MAX_NUMBER_BITS);
+        let is_long = factor.as_number().is_some_and(|r| r.bits() > MAX_NUMBER_BITS)
+            || literals(meaning) > MAX_LITERALS;
         if is_long || self.scalars.len() >= MAX_NAMES {
             return;
         }
@@ -147,7 +151,7 @@ impl Lexis {
 
     /// What a name that the document defines means in inverse formulas.
     pub fn define_inverse(&mut self, name: &str, meaning: Expr) {
-        if self.names.lookup(name).is_some() {
+        if self.names.lookup(name).is_some() && literals(meaning) <= MAX_LITERALS {
             self.inverse = std::mem::take(&mut self.inverse).alias(name, meaning);
         }
     }
