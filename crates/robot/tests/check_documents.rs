@@ -136,7 +136,7 @@ fn prrrrp() {
 
 #[test]
 fn ur3() {
-    expect("ur3", 24);
+    expect("ur3", 29);
 }
 
 #[test]
