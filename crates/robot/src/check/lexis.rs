@@ -165,7 +165,10 @@ impl Lexis {
 
     /// A name for a matrix; in words what it is, if it is known from the robot.
     pub fn define_matrix(&mut self, name: &Name, value: Matrix, about: Option<String>) {
-        self.matrices.insert(name.key(), (value, about));
+        let is_long = value.0.iter().flatten().flatten().any(|&e| literals(e) > MAX_LITERALS);
+        if !is_long && self.matrices.len() < MAX_NAMES {
+            self.matrices.insert(name.key(), (value, about));
+        }
     }
 
     /// The names in which inverse formulas are printed.
