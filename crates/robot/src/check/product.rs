@@ -40,7 +40,7 @@ pub(super) enum NotMatrices {
     /// It is something else.
     Other,
     /// A name without meaning.
-    Unknown(Name),
+    Unknown(Box<Name>),
 }
 
 /// Reads a side; `value` gives the matrix that a grid prints.
@@ -125,7 +125,7 @@ impl<'a> Reader<'a, '_> {
                     let name = name.clone();
                     self.at += 1;
                     let Some((matrix, about)) = self.lexis.matrix(self.subject, &name) else {
-                        return Err(NotMatrices::Unknown(name));
+                        return Err(NotMatrices::Unknown(Box::new(name)));
                     };
                     match (&mut abouts, &about) {
                         (Some(all), Some(about)) => all.push(about.clone()),

@@ -21,16 +21,15 @@ use std::ops::Range;
 
 /// No more formulas of a document than these are judged in this way.
 const MAX_VALUES: usize = 300;
+/// What is said of a part of the document.
+pub(super) type Remark = (Range<usize>, String);
+
 /// A formula of more literals is not shown.
 const MAX_SHOWN: u64 = 200;
 
 /// The claims about values of joints and angles, each with its place among all assertions; what the formulas of all
 /// joints yield together, in words.
-pub(super) fn judge(
-    plan: &Plan,
-    walked: &Walked,
-    columns: Columns,
-) -> (Vec<(usize, Claim)>, Vec<(Range<usize>, String)>) {
+pub(super) fn judge(plan: &Plan, walked: &Walked, columns: Columns) -> (Vec<(usize, Claim)>, Vec<Remark>) {
     let mut claims = vec![];
     let mut notes = vec![];
     for (number, subject) in plan.subjects.iter().enumerate() {

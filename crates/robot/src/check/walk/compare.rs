@@ -147,8 +147,8 @@ impl Walk<'_> {
         best[from] = Some((0, vec![from]));
         for factor in factors {
             let mut next: Vec<Option<(usize, Vec<usize>)>> = vec![None; to + 1];
-            for i in from..to {
-                let Some((score, cuts)) = best[i].clone() else { continue };
+            for (i, slot) in best.iter().enumerate().take(to).skip(from) {
+                let Some((score, cuts)) = slot.clone() else { continue };
                 for (j, slot) in next.iter_mut().enumerate().skip(i + 1) {
                     let total = score + agreement(factor, i, j);
                     if slot.as_ref().is_none_or(|s| total > s.0) {

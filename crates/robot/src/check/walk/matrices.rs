@@ -319,7 +319,7 @@ impl Walk<'_> {
             if let (Err(NotMatrices::Unknown(name)), Some((matrix, about))) = (r, &defined)
                 && self.is_lone(side, name)
             {
-                definitions.push(Definition::Matrix(name.clone(), matrix.clone(), about.clone()));
+                definitions.push(Definition::Matrix(name.as_ref().clone(), matrix.clone(), about.clone()));
             }
         }
         if let Some(reference) = &reference {

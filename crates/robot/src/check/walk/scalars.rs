@@ -18,14 +18,13 @@ impl Walk<'_> {
             Err(errors) => errors,
         };
         let plain: String = self.source(span).chars().filter(|c| c.is_alphanumeric() || *c == '|').collect();
-        if matches!(
+        let is_determinant = matches!(
             plain.as_str(),
             "detJ" | "|J|" | "leftJright" | "detJq" | "detleftJright" | "left|Jright|"
-        ) {
-            if let Some(value) = self.subject.determinant() {
-                let kind = SyntaxKind::Name(value);
-                return Scalar::Formula(span.clone(), Syntax { kind, span: 0..span.len() });
-            }
+        );
+        if is_determinant && let Some(value) = self.subject.determinant() {
+            let kind = SyntaxKind::Name(value);
+            return Scalar::Formula(span.clone(), Syntax { kind, span: 0..span.len() });
         }
         match self.lexis.lone_name(self.text, span) {
             Some(name) if name.left.is_empty() && name.sup.is_empty() && name.arguments.is_empty() => {
@@ -132,7 +131,7 @@ impl Walk<'_> {
                 let all_posed = formulas().all(|(_, span, _)| self.speaks_of_pose(span));
                 let sine =
                     || formulas().next().filter(|(i, _, s)| *i == 0 && matches!(s.kind, SyntaxKind::Name(_)));
-                let found = right.or_else(|| sine()).or_else(|| posed().filter(|_| !all_posed));
+                let found = right.or_else(sine).or_else(|| posed().filter(|_| !all_posed));
                 found.or_else(|| formulas().next()).map(|(i, _, s)| (i, s.value()))
             }
         };
