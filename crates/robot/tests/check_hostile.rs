@@ -608,9 +608,6 @@ fn documents_that_were_damaged() {
         if took > slowest.0 {
             slowest = (took, format!("{name} {k} {format:?}"));
         }
-        if took > 10.0 {
-            std::fs::write(format!("/tmp/damaged-{k}.md"), &damaged).expect("a place to write");
-        }
     }
     println!("{count} damaged documents, {:.2} s at most ({})", slowest.0, slowest.1);
 }
