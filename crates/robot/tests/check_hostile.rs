@@ -163,6 +163,7 @@ fn deep_nesting() {
 }
 
 #[test]
+#[ignore = "takes minutes: cargo test --test check_hostile -- --ignored"]
 fn long_lines() {
     let n = 4 << 20;
     for (what, piece) in [
@@ -198,6 +199,7 @@ fn long_lines() {
 }
 
 #[test]
+#[ignore = "takes minutes: cargo test --test check_hostile -- --ignored"]
 fn many_statements() {
     let n = 100_000;
     endure("100,000 equations", "$$ n_x = 1 $$\n".repeat(n));
@@ -218,6 +220,7 @@ fn many_statements() {
 }
 
 #[test]
+#[ignore = "takes minutes: cargo test --test check_hostile -- --ignored"]
 fn large_matrices() {
     let rows = |n: usize, m: usize, cell: &str| {
         let row = vec![cell; m].join(" & ");
@@ -251,6 +254,7 @@ fn large_matrices() {
 }
 
 #[test]
+#[ignore = "takes minutes: cargo test --test check_hostile -- --ignored"]
 fn long_formulas() {
     let terms = |n: usize, term: &dyn Fn(usize) -> String| (0..n).map(term).collect::<Vec<_>>().join(" + ");
     for n in [500, 1_900, 5_000] {
@@ -355,6 +359,7 @@ fn strange_characters() {
 }
 
 #[test]
+#[ignore = "takes minutes: cargo test --test check_hostile -- --ignored"]
 fn directives_and_tables() {
     for words in [
         "tool ((((",
@@ -467,6 +472,7 @@ fn directives_and_tables() {
 }
 
 #[test]
+#[ignore = "takes minutes: cargo test --test check_hostile -- --ignored"]
 fn definitions() {
     let end = "$$ n_x = D9 $$\n";
     endure("of themselves", format!("$$ D1 = D1 + 1 $$\n$$ D2 = D3 $$\n$$ D3 = D2 $$\n{end}"));
@@ -525,6 +531,7 @@ fn greek(i: usize) -> String {
 
 /// Documents that people wrote, with a few bytes changed, moved or lost.
 #[test]
+#[ignore = "takes minutes: cargo test --test check_hostile -- --ignored"]
 fn documents_that_were_damaged() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/documents");
     let mut files: Vec<_> =
