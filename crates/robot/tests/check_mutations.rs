@@ -333,7 +333,7 @@ impl Study {
     }
 
     /// A sheet with one slip: what is changed, and what stands there in the end.
-    fn changed(&self, kind: usize, draw: &mut Draw) -> Option<(&Sheet, Vec<(usize, usize, String)>)> {
+    fn changed(&self, kind: usize, draw: &mut Draw) -> Option<(&Sheet, Vec<Change>)> {
         for _ in 0..5_000 {
             let sheet = draw.of(&self.sheets)?;
             let (r, c) = (draw.below(sheet.rows.len()), draw.below(sheet.rows[0].len()));
@@ -369,6 +369,9 @@ impl Study {
         parse(text, &names).is_ok_and(|e| equal(e, right).is_equal())
     }
 }
+
+/// What stands in an entry in the end: its row, its column, its text.
+type Change = (usize, usize, String);
 
 /// Numbers at random, the same ones every time.
 struct Draw(Random);
