@@ -36,7 +36,7 @@ const PYTHON_PACKAGES: &[&str] = &["numpy", "nvidia-cuda-nvrtc-cu12"];
 /// If something cannot be installed, or a generated folder fails.
 pub fn run() -> Result<()> {
     install()?;
-    let python = python()?;
+    let python = python(PYTHON_PACKAGES)?;
     succeed(crate::cargo().args(["build", "--locked", "-p", "denavit-cli"]))?;
     let folder = path("target/generated");
     if folder.exists() {
@@ -152,7 +152,7 @@ fn test_file(target: &Path, ending: &str) -> Result<PathBuf> {
 }
 
 /// Runs a command; its output is shown if it fails.
-fn quietly(command: &mut Command) -> Result<()> {
+pub fn quietly(command: &mut Command) -> Result<()> {
     let output =
         command.stdin(Stdio::null()).output().with_context(|| format!("{command:?} does not start"))?;
     if !output.status.success() {
@@ -194,12 +194,13 @@ fn install() -> Result<()> {
     apt(&arguments)
 }
 
-fn apt(arguments: &[&str]) -> Result<()> {
+/// Debian's package manager.
+pub fn apt(arguments: &[&str]) -> Result<()> {
     quietly(Command::new("apt-get").args(arguments).env("DEBIAN_FRONTEND", "noninteractive"))
 }
 
-/// The Python of the project's environment, with the packages that generated code needs.
-fn python() -> Result<PathBuf> {
+/// The Python of the project's environment, with these packages.
+pub fn python(packages: &[&str]) -> Result<PathBuf> {
     let python = path(".venv/bin/python");
     let environment = || succeed(command("python3").args(["-m", "venv", ".venv"]));
     if !python.exists() && environment().is_err() {
@@ -211,7 +212,7 @@ fn python() -> Result<PathBuf> {
         pip.args(["-m", "pip", "show", "--quiet", package]).stderr(Stdio::null());
         pip.status().is_ok_and(|s| s.success())
     };
-    let missing: Vec<&&str> = PYTHON_PACKAGES.iter().filter(|p| !has(p)).collect();
+    let missing: Vec<&&str> = packages.iter().filter(|p| !has(p)).collect();
     if !missing.is_empty() {
         succeed(Command::new(&python).args(["-m", "pip", "install", "--quiet"]).args(missing))?;
     }

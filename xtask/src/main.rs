@@ -2,6 +2,7 @@
 
 mod bench;
 mod counts;
+mod documents;
 mod errata;
 mod languages;
 mod soak;
@@ -27,6 +28,7 @@ cargo xtask bench [--write | --quick] [evaluation] [inverse] [arms] [derivation]
 cargo xtask languages            builds and runs generated source code in every language
 cargo xtask counts [--check]     writes docs/operation-counts.md; --check fails if it is not up to date,
                                  or if SymPy needs fewer operations for some robot
+cargo xtask documents            reports as LaTeX, Typst and a browser read them
 cargo xtask errata [--write]     compares docs/errata.md with what `denavit check` says of the documents; --write renews it
 cargo xtask soak [--seconds N] [TARGET...]
                                  feeds random bytes to the readers, N seconds each (60)
@@ -56,6 +58,7 @@ fn dispatch(arguments: &[String]) -> Result<()> {
         ["miri"] => soak::miri(),
         ["counts"] => counts::run(false),
         ["counts", "--check"] => counts::run(true),
+        ["documents"] => documents::run(),
         ["errata"] => errata::run(false),
         ["errata", "--write"] => errata::run(true),
         ["soak", "--seconds", n, ref targets @ ..] => {

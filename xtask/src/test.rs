@@ -2,7 +2,7 @@
 //!
 //! A step that has to install something first (a Python environment, say) does so on its own, when it runs.
 
-use crate::{cargo, command, counts, errata, languages, path, succeed, tidy};
+use crate::{cargo, command, counts, documents, errata, languages, path, succeed, tidy};
 use anyhow::{Context, Result, bail};
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -25,6 +25,7 @@ const STEPS: &[Step] = &[
     ("benchmark", benchmark),
     ("documentation", documentation),
     ("wasm32", wasm),
+    ("documents", || documents::run().map(|()| Outcome::Passed)),
     ("errata", || errata::run(false).map(|()| Outcome::Passed)),
     ("operation counts", || counts::run(true).map(|()| Outcome::Passed)),
 ];

@@ -20,6 +20,7 @@ fn main() -> ExitCode {
         Command::Jacobian(a) => commands::jacobian::run(&a),
         Command::Path(a) => commands::path::run(&a),
         Command::Derive(a) => commands::derive::run(&a),
+        Command::Report(a) => commands::report::run(&a),
         Command::Check(a) => commands::check::run(&a),
         Command::Generate(a) => commands::generate::run(&a),
     };

@@ -27,6 +27,7 @@ pub mod robot;
 pub mod scalar;
 pub mod structure;
 pub mod velocity;
+pub mod workspace;
 
 pub use description::Description;
 pub use robot::Robot;

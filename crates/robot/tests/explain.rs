@@ -2,7 +2,7 @@
 
 use denavit::catalogue;
 use denavit::description::{Description, read_toml};
-use denavit::explain::{Math, Proof, math, text};
+use denavit::explain::{Language, Math, Proof, math, text};
 use denavit::inverse::explain::Explanation;
 use denavit::inverse::{Goal, InverseModel, Options, Refusal};
 use denavit_symbolic::print::Style;
@@ -19,7 +19,7 @@ fn explanation(name: &str, given: Option<Vec<usize>>) -> Explanation {
 }
 
 fn plain(e: &Explanation) -> String {
-    text(&e.document(), &e.names(), &|_, words| words.to_string())
+    text(&e.document(Language::English), &e.names(), Language::English, &|_, words| words.to_string())
 }
 
 /// The robots of the documents, and of each kind one.
@@ -68,7 +68,7 @@ fn every_step_has_its_parts() {
                 i + 1
             );
             assert!(
-                !s.kind.is_empty() && !s.number.is_empty() && !s.remark.is_empty(),
+                !s.kind.english.is_empty() && !s.number.is_empty() && !s.remark.english.is_empty(),
                 "{name}, step {}",
                 i + 1
             );
@@ -175,7 +175,7 @@ fn formulas_give_the_solutions_of_the_solver() {
                     values.known.extend(k.as_symbol().map(|s| (s, if plus { 1.0 } else { -1.0 })));
                     words.push(format!(
                         "{}{}",
-                        step.label.as_deref().unwrap_or(""),
+                        step.label.as_ref().map_or("", |label| &label.english),
                         if plus { "+" } else { "−" }
                     ));
                 }

@@ -8,6 +8,7 @@ pub mod generate;
 pub mod ik;
 pub mod jacobian;
 pub mod path;
+pub mod report;
 pub mod robots;
 pub mod show;
 mod stream;

@@ -1,18 +1,24 @@
 //! `denavit show`: the table, and what is special about the arm.
 
 use crate::arguments::ShowArguments;
+use crate::commands::fk::{configuration, without_values};
+use crate::commands::report::put;
 use crate::commands::robots::joints;
 use crate::failure::Failure;
 use crate::load;
-use crate::terminal::{Align, FAINT, HEADING, NAME, decimals, styled, table};
-use denavit::description::{Convention, Description, JointKind, Measure, write_toml};
+use crate::terminal::{Align, FAINT, HEADING, NAME, styled, table};
+use denavit::description::{Description, JointKind, Measure, write_toml};
+use denavit::explain::plain;
 use denavit::geometry::Transform;
 use denavit::structure::{Relation, Structure};
+use denavit_report::figure::svg::{Palette, svg};
+use denavit_report::figure::{self, Arm};
+use denavit_symbolic::Expr;
 use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::vocabulary::Vocabulary;
-use denavit_symbolic::{Angle, Expr, Rational};
 use serde_json::json;
 use std::io::Write;
+use std::path::Path;
 
 /// Shows a robot.
 ///
@@ -26,6 +32,9 @@ pub fn run(arguments: &ShowArguments) -> Result<(), Failure> {
         description = conversion.description;
     }
     let mut out = anstream::stdout();
+    if let Some(file) = &arguments.figure {
+        return figure(&description, arguments, file);
+    }
     if arguments.toml {
         write!(out, "{}", write_toml(&description))?;
     } else if arguments.json {
@@ -34,6 +43,20 @@ pub fn run(arguments: &ShowArguments) -> Result<(), Failure> {
         write!(out, "{}{}{}", title(&description), dh_table(&description), structure(&description))?;
     }
     Ok(())
+}
+
+/// Draws the arm.
+fn figure(description: &Description, arguments: &ShowArguments, file: &Path) -> Result<(), Failure> {
+    let arm = Arm::new(&description.filled())
+        .map_err(|missing| without_values(description, &arguments.robot.robot, &missing))?;
+    let arm = match &arguments.q {
+        Some(text) => arm.at(&configuration(description, text)?),
+        None => arm,
+    };
+    let options = figure::Options::main();
+    let drawing =
+        if arguments.scheme { figure::scheme(&arm, &options) } else { figure::isometric(&arm, &options) };
+    put(file, svg(&drawing, Palette::File, "arm").as_bytes())
 }
 
 /// Name, joints, convention and source.
@@ -55,59 +78,12 @@ pub fn title(d: &Description) -> String {
 
 /// A quantity as it stands in a table: angles in degrees, lengths as formulas in metres.
 fn cell(e: Expr, is_angle: bool) -> String {
-    if let (false, Some(length)) = (is_angle, e.as_number()) {
-        return decimals(length.to_f64(), 9);
-    }
-    if !is_angle {
-        return print(e, &Vocabulary::new(), Style::Unicode);
-    }
-    // Multiples of π in degrees, the rest in radians.
-    let mut angle = Angle::of(e);
-    let degrees = &std::mem::take(&mut angle.turns) * &Rational::from(180);
-    let radians = std::mem::take(&mut angle.radians);
-    let symbolic = angle.to_expr();
-    let mut text = match symbolic.is_zero() {
-        true => String::new(),
-        false => print(symbolic, &Vocabulary::new(), Style::Unicode),
-    };
-    for (constant, unit) in [(degrees, "°"), (radians, " rad")] {
-        if constant.is_zero() {
-            continue;
-        }
-        text += match (text.is_empty(), constant.is_negative()) {
-            (true, true) => "−",
-            (true, false) => "",
-            (false, true) => " − ",
-            (false, false) => " + ",
-        };
-        text += &format!("{}{unit}", decimals(constant.abs().to_f64(), 9));
-    }
-    if text.is_empty() { "0".into() } else { text }
-}
-
-/// The columns of a convention: heading, and what stands in them.
-type Column = (&'static str, fn(&denavit::description::Row) -> Expr, bool);
-
-fn columns(d: &Description) -> Vec<Column> {
-    let theta: Column = ("θ", |r| r.theta, true);
-    let alpha: Column = ("α", |r| r.alpha, true);
-    match d.convention {
-        Convention::Standard => vec![theta, ("d", |r| r.d, false), ("a", |r| r.a, false), alpha],
-        Convention::Craig => vec![alpha, ("a", |r| r.a, false), theta, ("d", |r| r.d, false)],
-        Convention::Khalil => {
-            let mut columns = vec![alpha, ("d", |r| r.a, false), theta, ("r", |r| r.d, false)];
-            if d.rows.iter().any(|r| !r.gamma.is_zero() || !r.b.is_zero()) {
-                let branch: [Column; 2] = [("γ", |r| r.gamma, true), ("b", |r| r.b, false)];
-                columns.splice(0..0, branch);
-            }
-            columns
-        }
-    }
+    plain(&denavit_report::cell(e, is_angle), &Vocabulary::new())
 }
 
 /// The table in its own letters, with base, tool and the values of the parameters.
 pub fn dh_table(d: &Description) -> String {
-    let columns = columns(d);
+    let columns = denavit_report::columns(d);
     let has_limits = d.rows.iter().any(|r| r.limits.is_some());
     let has_names = d.rows.iter().any(|r| r.name.is_some());
     let mut header: Vec<&str> = vec!["j", ""];
@@ -209,7 +185,7 @@ fn structure(d: &Description) -> String {
 fn as_json(d: &Description) -> serde_json::Value {
     let text = |e: Expr| print(e, &Vocabulary::new(), Style::Ascii);
     let s = Structure::of(d);
-    let columns = columns(d);
+    let columns = denavit_report::columns(d);
     let letter = |heading: &str| match heading {
         "θ" => "theta".to_string(),
         "α" => "alpha".to_string(),

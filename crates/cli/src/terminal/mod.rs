@@ -1,5 +1,7 @@
 //! What a person reads in a terminal: headings, aligned tables, matrices with brackets.
 
+pub use denavit_report::decimals;
+
 use anstyle::{AnsiColor, Style};
 use unicode_width::UnicodeWidthStr;
 
@@ -115,14 +117,4 @@ pub fn number(x: f64, noise: f64) -> String {
     let text = format!("{x:.6e}");
     let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
     format!("{}e{exponent}", mantissa.trim_end_matches('0').trim_end_matches('.')).replace('-', "−")
-}
-
-/// At most so many decimals, no trailing zeros.
-pub fn decimals(x: f64, digits: usize) -> String {
-    if x.abs() >= 1e9 {
-        return format!("{x:e}").replace('-', "−");
-    }
-    let text = format!("{x:.digits$}");
-    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
-    if text == "-0" { "0".into() } else { text.replace('-', "−") }
 }

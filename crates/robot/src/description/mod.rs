@@ -7,6 +7,7 @@
 mod cell;
 pub mod convert;
 pub mod diagnostic;
+mod filled;
 mod names;
 mod robot_file;
 mod rows;

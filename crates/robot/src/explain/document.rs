@@ -1,5 +1,6 @@
 //! A document that knows no notation: headings, paragraphs, formulas, lists, a tree.
 
+use super::language::Language;
 use denavit_symbolic::Expr;
 
 /// A part of a document.
@@ -37,11 +38,11 @@ pub enum Proof {
 
 impl Proof {
     /// In words.
-    pub fn words(self) -> &'static str {
+    pub fn words(self, language: Language) -> &'static str {
         match self {
-            Proof::Proved => "proved",
-            Proof::Sampled => "checked at sample poses",
-            Proof::Wrong => "NOT TRUE",
+            Proof::Proved => language.pick("proved", "démontré"),
+            Proof::Sampled => language.pick("checked at sample poses", "vérifié en des poses d’essai"),
+            Proof::Wrong => language.pick("NOT TRUE", "FAUX"),
         }
     }
 }
@@ -119,6 +120,8 @@ pub enum Math {
     Products(Vec<Factor>, Vec<Factor>),
     /// A matrix by its entries.
     Matrix(Factor, Vec<Vec<Expr>>),
+    /// A matrix of decimal numbers, digits with a hyphen for a minus sign.
+    Numbers(Factor, Vec<Vec<String>>),
     /// The determinant of a matrix.
     Determinant(Factor, Expr),
 }
@@ -145,7 +148,7 @@ impl Math {
         match self {
             Math::Expr(e) | Math::Determinant(_, e) => vec![*e],
             Math::Chain(a, rest) => [*a].into_iter().chain(rest.iter().map(|r| r.1)).collect(),
-            Math::Product(_) | Math::Products(..) => vec![],
+            Math::Product(_) | Math::Products(..) | Math::Numbers(..) => vec![],
             Math::Matrix(_, rows) => rows.iter().flatten().copied().collect(),
         }
     }
@@ -182,11 +185,18 @@ pub enum Factor {
         /// Whether its inverse is meant.
         inverse: bool,
     },
+    /// The pose of a frame in another: T with both names.
+    Frame {
+        /// The frame it is seen from.
+        from: String,
+        /// The frame that is seen.
+        to: String,
+    },
     /// A turn about an axis by an angle.
     Rotation(char, Expr),
     /// A displacement.
     Translation([Expr; 3]),
-    /// The inverse of one of the two above.
+    /// The inverse of one of those above.
     Inverse(Box<Factor>),
     /// Any other constant matrix, the upper three rows.
     Constant(Vec<Vec<Expr>>),
@@ -210,7 +220,7 @@ impl Factor {
             Factor::Rotation(axis, angle) => Factor::Rotation(axis, -angle),
             Factor::Translation(p) => Factor::Translation(p.map(|x| -x)),
             Factor::Inverse(of) => *of,
-            other @ Factor::Constant(_) => Factor::Inverse(Box::new(other)),
+            other @ (Factor::Constant(_) | Factor::Frame { .. }) => Factor::Inverse(Box::new(other)),
         }
     }
 }

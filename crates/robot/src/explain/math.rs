@@ -7,34 +7,45 @@ use denavit_symbolic::{Expr, Symbol};
 
 /// The formula; `names` says how angles are numbered.
 pub fn math(m: &Math, names: &Vocabulary, style: Style) -> String {
-    if matches!(style, Style::Ascii | Style::Unicode) {
-        return Writer { names, style }.math(m);
-    }
-    // px is set as p with the index x.
-    let entries = m.exprs().into_iter().flat_map(Expr::symbols).filter_map(indexed);
-    let names = entries.filter_map(Expr::as_symbol).fold(names.clone(), |v, s| v.symbol(&s.name()));
-    Writer { names: &names, style }.math(m)
+    Writer { names: &with_indexed(m, names, style), style }.math(m)
 }
 
-/// An entry of the pose, or a component of a velocity, with its index apart.
+/// The names with those that are set with an index: px is p with the index x.
+pub(super) fn with_indexed(m: &Math, names: &Vocabulary, style: Style) -> Vocabulary {
+    if matches!(style, Style::Ascii | Style::Unicode) {
+        return names.clone();
+    }
+    let entries = m.exprs().into_iter().flat_map(Expr::symbols).filter_map(indexed);
+    entries.filter_map(Expr::as_symbol).fold(names.clone(), |v, s| v.symbol(&s.name()))
+}
+
+/// An entry of the pose, a component of a velocity or of a vector in a frame (x4x), with its index apart.
 fn indexed(s: Symbol) -> Option<Expr> {
     let name = s.name();
-    let mut letters = name.chars();
-    match (letters.next(), letters.next(), letters.next()) {
-        (Some(a @ ('n' | 'o' | 'a' | 'p' | 'v' | 'w' | 'r')), Some(b @ ('x' | 'y' | 'z')), None) => {
-            Some(Expr::symbol(&format!("{a}_{b}")))
-        }
-        _ => None,
-    }
+    let index = name.strip_prefix(['n', 'o', 'a', 'p', 'v', 'w', 'r', 'x', 'y', 'z'])?;
+    let frame = index.strip_suffix(['x', 'y', 'z'])?;
+    let is_bare = frame.is_empty() && !name.starts_with(['x', 'y', 'z']);
+    let is_in_frame = !frame.is_empty()
+        && frame.bytes().all(|b| b.is_ascii_digit())
+        && name.starts_with(['x', 'y', 'z', 'p']);
+    (is_bare || is_in_frame).then(|| Expr::symbol(&format!("{}_{index}", &name[..1])))
 }
 
-struct Writer<'a> {
-    names: &'a Vocabulary,
-    style: Style,
+pub(super) struct Writer<'a> {
+    pub(super) names: &'a Vocabulary,
+    pub(super) style: Style,
+}
+
+fn raised(digits: &str) -> String {
+    digits.chars().filter_map(|c| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(c.to_digit(10)? as usize)).collect()
+}
+
+fn lowered(digits: &str) -> String {
+    digits.chars().filter_map(|c| "₀₁₂₃₄₅₆₇₈₉".chars().nth(c.to_digit(10)? as usize)).collect()
 }
 
 impl Writer<'_> {
-    fn math(&self, m: &Math) -> String {
+    pub(super) fn math(&self, m: &Math) -> String {
         let text = match m {
             Math::Expr(e) => self.expr(*e),
             Math::Chain(first, rest) => rest
@@ -42,15 +53,12 @@ impl Writer<'_> {
                 .fold(self.expr(*first), |text, (sign, e)| text + self.sign(*sign) + &self.expr(*e)),
             Math::Product(factors) => self.product(factors),
             Math::Products(left, right) => self.product(left) + self.sign(Sign::Equal) + &self.product(right),
-            Math::Determinant(of, e) => {
-                let det = match self.style {
-                    Style::Latex => "\\det ",
-                    Style::MathMl => "<mi>det</mi>",
-                    Style::Ascii | Style::Unicode | Style::Typst => "det ",
-                };
-                det.to_string() + &self.factor(of) + self.sign(Sign::Equal) + &self.expr(*e)
-            }
+            Math::Determinant(of, e) => self.determinant(of) + self.sign(Sign::Equal) + &self.expr(*e),
             Math::Matrix(name, rows) => self.factor(name) + self.sign(Sign::Equal) + &self.matrix(rows),
+            Math::Numbers(name, rows) => {
+                let rows = rows.iter().map(|r| r.iter().map(|x| self.number(x)).collect()).collect();
+                self.factor(name) + self.sign(Sign::Equal) + &self.grid(rows)
+            }
         };
         match self.style {
             Style::MathMl => format!("<mrow>{text}</mrow>"),
@@ -58,16 +66,29 @@ impl Writer<'_> {
         }
     }
 
-    /// Names such as px are p with the index x where indices can be set.
-    fn expr(&self, e: Expr) -> String {
-        let e = match self.style {
-            Style::Ascii | Style::Unicode => e,
-            Style::Latex | Style::Typst | Style::MathMl => e.substitute(indexed),
+    pub(super) fn determinant(&self, of: &Factor) -> String {
+        let det = match self.style {
+            Style::Latex => "\\det ",
+            Style::MathMl => "<mi>det</mi>",
+            Style::Ascii | Style::Unicode | Style::Typst => "det ",
         };
-        print(e, self.names, self.style)
+        det.to_string() + &self.factor(of)
     }
 
-    fn sign(&self, sign: Sign) -> &'static str {
+    /// Names such as px are p with the index x where indices can be set.
+    pub(super) fn expr(&self, e: Expr) -> String {
+        print(self.set(e), self.names, self.style)
+    }
+
+    /// The expression with the names that are set.
+    pub(super) fn set(&self, e: Expr) -> Expr {
+        match self.style {
+            Style::Ascii | Style::Unicode => e,
+            Style::Latex | Style::Typst | Style::MathMl => e.substitute(indexed),
+        }
+    }
+
+    pub(super) fn sign(&self, sign: Sign) -> &'static str {
         let k = match sign {
             Sign::Equal => 0,
             Sign::Different => 1,
@@ -92,7 +113,7 @@ impl Writer<'_> {
         }
     }
 
-    fn product(&self, factors: &[Factor]) -> String {
+    pub(super) fn product(&self, factors: &[Factor]) -> String {
         let dot = match self.style {
             Style::Ascii => "*",
             Style::Unicode => "·",
@@ -117,6 +138,7 @@ impl Writer<'_> {
                 let name = of.map_or(name.clone(), |e| self.call(&name, &[self.expr(e)]));
                 if *inverse { self.inverse(&name) } else { name }
             }
+            Factor::Frame { from, to } => self.frame(from, to),
             Factor::Rotation(axis, angle) => {
                 let angle = self.angle(*angle);
                 self.call(&self.function("Rot"), &[self.letter(*axis), angle])
@@ -136,6 +158,33 @@ impl Writer<'_> {
             }
             Factor::Inverse(of) => self.inverse(&self.factor(of)),
             Factor::Constant(rows) => self.matrix(rows),
+        }
+    }
+
+    /// ⁰T₆
+    fn frame(&self, from: &str, to: &str) -> String {
+        let numbers = [from, to].map(|name| name.bytes().all(|b| b.is_ascii_digit()));
+        match self.style {
+            Style::Ascii => format!("T({from}, {to})"),
+            Style::Unicode if numbers == [true; 2] => format!("{}T{}", raised(from), lowered(to)),
+            Style::Unicode => format!("T({from} → {to})"),
+            Style::Latex => {
+                let [from, to] = [from, to].map(|name| match name.bytes().all(|b| b.is_ascii_digit()) {
+                    true => name.to_string(),
+                    false => format!("\\mathrm{{{name}}}"),
+                });
+                format!("{{}}^{{{from}}}T_{{{to}}}")
+            }
+            Style::Typst => format!("attach(T, tl: \"{from}\", br: \"{to}\")"),
+            Style::MathMl => {
+                let [from, to] = [from, to].map(|name| match name.bytes().all(|b| b.is_ascii_digit()) {
+                    true => format!("<mn>{name}</mn>"),
+                    false => format!("<mtext>{name}</mtext>"),
+                });
+                format!(
+                    "<mmultiscripts><mi>T</mi>{to}<mrow></mrow><mprescripts></mprescripts><mrow></mrow>{from}</mmultiscripts>"
+                )
+            }
         }
     }
 
@@ -192,8 +241,22 @@ impl Writer<'_> {
         }
     }
 
+    /// A decimal number; its sign is that of formulas.
+    fn number(&self, text: &str) -> String {
+        let (sign, digits) = text.strip_prefix('-').map_or(("", text), |digits| ("-", digits));
+        match (self.style, sign) {
+            (Style::MathMl, "") => format!("<mn>{digits}</mn>"),
+            (Style::MathMl, _) => format!("<mrow><mo>−</mo><mn>{digits}</mn></mrow>"),
+            (Style::Unicode, "-") => format!("−{digits}"),
+            _ => format!("{sign}{digits}"),
+        }
+    }
+
     fn matrix(&self, rows: &[Vec<Expr>]) -> String {
-        let rows: Vec<Vec<String>> = rows.iter().map(|r| r.iter().map(|&e| self.expr(e)).collect()).collect();
+        self.grid(rows.iter().map(|r| r.iter().map(|&e| self.expr(e)).collect()).collect())
+    }
+
+    fn grid(&self, rows: Vec<Vec<String>>) -> String {
         let joined = |cell: &str, row: &str| rows.iter().map(|r| r.join(cell)).collect::<Vec<_>>().join(row);
         match self.style {
             Style::Ascii | Style::Unicode => format!("[{}]", joined(", ", "; ")),
@@ -202,7 +265,7 @@ impl Writer<'_> {
             Style::MathMl => {
                 let cells = |r: &Vec<String>| r.iter().map(|c| format!("<mtd>{c}</mtd>")).collect::<String>();
                 let rows: String = rows.iter().map(|r| format!("<mtr>{}</mtr>", cells(r))).collect();
-                format!("<mtable>{rows}</mtable>")
+                format!("<mrow><mo>[</mo><mtable>{rows}</mtable><mo>]</mo></mrow>")
             }
         }
     }

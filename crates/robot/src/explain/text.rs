@@ -1,6 +1,7 @@
 //! A document as text of bounded width.
 
 use super::document::{Block, Branch, Factor, Line, Math, Piece, Proof};
+use super::language::Language;
 use super::math::math;
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::Style;
@@ -22,9 +23,14 @@ const WIDTH: usize = 104;
 /// Where the numbers of formulas end.
 const NUMBER: usize = 96;
 
-/// The document; `mark` may colour parts, without changing their width.
-pub fn text(blocks: &[Block], names: &Vocabulary, mark: &dyn Fn(Mark, &str) -> String) -> String {
-    let writer = Writer { names, mark };
+/// The document; `mark` may colour parts, without changing their width. `language` is that of the document.
+pub fn text(
+    blocks: &[Block],
+    names: &Vocabulary,
+    language: Language,
+    mark: &dyn Fn(Mark, &str) -> String,
+) -> String {
+    let writer = Writer { names, language, mark };
     let mut out = String::new();
     for block in blocks {
         match block {
@@ -42,14 +48,14 @@ pub fn text(blocks: &[Block], names: &Vocabulary, mark: &dyn Fn(Mark, &str) -> S
                 }
             }
             Block::Formula { math: Math::Matrix(name, rows), number: None, proof } => {
-                let tail = sign(*proof).trim_start();
+                let tail = writer.sign(*proof).trim_start();
                 out += &writer.matrix(name, rows, tail);
             }
             Block::Formula { math: m, number, proof } => {
                 let formula = math(m, names, Style::Unicode);
                 let tail = match (number, proof) {
-                    (Some(n), proof) => format!("({n}){}", sign(*proof)),
-                    (None, Some(_)) => format!("   {}", sign(*proof).trim_start()),
+                    (Some(n), proof) => format!("({n}){}", writer.sign(*proof)),
+                    (None, Some(_)) => format!("   {}", writer.sign(*proof).trim_start()),
                     (None, None) => String::new(),
                 };
                 let mut lines = broken(&formula, WIDTH - 8);
@@ -71,13 +77,13 @@ pub fn text(blocks: &[Block], names: &Vocabulary, mark: &dyn Fn(Mark, &str) -> S
     out
 }
 
-fn sign(proof: Option<Proof>) -> &'static str {
-    match proof {
-        Some(Proof::Proved) => " ✓",
-        Some(Proof::Sampled) => " ≈",
-        Some(Proof::Wrong) => " NOT TRUE",
-        None => "",
-    }
+/// A line as text that is not wrapped.
+pub fn plain(line: &Line, names: &Vocabulary) -> String {
+    let piece = |piece: &Piece| match piece {
+        Piece::Text(t) | Piece::Strong(t) => t.clone(),
+        Piece::Math(m) => math(m, names, Style::Unicode),
+    };
+    line.0.iter().map(piece).collect()
 }
 
 /// A long formula in lines, broken before signs outside of brackets.
@@ -110,10 +116,20 @@ fn broken(formula: &str, width: usize) -> Vec<String> {
 
 struct Writer<'a> {
     names: &'a Vocabulary,
+    language: Language,
     mark: &'a dyn Fn(Mark, &str) -> String,
 }
 
 impl Writer<'_> {
+    fn sign(&self, proof: Option<Proof>) -> &'static str {
+        match proof {
+            Some(Proof::Proved) => " ✓",
+            Some(Proof::Sampled) => " ≈",
+            Some(Proof::Wrong) => self.language.pick(" NOT TRUE", " FAUX"),
+            None => "",
+        }
+    }
+
     /// A matrix in aligned columns; one that is too wide entry by entry, without those that are 0.
     fn matrix(&self, name: &Factor, rows: &[Vec<Expr>], tail: &str) -> String {
         let name = math(&Math::Product(vec![name.clone()]), self.names, Style::Unicode);
@@ -132,7 +148,8 @@ impl Writer<'_> {
                     out += &format!("      {name}{}{between}{} = {entry}\n", r + 1, c + 1);
                 }
             }
-            return format!("{out}      (the other entries are 0){tail}\n");
+            let rest = self.language.pick("the other entries are 0", "les autres éléments sont nuls");
+            return format!("{out}      ({rest}){tail}\n");
         }
         for (r, row) in cells.iter().enumerate() {
             let (open, close) = match (r, cells.len()) {
@@ -154,13 +171,7 @@ impl Writer<'_> {
     }
 
     fn plain(&self, line: &Line) -> String {
-        line.0
-            .iter()
-            .map(|piece| match piece {
-                Piece::Text(t) | Piece::Strong(t) => t.clone(),
-                Piece::Math(m) => math(m, self.names, Style::Unicode),
-            })
-            .collect()
+        plain(line, self.names)
     }
 
     /// Words that stay together, with what they are.

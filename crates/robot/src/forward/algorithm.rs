@@ -35,7 +35,7 @@ impl Outputs {
 }
 
 /// The name of a matrix entry: `t14` is row 1, column 4.
-pub(super) fn entry_name((row, column): (usize, usize)) -> String {
+pub fn entry_name((row, column): (usize, usize)) -> String {
     format!("t{}{}", row + 1, column + 1)
 }
 

@@ -159,7 +159,7 @@ impl InverseKinematics {
                 this.given.clone_from(&model.given);
                 Some(Box::new(model.solver(description)?))
             }
-            Err(Refusal::Given(why)) => return Err(Unprepared::Given(why)),
+            Err(Refusal::Given(why)) => return Err(Unprepared::Given(why.english)),
             Err(_) => {
                 this.given = asked;
                 this.given.sort_unstable();

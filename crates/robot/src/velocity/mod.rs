@@ -24,7 +24,9 @@ pub use inverse::{REST, RateFormulas};
 pub use measures::{Block, Measures, NearestSingularity, RANK, Whole, measures, nearest_singularity};
 pub use model::JacobianModel;
 pub use program::{jacobian_and_pose_program, jacobian_program};
-pub use singular::{Example, MAX_JOINTS, Minor, Obstacle, Place, Singularities, Singularity};
+pub use singular::{
+    Example, MAX_JOINTS, Minor, Obstacle, Place, Singularities, Singularity, singular_configuration,
+};
 pub use solve::{Damping, JointRates, RateSolver};
 pub use svd::{Svd, svd};
 pub use words::{jacobian_document, singularities_document};

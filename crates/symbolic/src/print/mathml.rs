@@ -75,7 +75,8 @@ fn escaped(name: &str) -> String {
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
             '\'' => out.push_str("&#39;"),
-            c if c.is_control() => out.push('\u{fffd}'), // not allowed in XML, not even as a reference
+            // Not allowed in XML, not even as a reference.
+            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => out.push('\u{fffd}'),
             _ => out.push(c),
         }
     }

@@ -18,11 +18,16 @@
 //! unrolled on a stack of its own, and the text ends in `…` once it is longer than [`MAX_BYTES`].
 
 mod ascii;
+mod broken;
 mod latex;
 mod mathml;
 mod names;
 mod typst;
 mod unicode;
+mod width;
+
+pub use broken::{BrokenLine, broken};
+pub use width::width;
 
 use crate::angle::Angle;
 use crate::expr::{Expr, Node};
@@ -52,19 +57,11 @@ pub enum Style {
 
 /// The formula as text. Angles that the vocabulary numbers are written `C23`, `S1`, `C_{2-3}`.
 pub fn print(e: Expr, vocabulary: &Vocabulary, style: Style) -> String {
-    let notation = match style {
-        Style::Ascii | Style::Unicode | Style::Latex => style.notation().beside(vocabulary),
-        Style::Typst | Style::MathMl => *style.notation(),
-    };
-    let mut printer = Printer {
-        notation,
-        vocabulary,
-        bridges: names::bridges(vocabulary),
-        leaves: FxHashMap::default(),
-        out: notation.whole[0].to_string(),
-    };
+    let mut printer = Printer::new(vocabulary, style);
+    let [before, after] = printer.notation.whole;
+    printer.out.push_str(before);
     printer.write(e);
-    printer.out.push_str(notation.whole[1]);
+    printer.out.push_str(after);
     printer.out
 }
 
@@ -201,6 +198,28 @@ enum Task {
     Own(String),
     Write(Expr, Place),
     Times(Expr, bool),
+    Mark(Mark),
+}
+
+/// What stands next in the text, for those who break it into lines.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Mark {
+    /// A bracket around a sum.
+    Open,
+    /// Its end.
+    Close,
+    /// The sign between two addends.
+    Sign,
+    /// The bracket around the arguments of a function.
+    Call,
+    /// Behind the comma between two arguments.
+    Comma,
+    /// The end of the arguments.
+    CallEnd,
+    /// What cannot be broken: a fraction, a root, an argument.
+    Freeze,
+    /// Its end.
+    Thaw,
 }
 
 struct Printer<'a> {
@@ -210,9 +229,26 @@ struct Printer<'a> {
     /// Symbols, and sines and cosines that have a short spelling.
     leaves: FxHashMap<Expr, Option<Rc<str>>>,
     out: String,
+    /// Marks and where in `out` they stand.
+    marks: Vec<(usize, Mark)>,
 }
 
-impl Printer<'_> {
+impl<'a> Printer<'a> {
+    fn new(vocabulary: &'a Vocabulary, style: Style) -> Self {
+        let notation = match style {
+            Style::Ascii | Style::Unicode | Style::Latex => style.notation().beside(vocabulary),
+            Style::Typst | Style::MathMl => *style.notation(),
+        };
+        Printer {
+            notation,
+            vocabulary,
+            bridges: names::bridges(vocabulary),
+            leaves: FxHashMap::default(),
+            out: String::new(),
+            marks: vec![],
+        }
+    }
+
     fn write(&mut self, e: Expr) {
         let mut tasks = vec![Task::Write(e, Place::Whole)];
         while let Some(task) = tasks.pop() {
@@ -223,6 +259,7 @@ impl Printer<'_> {
             match task {
                 Task::Text(text) => self.out.push_str(text),
                 Task::Own(text) => self.out.push_str(&text),
+                Task::Mark(mark) => self.marks.push((self.out.len(), mark)),
                 Task::Times(right, after_slash) => {
                     let seam = Seam {
                         right: self.head(right),
@@ -237,9 +274,10 @@ impl Printer<'_> {
                 Task::Write(e, place) => {
                     let start = tasks.len();
                     if self.needs_parens(e, place) {
-                        tasks.push(Task::Text(self.notation.paren[0]));
+                        let [open, close] = self.notation.paren;
+                        tasks.extend([Task::Mark(Mark::Open), Task::Text(open)]);
                         tasks.push(Task::Write(e, Place::Whole));
-                        tasks.push(Task::Text(self.notation.paren[1]));
+                        tasks.extend([Task::Mark(Mark::Close), Task::Text(close)]);
                     } else {
                         self.unroll(e, &mut tasks);
                     }
@@ -279,6 +317,17 @@ impl Printer<'_> {
             tasks.push(Task::Own(leaf.to_string()));
             return;
         }
+        let is_solid = matches!(e.node(), Node::Pow(..) | Node::Sqrt(_) | Node::Sin(_) | Node::Cos(_));
+        if is_solid {
+            tasks.push(Task::Mark(Mark::Freeze));
+        }
+        self.unroll_node(e, n, tasks);
+        if is_solid {
+            tasks.push(Task::Mark(Mark::Thaw));
+        }
+    }
+
+    fn unroll_node(&mut self, e: Expr, n: Notation, tasks: &mut Vec<Task>) {
         match e.node() {
             Node::Number(r) if r.is_negative() => {
                 tasks.extend([Task::Text(n.negative), Task::Write((-r).into(), Place::Addend)]);
@@ -343,10 +392,13 @@ impl Printer<'_> {
             }
             Node::Atan2(y, x) => tasks.extend([
                 Task::Text(n.arctangent),
+                Task::Mark(Mark::Call),
                 Task::Text(n.call[0]),
                 Task::Write(y, Place::Whole),
                 Task::Text(n.call[1]),
+                Task::Mark(Mark::Comma),
                 Task::Write(x, Place::Whole),
+                Task::Mark(Mark::CallEnd),
                 Task::Text(n.call[2]),
             ]),
         }
@@ -390,7 +442,7 @@ impl Printer<'_> {
         }
         tasks.push(Task::Write(first, Place::Addend));
         for (sign, b) in rest.into_iter().rev() {
-            tasks.extend([Task::Text(sign), Task::Write(b, Place::Addend)]);
+            tasks.extend([Task::Mark(Mark::Sign), Task::Text(sign), Task::Write(b, Place::Addend)]);
         }
     }
 
@@ -400,11 +452,11 @@ impl Printer<'_> {
         match self.notation.bar {
             _ if is_whole => self.product(p, a, Place::Factor, tasks),
             Some([before, between, after]) => {
-                tasks.push(Task::Text(before));
+                tasks.extend([Task::Mark(Mark::Freeze), Task::Text(before)]);
                 self.product(p, a, Place::Whole, tasks);
                 tasks.push(Task::Text(between));
                 self.product(q, b.unwrap_or(Expr::int(1)), Place::Whole, tasks);
-                tasks.push(Task::Text(after));
+                tasks.extend([Task::Text(after), Task::Mark(Mark::Thaw)]);
             }
             None => {
                 self.product(p, a, Place::Factor, tasks);

@@ -1,7 +1,7 @@
 //! The derivation as JSON; formulas are plain text that parses back.
 
-use super::Derivation;
 use crate::commands::robots::joints;
+use denavit_report::Derivation;
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::Style;
 use serde_json::{Value, json};

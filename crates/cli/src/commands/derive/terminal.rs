@@ -1,9 +1,9 @@
 //! The derivation for a terminal.
 
-use super::Derivation;
 use crate::commands::show::{dh_table, title};
 use crate::terminal::{Align, FAINT, HEADING, NAME, lowered, matrix, matrix_width, raised, styled};
 use denavit_program::COUNTING_RULE;
+use denavit_report::Derivation;
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::Style;
 use std::fmt::Write;

@@ -1,7 +1,7 @@
 //! The derivation as JSON; formulas are plain text that parses back.
 
 use denavit::description::Description;
-use denavit::explain::{Math, math};
+use denavit::explain::{Language, Math, Words, math};
 use denavit::inverse::explain::{Explanation, Statement};
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::{Style, print};
@@ -10,6 +10,10 @@ use serde_json::{Value, json};
 /// A derivation that did not begin, or whose numbers were asked for.
 pub fn refusal(d: &Description, why: &str) -> Value {
     json!({"schema": 1, "robot": d.name, "status": "refused", "complete": false, "why": why, "solutions": [], "families": []})
+}
+
+fn english(words: &Words) -> &str {
+    &words.english
 }
 
 /// Schema 1 of `ik` without a pose.
@@ -28,7 +32,7 @@ pub fn document(e: &Explanation) -> String {
             value["number"] = n.into();
         }
         if let Some(p) = s.proof {
-            value["proof"] = p.words().into();
+            value["proof"] = p.words(Language::English).into();
         }
         value
     };
@@ -46,7 +50,7 @@ pub fn document(e: &Explanation) -> String {
                         "elements": o.elements,
                         "inverse": o.inverse,
                         "squares_added": o.squared,
-                        "why": o.why,
+                        "why": o.why.as_ref().map(english),
                         "equations": all(&o.equations),
                     })
                 })
@@ -54,16 +58,16 @@ pub fn document(e: &Explanation) -> String {
             let conditions: Vec<Value> = s
                 .conditions
                 .iter()
-                .map(|c| json!({"when": c.when.iter().map(formula).collect::<Vec<_>>(), "then": c.then}))
+                .map(|c| json!({"when": c.when.iter().map(formula).collect::<Vec<_>>(), "then": english(&c.then)}))
                 .collect();
             json!({
                 "unknown": text(s.unknown),
                 "meaning": s.meaning.map(text),
                 "values": s.values,
-                "label": s.label,
+                "label": s.label.as_ref().map(english),
                 "sign": s.sign.map(text),
                 "type": s.number,
-                "kind": s.kind,
+                "kind": english(&s.kind),
                 "sources": sources,
                 "names": all(&s.names),
                 "form": s.form.iter().map(formula).collect::<Vec<_>>(),
@@ -71,7 +75,7 @@ pub fn document(e: &Explanation) -> String {
                 "solution": all(&s.solution),
                 "conditions": conditions,
                 "used_by": s.used_by,
-                "remark": s.remark,
+                "remark": english(&s.remark),
             })
         })
         .collect();
@@ -88,7 +92,7 @@ pub fn document(e: &Explanation) -> String {
         "pose_conditions": all(&e.leftovers),
         "max_solutions": e.solutions,
         "missing": e.missing.iter().map(|q| text(*q)).collect::<Vec<_>>(),
-        "proof": e.proof().words(),
+        "proof": e.proof().words(Language::English),
     });
     format!("{document}\n")
 }

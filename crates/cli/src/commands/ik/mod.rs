@@ -13,7 +13,7 @@ use crate::failure::Failure;
 use crate::load;
 use answer::{Question, Report};
 use denavit::description::{Description, JointKind};
-use denavit::explain::Block;
+use denavit::explain::{Block, Language};
 use denavit::idealise::{Ideal, idealised};
 use denavit::inverse::explain::Explanation;
 use denavit::inverse::{Criterion, Goal, InverseKinematics, InverseModel, Options, Refusal, Unprepared};
@@ -132,11 +132,11 @@ fn printed(arguments: &IkArguments, e: &Explanation) -> String {
     let written = |blocks: &[Block]| document::document(&title, &e.names(), blocks, format);
     match (format, arguments.explain, arguments.symbolic) {
         (Format::Json, ..) => json::document(e),
-        (_, true, _) => written(&e.document()),
-        (_, _, true) => written(&e.summary()),
+        (_, true, _) => written(&e.document(Language::English)),
+        (_, _, true) => written(&e.summary(Language::English)),
         (Format::Terminal, ..) => summary::text(e),
         // A format was asked for: the formulas.
-        (_, false, false) => written(&e.summary()),
+        (_, false, false) => written(&e.summary(Language::English)),
     }
 }
 

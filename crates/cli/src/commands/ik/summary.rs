@@ -2,7 +2,7 @@
 
 use crate::commands::show::title;
 use crate::terminal::{Align, FAINT, HEADING, NAME, styled, table};
-use denavit::explain::{Math, Sign, math};
+use denavit::explain::{Language, Math, Sign, math};
 use denavit::inverse::explain::Explanation;
 use denavit::structure::Structure;
 use denavit_symbolic::print::{Style, print};
@@ -36,7 +36,7 @@ pub fn text(e: &Explanation) -> String {
                 (k + 1).to_string(),
                 print(s.unknown, &names, Style::Unicode) + &meaning.unwrap_or_default(),
                 s.values.to_string(),
-                s.label.clone().unwrap_or_default(),
+                s.label.as_ref().map(|l| l.english.clone()).unwrap_or_default(),
                 s.number.replace("none", "–"),
                 equation,
             ]
@@ -75,5 +75,8 @@ pub fn text(e: &Explanation) -> String {
         text += &format!("  the pose must meet {}\n", formula(&s.math));
     }
     let hint = "--explain shows every step, --symbolic the formulas, --pose and -q solve";
-    text + &format!("  {}\n", styled(&format!("all formulas {}; {hint}", e.proof().words()), FAINT))
+    text + &format!(
+        "  {}\n",
+        styled(&format!("all formulas {}; {hint}", e.proof().words(Language::English)), FAINT)
+    )
 }

@@ -5,7 +5,7 @@ use crate::arguments::Format;
 use crate::commands::document;
 use crate::failure::Failure;
 use denavit::description::Description;
-use denavit::explain::{Block, Line, Math};
+use denavit::explain::{Block, Language, Line, Math};
 use denavit::forward::{Proof, Reference};
 use denavit::velocity::{
     JacobianModel, Minor, Obstacle, REST, ROWS, Singularities, Singularity, Viewpoint, jacobian_document,
@@ -49,9 +49,12 @@ pub fn document(
     };
     match found {
         Ok(found) if format == Format::Json => Ok(singularities_json(description, &found)),
-        Ok(found) => {
-            Ok(printed(description, &found.jacobian, singularities_document(description, &found), format))
-        }
+        Ok(found) => Ok(printed(
+            description,
+            &found.jacobian,
+            singularities_document(description, &found, Language::English),
+            format,
+        )),
         // The matrix is there all the same.
         Err(why @ Obstacle::AlwaysSingular(_)) => {
             let model = JacobianModel::shortest(description, body);
@@ -60,7 +63,7 @@ pub fn document(
                 map.insert("always_singular".into(), why.to_string().into());
                 return Ok(format!("{}\n", Value::Object(map)));
             }
-            let mut blocks = jacobian_document(description, &model);
+            let mut blocks = jacobian_document(description, &model, Language::English);
             blocks.push(Block::Heading(2, Line::new("Singularities")));
             blocks.push(Block::Paragraph(Line::new(format!("{why}."))));
             Ok(printed(description, &model, blocks, format))
@@ -77,7 +80,7 @@ fn matrix(description: &Description, model: &JacobianModel, format: Format) -> R
     Ok(match format {
         Format::Json => format!("{}\n", Value::Object(model_json(description, model))),
         _ => {
-            let mut blocks = jacobian_document(description, model);
+            let mut blocks = jacobian_document(description, model, Language::English);
             blocks.extend(algorithm(model));
             printed(description, model, blocks, format)
         }

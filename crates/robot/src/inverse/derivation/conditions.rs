@@ -8,6 +8,7 @@ use super::chain::{Chain, Motion};
 use super::equations::{Equation, Source};
 use super::known::{Known, Samples, Unknown};
 use super::plan::Step;
+use crate::explain::Language;
 use denavit_symbolic::Expr;
 use denavit_symbolic::poly::{Atom, Monomial, Poly};
 use rustc_hash::FxHashSet;
@@ -49,17 +50,37 @@ pub enum Task {
     Other(usize),
 }
 
+impl Task {
+    /// In words: what the hand can be told.
+    pub fn words(self, language: Language) -> String {
+        language.pick(
+            match self {
+                Task::Pose => "any position and orientation".into(),
+                Task::PositionAndAxis => "a position and the direction of the tool's axis".into(),
+                Task::PositionAndTurn => "a position and a turn about one direction (x, y, z, φ)".into(),
+                Task::Planar => "a place and a turn in a plane (x, y, φ)".into(),
+                Task::Position => "a position (x, y, z)".into(),
+                Task::Orientation => "an orientation".into(),
+                Task::Other(n) => format!("a {n}-dimensional set of poses"),
+            },
+            match self {
+                Task::Pose => "une position et une orientation quelconques".into(),
+                Task::PositionAndAxis => "une position et la direction de l’axe de l’outil".into(),
+                Task::PositionAndTurn => {
+                    "une position et une rotation autour d’une direction (x, y, z, φ)".into()
+                }
+                Task::Planar => "une position et une rotation dans un plan (x, y, φ)".into(),
+                Task::Position => "une position (x, y, z)".into(),
+                Task::Orientation => "une orientation".into(),
+                Task::Other(n) => format!("une pose prise dans un ensemble de dimension {n}"),
+            },
+        )
+    }
+}
+
 impl fmt::Display for Task {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Task::Pose => f.write_str("any position and orientation"),
-            Task::PositionAndAxis => f.write_str("a position and the direction of the tool's axis"),
-            Task::PositionAndTurn => f.write_str("a position and a turn about one direction (x, y, z, φ)"),
-            Task::Planar => f.write_str("a place and a turn in a plane (x, y, φ)"),
-            Task::Position => f.write_str("a position (x, y, z)"),
-            Task::Orientation => f.write_str("an orientation"),
-            Task::Other(n) => write!(f, "a {n}-dimensional set of poses"),
-        }
+        f.write_str(&self.words(Language::English))
     }
 }
 

@@ -22,5 +22,5 @@ pub use equations::{Entry, Goal, Source, Split};
 pub(crate) use known::Random;
 pub use known::Unknown;
 pub(super) use known::{Known, Samples, axis_unknown};
-pub use model::{InverseModel, Options, Refusal, Stuck, Variant};
+pub use model::{InverseModel, Options, Refusal, Stuck, Variant, branch_words};
 pub use plan::{Cost, Determinant, Elimination, Form, Norm, Origin, Row, Step};

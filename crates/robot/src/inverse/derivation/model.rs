@@ -9,6 +9,7 @@ use super::known::{Samples, Unknown, axis_unknown};
 use super::plan::{Form, Step};
 use super::search::{self, Outcome};
 use crate::description::Description;
+use crate::explain::{Language, Words};
 use denavit_symbolic::poly::Poly;
 use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::vocabulary::Vocabulary;
@@ -81,7 +82,7 @@ pub enum Refusal {
     /// The robot has no normal form.
     Unsuitable(Unsuitable),
     /// Values are given for joints that the arm does not have, or for too many.
-    Given(String),
+    Given(Words),
     /// The derivation ended before everything was found.
     Stuck(Box<Stuck>),
 }
@@ -105,30 +106,45 @@ pub struct Stuck {
     pub is_spent: bool,
 }
 
+impl Refusal {
+    /// In words.
+    pub fn words(&self, language: Language) -> String {
+        match self {
+            Refusal::Unsuitable(why) => why.words(language),
+            Refusal::Given(why) => why.of(language),
+            Refusal::Stuck(stuck) => stuck.words(language),
+        }
+    }
+}
+
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Refusal::Unsuitable(why) => write!(f, "{why}"),
-            Refusal::Given(why) => f.write_str(why),
-            Refusal::Stuck(stuck) => {
-                let name = |j: &usize| stuck.chain.variables[*j].name().to_string();
-                let missing: Vec<String> = stuck.missing.iter().map(name).collect();
-                let found: Vec<String> =
-                    stuck.steps.iter().map(|s| stuck.chain.describe(s.unknown)).collect();
-                let found = if found.is_empty() { "nothing".into() } else { found.join(", ") };
-                let missing = missing.join(", ");
-                if stuck.is_spent {
-                    return write!(
-                        f,
-                        "no closed form within the bound on work: found {found} so far; open: {missing}"
-                    );
-                }
-                write!(
-                    f,
+        f.write_str(&self.words(Language::English))
+    }
+}
+
+impl Stuck {
+    /// In words: what was found, what was not.
+    pub fn words(&self, language: Language) -> String {
+        let name = |j: &usize| self.chain.variables[*j].name().to_string();
+        let missing = self.missing.iter().map(name).collect::<Vec<String>>().join(", ");
+        let found: Vec<String> = self.steps.iter().map(|s| self.chain.describe(s.unknown)).collect();
+        let found = if found.is_empty() { language.pick("nothing", "rien").into() } else { found.join(", ") };
+        language.spaced(&if self.is_spent {
+            language.pick(
+                format!("no closed form within the bound on work: found {found} so far; open: {missing}"),
+                format!("pas de forme explicite dans la limite de calcul : trouvé jusqu'ici {found} ; reste {missing}"),
+            )
+        } else {
+            language.pick(
+                format!(
                     "no closed form: found {found}; no equation of degree up to 4 in one unknown is left for {missing}"
-                )
-            }
-        }
+                ),
+                format!(
+                    "pas de forme explicite : trouvé {found} ; pour {missing}, il ne reste aucune équation de degré au plus 4 à une seule inconnue"
+                ),
+            )
+        })
     }
 }
 
@@ -150,7 +166,10 @@ impl InverseModel {
         let chain = Chain::new(&settled, end).map_err(Refusal::Unsuitable)?;
         let n = chain.variables.len();
         if let Some(j) = options.given.iter().flatten().find(|&&j| j >= n) {
-            return Err(Refusal::Given(format!("joint {} is given, but there are only {n}", j + 1)));
+            return Err(Refusal::Given(Words::new(
+                format!("joint {} is given, but there are only {n}", j + 1),
+                format!("l'articulation {} est donnée, mais il n'y en a que {n}", j + 1),
+            )));
         }
         let (found, splits) = equations(&chain, options.goal);
         let value = |s: Symbol| settled.parameters.iter().find(|p| p.symbol == s)?.value?.eval(|_| None).ok();
@@ -239,12 +258,29 @@ fn is_whole(chain: &Chain, splits: &[Split]) -> bool {
     splits.iter().any(|s| s.left == 0 && s.right == chain.elements.len())
 }
 
-fn too_many(asked: &[usize], surplus: usize) -> String {
-    let joints = |k: usize| if k == 1 { "1 joint".into() } else { format!("{k} joints") };
-    match surplus {
-        0 => "no joint can be given: the arm has no more joints than its hand can use".into(),
-        _ => format!("{} given, but the arm has only {} too many", joints(asked.len()), joints(surplus)),
+fn too_many(asked: &[usize], surplus: usize) -> Words {
+    if surplus == 0 {
+        return Words::new(
+            "no joint can be given: the arm has no more joints than its hand can use",
+            "aucune articulation ne peut être donnée : le bras n'en a pas plus que son organe terminal ne peut en utiliser",
+        );
     }
+    let joints = |language: Language, k: usize| {
+        language.counted(k, ["joint", "joints"], ["articulation", "articulations"])
+    };
+    let (n, given) = (surplus, asked.len());
+    Words::new(
+        format!(
+            "{} given, but the arm has only {} too many",
+            joints(Language::English, given),
+            joints(Language::English, n)
+        ),
+        format!(
+            "{} {}, mais le bras n'en a que {n} en trop",
+            joints(Language::French, given),
+            if given < 2 { "donnée" } else { "données" }
+        ),
+    )
 }
 
 /// The axes that joint variables determine.
@@ -355,6 +391,17 @@ fn rank(chain: &Chain, samples: &Samples, goal: Goal) -> usize {
         }
     }
     rank
+}
+
+/// What branches are called, in each language.
+const BRANCHES: [[&str; 2]; 4] =
+    [["shoulder", "épaule"], ["elbow", "coude"], ["wrist", "poignet"], ["reach", "portée"]];
+
+/// The names of branches in a language: `shoulder+ elbow2−` is `épaule+ coude2−`.
+pub fn branch_words(label: &str, language: Language) -> String {
+    BRANCHES.iter().fold(label.to_string(), |text, [english, french]| {
+        text.replace(english, language.pick(english, french))
+    })
 }
 
 /// What people call the branches: the first turning joint's are the shoulder's, those of the last three joints the

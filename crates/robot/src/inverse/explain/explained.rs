@@ -1,6 +1,6 @@
 //! What is said of a step.
 
-use crate::explain::{Factor, Line, Math, Proof};
+use crate::explain::{Factor, Language, Math, Proof, Words};
 use denavit_symbolic::Expr;
 
 /// A formula that is printed.
@@ -26,7 +26,7 @@ pub struct Source {
     /// True if the squares of the rows are added.
     pub squared: bool,
     /// Why few joints occur.
-    pub why: Option<String>,
+    pub why: Option<Words>,
     /// The equations, numbered.
     pub equations: Vec<Statement>,
 }
@@ -37,7 +37,7 @@ pub struct Case {
     /// When.
     pub when: Vec<Math>,
     /// Then.
-    pub then: String,
+    pub then: Words,
 }
 
 /// A step explained.
@@ -51,12 +51,12 @@ pub struct Explained {
     pub values: usize,
     /// Where the equations come from.
     pub sources: Vec<Source>,
-    /// What is done with them: an elimination.
-    pub elimination: Option<Line>,
+    /// What is done with them: an unknown that is eliminated, and how.
+    pub elimination: Option<(Expr, Words)>,
     /// Names that are used from here on.
     pub names: Vec<Statement>,
     /// The type in words.
-    pub kind: String,
+    pub kind: Words,
     /// The type's number in the books: Paul; Khalil and Dombre.
     pub number: &'static str,
     /// The general form of the type.
@@ -68,16 +68,19 @@ pub struct Explained {
     /// When it has how many values.
     pub conditions: Vec<Case>,
     /// What the branches are called.
-    pub label: Option<String>,
+    pub label: Option<Words>,
     /// The sign that tells them apart, ±1.
     pub sign: Option<Expr>,
     /// Later steps that use the unknown, from 1.
     pub used_by: Vec<usize>,
     /// What is lost or added on the way.
-    pub remark: String,
+    pub remark: Words,
 }
 
 /// Ordinal numbers of rows and columns.
-pub fn ordinal(n: usize) -> &'static str {
-    ["zeroth", "first", "second", "third", "fourth"][n.min(4)]
+pub fn ordinal(n: usize, language: Language) -> &'static str {
+    language.pick(
+        ["zeroth", "first", "second", "third", "fourth"],
+        ["zéroième", "première", "deuxième", "troisième", "quatrième"],
+    )[n.min(4)]
 }

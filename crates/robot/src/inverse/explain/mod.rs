@@ -1,6 +1,6 @@
 //! The derivation in words and formulas, every formula proved.
 //!
-//! An [`Explanation`] holds what is said, step by step; [`Explanation::document`] says it, as a tree of
+//! An [`Explanation`] holds what is said, step by step; [`Explanation::document`] says it in a language, as a tree of
 //! [`crate::explain`].
 
 mod explained;
@@ -8,18 +8,18 @@ mod names;
 mod origin;
 mod prove;
 mod reading;
+mod sentence;
 mod step;
 mod words;
 
 pub use explained::{Case, Explained, Source, Statement};
-pub use origin::listed;
 
 use super::derivation::{
     Chain, Condition, Form, Goal, InverseModel, Motion, Norm, Split, Step, Stuck, Task, Unknown,
     axis_unknown, equations, settled,
 };
 use crate::description::Description;
-use crate::explain::{Block, Branch, Factor, Line, Math, Proof};
+use crate::explain::{Block, Branch, Factor, Language, Math, Proof};
 use crate::geometry::Transform;
 use denavit_symbolic::poly::Poly;
 use denavit_symbolic::vocabulary::Vocabulary;
@@ -57,8 +57,6 @@ pub struct Explanation {
     pub joints: Vec<Statement>,
     /// What a pose must meet: an arm with fewer than six directions does not reach all.
     pub leftovers: Vec<Statement>,
-    /// The branches, with the number of the solution at the ends.
-    pub branches: Option<Branch>,
     /// The largest number of isolated solutions; nothing if the derivation ended early.
     pub solutions: Option<usize>,
     /// Joint variables that were not found.
@@ -97,7 +95,6 @@ impl Explanation {
         explanation.rank = Some(model.rank);
         explanation.task = Some(model.task);
         explanation.solutions = Some(model.max_solutions());
-        explanation.branches = Some(branches(&explanation.steps, &mut 0));
         explanation
     }
 
@@ -167,13 +164,18 @@ impl Explanation {
     }
 
     /// The document.
-    pub fn document(&self) -> Vec<Block> {
-        words::document(self)
+    pub fn document(&self, language: Language) -> Vec<Block> {
+        language.set(words::document(self, language))
     }
 
     /// The formulas alone, to be computed one after another.
-    pub fn summary(&self) -> Vec<Block> {
-        words::formulas(self)
+    pub fn summary(&self, language: Language) -> Vec<Block> {
+        language.set(words::formulas(self, language))
+    }
+
+    /// The branches, with the number of the solution at the ends; nothing if the derivation ended early.
+    pub fn branches(&self, language: Language) -> Option<Branch> {
+        self.solutions.map(|_| words::branches(&self.steps, &mut 0, language))
     }
 }
 
@@ -251,7 +253,6 @@ impl Facts<'_> {
             leftovers: self.leftovers(&reading, &prover),
             task: None,
             steps,
-            branches: None,
             solutions: None,
             missing: vec![],
             surplus: 0,
@@ -384,35 +385,4 @@ fn placement(x: &Transform<Expr>) -> Vec<Factor> {
         )),
     }
     found
-}
-
-/// The tree of branches: a node for each choice, what follows without choice on its line.
-fn branches(steps: &[Explained], solutions: &mut usize) -> Branch {
-    let first = steps.iter().position(|s| s.values > 1).unwrap_or(steps.len());
-    let mut line = Line::default();
-    for (k, s) in steps[..first].iter().enumerate() {
-        line = line.text(if k == 0 { "" } else { ", " }).math(s.unknown);
-    }
-    let mut children = vec![];
-    if let Some(step) = steps.get(first) {
-        for k in 0..step.values {
-            let mut child = branches(&steps[first + 1..], solutions);
-            let which = match step.values {
-                2 => if k == 0 { "+" } else { "−" }.to_string(),
-                _ => (k + 1).to_string(),
-            };
-            let label = step.label.clone().unwrap_or_default();
-            let mut front = Line::default().math(step.unknown).text(" ").strong(format!("{label}{which}"));
-            if !child.line.0.is_empty() {
-                front = front.text(", ");
-            }
-            front.0.append(&mut child.line.0);
-            children.push(Branch { line: front, children: child.children });
-        }
-    } else {
-        *solutions += 1;
-        let text = format!("{}solution {solutions}", if line.0.is_empty() { "→ " } else { " → " });
-        line = line.text(text);
-    }
-    Branch { line, children }
 }

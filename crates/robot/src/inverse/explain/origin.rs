@@ -2,7 +2,7 @@
 
 use super::reading::{Reading, negated};
 use crate::description::Convention;
-use crate::explain::Factor;
+use crate::explain::{Factor, Language, Words};
 use crate::inverse::derivation::Kind;
 use crate::inverse::derivation::{Chain, Element, Motion};
 use crate::inverse::derivation::{Entry, Source, Split};
@@ -253,7 +253,7 @@ impl<'a> Matrices<'a> {
 
     /// Why few joints occur in an element: turning about an axis changes no component along it; a joint whose axis
     /// passes through a point does not move it.
-    pub fn why_short(&self, cut: &Cut) -> Option<String> {
+    pub fn why_short(&self, cut: &Cut) -> Option<Words> {
         let chain = self.chain();
         let middle: Vec<usize> = chain.elements[cut.left..cut.right]
             .iter()
@@ -285,58 +285,67 @@ impl<'a> Matrices<'a> {
             let of = middle.iter().copied().filter(|&k| g.is_some() && group(k) == g && !occurs(k));
             of.collect()
         };
-        let (mut said, mut free) = (vec![], vec![]);
+        // The axis along which the component is taken; those of what it is a component of.
         let front = absent(first);
-        if !front.is_empty() {
-            said.push(match front.len() {
-                1 => format!("a component along axis {}", joints(&front)),
-                _ => format!("a component along the parallel axes {}", joints(&front)),
-            });
-            free.extend(&front);
+        let mut of = vec![];
+        if cut.column == 2 {
+            of = absent(last).into_iter().filter(|k| !front.contains(k)).collect();
+        } else if cut.column == 3 {
+            let still = |k: usize| !occurs(k) && !front.contains(&k) && chain.axes[k].motion != Motion::Slide;
+            of = middle.iter().copied().rev().take_while(|&k| still(k)).collect();
+            of.reverse();
         }
-        if cut.column < 3 {
-            let back: Vec<usize> = absent(last).into_iter().filter(|k| !front.contains(k)).collect();
-            if cut.column == 2 && !back.is_empty() {
-                said.push(format!("of the direction of axis {}", joints(&back)));
-                free.extend(back);
-            }
-        } else {
-            let still: Vec<usize> = middle
-                .iter()
-                .copied()
-                .rev()
-                .take_while(|&k| !occurs(k) && !front.contains(&k) && chain.axes[k].motion != Motion::Slide)
-                .collect();
-            let still: Vec<usize> = still.into_iter().rev().collect();
-            if !still.is_empty() {
-                let axes = if still.len() == 1 { "axis" } else { "axes" };
-                said.push(format!("of a point on {axes} {}", joints(&still)));
-                free.extend(still);
-            }
-        }
+        let mut free: Vec<usize> = front.iter().chain(&of).copied().collect();
         free.sort_unstable();
-        let word = if free.len() == 1 { "joint" } else { "joints" };
-        let what = match said.first().is_some_and(|s| s.starts_with("of")) {
-            true => format!("a component {}", said.join(" ")),
-            false => said.join(" "),
-        };
-        (!said.is_empty()).then(|| format!("{what}: free of {word} {}", joints(&free)))
+        (!free.is_empty()).then(|| short(&front, (cut.column == 3, &of), &free))
     }
 }
 
-/// `2, 3 and 4`, from axes counted from 0.
-pub fn joints(axes: &[usize]) -> String {
-    let numbers: Vec<String> = axes.iter().map(|k| (k + 1).to_string()).collect();
-    listed(&numbers)
-}
-
-/// `a, b and c`
-pub fn listed(words: &[String]) -> String {
-    match words {
-        [] => String::new(),
-        [one] => one.clone(),
-        [front @ .., last] => format!("{} and {last}", front.join(", ")),
-    }
+/// That the component along some axes, of a direction or of a point on other axes, is free of some joints.
+fn short(along: &[usize], (is_point, of): (bool, &[usize]), free: &[usize]) -> Words {
+    let (english, french) = (Language::English, Language::French);
+    let mut said = Words::new("a component", "une composante");
+    // In French what it is a component of comes first.
+    let whole = match (of, is_point) {
+        ([], _) => Words::default(),
+        ([axis], false) => Words::new(
+            format!(" of the direction of axis {}", axis + 1),
+            format!(" de la direction de l'axe {}", axis + 1),
+        ),
+        (_, false) => Words::new(
+            format!(" of the direction of axis {}", english.numbers(of)),
+            format!(" de la direction des axes {}", french.numbers(of)),
+        ),
+        ([axis], true) => Words::new(
+            format!(" of a point on axis {}", axis + 1),
+            format!(" d'un point de l'axe {}", axis + 1),
+        ),
+        (_, true) => Words::new(
+            format!(" of a point on axes {}", english.numbers(of)),
+            format!(" d'un point commun aux axes {}", french.numbers(of)),
+        ),
+    };
+    let axis = match along {
+        [] => Words::default(),
+        [axis] => Words::new(format!(" along axis {}", axis + 1), format!(" suivant l'axe {}", axis + 1)),
+        _ => Words::new(
+            format!(" along the parallel axes {}", english.numbers(along)),
+            format!(" suivant les axes parallèles {}", french.numbers(along)),
+        ),
+    };
+    let joints = match free {
+        [joint] => Words::new(
+            format!(": free of joint {}", joint + 1),
+            format!(" : indépendante de l'articulation {}", joint + 1),
+        ),
+        _ => Words::new(
+            format!(": free of joints {}", english.numbers(free)),
+            format!(" : indépendante des articulations {}", french.numbers(free)),
+        ),
+    };
+    said.english += &(axis.english + &whole.english + &joints.english);
+    said.french += &(whole.french + &axis.french + &joints.french);
+    said
 }
 
 fn start(axes: &[usize], k: usize) -> usize {

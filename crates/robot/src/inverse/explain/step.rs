@@ -5,8 +5,9 @@ use super::names::Names;
 use super::origin::Matrices;
 use super::prove::{Prover, identity};
 use super::reading::{Reading, negated};
-use crate::explain::{Line, Math, Proof, Sign};
-use crate::inverse::derivation::{Determinant, Elimination, Form, Norm, Origin, Row, Step};
+use super::sentence;
+use crate::explain::{Math, Proof, Sign, Words};
+use crate::inverse::derivation::{Determinant, Form, Norm, Origin, Row, Step};
 use denavit_symbolic::poly::{Monomial, Poly};
 use denavit_symbolic::{Expr, Rational};
 
@@ -47,19 +48,19 @@ impl Context<'_> {
             elimination: self.elimination(step),
             sources,
             names: vec![],
-            kind: String::new(),
+            kind: Words::default(),
             number: "",
             form: vec![],
             coefficients: vec![],
             solution: vec![],
             conditions: vec![],
-            label: label.map(String::from),
+            label: label.map(sentence::label),
             sign: (step.cost.roots > 1).then(|| {
                 self.signs += 1;
                 Expr::symbol(&format!("κ{}", self.signs))
             }),
             used_by: vec![],
-            remark: remark(step),
+            remark: sentence::remark(step),
         };
         match &step.form {
             Form::Ratio { numerator, denominator } => self.ratio(i, numerator, denominator, &mut done),
@@ -154,24 +155,14 @@ impl Context<'_> {
         self.names.expr(self.reading, p, 2 + i)
     }
 
-    fn elimination(&self, step: &Step) -> Option<Line> {
+    fn elimination(&self, step: &Step) -> Option<(Expr, Words)> {
         let Origin::Eliminated { unknown, how, .. } = step.origins.first()? else { return None };
         let (name, meaning) = self.reading.name(*unknown);
-        let what = meaning.unwrap_or(name);
-        let line = Line::default().math(what);
-        Some(match how {
-            Elimination::Rotation => line.text(
-                " goes out when the two are solved for its terms, squared and added: the factors of its cosine and sine are those of a rotation.",
-            ),
-            Elimination::Cramer => line.text(
-                " goes out when its cosine and sine are solved for by Cramer's rule; the sum of their squares is 1.",
-            ),
-            Elimination::Displacement => line.text(" goes out when one is solved for it and put into the other."),
-        })
+        Some((meaning.unwrap_or(name), sentence::elimination(*how)))
     }
 
     fn ratio(&mut self, i: usize, numerator: &Poly, denominator: &Poly, done: &mut Explained) {
-        done.kind = "linear in the displacement".into();
+        done.kind = Words::new("linear in the displacement", "linéaire par rapport au déplacement");
         done.number = "1";
         let [a, b, ..] = self.letters;
         done.form = vec![Math::equation(a * done.unknown, b)];
@@ -187,7 +178,7 @@ impl Context<'_> {
         if self.reading.rank_of(denominator) > 0 {
             done.conditions.push(Case {
                 when: vec![Math::equation(unsigned(d), Expr::int(0))],
-                then: "the equation does not determine the displacement: if the right-hand side vanishes too, it is free or another equation gives it; else no solution".into(),
+                then: sentence::open_displacement(),
             });
         }
     }
@@ -197,7 +188,7 @@ impl Context<'_> {
     }
 
     fn quadratic(&mut self, i: usize, a: &Poly, b: &Poly, c: &Norm, done: &mut Explained) {
-        done.kind = "quadratic in the displacement".into();
+        done.kind = Words::new("quadratic in the displacement", "du second degré par rapport au déplacement");
         done.number = "5";
         let [la, lb, lc, ..] = self.letters;
         let r = done.unknown;
@@ -225,19 +216,22 @@ impl Context<'_> {
         let inside =
             if b.is_zero() && a.is_one() { -c } else { lb.powi(2) - if a.is_one() { lc } else { la * lc } };
         done.conditions = vec![
-            Case {
-                when: vec![Math::relation(inside, Sign::Less, zero)],
-                then: "out of reach: no solution on this branch".into(),
-            },
+            Case { when: vec![Math::relation(inside, Sign::Less, zero)], then: sentence::out_of_reach() },
             Case {
                 when: vec![Math::equation(inside, zero)],
-                then: "both values coincide (multiplicity 2)".into(),
+                then: Words::new(
+                    "both values coincide (multiplicity 2)",
+                    "les deux valeurs sont confondues (multiplicité 2)",
+                ),
             },
         ];
     }
 
     fn quartic(&mut self, i: usize, step: &Step, all: &[Norm; 5], done: &mut Explained) {
-        done.kind = "of degree 2 in cosine and sine: degree 4 in tan(θ/2)".into();
+        done.kind = Words::new(
+            "of degree 2 in cosine and sine: degree 4 in tan(θ/2)",
+            "de degré 2 en cosinus et sinus : degré 4 en tan(θ/2)",
+        );
         done.number = "none";
         let (c, s) = self.pair_of(step);
         let [a, b, d, e, g] = self.letters;
@@ -275,9 +269,19 @@ impl Context<'_> {
         done.solution.push(Statement { math: Math::equation(quartic, zero), number: None, proof });
         done.solution.push(self.plain(name, two * t.atan2(one)));
         done.conditions = vec![
-            Case { when: vec![], then: "as many values as the polynomial has real roots t = tan(θ/2): 0, 2 or 4; a double root counts twice".into() },
-            Case { when: vec![Math::equation(a - d + g, zero)], then: "one root is the half turn".into() },
-            Case { when: [a, b, d, e, g].into_iter().filter(|x| !x.is_zero()).map(|x| Math::equation(x, zero)).collect(), then: "the joint is free".into() },
+            Case { when: vec![], then: sentence::roots() },
+            Case {
+                when: vec![Math::equation(a - d + g, zero)],
+                then: Words::new("one root is the half turn", "une des racines est le demi-tour"),
+            },
+            Case {
+                when: [a, b, d, e, g]
+                    .into_iter()
+                    .filter(|x| !x.is_zero())
+                    .map(|x| Math::equation(x, zero))
+                    .collect(),
+                then: Words::new("the joint is free", "l'articulation est libre"),
+            },
         ];
     }
 
@@ -286,7 +290,10 @@ impl Context<'_> {
         let [a, b, ..] = self.letters;
         let name = done.unknown;
         let zero = Expr::int(0);
-        done.kind = "linear in cosine and sine, without right-hand side".into();
+        done.kind = Words::new(
+            "linear in cosine and sine, without right-hand side",
+            "linéaire en cosinus et sinus, sans second membre",
+        );
         done.number = "2";
         let (c, s) = self.pair_of(step);
         done.form = vec![Math::equation(a * c + b * s, zero)];
@@ -297,7 +304,7 @@ impl Context<'_> {
         done.solution = vec![Statement { proof, ..self.plain(name, (k * y).atan2(k * x)) }];
         done.conditions = vec![Case {
             when: vec![Math::equation(unsigned(x), zero), Math::equation(unsigned(y), zero)],
-            then: "the equation leaves the angle open: it is free (the arm can move with its hand still), or another equation gives it".into(),
+            then: sentence::open_angle(),
         }];
     }
 
@@ -316,7 +323,10 @@ impl Context<'_> {
                 continue;
             }
             // A cos = C: the cosine itself, the sine by the root.
-            done.kind = format!("one {} alone", if is_cos { "cosine" } else { "sine" });
+            done.kind = match is_cos {
+                true => Words::new("one cosine alone", "un cosinus seul"),
+                false => Words::new("one sine alone", "un sinus seul"),
+            };
             let (letter, value, rest) = if is_cos { (la, c, s) } else { (lb, s, c) };
             done.form = vec![Math::equation(letter * value, lc)];
             let factor = self.known(i, of);
@@ -341,7 +351,7 @@ impl Context<'_> {
             self.reach(i, row, done, Some(vn));
             return;
         }
-        done.kind = "linear in cosine and sine".into();
+        done.kind = Words::new("linear in cosine and sine", "linéaire en cosinus et sinus");
         done.form = vec![Math::equation(la * c + lb * s, lc)];
         // The equation times −1 exchanges the branches.
         let flipped = flipped(self, row);
@@ -366,10 +376,7 @@ impl Context<'_> {
                 .filter(|e| !e.is_zero())
                 .map(|e| Math::equation(unsigned(e), zero))
                 .collect();
-            done.conditions.push(Case {
-                when,
-                then: "no solution, unless the right-hand side vanishes too: then the equation leaves the joint open".into(),
-            });
+            done.conditions.push(Case { when, then: sentence::open_unless() });
         }
     }
 
@@ -383,12 +390,11 @@ impl Context<'_> {
                 let squares = Norm { squares: row.c.squares.clone(), plus: Poly::zero() };
                 let distance = self.sum(i, &squares);
                 let both = Math::Chain(low, vec![(Sign::AtMost, distance), (Sign::AtMost, high)]);
-                (both, "the arm is too short, or cannot fold so far: no solution on this branch")
+                (both, sentence::too_short())
             }
-            (None, Some(v)) => (
-                Math::Chain(-one, vec![(Sign::AtMost, v), (Sign::AtMost, one)]),
-                "out of reach: no solution on this branch",
-            ),
+            (None, Some(v)) => {
+                (Math::Chain(-one, vec![(Sign::AtMost, v), (Sign::AtMost, one)]), sentence::out_of_reach())
+            }
             (None, None) => {
                 let coefficients: Vec<Expr> = [&row.a, &row.b].map(|p| self.known(i, p)).to_vec();
                 let right = self.sum(i, &row.c);
@@ -397,13 +403,10 @@ impl Context<'_> {
                 let (a, b, c) =
                     if total <= SHORT { (coefficients[0], coefficients[1], right) } else { (la, lb, lc) };
                 let (left, right) = (length_squared(a, b), c.powi(2));
-                (Math::relation(left, Sign::AtLeast, right), "out of reach: no solution on this branch")
+                (Math::relation(left, Sign::AtLeast, right), sentence::out_of_reach())
             }
         };
-        done.conditions.push(Case {
-            when: vec![when],
-            then: format!("two values; they coincide where equality holds (multiplicity 2, a singular configuration); otherwise {less}"),
-        });
+        done.conditions.push(Case { when: vec![when], then: sentence::two_values(&less) });
     }
 
     /// Bounds of D² = Σ squares for A² + B² = C², C = D² − K, with A, B, K constants: K ± √(A² + B²), as squares
@@ -455,7 +458,10 @@ impl Context<'_> {
         let name = done.unknown;
         let zero = Expr::int(0);
         done.number = "3";
-        done.kind = "two equations, linear in cosine and sine".into();
+        done.kind = Words::new(
+            "two equations, linear in cosine and sine",
+            "deux équations linéaires en cosinus et sinus",
+        );
         let lone = |p: &Poly| p.terms().len() == 1 && self.reading.rank_of(p) == 0;
         let rows = [0, 1].map(|k| flipped(self, &step.rows[k]).unwrap_or_else(|| step.rows[k].clone()));
         let (r1, r2) = (&rows[0], &rows[1]);
@@ -463,7 +469,10 @@ impl Context<'_> {
             .into_iter()
             .find(|(x, y)| x.b.is_zero() && y.a.is_zero() && lone(&x.a) && lone(&y.b));
         if let Some((x, y)) = separate {
-            done.kind = "cosine and sine, each from an equation of its own".into();
+            done.kind = Words::new(
+                "cosine and sine, each from an equation of its own",
+                "cosinus et sinus, chacun donné par sa propre équation",
+            );
             let mut values = vec![];
             for (row, of, value) in [(x, &x.a, c), (y, &y.b, s)] {
                 let negative = of.terms()[0].1.is_negative();
@@ -482,7 +491,7 @@ impl Context<'_> {
                 done.solution.push(Statement { proof: Some(py), ..self.plain(s, y) });
                 done.solution.push(self.plain(name, s.atan2(c)));
             }
-            done.conditions.push(Case { when: vec![], then: "always exactly one value".into() });
+            done.conditions.push(Case { when: vec![], then: sentence::one_value() });
             return;
         }
         let coefficients = |row: &Row| [self.known(i, &row.a), self.known(i, &row.b), self.sum(i, &row.c)];
@@ -518,7 +527,8 @@ impl Context<'_> {
             done.solution.push(Statement { proof: Some(px), ..self.plain(c, x / symbol) });
             done.solution.push(Statement { proof: Some(py), ..self.plain(s, y / symbol) });
             done.solution.push(self.plain(name, s.atan2(c)));
-            done.conditions.push(Case { when: vec![Math::equation(symbol, zero)], then: "the two equations are one: two values, or a free joint, or none; the solver goes by the longer row".into() });
+            done.conditions
+                .push(Case { when: vec![Math::equation(symbol, zero)], then: sentence::one_equation() });
         } else {
             done.solution.push(Statement { proof, ..self.plain(name, y.atan2(x)) });
             match determinant {
@@ -528,9 +538,9 @@ impl Context<'_> {
                         .filter(|e| !e.is_zero())
                         .map(|e| Math::equation(unsigned(e), zero))
                         .collect(),
-                    then: "if the right-hand sides vanish too, the joint is free or another equation gives it; else no solution".into(),
+                    then: sentence::open_joint(),
                 }),
-                _ => done.conditions.push(Case { when: vec![], then: "always exactly one value".into() }),
+                _ => done.conditions.push(Case { when: vec![], then: sentence::one_value() }),
             }
         }
     }
@@ -572,14 +582,4 @@ fn type_2() -> Proof {
         identity(put(x.powi(2) + y.powi(2)), Expr::int(1))
     });
     on_line.max(on_circle[0]).max(on_circle[1])
-}
-
-fn remark(step: &Step) -> String {
-    let squares = step.origins.iter().any(|o| matches!(o, Origin::Squares { .. }));
-    match (&step.form, step.cost.spurious, squares) {
-        (_, true, _) => "The elimination may add roots that solve this equation alone; the residual of the pose sorts them out.".into(),
-        (_, false, true) => "Squaring adds no root: for each value of the unknown the components give the direction that was squared away.".into(),
-        (Form::Pair { .. } | Form::Line | Form::Sincos | Form::Ratio { .. }, ..) => "Nothing is dropped, nothing is squared.".into(),
-        _ => "No root is added.".into(),
-    }
 }

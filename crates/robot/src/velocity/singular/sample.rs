@@ -3,7 +3,7 @@
 use crate::description::Description;
 use crate::inverse::derivation::Random;
 use crate::robot::Robot;
-use denavit_symbolic::{Expr, Rational, Symbol};
+use denavit_symbolic::{Expr, Symbol};
 
 /// Random starts.
 const STARTS: usize = 40;
@@ -11,6 +11,12 @@ const STARTS: usize = 40;
 const STEPS: usize = 50;
 /// The other factors are not smaller than this, of their usual size.
 const APART: f64 = 0.05;
+
+/// A configuration of a robot at which `factor` is 0 and the other factors are not; lengths without value are those of
+/// [`Description::filled`].
+pub fn singular_configuration(description: &Description, factor: Expr, factors: &[Expr]) -> Option<Vec<f64>> {
+    Finder::new(description).find(factor, factors).map(|found| found.1)
+}
 
 /// Finds configurations of a robot, with lengths of its own where it gives none.
 pub struct Finder {
@@ -22,15 +28,7 @@ pub struct Finder {
 impl Finder {
     /// For a robot.
     pub fn new(description: &Description) -> Self {
-        let mut with_values = description.clone();
-        for (k, p) in with_values.parameters.iter_mut().enumerate() {
-            if p.value.is_none() {
-                // No two lengths alike, and no sum of two a third.
-                let thousandths =
-                    310 + 97 * i64::try_from(k).unwrap_or(0) + i64::try_from(k * k).unwrap_or(0);
-                p.value = Some(Expr::from(&Rational::from(thousandths) / &Rational::from(1000)));
-            }
-        }
+        let with_values = description.filled();
         let value = |p: &crate::description::Parameter| Some((p.symbol, p.value?.eval(|_| None).ok()?));
         Finder {
             robot: Robot::numeric(&with_values).ok(),

@@ -1,0 +1,154 @@
+//! `denavit report`: everything about a robot as a document.
+
+mod pdf;
+
+use crate::arguments::{ReportArguments, ReportFormat, ReportLanguage, SectionName};
+use crate::commands::fk::configuration;
+use crate::failure::Failure;
+use crate::load;
+use denavit::check::document::Format;
+use denavit::check::{Checked, check};
+use denavit::description::Description;
+use denavit::explain::Language;
+use denavit_report::{Document, Errata, Options, Topic, render, report};
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Writes the report.
+///
+/// # Errors
+/// If there is no such robot, the format is not known, or nothing can be written; 4 where a PDF needs Typst and there is
+/// none.
+pub fn run(arguments: &ReportArguments) -> Result<(), Failure> {
+    let description = load::robot(&arguments.robot)?;
+    let format = format(arguments)?;
+    let pose = arguments.q.as_deref().map(|text| configuration(&description, text)).transpose()?;
+    let source = checked(arguments, &description)?;
+    let errata =
+        source.as_ref().map(|(text, checked)| Errata { name: &arguments.robot.robot, text, checked });
+    let options = Options {
+        language: match arguments.language {
+            ReportLanguage::En => Language::English,
+            ReportLanguage::Fr => Language::French,
+        },
+        topics: topics(arguments),
+        conventions: arguments.conventions.iter().map(|&c| c.into()).collect(),
+        pose,
+        errata,
+    };
+    let document = report(&description, &options);
+    write(&document, format, &arguments.output)
+}
+
+fn topics(arguments: &ReportArguments) -> Vec<Topic> {
+    match &arguments.sections[..] {
+        [] => Topic::ALL.to_vec(),
+        some => some.iter().map(|&s| s.into()).collect(),
+    }
+}
+
+/// As said, or by the ending of the file.
+fn format(arguments: &ReportArguments) -> Result<ReportFormat, Failure> {
+    if let Some(format) = arguments.format {
+        return Ok(format);
+    }
+    let ending = arguments.output.extension().and_then(|e| e.to_str()).unwrap_or_default().to_lowercase();
+    match &ending[..] {
+        "pdf" => Ok(ReportFormat::Pdf),
+        "html" | "htm" => Ok(ReportFormat::Html),
+        "typ" => Ok(ReportFormat::Typst),
+        "tex" => Ok(ReportFormat::Latex),
+        "md" | "markdown" => Ok(ReportFormat::Markdown),
+        _ => Err(Failure::Usage(format!(
+            "-o {}: the ending says the format: .pdf, .html, .typ, .tex or .md; or give --format",
+            arguments.output.display()
+        ))),
+    }
+}
+
+/// What is found in the document that the robot comes from, if it comes from one and that claims anything.
+fn checked(
+    arguments: &ReportArguments,
+    description: &Description,
+) -> Result<Option<(String, Checked)>, Failure> {
+    let name = &arguments.robot.robot;
+    let is_document = matches!(
+        Path::new(name).extension().and_then(|e| e.to_str()),
+        Some("md" | "markdown" | "txt" | "tex")
+    );
+    let wanted = topics(arguments).contains(&Topic::Errata);
+    if !(is_document && wanted) {
+        return Ok(None);
+    }
+    let text = fs::read(name).map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
+    let text = String::from_utf8_lossy(&text).into_owned();
+    let options =
+        denavit::check::Options { table: load::table_options(&arguments.robot), ..Default::default() };
+    // What the reader of tables took is there; what cannot be read beside it is no part of the report.
+    let checked = check(&text, Format::of(name, &text), Some(description), &options).ok();
+    Ok(checked.map(|c| (text, c)))
+}
+
+fn write(document: &Document, format: ReportFormat, to: &Path) -> Result<(), Failure> {
+    let bytes = match format {
+        ReportFormat::Html => render::html(document).into_bytes(),
+        ReportFormat::Typst => render::typst(document).into_bytes(),
+        ReportFormat::Latex => render::latex(document).into_bytes(),
+        ReportFormat::Pdf => pdf::pdf(&render::typst(document))?,
+        ReportFormat::Markdown => return markdown(document, to),
+    };
+    put(to, &bytes)
+}
+
+/// The text, and its figures in a folder beside it.
+fn markdown(document: &Document, to: &Path) -> Result<(), Failure> {
+    let stem = to.file_stem().map_or("report".into(), |s| s.to_string_lossy());
+    let stem = if is_stdout(to) { "report".into() } else { stem };
+    let written = render::markdown(document, &format!("{stem}-figures"));
+    let folder = to.parent().map(Path::to_path_buf).unwrap_or_default();
+    if !is_stdout(to) {
+        for (name, svg) in &written.figures {
+            let path: PathBuf = folder.join(name);
+            if let Some(parent) = path.parent() {
+                fs::create_dir_all(parent).map_err(|e| cannot(parent, &e))?;
+            }
+            put(&path, svg.as_bytes())?;
+        }
+    }
+    put(to, written.text.as_bytes())
+}
+
+fn is_stdout(to: &Path) -> bool {
+    to.as_os_str() == "-"
+}
+
+/// Into a file, or to standard output.
+pub fn put(to: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    if is_stdout(to) {
+        return Ok(std::io::stdout().write_all(bytes)?);
+    }
+    fs::write(to, bytes).map_err(|e| cannot(to, &e))
+}
+
+fn cannot(path: &Path, e: &std::io::Error) -> Failure {
+    Failure::Input(format!("error: {}: {e}", path.display()))
+}
+
+impl From<SectionName> for Topic {
+    fn from(name: SectionName) -> Self {
+        match name {
+            SectionName::Summary => Topic::Summary,
+            SectionName::Figures => Topic::Figures,
+            SectionName::Table => Topic::Table,
+            SectionName::Links => Topic::Links,
+            SectionName::Forward => Topic::Forward,
+            SectionName::Example => Topic::Example,
+            SectionName::Inverse => Topic::Inverse,
+            SectionName::Velocity => Topic::Velocity,
+            SectionName::Workspace => Topic::Workspace,
+            SectionName::Errata => Topic::Errata,
+            SectionName::References => Topic::References,
+        }
+    }
+}

@@ -1,0 +1,43 @@
+//! Quantities as they stand in tables.
+
+use denavit::explain::Line;
+use denavit_symbolic::{Angle, Expr, Rational};
+
+/// A length as a formula or in metres, an angle in degrees; what is no multiple of π in radians.
+pub fn cell(e: Expr, is_angle: bool) -> Line {
+    if let (false, Some(length)) = (is_angle, e.as_number()) {
+        return Line::new(decimals(length.to_f64(), 9));
+    }
+    if !is_angle {
+        return Line::default().math(e);
+    }
+    let mut angle = Angle::of(e);
+    let degrees = &std::mem::take(&mut angle.turns) * &Rational::from(180);
+    let radians = std::mem::take(&mut angle.radians);
+    let symbolic = angle.to_expr();
+    let mut line = if symbolic.is_zero() { Line::default() } else { Line::default().math(symbolic) };
+    for (constant, unit) in [(degrees, "°"), (radians, " rad")] {
+        if constant.is_zero() {
+            continue;
+        }
+        let is_first = line.0.is_empty();
+        line = line.text(match (is_first, constant.is_negative()) {
+            (true, true) => "−",
+            (true, false) => "",
+            (false, true) => " − ",
+            (false, false) => " + ",
+        });
+        line = line.text(format!("{}{unit}", decimals(constant.abs().to_f64(), 9)));
+    }
+    if line.0.is_empty() { Line::new("0") } else { line }
+}
+
+/// A number with at most so many digits behind the point, none of them a zero at the end.
+pub fn decimals(x: f64, digits: usize) -> String {
+    if x.abs() >= 1e9 {
+        return format!("{x:e}").replace('-', "−");
+    }
+    let text = format!("{x:.digits$}");
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    if text == "-0" { "0".into() } else { text.replace('-', "−") }
+}

@@ -1,0 +1,115 @@
+//! The document tree: what explanations are made of, and what only a report has.
+
+use crate::figure::drawing::Drawing;
+use denavit::explain::{Block, Language, Line, Math, plain};
+use denavit_symbolic::vocabulary::Vocabulary;
+
+/// A document in no format.
+#[derive(Clone, Debug)]
+pub struct Document {
+    /// The title, plain words.
+    pub title: String,
+    /// The language of the words.
+    pub language: Language,
+    /// The parts, in order.
+    pub sections: Vec<Section>,
+}
+
+/// Parts whose formulas use the same names.
+#[derive(Clone, Debug)]
+pub struct Section {
+    /// How angles are numbered and which names are symbols.
+    pub names: Vocabulary,
+    /// In order.
+    pub parts: Vec<Part>,
+}
+
+/// A part of a document.
+#[derive(Clone, Debug)]
+pub enum Part {
+    /// What explanations are made of.
+    Block(Block),
+    /// Equations below each other, aligned at their signs.
+    Equations(Vec<Math>),
+    /// Formulas beside each other, as many as fit.
+    Beside(Vec<Math>),
+    /// What a reader should see first: labels and values.
+    Summary(Vec<(Line, Line)>),
+    /// Rows and columns.
+    Table(Table),
+    /// One picture, or several side by side.
+    Figure(Figure),
+    /// Text that is set as it stands.
+    Code(String),
+}
+
+/// Rows and columns.
+#[derive(Clone, Debug)]
+pub struct Table {
+    /// What it shows.
+    pub caption: Line,
+    /// The heading of each column.
+    pub head: Vec<Line>,
+    /// One cell a column.
+    pub rows: Vec<Vec<Line>>,
+}
+
+/// Pictures with a caption.
+#[derive(Clone, Debug)]
+pub struct Figure {
+    /// What it shows.
+    pub caption: Line,
+    /// The pictures, each with a caption of its own where there are several.
+    pub pictures: Vec<(Drawing, Line)>,
+}
+
+impl From<Block> for Part {
+    fn from(block: Block) -> Self {
+        Part::Block(block)
+    }
+}
+
+impl Section {
+    /// A section without parts.
+    pub fn new(names: Vocabulary) -> Self {
+        Section { names, parts: vec![] }
+    }
+
+    /// A part more.
+    pub fn push(&mut self, part: impl Into<Part>) {
+        self.parts.push(part.into());
+    }
+
+    /// A heading: level 2 for sections of a document, 3 inside.
+    pub fn heading(&mut self, level: u8, line: Line) {
+        self.push(Block::Heading(level, line));
+    }
+
+    /// Running text.
+    pub fn paragraph(&mut self, line: Line) {
+        self.push(Block::Paragraph(line));
+    }
+
+    /// A formula on lines of its own.
+    pub fn formula(&mut self, math: Math) {
+        self.push(Block::Formula { math, number: None, proof: None });
+    }
+}
+
+impl Part {
+    /// One picture; its caption says what is to be seen, for those who do not see it, too.
+    pub fn figure(language: Language, drawing: Drawing, caption: Line) -> Self {
+        Part::figures(language, vec![(drawing, Line::default())], caption)
+    }
+
+    /// Pictures side by side, each with a caption of its own.
+    pub fn figures(language: Language, mut pictures: Vec<(Drawing, Line)>, caption: Line) -> Self {
+        for (drawing, own) in &mut pictures {
+            let own = plain(own, &Vocabulary::new());
+            let whole = plain(&caption, &Vocabulary::new());
+            let colon = language.pick(": ", "\u{a0}: ");
+            drawing.description = if own.is_empty() { whole } else { format!("{own}{colon}{whole}") };
+        }
+        Part::Figure(Figure { caption, pictures })
+    }
+}

@@ -1,0 +1,16 @@
+//! Documents about a robot: what `denavit` derives, as a document that one would hand in.
+//!
+//! [`report`] makes a [`Document`], a tree that knows no format; [`render`] writes it as Typst, LaTeX, Markdown and
+//! HTML. [`figure`] draws the arm. Nothing here opens a file; nothing computes what the robot crate should.
+
+mod cell;
+mod derivation;
+mod document;
+pub mod figure;
+pub mod render;
+mod sections;
+
+pub use cell::{cell, decimals};
+pub use derivation::Derivation;
+pub use document::{Document, Figure, Part, Section, Table};
+pub use sections::{Errata, Options, Topic, columns, report};

@@ -1,0 +1,280 @@
+//! One page of HTML that needs nothing else: MathML with a font of its own, figures inside, light and dark.
+//!
+//! The page is well-formed XML, too.
+
+use super::layout::{columns, display, equation, inline, mark, named};
+use super::nested::{Item, nested};
+use crate::document::{Document, Figure, Part, Section, Table};
+use crate::figure::svg::{Palette, style, svg};
+use base64::Engine;
+use denavit::explain::{Block, BrokenLine, Laid, Language, Line, Math, Piece, math};
+use denavit_symbolic::print::Style;
+use denavit_symbolic::vocabulary::Vocabulary;
+use std::fmt::Write;
+
+/// STIX Two Math, the letters and signs that formulas use; under the SIL Open Font License, beside it.
+const FONT: &[u8] = include_bytes!("../../assets/maths.woff2");
+const LOOK: &str = include_str!("../../assets/page.css");
+
+/// The page.
+pub fn page(document: &Document) -> String {
+    let language = document.language.pick("en", "fr");
+    let title = escaped(&document.title);
+    let font = base64::engine::general_purpose::STANDARD.encode(FONT);
+    let mut writer =
+        Writer { out: String::new(), contents: vec![], figures: 0, tables: 0, language: document.language };
+    for section in &document.sections {
+        writer.section(section);
+    }
+    let mut out = format!(
+        "<!DOCTYPE html>\n<html lang=\"{language}\">\n<head>\n<meta charset=\"utf-8\"/>\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
+         <meta name=\"generator\" content=\"denavit {}\"/>\n<title>{title}</title>\n<style>\n\
+         @font-face{{font-family:\"Denavit Maths\";src:url(data:font/woff2;base64,{font}) format(\"woff2\")}}\n\
+         {LOOK}{}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n",
+        env!("CARGO_PKG_VERSION"),
+        style()
+    );
+    if writer.contents.len() > 3 {
+        let _ =
+            writeln!(out, "<nav aria-label=\"{}\">\n<ol>", document.language.pick("Contents", "Sommaire"));
+        for (k, heading) in writer.contents.iter().enumerate() {
+            let _ = writeln!(out, "<li><a href=\"#s{}\">{heading}</a></li>", k + 1);
+        }
+        out.push_str("</ol>\n</nav>\n");
+    }
+    out + &writer.out + "</main>\n</body>\n</html>\n"
+}
+
+struct Writer {
+    out: String,
+    /// Headings of level 2.
+    contents: Vec<String>,
+    figures: usize,
+    tables: usize,
+    language: Language,
+}
+
+impl Writer {
+    fn section(&mut self, section: &Section) {
+        let names = &section.names;
+        for part in &section.parts {
+            match part {
+                Part::Block(of) => self.block(of, names),
+                Part::Equations(all) => self.equations(all, names),
+                Part::Beside(all) => {
+                    self.out.push_str("<div class=\"beside\">\n");
+                    for m in all {
+                        self.block(&Block::Formula { math: m.clone(), number: None, proof: None }, names);
+                    }
+                    self.out.push_str("</div>\n");
+                }
+                Part::Summary(rows) => self.summary(rows, names),
+                Part::Table(of) => self.table(of, names),
+                Part::Figure(of) => self.figure(of, names),
+                Part::Code(text) => {
+                    let _ = writeln!(self.out, "<pre><code>{}</code></pre>", escaped_lines(text));
+                }
+            }
+        }
+    }
+
+    fn block(&mut self, block: &Block, names: &Vocabulary) {
+        if let Some(named) = named(block, names) {
+            self.block(&named.matrix, &named.names);
+            return self.equations(&named.entries, &named.names);
+        }
+        match block {
+            // The page has its title.
+            Block::Heading(1, _) => {}
+            Block::Heading(2, line) => {
+                self.contents.push(words(line, names));
+                let _ = writeln!(self.out, "<h2 id=\"s{}\">{}</h2>", self.contents.len(), words(line, names));
+            }
+            Block::Heading(level, line) => {
+                let level = (*level).min(6);
+                let _ = writeln!(self.out, "<h{level}>{}</h{level}>", words(line, names));
+            }
+            Block::Paragraph(line) => {
+                let _ = writeln!(self.out, "<p>{}</p>", words(line, names));
+            }
+            Block::Formula { math, number, proof } => {
+                let mark = mark(*proof, ["✓", "≈", "NOT TRUE"]);
+                let said = self.said(mark);
+                let number = number.map(|n| format!("({n})")).unwrap_or_default();
+                let tail = match (number.is_empty(), mark.is_empty()) {
+                    (true, true) => String::new(),
+                    (_, true) => format!("<span class=\"number\">{number}</span>"),
+                    _ => format!(
+                        "<span class=\"number\">{number} <span role=\"img\" aria-label=\"{said}\">{mark}</span></span>"
+                    ),
+                };
+                let set = lines(&display(math, names, Style::MathMl));
+                self.formula(&set, &spoken(math, names), &tail);
+            }
+            Block::List(lines) => {
+                self.out.push_str("<ul>\n");
+                for line in lines {
+                    let _ = writeln!(self.out, "<li>{}</li>", words(line, names));
+                }
+                self.out.push_str("</ul>\n");
+            }
+            Block::Tree(branch) => nested(branch, &mut |item| {
+                let _ = match item {
+                    Item::Open(_) => writeln!(self.out, "<ul class=\"tree\">"),
+                    Item::Item(_, line) => writeln!(self.out, "<li>{}", words(line, names)),
+                    Item::Done => writeln!(self.out, "</li>"),
+                    Item::Close(_) => writeln!(self.out, "</ul>"),
+                };
+            }),
+        }
+    }
+
+    fn said(&self, mark: &str) -> &'static str {
+        match mark {
+            "✓" => self.language.pick("proved", "démontré"),
+            "≈" => self.language.pick("checked at sample poses", "vérifié pour des poses d'essai"),
+            _ => self.language.pick("not true", "faux"),
+        }
+    }
+
+    fn formula(&mut self, set: &str, alt: &str, tail: &str) {
+        let _ = writeln!(
+            self.out,
+            "<div class=\"formula\"><math displaystyle=\"true\" alttext=\"{}\">{set}</math>{tail}</div>",
+            escaped(alt)
+        );
+    }
+
+    fn equations(&mut self, all: &[Math], names: &Vocabulary) {
+        if all.is_empty() {
+            return;
+        }
+        let set: String = all.iter().map(|m| rows(&equation(m, names, Style::MathMl))).collect();
+        let alt: Vec<String> = all.iter().map(|m| spoken(m, names)).collect();
+        self.formula(&format!("<mtable class=\"lines\">{set}</mtable>"), &alt.join("; "), "");
+    }
+
+    fn summary(&mut self, rows: &[(Line, Line)], names: &Vocabulary) {
+        self.out.push_str("<dl class=\"summary\">\n");
+        for (label, value) in rows {
+            let _ = writeln!(self.out, "<dt>{}</dt><dd>{}</dd>", words(label, names), words(value, names));
+        }
+        self.out.push_str("</dl>\n");
+    }
+
+    fn table(&mut self, table: &Table, names: &Vocabulary) {
+        self.tables += 1;
+        let word = self.language.pick("Table", "Tableau");
+        let _ = writeln!(
+            self.out,
+            "<div class=\"table\"><table>\n<caption><b>{word} {}.</b> {}</caption>\n<thead><tr>",
+            self.tables,
+            words(&table.caption, names)
+        );
+        for head in &table.head {
+            let _ = write!(self.out, "<th scope=\"col\">{}</th>", words(head, names));
+        }
+        self.out.push_str("</tr></thead>\n<tbody>\n");
+        for row in &table.rows {
+            let cells: String = row.iter().map(|c| format!("<td>{}</td>", words(c, names))).collect();
+            let _ = writeln!(self.out, "<tr>{cells}</tr>");
+        }
+        self.out.push_str("</tbody>\n</table></div>\n");
+    }
+
+    fn figure(&mut self, figure: &Figure, names: &Vocabulary) {
+        self.figures += 1;
+        let word = "Figure";
+        self.out.push_str("<figure>\n");
+        match &figure.pictures[..] {
+            [(one, _)] => self.out += &svg(one, Palette::Page, &format!("f{}", self.figures)),
+            many => {
+                let _ = writeln!(self.out, "<div class=\"pictures of-{}\">", columns(many.len()));
+                for (k, (drawing, caption)) in many.iter().enumerate() {
+                    let svg = svg(drawing, Palette::Page, &format!("f{}-{}", self.figures, k + 1));
+                    let _ = writeln!(self.out, "<div>{svg}<p>{}</p></div>", words(caption, names));
+                }
+                self.out.push_str("</div>\n");
+            }
+        }
+        let _ = writeln!(
+            self.out,
+            "<figcaption><b>{word} {}.</b> {}</figcaption>\n</figure>",
+            self.figures,
+            words(&figure.caption, names)
+        );
+    }
+}
+
+/// The formula for those who hear it.
+fn spoken(m: &Math, names: &Vocabulary) -> String {
+    math(m, names, Style::Unicode)
+}
+
+fn lines(laid: &Laid) -> String {
+    match &laid.lines[..] {
+        [one] => format!("<mrow>{}{}</mrow>", laid.left, one.text),
+        _ => format!("<mtable class=\"lines\">{}</mtable>", rows(laid)),
+    }
+}
+
+/// Rows of a table, with the place where they are aligned.
+fn rows(laid: &Laid) -> String {
+    let line = |(k, line): (usize, &BrokenLine)| {
+        let left = if k == 0 { laid.left.as_str() } else { "" };
+        let indent = match line.depth {
+            0 => String::new(),
+            depth => format!("<mspace width=\"{depth}em\"></mspace>"),
+        };
+        // The sign of equality keeps its space at the start of a cell.
+        let text =
+            if k == 0 { line.text.replacen("<mo>", "<mo form=\"infix\">", 1) } else { line.text.clone() };
+        let text = if k == 0 && !line.text.starts_with("<mo>") { &line.text } else { &text };
+        format!("<mtr><mtd>{left}</mtd><mtd><mrow>{indent}{text}</mrow></mtd></mtr>")
+    };
+    laid.lines.iter().enumerate().map(line).collect()
+}
+
+fn words(line: &Line, names: &Vocabulary) -> String {
+    let piece = |p: &Piece| match p {
+        Piece::Text(t) => escaped(t),
+        Piece::Strong(t) => format!("<strong>{}</strong>", escaped(t)),
+        Piece::Math(m) => {
+            let parts = inline(m, names, Style::MathMl);
+            let alt = |k: usize| match k {
+                0 => format!(" alttext=\"{}\"", escaped(&spoken(m, names))),
+                _ => " alttext=\"…\"".into(),
+            };
+            let set = parts.iter().enumerate().map(|(k, part)| {
+                let part =
+                    if k == 0 { part.clone() } else { part.replacen("<mo>", "<mo form=\"infix\">", 1) };
+                format!("<math{}><mrow>{part}</mrow></math>", alt(k))
+            });
+            set.collect::<Vec<_>>().join(" ")
+        }
+    };
+    line.0.iter().map(piece).collect()
+}
+
+/// Text outside of formulas.
+pub fn escaped(text: &str) -> String {
+    let mut out = String::new();
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\'' => out.push_str("&#39;"),
+            // Not allowed in XML, not even as a reference.
+            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => out.push(' '),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+fn escaped_lines(text: &str) -> String {
+    text.lines().map(escaped).collect::<Vec<_>>().join("\n")
+}

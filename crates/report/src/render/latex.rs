@@ -1,0 +1,296 @@
+//! LaTeX for a plain TeX Live: the packages amsmath, amssymb and, for figures, tikz.
+
+use super::layout::{self, columns, display, equation, inline, mark, named};
+use super::nested::{Item, nested};
+use crate::document::{Document, Figure, Part, Section, Table};
+use crate::figure::tikz::tikz;
+use denavit::explain::{Block, BrokenLine, Laid, Language, Line, Math, Piece, math};
+use denavit_symbolic::greek;
+use denavit_symbolic::print::Style;
+use denavit_symbolic::vocabulary::Vocabulary;
+use std::fmt::Write;
+
+/// A fragment to paste into a document.
+pub fn fragment(document: &Document) -> String {
+    let figures = document.sections.iter().flat_map(|s| &s.parts).any(|p| matches!(p, Part::Figure(_)));
+    let mut out = format!(
+        "% Made by denavit {}; needs amsmath and amssymb{}.\n\\section*{{{}}}\n",
+        env!("CARGO_PKG_VERSION"),
+        if figures { ", and tikz for figures" } else { "" },
+        escaped(&document.title)
+    );
+    for section in &document.sections {
+        parts(section, "*", &mut out);
+    }
+    out
+}
+
+/// A document of its own.
+pub fn whole(document: &Document) -> String {
+    let mut out = format!(
+        "% Made by denavit {}.\n\\documentclass[10pt,a4paper]{{article}}\n\
+         \\usepackage[margin=2.2cm]{{geometry}}\n\\usepackage{{amsmath,amssymb,tikz}}\n\
+         \\allowdisplaybreaks\n\\setcounter{{MaxMatrixCols}}{{20}}\n\\setcounter{{secnumdepth}}{{1}}\n\\sloppy\n",
+        env!("CARGO_PKG_VERSION")
+    );
+    // Without a package for it: most installations have none for French.
+    if document.language == Language::French {
+        out += "\\renewcommand{\\figurename}{Figure}\n\\renewcommand{\\tablename}{Tableau}\n";
+    }
+    let _ = writeln!(
+        out,
+        "\\title{{{}}}\n\\date{{}}\n\\author{{}}\n\\begin{{document}}\n\\maketitle\n",
+        escaped(&document.title)
+    );
+    for section in &document.sections {
+        parts(section, "", &mut out);
+    }
+    out + "\\end{document}\n"
+}
+
+fn parts(section: &Section, star: &str, out: &mut String) {
+    for part in &section.parts {
+        match part {
+            Part::Block(of) => block(of, &section.names, star, out),
+            Part::Equations(all) => equations(all, &section.names, out),
+            Part::Beside(all) => beside(all, section, star, out),
+            Part::Summary(rows) => summary(rows, &section.names, out),
+            Part::Table(of) => table(of, &section.names, out),
+            Part::Figure(of) => pictures(of, &section.names, out),
+            Part::Code(text) => code(text, out),
+        }
+    }
+}
+
+/// Formulas beside each other; one that does not fit the page at all stands alone.
+fn beside(all: &[Math], section: &Section, star: &str, out: &mut String) {
+    for row in layout::beside(all, &section.names) {
+        match row[..] {
+            [one] => {
+                let formula = Block::Formula { math: one.clone(), number: None, proof: None };
+                block(&formula, &section.names, star, out);
+            }
+            _ => {
+                let set = row.iter().map(|m| math(m, &section.names, Style::Latex));
+                let _ = writeln!(out, "\\[ {} \\]", set.collect::<Vec<_>>().join(" \\qquad "));
+            }
+        }
+    }
+}
+
+fn block(block: &Block, names: &Vocabulary, star: &str, out: &mut String) {
+    if let Some(named) = named(block, names) {
+        self::block(&named.matrix, &named.names, star, out);
+        return equations(&named.entries, &named.names, out);
+    }
+    match block {
+        Block::Heading(level, line) => {
+            // The title of a document is no section of it, but that of a fragment is.
+            let level = usize::from(*level).clamp(1, 3) - usize::from(star.is_empty() && *level > 1);
+            let command = ["section", "subsection", "subsubsection"][level - 1];
+            let _ = writeln!(out, "\\{command}{star}{{{}}}", words(line, names));
+        }
+        Block::Paragraph(line) => {
+            let _ = writeln!(out, "\n\\noindent {}\n", words(line, names));
+        }
+        Block::Formula { math, number, proof } => {
+            let mark = mark(*proof, [" \\quad\\checkmark", " \\quad\\approx", " \\quad\\textbf{NOT TRUE}"]);
+            let tag = number.map(|n| format!(" \\tag{{{n}}}")).unwrap_or_default();
+            let laid = display(math, names, Style::Latex);
+            let formula = match &laid.lines[..] {
+                [one] => laid.left.clone() + &one.text,
+                _ => rows(&laid),
+            };
+            let environment = if laid.lines.len() > 1 { "align*" } else { "equation*" };
+            let _ = writeln!(out, "\\begin{{{environment}}}\n{formula}{mark}{tag}\n\\end{{{environment}}}");
+        }
+        Block::List(lines) => {
+            out.push_str("\\begin{itemize}\n");
+            for line in lines {
+                let _ = writeln!(out, "  \\item {}", words(line, names));
+            }
+            out.push_str("\\end{itemize}\n");
+        }
+        Block::Tree(branch) => tree(branch, names, out),
+    }
+}
+
+/// LaTeX nests four lists at most; what is deeper is set in one line each.
+fn tree(branch: &denavit::explain::Branch, names: &Vocabulary, out: &mut String) {
+    nested(branch, &mut |item| {
+        let _ = match item {
+            Item::Open(depth) if depth < 4 => {
+                writeln!(out, "{}\\begin{{itemize}}\\setlength{{\\itemsep}}{{0pt}}", "  ".repeat(depth))
+            }
+            Item::Close(depth) if depth < 4 => writeln!(out, "{}\\end{{itemize}}", "  ".repeat(depth)),
+            Item::Item(depth, line) => {
+                let indent = format!("\\hspace*{{{}em}}", 2 * depth.saturating_sub(3));
+                let indent = if depth < 4 { "" } else { indent.as_str() };
+                writeln!(out, "{}  \\item {indent}{}", "  ".repeat(depth), words(line, names))
+            }
+            Item::Open(_) | Item::Close(_) | Item::Done => Ok(()),
+        };
+    });
+}
+
+/// Lines, with the place where they are aligned.
+fn rows(laid: &Laid) -> String {
+    let line = |(k, line): (usize, &BrokenLine)| {
+        let indent = "\\quad".repeat(line.depth);
+        let left = if k == 0 { laid.left.as_str() } else { "" };
+        let text = line.text.trim_start();
+        // A sign at the start of a line stands between two addends.
+        let sign = if k > 0 && text.starts_with(['+', '-']) { "{}" } else { "" };
+        format!("{left} &{indent} {sign}{text}")
+    };
+    laid.lines.iter().enumerate().map(line).collect::<Vec<_>>().join(" \\\\\n")
+}
+
+fn equations(all: &[Math], names: &Vocabulary, out: &mut String) {
+    let lines: Vec<String> = all.iter().map(|m| rows(&equation(m, names, Style::Latex))).collect();
+    if !lines.is_empty() {
+        let _ = writeln!(out, "\\begin{{align*}}\n{}\n\\end{{align*}}", lines.join(" \\\\\n"));
+    }
+}
+
+fn words(line: &Line, names: &Vocabulary) -> String {
+    let piece = |p: &Piece| match p {
+        Piece::Text(t) => escaped(t),
+        Piece::Strong(t) => format!("\\textbf{{{}}}", escaped(t)),
+        Piece::Math(m) => {
+            let parts = inline(m, names, Style::Latex).into_iter().enumerate();
+            let set = |(k, part): (usize, String)| {
+                let part = part.trim();
+                if k == 0 { format!("${part}$") } else { format!("${{}}{part}$") }
+            };
+            parts.map(set).collect::<Vec<_>>().join(" ")
+        }
+    };
+    line.0.iter().map(piece).collect()
+}
+
+fn summary(rows: &[(Line, Line)], names: &Vocabulary, out: &mut String) {
+    out.push_str("\\noindent\\fbox{\\begin{tabular}{p{0.22\\textwidth}p{0.70\\textwidth}}\n");
+    for (label, value) in rows {
+        let _ = writeln!(out, "\\textbf{{{}}} & {} \\\\", words(label, names), words(value, names));
+    }
+    out.push_str("\\end{tabular}}\n\n");
+}
+
+fn table(table: &Table, names: &Vocabulary, out: &mut String) {
+    let cells = |row: &Vec<Line>| row.iter().map(|c| words(c, names)).collect::<Vec<_>>().join(" & ");
+    let _ = writeln!(
+        out,
+        "\\begin{{table}}[!htbp]\n\\centering\\small\n\\caption{{{}}}\n\\smallskip\n\\begin{{tabular}}{{{}}}\n\\hline\n{} \\\\ \\hline",
+        words(&table.caption, names),
+        "c".repeat(table.head.len()),
+        cells(&table.head)
+    );
+    for row in &table.rows {
+        let _ = writeln!(out, "{} \\\\", cells(row));
+    }
+    out.push_str("\\hline\n\\end{tabular}\n\\end{table}\n\n");
+}
+
+fn pictures(figure: &Figure, names: &Vocabulary, out: &mut String) {
+    out.push_str("\\begin{figure}[!htbp]\n\\centering\n");
+    let across = columns(figure.pictures.len());
+    for (k, (drawing, caption)) in figure.pictures.iter().enumerate() {
+        let picture = tikz(drawing);
+        if figure.pictures.len() == 1 {
+            out.push_str(&picture);
+            out.push('\n');
+            continue;
+        }
+        let end = if k % across == across - 1 { "\\\\[6pt]" } else { "\\hfill" };
+        let _ = writeln!(
+            out,
+            "\\begin{{minipage}}[t]{{{:.3}\\textwidth}}\\centering\n{picture}\\\\[2pt]\n\\small {}\n\\end{{minipage}}{end}",
+            0.98 / across as f64 - 0.005,
+            words(caption, names)
+        );
+    }
+    let _ = writeln!(out, "\\caption{{{}}}\n\\end{{figure}}\n", words(&figure.caption, names));
+}
+
+/// In typewriter letters, line by line, every character escaped.
+fn code(text: &str, out: &mut String) {
+    out.push_str("\\begin{flushleft}\\ttfamily\\footnotesize\n");
+    for line in text.lines() {
+        let blanks = line.len() - line.trim_start().len();
+        let line = escaped(line.trim_start()).replace("  ", "~~");
+        let _ = writeln!(out, "\\mbox{{}}{}{line}\\\\", "~".repeat(blanks));
+    }
+    out.push_str("\\end{flushleft}\n");
+}
+
+/// Text outside of formulas, for pdfTeX and its usual fonts.
+pub fn escaped(text: &str) -> String {
+    let mut out = String::new();
+    for c in text.chars() {
+        match c {
+            '\\' => out.push_str("\\textbackslash{}"),
+            '~' => out.push_str("\\textasciitilde{}"),
+            '^' => out.push_str("\\textasciicircum{}"),
+            '<' => out.push_str("\\textless{}"),
+            '>' => out.push_str("\\textgreater{}"),
+            '|' => out.push_str("\\textbar{}"),
+            '"' => out.push_str("''"),
+            '#' | '$' | '%' | '&' | '_' | '{' | '}' => out.extend(['\\', c]),
+            '\u{a0}' => out.push('~'),
+            '–' => out.push_str("--"),
+            '—' => out.push_str("---"),
+            '’' => out.push('\''),
+            '“' | '«' => out.push_str("``"),
+            '”' | '»' => out.push_str("''"),
+            ' '..='~' => out.push(c),
+            c if c.is_control() => out.push(' '),
+            c => match symbol(c) {
+                Some(command) => out.push_str(&command),
+                None => {
+                    let _ = write!(out, "[U+{:04X}]", u32::from(c));
+                }
+            },
+        }
+    }
+    out
+}
+
+/// A character that the fonts have only as a command.
+fn symbol(c: char) -> Option<String> {
+    let maths = |command: &str| Some(format!("${command}$"));
+    if let Some(name) = greek::name(c) {
+        return maths(&format!("\\{name}"));
+    }
+    match c {
+        'π' => maths("\\pi"),
+        // Letters with accents, as the fonts and the input encoding know them.
+        'À'..='ÿ' if !matches!(c, '×' | '÷' | 'Ð' | 'ð' | 'Þ' | 'þ') => Some(c.to_string()),
+        'œ' => Some("{\\oe}".into()),
+        'Œ' => Some("{\\OE}".into()),
+        '✓' => maths("\\checkmark"),
+        '≈' => maths("\\approx"),
+        '−' => maths("-"),
+        '·' => maths("\\cdot"),
+        '→' => maths("\\to"),
+        '±' => maths("\\pm"),
+        '×' => maths("\\times"),
+        '≤' => maths("\\leq"),
+        '≥' => maths("\\geq"),
+        '≠' => maths("\\neq"),
+        '°' => maths("^{\\circ}"),
+        '√' => maths("\\surd"),
+        'ẋ' => maths("\\dot{x}"),
+        '∞' => maths("\\infty"),
+        '…' => Some("\\ldots{}".into()),
+        '‖' => maths("\\|"),
+        'ᵀ' => maths("^{T}"),
+        '⁻' => maths("^{-}"),
+        _ => {
+            let find = |digits: &str| digits.chars().position(|d| d == c);
+            find("⁰¹²³⁴⁵⁶⁷⁸⁹")
+                .map(|n| format!("$^{{{n}}}$"))
+                .or_else(|| find("₀₁₂₃₄₅₆₇₈₉").map(|n| format!("$_{{{n}}}$")))
+        }
+    }
+}

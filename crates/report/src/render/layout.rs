@@ -1,0 +1,120 @@
+//! What fits a page, the same in every format: lines of formulas, matrices by names, what stands side by side.
+
+use denavit::explain::{Block, Factor, Laid, Math, Proof, aligned, laid, math, matrix_width};
+use denavit_symbolic::Expr;
+use denavit_symbolic::print::{Style, width};
+use denavit_symbolic::vocabulary::Vocabulary;
+use std::borrow::Cow;
+
+/// What a formula on a line of its own may take of a page, em.
+const ROOM: f64 = 40.0;
+/// Formulas in running text are cut into parts of about this width, em, between which a line may end.
+const INLINE: f64 = 14.0;
+/// Entries narrower than this stand in a matrix whatever else does, em.
+const NARROW: f64 = 3.0;
+
+/// A formula on lines of its own.
+pub fn display(m: &Math, names: &Vocabulary, style: Style) -> Laid {
+    laid(m, names, style, ROOM)
+}
+
+/// One of several equations below each other: the left side apart.
+pub fn equation(m: &Math, names: &Vocabulary, style: Style) -> Laid {
+    aligned(m, names, style, ROOM)
+}
+
+/// Formulas in rows that fit the page.
+pub fn beside<'a>(all: &'a [Math], names: &Vocabulary) -> Vec<Vec<&'a Math>> {
+    let mut rows: Vec<Vec<&Math>> = vec![];
+    let mut x = f64::INFINITY;
+    for m in all {
+        let own = match m {
+            Math::Matrix(_, rows) => matrix_width(rows, names) + 6.0,
+            other => width(&math(other, names, Style::Latex)) + 3.0,
+        };
+        if x + own > ROOM {
+            rows.push(vec![]);
+            x = 0.0;
+        }
+        x += own;
+        if let Some(row) = rows.last_mut() {
+            row.push(m);
+        }
+    }
+    rows
+}
+
+/// A formula in running text, in parts.
+pub fn inline(m: &Math, names: &Vocabulary, style: Style) -> Vec<String> {
+    let laid = laid(m, names, style, INLINE);
+    let mut parts: Vec<String> = laid.lines.into_iter().map(|l| l.text).collect();
+    if let Some(first) = parts.first_mut() {
+        first.insert_str(0, &laid.left);
+    }
+    parts
+}
+
+/// The mark behind a formula: proved, checked at samples, not true.
+pub fn mark(proof: Option<Proof>, marks: [&'static str; 3]) -> &'static str {
+    match proof {
+        None => "",
+        Some(Proof::Proved) => marks[0],
+        Some(Proof::Sampled) => marks[1],
+        Some(Proof::Wrong) => marks[2],
+    }
+}
+
+/// A matrix that is too wide for the page as one of names, with the names and what they stand for.
+pub struct Named {
+    /// The matrix of names.
+    pub matrix: Block,
+    /// What they stand for.
+    pub entries: Vec<Math>,
+    /// The names of the formulas and these.
+    pub names: Vocabulary,
+}
+
+/// Names for the entries of a matrix that does not fit the page; nothing if it fits, or is none.
+pub fn named(block: &Block, names: &Vocabulary) -> Option<Named> {
+    let Block::Formula { math: Math::Matrix(name, rows), number, proof } = block else { return None };
+    if matrix_width(rows, names) + 6.0 <= ROOM {
+        return None;
+    }
+    let wanted = match name {
+        Factor::Named { letter, .. } => letter.to_lowercase(),
+        _ => "t".into(),
+    };
+    let wide = |e: Expr| e.as_number().is_none() && matrix_width(&[vec![e]], names) > NARROW + 1.0;
+    let places: Vec<(usize, usize)> = (0..rows.len())
+        .flat_map(|r| (0..rows[r].len()).map(move |c| (r, c)))
+        .filter(|&(r, c)| wide(rows[r][c]))
+        .collect();
+    let called = |letter: &str, (r, c): (usize, usize)| match r.max(c) < 9 {
+        true => format!("{letter}{}{}", r + 1, c + 1),
+        false => format!("{letter}{}_{}", r + 1, c + 1),
+    };
+    let is_free = |letter: &&str| places.iter().all(|&p| names.lookup(&called(letter, p)).is_none());
+    let letters = [wanted.as_str(), "t", "u", "w", "m", "k"];
+    let letter = *letters.iter().find(|l| is_free(l))?;
+    let mut with = Cow::Borrowed(names);
+    let mut short = rows.clone();
+    let mut entries = vec![];
+    for &(r, c) in &places {
+        let symbol = called(letter, (r, c));
+        entries.push(Math::equation(Expr::symbol(&symbol), rows[r][c]));
+        short[r][c] = Expr::symbol(&symbol);
+        with = Cow::Owned(with.into_owned().symbol(&symbol));
+    }
+    let math = Math::Matrix(name.clone(), short);
+    let matrix = Block::Formula { math, number: *number, proof: *proof };
+    Some(Named { matrix, entries, names: with.into_owned() })
+}
+
+/// How many pictures stand side by side.
+pub fn columns(count: usize) -> usize {
+    match count {
+        0..=4 => count.max(1),
+        5 | 6 | 9 => 3,
+        _ => 4,
+    }
+}

@@ -1,0 +1,13 @@
+//! A document tree in each format.
+
+mod html;
+mod latex;
+mod layout;
+mod markdown;
+mod nested;
+mod typst;
+
+pub use html::page as html;
+pub use latex::{fragment as latex_fragment, whole as latex};
+pub use markdown::{Markdown, whole as markdown};
+pub use typst::{fragment as typst_fragment, whole as typst};

@@ -1,0 +1,105 @@
+//! Numbers at a configuration, held against the product of the link transforms.
+
+use super::setting::Setting;
+use crate::cell::decimals;
+use crate::document::{Part, Section, Table};
+use denavit::description::JointKind;
+use denavit::explain::{Factor, Line, Math};
+use denavit::geometry::Transform;
+use denavit_symbolic::{Expr, Symbol};
+
+/// The steps of the algorithm in numbers, and the pose; nothing if the robot is not one in numbers.
+pub fn section(s: &Setting) -> Option<Section> {
+    let (robot, _) = s.robot()?;
+    let model = s.forward();
+    let steps = model.algorithm.steps();
+    let names = steps.iter().fold(s.description.vocabulary(), |v, step| v.symbol(&step.name));
+    let mut section = Section::new(names);
+    section.heading(2, s.line("A worked example", "Exemple numérique"));
+    if let Some(assumed) = s.assumed() {
+        section.paragraph(assumed);
+    }
+    let mut line = s.line("With ", "Avec ");
+    line.0.extend(s.configuration(&s.q).0);
+    section.paragraph(line.text(s.say(
+        " the steps of the algorithm, one after another, are",
+        " les étapes de l'algorithme donnent, l'une après l'autre,",
+    )));
+
+    let variables = s.description.variables();
+    let mut values: Vec<(Symbol, f64)> =
+        variables.iter().map(|v| v.symbol).zip(s.q.iter().copied()).collect();
+    let parameter = |p: &denavit::description::Parameter| Some((p.symbol, p.value?.eval(|_| None).ok()?));
+    values.extend(s.valued.parameters.iter().filter_map(parameter));
+    let value =
+        |e: Expr, values: &[(Symbol, f64)]| e.eval(|x| values.iter().rev().find(|v| v.0 == x).map(|v| v.1));
+    let mut rows: Vec<[Line; 2]> = vec![];
+    for step in steps.iter().filter(|s| s.value.as_number().is_none()) {
+        let x = value(step.value, &values).ok()?;
+        let symbol = Expr::symbol(&step.name);
+        values.extend(symbol.as_symbol().map(|symbol| (symbol, x)));
+        rows.push([Line::default().math(symbol), Line::new(decimals(x, 6))]);
+    }
+    section.push(Part::Table(side_by_side(
+        &rows,
+        [s.line("step", "étape"), s.line("value", "valeur")],
+        s.line(
+            "The steps of the forward algorithm in numbers; lengths in metres.",
+            "Les étapes de l'algorithme direct en nombres ; longueurs en mètres.",
+        ),
+    )));
+
+    let pose = robot.pose(&s.q);
+    section.paragraph(
+        s.line("and the pose of the tool in the base is", "et la pose de l'outil dans la base est"),
+    );
+    section.formula(numbers(&pose));
+    let by_steps = |x: &str| values.iter().rev().find(|v| *v.0.name() == *x).map(|v| v.1);
+    let entries = pose.matrix();
+    let far = (0..3).flat_map(|r| (0..4).map(move |c| (r, c))).filter_map(|(r, c)| {
+        let name = denavit::forward::entry_name((r, c));
+        Some((by_steps(&name)? - entries[r][c]).abs())
+    });
+    let far = far.fold(0.0, f64::max);
+    section.paragraph(Line::new(s.language.pick(
+        format!("The product of the link transforms, multiplied out in numbers, differs from it by {far:.1e} at most."),
+        s.language.spaced(&format!(
+            "Le produit numérique des matrices de passage en diffère de {far:.1e} au plus."
+        )),
+    )));
+    Some(section)
+}
+
+/// A table of pairs, several beside each other so that it is not long.
+fn side_by_side(pairs: &[[Line; 2]], head: [Line; 2], caption: Line) -> Table {
+    let across = if pairs.len() > 8 { 3 } else { 1 };
+    let down = pairs.len().div_ceil(across);
+    let row = |r: usize| -> Vec<Line> {
+        (0..across).flat_map(|c| pairs.get(c * down + r).cloned().unwrap_or_default()).collect()
+    };
+    Table {
+        caption,
+        head: (0..across).flat_map(|_| head.clone()).collect(),
+        rows: (0..down).map(row).collect(),
+    }
+}
+
+/// A pose in numbers with four decimals.
+pub fn numbers(pose: &Transform<f64>) -> Math {
+    let entry = |x: &f64| {
+        let text = format!("{x:.4}");
+        // What is 0 by rounding has no sign, and what is 0 or 1 by its place no decimals.
+        let text = if text == "-0.0000" { "0.0000".into() } else { text };
+        if *x == 0.0 || *x == 1.0 { format!("{x:.0}") } else { text }
+    };
+    let rows = pose.matrix().iter().map(|row| row.iter().map(entry).collect()).collect();
+    Math::Numbers(Factor::named("T"), rows)
+}
+
+/// A joint's value in a table: degrees or metres, without unit.
+pub fn plain(x: f64, kind: JointKind) -> String {
+    match kind {
+        JointKind::Revolute => decimals(x.to_degrees(), 3),
+        JointKind::Prismatic => decimals(x, 5),
+    }
+}

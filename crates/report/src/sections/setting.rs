@@ -1,0 +1,212 @@
+//! What a report is about: the robot, a configuration, what was asked for.
+
+use crate::figure::Arm;
+use denavit::check::Checked;
+use denavit::description::{Convention, Description};
+use denavit::explain::{Language, Line};
+use denavit::forward::{ForwardModel, Outputs, Reference};
+use denavit::inverse::{InverseModel, JointSpace, Refusal};
+use denavit::robot::Robot;
+use denavit::structure::Structure;
+use denavit::velocity::{Obstacle, Singularities};
+use std::cell::OnceCell;
+
+/// A section that can be asked for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Topic {
+    /// The robot at a glance.
+    Summary,
+    /// The arm as it looks, and as a line diagram.
+    Figures,
+    /// The Denavit–Hartenberg table.
+    Table,
+    /// The link transforms.
+    Links,
+    /// The forward model and its algorithm.
+    Forward,
+    /// Numbers at a configuration.
+    Example,
+    /// Inverse kinematics.
+    Inverse,
+    /// The Jacobian and its singularities.
+    Velocity,
+    /// What is reached.
+    Workspace,
+    /// What is wrong in the document that the robot comes from.
+    Errata,
+    /// Where methods and numbers come from.
+    References,
+}
+
+impl Topic {
+    /// All of them, in their order.
+    pub const ALL: [Topic; 11] = [
+        Topic::Summary,
+        Topic::Figures,
+        Topic::Table,
+        Topic::Links,
+        Topic::Forward,
+        Topic::Example,
+        Topic::Inverse,
+        Topic::Velocity,
+        Topic::Workspace,
+        Topic::Errata,
+        Topic::References,
+    ];
+}
+
+/// What a report contains.
+#[derive(Clone, Debug)]
+pub struct Options<'a> {
+    /// The language of the words.
+    pub language: Language,
+    /// The sections.
+    pub topics: Vec<Topic>,
+    /// Conventions in which the table is shown beside its own.
+    pub conventions: Vec<Convention>,
+    /// The configuration of figures and examples, radians and metres; one that shows the arm well otherwise.
+    pub pose: Option<Vec<f64>>,
+    /// What was found in the document that the robot comes from.
+    pub errata: Option<Errata<'a>>,
+}
+
+impl Default for Options<'_> {
+    fn default() -> Self {
+        Options {
+            language: Language::English,
+            topics: Topic::ALL.to_vec(),
+            conventions: vec![],
+            pose: None,
+            errata: None,
+        }
+    }
+}
+
+/// A document that was checked.
+#[derive(Clone, Copy, Debug)]
+pub struct Errata<'a> {
+    /// What it is called.
+    pub name: &'a str,
+    /// Its text.
+    pub text: &'a str,
+    /// What was found.
+    pub checked: &'a Checked,
+}
+
+/// The robot with everything that several sections need, derived when it is first asked for.
+pub struct Setting<'a> {
+    pub description: &'a Description,
+    pub options: &'a Options<'a>,
+    pub language: Language,
+    pub structure: Structure,
+    /// The robot with values for all lengths, some of them chosen here.
+    pub valued: Description,
+    /// Its pictures; none if it cannot be drawn.
+    pub arm: Option<Arm>,
+    /// The configuration of figures and examples.
+    pub q: Vec<f64>,
+    forward: OnceCell<ForwardModel>,
+    inverse: OnceCell<Result<InverseModel, Refusal>>,
+    singular: OnceCell<Result<Singularities, Obstacle>>,
+}
+
+impl<'a> Setting<'a> {
+    pub fn new(description: &'a Description, options: &'a Options<'a>) -> Self {
+        let valued = description.filled();
+        let arm = Arm::new(&valued).ok();
+        let joints = description.variables().len();
+        let given = options.pose.clone().filter(|q| q.len() == joints);
+        let q =
+            given.or_else(|| arm.as_ref().map(|a| a.pose().to_vec())).unwrap_or_else(|| vec![0.0; joints]);
+        let arm = arm.map(|a| if options.pose.is_some() { a.at(&q) } else { a });
+        Setting {
+            description,
+            options,
+            language: options.language,
+            structure: Structure::of(description),
+            valued,
+            arm,
+            q,
+            forward: OnceCell::new(),
+            inverse: OnceCell::new(),
+            singular: OnceCell::new(),
+        }
+    }
+
+    /// The pose of the tool in the base.
+    pub fn forward(&self) -> &ForwardModel {
+        let derive =
+            || ForwardModel::derive(self.description, Reference::Base, Reference::Tool, Outputs::ALL);
+        self.forward.get_or_init(derive)
+    }
+
+    /// The inverse model, or how far its derivation came.
+    pub fn inverse(&self) -> &Result<InverseModel, Refusal> {
+        let options = denavit::inverse::Options::default();
+        self.inverse.get_or_init(|| InverseModel::derive(self.description, &options))
+    }
+
+    /// Where the arm is singular.
+    pub fn singular(&self) -> &Result<Singularities, Obstacle> {
+        self.singular.get_or_init(|| Singularities::derive(self.description, Reference::Tool))
+    }
+
+    /// The robot in numbers.
+    pub fn robot(&self) -> Option<(Robot<f64>, JointSpace)> {
+        let robot = Robot::numeric(&self.valued).ok()?;
+        let space = JointSpace::new(&self.valued, robot.reach());
+        Some((robot, space))
+    }
+
+    /// Words in the language of the report.
+    pub fn say(&self, english: &str, french: &str) -> String {
+        self.language.spaced(self.language.pick(english, french))
+    }
+
+    /// A line of words in the language of the report.
+    pub fn line(&self, english: &str, french: &str) -> Line {
+        Line::new(self.say(english, french))
+    }
+
+    /// The lengths that the robot does not give, with the values that numbers here take for them; nothing if it gives all.
+    pub fn assumed(&self) -> Option<Line> {
+        let missing = self.description.parameters.iter().zip(&self.valued.parameters);
+        let chosen: Vec<_> = missing.filter(|(own, _)| own.value.is_none()).map(|(_, p)| p).collect();
+        let mut line = (!chosen.is_empty()).then(|| {
+            self.line(
+                "The robot gives no values for some lengths. Figures and numbers take ",
+                "Certaines longueurs n'ont pas de valeur. Les figures et les nombres supposent ",
+            )
+        })?;
+        for (k, p) in chosen.iter().enumerate() {
+            let is_angle = self.description.measure(p.symbol) == denavit::description::Measure::Angle;
+            line = line
+                .text(if k > 0 { ", " } else { "" })
+                .math(denavit_symbolic::Expr::from(p.symbol))
+                .text(" = ");
+            line.0.extend(crate::cell::cell(p.value.unwrap_or(denavit_symbolic::Expr::int(0)), is_angle).0);
+            line = line.text(if is_angle { "" } else { " m" });
+        }
+        Some(line.text("."))
+    }
+
+    /// The values of the joints in a line: `q1 = 30°, …`.
+    pub fn configuration(&self, q: &[f64]) -> Line {
+        let mut line = Line::default();
+        for (k, (x, v)) in q.iter().zip(self.description.variables()).enumerate() {
+            line = line.text(if k > 0 { ", " } else { "" }).math(denavit_symbolic::Expr::from(v.symbol));
+            line = line.text(format!(" = {}", self.reading(*x, v.kind)));
+        }
+        line
+    }
+
+    /// A joint's value with its unit.
+    pub fn reading(&self, x: f64, kind: denavit::description::JointKind) -> String {
+        match kind {
+            denavit::description::JointKind::Revolute => {
+                format!("{}°", crate::cell::decimals(x.to_degrees(), 2))
+            }
+            denavit::description::JointKind::Prismatic => format!("{} m", crate::cell::decimals(x, 4)),
+        }
+    }
+}

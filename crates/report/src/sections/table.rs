@@ -1,0 +1,150 @@
+//! The Denavit–Hartenberg table.
+
+use super::setting::Setting;
+use crate::cell::cell;
+use crate::document::{Part, Section, Table};
+use denavit::description::{Convention, Description, JointKind, Measure, Row};
+use denavit::explain::{Factor, Line, Math};
+use denavit::geometry::Transform;
+use denavit_symbolic::Expr;
+
+/// The table in its own convention, and in those that were asked for beside.
+pub fn sections(s: &Setting) -> Vec<Section> {
+    let mut section = Section::new(s.description.vocabulary());
+    section.heading(2, s.line("Denavit–Hartenberg table", "Paramètres de Denavit–Hartenberg"));
+    one(s, s.description, &mut section);
+    let mut all = vec![section];
+    for &convention in s.options.conventions.iter().filter(|c| **c != s.description.convention) {
+        let other = s.description.converted(convention);
+        let mut section = Section::new(other.description.vocabulary());
+        section.heading(
+            3,
+            Line::new(match convention {
+                Convention::Standard => s.say("In the standard convention", "Dans la convention standard"),
+                Convention::Craig => s.say("In Craig's convention", "Dans la convention de Craig"),
+                Convention::Khalil => s.say(
+                    "In Khalil and Kleinfinger's convention",
+                    "Dans la convention de Khalil et Kleinfinger",
+                ),
+            }),
+        );
+        one(s, &other.description, &mut section);
+        section.paragraph(Line::new(match denavit::description::prove_same_chain(s.description, &other.description).is_equal() {
+            true => s.say(
+                "Proved: both tables give the same pose of the tool, whatever the joint values and lengths.",
+                "Démontré : les deux tableaux donnent la même pose de l'outil, quelles que soient les variables et les longueurs.",
+            ),
+            false => s.say(
+                "That both tables give the same pose is not proved: the expansion is too large.",
+                "L'égalité des poses n'est pas démontrée : le développement est trop grand.",
+            ),
+        }));
+        all.push(section);
+    }
+    all
+}
+
+/// A column: its heading, what stands in it, whether that is an angle.
+pub type Column = (&'static str, fn(&Row) -> Expr, bool);
+
+/// The columns of a convention in its own letters.
+pub fn columns(d: &Description) -> Vec<Column> {
+    let theta: Column = ("θ", |r| r.theta, true);
+    let alpha: Column = ("α", |r| r.alpha, true);
+    match d.convention {
+        Convention::Standard => vec![theta, ("d", |r| r.d, false), ("a", |r| r.a, false), alpha],
+        Convention::Craig => vec![alpha, ("a", |r| r.a, false), theta, ("d", |r| r.d, false)],
+        Convention::Khalil => {
+            let mut columns = vec![alpha, ("d", |r| r.a, false), theta, ("r", |r| r.d, false)];
+            if d.rows.iter().any(|r| !r.gamma.is_zero() || !r.b.is_zero()) {
+                let branch: [Column; 2] = [("γ", |r| r.gamma, true), ("b", |r| r.b, false)];
+                columns.splice(0..0, branch);
+            }
+            columns
+        }
+    }
+}
+
+fn one(s: &Setting, d: &Description, section: &mut Section) {
+    let columns = columns(d);
+    let has_limits = d.rows.iter().any(|r| r.limits.is_some());
+    let mut head = vec![Line::default().math(Expr::symbol("j")), s.line("joint", "liaison")];
+    let letter = |name: &str| {
+        Expr::symbol(denavit_symbolic::greek::name(name.chars().next().unwrap_or('x')).unwrap_or(name))
+    };
+    head.extend(columns.iter().map(|c| {
+        let line = Line::default().math(letter(c.0));
+        if c.2 { line } else { line.text(" (m)") }
+    }));
+    if has_limits {
+        head.push(s.line("limits", "butées"));
+    }
+    let rows = (1..).zip(&d.rows).map(|(i, row)| {
+        let kind = match row.variable.map(|v| v.kind) {
+            Some(JointKind::Revolute) => "R",
+            Some(JointKind::Prismatic) => "P",
+            None => "–",
+        };
+        let mut cells = vec![Line::new(i.to_string()), Line::new(kind)];
+        cells.extend(columns.iter().map(|(_, of, is_angle)| cell(of(row), *is_angle)));
+        if has_limits {
+            let turns = row.variable.is_some_and(|v| v.kind == JointKind::Revolute);
+            let mut line = Line::default();
+            if let Some([low, high]) = row.limits {
+                line.0.extend(cell(low, turns).0);
+                line = line.text(" … ");
+                line.0.extend(cell(high, turns).0);
+                line = line.text(if turns { "" } else { " m" });
+            }
+            cells.push(line);
+        }
+        cells
+    });
+    let caption = match d.convention {
+        Convention::Standard => s.line(
+            "Parameters in the standard convention; lengths in metres.",
+            "Paramètres dans la convention standard ; longueurs en mètres.",
+        ),
+        Convention::Craig => s.line(
+            "Parameters in Craig's (modified) convention; lengths in metres.",
+            "Paramètres dans la convention modifiée de Craig ; longueurs en mètres.",
+        ),
+        Convention::Khalil => s.line(
+            "Parameters in Khalil and Kleinfinger's convention; lengths in metres.",
+            "Paramètres dans la convention de Khalil et Kleinfinger ; longueurs en mètres.",
+        ),
+    };
+    section.push(Part::Table(Table { caption, head, rows: rows.collect() }));
+    values(s, d, section);
+    for (x, english, french) in [
+        (&d.base, "Frame 0 stands in the base at", "Le repère 0 est placé dans la base par"),
+        (&d.tool, "The tool stands in the last frame at", "L'outil est placé dans le dernier repère par"),
+    ] {
+        if *x != Transform::identity() {
+            section.paragraph(s.line(english, french));
+            let (from, to) = if std::ptr::eq(x, &d.base) {
+                (s.say("base", "base"), "0".to_string())
+            } else {
+                (d.rows.len().to_string(), s.say("tool", "outil"))
+            };
+            let rows = x.matrix().iter().map(|r| r.to_vec()).collect();
+            section.formula(Math::Matrix(Factor::Frame { from, to }, rows));
+        }
+    }
+}
+
+/// The values of the parameters, where they are known.
+fn values(s: &Setting, d: &Description, section: &mut Section) {
+    let known: Vec<_> = d.parameters.iter().filter_map(|p| Some((p, p.value?))).collect();
+    if known.is_empty() {
+        return;
+    }
+    let mut line = s.line("Values: ", "Valeurs : ");
+    for (k, (p, value)) in known.into_iter().enumerate() {
+        let is_angle = d.measure(p.symbol) == Measure::Angle;
+        line = line.text(if k > 0 { ", " } else { "" }).math(Expr::from(p.symbol)).text(" = ");
+        line.0.extend(cell(value, is_angle).0);
+        line = line.text(if is_angle { "" } else { " m" });
+    }
+    section.paragraph(line.text("."));
+}

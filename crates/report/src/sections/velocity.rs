@@ -1,0 +1,104 @@
+//! The Jacobian, its determinant, and a picture of each singularity.
+
+use super::inverse::lowered;
+use super::setting::Setting;
+use crate::document::{Part, Section};
+use crate::figure::{Options, isometric};
+use denavit::explain::{Line, Math};
+use denavit::forward::Reference;
+use denavit::velocity::{
+    JacobianModel, Obstacle, Place, REST, ROWS, Singularities, jacobian_document, singularities_document,
+};
+use denavit_symbolic::Expr;
+use denavit_symbolic::vocabulary::Vocabulary;
+
+/// The size of a picture, points.
+const SIZE: [f64; 2] = [150.0, 150.0];
+
+/// Formulas and pictures.
+pub fn sections(s: &Setting) -> Vec<Section> {
+    let title = s.line("Jacobian and singularities", "Jacobienne et singularités");
+    match s.singular() {
+        Ok(found) => {
+            let mut section = Section::new(names(s, &found.jacobian));
+            section.heading(2, title);
+            lowered(singularities_document(s.description, found, s.language), &mut section);
+            let mut all = vec![section];
+            all.extend(pictures(s, found));
+            all
+        }
+        Err(why) => {
+            let model = JacobianModel::shortest(s.description, Reference::Tool);
+            let mut section = Section::new(names(s, &model));
+            section.heading(2, title);
+            lowered(jacobian_document(s.description, &model, s.language), &mut section);
+            section.paragraph(Line::new(match why {
+                Obstacle::AlwaysSingular(_) => s.say(
+                    "The arm has fewer than six directions everywhere: all minors of its size vanish.",
+                    "Le bras a partout moins de six degrés de liberté : tous les mineurs de cette taille sont nuls.",
+                ),
+                _ => s.say(
+                    "The determinant is too large to be expanded.",
+                    "Le déterminant est trop grand pour être développé.",
+                ),
+            }));
+            vec![section]
+        }
+    }
+}
+
+/// The robot's names, those of the algorithm's steps, and those of velocities.
+pub fn names(s: &Setting, model: &JacobianModel) -> Vocabulary {
+    let rates = s.description.variables().into_iter().map(|v| format!("d{}", v.symbol.name()));
+    let twist = ROWS.iter().chain(&REST).map(ToString::to_string);
+    let steps = model.algorithm.steps().into_iter().map(|step| step.name);
+    rates.chain(twist).chain(steps).fold(s.description.vocabulary(), |v, name| v.symbol(&name))
+}
+
+/// The arm at a configuration of each singularity, the axes that matter marked.
+fn pictures(s: &Setting, found: &Singularities) -> Option<Section> {
+    let arm = s.arm.as_ref()?;
+    let view = arm.view();
+    let factors: Vec<Expr> = found.common.iter().map(|c| c.factor).collect();
+    let mut shown = vec![];
+    for one in &found.common {
+        // The robot's own lengths, or those of the other figures.
+        let Some(q) = denavit::velocity::singular_configuration(&s.valued, one.factor, &factors) else {
+            continue;
+        };
+        let highlight = one.example.as_ref().map(|e| axes(&e.place)).unwrap_or_default();
+        shown.push((one.factor, arm.at(&q), highlight));
+    }
+    let bounds = shown.iter().map(|(_, a, _)| a.bounds(&view)).reduce(|a, b| a.with(&b))?;
+    let pictures = shown.iter().map(|(factor, a, highlight)| {
+        let options = Options {
+            view: Some(view),
+            bounds: Some(bounds.clone()),
+            highlight: highlight.clone(),
+            ..Options::small(SIZE[0], SIZE[1])
+        };
+        (isometric(a, &options), Line::default().math(Math::equation(*factor, Expr::int(0))))
+    });
+    let mut section = Section::new(s.description.vocabulary());
+    section.push(Part::figures(
+        s.language,
+        pictures.collect(),
+        s.line(
+            "A configuration at each singularity; the axes that make it one are marked.",
+            "Une configuration à chaque singularité ; les axes en cause sont marqués.",
+        ),
+    ));
+    Some(section)
+}
+
+/// The joints (from 0) whose axes make a configuration singular.
+fn axes(place: &Place) -> Vec<usize> {
+    match place {
+        Place::OneLine(a, b) => vec![*a, *b],
+        Place::OnePlane(all) | Place::Parallel(all) | Place::SelfMotion(all) => all.clone(),
+        Place::CentreOnAxis { axis, .. } => vec![*axis],
+        Place::CentreInPlane { axes, .. } => axes.to_vec(),
+        Place::Line { meets, .. } => meets.clone(),
+        Place::Lost => vec![],
+    }
+}

@@ -1,0 +1,216 @@
+//! Reports of the whole catalogue, as trees and as pages.
+
+use denavit::catalogue;
+use denavit::description::{Convention, Description, read_toml};
+use denavit::explain::{Block, Branch, Language, Line, math, plain};
+use denavit_report::{Document, Options, Part, Topic, render, report};
+use denavit_symbolic::print::Style;
+use denavit_symbolic::vocabulary::Vocabulary;
+use std::fmt::Write;
+use std::path::Path;
+
+fn description(name: &str) -> Description {
+    read_toml(catalogue::text(name).expect("in the catalogue")).expect("a robot").0
+}
+
+/// The tree as an outline: what each part says, formulas as text, pictures by their size.
+fn outline(document: &Document) -> String {
+    let mut out = format!("{}\n", document.title);
+    for section in &document.sections {
+        let names = &section.names;
+        let say = |line: &Line| plain(line, names);
+        for part in &section.parts {
+            let _ = match part {
+                Part::Block(Block::Heading(level, line)) => {
+                    writeln!(out, "\n{} {}", "#".repeat((*level).into()), say(line))
+                }
+                Part::Block(Block::Paragraph(line)) => writeln!(out, "¶ {}", say(line)),
+                Part::Block(Block::Formula { math: m, number, proof }) => {
+                    writeln!(out, "= {} {number:?} {proof:?}", math(m, names, Style::Unicode))
+                }
+                Part::Block(Block::List(lines)) => {
+                    lines.iter().try_for_each(|l| writeln!(out, "- {}", say(l)))
+                }
+                Part::Block(Block::Tree(branch)) => tree(branch, names, 0, &mut out),
+                Part::Equations(all) | Part::Beside(all) => {
+                    all.iter().try_for_each(|m| writeln!(out, "= {}", math(m, names, Style::Unicode)))
+                }
+                Part::Summary(rows) => {
+                    rows.iter().try_for_each(|(a, b)| writeln!(out, "{}: {}", say(a), say(b)))
+                }
+                Part::Table(table) => {
+                    let row = |cells: &Vec<Line>| cells.iter().map(say).collect::<Vec<_>>().join(" | ");
+                    let _ = writeln!(out, "table: {}\n| {}", say(&table.caption), row(&table.head));
+                    table.rows.iter().try_for_each(|r| writeln!(out, "| {}", row(r)))
+                }
+                Part::Figure(figure) => {
+                    let _ = writeln!(out, "figure: {}", say(&figure.caption));
+                    figure.pictures.iter().try_for_each(|(d, line)| {
+                        writeln!(out, "  {:.0} × {:.0} {}", d.width, d.height, say(line))
+                    })
+                }
+                Part::Code(text) => writeln!(out, "code: {text}"),
+            };
+        }
+    }
+    out
+}
+
+fn tree(branch: &Branch, names: &Vocabulary, depth: usize, out: &mut String) -> std::fmt::Result {
+    branch.children.iter().try_for_each(|child| {
+        writeln!(out, "{}- {}", "  ".repeat(depth), plain(&child.line, names))?;
+        tree(child, names, depth + 1, out)
+    })
+}
+
+#[test]
+fn trees_of_six_robots() {
+    for (name, language) in [
+        ("staubli-rx90", Language::English),
+        ("cylindrical-wrist", Language::French),
+        ("puma560", Language::English),
+        ("ur3", Language::French),
+        ("smart5-six-rail", Language::English),
+        ("kuka-iiwa-14", Language::English),
+    ] {
+        let options = Options { language, conventions: vec![Convention::Standard], ..Options::default() };
+        let tree = outline(&report(&description(name), &options));
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/snapshots/{name}.txt"));
+        if std::env::var_os("UPDATE_SNAPSHOTS").is_some() {
+            std::fs::write(&file, &tree).expect("a snapshot is written");
+        }
+        let expected = std::fs::read_to_string(&file).unwrap_or_default();
+        let place = tree.lines().zip(expected.lines()).find(|(a, b)| a != b);
+        assert!(
+            tree == expected,
+            "{name}: the tree has changed ({place:?}); UPDATE_SNAPSHOTS=1 writes it, and it wants to be read"
+        );
+    }
+}
+
+#[test]
+fn every_robot_has_a_page() {
+    for name in catalogue::names() {
+        for language in [Language::English, Language::French] {
+            let d = description(name);
+            let document = report(&d, &Options { language, ..Options::default() });
+            let html = render::html(&document);
+            let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
+            let page = roxmltree::Document::parse_with_options(&html, options).expect(name);
+            let elements = || page.descendants().filter(|n| n.is_element());
+            let mut level = 1;
+            for heading in
+                elements().filter_map(|e| e.tag_name().name().strip_prefix('h')?.parse::<u8>().ok())
+            {
+                assert!(
+                    heading <= level + 1,
+                    "{name}: a heading of level {heading} below one of level {level}"
+                );
+                level = heading;
+            }
+            for e in elements() {
+                match e.tag_name().name() {
+                    "math" => assert!(e.attribute("alttext").is_some_and(|t| !t.is_empty()), "{name}"),
+                    "svg" => assert!(
+                        e.children().any(|c| c.has_tag_name(("http://www.w3.org/2000/svg", "title"))),
+                        "{name}"
+                    ),
+                    _ => {}
+                }
+            }
+            assert!(!html.contains("NaN") && !html.contains("NOT TRUE"), "{name}");
+            // What is a formula in one notation is one in the others.
+            assert!(!render::latex(&document).contains("NaN"), "{name}");
+        }
+    }
+}
+
+#[test]
+fn the_same_robot_gives_the_same_bytes() {
+    for name in ["ur5e", "stanford"] {
+        let write = || {
+            let document = report(&description(name), &Options::default());
+            (
+                render::html(&document),
+                render::typst(&document),
+                render::latex(&document),
+                render::markdown(&document, "f").text,
+            )
+        };
+        assert_eq!(write(), write(), "{name}");
+    }
+}
+
+#[test]
+fn sections_are_those_asked_for() {
+    let d = description("puma560");
+    for topic in Topic::ALL.into_iter().filter(|t| *t != Topic::Errata) {
+        let document = report(&d, &Options { topics: vec![topic], ..Options::default() });
+        let parts: usize = document.sections.iter().map(|s| s.parts.len()).sum();
+        assert!(parts > 0, "{topic:?}");
+        let others = report(&d, &Options { topics: vec![Topic::References], ..Options::default() });
+        assert!(topic == Topic::References || outline(&document) != outline(&others), "{topic:?}");
+    }
+}
+
+/// The words of the tree alone: no formulas.
+fn words(document: &Document) -> Vec<String> {
+    use denavit::explain::Piece;
+    let mut found = vec![];
+    let mut take = |line: &Line| {
+        for piece in &line.0 {
+            if let Piece::Text(t) | Piece::Strong(t) = piece {
+                found.push(t.clone());
+            }
+        }
+    };
+    for part in document.sections.iter().flat_map(|s| &s.parts) {
+        match part {
+            Part::Block(Block::Heading(_, line) | Block::Paragraph(line)) => take(line),
+            Part::Block(Block::List(lines)) => lines.iter().for_each(&mut take),
+            Part::Block(_) | Part::Equations(_) | Part::Beside(_) | Part::Code(_) => {}
+            Part::Summary(rows) => rows.iter().for_each(|(a, b)| {
+                take(a);
+                take(b);
+            }),
+            Part::Table(t) => {
+                t.head.iter().chain(t.rows.iter().flatten()).chain([&t.caption]).for_each(&mut take)
+            }
+            Part::Figure(f) => f.pictures.iter().map(|p| &p.1).chain([&f.caption]).for_each(&mut take),
+        }
+    }
+    found
+}
+
+#[test]
+fn french_is_french() {
+    const ENGLISH: &[&str] = &[
+        "the", "of", "and", "with", "joint", "row", "value", "values", "step", "where", "both", "which",
+        "found", "reaches",
+    ];
+    let topics: Vec<Topic> = Topic::ALL.into_iter().filter(|t| *t != Topic::References).collect();
+    for name in [
+        "staubli-rx90",
+        "scara",
+        "planar-3r",
+        "kuka-iiwa-14",
+        "fanuc-crx10ia-l",
+        "cartesian-ppp",
+        "kinova-jaco",
+    ] {
+        let mut d = description(name);
+        d.source = None;
+        let conventions = Convention::ALL.to_vec();
+        let options =
+            Options { language: Language::French, topics: topics.clone(), conventions, ..Options::default() };
+        for text in words(&report(&d, &options)) {
+            let tokens = text.split(|c: char| !c.is_alphabetic());
+            let english: Vec<&str> =
+                tokens.filter(|t| ENGLISH.contains(&t.to_lowercase().as_str())).collect();
+            assert!(english.is_empty(), "{name}: {english:?} in {text:?}");
+            for sign in [" ;", " :", " ?", " !"] {
+                assert!(!text.contains(sign), "{name}: a blank that may break before {sign:?} in {text:?}");
+            }
+        }
+    }
+}

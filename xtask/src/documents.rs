@@ -1,0 +1,137 @@
+//! Reports of robots as other programs read them: LaTeX, Typst and a browser.
+
+use crate::languages::{apt, python, quietly};
+use crate::{cargo, command, path, succeed};
+use anyhow::{Context, Result, bail};
+use denavit::catalogue;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// A robot of each kind; the first three in French, too.
+const ROBOTS: &[&str] =
+    &["staubli-rx90", "cylindrical-wrist", "puma560", "ur3", "smart5-six-rail", "kuka-iiwa-14"];
+const FRENCH: usize = 3;
+/// Lines that are wider than the page by less, points, nobody sees.
+const OVERFULL: f64 = 3.0;
+
+/// Writes reports and has them read; installs what is missing first.
+///
+/// # Errors
+/// If something cannot be installed, or a document is refused, runs off its page, or is not accessible.
+pub fn run() -> Result<()> {
+    succeed(cargo().args(["build", "--release", "--locked", "-p", "denavit-cli"]))?;
+    let folder = path("target/documents");
+    if folder.exists() {
+        fs::remove_dir_all(&folder)?;
+    }
+    latex(&folder.join("latex"))?;
+    typst(&folder.join("typst"))?;
+    pages(&folder.join("pages"))
+}
+
+fn report(robot: &str, to: &Path, extra: &[&str]) -> Result<()> {
+    quietly(command(path("target/release/denavit")).args(["report", robot, "-o"]).arg(to).args(extra))
+}
+
+/// Six robots by pdfTeX, as it comes with Debian's base packages.
+fn latex(folder: &Path) -> Result<()> {
+    if !starts("pdflatex") || !has_tikz() {
+        println!("installing LaTeX");
+        apt(&["update", "-qq"])?;
+        let packages = ["texlive-latex-base", "texlive-latex-recommended", "texlive-pictures"];
+        apt(&[&["install", "-y", "-qq", "--no-install-recommends"][..], &packages].concat())?;
+    }
+    fs::create_dir_all(folder)?;
+    let french = ROBOTS[..FRENCH].iter().map(|r| (r, "fr"));
+    for (robot, language) in ROBOTS.iter().map(|r| (r, "en")).chain(french) {
+        let stem = format!("{robot}-{language}");
+        report(robot, &folder.join(format!("{stem}.tex")), &["--language", language])?;
+        let mut tex = Command::new("pdflatex");
+        tex.args(["-interaction=nonstopmode", "-halt-on-error", &format!("{stem}.tex")]).current_dir(folder);
+        quietly(&mut tex)?;
+        let log = String::from_utf8_lossy(&fs::read(folder.join(format!("{stem}.log")))?).into_owned();
+        let wide: Vec<&str> = log.lines().filter(|l| overfull(l) > OVERFULL).collect();
+        if !wide.is_empty() {
+            bail!("{stem}.tex runs off the page:\n{}", wide.join("\n"));
+        }
+    }
+    println!("{} documents by pdfTeX, none wider than its page", ROBOTS.len() + FRENCH);
+    Ok(())
+}
+
+/// By how much a line of a log says that something is too wide, points.
+fn overfull(line: &str) -> f64 {
+    let rest = line.strip_prefix("Overfull \\hbox (");
+    rest.and_then(|r| r.split("pt").next()).and_then(|n| n.parse().ok()).unwrap_or(0.0)
+}
+
+/// Every robot of the catalogue by Typst.
+fn typst(folder: &Path) -> Result<()> {
+    let python = python(&["typst", "pillow"])?;
+    fs::create_dir_all(folder)?;
+    for robot in catalogue::names() {
+        report(robot, &folder.join(format!("{robot}.typ")), &[])?;
+    }
+    for robot in ROBOTS {
+        report(
+            robot,
+            &folder.join(format!("{robot}-fr.typ")),
+            &["--language", "fr", "--conventions", "standard,craig,khalil"],
+        )?;
+    }
+    succeed(command(python).arg("xtask/pages/look.py").arg(folder))
+}
+
+/// Six pages in headless Chromium.
+fn pages(folder: &Path) -> Result<()> {
+    let chromium = chromium()?;
+    let tools = path("xtask/pages");
+    if !tools.join("node_modules/axe-core").exists() {
+        quietly(Command::new("npm").args(["ci", "--silent"]).current_dir(&tools))?;
+    }
+    fs::create_dir_all(folder)?;
+    let mut look = command("node");
+    look.arg("xtask/pages/look.mjs").arg(chromium);
+    for (k, robot) in ROBOTS.iter().enumerate() {
+        let page = folder.join(format!("{robot}.html"));
+        report(robot, &page, &["--language", if k < FRENCH { "fr" } else { "en" }])?;
+        look.arg(page);
+    }
+    succeed(&mut look)
+}
+
+/// The browser, installed if it is missing.
+fn chromium() -> Result<PathBuf> {
+    let find = || ["chromium", "chromium-browser", "google-chrome"].into_iter().find(|p| starts(p));
+    if find().is_none() {
+        println!("installing Chromium");
+        apt(&["update", "-qq"])?;
+        apt(&["install", "-y", "-qq", "--no-install-recommends", "chromium", "fonts-dejavu-core"])?;
+    }
+    let program = find().context("no Chromium")?;
+    let output = Command::new("which").arg(program).output()?;
+    Ok(PathBuf::from(String::from_utf8_lossy(&output.stdout).trim()))
+}
+
+fn starts(program: &str) -> bool {
+    let status = Command::new(program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
+    status.is_ok_and(|s| s.success())
+}
+
+fn has_tikz() -> bool {
+    let found = Command::new("kpsewhich").arg("tikz.sty").output();
+    found.is_ok_and(|o| !o.stdout.is_empty())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::overfull;
+
+    #[test]
+    fn widths_of_lines_are_read() {
+        let line = "Overfull \\hbox (12.34pt too wide) in paragraph at lines 1--2";
+        assert!((overfull(line) - 12.34).abs() < 1e-9);
+        assert!(overfull("Underfull \\hbox (badness 10000)").abs() < 1e-9);
+    }
+}
