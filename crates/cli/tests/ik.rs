@@ -134,7 +134,7 @@ fn derivations() {
     );
     assert_eq!(out.matches("\\begin").count(), out.matches("\\end").count());
     let (_, out, _) = ik(&["ur5", "--explain", "--format", "typst"]);
-    assert!(out.contains("op(\"atan2\")") && out.contains("quad checkmark"), "{out}");
+    assert!(out.contains("op(\"atan2\")") && out.contains("#sym.checkmark"), "{out}");
     let (_, out, _) = ik(&["ur5", "--explain", "--format", "html"]);
     for tag in ["math", "ul", "li", "p", "div", "mrow", "msub"] {
         let open = out.matches(&format!("<{tag}>")).count() + out.matches(&format!("<{tag} ")).count();

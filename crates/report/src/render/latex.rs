@@ -1,6 +1,6 @@
-//! LaTeX for a plain TeX Live: the packages amsmath, amssymb and, for figures, tikz.
+//! LaTeX for a plain TeX Live: the packages amsmath, amssymb and, for figures and long tables, tikz and longtable.
 
-use super::layout::{self, columns, display, equation, inline, mark, named};
+use super::layout::{self, WIDE, columns, display, equation, inline, mark, named, shares};
 use super::nested::{Item, nested};
 use crate::document::{Document, Figure, Part, Section, Table};
 use crate::figure::tikz::tikz;
@@ -9,6 +9,9 @@ use denavit_symbolic::greek;
 use denavit_symbolic::print::Style;
 use denavit_symbolic::vocabulary::Vocabulary;
 use std::fmt::Write;
+
+/// Tables with more rows are broken over pages.
+const LONG: usize = 20;
 
 /// A fragment to paste into a document.
 pub fn fragment(document: &Document) -> String {
@@ -29,13 +32,13 @@ pub fn fragment(document: &Document) -> String {
 pub fn whole(document: &Document) -> String {
     let mut out = format!(
         "% Made by denavit {}.\n\\documentclass[10pt,a4paper]{{article}}\n\
-         \\usepackage[margin=2.2cm]{{geometry}}\n\\usepackage{{amsmath,amssymb,tikz}}\n\
-         \\allowdisplaybreaks\n\\setcounter{{MaxMatrixCols}}{{20}}\n\\setcounter{{secnumdepth}}{{1}}\n\\sloppy\n",
+         \\usepackage[margin=2.2cm]{{geometry}}\n\\usepackage{{amsmath,amssymb,longtable,tikz}}\n\
+         \\allowdisplaybreaks\n\\setcounter{{MaxMatrixCols}}{{20}}\n\\setcounter{{secnumdepth}}{{1}}\n\\setlength{{\\parindent}}{{0pt}}\n\\setlength{{\\parskip}}{{4pt}}\n\\sloppy\n",
         env!("CARGO_PKG_VERSION")
     );
     // Without a package for it: most installations have none for French.
     if document.language == Language::French {
-        out += "\\renewcommand{\\figurename}{Figure}\n\\renewcommand{\\tablename}{Tableau}\n";
+        out += "\\renewcommand{\\tablename}{Tableau}\n";
     }
     let _ = writeln!(
         out,
@@ -177,40 +180,61 @@ fn summary(rows: &[(Line, Line)], names: &Vocabulary, out: &mut String) {
     out.push_str("\\end{tabular}}\n\n");
 }
 
-fn table(table: &Table, names: &Vocabulary, out: &mut String) {
-    let cells = |row: &Vec<Line>| row.iter().map(|c| words(c, names)).collect::<Vec<_>>().join(" & ");
+/// A box that stays where it is, with a number and a caption.
+fn fixed(kind: &str, caption: &str, above: bool, body: &str, out: &mut String) {
+    let caption = format!("\\refstepcounter{{{kind}}}\\{kind}name~\\the{kind}. {caption}\\par");
+    let (first, second) = if above { (caption.as_str(), body) } else { (body, caption.as_str()) };
     let _ = writeln!(
         out,
-        "\\begin{{table}}[!htbp]\n\\centering\\small\n\\caption{{{}}}\n\\smallskip\n\\begin{{tabular}}{{{}}}\n\\hline\n{} \\\\ \\hline",
-        words(&table.caption, names),
-        "c".repeat(table.head.len()),
-        cells(&table.head)
+        "\\par\\medskip\\noindent\\begin{{minipage}}{{\\textwidth}}\\centering\n{first}\n\\smallskip\n{second}\n\\end{{minipage}}\n\\par\\medskip\n"
     );
-    for row in &table.rows {
-        let _ = writeln!(out, "{} \\\\", cells(row));
+}
+
+fn table(table: &Table, names: &Vocabulary, out: &mut String) {
+    let cells = |row: &Vec<Line>| row.iter().map(|c| words(c, names)).collect::<Vec<_>>().join(" & ");
+    let size =
+        if table.head.len() > WIDE { "\\footnotesize\\setlength{\\tabcolsep}{3pt}" } else { "\\small" };
+    let rows: String = table.rows.iter().map(|row| cells(row) + " \\\\\n").collect();
+    let columns: String = shares(table, names).into_iter().map(column).collect();
+    let (caption, head) = (words(&table.caption, names), cells(&table.head));
+    if table.rows.len() > LONG {
+        let _ = writeln!(
+            out,
+            "{{{size}\n\\begin{{longtable}}{{{columns}}}\n\\caption{{{caption}}}\\\\ \\hline\n{head} \\\\ \\hline\n\\endhead\n{rows}\\hline\n\\end{{longtable}}}}\n"
+        );
+        return;
     }
-    out.push_str("\\hline\n\\end{tabular}\n\\end{table}\n\n");
+    let body = format!(
+        "{size}\\begin{{tabular}}{{{columns}}}\n\\hline\n{head} \\\\ \\hline\n{rows}\\hline\n\\end{{tabular}}"
+    );
+    fixed("table", &caption, true, &body, out);
+}
+
+fn column(share: Option<f64>) -> String {
+    match share {
+        None => "c".into(),
+        Some(share) => format!("p{{{share:.3}\\textwidth}}"),
+    }
 }
 
 fn pictures(figure: &Figure, names: &Vocabulary, out: &mut String) {
-    out.push_str("\\begin{figure}[!htbp]\n\\centering\n");
     let across = columns(figure.pictures.len());
+    let mut body = String::new();
     for (k, (drawing, caption)) in figure.pictures.iter().enumerate() {
         let picture = tikz(drawing);
         if figure.pictures.len() == 1 {
-            out.push_str(&picture);
-            out.push('\n');
+            body.push_str(&picture);
             continue;
         }
         let end = if k % across == across - 1 { "\\\\[6pt]" } else { "\\hfill" };
         let _ = writeln!(
-            out,
+            body,
             "\\begin{{minipage}}[t]{{{:.3}\\textwidth}}\\centering\n{picture}\\\\[2pt]\n\\small {}\n\\end{{minipage}}{end}",
             0.98 / across as f64 - 0.005,
             words(caption, names)
         );
     }
-    let _ = writeln!(out, "\\caption{{{}}}\n\\end{{figure}}\n", words(&figure.caption, names));
+    fixed("figure", &words(&figure.caption, names), false, &body, out);
 }
 
 /// In typewriter letters, line by line, every character escaped.
@@ -237,7 +261,10 @@ pub fn escaped(text: &str) -> String {
             '|' => out.push_str("\\textbar{}"),
             '"' => out.push_str("''"),
             '#' | '$' | '%' | '&' | '_' | '{' | '}' => out.extend(['\\', c]),
+            // Behind the end of a row they would be its arguments.
+            '[' | ']' | '*' => out.extend(['{', c, '}']),
             '\u{a0}' => out.push('~'),
+            '\u{200b}' => out.push_str("\\allowbreak{}"),
             '–' => out.push_str("--"),
             '—' => out.push_str("---"),
             '’' => out.push('\''),
@@ -248,7 +275,7 @@ pub fn escaped(text: &str) -> String {
             c => match symbol(c) {
                 Some(command) => out.push_str(&command),
                 None => {
-                    let _ = write!(out, "[U+{:04X}]", u32::from(c));
+                    let _ = write!(out, "{{[}}U+{:04X}{{]}}", u32::from(c));
                 }
             },
         }
@@ -273,6 +300,10 @@ fn symbol(c: char) -> Option<String> {
         '−' => maths("-"),
         '·' => maths("\\cdot"),
         '→' => maths("\\to"),
+        '⟂' => maths("\\perp"),
+        '∥' => maths("\\parallel"),
+        '∠' => maths("\\angle"),
+        '≡' => maths("\\equiv"),
         '±' => maths("\\pm"),
         '×' => maths("\\times"),
         '≤' => maths("\\leq"),

@@ -1,6 +1,7 @@
 //! What fits a page, the same in every format: lines of formulas, matrices by names, what stands side by side.
 
-use denavit::explain::{Block, Factor, Laid, Math, Proof, aligned, laid, math, matrix_width};
+use crate::document::Table;
+use denavit::explain::{Block, Factor, Laid, Line, Math, Proof, aligned, laid, math, matrix_width, plain};
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::{Style, width};
 use denavit_symbolic::vocabulary::Vocabulary;
@@ -12,6 +13,27 @@ const ROOM: f64 = 40.0;
 const INLINE: f64 = 14.0;
 /// Entries narrower than this stand in a matrix whatever else does, em.
 const NARROW: f64 = 3.0;
+
+/// Tables with more columns are set smaller.
+pub const WIDE: usize = 8;
+
+/// Columns with longer words are broken into lines, letters.
+const LONG: usize = 26;
+
+/// For each column of a table the share of the page that its lines may fill, where they are to be broken.
+pub fn shares(table: &Table, names: &Vocabulary) -> Vec<Option<f64>> {
+    let letters = |line: &Line| plain(line, names).chars().count();
+    let longest = |k: usize| {
+        let cells = table.rows.iter().filter_map(|r| r.get(k)).chain(table.head.get(k));
+        cells.map(letters).max().unwrap_or(0)
+    };
+    let all: Vec<usize> = (0..table.head.len()).map(longest).collect();
+    let long: usize = all.iter().filter(|n| **n > LONG).sum();
+    // A letter of a short column, and the space between two.
+    let short: f64 = all.iter().filter(|n| **n <= LONG).map(|n| 0.0115 * *n as f64).sum();
+    let room = (0.97 - short - 0.022 * all.len() as f64).max(0.3);
+    all.iter().map(|&n| (n > LONG).then(|| room * n as f64 / long as f64)).collect()
+}
 
 /// A formula on lines of its own.
 pub fn display(m: &Math, names: &Vocabulary, style: Style) -> Laid {

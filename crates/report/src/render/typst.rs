@@ -1,6 +1,6 @@
 //! Typst markup. All words are Typst strings, so that no word is read as markup.
 
-use super::layout::{self, columns, display, equation, inline, mark, named};
+use super::layout::{self, WIDE, columns, display, equation, inline, mark, named, shares};
 use super::nested::{Item, nested};
 use crate::document::{Document, Figure, Part, Section, Table};
 use crate::figure::Drawing;
@@ -28,6 +28,8 @@ const LOOK: &str = r##"#set page(paper: "a4", margin: (x: 2.2cm, top: 2.4cm, bot
 #show heading.where(level: 1): it => block(above: 1.7em, below: 0.9em, sticky: true, text(1.12em, it))
 #show heading.where(level: 2): it => block(above: 1.3em, below: 0.7em, sticky: true, it)
 #show figure.where(kind: table): set figure.caption(position: top)
+#show figure.where(kind: table): set block(breakable: true)
+#show table: set par(justify: false)
 #show figure: set block(above: 1.3em, below: 1.3em)
 #show figure.caption: it => block(width: 92%, text(0.93em, it))
 #show math.equation.where(block: true): set align(left)
@@ -203,14 +205,23 @@ fn table(table: &Table, names: &Vocabulary, out: &mut String) {
     let cells =
         |row: &Vec<Line>| -> String { row.iter().map(|c| format!("[{}], ", words(c, names))).collect() };
     let rows: String = table.rows.iter().map(|r| format!("  {}\n", cells(r))).collect();
+    let dense = if table.head.len() > WIDE {
+        "#set text(0.88em); #set table(inset: (x: 0.32em, y: 0.34em)); "
+    } else {
+        ""
+    };
     let _ = writeln!(
         out,
-        "#figure(caption: [{}], table(columns: {}, align: center + horizon, table.hline(stroke: 0.8pt),\n  \
-         table.header({}),\n  table.hline(stroke: 0.5pt),\n{rows}  table.hline(stroke: 0.8pt)))\n",
+        "#[{dense}#figure(caption: [{}], table(columns: ({}), align: center + horizon, table.hline(stroke: 0.8pt),\n  \
+         table.header({}),\n  table.hline(stroke: 0.5pt),\n{rows}  table.hline(stroke: 0.8pt)))]\n",
         words(&table.caption, names),
-        table.head.len(),
+        shares(table, names).into_iter().map(column).collect::<String>(),
         cells(&table.head)
     );
+}
+
+fn column(share: Option<f64>) -> String {
+    share.map_or("auto, ".into(), |share| format!("{:.0}fr, ", 1000.0 * share))
 }
 
 fn pictures(figure: &Figure, names: &Vocabulary, out: &mut String) {

@@ -50,7 +50,7 @@ pub fn section(s: &Setting) -> Option<Section> {
                     Finding::Unreadable(_) => (String::new(), s.say("not readable", "illisible")),
                 };
                 Some(vec![
-                    Line::new(format!("{}{place}", claim.name)),
+                    Line::new(shortened(&format!("{}{place}", claim.name))),
                     Line::new(line.to_string()),
                     Line::new(printed),
                     Line::new(shortened(&right)),
@@ -83,11 +83,19 @@ const ROWS: usize = 200;
 /// Formulas longer than this are cut.
 const LENGTH: usize = 90;
 
+/// A formula as it is printed, cut if it is long; a line may end behind its signs.
 fn shortened(text: &str) -> String {
-    match text.char_indices().nth(LENGTH) {
-        Some((end, _)) => format!("{} …", &text[..end]),
-        None => text.into(),
+    let mut out = String::new();
+    for (k, c) in text.chars().enumerate() {
+        if k == LENGTH {
+            return out + " …";
+        }
+        out.push(c);
+        if matches!(c, '+' | '-' | '−' | '*' | '/' | '(' | ')' | ',' | '=' | '}' | '·') {
+            out.push('\u{200b}');
+        }
     }
+    out
 }
 
 fn wrong(s: &Setting) -> String {

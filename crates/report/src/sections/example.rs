@@ -99,7 +99,7 @@ pub fn numbers(pose: &Transform<f64>) -> Math {
 /// A joint's value in a table: degrees or metres, without unit.
 pub fn plain(x: f64, kind: JointKind) -> String {
     match kind {
-        JointKind::Revolute => decimals(x.to_degrees(), 3),
-        JointKind::Prismatic => decimals(x, 5),
+        JointKind::Revolute => decimals(x.to_degrees(), 2),
+        JointKind::Prismatic => decimals(x, 4),
     }
 }

@@ -10,8 +10,8 @@ use denavit::inverse::explain::Explanation;
 use denavit::inverse::{Goal, InverseKinematics, Refusal, Solution};
 use denavit_symbolic::Expr;
 
-/// Pictures beside each other, at most.
-const PICTURES: usize = 16;
+/// More solutions are not listed.
+const SHOWN: usize = 16;
 /// The size of one, points.
 const SIZE: [f64; 2] = [108.0, 112.0];
 
@@ -55,7 +55,10 @@ pub fn lowered(blocks: Vec<Block>, section: &mut Section) {
 }
 
 fn solutions(s: &Setting) -> Option<Section> {
-    let mut solver = InverseKinematics::new(&s.valued, &denavit::inverse::Options::default()).ok()?;
+    // Joints too many have the values of the example, as in the derivation.
+    let given = s.inverse().as_ref().ok().map(|m| m.given.clone()).filter(|g| !g.is_empty());
+    let options = denavit::inverse::Options { given, ..Default::default() };
+    let mut solver = InverseKinematics::new(&s.valued, &options).ok()?;
     solver.seed = Some(s.q.clone());
     let pose = solver.robot.pose(&s.q);
     let given: Vec<f64> = solver.given.iter().map(|&j| s.q[j]).collect();
@@ -83,9 +86,16 @@ fn solutions(s: &Setting) -> Option<Section> {
         );
         return Some(section);
     }
-    section.push(table(s, &found, answer.solutions.len()));
+    let shown = &found[..found.len().min(SHOWN)];
+    section.push(table(s, shown, answer.solutions.len()));
     section.paragraph(counted(s, answer.solutions.len(), answer.families.len(), answer.is_complete()));
-    section.push(pictures(s, &found)?);
+    if found.len() > SHOWN {
+        section.paragraph(Line::new(s.language.pick(
+            format!("The first {SHOWN} of them are shown."),
+            format!("Seules les {SHOWN} premières sont montrées."),
+        )));
+    }
+    section.push(pictures(s, shown)?);
     Some(section)
 }
 
@@ -175,9 +185,8 @@ fn branch(s: &Setting, label: &str) -> String {
 
 fn pictures(s: &Setting, found: &[&Solution]) -> Option<Part> {
     let arm = s.arm.as_ref()?;
-    let shown: Vec<&&Solution> = found.iter().take(PICTURES).collect();
     let view = arm.view();
-    let arms: Vec<_> = shown.iter().map(|f| arm.at(&f.q)).collect();
+    let arms: Vec<_> = found.iter().map(|f| arm.at(&f.q)).collect();
     let bounds = arms.iter().map(|a| a.bounds(&view)).reduce(|a, b| a.with(&b))?;
     let options = Options { view: Some(view), bounds: Some(bounds), ..Options::small(SIZE[0], SIZE[1]) };
     let picture =

@@ -20,7 +20,7 @@ pub fn sections(s: &Setting) -> Vec<Section> {
     let title = s.line("Jacobian and singularities", "Jacobienne et singularités");
     match s.singular() {
         Ok(found) => {
-            let mut section = Section::new(names(s, &found.jacobian));
+            let mut section = Section::new(names(s));
             section.heading(2, title);
             lowered(singularities_document(s.description, found, s.language), &mut section);
             let mut all = vec![section];
@@ -29,7 +29,7 @@ pub fn sections(s: &Setting) -> Vec<Section> {
         }
         Err(why) => {
             let model = JacobianModel::shortest(s.description, Reference::Tool);
-            let mut section = Section::new(names(s, &model));
+            let mut section = Section::new(names(s));
             section.heading(2, title);
             lowered(jacobian_document(s.description, &model, s.language), &mut section);
             section.paragraph(Line::new(match why {
@@ -47,12 +47,11 @@ pub fn sections(s: &Setting) -> Vec<Section> {
     }
 }
 
-/// The robot's names, those of the algorithm's steps, and those of velocities.
-pub fn names(s: &Setting, model: &JacobianModel) -> Vocabulary {
+/// The robot's names and those of velocities.
+fn names(s: &Setting) -> Vocabulary {
     let rates = s.description.variables().into_iter().map(|v| format!("d{}", v.symbol.name()));
     let twist = ROWS.iter().chain(&REST).map(ToString::to_string);
-    let steps = model.algorithm.steps().into_iter().map(|step| step.name);
-    rates.chain(twist).chain(steps).fold(s.description.vocabulary(), |v, name| v.symbol(&name))
+    rates.chain(twist).fold(s.description.vocabulary(), |v, name| v.symbol(&name))
 }
 
 /// The arm at a configuration of each singularity, the axes that matter marked.

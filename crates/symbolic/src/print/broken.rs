@@ -47,10 +47,9 @@ fn pieces(e: Expr, vocabulary: &Vocabulary, style: Style) -> Vec<Piece> {
     let mut pieces: Vec<Piece> = vec![];
     let mut frozen = 0;
     let mut from = 0;
+    // Empty pieces, too: what is nothing in one notation is a blank in another.
     let mut push = |from: usize, to: usize, mark: Option<Mark>| {
-        if from < to || mark == Some(Mark::Comma) {
-            pieces.push(Piece { text: printer.out[from..to].to_string(), mark });
-        }
+        pieces.push(Piece { text: printer.out[from..to].to_string(), mark });
     };
     for &(at, mark) in &printer.marks {
         let sign = match mark {
@@ -186,6 +185,10 @@ mod tests {
         let e =
             Expr::symbol("x") * inner + sum(&names[20..]) - Expr::symbol("y") * (inner / sum(&names)).sqrt();
         let v = Vocabulary::new();
+        let product = inner * (sum(&names[20..]) - sum(&names[..5]));
+        let breaks =
+            [Style::Latex, Style::Typst, Style::MathMl].map(|s| broken(product, &v, s, 20.0, 20.0).len());
+        assert!(breaks[0] > 3 && breaks == [breaks[0]; 3], "{breaks:?}");
         for style in [Style::Latex, Style::Typst, Style::MathMl] {
             let lines = broken(e, &v, style, 20.0, 20.0);
             assert!(lines.len() > 3, "{lines:?}");
