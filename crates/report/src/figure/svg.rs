@@ -169,6 +169,9 @@ pub fn svg(drawing: &Drawing, palette: Palette, id: &str) -> String {
          role=\"img\" aria-labelledby=\"d-{id}-title d-{id}-desc\" font-family=\"{FONT}\">\n\
          <title id=\"d-{id}-title\">{title}</title>\n<desc id=\"d-{id}-desc\">{about}</desc>\n"
     );
+    if palette == Palette::File {
+        let _ = writeln!(out, "<path d=\"M0 0H{w}V{h}H0Z\" fill=\"{}\"/>", hex(rgb(Ink::Paper)));
+    }
     for shape in &drawing.shapes {
         match shape {
             Shape::Path { segments, fill, stroke } => path(segments, *fill, *stroke, palette, &mut out),
