@@ -20,10 +20,10 @@ Everything a contributor runs.
 
 cargo xtask test                 all that a change must pass
 cargo xtask tidy                 the rules of the project that a program can check
-cargo xtask bench [--write | --quick] [evaluation] [inverse] [arms] [derivation]
+cargo xtask bench [--write | --quick] [evaluation] [inverse] [arms] [derivation] [report]
                                  speed of evaluators and generated code beside peers, forward and inverse, and of
                                  inverse kinematics without a closed form; CPU time of deriving every robot of the
-                                 catalogue, beside SymPy's; --write renews docs/performance.md, --quick takes fewer
+                                 catalogue, beside SymPy's, and of writing its report; --write renews docs/performance.md, --quick takes fewer
                                  poses (arms); fails if a figure is above its limit
 cargo xtask languages            builds and runs generated source code in every language
 cargo xtask counts [--check]     writes docs/operation-counts.md; --check fails if it is not up to date,

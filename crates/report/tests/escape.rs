@@ -134,7 +134,9 @@ fn elements(html: &str) -> Vec<String> {
     // How a formula is built depends on the length of its names.
     let is_inside = |n: &roxmltree::Node| n.ancestors().skip(1).any(|a| a.tag_name().name() == "math");
     let named = |n: roxmltree::Node| {
-        let attributes: Vec<&str> = n.attributes().map(|a| a.name()).collect();
+        // What is wide can be scrolled by keys.
+        let scrolls = |name: &str| ["tabindex", "role", "aria-label"].contains(&name);
+        let attributes: Vec<&str> = n.attributes().map(|a| a.name()).filter(|a| !scrolls(a)).collect();
         format!("{} {}", n.tag_name().name(), attributes.join(" "))
     };
     const MATHS: &[&str] = &[

@@ -5,6 +5,7 @@ mod closed_form;
 mod derivation;
 mod evaluation;
 mod inverse;
+mod report;
 
 pub use inverse::cmake;
 
@@ -23,6 +24,7 @@ const PARTS: &[Part] = &[
     ("inverse", "Inverse kinematics", |_| inverse::run()),
     ("arms", "Every arm", arms::run),
     ("derivation", "Derivation", |_| derivation::run()),
+    ("report", "Reports", |_| report::run()),
 ];
 /// What stands behind a figure that is above its limit.
 const MISSED: &str = "**missed**";

@@ -2,7 +2,7 @@
 //!
 //! The page is well-formed XML, too.
 
-use super::layout::{columns, display, equation, inline, mark, named};
+use super::layout::{columns, display, equation, inline, is_wide, mark, named};
 use super::nested::{Item, nested};
 use crate::document::{Document, Figure, Part, Section, Table};
 use crate::figure::svg::{Palette, style, svg};
@@ -110,7 +110,7 @@ impl Writer {
                     ),
                 };
                 let set = lines(&display(math, names, Style::MathMl));
-                self.formula(&set, &spoken(math, names), &tail);
+                self.formula(&set, &spoken(math, names), &tail, is_wide(math, names));
             }
             Block::List(lines) => {
                 self.out.push_str("<ul>\n");
@@ -138,10 +138,17 @@ impl Writer {
         }
     }
 
-    fn formula(&mut self, set: &str, alt: &str, tail: &str) {
+    /// One that may be wider than a screen can be scrolled by keys.
+    fn formula(&mut self, set: &str, alt: &str, tail: &str, is_wide: bool) {
+        let label = self.language.pick("formula", "formule");
+        let scrolled = if is_wide {
+            format!(" tabindex=\"0\" role=\"group\" aria-label=\"{label}\"")
+        } else {
+            String::new()
+        };
         let _ = writeln!(
             self.out,
-            "<div class=\"formula\"><math displaystyle=\"true\" alttext=\"{}\">{set}</math>{tail}</div>",
+            "<div class=\"formula\"{scrolled}><math displaystyle=\"true\" alttext=\"{}\">{set}</math>{tail}</div>",
             escaped(alt)
         );
     }
@@ -152,7 +159,12 @@ impl Writer {
         }
         let set: String = all.iter().map(|m| rows(&equation(m, names, Style::MathMl))).collect();
         let alt: Vec<String> = all.iter().map(|m| spoken(m, names)).collect();
-        self.formula(&format!("<mtable class=\"lines\">{set}</mtable>"), &alt.join("; "), "");
+        self.formula(
+            &format!("<mtable class=\"lines\">{set}</mtable>"),
+            &alt.join("; "),
+            "",
+            all.iter().any(|m| is_wide(m, names)),
+        );
     }
 
     fn summary(&mut self, rows: &[(Line, Line)], names: &Vocabulary) {
@@ -168,7 +180,8 @@ impl Writer {
         let word = self.language.pick("Table", "Tableau");
         let _ = writeln!(
             self.out,
-            "<div class=\"table\"><table>\n<caption><b>{word} {}.</b> {}</caption>\n<thead><tr>",
+            "<div class=\"table\" tabindex=\"0\" role=\"group\" aria-label=\"{word} {}\"><table>\n<caption><b>{word} {}.</b> {}</caption>\n<thead><tr>",
+            self.tables,
             self.tables,
             words(&table.caption, names)
         );

@@ -14,6 +14,8 @@ const INLINE: f64 = 14.0;
 /// Entries narrower than this stand in a matrix whatever else does, em.
 const NARROW: f64 = 3.0;
 
+/// What fits a telephone, em.
+const PHONE: f64 = 15.0;
 /// Tables with more columns are set smaller.
 pub const WIDE: usize = 8;
 
@@ -45,15 +47,25 @@ pub fn equation(m: &Math, names: &Vocabulary, style: Style) -> Laid {
     aligned(m, names, style, ROOM)
 }
 
+/// How wide a formula is in one line, em.
+fn extent(m: &Math, names: &Vocabulary) -> f64 {
+    match m {
+        Math::Matrix(_, rows) => matrix_width(rows, names) + 4.0,
+        other => width(&math(other, names, Style::Latex)) + 1.0,
+    }
+}
+
+/// True for a formula that may not fit a narrow screen.
+pub fn is_wide(m: &Math, names: &Vocabulary) -> bool {
+    extent(m, names) > PHONE
+}
+
 /// Formulas in rows that fit the page.
 pub fn beside<'a>(all: &'a [Math], names: &Vocabulary) -> Vec<Vec<&'a Math>> {
     let mut rows: Vec<Vec<&Math>> = vec![];
     let mut x = f64::INFINITY;
     for m in all {
-        let own = match m {
-            Math::Matrix(_, rows) => matrix_width(rows, names) + 6.0,
-            other => width(&math(other, names, Style::Latex)) + 3.0,
-        };
+        let own = extent(m, names) + 2.0;
         if x + own > ROOM {
             rows.push(vec![]);
             x = 0.0;

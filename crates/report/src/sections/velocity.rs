@@ -62,7 +62,7 @@ fn pictures(s: &Setting, found: &Singularities) -> Option<Section> {
     let mut shown = vec![];
     for one in &found.common {
         // The robot's own lengths, or those of the other figures.
-        let Some(q) = denavit::velocity::singular_configuration(&s.valued, one.factor, &factors) else {
+        let Some(q) = denavit::velocity::singular_configuration(&s.valued, one.factor, &factors, &s.q) else {
             continue;
         };
         let highlight = one.example.as_ref().map(|e| axes(&e.place)).unwrap_or_default();

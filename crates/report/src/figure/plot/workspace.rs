@@ -11,7 +11,7 @@ use std::ops::Range;
 /// The widest page, points.
 const WIDTH: f64 = 440.0;
 /// The highest area of data, points.
-const HIGHEST: f64 = 400.0;
+const HIGHEST: f64 = 300.0;
 const LEFT: f64 = 48.0;
 const RIGHT: f64 = 76.0;
 const ABOVE: f64 = 24.0;

@@ -155,7 +155,7 @@ impl Singularities {
             .iter()
             .map(|&(factor, power)| {
                 let example = finder
-                    .find(factor, &all)
+                    .find(factor, &all, None)
                     .map(|(robot, q)| example(description, &robot, &jacobian.view, rows, q));
                 Singularity { factor, power, zeros: zeros(factor), example }
             })

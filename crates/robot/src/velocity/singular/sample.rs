@@ -12,10 +12,15 @@ const STEPS: usize = 50;
 /// The other factors are not smaller than this, of their usual size.
 const APART: f64 = 0.05;
 
-/// A configuration of a robot at which `factor` is 0 and the other factors are not; lengths without value are those of
-/// [`Description::filled`].
-pub fn singular_configuration(description: &Description, factor: Expr, factors: &[Expr]) -> Option<Vec<f64>> {
-    Finder::new(description).find(factor, factors).map(|found| found.1)
+/// A configuration of a robot at which `factor` is 0 and the other factors are not, near another if there is one; lengths
+/// without value are those of [`Description::filled`].
+pub fn singular_configuration(
+    description: &Description,
+    factor: Expr,
+    factors: &[Expr],
+    near: &[f64],
+) -> Option<Vec<f64>> {
+    Finder::new(description).find(factor, factors, Some(near)).map(|found| found.1)
 }
 
 /// Finds configurations of a robot, with lengths of its own where it gives none.
@@ -37,12 +42,14 @@ impl Finder {
         }
     }
 
-    /// A configuration at which `factor` is 0 and the other factors are not, with the robot's lengths there.
-    pub fn find(&self, factor: Expr, all: &[Expr]) -> Option<(Robot<f64>, Vec<f64>)> {
+    /// A configuration at which `factor` is 0 and the other factors are not, with the robot's lengths there; from `near`,
+    /// if that leads to one.
+    pub fn find(&self, factor: Expr, all: &[Expr], near: Option<&[f64]>) -> Option<(Robot<f64>, Vec<f64>)> {
         let robot = self.robot.clone()?;
         let mut random = Random(11);
-        for _ in 0..STARTS {
-            let start: Vec<f64> = self.variables.iter().map(|_| 4.0 * random.unit() - 2.0).collect();
+        let anywhere =
+            (0..STARTS).map(|_| self.variables.iter().map(|_| 4.0 * random.unit() - 2.0).collect());
+        for start in near.map(<[f64]>::to_vec).into_iter().chain(anywhere) {
             let Some(q) = self.newton(factor, start) else { continue };
             let others = all.iter().filter(|&&f| f != factor);
             let mut sizes = others.map(|&f| self.value(f, &q).abs());
