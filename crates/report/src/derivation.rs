@@ -1,6 +1,7 @@
 //! The link transforms, a forward model and its algorithm as a document.
 
 use crate::document::{Document, Part, Section};
+use crate::render::too_long;
 use denavit::description::Description;
 use denavit::explain::{Factor, Language, Line, Math, Piece, count};
 use denavit::forward::{ForwardModel, Outputs, Reference, link_transforms};
@@ -91,6 +92,12 @@ impl<'a> Derivation<'a> {
         let title = Line::new(say("Forward model ", "Modèle géométrique direct "));
         section.heading(level, title.math(Math::Product(vec![frame])));
         match &self.model.matrix {
+            Ok(rows) if too_long(&matrix(&from, &to, rows), &section.names) => {
+                section.paragraph(Line::new(say(
+                    "The entries of the matrix are too long to be printed; the algorithm below computes them.",
+                    "Les éléments de la matrice sont trop longs pour être imprimés ; l'algorithme ci-dessous les calcule.",
+                )));
+            }
             Ok(rows) => section.formula(matrix(&from, &to, rows)),
             Err(why) => {
                 let why = denavit::explain::refusal(*why, language);
@@ -117,9 +124,14 @@ impl<'a> Derivation<'a> {
             self.model.proof.of_model(language)
         );
         section.paragraph(Line::new(cost));
-        if language == Language::English {
-            section.paragraph(Line::new(format!("Counted: {COUNTING_RULE}.")));
-        }
+        section.paragraph(Line::new(language.pick(
+            format!("Counted: {COUNTING_RULE}."),
+            language.spaced(
+                "On compte chaque multiplication et chaque addition dont le résultat dépend d'une variable ; les signes ne \
+                 comptent pas ; le sinus et le cosinus d'un même angle forment un couple ; une constante ajoutée à une \
+                 variable (son décalage) et ce qui ne dépend que des paramètres sont comptés à part.",
+            ),
+        )));
         [matrix, section]
     }
 

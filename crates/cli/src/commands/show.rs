@@ -47,6 +47,13 @@ pub fn run(arguments: &ShowArguments) -> Result<(), Failure> {
 
 /// Draws the arm.
 fn figure(description: &Description, arguments: &ShowArguments, file: &Path) -> Result<(), Failure> {
+    let ending = file.extension().map(|e| e.to_string_lossy().to_lowercase());
+    if ending.as_deref().is_some_and(|e| e != "svg") {
+        return Err(Failure::Usage(format!(
+            "--figure {}: figures are SVG, the file ends in .svg",
+            file.display()
+        )));
+    }
     let arm = Arm::new(&description.filled())
         .map_err(|missing| without_values(description, &arguments.robot.robot, &missing))?;
     let arm = match &arguments.q {

@@ -20,7 +20,7 @@ pub fn length(cell: Expr) -> Label {
     if let Ok(metres) = cell.eval(|_| None) {
         return Label::words(metric(metres.abs()));
     }
-    let text = cell.to_string();
+    let text = cell.to_string().replace('`', "");
     let one_term = !text[1.min(text.len())..].contains([' ', '+']);
     formula(if one_term { text.strip_prefix('-').unwrap_or(&text) } else { &text })
 }

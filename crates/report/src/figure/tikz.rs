@@ -14,7 +14,7 @@ pub fn tikz(drawing: &Drawing) -> String {
         let _ = writeln!(out, "\\definecolor{{{}}}{{RGB}}{{{r},{g},{b}}}", name(*colour));
     }
     let [w, h] = [drawing.width, drawing.height].map(number);
-    let _ = writeln!(out, "\\path[use as bounding box] (0,0) rectangle ({w},{h});");
+    let _ = writeln!(out, "\\path[use as bounding box,clip] (0,0) rectangle ({w},{h});");
     for shape in &drawing.shapes {
         match shape {
             Shape::Path { segments, fill, stroke } => {

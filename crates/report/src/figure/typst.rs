@@ -8,7 +8,7 @@ use std::fmt::Write;
 /// The drawing as a `#box` with everything placed in it.
 pub fn typst(drawing: &Drawing) -> String {
     let [w, h] = [drawing.width, drawing.height].map(number);
-    let mut out = format!("#box(width: {w}pt, height: {h}pt)[\n");
+    let mut out = format!("#box(width: {w}pt, height: {h}pt, clip: true)[\n");
     for shape in &drawing.shapes {
         match shape {
             Shape::Path { segments, fill, stroke } => {

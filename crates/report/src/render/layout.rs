@@ -14,6 +14,8 @@ const INLINE: f64 = 14.0;
 /// Entries narrower than this stand in a matrix whatever else does, em.
 const NARROW: f64 = 3.0;
 
+/// More is not printed, em: about a page and a half.
+const MOST: f64 = 2_400.0;
 /// What fits a telephone, em.
 const PHONE: f64 = 15.0;
 /// Tables with more columns are set smaller.
@@ -52,6 +54,17 @@ fn extent(m: &Math, names: &Vocabulary) -> f64 {
     match m {
         Math::Matrix(_, rows) => matrix_width(rows, names) + 4.0,
         other => width(&math(other, names, Style::Latex)) + 1.0,
+    }
+}
+
+/// True for a formula that fills more than a page.
+pub fn too_long(m: &Math, names: &Vocabulary) -> bool {
+    match m {
+        Math::Matrix(_, rows) => {
+            let all = rows.iter().flatten();
+            all.map(|&e| matrix_width(&[vec![e]], names)).sum::<f64>() > MOST
+        }
+        other => extent(other, names) > MOST,
     }
 }
 

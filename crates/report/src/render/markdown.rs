@@ -1,6 +1,6 @@
 //! Markdown with LaTeX formulas between dollar signs, as GitHub and most programs read it; figures are files beside it.
 
-use super::layout::{display, equation, mark, named};
+use super::layout::{columns, display, equation, mark, named};
 use super::nested::{Item, nested};
 use crate::document::{Document, Figure, Part, Section, Table};
 use crate::figure::svg::{Palette, svg};
@@ -135,7 +135,9 @@ impl Writer<'_> {
     }
 
     fn figure(&mut self, figure: &Figure, names: &Vocabulary) {
-        for (drawing, caption) in &figure.pictures {
+        let across = columns(figure.pictures.len());
+        let is_table = figure.pictures.len() > 1;
+        for (k, (drawing, caption)) in figure.pictures.iter().enumerate() {
             let file = format!("{}/figure-{}.svg", self.folder, self.figures.len() + 1);
             let address: String = file
                 .chars()
@@ -145,9 +147,21 @@ impl Writer<'_> {
                     c => c.to_string(),
                 })
                 .collect();
-            let caption = words(caption, names);
-            let behind = if caption.is_empty() { String::new() } else { format!(" {caption}\n") };
-            let _ = writeln!(self.out, "![{}]({address}){behind}", escaped(&drawing.description));
+            let picture = format!("![{}]({address})", escaped(&drawing.description));
+            if is_table {
+                let _ = write!(self.out, "| {picture}<br>{} ", cell(caption, names));
+                let is_last = k + 1 == figure.pictures.len();
+                let empty = if is_last { (across - 1) - k % across } else { 0 };
+                self.out.push_str(&"| ".repeat(empty));
+                if is_last || k % across == across - 1 {
+                    self.out.push_str("|\n");
+                }
+                if k == across - 1 || is_last && k < across {
+                    let _ = writeln!(self.out, "|{}", ":-:|".repeat(across));
+                }
+            } else {
+                let _ = writeln!(self.out, "{picture}");
+            }
             self.figures.push((file, svg(drawing, Palette::File, "figure")));
         }
         self.pictures += 1;

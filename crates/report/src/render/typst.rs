@@ -14,27 +14,29 @@ use std::fmt::Write;
 const HEAD: &str = concat!(
     "// Made by denavit ",
     env!("CARGO_PKG_VERSION"),
-    "\n#show math.equation: set block(breakable: true)\n#set math.mat(delim: \"[\", column-gap: 0.9em)\n"
+    "\n#show math.equation: set block(breakable: true)\n#set math.mat(delim: \"[\", column-gap: 0.9em, row-gap: 0.35em)\n"
 );
 
 /// How a whole document looks.
 const LOOK: &str = r##"#set page(paper: "a4", margin: (x: 2.2cm, top: 2.4cm, bottom: 2.2cm), numbering: "1")
 #set text(font: "New Computer Modern", size: 10pt)
 #set par(justify: true, leading: 0.62em, spacing: 0.95em)
-#set heading(numbering: (..n) => if n.pos().len() == 1 { numbering("1", ..n) })
+#show heading.where(level: 1): set heading(numbering: "1")
 #set table(stroke: none, inset: (x: 0.55em, y: 0.34em))
 #set figure(gap: 0.8em)
 #set list(indent: 0.6em, spacing: 0.6em)
 #show heading.where(level: 1): it => block(above: 1.7em, below: 0.9em, sticky: true, text(1.12em, it))
 #show heading.where(level: 2): it => block(above: 1.3em, below: 0.7em, sticky: true, it)
 #show figure.where(kind: table): set figure.caption(position: top)
-#show figure.where(kind: table): set block(breakable: true)
 #show table: set par(justify: false)
 #show figure: set block(above: 1.3em, below: 1.3em)
 #show figure.caption: it => block(width: 92%, text(0.93em, it))
 #show math.equation.where(block: true): set align(left)
 #show math.equation.where(block: true): it => pad(left: 1.2em, it)
 "##;
+
+/// Tables with more rows are broken over pages.
+const LONG: usize = 20;
 
 /// A fragment to paste into a document.
 pub fn fragment(document: &Document) -> String {
@@ -205,6 +207,7 @@ fn table(table: &Table, names: &Vocabulary, out: &mut String) {
     let cells =
         |row: &Vec<Line>| -> String { row.iter().map(|c| format!("[{}], ", words(c, names))).collect() };
     let rows: String = table.rows.iter().map(|r| format!("  {}\n", cells(r))).collect();
+    let long = if table.rows.len() > LONG { "#show figure: set block(breakable: true); " } else { "" };
     let dense = if table.head.len() > WIDE {
         "#set text(0.88em); #set table(inset: (x: 0.32em, y: 0.34em)); "
     } else {
@@ -212,7 +215,7 @@ fn table(table: &Table, names: &Vocabulary, out: &mut String) {
     };
     let _ = writeln!(
         out,
-        "#[{dense}#figure(caption: [{}], table(columns: ({}), align: center + horizon, table.hline(stroke: 0.8pt),\n  \
+        "#[{long}{dense}#figure(caption: [{}], table(columns: ({}), align: center + horizon, table.hline(stroke: 0.8pt),\n  \
          table.header({}),\n  table.hline(stroke: 0.5pt),\n{rows}  table.hline(stroke: 0.8pt)))]\n",
         words(&table.caption, names),
         shares(table, names).into_iter().map(column).collect::<String>(),

@@ -6,6 +6,7 @@ use crate::document::{Part, Section, Table};
 use denavit::description::JointKind;
 use denavit::explain::{Factor, Line, Math};
 use denavit::geometry::Transform;
+use denavit::geometry::orientation::{EulerSet, OrientationSet, extract};
 use denavit_symbolic::{Expr, Symbol};
 
 /// The steps of the algorithm in numbers, and the pose; nothing if the robot is not one in numbers.
@@ -54,6 +55,17 @@ pub fn section(s: &Setting) -> Option<Section> {
         s.line("and the pose of the tool in the base is", "et la pose de l'outil dans la base est"),
     );
     section.formula(numbers(&pose));
+    let angles = |set: OrientationSet| -> String {
+        let values = extract(&pose.rotation, set).values;
+        values.iter().map(|x| format!("{}°", decimals(x.to_degrees(), 2))).collect::<Vec<_>>().join(", ")
+    };
+    let (rpy, zyz) = (angles(OrientationSet::Rpy), angles(OrientationSet::Euler(EulerSet::ZYZ)));
+    section.paragraph(Line::new(s.language.pick(
+        format!("Its orientation: roll, pitch, yaw {rpy} (about the fixed axes x, y, z); Euler angles ZYZ {zyz}."),
+        s.language.spaced(&format!(
+            "Son orientation : roulis, tangage, lacet {rpy} (autour des axes fixes x, y, z) ; angles d'Euler ZYZ {zyz}."
+        )),
+    )));
     let by_steps = |x: &str| values.iter().rev().find(|v| *v.0.name() == *x).map(|v| v.1);
     let entries = pose.matrix();
     let far = (0..3).flat_map(|r| (0..4).map(move |c| (r, c))).filter_map(|(r, c)| {
@@ -62,9 +74,13 @@ pub fn section(s: &Setting) -> Option<Section> {
     });
     let far = far.fold(0.0, f64::max);
     section.paragraph(Line::new(s.language.pick(
-        format!("The product of the link transforms, multiplied out in numbers, differs from it by {far:.1e} at most."),
+        format!(
+            "The product of the link transforms, multiplied out in numbers, differs from it by {} at most.",
+            power(far)
+        ),
         s.language.spaced(&format!(
-            "Le produit numérique des matrices de passage en diffère de {far:.1e} au plus."
+            "Le produit numérique des matrices de passage en diffère de {} au plus.",
+            power(far)
         )),
     )));
     Some(section)
@@ -90,10 +106,22 @@ pub fn numbers(pose: &Transform<f64>) -> Math {
         let text = format!("{x:.4}");
         // What is 0 by rounding has no sign, and what is 0 or 1 by its place no decimals.
         let text = if text == "-0.0000" { "0.0000".into() } else { text };
-        if *x == 0.0 || *x == 1.0 { format!("{x:.0}") } else { text }
+        let is_whole = (x - x.round()).abs() < 1e-12 && x.abs() < 1.5;
+        if is_whole { format!("{:.0}", x.round() + 0.0) } else { text }
     };
     let rows = pose.matrix().iter().map(|row| row.iter().map(entry).collect()).collect();
     Math::Numbers(Factor::named("T"), rows)
+}
+
+/// A small number with a power of ten: 4.4·10⁻¹⁶.
+fn power(x: f64) -> String {
+    let text = format!("{x:.1e}");
+    let Some((digits, exponent)) = text.split_once('e').filter(|_| x != 0.0) else { return "0".into() };
+    let raised = exponent.chars().map(|c| match c.to_digit(10) {
+        Some(n) => ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][n as usize],
+        None => '⁻',
+    });
+    format!("{digits}·10{}", raised.collect::<String>())
 }
 
 /// A joint's value in a table: degrees or metres, without unit.

@@ -4,8 +4,9 @@ use super::example::{numbers, plain};
 use super::setting::Setting;
 use crate::document::{Part, Section, Table};
 use crate::figure::{Options, isometric};
+use crate::render::too_long;
 use denavit::description::JointKind;
-use denavit::explain::{Block, Line};
+use denavit::explain::{Block, Language, Line};
 use denavit::inverse::explain::Explanation;
 use denavit::inverse::{Goal, InverseKinematics, Refusal, Solution};
 use denavit_symbolic::Expr;
@@ -26,14 +27,14 @@ fn derivation(s: &Setting) -> Section {
     let title = s.line("Inverse kinematics", "Modèle géométrique inverse");
     let explained = match s.inverse() {
         Ok(model) => Some(Explanation::of(model)),
-        Err(Refusal::Stuck(stuck)) => Some(Explanation::of_stuck(s.description, stuck, Goal::Pose)),
+        Err(Refusal::Stuck(stuck)) => Some(Explanation::of_stuck(&s.description, stuck, Goal::Pose)),
         Err(Refusal::Given(_) | Refusal::Unsuitable(_)) => None,
     };
     let names = explained.as_ref().map_or_else(|| s.description.vocabulary(), Explanation::names);
     let mut section = Section::new(names);
     section.heading(2, title);
     match (explained, s.inverse()) {
-        (Some(e), _) => lowered(e.document(s.language), &mut section),
+        (Some(e), _) => lowered(e.document(s.language), s.language, &mut section),
         (None, Err(why)) => section.paragraph(Line::new(s.language.pick(
             format!("There is no closed form: {why}."),
             s.language.spaced(&format!("Il n'y a pas de forme explicite : {}.", why)),
@@ -44,10 +45,14 @@ fn derivation(s: &Setting) -> Section {
 }
 
 /// A document as a part of another: its title left out, its headings one level lower.
-pub fn lowered(blocks: Vec<Block>, section: &mut Section) {
+pub fn lowered(blocks: Vec<Block>, language: Language, section: &mut Section) {
     for block in blocks {
         match block {
             Block::Heading(1, _) => {}
+            Block::Formula { math, .. } if too_long(&math, &section.names) => section.paragraph(Line::new(language.pick(
+                "A formula that is too long to be printed stands here; `--json` of the command has it.",
+                "Ici se trouve une formule trop longue pour être imprimée ; l’option `--json` de la commande la donne.",
+            ))),
             Block::Heading(level, line) => section.heading(level + 1, line),
             other => section.push(other),
         }
@@ -79,7 +84,8 @@ fn solutions(s: &Setting) -> Option<Section> {
         section.paragraph(line.text(s.say(" given:", " donné :")));
     }
     let representatives = answer.families.iter().map(|f| &f.representative);
-    let found: Vec<&Solution> = answer.solutions.iter().chain(representatives).collect();
+    let found: Vec<Solution> = answer.solutions.iter().chain(representatives).cloned().collect();
+    let found: Vec<Solution> = found.into_iter().map(|f| turned(f, &solver.space)).collect();
     if found.is_empty() {
         section.paragraph(
             s.line("No solution was found in numbers.", "Aucune solution n'a été trouvée numériquement."),
@@ -97,6 +103,20 @@ fn solutions(s: &Setting) -> Option<Section> {
     }
     section.push(pictures(s, shown)?);
     Some(section)
+}
+
+/// A solution within the limits by whole turns of its joints, with the values that are.
+fn turned(mut found: Solution, space: &denavit::inverse::JointSpace) -> Solution {
+    if found.within_limits {
+        for ((x, limits), is_angle) in found.q.iter_mut().zip(&space.limits).zip(&space.is_angle) {
+            let Some([low, high]) = limits.filter(|_| *is_angle) else { continue };
+            let turn = std::f64::consts::TAU;
+            let copies = [*x, *x + turn, *x - turn];
+            let slack = 1e-9;
+            *x = copies.into_iter().find(|c| (low - slack..=high + slack).contains(c)).unwrap_or(*x);
+        }
+    }
+    found
 }
 
 fn counted(s: &Setting, isolated: usize, families: usize, complete: bool) -> Line {
@@ -132,7 +152,7 @@ fn counted(s: &Setting, isolated: usize, families: usize, complete: bool) -> Lin
     Line::new(s.language.spaced(&text))
 }
 
-fn table(s: &Setting, found: &[&Solution], isolated: usize) -> Part {
+fn table(s: &Setting, found: &[Solution], isolated: usize) -> Part {
     let variables = s.description.variables();
     let mut head = vec![Line::default()];
     head.extend(variables.iter().map(|v| {
@@ -174,8 +194,8 @@ fn table(s: &Setting, found: &[&Solution], isolated: usize) -> Part {
 /// The name of a branch; its labels are words.
 fn branch(s: &Setting, label: &str) -> String {
     match s.language {
-        denavit::explain::Language::English => label.replace('-', "−"),
-        denavit::explain::Language::French => label
+        Language::English => label.replace('-', "−"),
+        Language::French => label
             .replace("shoulder", "épaule")
             .replace("elbow", "coude")
             .replace("wrist", "poignet")
@@ -183,7 +203,7 @@ fn branch(s: &Setting, label: &str) -> String {
     }
 }
 
-fn pictures(s: &Setting, found: &[&Solution]) -> Option<Part> {
+fn pictures(s: &Setting, found: &[Solution]) -> Option<Part> {
     let arm = s.arm.as_ref()?;
     let view = arm.view();
     let arms: Vec<_> = found.iter().map(|f| arm.at(&f.q)).collect();

@@ -8,7 +8,7 @@ use denavit::forward::{ForwardModel, Outputs, Reference};
 use denavit::inverse::{InverseModel, JointSpace, Refusal};
 use denavit::robot::Robot;
 use denavit::structure::Structure;
-use denavit::velocity::{Obstacle, Singularities};
+use denavit::velocity::{Obstacle, Singularities, Viewpoint, geometric, measures};
 use std::cell::OnceCell;
 
 /// A section that can be asked for.
@@ -95,7 +95,7 @@ pub struct Errata<'a> {
 
 /// The robot with everything that several sections need, derived when it is first asked for.
 pub struct Setting<'a> {
-    pub description: &'a Description,
+    pub description: Description,
     pub options: &'a Options<'a>,
     pub language: Language,
     pub structure: Structure,
@@ -111,24 +111,27 @@ pub struct Setting<'a> {
 }
 
 impl<'a> Setting<'a> {
-    pub fn new(description: &'a Description, options: &'a Options<'a>) -> Self {
+    pub fn new(description: &Description, options: &'a Options<'a>) -> Self {
+        let (description, inverse) = named(description);
         let valued = description.filled();
         let arm = Arm::new(&valued).ok();
         let joints = description.variables().len();
         let given = options.pose.clone().filter(|q| q.len() == joints);
-        let q =
-            given.or_else(|| arm.as_ref().map(|a| a.pose().to_vec())).unwrap_or_else(|| vec![0.0; joints]);
-        let arm = arm.map(|a| if options.pose.is_some() { a.at(&q) } else { a });
+        let q = given.unwrap_or_else(|| {
+            let shown = arm.as_ref().map_or_else(|| vec![0.0; joints], |a| a.pose().to_vec());
+            regular(&valued, shown)
+        });
+        let arm = arm.map(|a| if a.pose() == q { a } else { a.at(&q) });
         Setting {
-            description,
             options,
             language: options.language,
-            structure: Structure::of(description),
+            structure: Structure::of(&description),
+            description,
             valued,
             arm,
             q,
             forward: OnceCell::new(),
-            inverse: OnceCell::new(),
+            inverse,
             singular: OnceCell::new(),
         }
     }
@@ -136,19 +139,19 @@ impl<'a> Setting<'a> {
     /// The pose of the tool in the base.
     pub fn forward(&self) -> &ForwardModel {
         let derive =
-            || ForwardModel::derive(self.description, Reference::Base, Reference::Tool, Outputs::ALL);
+            || ForwardModel::derive(&self.description, Reference::Base, Reference::Tool, Outputs::ALL);
         self.forward.get_or_init(derive)
     }
 
     /// The inverse model, or how far its derivation came.
     pub fn inverse(&self) -> &Result<InverseModel, Refusal> {
         let options = denavit::inverse::Options::default();
-        self.inverse.get_or_init(|| InverseModel::derive(self.description, &options))
+        self.inverse.get_or_init(|| InverseModel::derive(&self.description, &options))
     }
 
     /// Where the arm is singular.
     pub fn singular(&self) -> &Result<Singularities, Obstacle> {
-        self.singular.get_or_init(|| Singularities::derive(self.description, Reference::Tool))
+        self.singular.get_or_init(|| Singularities::derive(&self.description, Reference::Tool))
     }
 
     /// The robot in numbers.
@@ -209,4 +212,58 @@ impl<'a> Setting<'a> {
             denavit::description::JointKind::Prismatic => format!("{} m", crate::cell::decimals(x, 4)),
         }
     }
+}
+
+/// The robot with names for the lengths that are numbers, and its inverse model if that had to be derived; as it is where a
+/// closed form depends on what the numbers are.
+fn named(description: &Description) -> (Description, OnceCell<Result<InverseModel, Refusal>>) {
+    let named = description.with_named_lengths();
+    if named.parameters.len() == description.parameters.len() {
+        return (named, OnceCell::new());
+    }
+    let options = denavit::inverse::Options::default();
+    let model = InverseModel::derive(&named, &options);
+    if model.is_err() {
+        let own = InverseModel::derive(description, &options);
+        if own.is_ok() {
+            return (description.clone(), OnceCell::from(own));
+        }
+    }
+    (named, OnceCell::from(model))
+}
+
+/// Below this part of the largest value found an example counts as singular.
+const SINGULAR: f64 = 0.02;
+/// Turns that are tried instead, degrees.
+const TURNS: [[i32; 5]; 4] =
+    [[0, 25, -40, 20, 35], [20, -35, 50, 30, -45], [-30, 40, 60, -35, 50], [45, 30, -70, 55, 40]];
+
+/// A configuration that is not singular: the one that shows the arm well, or one beside it.
+fn regular(valued: &Description, shown: Vec<f64>) -> Vec<f64> {
+    let Ok(robot) = Robot::numeric(valued) else { return shown };
+    let space = JointSpace::new(valued, robot.reach());
+    let length = robot.reach().max(1e-9);
+    let turned = |turns: &[i32; 5]| -> Vec<f64> {
+        let turn = |(j, x): (usize, &f64)| match space.is_angle[j] {
+            true => x + f64::from(turns[j % 5]).to_radians(),
+            false => *x,
+        };
+        shown.iter().enumerate().map(turn).collect()
+    };
+    let all: Vec<Vec<f64>> = [shown.clone()].into_iter().chain(TURNS.iter().map(turned)).collect();
+    let value = |q: &Vec<f64>| {
+        let jacobian = geometric(&robot, q, &Viewpoint::tool());
+        measures(&jacobian, &space.is_angle, length).whole.singular_values
+    };
+    let values: Vec<Vec<f64>> = all.iter().map(value).collect();
+    // Directions that the arm never has do not count.
+    let rank =
+        values.iter().map(|v| v.iter().filter(|s| **s > 1e-6 * v[0].max(1e-12)).count()).max().unwrap_or(0);
+    let least = |k: usize| if rank == 0 { 0.0 } else { values[k].get(rank - 1).copied().unwrap_or(0.0) };
+    let best = (0..all.len()).map(least).fold(0.0, f64::max);
+    let within =
+        |q: &Vec<f64>| q.iter().zip(&space.limits).all(|(x, l)| l.is_none_or(|[a, b]| a <= *x && *x <= b));
+    let chosen =
+        (0..all.len()).find(|&k| (k == 0 || within(&all[k])) && least(k) >= SINGULAR * best.max(1e-12));
+    all.into_iter().nth(chosen.unwrap_or(0)).unwrap_or(shown)
 }

@@ -8,6 +8,10 @@ use denavit::forward::Proof;
 use denavit::inverse::Refusal;
 use denavit::structure::Relation;
 use denavit::velocity::Obstacle;
+use denavit_symbolic::print::{Style, print};
+
+/// Factors whose LaTeX is longer are not for a summary.
+const LONG: usize = 240;
 
 /// A box of labels and values.
 pub fn section(s: &Setting) -> Section {
@@ -142,17 +146,34 @@ fn singularities(s: &Setting) -> Line {
     match s.singular() {
         Ok(found) if found.common.is_empty() && found.is_complete => s.line("none.", "aucune."),
         Ok(found) if found.common.is_empty() => {
-            s.line("no common factor of the determinants.", "aucun facteur commun aux déterminants.")
+            s.line(
+                "where all determinants of the section on the Jacobian vanish at once; no single factor is shared by them.",
+                "là où tous les déterminants de la section sur la jacobienne s'annulent à la fois ; ils n'ont aucun facteur commun.",
+            )
         }
         Ok(found) => {
             let mut line = Line::default();
+            let is_short = |e: denavit_symbolic::Expr| print(e, &s.description.vocabulary(), Style::Latex).len() < LONG;
+            if !found.common.iter().all(|one| is_short(one.factor)) {
+                return s.line(
+                    "factors of the determinant that are too long for a summary.",
+                    "facteurs du déterminant trop longs pour un résumé.",
+                );
+            }
             for (k, one) in found.common.iter().enumerate() {
                 let zero = denavit_symbolic::Expr::int(0);
                 line = line
                     .text(if k > 0 { s.say("; ", " ; ") } else { String::new() })
                     .math(denavit::explain::Math::equation(one.factor, zero));
             }
-            line.text(".")
+            if found.is_complete {
+                line.text(".")
+            } else {
+                line.text(s.say(
+                    ", and where all determinants of the section on the Jacobian vanish at once.",
+                    ", et là où tous les déterminants de la section sur la jacobienne s'annulent à la fois.",
+                ))
+            }
         }
         Err(Obstacle::AlwaysSingular(_)) => s.line(
             "the arm has fewer than six directions everywhere.",

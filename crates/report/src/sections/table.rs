@@ -4,7 +4,7 @@ use super::setting::Setting;
 use crate::cell::cell;
 use crate::document::{Part, Section, Table};
 use denavit::description::{Convention, Description, JointKind, Measure, Row};
-use denavit::explain::{Factor, Line, Math};
+use denavit::explain::{Block, Factor, Line, Math};
 use denavit::geometry::Transform;
 use denavit_symbolic::Expr;
 
@@ -12,7 +12,8 @@ use denavit_symbolic::Expr;
 pub fn sections(s: &Setting) -> Vec<Section> {
     let mut section = Section::new(s.description.vocabulary());
     section.heading(2, s.line("Denavit–Hartenberg table", "Paramètres de Denavit–Hartenberg"));
-    one(s, s.description, &mut section);
+    one(s, &s.description, &mut section);
+    section.push(Block::List(meanings(s)));
     let mut all = vec![section];
     for &convention in s.options.conventions.iter().filter(|c| **c != s.description.convention) {
         let other = s.description.converted(convention);
@@ -29,7 +30,7 @@ pub fn sections(s: &Setting) -> Vec<Section> {
             }),
         );
         one(s, &other.description, &mut section);
-        section.paragraph(Line::new(match denavit::description::prove_same_chain(s.description, &other.description).is_equal() {
+        section.paragraph(Line::new(match denavit::description::prove_same_chain(&s.description, &other.description).is_equal() {
             true => s.say(
                 "Proved: both tables give the same pose of the tool, whatever the joint values and lengths.",
                 "Démontré : les deux tableaux donnent la même pose de l'outil, quelles que soient les variables et les longueurs.",
@@ -42,6 +43,39 @@ pub fn sections(s: &Setting) -> Vec<Section> {
         all.push(section);
     }
     all
+}
+
+/// What the four parameters of a row are.
+fn meanings(s: &Setting) -> Vec<Line> {
+    let symbol = |name: &str| Line::default().math(Expr::symbol(name));
+    let [x, z] = [s.description.convention.length_x(), s.description.convention.length_z()];
+    // From which frame's x axis the twist and the length are taken.
+    let (before, own) = ("j−1", "j");
+    let (along_x, along_z) = match s.description.convention {
+        Convention::Standard => (own, before),
+        Convention::Craig | Convention::Khalil => (before, own),
+    };
+    let rows = [
+        ("theta", along_z, "angle about z_{} between the x axes", "angle autour de z_{} entre les axes x"),
+        (z, along_z, "distance along z_{} between the x axes", "distance le long de z_{} entre les axes x"),
+        ("alpha", along_x, "angle about x_{} between the z axes", "angle autour de x_{} entre les axes z"),
+        (x, along_x, "distance along x_{} between the z axes", "distance le long de x_{} entre les axes z"),
+    ];
+    let said = rows.into_iter().map(|(name, frame, english, french)| {
+        let words = s.say(english, french);
+        let (before, after) = words.split_once("_{}").unwrap_or((&words, ""));
+        let (before, letter) = before.split_at(before.len().saturating_sub(1));
+        let frames = s.say(" j−1 and j", " j−1 et j");
+        symbol(name)
+            .text(s.say(": ", " : "))
+            .text(before)
+            .text(letter)
+            .text(" ")
+            .text(frame)
+            .text(after)
+            .text(frames)
+    });
+    said.collect()
 }
 
 /// A column: its heading, what stands in it, whether that is an angle.

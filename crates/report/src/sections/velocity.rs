@@ -22,16 +22,16 @@ pub fn sections(s: &Setting) -> Vec<Section> {
         Ok(found) => {
             let mut section = Section::new(names(s));
             section.heading(2, title);
-            lowered(singularities_document(s.description, found, s.language), &mut section);
+            lowered(singularities_document(&s.description, found, s.language), s.language, &mut section);
             let mut all = vec![section];
             all.extend(pictures(s, found));
             all
         }
         Err(why) => {
-            let model = JacobianModel::shortest(s.description, Reference::Tool);
+            let model = JacobianModel::shortest(&s.description, Reference::Tool);
             let mut section = Section::new(names(s));
             section.heading(2, title);
-            lowered(jacobian_document(s.description, &model, s.language), &mut section);
+            lowered(jacobian_document(&s.description, &model, s.language), s.language, &mut section);
             section.paragraph(Line::new(match why {
                 Obstacle::AlwaysSingular(_) => s.say(
                     "The arm has fewer than six directions everywhere: all minors of its size vanish.",

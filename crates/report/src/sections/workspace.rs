@@ -5,12 +5,14 @@ use crate::cell::decimals;
 use crate::document::{Part, Section};
 use crate::figure::plot::{arm_line, workspace_plot};
 use denavit::explain::Line;
+use denavit::inverse::JointSpace;
 use denavit::workspace::{Assumed, Section as Plane, Workspace};
 use denavit_symbolic::Expr;
 
 /// The plot and its extremes; nothing if nothing moves.
 pub fn section(s: &Setting) -> Option<Section> {
     let (robot, space) = s.robot()?;
+    let (space, travels) = with_travels(s, space);
     let workspace = Workspace::new(&robot, &space).ok()?;
     let mut section = Section::new(s.description.vocabulary());
     section.heading(2, s.line("Workspace", "Espace de travail"));
@@ -22,8 +24,10 @@ pub fn section(s: &Setting) -> Option<Section> {
     let range = |x: [f64; 2]| format!("{} … {}", decimals(x[0], 3), metres(x[1]));
     let (first, second) = (range(workspace.extremes.first), range(workspace.extremes.second));
     let mut text = s.language.pick(
-        format!("The tool point comes to {u} = {first} and {v} = {second}"),
-        format!("Le point de l'outil atteint {u} = {first} et {v} = {second}"),
+        format!("Within the limits of the joints the tool point comes to {u} = {first} and {v} = {second}"),
+        format!(
+            "Dans les butées des articulations, le point de l'outil atteint {u} = {first} et {v} = {second}"
+        ),
     );
     if let (Some(far), Some(_)) = (workspace.extremes.from_shoulder, workspace.extremes.shoulder) {
         text += &s.language.pick(
@@ -32,18 +36,21 @@ pub fn section(s: &Setting) -> Option<Section> {
         );
     }
     let mut line = Line::new(s.language.spaced(&(text + ".")));
-    let has_limits = space.limits.iter().any(Option::is_some);
-    if !has_limits {
+    let is_free = |(limits, is_angle): (&Option<[f64; 2]>, &bool)| *is_angle && limits.is_none();
+    if space.limits.iter().zip(&space.is_angle).any(is_free) {
         line = line.text(s.say(
-            " The robot gives no limits of its joints: they turn fully.",
-            " Le robot ne donne pas de butées : les articulations tournent d'un tour complet.",
+            " Joints that turn and have no limits turn fully.",
+            " Une articulation rotoïde sans butées tourne d'un tour complet.",
         ));
     }
-    line = taken(s, line, &workspace.assumed, " Assumed travel: ", " Course supposée : ");
+    line = taken(s, line, &travels, " Assumed travel: ", " Course supposée : ");
     line = taken(s, line, &workspace.held, " Held: ", " Fixé : ");
     section.paragraph(line);
     let arm = arm_line(&workspace, &robot, &s.q);
     let drawing = workspace_plot(&workspace, arm.as_deref());
+    let drawn = arm
+        .is_some()
+        .then(|| s.say(" The line is the arm of the example.", " La ligne est le bras de l'exemple."));
     section.push(Part::figure(
         s.language,
         drawing,
@@ -81,9 +88,26 @@ pub fn section(s: &Setting) -> Option<Section> {
                      manipulabilité de sa vitesse trouvée à cet endroit, rapportée au maximum."
                 )),
             ),
-        }),
+        })
+        .text(drawn.unwrap_or_default()),
     ));
     Some(section)
+}
+
+/// The joint space with a travel for slides that have none: as far as the arm is long, and farther than the example.
+fn with_travels(s: &Setting, mut space: JointSpace) -> (JointSpace, Vec<Assumed>) {
+    let mut travels = vec![];
+    for joint in 0..space.limits.len() {
+        if space.is_angle[joint] || space.limits[joint].is_some() {
+            continue;
+        }
+        let x = s.q[joint];
+        let length = if space.reach > 0.0 { space.reach } else { 1.0 };
+        let range = [(1.5 * x).min(0.0), length.max(1.5 * x)];
+        space.limits[joint] = Some(range);
+        travels.push(Assumed { joint, range });
+    }
+    (space, travels)
 }
 
 /// Ranges of joints that the plot takes for given.

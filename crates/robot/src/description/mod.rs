@@ -8,6 +8,7 @@ mod cell;
 pub mod convert;
 pub mod diagnostic;
 mod filled;
+mod named;
 mod names;
 mod robot_file;
 mod rows;

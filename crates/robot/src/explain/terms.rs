@@ -37,10 +37,7 @@ impl Proof {
 
     /// In words, of a forward model.
     pub fn of_model(self, language: Language) -> String {
-        self.words(
-            language,
-            ["the product of the link transforms", "le produit des matrices de transformation des corps"],
-        )
+        self.words(language, ["the product of the link transforms", "le produit des matrices de passage"])
     }
 
     /// In words, of a Jacobian.
@@ -49,7 +46,7 @@ impl Proof {
             language,
             [
                 "the derivative of the product of the link transforms",
-                "la dérivée du produit des matrices de transformation des corps",
+                "la dérivée du produit des matrices de passage",
             ],
         )
     }

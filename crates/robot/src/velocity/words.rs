@@ -234,7 +234,7 @@ fn lost(view: &Viewpoint<Expr>, example: &Example, language: Language) -> Option
         _ => language
             .pick(
                 "lost: a screw, a velocity and a rotation together",
-                "perdu : un torseur, une vitesse et une rotation à la fois",
+                "perdu : un torseur cinématique (translation et rotation combinées)",
             )
             .into(),
     };

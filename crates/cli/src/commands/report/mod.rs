@@ -38,6 +38,10 @@ pub fn run(arguments: &ReportArguments) -> Result<(), Failure> {
         errata,
     };
     let document = report(&description, &options);
+    if document.sections.is_empty() {
+        let why = "--sections: nothing of it applies to this robot; `errata` needs a document with formulas";
+        return Err(Failure::Usage(why.into()));
+    }
     write(&document, format, &arguments.output)
 }
 
@@ -111,7 +115,9 @@ fn markdown(document: &Document, to: &Path) -> Result<(), Failure> {
         for (name, svg) in &written.figures {
             let path: PathBuf = folder.join(name);
             if let Some(parent) = path.parent() {
-                fs::create_dir_all(parent).map_err(|e| cannot(parent, &e))?;
+                if !parent.is_dir() {
+                    fs::create_dir(parent).map_err(|e| cannot(parent, &e))?;
+                }
             }
             put(&path, svg.as_bytes())?;
         }

@@ -123,7 +123,7 @@ pub fn remark(step: &Step) -> Words {
         ),
         (Form::Pair { .. } | Form::Line | Form::Sincos | Form::Ratio { .. }, ..) => Words::new(
             "Nothing is dropped, nothing is squared.",
-            "Rien n'est négligé, rien n'est élevé au carré.",
+            "Aucune équation n'est écartée, rien n'est élevé au carré.",
         ),
         _ => Words::new("No root is added.", "Aucune racine n'est ajoutée."),
     }
