@@ -122,7 +122,7 @@ impl Writer {
             Block::Tree(branch) => nested(branch, &mut |item| {
                 let _ = match item {
                     Item::Open(_) => writeln!(self.out, "<ul class=\"tree\">"),
-                    Item::Item(_, line) => writeln!(self.out, "<li>{}", words(line, names)),
+                    Item::Entry(_, line) => writeln!(self.out, "<li>{}", words(line, names)),
                     Item::Done => writeln!(self.out, "</li>"),
                     Item::Close(_) => writeln!(self.out, "</ul>"),
                 };

@@ -126,7 +126,7 @@ fn tree(branch: &denavit::explain::Branch, names: &Vocabulary, out: &mut String)
                 writeln!(out, "{}\\begin{{itemize}}\\setlength{{\\itemsep}}{{0pt}}", "  ".repeat(depth))
             }
             Item::Close(depth) if depth < 4 => writeln!(out, "{}\\end{{itemize}}", "  ".repeat(depth)),
-            Item::Item(depth, line) => {
+            Item::Entry(depth, line) => {
                 let indent = format!("\\hspace*{{{}em}}", 2 * depth.saturating_sub(3));
                 let indent = if depth < 4 { "" } else { indent.as_str() };
                 writeln!(out, "{}  \\item {indent}{}", "  ".repeat(depth), words(line, names))

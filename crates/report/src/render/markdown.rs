@@ -105,7 +105,7 @@ impl Writer<'_> {
             }
             Block::Tree(branch) => {
                 nested(branch, &mut |item| {
-                    if let Item::Item(depth, line) = item {
+                    if let Item::Entry(depth, line) = item {
                         let _ = writeln!(self.out, "{}- {}", "  ".repeat(depth), words(line, names));
                     }
                 });
@@ -223,10 +223,13 @@ pub fn escaped(text: &str) -> String {
         }
     }
     // A line that starts so would be a list.
-    for start in ["- ", "+ ", "1. "] {
-        if out.starts_with(start) {
-            out = out.replacen(start.trim_end(), &format!("\u{200b}{}", start.trim_end()), 1);
-        }
+    let behind = out.trim_start().trim_start_matches(|c: char| c.is_ascii_digit());
+    if behind.starts_with(['-', '+', '.', ')', '=', ':']) {
+        out.insert(out.len() - out.trim_start().len(), '\u{200b}');
+    }
+    // And one so a block of code.
+    if out.starts_with("    ") {
+        out.insert(0, '\u{200b}');
     }
     out
 }

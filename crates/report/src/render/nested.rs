@@ -7,7 +7,7 @@ pub enum Item<'a> {
     /// A list starts.
     Open(usize),
     /// An entry; the lists inside it follow before it is closed.
-    Item(usize, &'a Line),
+    Entry(usize, &'a Line),
     /// An entry ends.
     Done,
     /// A list ends.
@@ -22,7 +22,7 @@ pub fn nested<'a>(branch: &'a Branch, write: &mut dyn FnMut(Item<'a>)) {
 fn below<'a>(branch: &'a Branch, depth: usize, write: &mut dyn FnMut(Item<'a>)) {
     write(Item::Open(depth));
     for child in &branch.children {
-        write(Item::Item(depth, &child.line));
+        write(Item::Entry(depth, &child.line));
         if !child.children.is_empty() {
             below(child, depth + 1, write);
         }

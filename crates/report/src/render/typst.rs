@@ -138,7 +138,7 @@ fn block(block: &Block, names: &Vocabulary, up: u8, out: &mut String) {
         }
         Block::Tree(branch) => {
             nested(branch, &mut |item| {
-                if let Item::Item(depth, line) = item {
+                if let Item::Entry(depth, line) = item {
                     let _ = writeln!(out, "{}- {}", "  ".repeat(depth), words(line, names));
                 }
             });

@@ -55,27 +55,23 @@ fn meanings(s: &Setting) -> Vec<Line> {
         Convention::Standard => (own, before),
         Convention::Craig | Convention::Khalil => (before, own),
     };
+    let axis = |english: &str, french: &str, axis: &str, frame: &str, between: &str| {
+        s.language.spaced(&s.language.pick(
+            format!("{english} from the {between} axis of frame j−1 to that of frame j, {axis} axis of frame {frame}"),
+            format!("{french} de l'axe {between} du repère j−1 à celui du repère j, {axis} du repère {frame}"),
+        ))
+    };
+    let about =
+        |letter: &str| s.language.pick(format!("about the {letter}"), format!("autour de l'axe {letter}"));
+    let along =
+        |letter: &str| s.language.pick(format!("along the {letter}"), format!("le long de l'axe {letter}"));
     let rows = [
-        ("theta", along_z, "angle about z_{} between the x axes", "angle autour de z_{} entre les axes x"),
-        (z, along_z, "distance along z_{} between the x axes", "distance le long de z_{} entre les axes x"),
-        ("alpha", along_x, "angle about x_{} between the z axes", "angle autour de x_{} entre les axes z"),
-        (x, along_x, "distance along x_{} between the z axes", "distance le long de x_{} entre les axes z"),
+        ("theta", axis("angle", "angle", &about("z"), along_z, "x")),
+        (z, axis("distance", "distance", &along("z"), along_z, "x")),
+        ("alpha", axis("angle", "angle", &about("x"), along_x, "z")),
+        (x, axis("distance", "distance", &along("x"), along_x, "z")),
     ];
-    let said = rows.into_iter().map(|(name, frame, english, french)| {
-        let words = s.say(english, french);
-        let (before, after) = words.split_once("_{}").unwrap_or((&words, ""));
-        let (before, letter) = before.split_at(before.len().saturating_sub(1));
-        let frames = s.say(" j−1 and j", " j−1 et j");
-        symbol(name)
-            .text(s.say(": ", " : "))
-            .text(before)
-            .text(letter)
-            .text(" ")
-            .text(frame)
-            .text(after)
-            .text(frames)
-    });
-    said.collect()
+    rows.into_iter().map(|(name, said)| symbol(name).text(s.say(": ", " : ")).text(said)).collect()
 }
 
 /// A column: its heading, what stands in it, whether that is an angle.

@@ -72,7 +72,7 @@ fn pictures(s: &Setting, found: &Singularities) -> Option<Section> {
     let pictures = shown.iter().map(|(factor, a, highlight)| {
         let options = Options {
             view: Some(view),
-            bounds: Some(bounds.clone()),
+            bounds: Some(bounds),
             highlight: highlight.clone(),
             ..Options::small(SIZE[0], SIZE[1])
         };

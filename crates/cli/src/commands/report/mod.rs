@@ -1,5 +1,9 @@
 //! `denavit report`: everything about a robot as a document.
 
+#[cfg(feature = "pdf")]
+mod embedded;
+#[cfg(not(feature = "pdf"))]
+mod installed;
 mod pdf;
 
 use crate::arguments::{ReportArguments, ReportFormat, ReportLanguage, SectionName};
@@ -114,10 +118,8 @@ fn markdown(document: &Document, to: &Path) -> Result<(), Failure> {
     if !is_stdout(to) {
         for (name, svg) in &written.figures {
             let path: PathBuf = folder.join(name);
-            if let Some(parent) = path.parent() {
-                if !parent.is_dir() {
-                    fs::create_dir(parent).map_err(|e| cannot(parent, &e))?;
-                }
+            if let Some(parent) = path.parent().filter(|p| !p.is_dir()) {
+                fs::create_dir(parent).map_err(|e| cannot(parent, &e))?;
             }
             put(&path, svg.as_bytes())?;
         }

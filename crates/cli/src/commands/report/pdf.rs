@@ -1,53 +1,31 @@
-//! PDF through Typst: built in, as a program, or as a Python package, whichever is there.
+//! PDF through Typst: built in with the feature `pdf`, else as a program or a Python package, whichever is there.
 
 use crate::failure::Failure;
-use std::io::Write;
-use std::process::{Command, Stdio};
 
-/// What compiles a document from its standard input to its standard output.
-const COMPILERS: [(&str, &[&str]); 3] =
-    [("typst", &["compile", "-", "-"]), ("python3", &["-c", PYTHON]), ("python", &["-c", PYTHON])];
-
-const PYTHON: &str = "import sys, typst; sys.stdout.buffer.write(typst.compile(sys.stdin.buffer.read()))";
+/// The document as PDF.
+///
+/// # Errors
+/// 5 if Typst refuses the document.
+#[cfg(feature = "pdf")]
+pub fn pdf(markup: &str) -> Result<Vec<u8>, Failure> {
+    super::embedded::pdf(markup).map_err(|why| refused(&why))
+}
 
 /// The document as PDF.
 ///
 /// # Errors
 /// 4 if there is no Typst on this machine; 5 if it refuses the document.
+#[cfg(not(feature = "pdf"))]
 pub fn pdf(markup: &str) -> Result<Vec<u8>, Failure> {
-    for (program, arguments) in COMPILERS {
-        let Some((out, errors)) = run(program, arguments, markup) else { continue };
-        if out.starts_with(b"%PDF") {
-            return Ok(out);
-        }
-        // A Python without the package is no Typst.
-        let is_absent = errors.contains("No module named");
-        if !is_absent {
-            return Err(Failure::GaveUp(format!("Typst refuses the document: {}", errors.trim())));
-        }
-    }
-    Err(Failure::Unsupported(
-        "a PDF needs Typst, and there is none: install the program from https://typst.app, or `pip install typst`, or build \
-         with `cargo build --release --features pdf`; -o with .html, .typ, .tex or .md needs nothing"
-            .into(),
-    ))
+    super::installed::pdf(markup).map_err(|why| refused(&why))?.ok_or_else(|| {
+        Failure::Unsupported(
+            "a PDF needs Typst, and there is none: install the program from https://typst.app, or `pip install typst`, or \
+             build with `cargo build --release --features pdf`; -o with .html, .typ, .tex or .md needs nothing"
+                .into(),
+        )
+    })
 }
 
-/// What a program writes to its outputs; nothing if it cannot be started.
-fn run(program: &str, arguments: &[&str], input: &str) -> Option<(Vec<u8>, String)> {
-    let mut child = Command::new(program)
-        .args(arguments)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .ok()?;
-    let mut stdin = child.stdin.take()?;
-    let input = input.as_bytes().to_vec();
-    // It may write before it has read everything.
-    let writer = std::thread::spawn(move || stdin.write_all(&input));
-    let output = child.wait_with_output().ok()?;
-    // A program that does not read has said why.
-    let _ = writer.join();
-    Some((output.stdout, String::from_utf8_lossy(&output.stderr).into_owned()))
+fn refused(why: &str) -> Failure {
+    Failure::GaveUp(format!("Typst refuses the document: {why}"))
 }
