@@ -171,6 +171,8 @@ impl Writer<'_> {
             Style::Latex => {
                 let [from, to] = [from, to].map(|name| match name.bytes().all(|b| b.is_ascii_digit()) {
                     true => name.to_string(),
+                    // Any frame, and the one before it.
+                    false if name.starts_with('j') => name.replace('−', "-"),
                     false => format!("\\mathrm{{{name}}}"),
                 });
                 format!("{{}}^{{{from}}}T_{{{to}}}")
