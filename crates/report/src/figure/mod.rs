@@ -1,7 +1,7 @@
 //! Figures: shapes in order of painting, and what draws them.
 //!
-//! An [`Arm`] is a robot in a pose that shows it well; [`isometric`] draws it as it would look, [`scheme`] as textbooks
-//! do. A [`Drawing`](drawing::Drawing) becomes text in [`svg`], [`tikz`] or [`typst`].
+//! An [`Arm`] is a robot in a pose that shows it well; [`isometric`] draws it as it would look, [`scheme()`] as textbooks
+//! do. A [`Drawing`] becomes text in [`svg`], [`tikz`] or [`typst`].
 
 pub mod arm;
 pub mod drawing;

@@ -9,7 +9,7 @@ use std::fmt::Write;
 pub enum Palette {
     /// In a file: fixed colours for a light page.
     File,
-    /// In an HTML page that has [`STYLE`], or nothing: custom properties, with the light colours where they are not
+    /// In an HTML page that has [`style`], or nothing: custom properties, with the light colours where they are not
     /// defined.
     Page,
 }
