@@ -147,7 +147,7 @@ impl Rational {
         Self::from_big(n.div_floor(&d), BigInt::one())
     }
 
-    /// `self` to an integer power; `None` for a negative power of 0 or a result of more than [`MAX_POWER_BITS`].
+    /// `self` to an integer power; `None` for a negative power of 0 or a result of more than 4096 bits.
     pub fn pow(&self, exponent: i32) -> Option<Self> {
         if exponent < 0 && self.is_zero() {
             return None;
