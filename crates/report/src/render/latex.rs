@@ -137,7 +137,7 @@ fn tree(branch: &denavit::explain::Branch, names: &Vocabulary, out: &mut String)
 }
 
 /// Lines, with the place where they are aligned.
-fn rows(laid: &Laid) -> String {
+pub(super) fn rows(laid: &Laid) -> String {
     let line = |(k, line): (usize, &BrokenLine)| {
         let indent = "\\quad".repeat(line.depth);
         let left = if k == 0 { laid.left.as_str() } else { "" };

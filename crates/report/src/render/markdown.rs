@@ -1,10 +1,11 @@
 //! Markdown with LaTeX formulas between dollar signs, as GitHub and most programs read it; figures are files beside it.
 
+use super::latex::rows;
 use super::layout::{columns, display, equation, mark, named};
 use super::nested::{Item, nested};
 use crate::document::{Document, Figure, Part, Section, Table};
 use crate::figure::svg::{Palette, svg};
-use denavit::explain::{Block, BrokenLine, Laid, Language, Line, Math, Piece, math};
+use denavit::explain::{Block, Language, Line, Math, Piece, math};
 use denavit_symbolic::print::Style;
 use denavit_symbolic::vocabulary::Vocabulary;
 use std::fmt::Write;
@@ -167,18 +168,6 @@ impl Writer<'_> {
         self.pictures += 1;
         let _ = writeln!(self.out, "\n**Figure {}.** {}\n", self.pictures, words(&figure.caption, names));
     }
-}
-
-/// Lines, with the place where they are aligned.
-fn rows(laid: &Laid) -> String {
-    let line = |(k, line): (usize, &BrokenLine)| {
-        let indent = "\\quad".repeat(line.depth);
-        let left = if k == 0 { laid.left.as_str() } else { "" };
-        let text = line.text.trim_start();
-        let sign = if k > 0 && text.starts_with(['+', '-']) { "{}" } else { "" };
-        format!("{left} &{indent} {sign}{text}")
-    };
-    laid.lines.iter().enumerate().map(line).collect::<Vec<_>>().join(" \\\\\n")
 }
 
 fn words(line: &Line, names: &Vocabulary) -> String {
