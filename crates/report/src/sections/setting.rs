@@ -1,14 +1,16 @@
 //! What a report is about: the robot, a configuration, what was asked for.
 
+use crate::cell::{cell, decimals};
 use crate::figure::Arm;
 use denavit::check::Checked;
-use denavit::description::{Convention, Description};
+use denavit::description::{Convention, Description, JointKind, Measure, Parameter};
 use denavit::explain::{Language, Line};
 use denavit::forward::{ForwardModel, Outputs, Reference};
 use denavit::inverse::{InverseModel, JointSpace, Refusal};
 use denavit::robot::Robot;
 use denavit::structure::Structure;
 use denavit::velocity::{Obstacle, Singularities, Viewpoint, geometric, measures};
+use denavit_symbolic::Expr;
 use std::cell::OnceCell;
 
 /// A section that can be asked for.
@@ -175,43 +177,46 @@ impl<'a> Setting<'a> {
     pub fn assumed(&self) -> Option<Line> {
         let missing = self.description.parameters.iter().zip(&self.valued.parameters);
         let chosen: Vec<_> = missing.filter(|(own, _)| own.value.is_none()).map(|(_, p)| p).collect();
-        let mut line = (!chosen.is_empty()).then(|| {
-            self.line(
+        (!chosen.is_empty()).then(|| {
+            let line = self.line(
                 "The robot gives no values for some lengths. Figures and numbers take ",
                 "Certaines longueurs n'ont pas de valeur. Les figures et les nombres supposent ",
-            )
-        })?;
-        for (k, p) in chosen.iter().enumerate() {
-            let is_angle = self.description.measure(p.symbol) == denavit::description::Measure::Angle;
-            line = line
-                .text(if k > 0 { ", " } else { "" })
-                .math(denavit_symbolic::Expr::from(p.symbol))
-                .text(" = ");
-            line.0.extend(crate::cell::cell(p.value.unwrap_or(denavit_symbolic::Expr::int(0)), is_angle).0);
-            line = line.text(if is_angle { "" } else { " m" });
-        }
-        Some(line.text("."))
+            );
+            quantities(line, &self.valued, &chosen)
+        })
     }
 
     /// The values of the joints in a line: `q1 = 30°, …`.
     pub fn configuration(&self, q: &[f64]) -> Line {
         let mut line = Line::default();
         for (k, (x, v)) in q.iter().zip(self.description.variables()).enumerate() {
-            line = line.text(if k > 0 { ", " } else { "" }).math(denavit_symbolic::Expr::from(v.symbol));
+            line = line.text(if k > 0 { ", " } else { "" }).math(Expr::from(v.symbol));
             line = line.text(format!(" = {}", self.reading(*x, v.kind)));
         }
         line
     }
 
     /// A joint's value with its unit.
-    pub fn reading(&self, x: f64, kind: denavit::description::JointKind) -> String {
+    pub fn reading(&self, x: f64, kind: JointKind) -> String {
         match kind {
-            denavit::description::JointKind::Revolute => {
-                format!("{}°", crate::cell::decimals(x.to_degrees(), 2))
+            JointKind::Revolute => {
+                format!("{}°", decimals(x.to_degrees(), 2))
             }
-            denavit::description::JointKind::Prismatic => format!("{} m", crate::cell::decimals(x, 4)),
+            JointKind::Prismatic => format!("{} m", decimals(x, 4)),
         }
     }
+}
+
+/// Parameters with their values and units behind the start of a sentence: `a2 = 0.4 m, … .`
+pub fn quantities(mut line: Line, d: &Description, all: &[&Parameter]) -> Line {
+    let known = all.iter().filter_map(|p| Some((p.symbol, p.value?)));
+    for (k, (symbol, value)) in known.enumerate() {
+        let is_angle = d.measure(symbol) == Measure::Angle;
+        line = line.text(if k > 0 { ", " } else { "" }).math(Expr::from(symbol)).text(" = ");
+        line.0.extend(cell(value, is_angle).0);
+        line = line.text(if is_angle { "" } else { " m" });
+    }
+    line.text(".")
 }
 
 /// The robot with names for the lengths that are numbers, and its inverse model if that had to be derived; as it is where a

@@ -1,9 +1,9 @@
 //! The Denavit–Hartenberg table.
 
-use super::setting::Setting;
+use super::setting::{Setting, quantities};
 use crate::cell::cell;
 use crate::document::{Part, Section, Table};
-use denavit::description::{Convention, Description, JointKind, Measure, Row};
+use denavit::description::{Convention, Description, JointKind, Row};
 use denavit::explain::{Block, Factor, Line, Math};
 use denavit::geometry::Transform;
 use denavit_symbolic::Expr;
@@ -165,16 +165,8 @@ fn one(s: &Setting, d: &Description, section: &mut Section) {
 
 /// The values of the parameters, where they are known.
 fn values(s: &Setting, d: &Description, section: &mut Section) {
-    let known: Vec<_> = d.parameters.iter().filter_map(|p| Some((p, p.value?))).collect();
-    if known.is_empty() {
-        return;
+    let known: Vec<_> = d.parameters.iter().filter(|p| p.value.is_some()).collect();
+    if !known.is_empty() {
+        section.paragraph(quantities(s.line("Values: ", "Valeurs : "), d, &known));
     }
-    let mut line = s.line("Values: ", "Valeurs : ");
-    for (k, (p, value)) in known.into_iter().enumerate() {
-        let is_angle = d.measure(p.symbol) == Measure::Angle;
-        line = line.text(if k > 0 { ", " } else { "" }).math(Expr::from(p.symbol)).text(" = ");
-        line.0.extend(cell(value, is_angle).0);
-        line = line.text(if is_angle { "" } else { " m" });
-    }
-    section.paragraph(line.text("."));
 }
