@@ -8,6 +8,7 @@ mod languages;
 mod soak;
 mod test;
 mod tidy;
+mod web;
 
 use anyhow::{Context, Result, bail};
 use denavit::{Description, catalogue, description};
@@ -28,6 +29,8 @@ cargo xtask bench [--write | --quick] [evaluation] [inverse] [arms] [derivation]
 cargo xtask languages            builds and runs generated source code in every language
 cargo xtask counts [--check]     writes docs/operation-counts.md; --check fails if it is not up to date,
                                  or if SymPy needs fewer operations for some robot
+cargo xtask web [--debug]        builds the page of `denavit view`, which the next build of denavit takes in; fails if it is
+                                 above its limits of size; --debug is quick, and limits nothing
 cargo xtask documents            reports as LaTeX, Typst and a browser read them
 cargo xtask errata [--write]     compares docs/errata.md with what `denavit check` says of the documents; --write renews it
 cargo xtask soak [--seconds N] [TARGET...]
@@ -58,6 +61,8 @@ fn dispatch(arguments: &[String]) -> Result<()> {
         ["miri"] => soak::miri(),
         ["counts"] => counts::run(false),
         ["counts", "--check"] => counts::run(true),
+        ["web"] => web::run(false),
+        ["web", "--debug"] => web::run(true),
         ["documents"] => documents::run(),
         ["errata"] => errata::run(false),
         ["errata", "--write"] => errata::run(true),

@@ -2,9 +2,9 @@
 //!
 //! A step that has to install something first (a Python environment, say) does so on its own, when it runs.
 
-use crate::{cargo, command, counts, documents, errata, languages, path, succeed, tidy};
-use anyhow::{Context, Result, bail};
-use std::path::Path;
+use crate::web::TARGET;
+use crate::{cargo, counts, documents, errata, languages, path, succeed, tidy, web};
+use anyhow::{Context, Result};
 use std::time::{Duration, Instant};
 
 /// What a step that did not fail has to say.
@@ -98,16 +98,7 @@ fn documentation() -> Result<Outcome> {
 
 /// The crates that a web page needs build for it.
 fn wasm() -> Result<Outcome> {
-    const TARGET: &str = "wasm32-unknown-unknown";
-    let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-    let output = command(&rustc)
-        .args(["--print", "target-libdir", "--target", TARGET])
-        .output()
-        .context("rustc does not start")?;
-    if !output.status.success() {
-        bail!("rustc does not know {TARGET}");
-    }
-    if !Path::new(String::from_utf8_lossy(&output.stdout).trim()).exists() {
+    if !web::has_target()? {
         return Ok(Outcome::Skipped(format!("the target is not installed (`rustup target add {TARGET}`)")));
     }
     let crates = ["-p", "denavit-symbolic", "-p", "denavit-program", "-p", "denavit"];

@@ -14,6 +14,7 @@ const LAYERS: &[(&str, &str)] = &[
     ("crates/robot", "denavit"),
     ("crates/report", "denavit-report"),
     ("crates/cli", "denavit-cli"),
+    ("crates/web", "denavit-web"),
     ("crates/jit", "denavit-jit"),
 ];
 /// Crates of pure algebra, and the words they do not say.
@@ -22,7 +23,8 @@ const CONCRETE_WORDS: &[&str] = &["joint", "robot"];
 /// Words of mathematics that contain one of them.
 const INNOCENT_WORDS: &[&str] = &["disjoint", "adjoint"];
 /// Where code that the compiler cannot check may stand; the lint `unsafe_code` denies it wherever it is not allowed.
-const UNSAFE_FILES: &[&str] = &["crates/program/src/evaluate/machine.rs", "crates/jit/src/native.rs"];
+const UNSAFE_FILES: &[&str] =
+    &["crates/program/src/evaluate/machine.rs", "crates/jit/src/native.rs", "crates/web/src/border.rs"];
 /// What the science does not touch.
 const SCIENCE: &[&str] = &["crates/robot/src/", "crates/report/src/"];
 const OUTSIDE_WORLD: &[&str] =

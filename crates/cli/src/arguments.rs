@@ -1,10 +1,15 @@
 //! The command line.
 
+mod view;
+
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use denavit::description::Convention;
 use denavit::inverse::{Criterion, Goal};
+use denavit::motion::profile::Law;
 use denavit_program::emit::Language;
 use std::path::PathBuf;
+
+pub use view::ViewArguments;
 
 /// Everything about a robot arm from its Denavit-Hartenberg table: exact, proved, in formulas and in numbers.
 ///
@@ -42,6 +47,8 @@ pub enum Command {
     Check(CheckArguments),
     /// Write source code in a chosen language, in a folder that builds and tests itself
     Generate(GenerateArguments),
+    /// Open the page: a robot to turn, to drag and to understand, in the browser
+    View(ViewArguments),
 }
 
 /// `robots`
@@ -468,14 +475,13 @@ pub enum LawName {
     JerkLimited,
 }
 
-impl LawName {
-    /// In words.
-    pub fn words(self) -> &'static str {
-        match self {
-            LawName::Cubic => "a cubic",
-            LawName::Quintic => "a quintic",
-            LawName::Trapezoidal => "a trapezoidal",
-            LawName::JerkLimited => "a jerk-limited",
+impl From<LawName> for Law {
+    fn from(name: LawName) -> Self {
+        match name {
+            LawName::Cubic => Law::Cubic,
+            LawName::Quintic => Law::Quintic,
+            LawName::Trapezoidal => Law::Trapezoidal,
+            LawName::JerkLimited => Law::DoubleS,
         }
     }
 }

@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use denavit::catalogue;
 use denavit::description::{
     Description, Diagnostic, MAX_BYTES, Measure, Severity, TableKind, TableOptions, read_table, read_toml,
-    read_value,
+    read_value, write_toml,
 };
 use denavit_symbolic::{Expr, Symbol};
 use std::fs::File;
@@ -17,6 +17,15 @@ use std::path::Path;
 /// # Errors
 /// If there is no such robot, or its file cannot be read or has errors.
 pub fn robot(arguments: &RobotArguments) -> Result<Description, Failure> {
+    Ok(robot_file(arguments)?.0)
+}
+
+/// Reads the robot as [`robot`] does, and gives it as the text of a robot file, too: as it was written where that is all
+/// that there is to it, else as it is to be written.
+///
+/// # Errors
+/// If there is no such robot, or its file cannot be read or has errors.
+pub fn robot_file(arguments: &RobotArguments) -> Result<(Description, String), Failure> {
     let name = catalogue_name(&arguments.robot);
     let listed = name.as_deref().and_then(|n| Some((n, catalogue::text(n)?)));
     let is_table = listed.is_none() && !arguments.robot.ends_with(".toml");
@@ -26,8 +35,8 @@ pub fn robot(arguments: &RobotArguments) -> Result<Description, Failure> {
             arguments.robot
         )));
     }
-    let mut description = match listed {
-        Some((name, text)) => read(name, text, read_toml(text))?,
+    let (mut description, text) = match listed {
+        Some((name, text)) => (read(name, text, read_toml(text))?, Some(text.to_string())),
         None => from_file(arguments)?,
     };
     let mut seen: Vec<&str> = vec![];
@@ -39,7 +48,8 @@ pub fn robot(arguments: &RobotArguments) -> Result<Description, Failure> {
         seen.push(name);
         set(&mut description, setting)?;
     }
-    Ok(description)
+    let text = text.filter(|_| arguments.set.is_empty()).unwrap_or_else(|| write_toml(&description));
+    Ok((description, text))
 }
 
 /// The catalogue's spelling: lower case, words joined by hyphens. `None` for what looks like a path.
@@ -60,7 +70,8 @@ fn table_option(arguments: &RobotArguments) -> Option<&'static str> {
     given.into_iter().find(|g| g.0).map(|g| g.1)
 }
 
-fn from_file(arguments: &RobotArguments) -> Result<Description, Failure> {
+/// The robot, and the text of its file if that is a robot file.
+fn from_file(arguments: &RobotArguments) -> Result<(Description, Option<String>), Failure> {
     let name = arguments.robot.as_str();
     let path = Path::new(name);
     let kind = match path.extension().and_then(|e| e.to_str()) {
@@ -85,7 +96,8 @@ fn from_file(arguments: &RobotArguments) -> Result<Description, Failure> {
         None => read_toml(&text),
         Some(kind) => read_table(&text, kind, &table_options(arguments)),
     };
-    read(name, &text, outcome)
+    let description = read(name, &text, outcome)?;
+    Ok((description, kind.is_none().then_some(text)))
 }
 
 /// The text of a file or of standard input, bounded, whatever its bytes are.

@@ -23,6 +23,7 @@ fn main() -> ExitCode {
         Command::Report(a) => commands::report::run(&a),
         Command::Check(a) => commands::check::run(&a),
         Command::Generate(a) => commands::generate::run(&a),
+        Command::View(a) => commands::view::run(&a),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -49,7 +49,7 @@ impl Charts {
 
     /// Takes the verdict in a chart, with the marks and the polynomial that it left in `work`, and adds charts of the arcs
     /// in question.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub fn settle<const FUSED: bool>(&mut self, chart: &Chart, verdict: Verdict, work: &mut Work) {
         if self.done == 1 {
             work.effort = 0;
@@ -92,7 +92,7 @@ pub(crate) const NEARBY: usize = 48;
 
 /// The roots near the circle as cosines and sines of the hidden joint, and the middles of those that are close together
 /// (marked): a root that several configurations share falls apart by the root of the noise, its middle does not.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(crate) fn near_roots<const GROUPS: usize>(
     chart: &Chart,
     roots: &Roots<GROUPS>,

@@ -22,7 +22,7 @@ pub type Strip = [[Lanes; 9]; 6];
 /// The upper strip `[A | B/r C/r]` and the lower one `[C | A/r B/r]` at eight values of the hidden joint.
 ///
 /// `rows` are those of [`Eliminated`](crate::eliminate::Eliminated); `c` and `s` the hidden joint's monomials.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub fn strips<const FUSED: bool>(
     rows: &[[f64; 27]; 6],
     multiplied: Joint,
@@ -64,7 +64,7 @@ fn entry<const FUSED: bool>(row: &[f64; 27], k: usize, c: Lanes, s: Lanes) -> La
 }
 
 /// Eliminates the first `columns` columns of six rows with partial pivoting; the product of the pivots, signed.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub fn reduce<const FUSED: bool, const N: usize>(m: &mut [[Lanes; N]; 6], columns: usize) -> Lanes {
     let mut product = Lanes::ONE;
     for k in 0..columns {
@@ -104,7 +104,7 @@ pub fn core(upper: &Strip, lower: &Strip, out: &mut [[Lanes; 6]; 6]) {
 }
 
 /// The determinant at eight values of the hidden joint.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub fn determinant<const FUSED: bool>(rows: &[[f64; 27]; 6], multiplied: Joint, c: Lanes, s: Lanes) -> Lanes {
     let (mut upper, mut lower) = ([[Lanes::ZERO; 9]; 6], [[Lanes::ZERO; 9]; 6]);
     strips::<FUSED>(rows, multiplied, c, s, &mut upper, &mut lower);

@@ -35,7 +35,7 @@ impl Default for Eliminated {
 const RANK: f64 = 1e-11;
 
 /// Eliminates the first two joints of the split at a pose; `closing` is `A₆ T⁻¹ B`, scaled.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub fn eliminate<const FUSED: bool>(split: &Split, closing: &Rigid, out: &mut Eliminated) {
     out.links = split.links_at(closing);
     let right = right_side(split, out);
@@ -127,7 +127,7 @@ pub fn eliminate<const FUSED: bool>(split: &Split, closing: &Rigid, out: &mut El
 }
 
 /// The right sides over the monomials of the first two joints (the second's fastest).
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn right_side(split: &Split, out: &mut Eliminated) -> [[f64; 9]; FORMS] {
     let links = &out.links;
     let mut samples = [[0.0; FORMS]; 3];

@@ -11,7 +11,7 @@ pub const UNKNOWNS: usize = 12;
 
 /// A null vector in each lane, and how small the second smallest pivot was compared to the first: where this is small
 /// too, several solutions share the value of the hidden joint, and the vector is any mixture of theirs.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub fn null_vectors<const FUSED: bool>(
     rows: &[[f64; 27]; 6],
     multiplied: Joint,

@@ -82,7 +82,7 @@ impl<const GROUPS: usize> Fourier<GROUPS> {
     }
 
     /// The polynomial through the samples, divided by the largest of them; false if they are all zero or not numbers.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub fn fit<const FUSED: bool>(
         &self,
         degree: usize,

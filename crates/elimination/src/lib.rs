@@ -6,6 +6,8 @@
 //! joints, and Newton's method on the pose the last digits. Discs around the roots certify that nothing is missing.
 //! At poses where this determinant vanishes identically (the last axis parallel to the first, say), a wider matrix serves.
 //!
+//! What is called for every chart of every pose is compiled into one loop; not so for WebAssembly, where size counts.
+//!
 //! In reading order: [`Arm`], [`Plan::new`] (offline), [`Plan::solve`] (online), [`Answer`].
 
 // Matrices: equations with row and column read better than iterators over both.

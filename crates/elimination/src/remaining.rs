@@ -64,7 +64,7 @@ impl First {
 
 /// The values of all joints, in the arm's order, of the candidates with the hidden joint at `hidden` and the null vectors
 /// `x`; `branch` (±1) chooses between the first joint's angles where the forms leave it open.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub fn complete<const FUSED: bool>(
     split: &Split,
     eliminated: &Eliminated,
@@ -156,7 +156,7 @@ pub fn complete<const FUSED: bool>(
 }
 
 /// The two joints of the trio behind the hidden one, from the null vector.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn trio<const FUSED: bool>(split: &Split, x: &[Lanes; UNKNOWNS], ring: &mut [Value; 6]) {
     let (multiplied, other) = split.multiplied_and_other();
     let weight = if multiplied == Joint::Revolute { 1.0 / 3.0f64.sqrt() } else { 1.0 };

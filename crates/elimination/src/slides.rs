@@ -182,7 +182,7 @@ impl Sliding {
     }
 
     /// Products of the branches at the nodes of a chart.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn samples<const FUSED: bool>(
         &self,
         arm: &Arm,
@@ -300,7 +300,7 @@ impl Sliding {
     }
 
     /// The chain with the slides at 0.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn position<const FUSED: bool>(&self, arm: &Arm, target: &Rigid, values: [[Complex; 2]; 6]) -> Branch {
         let mut rotation = [[Complex::ZERO; 3]; 3];
         let mut offset = [Complex::ZERO; 3];
@@ -374,7 +374,7 @@ fn determinant<const FUSED: bool>(of: &Branch) -> Complex {
 }
 
 /// Solves one ring and adds what it finds to `work.found`.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(crate) fn solve_sliding<const FUSED: bool>(
     arm: &Arm,
     sliding: &Sliding,
@@ -392,7 +392,7 @@ pub(crate) fn solve_sliding<const FUSED: bool>(
 }
 
 /// Finds the roots that a chart shows, and the configurations that belong to them.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn solve_chart<const FUSED: bool>(
     arm: &Arm,
     sliding: &Sliding,

@@ -47,7 +47,7 @@ pub(crate) struct Constants {
 }
 
 /// Solves one split, by the 12 × 12 matrix or by the wider one, and adds what it finds to `work.found`.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(crate) fn solve_split<const FUSED: bool>(
     constants: &Constants,
     split: &Split,
@@ -70,7 +70,7 @@ pub(crate) fn solve_split<const FUSED: bool>(
 }
 
 /// Finds the roots that a chart shows, and the configurations that belong to them.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn solve_chart<const FUSED: bool>(
     constants: &Constants,
     split: &Split,
@@ -98,7 +98,7 @@ fn solve_chart<const FUSED: bool>(
 }
 
 /// Finds the roots that a chart shows, and what may belong to them; false if the samples are of no use.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn narrow_candidates<const FUSED: bool>(
     constants: &Constants,
     split: &Split,
@@ -128,7 +128,7 @@ fn narrow_candidates<const FUSED: bool>(
 /// Adds the null vectors at the given cosines and sines of the hidden joint to the candidates.
 ///
 /// Where several configurations share a root, the middles of close roots are exact: they serve instead of the roots.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn candidates<const FUSED: bool>(split: &Split, near: &[([f64; 2], bool)], work: &mut Work) {
     work.candidates.clear();
     let (multiplied, _) = split.multiplied_and_other();
@@ -177,7 +177,7 @@ fn candidates<const FUSED: bool>(split: &Split, near: &[([f64; 2], bool)], work:
 }
 
 /// Completes and polishes the candidates, and keeps those that reach the pose and are new.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn accept<const FUSED: bool>(arm: &Arm, split: &Split, target: &Rigid, work: &mut Work) {
     let first = First::new(split.kinds[0], &work.eliminated.first);
     let branches: &[f64] = if first.open.is_some() { &[1.0, -1.0] } else { &[1.0] };

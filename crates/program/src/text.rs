@@ -60,7 +60,7 @@ impl fmt::Display for Program {
         }
         for (i, (op, _)) in self.ops().iter().enumerate() {
             let at = |n: &u32| Operand(self, Value { node: *n, negative: false });
-            write!(f, "{} = {}", at(&(i as u32)), word(op))?;
+            write!(f, "{} = {}", at(&(i as u32)), mnemonic(op))?;
             match op {
                 Op::Number(r) => write!(f, " {r}")?,
                 Op::Pi => {}
@@ -115,7 +115,7 @@ impl Program {
 }
 
 /// How an operation is spelled.
-fn word(op: &Op) -> &'static str {
+pub(crate) fn mnemonic(op: &Op) -> &'static str {
     match op {
         Op::Number(_) => "number",
         Op::Pi => "pi",

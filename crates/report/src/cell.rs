@@ -1,6 +1,7 @@
 //! Quantities as they stand in tables.
 
 use denavit::explain::Line;
+pub use denavit::explain::decimals;
 use denavit_symbolic::{Angle, Expr, Rational};
 
 /// A length as a formula or in metres, an angle in degrees; what is no multiple of π in radians.
@@ -30,14 +31,4 @@ pub fn cell(e: Expr, is_angle: bool) -> Line {
         line = line.text(format!("{}{unit}", decimals(constant.abs().to_f64(), 9)));
     }
     if line.0.is_empty() { Line::new("0") } else { line }
-}
-
-/// A number with at most so many digits behind the point, none of them a zero at the end.
-pub fn decimals(x: f64, digits: usize) -> String {
-    if x.abs() >= 1e9 {
-        return format!("{x:e}").replace('-', "−");
-    }
-    let text = format!("{x:.digits$}");
-    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
-    if text == "-0" { "0".into() } else { text.replace('-', "−") }
 }

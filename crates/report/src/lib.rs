@@ -1,12 +1,13 @@
 //! Documents about a robot: what `denavit` derives, as a document that one would hand in.
 //!
 //! [`report`] makes a [`Document`], a tree that knows no format; [`render`] writes it as Typst, LaTeX, Markdown and
-//! HTML. [`figure`] draws the arm. Nothing here opens a file; nothing computes what the robot crate should.
+//! HTML. [`figure`] draws the arm. [`json`] is what other programs read. Nothing here opens a file; nothing computes what the robot crate should.
 
 mod cell;
 mod derivation;
 mod document;
 pub mod figure;
+pub mod json;
 pub mod render;
 mod sections;
 

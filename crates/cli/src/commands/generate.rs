@@ -127,22 +127,6 @@ fn write(generated: &Generated, folder: &Path, force: bool) -> Result<(), Failur
     Ok(())
 }
 
-/// The command that tests the folder, to be run in it.
-fn test_command(generated: &Generated, language: Language) -> String {
-    let file = |start: &str, end: &str| {
-        let names = generated.files.iter().map(|f| f.path.as_str());
-        names.into_iter().find(|p| p.starts_with(start) && p.ends_with(end)).unwrap_or_default().to_string()
-    };
-    match language {
-        Language::Rust => "cargo test".into(),
-        Language::C => "make test".into(),
-        Language::Python => format!("python -W error {}", file("test_", ".py")),
-        Language::Matlab => format!("octave --no-gui --quiet {}", file("test_", ".m")),
-        Language::JavaScript => "node --test".into(),
-        Language::Cuda => format!("python {}", file("test_", ".py")),
-    }
-}
-
 fn report(generated: &Generated, language: Language, folder: &Path) -> String {
     let mut text = format!("{} in {}\n", styled(language.name(), HEADING), folder.display());
     for file in &generated.files {
@@ -158,7 +142,7 @@ fn report(generated: &Generated, language: Language, folder: &Path) -> String {
     if let Some(ik) = &generated.inverse {
         text += &format!("{}: {}\n", styled("ik", NAME), in_words(ik));
     }
-    text += &format!("test it there with: {}\n", test_command(generated, language));
+    text += &format!("test it there with: {}\n", generated.test_command(language));
     text
 }
 
@@ -213,6 +197,6 @@ fn as_json(generated: &Generated, language: Language, folder: &Path) -> serde_js
         "files": files,
         "functions": functions,
         "ik": inverse,
-        "test": test_command(generated, language),
+        "test": generated.test_command(language),
     })
 }

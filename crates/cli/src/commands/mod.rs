@@ -12,3 +12,4 @@ pub mod report;
 pub mod robots;
 pub mod show;
 mod stream;
+pub mod view;

@@ -21,7 +21,7 @@ pub(crate) mod wrap;
 
 use crate::program::Program;
 use crate::solver::Solver;
-use denavit_symbolic::Symbol;
+use denavit_symbolic::{Expr, Symbol};
 
 /// A language that source can be emitted in.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -220,6 +220,13 @@ pub struct File {
     pub path: String,
     /// Its text.
     pub text: String,
+}
+
+/// A formula on its own in a language, in double precision; symbols become the nearest identifiers that the language has.
+pub fn expression(e: Expr, language: Language) -> String {
+    let mut names = names::Names::new(language, &[]);
+    e.symbols().into_iter().for_each(|s| names.declare(s));
+    spelling::Spelling { language, precision: Precision::Double, names: &names }.formula(e)
 }
 
 /// The files of a folder that builds and tests itself.

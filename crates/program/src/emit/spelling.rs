@@ -54,7 +54,9 @@ impl Spelling<'_> {
         };
         let any = Value { node: 0, negative: false };
         let call = |op: Op, arguments: &[Expr]| {
-            let name = op.spelling(self.language, self.precision).expect("a function of the language");
+            // Compiled languages have no such call in what is emitted; their libraries name them as the text form does.
+            let name =
+                op.spelling(self.language, self.precision).unwrap_or_else(|| crate::text::mnemonic(&op));
             let arguments: Vec<String> = arguments.iter().map(|a| self.formula(*a)).collect();
             (format!("{name}({})", arguments.join(", ")), Binding::Atom)
         };

@@ -24,6 +24,7 @@ pub mod view;
 pub use arm::isometric;
 pub use drawing::Drawing;
 pub use options::Options;
+pub use place::{Bar, Layout, Symbol};
 pub use pose::Arm;
 pub use scheme::scheme;
 pub use skeleton::{Joint, Length, Skeleton};

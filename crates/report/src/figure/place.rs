@@ -11,9 +11,13 @@ use denavit::geometry::Vector;
 pub struct Symbol {
     /// Which of the skeleton's joints.
     pub joint: usize,
+    /// What it moves.
     pub kind: JointKind,
+    /// Its middle, in the base.
     pub centre: Vector<f64>,
+    /// Its direction, a unit vector.
     pub axis: Vector<f64>,
+    /// Its radius, or half of its side, metres.
     pub radius: f64,
     /// Half of its length.
     pub half: f64,
@@ -36,7 +40,9 @@ impl Symbol {
 /// A straight part of a link.
 #[derive(Clone, Copy, Debug)]
 pub struct Bar {
+    /// From where.
     pub a: Vector<f64>,
+    /// To where.
     pub b: Vector<f64>,
     /// Which link, the base being 0.
     pub link: usize,
@@ -47,7 +53,9 @@ pub struct Bar {
 /// Where everything stands.
 #[derive(Clone, Debug)]
 pub struct Layout {
+    /// One a joint.
     pub symbols: Vec<Symbol>,
+    /// The links, the base's first.
     pub bars: Vec<Bar>,
     /// Where the arm stands, and the direction from the ground to the arm.
     pub ground: (Vector<f64>, Vector<f64>),

@@ -81,7 +81,8 @@ impl Arm {
         is_flat(&self.skeleton)
     }
 
-    pub(super) fn layout(&self) -> Layout {
+    /// What stands where: symbols, links, ground and gripper, in the base.
+    pub fn layout(&self) -> Layout {
         layout(&self.chain, &self.skeleton, &self.slides)
     }
 }

@@ -18,9 +18,13 @@ const LOOK: &str = include_str!("../../assets/page.css");
 
 /// The page.
 pub fn page(document: &Document) -> String {
+    page_with(document, &base64::engine::general_purpose::STANDARD.encode(FONT))
+}
+
+/// The page with the font of its formulas (WOFF2, base64) put in by whoever has it already.
+pub fn page_with(document: &Document, font: &str) -> String {
     let language = document.language.pick("en", "fr");
     let title = escaped(&document.title);
-    let font = base64::engine::general_purpose::STANDARD.encode(FONT);
     let mut writer =
         Writer { out: String::new(), contents: vec![], figures: 0, tables: 0, language: document.language };
     for section in &document.sections {
@@ -221,11 +225,11 @@ impl Writer {
 }
 
 /// The formula for those who hear it.
-fn spoken(m: &Math, names: &Vocabulary) -> String {
+pub(super) fn spoken(m: &Math, names: &Vocabulary) -> String {
     math(m, names, Style::Unicode)
 }
 
-fn lines(laid: &Laid) -> String {
+pub(super) fn lines(laid: &Laid) -> String {
     match &laid.lines[..] {
         [one] => format!("<mrow>{}{}</mrow>", laid.left, one.text),
         _ => format!("<mtable class=\"lines\">{}</mtable>", rows(laid)),
@@ -233,7 +237,7 @@ fn lines(laid: &Laid) -> String {
 }
 
 /// Rows of a table, with the place where they are aligned.
-fn rows(laid: &Laid) -> String {
+pub(super) fn rows(laid: &Laid) -> String {
     let line = |(k, line): (usize, &BrokenLine)| {
         let left = if k == 0 { laid.left.as_str() } else { "" };
         let indent = match line.depth {
@@ -249,7 +253,7 @@ fn rows(laid: &Laid) -> String {
     laid.lines.iter().enumerate().map(line).collect()
 }
 
-fn words(line: &Line, names: &Vocabulary) -> String {
+pub(super) fn words(line: &Line, names: &Vocabulary) -> String {
     let piece = |p: &Piece| match p {
         Piece::Text(t) => escaped(t),
         Piece::Strong(t) => format!("<strong>{}</strong>", escaped(t)),

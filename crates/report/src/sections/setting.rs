@@ -9,7 +9,7 @@ use denavit::forward::{ForwardModel, Outputs, Reference};
 use denavit::inverse::{InverseModel, JointSpace, Refusal};
 use denavit::robot::Robot;
 use denavit::structure::Structure;
-use denavit::velocity::{Obstacle, Singularities, Viewpoint, geometric, measures};
+use denavit::velocity::{Obstacle, Singularities, regular_configuration};
 use denavit_symbolic::Expr;
 use std::cell::OnceCell;
 
@@ -121,7 +121,7 @@ impl<'a> Setting<'a> {
         let given = options.pose.clone().filter(|q| q.len() == joints);
         let q = given.unwrap_or_else(|| {
             let shown = arm.as_ref().map_or_else(|| vec![0.0; joints], |a| a.pose().to_vec());
-            regular(&valued, shown)
+            regular_configuration(&valued, shown)
         });
         let arm = arm.map(|a| if a.pose() == q { a } else { a.at(&q) });
         Setting {
@@ -235,40 +235,4 @@ fn named(description: &Description) -> (Description, OnceCell<Result<InverseMode
         }
     }
     (named, OnceCell::from(model))
-}
-
-/// Below this part of the largest value found an example counts as singular.
-const SINGULAR: f64 = 0.02;
-/// Turns that are tried instead, degrees.
-const TURNS: [[i32; 5]; 4] =
-    [[0, 25, -40, 20, 35], [20, -35, 50, 30, -45], [-30, 40, 60, -35, 50], [45, 30, -70, 55, 40]];
-
-/// A configuration that is not singular: the one that shows the arm well, or one beside it.
-fn regular(valued: &Description, shown: Vec<f64>) -> Vec<f64> {
-    let Ok(robot) = Robot::numeric(valued) else { return shown };
-    let space = JointSpace::new(valued, robot.reach());
-    let length = robot.reach().max(1e-9);
-    let turned = |turns: &[i32; 5]| -> Vec<f64> {
-        let turn = |(j, x): (usize, &f64)| match space.is_angle[j] {
-            true => x + f64::from(turns[j % 5]).to_radians(),
-            false => *x,
-        };
-        shown.iter().enumerate().map(turn).collect()
-    };
-    let all: Vec<Vec<f64>> = [shown.clone()].into_iter().chain(TURNS.iter().map(turned)).collect();
-    let value = |q: &Vec<f64>| {
-        let jacobian = geometric(&robot, q, &Viewpoint::tool());
-        measures(&jacobian, &space.is_angle, length).whole.singular_values
-    };
-    let values: Vec<Vec<f64>> = all.iter().map(value).collect();
-    // Directions that the arm never has do not count.
-    let rank =
-        values.iter().map(|v| v.iter().filter(|s| **s > 1e-6 * v[0].max(1e-12)).count()).max().unwrap_or(0);
-    let least = |k: usize| if rank == 0 { 0.0 } else { values[k].get(rank - 1).copied().unwrap_or(0.0) };
-    let best = (0..all.len()).map(least).fold(0.0, f64::max);
-    let within =
-        |q: &Vec<f64>| q.iter().zip(&space.limits).all(|(x, l)| l.is_none_or(|[a, b]| a <= *x && *x <= b));
-    let chosen =
-        (0..all.len()).find(|&k| (k == 0 || within(&all[k])) && least(k) >= SINGULAR * best.max(1e-12));
-    all.into_iter().nth(chosen.unwrap_or(0)).unwrap_or(shown)
 }

@@ -7,10 +7,10 @@ use crate::figure::{Options, isometric};
 use denavit::explain::{Line, Math};
 use denavit::forward::Reference;
 use denavit::velocity::{
-    JacobianModel, Obstacle, Place, REST, ROWS, Singularities, jacobian_document, singularities_document,
+    JacobianModel, Obstacle, Place, Singularities, jacobian_document, singularities_document,
+    velocity_vocabulary,
 };
 use denavit_symbolic::Expr;
-use denavit_symbolic::vocabulary::Vocabulary;
 
 /// The size of a picture, points.
 const SIZE: [f64; 2] = [150.0, 150.0];
@@ -20,7 +20,7 @@ pub fn sections(s: &Setting) -> Vec<Section> {
     let title = s.line("Jacobian and singularities", "Jacobienne et singularités");
     match s.singular() {
         Ok(found) => {
-            let mut section = Section::new(names(s));
+            let mut section = Section::new(velocity_vocabulary(&s.description));
             section.heading(2, title);
             lowered(singularities_document(&s.description, found, s.language), s.language, &mut section);
             let mut all = vec![section];
@@ -29,7 +29,7 @@ pub fn sections(s: &Setting) -> Vec<Section> {
         }
         Err(why) => {
             let model = JacobianModel::shortest(&s.description, Reference::Tool);
-            let mut section = Section::new(names(s));
+            let mut section = Section::new(velocity_vocabulary(&s.description));
             section.heading(2, title);
             lowered(jacobian_document(&s.description, &model, s.language), s.language, &mut section);
             section.paragraph(Line::new(match why {
@@ -45,13 +45,6 @@ pub fn sections(s: &Setting) -> Vec<Section> {
             vec![section]
         }
     }
-}
-
-/// The robot's names and those of velocities.
-fn names(s: &Setting) -> Vocabulary {
-    let rates = s.description.variables().into_iter().map(|v| format!("d{}", v.symbol.name()));
-    let twist = ROWS.iter().chain(&REST).map(ToString::to_string);
-    rates.chain(twist).fold(s.description.vocabulary(), |v, name| v.symbol(&name))
 }
 
 /// The arm at a configuration of each singularity, the axes that matter marked.

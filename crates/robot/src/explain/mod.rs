@@ -7,6 +7,7 @@ mod document;
 mod language;
 mod lines;
 mod math;
+mod quantity;
 mod terms;
 mod text;
 
@@ -15,5 +16,6 @@ pub use document::{Block, Branch, Factor, Line, Math, Piece, Proof, Sign};
 pub use language::{Language, Words};
 pub use lines::{Laid, aligned, laid, matrix_width};
 pub use math::math;
+pub use quantity::{decimals, rate, reading};
 pub use terms::{count, refusal};
 pub use text::{Mark, plain, text};

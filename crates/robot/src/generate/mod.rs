@@ -111,6 +111,24 @@ pub struct Generated {
     pub refused: Option<String>,
 }
 
+impl Generated {
+    /// The command that tests the folder, to be run in it.
+    pub fn test_command(&self, language: Language) -> String {
+        let file = |start: &str, end: &str| {
+            let mut names = self.files.iter().map(|f| f.path.as_str());
+            names.find(|p| p.starts_with(start) && p.ends_with(end)).unwrap_or_default().to_string()
+        };
+        match language {
+            Language::Rust => "cargo test".into(),
+            Language::C => "make test".into(),
+            Language::Python => format!("python -W error {}", file("test_", ".py")),
+            Language::Matlab => format!("octave --no-gui --quiet {}", file("test_", ".m")),
+            Language::JavaScript => "node --test".into(),
+            Language::Cuda => format!("python {}", file("test_", ".py")),
+        }
+    }
+}
+
 /// Generates source code for a robot. An inverse function that has no closed form is by elimination in C and Rust, and
 /// left out in other languages. Where `fk` and `jacobian` are both asked for, `jacobian_fk` comes with them.
 ///

@@ -119,3 +119,18 @@ pub struct Obstacle {
     /// without dimension, or metres).
     pub violated: Vec<(String, f64)>,
 }
+
+impl Obstacle {
+    /// Why there is no solution, in words.
+    pub fn words(&self) -> String {
+        let why = match &self.unknown {
+            Some(x) => format!("no branch has a value for {x}"),
+            None => "the hand cannot take this pose".into(),
+        };
+        let conditions: Vec<&str> = self.violated.iter().map(|v| v.0.as_str()).collect();
+        match conditions[..] {
+            [] => why,
+            _ => format!("{why}; a pose of this arm meets {}", conditions.join(", ")),
+        }
+    }
+}

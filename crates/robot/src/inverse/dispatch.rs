@@ -323,7 +323,7 @@ impl InverseKinematics {
         answer.obstacle = Some(Obstacle { unknown: None, q: outcome.q, angle, distance, violated: vec![] });
     }
 
-    fn size(&self, pose: &Transform<f64>) -> f64 {
+    pub(super) fn size(&self, pose: &Transform<f64>) -> f64 {
         self.space.reach.hypot(pose.translation.norm()).max(f64::MIN_POSITIVE)
     }
 
@@ -457,7 +457,7 @@ const ANYWHERE: usize = 16;
 /// Descents that look for self-motions.
 const DESCENTS: usize = 64;
 /// What a solution that was searched for may miss the pose by.
-const TOLERANCE: f64 = 1e-9;
+pub(super) const TOLERANCE: f64 = 1e-9;
 
 /// Adds what another method found.
 fn merge(answer: &mut Answer, other: Answer, space: &JointSpace) {

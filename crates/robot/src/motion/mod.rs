@@ -7,6 +7,7 @@
 //! - [`jerk_limited`]: a fast timing of a path under velocity, acceleration and jerk limits ([`JerkLimited`]).
 //! - [`hand`]: paths of the hand: lines, arcs, splines.
 //! - [`follow`]: the joints along a path of the hand, and what stands in the way.
+//! - [`plan`]: from a wish to a timed motion, by all of these.
 //! - [`move_within_limits`]: the fastest motion from a state to a state under all three, with no path given.
 //!
 //! Joint positions are radians (metres for a prismatic joint), times seconds. Every motion is a [`Trajectory`].
@@ -18,6 +19,7 @@ mod in_time;
 pub mod jerk_limited;
 mod limits;
 pub mod path;
+pub mod plan;
 pub mod profile;
 mod state_to_state;
 pub mod timing;

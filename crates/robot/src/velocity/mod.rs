@@ -10,6 +10,7 @@ mod inverse;
 mod measures;
 mod model;
 mod program;
+mod regular;
 mod singular;
 mod solve;
 mod svd;
@@ -24,10 +25,11 @@ pub use inverse::{REST, RateFormulas};
 pub use measures::{Block, Measures, NearestSingularity, RANK, Whole, measures, nearest_singularity};
 pub use model::JacobianModel;
 pub use program::{jacobian_and_pose_program, jacobian_program};
+pub use regular::regular_configuration;
 pub use singular::{
     Example, MAX_JOINTS, Minor, Obstacle, Place, Singularities, Singularity, singular_configuration,
 };
 pub use solve::{Damping, JointRates, RateSolver};
 pub use svd::{Svd, svd};
-pub use words::{jacobian_document, singularities_document};
+pub use words::{jacobian_document, singularities_document, velocity_vocabulary};
 pub use wrench::{Wrench, largest_wrench, torques};

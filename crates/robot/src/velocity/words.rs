@@ -1,6 +1,7 @@
 //! The Jacobian and its singularities in words and formulas, in each language.
 
 use super::geometric::{ROWS, Viewpoint};
+use super::inverse::REST;
 use super::model::JacobianModel;
 use super::singular::{Example, Minor, Place, Singularities, Singularity};
 use crate::description::Description;
@@ -8,6 +9,14 @@ use crate::explain::{Block, Factor, Language, Line, Math, Proof, Sign, count, re
 use crate::forward::Proof as Forward;
 use denavit_symbolic::Expr;
 use denavit_symbolic::factor::Zero;
+use denavit_symbolic::vocabulary::Vocabulary;
+
+/// The robot's names and those of velocities: `dq1`, `vx`, and where a point is apart.
+pub fn velocity_vocabulary(description: &Description) -> Vocabulary {
+    let rates = description.variables().into_iter().map(|v| format!("d{}", v.symbol.name()));
+    let twist = ROWS.iter().chain(&REST).map(ToString::to_string);
+    rates.chain(twist).fold(description.vocabulary(), |v, name| v.symbol(&name))
+}
 
 /// The matrix, with its place and what it costs.
 pub fn jacobian_document(description: &Description, model: &JacobianModel, language: Language) -> Vec<Block> {

@@ -2,8 +2,9 @@
 
 use super::Document;
 use super::marked::{Piece, pieces};
-use super::terminal::{at, entry_name};
+use super::terminal::at;
 use denavit::check::{Claim, Entry, Finding, Patch, Standing};
+use denavit_report::json::entry_name;
 use std::fmt::Write;
 use std::ops::Range;
 

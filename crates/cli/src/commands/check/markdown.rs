@@ -1,8 +1,8 @@
 //! The list as Markdown, as `docs/errata.md` has it.
 
 use super::Document;
-use super::terminal::entry_name;
 use denavit::check::{Claim, Finding, Standing};
+use denavit_report::json::entry_name;
 use std::ops::Range;
 
 /// Counts, causes, and a table of what is not right.

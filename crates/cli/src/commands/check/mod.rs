@@ -1,7 +1,6 @@
 //! `denavit check`: formulas that somebody printed, held against the robot.
 
 mod html;
-mod json;
 mod markdown;
 mod marked;
 mod rubric;
@@ -75,7 +74,7 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
         let rubric = fs::read_to_string(file).map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
         write!(out, "{}", rubric::sheet(&document, &name, &rubric)?)?;
     } else if arguments.json {
-        writeln!(out, "{}", json::answer(&document))?;
+        writeln!(out, "{}", denavit_report::json::checked(&name, &text, &checked))?;
     } else if arguments.markdown {
         write!(out, "{}", markdown::list(&document))?;
     } else {

@@ -5,6 +5,7 @@ use super::marked::{Piece, pieces};
 use crate::terminal::{FAINT, HEADING, NAME, decimals, styled};
 use anstyle::{AnsiColor, Style};
 use denavit::check::{Cause, Claim, Counterexample, Entry, Finding, Patch, Slip, Standing, Wrong};
+use denavit_report::json::entry_name;
 use std::ops::Range;
 
 const GOOD: Style = AnsiColor::Green.on_default();
@@ -83,14 +84,6 @@ fn told(document: &Document, n: usize, cause: &Cause) -> String {
         }
     }
     out + "\n"
-}
-
-/// `H_6^3, row 3, column 2`
-pub fn entry_name(claim: &Claim, place: Option<(usize, usize)>) -> String {
-    match place {
-        Some((r, c)) => format!("{}, row {r}, column {c}", claim.name),
-        None => claim.name.clone(),
-    }
 }
 
 fn shown(document: &Document, claim: &Claim) -> String {

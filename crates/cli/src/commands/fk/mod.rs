@@ -7,11 +7,12 @@ use crate::arguments::{FkArguments, Format};
 use crate::commands::derive;
 use crate::failure::Failure;
 use crate::load;
-use crate::terminal::{Align, HEADING, NAME, decimals, lowered, matrix, number, raised, styled};
+use crate::terminal::{Align, HEADING, NAME, lowered, matrix, number, raised, styled};
 use answer::Answers;
 pub use answer::strict;
 use denavit::Robot;
 use denavit::description::{Description, JointKind, Measure, Variable};
+use denavit::explain::reading;
 use denavit::forward::Reference;
 use denavit::geometry::Transform;
 use denavit::geometry::orientation::{OrientationSet, extract};
@@ -166,14 +167,6 @@ fn warn_of_limits(d: &Description, q: &[f64]) -> Result<(), Failure> {
         }
     }
     Ok(())
-}
-
-/// A joint variable for reading: degrees or metres.
-pub fn reading(x: f64, kind: JointKind) -> String {
-    match kind {
-        JointKind::Revolute => format!("{}°", decimals(x.to_degrees(), 4)),
-        JointKind::Prismatic => format!("{} m", decimals(x, 6)),
-    }
 }
 
 /// The answer for reading.

@@ -1,8 +1,9 @@
 //! The solutions of a pose, as a table and as JSON.
 
-use crate::commands::fk::{plural, reading};
+use crate::commands::fk::plural;
 use crate::terminal::{Align, FAINT, HEADING, NAME, matrix, number, styled, table};
 use denavit::description::{Description, JointKind};
+use denavit::explain::reading;
 use denavit::geometry::Transform;
 use denavit::idealise::{Ideal, Snap};
 use denavit::inverse::{

@@ -8,11 +8,12 @@ mod summary;
 
 use crate::arguments::{Format, IkArguments};
 use crate::commands::document;
-use crate::commands::fk::{configuration, reading, without_values};
+use crate::commands::fk::{configuration, without_values};
 use crate::failure::Failure;
 use crate::load;
 use answer::{Question, Report};
 use denavit::description::{Description, JointKind};
+use denavit::explain::reading;
 use denavit::explain::{Block, Language};
 use denavit::idealise::{Ideal, idealised};
 use denavit::inverse::explain::Explanation;
@@ -221,7 +222,7 @@ fn values(
                 writeln!(
                     anstream::stderr(),
                     "note: {name} is one joint too many; taken as {}, `--given {name}={unit}` chooses",
-                    crate::commands::fk::reading(x, variable.kind)
+                    reading(x, variable.kind)
                 )?;
                 x
             }

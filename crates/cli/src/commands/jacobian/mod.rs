@@ -12,7 +12,7 @@ use crate::failure::Failure;
 use crate::load;
 use answer::{Answer, Questions};
 use denavit::Robot;
-use denavit::description::{Description, JointKind, Measure};
+use denavit::description::{Description, Measure};
 use denavit::forward::Reference;
 use denavit::geometry::Vector;
 use denavit::geometry::orientation::OrientationSet;
@@ -207,12 +207,4 @@ fn joint_rates(description: &Description, text: &str, option: &str) -> Result<Ve
         );
     }
     Ok(rates)
-}
-
-/// A joint's velocity for reading: degrees or metres a second.
-pub fn rate(x: f64, kind: JointKind) -> String {
-    match kind {
-        JointKind::Revolute => format!("{}°/s", crate::terminal::decimals(x.to_degrees(), 4)),
-        JointKind::Prismatic => format!("{} m/s", crate::terminal::decimals(x, 6)),
-    }
 }

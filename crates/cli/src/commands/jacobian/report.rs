@@ -1,10 +1,10 @@
 //! The answer for reading.
 
 use super::answer::{Answer, Held, name};
-use super::rate;
-use crate::commands::fk::reading;
 use crate::terminal::{Align, FAINT, HEADING, NAME, decimals, number, styled, table};
 use denavit::description::JointKind;
+use denavit::explain::rate;
+use denavit::explain::reading;
 use denavit::velocity::{Jacobian, ROWS};
 
 /// Everything that was asked.

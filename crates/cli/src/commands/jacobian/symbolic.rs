@@ -8,8 +8,8 @@ use denavit::description::Description;
 use denavit::explain::{Block, Language, Line, Math};
 use denavit::forward::{Proof, Reference};
 use denavit::velocity::{
-    JacobianModel, Minor, Obstacle, REST, ROWS, Singularities, Singularity, Viewpoint, jacobian_document,
-    singularities_document,
+    JacobianModel, Minor, Obstacle, ROWS, Singularities, Singularity, Viewpoint, jacobian_document,
+    singularities_document, velocity_vocabulary,
 };
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::{Style, print};
@@ -100,10 +100,8 @@ fn algorithm(model: &JacobianModel) -> Vec<Block> {
 
 /// The robot's names, those of the algorithm's steps, and those of velocities.
 fn names(description: &Description, model: &JacobianModel) -> Vocabulary {
-    let rates = description.variables().into_iter().map(|v| format!("d{}", v.symbol.name()));
-    let twist = ROWS.iter().chain(&REST).map(ToString::to_string);
     let steps = model.algorithm.steps().into_iter().map(|step| step.name);
-    rates.chain(twist).chain(steps).fold(description.vocabulary(), |v, name| v.symbol(&name))
+    steps.fold(velocity_vocabulary(description), |v, name| v.symbol(&name))
 }
 
 fn printed(description: &Description, model: &JacobianModel, blocks: Vec<Block>, format: Format) -> String {

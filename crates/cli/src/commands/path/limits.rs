@@ -1,54 +1,24 @@
-//! What the joints can do: from the robot file, or from the command line.
+//! What the joints can do: from the command line, else from the robot file.
 
 use crate::arguments::PathArguments;
 use crate::commands::fk::value;
 use crate::failure::Failure;
 use crate::load;
-use denavit::description::{Description, Row};
-use denavit::motion::{Limits, MotionError};
-use denavit_symbolic::{Expr, Symbol};
-
-/// What is known of the joints.
-pub struct Known {
-    /// Largest velocities, one a joint, if all are known.
-    pub velocity: Option<Vec<f64>>,
-    /// Velocities and accelerations, perhaps jerks, if all are known.
-    pub all: Option<Limits>,
-}
+use denavit::description::Description;
+use denavit::motion::plan::KnownLimits;
 
 /// The limits that are known.
 ///
 /// # Errors
 /// If an option cannot be read.
-pub fn read(description: &Description, arguments: &PathArguments) -> Result<Known, Failure> {
-    let of = |s: Symbol| description.parameters.iter().find(|p| p.symbol == s)?.value?.eval(|_| None).ok();
-    let in_file = |cell: &dyn Fn(&Row) -> Option<Expr>| -> Option<Vec<f64>> {
-        let rows = description.rows.iter().filter(|r| r.variable.is_some());
-        rows.map(|r| cell(r)?.eval(of).ok()).collect()
-    };
+pub fn read(description: &Description, arguments: &PathArguments) -> Result<KnownLimits, Failure> {
     let given = |text: &Option<String>, option: &str| given(description, text, option);
-    let velocity = given(&arguments.velocity, "--velocity")?.or_else(|| in_file(&|r| r.velocity));
-    let acceleration =
-        given(&arguments.acceleration, "--acceleration")?.or_else(|| in_file(&|r| r.acceleration));
-    let jerk = given(&arguments.jerk, "--jerk")?;
-    let all = match (&velocity, &acceleration) {
-        (Some(v), Some(a)) if !v.is_empty() => {
-            let bad = |e: MotionError| Failure::Usage(e.to_string());
-            let limits = Limits::symmetric(v, a).map_err(bad)?;
-            Some(match jerk {
-                Some(jerk) => limits.with_jerk(&jerk).map_err(bad)?,
-                None => limits,
-            })
-        }
-        _ if jerk.is_some() => return Err(both("--jerk")),
-        _ if arguments.law.is_some() => return Err(both("--law")),
-        _ => None,
+    let asked = KnownLimits {
+        velocity: given(&arguments.velocity, "--velocity")?,
+        acceleration: given(&arguments.acceleration, "--acceleration")?,
+        jerk: given(&arguments.jerk, "--jerk")?,
     };
-    Ok(Known { velocity, all })
-}
-
-fn both(option: &str) -> Failure {
-    Failure::Usage(format!("{option}: velocities and accelerations of all joints are needed too"))
+    Ok(asked.or(KnownLimits::of(description)))
 }
 
 /// One value for all joints, or one each; `100deg/s` or a plain number.

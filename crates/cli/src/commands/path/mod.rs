@@ -12,7 +12,6 @@ use crate::commands::fk::without_values;
 use crate::failure::Failure;
 use crate::load;
 use denavit::Robot;
-use motion::Planned;
 use samples::Sampled;
 use std::io::Write;
 
@@ -25,9 +24,9 @@ pub fn run(arguments: &PathArguments) -> Result<(), Failure> {
     let description = load::robot(&arguments.robot)?;
     let robot = Robot::numeric(&description)
         .map_err(|missing| without_values(&description, &arguments.robot.robot, &missing))?;
-    let request = request::read(&description, &robot, arguments)?;
+    let wish = request::read(&description, &robot, arguments)?;
     let limits = limits::read(&description, arguments)?;
-    let planned = Planned::new(&description, &robot, request, limits, arguments)?;
+    let planned = motion::plan(&description, &robot, wish, &limits, arguments)?;
     let sampled = Sampled::new(&description, &robot, &planned, arguments.dt)?;
     let format = if arguments.json { PathFormat::Json } else { arguments.format };
     let text = match format {
@@ -45,5 +44,5 @@ pub fn run(arguments: &PathArguments) -> Result<(), Failure> {
     if matches!(format, PathFormat::Csv | PathFormat::Ndjson) {
         write!(anstream::stderr(), "{}", report::remarks(&description, &planned))?;
     }
-    planned.verdict()
+    motion::verdict(&planned)
 }

@@ -1,9 +1,9 @@
 //! Joints, velocities and manipulability over time, as SVG.
 
-use super::motion::Planned;
 use super::samples::{Sample, Sampled};
 use denavit::description::{Description, JointKind};
 use denavit::motion::follow::EventKind;
+use denavit::motion::plan::Planned;
 use plotters::prelude::*;
 
 /// The drawing is made this much larger than it is shown, because coordinates are whole numbers.

@@ -1,11 +1,11 @@
 //! The path in words: what was met, what else is possible, how it was timed.
 
-use super::motion::Planned;
 use super::samples::Sampled;
-use crate::commands::fk::reading;
-use crate::terminal::{Align, HEADING, NAME, decimals, styled, table};
+use crate::terminal::{Align, HEADING, decimals, styled, table};
 use denavit::description::{Description, JointKind};
+use denavit::explain::reading;
 use denavit::motion::follow::{Alternative, Event, EventKind};
+use denavit::motion::plan::Planned;
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::{Style, print};
 use serde_json::{Value, json};
@@ -81,52 +81,7 @@ pub fn remarks(d: &Description, planned: &Planned) -> String {
 }
 
 fn event(d: &Description, event: &Event) -> String {
-    let at = format!("at {} %", decimals(100.0 * event.s, 3));
-    let names = d.vocabulary();
-    let zero = |factor: &Option<Expr>| {
-        factor.map(|f| format!("{} = 0", print(f, &names, Style::Unicode))).unwrap_or_default()
-    };
-    let why = |factor: &Option<Expr>, place: &Option<denavit::velocity::Place>| {
-        let parts: Vec<String> = [zero(factor), place.as_ref().map(ToString::to_string).unwrap_or_default()]
-            .into_iter()
-            .filter(|p| !p.is_empty())
-            .collect();
-        if parts.is_empty() { String::new() } else { format!(": {}", parts.join("; ")) }
-    };
-    let variables = d.variables();
-    match &event.kind {
-        EventKind::Singular { factor, place, crossed } => {
-            let how = match (crossed, event.s) {
-                (false, 0.0) => "starts in",
-                (true, _) => "passes through",
-                _ => "touches, or nearly,",
-            };
-            format!("{at} it {how} a singular configuration{}", why(factor, place))
-        }
-        EventKind::Limit { joint, limit } => {
-            let v = variables[*joint];
-            let how = if event.s == 0.0 { "is beyond" } else { "leaves" };
-            format!("{at} {} {how} its limit {}", v.symbol.name(), reading(*limit, v.kind))
-        }
-        EventKind::WithinLimits { joint } => {
-            format!("{at} {} is within its limits again", variables[*joint].symbol.name())
-        }
-        EventKind::End { reachable: false, .. } if event.s == 0.0 && variables.len() < 6 => format!(
-            "{at} it {}: the orientation is to be kept too, and {} joints cannot do both",
-            styled("leaves what the hand can reach", NAME),
-            variables.len()
-        ),
-        EventKind::End { reachable: false, factor, place } => {
-            format!("{at} it {}{}", styled("leaves what the hand can reach", NAME), why(factor, place))
-        }
-        EventKind::End { reachable: true, factor, place } => {
-            format!(
-                "{at} {}{}",
-                styled("the branch ends; the hand can go on with another", NAME),
-                why(factor, place)
-            )
-        }
-    }
+    format!("at {} % {}", decimals(100.0 * event.s, 3), event.sentence(d))
 }
 
 fn alternative(d: &Description, a: &Alternative) -> String {

@@ -9,16 +9,9 @@ use denavit::description::Description;
 use denavit::geometry::{Transform, Vector};
 use denavit::inverse::Goal;
 use denavit::motion::hand::{Arc, Chain, HandPath, Line, Orientation, PoseSpline};
+use denavit::motion::plan::Wish;
 use serde_json::Value;
 use std::path::Path;
-
-/// A path.
-pub enum Request {
-    /// Through configurations.
-    Joints(Vec<Vec<f64>>),
-    /// Of the hand, from a configuration if one is given.
-    Hand { path: Box<dyn HandPath + Send + Sync>, start: Option<Vec<f64>>, words: String },
-}
 
 /// Reads the way-points.
 ///
@@ -28,7 +21,7 @@ pub fn read(
     description: &Description,
     robot: &Robot<f64>,
     arguments: &PathArguments,
-) -> Result<Request, Failure> {
+) -> Result<Wish, Failure> {
     let start = arguments.q.as_deref().map(|text| configuration(description, text)).transpose()?;
     let from = match (&start, &arguments.from) {
         (Some(q), _) => Some(robot.pose(q)),
@@ -42,7 +35,7 @@ pub fn read(
         for text in &arguments.joint {
             points.push(configuration(description, text)?);
         }
-        return Ok(Request::Joints(points));
+        return Ok(Wish::Joints(points));
     }
     if let Some(file) = &arguments.via {
         return via(description, robot, file, start);
@@ -76,7 +69,7 @@ pub fn read(
         [count(lines, "line"), count(arcs, "arc")].into_iter().flatten().collect::<Vec<_>>().join(", ");
     let path: Box<dyn HandPath + Send + Sync> =
         if parts.len() == 1 { parts.remove(0) } else { Box::new(Chain::new(parts)) };
-    Ok(Request::Hand { path, start, words })
+    Ok(Wish::Hand { path, start, words })
 }
 
 /// A pose, or with a plus sign in front a displacement along the base's axes from the one before.
@@ -118,7 +111,7 @@ fn via(
     robot: &Robot<f64>,
     file: &Path,
     start: Option<Vec<f64>>,
-) -> Result<Request, Failure> {
+) -> Result<Wish, Failure> {
     let named = file.display();
     let text = if file.as_os_str() == "-" {
         std::io::read_to_string(std::io::stdin())?
@@ -146,7 +139,7 @@ fn via(
         if points.len() < 2 {
             return Err(Failure::Input(format!("error: {named}: a path needs two way-points")));
         }
-        return Ok(Request::Joints(points));
+        return Ok(Wish::Joints(points));
     }
     if let Some(q) = &start {
         let own = robot.pose(q);
@@ -168,7 +161,7 @@ fn via(
             "error: {named}: a spline needs two poses, and no two in a row may be the same"
         ))
     })?;
-    Ok(Request::Hand { path: Box::new(spline), start, words })
+    Ok(Wish::Hand { path: Box::new(spline), start, words })
 }
 
 enum WayPoint {

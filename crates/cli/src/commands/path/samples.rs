@@ -1,11 +1,11 @@
 //! The motion at regular times.
 
-use super::motion::Planned;
 use crate::failure::Failure;
 use denavit::Robot;
 use denavit::description::Description;
 use denavit::geometry::Transform;
 use denavit::inverse::JointSpace;
+use denavit::motion::plan::Planned;
 use denavit::motion::{JointState, MotionError};
 use denavit::velocity::{Viewpoint, Whole, geometric};
 use serde_json::json;

@@ -1,19 +1,17 @@
-//! The answer as JSON; `docs/json.md` describes it.
+//! What was found in a document.
 
-use super::Document;
-use super::terminal::entry_name;
-use denavit::check::{Cause, Claim, Counterexample, Entry, Finding, Slip};
+use denavit::check::{Cause, Checked, Claim, Counterexample, Entry, Finding, Slip};
 use denavit::description::line_column;
 use serde_json::{Value, json};
 use std::ops::Range;
 
-/// All claims with their verdicts.
-pub fn answer(document: &Document) -> Value {
-    let checked = document.checked;
+/// All claims of a document (its name and its text) with their verdicts.
+pub fn checked(name: &str, text: &str, checked: &Checked) -> Value {
+    let document = &Document { text, checked };
     let tally = checked.tally();
     json!({
         "schema": 1,
-        "document": document.name,
+        "document": name,
         "robots": checked.robots.iter().map(|r| r.name.as_str()).collect::<Vec<_>>(),
         "tally": {
             "equal": tally.equal,
@@ -33,12 +31,34 @@ pub fn answer(document: &Document) -> Value {
     })
 }
 
-fn place(document: &Document, span: &Range<usize>) -> Value {
+/// `H_6^3, row 3, column 2`
+pub fn entry_name(claim: &Claim, place: Option<(usize, usize)>) -> String {
+    match place {
+        Some((r, c)) => format!("{}, row {r}, column {c}", claim.name),
+        None => claim.name.clone(),
+    }
+}
+
+/// A document with what was found in it.
+struct Document<'a> {
+    text: &'a str,
+    checked: &'a Checked,
+}
+
+impl Document<'_> {
+    /// The part at a place, blanks run together.
+    fn source(&self, span: &Range<usize>) -> String {
+        let source = self.text.get(span.clone()).unwrap_or_default();
+        source.split_whitespace().collect::<Vec<_>>().join(" ")
+    }
+}
+
+fn place(document: &Document<'_>, span: &Range<usize>) -> Value {
     let (line, column) = line_column(document.text, span.start);
     json!({ "line": line, "column": column, "bytes": [span.start, span.end] })
 }
 
-fn cause(document: &Document, cause: &Cause) -> Value {
+fn cause(document: &Document<'_>, cause: &Cause) -> Value {
     let names = |places: &[(usize, usize)]| {
         let name = |&(c, e): &(usize, usize)| {
             let claim = document.checked.claims.get(c)?;
@@ -55,7 +75,7 @@ fn cause(document: &Document, cause: &Cause) -> Value {
     })
 }
 
-fn claim(document: &Document, claim: &Claim) -> Value {
+fn claim(document: &Document<'_>, claim: &Claim) -> Value {
     let entries: Vec<Value> = claim.entries.iter().map(|e| entry(document, e)).collect();
     // The first entry with the claim's own verdict speaks for it.
     let standing = claim.standing();
@@ -75,7 +95,7 @@ fn claim(document: &Document, claim: &Claim) -> Value {
     })
 }
 
-fn entry(document: &Document, entry: &Entry) -> Value {
+fn entry(document: &Document<'_>, entry: &Entry) -> Value {
     let mut value = json!({
         "verdict": entry.finding.standing().name(),
         "at": place(document, &entry.span),
@@ -118,7 +138,7 @@ fn entry(document: &Document, entry: &Entry) -> Value {
     value
 }
 
-fn slip(document: &Document, slip: &Slip) -> Value {
+fn slip(document: &Document<'_>, slip: &Slip) -> Value {
     let patches = slip
         .patches
         .iter()

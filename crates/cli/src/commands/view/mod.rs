@@ -1,0 +1,64 @@
+//! `denavit view`: the page, served to the browser of this machine.
+//!
+//! The page needs no server, but a browser lets a page that is a file start neither workers nor WebAssembly. So it is
+//! served: to this machine alone, under an address that cannot be guessed, read only.
+
+mod browser;
+mod packing;
+mod request;
+mod response;
+mod server;
+mod site;
+#[cfg(test)]
+mod tests;
+
+use crate::arguments::ViewArguments;
+use crate::failure::Failure;
+use crate::load;
+use serde_json::json;
+use server::{Bounds, Server};
+use site::Site;
+use std::io::Write;
+
+/// Serves the page and says where, until the program is ended.
+///
+/// # Errors
+/// If there is no such robot, no page, or the port is taken.
+pub fn run(arguments: &ViewArguments) -> Result<(), Failure> {
+    let robot = arguments.robot.as_ref().map(load::robot_file).transpose()?;
+    let (site, name) = match &arguments.page {
+        Some(folder) => {
+            let name = folder.display().to_string();
+            (Site::of_folder(folder).map_err(|e| Failure::Input(format!("error: {name}: {e}")))?, name)
+        }
+        None => (Site::embedded().ok_or_else(without_page)?, "the page".into()),
+    };
+    let site = match robot {
+        Some((_, text)) => {
+            site.with_robot(&text).map_err(|e| Failure::Input(format!("error: {name}: {e}")))?
+        }
+        None => site,
+    };
+    let server = Server::bind(site, arguments.port, Bounds::default()).map_err(|e| match arguments.port {
+        0 => Failure::Io(e),
+        port => Failure::Usage(format!("--port {port}: {e}")),
+    })?;
+    let address = server.address();
+    let mut out = anstream::stdout();
+    if arguments.json {
+        writeln!(out, "{}", json!({"schema": 1, "url": address}))?;
+    } else {
+        writeln!(out, "{address}")?;
+    }
+    out.flush()?;
+    writeln!(anstream::stderr(), "Ctrl-C ends it")?;
+    if !arguments.no_open {
+        browser::open(&address);
+    }
+    server.run()
+}
+
+fn without_page() -> Failure {
+    let how = "run `cargo xtask web`, then build again";
+    Failure::Unsupported(format!("this binary was built without the page: {how}"))
+}

@@ -1,0 +1,208 @@
+//! Members along a family of solutions, in order: the arm as it moves with its hand still.
+
+use super::answer::Family;
+use super::dispatch::{InverseKinematics, TOLERANCE};
+use super::newton;
+use super::self_motion::follow_loosely;
+use super::space::JointSpace;
+use crate::geometry::Transform;
+use std::f64::consts::TAU;
+
+/// The most members.
+pub const MAX_MEMBERS: usize = 400;
+/// Steps of a whole turn: of 5°.
+const STEPS: i32 = 72;
+/// A joint stands still whose part of a unit vector is less.
+const STILL: f64 = 1e-9;
+
+/// Members of a family, in order.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Members {
+    /// Configurations (radians and metres, one entry a joint), neighbours next to each other and without jumps of whole
+    /// turns; the first again at the end, but for whole turns, if the self-motion is closed. At least one.
+    pub members: Vec<Vec<f64>>,
+    /// Whether the arm comes back to where it was.
+    pub is_closed: bool,
+}
+
+impl InverseKinematics {
+    /// The members of a family that [`solve`](Self::solve) found for a pose, [`MAX_MEMBERS`] at most, whatever the limits
+    /// of joints that turn. A family with several parameters is its representative alone.
+    pub fn members(&self, pose: &Transform<f64>, family: &Family) -> Members {
+        let start = &family.representative.q;
+        if family.dimension != 1 {
+            return Members { members: vec![start.clone()], is_closed: false };
+        }
+        let pose = &newton::nearest_rigid(pose).0;
+        if !family.curve.is_empty() {
+            return self.thinned(family.curve.clone());
+        }
+        if family.is_affine {
+            return self.along(pose, family);
+        }
+        let held: Vec<(usize, f64)> = self.given.iter().map(|&j| (j, start[j])).collect();
+        let (robot, space) = (self.robot.held(&held), self.space.held(&self.given));
+        let is_free = |j: &usize| !self.given.contains(j);
+        let free: Vec<usize> = (0..start.len()).filter(is_free).collect();
+        let own: Vec<f64> = free.iter().map(|&j| start[j]).collect();
+        let curve = follow_loosely((&robot, &space, self.goal), pose, &own, TOLERANCE).curve;
+        let whole = |q: Vec<f64>| {
+            let mut all = start.clone();
+            free.iter().zip(q).for_each(|(&j, x)| all[j] = x);
+            all
+        };
+        self.thinned(curve.into_iter().map(whole).collect())
+    }
+
+    /// A curve with as many members as are allowed, its ends among them.
+    fn thinned(&self, mut members: Vec<Vec<f64>>) -> Members {
+        let last = members.len() - 1;
+        // What is shorter than a triangle does not come back.
+        let is_closed = last > 2 && self.space.is_same(&members[0], &members[last]);
+        if last >= MAX_MEMBERS {
+            let kept = (0..MAX_MEMBERS).map(|k| k * last / (MAX_MEMBERS - 1));
+            members = kept.map(|k| members[k].clone()).collect();
+        }
+        Members { members, is_closed }
+    }
+
+    /// Along a straight line through the representative: a whole turn of the joint that turns most, and back as far if the
+    /// arm is not where it was then.
+    fn along(&self, pose: &Transform<f64>, family: &Family) -> Members {
+        let start = &family.representative.q;
+        let direction = scaled(&self.space, &family.direction);
+        let at = |k: i32| -> Vec<f64> {
+            let part = f64::from(k) / f64::from(STEPS);
+            start.iter().zip(&direction).map(|(x, d)| x + part * d).collect()
+        };
+        let size = self.size(pose);
+        // A member may miss the pose as a solution may, or as the one does that stands for the family.
+        let tolerance = TOLERANCE.max(2.0 * family.representative.residual);
+        let holds = |q: &Vec<f64>| {
+            newton::distance(&self.robot, self.goal, pose, q, size) <= tolerance
+                && (0..q.len()).all(|j| direction[j] == 0.0 || self.is_on_slide(j, q[j]))
+        };
+        let mut members: Vec<Vec<f64>> = (1..=STEPS).map(at).take_while(holds).collect();
+        let is_round = members.len() == STEPS as usize && self.space.is_same(start, &at(STEPS));
+        if !is_round {
+            let back: Vec<Vec<f64>> = (1..=STEPS).map(|k| at(-k)).take_while(holds).collect();
+            members = back.into_iter().rev().chain([start.clone()]).chain(members).collect();
+        } else {
+            members.insert(0, start.clone());
+        }
+        self.thinned(members)
+    }
+
+    /// True if a joint turns, or slides to a place within its limits, or where there are none within twice the reach.
+    fn is_on_slide(&self, joint: usize, x: f64) -> bool {
+        let far = 2.0 * self.space.reach;
+        let [low, high] = self.space.limits[joint].unwrap_or([-far, far]);
+        self.space.is_angle[joint] || (low..=high).contains(&x)
+    }
+}
+
+/// A direction so long that the joint that turns most makes a whole turn; if none turns, that the slide that goes furthest
+/// goes as far as twice the reach.
+fn scaled(space: &JointSpace, direction: &[f64]) -> Vec<f64> {
+    let most = |is_angle: bool| {
+        let own = direction.iter().zip(&space.is_angle).filter(|p| *p.1 == is_angle);
+        own.fold(0.0_f64, |m, p| m.max(p.0.abs()))
+    };
+    let (turn, slide) = (most(true), most(false));
+    let by = if turn > STILL { TAU / turn } else { 2.0 * space.reach / slide.max(STILL) };
+    direction.iter().map(|d| d * by).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::catalogue;
+    use crate::description::read_toml;
+    use crate::inverse::{Goal, Options};
+
+    /// Members of every family of the pose at `q`, checked: they have the pose, neighbours are near, and those that are
+    /// closed come back.
+    #[track_caller]
+    fn members(name: &str, options: &Options, q: &[f64]) -> Vec<(Family, Members)> {
+        let text = catalogue::text(name).expect("it is in the catalogue");
+        let (d, _) = read_toml(text).expect("it can be read");
+        let mut inverse = InverseKinematics::new(&d, options).expect("all parameters have values");
+        let pose = inverse.robot.pose(q);
+        let given: Vec<f64> = inverse.given.iter().map(|&j| q[j]).collect();
+        let families = inverse.solve(&pose, &given).families;
+        let all = families.into_iter().map(|f| {
+            let found = inverse.members(&pose, &f);
+            assert!(!found.members.is_empty() && found.members.len() <= MAX_MEMBERS);
+            for member in &found.members {
+                let missed = newton::distance(&inverse.robot, Goal::Pose, &pose, member, inverse.size(&pose));
+                assert!(missed <= 2.0 * TOLERANCE, "{name}: {member:?} misses the pose by {missed}");
+            }
+            for pair in found.members.windows(2) {
+                let far = pair[0].iter().zip(&pair[1]).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+                assert!(far > 0.0 && far < 0.5, "{name}: {far} from a member to the next");
+            }
+            if found.is_closed {
+                let (first, last) = (&found.members[0], &found.members[found.members.len() - 1]);
+                assert!(inverse.space.is_same(first, last));
+            }
+            (f, found)
+        });
+        all.collect()
+    }
+
+    #[test]
+    fn a_straight_wrist_turns_all_round() {
+        let q = [0.3, -0.4, 0.9, 0.5, 0.0, 0.7];
+        let found = members("puma560", &Options::default(), &q);
+        assert!(!found.is_empty());
+        for (family, found) in found {
+            assert!(family.is_affine && family.curve.is_empty() && found.is_closed, "{family:?}");
+            assert_eq!(found.members.len(), STEPS as usize + 1);
+            let start = &found.members[0];
+            for q in &found.members {
+                // Axes 4 and 6 lie on one line: q4 + q6 stays the same, nothing else moves.
+                assert!((q[3] + q[5] - start[3] - start[5]).abs() < 1e-9);
+                assert!((0..6).all(|j| j == 3 || j == 5 || (q[j] - start[j]).abs() < 1e-9));
+            }
+            let last = &found.members[STEPS as usize];
+            assert!(((last[3] - start[3]).abs() - TAU).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn four_parallel_axes_move_along_a_curve() {
+        // Axes 2, 3, 4 and 6 of a UR5 are parallel at q5 = 0: a four-bar linkage.
+        let found = members("ur5", &Options::default(), &[0.3, -1.1, 1.4, 0.5, 0.0, 0.7]);
+        assert!(found.iter().any(|(f, m)| !f.is_affine && m.members.len() > 20), "{found:?}");
+    }
+
+    #[test]
+    fn a_redundant_arm_moves_its_elbow() {
+        let q = [0.2, 0.5, -0.3, -1.6, 0.4, 1.3, 0.1];
+        for name in ["kuka-iiwa-7", "franka-panda"] {
+            let found = members(name, &Options::default(), &q);
+            assert!(!found.is_empty() && found.iter().all(|(_, m)| m.members.len() > 20), "{name}");
+        }
+        let closed = members("kuka-iiwa-7", &Options::default(), &q);
+        assert!(closed.iter().all(|(_, m)| m.is_closed), "the elbow goes all round");
+    }
+
+    #[test]
+    fn a_given_joint_stays() {
+        // With joint 3 held the arm is one with six joints, its wrist straight at q6 = 0.
+        let q = [0.2, 0.5, -0.3, -1.6, 0.4, 0.0, 0.1];
+        let options = Options { given: Some(vec![2]), ..Options::default() };
+        let found = members("kuka-iiwa-7", &options, &q);
+        assert!(!found.is_empty());
+        assert!(found.iter().all(|(_, m)| m.members.iter().all(|x| (x[2] - q[2]).abs() < 1e-9)));
+    }
+
+    #[test]
+    fn directions_are_scaled_to_a_turn() {
+        let space = JointSpace { is_angle: vec![true, true, false], limits: vec![None; 3], reach: 2.0 };
+        let d = scaled(&space, &[0.6, -0.6, 0.0]);
+        assert!((d[0] - TAU).abs() < 1e-12 && (d[1] + TAU).abs() < 1e-12 && d[2] == 0.0);
+        assert_eq!(scaled(&space, &[0.0, 0.0, -0.5]), [0.0, 0.0, -4.0]);
+        assert_eq!(scaled(&space, &[0.0; 3]), [0.0; 3]);
+    }
+}

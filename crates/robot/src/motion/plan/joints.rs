@@ -1,0 +1,66 @@
+//! Moves of the joints.
+
+use super::known::Known;
+use super::timed::{Timed, by_quintic, fastest, over_duration};
+use super::{PlanError, PlanOptions, Planned};
+use crate::description::Description;
+use crate::inverse::JointSpace;
+use crate::motion::path::{Blend, Ends, PiecewisePath, blended, cubic_spline};
+use crate::motion::profile::{Law, synchronised};
+use crate::motion::{JointState, Limits, MotionError, move_within_limits};
+
+/// Through configurations, one entry a joint each.
+pub(super) fn plan(
+    description: &Description,
+    points: &[Vec<f64>],
+    limits: &Known<'_>,
+    options: &PlanOptions,
+) -> Result<Planned, PlanError> {
+    let words = match points.len() {
+        2 => "joint move".to_string(),
+        n if options.blend.is_some() => format!("straight joint moves past {n} way-points"),
+        n => format!("joint spline through {n} way-points"),
+    };
+    let path = || through(points, options.blend);
+    let (trajectory, timing) = match (&limits.all, points) {
+        (None, _) => by_quintic(description, path()?, (1.0, options.duration), limits.velocity)?,
+        (Some(limits), [a, b]) => over_duration(between([a, b], limits, options.law)?, options.duration)?,
+        (Some(limits), _) => over_duration(fastest(path()?, limits)?, options.duration)?,
+    };
+    if let Some(j) = outside(description, points) {
+        let joint = description.variables()[j].symbol.name().to_string();
+        return Err(PlanError::OutsideLimits { joint });
+    }
+    Ok(Planned { trajectory, words, timing, followed: None, alternatives: vec![] })
+}
+
+/// A move from rest to rest by a law, the fastest that the limits know otherwise.
+fn between([a, b]: [&[f64]; 2], limits: &Limits, law: Option<Law>) -> Result<Timed, PlanError> {
+    let has_jerk = limits.jerk().is_some();
+    let law = law.unwrap_or(if has_jerk { Law::DoubleS } else { Law::Trapezoidal });
+    if law == Law::DoubleS && has_jerk {
+        let found = move_within_limits(&JointState::at_rest(a), &JointState::at_rest(b), limits)?;
+        return Ok((Box::new(found), "the fastest within velocity, acceleration and jerk limits".into()));
+    }
+    let found = synchronised(a, b, limits, law)?;
+    Ok((Box::new(found), format!("{} law, all joints together, within the limits", law.words())))
+}
+
+/// A smooth curve through way-points, or straight lines between them with rounded corners.
+fn through(points: &[Vec<f64>], blend: Option<f64>) -> Result<PiecewisePath, MotionError> {
+    match blend {
+        Some(distance) if points.len() > 2 => {
+            blended(points, &vec![distance; points.len() - 2], Blend::Quintic)
+        }
+        _ => cubic_spline(points, &Ends::Natural),
+    }
+}
+
+/// The first joint that is outside of its limits in a way-point.
+fn outside(description: &Description, points: &[Vec<f64>]) -> Option<usize> {
+    let space = JointSpace::new(description, 1.0);
+    (0..space.limits.len()).find(|&j| {
+        let out = |x: f64| space.limits[j].is_some_and(|[low, high]| x < low - 1e-9 || x > high + 1e-9);
+        points.iter().any(|p| out(p[j]))
+    })
+}

@@ -1,0 +1,278 @@
+//! From a wish to a timed motion: a path of the joints or of the hand, followed if it is one of the hand, and timed as
+//! what is known of the joints allows.
+//!
+//! | known of all joints | timing |
+//! |---|---|
+//! | velocity, acceleration, jerk | fast, within all three |
+//! | velocity, acceleration | time-optimal, or by the law that is asked for |
+//! | less | a quintic law, slower where velocities are limited |
+
+mod error;
+mod hand;
+mod joints;
+mod known;
+mod timed;
+
+pub use error::PlanError;
+pub use known::KnownLimits;
+
+use super::error::{joints as one_a_joint, positive};
+use super::follow::{self, Alternative, Followed, Follower};
+use super::hand::HandPath;
+use super::profile::Law;
+use super::trajectory::Trajectory;
+use crate::description::Description;
+use crate::explain::decimals;
+use crate::robot::Robot;
+use std::fmt;
+
+/// What is to be moved along.
+pub enum Wish {
+    /// Configurations, radians and metres: a move between two, a path through more.
+    Joints(Vec<Vec<f64>>),
+    /// A path of the hand.
+    Hand {
+        /// Poses of the tool in the base.
+        path: Box<dyn HandPath + Send + Sync>,
+        /// The configuration at the start; the one whose branch goes furthest otherwise.
+        start: Option<Vec<f64>>,
+        /// The path in words: `2 lines`.
+        words: String,
+    },
+}
+
+/// How it is to be done.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct PlanOptions {
+    /// Between several configurations go straight, and round each corner at this distance (Euclidean, radians and metres);
+    /// a smooth curve through them otherwise.
+    pub blend: Option<f64>,
+    /// The time law of a move between two configurations; needs velocities and accelerations.
+    pub law: Option<Law>,
+    /// Seconds for the whole path, no less than the limits allow.
+    pub duration: Option<f64>,
+    /// The hand's speed on the average where no accelerations are known, m/s.
+    pub speed: f64,
+    /// How far the hand may leave its path between samples of the joints, metres.
+    pub max_deviation: f64,
+    /// What comes of every configuration in which the path can start is wanted, even if one is given.
+    pub alternatives: bool,
+}
+
+impl Default for PlanOptions {
+    /// A smooth curve at 0.25 m/s or as fast as the limits allow, within a hundredth of a millimetre.
+    fn default() -> Self {
+        let max_deviation = follow::Options::default().max_deviation;
+        PlanOptions {
+            blend: None,
+            law: None,
+            duration: None,
+            speed: 0.25,
+            max_deviation,
+            alternatives: false,
+        }
+    }
+}
+
+/// A path with its timing.
+pub struct Planned {
+    /// The joints in time; at rest at the start if the path cannot be followed at all.
+    pub trajectory: Box<dyn Trajectory>,
+    /// What path it is, in words.
+    pub words: String,
+    /// How it was timed, in words.
+    pub timing: String,
+    /// What was met on the way, for a path of the hand.
+    pub followed: Option<Followed>,
+    /// What comes of the configurations in which a path of the hand can start, where that was asked for or matters.
+    pub alternatives: Vec<Alternative>,
+}
+
+/// Whether a motion does all that was wished.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Verdict {
+    /// The whole path, within the limits.
+    Whole,
+    /// Up to this part of the path, from 0 to 1.
+    Ends(f64),
+    /// The whole path, but a joint leaves its limits on the way.
+    BeyondLimits,
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Verdict::Whole => write!(f, "the path is followed to its end"),
+            Verdict::Ends(reached) => {
+                write!(f, "the path cannot be followed beyond {} % of its way", decimals(100.0 * reached, 4))
+            }
+            Verdict::BeyondLimits => write!(f, "the path leaves the limits of the joints"),
+        }
+    }
+}
+
+impl Planned {
+    /// Follows and times.
+    ///
+    /// # Errors
+    /// See [`PlanError`].
+    pub fn new(
+        description: &Description,
+        robot: &Robot<f64>,
+        wish: Wish,
+        limits: &KnownLimits,
+        options: &PlanOptions,
+    ) -> Result<Self, PlanError> {
+        Self::reusing(&mut None, description, robot, wish, limits, options)
+    }
+
+    /// The same with the follower of the same robot; one that is not there yet is made if it is needed, and kept.
+    ///
+    /// # Errors
+    /// See [`PlanError`].
+    pub fn reusing(
+        follower: &mut Option<Follower>,
+        description: &Description,
+        robot: &Robot<f64>,
+        wish: Wish,
+        limits: &KnownLimits,
+        options: &PlanOptions,
+    ) -> Result<Self, PlanError> {
+        let n = robot.joints;
+        positive("the speed of the hand", &[options.speed])?;
+        positive("the deviation", &[options.max_deviation])?;
+        positive("the duration", options.duration.as_slice())?;
+        let limits = limits.of_joints(n)?;
+        if limits.all.is_none() {
+            match (limits.jerk, options.law) {
+                (Some(_), _) => return Err(PlanError::NeededForJerk),
+                (None, Some(_)) => return Err(PlanError::NeededForLaw),
+                (None, None) => {}
+            }
+        }
+        match wish {
+            Wish::Joints(points) => {
+                points.iter().try_for_each(|p| one_a_joint("way-points", n, p))?;
+                joints::plan(description, &points, &limits, options)
+            }
+            Wish::Hand { path, start, words } => {
+                start.iter().try_for_each(|q| one_a_joint("the start", n, q))?;
+                let follower = match follower {
+                    Some(follower) => follower,
+                    None => follower.insert(Follower::new(description).map_err(PlanError::Unprepared)?),
+                };
+                hand::plan(description, robot, follower, (&*path, start, words), &limits, options)
+            }
+        }
+    }
+
+    /// Whether the path is followed to its end within the limits.
+    pub fn verdict(&self) -> Verdict {
+        match &self.followed {
+            Some(f) if f.reached < 1.0 => Verdict::Ends(f.reached),
+            Some(f) if !f.is_clean() => Verdict::BeyondLimits,
+            _ => Verdict::Whole,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::catalogue;
+    use crate::description::read_toml;
+    use crate::motion::MotionError;
+    use crate::motion::hand::{Line, Orientation};
+
+    fn ur5() -> (Description, Robot<f64>) {
+        let text = catalogue::text("ur5").expect("it is in the catalogue");
+        let (d, _) = read_toml(text).expect("it can be read");
+        let robot = Robot::numeric(&d).expect("all parameters have values");
+        (d, robot)
+    }
+
+    fn of_joints(
+        points: &[[f64; 6]],
+        limits: &KnownLimits,
+        options: &PlanOptions,
+    ) -> Result<Planned, PlanError> {
+        let (d, robot) = ur5();
+        let points = points.iter().map(|p| p.to_vec()).collect();
+        Planned::new(&d, &robot, Wish::Joints(points), limits, options)
+    }
+
+    const MOVE: [[f64; 6]; 2] = [[0.0; 6], [1.0; 6]];
+
+    fn all(x: f64) -> Option<Vec<f64>> {
+        Some(vec![x; 6])
+    }
+
+    #[test]
+    fn more_knowledge_times_better() {
+        let mut limits = KnownLimits::default();
+        let usual = PlanOptions::default();
+        let found = of_joints(&MOVE, &limits, &usual).expect("no limits are needed");
+        assert!(found.trajectory.duration() == 1.0 && found.verdict() == Verdict::Whole);
+        // A quintic law is 15/8 as fast in its middle as on the average.
+        limits.velocity = all(1.5);
+        let found = of_joints(&MOVE, &limits, &usual).expect("slower");
+        assert!((found.trajectory.duration() - 1.25).abs() < 1e-6);
+        // 1 rad at 1.5 rad/s, and 1.5/4 s to gain that speed.
+        limits.acceleration = all(4.0);
+        let found = of_joints(&MOVE, &limits, &usual).expect("by a trapezoidal law");
+        assert!((found.trajectory.duration() - (1.0 / 1.5 + 1.5 / 4.0)).abs() < 1e-9, "{}", found.timing);
+        limits.jerk = all(100.0);
+        let slower = of_joints(&MOVE, &limits, &usual).expect("with limited jerk").trajectory.duration();
+        assert!(slower > found.trajectory.duration());
+        let spline = of_joints(&[[0.0; 6], [0.5; 6], [0.2; 6]], &limits, &usual).expect("a spline");
+        assert_eq!(spline.words, "joint spline through 3 way-points");
+    }
+
+    #[test]
+    fn refusals_are_typed() {
+        let (nothing, usual) = (KnownLimits::default(), PlanOptions::default());
+        let refusal = |limits: &KnownLimits, options: &PlanOptions| match of_joints(&MOVE, limits, options) {
+            Ok(found) => panic!("{}", found.timing),
+            Err(why) => why,
+        };
+        let jerk = KnownLimits { jerk: all(1.0), ..KnownLimits::default() };
+        assert_eq!(refusal(&jerk, &usual), PlanError::NeededForJerk);
+        let law = PlanOptions { law: Some(Law::Cubic), ..usual };
+        assert_eq!(refusal(&nothing, &law), PlanError::NeededForLaw);
+        let short = KnownLimits { velocity: Some(vec![1.0; 5]), ..KnownLimits::default() };
+        assert!(matches!(refusal(&short, &usual), PlanError::Limits(MotionError::Joints { found: 5, .. })));
+        let never = PlanOptions { duration: Some(-1.0), ..usual };
+        assert!(matches!(refusal(&nothing, &never), PlanError::Motion(MotionError::NotPositive(..))));
+        let quick = PlanOptions { duration: Some(0.125), ..usual };
+        let slow = KnownLimits { velocity: all(1.5), ..KnownLimits::default() };
+        let PlanError::TooFast { needed, .. } = refusal(&slow, &quick) else { panic!("it is too fast") };
+        assert!((needed - 1.25).abs() < 1e-6);
+        let both = KnownLimits { acceleration: all(4.0), ..slow };
+        assert!(matches!(refusal(&both, &quick), PlanError::TooShort { .. }));
+        let far = of_joints(&[[0.0; 6], [99.0; 6]], &nothing, &usual).err();
+        assert!(matches!(far, Some(PlanError::OutsideLimits { joint }) if joint == "q1"));
+    }
+
+    #[test]
+    fn a_line_ends_where_the_arm_does() {
+        let (d, robot) = ur5();
+        let q = [0.1, -1.2, 1.5, 0.2, 0.9, 0.3];
+        let from = robot.pose(&q);
+        let line = |by: f64| {
+            let mut to = from;
+            to.translation.0[0] += by;
+            Box::new(Line { from, to, orientation: Orientation::Slerp })
+        };
+        let wish =
+            |by: f64, start: Option<Vec<f64>>| Wish::Hand { path: line(by), start, words: "line".into() };
+        let (limits, usual) = (KnownLimits::of(&d), PlanOptions::default());
+        let mut follower = None;
+        let mut plan = |w: Wish| Planned::reusing(&mut follower, &d, &robot, w, &limits, &usual);
+        let found = plan(wish(-0.05, Some(q.to_vec()))).expect("it is short");
+        assert!(found.verdict() == Verdict::Whole && found.alternatives.is_empty());
+        let found = plan(wish(-0.05, None)).expect("some branch goes there");
+        assert!(found.verdict() == Verdict::Whole && found.alternatives.len() > 1);
+        let found = plan(wish(5.0, Some(q.to_vec()))).expect("it begins");
+        assert!(matches!(found.verdict(), Verdict::Ends(reached) if reached > 0.0 && reached < 0.5));
+    }
+}

@@ -1,0 +1,96 @@
+//! Timings of a path, each with its words.
+
+use super::PlanError;
+use crate::description::Description;
+use crate::explain::{decimals, rate};
+use crate::motion::{InTime, JerkLimited, JointPath, JointState, Limits, Slowed, TimeOptimal, Trajectory};
+
+/// A motion, and how it was timed.
+pub(super) type Timed = (Box<dyn Trajectory>, String);
+
+/// The fastest timing of a path.
+pub(super) fn fastest<P: JointPath + 'static>(path: P, limits: &Limits) -> Result<Timed, PlanError> {
+    if limits.jerk().is_some() {
+        let found = JerkLimited::default().time(path, limits)?;
+        return Ok((Box::new(found), "fast, within velocity, acceleration and jerk limits".into()));
+    }
+    let found = TimeOptimal::default().time(path, limits)?;
+    Ok((Box::new(found), "time-optimal within velocity and acceleration limits".into()))
+}
+
+/// A path by a quintic law: over the duration asked for, or the usual one, longer if velocities are limited.
+pub(super) fn by_quintic<P: JointPath + Clone + 'static>(
+    description: &Description,
+    path: P,
+    (usual, asked): (f64, Option<f64>),
+    velocity: Option<&[f64]>,
+) -> Result<Timed, PlanError> {
+    let duration = asked.unwrap_or(usual);
+    let timed = InTime::new(path.clone(), duration)?;
+    let variables = description.variables();
+    let name = |j: usize| variables[j].symbol.name();
+    let fastest = timed.fastest();
+    let Some(limits) = velocity else {
+        let most = fastest.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
+        let most = most.map(|(j, v)| {
+            format!("; the fastest joint, {}, turns at {}", name(j), rate(*v, variables[j].kind))
+        });
+        let words = format!(
+            "a quintic law over {} s, no limits are known{}",
+            decimals(duration, 4),
+            most.unwrap_or_default()
+        );
+        return Ok((Box::new(timed), words));
+    };
+    let over = fastest.iter().zip(limits).map(|(v, l)| v / l).enumerate();
+    let (joint, ratio) = over.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0));
+    match asked {
+        Some(asked) if ratio > 1.0 + 1e-9 => Err(PlanError::TooFast {
+            asked,
+            joint: name(joint).to_string(),
+            kind: variables[joint].kind,
+            velocity: fastest[joint],
+            limit: limits[joint],
+            needed: asked * ratio,
+        }),
+        _ => {
+            let needed = duration * ratio.max(if asked.is_some() { 1.0 } else { 1e-6 });
+            let duration = if asked.is_some() { duration } else { needed.max(usual) };
+            let words = format!(
+                "a quintic law over {} s within the velocity limits, no accelerations are known",
+                decimals(duration, 4)
+            );
+            Ok((Box::new(InTime::new(path, duration)?), words))
+        }
+    }
+}
+
+/// A motion that takes longer, or as long as it does.
+pub(super) fn over_duration((motion, words): Timed, asked: Option<f64>) -> Result<Timed, PlanError> {
+    let own = motion.duration();
+    match asked {
+        None => Ok((motion, words)),
+        Some(asked) if asked < own * (1.0 - 1e-9) => Err(PlanError::TooShort { asked, needed: own }),
+        Some(asked) => {
+            let factor = if own > 0.0 { asked / own } else { 1.0 };
+            Ok((Box::new(Slowed::new(motion, factor)), format!("{words}, slowed down to {asked} s")))
+        }
+    }
+}
+
+/// No motion at all.
+pub(super) struct Still(pub Vec<f64>);
+
+impl Trajectory for Still {
+    fn dof(&self) -> usize {
+        self.0.len()
+    }
+
+    fn duration(&self) -> f64 {
+        0.0
+    }
+
+    fn eval(&self, _: f64) -> JointState {
+        JointState::at_rest(&self.0)
+    }
+}

@@ -1,0 +1,160 @@
+// The frame of the page: the bar above, the scene, the panels beside it, the line below.
+
+import { Component, type ComponentChildren } from "preact";
+import { useEffect, useState } from "preact/hooks";
+import { Divider } from "./divider.tsx";
+import { CheckPanel } from "./panels/check.tsx";
+import { FormulasPanel } from "./panels/formulas.tsx";
+import { HandPanel } from "./panels/hand.tsx";
+import { JointsPanel } from "./panels/joints.tsx";
+import { PathPanel } from "./panels/path.tsx";
+import { chooseFile, dialog, openFile, RobotsDialog, saveFile } from "./panels/robots.tsx";
+import { SharePanel } from "./panels/share.tsx";
+import { TablePanel } from "./panels/table.tsx";
+import { SceneView } from "./scene/view.tsx";
+import { phase, side } from "./shell.ts";
+import { file, type Panel, panel, robot, stale } from "./state.ts";
+import { undoByKey } from "./table/undoing.ts";
+import { TopBar } from "./top.tsx";
+import { Icon } from "./widgets/icons.tsx";
+import { StatusLine } from "./widgets/status.tsx";
+import { panelId, tabId, Tabs } from "./widgets/tabs.tsx";
+
+const PANELS: { value: Panel; label: string; view: () => ComponentChildren }[] = [
+  { value: "table", label: "Table", view: () => <TablePanel /> },
+  { value: "joints", label: "Joints", view: () => <JointsPanel /> },
+  { value: "hand", label: "Hand", view: () => <HandPanel /> },
+  { value: "formulas", label: "Formulas", view: () => <FormulasPanel /> },
+  { value: "path", label: "Path", view: () => <PathPanel /> },
+  { value: "check", label: "Check", view: () => <CheckPanel /> },
+  { value: "share", label: "Share", view: () => <SharePanel /> },
+];
+
+export function App() {
+  const isReady = phase.value.kind === "ready";
+  useEffect(() => {
+    const onKey = (event: KeyboardEvent) => {
+      if (phase.value.kind !== "ready" || undoByKey(event)) return;
+      if (!(event.ctrlKey || event.metaKey) || event.altKey || event.shiftKey) return;
+      const action = { s: saveFile, o: chooseFile, k: () => (dialog.value = { part: "catalogue" }) }[event.key as "s" | "o" | "k"];
+      if (!action) return;
+      event.preventDefault();
+      action();
+    };
+    addEventListener("keydown", onKey);
+    return () => removeEventListener("keydown", onKey);
+  }, []);
+  useEffect(() => {
+    document.title = file.value.name ? `${file.value.name} – Denavit` : "Denavit";
+  }, [file.value.name]);
+
+  return (
+    <div class="page">
+      <TopBar />
+      <main class="work" style={side.value === null ? undefined : { "--side": `${side.value}px` }}>
+        <section class="scene" aria-label="Scene">
+          <ScenePart />
+        </section>
+        <Divider />
+        <section class="side" aria-label="Panels">
+          <Tabs
+            label="Panels"
+            id="side"
+            tabs={PANELS.map(({ value, label }) => ({ value, label, mark: value === "table" && stale.value ? "has errors" : undefined }))}
+            value={panel.value}
+            onChange={(next) => (panel.value = next)}
+          />
+          <div class="panel" role="tabpanel" id={panelId("side")} aria-labelledby={tabId("side", panel.value)} tabIndex={0} key={panel.value}>
+            {isReady && <Guarded key={panel.value}>{PANELS.find((one) => one.value === panel.value)?.view()}</Guarded>}
+          </div>
+        </section>
+      </main>
+      <StatusLine resting={phase.value.kind === "loading" ? "Loading the engine …" : ""} />
+      {isReady && <RobotsDialog />}
+      <DropZone />
+    </div>
+  );
+}
+
+function ScenePart() {
+  if (phase.value.kind === "failed") {
+    return (
+      <div class="whole" role="alert">
+        <p>{phase.value.words}</p>
+      </div>
+    );
+  }
+  if (phase.value.kind === "loading") return null;
+  return (
+    <>
+      <Guarded>
+        <SceneView />
+      </Guarded>
+      {stale.value && (
+        <p class="over-scene error" role="status">
+          <Icon name="error" size={16} />
+          {robot.value ? "The table has an error: this is the last arm without one." : "The arm appears once the table is right."}
+        </p>
+      )}
+    </>
+  );
+}
+
+/** A part that fails says so in its place, and leaves the others working. */
+class Guarded extends Component<{ children: ComponentChildren }, { why: string | null }> {
+  state = { why: null };
+
+  static getDerivedStateFromError(why: unknown) {
+    return { why: why instanceof Error ? why.message : String(why) };
+  }
+
+  componentDidCatch(why: unknown) {
+    console.error(why);
+  }
+
+  render() {
+    if (this.state.why === null) return this.props.children;
+    return (
+      <div class="whole" role="alert">
+        <p>
+          This part of the page has failed: {this.state.why}{" "}
+          <button type="button" class="button small" onClick={() => this.setState({ why: null })}>
+            Try again
+          </button>
+        </p>
+      </div>
+    );
+  }
+}
+
+/** A file dropped anywhere is opened. */
+function DropZone() {
+  const [isOver, setOver] = useState(false);
+  useEffect(() => {
+    const hasFile = (event: DragEvent) => event.dataTransfer?.types.includes("Files") ?? false;
+    const over = (event: DragEvent) => {
+      if (!hasFile(event)) return;
+      event.preventDefault();
+      setOver(true);
+    };
+    const leave = (event: DragEvent) => {
+      if (!event.relatedTarget) setOver(false);
+    };
+    const drop = (event: DragEvent) => {
+      if (!hasFile(event)) return;
+      event.preventDefault();
+      setOver(false);
+      const dropped = event.dataTransfer?.files[0];
+      if (dropped && phase.value.kind === "ready") void openFile(dropped);
+    };
+    addEventListener("dragover", over);
+    addEventListener("dragleave", leave);
+    addEventListener("drop", drop);
+    return () => {
+      removeEventListener("dragover", over);
+      removeEventListener("dragleave", leave);
+      removeEventListener("drop", drop);
+    };
+  }, []);
+  return isOver ? <div class="drop">Drop to open the robot</div> : null;
+}

@@ -1,0 +1,99 @@
+// The engines of the page: one at once, for what takes no time; two in workers, for what takes longer.
+
+import { EngineError, Instance } from "./instance.ts";
+import type { Input, Op, Output } from "./types.ts";
+import type { FromWorker, ToWorker } from "./worker.ts";
+
+export { EngineError };
+
+/** A request that was taken back. */
+export class Cancelled extends Error {
+  constructor() {
+    super("cancelled");
+    this.name = "Cancelled";
+  }
+}
+
+interface Waiting {
+  id: number;
+  op: Op;
+  resolve(answer: unknown): void;
+  reject(why: Error): void;
+}
+
+/** An engine in a worker. Requests are answered in order; `cancel` ends the one that runs, with all behind it. */
+export class Remote {
+  #module: WebAssembly.Module;
+  #worker: Worker;
+  #waiting: Waiting[] = [];
+  #last = 0;
+  #edited: Input<"edit"> | null = null;
+  /** How long the last answer to each request took inside the worker, milliseconds. */
+  readonly took: Partial<Record<Op, number>> = {};
+
+  constructor(module: WebAssembly.Module) {
+    this.#module = module;
+    this.#worker = this.#start();
+  }
+
+  /** True while something is being answered. */
+  get busy(): boolean {
+    return this.#waiting.length > 0;
+  }
+
+  call<K extends Op>(op: K, input: Input<K>): Promise<Output<K>> {
+    if (op === "edit") this.#edited = input as Input<"edit">;
+    const id = ++this.#last;
+    return new Promise<Output<K>>((resolve, reject) => {
+      this.#waiting.push({ id, op, resolve: resolve as (answer: unknown) => void, reject });
+      this.#post({ id, op, input });
+    });
+  }
+
+  /** Ends what runs and what waits, and begins again with the same robot. */
+  cancel(): void {
+    if (!this.busy) return;
+    this.#worker.terminate();
+    for (const one of this.#waiting.splice(0)) one.reject(new Cancelled());
+    this.#worker = this.#start();
+    if (this.#edited) void this.call("edit", this.#edited).catch(() => {});
+  }
+
+  #start(): Worker {
+    const worker = new Worker(new URL("worker.js", document.baseURI), { type: "module" });
+    worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
+      const at = this.#waiting.findIndex((one) => one.id === data.id);
+      if (at < 0) return;
+      const [one] = this.#waiting.splice(at, 1);
+      this.took[one.op] = data.milliseconds;
+      if ("error" in data) one.reject(new EngineError(data));
+      else one.resolve(data.answer);
+    };
+    worker.onerror = (event) => {
+      event.preventDefault();
+      for (const one of this.#waiting.splice(0)) one.reject(new EngineError({ error: event.message }));
+    };
+    const second = new URL("derive.wasm", document.baseURI).href;
+    worker.postMessage({ first: this.#module, second } satisfies ToWorker);
+    return worker;
+  }
+
+  #post(message: ToWorker): void {
+    this.#worker.postMessage(message);
+  }
+}
+
+export interface Engines {
+  /** Answers at once: tables, frames, poses. */
+  now: Instance;
+  /** Inverse solutions, paths, the workspace. */
+  solver: Remote;
+  /** Formulas, checks, reports, code. */
+  formulas: Remote;
+}
+
+/** Fetches and compiles the engine, once for all. */
+export async function load(): Promise<Engines> {
+  const module = await WebAssembly.compileStreaming(fetch(new URL("denavit.wasm", document.baseURI)));
+  return { now: new Instance({ first: module, second: null }), solver: new Remote(module), formulas: new Remote(module) };
+}

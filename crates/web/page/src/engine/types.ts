@@ -1,0 +1,382 @@
+// What the engine is asked and what it answers: the JSON that crosses the border between the page and `crates/web/src`.
+// Lengths are metres, angles radians, matrices rows of rows.
+
+/** A pose: four rows of four. */
+export type Matrix = number[][];
+export type Point = [number, number, number];
+export type Convention = "standard" | "craig" | "khalil";
+export type Letter = "theta" | "d" | "a" | "alpha" | "r" | "gamma" | "b";
+
+/** A robot file as somebody writes it: every value a text, as it stands in a cell. */
+export interface RobotFile {
+  name: string;
+  convention: Convention;
+  source?: string;
+  gravity?: string[];
+  /** Symbols; an empty text where no value is known. */
+  parameters: { name: string; value: string }[];
+  joints: Row[];
+  base?: Frame;
+  tool?: Frame;
+  poses: { name: string; values: string[] }[];
+}
+
+/** A row of the table. Missing letters are 0. */
+export interface Row {
+  name?: string;
+  theta?: string;
+  d?: string;
+  a?: string;
+  alpha?: string;
+  r?: string;
+  gamma?: string;
+  b?: string;
+  limits?: [string, string];
+  velocity?: string;
+  acceleration?: string;
+  mass?: string;
+  com?: string[];
+  inertia?: string[];
+}
+
+/** A constant transform: a displacement and roll, pitch, yaw; or a matrix. */
+export interface Frame {
+  xyz?: string[];
+  rpy?: string[];
+  matrix?: string[][];
+}
+
+export type Severity = "error" | "warning" | "note";
+
+/** What is wrong with a text, or worth saying. */
+export interface Finding {
+  severity: Severity;
+  message: string;
+  hint?: string;
+  /** Where in a text that was opened. */
+  line?: number;
+  column?: number;
+  /** Where in a robot file: `joints.2.theta`, `joints.0.limits.1`, `parameters.3.value`, `tool.xyz.0`, `name`. */
+  cell?: string;
+}
+
+/** `catalogue` */
+export interface Listed {
+  name: string;
+  title: string;
+  /** `RRPRRR` */
+  joints: string;
+  convention: Convention;
+  source?: string;
+}
+
+/** What a robot is, once it is read; `edit` answers with it. */
+export interface RobotModel {
+  name: string;
+  convention: Convention;
+  /** The letters of the table in the convention's order, with `gamma` and `b` where used. */
+  letters: Letter[];
+  joints: Joint[];
+  /** How many rows the table has. */
+  rows: number;
+  parameters: { name: string; measure: "length" | "angle"; value: number; given: boolean }[];
+  /** The configuration to begin with, a regular one. */
+  q: number[];
+  poses: { name: string; q: number[] }[];
+  /** How far the arm reaches, about. */
+  reach: number;
+  /** `RRR·RRR with spherical wrist`, and remarks on geometry that is nearly special. */
+  structure: string;
+  remarks: string[];
+}
+
+export interface Joint {
+  /** `q1` */
+  name: string;
+  /** The joint's own name, if it has one. */
+  title?: string;
+  kind: "revolute" | "prismatic";
+  /** The row (from 0) that introduces it. */
+  row: number;
+  limits: [number, number] | null;
+  /** What a slider goes through: the limits, or a turn, or the arm's length. */
+  range: [number, number];
+  velocity: number | null;
+  acceleration: number | null;
+}
+
+/** An arm in a configuration, `scene` answers with it. */
+export interface Scene {
+  /** Frames 0 … n and then the tool, in the base. */
+  frames: Matrix[];
+  /** A cylinder about its axis or a box along it for everything that moves. */
+  symbols: { joint: number | null; kind: Joint["kind"]; centre: Point; axis: Point; radius: number; half: number }[];
+  /** Straight parts of links; link 0 is the base. A rod slides out of a joint. */
+  bars: { from: Point; to: Point; link: number; rod: boolean }[];
+  ground: { at: Point; up: Point };
+  gripper: { at: Point; along: Point; across: Point };
+  /** The radius of the largest joint. */
+  unit: number;
+  /** The four elementary steps of each row, in the convention's order. */
+  rows: Step[][];
+  /** √det(J Jᵀ) of the tool by its largest value here about, the smallest singular value, the condition number. */
+  measures: { manipulability: number; smallest: number; condition: number };
+  withinLimits: boolean[];
+}
+
+/** A step of a row: from one frame to the next, a turn about or a way along x or z of `frame`. */
+export interface Step {
+  letter: Letter;
+  axis: "x" | "z";
+  /** The frame before the step, in the base. */
+  frame: Matrix;
+  value: number;
+  /** The cell as it is printed: `q2 + π/2`. */
+  text: string;
+}
+
+/** `solve` */
+export interface Answer {
+  pose: Matrix;
+  method: "closed form" | "elimination" | "self-motion" | "descent";
+  complete: boolean;
+  doubt?: string;
+  solutions: Solution[];
+  families: Family[];
+  /** Why there is none, and the nearest configuration. */
+  obstacle?: { words: string; q: number[]; pose: Matrix; angle: number; distance: number; scene: Ghost };
+  /** The solution nearest to where the arm was: whole turns from one of the list. */
+  nearest?: { q: number[]; distance: number; withinLimits: boolean; index: number | null };
+  /** Values for joints that are given beside the pose. */
+  given: { joint: number; value: number }[];
+}
+
+/** What a ghost is drawn from. */
+export type Ghost = Pick<Scene, "symbols" | "bars" | "gripper">;
+
+export interface Solution {
+  q: number[];
+  branch: string;
+  residual: number;
+  multiplicity: number;
+  withinLimits: boolean;
+  scene: Ghost;
+}
+
+export interface Family {
+  /** What is free: `q4 + q6`. */
+  free: string[];
+  words: string;
+  dimension: number;
+  direction: number[];
+  representative: Solution;
+  /** Members along it, in order; the first again at the end if it is closed. */
+  curve: number[][];
+  closed: boolean;
+}
+
+/** `orientations`: the sets by name, `zyx` with the names of their angles. */
+export interface OrientationSet {
+  name: string;
+  title: string;
+  names: string[];
+}
+
+/** A part of a document. */
+export type Block =
+  | { kind: "heading"; level: number; html: string }
+  | { kind: "paragraph"; html: string }
+  | { kind: "list"; items: string[] }
+  | { kind: "formula"; formula: Formula; number?: number; proof?: "proved" | "sampled" | "wrong" }
+  | { kind: "equations"; formulas: Formula[] }
+  /** Formulas that may stand side by side. */
+  | { kind: "beside"; formulas: Formula[] }
+  | { kind: "table"; caption: string; head: string[]; rows: string[][] }
+  | { kind: "tree"; root: Tree }
+  | { kind: "figure"; svgs: { svg: string; caption: string }[]; caption: string }
+  | { kind: "summary"; rows: [string, string][] }
+  | { kind: "code"; text: string };
+
+export interface Tree {
+  html: string;
+  children: Tree[];
+}
+
+/** A formula to show and to copy. */
+export interface Formula {
+  /** The `math` element. */
+  mathml: string;
+  /** The formula in words of the keyboard, for a screen reader. */
+  text: string;
+  latex: string;
+  typst: string;
+  python: string;
+  c: string;
+  /** Whether it may not fit a narrow screen. */
+  wide: boolean;
+  /** The name that it defines, if it defines one: `C23`, `k1`. */
+  name?: string;
+}
+
+export type Topic = "table" | "links" | "forward" | "algorithm" | "inverse" | "jacobian" | "singularities";
+
+/** `formulas` */
+export interface Formulas {
+  topic: Topic;
+  blocks: Block[];
+  /** For each name in the formulas the joints (from 0) that it is about: `C23` is about joints 1 and 2. */
+  joints: Record<string, number[]>;
+}
+
+/** `values`: the current number of each name that a topic defines. */
+export type Values = Record<string, number>;
+
+/** `path` */
+export interface PathRequest {
+  start: number[];
+  /** Way-points: configurations, or targets of the hand. */
+  points: Waypoint[];
+  /** Asked for in seconds; as fast as the limits allow without it. */
+  duration?: number;
+  /** Of the hand where no limits are known, m/s. */
+  speed?: number;
+  /** How many samples. */
+  samples: number;
+}
+
+export type Waypoint =
+  | { kind: "joint"; q: number[] }
+  | { kind: "line"; pose: Matrix }
+  | { kind: "arc"; via: Point; pose: Matrix };
+
+export interface Path {
+  words: string;
+  timing: string;
+  duration: number;
+  /** The part of the way that could be followed, 1 if all. */
+  reached: number;
+  times: number[];
+  q: number[][];
+  qd: number[][];
+  /** Manipulability as in `Scene`, sample by sample. */
+  manipulability: number[];
+  poses: Matrix[];
+  /** Singular configurations and limits on the way. */
+  events: { time: number; words: string; kind: "singular" | "limit" | "end" }[];
+  alternatives: { q: number[]; words: string; reached: number; withinLimits: boolean }[];
+}
+
+/** `check`; the claims are those of `denavit check --json`. */
+export interface Checked {
+  tally: Record<Verdict, number>;
+  causes: { change: string; turns_right: string[] }[];
+  claims: Claim[];
+  notes: { severity: Severity; message: string; hint?: string; at: Place }[];
+}
+
+export type Verdict = "equal" | "wrong" | "conditional" | "undecided" | "unreadable";
+/** Bytes are those of the UTF-8 text; characters those of a JavaScript string. */
+export interface Place {
+  line: number;
+  column: number;
+  bytes: [number, number];
+}
+
+export interface Claim {
+  claim: string;
+  about: string;
+  at: Place;
+  robot: number | string;
+  verdict: Verdict;
+  correct: string | null;
+  slip: Slip | null;
+  remarks: string[];
+  entries: Entry[];
+}
+
+export interface Entry {
+  verdict: Verdict;
+  at: Place;
+  printed: string;
+  row?: number;
+  column?: number;
+  unless_zero?: string[];
+  condition?: string;
+  correct?: string;
+  remarks?: string[];
+  why?: string;
+  errors?: { at: Place; message: string; hint: string | null }[];
+  slip?: Slip | null;
+  difference?: string | null;
+  counterexample?: { at: Record<string, number>; printed: number; right: number } | null;
+  holds_if?: string | null;
+}
+
+export interface Slip {
+  kind: string;
+  words: string;
+  patches: { at: Place; was: string; now: string }[];
+  formula: string;
+}
+
+/** `singular`: singular configurations of the tool, with the factor that vanishes. */
+export interface Singular {
+  words: string;
+  factor: Formula;
+  conditions: string[];
+  q: number[] | null;
+  scene: Ghost | null;
+}
+
+/** `workspace`: a section of where the tool comes to. */
+export interface Workspace {
+  /** The plane in the base: a point of it and its two directions. */
+  origin: Point;
+  first: Point;
+  second: Point;
+  /** Whether the section turns about the first joint's axis. */
+  revolves: boolean;
+  axis: { at: Point; along: Point } | null;
+  names: [string, string];
+  boundary: [number, number][][];
+  /** Points of cells that are reached, with manipulability from 0 to 1. */
+  cells: { at: [number, number]; value: number }[];
+  size: [number, number];
+  remarks: string[];
+  area: number;
+}
+
+/** Everything that can be asked, by name. */
+export interface Requests {
+  catalogue: [Record<string, never>, { robots: Listed[] }];
+  open: [{ text: string; kind: "robot" | "toml" | "markdown" | "csv" | "latex" | "any"; convention?: Convention; degrees?: boolean; millimetres?: boolean }, { file: RobotFile | null; findings: Finding[] }];
+  edit: [{ file: RobotFile }, { robot: RobotModel | null; findings: Finding[] }];
+  write: [{ file: RobotFile }, { text: string }];
+  convert: [{ to: Convention }, { file: RobotFile; words: string; proved: boolean }];
+  scene: [{ q: number[] }, Scene];
+  ghost: [{ q: number[] }, Ghost];
+  /** `quick`: one solution near to where the arm is will do. */
+  solve: [{ pose?: Matrix; q?: number[]; near?: number[]; quick?: boolean }, Answer];
+  orientations: [Record<string, never>, { sets: OrientationSet[] }];
+  angles: [{ pose: Matrix; set: string }, { values: number[]; singular: boolean }];
+  pose: [{ xyz: Point; set: string; values: number[] }, { pose: Matrix }];
+  jacobian: [{ q: number[]; frame: "base" | "tool" }, { rows: string[]; jacobian: Matrix; determinant: number | null }];
+  formulas: [{ topic: Topic; q: number[] }, Formulas];
+  values: [{ topic: Topic; q: number[] }, { values: Values }];
+  singular: [Record<string, never>, { singular: Singular[]; remark?: string }];
+  workspace: [Record<string, never>, Workspace];
+  path: [PathRequest, Path];
+  check: [{ text: string; name: string }, Checked];
+  report: [{ format: "html" | "typst" | "latex" | "markdown"; language: "en" | "fr"; q: number[] }, { text: string; files?: { path: string; text: string }[] }];
+  code: [{ language: "rust" | "c" | "python" | "matlab" | "javascript" | "cuda"; name?: string }, { files: { path: string; text: string }[]; words: string; test: string }];
+  figure: [{ q: number[]; scheme: boolean; azimuth?: number; elevation?: number }, { svg: string }];
+}
+
+export type Op = keyof Requests;
+export type Input<K extends Op> = Requests[K][0];
+export type Output<K extends Op> = Requests[K][1];
+/** Every answer can be this instead. */
+export interface Refused {
+  error: string;
+  hint?: string;
+}

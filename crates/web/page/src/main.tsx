@@ -1,0 +1,51 @@
+// Begins: draws the frame, loads the engine, brings the first robot.
+
+import { render } from "preact";
+import { App } from "./app.tsx";
+import { load } from "./engine/client.ts";
+import { openListed, openText } from "./panels/robots.tsx";
+import { keepAddress, restoreAddress } from "./share.ts";
+import { keepPreferences, phase } from "./shell.ts";
+import { file, said, start } from "./state.ts";
+
+const FIRST = "staubli-rx90";
+
+async function main(): Promise<void> {
+  const root = document.getElementById("app");
+  if (!root) return;
+  keepPreferences();
+  // The skeleton in the HTML is the same frame: nothing moves when it is replaced.
+  root.replaceChildren();
+  render(<App />, root);
+  if (typeof WebAssembly !== "object") {
+    phase.value = { kind: "failed", words: "This page computes with WebAssembly, which this browser does not have or does not allow." };
+    return;
+  }
+  try {
+    start(await load());
+  } catch (why) {
+    phase.value = { kind: "failed", words: `The engine could not be loaded: ${why instanceof Error ? why.message : String(why)}` };
+    return;
+  }
+  await firstRobot();
+  phase.value = { kind: "ready" };
+  keepAddress();
+}
+
+/** From the address; else the one that the server gives; else one of the catalogue. */
+async function firstRobot(): Promise<void> {
+  if (await restoreAddress()) return;
+  const given = document.querySelector<HTMLMetaElement>('meta[name="denavit-robot"]')?.content;
+  if (given) {
+    try {
+      const answer = await fetch(new URL(given, document.baseURI));
+      if (!answer.ok) throw new Error(`The robot file could not be fetched (${answer.status}).`);
+      openText(await answer.text(), given);
+    } catch (why) {
+      said(why);
+    }
+  }
+  if (file.value.joints.length === 0) openListed(FIRST);
+}
+
+void main();

@@ -1,0 +1,361 @@
+// Where a robot comes from: the catalogue, a file, a table pasted from a document. And where it goes: a file.
+
+import { useEffect, useMemo, useRef, useState } from "preact/hooks";
+import type { Convention, Finding, Input, Listed } from "../engine/types.ts";
+import { batch, engine, file, note, panel, replace, said, signal, stale } from "../state.ts";
+import { flush } from "../table/cells.ts";
+import { CONVENTIONS } from "../table/convention.tsx";
+import { Button } from "../widgets/button.tsx";
+import { Findings } from "../widgets/callout.tsx";
+import { download } from "../widgets/copy.tsx";
+import { Dialog } from "../widgets/dialog.tsx";
+import { Icon } from "../widgets/icons.tsx";
+import { byKey } from "../widgets/keys.ts";
+import { sentence } from "../widgets/words.tsx";
+import { panelId, tabId, Tabs } from "../widgets/tabs.tsx";
+
+type Part = "catalogue" | "text";
+
+/** The dialog, if it is open, with what it begins with. */
+export const dialog = signal<{ part: Part; text?: string; name?: string; findings?: Finding[] } | null>(null);
+
+type OpenKind = Input<"open">["kind"];
+
+/** A file larger than this is no robot description, bytes. */
+const MOST_BYTES = 2_000_000;
+
+/** Opens a text as a robot; says what was found if it is none. */
+function open(text: string, kind: OpenKind, options: { convention?: Convention; degrees?: boolean; millimetres?: boolean } = {}): { opened: boolean; findings: Finding[] } {
+  const answer = engine().now.call("open", { text, kind, ...options });
+  if (!answer.file) return { opened: false, findings: answer.findings };
+  replace(answer.file);
+  return { opened: true, findings: answer.findings };
+}
+
+/** A robot of the catalogue, by name. */
+export function openListed(name: string): void {
+  try {
+    const { opened, findings } = open(name, "robot");
+    if (!opened) said(new Error(findings[0]?.message ?? `There is no robot “${name}”.`));
+  } catch (why) {
+    said(why);
+  }
+}
+
+/** A text with its file's name. Where it cannot be read the dialog opens with the text and what is wrong. */
+export function openText(text: string, name: string): void {
+  try {
+    const { opened, findings } = open(text, kindOf(name));
+    if (opened) {
+      batch(() => {
+        dialog.value = null;
+        if (stale.value) panel.value = "table";
+      });
+      const remarks = findings.filter((finding) => finding.severity !== "error").map((finding) => sentence(finding.message));
+      note([`Opened ${name}.`, stale.value ? "Its table has errors, which are said under the cells." : "", ...remarks].filter(Boolean).join(" "));
+    } else dialog.value = { part: "text", text, name, findings };
+  } catch (why) {
+    said(why);
+  }
+}
+
+function kindOf(name: string): OpenKind {
+  const ending = /\.([a-z]+)$/i.exec(name)?.[1]?.toLowerCase() ?? "";
+  const kinds: Record<string, OpenKind> = { toml: "toml", md: "markdown", markdown: "markdown", csv: "csv", tsv: "csv", tex: "latex" };
+  return Object.hasOwn(kinds, ending) ? kinds[ending] : "any";
+}
+
+export async function openFile(chosen: File): Promise<void> {
+  if (chosen.size > MOST_BYTES) return said(new Error(`${chosen.name} is larger than 2 MB: it is not a robot description.`));
+  try {
+    openText(await chosen.text(), chosen.name);
+  } catch (why) {
+    said(why);
+  }
+}
+
+/** Asks for a file. */
+export function chooseFile(): void {
+  const input = document.createElement("input");
+  input.type = "file";
+  input.accept = ".toml,.md,.markdown,.csv,.tsv,.tex,.urdf,.xacro,.txt";
+  input.onchange = () => {
+    const chosen = input.files?.[0];
+    if (chosen) void openFile(chosen);
+  };
+  input.click();
+}
+
+/** Saves the robot file, as it is now, with errors if it has some. */
+export function saveFile(): void {
+  flush();
+  try {
+    const { text } = engine().now.call("write", { file: file.value });
+    download(`${slug(file.value.name)}.toml`, text, "application/toml");
+    note("The robot file is saved.");
+  } catch (why) {
+    said(why);
+  }
+}
+
+export function slug(name: string): string {
+  const words = name.normalize("NFKD").replace(/\p{M}/gu, "").toLowerCase().match(/[a-z0-9]+/g);
+  return words?.join("-").slice(0, 60) || "robot";
+}
+
+export function RobotsDialog() {
+  const shown = dialog.value;
+  if (!shown) return null;
+  return (
+    <Dialog title="Choose a robot" onClose={() => (dialog.value = null)}>
+      <div class="robots">
+        <Tabs
+          label="Where from"
+          id="robots"
+          value={shown.part}
+          onChange={(part) => (dialog.value = { ...shown, part })}
+          tabs={[
+            { value: "catalogue" as const, label: "Catalogue" },
+            { value: "text" as const, label: "Paste or open" },
+          ]}
+        />
+        <div class="body" role="tabpanel" id={panelId("robots")} aria-labelledby={tabId("robots", shown.part)}>
+          {shown.part === "catalogue" ? <Catalogue /> : <FromText text={shown.text ?? ""} name={shown.name ?? ""} findings={shown.findings ?? []} />}
+        </div>
+      </div>
+    </Dialog>
+  );
+}
+
+let listed: Listed[] | null = null;
+
+function Catalogue() {
+  const [words, setWords] = useState("");
+  const [active, setActive] = useState(0);
+  const search = useRef<HTMLInputElement>(null);
+  listed ??= engine().now.call("catalogue", {}).robots;
+  const found = useMemo(() => filter(listed ?? [], words), [words]);
+  useEffect(() => search.current?.focus(), []);
+
+  const take = (name: string) => {
+    dialog.value = null;
+    openListed(name);
+  };
+  const step = (to: number) => {
+    setActive(to);
+    document.getElementById(`listed-${to}`)?.scrollIntoView({ block: "nearest" });
+  };
+  const at = Math.min(active, found.length - 1);
+  return (
+    <div class="catalogue">
+      <div class="search">
+        <Icon name="search" />
+        <input
+          ref={search}
+          class="field"
+          type="text"
+          role="combobox"
+          aria-label="Search the catalogue: name, maker, joints such as RRPR"
+          aria-expanded="true"
+          aria-controls="listed"
+          aria-activedescendant={found.length > 0 ? `listed-${at}` : undefined}
+          aria-autocomplete="list"
+          autofocus
+          autocomplete="off"
+          placeholder="Name, maker, or joints such as RRPR"
+          value={words}
+          onInput={(event) => {
+            setWords(event.currentTarget.value);
+            setActive(0);
+          }}
+          onKeyDown={(event) => {
+            const last = found.length - 1;
+            const to = byKey(event, {
+              ArrowDown: Math.min(at + 1, last),
+              ArrowUp: Math.max(at - 1, 0),
+              PageDown: Math.min(at + 8, last),
+              PageUp: Math.max(at - 8, 0),
+            });
+            if (to !== undefined && last >= 0) {
+              event.preventDefault();
+              step(to);
+            } else if (event.key === "Enter" && found[at]) {
+              event.preventDefault();
+              take(found[at].name);
+            }
+          }}
+        />
+        <span class="fine number" role="status">
+          {found.length} of {listed.length}
+        </span>
+      </div>
+      <div class="listed" id="listed" role="listbox" aria-label="Robots">
+        {found.map((robot, index) => (
+          <div
+            key={robot.name}
+            id={`listed-${index}`}
+            role="option"
+            aria-selected={index === at}
+            class={index === at ? "robot active" : "robot"}
+            title={robot.source}
+            onClick={() => take(robot.name)}
+            onPointerMove={() => setActive(index)}
+          >
+            <span class="robot-title">{robot.title}</span>
+            <span class="robot-joints">{robot.joints}</span>
+            <span class="robot-convention">{robot.convention}</span>
+          </div>
+        ))}
+      </div>
+      {found.length === 0 && <p class="quiet">No robot of the catalogue is called so. Its table can be pasted, or typed from an empty one.</p>}
+    </div>
+  );
+}
+
+/** Every word has to occur somewhere; accents and hyphens do not matter. */
+function filter(robots: Listed[], words: string): Listed[] {
+  const wanted = plain(words).split(" ").filter(Boolean);
+  return robots.filter((robot) => {
+    const text = plain(`${robot.name} ${robot.title} ${robot.joints} ${robot.convention}`);
+    return wanted.every((word) => text.includes(word));
+  });
+}
+
+function plain(text: string): string {
+  return text.normalize("NFKD").replace(/\p{M}/gu, "").toLowerCase().replace(/[^a-z0-9]+/g, " ");
+}
+
+const KINDS: { value: OpenKind; label: string }[] = [
+  { value: "any", label: "Find out" },
+  { value: "markdown", label: "Markdown table" },
+  { value: "csv", label: "CSV" },
+  { value: "latex", label: "LaTeX" },
+  { value: "toml", label: "Robot file (TOML)" },
+];
+
+const EXAMPLE = `| j | α | d | θ | r |
+|---|---|---|---|---|
+| 1 | 0 | 0 | θ1 | 0 |
+| 2 | 90° | 0 | θ2 | 0 |
+| 3 | 0 | D3 | θ3 | 0 |`;
+
+function FromText({ text: first, name, findings: firstFindings }: { text: string; name: string; findings: Finding[] }) {
+  const [text, setText] = useState(first);
+  const [kind, setKind] = useState<OpenKind>(name ? kindOf(name) : "any");
+  const [convention, setConvention] = useState<Convention | "">("");
+  const [angles, setAngles] = useState<"" | "deg" | "rad">("");
+  const [lengths, setLengths] = useState<"" | "mm" | "m">("");
+  const [findings, setFindings] = useState(firstFindings);
+  const choice = useRef<HTMLSelectElement>(null);
+  const asksConvention = convention === "" && findings.some((finding) => /convention/i.test(`${finding.message} ${finding.hint ?? ""}`));
+
+  const read = () => {
+    try {
+      const answer = open(text, kind, {
+        convention: convention || undefined,
+        degrees: angles === "" ? undefined : angles === "deg",
+        millimetres: lengths === "" ? undefined : lengths === "mm",
+      });
+      setFindings(answer.findings);
+      if (answer.opened) {
+        batch(() => {
+          dialog.value = null;
+          panel.value = "table";
+        });
+        note(answer.findings.length > 0 ? answer.findings.map((finding) => sentence(finding.message)).join(" ") : "The table is read.");
+      } else if (convention === "" && answer.findings.some((finding) => /convention/i.test(finding.message))) choice.current?.focus();
+    } catch (why) {
+      setFindings([{ severity: "error", message: why instanceof Error ? why.message : String(why) }]);
+    }
+  };
+
+  return (
+    <form
+      class="from-text"
+      onSubmit={(event) => {
+        event.preventDefault();
+        read();
+      }}
+    >
+      <div class="row-of-buttons">
+        <Button label="Open a file" icon="open" onClick={chooseFile} />
+        <span class="fine">or drop one anywhere on this page: a robot file, URDF, Markdown, CSV or LaTeX.</span>
+      </div>
+      <label class="labelled">
+        {name || "A table, as it stands in a document"}
+        <textarea
+          class="field"
+          rows={9}
+          spellcheck={false}
+          value={text}
+          placeholder={EXAMPLE}
+          onInput={(event) => setText(event.currentTarget.value)}
+        />
+      </label>
+      <div class="choices">
+        <label class="labelled">
+          Written as
+          <select class="field" value={kind} onChange={(event) => setKind(event.currentTarget.value as OpenKind)}>
+            {KINDS.map((one) => (
+              <option key={one.value} value={one.value}>
+                {one.label}
+              </option>
+            ))}
+          </select>
+        </label>
+        <label class={asksConvention ? "labelled asked" : "labelled"}>
+          Convention
+          <select
+            ref={choice}
+            class="field"
+            value={convention}
+            aria-invalid={asksConvention ? "true" : undefined}
+            onChange={(event) => setConvention(event.currentTarget.value as Convention | "")}
+          >
+            <option value="">As the text says</option>
+            {CONVENTIONS.map((one) => (
+              <option key={one.value} value={one.value}>
+                {one.label}
+              </option>
+            ))}
+          </select>
+        </label>
+        <label class="labelled">
+          Angles without a unit
+          <select class="field" value={angles} onChange={(event) => setAngles(event.currentTarget.value as "" | "deg" | "rad")}>
+            <option value="">As the text says</option>
+            <option value="deg">Degrees</option>
+            <option value="rad">Radians</option>
+          </select>
+        </label>
+        <label class="labelled">
+          Lengths without a unit
+          <select class="field" value={lengths} onChange={(event) => setLengths(event.currentTarget.value as "" | "mm" | "m")}>
+            <option value="">As the text says</option>
+            <option value="mm">Millimetres</option>
+            <option value="m">Metres</option>
+          </select>
+        </label>
+      </div>
+      <Findings findings={findings} />
+      <div class="row-of-buttons end">
+        <Button label="Begin with an empty table" kind="plain" onClick={empty} />
+        <Button label="Read the table" kind="main" disabled={text.trim() === ""} onClick={read} />
+      </div>
+    </form>
+  );
+}
+
+function empty(): void {
+  batch(() => {
+    replace({
+      name: "New robot",
+      convention: "standard",
+      parameters: [{ name: "L1", value: "400 mm" }],
+      joints: [{ theta: "q1", a: "L1" }],
+      poses: [],
+    });
+    dialog.value = null;
+    panel.value = "table";
+  });
+}

@@ -1,0 +1,61 @@
+// The plots of a path: joints, their speeds, manipulability, with events and the time.
+
+import { useMemo, useState } from "preact/hooks";
+import type { Joint, Path } from "../engine/types.ts";
+import { type Entry, Legend } from "../plot/legend.tsx";
+import { Plot, type Series } from "../plot/plot.tsx";
+import { look, robot } from "../state.ts";
+import { formatWithUnit, type Units, unitOf } from "../units.ts";
+
+export function Plots({ path }: { path: Path }) {
+  const joints = robot.value!.joints;
+  const units = look.value;
+  const [hidden, setHidden] = useState<ReadonlySet<number>>(new Set());
+  const toggle = (joint: number) => {
+    const next = new Set(hidden);
+    if (!next.delete(joint)) next.add(joint);
+    setHidden(next);
+  };
+  const entries = useMemo<Entry[]>(() => {
+    return joints.map((joint, k) => ({
+      joint: k,
+      name: joint.name,
+      values: path.q.map((q) => q[k] ?? NaN),
+      write: (value) => formatWithUnit(value, joint.kind === "revolute" ? "angle" : "length", units, units.angles === "deg" && joint.kind === "revolute" ? 1 : undefined),
+    }));
+  }, [path, joints, units]);
+  const kinds = useMemo(() => {
+    return (["revolute", "prismatic"] as const)
+      .filter((kind) => joints.some((joint) => joint.kind === kind))
+      .map((kind) => ({ kind, positions: curves(path.q, joints, kind, units, hidden), speeds: curves(path.qd, joints, kind, units, hidden) }));
+  }, [path, joints, units, hidden]);
+  const manipulability = useMemo<Series[]>(() => [{ name: "manipulability", joint: null, values: path.manipulability }], [path]);
+  const common = { times: path.times, events: path.events };
+  const mixed = kinds.length > 1;
+  return (
+    <div class="plots">
+      <Legend times={path.times} entries={entries} hidden={hidden} toggle={toggle} />
+      {kinds.map(({ kind, positions }) => (
+        <Plot key={kind} title={mixed ? (kind === "revolute" ? "Joint angles" : "Joint displacements") : "Joints"} unit={unit(kind, units)} degrees={unit(kind, units) === "°"} series={positions} {...common} />
+      ))}
+      {kinds.map(({ kind, speeds }) => (
+        <Plot key={kind} title={mixed ? (kind === "revolute" ? "Angular speeds" : "Linear speeds") : "Joint speeds"} unit={`${unit(kind, units)}/s`} degrees={unit(kind, units) === "°"} series={speeds} {...common} />
+      ))}
+      <Plot title="Manipulability" unit="of its largest value, about" fromZero series={manipulability} {...common} />
+    </div>
+  );
+}
+
+function unit(kind: Joint["kind"], units: Units): string {
+  return unitOf(kind === "revolute" ? "angle" : "length", units);
+}
+
+/** The curves of one kind of joint in the unit shown. */
+function curves(samples: number[][], joints: Joint[], kind: Joint["kind"], units: Units, hidden: ReadonlySet<number>): Series[] {
+  const isDegrees = kind === "revolute" && units.angles === "deg";
+  const factor = isDegrees ? 180 / Math.PI : kind === "prismatic" && units.lengths === "mm" ? 1000 : 1;
+  return joints.flatMap((joint, k) => {
+    if (joint.kind !== kind || hidden.has(k)) return [];
+    return [{ name: joint.name, joint: k, values: samples.map((sample) => (sample[k] ?? NaN) * factor) }];
+  });
+}

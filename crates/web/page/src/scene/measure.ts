@@ -1,0 +1,43 @@
+// What tests read: counters of what really happened, nothing else.
+
+export interface Measures {
+  /** Frames rendered since the page was opened. */
+  frames: number;
+  /** What the last frame took in this thread, milliseconds, from preparing to the last call of WebGL. */
+  renderMs: number;
+  /** Milliseconds from the frame before to the last one, while the picture was moving; 0 after it stood still. */
+  intervalMs: number;
+  /** Draw calls and triangles of the last frame. */
+  calls: number;
+  triangles: number;
+  /** Pixels of the picture for each pixel of the page. */
+  ratio: number;
+  /** Whether WebGL is done in software. */
+  software: boolean;
+  /** How many ghosts, labels stand in the picture. */
+  ghosts: number;
+  labels: number;
+  /** Where handles of the gizmo are, pixels of the canvas: a test drags them. */
+  handles: () => Record<string, [number, number]>;
+}
+
+declare global {
+  interface Window {
+    denavit?: Measures;
+  }
+}
+
+export const measures: Measures = {
+  frames: 0,
+  renderMs: 0,
+  intervalMs: 0,
+  calls: 0,
+  triangles: 0,
+  ratio: 1,
+  software: false,
+  ghosts: 0,
+  labels: 0,
+  handles: () => ({}),
+};
+
+window.denavit = measures;

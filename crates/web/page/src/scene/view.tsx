@@ -1,0 +1,146 @@
+// The scene on the page: the canvas with everything in it, and what stands around the canvas.
+
+import { useComputed, useSignal } from "@preact/signals";
+import { useEffect, useRef } from "preact/hooks";
+import { answerNow, effect, look, q, robot, scene } from "../state.ts";
+import { addArm } from "./arm.ts";
+import { isAskedFor, present } from "./camera.ts";
+import { Cube } from "./cube.tsx";
+import { addFloor } from "./floor.ts";
+import { addFrames } from "./frames.ts";
+import { addGhosts } from "./ghosts.ts";
+import { Gizmo } from "./gizmo.ts";
+import { Notes } from "./notes.tsx";
+import { addPath } from "./path.ts";
+import { runPlayer } from "./player.ts";
+import { addPointer } from "./pointer.ts";
+import { addRow } from "./row.ts";
+import { graphics, Stage } from "./stage.ts";
+import { Toolbar } from "./toolbar.tsx";
+import { fit } from "./view-fit.ts";
+import { describe } from "./words.ts";
+import { addWorkspace } from "./workspace.ts";
+
+/** Words follow when the arm has come to rest. */
+const REST = 400;
+
+function build(canvas: HTMLCanvasElement, isSoftware: boolean): Stage {
+  const stage = new Stage(canvas, isSoftware);
+  addFloor(stage);
+  addArm(stage);
+  addFrames(stage);
+  addRow(stage);
+  addGhosts(stage);
+  addWorkspace(stage);
+  addPath(stage);
+  addPointer(stage, new Gizmo(stage));
+  stage.watch("perspective", () => look.value.perspective, (isPerspective) => {
+    stage.orbit.perspective = isPerspective;
+    stage.viewChanged();
+  });
+  // Another robot is looked at as a whole.
+  let name: string | null = null;
+  let first = true;
+  stage.onEnd(
+    effect(() => {
+      const model = robot.value;
+      if (!model || !scene.value || name === model.name) return;
+      name = model.name;
+      if (!(first && isAskedFor())) fit(stage, !first);
+      first = false;
+    }),
+  );
+  return stage;
+}
+
+function onKey(stage: Stage, event: KeyboardEvent): void {
+  const { orbit } = stage;
+  const step = event.shiftKey ? 0.35 : 0.09;
+  const acts: Record<string, () => void> = {
+    ArrowLeft: () => orbit.turn(step, 0),
+    ArrowRight: () => orbit.turn(-step, 0),
+    ArrowUp: () => orbit.turn(0, step),
+    ArrowDown: () => orbit.turn(0, -step),
+    "+": () => orbit.zoom(0.88),
+    "=": () => orbit.zoom(0.88),
+    "-": () => orbit.zoom(1.14),
+    f: () => fit(stage, true),
+    F: () => fit(stage, true),
+  };
+  const act = acts[event.key];
+  if (!act || event.ctrlKey || event.metaKey || event.altKey) return;
+  event.preventDefault();
+  act();
+  stage.viewChanged();
+}
+
+export function SceneView() {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const stage = useSignal<Stage | null>(null);
+  const words = useSignal("Scene");
+  const missing = useSignal(false);
+  const label = useComputed(() => words.value);
+
+  useEffect(() => {
+    const kind = graphics();
+    if (!canvas.current || kind === "none") {
+      missing.value = true;
+      return;
+    }
+    const element = canvas.current;
+    let made: Stage;
+    try {
+      made = build(element, kind === "software");
+    } catch {
+      missing.value = true;
+      return;
+    }
+    const box = new ResizeObserver(() => made.resize(element.clientWidth, element.clientHeight));
+    box.observe(element);
+    made.resize(element.clientWidth, element.clientHeight);
+    present(made);
+    stage.value = made;
+    return () => {
+      box.disconnect();
+      present(null);
+      stage.value = null;
+      made.end();
+    };
+  }, []);
+
+  useEffect(runPlayer, []);
+
+  useEffect(() => {
+    let timer = 0;
+    const end = effect(() => {
+      const parts = [robot.value, scene.value, q.value, (answerNow.value?.solutions.length ?? 1) - 1, look.value] as const;
+      clearTimeout(timer);
+      timer = window.setTimeout(() => (words.value = describe(parts[0], parts[1], parts[2], parts[3])), REST);
+    });
+    return () => {
+      clearTimeout(timer);
+      end();
+    };
+  }, []);
+
+  if (missing.value) {
+    return <p class="scene-missing">This browser shows no WebGL, so there is no picture of the arm. Everything else works.</p>;
+  }
+  return (
+    <div class="scene-view">
+      <canvas
+        ref={canvas}
+        class="scene-canvas"
+        tabIndex={0}
+        role="application"
+        aria-roledescription="3D view"
+        aria-label={label}
+        aria-keyshortcuts="ArrowLeft ArrowRight ArrowUp ArrowDown + - F"
+        onKeyDown={(event) => stage.value && onKey(stage.value, event)}
+      />
+      {stage.value && <Cube stage={stage.value} />}
+      <Notes />
+      {stage.value && <Toolbar stage={stage.value} />}
+    </div>
+  );
+}

@@ -1,0 +1,43 @@
+// A modal dialog on the browser's own: it keeps the focus inside, Escape closes it, and the focus goes back after.
+
+import type { ComponentChildren } from "preact";
+import { useEffect, useId, useRef } from "preact/hooks";
+import { Button } from "./button.tsx";
+
+interface DialogProps {
+  title: string;
+  onClose(): void;
+  children: ComponentChildren;
+}
+
+export function Dialog({ title, onClose, children }: DialogProps) {
+  const dialog = useRef<HTMLDialogElement>(null);
+  const titleId = useId();
+  useEffect(() => {
+    const before = document.activeElement;
+    dialog.current?.showModal();
+    return () => {
+      if (before instanceof HTMLElement) before.focus();
+    };
+  }, []);
+  return (
+    <dialog
+      class="dialog"
+      ref={dialog}
+      aria-labelledby={titleId}
+      onClose={onClose}
+      onClick={(event) => {
+        // The dialog itself is hit only outside what it holds.
+        if (event.target === dialog.current) onClose();
+      }}
+    >
+      <div class="inside">
+        <header>
+          <h2 id={titleId}>{title}</h2>
+          <Button label="Close" icon="close" bare kind="plain" onClick={onClose} />
+        </header>
+        {children}
+      </div>
+    </dialog>
+  );
+}

@@ -1,0 +1,165 @@
+// What every test of the page begins with: one browser, a fresh context each, and a list of what went wrong in it.
+import assert from "node:assert/strict";
+import test, { after } from "node:test";
+import { setTimeout as pause } from "node:timers/promises";
+import { deflateRawSync, inflateRawSync } from "node:zlib";
+import { chromium } from "playwright-core";
+import { robotOf } from "./engine.mjs";
+import { serve } from "./site.mjs";
+
+export const WIDE = { width: 1280, height: 800 };
+export const NARROW = { width: 390, height: 844 };
+/** How long something may take before it has failed, milliseconds. Derivations on a busy machine take seconds. */
+const PATIENCE = 20_000;
+
+const site = await serve();
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+  args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+});
+after(async () => {
+  await browser.close();
+  site.end();
+});
+
+/** The address of the page, with a fragment. */
+export function address(fragment = "") {
+  return site.url + fragment;
+}
+
+/**
+ * A test in a context of its own. It fails on every error in the console, failed request, or request to elsewhere;
+ * `expected` are those that the test provokes.
+ */
+export function scenario(name, options, body = options) {
+  const { expected = [], permissions = [], init, ...context } = body === options ? {} : options;
+  test(name, { timeout: 90_000 }, async () => {
+    const surroundings = await browser.newContext({ viewport: WIDE, acceptDownloads: true, ...context });
+    surroundings.setDefaultTimeout(PATIENCE);
+    const { origin } = new URL(site.url);
+    if (permissions.length > 0) await surroundings.grantPermissions(permissions, { origin });
+    const wrong = [];
+    const say = (words) => expected.some((pattern) => pattern.test(words)) || wrong.push(words);
+    const follow = (page) => {
+      page.on("console", (m) => m.type() === "error" && say(`console: ${m.text()}`));
+      page.on("pageerror", (e) => say(`error: ${e}`));
+    };
+    surroundings.on("page", follow);
+    surroundings.on("request", (r) => /^(data|blob):/.test(r.url()) || new URL(r.url()).origin === origin || say(`request: ${r.url()}`));
+    surroundings.on("response", (r) => r.status() >= 400 && say(`response: ${r.status()} ${r.url()}`));
+    surroundings.on("requestfailed", (r) => {
+      // A worker that is ended while it fetches its second part has not failed.
+      const isEnded = r.url().endsWith("derive.wasm") && r.failure()?.errorText === "net::ERR_ABORTED";
+      if (!isEnded) say(`failed: ${r.url()} ${r.failure()?.errorText}`);
+    });
+    if (init) await surroundings.addInitScript(init);
+    const page = await surroundings.newPage();
+    try {
+      await body(page, surroundings);
+      assert.deepEqual(wrong, []);
+    } catch (why) {
+      if (wrong.length > 0 && !why.message?.includes(wrong[0])) why.message += `\nIn the page: ${wrong.join("\n")}`;
+      throw why;
+    } finally {
+      wrong.length = 0;
+      await surroundings.close();
+    }
+  });
+}
+
+/** Asks again until the answer is something; fails with what was waited for. */
+export async function until(ask, words, patience = PATIENCE) {
+  const end = performance.now() + patience;
+  for (;;) {
+    const answer = await ask();
+    if (answer) return answer;
+    if (performance.now() > end) assert.fail(`waited in vain until ${typeof words === "function" ? await words() : words}`);
+    await pause(30);
+  }
+}
+
+/** Opens the page; it is ready once the arm has been drawn. */
+export async function open(page, fragment = "") {
+  await page.goto(address(fragment));
+  await ready(page);
+}
+
+export async function ready(page) {
+  await page.getByRole("button", { name: "Save", exact: true }).waitFor();
+  await until(() => page.evaluate(() => window.denavit?.frames > 0), "the arm is drawn");
+}
+
+/** Opens a robot of the catalogue by a shared address, in a panel. */
+export async function openRobot(page, name, { panel = "joints", ...more } = {}) {
+  const subject = robotOf(name);
+  await open(page, encode({ file: subject.file, q: subject.robot.q, panel, ...more }));
+  return subject;
+}
+
+export function tab(page, name) {
+  return page.getByRole("tablist", { name: "Panels" }).getByRole("tab", { name });
+}
+
+/** The line at the foot of the page. */
+export async function status(page) {
+  return (await page.locator("footer [role=status]").textContent()).trim();
+}
+
+export async function saysInStatus(page, pattern) {
+  await until(async () => pattern.test(await status(page)), async () => `the status line says ${pattern}, and not “${await status(page)}”`);
+}
+
+// The address ------------------------------------------------------------------------------------------------------
+
+/** As `src/fragment.ts` writes it. */
+export function encode(shared) {
+  return `#1.${deflateRawSync(JSON.stringify(shared)).toString("base64url")}`;
+}
+
+export function decode(fragment) {
+  return JSON.parse(inflateRawSync(Buffer.from(fragment.replace(/^#1\./, ""), "base64url")).toString());
+}
+
+/** What the address holds, once it is as wanted: the page's state to twelve digits. */
+export async function shared(page, isWanted, words) {
+  let last;
+  const ask = async () => {
+    const hash = await page.evaluate(() => location.hash);
+    if (hash.length < 4) return null;
+    last = decode(hash);
+    return isWanted(last) ? last : null;
+  };
+  return until(ask, () => `${words}; the address holds ${JSON.stringify({ ...last, file: undefined })}`);
+}
+
+// Numbers ----------------------------------------------------------------------------------------------------------
+
+export function close(one, other, by, words = "") {
+  assert.ok(Math.abs(one - other) <= by, `${words} ${one} and ${other} differ by more than ${by}`);
+}
+
+/** The largest difference of two lists, angles up to whole turns where `kinds` says so. */
+export function farthest(one, other, kinds = []) {
+  assert.equal(one.length, other.length);
+  const turn = 2 * Math.PI;
+  return Math.max(...one.map((x, k) => Math.abs(kinds[k] === "revolute" ? x - other[k] - turn * Math.round((x - other[k]) / turn) : x - other[k])));
+}
+
+export const degrees = (x) => (x * 180) / Math.PI;
+export const radians = (x) => (x * Math.PI) / 180;
+
+/** A number as it stands on the page: with the minus of print. */
+export function read(text) {
+  return Number(text.replace("−", "-").replace(/[^\d.eE+-]/g, ""));
+}
+
+/** The number in a field. */
+export async function valueOf(locator) {
+  return read(await locator.inputValue());
+}
+
+/** Types a number or words into a field, and leaves it. */
+export async function enter(locator, text) {
+  await locator.fill(text);
+  await locator.press("Enter");
+}

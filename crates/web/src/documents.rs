@@ -1,0 +1,113 @@
+//! Printed formulas held against the robot, reports, source code, figures.
+
+use crate::refusal::Refusal;
+use crate::session::Subject;
+use denavit::check::document::Format;
+use denavit::check::{self, check as checked};
+use denavit::explain::Language as Tongue;
+use denavit::generate::{Options as Wish, Wanted, generate};
+use denavit::inverse;
+use denavit_program::emit::{Language, Precision};
+use denavit_report::figure::svg::{Palette, svg};
+use denavit_report::figure::{Options as Look, View, isometric, scheme};
+use denavit_report::{Options, json as as_json, render};
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+/// The claims of a text, each with its verdict.
+///
+/// # Errors
+/// If the text cannot be read.
+pub fn check(subject: &Subject, text: &str, name: &str) -> Result<Value, Refusal> {
+    let format = Format::of(name, text);
+    match checked(text, format, Some(&subject.description), &check::Options::default()) {
+        Ok(found) => Ok(as_json::checked(name, text, &found)),
+        Err(findings) => {
+            let first = findings.first();
+            let error = first.map_or_else(|| "nothing can be read".into(), |d| d.message.clone());
+            Err(Refusal { error, hint: first.and_then(|d| d.hint.clone()) })
+        }
+    }
+}
+
+/// The whole report.
+///
+/// # Errors
+/// If there is no such format or language.
+pub fn report(subject: &Subject, format: &str, language: &str, q: &[f64]) -> Result<Value, Refusal> {
+    let language = match language {
+        "en" => Tongue::English,
+        "fr" => Tongue::French,
+        other => return Err(Refusal::new(format!("reports are not written in `{other}`: en or fr"))),
+    };
+    let pose = Some(subject.configuration(q)?.to_vec());
+    let document =
+        denavit_report::report(&subject.description, &Options { language, pose, ..Options::default() });
+    let text = match format {
+        // The page has the font itself, and puts it there.
+        "html" => render::html_with(&document, "FONT"),
+        "typst" => render::typst(&document),
+        "latex" => render::latex(&document),
+        "markdown" => {
+            let written = render::markdown(&document, "figures");
+            let figures: Vec<Value> =
+                written.figures.iter().map(|(path, text)| json!({ "path": path, "text": text })).collect();
+            return Ok(json!({ "text": written.text, "files": figures }));
+        }
+        other => return Err(Refusal::new(format!("no format `{other}`: html, typst, latex or markdown"))),
+    };
+    Ok(json!({ "text": text }))
+}
+
+/// Source code that builds and tests itself.
+///
+/// # Errors
+/// If there is no such language.
+pub fn code(subject: &Subject, language: &str, name: Option<String>) -> Result<Value, Refusal> {
+    let wanted = |l: &Language| l.name().eq_ignore_ascii_case(language);
+    let language = Language::ALL
+        .into_iter()
+        .find(wanted)
+        .ok_or_else(|| Refusal::new(format!("no code is written in `{language}`")))?;
+    let functions = vec![Wanted::Pose, Wanted::Jacobian, Wanted::Inverse];
+    let options = Wish {
+        language,
+        functions,
+        inverse: inverse::Options::default(),
+        precision: Precision::Double,
+        name: Some(name.unwrap_or_else(|| subject.description.name.clone())),
+        fixed: false,
+    };
+    let made = generate(&subject.description, &options).map_err(|why| Refusal::new(why.to_string()))?;
+    let files: Vec<Value> = made.files.iter().map(|f| json!({ "path": f.path, "text": f.text })).collect();
+    let mut words: Vec<String> = made
+        .functions
+        .iter()
+        .map(|(wanted, count, proof)| format!("{wanted}: {count}; {}", wanted.claim(*proof)))
+        .collect();
+    words.extend(made.refused.iter().map(|why| format!("no ik: {why}")));
+    Ok(json!({ "files": files, "words": words.join("\n"), "test": made.test_command(language) }))
+}
+
+/// A figure that is asked for.
+#[derive(Deserialize)]
+pub struct Picture {
+    q: Vec<f64>,
+    scheme: bool,
+    azimuth: Option<f64>,
+    elevation: Option<f64>,
+}
+
+/// The arm, or its line diagram, as SVG.
+///
+/// # Errors
+/// If the configuration does not fit.
+pub fn figure(subject: &Subject, picture: &Picture) -> Result<Value, Refusal> {
+    let arm = subject.arm.at(subject.configuration(&picture.q)?);
+    let mut look = Look::main();
+    if let (Some(azimuth), Some(elevation)) = (picture.azimuth, picture.elevation) {
+        look.view = Some(View::from_angles(azimuth, elevation));
+    }
+    let drawing = if picture.scheme { scheme(&arm, &look) } else { isometric(&arm, &look) };
+    Ok(json!({ "svg": svg(&drawing, Palette::File, "figure") }))
+}

@@ -1,0 +1,110 @@
+//! The engine of the page: requests and answers as JSON, one robot at a time.
+//!
+//! A page holds several engines; each has its robot, set by `edit`. [`answer`] and [`answer_more`] take
+//! `{"op": …, "input": …}` and give the answer, or `{"error": …, "hint": …}`. What is asked and answered is written down
+//! in `page/src/engine/types.ts`. Lengths are metres, angles radians, matrices rows of rows. Nothing is computed here:
+//! the crates `denavit` and `denavit-report` do.
+
+mod border;
+mod catalogue;
+mod documents;
+mod formulas;
+mod model;
+mod motion;
+mod orientation;
+mod reach;
+mod refusal;
+mod robot_file;
+mod scene;
+mod session;
+mod solve;
+mod values;
+mod velocity;
+
+use refusal::Refusal;
+use robot_file::RobotFile;
+use serde::Deserialize;
+use serde_json::Value;
+use session::Session;
+use std::cell::RefCell;
+
+thread_local! {
+    static SESSION: RefCell<Session> = RefCell::new(Session::default());
+}
+
+/// What can be asked.
+#[derive(Deserialize)]
+#[serde(tag = "op", content = "input", rename_all = "camelCase")]
+enum Request {
+    Catalogue {},
+    Open(catalogue::Open),
+    Edit { file: RobotFile },
+    Write { file: RobotFile },
+    Convert { to: String },
+    Scene { q: Vec<f64> },
+    Ghost { q: Vec<f64> },
+    Solve(solve::Wish),
+    Orientations {},
+    Angles { pose: Vec<Vec<f64>>, set: String },
+    Pose { xyz: [f64; 3], set: String, values: Vec<f64> },
+    Jacobian { q: Vec<f64>, frame: String },
+}
+
+/// What can be asked for that is derived first: formulas, documents, paths, source code.
+#[derive(Deserialize)]
+#[serde(tag = "op", content = "input", rename_all = "camelCase")]
+enum MoreRequest {
+    Formulas { topic: String, q: Vec<f64> },
+    Values { topic: String, q: Vec<f64> },
+    Singular {},
+    Workspace {},
+    Path(motion::Wish),
+    Check { text: String, name: String },
+    Report { format: String, language: String, q: Vec<f64> },
+    Code { language: String, name: Option<String> },
+    Figure(documents::Picture),
+}
+
+/// Answers a request about the robot.
+pub fn answer(request: &str) -> String {
+    answered(request, |session, request| match request {
+        Request::Catalogue {} => Ok(catalogue::list()),
+        Request::Open(open) => catalogue::open(&open),
+        Request::Edit { file } => Ok(session.edit(&file)),
+        Request::Write { file } => Ok(serde_json::json!({ "text": file.to_toml().text })),
+        Request::Convert { to } => catalogue::convert(session.robot()?, &to),
+        Request::Scene { q } => scene::scene(session.robot()?, &q),
+        Request::Ghost { q } => scene::ghost(session.robot()?, &q),
+        Request::Solve(wish) => solve::solve(session.robot()?, &wish),
+        Request::Orientations {} => Ok(orientation::sets()),
+        Request::Angles { pose, set } => orientation::angles(&pose, &set),
+        Request::Pose { xyz, set, values } => orientation::pose(xyz, &set, &values),
+        Request::Jacobian { q, frame } => velocity::jacobian(session.robot()?, &q, &frame),
+    })
+}
+
+/// Answers a request for what is derived: the second part of the engine.
+pub fn answer_more(request: &str) -> String {
+    answered(request, |session, request| match request {
+        MoreRequest::Formulas { topic, q } => formulas::formulas(session.robot()?, &topic, &q),
+        MoreRequest::Values { topic, q } => values::values(session.robot()?, &topic, &q),
+        MoreRequest::Singular {} => velocity::singular(session.robot()?),
+        MoreRequest::Workspace {} => reach::workspace(session.robot()?),
+        MoreRequest::Path(wish) => motion::path(session.robot()?, &wish),
+        MoreRequest::Check { text, name } => documents::check(session.robot()?, &text, &name),
+        MoreRequest::Report { format, language, q } => {
+            documents::report(session.robot()?, &format, &language, &q)
+        }
+        MoreRequest::Code { language, name } => documents::code(session.robot()?, &language, name),
+        MoreRequest::Figure(picture) => documents::figure(session.robot()?, &picture),
+    })
+}
+
+fn answered<R: for<'a> Deserialize<'a>>(
+    request: &str,
+    answer: impl FnOnce(&mut Session, R) -> Result<Value, Refusal>,
+) -> String {
+    let read = serde_json::from_str(request).map_err(|e| Refusal::new(format!("not a request: {e}")));
+    let result = read.and_then(|request| SESSION.with_borrow_mut(|session| answer(session, request)));
+    result.unwrap_or_else(Refusal::into_json).to_string()
+}

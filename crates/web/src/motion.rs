@@ -1,0 +1,191 @@
+//! Paths through way-points: planned stretch by stretch, sampled for drawings and plots.
+
+use crate::refusal::Refusal;
+use crate::scene::matrix;
+use crate::session::Subject;
+use crate::solve;
+use denavit::geometry::{Transform, Vector};
+use denavit::motion::follow::{Event, EventKind};
+use denavit::motion::hand::{Arc, Chain, HandPath, Line, Orientation};
+use denavit::motion::plan::{KnownLimits, PlanOptions, Planned, Verdict, Wish as Stretch};
+use denavit::velocity::{Viewpoint, Whole, geometric};
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+/// A path that is asked for.
+#[derive(Deserialize)]
+pub struct Wish {
+    start: Vec<f64>,
+    points: Vec<Point>,
+    duration: Option<f64>,
+    speed: Option<f64>,
+    samples: usize,
+}
+
+/// Where to go, and how.
+#[derive(Deserialize)]
+#[serde(tag = "kind", rename_all = "lowercase")]
+enum Point {
+    Joint { q: Vec<f64> },
+    Line { pose: Vec<Vec<f64>> },
+    Arc { via: [f64; 3], pose: Vec<Vec<f64>> },
+}
+
+/// The most samples of a path, and way-points.
+const MOST: [usize; 2] = [5_000, 200];
+
+/// What the stretches of a path come to.
+#[derive(Default)]
+struct Sampled {
+    times: Vec<f64>,
+    q: Vec<Vec<f64>>,
+    qd: Vec<Vec<f64>>,
+    events: Vec<Value>,
+    alternatives: Vec<Value>,
+    words: Vec<String>,
+    timing: Vec<String>,
+    /// How much of all stretches was gone.
+    reached: f64,
+    /// Whether a stretch could not be gone to its end.
+    stopped: bool,
+}
+
+/// Plans a path: stretches through joints and stretches of the hand one after the other, the arm at rest between them.
+///
+/// # Errors
+/// If a way-point is none, or a stretch cannot be planned.
+pub fn path(subject: &Subject, wish: &Wish) -> Result<Value, Refusal> {
+    if wish.points.is_empty() {
+        return Err(Refusal::new("the path has no way-points"));
+    }
+    if wish.points.len() > MOST[1] {
+        return Err(Refusal::new(format!("{} way-points; {} are allowed", wish.points.len(), MOST[1])));
+    }
+    let stretches = stretches(&wish.points);
+    let samples = wish.samples.clamp(2, MOST[0]).div_ceil(stretches.len()).max(2);
+    let mut here = subject.configuration(&wish.start)?.to_vec();
+    let mut found = Sampled::default();
+    for stretch in &stretches {
+        let share = wish.duration.map(|d| d * stretch.len() as f64 / wish.points.len() as f64);
+        let options = PlanOptions {
+            duration: share,
+            speed: wish.speed.unwrap_or(PlanOptions::default().speed),
+            ..PlanOptions::default()
+        };
+        let asked = asked(subject, &here, stretch)?;
+        let limits = KnownLimits::of(&subject.valued);
+        let planned = Planned::new(&subject.valued, &subject.robot, asked, &limits, &options)
+            .map_err(|why| Refusal::new(why.to_string()))?;
+        found.take(subject, &planned, samples);
+        found.reached += planned.followed.as_ref().map_or(1.0, |f| f.reached) / stretches.len() as f64;
+        if matches!(planned.verdict(), Verdict::Ends(_)) {
+            found.stopped = true;
+            break;
+        }
+        here = found.q.last().cloned().unwrap_or(here);
+    }
+    Ok(found.told(subject))
+}
+
+/// Way-points of the joints, and of the hand, that follow each other.
+fn stretches(points: &[Point]) -> Vec<&[Point]> {
+    points.chunk_by(|a, b| matches!(a, Point::Joint { .. }) == matches!(b, Point::Joint { .. })).collect()
+}
+
+fn asked(subject: &Subject, here: &[f64], stretch: &[Point]) -> Result<Stretch, Refusal> {
+    if matches!(stretch.first(), Some(Point::Joint { .. })) {
+        let mut points = vec![here.to_vec()];
+        for point in stretch {
+            if let Point::Joint { q } = point {
+                points.push(subject.configuration(q)?.to_vec());
+            }
+        }
+        return Ok(Stretch::Joints(points));
+    }
+    let mut at = subject.robot.pose(here);
+    let mut parts: Vec<Box<dyn HandPath + Send + Sync>> = vec![];
+    let mut go = |to: Transform<f64>, via: Option<[f64; 3]>| -> Result<(), Refusal> {
+        parts.push(match via {
+            None => Box::new(Line { from: at, to, orientation: Orientation::Slerp }),
+            Some(via) => Box::new(
+                Arc::new(at, Vector(via), to).map_err(|why| Refusal::new(format!("the arc: {why}")))?,
+            ),
+        });
+        at = to;
+        Ok(())
+    };
+    for point in stretch {
+        match point {
+            Point::Line { pose } => go(solve::pose(pose)?, None)?,
+            Point::Arc { via, pose } => go(solve::pose(pose)?, Some(*via))?,
+            Point::Joint { .. } => {}
+        }
+    }
+    let words = match parts.len() {
+        1 => "a path of the hand".to_string(),
+        n => format!("a path of the hand in {n} parts"),
+    };
+    Ok(Stretch::Hand { path: Box::new(Chain::new(parts)), start: Some(here.to_vec()), words })
+}
+
+impl Sampled {
+    /// Samples a stretch behind those before it.
+    fn take(&mut self, subject: &Subject, planned: &Planned, samples: usize) {
+        let (motion, start) = (&planned.trajectory, self.times.last().copied().unwrap_or(0.0));
+        let duration = motion.duration();
+        let first = self.times.len();
+        for k in 0..=samples {
+            let t = duration * k as f64 / samples as f64;
+            let state = motion.eval(t);
+            self.times.push(start + t);
+            self.q.push(state.q);
+            self.qd.push(state.qd);
+        }
+        for event in planned.followed.iter().flat_map(|f| &f.events) {
+            let near = |k: &usize| subject.space.distance(&self.q[*k], &event.q);
+            let nearest = (first..self.q.len()).min_by(|a, b| near(a).total_cmp(&near(b)));
+            let time = nearest.map_or(start, |k| self.times[k]);
+            self.events.push(told(subject, event, time));
+        }
+        self.words.push(planned.words.clone());
+        self.timing.push(planned.timing.clone());
+        if self.alternatives.is_empty() {
+            self.alternatives = planned
+                .alternatives
+                .iter()
+                .map(|a| {
+                    json!({ "q": a.start, "words": a.branch, "reached": a.reached, "withinLimits": a.within_limits })
+                })
+                .collect();
+        }
+    }
+
+    fn told(self, subject: &Subject) -> Value {
+        let whole = |q: &Vec<f64>| {
+            let jacobian = geometric(&subject.robot, q, &Viewpoint::tool());
+            Whole::new(&jacobian, &subject.space.is_angle, subject.robot.reach().max(1e-9)).manipulability
+        };
+        json!({
+            "words": self.words.join(", then "),
+            "timing": self.timing.join("; then "),
+            "duration": self.times.last(),
+            "reached": if self.stopped { self.reached } else { 1.0 },
+            "times": self.times,
+            "manipulability": self.q.iter().map(whole).collect::<Vec<_>>(),
+            "poses": self.q.iter().map(|q| matrix(&subject.robot.pose(q))).collect::<Vec<_>>(),
+            "q": self.q,
+            "qd": self.qd,
+            "events": self.events,
+            "alternatives": self.alternatives,
+        })
+    }
+}
+
+fn told(subject: &Subject, event: &Event, time: f64) -> Value {
+    let kind = match event.kind {
+        EventKind::Singular { .. } => "singular",
+        EventKind::Limit { .. } | EventKind::WithinLimits { .. } => "limit",
+        EventKind::End { .. } => "end",
+    };
+    json!({ "time": time, "kind": kind, "words": event.sentence(&subject.description) })
+}

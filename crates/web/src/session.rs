@@ -1,0 +1,137 @@
+//! The robot that an engine has in hand.
+
+use crate::model;
+use crate::refusal::Refusal;
+use crate::robot_file::RobotFile;
+use denavit::Robot;
+use denavit::description::{Description, Diagnostic, read_toml};
+use denavit::inverse::{InverseKinematics, JointSpace, Options};
+use denavit_report::figure::Arm;
+use serde_json::{Value, json};
+use std::cell::OnceCell;
+
+/// What an engine knows.
+#[derive(Default)]
+pub struct Session {
+    robot: Option<Subject>,
+}
+
+/// A robot, and what was derived for it.
+pub struct Subject {
+    /// As it is described.
+    pub description: Description,
+    /// With values for all lengths, some of them chosen.
+    pub valued: Description,
+    /// In numbers.
+    pub robot: Robot<f64>,
+    /// Its joints.
+    pub space: JointSpace,
+    /// How it is drawn.
+    pub arm: Arm,
+    /// Solves poses.
+    pub solver: Option<InverseKinematics>,
+    /// What its formulas say, by topic.
+    pub formulas: Vec<(String, crate::values::Definitions)>,
+    /// The texts of its cells, row by row.
+    pub cells: OnceCell<Vec<Vec<crate::scene::Cell>>>,
+}
+
+impl Session {
+    /// The robot in hand.
+    ///
+    /// # Errors
+    /// If there is none yet.
+    pub fn robot(&mut self) -> Result<&mut Subject, Refusal> {
+        self.robot.as_mut().ok_or_else(|| Refusal::new("there is no robot yet"))
+    }
+
+    /// Takes a robot file in hand; one with errors leaves the robot before.
+    pub fn edit(&mut self, file: &RobotFile) -> Value {
+        let written = file.to_toml();
+        let cell = |d: &Diagnostic| {
+            let mut value = finding(d);
+            value["cell"] = written.cell(d.span.start).into();
+            value
+        };
+        let (description, findings) = match read_toml(&written.text) {
+            Ok(read) => read,
+            Err(findings) => {
+                let findings: Vec<Value> = findings.iter().map(cell).collect();
+                return json!({ "robot": null, "findings": findings });
+            }
+        };
+        let mut findings: Vec<Value> = findings.iter().map(cell).collect();
+        match Subject::new(description) {
+            Ok(subject) => {
+                let model = model::model(&subject);
+                self.robot = Some(subject);
+                json!({ "robot": model, "findings": findings })
+            }
+            Err(why) => {
+                findings.push(json!({ "severity": "error", "message": why }));
+                json!({ "robot": null, "findings": findings })
+            }
+        }
+    }
+}
+
+/// A finding without its place.
+pub fn finding(d: &Diagnostic) -> Value {
+    let mut value = json!({ "severity": d.severity.name(), "message": d.message });
+    if let Some(hint) = &d.hint {
+        value["hint"] = hint.as_str().into();
+    }
+    value
+}
+
+impl Subject {
+    /// # Errors
+    /// If the robot cannot be drawn or computed with: a sentence that says why.
+    pub fn new(description: Description) -> Result<Self, String> {
+        if description.variables().is_empty() {
+            return Err("no joint moves: a cell with q1 makes its row a joint".into());
+        }
+        let valued = description.filled();
+        let robot = Robot::numeric(&valued).map_err(|why| why.to_string())?;
+        let space = JointSpace::new(&valued, robot.reach());
+        let arm = Arm::new(&valued).map_err(|why| why.to_string())?;
+        Ok(Subject {
+            description,
+            valued,
+            robot,
+            space,
+            arm,
+            solver: None,
+            formulas: vec![],
+            cells: OnceCell::new(),
+        })
+    }
+
+    /// The solver of poses, derived when it is first needed.
+    ///
+    /// # Errors
+    /// If the robot cannot be solved as it is.
+    pub fn solver(&mut self) -> Result<&mut InverseKinematics, Refusal> {
+        if self.solver.is_none() {
+            let made = InverseKinematics::new(&self.valued, &Options::default());
+            self.solver = Some(made.map_err(|why| Refusal::new(why.to_string()))?);
+        }
+        self.solver.as_mut().ok_or_else(|| Refusal::new("there is no solver"))
+    }
+
+    /// A configuration with a finite value for every joint.
+    ///
+    /// # Errors
+    /// If it has another number of values, or one is not finite.
+    pub fn configuration<'q>(&self, q: &'q [f64]) -> Result<&'q [f64], Refusal> {
+        let joints = self.robot.joints;
+        if q.len() != joints {
+            return Err(Refusal::new(format!("{} values for {joints} joints", q.len())));
+        }
+        // Beyond that a double says nothing about an angle.
+        if !q.iter().all(|x| x.abs() < 1e9) {
+            return Err(Refusal::new("a joint's value is not a number, or too large"));
+        }
+        Ok(q)
+    }
+}

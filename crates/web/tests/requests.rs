@@ -1,0 +1,246 @@
+//! Every request of the page, answered natively: the same code that is compiled for it.
+
+use serde_json::{Value, json};
+
+fn ask(op: &str, input: Value) -> Value {
+    let request = json!({ "op": op, "input": input }).to_string();
+    let later = ["formulas", "values", "singular", "workspace", "path", "check", "report", "code", "figure"];
+    let text =
+        if later.contains(&op) { denavit_web::answer_more(&request) } else { denavit_web::answer(&request) };
+    serde_json::from_str(&text).expect("an answer is JSON")
+}
+
+/// The answer, which is no refusal.
+fn told(op: &str, input: Value) -> Value {
+    let answer = ask(op, input);
+    assert!(answer.get("error").is_none(), "{op}: {answer}");
+    answer
+}
+
+/// A robot of the catalogue in hand: its file, what is known of it.
+fn taken(name: &str) -> (Value, Value) {
+    let file = told("open", json!({ "text": name, "kind": "robot" }))["file"].clone();
+    let answer = told("edit", json!({ "file": file }));
+    assert!(answer["robot"].is_object(), "{name}: {answer}");
+    (file, answer["robot"].clone())
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().into_iter().flatten().filter_map(Value::as_f64).collect()
+}
+
+fn flat(matrix: &Value) -> Vec<f64> {
+    matrix.as_array().into_iter().flatten().flat_map(numbers).collect()
+}
+
+fn far(a: &Value, b: &Value) -> f64 {
+    flat(a).iter().zip(flat(b)).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn every_robot_of_the_catalogue_is_drawn_and_solved() {
+    let list = told("catalogue", json!({}));
+    let robots = list["robots"].as_array().expect("a list");
+    assert!(robots.len() > 90);
+    for robot in robots {
+        let name = robot["name"].as_str().expect("a name");
+        let (_, model) = taken(name);
+        let joints = model["joints"].as_array().expect("joints").len();
+        assert_eq!(robot["joints"].as_str().map(str::len), Some(joints), "{name}");
+        let scene = told("scene", json!({ "q": model["q"] }));
+        assert_eq!(scene["frames"].as_array().map(Vec::len), model["rows"].as_u64().map(|n| n as usize + 2));
+        // The steps of each row lead from its frame to the next.
+        let (rows, frames) =
+            (scene["rows"].as_array().expect("rows"), scene["frames"].as_array().expect("frames"));
+        for (k, row) in rows.iter().enumerate() {
+            assert!(far(&row[0]["frame"], &frames[k]) < 1e-12, "{name}: row {k}");
+        }
+        let answer = told("solve", json!({ "q": model["q"], "near": model["q"] }));
+        assert!(far(&answer["pose"], frames.last().expect("a tool")) < 1e-12, "{name}");
+        let nearest = told("scene", json!({ "q": answer["nearest"]["q"] }));
+        let tool = nearest["frames"].as_array().and_then(|f| f.last().cloned()).expect("a tool");
+        assert!(far(&tool, &answer["pose"]) < 1e-6, "{name}: {}", answer["nearest"]);
+    }
+}
+
+#[test]
+fn a_robot_file_comes_back_as_it_was() {
+    for name in ["staubli-rx90", "ur5", "stanford", "franka-panda"] {
+        let (file, _) = taken(name);
+        let text = told("write", json!({ "file": file }))["text"].clone();
+        let again = told("open", json!({ "text": text, "kind": "toml" }));
+        assert_eq!(again["file"], file, "{name}");
+        assert_eq!(again["findings"], told("open", json!({ "text": name, "kind": "robot" }))["findings"]);
+    }
+}
+
+#[test]
+fn an_error_is_found_in_its_cell() {
+    let (mut file, _) = taken("staubli-rx90");
+    file["joints"][2]["d"] = "D3 +".into();
+    file["joints"][4]["alpha"] = "90 dg".into();
+    file["parameters"][1]["value"] = "450 kg".into();
+    let answer = told("edit", json!({ "file": file }));
+    assert!(answer["robot"].is_null());
+    let cells: Vec<&str> =
+        answer["findings"].as_array().into_iter().flatten().filter_map(|f| f["cell"].as_str()).collect();
+    for wanted in ["joints.2.d", "joints.4.alpha", "parameters.1.value"] {
+        assert!(cells.contains(&wanted), "{wanted}: {cells:?}");
+    }
+    // The robot before is still there.
+    told("scene", json!({ "q": [0, 0, 0, 0, 0, 0] }));
+}
+
+#[test]
+fn any_text_in_any_cell_is_an_answer() {
+    let hostile =
+        ["", "\"", "\\", "]]\n[joints", "\u{0}", "é\u{301}", "q99", "1e999", "((((", "{}", "'''", "x = 1"];
+    for text in hostile {
+        let (mut file, _) = taken("scara");
+        file["name"] = text.into();
+        file["joints"][0]["theta"] = text.into();
+        file["joints"][1]["limits"] = json!([text, text]);
+        file["parameters"] = json!([{ "name": text, "value": text }, { "name": text, "value": "" }]);
+        file["poses"] = json!([{ "name": text, "values": [text] }]);
+        file["tool"] = json!({ "xyz": [text, "0", "0"] });
+        let answer = told("edit", json!({ "file": file }));
+        assert!(answer["findings"].is_array(), "{text:?}: {answer}");
+    }
+}
+
+#[test]
+fn what_is_no_request_is_refused() {
+    for (op, input) in [
+        ("nothing", json!({})),
+        ("scene", json!({ "q": "three" })),
+        ("scene", json!({ "q": [1, 2] })),
+        ("scene", json!({ "q": [1e300, 0, 0, 0, 0, 0] })),
+        ("solve", json!({})),
+        ("solve", json!({ "pose": [[1, 0], [0, 1]] })),
+        ("angles", json!({ "pose": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]], "set": "xxy" })),
+        ("pose", json!({ "xyz": [0, 0, 0], "set": "zyz", "values": [1] })),
+        ("open", json!({ "text": "no-such-robot", "kind": "robot" })),
+        ("formulas", json!({ "topic": "weather", "q": [0, 0, 0, 0, 0, 0] })),
+        ("code", json!({ "language": "cobol" })),
+        ("report", json!({ "format": "docx", "language": "en", "q": [0, 0, 0, 0, 0, 0] })),
+    ] {
+        taken("staubli-rx90");
+        let answer = ask(op, input);
+        assert!(answer["error"].is_string(), "{op}: {answer}");
+    }
+    assert!(serde_json::from_str::<Value>(&denavit_web::answer("{")).expect("JSON")["error"].is_string());
+}
+
+#[test]
+fn a_pasted_table_is_read_in_the_convention_that_is_said() {
+    let table = "| j | alpha | a | theta | d |\n|---|---|---|---|---|\n| 1 | 0 | 0 | q1 | 0.4 |\n| 2 | -90° | 0.025 | q2 | 0 |\n";
+    let open =
+        |convention: Value| told("open", json!({ "text": table, "kind": "any", "convention": convention }));
+    assert_eq!(open("craig".into())["file"]["convention"], "craig");
+    let without = open(Value::Null);
+    assert!(without["file"].is_null(), "{without}");
+    assert!(
+        without["findings"][0]["message"].as_str().is_some_and(|m| m.contains("convention")),
+        "{without}"
+    );
+}
+
+#[test]
+fn another_convention_is_proved_the_same() {
+    for to in ["standard", "craig", "khalil"] {
+        taken("staubli-rx90");
+        let answer = told("convert", json!({ "to": to }));
+        assert_eq!(answer["proved"], true, "{to}");
+        let before = told("scene", json!({ "q": [0.1, 0.2, 0.3, 0.4, 0.5, 0.6] }));
+        told("edit", json!({ "file": answer["file"] }));
+        let after = told("scene", json!({ "q": [0.1, 0.2, 0.3, 0.4, 0.5, 0.6] }));
+        let tool =
+            |scene: &Value| scene["frames"].as_array().and_then(|f| f.last().cloned()).expect("a tool");
+        assert!(far(&tool(&before), &tool(&after)) < 1e-12, "{to}");
+    }
+}
+
+#[test]
+fn a_pose_beyond_reach_is_followed_to_the_nearest() {
+    taken("puma560");
+    let pose = json!([[1, 0, 0, 9], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]);
+    let answer = told("solve", json!({ "pose": pose, "near": [0, 0, 0, 0, 0, 0] }));
+    let distance = answer["obstacle"]["distance"].as_f64().expect("a distance");
+    assert!(distance > 7.0, "{distance}");
+    let reached = told("scene", json!({ "q": answer["nearest"]["q"] }));
+    let tool = reached["frames"].as_array().and_then(|f| f.last().cloned()).expect("a tool");
+    assert!(far(&tool, &answer["obstacle"]["pose"]) < 1e-6);
+}
+
+#[test]
+fn formulas_come_in_every_notation_with_their_numbers() {
+    let (_, model) = taken("staubli-rx90");
+    for topic in ["table", "links", "forward", "algorithm", "inverse", "jacobian", "singularities"] {
+        let answer = told("formulas", json!({ "topic": topic, "q": model["q"] }));
+        let blocks = answer["blocks"].as_array().expect("blocks");
+        assert!(!blocks.is_empty(), "{topic}");
+        let mut formulas: Vec<&Value> = vec![];
+        for block in blocks {
+            formulas.extend(block.get("formula"));
+            formulas.extend(block["formulas"].as_array().into_iter().flatten());
+        }
+        assert_eq!(topic == "table", formulas.is_empty(), "{topic}");
+        for formula in &formulas {
+            for notation in ["mathml", "text", "latex", "typst", "python", "c"] {
+                assert!(formula[notation].as_str().is_some_and(|t| !t.is_empty()), "{topic}: {formula}");
+            }
+        }
+        if topic == "table" {
+            continue;
+        }
+        let about = answer["joints"].as_object().expect("names");
+        assert_eq!(about["q3"], json!([2]), "{topic}");
+        if topic == "forward" {
+            assert_eq!(about["C23"], json!([1, 2]));
+        }
+    }
+    // The algorithm's results are the pose.
+    let q = [0.3, -0.7, 0.9, 0.2, 1.1, -0.4];
+    let values = told("values", json!({ "topic": "forward", "q": q }))["values"].clone();
+    let tool = told("solve", json!({ "q": q }))["pose"].clone();
+    for (row, column) in [(0, 0), (0, 3), (1, 1), (2, 3)] {
+        let name = format!("t{}{}", row + 1, column + 1);
+        let (shown, right) =
+            (values[&name].as_f64().expect("a number"), tool[row][column].as_f64().expect("a number"));
+        assert!((shown - right).abs() < 1e-12, "{name}: {shown} {right}");
+    }
+}
+
+#[test]
+fn documents_code_and_pictures_are_made() {
+    let (_, model) = taken("scara");
+    for format in ["html", "typst", "latex", "markdown"] {
+        for language in ["en", "fr"] {
+            let report = told("report", json!({ "format": format, "language": language, "q": model["q"] }));
+            assert!(report["text"].as_str().is_some_and(|t| t.len() > 10_000), "{format}");
+        }
+    }
+    for language in ["rust", "c", "python", "matlab", "javascript", "cuda"] {
+        let code = told("code", json!({ "language": language }));
+        assert!(code["files"].as_array().is_some_and(|f| f.len() > 1), "{language}: {code}");
+        assert!(code["test"].as_str().is_some_and(|t| !t.is_empty()), "{language}");
+    }
+    for scheme in [false, true] {
+        let figure = told("figure", json!({ "q": model["q"], "scheme": scheme }));
+        assert!(figure["svg"].as_str().is_some_and(|s| s.starts_with("<svg")));
+    }
+    let workspace = told("workspace", json!({}));
+    assert!(workspace["area"].as_f64().is_some_and(|a| a > 0.0));
+    assert!(!told("singular", json!({}))["singular"].as_array().expect("a list").is_empty());
+}
+
+#[test]
+fn a_printed_formula_is_judged() {
+    taken("staubli-rx90");
+    let check =
+        |text: &str| told("check", json!({ "text": text, "name": "formula.md" }))["claims"][0].clone();
+    assert_eq!(check("$P_x = C_1 (C_2 D3 - S_{23} RL4)$")["verdict"], "equal");
+    let wrong = check("$P_x = C_1 (C_2 D3 + S_{23} RL4)$");
+    assert_eq!(wrong["verdict"], "wrong", "{wrong}");
+    assert!(wrong["slip"]["formula"].is_string(), "{wrong}");
+}

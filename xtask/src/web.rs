@@ -1,0 +1,286 @@
+//! The page of `denavit view`: the engine as WebAssembly, the page around it, and how large both are.
+
+mod split;
+
+use crate::{cargo, command, path, succeed};
+use anyhow::{Context, Result, bail};
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// The target of the engine.
+pub const TARGET: &str = "wasm32-unknown-unknown";
+/// The page, and where it is built to.
+const PAGE: &str = "crates/web/page";
+const SITE: &str = "crates/web/page/dist";
+/// The engine: what is needed at once, and what is loaded when something is derived.
+const ENGINE: [&str; 2] = ["denavit.wasm", "derive.wasm"];
+/// What the page calls of the first part, and of the second.
+const KEPT: &[&str] = &["memory", "request", "answer", "text", "length"];
+const LATER: &[&str] = &["answer_more"];
+/// What derives, among the functions that are called through the table: where it is missing here, a function stays in the
+/// first part that need not.
+const DERIVING: &[&str] = &[
+    "denavit::check",
+    "denavit::generate",
+    "denavit::motion",
+    "denavit::velocity::singular",
+    "denavit::workspace",
+    "denavit_program::emit",
+    "denavit_report::render",
+    "denavit_report::sections",
+    "denavit_symbolic::factor",
+    "denavit_symbolic::slip",
+    "denavit_web::answer_more",
+    "denavit_web::documents",
+    "denavit_web::formulas",
+    "denavit_web::motion",
+    "denavit_web::reach",
+    "denavit_web::values",
+    "denavit_web::velocity",
+];
+/// What a dependency of the plots brings along for pages that are written in Rust.
+const FOREIGN: &[&str] = &["js_sys", "wasm_bindgen", "web_sys"];
+/// Where the texts stand that reports and source code are made of.
+const TEXTS: &[&str] = &[
+    "crates/elimination/src",
+    "crates/program/src/emit",
+    "crates/program/src/kernel",
+    "crates/report/assets",
+    "crates/robot/src/generate",
+];
+/// Shorter texts are not worth a place of their own.
+const SHORT: usize = 200;
+/// The most bytes that are transferred, compressed by brotli: of each part of the engine, of the whole site.
+const MAX_ENGINE: u64 = 700_000;
+const MAX_SITE: u64 = 1_500_000;
+/// What a tool says when it fails may be long; its beginning says what is wrong.
+const MAX_LINES: usize = 40;
+
+/// Builds the page into `crates/web/page/dist`, from where the next build of `denavit` takes it. `fast` leaves the engine
+/// as the compiler makes it quickly, and holds nothing against the limits.
+///
+/// # Errors
+/// If a tool is missing, something does not compile, or the page is above a limit.
+pub fn run(fast: bool) -> Result<()> {
+    let page = path(PAGE);
+    if !page.is_dir() {
+        bail!("there is no {PAGE}");
+    }
+    for program in ["node", "npm"] {
+        if !starts(program) {
+            bail!("{program} is missing: install Node.js 20 or newer (Debian: `apt-get install nodejs npm`)");
+        }
+    }
+    if !has_target()? {
+        bail!("the target is missing: `rustup target add {TARGET}`");
+    }
+    packages(&page)?;
+    println!("checking types");
+    briefly(Command::new("npm").args(["run", "--silent", "check"]).current_dir(&page))?;
+    println!("building the engine");
+    let engine = engine(fast)?;
+    println!("building the page");
+    // Nothing of an earlier build stays.
+    let site = path(SITE);
+    if site.exists() {
+        fs::remove_dir_all(&site)?;
+    }
+    fs::create_dir_all(&site)?;
+    divided(&engine, &site)?;
+    fs::copy(path("crates/report/assets/maths.woff2"), site.join("maths.woff2"))?;
+    briefly(Command::new("node").arg("build.mjs").current_dir(&page))?;
+    let files = sizes(&site)?;
+    print!("{}", table(&files));
+    if fast { Ok(()) } else { limits(&files) }
+}
+
+/// Whether the compiler has the standard library for the target.
+///
+/// # Errors
+/// If there is no compiler, or it does not know the target.
+pub fn has_target() -> Result<bool> {
+    let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+    let output = command(&rustc)
+        .args(["--print", "target-libdir", "--target", TARGET])
+        .output()
+        .context("rustc does not start")?;
+    if !output.status.success() {
+        bail!("rustc does not know {TARGET}");
+    }
+    Ok(Path::new(String::from_utf8_lossy(&output.stdout).trim()).exists())
+}
+
+/// The packages of the lock file, if they are not there or older than it.
+fn packages(page: &Path) -> Result<()> {
+    let changed = |file: PathBuf| fs::metadata(file).and_then(|m| m.modified()).ok();
+    let installed = changed(page.join("node_modules/.package-lock.json"));
+    if installed.is_some() && installed >= changed(page.join("package-lock.json")) {
+        return Ok(());
+    }
+    println!("installing packages");
+    briefly(Command::new("npm").args(["ci", "--no-audit", "--no-fund", "--loglevel=error"]).current_dir(page))
+}
+
+/// Compiles the engine; where it is.
+fn engine(fast: bool) -> Result<PathBuf> {
+    // The folder of the profile `dev` has a name of its own.
+    let (profile, folder) = if fast { ("dev", "debug") } else { ("web", "web") };
+    let mut build = cargo();
+    // Names that tell what a generic function is for.
+    build.args(["--config", &format!("target.{TARGET}.rustflags=[\"-Csymbol-mangling-version=v0\"]")]);
+    build.args(["build", "-p", "denavit-web", "--locked", "--target", TARGET, "--profile", profile]);
+    succeed(&mut build)?;
+    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| path("target"), |t| path("").join(t));
+    Ok(target.join(TARGET).join(folder).join("denavit_web.wasm"))
+}
+
+/// Writes both parts of the engine.
+fn divided(engine: &Path, site: &Path) -> Result<()> {
+    let wasm = fs::read(engine).with_context(|| format!("no {}", engine.display()))?;
+    let mut texts = vec![];
+    for folder in TEXTS {
+        constants(&path(folder), &mut texts)?;
+    }
+    let plan = split::Plan { kept: KEPT, later: LATER, named: DERIVING, dropped: FOREIGN, texts: &texts };
+    let parts = split::split(&wasm, &plan)?;
+    for (name, part) in ENGINE.into_iter().zip([parts.first, parts.second]) {
+        fs::write(site.join(name), part)?;
+    }
+    Ok(())
+}
+
+/// The contents of all files of a folder.
+fn constants(folder: &Path, out: &mut Vec<Vec<u8>>) -> Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let file = entry?.path();
+        if file.is_dir() {
+            constants(&file, out)?;
+        } else {
+            out.push(fs::read(&file)?);
+        }
+    }
+    out.retain(|text| text.len() >= SHORT);
+    Ok(())
+}
+
+/// A file of the site, and its size in bytes: raw, and compressed.
+struct Size {
+    name: String,
+    raw: u64,
+    gzip: u64,
+    brotli: u64,
+}
+
+/// The sizes of all files of a folder, by name.
+fn sizes(folder: &Path) -> Result<Vec<Size>> {
+    let output = command("node").arg("xtask/pages/sizes.mjs").arg(folder).output()?;
+    if !output.status.success() {
+        bail!("no sizes: {}", String::from_utf8_lossy(&output.stderr).trim());
+    }
+    parsed(&serde_json::from_slice(&output.stdout)?).context("sizes are four values a file")
+}
+
+fn parsed(rows: &Value) -> Option<Vec<Size>> {
+    let size = |row: &Value| {
+        let bytes = |key: &str| row[key].as_u64();
+        let name = row["name"].as_str()?.to_string();
+        Some(Size { name, raw: bytes("raw")?, gzip: bytes("gzip")?, brotli: bytes("brotli")? })
+    };
+    rows.as_array()?.iter().map(size).collect()
+}
+
+/// A line a file, and their sum.
+fn table(files: &[Size]) -> String {
+    let sum = |of: fn(&Size) -> u64| files.iter().map(of).sum();
+    let total =
+        Size { name: "in all".into(), raw: sum(|f| f.raw), gzip: sum(|f| f.gzip), brotli: sum(|f| f.brotli) };
+    let mut text = format!("{:<24}{:>12}{:>12}{:>12}\n", "bytes", "raw", "gzip", "brotli");
+    for Size { name, raw, gzip, brotli } in files.iter().chain([&total]) {
+        text.push_str(&format!("{name:<24}{raw:>12}{gzip:>12}{brotli:>12}\n"));
+    }
+    text
+}
+
+/// That engine and site are no larger than they may be.
+fn limits(files: &[Size]) -> Result<()> {
+    let mut held = vec![];
+    for name in ENGINE {
+        let part = files.iter().find(|f| f.name == name).with_context(|| format!("no {name}"))?;
+        held.push((name, part.brotli, MAX_ENGINE));
+    }
+    held.push(("the site", files.iter().map(|f| f.brotli).sum(), MAX_SITE));
+    for (what, bytes, most) in held {
+        if bytes > most {
+            bail!("{what} is {bytes} bytes compressed by brotli; at most {most}");
+        }
+    }
+    Ok(())
+}
+
+fn starts(program: &str) -> bool {
+    let status = Command::new(program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
+    status.is_ok_and(|s| s.success())
+}
+
+/// Runs a tool without a word; an error with the beginning of what it says if it does not succeed.
+fn briefly(tool: &mut Command) -> Result<()> {
+    let output = tool.stdin(Stdio::null()).output().with_context(|| format!("{tool:?} does not start"))?;
+    if output.status.success() {
+        return Ok(());
+    }
+    let said = [output.stdout, output.stderr].concat();
+    let said = String::from_utf8_lossy(&said);
+    let beginning: Vec<&str> = said.lines().take(MAX_LINES).collect();
+    let more = if said.lines().count() > MAX_LINES { "\n…" } else { "" };
+    bail!("{tool:?} failed ({})\n{}{more}", output.status, beginning.join("\n"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn files(engine: u64, script: u64) -> Vec<Size> {
+        let size = |name: &str, brotli| Size { name: name.into(), raw: 9 * brotli, gzip: 2 * brotli, brotli };
+        vec![size(ENGINE[0], engine), size(ENGINE[1], 0), size("main.js", script)]
+    }
+
+    #[test]
+    fn limits_are_kept() {
+        assert!(limits(&files(MAX_ENGINE, MAX_SITE - MAX_ENGINE)).is_ok());
+        let says = |files: &[Size]| limits(files).err().map(|e| e.to_string()).unwrap_or_default();
+        assert_eq!(
+            says(&files(MAX_ENGINE + 1, 0)),
+            "denavit.wasm is 700001 bytes compressed by brotli; at most 700000"
+        );
+        assert_eq!(
+            says(&files(1, MAX_SITE)),
+            "the site is 1500001 bytes compressed by brotli; at most 1500000"
+        );
+        assert_eq!(says(&files(1, 1)[1..]), "no denavit.wasm");
+    }
+
+    #[test]
+    fn sizes_are_added() {
+        let text = table(&files(10, 5));
+        let last: Vec<&str> = text.lines().last().unwrap_or_default().split_whitespace().collect();
+        assert_eq!(last, ["in", "all", "135", "30", "15"]);
+    }
+
+    #[test]
+    fn sizes_are_read() {
+        let rows = serde_json::json!([{"name": "a", "raw": 3, "gzip": 2, "brotli": 1}]);
+        let read = parsed(&rows).unwrap();
+        assert_eq!((&read[0].name[..], read[0].raw, read[0].gzip, read[0].brotli), ("a", 3, 2, 1));
+        assert!(parsed(&serde_json::json!([{"name": "a"}])).is_none());
+    }
+
+    #[test]
+    fn a_tool_that_fails_says_why_and_not_all() {
+        let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+        let error = briefly(cargo.arg("no-such-verb")).unwrap_err().to_string();
+        assert!(error.contains("no-such-verb"), "{error}");
+        assert!(error.lines().count() <= MAX_LINES + 2, "{error}");
+    }
+}
