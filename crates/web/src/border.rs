@@ -34,6 +34,12 @@ pub extern "C" fn answer_more() -> usize {
     exchange(crate::answer_more)
 }
 
+/// The same for documents and source code, whose code is loaded when one is asked for.
+#[unsafe(no_mangle)]
+pub extern "C" fn answer_documents() -> usize {
+    exchange(crate::answer_documents)
+}
+
 fn exchange(answer: impl FnOnce(&str) -> String) -> usize {
     HOOK.call_once(|| std::panic::set_hook(Box::new(complain)));
     let request = BUFFER.with_borrow_mut(std::mem::take);

@@ -1,6 +1,6 @@
 //! The engine of the page: requests and answers as JSON, one robot at a time.
 //!
-//! A page holds several engines; each has its robot, set by `edit`. [`answer`] and [`answer_more`] take
+//! A page holds several engines; each has its robot, set by `edit`. [`answer`], [`answer_more`] and [`answer_documents`] take
 //! `{"op": …, "input": …}` and give the answer, or `{"error": …, "hint": …}`. What is asked and answered is written down
 //! in `page/src/engine/types.ts`. Lengths are metres, angles radians, matrices rows of rows. Nothing is computed here:
 //! the crates `denavit` and `denavit-report` do.
@@ -50,7 +50,7 @@ enum Request {
     Jacobian { q: Vec<f64>, frame: String },
 }
 
-/// What can be asked for that is derived first: formulas, documents, paths, source code.
+/// What can be asked for that is derived first.
 #[derive(Deserialize)]
 #[serde(tag = "op", content = "input", rename_all = "camelCase")]
 enum MoreRequest {
@@ -59,6 +59,12 @@ enum MoreRequest {
     Singular {},
     Workspace {},
     Path(motion::Wish),
+}
+
+/// What can be asked about documents and source code.
+#[derive(Deserialize)]
+#[serde(tag = "op", content = "input", rename_all = "camelCase")]
+enum DocumentRequest {
     Check { text: String, name: String },
     Report { format: String, language: String, q: Vec<f64> },
     Code { language: String, name: Option<String> },
@@ -83,7 +89,7 @@ pub fn answer(request: &str) -> String {
     })
 }
 
-/// Answers a request for what is derived: the second part of the engine.
+/// Answers a request for what is derived.
 pub fn answer_more(request: &str) -> String {
     answered(request, |session, request| match request {
         MoreRequest::Formulas { topic, q } => formulas::formulas(session.robot()?, &topic, &q),
@@ -91,12 +97,18 @@ pub fn answer_more(request: &str) -> String {
         MoreRequest::Singular {} => velocity::singular(session.robot()?),
         MoreRequest::Workspace {} => reach::workspace(session.robot()?),
         MoreRequest::Path(wish) => motion::path(session.robot()?, &wish),
-        MoreRequest::Check { text, name } => documents::check(session.robot()?, &text, &name),
-        MoreRequest::Report { format, language, q } => {
+    })
+}
+
+/// Answers a request about documents and source code.
+pub fn answer_documents(request: &str) -> String {
+    answered(request, |session, request| match request {
+        DocumentRequest::Check { text, name } => documents::check(session.robot()?, &text, &name),
+        DocumentRequest::Report { format, language, q } => {
             documents::report(session.robot()?, &format, &language, &q)
         }
-        MoreRequest::Code { language, name } => documents::code(session.robot()?, &language, name),
-        MoreRequest::Figure(picture) => documents::figure(session.robot()?, &picture),
+        DocumentRequest::Code { language, name } => documents::code(session.robot()?, &language, name),
+        DocumentRequest::Figure(picture) => documents::figure(session.robot()?, &picture),
     })
 }
 

@@ -4,9 +4,11 @@ use serde_json::{Value, json};
 
 fn ask(op: &str, input: Value) -> Value {
     let request = json!({ "op": op, "input": input }).to_string();
-    let later = ["formulas", "values", "singular", "workspace", "path", "check", "report", "code", "figure"];
-    let text =
-        if later.contains(&op) { denavit_web::answer_more(&request) } else { denavit_web::answer(&request) };
+    let text = match op {
+        "formulas" | "values" | "singular" | "workspace" | "path" => denavit_web::answer_more(&request),
+        "check" | "report" | "code" | "figure" => denavit_web::answer_documents(&request),
+        _ => denavit_web::answer(&request),
+    };
     serde_json::from_str(&text).expect("an answer is JSON")
 }
 
@@ -243,4 +245,44 @@ fn a_printed_formula_is_judged() {
     let wrong = check("$P_x = C_1 (C_2 D3 + S_{23} RL4)$");
     assert_eq!(wrong["verdict"], "wrong", "{wrong}");
     assert!(wrong["slip"]["formula"].is_string(), "{wrong}");
+}
+
+#[test]
+fn a_path_through_joints_and_lines_is_planned() {
+    let (_, model) = taken("staubli-rx90");
+    let q = numbers(&model["q"]);
+    let to: Vec<f64> = q.iter().map(|x| x + 0.2).collect();
+    let mut pose = told("solve", json!({ "q": to }))["pose"].clone();
+    pose[2][3] = json!(pose[2][3].as_f64().expect("a number") - 0.05);
+    let points = json!([{ "kind": "joint", "q": to }, { "kind": "line", "pose": pose }]);
+    let path = told("path", json!({ "start": q, "points": points, "samples": 50 }));
+    let all = path["q"].as_array().expect("configurations");
+    assert_eq!(path["times"].as_array().map(Vec::len), Some(all.len()));
+    assert_eq!(path["reached"], 1.0);
+    for (shown, right) in numbers(&all[0]).iter().zip(&q) {
+        assert!((shown - right).abs() < 1e-9);
+    }
+    let last = path["poses"].as_array().and_then(|p| p.last().cloned()).expect("a pose");
+    assert!(far(&last, &pose) < 1e-5, "{last} {pose}");
+    // Times go on, and the whole takes as long as it says.
+    let times = numbers(&path["times"]);
+    assert!(times.windows(2).all(|t| t[0] <= t[1]) && times.last().copied() == path["duration"].as_f64());
+    for points in [json!([]), json!([{ "kind": "joint", "q": [1] }])] {
+        let refused = ask("path", json!({ "start": q, "points": points, "samples": 5 }));
+        assert!(refused["error"].is_string(), "{refused}");
+    }
+}
+
+#[test]
+fn a_self_motion_keeps_the_hand_still() {
+    taken("puma560");
+    // Axes 4 and 6 in one line.
+    let answer = told("solve", json!({ "q": [0.3, -0.4, 0.2, 0.5, 0.0, -0.2] }));
+    let family = &answer["families"][0];
+    let curve = family["curve"].as_array().expect("members");
+    assert!(curve.len() > 20 && family["closed"] == true, "{family}");
+    for q in curve.iter().step_by(7) {
+        let pose = told("solve", json!({ "q": q, "quick": true }))["pose"].clone();
+        assert!(far(&pose, &answer["pose"]) < 1e-6);
+    }
 }

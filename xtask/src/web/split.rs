@@ -1,9 +1,9 @@
-//! A WebAssembly module in two: what is needed at once, and what is loaded when it is first called.
+//! A WebAssembly module in parts: what is needed at once, and what is loaded when it is first called.
 //!
-//! A function that is reached from the entry points of the second part alone moves there. Where it is called through the
-//! table all the same, a stub in the first part calls it through a slot of its own, which the second part fills when it is
-//! loaded; so what moves is a matter of size, never of correctness. Memory, table and globals are shared. The first part
-//! keeps no names and no exports but those asked for and those that the second part imports.
+//! A function stands in the first part from whose entry points it is reached. Where a function of a later part is called
+//! through the table, a stub in the first part calls it through a slot of its own, which the later part fills when it is
+//! loaded; so what stands where is a matter of size, never of correctness. Memory, table and globals are shared. No part
+//! keeps names, or exports but those asked for and those that later parts import.
 
 use anyhow::{Context, Result, bail};
 use std::collections::{BTreeMap, BTreeSet};
@@ -19,22 +19,21 @@ use wasmparser::{
 
 /// What is to be divided, and how.
 pub struct Plan<'a> {
-    /// The exports that stay.
-    pub kept: &'a [&'a str],
-    /// The exports whose functions are the entry points of the second part; they are exports of that.
-    pub later: &'a [&'a str],
-    /// Parts of names of functions that are called through the table by the second part alone.
-    pub named: &'a [&'a str],
+    /// The parts, the first at once; a later one is loaded behind all before it.
+    pub parts: &'a [Part<'a>],
     /// Parts of names of functions that nothing calls: they stand in the table for somebody else's sake.
     pub dropped: &'a [&'a str],
-    /// Constant texts that the second part alone reads.
+    /// Constant texts that the last part alone reads.
     pub texts: &'a [Vec<u8>],
 }
 
-/// Both parts.
-pub struct Parts {
-    pub first: Vec<u8>,
-    pub second: Vec<u8>,
+/// A part of the module.
+pub struct Part<'a> {
+    /// Its exports.
+    pub exports: &'a [&'a str],
+    /// Parts of names of functions that are called through the table by this part, or later ones; of several that fit the
+    /// last counts.
+    pub named: &'a [&'a str],
 }
 
 /// A module as far as it has to be known.
@@ -61,70 +60,111 @@ struct Whole<'a> {
 ///
 /// # Errors
 /// If it is not a module as the linker of Rust makes it, or lacks an export of the plan.
-pub fn split(wasm: &[u8], plan: &Plan) -> Result<Parts> {
+pub fn split(wasm: &[u8], plan: &Plan) -> Result<Vec<Vec<u8>>> {
     let whole = read(wasm)?;
     let calls: Vec<Vec<u32>> = whole.bodies.iter().map(calls).collect::<Result<_>>()?;
-    let entry = |names: &[&str]| -> Result<Vec<u32>> {
-        names
-            .iter()
-            .map(|name| {
-                let found = whole.exports.iter().find(|e| e.0 == *name && e.1 == ExternalKind::Func);
-                found.map(|e| e.2).with_context(|| format!("no function `{name}` is exported"))
-            })
-            .collect()
-    };
     let has = |f: &u32, parts: &[&str]| {
         whole.names.get(f).is_some_and(|name| parts.iter().any(|part| name.contains(part)))
     };
-    let is_named = |f: &u32| has(f, plan.named);
+    let level = |f: &u32| plan.parts.iter().rposition(|part| has(f, part.named)).unwrap_or(0);
     let called: Vec<u32> = whole.elements.iter().copied().filter(|f| !has(f, plan.dropped)).collect();
-    let functions: Vec<&str> = plan.kept.iter().copied().filter(|n| *n != "memory").collect();
-    let reached = |from: Vec<u32>| {
-        let mut seen = BTreeSet::new();
-        let mut open = from;
+
+    // The part of each function that is reached.
+    let mut part: BTreeMap<u32, usize> = BTreeMap::new();
+    for (k, wanted) in plan.parts.iter().enumerate() {
+        let mut open: Vec<u32> = called.iter().copied().filter(|f| level(f) == k).collect();
+        for name in wanted.exports {
+            open.extend(whole.function(name)?);
+        }
         while let Some(f) = open.pop() {
-            if seen.insert(f)
-                && let Some(own) = (f as usize).checked_sub(whole.imported)
-            {
-                open.extend(&calls[own]);
+            if part.contains_key(&f) {
+                continue;
+            }
+            part.insert(f, k);
+            match (f as usize).checked_sub(whole.imported) {
+                Some(own) => open.extend(&calls[own]),
+                None if k > 0 => bail!("a later part would be an import"),
+                None => {}
             }
         }
-        seen
-    };
-    let own = called.iter().copied().filter(|f| !is_named(f));
-    let first = reached(entry(&functions)?.into_iter().chain(own).collect());
-    let later = entry(plan.later)?;
-    let all = reached(later.iter().copied().chain(called.iter().copied()).collect());
-    let second: Vec<u32> = all.difference(&first).copied().collect();
-    if second.iter().any(|&f| (f as usize) < whole.imported) {
-        bail!("the second part would be an import");
     }
-
-    // A slot of the table for each function of the second part that the first may call.
-    let table = whole.table.context("no table")?;
-    let start = table.initial;
-    let called = whole.elements.iter().copied().filter(|f| second.binary_search(f).is_ok());
-    let slots: Vec<u32> = called.collect::<BTreeSet<u32>>().into_iter().collect();
-    let needed: BTreeSet<u32> = second
-        .iter()
-        .flat_map(|&f| calls[f as usize - whole.imported].iter().copied())
-        .filter(|f| first.contains(f))
-        .collect();
-    let border = Border { slots, start, needed, data: divided(&whole, plan.texts) };
-    Ok(Parts {
-        first: first_part(&whole, plan, &first, &border)?,
-        second: second_part(&whole, plan, &second, &later, &border)?,
-    })
+    let slots = |k: usize| -> Vec<u32> {
+        let own = called.iter().copied().filter(|f| part.get(f) == Some(&k));
+        if k == 0 { vec![] } else { own.collect::<BTreeSet<u32>>().into_iter().collect() }
+    };
+    let slots: Vec<Vec<u32>> = (0..plan.parts.len()).map(slots).collect();
+    // What crosses a border, by the number that it has on it.
+    let mut needed: BTreeMap<u32, usize> = BTreeMap::new();
+    for (f, own) in &part {
+        let Some(body) = (*f as usize).checked_sub(whole.imported) else { continue };
+        for g in calls[body].iter().filter(|g| part.get(g).is_some_and(|other| other < own)) {
+            let next = needed.len();
+            needed.entry(*g).or_insert(next);
+        }
+    }
+    let border = Border { part, slots, needed, data: divided(&whole, plan.texts) };
+    let parts = plan.parts.iter().enumerate();
+    parts
+        .map(
+            |(k, wanted)| {
+                if k == 0 { first(&whole, wanted, &border) } else { later(&whole, wanted, &border, k) }
+            },
+        )
+        .collect()
 }
 
-/// What both parts agree on.
+/// What all parts agree on.
 struct Border<'a> {
-    /// The functions of the second part that the first may call, in the order of their slots, and the first slot.
-    slots: Vec<u32>,
-    start: u64,
-    /// The functions of the first part that the second calls.
-    needed: BTreeSet<u32>,
+    /// The part of each function that is needed.
+    part: BTreeMap<u32, usize>,
+    /// For each part its functions that an earlier one may call through the table, in the order of their slots.
+    slots: Vec<Vec<u32>>,
+    /// The functions that a later part calls, with numbers for their names.
+    needed: BTreeMap<u32, usize>,
     data: Divided<'a>,
+}
+
+impl Border<'_> {
+    /// The first slot of a part, behind the table as it was.
+    fn start(&self, table: &TableType, part: usize) -> u64 {
+        table.initial + self.slots[..part].iter().map(|s| s.len() as u64).sum::<u64>()
+    }
+
+    /// The slot of a function.
+    fn slot(&self, table: &TableType, f: u32) -> Option<u64> {
+        let part = *self.part.get(&f)?;
+        let at = self.slots[part].binary_search(&f).ok()?;
+        Some(self.start(table, part) + at as u64)
+    }
+
+    /// The functions that a part has of its own, in their order.
+    fn own(&self, part: usize) -> Vec<u32> {
+        self.part.iter().filter(|(_, k)| **k == part).map(|(f, _)| *f).collect()
+    }
+
+    /// The table with all slots.
+    fn table(&self, table: TableType) -> Result<wasm_encoder::TableType> {
+        let mut grown = RoundtripReencoder.table_type(table)?;
+        grown.minimum = self.start(&table, self.slots.len());
+        grown.maximum = grown.maximum.map(|m| m.max(grown.minimum));
+        Ok(grown)
+    }
+
+    /// Exports what later parts need of a part; `number` is a function's number in it.
+    fn export(&self, part: usize, exports: &mut ExportSection, number: impl Fn(u32) -> u32) {
+        for (f, k) in self.needed.iter().filter(|(f, _)| self.part.get(f) == Some(&part)) {
+            exports.export(&crossing('f', *k), ExportKind::Func, number(*f));
+        }
+    }
+}
+
+impl Whole<'_> {
+    /// The function that is exported under a name; none for an export of another kind.
+    fn function(&self, name: &str) -> Result<Option<u32>> {
+        let export = self.exports.iter().find(|e| e.0 == name);
+        let export = export.with_context(|| format!("nothing is exported as `{name}`"))?;
+        Ok((export.1 == ExternalKind::Func).then_some(export.2))
+    }
 }
 
 fn read(wasm: &[u8]) -> Result<Whole<'_>> {
@@ -247,8 +287,8 @@ fn crossing(kind: char, k: usize) -> String {
     format!("{kind}{k}")
 }
 
-fn first_part(whole: &Whole, plan: &Plan, first: &BTreeSet<u32>, border: &Border) -> Result<Vec<u8>> {
-    let Border { slots, start, needed, data } = border;
+fn first(whole: &Whole, wanted: &Part, border: &Border) -> Result<Vec<u8>> {
+    let table = whole.table.context("no table")?;
     let mut module = Module::new();
     types(whole, &mut module)?;
     // What was imported is called by nothing that is left, but keeps its number.
@@ -257,50 +297,42 @@ fn first_part(whole: &Whole, plan: &Plan, first: &BTreeSet<u32>, border: &Border
         functions.function(*ty);
     }
     module.section(&functions);
-    let table = whole.table.context("no table")?;
     let mut tables = TableSection::new();
-    let mut grown = RoundtripReencoder.table_type(table)?;
-    grown.minimum = start + slots.len() as u64;
-    grown.maximum = grown.maximum.map(|m| m.max(grown.minimum));
-    tables.table(grown);
+    tables.table(border.table(table)?);
     module.section(&tables);
     for id in [5, 6] {
         copy(whole, id, &mut module);
     }
     let mut exports = ExportSection::new();
-    for (name, kind, index) in &whole.exports {
-        if plan.kept.contains(name) {
-            exports.export(name, RoundtripReencoder.export_kind(*kind)?, *index);
-        }
+    for (name, kind, index) in whole.exports.iter().filter(|e| wanted.exports.contains(&e.0)) {
+        exports.export(name, RoundtripReencoder.export_kind(*kind)?, *index);
     }
     exports.export("table", ExportKind::Table, 0);
     for k in 0..whole.globals.len() {
         exports.export(&crossing('g', k), ExportKind::Global, k as u32);
     }
-    for (k, f) in needed.iter().enumerate() {
-        exports.export(&crossing('f', k), ExportKind::Func, *f);
-    }
+    border.export(0, &mut exports, |f| f);
     module.section(&exports);
     let mut elements = ElementSection::new();
     elements.active(None, &ConstExpr::i32_const(1), Elements::Functions((&whole.elements[..]).into()));
     module.section(&elements);
     let mut code = CodeSection::new();
     for f in 0..whole.functions.len() as u32 {
-        let own = (f as usize).checked_sub(whole.imported);
-        match (own, slots.binary_search(&f)) {
-            (_, Ok(slot)) => {
+        let body = (f as usize).checked_sub(whole.imported).map(|k| &whole.bodies[k]);
+        match (body, border.slot(&table, f)) {
+            (_, Some(slot)) => {
                 let ty = whole.functions[f as usize];
                 let mut stub = Function::new([]);
                 for k in 0..whole.types[ty as usize].params().len() {
                     stub.instruction(&Instruction::LocalGet(k as u32));
                 }
-                stub.instruction(&Instruction::I32Const((*start as usize + slot) as i32));
+                stub.instruction(&Instruction::I32Const(slot as i32));
                 stub.instruction(&Instruction::CallIndirect { type_index: ty, table_index: 0 });
                 stub.instruction(&Instruction::End);
                 code.function(&stub);
             }
-            (Some(k), _) if first.contains(&f) => {
-                RoundtripReencoder.parse_function_body(&mut code, whole.bodies[k].clone())?;
+            (Some(body), _) if border.part.get(&f) == Some(&0) => {
+                RoundtripReencoder.parse_function_body(&mut code, body.clone())?;
             }
             _ => {
                 let mut nothing = Function::new([]);
@@ -311,7 +343,7 @@ fn first_part(whole: &Whole, plan: &Plan, first: &BTreeSet<u32>, border: &Border
         }
     }
     module.section(&code);
-    module.section(&constants(&data.first));
+    module.section(&constants(&border.data.first));
     Ok(module.finish())
 }
 
@@ -327,68 +359,77 @@ impl Reencode for Renumbered<'_> {
     }
 }
 
-fn second_part(
-    whole: &Whole,
-    plan: &Plan,
-    second: &[u32],
-    later: &[u32],
-    border: &Border,
-) -> Result<Vec<u8>> {
-    let Border { slots, start, needed, data } = border;
+fn later(whole: &Whole, wanted: &Part, border: &Border, part: usize) -> Result<Vec<u8>> {
+    let table = whole.table.context("no table")?;
+    let own = border.own(part);
     let mut module = Module::new();
     types(whole, &mut module)?;
     let mut imports = ImportSection::new();
     let mut numbers = BTreeMap::new();
-    for (k, f) in needed.iter().enumerate() {
-        imports.import("first", &crossing('f', k), EntityType::Function(whole.functions[*f as usize]));
-        numbers.insert(*f, k as u32);
+    let is_called: BTreeSet<u32> = own
+        .iter()
+        .map(|&f| calls(&whole.bodies[f as usize - whole.imported]))
+        .collect::<Result<Vec<_>>>()?
+        .into_iter()
+        .flatten()
+        .collect();
+    for (f, k) in border.needed.iter().filter(|(f, _)| is_called.contains(f)) {
+        let from = border.part.get(f).copied().unwrap_or(part);
+        if from < part {
+            numbers.insert(*f, numbers.len() as u32);
+            let ty = EntityType::Function(whole.functions[*f as usize]);
+            imports.import(&from.to_string(), &crossing('f', *k), ty);
+        }
     }
-    for (k, f) in second.iter().enumerate() {
-        numbers.insert(*f, (needed.len() + k) as u32);
+    let imported = numbers.len();
+    for (k, f) in own.iter().enumerate() {
+        numbers.insert(*f, (imported + k) as u32);
     }
-    let memory = memory_type(whole)?;
-    imports.import("first", "memory", memory);
-    let mut table = RoundtripReencoder.table_type(whole.table.context("no table")?)?;
-    table.minimum = start + slots.len() as u64;
-    table.maximum = table.maximum.map(|m| m.max(table.minimum));
-    imports.import("first", "table", table);
+    imports.import("0", "memory", memory_type(whole)?);
+    imports.import("0", "table", border.table(table)?);
     for (k, global) in whole.globals.iter().enumerate() {
-        imports.import("first", &crossing('g', k), RoundtripReencoder.global_type(*global)?);
+        imports.import("0", &crossing('g', k), RoundtripReencoder.global_type(*global)?);
     }
     module.section(&imports);
     let mut functions = FunctionSection::new();
-    for f in second {
+    for f in &own {
         functions.function(whole.functions[*f as usize]);
     }
     module.section(&functions);
     let mut exports = ExportSection::new();
-    for (name, f) in plan.later.iter().zip(later) {
-        exports.export(name, ExportKind::Func, numbers[f]);
+    for name in wanted.exports {
+        if let Some(f) = whole.function(name)? {
+            exports.export(name, ExportKind::Func, numbers[&f]);
+        }
     }
+    border.export(part, &mut exports, |f| numbers[&f]);
     module.section(&exports);
-    let filled: Vec<u32> = slots.iter().map(|f| numbers[f]).collect();
+    let filled: Vec<u32> = border.slots[part].iter().map(|f| numbers[f]).collect();
     let mut elements = ElementSection::new();
-    elements.active(None, &ConstExpr::i32_const(*start as i32), Elements::Functions((&filled[..]).into()));
+    let start = border.start(&table, part) as i32;
+    elements.active(None, &ConstExpr::i32_const(start), Elements::Functions((&filled[..]).into()));
     module.section(&elements);
     let mut code = CodeSection::new();
-    for f in second {
+    for f in own {
         Renumbered(&numbers)
-            .parse_function_body(&mut code, whole.bodies[*f as usize - whole.imported].clone())?;
+            .parse_function_body(&mut code, whole.bodies[f as usize - whole.imported].clone())?;
     }
     module.section(&code);
-    module.section(&constants(&data.second));
+    if part + 1 == border.slots.len() {
+        module.section(&constants(&border.data.last));
+    }
     Ok(module.finish())
 }
 
 /// Constant data, where it is in memory.
 struct Divided<'a> {
     first: Vec<(u32, &'a [u8])>,
-    second: Vec<(u32, &'a [u8])>,
+    last: Vec<(u32, &'a [u8])>,
 }
 
-/// The texts of the second part taken out of the data of the first.
+/// The texts of the last part taken out of the data of the first.
 fn divided<'a>(whole: &Whole<'a>, texts: &[Vec<u8>]) -> Divided<'a> {
-    let mut divided = Divided { first: vec![], second: vec![] };
+    let mut divided = Divided { first: vec![], last: vec![] };
     for &(start, bytes) in &whole.data {
         let found =
             texts.iter().filter_map(|text| memchr::memmem::find(bytes, text).map(|at| at..at + text.len()));
@@ -399,7 +440,7 @@ fn divided<'a>(whole: &Whole<'a>, texts: &[Vec<u8>]) -> Divided<'a> {
             // A text may lie in another.
             if cut.start >= done {
                 divided.first.push((start + done as u32, &bytes[done..cut.start]));
-                divided.second.push((start + cut.start as u32, &bytes[cut.clone()]));
+                divided.last.push((start + cut.start as u32, &bytes[cut.clone()]));
                 done = cut.end;
             }
         }

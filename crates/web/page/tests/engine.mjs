@@ -2,29 +2,29 @@
 import { readFileSync } from "node:fs";
 
 const dist = new URL("../dist/", import.meta.url);
-const LATER = new Set(["formulas", "values", "singular", "workspace", "path", "check", "report", "code", "figure"]);
-const module = new WebAssembly.Module(readFileSync(new URL("denavit.wasm", dist)));
-let secondModule;
+const ENTRIES = ["answer", "answer_more", "answer_documents"];
+const LATER = { formulas: 1, values: 1, singular: 1, workspace: 1, path: 1, check: 2, report: 2, code: 2, figure: 2 };
+const modules = ["denavit", "derive", "documents"].map((name) => new WebAssembly.Module(readFileSync(new URL(`${name}.wasm`, dist))));
 
 export class Engine {
-  #first = new WebAssembly.Instance(module, {}).exports;
-  #second;
+  #parts = [];
 
   /** As `src/engine/instance.ts`; throws what the engine refuses. */
   call(op, input = {}) {
+    const part = LATER[op] ?? 0;
+    while (this.#parts.length <= part) {
+      const imports = Object.fromEntries(this.#parts.map((exports, k) => [k, exports]));
+      this.#parts.push(new WebAssembly.Instance(modules[this.#parts.length], imports).exports);
+    }
+    const [first] = this.#parts;
     const bytes = new TextEncoder().encode(JSON.stringify({ op, input }));
-    const at = this.#first.request(bytes.length);
-    new Uint8Array(this.#first.memory.buffer, at, bytes.length).set(bytes);
-    const length = LATER.has(op) ? this.#later().answer_more() : this.#first.answer();
-    const text = new TextDecoder().decode(new Uint8Array(this.#first.memory.buffer, this.#first.text(), length));
+    const at = first.request(bytes.length);
+    new Uint8Array(first.memory.buffer, at, bytes.length).set(bytes);
+    const length = this.#parts[part][ENTRIES[part]]();
+    const text = new TextDecoder().decode(new Uint8Array(first.memory.buffer, first.text(), length));
     const answer = JSON.parse(text);
     if (typeof answer === "object" && "error" in answer) throw new Error(`${op}: ${answer.error} ${answer.hint ?? ""}`);
     return answer;
-  }
-
-  #later() {
-    secondModule ??= new WebAssembly.Module(readFileSync(new URL("derive.wasm", dist)));
-    return (this.#second ??= new WebAssembly.Instance(secondModule, { first: this.#first }).exports);
   }
 }
 

@@ -163,7 +163,7 @@ scenario("steps along the axes of base and tool, by buttons and keys", { permiss
   await page.keyboard.press("PageDown");
   const s = await shared(page, (one) => isReached(engine)(one) && one.target[2][3] < first[2][3] - 1e-3, "two steps are made");
   assert.ok(farthest(place(s.target), [first[0][3] - 0.01, first[1][3], first[2][3] - 0.01]) < 1e-9);
-  await page.getByText("Tool axes").click();
+  await page.getByRole("radio", { name: "Tool axes" }).check();
   await page.getByRole("button", { name: "Step along plus z" }).click();
   const next = await shared(page, (one) => isReached(engine)(one) && apart(one.target, s.target) > 1e-4, "a step of the tool");
   assert.ok(farthest(place(next.target), [0, 1, 2].map((r) => s.target[r][3] + 0.01 * s.target[r][2])) < 1e-9, "along z of the tool");

@@ -52,7 +52,7 @@ scenario("a prismatic joint steps by 1 mm and is typed in any unit of length", a
 scenario("a joint is typed with its unit, and nonsense is refused", async (page) => {
   await openRobot(page, "puma560");
   const q2 = field(page, "q2");
-  for (const [typed, wanted] of [["45 deg", 45], ["-pi/2 + 1 rad", -90 + degrees(1)], ["0.5 rad", degrees(0.5)], ["12,5", 12.5], ["−30°", -30]]) {
+  for (const [typed, wanted] of [["45 deg", 45], ["-pi/2", -90], ["0.5 rad", degrees(0.5)], ["12,5", 12.5], ["−30°", -30]]) {
     await q2.fill(typed);
     await q2.press("Enter");
     if (wanted < -45) await page.getByText("outside the limits").waitFor();

@@ -49,7 +49,7 @@ export function scenario(name, options, body = options) {
     surroundings.on("response", (r) => r.status() >= 400 && say(`response: ${r.status()} ${r.url()}`));
     surroundings.on("requestfailed", (r) => {
       // A worker that is ended while it fetches its second part has not failed.
-      const isEnded = r.url().endsWith("derive.wasm") && r.failure()?.errorText === "net::ERR_ABORTED";
+      const isEnded = /(derive|documents)\.wasm$/.test(r.url()) && r.failure()?.errorText === "net::ERR_ABORTED";
       if (!isEnded) say(`failed: ${r.url()} ${r.failure()?.errorText}`);
     });
     if (init) await surroundings.addInitScript(init);

@@ -1,6 +1,6 @@
 // The engines of the page: one at once, for what takes no time; two in workers, for what takes longer.
 
-import { EngineError, Instance } from "./instance.ts";
+import { EngineError, Instance, PARTS } from "./instance.ts";
 import type { Input, Op, Output } from "./types.ts";
 import type { FromWorker, ToWorker } from "./worker.ts";
 
@@ -73,8 +73,7 @@ export class Remote {
       event.preventDefault();
       for (const one of this.#waiting.splice(0)) one.reject(new EngineError({ error: event.message }));
     };
-    const second = new URL("derive.wasm", document.baseURI).href;
-    worker.postMessage({ first: this.#module, second } satisfies ToWorker);
+    worker.postMessage({ first: this.#module, base: document.baseURI } satisfies ToWorker);
     return worker;
   }
 
@@ -94,6 +93,6 @@ export interface Engines {
 
 /** Fetches and compiles the engine, once for all. */
 export async function load(): Promise<Engines> {
-  const module = await WebAssembly.compileStreaming(fetch(new URL("denavit.wasm", document.baseURI)));
-  return { now: new Instance({ first: module, second: null }), solver: new Remote(module), formulas: new Remote(module) };
+  const module = await WebAssembly.compileStreaming(fetch(new URL(PARTS[0], document.baseURI)));
+  return { now: new Instance([module]), solver: new Remote(module), formulas: new Remote(module) };
 }

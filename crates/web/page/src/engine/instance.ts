@@ -2,34 +2,34 @@
 
 import type { Input, Op, Output, Refused } from "./types.ts";
 
-/** The engine as it is fetched: at once, and what is needed when something is derived. */
-export interface Modules {
-  first: WebAssembly.Module;
-  second: WebAssembly.Module | null;
-}
+/** The parts of the engine: what is needed at once, what derives, and what reads and writes documents and source code. */
+export const PARTS = ["denavit.wasm", "derive.wasm", "documents.wasm"] as const;
+const ENTRIES = ["answer", "answer_more", "answer_documents"] as const;
 
-interface First {
+interface First extends WebAssembly.ModuleImports {
   memory: WebAssembly.Memory;
   /** Makes room for a request of so many bytes, and says where. */
   request(bytes: number): number;
-  /** Answers the request; how long the answer is. */
-  answer(): number;
   /** Where the answer stands; after a failure, the words of the failure. */
   text(): number;
   length(): number;
 }
 
-interface Second {
-  answer_more(): number;
-}
+/** The part that answers a request, if it is not the first. */
+const LATER: Partial<Record<Op, 1 | 2>> = {
+  formulas: 1,
+  values: 1,
+  singular: 1,
+  workspace: 1,
+  path: 1,
+  check: 2,
+  report: 2,
+  code: 2,
+  figure: 2,
+};
 
-/** What is answered by the second part. */
-const LATER: ReadonlySet<Op> = new Set<Op>([
-  "formulas", "values", "singular", "workspace", "path", "check", "report", "code", "figure",
-]);
-
-export function isLater(op: Op): boolean {
-  return LATER.has(op);
+export function partOf(op: Op): 0 | 1 | 2 {
+  return LATER[op] ?? 0;
 }
 
 /** What the engine refuses, in its words. */
@@ -46,13 +46,14 @@ export class EngineError extends Error {
 const MOST_MEMORY = 400e6;
 
 export class Instance {
-  readonly modules: Modules;
-  #first!: First;
-  #second: Second | null = null;
+  /** What is compiled so far; later parts are added when they are needed. */
+  readonly modules: WebAssembly.Module[];
+  /** What each part that runs exports. */
+  #parts: WebAssembly.ModuleImports[] = [];
   /** What was edited last, to be told to a new instance. */
   #edited: Input<"edit"> | null = null;
 
-  constructor(modules: Modules) {
+  constructor(modules: WebAssembly.Module[]) {
     this.modules = modules;
     this.#begin();
   }
@@ -77,25 +78,33 @@ export class Instance {
     return answer as Output<K>;
   }
 
+  get #first(): First {
+    return this.#parts[0] as First;
+  }
+
   #begin(): void {
-    this.#first = new WebAssembly.Instance(this.modules.first, {}).exports as unknown as First;
-    this.#second = null;
+    this.#parts = [];
+    this.#part(0);
+  }
+
+  /** Starts a part, and all before it: they share the memory of the first. */
+  #part(k: number): WebAssembly.ModuleImports {
+    for (let next = this.#parts.length; next <= k; next += 1) {
+      const module = this.modules[next];
+      if (!module) throw new Error(`${PARTS[next]} is not there`);
+      const imports = Object.fromEntries(this.#parts.map((part, name) => [name, part]));
+      this.#parts.push(new WebAssembly.Instance(module, imports).exports as WebAssembly.ModuleImports);
+    }
+    return this.#parts[k];
   }
 
   #ask(op: Op, input: unknown): unknown {
-    const { memory, request, answer } = this.#first;
+    const part = partOf(op);
+    const answer = this.#part(part)[ENTRIES[part]] as () => number;
     const bytes = new TextEncoder().encode(JSON.stringify({ op, input }));
-    const at = request(bytes.length);
-    new Uint8Array(memory.buffer, at, bytes.length).set(bytes);
-    return JSON.parse(this.#read(isLater(op) ? this.#later() : answer()));
-  }
-
-  /** Answers by the second part, which uses the memory of the first. */
-  #later(): number {
-    if (!this.modules.second) throw new Error("the second part of the engine is not there");
-    const imports = { first: this.#first as unknown as WebAssembly.ModuleImports };
-    this.#second ??= new WebAssembly.Instance(this.modules.second, imports).exports as unknown as Second;
-    return this.#second.answer_more();
+    const at = this.#first.request(bytes.length);
+    new Uint8Array(this.#first.memory.buffer, at, bytes.length).set(bytes);
+    return JSON.parse(this.#read(answer()));
   }
 
   #read(length: number): string {

@@ -1,22 +1,22 @@
 // An instance of the engine beside the page: answers one request after the other.
 
-import { EngineError, Instance, isLater } from "./instance.ts";
+import { EngineError, Instance, PARTS, partOf } from "./instance.ts";
 import type { Input, Op } from "./types.ts";
 
-export type ToWorker = { first: WebAssembly.Module; second: string } | { id: number; op: Op; input: Input<Op> };
+export type ToWorker = { first: WebAssembly.Module; base: string } | { id: number; op: Op; input: Input<Op> };
 export type FromWorker = { id: number; milliseconds: number } & ({ answer: unknown } | { error: string; hint?: string });
 type Asked = Extract<ToWorker, { id: number }>;
 
 let instance: Instance | undefined;
-/** Where the second part of the engine is fetched from when it is first needed. */
-let second = "";
+/** Where later parts of the engine are fetched from when they are first needed. */
+let base = "";
 /** What is being answered, so that requests keep their order. */
 let before: Promise<void> = Promise.resolve();
 
 self.onmessage = ({ data }: MessageEvent<ToWorker>) => {
   if ("first" in data) {
-    instance = new Instance({ first: data.first, second: null });
-    second = data.second;
+    instance = new Instance([data.first]);
+    base = data.base;
     return;
   }
   before = before.then(() => answer(data));
@@ -27,7 +27,9 @@ async function answer({ id, op, input }: Asked): Promise<void> {
   let reply: { answer: unknown } | { error: string; hint?: string };
   try {
     if (!instance) throw new EngineError({ error: "the engine is not there yet" });
-    if (isLater(op)) instance.modules.second ??= await WebAssembly.compileStreaming(fetch(second));
+    for (let next = instance.modules.length; next <= partOf(op); next += 1) {
+      instance.modules.push(await WebAssembly.compileStreaming(fetch(new URL(PARTS[next], base))));
+    }
     start = performance.now();
     reply = { answer: instance.call(op, input) };
   } catch (failure) {

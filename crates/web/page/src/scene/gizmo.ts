@@ -157,7 +157,10 @@ export class Gizmo {
     if (!place) return spots;
     for (const part of this.#parts()) {
       const points = this.#shape(part, place);
-      const p = part.kind === "ring" ? points[6] : scale(add(points[0], points[part.kind === "axis" ? 1 : 2]), 0.5);
+      const { back } = this.#stage.orbit;
+      // The back of a ring cannot be taken.
+      const front = () => points.reduce((one, other) => (dot(other, back) > dot(one, back) ? other : one));
+      const p = part.kind === "ring" ? front() : scale(add(points[0], points[part.kind === "axis" ? 1 : 2]), 0.5);
       const { x, y } = this.#stage.orbit.project(p);
       spots[`${part.kind} ${NAMES[part.k]}`] = [x, y];
     }

@@ -19,6 +19,8 @@ export interface Measures {
   labels: number;
   /** Where handles of the gizmo are, pixels of the canvas: a test drags them. */
   handles: () => Record<string, [number, number]>;
+  /** Where the middles of the joints are, pixels of the canvas, in the order of the engine's symbols. */
+  joints: () => [number, number][];
 }
 
 declare global {
@@ -38,6 +40,7 @@ export const measures: Measures = {
   ghosts: 0,
   labels: 0,
   handles: () => ({}),
+  joints: () => [],
 };
 
 window.denavit = measures;

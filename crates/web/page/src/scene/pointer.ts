@@ -5,6 +5,7 @@ import { ghost, highlighted, move, scene } from "../state.ts";
 import { meet, type Met } from "./body.ts";
 import { shown, type Shown, singularAt } from "./ghosts.ts";
 import { type Drag, dragging, type Gizmo } from "./gizmo.ts";
+import { measures } from "./measure.ts";
 import type { Stage } from "./stage.ts";
 import { takeJoint } from "./turning.ts";
 
@@ -159,6 +160,12 @@ export function addPointer(stage: Stage, gizmo: Gizmo): void {
     orbit.zoom(Math.exp(Math.max(-120, Math.min(120, event.deltaY * lines)) * 0.0016), x, y);
     stage.viewChanged();
   };
+
+  measures.joints = () =>
+    (scene.peek()?.symbols ?? []).map(({ centre }) => {
+      const { x, y } = orbit.project(centre);
+      return [x, y];
+    });
 
   const off = new AbortController();
   const listen = { signal: off.signal };
