@@ -1,7 +1,7 @@
 //! Reports of robots as other programs read them: LaTeX, Typst and a browser.
 
 use crate::languages::{apt, python, quietly};
-use crate::{cargo, command, path, succeed};
+use crate::{cargo, command, path, starts, succeed};
 use anyhow::{Context, Result, bail};
 use denavit::catalogue;
 use std::fs;
@@ -102,7 +102,7 @@ fn pages(folder: &Path) -> Result<()> {
 }
 
 /// The browser, installed if it is missing.
-fn chromium() -> Result<PathBuf> {
+pub fn chromium() -> Result<PathBuf> {
     let find = || ["chromium", "chromium-browser", "google-chrome"].into_iter().find(|p| starts(p));
     if find().is_none() {
         println!("installing Chromium");
@@ -112,11 +112,6 @@ fn chromium() -> Result<PathBuf> {
     let program = find().context("no Chromium")?;
     let output = Command::new("which").arg(program).output()?;
     Ok(PathBuf::from(String::from_utf8_lossy(&output.stdout).trim()))
-}
-
-fn starts(program: &str) -> bool {
-    let status = Command::new(program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
-    status.is_ok_and(|s| s.success())
 }
 
 fn has_tikz() -> bool {

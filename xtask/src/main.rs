@@ -14,7 +14,7 @@ use anyhow::{Context, Result, bail};
 use denavit::{Description, catalogue, description};
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode};
+use std::process::{Command, ExitCode, Stdio};
 
 const HELP: &str = "\
 Everything a contributor runs.
@@ -107,6 +107,12 @@ fn succeed(command: &mut Command) -> Result<()> {
         bail!("{command:?} failed ({status})");
     }
     Ok(())
+}
+
+/// Whether a program is there.
+fn starts(program: &str) -> bool {
+    let status = Command::new(program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
+    status.is_ok_and(|s| s.success())
 }
 
 /// What the command line prints on standard output, whatever its exit code.

@@ -19,12 +19,12 @@ const STEPS: &[Step] = &[
     ("format", || run(&["fmt", "--all", "--check"])),
     ("clippy", || run(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"])),
     ("tidy", || tidy::run().map(|()| Outcome::Passed)),
+    ("page", page),
     ("tests", || run(&["test", "--workspace", "--locked"])),
     ("examples", examples),
     ("languages", || languages::run().map(|()| Outcome::Passed)),
     ("benchmark", benchmark),
     ("documentation", documentation),
-    ("wasm32", wasm),
     ("documents", || documents::run().map(|()| Outcome::Passed)),
     ("errata", || errata::run(false).map(|()| Outcome::Passed)),
     ("operation counts", || counts::run(true).map(|()| Outcome::Passed)),
@@ -96,12 +96,13 @@ fn documentation() -> Result<Outcome> {
     Ok(Outcome::Passed)
 }
 
-/// The crates that a web page needs build for it.
-fn wasm() -> Result<Outcome> {
+/// The page builds within its limits, and does in a browser what it should; the program that is tested behind it has it in.
+fn page() -> Result<Outcome> {
     if !web::has_target()? {
-        return Ok(Outcome::Skipped(format!("the target is not installed (`rustup target add {TARGET}`)")));
+        let why = format!("the target is not installed (`rustup target add {TARGET}`)");
+        return Ok(Outcome::Skipped(why));
     }
-    let crates = ["-p", "denavit-symbolic", "-p", "denavit-program", "-p", "denavit"];
-    succeed(cargo().args(["build", "--locked", "--target", TARGET]).args(crates))?;
+    web::run(false)?;
+    web::drive()?;
     Ok(Outcome::Passed)
 }

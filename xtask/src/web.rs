@@ -2,7 +2,8 @@
 
 mod split;
 
-use crate::{cargo, command, path, succeed};
+use crate::documents::chromium;
+use crate::{cargo, command, path, starts, succeed};
 use anyhow::{Context, Result, bail};
 use serde_json::Value;
 use std::fs;
@@ -108,6 +109,16 @@ pub fn run(fast: bool) -> Result<()> {
     let files = sizes(&site)?;
     print!("{}", table(&files));
     if fast { Ok(()) } else { limits(&files) }
+}
+
+/// Drives the built page in headless Chromium.
+///
+/// # Errors
+/// If there is no browser, or the page does not do what its tests say.
+pub fn drive() -> Result<()> {
+    let mut tests = Command::new("node");
+    tests.args(["--test", "--test-concurrency=1", "tests/all.mjs"]).current_dir(path(PAGE));
+    succeed(tests.env("CHROMIUM", chromium()?))
 }
 
 /// Whether the compiler has the standard library for the target.
@@ -231,11 +242,6 @@ fn limits(files: &[Size]) -> Result<()> {
         }
     }
     Ok(())
-}
-
-fn starts(program: &str) -> bool {
-    let status = Command::new(program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
-    status.is_ok_and(|s| s.success())
 }
 
 /// Runs a tool without a word; an error with the beginning of what it says if it does not succeed.
