@@ -6,7 +6,7 @@ use anyhow::{Context, Result, bail};
 use denavit::catalogue;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 /// A robot of each kind; the first three in French, too.
 const ROBOTS: &[&str] =

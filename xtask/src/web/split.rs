@@ -103,14 +103,13 @@ pub fn split(wasm: &[u8], plan: &Plan) -> Result<Vec<Vec<u8>>> {
         }
     }
     let border = Border { part, slots, needed, data: divided(&whole, plan.texts) };
-    let parts = plan.parts.iter().enumerate();
-    parts
-        .map(
-            |(k, wanted)| {
-                if k == 0 { first(&whole, wanted, &border) } else { later(&whole, wanted, &border, k) }
-            },
-        )
-        .collect()
+    let mut made = vec![];
+    for (k, wanted) in plan.parts.iter().enumerate() {
+        let part = if k == 0 { first(&whole, wanted, &border)? } else { later(&whole, wanted, &border, k)? };
+        wasmparser::validate(&part).with_context(|| format!("part {k} is no module"))?;
+        made.push(part);
+    }
+    Ok(made)
 }
 
 /// What all parts agree on.
@@ -477,4 +476,125 @@ fn memory_type(whole: &Whole) -> Result<wasm_encoder::MemoryType> {
     let mut reader = wasmparser::MemorySectionReader::new(BinaryReader::new(section, 0))?.into_iter();
     let memory = reader.next().context("no memory")??;
     Ok(RoundtripReencoder.memory_type(memory)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use wasm_encoder::{DataSection, MemorySection, MemoryType, RefType, ValType};
+
+    /// A module whose function 0 is `now`, 1 is `later`, 2 is called by both, 3 by `later` alone, 4 through the table alone.
+    fn module() -> Vec<u8> {
+        let mut module = Module::new();
+        let mut types = TypeSection::new();
+        types.ty().function([ValType::I32], [ValType::I32]);
+        module.section(&types);
+        let mut functions = FunctionSection::new();
+        for _ in 0..5 {
+            functions.function(0);
+        }
+        module.section(&functions);
+        let mut tables = TableSection::new();
+        tables.table(wasm_encoder::TableType {
+            element_type: RefType::FUNCREF,
+            table64: false,
+            minimum: 2,
+            maximum: Some(2),
+            shared: false,
+        });
+        module.section(&tables);
+        let mut memories = MemorySection::new();
+        memories.memory(MemoryType {
+            minimum: 1,
+            maximum: None,
+            memory64: false,
+            shared: false,
+            page_size_log2: None,
+        });
+        module.section(&memories);
+        let mut exports = ExportSection::new();
+        exports.export("memory", ExportKind::Memory, 0);
+        exports.export("now", ExportKind::Func, 0);
+        exports.export("later", ExportKind::Func, 1);
+        module.section(&exports);
+        let mut elements = ElementSection::new();
+        elements.active(None, &ConstExpr::i32_const(1), Elements::Functions((&[4_u32][..]).into()));
+        module.section(&elements);
+        let mut code = CodeSection::new();
+        for calls in [&[2][..], &[2, 3], &[], &[], &[]] {
+            let mut body = Function::new([]);
+            body.instruction(&Instruction::LocalGet(0));
+            for f in calls {
+                body.instruction(&Instruction::Call(*f));
+            }
+            body.instruction(&Instruction::End);
+            code.function(&body);
+        }
+        module.section(&code);
+        let mut data = DataSection::new();
+        data.active(0, &ConstExpr::i32_const(16), b"kept, a text of the last part, kept".iter().copied());
+        module.section(&data);
+        let mut names = wasm_encoder::NameSection::new();
+        let mut map = wasm_encoder::NameMap::new();
+        map.append(4, "deriving");
+        names.functions(&map);
+        module.section(&names);
+        module.finish()
+    }
+
+    fn parts(named: &[&str]) -> Vec<Vec<u8>> {
+        let parts = [Part { exports: &["memory", "now"], named: &[] }, Part { exports: &["later"], named }];
+        let texts = [b"a text of the last part".to_vec()];
+        split(&module(), &Plan { parts: &parts, dropped: &[], texts: &texts }).unwrap()
+    }
+
+    #[test]
+    fn a_function_stands_where_it_is_reached_first() {
+        let [first, second] = &parts(&["deriving"])[..] else { panic!("two parts") };
+        let (first, second) = (read(first).unwrap(), names_of(second));
+        // All functions keep their numbers in the first part; the slot of number 4 is behind the table as it was.
+        assert_eq!(first.functions.len(), 5);
+        assert_eq!(first.table.unwrap().initial, 3);
+        assert_eq!(first.exports.iter().map(|e| e.0).collect::<Vec<_>>(), ["memory", "now", "table", "f0"]);
+        assert_eq!(
+            second,
+            (vec!["0.f0".into(), "0.memory".into(), "0.table".into()], vec!["later".into()], 3)
+        );
+        assert_eq!(first.data, [(16, &b"kept, "[..]), (45, &b", kept"[..])]);
+    }
+
+    #[test]
+    fn what_is_not_named_stays() {
+        let [first, second] = &parts(&[])[..] else { panic!("two parts") };
+        assert_eq!(read(first).unwrap().table.unwrap().initial, 2);
+        assert_eq!(names_of(second).2, 2);
+    }
+
+    #[test]
+    fn an_export_that_is_missing_is_named() {
+        let parts = [Part { exports: &["nothing"], named: &[] }];
+        let why = split(&module(), &Plan { parts: &parts, dropped: &[], texts: &[] }).unwrap_err();
+        assert_eq!(why.to_string(), "nothing is exported as `nothing`");
+    }
+
+    /// Imports, exports, and how many functions a part has of its own.
+    fn names_of(wasm: &[u8]) -> (Vec<String>, Vec<String>, usize) {
+        let (mut imports, mut exports, mut own) = (vec![], vec![], 0);
+        for payload in Parser::new(0).parse_all(wasm) {
+            match payload.unwrap() {
+                Payload::ImportSection(reader) => {
+                    for import in reader.into_imports() {
+                        let import = import.unwrap();
+                        imports.push(format!("{}.{}", import.module, import.name));
+                    }
+                }
+                Payload::ExportSection(reader) => {
+                    exports.extend(reader.into_iter().map(|e| e.unwrap().name.to_string()));
+                }
+                Payload::CodeSectionStart { count, .. } => own = count as usize,
+                _ => {}
+            }
+        }
+        (imports, exports, own)
+    }
 }

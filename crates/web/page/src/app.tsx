@@ -13,7 +13,7 @@ import { SharePanel } from "./panels/share.tsx";
 import { TablePanel } from "./panels/table.tsx";
 import { SceneView } from "./scene/view.tsx";
 import { phase, side } from "./shell.ts";
-import { file, type Panel, panel, robot, stale } from "./state.ts";
+import { batch, file, type Panel, panel, robot, selected, stale } from "./state.ts";
 import { undoByKey } from "./table/undoing.ts";
 import { TopBar } from "./top.tsx";
 import { Icon } from "./widgets/icons.tsx";
@@ -62,7 +62,7 @@ export function App() {
             id="side"
             tabs={PANELS.map(({ value, label }) => ({ value, label, mark: value === "table" && stale.value ? "has errors" : undefined }))}
             value={panel.value}
-            onChange={(next) => (panel.value = next)}
+            onChange={turnTo}
           />
           <div class="panel" role="tabpanel" id={panelId("side")} aria-labelledby={tabId("side", panel.value)} tabIndex={0} key={panel.value}>
             {isReady && <Guarded key={panel.value}>{PANELS.find((one) => one.value === panel.value)?.view()}</Guarded>}
@@ -74,6 +74,14 @@ export function App() {
       <DropZone />
     </div>
   );
+}
+
+/** While a row is explained the arm has neither handles nor ghosts: who goes to the hand or a path needs both. */
+function turnTo(next: Panel): void {
+  batch(() => {
+    panel.value = next;
+    if (next === "hand" || next === "path") selected.value = null;
+  });
 }
 
 function ScenePart() {

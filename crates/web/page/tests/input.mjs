@@ -74,15 +74,17 @@ scenario("a saved robot is opened again, by the button and dropped, with its err
 scenario("cells take any text without harm", async (page) => {
   const { robot } = await openRobot(page, "staubli-rx90", { panel: "table" });
   const theta = cell(page, "Row 2, theta");
+  const findings = page.locator(".cell-findings");
+  const nothing = () => until(async () => (await findings.count()) === 0, async () => `nothing is wrong, not even ${await findings.allTextContents()}`);
   for (const text of ["q2 +", "((((((((((", "q1*q2", "1/0", "1e999", "<script>alert(1)</script>", "\u202eq2", "q2 + 90 apples", "(".repeat(20_000), "q9"]) {
     await theta.fill(text);
     await until(async () => (await theta.getAttribute("aria-invalid")) === "true", `${text.slice(0, 30)} is refused`);
     const described = page.locator(`[id="${await theta.getAttribute("aria-describedby")}"]`);
     assert.ok((await described.textContent()).length > 8, `${text.slice(0, 30)} gets words`);
+    await theta.fill("q2");
+    await nothing();
+    assert.equal(await theta.getAttribute("aria-invalid"), null);
   }
-  await theta.fill("q2");
-  await until(async () => (await theta.getAttribute("aria-invalid")) === null, "right again");
-  assert.equal(await page.locator(".cell-findings, .finding-row").count(), 0);
   await tab(page, "Hand").click();
   await until(async () => (await page.getByRole("region", { name: "Inverse solutions" }).getByRole("option").count()) === 8, `${robot.name} is solved`);
 });

@@ -85,7 +85,7 @@ export async function open(page, fragment = "") {
 }
 
 export async function ready(page) {
-  await page.getByRole("button", { name: "Save", exact: true }).waitFor();
+  await page.getByRole("button", { name: /choose another robot/ }).waitFor();
   await until(() => page.evaluate(() => window.denavit?.frames > 0), "the arm is drawn");
 }
 

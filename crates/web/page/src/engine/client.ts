@@ -85,9 +85,9 @@ export class Remote {
 export interface Engines {
   /** Answers at once: tables, frames, poses. */
   now: Instance;
-  /** Inverse solutions, paths, the workspace. */
+  /** Inverse solutions and paths. */
   solver: Remote;
-  /** Formulas, checks, reports, code. */
+  /** Formulas, the workspace, checks, reports, code. */
   formulas: Remote;
 }
 

@@ -27,7 +27,9 @@ const MOST_BYTES = 2_000_000;
 /** Opens a text as a robot; says what was found if it is none. */
 function open(text: string, kind: OpenKind, options: { convention?: Convention; degrees?: boolean; millimetres?: boolean } = {}): { opened: boolean; findings: Finding[] } {
   const answer = engine().now.call("open", { text, kind, ...options });
-  if (!answer.file) return { opened: false, findings: answer.findings };
+  // A robot file without a table, or one that can be read in several ways, is not shown in the place of the robot.
+  const isTable = answer.file && answer.file.joints.length > 0 && CONVENTIONS.some((one) => one.value === answer.file?.convention);
+  if (!answer.file || !isTable) return { opened: false, findings: answer.findings };
   replace(answer.file);
   return { opened: true, findings: answer.findings };
 }

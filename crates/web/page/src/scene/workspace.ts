@@ -192,10 +192,10 @@ export function addWorkspace(stage: Stage): void {
 }
 
 async function ask(now: number): Promise<boolean> {
-  const { begin, finish } = wait("workspace", () => engine().solver.cancel());
+  const { begin, finish } = wait("workspace", () => engine().formulas.cancel());
   try {
     begin();
-    const answer = await engine().solver.call("workspace", {});
+    const answer = await engine().formulas.call("workspace", {});
     if (revision.peek() === now) workspace.value = answer;
     return true;
   } catch (why) {
