@@ -126,7 +126,7 @@ scenario("the numbers beside the intermediates follow the arm", async (page) => 
 });
 
 scenario("a long derivation is cancelled, and derived again", async (page) => {
-  await openRobot(page, "anthropomorphic-8r", { panel: "formulas" });
+  await openRobot(page, "oblique-6r", { panel: "formulas" });
   await choose(page, "DH table");
   await topic(page, "Singularities").click();
   await page.getByText("Looking for the singularities").waitFor();

@@ -1,7 +1,7 @@
 // The hand: dragged in the scene, typed, out of reach, and all the ways for the arm to hold it.
 import assert from "node:assert/strict";
-import { apart, handAt } from "./engine.mjs";
-import { close, enter, farthest, openRobot, radians, read, scenario, shared, until } from "./support.mjs";
+import { apart, handAt, robotOf } from "./engine.mjs";
+import { close, enter, farthest, openRobot, radians, read, scenario, shared, tab, until } from "./support.mjs";
 
 const place = (pose) => pose.slice(0, 3).map((row) => row[3]);
 const solutions = (page) => page.getByRole("region", { name: "Inverse solutions" });
@@ -47,6 +47,15 @@ scenario("the hand is dragged along an axis, and the arm follows it", async (pag
   await page.mouse.up();
   const moved = await shared(page, (next) => isReached(engine)(next) && apart(next.target, s.target) > 1e-3, "the hand is moved in a plane");
   close(moved.target[1][3], s.target[1][3], 1e-9, "y");
+});
+
+scenario("a row that was explained does not keep the handles and the other solutions away", async (page) => {
+  await openRobot(page, "staubli-rx90", { panel: "table" });
+  await page.getByRole("textbox", { name: "Row 2, theta", exact: true }).focus();
+  const has = () => page.evaluate(() => [Object.keys(window.denavit.handles()).length, window.denavit.ghosts]);
+  await until(async () => (await has()).every((count) => count === 0), "the row has the scene for itself");
+  await tab(page, "Hand").click();
+  await until(async () => (await has())[0] === 6 && (await has())[1] === 7, "six handles and seven other solutions");
 });
 
 scenario("the hand is turned by a ring about an axis of the tool", async (page) => {
@@ -132,7 +141,6 @@ for (const [words, name, change] of [
   ["of an arm with seven joints", "kuka-lwr4", (q) => q],
 ]) {
   scenario(`a family ${words}: the slider moves the arm, the hand stands still`, async (page) => {
-    const { robotOf } = await import("./engine.mjs");
     const q = change(robotOf(name).robot.q);
     const { engine, robot } = await openRobot(page, name, { panel: "hand", q });
     const slider = solutions(page).getByRole("slider", { name: /along the curve/ }).first();

@@ -1,7 +1,7 @@
 // Ten robots, found in the catalogue by typing: what the page says of them is what the engine says.
 import assert from "node:assert/strict";
 import { handAt, robotOf } from "./engine.mjs";
-import { drawn, pictureOf } from "./pixels.mjs";
+import { drawn } from "./pixels.mjs";
 import { close, degrees, open, scenario, tab, until, valueOf } from "./support.mjs";
 
 /**
@@ -48,7 +48,7 @@ scenario("ten robots of the catalogue are loaded, drawn and solved", async (page
 
     // The picture.
     await until(async () => (await page.evaluate(() => window.denavit.frames)) > before, `${name} is drawn`);
-    const share = drawn(await pictureOf(page));
+    const share = drawn(await page.locator("canvas.scene-canvas").screenshot());
     assert.ok(share > 0.02, `${name}: only ${(100 * share).toFixed(2)} % of the picture are drawn`);
 
     // The hand, and the ways to hold it there.

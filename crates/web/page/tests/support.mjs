@@ -48,8 +48,8 @@ export function scenario(name, options, body = options) {
     surroundings.on("request", (r) => /^(data|blob):/.test(r.url()) || new URL(r.url()).origin === origin || say(`request: ${r.url()}`));
     surroundings.on("response", (r) => r.status() >= 400 && say(`response: ${r.status()} ${r.url()}`));
     surroundings.on("requestfailed", (r) => {
-      // A worker that is ended while it fetches its second part has not failed.
-      const isEnded = /(derive|documents)\.wasm$/.test(r.url()) && r.failure()?.errorText === "net::ERR_ABORTED";
+      // A worker that is ended while it fetches a part has not failed, nor a page that is left before it has its icon.
+      const isEnded = /(derive\.wasm|documents\.wasm|icon\.svg)$/.test(r.url()) && r.failure()?.errorText === "net::ERR_ABORTED";
       if (!isEnded) say(`failed: ${r.url()} ${r.failure()?.errorText}`);
     });
     if (init) await surroundings.addInitScript(init);

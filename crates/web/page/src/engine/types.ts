@@ -119,7 +119,7 @@ export interface Scene {
   unit: number;
   /** The four elementary steps of each row, in the convention's order. */
   rows: Step[][];
-  /** √det(J Jᵀ) of the tool by its largest value here about, the smallest singular value, the condition number. */
+  /** √det(J Jᵀ) of the tool, the smallest singular value and the condition number, with lengths by the arm's reach. */
   measures: { manipulability: number; smallest: number; condition: number };
   withinLimits: boolean[];
 }

@@ -3,6 +3,7 @@
 import { useState } from "preact/hooks";
 import type { Joint } from "../engine/types.ts";
 import { change, file, highlighted, look, move, note, q, robot, scene, stale } from "../state.ts";
+import { nearness } from "../scene/arm.ts";
 import { forFile, formatWithUnit, type Measure, short, unitOf, format } from "../units.ts";
 import { Button } from "../widgets/button.tsx";
 import { NumberField } from "../widgets/number.tsx";
@@ -161,33 +162,36 @@ function freeName(taken: string[]): string {
   }
 }
 
-/** Below this share of its best the manipulability is worth a warning. */
-const NEAR = 0.02;
+/** The scene's sign of being nearly singular, from here on. */
+const NEAR = 0.05;
 
 function Measures() {
-  const measures = scene.value?.measures;
-  if (!measures) return null;
-  // The scene gives manipulability by its largest value here about: 0 is singular, 1 as good as it gets.
-  const share = Math.min(1, Math.max(0, measures.manipulability));
-  const near = share < NEAR;
+  const now = scene.value;
+  if (!now) return null;
+  const { manipulability, smallest, condition } = now.measures;
+  // 0 where the arm is singular, 1 where the hand moves equally well in all directions.
+  const evenness = condition > 0 ? Math.min(1, 1 / condition) : 0;
+  const near = nearness(now, robot.value?.reach ?? 1) > NEAR;
   return (
     <section class="section-plain" aria-label="Distance from singular configurations">
-      <h3>How well the hand moves here</h3>
-      <div class={near ? "gauge near" : "gauge"} role="meter" aria-label="Manipulability" aria-valuemin={0} aria-valuemax={1} aria-valuenow={share}>
-        <span style={{ width: `${(100 * share).toFixed(1)}%` }} />
+      <h3>
+        How well the hand moves here{near && <span class="problem"> near a singularity</span>}
+      </h3>
+      <div class={near ? "gauge near" : "gauge"} role="meter" aria-label="Evenness, one by the condition number" aria-valuemin={0} aria-valuemax={1} aria-valuenow={evenness}>
+        <span style={{ width: `${(100 * evenness).toFixed(1)}%` }} />
       </div>
       <dl class="facts">
         <div>
-          <dt>Manipulability</dt>
-          <dd>{short(measures.manipulability)}{near && <span class="problem"> near a singularity</span>}</dd>
+          <dt>Manipulability, lengths by the reach</dt>
+          <dd>{short(manipulability, 4)}</dd>
         </div>
         <div>
           <dt>Smallest singular value</dt>
-          <dd>{short(measures.smallest, 4)}</dd>
+          <dd>{short(smallest, 4)}</dd>
         </div>
         <div>
           <dt>Condition number</dt>
-          <dd>{measures.condition > 1e6 ? "∞" : short(measures.condition, 1)}</dd>
+          <dd>{condition > 0 && condition <= 1e6 ? short(condition, 1) : "∞"}</dd>
         </div>
       </dl>
     </section>

@@ -41,7 +41,7 @@ export function Plots({ path }: { path: Path }) {
       {kinds.map(({ kind, speeds }) => (
         <Plot key={kind} title={mixed ? (kind === "revolute" ? "Angular speeds" : "Linear speeds") : "Joint speeds"} unit={`${unit(kind, units)}/s`} degrees={unit(kind, units) === "°"} series={speeds} {...common} />
       ))}
-      <Plot title="Manipulability" unit="of its largest value, about" fromZero series={manipulability} {...common} />
+      <Plot title="Manipulability" unit="lengths by the arm’s reach" fromZero series={manipulability} {...common} />
     </div>
   );
 }
