@@ -19,6 +19,8 @@ pub struct Open {
     convention: Option<String>,
     degrees: Option<bool>,
     millimetres: Option<bool>,
+    /// Which of several tables, from 1.
+    table: Option<usize>,
 }
 
 /// All robots of the catalogue.
@@ -59,7 +61,7 @@ pub fn open(open: &Open) -> Result<Value, Refusal> {
         convention: open.convention.as_deref().map(convention).transpose()?,
         angles_in_degrees: open.degrees,
         lengths_in_millimetres: open.millimetres,
-        table: None,
+        table: open.table,
         columns: None,
     };
     let mut failed: Option<Vec<Diagnostic>> = None;

@@ -10,6 +10,9 @@ use denavit_report::figure::Arm;
 use serde_json::{Value, json};
 use std::cell::OnceCell;
 
+/// The most rows of a table: where symbols stand on longer arms takes seconds to find.
+const MAX_ROWS: usize = 24;
+
 /// What an engine knows.
 #[derive(Default)]
 pub struct Session {
@@ -88,8 +91,12 @@ impl Subject {
     /// # Errors
     /// If the robot cannot be drawn or computed with: a sentence that says why.
     pub fn new(description: Description) -> Result<Self, String> {
-        if description.variables().is_empty() {
+        let joints = description.variables().len();
+        if joints == 0 {
             return Err("no joint moves: a cell with q1 makes its row a joint".into());
+        }
+        if joints.max(description.rows.len()) > MAX_ROWS {
+            return Err(format!("an arm of {joints} joints is more than a page can draw while one types: {MAX_ROWS} rows are allowed"));
         }
         let valued = description.filled();
         let robot = Robot::numeric(&valued).map_err(|why| why.to_string())?;

@@ -13,9 +13,11 @@ import { SharePanel } from "./panels/share.tsx";
 import { TablePanel } from "./panels/table.tsx";
 import { SceneView } from "./scene/view.tsx";
 import { phase, side } from "./shell.ts";
-import { batch, file, type Panel, panel, robot, selected, stale } from "./state.ts";
+import { batch, file, look, type Panel, panel, robot, selected, stale } from "./state.ts";
 import { undoByKey } from "./table/undoing.ts";
 import { TopBar } from "./top.tsx";
+import { formatWithUnit } from "./units.ts";
+import { Callout } from "./widgets/callout.tsx";
 import { Icon } from "./widgets/icons.tsx";
 import { StatusLine } from "./widgets/status.tsx";
 import { panelId, tabId, Tabs } from "./widgets/tabs.tsx";
@@ -65,6 +67,7 @@ export function App() {
             onChange={turnTo}
           />
           <div class="panel" role="tabpanel" id={panelId("side")} aria-labelledby={tabId("side", panel.value)} tabIndex={0} key={panel.value}>
+            {isReady && <Assumed />}
             {isReady && <Guarded key={panel.value}>{PANELS.find((one) => one.value === panel.value)?.view()}</Guarded>}
           </div>
         </section>
@@ -73,6 +76,18 @@ export function App() {
       {isReady && <RobotsDialog />}
       <DropZone />
     </div>
+  );
+}
+
+/** Lengths that the robot gives no values for: every number of the page takes those that are said here. */
+function Assumed() {
+  const chosen = robot.value?.parameters.filter((parameter) => !parameter.given) ?? [];
+  if (chosen.length === 0) return null;
+  const words = chosen.map(({ name, value, measure }) => `${name} = ${formatWithUnit(value, measure, look.value)}`);
+  return (
+    <Callout tone="warning">
+      No values are known for some parameters. Picture and numbers take {words.join(", ")}; the formulas hold for all.
+    </Callout>
   );
 }
 

@@ -3,7 +3,7 @@
 import { decode, encode, type Shared } from "./fragment.ts";
 import { points, start } from "./path/points.ts";
 import { camera, setCamera } from "./scene/camera.ts";
-import { batch, effect, file, look, message, move, panel, q, reach, replace, robot, selected, show, target } from "./state.ts";
+import { batch, effect, file, forget, look, message, move, panel, q, reach, replace, robot, selected, show, target } from "./state.ts";
 
 /** From the last change to the address, milliseconds. */
 const DEBOUNCE = 400;
@@ -60,6 +60,7 @@ export async function restoreAddress(): Promise<boolean> {
   if (location.hash.length <= 1) return false;
   try {
     restore(await decode(location.hash));
+    forget();
     return true;
   } catch (why) {
     message.value = {

@@ -24,61 +24,104 @@ export const stale = computed(() => findings.value.some((f) => f.severity === "e
 /** Counts robots: what was derived for another revision is out of date. */
 export const revision = signal(0);
 
-const past = signal<RobotFile[]>([]);
-const future = signal<RobotFile[]>([]);
+/** What undoing goes back to. */
+interface State {
+  file: RobotFile;
+  q: number[];
+  target: Matrix | null;
+}
+
+const past = signal<State[]>([]);
+const future = signal<State[]>([]);
 export const canUndo = computed(() => past.value.length > 0);
 export const canRedo = computed(() => future.value.length > 0);
 const MOST_UNDO = 200;
 
-/** What was changed last, so that the letters of one word are undone together. */
+/** What was changed last, so that the letters of one word and the steps of one motion are undone together. */
 let changing: string | undefined;
+let changed = 0;
+/** A motion that goes on after this, milliseconds, is another one. */
+const PAUSE = 1500;
+
+function here(): State {
+  return { file: file.value, q: q.value, target: target.value };
+}
+
+function record(of?: string): void {
+  if (file.value.joints.length > 0 && (of === undefined || of !== changing)) past.value = [...past.value, here()].slice(-MOST_UNDO);
+  changing = of;
+  future.value = [];
+}
 
 /** Another table, by hand: it can be undone. Changes of the same thing (`of`) one after another are undone together. */
 export function change(next: RobotFile, of?: string): void {
-  if (of === undefined || of !== changing) past.value = [...past.value, file.value].slice(-MOST_UNDO);
-  changing = of;
-  future.value = [];
-  put(next, false);
+  record(of);
+  put(next);
 }
 
 /** Another robot: joints go to its own first configuration. */
 export function replace(next: RobotFile): void {
-  changing = undefined;
-  if (file.value.joints.length > 0) past.value = [...past.value, file.value].slice(-MOST_UNDO);
+  record();
+  put(next, "first");
+}
+
+/** What is there now is where the page begins: nothing before it can be gone back to. */
+export function forget(): void {
+  past.value = [];
   future.value = [];
-  put(next, true);
 }
 
 export function undo(): void {
   const last = past.value.at(-1);
   if (!last) return;
-  changing = undefined;
+  const now = here();
   past.value = past.value.slice(0, -1);
-  future.value = [...future.value, file.value];
-  put(last, false);
+  future.value = [...future.value, now];
+  back(last);
 }
 
 export function redo(): void {
   const next = future.value.at(-1);
   if (!next) return;
-  changing = undefined;
+  const now = here();
   future.value = future.value.slice(0, -1);
-  past.value = [...past.value, file.value];
-  put(next, false);
+  past.value = [...past.value, now];
+  back(next);
 }
 
-function put(next: RobotFile, isOther: boolean): void {
+function back(to: State): void {
+  changing = undefined;
+  if (to.file !== file.value) return put(to.file, to);
+  batch(() => {
+    q.value = to.q;
+    target.value = to.target;
+  });
+  solveSoon();
+}
+
+/** Before a motion of joints or hand: its steps are undone together. */
+function moving(): void {
+  const now = performance.now();
+  if (now - changed > PAUSE) changing = undefined;
+  changed = now;
+  record("motion");
+}
+
+function put(next: RobotFile, at?: State | "first"): void {
   const answer = engines.now.call("edit", { file: next });
   batch(() => {
     file.value = next;
     findings.value = answer.findings;
     const model = answer.robot;
     if (!model) return;
-    const before = robot.value;
-    const same = !isOther && before && before.joints.length === model.joints.length;
+    const kinds = (of: RobotModel | null) => of?.joints.map((joint) => joint.kind).join();
+    const same = kinds(robot.value) === kinds(model);
     robot.value = model;
     revision.value += 1;
-    if (!same) {
+    if (typeof at === "object" && at.q.length === model.joints.length) {
+      q.value = at.q;
+      target.value = at.target;
+    } else if (at === "first" || !same) {
       q.value = model.q;
       target.value = null;
     }
@@ -112,6 +155,7 @@ export const pose = computed<Matrix | null>(() => scene.value?.frames.at(-1) ?? 
 
 /** Moves joints; a value beyond the limits is taken as it is, and shown as such. */
 export function move(next: number[]): void {
+  moving();
   q.value = next;
   target.value = null;
   solveSoon();
@@ -139,6 +183,7 @@ let resting: ReturnType<typeof setTimeout> | undefined;
 
 /** The hand goes there: the arm follows with the solution nearest to where it is. */
 export function reach(to: Matrix): void {
+  moving();
   target.value = to;
   solveSoon();
 }

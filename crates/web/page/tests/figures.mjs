@@ -21,12 +21,12 @@ function firstFrame() {
   look();
 }
 
-scenario("the first picture of the arm", { init: firstFrame }, async (page) => {
+scenario("the first picture of the arm", { alone: true, init: firstFrame }, async (page) => {
   await open(page);
   figure("navigation to the first picture", (await page.evaluate(() => window.firstFrame)) / 1000, "s", 1.5);
 });
 
-scenario("frames while the view is turned, with all ghosts", async (page) => {
+scenario("frames while the view is turned, with all ghosts", { alone: true }, async (page) => {
   await openRobot(page, "staubli-rx90");
   await until(() => page.evaluate(() => window.denavit.ghosts >= 7), "all other solutions are drawn");
   const box = await page.locator("canvas.scene-canvas").boundingBox();
@@ -64,7 +64,7 @@ function watchWorkers() {
   };
 }
 
-scenario("a solution while the hand is dragged", { init: watchWorkers }, async (page) => {
+scenario("a solution while the hand is dragged", { alone: true, init: watchWorkers }, async (page) => {
   await openRobot(page, "staubli-rx90", { panel: "hand" });
   await until(async () => (await page.locator(".solution").count()) === 8, "there are eight solutions");
   const box = await page.locator("canvas.scene-canvas").boundingBox();
@@ -94,7 +94,7 @@ function watchTasks() {
   new PerformanceObserver((list) => window.tasks.push(...list.getEntries().map(({ duration }) => duration))).observe({ type: "longtask" });
 }
 
-scenario("the longest task of the page while formulas are derived", { init: watchTasks }, async (page) => {
+scenario("the longest task of the page while formulas are derived", { alone: true, init: watchTasks }, async (page) => {
   await openRobot(page, "staubli-rx90", { panel: "formulas" });
   await until(async () => (await page.locator("#topic-panel .document:not(.dimmed)").count()) === 1, "the first topic is derived");
   // The first picture with the other solutions takes long where WebGL is done in software: it is no derivation.

@@ -116,3 +116,21 @@ scenario("the gauge is empty where the arm is singular", async (page) => {
   await page.getByText("Nearly singular").waitFor();
   assert.ok(robot.q[4] !== 0);
 });
+
+scenario("undoing goes back to the joints that were, and never takes degrees for millimetres", async (page) => {
+  const { robot: first } = await openRobot(page, "prrrrp");
+  await page.getByRole("button", { name: "Robots", exact: true }).click();
+  await page.getByRole("combobox").fill("puma560 craig");
+  await page.keyboard.press("Enter");
+  await page.locator("dialog").waitFor({ state: "detached" });
+  await field(page, "q1").fill("33");
+  await field(page, "q1").press("Enter");
+  await shows(page, "q1", 33);
+  await page.getByRole("button", { name: "Undo" }).click();
+  await shows(page, "q1", 0);
+  await page.getByRole("button", { name: "Undo" }).click();
+  await shared(page, (s) => s.file.joints.length === first.rows && farthest(s.q, first.q) < 1e-9, "the first robot is back, with its own joints");
+  await page.getByRole("button", { name: "Redo" }).click();
+  await page.getByRole("button", { name: "Redo" }).click();
+  await shows(page, "q1", 33);
+});

@@ -1,6 +1,6 @@
 // What every test of the page begins with: one browser, a fresh context each, and a list of what went wrong in it.
 import assert from "node:assert/strict";
-import test, { after } from "node:test";
+import test, { after, describe } from "node:test";
 import { setTimeout as pause } from "node:timers/promises";
 import { deflateRawSync, inflateRawSync } from "node:zlib";
 import { chromium } from "playwright-core";
@@ -27,13 +27,25 @@ export function address(fragment = "") {
   return site.url + fragment;
 }
 
+const scenarios = [];
+// Once all files have said theirs: what measures by itself, then two at a time, since while one waits the other works.
+setImmediate(() => {
+  for (const [words, isAlone, concurrency] of [["by itself", true, 1], ["the page", false, 2]]) {
+    const some = scenarios.filter(({ alone }) => alone === isAlone);
+    if (some.length > 0) describe(words, { concurrency }, () => some.forEach(({ name, run }) => test(name, { timeout: 120_000 }, run)));
+  }
+});
+
+/** There is one clipboard: who uses it waits for who has it. */
+let clipboard = Promise.resolve();
+
 /**
  * A test in a context of its own. It fails on every error in the console, failed request, or request to elsewhere;
- * `expected` are those that the test provokes.
+ * `expected` are those that the test provokes; `alone` it runs if it measures.
  */
 export function scenario(name, options, body = options) {
-  const { expected = [], permissions = [], init, ...context } = body === options ? {} : options;
-  test(name, { timeout: 90_000 }, async () => {
+  const { expected = [], permissions = [], alone = false, init, ...context } = body === options ? {} : options;
+  const run = async () => {
     const surroundings = await browser.newContext({ viewport: WIDE, acceptDownloads: true, ...context });
     surroundings.setDefaultTimeout(PATIENCE);
     const { origin } = new URL(site.url);
@@ -64,7 +76,9 @@ export function scenario(name, options, body = options) {
       wrong.length = 0;
       await surroundings.close();
     }
-  });
+  };
+  const inTurn = () => (clipboard = clipboard.then(run, run));
+  scenarios.push({ name, alone, run: permissions.length > 0 ? inTurn : run });
 }
 
 /** Asks again until the answer is something; fails with what was waited for. */

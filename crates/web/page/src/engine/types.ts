@@ -349,7 +349,7 @@ export interface Workspace {
 /** Everything that can be asked, by name. */
 export interface Requests {
   catalogue: [Record<string, never>, { robots: Listed[] }];
-  open: [{ text: string; kind: "robot" | "toml" | "markdown" | "csv" | "latex" | "any"; convention?: Convention; degrees?: boolean; millimetres?: boolean }, { file: RobotFile | null; findings: Finding[] }];
+  open: [{ text: string; kind: "robot" | "toml" | "markdown" | "csv" | "latex" | "any"; convention?: Convention; degrees?: boolean; millimetres?: boolean; table?: number }, { file: RobotFile | null; findings: Finding[] }];
   edit: [{ file: RobotFile }, { robot: RobotModel | null; findings: Finding[] }];
   write: [{ file: RobotFile }, { text: string }];
   convert: [{ to: Convention }, { file: RobotFile; words: string; proved: boolean }];
@@ -360,7 +360,7 @@ export interface Requests {
   orientations: [Record<string, never>, { sets: OrientationSet[] }];
   angles: [{ pose: Matrix; set: string }, { values: number[]; singular: boolean }];
   pose: [{ xyz: Point; set: string; values: number[] }, { pose: Matrix }];
-  jacobian: [{ q: number[]; frame: "base" | "tool" }, { rows: string[]; jacobian: Matrix; determinant: number | null }];
+  jacobian: [{ q: number[]; frame: "base" | "tool" }, { rows: string[]; jacobian: Matrix }];
   formulas: [{ topic: Topic; q: number[] }, Formulas];
   values: [{ topic: Topic; q: number[] }, { values: Values }];
   singular: [Record<string, never>, { singular: Singular[]; remark?: string }];

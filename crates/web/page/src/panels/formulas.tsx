@@ -9,7 +9,8 @@ import { bind } from "../formula/marks.ts";
 import { CurrentValues } from "../formula/values.ts";
 import { engine, q, revision, robot, stale, topic } from "../state.ts";
 import { Failure, ProgressLine, Task } from "../task.tsx";
-import { Button } from "../widgets/button.tsx";
+import { short } from "../units.ts";
+import { Button, Segments } from "../widgets/button.tsx";
 import { panelId, tabId, Tabs } from "../widgets/tabs.tsx";
 
 const TOPICS: { key: Topic; title: string; working: string }[] = [
@@ -100,7 +101,7 @@ export function FormulasPanel() {
           </>
         ) : (
           <span class="quiet">
-            {stale.value ? "The table has errors; these are the formulas from before." : "Formulas are exact; numbers are those of the present joints."}
+            {stale.value ? "The table has errors; these are the formulas from before." : "Formulas are exact; numbers are those of the present joints, in metres and radians."}
           </span>
         )}
       </ProgressLine>
@@ -109,6 +110,55 @@ export function FormulasPanel() {
         {now && (fits || isRunning) && <Document now={now} dimmed={!fits || now.revision !== revision.value} />}
       </div>
       <CopyMenu />
+    </section>
+  );
+}
+
+/** The matrix at the present joints, at the tool's origin. */
+function NumericJacobian() {
+  const [frame, setFrame] = useState<"base" | "tool">("base");
+  if (!robot.value || q.value.length !== robot.value.joints.length) return null;
+  const { rows, jacobian } = engine().now.call("jacobian", { q: q.value, frame });
+  return (
+    <section class="section-plain numeric-jacobian" aria-label="Jacobian in numbers">
+      <div class="heading">
+        <h3>At the present joints, of the tool</h3>
+        <Segments
+          label="Axes of the Jacobian"
+          options={[
+            { value: "base" as const, label: "Base axes" },
+            { value: "tool" as const, label: "Tool axes" },
+          ]}
+          value={frame}
+          onChange={(next) => setFrame(next)}
+        />
+      </div>
+      <div class="scrolled" tabIndex={0} role="group" aria-label="Jacobian in numbers, metres and radians">
+        <table class="numbers">
+          <thead>
+            <tr>
+              <td />
+              {robot.value.joints.map((joint) => (
+                <th key={joint.name} scope="col">
+                  {joint.name}
+                </th>
+              ))}
+            </tr>
+          </thead>
+          <tbody>
+            {jacobian.map((row, k) => (
+              <tr key={rows[k]}>
+                <th scope="row">{rows[k]}</th>
+                {row.map((x, j) => (
+                  <td key={j} class="number">
+                    {short(x, 4)}
+                  </td>
+                ))}
+              </tr>
+            ))}
+          </tbody>
+        </table>
+      </div>
     </section>
   );
 }
@@ -134,6 +184,7 @@ function Document({ now, dimmed }: { now: { formulas: Formulas; revision: number
       <div ref={root} key={`${formulas.topic} ${now.revision}`} class={dimmed ? "document dimmed" : "document"}>
         <Blocks blocks={formulas.blocks} values={values} />
       </div>
+      {formulas.topic === "jacobian" && <NumericJacobian />}
       <p class="spoken" role="status">
         {words}
       </p>

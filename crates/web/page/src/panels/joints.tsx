@@ -3,7 +3,7 @@
 import { useState } from "preact/hooks";
 import type { Joint } from "../engine/types.ts";
 import { change, file, highlighted, look, move, note, q, robot, scene, stale } from "../state.ts";
-import { nearness } from "../scene/arm.ts";
+import { isExact, nearness } from "../scene/arm.ts";
 import { forFile, formatWithUnit, type Measure, short, unitOf, format } from "../units.ts";
 import { Button } from "../widgets/button.tsx";
 import { NumberField } from "../widgets/number.tsx";
@@ -175,7 +175,7 @@ function Measures() {
   return (
     <section class="section-plain" aria-label="Distance from singular configurations">
       <h3>
-        How well the hand moves here{near && <span class="problem"> near a singularity</span>}
+        How well the hand moves here{near && <span class="problem">{isExact(now) ? " in a singularity" : " near a singularity"}</span>}
       </h3>
       <div class={near ? "gauge near" : "gauge"} role="meter" aria-label="Evenness, one by the condition number" aria-valuemin={0} aria-valuemax={1} aria-valuenow={evenness}>
         <span style={{ width: `${(100 * evenness).toFixed(1)}%` }} />

@@ -96,7 +96,7 @@ function DurationField() {
         autocomplete="off"
         data-unit="s"
         aria-label="Duration in seconds; empty for as short as can be"
-        placeholder="shortest"
+        placeholder="automatic"
         value={duration.value ?? ""}
         onChange={(event) => {
           const text = event.currentTarget.value.trim().replace(",", ".");

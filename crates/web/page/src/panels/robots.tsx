@@ -25,7 +25,7 @@ type OpenKind = Input<"open">["kind"];
 const MOST_BYTES = 2_000_000;
 
 /** Opens a text as a robot; says what was found if it is none. */
-function open(text: string, kind: OpenKind, options: { convention?: Convention; degrees?: boolean; millimetres?: boolean } = {}): { opened: boolean; findings: Finding[] } {
+function open(text: string, kind: OpenKind, options: { convention?: Convention; degrees?: boolean; millimetres?: boolean; table?: number } = {}): { opened: boolean; findings: Finding[] } {
   const answer = engine().now.call("open", { text, kind, ...options });
   // A robot file without a table, or one that can be read in several ways, is not shown in the place of the robot.
   const isTable = answer.file && answer.file.joints.length > 0 && CONVENTIONS.some((one) => one.value === answer.file?.convention);
@@ -69,6 +69,7 @@ function kindOf(name: string): OpenKind {
 
 export async function openFile(chosen: File): Promise<void> {
   if (chosen.size > MOST_BYTES) return said(new Error(`${chosen.name} is larger than 2 MB: it is not a robot description.`));
+  if (/\.(urdf|xacro)$/i.test(chosen.name)) return said(new Error("URDF is not read yet: write the Denavit–Hartenberg table."));
   try {
     openText(await chosen.text(), chosen.name);
   } catch (why) {
@@ -80,7 +81,7 @@ export async function openFile(chosen: File): Promise<void> {
 export function chooseFile(): void {
   const input = document.createElement("input");
   input.type = "file";
-  input.accept = ".toml,.md,.markdown,.csv,.tsv,.tex,.urdf,.xacro,.txt";
+  input.accept = ".toml,.md,.markdown,.csv,.tsv,.tex,.txt";
   input.onchange = () => {
     const chosen = input.files?.[0];
     if (chosen) void openFile(chosen);
@@ -241,15 +242,26 @@ const EXAMPLE = `| j | α | d | θ | r |
 | 2 | 90° | 0 | θ2 | 0 |
 | 3 | 0 | D3 | θ3 | 0 |`;
 
+/** What the engine's hint calls the choice of a table; the page has a field for it. */
+const OPTION = "choose one with --table:";
+
 function FromText({ text: first, name, findings: firstFindings }: { text: string; name: string; findings: Finding[] }) {
   const [text, setText] = useState(first);
   const [kind, setKind] = useState<OpenKind>(name ? kindOf(name) : "any");
   const [convention, setConvention] = useState<Convention | "">("");
   const [angles, setAngles] = useState<"" | "deg" | "rad">("");
   const [lengths, setLengths] = useState<"" | "mm" | "m">("");
+  const [table, setTable] = useState(1);
   const [findings, setFindings] = useState(firstFindings);
   const choice = useRef<HTMLSelectElement>(null);
   const asksConvention = convention === "" && findings.some((finding) => /convention/i.test(`${finding.message} ${finding.hint ?? ""}`));
+
+  // The engine says which tables there are where it needs to be told.
+  const tables = findings.map((finding) => finding.hint ?? "").find((hint) => hint.includes(OPTION));
+  const [asksTable, setAsksTable] = useState(false);
+  useEffect(() => {
+    if (tables) setAsksTable(true);
+  }, [tables]);
 
   const read = () => {
     try {
@@ -257,8 +269,10 @@ function FromText({ text: first, name, findings: firstFindings }: { text: string
         convention: convention || undefined,
         degrees: angles === "" ? undefined : angles === "deg",
         millimetres: lengths === "" ? undefined : lengths === "mm",
+        table: asksTable ? table : undefined,
       });
-      setFindings(answer.findings);
+      setFindings(answer.findings.map((finding) => ({ ...finding, hint: finding.hint?.replace(OPTION, "choose one below:") })));
+      if (answer.findings.some((finding) => finding.hint?.includes(OPTION))) setAsksTable(true);
       if (answer.opened) {
         batch(() => {
           dialog.value = null;
@@ -281,7 +295,7 @@ function FromText({ text: first, name, findings: firstFindings }: { text: string
     >
       <div class="row-of-buttons">
         <Button label="Open a file" icon="open" onClick={chooseFile} />
-        <span class="fine">or drop one anywhere on this page: a robot file, URDF, Markdown, CSV or LaTeX.</span>
+        <span class="fine">or drop one anywhere on this page: a robot file, Markdown, CSV or LaTeX.</span>
       </div>
       <label class="labelled">
         {name || "A table, as it stands in a document"}
@@ -295,6 +309,12 @@ function FromText({ text: first, name, findings: firstFindings }: { text: string
         />
       </label>
       <div class="choices">
+        {asksTable && (
+          <label class="labelled">
+            Which table
+            <input class="field" type="number" min={1} value={table} onInput={(event) => setTable(Math.max(1, Math.round(event.currentTarget.valueAsNumber) || 1))} />
+          </label>
+        )}
         <label class="labelled">
           Written as
           <select class="field" value={kind} onChange={(event) => setKind(event.currentTarget.value as OpenKind)}>

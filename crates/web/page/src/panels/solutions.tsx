@@ -36,16 +36,22 @@ export function SolutionsList() {
 /** The members of a curve stand about so far from one another, radians of all joints together. */
 const NEAR = 0.5;
 
+/** More self-motions than this are shown when asked for. */
+const MANY = 6;
+
 function Found({ answer }: { answer: Answer }) {
   const { solutions, families, obstacle } = answer;
   const places = families.map((family) => nearest(family.curve, q.value));
   const least = Math.min(...places.map((place) => place.distance));
+  const [all, setAll] = useState(false);
+  // The nearest first to be seen, where there are dozens.
+  const shown = all || families.length <= MANY ? families : families.filter((_, k) => places[k].distance <= [...places].map((p) => p.distance).sort((a, b) => a - b)[MANY - 1]);
   return (
     <>
       {obstacle && <Obstacle obstacle={obstacle} />}
-      {obstacle && solutions.length > 0 && <p class="fine">Ways to the nearest pose:</p>}
+      {obstacle && solutions.length + families.length > 0 && <p class="fine">Ways to the nearest pose:</p>}
       {solutions.length > 0 && <Listbox answer={answer} />}
-      {families.map((family, index) => (
+      {families.map((family, index) => shown.includes(family) && (
         <FamilySlider
           key={index}
           family={family}
@@ -55,6 +61,9 @@ function Found({ answer }: { answer: Answer }) {
           isHere={places[index].distance === least && least < NEAR}
         />
       ))}
+      {shown.length < families.length && (
+        <Button label={`Show all ${families.length} self-motions`} small onClick={() => setAll(true)} />
+      )}
       {answer.given.length > 0 && (
         <p class="fine">
           Given beside the pose:{" "}
@@ -200,7 +209,7 @@ function Option({ solution, index, isActive, isCurrent, onTake }: OptionProps) {
     >
       <span class="solution-words">
         <span class="solution-number">{index + 1}</span>
-        <span>{solution.branch || "no name"}</span>
+        <span>{solution.branch || "–"}</span>
         {isCurrent && <span class="tag">arm is here</span>}
         {remarks.map((remark) => (
           <span class="tag warn" key={remark}>

@@ -80,6 +80,8 @@ export async function plan(from: number[] = start.peek() ?? q.peek()): Promise<v
   if (!answer || forRevision !== revision.peek()) return;
   time.value = 0;
   path.value = answer;
+  // The arm stands where the time is.
+  if (answer.q[0]) q.value = answer.q[0];
   plannedFrom.value = wanted;
 }
 

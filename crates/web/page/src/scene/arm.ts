@@ -12,6 +12,11 @@ import type { Stage } from "./stage.ts";
 import { blend, type Colour, colours, type Palette } from "./theme.ts";
 import { inAngle, inLength } from "./units.ts";
 
+/** A smallest singular value that is 0 but for rounding. */
+export function isExact(now: Scene | null): boolean {
+  return now !== null && now.measures.smallest < 1e-9;
+}
+
 /** Below this share of the best manipulability, or of the arm's length a radian, a configuration is called nearly singular. */
 const NEAR = 0.02;
 

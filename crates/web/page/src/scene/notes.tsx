@@ -2,7 +2,7 @@
 
 import { computed } from "@preact/signals";
 import { look, move, robot, scene, selected, singular } from "../state.ts";
-import { nearness } from "./arm.ts";
+import { isExact, nearness } from "./arm.ts";
 import { rowNow } from "./row.ts";
 import { singularAt } from "./ghosts.ts";
 import { waiting } from "./waiting.ts";
@@ -94,7 +94,7 @@ export function Notes() {
       <Singulars />
       <div class="scene-chips" role="status">
         <Waits />
-        {isNear.value && <div class="scene-chip scene-chip-near">Nearly singular</div>}
+        {isNear.value && <div class="scene-chip scene-chip-near">{isExact(scene.value) ? "Singular" : "Nearly singular"}</div>}
       </div>
     </div>
   );

@@ -17,6 +17,7 @@ import { addPointer } from "./pointer.ts";
 import { addRow } from "./row.ts";
 import { graphics, Stage } from "./stage.ts";
 import { Toolbar } from "./toolbar.tsx";
+import { FACES } from "./orbit.ts";
 import { fit } from "./view-fit.ts";
 import { describe } from "./words.ts";
 import { addWorkspace } from "./workspace.ts";
@@ -46,7 +47,8 @@ function build(canvas: HTMLCanvasElement, isSoftware: boolean): Stage {
       const model = robot.value;
       if (!model || !scene.value || name === model.name) return;
       name = model.name;
-      if (!(first && isAskedFor())) fit(stage, !first);
+      if (!first) stage.orbit.go({ azimuth: FACES.corner[0], elevation: FACES.corner[1] }, 0);
+      if (!(first && isAskedFor())) fit(stage, false);
       first = false;
     }),
   );
