@@ -96,7 +96,9 @@ impl Subject {
             return Err("no joint moves: a cell with q1 makes its row a joint".into());
         }
         if joints.max(description.rows.len()) > MAX_ROWS {
-            return Err(format!("an arm of {joints} joints is more than a page can draw while one types: {MAX_ROWS} rows are allowed"));
+            return Err(format!(
+                "an arm of {joints} joints is more than a page can draw while one types: {MAX_ROWS} rows are allowed"
+            ));
         }
         let valued = description.filled();
         let robot = Robot::numeric(&valued).map_err(|why| why.to_string())?;
