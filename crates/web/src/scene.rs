@@ -64,20 +64,27 @@ pub fn bodies(arm: &Arm) -> Value {
         json!({
             "joint": joints[s.joint].number,
             "kind": if s.kind == JointKind::Revolute { "revolute" } else { "prismatic" },
-            "centre": s.centre.0,
-            "axis": s.axis.0,
-            "radius": s.radius,
-            "half": s.half,
+            "centre": short(s.centre),
+            "axis": short(s.axis),
+            "radius": s.radius as f32,
+            "half": s.half as f32,
         })
     });
-    let bars =
-        layout.bars.iter().map(|b| json!({ "from": b.a.0, "to": b.b.0, "link": b.link, "rod": b.rod }));
+    let bars = layout
+        .bars
+        .iter()
+        .map(|b| json!({ "from": short(b.a), "to": short(b.b), "link": b.link, "rod": b.rod }));
     let (at, along, across) = layout.gripper;
     json!({
         "symbols": symbols.collect::<Vec<_>>(),
         "bars": bars.collect::<Vec<_>>(),
-        "gripper": { "at": at.0, "along": along.0, "across": across.0 },
+        "gripper": { "at": short(at), "along": short(along), "across": short(across) },
     })
+}
+
+/// A point of a body: half as many digits are more than anybody sees, and take half as long to write and to read.
+fn short(v: Vector<f64>) -> [f32; 3] {
+    v.0.map(|x| x as f32)
 }
 
 /// A pose as rows of rows.

@@ -6,7 +6,7 @@ import { load } from "./engine/client.ts";
 import { openListed, openText } from "./panels/robots.tsx";
 import { keepAddress, restoreAddress } from "./share.ts";
 import { keepPreferences, phase } from "./shell.ts";
-import { file, said, start } from "./state.ts";
+import { file, hasPicture, said, start } from "./state.ts";
 
 const FIRST = "staubli-rx90";
 
@@ -29,6 +29,8 @@ async function main(): Promise<void> {
   }
   await firstRobot();
   phase.value = { kind: "ready" };
+  // Where nothing can be drawn the arm is solved all the same.
+  setTimeout(hasPicture, 1500);
   keepAddress();
 }
 

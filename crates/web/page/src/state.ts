@@ -135,7 +135,7 @@ function put(next: RobotFile, at?: State | "first"): void {
   // What was being derived belongs to the robot before.
   for (const remote of [engines.solver, engines.formulas]) {
     remote.cancel();
-    remote.call("edit", { file: next }).catch(said);
+    remote.edit({ file: next });
   }
   solveSoon();
 }
@@ -188,8 +188,19 @@ export function reach(to: Matrix): void {
   solveSoon();
 }
 
+/** Whether the arm was drawn once: its solutions come after that. */
+let pictured = false;
+
+/** The arm is on the screen. */
+export function hasPicture(): void {
+  if (pictured) return;
+  pictured = true;
+  if (robot.value) solveSoon();
+}
+
 /** Asks for all solutions; while one request is out only the newest is kept. */
 function solveSoon(): void {
+  if (!pictured) return;
   const now = performance.now();
   const isMoving = now - asked < REST;
   asked = now;

@@ -24,7 +24,8 @@ interface Waiting {
 /** An engine in a worker. Requests are answered in order; `cancel` ends the one that runs, with all behind it. */
 export class Remote {
   #module: WebAssembly.Module;
-  #worker: Worker;
+  /** Started when something is asked: the first picture does not wait for it. */
+  #worker: Worker | null = null;
   #waiting: Waiting[] = [];
   #last = 0;
   #edited: Input<"edit"> | null = null;
@@ -33,7 +34,6 @@ export class Remote {
 
   constructor(module: WebAssembly.Module) {
     this.#module = module;
-    this.#worker = this.#start();
   }
 
   /** True while something is being answered. */
@@ -41,8 +41,17 @@ export class Remote {
     return this.#waiting.length > 0;
   }
 
+  /** The robot that everything asked from now on is about. */
+  edit(input: Input<"edit">): void {
+    this.#edited = input;
+    if (this.#worker) void this.call("edit", input).catch(() => {});
+  }
+
   call<K extends Op>(op: K, input: Input<K>): Promise<Output<K>> {
-    if (op === "edit") this.#edited = input as Input<"edit">;
+    if (!this.#worker) {
+      this.#worker = this.#start();
+      if (this.#edited) void this.call("edit", this.#edited).catch(() => {});
+    }
     const id = ++this.#last;
     return new Promise<Output<K>>((resolve, reject) => {
       this.#waiting.push({ id, op, resolve: resolve as (answer: unknown) => void, reject });
@@ -53,10 +62,9 @@ export class Remote {
   /** Ends what runs and what waits, and begins again with the same robot. */
   cancel(): void {
     if (!this.busy) return;
-    this.#worker.terminate();
+    this.#worker?.terminate();
+    this.#worker = null;
     for (const one of this.#waiting.splice(0)) one.reject(new Cancelled());
-    this.#worker = this.#start();
-    if (this.#edited) void this.call("edit", this.#edited).catch(() => {});
   }
 
   #start(): Worker {
@@ -78,7 +86,7 @@ export class Remote {
   }
 
   #post(message: ToWorker): void {
-    this.#worker.postMessage(message);
+    this.#worker?.postMessage(message);
   }
 }
 

@@ -1,7 +1,7 @@
 // The picture itself: the renderer, what is drawn when, and how finely. Nothing is drawn unless something changed.
 
 import { ColorManagement, LinearSRGBColorSpace, Scene, WebGLRenderer, type Object3D } from "three";
-import { effect } from "../state.ts";
+import { hasPicture, effect } from "../state.ts";
 import { Labels } from "./labels.ts";
 import { measures } from "./measure.ts";
 import { Orbit } from "./orbit.ts";
@@ -170,6 +170,7 @@ export class Stage {
     this.labels.layout(this.orbit);
     this.#renderer.render(this.#scene, this.orbit.camera);
     measures.frames += 1;
+    if (measures.frames === 1) setTimeout(hasPicture);
     measures.calls = this.#renderer.info.render.calls;
     measures.triangles = this.#renderer.info.render.triangles;
   }
