@@ -2,8 +2,8 @@
 
 use denavit::catalogue;
 use denavit::description::read_toml;
-use denavit::generate::{Options, Wanted, generate};
-use denavit_program::emit::{Language, Precision};
+use denavit_generate::{Options, Wanted, generate};
+use denavit_emit::{Language, Precision};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};

@@ -3,9 +3,9 @@
 #![no_main]
 
 use denavit::catalogue;
-use denavit::check::code::Language;
-use denavit::check::document::Format;
-use denavit::check::{Options, check};
+use denavit_reading::code::Language;
+use denavit_reading::document::Format;
+use denavit_check::{Options, check};
 use denavit::description::read_toml;
 use libfuzzer_sys::fuzz_target;
 

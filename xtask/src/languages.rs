@@ -20,9 +20,9 @@ const ROBOTS: &[&str] = &[
     "franka-panda",
     "smart5-six-rail",
     "oblique-6r",
-    "crates/robot/tests/generated/symbols.toml",
-    "crates/robot/tests/generated/mixed.toml",
-    "crates/robot/tests/generated/names.toml",
+    "crates/generate/tests/robots/symbols.toml",
+    "crates/generate/tests/robots/mixed.toml",
+    "crates/generate/tests/robots/names.toml",
 ];
 /// Of these also with the values of parameters in the code.
 const FIXED: &[&str] = &["scara", "franka-panda"];

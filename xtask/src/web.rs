@@ -41,14 +41,14 @@ const PARTS: [split::Part; 3] = [
     split::Part {
         exports: &["answer_documents"],
         named: &[
-            "denavit::check",
-            "denavit::generate",
-            "denavit_program::emit",
+            "denavit_check",
+            "denavit_generate",
+            "denavit_emit",
             "denavit_report::render::latex",
             "denavit_report::render::markdown",
             "denavit_report::render::typst",
             "denavit_report::sections::errata",
-            "denavit_symbolic::slip",
+            "denavit_reading",
             "denavit_web::answer_documents",
             "denavit_web::documents",
         ],
@@ -59,10 +59,10 @@ const FOREIGN: &[&str] = &["js_sys", "wasm_bindgen", "web_sys"];
 /// Where the texts stand that reports and source code are made of.
 const TEXTS: &[&str] = &[
     "crates/elimination/src",
-    "crates/program/src/emit",
+    "crates/emit/src",
     "crates/program/src/kernel",
     "crates/report/assets",
-    "crates/robot/src/generate",
+    "crates/generate/src",
 ];
 /// Shorter texts are not worth a place of their own.
 const SHORT: usize = 200;

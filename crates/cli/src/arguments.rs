@@ -6,7 +6,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use denavit::description::Convention;
 use denavit::inverse::{Criterion, Goal};
 use denavit::motion::profile::Law;
-use denavit_program::emit::Language;
+use denavit_emit::Language;
 use std::path::PathBuf;
 
 pub use view::ViewArguments;

@@ -2,7 +2,7 @@
 //!
 //! `RUSTFLAGS="-C target-cpu=native" cargo run -p denavit-elimination --release --example measure [poses] [arm]`
 
-#[path = "../tests/arms/mod.rs"]
+#[path = "../tests/suite/arms/mod.rs"]
 mod arms;
 
 use arms::{Draws, named};

@@ -10,7 +10,6 @@ mod code;
 mod count;
 mod derivative;
 mod domain;
-pub mod emit;
 mod evaluate;
 mod graph;
 pub mod kernel;

@@ -1,7 +1,6 @@
 //! The operations: what each reads, computes and costs, and how it varies with its operands.
 
 use crate::domain::Domain;
-use crate::emit::{Language, Precision};
 use crate::graph::Graph;
 use denavit_symbolic::{Rational, Symbol};
 
@@ -157,35 +156,20 @@ impl Op {
         }
     }
 
-    /// The function that computes it in a language, for operations that are not written with signs. In Rust, C and
-    /// CUDA sines and cosines come in pairs from a routine of their own.
-    pub(crate) fn spelling(&self, language: Language, precision: Precision) -> Option<&'static str> {
-        let is_single = precision == Precision::Single;
-        let name = match (self, language) {
-            (
-                Op::Number(_) | Op::Pi | Op::Input(_) | Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Div(..),
-                _,
-            ) => {
-                return None;
-            }
-            (Op::Sqrt(_), Language::Rust | Language::Matlab) => "sqrt",
-            (Op::Sqrt(_), Language::C | Language::Cuda) if is_single => "sqrtf",
-            (Op::Sqrt(_), Language::C | Language::Cuda) => "sqrt",
-            (Op::Sqrt(_), Language::Python) => "np.sqrt",
-            (Op::Sqrt(_), Language::JavaScript) => "Math.sqrt",
-            (Op::Sin(_) | Op::Cos(_), Language::Rust | Language::C | Language::Cuda) => return None,
-            (Op::Sin(_), Language::Python) => "np.sin",
-            (Op::Sin(_), Language::JavaScript) => "Math.sin",
-            (Op::Sin(_), Language::Matlab) => "sin",
-            (Op::Cos(_), Language::Python) => "np.cos",
-            (Op::Cos(_), Language::JavaScript) => "Math.cos",
-            (Op::Cos(_), Language::Matlab) => "cos",
-            (Op::Atan2(..), Language::Rust | Language::Matlab) => "atan2",
-            (Op::Atan2(..), Language::C | Language::Cuda) if is_single => "atan2f",
-            (Op::Atan2(..), Language::C | Language::Cuda) => "atan2",
-            (Op::Atan2(..), Language::Python) => "np.arctan2",
-            (Op::Atan2(..), Language::JavaScript) => "Math.atan2",
-        };
-        Some(name)
+    /// Its name in the text form of programs.
+    pub fn mnemonic(&self) -> &'static str {
+        match self {
+            Op::Number(_) => "number",
+            Op::Pi => "pi",
+            Op::Input(_) => "input",
+            Op::Add(..) => "add",
+            Op::Sub(..) => "sub",
+            Op::Mul(..) => "mul",
+            Op::Div(..) => "div",
+            Op::Sqrt(_) => "sqrt",
+            Op::Sin(_) => "sin",
+            Op::Cos(_) => "cos",
+            Op::Atan2(..) => "atan2",
+        }
     }
 }

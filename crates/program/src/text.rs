@@ -60,7 +60,7 @@ impl fmt::Display for Program {
         }
         for (i, (op, _)) in self.ops().iter().enumerate() {
             let at = |n: &u32| Operand(self, Value { node: *n, negative: false });
-            write!(f, "{} = {}", at(&(i as u32)), mnemonic(op))?;
+            write!(f, "{} = {}", at(&(i as u32)), op.mnemonic())?;
             match op {
                 Op::Number(r) => write!(f, " {r}")?,
                 Op::Pi => {}
@@ -111,23 +111,6 @@ impl Program {
             Line::Input(name) => Op::Input(Symbol::new(&name)),
         });
         Ok(Program::from_parts(variables, parameters, ops, reader.results, reader.names))
-    }
-}
-
-/// How an operation is spelled.
-pub(crate) fn mnemonic(op: &Op) -> &'static str {
-    match op {
-        Op::Number(_) => "number",
-        Op::Pi => "pi",
-        Op::Input(_) => "input",
-        Op::Add(..) => "add",
-        Op::Sub(..) => "sub",
-        Op::Mul(..) => "mul",
-        Op::Div(..) => "div",
-        Op::Sqrt(_) => "sqrt",
-        Op::Sin(_) => "sin",
-        Op::Cos(_) => "cos",
-        Op::Atan2(..) => "atan2",
     }
 }
 

@@ -11,14 +11,11 @@
 //! - [`velocity`]: Jacobians, singularities, velocities and forces.
 //! - [`explain`]: derivations as documents.
 //! - [`motion`]: paths of joints and hand, followed and timed.
-//! - [`generate`]: source code in several languages.
 
 pub mod catalogue;
-pub mod check;
 pub mod description;
 pub mod explain;
 pub mod forward;
-pub mod generate;
 pub mod geometry;
 pub mod idealise;
 pub mod inverse;

@@ -21,7 +21,6 @@ pub mod print;
 pub mod rational;
 pub mod readable;
 pub mod ring;
-pub mod slip;
 pub mod vocabulary;
 
 pub use angle::Angle;

@@ -2,12 +2,12 @@
 
 use crate::refusal::Refusal;
 use crate::session::Subject;
-use denavit::check::document::Format;
-use denavit::check::{self, check as checked};
 use denavit::explain::Language as Tongue;
-use denavit::generate::{Options as Wish, Wanted, generate};
 use denavit::inverse;
-use denavit_program::emit::{Language, Precision};
+use denavit_check::check as checked;
+use denavit_emit::{Language, Precision};
+use denavit_generate::{Options as Wish, Wanted, generate};
+use denavit_reading::document::Format;
 use denavit_report::figure::svg::{Palette, svg};
 use denavit_report::figure::{Options as Look, View, isometric, scheme};
 use denavit_report::{Options, json as as_json, render};
@@ -20,7 +20,7 @@ use serde_json::{Value, json};
 /// If the text cannot be read.
 pub fn check(subject: &Subject, text: &str, name: &str) -> Result<Value, Refusal> {
     let format = Format::of(name, text);
-    match checked(text, format, Some(&subject.description), &check::Options::default()) {
+    match checked(text, format, Some(&subject.description), &denavit_check::Options::default()) {
         Ok(found) => Ok(as_json::checked(name, text, &found)),
         Err(findings) => {
             let first = findings.first();

@@ -5,8 +5,8 @@ use super::derivation::{Times, times};
 use crate::robot;
 use anyhow::Result;
 use denavit::catalogue;
-use denavit::generate::with_values;
 use denavit::inverse::{InverseModel, Options};
+use denavit_generate::with_values;
 use std::fmt::Write;
 use std::hint::black_box;
 

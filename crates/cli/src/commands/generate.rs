@@ -6,9 +6,9 @@ use crate::load;
 use crate::terminal::{FAINT, HEADING, NAME, styled};
 use denavit::description::Description;
 use denavit::forward::Proof;
-use denavit::generate::{self, Generated, Inverse, Options, Wanted};
 use denavit::inverse;
-use denavit_program::emit::{Language, Precision};
+use denavit_emit::{Language, Precision};
+use denavit_generate::{Generated, Inverse, Options, Wanted};
 use serde_json::json;
 use std::fs;
 use std::io::Write;
@@ -51,7 +51,7 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
         ),
         fixed: arguments.fixed,
     };
-    let generated = generate::generate(&description, &options).map_err(|missing| {
+    let generated = denavit_generate::generate(&description, &options).map_err(|missing| {
         Failure::Input(format!("error: --fixed: {missing}\n  = hint: give values with --set"))
     })?;
     if let Some(why) = &generated.refused {

@@ -22,6 +22,8 @@
 //! The other files of this folder are also embedded as text into generated programs, so they stand for
 //! themselves: in one module, in the order below, each as far as it is needed.
 
+pub mod source;
+
 include!("reduce.rs");
 include!("sincos_strict.rs");
 include!("sincos_fused.rs");

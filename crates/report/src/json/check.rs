@@ -1,7 +1,7 @@
 //! What was found in a document.
 
-use denavit::check::{Cause, Checked, Claim, Counterexample, Entry, Finding, Slip};
 use denavit::description::line_column;
+use denavit_check::{Cause, Checked, Claim, Counterexample, Entry, Finding, Slip};
 use serde_json::{Value, json};
 use std::ops::Range;
 

@@ -8,7 +8,7 @@ use super::layout::{display, equation, is_wide, named};
 use crate::document::{Document, Part, Section};
 use crate::figure::svg::{Palette, svg};
 use denavit::explain::{Block, Branch, Math, Proof, Sign, math};
-use denavit_program::emit::{Language, expression};
+use denavit_emit::{Language, expression};
 use denavit_symbolic::print::Style;
 use denavit_symbolic::vocabulary::Vocabulary;
 use serde_json::{Value, json};

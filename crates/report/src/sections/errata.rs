@@ -2,8 +2,8 @@
 
 use super::setting::Setting;
 use crate::document::Section;
-use denavit::check::{Claim, Entry, Finding, Slip, Standing};
 use denavit::explain::{Block, Language, Line};
+use denavit_check::{Claim, Entry, Finding, Slip, Standing};
 
 /// The counts, the causes and the slips; nothing if no document was checked or it claims nothing.
 pub fn section(s: &Setting) -> Option<Section> {

@@ -2,7 +2,6 @@
 
 use crate::cell::{cell, decimals};
 use crate::figure::Arm;
-use denavit::check::Checked;
 use denavit::description::{Convention, Description, JointKind, Measure, Parameter};
 use denavit::explain::{Language, Line};
 use denavit::forward::{ForwardModel, Outputs, Reference};
@@ -10,6 +9,7 @@ use denavit::inverse::{InverseModel, JointSpace, Refusal};
 use denavit::robot::Robot;
 use denavit::structure::Structure;
 use denavit::velocity::{Obstacle, Singularities, regular_configuration};
+use denavit_check::Checked;
 use denavit_symbolic::Expr;
 use std::cell::OnceCell;
 

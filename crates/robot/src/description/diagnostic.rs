@@ -125,7 +125,7 @@ impl Diagnostics {
     }
 
     /// Adds what another reading found.
-    pub(crate) fn add(&mut self, finding: Diagnostic) {
+    pub fn add(&mut self, finding: Diagnostic) {
         let Diagnostic { severity, span, message, hint } = finding;
         self.push(severity, span, message).hint = hint;
     }
@@ -173,7 +173,7 @@ impl Diagnostics {
 
 impl Diagnostic {
     /// Sets the hint in place.
-    pub(crate) fn hint(&mut self, hint: impl Into<String>) {
+    pub fn hint(&mut self, hint: impl Into<String>) {
         self.hint = Some(hint.into());
     }
 }

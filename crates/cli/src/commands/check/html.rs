@@ -3,7 +3,7 @@
 use super::Document;
 use super::marked::{Piece, pieces};
 use super::terminal::at;
-use denavit::check::{Claim, Entry, Finding, Patch, Standing};
+use denavit_check::{Claim, Entry, Finding, Patch, Standing};
 use denavit_report::json::entry_name;
 use std::fmt::Write;
 use std::ops::Range;

@@ -1,7 +1,7 @@
 //! The list as Markdown, as `docs/errata.md` has it.
 
 use super::Document;
-use denavit::check::{Claim, Finding, Standing};
+use denavit_check::{Claim, Finding, Standing};
 use denavit_report::json::entry_name;
 use std::ops::Range;
 

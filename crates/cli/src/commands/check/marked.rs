@@ -1,6 +1,6 @@
 //! A printed formula with its slip marked.
 
-use denavit::check::Patch;
+use denavit_check::Patch;
 use std::ops::Range;
 
 /// A part of a formula.

@@ -14,8 +14,8 @@
 use super::Document;
 use crate::failure::Failure;
 use crate::terminal::{Align, decimals, table};
-use denavit::check::{Claim, Standing};
 use denavit::description::line_column;
+use denavit_check::{Claim, Standing};
 
 /// One item of the sheet.
 struct Item {

@@ -4,7 +4,7 @@ use super::Document;
 use super::marked::{Piece, pieces};
 use crate::terminal::{FAINT, HEADING, NAME, decimals, styled};
 use anstyle::{AnsiColor, Style};
-use denavit::check::{Cause, Claim, Counterexample, Entry, Finding, Patch, Slip, Standing, Wrong};
+use denavit_check::{Cause, Claim, Counterexample, Entry, Finding, Patch, Slip, Standing, Wrong};
 use denavit_report::json::entry_name;
 use std::ops::Range;
 

@@ -10,10 +10,10 @@ use crate::arguments::{ReportArguments, ReportFormat, ReportLanguage, SectionNam
 use crate::commands::fk::configuration;
 use crate::failure::Failure;
 use crate::load;
-use denavit::check::document::Format;
-use denavit::check::{Checked, check};
 use denavit::description::Description;
 use denavit::explain::Language;
+use denavit_check::{Checked, check};
+use denavit_reading::document::Format;
 use denavit_report::{Document, Errata, Options, Topic, render, report};
 use std::fs;
 use std::io::Write;
@@ -92,7 +92,7 @@ fn checked(
     let text = fs::read(name).map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
     let text = String::from_utf8_lossy(&text).into_owned();
     let options =
-        denavit::check::Options { table: load::table_options(&arguments.robot), ..Default::default() };
+        denavit_check::Options { table: load::table_options(&arguments.robot), ..Default::default() };
     // What the reader of tables took is there; what cannot be read beside it is no part of the report.
     let checked = check(&text, Format::of(name, &text), Some(description), &options).ok();
     Ok(checked.map(|c| (text, c)))

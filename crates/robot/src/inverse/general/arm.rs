@@ -34,7 +34,8 @@ impl std::error::Error for Unsuited {}
 
 /// An arm of six axes, and what its axes are in joint variables: x = C·q + c.
 #[derive(Clone, Debug)]
-pub(crate) struct SixAxes {
+pub struct SixAxes {
+    /// The axes and the constant transforms between them.
     pub arm: Arm,
     /// c.
     pub offsets: [f64; 6],

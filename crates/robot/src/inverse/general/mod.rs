@@ -3,6 +3,6 @@
 mod arm;
 mod solve;
 
-pub(crate) use arm::SixAxes;
+pub use arm::SixAxes;
 pub use arm::Unsuited;
 pub use solve::GeneralSolver;

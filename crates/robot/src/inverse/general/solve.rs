@@ -55,7 +55,7 @@ impl GeneralSolver {
     }
 
     /// The arm, and how it is solved.
-    pub(crate) fn parts(&self) -> (&SixAxes, &Plan) {
+    pub fn parts(&self) -> (&SixAxes, &Plan) {
         (&self.axes, &self.plan)
     }
 

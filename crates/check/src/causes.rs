@@ -1,0 +1,289 @@
+//! One change of the robot, or of what is meant, that turns many wrong formulas right.
+
+use super::Options;
+use super::judge::Judge;
+use super::outcome::{Cause, Claim, Entry, Finding};
+use super::plan::{Plan, Walked};
+use super::subject::Subject;
+use super::walk::Piece;
+use denavit::description::{Convention, Description, Row};
+use denavit_reading::document::Document;
+use denavit_reading::slip::Points;
+use denavit_symbolic::{Expr, equal};
+
+/// A change of the table, in words.
+struct Hypothesis {
+    words: String,
+    robot: usize,
+    /// How plausible it is beforehand.
+    prior: i64,
+    change: Box<dyn Fn(&Description) -> Description>,
+}
+
+/// No more causes than these are told.
+const MAX_CAUSES: usize = 3;
+/// No more formulas are explained under a cause.
+const MAX_REST: usize = 100;
+/// The hypotheses that are tried, times the formulas that each is tried on.
+const MAX_WORK: usize = 40_000;
+/// The robots of a document whose tables are doubted.
+const MAX_ROBOTS: usize = 8;
+/// The most formulas of a document for which causes are looked for.
+const MAX_FORMULAS: usize = 2_000;
+
+/// The changes that explain what is wrong, the best first; what they leave wrong is held against the changed robot.
+pub(super) fn causes(
+    text: &str,
+    document: &Document,
+    plan: &Plan,
+    options: &Options,
+    walked: &Walked,
+    claims: &mut [Claim],
+) -> Vec<Cause> {
+    let standing: Vec<Vec<bool>> = claims
+        .iter()
+        .map(|c| c.entries.iter().map(|e| matches!(e.finding, Finding::Equal { .. })).collect())
+        .collect();
+    let is_wrong = |c: usize, e: usize| matches!(claims[c].entries[e].finding, Finding::Wrong(_));
+    // Two entries that were exchanged are one slip.
+    let weight = |e: &Entry| match &e.finding {
+        Finding::Wrong(wrong) if wrong.slip.as_ref().is_some_and(|s| s.id == "transposed") => 1,
+        Finding::Wrong(_) => 2,
+        _ => 0,
+    };
+    let wrong = claims.iter().flat_map(|c| &c.entries).map(weight).sum::<usize>() / 2;
+    let all: usize = standing.iter().map(Vec::len).sum();
+    if wrong < 2 || all > MAX_FORMULAS {
+        return vec![];
+    }
+    let mut found: Vec<(i64, Cause, Plan)> = vec![];
+    for hypothesis in hypotheses(plan).into_iter().take(MAX_WORK / all.max(1)) {
+        let changed = plan.with(&|s: &Subject| {
+            let is_meant = std::ptr::eq(s, &raw const plan.subjects[hypothesis.robot]);
+            let same = same_row(s, &plan.subjects[hypothesis.robot]);
+            (is_meant || same).then(|| s.with((hypothesis.change)(&s.description)))
+        });
+        let other = changed.walk(text, document, options);
+        if other.assertions.len() != walked.assertions.len() {
+            continue;
+        }
+        let mut points = Points::new(3);
+        let mut cause = Cause {
+            change: hypothesis.words,
+            slip: None,
+            turns_right: vec![],
+            turns_wrong: vec![],
+            stays_wrong: vec![],
+        };
+        for (c, (a, b)) in walked.assertions.iter().zip(&other.assertions).enumerate() {
+            if a.pieces.len() != b.pieces.len() {
+                continue;
+            }
+            for (e, (before, after)) in a.pieces.iter().zip(&b.pieces).enumerate() {
+                let (Piece::Pair(before), Piece::Pair(after)) = (before, after) else { continue };
+                let was = standing.get(c).and_then(|s| s.get(e)).copied().unwrap_or(false);
+                if before.wanted == after.wanted && before.value == after.value {
+                    if !was && is_wrong(c, e) {
+                        cause.stays_wrong.push((c, e));
+                    }
+                    continue;
+                }
+                let (x, y) = (points.value(after.value), points.value(after.wanted));
+                let is = x.is_some() && x == y;
+                match (was, is) {
+                    (false, true) if is_wrong(c, e) => cause.turns_right.push((c, e)),
+                    (false, false) if is_wrong(c, e) => cause.stays_wrong.push((c, e)),
+                    (true, false) => cause.turns_wrong.push((c, e)),
+                    _ => {}
+                }
+            }
+        }
+        let (right, wrong) = (cause.turns_right.len() as i64, cause.turns_wrong.len() as i64);
+        if right >= 2 && right > wrong {
+            // What a hypothesis explains counts most; α is what tables have wrong most often.
+            found.push((4 * right - wrong + hypothesis.prior, cause, changed));
+        }
+    }
+    found.sort_by_key(|f| -f.0);
+    // A cause is told if it explains something that a better one does not.
+    let mut told: Vec<Cause> = vec![];
+    for (_, cause, changed) in found {
+        let is_new = |at: &(usize, usize)| !told.iter().any(|t| t.turns_right.contains(at));
+        if cause.turns_right.iter().filter(|at| is_new(at)).count() < 2 {
+            continue;
+        }
+        if told.is_empty() {
+            explain_rest(text, document, &changed, options, &cause, claims);
+        }
+        told.push(cause);
+        if told.len() == MAX_CAUSES {
+            break;
+        }
+    }
+    told
+}
+
+/// True if two robots of a document are the same table, one perhaps with more rows.
+fn same_row(a: &Subject, b: &Subject) -> bool {
+    let (a, b) = (&a.description, &b.description);
+    let same = |x: &Row, y: &Row| x.theta == y.theta && x.d == y.d && x.a == y.a && x.alpha == y.alpha;
+    a.convention == b.convention && a.rows.iter().zip(&b.rows).all(|(x, y)| same(x, y))
+}
+
+/// For what stays wrong under the best cause, the slip that is left.
+fn explain_rest(
+    text: &str,
+    document: &Document,
+    changed: &Plan,
+    options: &Options,
+    cause: &Cause,
+    claims: &mut [Claim],
+) {
+    let walked = changed.walk(text, document, options);
+    let mut judge = Judge::new(text, changed, &walked);
+    for &(c, e) in cause.stays_wrong.iter().take(MAX_REST) {
+        let Some(assertion) = walked.assertions.get(c) else { continue };
+        let Some(Piece::Pair(pair)) = assertion.pieces.get(e) else { continue };
+        if equal(pair.value, pair.wanted).is_equal() {
+            continue;
+        }
+        let slip = judge.slips(pair, assertion.subject).into_iter().next();
+        if let (Some(slip), Some(Finding::Wrong(wrong))) =
+            (slip, claims.get_mut(c).and_then(|c| c.entries.get_mut(e)).map(|e| &mut e.finding))
+        {
+            wrong.under_cause = Some((0, slip));
+        }
+    }
+}
+
+fn hypotheses(plan: &Plan) -> Vec<Hypothesis> {
+    let mut found: Vec<Hypothesis> = vec![];
+    for (robot, subject) in plan.subjects.iter().enumerate().take(MAX_ROBOTS) {
+        // A longer table of the same robot speaks for the shorter ones.
+        if plan.subjects[..robot].iter().any(|s| same_row(s, subject) && s.last() >= subject.last()) {
+            continue;
+        }
+        let d = &subject.description;
+        let mut add = |words: String, change: Box<dyn Fn(&Description) -> Description>| {
+            let prior = match words.chars().next() {
+                Some('α') => 4,
+                Some('θ') => 0,
+                _ => 2,
+            };
+            found.push(Hypothesis { words, robot, prior, change });
+        };
+        let quarter = Expr::pi() / Expr::int(2);
+        for (i, row) in d.rows.iter().enumerate() {
+            let n = i + 1;
+            let with = |edit: fn(&mut Row)| -> Box<dyn Fn(&Description) -> Description> {
+                Box::new(move |d| {
+                    let mut d = d.clone();
+                    if let Some(row) = d.rows.get_mut(i) {
+                        edit(row);
+                    }
+                    d
+                })
+            };
+            if !row.alpha.is_zero() {
+                add(format!("α{n} with the opposite sign in the table"), with(|r| r.alpha = -r.alpha));
+                add(format!("α{n} = 0 in the table"), with(|r| r.alpha = Expr::int(0)));
+            } else {
+                add(format!("α{n} = 90° in the table"), with(|r| r.alpha = Expr::pi() / Expr::int(2)));
+                add(format!("α{n} = -90° in the table"), with(|r| r.alpha = -Expr::pi() / Expr::int(2)));
+            }
+            if row.alpha == quarter || row.alpha == -quarter {
+                add(format!("α{n} = 180° in the table"), with(|r| r.alpha = Expr::pi()));
+            }
+            for (words, edit) in [
+                ("90°", (|r| r.theta = r.theta + Expr::pi() / Expr::int(2)) as fn(&mut Row)),
+                ("-90°", |r| r.theta = r.theta - Expr::pi() / Expr::int(2)),
+                ("180°", |r| r.theta = r.theta + Expr::pi()),
+            ] {
+                add(format!("θ{n} with an offset of {words} more"), with(edit));
+            }
+            if row.variable.is_some_and(|v| v.kind == denavit::description::JointKind::Revolute) {
+                add(format!("θ{n} counted the other way"), with(|r| r.theta = -r.theta));
+            }
+            if !row.d.is_zero() {
+                let [_, z] = &subject.letters;
+                add(format!("{z}{n} with the opposite sign in the table"), with(|r| r.d = -r.d));
+                add(
+                    format!("{z}{n} forgotten"),
+                    with(|r| {
+                        r.d = r.variable.map_or(Expr::int(0), |v| {
+                            if r.d.symbols().contains(&v.symbol) { v.symbol.into() } else { Expr::int(0) }
+                        })
+                    }),
+                );
+            }
+            if !row.a.is_zero() {
+                let [x, _] = &subject.letters;
+                add(format!("{x}{n} with the opposite sign in the table"), with(|r| r.a = -r.a));
+                add(format!("{x}{n} forgotten"), with(|r| r.a = Expr::int(0)));
+            }
+            if i + 1 < d.rows.len() {
+                let swap = move |edit: fn(&mut Row, &mut Row)| -> Box<dyn Fn(&Description) -> Description> {
+                    Box::new(move |d| {
+                        let mut d = d.clone();
+                        if let Some([a, b]) = d.rows.get_mut(i..i + 2) {
+                            edit(a, b);
+                        }
+                        d
+                    })
+                };
+                let m = n + 1;
+                if row.alpha != d.rows[i + 1].alpha {
+                    add(
+                        format!("α{n} and α{m} exchanged in the table"),
+                        swap(|a, b| std::mem::swap(&mut a.alpha, &mut b.alpha)),
+                    );
+                }
+                if row.a != d.rows[i + 1].a {
+                    let [x, _] = &subject.letters;
+                    add(
+                        format!("{x}{n} and {x}{m} exchanged in the table"),
+                        swap(|a, b| std::mem::swap(&mut a.a, &mut b.a)),
+                    );
+                }
+            }
+        }
+        for convention in Convention::ALL {
+            // Craig's and Khalil's are one product in other letters.
+            let same = (d.convention == Convention::Standard) == (convention == Convention::Standard);
+            if !same && convention != Convention::Khalil {
+                add(
+                    format!("the table read in the convention `{convention}`"),
+                    Box::new(move |d| Description { convention, ..d.clone() }),
+                );
+            }
+        }
+        if !d
+            .tool
+            .matrix()
+            .iter()
+            .flatten()
+            .zip(denavit::geometry::Transform::<Expr>::identity().matrix().iter().flatten())
+            .all(|(a, b)| a == b)
+        {
+            add(
+                "the tool left out".into(),
+                Box::new(|d| Description { tool: denavit::geometry::Transform::identity(), ..d.clone() }),
+            );
+        }
+        for p in &d.parameters {
+            let symbol = p.symbol;
+            let zero = move |e: Expr| e.substitute(|s| (s == symbol).then(|| Expr::int(0)));
+            add(
+                format!("{} = 0", symbol.name()),
+                Box::new(move |d| {
+                    let mut d = d.clone();
+                    for row in &mut d.rows {
+                        (row.a, row.d) = (zero(row.a), zero(row.d));
+                    }
+                    d
+                }),
+            );
+        }
+    }
+    found
+}

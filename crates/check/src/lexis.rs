@@ -1,0 +1,282 @@
+//! What the names of a document mean at a place of it: the robot's quantities, and what was defined further up.
+
+use super::matrix::Matrix;
+use super::names::{Name, Token, tokens};
+use super::subject::{Subject, elementary};
+use denavit_reading::document::formula;
+use denavit_symbolic::parse::{ParseError, Syntax, parse_syntax};
+use denavit_symbolic::readable::literals;
+use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
+use denavit_symbolic::{Expr, Node, Symbol};
+use std::cell::Cell;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+
+/// No more names are kept.
+const MAX_NAMES: usize = 2_000;
+/// Names for longer formulas are not kept.
+const MAX_LITERALS: u64 = 20_000;
+/// Names for longer numbers are not kept.
+const MAX_NUMBER_BITS: u64 = 4_096;
+/// The axes of coordinates.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// The letters of a pose's columns.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Columns {
+    /// n, o, a, p
+    Noap,
+    /// s, n, a, P
+    Snap,
+}
+
+impl Columns {
+    fn letters(self) -> [&'static str; 4] {
+        match self {
+            Columns::Noap => ["n", "o", "a", "p"],
+            Columns::Snap => ["s", "n", "a", "p"],
+        }
+    }
+
+    /// Those that a text uses.
+    pub fn of(text: &str) -> Self {
+        let plain: String = plain_name(text);
+        if plain.contains("ox") || !plain.contains("sx") { Columns::Noap } else { Columns::Snap }
+    }
+}
+
+/// Names and their meanings.
+#[derive(Clone)]
+pub(super) struct Lexis {
+    /// Entries of the pose stand for what the robot makes them.
+    pub names: Vocabulary,
+    /// Entries of the pose are symbols.
+    pub inverse: Vocabulary,
+    columns: Columns,
+    /// Names that the robot gives their meaning, not the document.
+    right: BTreeSet<String>,
+    matrices: BTreeMap<String, (Matrix, Option<String>)>,
+    scalars: Vec<(String, Expr)>,
+    /// Frames named by letters are anywhere.
+    pub anywhere: Cell<bool>,
+}
+
+/// The symbol of an entry of the pose in inverse formulas, row and column from 0.
+pub(super) fn pose_symbol(columns: Columns, row: usize, column: usize) -> Symbol {
+    Symbol::new(&format!("{}{}", columns.letters()[column], AXES[row]))
+}
+
+impl Lexis {
+    /// The names of a robot in a document whose pose has these columns.
+    pub fn new(subject: &Subject, columns: Columns) -> Self {
+        let names = subject.vocabulary().degrees(true);
+        let mut lexis = Lexis {
+            inverse: names.clone(),
+            names,
+            columns,
+            right: BTreeSet::new(),
+            matrices: BTreeMap::new(),
+            scalars: vec![],
+            anywhere: Cell::new(false),
+        };
+        if subject.last() == 0 {
+            return lexis;
+        }
+        let pose = subject.pose().matrix();
+        for (r, axis) in AXES.iter().enumerate() {
+            for name in [axis.to_string(), axis.to_uppercase()] {
+                if lexis.inverse.lookup(&name).is_none() {
+                    let symbol = pose_symbol(columns, r, 3);
+                    lexis.inverse = std::mem::take(&mut lexis.inverse).alias(&name, symbol.into());
+                }
+            }
+        }
+        for (r, axis) in AXES.iter().enumerate() {
+            for (c, letter) in columns.letters().iter().enumerate() {
+                let symbol = pose_symbol(columns, r, c);
+                let mut spellings = vec![format!("{letter}{axis}")];
+                if *letter == "p" {
+                    spellings.push(format!("P{axis}"));
+                }
+                for spelling in spellings {
+                    lexis.declare(&spelling, pose[r][c], symbol.into());
+                }
+                lexis.declare(&format!("r{}{}", r + 1, c + 1), pose[r][c], symbol.into());
+                lexis.declare(&format!("t{}{}", r + 1, c + 1), pose[r][c], symbol.into());
+                for matrix in ["T", "R"] {
+                    lexis.declare(&format!("{matrix}({},{})", r + 1, c + 1), pose[r][c], symbol.into());
+                }
+            }
+        }
+        lexis
+    }
+
+    /// The names of another robot, with what the document has defined so far.
+    pub fn of(&self, subject: &Subject) -> Self {
+        let mut lexis = Lexis::new(subject, self.columns);
+        for (name, meaning) in &self.scalars {
+            if lexis.names.lookup(name).is_none() {
+                lexis.define(name, *meaning);
+            }
+        }
+        lexis
+    }
+
+    /// A name that the robot gives its meaning, unless the name is taken.
+    fn declare(&mut self, name: &str, meaning: Expr, in_inverse: Expr) {
+        if self.names.lookup(name).is_none() {
+            self.names = std::mem::take(&mut self.names).alias(name, meaning);
+            self.inverse = std::mem::take(&mut self.inverse).alias(name, in_inverse);
+            self.right.insert(plain_name(name));
+        }
+    }
+
+    /// A name that the document gives its meaning. What is no formula that a person would print is given none:
+    /// squares of squares double their numbers each time.
+    pub fn define(&mut self, name: &str, meaning: Expr) {
+        let factor = match meaning.node() {
+            Node::Mul(a, _) | Node::Div(a, _) => a,
+            _ => meaning,
+        };
+        let is_long = factor.as_number().is_some_and(|r| r.bits() > MAX_NUMBER_BITS)
+            || literals(meaning) > MAX_LITERALS;
+        if is_long || self.scalars.len() >= MAX_NAMES {
+            return;
+        }
+        self.names = std::mem::take(&mut self.names).alias(name, meaning);
+        self.inverse = std::mem::take(&mut self.inverse).alias(name, meaning);
+        self.right.remove(&plain_name(name));
+        self.scalars.push((name.to_string(), meaning));
+    }
+
+    /// What a name that the document defines means in inverse formulas.
+    pub fn define_inverse(&mut self, name: &str, meaning: Expr) {
+        if self.names.lookup(name).is_some() && literals(meaning) <= MAX_LITERALS {
+            self.inverse = std::mem::take(&mut self.inverse).alias(name, meaning);
+        }
+    }
+
+    /// A name for an entry of a matrix that is known from the robot.
+    pub fn define_right(&mut self, name: &str, meaning: Expr, in_inverse: Expr) {
+        self.define(name, meaning);
+        self.inverse = std::mem::take(&mut self.inverse).alias(name, in_inverse);
+        self.right.insert(plain_name(name));
+    }
+
+    /// A name for a matrix; in words what it is, if it is known from the robot.
+    pub fn define_matrix(&mut self, name: &Name, value: Matrix, about: Option<String>) {
+        let is_long = value.0.iter().flatten().flatten().any(|&e| literals(e) > MAX_LITERALS);
+        if !is_long && self.matrices.len() < MAX_NAMES {
+            self.matrices.insert(name.key(), (value, about));
+        }
+    }
+
+    /// The names in which inverse formulas are printed.
+    pub fn inverse_names(&self) -> Vocabulary {
+        let places = (0..3).flat_map(|r| (0..4).map(move |c| (r, c)));
+        places.fold(self.inverse.clone(), |names, (r, c)| names.symbol(&self.pose_symbol(r, c).name()))
+    }
+
+    /// True if the document has defined this matrix.
+    pub fn has_defined(&self, name: &Name) -> bool {
+        self.matrices.contains_key(&name.key())
+    }
+
+    /// True if the document has defined a matrix whose name has this base.
+    pub fn has_matrix(&self, base: &str) -> bool {
+        self.matrices.contains_key(base)
+    }
+
+    /// The symbol of an entry of the pose.
+    pub fn pose_symbol(&self, row: usize, column: usize) -> Symbol {
+        pose_symbol(self.columns, row, column)
+    }
+
+    /// True if the robot, not the document, says what a name means.
+    pub fn is_right(&self, name: &str) -> bool {
+        self.right.contains(&plain_name(name))
+    }
+
+    /// Reads a formula.
+    ///
+    /// # Errors
+    /// What is wrong with it, places in the whole text.
+    pub fn formula(&self, text: &str, span: &Range<usize>) -> Result<Syntax, Vec<ParseError>> {
+        read(text, span, &self.names)
+    }
+
+    /// Reads a formula in which the entries of the pose are symbols.
+    ///
+    /// # Errors
+    /// As [`Lexis::formula`].
+    pub fn inverse_formula(&self, text: &str, span: &Range<usize>) -> Result<Syntax, Vec<ParseError>> {
+        read(text, span, &self.inverse)
+    }
+
+    /// The one name that a text is, without powers.
+    pub fn lone_name(&self, text: &str, span: &Range<usize>) -> Option<Name> {
+        match <[Token; 1]>::try_from(tokens(text, span, &|_| true)?).ok()? {
+            [Token::Name(name)] => (!name.is_inverse && !name.is_transposed).then_some(name),
+            _ => None,
+        }
+    }
+
+    /// What a matrix's name means, powers included, and in words what that is if it is known from the robot.
+    pub fn matrix(&self, subject: &Subject, name: &Name) -> Option<(Matrix, Option<String>)> {
+        let anywhere = self.anywhere.get();
+        let is_free = || crate::subject::frames(name).is_some_and(|(i, j)| i.is_letter() && j.is_letter());
+        let known = self.matrices.get(&name.key()).filter(|_| !(anywhere && is_free()));
+        let found = match known {
+            Some(found) => found.clone(),
+            None => {
+                let value = |argument: &str| self.argument(argument);
+                match elementary(name, &value).or_else(|| subject.meaning(name, anywhere)) {
+                    Some((matrix, about)) => (matrix, Some(about)),
+                    None => (self.matrices.get(&name.backwards()?.key())?.0.inverse()?, None),
+                }
+            }
+        };
+        let mut matrix = found.0;
+        if name.is_inverse {
+            matrix = matrix.inverse()?;
+        }
+        if name.is_transposed {
+            matrix = matrix.transposed();
+        }
+        let about = found.1.map(|about| match (name.is_inverse, name.is_transposed) {
+            (true, _) => format!("the inverse of {about}"),
+            (_, true) => format!("the transpose of {about}"),
+            _ => about,
+        });
+        Some((matrix, about))
+    }
+
+    /// The argument of an elementary transform: a formula, or a letter that stands for itself.
+    fn argument(&self, text: &str) -> Option<Expr> {
+        if let Ok(syntax) = read(text, &(0..text.len()), &self.names) {
+            return Some(syntax.value());
+        }
+        let open = Vocabulary::new().open(true).degrees(true);
+        read(text, &(0..text.len()), &open).ok().map(|s| s.value())
+    }
+
+    /// The letters that stand for themselves in the arguments of elementary transforms.
+    pub fn declare_arguments(&mut self, name: &Name) {
+        for argument in &name.arguments {
+            let Some(value) = self.argument(argument) else { continue };
+            for symbol in value.symbols() {
+                if self.names.lookup(&symbol.name()).is_none() && !AXES.contains(&&*symbol.name()) {
+                    self.names = std::mem::take(&mut self.names).alias(&symbol.name(), symbol.into());
+                }
+            }
+        }
+    }
+}
+
+/// Reads the formula at a place of a text; the places in it count from its beginning, those of errors in the text.
+pub(super) fn read(text: &str, span: &Range<usize>, names: &Vocabulary) -> Result<Syntax, Vec<ParseError>> {
+    let source = formula(text, span);
+    let moved = |r: &Range<usize>| r.start + span.start..r.end + span.start;
+    parse_syntax(&source, names)
+        .map_err(|errors| errors.into_iter().map(|e| ParseError { span: moved(&e.span), ..e }).collect())
+}

@@ -1,0 +1,148 @@
+//! Numeric answers: a matrix of numbers at a configuration that the document states.
+
+use super::outcome::{Finding, Wrong};
+use super::subject::Subject;
+use denavit::description::JointKind;
+use denavit_symbolic::{Expr, Symbol};
+use std::f64::consts::TAU;
+
+/// The configuration that a document states, joint by joint.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Configuration {
+    /// Values, and whether they have a unit.
+    values: Vec<Option<(f64, bool)>>,
+    /// Lengths that the document states, metres.
+    lengths: Vec<(Symbol, f64)>,
+}
+
+/// How a value without unit is read.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Unit {
+    Degrees,
+    Radians,
+}
+
+/// A number in print at a configuration.
+#[derive(Clone, Debug)]
+pub(super) struct Answer {
+    pub printed: f64,
+    /// Half a unit of the last printed digit.
+    pub half: f64,
+    pub wanted: Expr,
+    pub at: Configuration,
+}
+
+impl Configuration {
+    /// States a joint's value; `value` is a constant.
+    pub fn set(&mut self, joint: usize, value: Expr) {
+        let has_unit = value.as_number().is_none();
+        if let Ok(x) = value.eval(|_| None) {
+            if self.values.len() <= joint {
+                self.values.resize(joint + 1, None);
+            }
+            self.values[joint] = Some((x, has_unit));
+        }
+    }
+
+    /// States a length.
+    pub fn give(&mut self, symbol: Symbol, value: Expr) {
+        if let Ok(x) = value.eval(|_| None) {
+            self.lengths.retain(|l| l.0 != symbol);
+            self.lengths.push((symbol, x));
+        }
+    }
+
+    /// True if all joints of a robot have values.
+    pub fn is_complete(&self, subject: &Subject) -> bool {
+        let joints = subject.description.variables().len();
+        self.values.len() >= joints && self.values[..joints].iter().all(Option::is_some)
+    }
+
+    /// The value of a formula, lengths by the robot's file.
+    fn value(&self, e: Expr, subject: &Subject, unit: Unit, is_turned: bool) -> Option<f64> {
+        let d = &subject.description;
+        let variables = d.variables();
+        let value = |s: Symbol| {
+            if let Some(j) = variables.iter().position(|v| v.symbol == s) {
+                let (x, has_unit) = (*self.values.get(j)?)?;
+                let is_angle = variables[j].kind == JointKind::Revolute;
+                return Some(match () {
+                    () if is_turned && is_angle && has_unit => x.to_degrees(),
+                    () if is_angle && !has_unit && unit == Unit::Degrees => x.to_radians(),
+                    () => x,
+                });
+            }
+            let stated = self.lengths.iter().find(|l| l.0 == s).map(|l| l.1);
+            stated.or_else(|| d.parameters.iter().find(|p| p.symbol == s)?.value?.eval(|_| None).ok())
+        };
+        e.eval(value).ok().filter(|x| x.is_finite())
+    }
+
+    /// True if an angle without unit is more than a turn in radians, or a multiple of 5 other than 0.
+    fn looks_like_degrees(&self) -> bool {
+        let bare = self.values.iter().flatten().filter(|v| !v.1).map(|v| v.0);
+        bare.clone().any(|x| x.abs() > TAU || x != 0.0 && x % 5.0 == 0.0)
+    }
+}
+
+/// Half a unit of the last digit of a printed number: 0.005 for `-0.71`.
+pub(super) fn half_unit(text: &str) -> f64 {
+    let digits = text.trim().trim_matches(|c: char| !c.is_ascii_digit() && c != '.');
+    let (mantissa, power) = match digits.split_once(['e', 'E']) {
+        Some((m, p)) => (m, p.parse::<i32>().unwrap_or(0)),
+        None => (digits, 0),
+    };
+    let decimals =
+        mantissa.split_once('.').map_or(0, |(_, d)| d.chars().filter(char::is_ascii_digit).count());
+    0.5 * 10_f64.powi(power - i32::try_from(decimals.min(300)).unwrap_or(300))
+}
+
+/// The verdict on a number.
+pub(super) fn judge(answer: &Answer, subject: &Subject, tolerance: Option<f64>) -> Finding {
+    let allowed = tolerance.unwrap_or(answer.half * 1.01 + 1e-12);
+    let units = match answer.at.looks_like_degrees() {
+        true => [Unit::Degrees, Unit::Radians],
+        false => [Unit::Radians, Unit::Degrees],
+    };
+    let at = |unit, turned| answer.at.value(answer.wanted, subject, unit, turned);
+    let Some(right) = at(units[0], false) else {
+        return Finding::Undecided { why: "a length has no value: state it before, `a1 = 0.5 m`".into() };
+    };
+    let near = |x: f64, allowed: f64| (x - answer.printed).abs() <= allowed;
+    if near(right, allowed) {
+        return Finding::Equal { unless_zero: vec![] };
+    }
+    let mut wrong = Wrong { correct: Some(shown(right)), ..Wrong::default() };
+    let other = at(units[1], false).filter(|x| near(*x, allowed));
+    let turned = at(units[0], true).filter(|x| near(*x, allowed));
+    let scaled = [1000.0, 0.001].into_iter().find(|k| near(right * k, allowed * k.max(1.0)));
+    wrong.remarks.push(match (other.or(turned), scaled) {
+        (Some(_), _) => "right if degrees are taken for radians, or radians for degrees".into(),
+        (None, Some(k)) if k > 1.0 => "right in millimetres".into(),
+        (None, Some(_)) => "right in metres".into(),
+        (None, None) if near(-right, allowed) => "right but for its sign".into(),
+        (None, None) if near(right, 12.0 * allowed) => {
+            "off in the last digit: angles or π were rounded on the way".into()
+        }
+        (None, None) => format!("off by {}", shown((answer.printed - right).abs())),
+    });
+    Finding::Wrong(Box::new(wrong))
+}
+
+fn shown(x: f64) -> String {
+    let text = format!("{x:.6}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".into() } else { text.to_string() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::half_unit;
+
+    #[test]
+    fn the_last_digit_says_how_exact_a_number_is() {
+        for (text, half) in [("0.71", 0.005), ("-12", 0.5), ("1.50e-3", 0.000_005), ("3", 0.5)] {
+            assert!((half_unit(text) - half).abs() < 1e-12, "{text}: {}", half_unit(text));
+        }
+    }
+}

@@ -1,0 +1,226 @@
+//! What is said of a document.
+
+use denavit::description::{Description, Diagnostic};
+use std::ops::Range;
+
+/// A document, held against a robot.
+#[derive(Clone, Debug)]
+pub struct Checked {
+    /// What it claims, in its order.
+    pub claims: Vec<Claim>,
+    /// Single changes that would turn several claims right.
+    pub causes: Vec<Cause>,
+    /// What else is worth saying: statements that were passed over, tables and directives with errors.
+    pub notes: Vec<Diagnostic>,
+    /// The robots that the claims are about.
+    pub robots: Vec<Description>,
+}
+
+/// How many claims there are of each kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Tally {
+    /// Proved equal.
+    pub equal: usize,
+    /// Refuted.
+    pub wrong: usize,
+    /// Equal where a condition holds.
+    pub conditional: usize,
+    /// Neither proved nor refuted.
+    pub undecided: usize,
+    /// Not read.
+    pub unreadable: usize,
+}
+
+impl Checked {
+    /// The number of claims of each kind.
+    pub fn tally(&self) -> Tally {
+        let mut tally = Tally::default();
+        for claim in &self.claims {
+            match claim.standing() {
+                Standing::Equal => tally.equal += 1,
+                Standing::Wrong => tally.wrong += 1,
+                Standing::Conditional => tally.conditional += 1,
+                Standing::Undecided => tally.undecided += 1,
+                Standing::Unreadable => tally.unreadable += 1,
+            }
+        }
+        tally
+    }
+}
+
+/// One statement of the document about the robot.
+#[derive(Clone, Debug)]
+pub struct Claim {
+    /// Where it stands.
+    pub span: Range<usize>,
+    /// Its left side as printed.
+    pub name: String,
+    /// What it is about, in words.
+    pub about: String,
+    /// Its formulas: one, or the entries of a matrix.
+    pub entries: Vec<Entry>,
+    /// What a matrix with several wrong entries is as a whole: `its inverse`, `frame 3 in frame 2`.
+    pub instead: Option<String>,
+    /// What else is to be said of it.
+    pub remarks: Vec<String>,
+    /// Which of the robots it is about.
+    pub robot: usize,
+}
+
+/// The verdict on a claim, or on one of its entries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// Proved equal.
+    Equal,
+    /// Proved equal, or found so in every sample, where a condition holds.
+    Conditional,
+    /// Refuted.
+    Wrong,
+    /// Neither proved nor refuted.
+    Undecided,
+    /// Not read.
+    Unreadable,
+}
+
+impl Standing {
+    /// The word of the JSON form.
+    pub fn name(self) -> &'static str {
+        match self {
+            Standing::Equal => "equal",
+            Standing::Conditional => "conditional",
+            Standing::Wrong => "wrong",
+            Standing::Undecided => "undecided",
+            Standing::Unreadable => "unreadable",
+        }
+    }
+}
+
+impl Claim {
+    /// The verdict on all of it: wrong if one entry is, else unreadable if one is, and so on.
+    pub fn standing(&self) -> Standing {
+        let has = |s| self.entries.iter().any(|e| e.finding.standing() == s);
+        let order = [Standing::Wrong, Standing::Unreadable, Standing::Undecided, Standing::Conditional];
+        order.into_iter().find(|&s| has(s)).unwrap_or(Standing::Equal)
+    }
+}
+
+/// A printed formula.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// Row and column, from 1, in a matrix.
+    pub place: Option<(usize, usize)>,
+    /// Where it stands.
+    pub span: Range<usize>,
+    /// The verdict.
+    pub finding: Finding,
+}
+
+/// The verdict on a formula, with its reasons.
+#[derive(Clone, Debug)]
+pub enum Finding {
+    /// Proved equal; the expressions must not be 0.
+    Equal {
+        /// Denominators, as text.
+        unless_zero: Vec<String>,
+    },
+    /// Right where a condition holds.
+    Conditional {
+        /// The condition in words.
+        condition: String,
+        /// What holds everywhere, in the author's notation, if it is known.
+        correct: Option<String>,
+        /// What happens elsewhere.
+        remarks: Vec<String>,
+    },
+    /// Refuted.
+    Wrong(Box<Wrong>),
+    /// Neither proved nor refuted.
+    Undecided {
+        /// Why.
+        why: String,
+    },
+    /// Not read.
+    Unreadable(Vec<Diagnostic>),
+}
+
+impl Finding {
+    /// The verdict alone.
+    pub fn standing(&self) -> Standing {
+        match self {
+            Finding::Equal { .. } => Standing::Equal,
+            Finding::Conditional { .. } => Standing::Conditional,
+            Finding::Wrong(_) => Standing::Wrong,
+            Finding::Undecided { .. } => Standing::Undecided,
+            Finding::Unreadable(_) => Standing::Unreadable,
+        }
+    }
+}
+
+/// Why a formula is wrong, and what it should be.
+#[derive(Clone, Debug, Default)]
+pub struct Wrong {
+    /// The right formula, in the author's notation where the slip is known.
+    pub correct: Option<String>,
+    /// The smallest change that makes it right.
+    pub slip: Option<Slip>,
+    /// Other changes that are as small.
+    pub rivals: Vec<Slip>,
+    /// Printed minus right.
+    pub difference: Option<String>,
+    /// A configuration at which both values differ.
+    pub counterexample: Option<Counterexample>,
+    /// Where it is right all the same: `D1 = 0`.
+    pub holds_if: Option<String>,
+    /// The change that makes it right under a cause (its number in [`Checked::causes`]).
+    pub under_cause: Option<(usize, Slip)>,
+    /// What else is to be said.
+    pub remarks: Vec<String>,
+}
+
+/// A change of the printed text.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Slip {
+    /// What was done, in words: `a sign`, `sine for cosine`.
+    pub kind: String,
+    /// The kind as an identifier: `sign`, `sine-cosine`, `lost-factor`.
+    pub id: String,
+    /// Parts of the document and what should stand there.
+    pub patches: Vec<Patch>,
+    /// The formula after the change.
+    pub formula: String,
+}
+
+/// A part of the document that should read otherwise.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Patch {
+    /// The part; empty where something is missing.
+    pub span: Range<usize>,
+    /// What should stand there.
+    pub now: String,
+}
+
+/// A configuration at which a printed formula has another value than the right one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Counterexample {
+    /// Symbols and their values; angles in radians, lengths in metres.
+    pub at: Vec<(String, f64)>,
+    /// The value of what is printed.
+    pub printed: f64,
+    /// The value that it should have.
+    pub right: f64,
+}
+
+/// One change that turns several claims right.
+#[derive(Clone, Debug)]
+pub struct Cause {
+    /// The change in words: `α5 with the opposite sign in the table`.
+    pub change: String,
+    /// The place in the document, and what should stand there, if it is a definition.
+    pub slip: Option<Slip>,
+    /// Claim and entry (numbers from 0) that it turns right.
+    pub turns_right: Vec<(usize, usize)>,
+    /// Those that it turns wrong.
+    pub turns_wrong: Vec<(usize, usize)>,
+    /// Those that stay wrong.
+    pub stays_wrong: Vec<(usize, usize)>,
+}

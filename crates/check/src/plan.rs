@@ -1,0 +1,382 @@
+//! Which robot each part of a document is about: tables and directives in their order.
+
+use super::Options;
+use super::lexis::{Columns, Lexis};
+use super::programs;
+use super::subject::Subject;
+use super::values::set_in;
+use super::walk::{Assertion, Defined, Walk};
+use denavit::catalogue;
+use denavit::description::table::{PrintedTable, tables};
+use denavit::description::{
+    Convention, Description, Diagnostic, Diagnostics, JointKind, Parameter, TableKind, line_column, read_toml,
+};
+use denavit::geometry::Transform;
+use denavit_reading::code::Language;
+use denavit_reading::document::{CodeBlock, Directive, Document, Format};
+use denavit_symbolic::parse::{ParseError, parse};
+use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
+use denavit_symbolic::{Expr, Symbol};
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+/// The robots of a document, and from where on each holds.
+pub(super) struct Plan {
+    pub subjects: Vec<Subject>,
+    /// Place in the text and number of the robot, in the order of the text.
+    turns: Vec<(usize, usize)>,
+    /// False where neither a robot was given nor a table stands in the document.
+    pub has_robot: bool,
+}
+
+/// What the statements of a document claim.
+pub(super) struct Walked {
+    pub assertions: Vec<Assertion>,
+    pub skipped: Vec<(Range<usize>, ParseError)>,
+    /// Names that the document defines by formulas.
+    pub defined: Vec<Defined>,
+    /// What of programs could not be read.
+    pub refused: Vec<ParseError>,
+    /// The names of each robot's part of the document, at its end.
+    pub names: Vec<Vocabulary>,
+    /// The same with the entries of the pose as symbols.
+    pub inverse_names: Vec<Vocabulary>,
+}
+
+impl Walked {
+    /// The names of a robot's part of the document, at its end.
+    pub fn names_of(&self, subject: usize) -> &Vocabulary {
+        &self.names[subject.min(self.names.len() - 1)]
+    }
+
+    /// The same with the entries of the pose as symbols.
+    pub fn inverse_names_of(&self, subject: usize) -> &Vocabulary {
+        &self.inverse_names[subject.min(self.inverse_names.len() - 1)]
+    }
+}
+
+/// A directive with its first word and the rest.
+fn words(directive: &Directive) -> (&str, &str) {
+    let words = directive.words.trim();
+    words.split_once(char::is_whitespace).map_or((words, ""), |(first, rest)| (first, rest.trim()))
+}
+
+impl Plan {
+    /// The robots of a document: the one given, or its tables.
+    pub fn of(
+        text: &str,
+        format: Format,
+        document: &Document,
+        robot: Option<&Description>,
+        options: &Options,
+        notes: &mut Diagnostics,
+    ) -> Result<Self, Vec<Diagnostic>> {
+        let mentioned = mentioned(text);
+        let named = |d: &Description| Subject::new(d.clone()).map(|s| with_names(s, &mentioned));
+        let from_table = |d: &Description, table: &PrintedTable| {
+            let convention = [d.convention.length_x(), d.convention.length_z()];
+            let letters = [0, 1].map(|k| table.letters[k].unwrap_or(convention[k]).to_string());
+            let subject = Subject::printed(d.clone(), letters, table.variables.clone(), table.previous)?;
+            let line = line_column(text, table.span.start).0;
+            let mut subject = with_names(subject, &mentioned);
+            subject.title = Some(format!("the table in line {line}"));
+            Some(subject)
+        };
+        let mut plan = Plan { subjects: vec![], turns: vec![], has_robot: true };
+        if let Some(robot) = robot {
+            plan.push(0, named(robot));
+        }
+        let kind = if format == Format::Latex { TableKind::Latex } else { TableKind::Markdown };
+        let mut reading = options.table.clone();
+        reading.convention = reading.convention.or_else(|| said(text, notes));
+        let printed = if format == Format::Toml { vec![] } else { tables(text, kind, &reading) };
+        let mut events: Vec<(usize, Event)> =
+            directives(document).map(|d| (d.span.start, Event::Directive(d))).collect();
+        if robot.is_none() {
+            events.extend(printed.iter().map(|t| (t.span.end, Event::Table(t))));
+        }
+        events.sort_by_key(|e| e.0);
+        let mut failed: Vec<Diagnostic> = vec![];
+        for (at, event) in events {
+            let found = match event {
+                Event::Table(table) => match &table.robot {
+                    Ok((d, found)) => {
+                        // Lines such as `x = 0.5` are claims here, not values of the table.
+                        let own = found
+                            .iter()
+                            .filter(|f| f.span.start >= table.span.start && f.span.end <= table.span.end);
+                        own.for_each(|f| notes.add(f.clone()));
+                        from_table(d, table)
+                    }
+                    Err(errors) => {
+                        failed.extend(errors.iter().cloned());
+                        continue;
+                    }
+                },
+                Event::Directive(directive) => match words(directive) {
+                    ("robot", name) => match catalogue::text(name).and_then(|t| read_toml(t).ok()) {
+                        Some((d, _)) => named(&d),
+                        None => {
+                            notes
+                                .error(directive.span.clone(), format!("no robot `{name}` in the catalogue"));
+                            continue;
+                        }
+                    },
+                    ("table", number) => {
+                        let last = number.split([',', ' ', '+']).rfind(|n| !n.is_empty());
+                        let number =
+                            last.and_then(|n| n.parse::<usize>().ok()).and_then(|n| n.checked_sub(1));
+                        match number.and_then(|n| printed.get(n)) {
+                            Some(table @ PrintedTable { robot: Ok((d, _)), .. }) => from_table(d, table),
+                            _ => {
+                                notes.error(directive.span.clone(), "there is no such table");
+                                continue;
+                            }
+                        }
+                    }
+                    ("rows", number) => {
+                        let rows = number.parse::<usize>().ok().filter(|n| *n > 0);
+                        match (rows, plan.subjects.last()) {
+                            (Some(rows), Some(subject)) => Some(subject.first_rows(rows)),
+                            _ => continue,
+                        }
+                    }
+                    ("convention", name) => match Convention::ALL.into_iter().find(|c| c.name() == name) {
+                        Some(convention) => Subject::new(nothing(convention)),
+                        None => {
+                            let finding =
+                                notes.error(directive.span.clone(), format!("unknown convention `{name}`"));
+                            finding.hint("the conventions are standard, craig and khalil");
+                            continue;
+                        }
+                    },
+                    ("tool", place) => match plan.subjects.last() {
+                        Some(subject) => match with_tool(&subject.description, place) {
+                            Some(d) => Some(subject.with(d)),
+                            None => {
+                                let finding = notes.error(directive.span.clone(), "a tool is three lengths");
+                                finding.hint("write `tool 0, 0, r_7`");
+                                continue;
+                            }
+                        },
+                        None => continue,
+                    },
+                    _ => continue,
+                },
+            };
+            plan.push(at, found);
+        }
+        if plan.subjects.is_empty() {
+            if !failed.is_empty() {
+                return Err(failed);
+            }
+            // Formulas that hold of any robot need none.
+            plan.has_robot = false;
+            plan.push(0, Subject::new(nothing(Convention::Standard)));
+        }
+        failed.iter().for_each(|f| notes.add(f.clone()));
+        Ok(plan)
+    }
+
+    fn push(&mut self, at: usize, subject: Option<Subject>) {
+        if let Some(subject) = subject {
+            // What stands before the first table is about it, too.
+            let at = if self.subjects.is_empty() { 0 } else { at };
+            self.subjects.push(subject);
+            self.turns.push((at, self.subjects.len() - 1));
+        }
+    }
+
+    /// The same document about other robots.
+    pub fn with(&self, change: &dyn Fn(&Subject) -> Option<Subject>) -> Self {
+        let subjects = self.subjects.iter().map(|s| change(s).unwrap_or_else(|| s.clone())).collect();
+        Plan { subjects, turns: self.turns.clone(), has_robot: self.has_robot }
+    }
+
+    /// Reads the statements.
+    pub fn walk(&self, text: &str, document: &Document, options: &Options) -> Walked {
+        let (mut names, mut inverse_names) = (vec![], vec![]);
+        let mut walk = Walk::new(text, &self.subjects[0]);
+        let mut turns = self.turns.iter().skip(1).peekable();
+        let mut is_off = false;
+        let mut told = options.claim.as_deref();
+        for statement in &document.statements {
+            while let Some(&(_, number)) = turns.next_if(|t| t.0 <= statement.span.start) {
+                names.push(walk.lexis.names.clone());
+                inverse_names.push(walk.lexis.inverse_names());
+                walk.turn_to(&self.subjects[number], number);
+            }
+            let mut claim = told.take();
+            let mut is_skipped = false;
+            for directive in &statement.directives {
+                match words(directive) {
+                    ("off", _) => is_off = true,
+                    ("on", _) => is_off = false,
+                    ("skip", _) => is_skipped = true,
+                    ("claim", words) => claim = Some(words),
+                    ("euler" | "angles", words) => walk.angles = set_in(words),
+                    ("alias" | "let", words) => {
+                        if let Some((name, meaning)) = words.split_once('=') {
+                            let done = walk.alias(name.trim(), meaning.trim());
+                            if done.is_none() {
+                                let error =
+                                    ParseError::new(directive.span.clone(), "the alias cannot be read");
+                                walk.skipped.push((directive.span.clone(), error));
+                            }
+                        }
+                    }
+                    _ => {}
+                }
+            }
+            if !is_off && !is_skipped && walk.count() < super::MAX_FORMULAS {
+                walk.statement(statement, claim);
+            }
+        }
+        names.push(walk.lexis.names.clone());
+        inverse_names.push(walk.lexis.inverse_names());
+        let (mut assertions, mut refused) = (walk.assertions, vec![]);
+        for (span, language) in programs(text, document, options) {
+            let number = self.turns.iter().rev().find(|t| t.0 <= span.start).map_or(0, |t| t.1);
+            let subject = &self.subjects[number];
+            let lexis = Lexis::new(subject, Columns::of(text));
+            let (found, errors) = programs::assertions(text, &span, language, subject, &lexis, number);
+            assertions.extend(found);
+            refused.extend(errors);
+        }
+        assertions.sort_by_key(|a| a.span.start);
+        Walked { assertions, skipped: walk.skipped, defined: walk.defined, refused, names, inverse_names }
+    }
+}
+
+enum Event<'a> {
+    Table(&'a PrintedTable),
+    Directive(&'a Directive),
+}
+
+/// The convention that a text names in its words, if it names one only and has no line for it.
+fn said(text: &str, notes: &mut Diagnostics) -> Option<Convention> {
+    if text.lines().any(|l| l.trim_start().to_lowercase().starts_with("convention:")) {
+        return None;
+    }
+    let lower = text.to_ascii_lowercase();
+    let find = |words: &[&str]| words.iter().filter_map(|w| Some((lower.find(w)?, w.len()))).min();
+    let found = [
+        (
+            Convention::Standard,
+            find(&[
+                "standard dh",
+                "standard denavit",
+                "standard (distal",
+                "standard convention",
+                "classical dh",
+                "distal convention",
+            ]),
+        ),
+        (
+            Convention::Craig,
+            find(&[
+                "craig's convention",
+                "craig convention",
+                "modified dh",
+                "modified denavit",
+                "proximal convention",
+            ]),
+        ),
+        (Convention::Khalil, find(&["khalil"])),
+    ];
+    let mut named = found.iter().filter_map(|(c, at)| Some((*c, (*at)?)));
+    let (convention, (at, length)) = named.next().filter(|_| named.next().is_none())?;
+    notes.note(at..at + length, format!("tables are read as {convention}: the text says so"));
+    Some(convention)
+}
+
+/// A robot without links, for what holds of any.
+fn nothing(convention: Convention) -> Description {
+    Description {
+        name: "any robot".into(),
+        source: None,
+        convention,
+        parameters: vec![],
+        rows: vec![],
+        base: Transform::identity(),
+        tool: Transform::identity(),
+        poses: vec![],
+        gravity: None,
+    }
+}
+
+/// The words of a text that are a letter or two and a number, marks of subscripts left aside.
+fn mentioned(text: &str) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    let plain = plain_name(text);
+    let chars: Vec<char> = plain.chars().collect();
+    for (i, pair) in chars.windows(2).enumerate() {
+        if pair[0].is_alphabetic() && pair[1].is_ascii_digit() {
+            let digits: String = chars[i + 1..].iter().take_while(|c| c.is_ascii_digit()).take(2).collect();
+            found.insert(format!("{}{digits}", pair[0]));
+            found.insert(format!("{}{}", pair[0], pair[1]));
+        }
+    }
+    found
+}
+
+/// Lengths that the table gives as numbers under the names that the formulas use for them: d_1 for 151.9 mm.
+fn with_names(subject: Subject, mentioned: &BTreeSet<String>) -> Subject {
+    let mut d = subject.description.clone();
+    let taken: BTreeSet<String> = d.parameters.iter().map(|p| p.symbol.name().to_string()).collect();
+    let mut parameters = vec![];
+    let [x, z] = &subject.letters;
+    for (i, row) in (1..).zip(&mut d.rows) {
+        let slides = row.variable.is_some_and(|v| v.kind == JointKind::Prismatic);
+        let k = i - i32::from(subject.previous);
+        for (name, cell, moves) in
+            [(format!("{x}{k}"), &mut row.a, false), (format!("{z}{i}"), &mut row.d, slides)]
+        {
+            let is_number = cell.symbols().is_empty() && !cell.is_zero();
+            if is_number && mentioned.contains(&name) && !taken.contains(&name) && !moves {
+                let symbol = Symbol::new(&name);
+                parameters.push(Parameter { symbol, value: Some(*cell) });
+                *cell = symbol.into();
+            }
+        }
+    }
+    d.parameters.extend(parameters);
+    subject.with(d)
+}
+
+/// A robot with a tool at `x, y, z`.
+fn with_tool(d: &Description, place: &str) -> Option<Description> {
+    let names = d.vocabulary().open(true);
+    let lengths: Vec<Expr> = place.split(',').map(|p| parse(p, &names).ok()).collect::<Option<_>>()?;
+    let [x, y, z] = lengths[..] else { return None };
+    let mut d = d.clone();
+    for symbol in [x, y, z].iter().flat_map(|e| e.symbols()) {
+        if !d.parameters.iter().any(|p| p.symbol == symbol) {
+            d.parameters.push(Parameter { symbol, value: None });
+        }
+    }
+    d.tool = Transform::translation(x, y, z);
+    Some(d)
+}
+
+/// The programs of a document, or the one that it is.
+fn programs(text: &str, document: &Document, options: &Options) -> Vec<(Range<usize>, Language)> {
+    if let Some(language) = options.language {
+        return vec![(0..text.len(), language)];
+    }
+    let of = |block: &CodeBlock| {
+        let language = match block.language.as_str() {
+            "python" | "py" | "python3" | "numpy" => Language::Python,
+            "matlab" | "octave" | "m" => Language::Matlab,
+            _ => return None,
+        };
+        let is_skipped = block.directives.iter().any(|d| matches!(words(d).0, "skip" | "off"));
+        (!is_skipped).then(|| (block.span.clone(), language))
+    };
+    document.code.iter().filter_map(of).collect()
+}
+
+/// All directives of a document.
+fn directives(document: &Document) -> impl Iterator<Item = &Directive> {
+    document.statements.iter().flat_map(|s| &s.directives).chain(&document.directives)
+}

@@ -1,0 +1,344 @@
+//! What formulas are about: a robot, its frames, and what people call its quantities.
+
+use super::matrix::Matrix;
+use super::names::{Index, Name, index, pair};
+use denavit::description::{Convention, Description, JointKind};
+use denavit::forward::Reference;
+use denavit::geometry::{Axis, Rotation, Transform, Vector};
+use denavit::robot::Robot;
+use denavit::velocity::{Viewpoint, geometric};
+use denavit_symbolic::readable::simplify;
+use denavit_symbolic::vocabulary::Vocabulary;
+use denavit_symbolic::{Expr, Symbol};
+
+/// A robot as formulas name it.
+#[derive(Clone, Debug)]
+pub(super) struct Subject {
+    pub description: Description,
+    /// Which table of the document it is, in words.
+    pub title: Option<String>,
+    /// The letters of the table for the lengths along x and z.
+    pub letters: [String; 2],
+    /// What the table calls the joint variables.
+    pub variables: Vec<Option<String>>,
+    /// The index of lengths along x and of α is that of the row before.
+    pub previous: bool,
+    robot: Robot<Expr>,
+    q: Vec<Expr>,
+}
+
+/// The most rows of a table whose formulas are checked.
+const MAX_ROWS: usize = 30;
+
+impl Subject {
+    /// A robot whose lengths have the letters of its convention.
+    pub fn new(description: Description) -> Option<Self> {
+        let convention = description.convention;
+        Subject::printed(
+            description,
+            [convention.length_x(), convention.length_z()].map(String::from),
+            vec![],
+            convention == Convention::Craig,
+        )
+    }
+
+    /// A robot with the letters that its table has in print; `previous` if α and the length along x have the index of
+    /// the row before.
+    pub fn printed(
+        description: Description,
+        letters: [String; 2],
+        variables: Vec<Option<String>>,
+        previous: bool,
+    ) -> Option<Self> {
+        if description.rows.len() > MAX_ROWS {
+            return None;
+        }
+        let robot = Robot::symbolic(&description);
+        let q = description.variables().iter().map(|v| v.symbol.into()).collect();
+        Some(Subject { description, title: None, letters, variables, previous, robot, q })
+    }
+
+    /// The same with another table.
+    pub fn with(&self, description: Description) -> Self {
+        let robot = Robot::symbolic(&description);
+        Subject { description, robot, ..self.clone() }
+    }
+
+    /// The arm of the first rows alone.
+    pub fn first_rows(&self, rows: usize) -> Self {
+        let mut d = self.description.clone();
+        if rows < d.rows.len() {
+            d.rows.truncate(rows);
+            d.tool = Transform::identity();
+        }
+        let q = d.variables().iter().map(|v| v.symbol.into()).collect();
+        Subject { q, ..self.with(d) }
+    }
+
+    /// The number of the last frame.
+    pub fn last(&self) -> usize {
+        self.robot.links.len()
+    }
+
+    /// Frame `to` in frame `from`, by the product of the link transforms between; `None` stands for the tool.
+    pub fn transform(&self, from: Option<usize>, to: Option<usize>) -> Option<Transform<Expr>> {
+        let n = self.last();
+        let (i, j) = (from.unwrap_or(n), to.unwrap_or(n));
+        if i > n || j > n {
+            return None;
+        }
+        let between = |i: usize, j: usize| {
+            let links = self.robot.links[i..j].iter();
+            links.fold(Transform::identity(), |x, link| x * link.transform(&self.q))
+        };
+        let mut x = if i <= j { between(i, j) } else { between(j, i).inverse() };
+        if from.is_none() {
+            x = self.robot.tool.inverse() * x;
+        }
+        if to.is_none() {
+            x = x * self.robot.tool;
+        }
+        Some(x)
+    }
+
+    /// The tool in frame 0.
+    pub fn pose(&self) -> Transform<Expr> {
+        self.transform(Some(0), None).unwrap_or_else(Transform::identity)
+    }
+
+    /// The determinant of the Jacobian: of all rows for six joints, of the linear ones for three, of vx and vy for two.
+    pub fn determinant(&self) -> Option<Expr> {
+        let joints = self.q.len();
+        let rows = match joints {
+            6 | 3 | 2 => joints,
+            _ => return None,
+        };
+        // Along which axes it is written does not matter for square blocks that turn together; the middle is short.
+        let axes = if rows == 2 { 0 } else { self.last().div_ceil(2) };
+        let view = Viewpoint::of(Reference::Frame(self.last()), Reference::Frame(axes));
+        let j = geometric(&self.robot, &self.q, &view).rows();
+        let entry = |e: Expr| simplify(e, &e.symbols()).map_or(e, |s| s.expr);
+        Matrix((0..rows).map(|r| j[r].iter().map(|&e| Some(entry(e))).collect()).collect()).determinant()
+    }
+
+    /// Jacobians that people print: of the tool or the last frame, along the axes of frame 0 or their own, linear
+    /// rows first or last, with all rows or the linear ones.
+    pub fn jacobians(&self, rows: usize) -> Vec<(String, Matrix)> {
+        let n = self.last();
+        let mut found = vec![];
+        let bodies = [(Reference::Tool, "the hand"), (Reference::Frame(n), "the origin of the last frame")];
+        let axes = (0..=n).map(Reference::Frame).chain([Reference::Tool]);
+        let axes: Vec<Reference> = axes.collect();
+        for (body, what) in bodies {
+            for &along in &axes {
+                let j = geometric(&self.robot, &self.q, &Viewpoint::of(body, along)).rows();
+                let name = match along {
+                    Reference::Frame(0) => format!("the Jacobian of {what}"),
+                    Reference::Frame(k) => format!("the Jacobian of {what} along the axes of frame {k}"),
+                    _ => format!("the Jacobian of {what} along its own axes"),
+                };
+                let part = |order: [usize; 6]| {
+                    Matrix(
+                        order.iter().take(rows).map(|&r| j[r].iter().map(|&e| Some(e)).collect()).collect(),
+                    )
+                };
+                found.push((name.clone(), part([0, 1, 2, 3, 4, 5])));
+                if rows == 6 {
+                    found.push((format!("{name}, angular rows first"), part([3, 4, 5, 0, 1, 2])));
+                }
+            }
+        }
+        found
+    }
+
+    /// The names of the robot's quantities: parameters, joint variables, the table's own names for them, cells of
+    /// the table (`d_3`), sums of angles (`θ_{234}`), the letters of a general row (`θ_j`).
+    pub fn vocabulary(&self) -> Vocabulary {
+        let d = &self.description;
+        let mut names = d.vocabulary();
+        let variables = d.variables();
+        let declare = |names: Vocabulary, name: &str, meaning: Expr| match names.lookup(name) {
+            None => names.alias(name, meaning),
+            Some(_) => names,
+        };
+        for (variable, printed) in variables.iter().zip(&self.variables) {
+            if let Some(printed) = printed {
+                names = declare(names, printed, variable.symbol.into());
+            }
+        }
+        for (i, row) in (1..).zip(&d.rows) {
+            let k = i - i32::from(self.previous);
+            for (letter, cell, i) in [(&self.letters[0], row.a, k), (&self.letters[1], row.d, i)] {
+                let cell = match row.variable {
+                    Some(v) if v.kind == JointKind::Prismatic && *letter == self.letters[1] => {
+                        v.symbol.into()
+                    }
+                    _ => cell,
+                };
+                names = declare(names, &format!("{letter}{i}"), cell);
+            }
+            names = declare(names, &format!("α{k}"), row.alpha);
+            let theta = match row.variable {
+                Some(v) if v.kind == JointKind::Revolute => v.symbol.into(),
+                _ => row.theta,
+            };
+            names = declare(names, &format!("θ{i}"), theta);
+        }
+        let angles: Vec<(usize, Symbol)> = (1..)
+            .zip(&variables)
+            .filter(|(i, v)| *i <= 9 && v.kind == JointKind::Revolute)
+            .map(|(i, v)| (i, v.symbol))
+            .collect();
+        for start in 0..angles.len() {
+            let (mut digits, mut sum) = (angles[start].0.to_string(), Expr::from(angles[start].1));
+            for (number, symbol) in &angles[start + 1..] {
+                digits.push_str(&number.to_string());
+                sum = sum + (*symbol).into();
+                names = declare(names, &format!("θ{digits}"), sum);
+            }
+        }
+        for index in ["i", "j", "n"] {
+            for letter in ["θ", "α", &self.letters[0], &self.letters[1]] {
+                let name = format!("{letter}{index}");
+                names = declare(names, &name, Expr::symbol(&name));
+            }
+        }
+        names
+    }
+
+    /// The transform of row `j` of any table of this convention, in the document's letters.
+    pub fn general_link(&self, index: char) -> Transform<Expr> {
+        let symbol = |letter: &str| Expr::symbol(&format!("{letter}{index}"));
+        let (theta, alpha) = (symbol("θ"), symbol("α"));
+        let (x, z) = (symbol(&self.letters[0]), symbol(&self.letters[1]));
+        let screw_z = Transform::rotation_z(theta) * Transform::translation_z(z);
+        let screw_x = Transform::rotation_x(alpha) * Transform::translation_x(x);
+        match self.description.convention {
+            Convention::Standard => screw_z * screw_x,
+            Convention::Craig | Convention::Khalil => screw_x * screw_z,
+        }
+    }
+
+    /// What a matrix's name means, and in words what that is.
+    /// Frames named by letters, `{}^iT_j`, are somewhere if `anywhere`, and have no meaning otherwise.
+    pub fn meaning(&self, name: &Name, anywhere: bool) -> Option<(Matrix, String)> {
+        let (from, to) = frames(name)?;
+        let place = |i: &Index| match i {
+            Index::Number(k) => Some(Some(*k)),
+            Index::End => Some(None),
+            Index::Letter('n', 0) => Some(Some(self.last())),
+            Index::Letter(..) => None,
+        };
+        let (matrix, mut about) = match (&from, &to) {
+            (Index::Letter(i, a), Index::Letter(j, b)) if i == j && (b - a).abs() == 1 && *b.max(a) == 0 => {
+                let link = self.general_link(*j);
+                let link = if b > a { link } else { link.inverse() };
+                (link, "the transform of any row".to_string())
+            }
+            (Index::Letter(i, 0), Index::Letter(j, 0)) if anywhere && i != j && *i != 'n' && *j != 'n' => {
+                (between(*i, *j), format!("frame {j} in frame {i}, wherever they are"))
+            }
+            _ => {
+                let (i, j) = (place(&from)?, place(&to)?);
+                (self.transform(i, j)?, frame_words(i, j))
+            }
+        };
+        let matrix = match name.base.as_str() {
+            "T" | "A" | "H" | "M" => Matrix::of(&matrix),
+            "R" => {
+                about = format!("the rotation of {about}");
+                Matrix::of_rotation(&matrix.rotation)
+            }
+            "Z" | "z" => {
+                about = format!("the axis z of {about}");
+                Matrix::column(&matrix.rotation.z())
+            }
+            "P" | "p" | "O" | "Ω" => {
+                about = format!("the origin of {about}");
+                Matrix::column(&matrix.translation)
+            }
+            _ => return None,
+        };
+        Some((matrix, about))
+    }
+}
+
+/// Any frame in any other.
+fn between(i: char, j: char) -> Transform<Expr> {
+    let (a, b) = (i.min(j), i.max(j));
+    let symbol = |what: &str| Expr::symbol(&format!("{what} of {b} in {a}"));
+    let rotation = Rotation::from_rpy(symbol("roll"), symbol("pitch"), symbol("yaw"));
+    let position = Vector([symbol("x"), symbol("y"), symbol("z")]);
+    let x = Transform::from_rotation_translation(rotation, position);
+    if i < j { x } else { x.inverse() }
+}
+
+fn frame_words(from: Option<usize>, to: Option<usize>) -> String {
+    let name = |k: Option<usize>| k.map_or("the hand".to_string(), |k| format!("frame {k}"));
+    format!("{} in {}", name(to), name(from))
+}
+
+/// From which frame to which a name leads.
+pub(super) fn frames(name: &Name) -> Option<(Index, Index)> {
+    let base = Index::Number(0);
+    let is_vector = matches!(name.base.as_str(), "Z" | "z" | "O" | "Ω" | "P" | "p");
+    if !is_vector && !matches!(name.base.as_str(), "T" | "A" | "H" | "M" | "R") {
+        return None;
+    }
+    match (name.left.as_str(), name.sub.as_str(), name.sup.as_str()) {
+        ("", "", "") if matches!(name.base.as_str(), "T" | "R") => Some((base, Index::End)),
+        ("", "", _) => None,
+        ("", sub, "") => match pair(sub) {
+            Some(found) if !is_vector => Some(found),
+            _ => {
+                let to = index(sub)?;
+                let from = match (&to, name.base.as_str()) {
+                    (Index::Number(k), "A" | "H" | "M") => Index::Number(k.checked_sub(1)?),
+                    (Index::Letter(j, k), "A" | "H" | "M" | "T") => Index::Letter(*j, k - 1),
+                    (Index::End, "A" | "H" | "M") => return None,
+                    _ => base,
+                };
+                Some((from, to))
+            }
+        },
+        ("", sub, sup) => Some((index(sup)?, index(sub)?)),
+        (left, sub, "") => Some((index(left)?, index(sub)?)),
+        _ => None,
+    }
+}
+
+/// `Rot(x, θ)`, `Trans(a, b, c)`, `R_z(θ)`, with arguments read by `value`.
+pub(super) fn elementary(name: &Name, value: &dyn Fn(&str) -> Option<Expr>) -> Option<(Matrix, String)> {
+    let axis = |text: &str| match text.trim_matches(['\\', '{', '}', ' ']) {
+        "x" | "X" => Some(Axis::X),
+        "y" | "Y" => Some(Axis::Y),
+        "z" | "Z" => Some(Axis::Z),
+        _ => None,
+    };
+    let is_turn = matches!(name.base.as_str(), "Rot" | "rot" | "R");
+    let along = |axis: Axis, d: Expr| match axis {
+        Axis::X => Transform::translation_x(d),
+        Axis::Y => Transform::translation_y(d),
+        Axis::Z => Transform::translation_z(d),
+    };
+    let (about, argument) = match (&name.arguments[..], axis(&name.sub)) {
+        ([argument], Some(about)) => (about, argument),
+        ([about, argument], None) if name.sub.is_empty() => (axis(about)?, argument),
+        ([x, y, z], None) if matches!(name.base.as_str(), "Trans" | "trans") => {
+            let x = Transform::translation(value(x)?, value(y)?, value(z)?);
+            return Some((Matrix::of(&x), "a translation".into()));
+        }
+        _ => return None,
+    };
+    let value = value(argument)?;
+    match name.base.as_str() {
+        _ if is_turn => {
+            let x = Transform::rotation_about(about, value);
+            Some((Matrix::of(&x), format!("the rotation about {about}")))
+        }
+        "Trans" | "trans" => {
+            Some((Matrix::of(&along(about, value)), format!("the translation along {about}")))
+        }
+        _ => None,
+    }
+}

@@ -1,0 +1,328 @@
+//! A printed matrix, or a product of printed matrices, against the matrix that it should be.
+
+use super::{Assertion, Cell, Pair, Piece, Reference, Walk};
+use crate::matrix::Matrix;
+use crate::numbers::{Answer, half_unit};
+use crate::product::{Factor, NotMatrices, Product};
+use crate::subject::Subject;
+use denavit::geometry::Transform;
+use denavit_reading::document::{Fence, Grid, Part, Side, Statement};
+use denavit_reading::slip::Points;
+use denavit_symbolic::parse::ParseError;
+use denavit_symbolic::readable::literals;
+use denavit_symbolic::{Expr, equal};
+use std::ops::Range;
+
+impl Walk<'_> {
+    /// The Jacobian, where a statement is about one: `J = […]`, or a matrix times a column of rates.
+    pub(super) fn jacobian_of(
+        &self,
+        read: &[Result<Product<'_>, NotMatrices>],
+        statement: &Statement,
+    ) -> Option<Reference> {
+        let is_j = |side: &Side| match &side.parts[..] {
+            [Part::Text(span)] => {
+                let name = self.lexis.lone_name(self.text, span);
+                name.is_some_and(|n| n.base == "J" || n.base == "Jacobian")
+            }
+            _ => false,
+        };
+        let is_rates = |grid: &Grid| {
+            let mut spans = grid.rows.iter().flatten();
+            let is_rate = |s: &str| s.contains("\\dot") || s.contains('̇') || s.ends_with('\'');
+            spans.clone().count() > 0 && spans.all(|s| is_rate(self.source(s)))
+        };
+        let is_told = statement.sides.iter().any(is_j);
+        let grid = read.iter().find_map(|r| match r.as_ref().ok()?.factors.as_deref()? {
+            [Factor::Grid(grid)] if is_told => Some(*grid),
+            [Factor::Grid(grid), Factor::Grid(rates)] if is_rates(rates) => Some(*grid),
+            _ => None,
+        })?;
+        let printed = Matrix(
+            self.cells(grid)
+                .iter()
+                .map(|row| {
+                    row.iter()
+                        .map(|c| match c {
+                            Cell::Formulas(f) => f.first().map(|f| f.1.value()),
+                            _ => None,
+                        })
+                        .collect()
+                })
+                .collect(),
+        );
+        let (rows, columns) = printed.shape()?;
+        let joints = self.subject.description.variables().len();
+        if columns != joints || !(2..=6).contains(&rows) {
+            return None;
+        }
+        let (matrix, about) = nearest_jacobian(self.subject, &printed)?;
+        Some(Reference { matrix, about })
+    }
+
+    /// Holds a side against a matrix that is known.
+    pub(super) fn compare(
+        &self,
+        product: &Product<'_>,
+        reference: &Reference,
+        named: Option<&[Matrix]>,
+        span: &Range<usize>,
+        out: &mut Assertion,
+    ) {
+        let is_grid = |f: &Factor<'_>| matches!(f, Factor::Grid(g) if g.fence != Fence::Bars);
+        match product.factors.as_deref() {
+            Some([Factor::Grid(grid)]) if grid.fence != Fence::Bars => {
+                out.whole = Some(reference.matrix.clone());
+                self.compare_grid(grid, &reference.matrix, out);
+            }
+            Some([Factor::Grid(grid), Factor::Grid(rates)])
+                if reference.about.starts_with("the Jacobian") && rates.rows.iter().all(|r| r.len() == 1) =>
+            {
+                self.compare_grid(grid, &reference.matrix, out);
+            }
+            Some(factors) if factors.len() > 1 && factors.iter().all(is_grid) => {
+                let mut worked = out.clone();
+                let is_long = is_too_long(product.value.as_ref());
+                if is_long || self.compare_value(product.value.as_ref(), &reference.matrix, span, &mut worked)
+                {
+                    if is_long {
+                        worked.pieces.push(too_long(span));
+                    }
+                    *out = worked;
+                    return;
+                }
+                // The product is wrong: which of its factors is?
+                let parts = named.filter(|n| n.len() == factors.len()).map(<[Matrix]>::to_vec);
+                match parts.or_else(|| self.chain(factors, &reference.matrix)) {
+                    Some(parts) => {
+                        for (factor, part) in factors.iter().zip(parts) {
+                            if let Factor::Grid(grid) = factor {
+                                self.compare_grid(grid, &part, out);
+                            }
+                        }
+                    }
+                    None => {
+                        self.compare_value(product.value.as_ref(), &reference.matrix, span, out);
+                    }
+                }
+            }
+            _ if is_too_long(product.value.as_ref()) => out.pieces.push(too_long(span)),
+            _ => {
+                self.compare_value(product.value.as_ref(), &reference.matrix, span, out);
+            }
+        }
+    }
+
+    /// The transforms that printed factors stand for, where their product is known: links next to each other, cut so
+    /// that most entries agree.
+    pub(super) fn chain(&self, factors: &[Factor<'_>], whole: &Matrix) -> Option<Vec<Matrix>> {
+        let mut points = Points::new(7);
+        let mut key = |m: &Matrix| -> Vec<Option<[u64; 3]>> {
+            m.0.iter().take(3).flatten().map(|e| e.and_then(|e| points.value(e))).collect()
+        };
+        let n = self.subject.last();
+        let size = whole.0.len();
+        let form = |x: Transform<Expr>| {
+            if size == 3 { Matrix::of_rotation(&x.rotation) } else { Matrix::of(&x) }
+        };
+        let wanted = key(whole);
+        let (from, to) = (0..=n).flat_map(|i| (i + 1..=n).map(move |j| (i, j))).find(|&(i, j)| {
+            self.subject.transform(Some(i), Some(j)).is_some_and(|x| key(&form(x)) == wanted)
+        })?;
+        let count = factors.len();
+        if to - from < count || count > 6 {
+            return None;
+        }
+        let mut agreement = |grid: &Factor<'_>, i: usize, j: usize| -> usize {
+            let Factor::Grid(grid) = grid else { return 0 };
+            let (Some(printed), Some(x)) = (self.printed(grid), self.subject.transform(Some(i), Some(j)))
+            else {
+                return 0;
+            };
+            let pairs = key(&printed).into_iter().zip(key(&form(x)));
+            pairs.filter(|(a, b)| a.is_some() && a == b).count()
+        };
+        // The best cut of from..to into as many pieces as there are factors.
+        let mut best: Vec<Option<(usize, Vec<usize>)>> = vec![None; to + 1];
+        best[from] = Some((0, vec![from]));
+        for factor in factors {
+            let mut next: Vec<Option<(usize, Vec<usize>)>> = vec![None; to + 1];
+            for (i, slot) in best.iter().enumerate().take(to).skip(from) {
+                let Some((score, cuts)) = slot.clone() else { continue };
+                for (j, slot) in next.iter_mut().enumerate().skip(i + 1) {
+                    let total = score + agreement(factor, i, j);
+                    if slot.as_ref().is_none_or(|s| total > s.0) {
+                        let mut cuts = cuts.clone();
+                        cuts.push(j);
+                        *slot = Some((total, cuts));
+                    }
+                }
+            }
+            best = next;
+        }
+        let (score, cuts) = best[to].take()?;
+        let entries = wanted.len() * count;
+        if 2 * score < entries {
+            return None;
+        }
+        cuts.windows(2).map(|w| Some(form(self.subject.transform(Some(w[0]), Some(w[1]))?))).collect()
+    }
+
+    pub(super) fn compare_grid(&self, grid: &Grid, wanted: &Matrix, out: &mut Assertion) {
+        let cells = self.cells(grid);
+        let width = cells.iter().map(Vec::len).max().unwrap_or(0);
+        let is_number = |cell: &Cell| match cell {
+            Cell::Formulas(formulas) => formulas.iter().all(|f| f.1.value().symbols().is_empty()),
+            Cell::LeftOut => true,
+            _ => false,
+        };
+        if cells.len() > wanted.0.len() {
+            out.remarks.push(format!("{} rows are printed for {}", cells.len(), wanted.0.len()));
+        }
+        let depends = wanted.0.iter().flatten().flatten().any(|e| !e.symbols().is_empty());
+        let is_numeric =
+            depends && self.at.is_complete(self.subject) && cells.iter().flatten().all(is_number);
+        for (r, row) in cells.iter().enumerate() {
+            if row.len() < width {
+                let message = format!("row {} has {} elements for {width}", r + 1, row.len());
+                // The last row of a homogeneous matrix says nothing.
+                if (r, width) == (3, 4) {
+                    out.remarks.push(message);
+                    continue;
+                }
+                let first = grid.rows[r].first().map_or(grid.span.start, |s| s.start);
+                let last = grid.rows[r].last().map_or(grid.span.end, |s| s.end);
+                let errors = vec![ParseError::new(first..last.max(first), message)];
+                out.pieces.push(Piece::Unreadable { place: None, span: first..last.max(first), errors });
+                continue;
+            }
+            for (c, cell) in row.iter().enumerate() {
+                let place = Some((r + 1, c + 1));
+                match cell {
+                    Cell::LeftOut => {}
+                    Cell::Broken(span, errors) => out.pieces.push(Piece::Unreadable {
+                        place,
+                        span: span.clone(),
+                        errors: errors.clone(),
+                    }),
+                    Cell::Lone(name) => {
+                        let span = grid.rows[r][c].clone();
+                        let errors = vec![ParseError::new(span.clone(), format!("unknown `{}`", name.key()))];
+                        out.pieces.push(Piece::Unreadable { place, span, errors });
+                    }
+                    Cell::Formulas(formulas) => {
+                        let Some(wanted) = wanted.entry(r, c) else {
+                            if wanted.0.get(r).is_none_or(|row| c >= row.len()) && c < 4 && r < 4 {
+                                continue;
+                            }
+                            let remark =
+                                format!("row {}, column {} has nothing to compare with", r + 1, c + 1);
+                            out.remarks.push(remark);
+                            continue;
+                        };
+                        for (span, syntax) in formulas {
+                            if is_numeric {
+                                out.pieces.extend(self.number(place, span, syntax.value(), wanted));
+                                continue;
+                            }
+                            out.pieces.push(Piece::Pair(Pair {
+                                place,
+                                span: span.clone(),
+                                printed: Some(syntax.clone()),
+                                value: syntax.value(),
+                                wanted,
+                            }));
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// A number in print against a formula at the present configuration.
+    pub(super) fn number(
+        &self,
+        place: Option<(usize, usize)>,
+        span: &Range<usize>,
+        printed: Expr,
+        wanted: Expr,
+    ) -> Option<Piece> {
+        let printed = printed.eval(|_| None).ok()?;
+        let half = half_unit(self.source(span));
+        let answer = Answer { printed, half, wanted, at: self.at.clone() };
+        Some(Piece::Number { place, span: span.clone(), answer })
+    }
+
+    /// Holds a matrix that is worked out against one that is known; true if all of it is proved equal. What is equal
+    /// is said in one piece, what is not entry by entry.
+    pub(super) fn compare_value(
+        &self,
+        value: Option<&Matrix>,
+        wanted: &Matrix,
+        span: &Range<usize>,
+        out: &mut Assertion,
+    ) -> bool {
+        let Some(value) = value else { return false };
+        let value = match (value.shape(), wanted.shape()) {
+            (Some((4, 4)), Some((3, 3))) => &value.rotation_part(),
+            _ => value,
+        };
+        let (mut same, mut different) = (None, vec![]);
+        for (r, row) in wanted.0.iter().enumerate() {
+            for (c, wanted) in row.iter().enumerate() {
+                let (Some(value), &Some(wanted)) = (value.entry(r, c), wanted) else { continue };
+                let pair = |place| Pair { place, span: span.clone(), printed: None, value, wanted };
+                if equal(value, wanted).is_equal() {
+                    same = Some(pair(None));
+                } else {
+                    different.push(pair(Some((r + 1, c + 1))));
+                }
+            }
+        }
+        let is_right = different.is_empty() && same.is_some();
+        if different.len() > 1 {
+            let places: Vec<String> =
+                different[1..].iter().filter_map(|p| p.place).map(|(r, c)| format!("{r},{c}")).collect();
+            out.remarks.push(format!("worked out, entries {} differ, too", places.join("; ")));
+        }
+        out.pieces.extend(different.into_iter().take(1).map(Piece::Pair));
+        out.pieces.extend(same.filter(|_| is_right).map(Piece::Pair));
+        is_right
+    }
+}
+
+/// The longest product of matrices that is worked out, in literals of its longest entry.
+const MAX_PRODUCT: u64 = 2_000_000;
+
+/// True for a product that nobody works out.
+fn is_too_long(value: Option<&Matrix>) -> bool {
+    value.is_some_and(|m| m.0.iter().flatten().flatten().any(|&e| literals(e) > MAX_PRODUCT))
+}
+
+fn too_long(span: &Range<usize>) -> Piece {
+    let errors = vec![ParseError::new(span.clone(), "the product is too long to be worked out")];
+    Piece::Unreadable { place: None, span: span.clone(), errors }
+}
+
+/// Of the Jacobians that people print, the one that agrees with a matrix in most entries.
+pub(crate) fn nearest_jacobian(subject: &Subject, printed: &Matrix) -> Option<(Matrix, String)> {
+    let (rows, _) = printed.shape()?;
+    let mut points = Points::new(7);
+    let mut same = |m: &Matrix| {
+        let entries = m.0.iter().flatten().zip(printed.0.iter().flatten());
+        let agree = entries.filter(|(a, b)| match (a, b) {
+            (Some(a), Some(b)) => points.value(*a).is_some_and(|x| Some(x) == points.value(*b)),
+            _ => false,
+        });
+        agree.count()
+    };
+    let mut best: Option<(usize, String, Matrix)> = None;
+    for (about, matrix) in subject.jacobians(rows) {
+        let count = same(&matrix);
+        if best.as_ref().is_none_or(|b| count > b.0) {
+            best = Some((count, about, matrix));
+        }
+    }
+    let part = if matches!(rows, 2 | 3 | 6) { String::new() } else { format!(", {rows} rows of 6") };
+    best.map(|(_, about, matrix)| (matrix, about + &part))
+}

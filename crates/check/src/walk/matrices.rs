@@ -1,0 +1,402 @@
+//! Equations between matrices: what is known of a side, what is compared, what is defined.
+
+use super::{Assertion, Cell, Cells, Definition, MAX_ELEMENTS, Piece, Reference, Scalar, Walk};
+use crate::matrix::Matrix;
+use crate::names::{Name, Token, tokens};
+use crate::product::{Factor, NotMatrices, Product, product};
+use denavit_reading::document::{Fence, Grid, Part, Side, Statement, sides};
+use denavit_symbolic::Expr;
+use denavit_symbolic::parse::{ParseError, Syntax, SyntaxKind};
+use std::ops::Range;
+use std::rc::Rc;
+
+impl Walk<'_> {
+    /// True if a text is a product of names of matrices that have a meaning.
+    pub(super) fn is_product(&self, span: &Range<usize>) -> bool {
+        let before = self.lexis.anywhere.replace(true);
+        let side = Side { span: span.clone(), parts: vec![Part::Text(span.clone())] };
+        let is_product = product(self.text, &side, &self.lexis, self.subject, &|_| None).is_ok();
+        self.lexis.anywhere.set(before);
+        is_product
+    }
+
+    pub(super) fn cell(&self, span: &Range<usize>, grid: &Grid) -> Cell {
+        let is_determinant = grid.fence == Fence::Bars;
+        let source = self.source(span);
+        let is_dots = source.trim_matches(['$', '\\', '{', '}', ' ']);
+        let is_column = grid.rows.iter().all(|r| r.len() == 1);
+        if matches!(
+            is_dots,
+            "" | "."
+                | "*"
+                | "-"
+                | "…"
+                | "..."
+                | "?"
+                | "cdot"
+                | "cdots"
+                | "ldots"
+                | "dots"
+                | "ast"
+                | "—"
+                | "–"
+                | "·"
+                | "bullet"
+                | "times"
+        ) || matches!(is_dots, "x" | "X" | "×") && !is_column && self.lexis.names.lookup("x").is_none()
+        {
+            return Cell::LeftOut;
+        }
+        let mut formulas = vec![];
+        let mut lone = None;
+        for side in sides(self.text, span) {
+            match self.scalar(&side) {
+                Scalar::Formula(span, syntax) => formulas.push((span, syntax)),
+                Scalar::Lone(name) if is_determinant && matches!(name.base.as_str(), "i" | "j" | "k") => {
+                    let kind = SyntaxKind::Name(Expr::symbol(&name.base));
+                    formulas.push((side.clone(), Syntax { kind, span: 0..side.len() }));
+                }
+                Scalar::Lone(name) => lone = Some(name),
+                Scalar::Broken(span, errors) => return Cell::Broken(span, errors),
+            }
+        }
+        match (formulas.is_empty(), lone) {
+            (false, _) => Cell::Formulas(formulas),
+            (true, Some(name)) => Cell::Lone(name),
+            (true, None) => Cell::LeftOut,
+        }
+    }
+
+    pub(super) fn cells(&self, grid: &Grid) -> Rc<Cells> {
+        if let Some(known) = self.cells.borrow().get(&grid.span.start) {
+            return Rc::clone(known);
+        }
+        let count = elements(grid);
+        let cells: Cells = if count > MAX_ELEMENTS {
+            let message = format!("the matrix has {count} elements; at most {MAX_ELEMENTS} are read");
+            let errors = vec![ParseError::new(grid.span.clone(), message)];
+            vec![vec![Cell::Broken(grid.span.clone(), errors)]]
+        } else {
+            grid.rows.iter().map(|row| row.iter().map(|span| self.cell(span, grid)).collect()).collect()
+        };
+        let cells = Rc::new(cells);
+        self.cells.borrow_mut().insert(grid.span.start, Rc::clone(&cells));
+        cells
+    }
+
+    /// The matrix that a grid prints.
+    pub(super) fn printed(&self, grid: &Grid) -> Option<Matrix> {
+        let entry = |cell: &Cell| match cell {
+            Cell::Formulas(formulas) => formulas.first().map(|f| f.1.value()),
+            _ => None,
+        };
+        let mut rows: Vec<Vec<Option<Expr>>> =
+            self.cells(grid).iter().map(|row| row.iter().map(entry).collect()).collect();
+        // The last row of a homogeneous matrix may be left out or shortened.
+        let width = rows.first().map_or(0, Vec::len);
+        let is_bottom = |row: &Vec<Option<Expr>>| row.len() < width && width == 4;
+        if rows.len() == 4 && rows.last().is_some_and(is_bottom) {
+            rows.pop();
+        }
+        if rows.len() == 3 && width == 4 {
+            rows.push([0, 0, 0, 1].map(|n| Some(Expr::int(n))).to_vec());
+        }
+        Some(Matrix(rows))
+    }
+
+    /// Gives names in cells their meaning: `c_4 c_5 = D_1`.
+    pub(super) fn define_cells(&mut self, grid: &Grid, definitions: &mut Vec<Definition>) {
+        if elements(grid) > MAX_ELEMENTS {
+            return;
+        }
+        for span in grid.rows.iter().flatten() {
+            let parts = sides(self.text, span);
+            if parts.len() < 2 {
+                continue;
+            }
+            let read: Vec<Scalar> = parts.iter().map(|s| self.scalar(s)).collect();
+            let value = read.iter().find_map(|s| match s {
+                Scalar::Formula(_, syntax) => Some(syntax.value()),
+                _ => None,
+            });
+            for s in &read {
+                if let (Scalar::Lone(name), Some(value)) = (s, value) {
+                    let name = format!("{}{}", name.base, name.sub);
+                    self.lexis.define(&name, value);
+                    definitions.push(Definition::Cell(name, value));
+                }
+            }
+        }
+    }
+
+    pub(super) fn matrices(&mut self, statement: &Statement, claim: Option<&str>) {
+        let names = self.elementary(statement);
+        let before = (!names.is_empty()).then(|| self.lexis.clone());
+        names.iter().for_each(|name| self.lexis.declare_arguments(name));
+        let is_named = statement.sides.iter().flat_map(|s| &s.parts).all(|p| matches!(p, Part::Text(_)));
+        self.lexis.anywhere.set(is_named && names.is_empty());
+        let definitions = self.equate(statement, claim);
+        self.lexis.anywhere.set(false);
+        // The letters of elementary transforms are known in their own statement only.
+        if let Some(before) = before {
+            self.lexis = before;
+        }
+        self.cells.borrow_mut().clear();
+        for definition in definitions {
+            match definition {
+                Definition::Matrix(name, matrix, about) => self.lexis.define_matrix(&name, matrix, about),
+                Definition::Entry(name, value) => self.lexis.define_right(&name, value, value),
+                Definition::Cell(name, value) => self.lexis.define(&name, value),
+            }
+        }
+    }
+
+    /// Reads `q = [0, 30, 45]` as a configuration.
+    fn whole_configuration(&mut self, statement: &Statement) -> bool {
+        let [left, right] = &statement.sides[..] else { return false };
+        let ([Part::Text(name)], [Part::Matrix(grid)]) = (&left.parts[..], &right.parts[..]) else {
+            return false;
+        };
+        let is_q = |n: &Name| n.is_bare() && matches!(n.base.as_str(), "q" | "θ" | "Θ" | "theta");
+        let cells = self.cells(grid);
+        let values: Option<Vec<Expr>> = cells
+            .iter()
+            .flatten()
+            .map(|cell| match cell {
+                Cell::Formulas(formulas) => {
+                    formulas.first().map(|f| f.1.value()).filter(|e| e.symbols().is_empty())
+                }
+                _ => None,
+            })
+            .collect();
+        let joints = self.subject.description.variables().len();
+        let Some(values) = values.filter(|v| v.len() == joints) else { return false };
+        if !self.lexis.lone_name(self.text, name).is_some_and(|n| is_q(&n)) {
+            return false;
+        }
+        for (joint, value) in values.into_iter().enumerate() {
+            self.at.set(joint, value);
+        }
+        true
+    }
+
+    /// The elementary transforms that a statement names, `Rot(x, θ)`.
+    fn elementary(&self, statement: &Statement) -> Vec<Name> {
+        let texts = statement.sides.iter().flat_map(|s| &s.parts).filter_map(|p| match p {
+            Part::Text(span) => Some(span),
+            Part::Matrix(_) => None,
+        });
+        let names = texts.flat_map(|span| tokens(self.text, span, &|_| false).unwrap_or_default());
+        let is_elementary = |name: &Name| {
+            matches!(name.base.as_str(), "Rot" | "rot" | "Trans" | "trans")
+                || name.base == "R" && !name.arguments.is_empty()
+        };
+        let names = names.filter_map(|t| match t {
+            Token::Name(name) => Some(name),
+            _ => None,
+        });
+        names.filter(is_elementary).collect()
+    }
+
+    /// Holds the sides of an equation between matrices against each other; gives the names that it defines.
+    pub(super) fn equate(&mut self, statement: &Statement, claim: Option<&str>) -> Vec<Definition> {
+        let mut definitions = vec![];
+        for part in statement.sides.iter().flat_map(|s| &s.parts) {
+            if let Part::Matrix(grid) = part {
+                self.define_cells(grid, &mut definitions);
+            }
+        }
+        let subject = self.subject;
+        let read: Vec<Result<Product<'_>, NotMatrices>> = statement
+            .sides
+            .iter()
+            .map(|side| product(self.text, side, &self.lexis, subject, &|grid| self.printed(grid)))
+            .collect();
+        if !read.iter().any(|r| r.is_ok()) {
+            let error =
+                ParseError::new(statement.span.clone(), "neither a formula nor a product of matrices");
+            self.skipped.push((statement.span.clone(), error));
+            return definitions;
+        }
+        if self.whole_configuration(statement) {
+            return definitions;
+        }
+        let told = claim.and_then(|words| self.told_matrix(words.split(' ').next().unwrap_or(words)));
+        let named = read.iter().enumerate().find_map(|(i, r)| match r {
+            Ok(Product { value: Some(matrix), about: Some(about), .. }) => {
+                Some((i, Reference { matrix: matrix.clone(), about: about.clone() }))
+            }
+            Ok(Product { value: Some(matrix), factors, .. }) => match factors.as_deref() {
+                Some([Factor::Grid(grid)]) if self.is_right_names(grid) => {
+                    Some((i, Reference { matrix: matrix.clone(), about: "the hand".into() }))
+                }
+                _ => None,
+            },
+            _ => None,
+        });
+        let jacobian = || self.jacobian_of(&read, statement);
+        let (at, reference) = match (told, named) {
+            (Some(reference), _) => (usize::MAX, Some(reference)),
+            (None, Some((i, reference))) => (i, Some(reference)),
+            (None, None) => match jacobian() {
+                Some(reference) => (usize::MAX, Some(reference)),
+                None => (usize::MAX, None),
+            },
+        };
+        let mut assertion =
+            self.assertion(statement, reference.as_ref().map_or(String::new(), |r| r.about.clone()));
+        let mut names: Vec<&Grid> = vec![];
+        let mut unread: Vec<Range<usize>> = vec![];
+        let factors = read.iter().find_map(|r| match r {
+            Ok(Product { factors: Some(factors), .. }) if factors.len() > 1 => {
+                factors.iter().map(named_factor).collect::<Option<Vec<Matrix>>>()
+            }
+            _ => None,
+        });
+        match &reference {
+            Some(reference) => {
+                for (i, r) in read.iter().enumerate().filter(|(i, _)| *i != at) {
+                    let span = &statement.sides[i].span;
+                    match r {
+                        Ok(_) if self.redefined(statement, i) => {}
+                        Ok(product) => match &product.factors.as_deref() {
+                            Some([Factor::Grid(grid)]) if self.is_velocity(grid) => {}
+                            Some([Factor::Grid(grid)]) if self.is_names(grid) => names.push(grid),
+                            _ => self.compare(product, reference, factors.as_deref(), span, &mut assertion),
+                        },
+                        Err(NotMatrices::Unknown(name)) if self.is_lone(&statement.sides[i], name) => {}
+                        Err(_) => unread.push(span.clone()),
+                    }
+                }
+                // A side that cannot be read matters where nothing else is judged.
+                if assertion.pieces.is_empty() && names.is_empty() {
+                    for span in unread {
+                        let error = ParseError::new(span.clone(), "no product of matrices that are known");
+                        assertion.pieces.push(Piece::Unreadable { place: None, span, errors: vec![error] });
+                    }
+                }
+            }
+            None => {
+                // Nothing is known: what is printed later should be what is printed first.
+                let first = read.iter().enumerate().find_map(|(i, r)| match r {
+                    Ok(Product { value: Some(matrix), .. }) => Some((i, matrix.clone())),
+                    _ => None,
+                });
+                if let Some((i, matrix)) = first {
+                    let reference = Reference { matrix, about: "what stands before it".into() };
+                    for (k, r) in read.iter().enumerate().skip(i + 1) {
+                        if let Ok(product) = r {
+                            self.compare(product, &reference, None, &statement.sides[k].span, &mut assertion);
+                        }
+                    }
+                    assertion.about = "an equation between matrices".into();
+                }
+            }
+        }
+        // Matrices with a name of their own below them.
+        let mut own: Vec<Assertion> = vec![];
+        for grid in statement.sides.iter().flat_map(|s| &s.parts).filter_map(|p| match p {
+            Part::Matrix(grid) => Some(grid),
+            Part::Text(_) => None,
+        }) {
+            let Some(under) = &grid.under else { continue };
+            let Some(found) = self.told_matrix(self.source(under)) else { continue };
+            let mut part = self.assertion(statement, found.about.clone());
+            part.name = self.source(under).to_string();
+            part.span = grid.span.clone();
+            let product = Product { factors: Some(vec![Factor::Grid(grid)]), value: None, about: None };
+            self.compare(&product, &found, None, &grid.span, &mut part);
+            own.push(part);
+        }
+        // Names that are defined: a matrix, or its entries.
+        let defined = reference.as_ref().map(|r| (r.matrix.clone(), Some(r.about.clone()))).or_else(|| {
+            read.iter().find_map(|r| match r {
+                Ok(Product { value: Some(matrix), .. }) => Some((matrix.clone(), None)),
+                _ => None,
+            })
+        });
+        for (side, r) in statement.sides.iter().zip(&read) {
+            if let (Err(NotMatrices::Unknown(name)), Some((matrix, about))) = (r, &defined)
+                && self.is_lone(side, name)
+            {
+                definitions.push(Definition::Matrix(name.as_ref().clone(), matrix.clone(), about.clone()));
+            }
+        }
+        if let Some(reference) = &reference {
+            for grid in names {
+                for (r, row) in self.cells(grid).iter().enumerate() {
+                    for (c, cell) in row.iter().enumerate() {
+                        if let (Cell::Lone(name), Some(value)) = (cell, reference.matrix.entry(r, c)) {
+                            definitions.push(Definition::Entry(format!("{}{}", name.base, name.sub), value));
+                        }
+                    }
+                }
+            }
+        }
+        drop(read);
+        self.assertions.extend(own);
+        if !assertion.pieces.is_empty() {
+            self.assertions.push(assertion);
+        }
+        definitions
+    }
+
+    /// The number of a side that only names what the document has defined before, and is defined anew.
+    pub(super) fn redefined(&self, statement: &Statement, i: usize) -> bool {
+        let [Part::Text(span)] = &statement.sides[i].parts[..] else { return false };
+        let name = self.lexis.lone_name(self.text, span);
+        i == 0
+            && name.is_some_and(|n| {
+                self.lexis.has_defined(&n)
+                    && self.lexis.matrix(self.subject, &n).is_some_and(|m| m.1.is_none())
+            })
+    }
+
+    /// True for a column of velocities.
+    pub(super) fn is_velocity(&self, grid: &Grid) -> bool {
+        let mut spans = grid.rows.iter().flatten().map(|s| self.source(s));
+        grid.rows.iter().all(|r| r.len() == 1) && spans.any(|s| s.contains(r"\dot") || s.contains('\u{307}'))
+    }
+
+    pub(super) fn is_lone(&self, side: &Side, name: &Name) -> bool {
+        matches!(&side.parts[..], [Part::Text(span)]
+            if self.lexis.lone_name(self.text, span).is_some_and(|n| n.key() == name.key()))
+    }
+
+    /// True for a matrix of names without meaning of their own; the last row may hold numbers.
+    pub(super) fn is_names(&self, grid: &Grid) -> bool {
+        let cells = self.cells(grid);
+        let is_number = |syntax: &Syntax| syntax.value().as_number().is_some();
+        let is_pose = |span: &Range<usize>| self.is_right_name(span);
+        let is_name = |cell: &Cell| match cell {
+            Cell::Lone(_) | Cell::LeftOut => true,
+            Cell::Formulas(formulas) => formulas.iter().all(|f| is_number(&f.1) || is_pose(&f.0)),
+            Cell::Broken(..) => false,
+        };
+        let has_name = |cell: &Cell| match cell {
+            Cell::Lone(_) => true,
+            Cell::Formulas(formulas) => formulas.iter().all(|f| is_pose(&f.0)),
+            _ => false,
+        };
+        cells.iter().flatten().all(is_name) && cells.iter().flatten().any(has_name)
+    }
+
+    /// True for a matrix of names that custom or the robot give a meaning.
+    pub(super) fn is_right_names(&self, grid: &Grid) -> bool {
+        let mut spans = grid.rows.iter().flatten();
+        spans.clone().count() > 1 && spans.all(|s| self.is_right_name(s))
+    }
+}
+
+/// The number of elements of a printed matrix.
+fn elements(grid: &Grid) -> usize {
+    grid.rows.iter().map(Vec::len).sum()
+}
+
+/// The matrix that a factor names.
+fn named_factor(factor: &Factor<'_>) -> Option<Matrix> {
+    match factor {
+        Factor::Named(matrix, Some(_)) => Some(matrix.clone()),
+        _ => None,
+    }
+}

@@ -1,0 +1,246 @@
+//! From the statements of a document to pairs of formulas: what is printed, and what the robot makes of it.
+
+mod compare;
+mod matrices;
+mod scalars;
+
+pub(super) use compare::nearest_jacobian;
+
+use super::lexis::{Columns, Lexis, read};
+use super::matrix::Matrix;
+use super::names::Name;
+use super::numbers::{Answer, Configuration};
+use super::subject::Subject;
+use denavit::geometry::orientation::OrientationSet;
+use denavit_reading::document::{Part, Statement};
+use denavit_symbolic::Expr;
+use denavit_symbolic::parse::{ParseError, Syntax, whole_word};
+use denavit_symbolic::vocabulary::Vocabulary;
+use rustc_hash::FxHashMap;
+use std::cell::RefCell;
+use std::ops::Range;
+use std::rc::Rc;
+
+/// A formula in print, and what it should be.
+#[derive(Clone, Debug)]
+pub(super) struct Pair {
+    /// Row and column from 1, in a matrix.
+    pub place: Option<(usize, usize)>,
+    /// Where it stands.
+    pub span: Range<usize>,
+    /// What is printed; nothing where it is worked out from printed factors.
+    pub printed: Option<Syntax>,
+    /// Its value.
+    pub value: Expr,
+    /// What the robot makes of it.
+    pub wanted: Expr,
+}
+
+/// A part of a claim.
+#[derive(Clone, Debug)]
+pub(super) enum Piece {
+    Pair(Pair),
+    /// A number at a configuration.
+    Number {
+        place: Option<(usize, usize)>,
+        span: Range<usize>,
+        answer: Answer,
+    },
+    /// A formula that could not be read.
+    Unreadable {
+        place: Option<(usize, usize)>,
+        span: Range<usize>,
+        errors: Vec<ParseError>,
+    },
+}
+
+/// What a statement claims of the robot.
+#[derive(Clone, Debug)]
+pub(super) struct Assertion {
+    pub span: Range<usize>,
+    /// The left side as printed.
+    pub name: String,
+    /// In words what it is about.
+    pub about: String,
+    pub pieces: Vec<Piece>,
+    /// Remarks, such as a row that is too short.
+    pub remarks: Vec<String>,
+    /// Which of the robots of the document it is about.
+    pub subject: usize,
+    /// The names of its formulas, where they are its own.
+    pub names: Option<Rc<Vocabulary>>,
+    /// What a single printed matrix should be.
+    pub whole: Option<Matrix>,
+    /// Values for joints and angles are judged in their own way.
+    pub spoken: Option<Spoken>,
+}
+
+/// Printed values, the entries of the pose as symbols.
+#[derive(Clone, Debug)]
+pub(super) enum Spoken {
+    /// Of a joint, or of a sum of joints, each value in print.
+    Joint { of: Expr, sides: Vec<(Range<usize>, Syntax)>, branches: Vec<Expr> },
+    /// Of an angle of an orientation.
+    Angle { set: OrientationSet, name: String, value: (Range<usize>, Syntax) },
+}
+
+/// A name that the document defines by a formula.
+#[derive(Clone, Debug)]
+pub(super) struct Defined {
+    pub name: String,
+    /// Where the formula stands.
+    pub span: Range<usize>,
+    pub printed: Syntax,
+    pub value: Expr,
+    /// Which of the robots is spoken of.
+    pub subject: usize,
+}
+
+/// The most elements of a matrix that are read.
+const MAX_ELEMENTS: usize = 4_096;
+
+/// The document from beginning to end.
+pub(super) struct Walk<'a> {
+    text: &'a str,
+    pub lexis: Lexis,
+    pub subject: &'a Subject,
+    number: usize,
+    pub assertions: Vec<Assertion>,
+    /// Names that the document defines by formulas.
+    pub defined: Vec<Defined>,
+    /// Sines and cosines of joints that the document gives formulas for, the entries of the pose as symbols.
+    pub sines: Vec<(Expr, Vec<Expr>)>,
+    /// The configuration that was stated last.
+    pub at: Configuration,
+    /// The set of angles that a directive names.
+    pub angles: Option<OrientationSet>,
+    /// Statements that say nothing of the robot and could not be read.
+    pub skipped: Vec<(Range<usize>, ParseError)>,
+    /// The prose that was looked at last.
+    last_prose: Range<usize>,
+    /// The cells of the matrices of the present statement.
+    cells: RefCell<FxHashMap<usize, Rc<Cells>>>,
+}
+
+/// The cells of a printed matrix, by rows.
+type Cells = Vec<Vec<Cell>>;
+
+/// A cell of a printed matrix.
+#[derive(Clone, Debug)]
+enum Cell {
+    LeftOut,
+    /// Formulas with `=` between them.
+    Formulas(Vec<(Range<usize>, Syntax)>),
+    /// A name without meaning.
+    Lone(Name),
+    Broken(Range<usize>, Vec<ParseError>),
+}
+
+/// A side of an equation between scalars.
+enum Scalar {
+    Formula(Range<usize>, Syntax),
+    Lone(Name),
+    Broken(Range<usize>, Vec<ParseError>),
+}
+
+/// A name that a statement defines.
+enum Definition {
+    Matrix(Name, Matrix, Option<String>),
+    /// An entry of a matrix that the robot gives.
+    Entry(String, Expr),
+    /// The value of a cell.
+    Cell(String, Expr),
+}
+
+/// What is known before anything is compared.
+struct Reference {
+    matrix: Matrix,
+    about: String,
+}
+
+impl<'a> Walk<'a> {
+    /// Begins with a robot.
+    pub fn new(text: &'a str, subject: &'a Subject) -> Self {
+        let lexis = Lexis::new(subject, Columns::of(text));
+        Walk {
+            text,
+            lexis,
+            subject,
+            number: 0,
+            assertions: vec![],
+            defined: vec![],
+            sines: vec![],
+            last_prose: 0..0,
+            at: Configuration::default(),
+            angles: None,
+            skipped: vec![],
+            cells: RefCell::default(),
+        }
+    }
+
+    /// Goes on with another robot of the document.
+    pub fn turn_to(&mut self, subject: &'a Subject, number: usize) {
+        if number != self.number {
+            self.lexis = self.lexis.of(subject);
+            (self.subject, self.number) = (subject, number);
+        }
+    }
+
+    /// The number of formulas so far.
+    pub fn count(&self) -> usize {
+        self.assertions.iter().map(|a| a.pieces.len()).sum()
+    }
+
+    /// A second name for a quantity.
+    pub fn alias(&mut self, name: &str, meaning: &str) -> Option<()> {
+        let value = match read(meaning, &(0..meaning.len()), &self.lexis.names) {
+            Ok(syntax) => syntax.value(),
+            Err(_) => {
+                let word = whole_word(meaning)?.replace('_', "");
+                self.lexis.names.lookup(&word)?
+            }
+        };
+        self.lexis.define(name, value);
+        Some(())
+    }
+
+    /// Reads a statement; `claim` says what its left side means, where that is told.
+    pub fn statement(&mut self, statement: &Statement, claim: Option<&str>) {
+        if let Some(prose) = &statement.prose
+            && *prose != self.last_prose
+        {
+            self.last_prose = prose.clone();
+            self.told_in(prose);
+        }
+        if statement.sides.iter().flat_map(|s| &s.parts).all(|p| matches!(p, Part::Text(_)))
+            && self.scalars(statement, claim)
+        {
+            return;
+        }
+        self.matrices(statement, claim);
+    }
+
+    fn source(&self, span: &Range<usize>) -> &'a str {
+        self.text.get(span.clone()).unwrap_or_default().trim()
+    }
+
+    fn claim_name(&self, statement: &Statement) -> String {
+        let first = statement.sides.first().map_or(&statement.span, |s| &s.span);
+        let name: String = self.source(first).chars().take(80).collect();
+        name.split_whitespace().collect::<Vec<_>>().join(" ")
+    }
+
+    fn assertion(&self, statement: &Statement, about: String) -> Assertion {
+        Assertion {
+            span: statement.span.clone(),
+            name: self.claim_name(statement),
+            about,
+            pieces: vec![],
+            remarks: vec![],
+            subject: self.number,
+            whole: None,
+            names: None,
+            spoken: None,
+        }
+    }
+}

@@ -1,0 +1,225 @@
+//! The built command: what it prints, where, and how it ends.
+
+use crate::common::{fed, text};
+use denavit::catalogue;
+use denavit_symbolic::parse::parse;
+use denavit_symbolic::vocabulary::Vocabulary;
+use denavit_symbolic::{Expr, Symbol, equal};
+use serde_json::Value;
+use std::process::{Command, Output, Stdio};
+
+fn denavit(arguments: &[&str]) -> Output {
+    fed(arguments, "")
+}
+
+fn stdout(output: &Output) -> String {
+    text(&output.stdout)
+}
+
+fn stderr(output: &Output) -> String {
+    text(&output.stderr)
+}
+
+fn json(arguments: &[&str]) -> Value {
+    let output = denavit(arguments);
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", stderr(&output));
+    let value: Value = serde_json::from_str(&stdout(&output)).expect("one JSON value");
+    assert_eq!(value["schema"], 1);
+    value
+}
+
+/// Exit code, and a text that standard error holds.
+#[track_caller]
+fn refused(arguments: &[&str], code: i32, says: &str) {
+    let output = denavit(arguments);
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {}", stderr(&output));
+    assert!(stderr(&output).contains(says), "{arguments:?}: {}", stderr(&output));
+    assert!(output.stdout.is_empty(), "{arguments:?}: data after a refusal");
+}
+
+#[test]
+fn refusals() {
+    refused(&["derive", "nobody"], 3, "no robot or file `nobody`");
+    refused(&["derive", "puma"], 3, "did you mean puma-simple, puma560");
+    refused(&["fk", "ur5"], 2, "-q with 6 values");
+    refused(&["fk", "ur5", "-q", "0,0,0"], 2, "3 values given, the robot has 6 joints");
+    refused(&["fk", "ur5", "-q", "0,0,0,0,0,nan"], 2, "q6: the value is not a finite number");
+    refused(&["fk", "ur5", "-q", "0,0,0,0,0,1/0"], 2, "q6: division by zero");
+    refused(&["fk", "scara", "-q", "20mm,0,20deg,x"], 2, "q1: `mm` measures a length");
+    refused(&["fk", "scara", "-q", "20mm,0,20deg,x"], 2, "q4: `x` is no number");
+    refused(&["fk", "puma560", "-q", "ready", "--set", "d6=30deg"], 2, "`deg` measures an angle");
+    refused(&["fk", "puma560", "-q", "ready", "--set", "d6=1", "--set", "d6=2"], 2, "two values");
+    refused(&["show", "scara", "--convention", "craig"], 2, "--convention is for tables");
+    refused(&["robots", "zzz"], 1, "no robot of the catalogue matches `zzz`");
+    refused(&["fk", "prrrrp", "-q", "0 0 0 0 0 0"], 3, "no value for r7, a2, a3");
+    refused(&["fk", "ur5", "-q", "0 0 0 0 0 0", "--frames", "9"], 2, "0 to 6");
+    refused(&["fk", "ur5", "-q", "0 0 0 0 0 0", "--orientation", "xxy"], 2, "xxy");
+    refused(&["derive", "ur5", "--from", "7"], 2, "0 to 6");
+    refused(&["derive", "ur5", "--only", "w"], 2, "unknown part `w`");
+    refused(&["show", "ur5", "--set", "d9=1"], 2, "no parameter `d9`");
+    refused(&["show", "arm.urdf"], 4, "URDF");
+    refused(&["paint", "ur5"], 2, "unrecognized subcommand");
+}
+
+#[test]
+fn names_are_found_in_any_spelling() {
+    assert_eq!(json(&["show", "UR5", "--json"])["robot"], json(&["show", "ur5", "--json"])["robot"]);
+    assert_eq!(denavit(&["show", "Staubli RX90"]).status.code(), Some(0));
+}
+
+#[test]
+fn what_is_too_long_to_read_is_given_up() {
+    let rows: String = (1..=20)
+        .map(|i| format!("[[joints]]\ntheta = \"q{i}\"\na = \"1 m\"\nalpha = \"37 deg\"\n"))
+        .collect();
+    let folder = std::env::temp_dir().join(format!("denavit-long-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let file = folder.join("long.toml");
+    std::fs::write(&file, format!("name = \"long\"\nconvention = \"standard\"\n{rows}")).expect("a file");
+    let output = denavit(&["derive", file.to_str().expect("UTF-8")]);
+    assert_eq!(output.status.code(), Some(5), "{}", stderr(&output));
+    assert!(stdout(&output).contains("Algorithm") && stderr(&output).contains("gave up"));
+    let _ = std::fs::remove_dir_all(&folder);
+}
+
+#[test]
+fn configurations_with_units_poses_and_limits() {
+    let units = json(&["fk", "stanford", "-q", "90deg, pi/2, 250 mm, 0, -0.5, 1e-1", "--json"]);
+    let plain =
+        json(&["fk", "stanford", "-q", "1.5707963267948966 1.5707963267948966 0.25 0 -0.5 0.1", "--json"]);
+    assert_eq!(units["pose"], plain["pose"]);
+    let ready = json(&["fk", "puma560", "-q", "ready", "--json"]);
+    assert_eq!(ready["q"][1], std::f64::consts::FRAC_PI_2);
+    let outside = denavit(&["fk", "puma560", "-q", "170deg 0 0 0 0 0"]);
+    assert_eq!(outside.status.code(), Some(0));
+    assert!(
+        stderr(&outside).contains("q1 = 170° is outside its limits −160° … 160°"),
+        "{}",
+        stderr(&outside)
+    );
+}
+
+#[test]
+fn frames_and_orientations() {
+    let answer =
+        json(&["fk", "ur5", "-q", "0 0 0 0 0 0", "--frames", "all", "--orientation", "rpy", "--json"]);
+    assert_eq!(answer["frames"].as_array().map(Vec::len), Some(7));
+    assert_eq!(answer["frames"][6], answer["pose"]);
+    assert_eq!(answer["orientation"]["set"], "rpy");
+    let singular = json(&["fk", "planar-2r", "-q", "0.1 0.2", "--orientation", "zyz", "--json"]);
+    assert_eq!(singular["orientation"]["singular"], true);
+    assert_eq!(singular["orientation"]["values"][2], 0.0);
+}
+
+#[test]
+fn a_stream_answers_each_line_in_order() {
+    let input = "[0,0]\n[1,\n\n[1,2,3]\n\"x\"\n[0.5,-0.5]\n\u{0}\n[null,1]\n";
+    let output = fed(&["fk", "planar-2r", "--input", "-"], input);
+    assert_eq!(output.status.code(), Some(3));
+    let lines: Vec<Value> = stdout(&output).lines().map(|l| serde_json::from_str(l).expect("JSON")).collect();
+    let good: Vec<bool> = lines.iter().map(|l| l["pose"].is_array()).collect();
+    assert_eq!(good, [true, false, false, false, true, false, false]);
+    assert_eq!(lines[2]["line"], 4);
+    assert!(lines[2]["error"].as_str().is_some_and(|e| e.contains("3 values")), "{}", lines[2]);
+}
+
+/// The names that the JSON of `derive` uses.
+fn names(answer: &Value) -> Vocabulary {
+    let variables = answer["joints"].as_array().into_iter().flatten();
+    let numbered = (1..).zip(variables).fold(Vocabulary::new().open(true), |v, (i, joint)| {
+        let symbol = Symbol::new(joint["name"].as_str().expect("a name"));
+        if joint["kind"] == "R" { v.angle(i, symbol) } else { v.sliding(i, symbol) }
+    });
+    let steps = answer["forward"]["steps"].as_array().into_iter().flatten();
+    steps.fold(numbered, |v, step| match step["name"].as_str() {
+        Some(name) if !name.starts_with(['C', 'S']) => v.symbol(name),
+        _ => v,
+    })
+}
+
+/// Steps of the algorithm, put into each other, give the matrix: by proof, from the JSON alone.
+#[test]
+fn the_json_of_derive_reads_back() {
+    for robot in ["staubli-rx90", "scara", "cylindrical-wrist", "kinova-jaco", "smart5-six-rail"] {
+        let answer = json(&["derive", robot, "--json"]);
+        let names = names(&answer);
+        let read = |v: &Value| {
+            let text = v.as_str().expect("text");
+            parse(text, &names).unwrap_or_else(|e| panic!("{robot}: {text}: {e:?}"))
+        };
+        let mut values: Vec<(Symbol, Expr)> = vec![];
+        for step in answer["forward"]["steps"].as_array().expect("steps") {
+            let value = read(&step["value"]).substitute(|s| values.iter().find(|v| v.0 == s).map(|v| v.1));
+            values.push((Symbol::new(step["name"].as_str().expect("a name")), value));
+        }
+        for row in 0..3 {
+            for column in 0..4 {
+                let name = format!("t{}{}", row + 1, column + 1);
+                let found = values.iter().rev().find(|v| *v.0.name() == *name).expect("a result").1;
+                let entry = read(&answer["forward"]["matrix"][row][column]);
+                assert!(equal(found, entry).is_equal(), "{robot}: {name}");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_robot_in_every_format() {
+    for name in catalogue::names() {
+        json(&["show", name, "--json"]);
+        for format in ["terminal", "latex", "typst", "html", "json"] {
+            let output = denavit(&["derive", name, "--format", format]);
+            assert_eq!(output.status.code(), Some(0), "{name} as {format}: {}", stderr(&output));
+            assert!(output.stderr.is_empty(), "{name} as {format}: {}", stderr(&output));
+            assert_eq!(
+                output.stdout,
+                denavit(&["derive", name, "--format", format]).stdout,
+                "{name}: not the same twice"
+            );
+        }
+    }
+}
+
+#[test]
+fn all_errors_of_a_table_at_once_each_with_its_place() {
+    let table = "convention: standard\n\n| j | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | θ1 | d1 | 0 | 9O° |\n| 2 | θ2 | q2 | $ | 0 |\n";
+    let output = fed(&["derive", "-"], table);
+    assert_eq!(output.status.code(), Some(3));
+    let text = stderr(&output);
+    for place in ["-:5:", "-:6:"] {
+        assert!(text.contains(place), "{text}");
+    }
+    assert!(text.matches("error:").count() >= 2, "{text}");
+}
+
+#[test]
+fn hostile_names_stay_text() {
+    let robot = "name = '''</title><script>alert(1)</script> \\input{x} #panic()'''\nconvention = \"standard\"\n\
+                 [[joints]]\ntheta = \"q1\"\na = 1\n";
+    let folder = std::env::temp_dir().join(format!("denavit-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let file = folder.join("hostile.toml");
+    std::fs::write(&file, robot).expect("a file");
+    let file = file.to_str().expect("UTF-8");
+    let html = stdout(&denavit(&["derive", file, "--format", "html"]));
+    assert!(!html.contains("<script>") && html.contains("&lt;script&gt;"), "{html}");
+    let latex = stdout(&denavit(&["derive", file, "--format", "latex"]));
+    assert!(!latex.contains("\\input{x}"), "{latex}");
+    let typst = stdout(&denavit(&["derive", file, "--format", "typst"]));
+    assert!(typst.contains("#heading(level: 1, \"") && !typst.contains("\n#panic"), "{typst}");
+    let _ = std::fs::remove_dir_all(&folder);
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_failure() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_denavit"))
+        .args(["derive", "franka-panda"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the command starts");
+    drop(child.stdout.take());
+    let output = child.wait_with_output().expect("the command ends");
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(output.stderr.is_empty());
+}

@@ -1,0 +1,10 @@
+//! Tests of the command line, one program.
+
+mod check;
+mod command_line;
+mod common;
+mod generate;
+mod ik;
+mod motion;
+mod stream;
+mod view;

@@ -1,0 +1,242 @@
+//! Source code of programs: a folder in one of several languages that builds and tests itself.
+//!
+//! [`Library`] says what to emit; every language starts from the same listing of statements and spells
+//! it its own way. What comes from outside (names, descriptions) reaches the text as sanitised identifiers
+//! (`names.rs`) or in comments without line breaks.
+
+pub(crate) mod blocks;
+mod c;
+pub(crate) mod compiled;
+mod cuda;
+mod javascript;
+pub(crate) mod listing;
+mod matlab;
+pub(crate) mod names;
+mod nested;
+mod python;
+mod rust;
+pub(crate) mod solver;
+pub(crate) mod spelling;
+pub(crate) mod wrap;
+
+use denavit_program::Program;
+use denavit_program::solver::Solver;
+use denavit_symbolic::{Expr, Symbol};
+
+/// A language that source can be emitted in.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Language {
+    /// Rust without standard library or allocation.
+    Rust,
+    /// C99, header and source, which compile as C++ too.
+    C,
+    /// Python over NumPy arrays.
+    Python,
+    /// MATLAB, which Octave reads.
+    Matlab,
+    /// JavaScript, an ES module.
+    JavaScript,
+    /// CUDA C++.
+    Cuda,
+}
+
+impl Language {
+    /// All of them.
+    pub const ALL: [Language; 6] = [
+        Language::Rust,
+        Language::C,
+        Language::Python,
+        Language::Matlab,
+        Language::JavaScript,
+        Language::Cuda,
+    ];
+
+    /// Its name for people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Language::Rust => "Rust",
+            Language::C => "C",
+            Language::Python => "Python",
+            Language::Matlab => "MATLAB",
+            Language::JavaScript => "JavaScript",
+            Language::Cuda => "CUDA",
+        }
+    }
+}
+
+/// Floating-point numbers of the emitted code.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Precision {
+    /// 64 bits.
+    #[default]
+    Double,
+    /// 32 bits, where the language has a choice (C, CUDA).
+    Single,
+}
+
+/// What to emit.
+#[derive(Clone, Debug)]
+pub struct Library<'a> {
+    /// What the functions are about, for people: one line.
+    pub title: String,
+    /// The name to make file and function names of.
+    pub name: String,
+    /// The lines that every file opens with, without comment signs: the table, the version of the generator, the
+    /// conventions.
+    pub header: Vec<String>,
+    /// The variables of all routines, in order, each with what it is and its unit.
+    pub variables: Vec<(Symbol, String)>,
+    /// The parameters of all routines, in order.
+    pub parameters: Vec<Parameter>,
+    /// The functions.
+    pub routines: Vec<Routine<'a>>,
+    /// The functions that find all solutions.
+    pub solvers: Vec<SolverRoutine<'a>>,
+    /// Functions that are no programs.
+    pub attachments: Vec<Attachment>,
+    /// Numbers of the emitted code.
+    pub precision: Precision,
+}
+
+/// A function that is no program, written out in the language of the library (C, Rust; other languages leave it out).
+///
+/// In all its texts `@name@` stands for the name of the library, `@NAME@` for the same in capitals.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Attachment {
+    /// Its name, such as `inverse`.
+    pub name: String,
+    /// What callers see: C, for the header; Rust, for the root of the package.
+    pub declarations: String,
+    /// C: for the source file.
+    pub definitions: String,
+    /// C: for the test, with a function `test_…` of the attachment's name.
+    pub test: String,
+    /// Files of its own, besides.
+    pub files: Vec<File>,
+}
+
+impl Attachment {
+    /// A text with the name of the library in it.
+    pub(crate) fn named(text: &str, library: &str) -> String {
+        text.replace("@name@", library).replace("@NAME@", &library.to_uppercase())
+    }
+
+    /// Its files with the name of the library in them.
+    pub(crate) fn named_files(&self, library: &str) -> impl Iterator<Item = File> {
+        self.files
+            .iter()
+            .map(|f| File { path: Self::named(&f.path, library), text: Self::named(&f.text, library) })
+    }
+}
+
+/// A parameter of emitted code.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// Its symbol in the programs.
+    pub symbol: Symbol,
+    /// What it is and its unit: one line.
+    pub about: String,
+    /// Its value where the caller gives none.
+    pub default: Option<f64>,
+}
+
+/// A function to emit.
+#[derive(Clone, Debug)]
+pub struct Routine<'a> {
+    /// Its name, such as `fk`.
+    pub name: String,
+    /// What the results are: shape, units, frames. A line each.
+    pub about: Vec<String>,
+    /// What it computes; its variables and parameters are those of the library.
+    pub program: &'a Program,
+    /// What the results are called as a whole, such as `pose`.
+    pub result: String,
+    /// The shape of the results, row-major; the product is their number.
+    pub shape: Vec<usize>,
+    /// What the stored test holds it to.
+    pub vectors: Vec<Vector>,
+    /// The magnitude of each result, of which the test allows some units in the last place.
+    pub scales: Vec<f64>,
+}
+
+/// A configuration and the results there, from an independent source.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Vector {
+    /// One value per variable.
+    pub variables: Vec<f64>,
+    /// One value per parameter.
+    pub parameters: Vec<f64>,
+    /// The results.
+    pub results: Vec<f64>,
+}
+
+/// A function that finds all solutions. It computes in double precision, whatever the precision of the library.
+#[derive(Clone, Debug)]
+pub struct SolverRoutine<'a> {
+    /// Its name, such as `inverse`.
+    pub name: String,
+    /// What it solves: shapes, units, frames. A line each.
+    pub about: Vec<String>,
+    /// What it computes; its parameters are among those of the library, its variables are its own.
+    pub solver: &'a Solver,
+    /// What the variables are called as a whole, such as `goal`.
+    pub argument: String,
+    /// The shape of the variables, row-major; the product is their number.
+    pub shape: Vec<usize>,
+    /// What the results of a solution are called as a whole, such as `q`.
+    pub result: String,
+    /// What the stored test holds it to.
+    pub vectors: Vec<SolverVector>,
+}
+
+/// What is known, and all solutions.
+#[derive(Clone, PartialEq, Debug)]
+pub struct SolverVector {
+    /// One value per variable of the solver.
+    pub variables: Vec<f64>,
+    /// One value per parameter of the library.
+    pub parameters: Vec<f64>,
+    /// All solutions, in any order.
+    pub solutions: Vec<KnownSolution>,
+    /// What a result may be off by; angles modulo 2π.
+    pub tolerance: f64,
+}
+
+/// A solution from an independent source.
+#[derive(Clone, PartialEq, Debug)]
+pub struct KnownSolution {
+    /// The results.
+    pub results: Vec<f64>,
+    /// How many branches come together in it.
+    pub multiplicity: u32,
+    /// The nodes whose unknown is free there: bit i for node i.
+    pub free: u32,
+}
+
+/// A file of the emitted folder.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct File {
+    /// Its path in the folder, with `/`.
+    pub path: String,
+    /// Its text.
+    pub text: String,
+}
+
+/// A formula on its own in a language, in double precision; symbols become the nearest identifiers that the language has.
+pub fn expression(e: Expr, language: Language) -> String {
+    let mut names = names::Names::new(language, &[]);
+    e.symbols().into_iter().for_each(|s| names.declare(s));
+    spelling::Spelling { language, precision: Precision::Double, names: &names }.formula(e)
+}
+
+/// The files of a folder that builds and tests itself.
+pub fn emit(library: &Library, language: Language) -> Vec<File> {
+    match language {
+        Language::Python => python::emit(library),
+        Language::Matlab => matlab::emit(library),
+        Language::JavaScript => javascript::emit(library),
+        Language::C => c::emit(library),
+        Language::Rust => rust::emit(library),
+        Language::Cuda => cuda::emit(library),
+    }
+}

@@ -1,0 +1,214 @@
+//! The inverse function of an arm with six joints and no closed form: elimination, in Rust and C.
+//!
+//! Rust embeds the files of the crate `denavit-elimination` as they are; C has the same algorithm in `general/*.c`.
+
+mod c;
+mod rust;
+
+use super::Options;
+use super::inverse::Inverse;
+use super::samples::{self, Sample};
+use super::words::text;
+use denavit::description::{Description, JointKind};
+use denavit::geometry::Transform;
+use denavit::inverse::JointSpace;
+use denavit::inverse::general::{GeneralSolver, SixAxes};
+use denavit::inverse::{Answer, Goal};
+use denavit::robot::Robot;
+use denavit_elimination::{Plan, Tables};
+use denavit_emit::{Attachment, Language};
+use denavit_symbolic::{Expr, Symbol};
+
+/// Room for solutions: that many an arm has at most where none are double.
+const MAX: usize = 16;
+
+/// An inverse function by elimination.
+pub(super) struct General {
+    language: Language,
+    axes: SixAxes,
+    plan: Plan,
+    /// What C prints.
+    tables: Option<Tables>,
+    is_angle: [bool; 6],
+    /// What the function is about, without comment signs.
+    about: Vec<String>,
+    facts: Inverse,
+    vectors: Vec<Vector>,
+}
+
+/// A pose, a configuration that has it, and all configurations that have it.
+struct Vector {
+    /// Rows 1 to 3.
+    pose: [[f64; 4]; 3],
+    configuration: Option<Vec<f64>>,
+    solutions: Vec<Vec<f64>>,
+}
+
+impl General {
+    /// Measures which eliminations suit the arm.
+    ///
+    /// # Errors
+    /// If it is not an arm for elimination; with words if it is one, but not with these options.
+    pub fn new(d: &Description, options: &Options) -> Result<Self, Option<String>> {
+        let variables = d.variables();
+        if variables.len() != 6 || options.inverse.goal != Goal::Pose || options.inverse.given.is_some() {
+            return Err(None);
+        }
+        let robot = Robot::numeric(d).map_err(|missing| {
+            Some(format!("elimination computes with the values of parameters: {missing}"))
+        })?;
+        let space = JointSpace::new(d, robot.reach());
+        let mut solver = GeneralSolver::new(&robot, &space)
+            .map_err(|why| Some(format!("nor does elimination serve the arm: {why}")))?;
+        let (axes, plan) = solver.parts();
+        let (axes, plan, tables) = (axes.clone(), plan.clone(), plan.tables());
+        match options.language {
+            Language::Rust => {}
+            Language::C if tables.is_some() => {}
+            Language::C => {
+                return Err(Some(
+                    "elimination in C serves arms with at most one prismatic joint; --language rust serves this one".into(),
+                ));
+            }
+            _ => {
+                return Err(Some(
+                    "elimination is generated in C and Rust (--language c, --language rust)".into(),
+                ));
+            }
+        }
+        let is_angle = std::array::from_fn(|j| variables[j].kind == JointKind::Revolute);
+        let vectors = Tester { robot, space, solver: &mut solver }.vectors(d);
+        let assumed = d.parameters.iter().filter_map(|p| Some((p.symbol, p.value?)));
+        let facts = Inverse {
+            by_elimination: true,
+            max_solutions: MAX,
+            branches: vec![],
+            given: vec![],
+            given_by_choice: false,
+            assumed: assumed.collect(),
+            vectors: vectors.len(),
+        };
+        let about = about(d, &facts.assumed);
+        Ok(General { language: options.language, axes, plan, tables, is_angle, about, facts, vectors })
+    }
+
+    /// What is known of it.
+    pub fn facts(&self) -> Inverse {
+        self.facts.clone()
+    }
+
+    /// Lines for the head of each file.
+    pub fn header(&self) -> Vec<String> {
+        let mut lines = vec![format!(
+            "ik: no closed form; by elimination with numbers, at most {} solutions, each polished by Newton's method on \
+             the forward model.",
+            MAX
+        )];
+        lines.extend(condition(&self.facts.assumed));
+        lines
+    }
+
+    /// The function in its language.
+    pub fn attachment(&self) -> Attachment {
+        match (&self.tables, self.language) {
+            (Some(tables), Language::C) => c::attachment(self, tables),
+            _ => rust::attachment(self),
+        }
+    }
+}
+
+/// What the values are that it holds for.
+fn condition(assumed: &[(Symbol, Expr)]) -> Option<String> {
+    let values: Vec<String> = assumed.iter().map(|(s, e)| format!("{} = {}", s.name(), text(*e))).collect();
+    (!values.is_empty()).then(|| {
+        format!("ik holds for {} only; what the parameters say of them is not read.", values.join(", "))
+    })
+}
+
+fn about(d: &Description, assumed: &[(Symbol, Expr)]) -> Vec<String> {
+    let [to, from] = super::forward::ends(d);
+    let variables: Vec<String> = d.variables().iter().map(|v| v.symbol.name().to_string()).collect();
+    let mut lines = vec![
+        format!("Inverse kinematics: all joint variables with which {to} has a pose in {from}."),
+        "Given: the first three rows of the homogeneous matrix, row by row: rotation (no unit), position (m).".into(),
+        format!(
+            "The results: {}; angles in rad from -pi to pi, displacements in m. Limits are not looked at.",
+            variables.join(", ")
+        ),
+    ];
+    lines.extend(condition(assumed));
+    lines.push(
+        "The loop equation is cut in two and two joints are eliminated (Raghavan and Roth 1990); the determinant that \
+         remains is a trigonometric polynomial of degree 8 in another joint, whose roots give all solutions."
+            .into(),
+    );
+    lines
+}
+
+/// Finds what the test of a package holds the function to.
+struct Tester<'a> {
+    robot: Robot<f64>,
+    space: JointSpace,
+    solver: &'a mut GeneralSolver,
+}
+
+/// A residual above this is no clean solution.
+const CLEAN: f64 = 1e-11;
+/// A smallest singular value below this magnifies rounding too much.
+const SINGULAR: f64 = 1e-3;
+/// How near the configuration must be to one that is found.
+const SAME: f64 = 1e-9;
+/// How far entries of a pose are moved to see whether as many solutions are found.
+const NUDGES: [f64; 4] = [4e-16, -4e-16, 1.2e-15, -1.2e-15];
+
+impl Tester<'_> {
+    /// Special and random configurations, and a pose out of reach.
+    fn vectors(&mut self, d: &Description) -> Vec<Vector> {
+        let mut all = samples::samples(d);
+        let far = all.last().and_then(|s| self.unreachable(s));
+        all.extend(samples::special(d));
+        let mut found: Vec<Vector> = all.iter().filter_map(|s| self.vector(&s.variables)).collect();
+        found.extend(far);
+        found
+    }
+
+    /// The pose of a configuration and all solutions; nothing if rounding decides how many there are.
+    fn vector(&mut self, q: &[f64]) -> Option<Vector> {
+        let pose = self.robot.pose(q);
+        let solutions = self.solutions(&pose)?;
+        for nudge in NUDGES {
+            let mut near = pose;
+            for (i, row) in near.rotation.rows().iter().enumerate() {
+                near.translation.0[i] += nudge * (1.0 + row[i].abs());
+            }
+            if self.solutions(&near)?.len() != solutions.len() {
+                return None;
+            }
+        }
+        let is_known = solutions.iter().any(|s| self.space.distance(s, q) < SAME);
+        let configuration = Some(q.to_vec());
+        is_known.then(|| Vector { pose: rows(&pose), configuration, solutions })
+    }
+
+    /// A pose far outside, if it is certain to have no solution.
+    fn unreachable(&mut self, sample: &Sample) -> Option<Vector> {
+        let mut pose = self.robot.pose(&sample.variables);
+        pose.translation.0[0] += 8.0 * sample.reach + 8.0;
+        let solutions = self.solutions(&pose)?;
+        solutions.is_empty().then(|| Vector { pose: rows(&pose), configuration: None, solutions })
+    }
+
+    /// All solutions; nothing if these may not be all, or some are not clean.
+    fn solutions(&mut self, pose: &Transform<f64>) -> Option<Vec<Vec<f64>>> {
+        let Answer { solutions, families, doubt, .. } = self.solver.solve(pose);
+        let is_clean = solutions.iter().all(|s| s.residual <= CLEAN && s.guard >= SINGULAR);
+        let holds = doubt.is_none() && families.is_empty() && is_clean;
+        holds.then(|| solutions.into_iter().map(|s| s.q).collect())
+    }
+}
+
+/// Rows 1 to 3 of the matrix.
+fn rows(pose: &Transform<f64>) -> [[f64; 4]; 3] {
+    let r = pose.rotation.rows();
+    std::array::from_fn(|i| [r[i][0], r[i][1], r[i][2], pose.translation.0[i]])
+}

@@ -1,0 +1,335 @@
+//! The inverse function: its words, and vectors from the solver's evaluator, each solution checked by the forward
+//! model in extended precision.
+
+use super::Options;
+use super::forward::{ends, traced};
+use super::samples::{self, Sample};
+use super::words::text;
+use denavit::description::{Description, JointKind};
+use denavit::geometry::{Rotation, Transform, Vector};
+use denavit::inverse::{Goal, InverseModel, Refusal, variables};
+use denavit::robot::Robot;
+use denavit_emit::{KnownSolution, Language, Precision, SolverRoutine, SolverVector};
+use denavit_program::solver::{SAME, SolverScalar};
+use denavit_program::{Extended, Program};
+use denavit_symbolic::{Expr, Symbol};
+use std::f64::consts::TAU;
+
+/// What is known of a generated inverse function.
+#[derive(Clone, Debug)]
+pub struct Inverse {
+    /// True if it is no closed form: the joints are eliminated with numbers.
+    pub by_elimination: bool,
+    /// The largest number of solutions.
+    pub max_solutions: usize,
+    /// What its branches are called: shoulder, elbow, wrist.
+    pub branches: Vec<String>,
+    /// The joint variables that are given beside the pose.
+    pub given: Vec<Symbol>,
+    /// True if the derivation chose them.
+    pub given_by_choice: bool,
+    /// Parameters whose values are part of the closed form: those that are 0, and angles.
+    pub assumed: Vec<(Symbol, Expr)>,
+    /// Poses in the test.
+    pub vectors: usize,
+}
+
+impl Inverse {
+    /// `8 solutions`.
+    pub fn at_most(&self) -> String {
+        let n = self.max_solutions;
+        format!("{n} solution{}", if n == 1 { "" } else { "s" })
+    }
+}
+
+/// An inverse function.
+pub(super) struct Closed {
+    model: InverseModel,
+    ends: [String; 2],
+    facts: Inverse,
+    vectors: Vec<SolverVector>,
+}
+
+impl Closed {
+    /// Derives it.
+    pub fn new(d: &Description, options: &Options) -> Result<Self, Refusal> {
+        let model = InverseModel::derive(d, &options.inverse)?;
+        let occurs = |s: Symbol| {
+            let cells = d.rows.iter().flat_map(|r| [r.theta, r.d, r.a, r.alpha, r.gamma, r.b]);
+            let fixed = [d.base, d.tool].into_iter().flat_map(|x| x.matrix()).flatten();
+            cells.chain(fixed).any(|e| e.symbols().contains(&s))
+        };
+        let is_left = |s: Symbol| model.description.parameters.iter().any(|p| p.symbol == s);
+        let assumed: Vec<(Symbol, Expr)> = d
+            .parameters
+            .iter()
+            .filter(|p| occurs(p.symbol) && !is_left(p.symbol))
+            .filter_map(|p| Some((p.symbol, p.value?)))
+            .collect();
+        let is_single = options.precision == Precision::Single
+            && matches!(options.language, Language::C | Language::Cuda);
+        let vectors = Tester::new(d, &model, &assumed, is_single).vectors(d);
+        let facts = Inverse {
+            by_elimination: false,
+            max_solutions: model.max_solutions(),
+            branches: model.labels.iter().flatten().cloned().collect(),
+            given: model.given.iter().map(|&j| model.chain.variables[j]).collect(),
+            given_by_choice: model.given_by_choice,
+            assumed,
+            vectors: vectors.len(),
+        };
+        Ok(Closed { model, ends: ends(d), facts, vectors })
+    }
+
+    /// What is known of it.
+    pub fn facts(&self) -> Inverse {
+        self.facts.clone()
+    }
+
+    /// Lines for the head of each file.
+    pub fn header(&self) -> Vec<String> {
+        let branches = match &self.facts.branches[..] {
+            [] => String::new(),
+            all => format!(" ({})", all.join(", ")),
+        };
+        let mut lines = vec![format!(
+            "ik: closed form, at most {}{branches}. The code puts each into the forward model, and returns how far \
+             it is from the pose.",
+            self.facts.at_most()
+        )];
+        lines.extend(self.condition());
+        lines
+    }
+
+    /// What it takes for granted.
+    fn condition(&self) -> Option<String> {
+        let values = self.facts.assumed.iter().map(|(s, e)| format!("{} = {}", s.name(), text(*e)));
+        let values: Vec<String> = values.collect();
+        (!values.is_empty()).then(|| {
+            format!("ik holds for {} only; what the parameters say of them is not read.", values.join(", "))
+        })
+    }
+
+    /// With words and vectors.
+    pub fn routine(&self) -> SolverRoutine<'_> {
+        let [to, from] = &self.ends;
+        let (what, input, argument, shape) = match self.model.goal {
+            Goal::Pose => (
+                format!("{to} has a pose in {from}"),
+                "the first three rows of the homogeneous matrix, row by row: rotation (no unit), position (m)",
+                "pose",
+                vec![3, 4],
+            ),
+            Goal::Position => (
+                format!("the origin of {to} has a position in {from}"),
+                "the position (m)",
+                "position",
+                vec![3],
+            ),
+            Goal::PositionAndAxis => (
+                format!("the origin of {to} has a position and its z axis a direction in {from}"),
+                "for x, y and z in turn the component of the z axis (no unit) and of the position (m)",
+                "goal",
+                vec![3, 2],
+            ),
+        };
+        let all = |list: &[Symbol]| list.iter().map(|s| s.name().to_string()).collect::<Vec<_>>().join(", ");
+        let mut about = vec![format!("Inverse kinematics: all joint variables with which {what}.")];
+        let count: usize = shape.iter().product();
+        let (argument, shape) = if self.facts.given.is_empty() {
+            about.push(format!("Given: {input}."));
+            (argument, shape)
+        } else {
+            about.push(format!("Given: {input}; then {}.", all(&self.facts.given)));
+            ("goal", vec![count + self.facts.given.len()])
+        };
+        about.push(format!(
+            "The results: {}; angles in rad from -pi to pi, displacements in m. Limits are not looked at.",
+            all(&self.model.chain.variables)
+        ));
+        if self.model.goal == Goal::Pose && self.model.rank < 6 {
+            about.push(format!(
+                "The arm moves its hand in {} directions only; other poses have no solution.",
+                self.model.rank
+            ));
+        }
+        about.extend(self.condition());
+        about.push(
+            "Where a pose leaves an unknown free, a family solves it; its member with 0 there is given."
+                .into(),
+        );
+        SolverRoutine {
+            name: "ik".into(),
+            about,
+            solver: &self.model.compiled.solver,
+            argument: argument.into(),
+            shape,
+            result: "q".into(),
+            vectors: self.vectors.clone(),
+        }
+    }
+}
+
+/// Finds what a test holds the function to.
+struct Tester<'a> {
+    model: &'a InverseModel,
+    solver: SolverScalar,
+    is_angle: Vec<bool>,
+    /// The plain product of the link transforms, rows 1 to 3.
+    product: Program,
+    /// Values of the parameters in the product and in the library.
+    exact: Vec<(Symbol, f64)>,
+    parameters: Vec<f64>,
+}
+
+/// A residual above this is no clean solution.
+const CLEAN: f64 = 1e-11;
+/// How far entries of a pose are moved to see what rounding does.
+const NUDGES: [f64; 8] = [2e-16, -2e-16, 4e-16, -4e-16, 8e-16, -8e-16, 1.2e-15, -1.2e-15];
+/// How much more than that is allowed.
+const FACTOR: f64 = 64.0;
+/// The largest tolerance of a vector.
+const LOOSEST: f64 = 1e-5;
+
+impl<'a> Tester<'a> {
+    fn new(d: &Description, model: &'a InverseModel, assumed: &[(Symbol, Expr)], is_single: bool) -> Self {
+        let values = samples::parameters(d);
+        let parameters: Vec<f64> =
+            values.iter().map(|&x| if is_single { f64::from(x as f32) } else { x }).collect();
+        let is_assumed = |s: Symbol| assumed.iter().any(|a| a.0 == s);
+        let symbols: Vec<Symbol> = d.parameters.iter().map(|p| p.symbol).collect();
+        let both = symbols.iter().zip(values.iter().zip(&parameters));
+        let exact: Vec<(Symbol, f64)> =
+            both.map(|(&s, (&x, &rounded))| (s, if is_assumed(s) { x } else { rounded })).collect();
+        let value = |s: &Symbol| exact.iter().find(|e| e.0 == *s).map_or(0.0, |e| e.1);
+        let own: Vec<f64> = model.compiled.solver.parameters.iter().map(value).collect();
+        let q: Vec<Symbol> = d.variables().iter().map(|v| v.symbol).collect();
+        let of: Vec<Expr> = q.iter().map(|s| (*s).into()).collect();
+        let rows = Robot::symbolic(d).pose(&of).matrix();
+        let product: Vec<Expr> = rows.into_iter().take(3).flatten().collect();
+        Tester {
+            solver: model.compiled.solver.compile(&own).scalar(),
+            is_angle: d.variables().iter().map(|v| v.kind == JointKind::Revolute).collect(),
+            product: traced(&q, &symbols, &product),
+            model,
+            exact,
+            parameters,
+        }
+    }
+
+    /// Zero, quarter turns, random configurations, random ones with a joint at zero, and a pose out of reach.
+    fn vectors(&mut self, d: &Description) -> Vec<SolverVector> {
+        let mut all = samples::few(d);
+        let far: Option<SolverVector> = all.last().and_then(|s| self.unreachable(s));
+        all.extend(samples::special(d));
+        let mut found: Vec<SolverVector> = all.iter().filter_map(|s| self.vector(s)).collect();
+        found.extend(far);
+        found
+    }
+
+    /// The pose of a configuration, and all solutions; nothing if rounding decides how many there are.
+    fn vector(&mut self, sample: &Sample) -> Option<SolverVector> {
+        let q = &sample.variables;
+        let variables = self.goal(&self.pose(q), q);
+        let known = self.solutions(&variables)?;
+        let mut moved = 0.0_f64;
+        for (k, nudge) in NUDGES.into_iter().enumerate() {
+            let signs = |i: usize| if (i * (2 * k + 3) + k).is_multiple_of(3) { -nudge } else { nudge };
+            let by = |(i, x): (usize, &f64)| x + signs(i) * if x.abs() > 1.0 { x.abs() } else { 1.0 };
+            let nudged: Vec<f64> = variables.iter().enumerate().map(by).collect();
+            let others = self.solutions(&nudged)?;
+            moved = moved.max(self.apart(&known, &others)?);
+        }
+        let size = sample.reach.max(1.0);
+        let tolerance = 1e-12 * size + FACTOR * moved;
+        let is_known = |s: &KnownSolution| self.distance(&s.results, q) <= tolerance.max(SAME);
+        let holds = known.iter().any(|s| s.free != 0 || is_known(s))
+            && known.iter().all(|s| self.reaches(&variables, &s.results, size));
+        let is_clear = tolerance <= LOOSEST && self.are_apart(&known, tolerance);
+        (holds && is_clear).then(|| SolverVector {
+            variables,
+            parameters: self.parameters.clone(),
+            solutions: known,
+            tolerance,
+        })
+    }
+
+    /// A pose far outside, if it has no solution.
+    fn unreachable(&mut self, sample: &Sample) -> Option<SolverVector> {
+        let q = &sample.variables;
+        let mut pose = self.pose(q);
+        pose[3] += 8.0 * sample.reach + 8.0;
+        let variables = self.goal(&pose, q);
+        let solutions = self.solutions(&variables)?;
+        let parameters = self.parameters.clone();
+        solutions.is_empty().then_some(SolverVector { variables, parameters, solutions, tolerance: 1e-9 })
+    }
+
+    /// Rows 1 to 3 of the pose, rounded from extended precision.
+    fn pose(&self, q: &[f64]) -> Vec<f64> {
+        let value = |s: Symbol| {
+            let variable = self.product.variables().iter().position(|x| *x == s).map(|k| q[k]);
+            let x = variable.or_else(|| self.exact.iter().find(|e| e.0 == s).map(|e| e.1))?;
+            Some(Extended::from(x))
+        };
+        let exact = self.product.eval(value);
+        exact.expect("a sample has a value for every input").iter().map(Extended::to_f64).collect()
+    }
+
+    /// What the solver takes of a pose and a configuration.
+    fn goal(&self, pose: &[f64], q: &[f64]) -> Vec<f64> {
+        let r = std::array::from_fn(|i| std::array::from_fn(|j| pose[4 * i + j]));
+        let p = Vector(std::array::from_fn(|i| pose[4 * i + 3]));
+        let pose = Transform::from_rotation_translation(Rotation::from_rows(r), p);
+        let given: Vec<f64> = self.model.given.iter().map(|&j| q[j]).collect();
+        variables(self.model.goal, &pose, &given)
+    }
+
+    /// All solutions; nothing if some are not clean.
+    fn solutions(&mut self, variables: &[f64]) -> Option<Vec<KnownSolution>> {
+        let leaves = self.solver.solve(variables, &[]);
+        let known = |leaf: denavit_program::solver::Leaf| {
+            (leaf.residual <= CLEAN).then(|| KnownSolution {
+                results: leaf.outputs.to_vec(),
+                multiplicity: leaf.multiplicity,
+                free: leaf.free as u32,
+            })
+        };
+        leaves.iter().map(known).collect()
+    }
+
+    /// How far the solutions of a pose are from the same ones of another; nothing if they are others.
+    fn apart(&self, known: &[KnownSolution], others: &[KnownSolution]) -> Option<f64> {
+        if known.len() != others.len() {
+            return None;
+        }
+        let nearest = |s: &KnownSolution| {
+            let alike = others.iter().filter(|t| t.multiplicity == s.multiplicity && t.free == s.free);
+            alike.map(|t| self.distance(&s.results, &t.results)).min_by(f64::total_cmp)
+        };
+        known.iter().map(nearest).try_fold(0.0_f64, |most, x| Some(most.max(x?)))
+    }
+
+    /// The largest difference of two configurations, angles modulo 2π.
+    fn distance(&self, a: &[f64], b: &[f64]) -> f64 {
+        let each = a.iter().zip(b).zip(&self.is_angle).map(|((x, y), &is_angle)| {
+            let d = x - y;
+            (if is_angle { d - TAU * (d / TAU).round() } else { d }).abs()
+        });
+        each.fold(0.0, f64::max)
+    }
+
+    /// Whether solutions are farther apart than what they are allowed to be off.
+    fn are_apart(&self, known: &[KnownSolution], tolerance: f64) -> bool {
+        let pair = |i: usize, s: &KnownSolution| {
+            known[..i].iter().all(|t| self.distance(&s.results, &t.results) > 4.0 * tolerance)
+        };
+        known.iter().enumerate().all(|(i, s)| pair(i, s))
+    }
+
+    /// Whether the forward model brings a solution to the pose.
+    fn reaches(&self, variables: &[f64], q: &[f64], size: f64) -> bool {
+        let found = self.goal(&self.pose(q), q);
+        found.iter().zip(variables).all(|(x, y)| (x - y).abs() <= 1e-10 * size)
+    }
+}

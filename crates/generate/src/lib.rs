@@ -1,0 +1,217 @@
+//! Source code for one robot: what to emit, the words around it, and the vectors that its tests hold.
+
+mod forward;
+mod general;
+mod inverse;
+mod samples;
+mod words;
+
+pub use inverse::Inverse;
+
+use denavit::description::Description;
+use denavit::forward::Proof;
+use denavit::inverse as ik;
+use denavit::robot::MissingValue;
+use denavit_emit::{File, Language, Library, Parameter, Precision};
+use denavit_program::Count;
+use denavit_symbolic::{Expr, Symbol};
+use forward::Forward;
+use general::General;
+use inverse::Closed;
+use std::fmt;
+use std::str::FromStr;
+
+/// A function that can be generated.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Wanted {
+    /// `fk`: the tool in the base.
+    Pose,
+    /// `frames`: frames 0 … n in the base.
+    Frames,
+    /// `jacobian`: the geometric Jacobian of the tool in the base.
+    Jacobian,
+    /// `jacobian_fk`: that and the tool in the base, in one pass.
+    JacobianAndPose,
+    /// `ik`: all joint variables that bring the tool to a pose.
+    Inverse,
+}
+
+impl Wanted {
+    /// All of them.
+    pub const ALL: [Wanted; 5] =
+        [Wanted::Pose, Wanted::Frames, Wanted::Jacobian, Wanted::JacobianAndPose, Wanted::Inverse];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Wanted::Pose => "fk",
+            Wanted::Frames => "frames",
+            Wanted::Jacobian => "jacobian",
+            Wanted::JacobianAndPose => "jacobian_fk",
+            Wanted::Inverse => "ik",
+        }
+    }
+
+    /// What a proof says of it.
+    pub fn claim(self, proof: Proof) -> String {
+        match (self, proof) {
+            (Wanted::Jacobian, Proof::Proved) => {
+                "proved equal to the derivative of the product of the link transforms".into()
+            }
+            (Wanted::JacobianAndPose, Proof::Proved) => {
+                "proved equal to the product of the link transforms and its derivative".into()
+            }
+            _ => proof.to_string(),
+        }
+    }
+}
+
+impl FromStr for Wanted {
+    type Err = String;
+    fn from_str(text: &str) -> Result<Self, String> {
+        let known = Wanted::ALL.into_iter().find(|w| w.name() == text.trim());
+        let names = || Wanted::ALL.map(Wanted::name).join(", ");
+        known.ok_or_else(|| format!("unknown function `{text}`; known are {}", names()))
+    }
+}
+
+impl fmt::Display for Wanted {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// How to generate.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// The language.
+    pub language: Language,
+    /// The functions.
+    pub functions: Vec<Wanted>,
+    /// What of the hand is given to the inverse model, and which joints beside it.
+    pub inverse: ik::Options,
+    /// Double or single precision, where the language has a choice.
+    pub precision: Precision,
+    /// The name of the files and functions; by default that of the robot.
+    pub name: Option<String>,
+    /// Write the values of parameters into the code, instead of taking them as arguments.
+    pub fixed: bool,
+}
+
+/// Generated source code.
+#[derive(Clone, Debug)]
+pub struct Generated {
+    /// The files of a folder that builds and tests itself; none if there is no function.
+    pub files: Vec<File>,
+    /// For each function of the joints its operations and whether it is proved; [`Wanted::claim`] says equal to what.
+    pub functions: Vec<(Wanted, Count, Proof)>,
+    /// The inverse function, if it was asked for and there is a closed form, or elimination in the language.
+    pub inverse: Option<Inverse>,
+    /// Why there is none although it was asked for.
+    pub refused: Option<String>,
+}
+
+impl Generated {
+    /// The command that tests the folder, to be run in it.
+    pub fn test_command(&self, language: Language) -> String {
+        let file = |start: &str, end: &str| {
+            let mut names = self.files.iter().map(|f| f.path.as_str());
+            names.find(|p| p.starts_with(start) && p.ends_with(end)).unwrap_or_default().to_string()
+        };
+        match language {
+            Language::Rust => "cargo test".into(),
+            Language::C => "make test".into(),
+            Language::Python => format!("python -W error {}", file("test_", ".py")),
+            Language::Matlab => format!("octave --no-gui --quiet {}", file("test_", ".m")),
+            Language::JavaScript => "node --test".into(),
+            Language::Cuda => format!("python {}", file("test_", ".py")),
+        }
+    }
+}
+
+/// Generates source code for a robot. An inverse function that has no closed form is by elimination in C and Rust, and
+/// left out in other languages. Where `fk` and `jacobian` are both asked for, `jacobian_fk` comes with them.
+///
+/// # Errors
+/// With `fixed`: if a parameter has no value.
+pub fn generate(description: &Description, options: &Options) -> Result<Generated, MissingValue> {
+    let fixed;
+    let d = if options.fixed {
+        fixed = with_values(description)?;
+        &fixed
+    } else {
+        description
+    };
+    let programs: Vec<Forward> =
+        with_one_pass(&options.functions).into_iter().filter_map(|w| Forward::new(d, w)).collect();
+    let asked = options.functions.contains(&Wanted::Inverse);
+    let (mut closed, mut general, mut refused) = (None, None, None);
+    match asked.then(|| Closed::new(d, options)) {
+        None => {}
+        Some(Ok(found)) => closed = Some(found),
+        Some(Err(why)) => match General::new(d, options) {
+            Ok(found) => general = Some(found),
+            Err(Some(also)) => refused = Some(format!("{why}; {also}")),
+            Err(None) => refused = Some(why.to_string()),
+        },
+    }
+    let functions = programs.iter().map(|f| (f.wanted, f.program.count(), f.proof)).collect();
+    if programs.is_empty() && closed.is_none() && general.is_none() {
+        return Ok(Generated { files: vec![], functions, inverse: None, refused });
+    }
+    let samples = samples::samples(d);
+    let variables = d.variables();
+    let parameters: Vec<Parameter> =
+        d.parameters.iter().map(|p| words::parameter(d, p.symbol, p.value)).collect();
+    let about: Vec<String> =
+        closed.iter().flat_map(Closed::header).chain(general.iter().flat_map(General::header)).collect();
+    let library = Library {
+        title: d.name.clone(),
+        name: options.name.clone().unwrap_or_else(|| d.name.clone()),
+        header: words::header(description, d, &programs, &about),
+        // Those of the functions of the joints.
+        variables: variables
+            .iter()
+            .filter(|_| !programs.is_empty())
+            .map(|v| (v.symbol, words::about_variable(d, v.symbol, v.kind)))
+            .collect(),
+        parameters,
+        routines: programs.iter().map(|f| f.routine(d, &samples)).collect(),
+        solvers: closed.iter().map(Closed::routine).collect(),
+        attachments: general.iter().map(General::attachment).collect(),
+        precision: options.precision,
+    };
+    let files = denavit_emit::emit(&library, options.language);
+    let inverse = closed.as_ref().map(Closed::facts).or(general.as_ref().map(General::facts));
+    Ok(Generated { files, functions, inverse, refused })
+}
+
+/// The functions asked for, and where pose and Jacobian are among them, both in one pass.
+fn with_one_pass(functions: &[Wanted]) -> Vec<Wanted> {
+    let has = |w| functions.contains(&w);
+    let is_one_more = has(Wanted::Pose) && has(Wanted::Jacobian) && !has(Wanted::JacobianAndPose);
+    functions.iter().copied().chain(is_one_more.then_some(Wanted::JacobianAndPose)).collect()
+}
+
+/// The description with values in place of its parameters.
+///
+/// # Errors
+/// If a parameter has no value.
+pub fn with_values(d: &Description) -> Result<Description, MissingValue> {
+    let missing = d.parameters.iter().filter(|p| p.value.is_none());
+    let parameters: Vec<String> = missing.map(|p| p.symbol.name().to_string()).collect();
+    if !parameters.is_empty() {
+        return Err(MissingValue { parameters });
+    }
+    let value = |s: Symbol| d.parameters.iter().find(|p| p.symbol == s)?.value;
+    let fixed = |e: Expr| e.substitute(value);
+    let mut new = d.clone();
+    for row in &mut new.rows {
+        for cell in [&mut row.theta, &mut row.d, &mut row.a, &mut row.alpha, &mut row.gamma, &mut row.b] {
+            *cell = fixed(*cell);
+        }
+    }
+    (new.base, new.tool) = (d.base.map(fixed), d.tool.map(fixed));
+    new.parameters.clear();
+    Ok(new)
+}

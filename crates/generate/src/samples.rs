@@ -1,0 +1,114 @@
+//! Configurations that tests hold generated code to.
+
+use denavit::description::{Description, JointKind};
+use denavit::robot::Robot;
+use denavit_emit::Vector;
+use denavit_program::{Extended, Program};
+use denavit_symbolic::{Expr, Symbol};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Seed of the random ones.
+const SEED: u64 = 0x5EED;
+/// How many are random.
+const RANDOM: usize = 12;
+
+/// A configuration for a test, with values for the parameters.
+pub(super) struct Sample {
+    pub variables: Vec<f64>,
+    pub parameters: Vec<f64>,
+    /// A bound on the distances between origins, m.
+    pub reach: f64,
+}
+
+impl Sample {
+    /// The value of an input of the program.
+    pub fn value(&self, program: &Program, s: Symbol) -> Option<f64> {
+        let place = |list: &[Symbol]| list.iter().position(|x| *x == s);
+        let variable = place(program.variables()).map(|k| self.variables[k]);
+        variable.or_else(|| place(program.parameters()).map(|k| self.parameters[k]))
+    }
+
+    /// The results of the reference here.
+    pub fn vector(&self, reference: &Program) -> Vector {
+        let exact = reference.eval(|s| self.value(reference, s).map(Extended::from));
+        let exact = exact.expect("a sample has a value for every input");
+        let results = exact.iter().map(Extended::to_f64).collect();
+        Vector { variables: self.variables.clone(), parameters: self.parameters.clone(), results }
+    }
+}
+
+/// Values of the parameters: those of the robot file, and others where it has none.
+pub(super) fn parameters(d: &Description) -> Vec<f64> {
+    let value = |(k, e): (usize, Option<Expr>)| {
+        e.and_then(|e| e.eval(|_| None).ok()).unwrap_or(0.25 + 0.0625 * k as f64)
+    };
+    d.parameters.iter().map(|p| p.value).enumerate().map(value).collect()
+}
+
+/// Zero, quarter turns, and random configurations inside (−π, π) and half a metre.
+pub(super) fn samples(d: &Description) -> Vec<Sample> {
+    let all = special_angles(d).into_iter().chain(random(d, RANDOM));
+    all.map(|q| sample(d, q)).collect()
+}
+
+/// The first of [`samples`].
+pub(super) fn few(d: &Description) -> Vec<Sample> {
+    let all = special_angles(d).into_iter().chain(random(d, RANDOM / 2));
+    all.map(|q| sample(d, q)).collect()
+}
+
+/// Random configurations with a joint at zero, each joint in turn.
+pub(super) fn special(d: &Description) -> Vec<Sample> {
+    let n = d.variables().len();
+    let configurations = random(d, RANDOM / 2 + n).split_off(RANDOM / 2);
+    let zeroed = configurations.into_iter().enumerate().map(|(k, mut q)| {
+        q[k] = 0.0;
+        sample(d, q)
+    });
+    zeroed.collect()
+}
+
+/// Zero and quarter turns.
+fn special_angles(d: &Description) -> Vec<Vec<f64>> {
+    let variables = d.variables();
+    let quarters = |k: usize, kind| match kind {
+        JointKind::Revolute => [FRAC_PI_2, PI, -FRAC_PI_2, 0.0][k % 4],
+        JointKind::Prismatic => [0.125, 0.5, 0.25, 0.0][k % 4],
+    };
+    let turned = |shift| variables.iter().enumerate().map(|(k, v)| quarters(k + shift, v.kind)).collect();
+    [vec![0.0; variables.len()]].into_iter().chain((0..3).map(turned)).collect()
+}
+
+fn random(d: &Description, count: usize) -> Vec<Vec<f64>> {
+    let mut state = SEED;
+    // Knuth's linear congruential generator, the upper bits.
+    let mut random = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let mut value = |kind| match kind {
+        JointKind::Revolute => PI * (2.0 * random() - 1.0),
+        JointKind::Prismatic => 0.5 * random(),
+    };
+    let variables = d.variables();
+    (0..count).map(|_| variables.iter().map(|v| value(v.kind)).collect()).collect()
+}
+
+/// A configuration with parameters, and a bound on distances.
+fn sample(d: &Description, q: Vec<f64>) -> Sample {
+    let variables = d.variables();
+    let parameters = parameters(d);
+    let value = |s: Symbol| {
+        let variable = variables.iter().position(|v| v.symbol == s).map(|k| q[k]);
+        variable.or_else(|| d.parameters.iter().position(|p| p.symbol == s).map(|k| parameters[k]))
+    };
+    let symbolic = Robot::symbolic(d);
+    let symbols: Vec<Expr> = variables.iter().map(|v| v.symbol.into()).collect();
+    let links = symbolic.links.iter().map(|link| link.transform(&symbols));
+    let lengths = links.chain([symbolic.base, symbolic.tool]).map(|x| {
+        let square: f64 = x.translation.0.iter().map(|e| e.eval(value).unwrap_or(0.0).powi(2)).sum();
+        square.sqrt()
+    });
+    let reach = lengths.sum();
+    Sample { variables: q, parameters, reach }
+}

@@ -1,0 +1,239 @@
+//! Generated inverse kinematics by elimination: built, and run on its own vectors.
+
+use denavit::description::JointKind;
+use denavit::geometry::{Rotation, Transform};
+use denavit::inverse::general::GeneralSolver;
+use denavit::inverse::{self, Goal, JointSpace};
+use denavit::{Robot, catalogue, description};
+use denavit_emit::{Language, Precision};
+use denavit_generate::{Generated, Options, Wanted, generate};
+use std::fmt::Write;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::common::{Random, share};
+
+/// Strict C, as C programmers who ship it have it.
+const STRICT: &str = "-O2 -Wall -Wextra -Werror -pedantic -std=c99 -ffp-contract=off";
+/// One prismatic joint among oblique axes.
+const ONE_SLIDE: &str = include_str!("../robots/one-slide.toml");
+/// Two of them.
+const TWO_SLIDES: &str = include_str!("../robots/two-slides.toml");
+
+fn generated(text: &str, language: Language, functions: &[Wanted]) -> Generated {
+    let d = description::read_toml(text).expect("it can be read").0;
+    let options = Options {
+        language,
+        functions: functions.to_vec(),
+        inverse: inverse::Options { goal: Goal::Pose, given: None },
+        precision: Precision::Double,
+        name: Some("arm".into()),
+        fixed: false,
+    };
+    generate(&d, &options).expect("nothing is fixed")
+}
+
+fn catalogued(name: &str) -> &'static str {
+    catalogue::text(name).expect("the catalogue has it")
+}
+
+/// A folder of its own with the files.
+fn folder(name: &str, generated: &Generated) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = fs::remove_dir_all(&folder);
+    for file in &generated.files {
+        let path = folder.join(&file.path);
+        fs::create_dir_all(path.parent().expect("a folder")).expect("it can be made");
+        fs::write(path, &file.text).expect("it can be written");
+    }
+    folder
+}
+
+fn run(command: &mut Command) {
+    let output = command.output().unwrap_or_else(|e| panic!("{command:?}: {e}"));
+    let words = [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
+    assert!(output.status.success(), "{command:?}\n{}", words.concat());
+}
+
+/// Both functions and the inverse one alone, as C.
+fn check_c(name: &str, text: &str, least: usize) {
+    for (suffix, functions) in [("both", &[Wanted::Pose, Wanted::Inverse][..]), ("alone", &[Wanted::Inverse])]
+    {
+        let found = generated(text, Language::C, functions);
+        let inverse = found.inverse.as_ref().unwrap_or_else(|| panic!("{name}: {:?}", found.refused));
+        assert!(inverse.by_elimination && inverse.vectors >= least, "{name}: {} poses", inverse.vectors);
+        let target = folder(&format!("elimination-c-{name}-{suffix}"), &found);
+        run(Command::new("make").arg("test").arg(format!("CFLAGS={STRICT}")).current_dir(target));
+    }
+}
+
+/// A pose with the last axis along the first or against it, and all configurations that have it.
+struct Aligned {
+    pose: Transform<f64>,
+    solutions: Vec<Vec<f64>>,
+}
+
+/// Poses within reach of an arm whose first axis is z of the base and whose last one is z of the tool, at which our solver
+/// is certain of all solutions, none of them nearly double.
+fn aligned(text: &str, count: usize) -> Vec<Aligned> {
+    let d = description::read_toml(text).expect("it can be read").0;
+    let robot = Robot::numeric(&d).expect("all values are known");
+    let space = JointSpace::new(&d, robot.reach());
+    let mut solver = GeneralSolver::new(&robot, &space).expect("it has six axes");
+    let mut random = Random(53);
+    let mut angle = || 6.0 * random.unit() - 3.0;
+    let mut all = vec![];
+    for _ in 0..8 * count {
+        let q: Vec<f64> = (0..6).map(|_| angle()).collect();
+        let (s, c) = angle().sin_cos();
+        let up = if angle() > 2.0 { 1.0 } else { -1.0 };
+        let rotation = Rotation::from_rows([[c, -up * s, 0.0], [s, up * c, 0.0], [0.0, 0.0, up]]);
+        let pose = Transform { rotation, ..robot.pose(&q) };
+        let answer = solver.solve(&pose);
+        let is_clean = answer.solutions.iter().all(|s| s.residual <= 1e-11 && s.guard >= 1e-3);
+        let is_certain = answer.doubt.is_none() && answer.families.is_empty() && is_clean;
+        if is_certain && !answer.solutions.is_empty() && all.len() < count {
+            all.push(Aligned { pose, solutions: answer.solutions.into_iter().map(|s| s.q).collect() });
+        }
+    }
+    assert_eq!(all.len(), count, "poses");
+    all
+}
+
+/// A program that holds the C function to sets of solutions: the number, each solution (to what a residual of 1e-10 is
+/// where the smallest singular value is 1e-3), and the certificate, which rounding may deny at one pose in a hundred.
+const ALIGNED: &str = r#"#include "arm.h"
+#include <math.h>
+#include <stdio.h>
+
+static const double poses[][12] = {
+@poses@};
+
+static const double known[][6] = {
+@known@};
+
+/* All configurations, those of pose v from first[v] on. */
+static const int first[] = {@first@};
+
+static double nearest(const arm_ik_solution *found, int count, const double *q)
+{
+    static const int is_angle[6] = {@angles@};
+    double least = HUGE_VAL;
+    for (int j = 0; j < count; j++) {
+        double apart = 0.0;
+        for (int k = 0; k < 6; k++) {
+            const double away = found[j].q[k] - q[k];
+            apart = fmax(apart, is_angle[k] ? fabs(remainder(away, 6.283185307179586)) : fabs(away));
+        }
+        least = fmin(least, apart);
+    }
+    return least;
+}
+
+int main(void)
+{
+    const int all = (int)(sizeof poses / sizeof *poses);
+    int failures = 0, uncertain = 0;
+    for (int v = 0; v < all; v++) {
+        arm_ik_solution found[ARM_IK_MAX];
+        arm_ik_certificate certificate = ARM_IK_UNDECIDED;
+        const int count = arm_ik(poses[v], found, &certificate);
+        int is_same = count == first[v + 1] - first[v];
+        uncertain += certificate != ARM_IK_COMPLETE;
+        for (int e = first[v]; e < first[v + 1]; e++) {
+            is_same = is_same && nearest(found, count, known[e]) <= 1e-7;
+        }
+        if (!is_same) {
+            printf("pose %d: %d solutions of %d\n", v, count, first[v + 1] - first[v]);
+            failures++;
+        }
+    }
+    printf("%d without certificate\n", uncertain);
+    return failures != 0 || 100 * uncertain > all;
+}
+"#;
+
+/// Where the last axis is parallel to the first, C finds the sets of solutions that our solver finds.
+fn check_aligned(name: &str, text: &str) {
+    let all = aligned(text, share(2000, 60));
+    let found = generated(text, Language::C, &[Wanted::Inverse]);
+    let target = folder(&format!("elimination-c-{name}-aligned"), &found);
+    let (mut poses, mut known, mut first) = (String::new(), String::new(), vec![0]);
+    let row = |x: &[f64]| x.iter().map(|x| format!("{x:?}")).collect::<Vec<String>>().join(", ");
+    for pose in &all {
+        let _ = writeln!(poses, "    {{{}}},", row(&pose.pose.matrix()[..3].concat()));
+        for q in &pose.solutions {
+            let _ = writeln!(known, "    {{{}}},", row(q));
+        }
+        first.push(first[first.len() - 1] + pose.solutions.len());
+    }
+    let first: Vec<String> = first.iter().map(usize::to_string).collect();
+    let joints = description::read_toml(text).expect("it can be read").0.variables();
+    let angles: Vec<&str> =
+        joints.iter().map(|v| if v.kind == JointKind::Revolute { "1" } else { "0" }).collect();
+    let program = ALIGNED
+        .replace("@poses@", &poses)
+        .replace("@known@", &known)
+        .replace("@first@", &first.join(", "))
+        .replace("@angles@", &angles.join(", "));
+    fs::write(target.join("aligned.c"), program).expect("it can be written");
+    let mut compiler = Command::new("cc");
+    compiler.args(STRICT.split(' ')).args(["-o", "aligned", "aligned.c", "arm.c", "-lm"]);
+    run(compiler.current_dir(&target));
+    run(Command::new("./aligned").current_dir(&target));
+}
+
+fn check_rust(name: &str, text: &str, least: usize) {
+    let found = generated(text, Language::Rust, &[Wanted::Pose, Wanted::Inverse]);
+    let inverse = found.inverse.as_ref().unwrap_or_else(|| panic!("{name}: {:?}", found.refused));
+    assert!(inverse.by_elimination && inverse.vectors >= least, "{name}: {} poses", inverse.vectors);
+    let target = folder(&format!("elimination-rust-{name}"), &found);
+    // A workspace of its own: the folder lies in that of this package.
+    let manifest = target.join("Cargo.toml");
+    let text = fs::read_to_string(&manifest).expect("it is there") + "\n[workspace]\n";
+    fs::write(&manifest, text).expect("it can be written");
+    let cargo = |arguments: &[&str]| {
+        let mut cargo = Command::new(env!("CARGO"));
+        cargo.args(arguments).current_dir(&target).env("RUSTFLAGS", "-D warnings");
+        cargo.env("CARGO_TARGET_DIR", Path::new(env!("CARGO_TARGET_TMPDIR")).join("elimination-rust-target"));
+        run(&mut cargo);
+    };
+    cargo(&["test", "--quiet", "--offline"]);
+    cargo(&["build", "--quiet", "--offline", "--no-default-features"]);
+}
+
+#[test]
+fn c_finds_all_solutions() {
+    check_c("crx", catalogued("fanuc-crx10ia-l"), 15);
+    check_c("oblique", catalogued("oblique-6r"), 15);
+    check_c("one-slide", ONE_SLIDE, 12);
+}
+
+#[test]
+fn c_finds_all_solutions_where_the_last_axis_is_parallel_to_the_first() {
+    check_aligned("crx", catalogued("fanuc-crx10ia-l"));
+    check_aligned("jaco", catalogued("kinova-jaco"));
+    check_aligned("mico", catalogued("kinova-mico"));
+    check_aligned("one-slide", ONE_SLIDE);
+}
+
+#[test]
+fn rust_finds_all_solutions() {
+    check_rust("crx", catalogued("fanuc-crx10ia-l"), 15);
+    check_rust("oblique", catalogued("oblique-6r"), 15);
+    check_rust("two-slides", TWO_SLIDES, 8);
+}
+
+/// What is generated in no other language, and what C does not serve, is said.
+#[test]
+fn what_is_not_generated_is_said() {
+    let functions = [Wanted::Pose, Wanted::Inverse];
+    for language in [Language::Python, Language::Matlab, Language::JavaScript, Language::Cuda] {
+        let found = generated(catalogued("oblique-6r"), language, &functions);
+        let why = found.refused.expect("a reason");
+        assert!(found.inverse.is_none() && why.contains("in C and Rust"), "{why}");
+    }
+    let why = generated(TWO_SLIDES, Language::C, &functions).refused.expect("a reason");
+    assert!(why.contains("at most one prismatic joint"), "{why}");
+}

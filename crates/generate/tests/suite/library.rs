@@ -1,0 +1,98 @@
+//! What the tests of generated functions hold.
+
+use denavit::forward::Proof;
+use denavit::inverse::{self, Goal};
+use denavit::{catalogue, description};
+use denavit_emit::{Language, Precision};
+use denavit_generate::{Generated, Options, Wanted, generate};
+
+fn generated(name: &str, goal: Goal, given: Option<Vec<usize>>) -> Generated {
+    generated_for(catalogue::text(name).expect("the catalogue has it"), goal, given)
+}
+
+fn generated_for(text: &str, goal: Goal, given: Option<Vec<usize>>) -> Generated {
+    let inverse = inverse::Options { goal, given };
+    functions(text, &[Wanted::Pose, Wanted::Inverse], inverse)
+}
+
+fn functions(text: &str, wanted: &[Wanted], inverse: inverse::Options) -> Generated {
+    let d = description::read_toml(text).expect("it can be read").0;
+    let options = Options {
+        language: Language::Python,
+        functions: wanted.to_vec(),
+        inverse,
+        precision: Precision::Double,
+        name: None,
+        fixed: false,
+    };
+    generate(&d, &options).expect("nothing is fixed")
+}
+
+/// Six random configurations and one a joint are in general position in all but one joint; where rounding decides how
+/// many solutions a pose has, it is left out.
+#[test]
+fn most_poses_are_kept() {
+    for (name, goal, least) in [
+        ("ur5", Goal::Pose, 11),
+        ("puma560", Goal::Pose, 11),
+        ("stanford", Goal::Pose, 9),
+        ("scara", Goal::Pose, 9),
+        ("staubli-rx90", Goal::Pose, 11),
+        ("cylindrical-wrist", Goal::Pose, 11),
+        ("franka-panda", Goal::Pose, 11),
+        ("planar-3r", Goal::Pose, 8),
+        ("articulated-3r", Goal::Position, 8),
+        ("rhino-xr3", Goal::PositionAndAxis, 9),
+    ] {
+        let found = generated(name, goal, None);
+        let inverse = found.inverse.unwrap_or_else(|| panic!("{name}: {:?}", found.refused));
+        assert!(inverse.vectors >= least, "{name}: {} poses", inverse.vectors);
+    }
+}
+
+/// An angle with a value is put into the closed form, so that another one in the parameters would not be read.
+#[test]
+fn what_is_part_of_the_closed_form_is_said() {
+    let text = include_str!("../robots/symbols.toml");
+    let found = generated_for(text, Goal::Pose, None);
+    assert_eq!(found.inverse.expect("a closed form").assumed.len(), 1);
+    assert!(
+        found.files.iter().all(|f| f.text.contains("ik holds for alpha1 = ") || f.path.ends_with(".toml"))
+    );
+    let found = generated("ur5", Goal::Pose, None);
+    assert!(found.inverse.expect("a closed form").assumed.is_empty());
+    assert!(!found.files.iter().any(|f| f.text.contains("ik holds for")));
+}
+
+#[test]
+fn an_arm_in_general_position_is_refused() {
+    let found = generated("oblique-6r", Goal::Pose, None);
+    assert!(found.inverse.is_none());
+    assert!(found.refused.expect("a reason").starts_with("no closed form"));
+    assert!(!found.files.is_empty(), "the forward model is there");
+}
+
+/// Arms that slide, couplings, symbols without value, more joints than directions.
+#[test]
+fn jacobians_are_proved_to_be_derivatives() {
+    let catalogue = ["stanford", "parallelogram-5r", "prrrrp", "franka-panda", "oblique-6r"];
+    let texts = catalogue.map(|name| catalogue::text(name).expect("the catalogue has it"));
+    for text in texts.into_iter().chain([include_str!("../robots/symbols.toml")]) {
+        let found = functions(text, &[Wanted::Jacobian, Wanted::JacobianAndPose], Default::default());
+        assert!(found.functions.iter().all(|f| f.2 == Proof::Proved), "{:?}", found.functions);
+    }
+}
+
+/// Both in one pass take one sine and cosine an angle, and fewer operations than one after the other.
+#[test]
+fn pose_and_jacobian_come_in_one_pass() {
+    let text = catalogue::text("ur5").expect("the catalogue has it");
+    let wanted = |list: &[Wanted]| functions(text, list, Default::default()).functions;
+    let both = wanted(&[Wanted::Pose, Wanted::Jacobian]);
+    let [(_, pose, _), (_, jacobian, _), (third, one_pass, _)] = both[..] else { panic!("{both:?}") };
+    assert_eq!(third, Wanted::JacobianAndPose);
+    assert_eq!(one_pass.sincos, pose.sincos);
+    assert!(one_pass.cost() < pose.cost() + jacobian.cost());
+    assert_eq!(wanted(&[Wanted::Jacobian]).len(), 1);
+    assert_eq!(wanted(&[Wanted::JacobianAndPose]).len(), 1);
+}

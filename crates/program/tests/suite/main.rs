@@ -1,0 +1,11 @@
+//! Tests of programs and their evaluators, one program.
+
+mod conformance;
+mod derivatives;
+mod domains;
+mod kernel;
+mod pairs;
+mod roots;
+mod solver;
+mod support;
+mod text;

@@ -1,0 +1,4 @@
+//! Tests of readers, one program.
+
+mod document;
+mod slip;

@@ -1,0 +1,6 @@
+//! Tests of documents and figures, one program.
+
+mod escape;
+mod figures;
+mod plot;
+mod report;

@@ -1,0 +1,376 @@
+//! Documents in two languages: of the same structure, with the same formulas, each in its own words.
+
+use crate::common::robot;
+use denavit::description::{Description, read_toml};
+use denavit::explain::{Block, Branch, Language, Line, Math, Piece, Words, count, math};
+use denavit::forward::Reference;
+use denavit::inverse::explain::Explanation;
+use denavit::inverse::{Goal, InverseModel, Options, Refusal, Task, Unsuitable, branch_words};
+use denavit::velocity::{
+    JacobianModel, Obstacle, Place, Singularities, jacobian_document, singularities_document,
+};
+use denavit_program::Count;
+use denavit_symbolic::print::Style;
+use denavit_symbolic::vocabulary::Vocabulary;
+
+/// Of each kind one: spherical wrist, UR, SCARA, planar, slides, joints too many, no closed form, few joints.
+const ROBOTS: [&str; 12] = [
+    "staubli-rx90",
+    "stanford",
+    "ur5",
+    "scara",
+    "planar-3r",
+    "cylindrical-rpp",
+    "cylindrical-wrist-b",
+    "smart5-six-rail",
+    "kuka-iiwa-14",
+    "oblique-6r",
+    "rhino-xr3",
+    "spherical-wrist",
+];
+
+/// Words that no French text has.
+const ENGLISH: &str = "the of and with row rows column columns joint joints value values used step steps where both axis \
+    is are it its this that no not to in at by from given sought arm hand side sides lost gained frame velocity together \
+    proved body tool linear squares all so then else free one two always exactly shoulder elbow wrist reach entries chain \
+    branch what which has have right here there elements other pairs root roots move moves turn meet meets lies lie \
+    sine cosine cosines unknown parameters alone derivation closed forms";
+
+/// Words that no English text has.
+const FRENCH: &str = "le la les des du de et est sont une un avec ou pour dans sur par ligne lignes colonne colonnes étape \
+    étapes valeur valeurs articulation articulations repère au aux bras épaule coude poignet axe sert inconnue résolution \
+    deux membres si que qui ne pas sinon rien aucune d l s n";
+
+/// The text of a line, its formulas as `#`.
+fn words(line: &Line) -> String {
+    let piece = |piece: &Piece| match piece {
+        Piece::Text(text) | Piece::Strong(text) => text.clone(),
+        Piece::Math(_) => "#".into(),
+    };
+    line.0.iter().map(piece).collect()
+}
+
+fn formulas(line: &Line) -> Vec<Math> {
+    let formula = |piece: &Piece| if let Piece::Math(m) = piece { Some(m.clone()) } else { None };
+    line.0.iter().filter_map(formula).collect()
+}
+
+/// A document taken apart: what it is built of, and its lines.
+#[derive(Default)]
+struct Parts {
+    structure: Vec<String>,
+    lines: Vec<String>,
+}
+
+impl Parts {
+    fn of(blocks: &[Block], name: &str) -> Self {
+        let mut parts = Parts::default();
+        for block in blocks {
+            match block {
+                Block::Heading(level, line) => parts.line(&format!("heading {level}"), line, name),
+                Block::Paragraph(line) => parts.line("paragraph", line, name),
+                Block::Formula { math, number, proof } => {
+                    parts.structure.push(format!("{} {number:?} {proof:?}", shown(math)));
+                }
+                Block::List(lines) => {
+                    parts.structure.push(format!("list of {}", lines.len()));
+                    lines.iter().for_each(|line| parts.line("item", line, name));
+                }
+                Block::Tree(branch) => parts.branch(branch, name),
+            }
+        }
+        parts
+    }
+
+    fn line(&mut self, kind: &str, line: &Line, name: &str) {
+        let formulas: Vec<String> = formulas(line).iter().map(shown).collect();
+        self.structure.push(format!("{kind}: {}", formulas.join(" | ")));
+        self.lines.push(words(line).replace(name, "@"));
+    }
+
+    fn branch(&mut self, branch: &Branch, name: &str) {
+        self.line(&format!("branch with {}", branch.children.len()), &branch.line, name);
+        branch.children.iter().for_each(|child| self.branch(child, name));
+    }
+}
+
+fn shown(m: &Math) -> String {
+    math(m, &Vocabulary::default(), Style::Ascii)
+}
+
+/// Words of letters, in lower case; an apostrophe ends one.
+fn tokens(text: &str) -> Vec<String> {
+    let all = text.split(|c: char| !c.is_alphabetic()).filter(|w| !w.is_empty());
+    all.map(str::to_lowercase).collect()
+}
+
+/// Panics where a text is not in its language.
+fn check_text(text: &str, language: Language, place: &str) {
+    let foreign = language.pick(FRENCH, ENGLISH);
+    for word in tokens(text) {
+        // `d` and `s` are lengths as well as what an apostrophe leaves; in English only 's.
+        let is_name = word.chars().count() == 1 && language == Language::English;
+        assert!(is_name || !foreign.split_whitespace().any(|f| f == word), "{place}: {word} in: {text}");
+    }
+    if language == Language::English {
+        assert!(!text.contains(['\u{a0}', '’']), "{place}: {text}");
+        return;
+    }
+    let all: Vec<char> = text.chars().collect();
+    for (k, c) in all.iter().enumerate() {
+        if matches!(c, ':' | ';' | '?' | '!' | '»') {
+            assert_eq!(k.checked_sub(1).map(|b| all[b]), Some('\u{a0}'), "{place}: {c} in: {text}");
+        }
+        if *c == '«' {
+            assert_eq!(all.get(k + 1), Some(&'\u{a0}'), "{place}: {text}");
+        }
+        assert_ne!(*c, '\'', "{place}: {text}");
+    }
+}
+
+/// Panics where two documents are not the same in two languages.
+fn check_pair(english: &[Block], french: &[Block], name: &str, place: &str) {
+    let [english, french] = [english, french].map(|blocks| Parts::of(blocks, name));
+    assert_eq!(english.structure, french.structure, "{place}");
+    for (e, f) in english.lines.iter().zip(&french.lines) {
+        check_text(e, Language::English, place);
+        check_text(f, Language::French, place);
+        let is_sentence = tokens(e).iter().filter(|w| w.chars().count() > 1).count() >= 4;
+        assert!(!is_sentence || e != f, "{place}: {e}");
+    }
+}
+
+/// Arms that need more than the catalogue's: three axes before a wrist that are neither parallel nor at right angles, a
+/// slide that is found from a sum of squares.
+const MADE: [(&str, &str); 2] = [("wrist behind three skew axes", SKEW), ("slide at an angle", SLIDE)];
+
+const SKEW: &str = r#"
+name = "Made"
+convention = "standard"
+
+[[joints]]
+theta = "q1"
+a = "0.2 m"
+alpha = "90 deg"
+
+[[joints]]
+theta = "q2"
+d = "0.1 m"
+a = "0.5 m"
+alpha = "90 deg"
+
+[[joints]]
+theta = "q3"
+a = "0.1 m"
+alpha = "90 deg"
+
+[[joints]]
+theta = "q4"
+d = "0.4 m"
+alpha = "-90 deg"
+
+[[joints]]
+theta = "q5"
+alpha = "90 deg"
+
+[[joints]]
+theta = "q6"
+"#;
+
+const SLIDE: &str = r#"
+name = "Made"
+convention = "standard"
+
+[[joints]]
+theta = "q1"
+alpha = "90 deg"
+
+[[joints]]
+theta = "q2"
+a = "0.3 m"
+alpha = "60 deg"
+
+[[joints]]
+d = "q3"
+alpha = "30 deg"
+
+[[joints]]
+theta = "q4"
+d = "0.2 m"
+alpha = "-90 deg"
+
+[[joints]]
+theta = "q5"
+alpha = "90 deg"
+
+[[joints]]
+theta = "q6"
+"#;
+
+/// The derivation, complete or not; its refusal is checked, too.
+fn explanation(description: &Description, goal: Goal, name: &str) -> Explanation {
+    match InverseModel::derive(description, &Options { goal, given: None }) {
+        Ok(model) => Explanation::of(&model),
+        Err(Refusal::Stuck(found)) => {
+            for language in [Language::English, Language::French] {
+                check_text(&found.words(language), language, name);
+            }
+            Explanation::of_stuck(description, &found, goal)
+        }
+        Err(why) => panic!("{name}: {why}"),
+    }
+}
+
+/// Both documents in both languages; the French derivation.
+fn check_inverse(description: &Description, goal: Goal, name: &str) -> (Explanation, Vec<Block>) {
+    let e = explanation(description, goal, name);
+    let [english, french] = [Language::English, Language::French];
+    check_pair(&e.summary(english), &e.summary(french), &description.name, name);
+    let whole = e.document(french);
+    check_pair(&e.document(english), &whole, &description.name, name);
+    (e, whole)
+}
+
+#[test]
+fn documents_of_inverse_kinematics() {
+    let (mut stuck, mut free, mut conditions, mut trees) = (0, 0, 0, 0);
+    for name in ROBOTS {
+        let (e, french) = check_inverse(&robot(name), Goal::Pose, name);
+        stuck += usize::from(e.solutions.is_none());
+        free += usize::from(e.given_by_choice);
+        conditions += usize::from(!e.leftovers.is_empty());
+        trees += usize::from(french.iter().any(|b| matches!(b, Block::Tree(_))));
+    }
+    // Each kind of document was there.
+    assert!(stuck >= 1 && free >= 2 && conditions >= 3 && trees >= 6, "{stuck} {free} {conditions} {trees}");
+    check_inverse(&robot("articulated-3r"), Goal::Position, "the position of three joints");
+    check_inverse(&robot("rhino-xr3"), Goal::PositionAndAxis, "position and axis of five joints");
+}
+
+#[test]
+fn documents_of_made_arms() {
+    let mut said = String::new();
+    for (name, text) in MADE {
+        let description = read_toml(text).unwrap_or_else(|errors| panic!("{name}: {errors:?}")).0;
+        let (_, french) = check_inverse(&description, Goal::Pose, name);
+        said += &Parts::of(&french, "Made").lines.join("\n");
+    }
+    for part in ["s’élimine", "demi-tour", "du second degré"] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
+}
+
+#[test]
+fn documents_of_velocities() {
+    let mut whole = 0;
+    for name in ROBOTS {
+        let description = robot(name);
+        let model = JacobianModel::shortest(&description, Reference::Tool);
+        let document = |language| jacobian_document(&description, &model, language);
+        check_pair(&document(Language::English), &document(Language::French), &description.name, name);
+        match Singularities::derive(&description, Reference::Tool) {
+            Ok(found) => {
+                whole += 1;
+                let document = |language| singularities_document(&description, &found, language);
+                check_pair(
+                    &document(Language::English),
+                    &document(Language::French),
+                    &description.name,
+                    name,
+                );
+            }
+            Err(why) => {
+                for language in [Language::English, Language::French] {
+                    check_text(&why.words(language), language, name);
+                }
+            }
+        }
+    }
+    assert!(whole >= 8, "{whole}");
+}
+
+/// What the robots above need not meet.
+#[test]
+fn rare_words() {
+    let program = Count {
+        multiplications: 1,
+        additions: 2,
+        sincos: 3,
+        divisions: 1,
+        roots: 2,
+        arctangents: 1,
+        offsets: 2,
+        hoisted: 4,
+    };
+    let french = "1 multiplication, 2 additions, 3 couples sinus-cosinus, 1 division, 2 racines, 1 arc tangente\u{a0}; à \
+                  part\u{a0}: 2 décalages de variables, 4 opérations sur les seuls paramètres";
+    assert_eq!(count(&program, Language::French), french);
+    assert_eq!(count(&program, Language::English), program.to_string());
+    assert_eq!(
+        count(&Count::default(), Language::French),
+        "0 multiplication, 0 addition, 0 couple sinus-cosinus"
+    );
+
+    let both = |text: &dyn Fn(Language) -> String| {
+        let [english, french] = [Language::English, Language::French].map(text);
+        check_text(&english, Language::English, "rare");
+        check_text(&french, Language::French, "rare");
+        assert_ne!(english, french);
+    };
+    use denavit_symbolic::Refusal::{OutsideBasis, TooLarge, Undefined};
+    for why in [OutsideBasis, TooLarge, Undefined] {
+        both(&|l| Obstacle::TooLarge(why).words(l));
+        both(&|l| denavit::forward::Proof::Undecided(why).of_model(l));
+    }
+    both(&|l| denavit::forward::Proof::Proved.of_model(l));
+    both(&|l| denavit::forward::Proof::Failed.of_jacobian(l));
+    both(&|l| Obstacle::ManyJoints(9).words(l));
+    both(&|l| Obstacle::AlwaysSingular(5).words(l));
+    for why in [Unsuitable::Helical(2), Unsuitable::Coupling, Unsuitable::NoJoint, Unsuitable::TooLong(9)] {
+        both(&|l| why.words(l));
+    }
+    for task in [
+        Task::Pose,
+        Task::PositionAndAxis,
+        Task::PositionAndTurn,
+        Task::Planar,
+        Task::Position,
+        Task::Orientation,
+        Task::Other(2),
+    ] {
+        both(&|l| task.words(l));
+    }
+    for place in [
+        Place::OneLine(3, 5),
+        Place::OnePlane(vec![1, 2, 3]),
+        Place::Parallel(vec![0, 1, 2, 3]),
+        Place::CentreOnAxis { wrist: vec![3, 4, 5], axis: 0 },
+        Place::CentreInPlane { wrist: vec![3, 4, 5], axes: [1, 2], parallel: true },
+        Place::Line { meets: vec![0], parallel: vec![1] },
+        Place::Line { meets: vec![0, 3], parallel: vec![1, 2] },
+        Place::SelfMotion(vec![2]),
+        Place::SelfMotion(vec![2, 4]),
+        Place::Lost,
+    ] {
+        both(&|l| place.words(l));
+    }
+    for given in [vec![9], vec![0], vec![0, 1]] {
+        let options = Options { given: Some(given), ..Options::default() };
+        let why = InverseModel::derive(&robot("staubli-rx90"), &options).expect_err("too many");
+        both(&|l| why.words(l));
+    }
+}
+
+#[test]
+fn french_print() {
+    let french = Language::French;
+    assert_eq!(french.spaced("l'axe : « un » ; d'où"), "l’axe\u{a0}: «\u{a0}un\u{a0}»\u{a0}; d’où");
+    assert_eq!(Words::new("a", "n'est ?").of(french), "n’est\u{a0}?");
+    assert_eq!(french.numbers(&[0, 3, 4]), "1, 4 et 5");
+    assert_eq!(french.counted(0, ["joint", "joints"], ["articulation", "articulations"]), "0 articulation");
+    assert_eq!(
+        Language::English.counted(0, ["joint", "joints"], ["articulation", "articulations"]),
+        "0 joints"
+    );
+    assert_eq!(branch_words("shoulder+ elbow2− wrist+", french), "épaule+ coude2− poignet+");
+}

@@ -1,0 +1,25 @@
+//! Tests of the science, one program.
+
+mod common;
+mod description;
+mod description_bytes;
+mod description_tables;
+mod documents_inverse;
+mod documents_jacobian;
+mod every_arm;
+mod explain;
+mod follow;
+mod forward;
+mod frames;
+mod geometry;
+mod idealise;
+mod inverse;
+mod language;
+mod motion_jerk;
+mod motion_profiles;
+mod motion_timing;
+mod numeric;
+mod redundant;
+mod singular;
+mod velocity;
+mod workspace;

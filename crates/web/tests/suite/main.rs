@@ -1,0 +1,3 @@
+//! Tests of the engine of the page, one program.
+
+mod requests;
