@@ -3,7 +3,7 @@
 //! The union of the discs holds the roots of every polynomial that differs from the computed one by its noise. A disc
 //! that does not reach the circle holds no real angle; each one that does must belong to a configuration of its own.
 
-use crate::{answer::Found, chart::Chart, roots::Roots};
+use crate::{candidate::Found, chart::Chart, roots::Roots};
 
 /// What the discs say about the configurations known so far.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,11 +1,11 @@
 //! Which charts of the circle a way to solve goes through, and which of their roots are tried.
 
 use crate::{
-    answer::Work,
     certificate::Verdict,
     chart::{Chart, crowds},
     fourier::Trigonometric,
     roots::Roots,
+    work::Work,
 };
 
 /// Most charts of a split.
