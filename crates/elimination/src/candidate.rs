@@ -41,7 +41,7 @@ pub(crate) fn gather<T, const N: usize>(records: &[T], get: impl Fn(&T) -> [f64;
 }
 
 /// One lane of the values of all joints.
-#[inline(always)]
+#[inline]
 pub(crate) fn lane(values: &[Value; 6], l: usize) -> [[f64; 2]; 6] {
     let mut out = [[0.0; 2]; 6];
     for (out, value) in out.iter_mut().zip(values) {
@@ -51,7 +51,6 @@ pub(crate) fn lane(values: &[Value; 6], l: usize) -> [[f64; 2]; 6] {
 }
 
 /// Adds a configuration unless it is there.
-#[inline(always)]
 pub(crate) fn add(arm: &Arm, found: &mut Vec<Found>, new: Found) {
     for known in found.iter_mut() {
         let mut apart = 0.0f64;

@@ -172,7 +172,6 @@ impl Sliding {
     }
 
     /// The rotations between the turns with the pose in its place.
-    #[inline(always)]
     fn at(&self, target: &Rigid) -> [Rigid; 4] {
         let mut between = self.between;
         let [before, after] = &self.around_pose;
