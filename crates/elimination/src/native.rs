@@ -1,7 +1,7 @@
 //! The solver compiled for the vector instructions that processors have, each set once, and the choice among them.
 //!
-//! All `unsafe` code of the crate is here: the calls of functions that are compiled for instructions which an [`Isa`] has
-//! found.
+//! All `unsafe` code of the crate is here: the calls of functions that are compiled for instructions which an [`Isa`]
+//! has found.
 #![allow(unsafe_code)]
 
 #[cfg(target_arch = "x86_64")]

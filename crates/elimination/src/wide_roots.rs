@@ -1,4 +1,4 @@
-//! Roots of the [wider matrix](crate::wide)'s determinant: which of them are true, and the candidates there.
+//! Roots of the determinant of the [wider matrix](crate::wide): which of them are true, and the candidates there.
 
 use crate::{
     arm::Joint,
