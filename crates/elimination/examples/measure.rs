@@ -1,6 +1,6 @@
 //! Measures the solver on arms of many kinds: times, splits used, missed and certified poses.
 //!
-//! `RUSTFLAGS="-C target-cpu=native" cargo run -p denavit-elimination --release --example measure [poses] [arm]`
+//! `cargo run -p denavit-elimination --release --example measure [poses] [arm]`
 
 #[path = "../tests/suite/arms/mod.rs"]
 mod arms;
@@ -40,7 +40,7 @@ fn main() {
             let mut best = f64::INFINITY;
             for _ in 0..if poses > 20_000 { 1 } else { 3 } {
                 let start = Instant::now();
-                solve(&plan, &pose, &mut answer);
+                plan.solve(&pose, &mut answer);
                 best = best.min(start.elapsed().as_secs_f64() * 1e6);
             }
             times.push(best);
@@ -75,9 +75,4 @@ fn main() {
             plan.hidden()
         );
     }
-}
-
-#[inline(never)]
-fn solve(plan: &Plan, pose: &denavit_elimination::Rigid, answer: &mut Answer) {
-    plan.solve::<{ cfg!(target_feature = "fma") }>(pose, answer);
 }

@@ -1,9 +1,6 @@
-//! What the solver returns, and the memory that it works in.
+//! What the solver returns.
 
-use crate::{
-    certificate::Marks, eliminate::Eliminated, extract::UNKNOWNS, fourier::Trigonometric, lanes::Lanes,
-    remaining::Value, roots::Roots, wide::Wide,
-};
+use crate::work::Work;
 
 /// One configuration of the arm at the pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,57 +39,4 @@ pub struct Answer {
     pub splits: u32,
     /// Working memory.
     pub(crate) work: Work,
-}
-
-/// Working memory of the solver.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Work {
-    pub eliminated: Eliminated,
-    pub polynomial: Trigonometric,
-    pub roots: Roots<2>,
-    pub wide: Roots<3>,
-    pub matrix: Wide,
-    /// Charts and candidates of the last way to solve.
-    pub effort: usize,
-    pub marks: Marks,
-    pub candidates: Vec<Candidate>,
-    pub found: Vec<Found>,
-}
-
-/// A value of the hidden joint with a null vector.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Candidate {
-    pub hidden: [f64; 2],
-    pub x: [f64; UNKNOWNS],
-}
-
-/// An accepted configuration: cosines and sines, or slides (scaled) and zeros, in the arm's order.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Found {
-    pub values: [[f64; 2]; 6],
-    pub residual: f64,
-}
-
-/// Eight records as lanes; where there are fewer, the last one fills up.
-#[inline(always)]
-pub(crate) fn gather<T, const N: usize>(records: &[T], get: impl Fn(&T) -> [f64; N]) -> [Lanes; N] {
-    let mut out = [Lanes::ZERO; N];
-    for l in 0..8 {
-        let Some(record) = records.get(l).or(records.last()) else { break };
-        let numbers = get(record);
-        for (lanes, x) in out.iter_mut().zip(numbers) {
-            lanes.0[l] = x;
-        }
-    }
-    out
-}
-
-/// One lane of the values of all joints.
-#[inline(always)]
-pub(crate) fn lane(values: &[Value; 6], l: usize) -> [[f64; 2]; 6] {
-    let mut out = [[0.0; 2]; 6];
-    for (out, value) in out.iter_mut().zip(values) {
-        *out = [value[0].0[l], value[1].0[l]];
-    }
-    out
 }

@@ -85,7 +85,6 @@ impl Arm {
 }
 
 /// The motion of a joint.
-#[inline(always)]
 pub(crate) fn motion(joint: Joint, q: f64) -> Rigid {
     match joint {
         Joint::Revolute => Rigid::about_z(q.cos(), q.sin()),

@@ -3,7 +3,7 @@
 //! The union of the discs holds the roots of every polynomial that differs from the computed one by its noise. A disc
 //! that does not reach the circle holds no real angle; each one that does must belong to a configuration of its own.
 
-use crate::{answer::Found, chart::Chart, roots::Roots};
+use crate::{candidate::Found, chart::Chart, roots::Roots};
 
 /// What the discs say about the configurations known so far.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,7 +24,6 @@ const CLOSE: f64 = 1e-7;
 /// Compares the discs in a chart with the configurations for which the chart answers; the angles at which something does
 /// not fit are marked. `hidden` is the joint whose angles the roots are, times `sign`. A root with a negative radius is known
 /// to belong to no configuration.
-#[inline(always)]
 pub(crate) fn verdict<const GROUPS: usize>(
     hidden: usize,
     sign: f64,
@@ -114,7 +113,6 @@ impl Default for Marks {
 
 impl Marks {
     /// Adds an angle in its place.
-    #[inline(always)]
     fn add(&mut self, angle: f64, marked: bool) {
         if self.count == self.angles.len() {
             return;

@@ -27,14 +27,12 @@ impl Chart {
     pub const WHOLE: Chart = Chart { centre: [1.0, 0.0], kappa: 1.0, depth: 0 };
 
     /// The arc around an angle, seen so that it covers half of the circle.
-    #[inline(always)]
     pub fn around(angle: f64, half_width: f64, depth: u32) -> Chart {
         let (s, c) = angle.sin_cos();
         Chart { centre: [c, s], kappa: (half_width / 2.0).tan(), depth }
     }
 
     /// The arc around the angle `θ'` as a chart of its own.
-    #[inline(always)]
     pub fn part(&self, centre: f64, half_width: f64) -> Chart {
         let outside = |angle: f64| {
             let (s, c) = angle.sin_cos();
@@ -58,7 +56,7 @@ impl Chart {
     }
 
     /// Cosine and sine of `θ` at those of `θ'`.
-    #[inline(always)]
+    #[inline]
     pub fn outside(&self, [c, s]: [f64; 2]) -> [f64; 2] {
         let [c, s] = stretched(self.kappa, c, s);
         let [c0, s0] = self.centre;
@@ -66,21 +64,21 @@ impl Chart {
     }
 
     /// Cosine and sine of `θ'` at those of `θ`.
-    #[inline(always)]
+    #[inline]
     pub fn inside(&self, [c, s]: [f64; 2]) -> [f64; 2] {
         let [c0, s0] = self.centre;
         stretched(1.0 / self.kappa, c * c0 + s * s0, s * c0 - c * s0)
     }
 
     /// Whether the chart answers for the angle `θ'` with this cosine.
-    #[inline(always)]
+    #[inline]
     pub fn answers_for(&self, cosine: f64) -> bool {
         self.depth == 0 || cosine >= 0.0
     }
 }
 
 /// `2 atan(κ tan(φ/2))` by cosine and sine.
-#[inline(always)]
+#[inline]
 fn stretched(kappa: f64, c: f64, s: f64) -> [f64; 2] {
     let (near, far) = (1.0 + c, kappa * kappa * (1.0 - c));
     let sum = near + far;
@@ -114,8 +112,11 @@ pub fn crowds<const FUSED: bool>(
         if found == out.len() {
             return 0;
         }
-        let (low, high) =
-            (clear::<FUSED>(polynomial, angle, -1.0, noise), clear::<FUSED>(polynomial, angle, 1.0, noise));
+        let mut ends = [0.0; 2];
+        for (end, side) in ends.iter_mut().zip([-1.0, 1.0]) {
+            *end = clear::<FUSED>(polynomial, angle, side, noise);
+        }
+        let [low, high] = ends;
         out[found] = ((low + high) / 2.0, (high - low) / 2.0);
         found += 1;
     }

@@ -1,11 +1,11 @@
 //! Which charts of the circle a way to solve goes through, and which of their roots are tried.
 
 use crate::{
-    answer::Work,
     certificate::Verdict,
     chart::{Chart, crowds},
     fourier::Trigonometric,
     roots::Roots,
+    work::Work,
 };
 
 /// Most charts of a split.
@@ -32,13 +32,11 @@ pub(crate) struct Charts {
 
 impl Charts {
     /// The whole circle, parts to be taken up to a depth.
-    #[inline(always)]
     pub fn whole(depth: u32) -> Charts {
         Charts { list: [Chart::WHOLE; CHARTS], done: 0, count: 1, depth, total: Verdict::Certified }
     }
 
     /// The next chart to solve in.
-    #[inline(always)]
     pub fn next(&mut self) -> Option<Chart> {
         if self.done == self.count {
             return None;
@@ -74,7 +72,6 @@ impl Charts {
     }
 
     /// The verdict on all of them; configurations come in even numbers.
-    #[inline(always)]
     pub fn verdict(&self, work: &Work) -> Verdict {
         let odd = !work.found.len().is_multiple_of(2);
         if self.total == Verdict::Certified && odd { Verdict::Uncertain } else { self.total }
@@ -82,7 +79,7 @@ impl Charts {
 }
 
 /// The noise that the discs allow for.
-#[inline(always)]
+#[inline]
 pub(crate) fn noise(polynomial: &Trigonometric) -> f64 {
     if 4.0 * polynomial.noise > NOISE { 4.0 * polynomial.noise } else { NOISE }
 }
@@ -92,7 +89,6 @@ pub(crate) const NEARBY: usize = 48;
 
 /// The roots near the circle as cosines and sines of the hidden joint, and the middles of those that are close together
 /// (marked): a root that several configurations share falls apart by the root of the noise, its middle does not.
-#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(crate) fn near_roots<const GROUPS: usize>(
     chart: &Chart,
     roots: &Roots<GROUPS>,

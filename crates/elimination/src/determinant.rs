@@ -16,6 +16,9 @@ use crate::{
     lanes::{Lanes, one_by_one},
 };
 
+/// Degree of the determinant in the hidden angle.
+pub(crate) const DEGREE: usize = 8;
+
 /// Six rows of nine entries: the block that is eliminated, and the two in the middle.
 pub type Strip = [[Lanes; 9]; 6];
 

@@ -1,6 +1,7 @@
 //! Real eigenvalues and null vectors of matrices of at most six rows.
 
-use crate::extract::SHARED;
+/// Most rows: solutions that can share a value of the hidden joint and still be told apart.
+pub const SHARED: usize = 6;
 
 /// The eigenvalues of the leading `size × size` block that are real up to a relative tolerance; their number.
 ///

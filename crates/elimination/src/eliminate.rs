@@ -127,7 +127,6 @@ pub fn eliminate<const FUSED: bool>(split: &Split, closing: &Rigid, out: &mut El
 }
 
 /// The right sides over the monomials of the first two joints (the second's fastest).
-#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn right_side(split: &Split, out: &mut Eliminated) -> [[f64; 9]; FORMS] {
     let links = &out.links;
     let mut samples = [[0.0; FORMS]; 3];
@@ -150,7 +149,6 @@ fn right_side(split: &Split, out: &mut Eliminated) -> [[f64; 9]; FORMS] {
 }
 
 /// A fixed number between −1 and 1 without pattern.
-#[inline(always)]
 fn mixture(i: usize, j: usize) -> f64 {
     let x = mul_add::<false>((i * FORMS + j + 1) as f64, 0.618_033_988_749_894_9, 0.0);
     let y = (x - x.floor()) * 997.0;

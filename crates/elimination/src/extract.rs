@@ -3,6 +3,7 @@
 use crate::{
     arm::Joint,
     determinant::{Strip, core, reduce, strips},
+    eigen::{SHARED, null_vector, real_eigenvalues},
     lanes::{Lanes, mul_add},
 };
 
@@ -111,9 +112,6 @@ fn outer<const FUSED: bool>(strip: &Strip, middle: &[Lanes; 6]) -> [Lanes; 3] {
     out
 }
 
-/// Most solutions that can share a value of the hidden joint and still be told apart.
-pub const SHARED: usize = 6;
-
 /// Pivots smaller than this, compared to the first, count as zero where several solutions share the hidden joint.
 pub const SMALL: f64 = 1e-5;
 
@@ -174,13 +172,13 @@ pub fn shared(
     }
     let mut found = 0;
     let mut values = [0.0; SHARED];
-    let real = crate::eigen::real_eigenvalues(&x, count, ALMOST, &mut values);
+    let real = real_eigenvalues(&x, count, ALMOST, &mut values);
     for &value in &values[..real] {
         let mut shifted = x;
         for (i, row) in shifted.iter_mut().enumerate().take(count) {
             row[i] -= value;
         }
-        let g = crate::eigen::null_vector(&mut shifted, count);
+        let g = null_vector(&mut shifted, count);
         let mut vector = [0.0; UNKNOWNS];
         for (basis, &g) in basis.iter().zip(&g).take(count) {
             for (entry, b) in vector.iter_mut().zip(basis) {

@@ -16,7 +16,7 @@ use crate::{
 pub const FORMS: usize = 14;
 
 /// `f(p, l)`.
-#[inline(always)]
+#[inline]
 pub fn forms(p: [f64; 3], l: [f64; 3]) -> [f64; FORMS] {
     let (pp, pl, n) = (dot(p, p), dot(p, l), cross(p, l));
     [
@@ -38,7 +38,7 @@ pub fn forms(p: [f64; 3], l: [f64; 3]) -> [f64; FORMS] {
 }
 
 /// Values of a joint at which a function of it is sampled: cosine and sine of 0 and ±120°, or slides −1, 0, 1.
-#[inline(always)]
+#[inline]
 pub fn nodes(joint: Joint) -> [Rigid; 3] {
     match joint {
         Joint::Revolute => {
@@ -50,7 +50,7 @@ pub fn nodes(joint: Joint) -> [Rigid; 3] {
 }
 
 /// The coefficients of `(1, cos, sin)` or `(1, d, d²)` from the values at the [`nodes`].
-#[inline(always)]
+#[inline]
 pub fn interpolate(joint: Joint, [a, b, c]: [f64; 3]) -> [f64; 3] {
     match joint {
         Joint::Revolute => {
@@ -66,7 +66,7 @@ const VECTORS: [usize; 4] = [0, 3, 8, 11];
 
 /// From coefficients over one joint's monomials to coefficients over two (9, the second joint's fastest): the line moved
 /// by the inverse of the second joint.
-#[inline(always)]
+#[inline]
 pub fn move_by_joint_back(joint: Joint, of: &[[f64; 3]; FORMS]) -> [[f64; 9]; FORMS] {
     let mut out = [[0.0; 9]; FORMS];
     for i in 0..3 {
@@ -114,7 +114,7 @@ pub fn move_by_joint_back(joint: Joint, of: &[[f64; 3]; FORMS]) -> [[f64; 9]; FO
 ///
 /// With `P = R p`, `L = R l`: `p·p + 2 t·P + t·t`, `p·l + t·L`, `P×L + t×L`, and the last
 /// `(P·P) L − 2 (P·L) P − 2 t×(P×L) + (t·t) L − 2 (P·L) t − 2 (t·L) t`.
-#[inline(always)]
+#[inline]
 pub fn moved(by: &Rigid, of: &[[f64; 9]; FORMS]) -> [[f64; 9]; FORMS] {
     let t = by.translation;
     let tt = dot(t, t);
@@ -137,7 +137,7 @@ pub fn moved(by: &Rigid, of: &[[f64; 9]; FORMS]) -> [[f64; 9]; FORMS] {
 }
 
 /// The functions that the inverse of the second joint leaves alone: six equations in the first joint only.
-#[inline(always)]
+#[inline]
 pub fn left_alone(joint: Joint) -> [usize; 6] {
     match joint {
         Joint::Revolute => [2, 5, 6, 7, 10, 13],

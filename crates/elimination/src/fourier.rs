@@ -16,6 +16,9 @@ pub struct Fourier<const GROUPS: usize> {
     pub table: [[Lanes; GROUPS]; MOST],
 }
 
+/// A fit with more noise than this is of no use.
+pub(crate) const USELESS: f64 = 1e-5;
+
 /// A trigonometric polynomial of degree `degree`, its largest sample 1.
 #[derive(Clone, Debug)]
 pub struct Trigonometric {

@@ -6,7 +6,8 @@
 //! joints, and Newton's method on the pose the last digits. Discs around the roots certify that nothing is missing.
 //! At poses where this determinant vanishes identically (the last axis parallel to the first, say), a wider matrix serves.
 //!
-//! What is called for every chart of every pose is compiled into one loop; not so for WebAssembly, where size counts.
+//! What computes in lanes is compiled into one loop, once for each set of instructions ([`Isa`]), so that it uses them; not
+//! so for WebAssembly, where size counts.
 //!
 //! In reading order: [`Arm`], [`Plan::new`] (offline), [`Plan::solve`] (online), [`Answer`].
 
@@ -15,6 +16,7 @@
 
 mod answer;
 mod arm;
+mod candidate;
 mod certificate;
 mod chart;
 mod charts;
@@ -26,6 +28,7 @@ mod forms;
 mod fourier;
 mod lanes;
 mod measure;
+mod native;
 mod newton;
 mod plan;
 mod products;
@@ -39,9 +42,12 @@ mod split;
 mod tables;
 mod triple;
 mod wide;
+mod wide_roots;
+mod work;
 
 pub use answer::{Answer, Certificate, Solution};
 pub use arm::{Arm, Joint};
+pub use native::Isa;
 pub use plan::{Plan, Ranking, Unsuitable};
 pub use rigid::Rigid;
 pub use split::Split;

@@ -4,17 +4,19 @@
 //! pseudo-random poses.
 
 use crate::{
-    answer::Work,
-    arm::{Arm, Joint},
+    answer::Answer,
+    arm::{Arm, Joint, smallest_singular_value},
     certificate::Verdict,
+    determinant::DEGREE,
     fourier::Fourier,
     plan::{Plan, Unsuitable, check},
     rigid::Rigid,
-    slides::{Sliding, solve_sliding},
-    solve::{Constants, DEGREE, Method, solve_split},
+    slides::Sliding,
+    solve::{Constants, Method, Task, Way, portable},
     split::Split,
     triple::Triple,
     wide,
+    work::Work,
 };
 
 /// Poses on which every split is tried, and the best of them again.
@@ -90,13 +92,7 @@ impl Plan {
                     .flat_map(|hidden| [true, false].map(|last| Split::new(arm, hidden, last)))
                     .flatten()
                     .collect();
-                Method::Splits(rank(
-                    arm,
-                    ways,
-                    &poses,
-                    |split| split.joints[2],
-                    |split, pose, work| solve_split::<false>(&constants, split, false, pose, work),
-                ))
+                Method::Splits(rank(&constants, ways, &poses, |split| Way::Split { split, wide: false }))
             }
             2 => {
                 let some: Vec<Rigid> = poses[..6].iter().map(|(_, pose)| *pose).collect();
@@ -105,13 +101,7 @@ impl Plan {
                     .flatten()
                     .filter_map(|mut way| way.settle(arm, &some).then_some(way))
                     .collect();
-                Method::Slides(rank(
-                    arm,
-                    ways,
-                    &poses,
-                    |way| way.turns[0],
-                    |way, pose, work| solve_sliding::<false>(arm, way, pose, work),
-                ))
+                Method::Slides(rank(&constants, ways, &poses, |way| Way::Slides(way)))
             }
             _ => Method::Triple(Box::new(Triple::new(arm).ok_or(Unsuitable::TooManySlides)?)),
         };
@@ -124,21 +114,20 @@ impl Plan {
     }
 }
 
-/// Tries all ways on the poses; the best for each hidden joint, the best of them first.
+/// Tries all ways on the poses; the best for each hidden joint, the best of them first. Products are not fused: the order
+/// is the same on every processor.
 fn rank<W>(
-    arm: &Arm,
+    constants: &Constants,
     ways: Vec<W>,
     poses: &[([f64; 6], Rigid)],
-    hidden: impl Fn(&W) -> usize,
-    solve: impl Fn(&W, &Rigid, &mut Work) -> Verdict,
+    as_way: impl Fn(&W) -> Way<'_>,
 ) -> Vec<W> {
-    let mut work = Work::default();
+    let mut answer = Answer::default();
     let mut tried: Vec<(W, Score)> = ways.into_iter().map(|way| (way, Score::default())).collect();
     let mut measure = |(way, score): &mut (W, Score), poses: &[([f64; 6], Rigid)]| {
         for (q, pose) in poses {
-            work.found.clear();
-            let verdict = solve(way, pose, &mut work);
-            score.add(arm, q, verdict, &work);
+            let verdict = portable::<false>(constants, Task::Trial(as_way(way)), pose, &mut answer);
+            score.add(&constants.arm, q, verdict, &answer.work);
             // Not worth more time.
             if score.poses == 5 && (score.missed > 3 || score.certified == 0) {
                 break;
@@ -155,7 +144,7 @@ fn rank<W>(
     }
     tried.sort_by(order);
     let mut seen = [false; 6];
-    tried.retain(|(way, score)| score.usable() && !std::mem::replace(&mut seen[hidden(way)], true));
+    tried.retain(|(way, score)| score.usable() && !std::mem::replace(&mut seen[as_way(way).hidden()], true));
     tried.into_iter().map(|(way, _)| way).collect()
 }
 
@@ -164,7 +153,7 @@ fn is_singular(scaled: &Arm) -> bool {
     let mut draws = Draws(0x2545_f491_4f6c_dd1d);
     (0..9).all(|_| {
         let q = draws.configuration(scaled);
-        crate::arm::smallest_singular_value(scaled.jacobian(&q)) < 1e-9
+        smallest_singular_value(scaled.jacobian(&q)) < 1e-9
     })
 }
 

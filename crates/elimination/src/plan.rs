@@ -3,14 +3,18 @@
 use crate::{
     answer::Answer,
     arm::{Arm, Joint},
+    determinant::DEGREE,
     fourier::Fourier,
-    rigid::Rigid,
+    rigid::{Rigid, dot},
     slides::Sliding,
-    solve::{Constants, DEGREE, Method, solve},
+    solve::{Constants, Method, Task, Way, portable},
     split::Split,
     triple::Triple,
     wide,
 };
+
+/// Whether products inside sums are fused: where every processor of the target has instructions for it.
+const FUSED: bool = cfg!(any(target_arch = "aarch64", target_feature = "fma"));
 
 /// The splits of an arm in the order in which they are solved, and their constants.
 #[derive(Clone, Debug)]
@@ -107,22 +111,21 @@ impl Plan {
         }
     }
 
-    /// All configurations at a pose; slides and translations in the arm's unit.
-    ///
-    /// `FUSED` says whether products inside sums are fused (the code is compiled with such instructions) or rounded on
-    /// their own.
-    #[inline(always)]
-    pub fn solve<const FUSED: bool>(&self, pose: &Rigid, answer: &mut Answer) {
-        solve::<FUSED>(&self.constants, &self.method, pose, answer);
+    /// All configurations at a pose, on the instructions that every processor of the target has; slides and translations
+    /// in the arm's unit.
+    pub(crate) fn solve_portably(&self, pose: &Rigid, answer: &mut Answer) {
+        portable::<FUSED>(&self.constants, Task::Answer(&self.method), &self.target(pose), answer);
+    }
+
+    /// The pose, lengths divided by the arm's size.
+    pub(crate) fn target(&self, pose: &Rigid) -> Rigid {
+        pose.scaled(1.0 / self.constants.size)
     }
 
     /// The hidden joint (0 to 5) of each way to solve, in the order in which they are tried.
     pub fn hidden(&self) -> Vec<usize> {
-        match &self.method {
-            Method::Splits(splits) => splits.iter().map(|split| split.joints[2]).collect(),
-            Method::Slides(ways) => ways.iter().map(|way| way.turns[0]).collect(),
-            Method::Triple(triple) => vec![triple.turns[0]],
-        }
+        let ways = (0..).map_while(|turn| self.method.way(turn));
+        ways.filter(|way| !way.is_wide()).map(Way::hidden).collect()
     }
 }
 
@@ -134,7 +137,7 @@ pub(crate) fn check(arm: &Arm) -> Result<(), Unsuitable> {
                 .rotation
                 .iter()
                 .enumerate()
-                .all(|(k, b)| (crate::rigid::dot(*a, *b) - f64::from(u8::from(i == k))).abs() < 1e-6)
+                .all(|(k, b)| (dot(*a, *b) - f64::from(u8::from(i == k))).abs() < 1e-6)
         });
         if !straight || !rigid.translation.iter().all(|x| x.is_finite()) {
             return Err(Unsuitable::NotRigid);

@@ -1,7 +1,8 @@
 //! Null vectors of the [wider matrix](crate::wide), and the products of powers among them.
 
 use crate::{
-    extract::{SHARED, gauss_jordan},
+    eigen::{SHARED, null_vector, real_eigenvalues},
+    extract::gauss_jordan,
     wide::{EQUATIONS, MONOMIALS},
 };
 
@@ -51,13 +52,13 @@ impl NullSpace {
             return 0;
         }
         let mut values = [0.0; SHARED];
-        let real = crate::eigen::real_eigenvalues(&x, self.count, tolerance, &mut values);
+        let real = real_eigenvalues(&x, self.count, tolerance, &mut values);
         for (&value, out) in values[..real].iter().zip(out.iter_mut()) {
             let mut shifted = x;
             for (i, row) in shifted.iter_mut().enumerate().take(self.count) {
                 row[i] -= value;
             }
-            let g = crate::eigen::null_vector(&mut shifted, self.count);
+            let g = null_vector(&mut shifted, self.count);
             *out = [0.0; MONOMIALS];
             for (basis, &g) in self.basis.iter().zip(&g).take(self.count) {
                 for (entry, b) in out.iter_mut().zip(basis) {

@@ -23,7 +23,6 @@ const OPEN: f64 = 1e-9;
 
 impl First {
     /// From the coefficients over `(1, c, s)` or `(1, d, d²)`.
-    #[inline(always)]
     pub fn new(kind: Joint, first: &[[f64; 3]; 6]) -> First {
         let (mut aa, mut ab, mut bb) = (0.0, 0.0, 0.0);
         for row in first {

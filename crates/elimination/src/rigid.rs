@@ -15,26 +15,26 @@ impl Rigid {
         Rigid { rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], translation: [0.0; 3] };
 
     /// Rotation about z by an angle given by its cosine and sine.
-    #[inline(always)]
+    #[inline]
     pub fn about_z(c: f64, s: f64) -> Rigid {
         Rigid { rotation: [[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]], translation: [0.0; 3] }
     }
 
     /// Translation along z.
-    #[inline(always)]
+    #[inline]
     pub fn along_z(d: f64) -> Rigid {
         Rigid { translation: [0.0, 0.0, d], ..Rigid::IDENTITY }
     }
 
     /// A direction turned.
-    #[inline(always)]
+    #[inline]
     pub fn turn(&self, v: [f64; 3]) -> [f64; 3] {
         let r = &self.rotation;
         [dot(r[0], v), dot(r[1], v), dot(r[2], v)]
     }
 
     /// A direction turned by the inverse.
-    #[inline(always)]
+    #[inline]
     pub fn turn_back(&self, v: [f64; 3]) -> [f64; 3] {
         let r = &self.rotation;
         [
@@ -45,7 +45,7 @@ impl Rigid {
     }
 
     /// A point moved.
-    #[inline(always)]
+    #[inline]
     pub fn point(&self, p: [f64; 3]) -> [f64; 3] {
         let v = self.turn(p);
         let t = &self.translation;
@@ -53,14 +53,14 @@ impl Rigid {
     }
 
     /// A point moved by the inverse.
-    #[inline(always)]
+    #[inline]
     pub fn point_back(&self, p: [f64; 3]) -> [f64; 3] {
         let t = &self.translation;
         self.turn_back([p[0] - t[0], p[1] - t[1], p[2] - t[2]])
     }
 
     /// The product `self next`.
-    #[inline(always)]
+    #[inline]
     pub fn then(&self, next: &Rigid) -> Rigid {
         let mut rotation = [[0.0; 3]; 3];
         for (row, own) in rotation.iter_mut().zip(&self.rotation) {
@@ -74,7 +74,7 @@ impl Rigid {
     }
 
     /// The inverse.
-    #[inline(always)]
+    #[inline]
     pub fn inverse(&self) -> Rigid {
         let r = &self.rotation;
         let t = self.turn_back(self.translation);
@@ -85,7 +85,7 @@ impl Rigid {
     }
 
     /// The same motion with lengths multiplied by `factor`.
-    #[inline(always)]
+    #[inline]
     pub fn scaled(&self, factor: f64) -> Rigid {
         let t = &self.translation;
         Rigid { rotation: self.rotation, translation: [t[0] * factor, t[1] * factor, t[2] * factor] }
@@ -93,13 +93,13 @@ impl Rigid {
 }
 
 /// The scalar product.
-#[inline(always)]
+#[inline]
 pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// The vector product.
-#[inline(always)]
+#[inline]
 pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

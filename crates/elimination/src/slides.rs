@@ -7,17 +7,17 @@
 //! angle; where the branches are complex, so is `D`, and the product is real.
 
 use crate::{
-    answer::{Found, Work, gather, lane},
     arm::{Arm, Joint},
+    candidate::{ACCEPTED, Found, add, gather, lane},
     certificate::{Verdict, verdict},
     chart::Chart,
     charts::{Charts, DEEPEST, NEARBY, near_roots, noise},
-    fourier::{Fourier, Trigonometric},
+    fourier::{Fourier, Trigonometric, USELESS},
     lanes::{Lanes, WIDTH},
     newton::polish,
-    remaining::Value,
+    remaining::{Value, unit},
     rigid::Rigid,
-    solve::{ACCEPTED, USELESS, add},
+    work::Work,
 };
 
 /// A way round the ring of the four turns.
@@ -172,7 +172,6 @@ impl Sliding {
     }
 
     /// The rotations between the turns with the pose in its place.
-    #[inline(always)]
     fn at(&self, target: &Rigid) -> [Rigid; 4] {
         let mut between = self.between;
         let [before, after] = &self.around_pose;
@@ -432,7 +431,7 @@ fn real_values<const FUSED: bool>(sliding: &Sliding, branch: &Branch) -> [Value;
     let mut values = [[Lanes::ZERO; 2]; 6];
     for joint in sliding.turns {
         let [c, s] = &branch.values[joint];
-        values[joint] = crate::remaining::unit::<FUSED>(c.re, s.re);
+        values[joint] = unit::<FUSED>(c.re, s.re);
     }
     let [a, b] = &branch.directions;
     let (mut aa, mut ab, mut bb) = (Lanes::ZERO, Lanes::ZERO, Lanes::splat(1e-30));

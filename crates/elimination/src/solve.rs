@@ -1,15 +1,17 @@
 //! The solver: one split of the loop after the other, until one certifies that nothing is missing.
 
 use crate::{
-    answer::{Answer, Candidate, Certificate, Found, Solution, Work, gather, lane},
+    answer::{Answer, Certificate, Solution},
     arm::{Arm, Joint},
+    candidate::{ACCEPTED, Candidate, Found, add, gather, lane},
     certificate::{Verdict, verdict},
     chart::Chart,
     charts::{self, Charts, NEARBY, TOGETHER, near_roots, noise},
-    determinant::determinant,
+    determinant::{DEGREE, determinant},
+    eigen::SHARED,
     eliminate::eliminate,
-    extract::{SHARED, SMALL, UNKNOWNS, null_vectors, shared},
-    fourier::Fourier,
+    extract::{SMALL, UNKNOWNS, null_vectors, shared},
+    fourier::{Fourier, USELESS},
     lanes::{Lanes, WIDTH},
     newton::{polish, smallest_singular_values},
     remaining::{First, complete},
@@ -17,21 +19,14 @@ use crate::{
     slides::{Sliding, solve_sliding},
     split::Split,
     triple::{Triple, solve_triple},
-    wide::{self, wide_candidates, wide_verdict},
+    wide_roots::{self, wide_candidates, wide_verdict},
+    work::Work,
 };
 
-/// Largest distance to the pose that is accepted.
-pub(crate) const ACCEPTED: f64 = 1e-10;
-/// Configurations closer than this are one.
-const SAME: f64 = 1e-6;
-/// A fit with more noise than this is of no use.
-pub(crate) const USELESS: f64 = 1e-5;
 /// Smallest singular value below which a configuration counts as double.
-pub(crate) const SINGULAR: f64 = 1e-6;
+const SINGULAR: f64 = 1e-6;
 /// Bound of the second derivative of the pose, lengths divided by the arm's size.
 const CURVATURE: f64 = 20.0;
-/// Degree of the determinant in the hidden angle.
-pub(crate) const DEGREE: usize = 8;
 
 /// The constants of a solver: everything that does not depend on the pose.
 #[derive(Clone, Debug)]
@@ -48,7 +43,7 @@ pub(crate) struct Constants {
 
 /// Solves one split, by the 12 × 12 matrix or by the wider one, and adds what it finds to `work.found`.
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-pub(crate) fn solve_split<const FUSED: bool>(
+fn solve_split<const FUSED: bool>(
     constants: &Constants,
     split: &Split,
     wide: bool,
@@ -61,7 +56,7 @@ pub(crate) fn solve_split<const FUSED: bool>(
     if wide {
         work.matrix.fill(&work.eliminated, split);
     }
-    let mut charts = Charts::whole(if wide { wide::DEEPEST } else { charts::DEEPEST });
+    let mut charts = Charts::whole(if wide { wide_roots::DEEPEST } else { charts::DEEPEST });
     while let Some(chart) = charts.next() {
         let verdict = solve_chart::<FUSED>(constants, split, wide, target, &chart, work);
         charts.settle::<FUSED>(&chart, verdict, work);
@@ -198,27 +193,6 @@ fn accept<const FUSED: bool>(arm: &Arm, split: &Split, target: &Rigid, work: &mu
     }
 }
 
-/// Adds a configuration unless it is there.
-#[inline(always)]
-pub(crate) fn add(arm: &Arm, found: &mut Vec<Found>, new: Found) {
-    for known in found.iter_mut() {
-        let mut apart = 0.0f64;
-        for i in 0..6 {
-            let (a, b) = (known.values[i], new.values[i]);
-            let scale = match arm.joints[i] {
-                Joint::Revolute => 1.0,
-                Joint::Prismatic => 1.0 + a[0].abs(),
-            };
-            let away = ((a[0] - b[0]).abs() + (a[1] - b[1]).abs()) / scale;
-            apart = if away > apart { away } else { apart };
-        }
-        if apart < SAME {
-            return;
-        }
-    }
-    found.push(new);
-}
-
 /// The ways to solve an arm, in their order.
 #[derive(Clone, Debug)]
 pub(crate) enum Method {
@@ -230,49 +204,106 @@ pub(crate) enum Method {
     Triple(Box<Triple>),
 }
 
-/// One way after the other, until one certifies the answer.
+impl Method {
+    /// The ways in their order. The wider matrices last: they take ten times as long, and never vanish.
+    pub fn way(&self, turn: usize) -> Option<Way<'_>> {
+        match self {
+            Method::Splits(splits) => {
+                let wide = turn >= splits.len();
+                let split = splits.get(if wide { turn - splits.len() } else { turn })?;
+                Some(Way::Split { split, wide })
+            }
+            Method::Slides(ways) => ways.get(turn).map(Way::Slides),
+            Method::Triple(triple) => (turn == 0).then_some(Way::Triple(triple)),
+        }
+    }
+}
+
+/// A way to solve a pose.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Way<'a> {
+    /// By the 12 × 12 matrix of a split, or by the wider one.
+    Split { split: &'a Split, wide: bool },
+    /// By a ring of four turns.
+    Slides(&'a Sliding),
+    /// In closed form.
+    Triple(&'a Triple),
+}
+
+impl Way<'_> {
+    /// Whether it is by a wider matrix.
+    pub fn is_wide(&self) -> bool {
+        matches!(self, Way::Split { wide: true, .. })
+    }
+
+    /// The hidden joint (0 to 5).
+    pub fn hidden(self) -> usize {
+        match self {
+            Way::Split { split, .. } => split.joints[2],
+            Way::Slides(way) => way.turns[0],
+            Way::Triple(triple) => triple.turns[0],
+        }
+    }
+}
+
+/// What is done at a pose.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Task<'a> {
+    /// One way after the other until one certifies the answer, which is reported.
+    Answer(&'a Method),
+    /// One way only, to see what it finds.
+    Trial(Way<'a>),
+}
+
+impl<'a> Task<'a> {
+    fn way(self, turn: usize) -> Option<Way<'a>> {
+        match self {
+            Task::Answer(method) => method.way(turn),
+            Task::Trial(way) => (turn == 0).then_some(way),
+        }
+    }
+}
+
+/// Does a task at a pose, lengths divided by the arm's size: the last verdict. All of the solver is compiled into each
+/// function that calls this, for its instructions: there is one for each set of instructions.
 #[inline(always)]
 pub(crate) fn solve<const FUSED: bool>(
     constants: &Constants,
-    method: &Method,
-    pose: &Rigid,
+    task: Task,
+    target: &Rigid,
     answer: &mut Answer,
-) {
-    let target = pose.scaled(1.0 / constants.size);
+) -> Verdict {
     let work = &mut answer.work;
     work.found.clear();
-    answer.splits = 0;
+    let mut turn = 0;
     let mut last = Verdict::Uncertain;
-    match method {
-        Method::Splits(splits) => {
-            // The wider matrices last: they take ten times as long, and never vanish.
-            for turn in 0..2 * splits.len() {
-                let (wide, split) = (turn >= splits.len(), &splits[turn % splits.len()]);
-                if wide && last == Verdict::Pairs {
-                    break;
-                }
-                last = solve_split::<FUSED>(constants, split, wide, &target, work);
-                answer.splits += 1;
-                if last == Verdict::Certified {
-                    break;
-                }
-            }
+    while let Some(way) = task.way(turn) {
+        if last == Verdict::Certified || last == Verdict::Pairs && way.is_wide() {
+            break;
         }
-        Method::Slides(ways) => {
-            for way in ways {
-                last = solve_sliding::<FUSED>(&constants.arm, way, &target, work);
-                answer.splits += 1;
-                if last == Verdict::Certified {
-                    break;
-                }
-            }
-        }
-        Method::Triple(triple) => {
-            last = solve_triple::<FUSED>(&constants.arm, triple, &target, work);
-            answer.splits = 1;
-        }
+        last = match way {
+            Way::Split { split, wide } => solve_split::<FUSED>(constants, split, wide, target, work),
+            Way::Slides(way) => solve_sliding::<FUSED>(&constants.arm, way, target, work),
+            Way::Triple(triple) => solve_triple::<FUSED>(&constants.arm, triple, target, work),
+        };
+        turn += 1;
     }
-    report::<FUSED>(constants, last, answer);
+    answer.splits = turn as u32;
+    if matches!(task, Task::Answer(_)) {
+        report::<FUSED>(constants, last, answer);
+    }
+    last
+}
+
+/// [`solve`] for the instructions that every processor of the target has.
+#[inline(never)]
+pub(crate) fn portable<const FUSED: bool>(
+    constants: &Constants,
+    task: Task,
+    target: &Rigid,
+    answer: &mut Answer,
+) -> Verdict {
+    solve::<FUSED>(constants, task, target, answer)
 }
 
 /// Turns what was found into solutions, with their singular values.

@@ -115,13 +115,13 @@ impl Split {
     }
 
     /// What the multiplied joint does, and what the other one does.
-    #[inline(always)]
+    #[inline]
     pub fn multiplied_and_other(&self) -> (Joint, Joint) {
         if self.last_multiplied { (self.kinds[4], self.kinds[3]) } else { (self.kinds[3], self.kinds[4]) }
     }
 
     /// The links with the pose in its place; `closing` is `A₆ T⁻¹ B`.
-    #[inline(always)]
+    #[inline]
     pub fn links_at(&self, closing: &Rigid) -> [Rigid; 6] {
         let mut links = self.links;
         links[self.pose_link] = if self.sign > 0.0 { *closing } else { closing.inverse() };

@@ -4,13 +4,13 @@
 //! follow from `C₃ Z₁ C₁ = Z₃⁻¹ C₂⁻¹ Z₂⁻¹`.
 
 use crate::{
-    answer::{Found, Work, lane},
     arm::{Arm, Joint},
+    candidate::{ACCEPTED, Found, add, lane},
     certificate::Verdict,
     lanes::Lanes,
     newton::polish,
     rigid::{Rigid, cross, dot},
-    solve::{ACCEPTED, add},
+    work::Work,
 };
 
 /// The constants of an arm with three slides.

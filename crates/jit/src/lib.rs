@@ -36,80 +36,13 @@
 //! The code lives in memory of its own, which no part of a program can write once it can run. It is freed with the last
 //! [`MachineCode`] that uses it.
 
+mod code;
 mod emit;
+mod error;
 mod native;
 mod routines;
 mod solver;
 
+pub use code::MachineCode;
+pub use error::Error;
 pub use solver::MachineSolver;
-
-use denavit_program::Function;
-use native::Native;
-use std::fmt;
-use std::sync::Arc;
-
-/// A [`Function`] as machine code. Clones share the code; threads can use it at the same time.
-#[derive(Clone)]
-pub struct MachineCode {
-    function: Function,
-    native: Arc<Native>,
-}
-
-impl MachineCode {
-    /// Translates a function, for its instructions and rounding ([`Function::on`]).
-    ///
-    /// # Errors
-    /// If Cranelift has no code for this processor, or the function is too large for it.
-    pub fn compile(function: &Function) -> Result<Self, Error> {
-        Ok(MachineCode { function: function.clone(), native: Native::new(function)?.into() })
-    }
-
-    /// The same with other values for its parameters; nothing is compiled again.
-    ///
-    /// # Panics
-    /// If there is not one value per parameter.
-    #[must_use]
-    pub fn with_parameters(&self, parameters: &[f64]) -> Self {
-        MachineCode { function: self.function.with_parameters(parameters), native: self.native.clone() }
-    }
-
-    /// The function that was translated, with the parameters of this one.
-    pub fn function(&self) -> &Function {
-        &self.function
-    }
-
-    /// The results at a configuration. Nothing is allocated.
-    ///
-    /// # Panics
-    /// If there is not one value per variable and one place per result.
-    #[inline]
-    pub fn eval(&self, variables: &[f64], results: &mut [f64]) {
-        self.native.run(variables, self.function.uniforms(), results);
-    }
-}
-
-impl fmt::Debug for MachineCode {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("MachineCode").field("function", &self.function).finish_non_exhaustive()
-    }
-}
-
-/// Why there is no machine code.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Error {
-    /// Cranelift has no code for this processor or system.
-    Host(String),
-    /// Cranelift does not translate this function: it is too large, or there is no memory for it.
-    Refused(String),
-}
-
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Error::Host(why) => write!(f, "no machine code on this processor: {why}"),
-            Error::Refused(why) => write!(f, "no machine code for this function: {why}"),
-        }
-    }
-}
-
-impl std::error::Error for Error {}

@@ -3,8 +3,8 @@
 //! All `unsafe` code of the crate is here.
 #![allow(unsafe_code)]
 
-use crate::Error;
 use crate::emit::{Callees, emit};
+use crate::error::Error;
 use crate::routines::{ANGLES, POINTS, Results, Routines};
 use cranelift_codegen::ir::{AbiParam, types::F64};
 use cranelift_codegen::settings::{self, Configurable, Flags, SetError};

@@ -1,6 +1,6 @@
 //! Solvers whose levels are machine code.
 
-use crate::{Error, MachineCode};
+use crate::{code::MachineCode, error::Error};
 use denavit_program::solver::{Leaves, SolverFunction, Walk};
 
 /// A [`SolverFunction`] as machine code between the roots of its equations: one branch after the other, with the bits of

@@ -23,7 +23,7 @@ mod text;
 pub use code::{Code, Instruction, NONE, Opcode};
 pub use count::{COUNTING_RULE, Count};
 pub use domain::{Domain, Extended, Interval};
-pub use evaluate::{Arithmetic, Batch, Block, Function, Isa, Real, Scalar, Work};
+pub use evaluate::{Arithmetic, Batch, Block, Function, Isa, Real, Scalar};
 pub use graph::{Graph, Walk};
 pub use op::{Op, Stage, Value};
 pub use pairs::{PairReason, PairRefusal};

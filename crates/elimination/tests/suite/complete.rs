@@ -5,7 +5,7 @@
 use crate::arms::{
     Draws, apart, distance, named, newton, perturbed, puma560, random, reversed, sliding, solve, ur10e,
 };
-use denavit_elimination::{Answer, Arm, Certificate, Plan};
+use denavit_elimination::{Answer, Arm, Certificate, Isa, Plan};
 
 fn soak() -> bool {
     std::env::var_os("DENAVIT_SOAK").is_some()
@@ -37,6 +37,35 @@ fn missed(arm: &Arm, count: usize, seed: u64) -> usize {
 fn generating_configurations_are_found() {
     for (name, arm) in named() {
         assert_eq!(missed(&arm, if soak() { 1_000_000 } else { 1500 }, 5), 0, "{name}");
+    }
+}
+
+/// Other instructions round otherwise, and find the same; `solve` takes the fastest ones.
+#[test]
+fn all_instructions_find_the_same() {
+    let mut arms = named();
+    arms.extend([("one slide", sliding(&[2], 5)), ("two slides", sliding(&[1, 3], 6))]);
+    for (name, arm) in arms {
+        let plan = Plan::new(&arm).unwrap();
+        let (mut draws, mut expected, mut found) = (Draws(21), Answer::default(), Answer::default());
+        for _ in 0..100 {
+            let pose = arm.pose(&draws.configuration(&arm));
+            plan.solve(&pose, &mut expected);
+            for isa in Isa::available() {
+                plan.solve_on(isa, &pose, &mut found);
+                if isa == Isa::detect() {
+                    assert_eq!(found.solutions, expected.solutions, "{name}, {isa:?}");
+                }
+                if [&expected, &found].iter().any(|answer| answer.certificate != Certificate::Complete) {
+                    continue;
+                }
+                assert_eq!(found.solutions.len(), expected.solutions.len(), "{name}, {isa:?}");
+                for one in &expected.solutions {
+                    let is_known = found.solutions.iter().any(|other| apart(&arm, &one.q, &other.q) < 1e-5);
+                    assert!(is_known, "{name}, {isa:?}: {one:?}");
+                }
+            }
+        }
     }
 }
 

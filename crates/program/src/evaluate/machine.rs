@@ -30,7 +30,7 @@ pub enum Arithmetic {
 
 /// Loops that can be compiled for any set of instructions. `run` must be `#[inline(always)]`, as must be what it
 /// calls, for the compiler to use them.
-pub trait Work {
+pub(crate) trait Work {
     /// Does it.
     fn run<const FUSED: bool>(self);
 }
@@ -81,32 +81,6 @@ impl Isa {
             Set::Portable => Arithmetic::Strict,
             #[cfg(target_arch = "x86_64")]
             Set::Avx2 | Set::Avx512 => Arithmetic::Fused,
-        }
-    }
-
-    /// Does some work, compiled for this set with the arithmetic that is its [own](Self::arithmetic): half the code of
-    /// what serves every arithmetic, for work that is long.
-    #[inline]
-    pub fn run_natively<W: Work>(self, work: W) {
-        #[cfg(target_arch = "x86_64")]
-        #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
-        fn avx512<W: Work>(work: W) {
-            work.run::<true>();
-        }
-        #[cfg(target_arch = "x86_64")]
-        #[target_feature(enable = "avx2,fma")]
-        fn avx2<W: Work>(work: W) {
-            work.run::<true>();
-        }
-        // SAFETY of the calls: as in `run`.
-        match self.0 {
-            #[cfg(target_arch = "x86_64")]
-            Set::Avx512 => unsafe { avx512(work) },
-            #[cfg(target_arch = "x86_64")]
-            Set::Avx2 => unsafe { avx2(work) },
-            Set::Portable => {
-                work.run::<{ cfg!(any(target_arch = "aarch64", target_feature = "fma")) }>();
-            }
         }
     }
 

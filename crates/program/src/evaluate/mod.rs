@@ -10,7 +10,7 @@ mod scalar;
 pub(crate) mod tape;
 
 pub use batch::{Batch, Block};
-pub use machine::{Arithmetic, Isa, Work};
+pub use machine::{Arithmetic, Isa};
 pub use real::Real;
 pub use scalar::Scalar;
 

@@ -1,12 +1,11 @@
 //! Arms to test on, from their tables, and pseudo-random numbers.
 #![allow(dead_code, reason = "each test uses its part")]
 
-use denavit_elimination::{Answer, Arm, Joint, Plan, Rigid};
+use denavit_elimination::{Answer, Arm, Isa, Joint, Plan, Rigid};
 
-/// The solver, compiled once a test program.
-#[inline(never)]
+/// On the instructions that every processor has.
 pub fn solve(plan: &Plan, pose: &Rigid, answer: &mut Answer) {
-    plan.solve::<false>(pose, answer);
+    plan.solve_on(Isa::PORTABLE, pose, answer);
 }
 
 /// Pseudo-random numbers (xorshift64*).

@@ -9,7 +9,6 @@ use crate::inverse::self_motion::{follow, is_self_motion};
 use crate::inverse::space::JointSpace;
 use crate::robot::Robot;
 use denavit_elimination::{self as elimination, Certificate, Plan};
-use denavit_program::{Isa, Work};
 
 /// Finds the solutions of poses for any robot with six joints.
 #[derive(Clone, Debug)]
@@ -21,7 +20,6 @@ pub struct GeneralSolver {
     axes: SixAxes,
     plan: Plan,
     found: elimination::Answer,
-    isa: Isa,
 }
 
 /// A solution may miss the pose by this (see [`Solution::residual`]).
@@ -44,14 +42,7 @@ impl GeneralSolver {
         let axes = SixAxes::new(robot)?;
         let plan = Plan::new(&axes.arm).map_err(|e| Unsuited::Degenerate(e.to_string()))?;
         let found = elimination::Answer::default();
-        Ok(GeneralSolver {
-            robot: robot.clone(),
-            space: space.clone(),
-            axes,
-            plan,
-            found,
-            isa: Isa::detect(),
-        })
+        Ok(GeneralSolver { robot: robot.clone(), space: space.clone(), axes, plan, found })
     }
 
     /// The arm, and how it is solved.
@@ -67,7 +58,7 @@ impl GeneralSolver {
     /// All solutions of a pose of the tool in the base, in ascending order of their joint variables.
     pub fn solve(&mut self, pose: &Transform<f64>) -> Answer {
         let mut answer = Answer::empty();
-        self.eliminate(pose);
+        self.plan.solve(&rigid(pose), &mut self.found);
         answer.doubt = match self.found.certificate {
             Certificate::Complete => None,
             Certificate::NearDoubleRoot => Some(Doubt::DoubleRoot),
@@ -81,12 +72,6 @@ impl GeneralSolver {
             unequal.unwrap_or(std::cmp::Ordering::Equal)
         });
         answer
-    }
-
-    /// Solves a pose by elimination.
-    fn eliminate(&mut self, pose: &Transform<f64>) {
-        let work = Eliminate { plan: &self.plan, pose: rigid(pose), found: &mut self.found };
-        self.isa.run_natively(work);
     }
 
     /// Adds what was found and solves the pose.
@@ -162,18 +147,5 @@ impl GeneralSolver {
             let slid = newton::slide(&self.robot, Goal::Pose, pose, nearest, (&[], way), size);
             self.space.distance(&slid, q) < SAME
         }
-    }
-}
-
-struct Eliminate<'a> {
-    plan: &'a Plan,
-    pose: elimination::Rigid,
-    found: &'a mut elimination::Answer,
-}
-
-impl Work for Eliminate<'_> {
-    #[inline(always)]
-    fn run<const FUSED: bool>(self) {
-        self.plan.solve::<FUSED>(&self.pose, self.found);
     }
 }
