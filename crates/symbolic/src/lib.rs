@@ -7,14 +7,11 @@
 //!
 //! This crate knows formulas, not where they come from.
 
-pub mod angle;
 pub mod ball;
 pub mod equality;
 pub mod expr;
 pub mod factor;
-pub mod fraction;
 pub mod greek;
-mod lattice;
 pub mod parse;
 pub mod poly;
 pub mod print;
@@ -23,9 +20,8 @@ pub mod readable;
 pub mod ring;
 pub mod vocabulary;
 
-pub use angle::Angle;
 pub use equality::{Verdict, equal};
-pub use expr::{Expr, Node, Symbol};
+pub use expr::{Angle, Expr, Node, Symbol, angle, scoped, store_size};
 pub use greek::name as greek_name;
 pub use rational::Rational;
 pub use ring::{Refusal, Ring};

@@ -1,7 +1,7 @@
 //! Sparse polynomials with rational coefficients in numbered atoms.
 //!
 //! A polynomial alone knows no rules between its atoms; those (C² + S² = 1, √2² = 2) belong to a
-//! [`Ring`](crate::ring::Ring), whose products are reduced by them.
+//! [`Ring`](crate::Ring), whose products are reduced by them.
 
 use crate::rational::Rational;
 use rustc_hash::FxHashMap;

@@ -5,10 +5,12 @@
 //! atoms only and the leading terms are coprime, so the normal form is unique: two formulas of the ring whose
 //! atoms are independent are equal exactly when their normal forms are identical.
 
-use crate::angle::Angle;
-use crate::expr::{Expr, Node, Symbol};
-use crate::fraction::Fraction;
-use crate::lattice;
+mod fraction;
+mod lattice;
+
+pub use fraction::Fraction;
+
+use crate::expr::{Angle, Expr, Node, Symbol, natural_order};
 use crate::poly::{Atom, Monomial, Poly, accumulate};
 use crate::rational::Rational;
 use rustc_hash::FxHashMap;
@@ -110,7 +112,7 @@ impl Ring {
                 _ => {}
             }
         }
-        names.sort_by(|a, b| crate::expr::natural_order(&a.name(), &b.name()));
+        names.sort_by(|a, b| natural_order(&a.name(), &b.name()));
         for &s in symbols.iter().chain(&names) {
             ring.atom(AtomKind::Symbol(s), None);
         }
@@ -480,7 +482,7 @@ impl Ring {
         }
     }
 
-    /// A polynomial as a plain sum of products (for a form to read, see [`readable`](crate::readable)).
+    /// A polynomial as a plain sum of products (for a form to read, see the module `readable`).
     pub fn poly_expr(&self, p: &Poly) -> Expr {
         p.terms().iter().fold(Expr::int(0), |sum, (m, r)| {
             let product =
