@@ -18,6 +18,7 @@ pub mod print;
 pub mod rational;
 pub mod readable;
 pub mod ring;
+pub mod rules;
 pub mod vocabulary;
 
 pub use equality::{Verdict, equal};
