@@ -2,8 +2,6 @@
 
 use super::Graph;
 use crate::domain::Domain;
-use super::Graph;
-use crate::domain::Domain;
 use denavit_symbolic::{Rational, Symbol};
 
 /// A node's result, with a sign.

@@ -8,7 +8,7 @@
 //! Nodes live in a store of the thread, which grows until the thread ends; [`scoped`] gives a piece of work a store of
 //! its own.
 
-pub mod angle;
+mod angle;
 mod store;
 
 pub use angle::Angle;
