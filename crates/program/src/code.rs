@@ -4,7 +4,7 @@
 //! sum that reads it (two roundings, as the program says: nothing is contracted), and sorts the instructions into runs
 //! of one operation: first what leads to the sines, all sines of one depth together, and so on.
 
-use crate::op::{Op, Stage, Value};
+use crate::graph::{Op, Stage, Value};
 use crate::program::Program;
 use rustc_hash::FxHashMap;
 

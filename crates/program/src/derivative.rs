@@ -4,8 +4,7 @@
 //! Reverse mode carries weights from the results to the inputs: `w(a) = Σ ∂v/∂a · w(v)` over all v that read a.
 //! Both are traced into the graph of the program itself, so that what they have in common with it is computed once.
 
-use crate::graph::Graph;
-use crate::op::{Op, Stage, Value};
+use crate::graph::{Graph, Op, Stage, Value};
 use crate::program::Program;
 use crate::rebuild::{Rebuild, names_of, signed};
 use denavit_symbolic::{Rational, Symbol};

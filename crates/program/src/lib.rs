@@ -7,13 +7,11 @@
 //! This crate knows formulas, not where they come from.
 
 mod code;
-mod count;
 mod derivative;
 mod domain;
 mod evaluate;
 mod graph;
 pub mod kernel;
-mod op;
 mod pairs;
 mod program;
 mod rebuild;
@@ -21,11 +19,9 @@ pub mod solver;
 mod text;
 
 pub use code::{Code, Instruction, NONE, Opcode};
-pub use count::{COUNTING_RULE, Count};
 pub use domain::{Domain, Extended, Interval};
-pub use evaluate::{Arithmetic, Batch, Block, Function, Isa, Real, Scalar};
-pub use graph::{Graph, Walk};
-pub use op::{Op, Stage, Value};
+pub use evaluate::{Arithmetic, Batch, Block, Function, Isa, MissingValue, Real, Scalar};
+pub use graph::{COUNTING_RULE, Count, Graph, Op, Stage, Value, Walk};
 pub use pairs::{PairReason, PairRefusal};
 pub use program::{Program, Step};
 pub use text::TextError;

@@ -1,7 +1,6 @@
 //! Angles as pairs: the cosine and sine of an angle in the place of the angle, as an input or as a result.
 
-use crate::graph::Graph;
-use crate::op::{Op, Value};
+use crate::graph::{Graph, Op, Value};
 use crate::program::Program;
 use crate::rebuild::{Rebuild, apply, names_of, signed, unique};
 use denavit_symbolic::{Rational, Symbol};

@@ -1,9 +1,7 @@
 //! A straight-line program: the nodes that some outputs need, in order, the shared ones named.
 
-use crate::count::Count;
 use crate::domain::Domain;
-use crate::graph::Graph;
-use crate::op::{Op, Stage, Value};
+use crate::graph::{Count, Graph, Op, Stage, Value};
 use denavit_symbolic::{Expr, Node, Symbol};
 use rustc_hash::{FxHashMap, FxHashSet};
 

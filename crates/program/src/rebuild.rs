@@ -1,7 +1,6 @@
 //! A program taken back into a graph, to be carried further there.
 
-use crate::graph::Graph;
-use crate::op::{Op, Value};
+use crate::graph::{Graph, Op, Value};
 use crate::program::Program;
 use denavit_symbolic::Symbol;
 use rustc_hash::{FxHashMap, FxHashSet};

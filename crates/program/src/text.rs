@@ -17,7 +17,7 @@
 //! comment. What [`Program::to_text`] writes reads back as the same program, operation by operation, as long as its
 //! results have distinct names.
 
-use crate::op::{Op, Value};
+use crate::graph::{Op, Value};
 use crate::program::Program;
 use denavit_symbolic::{Rational, Symbol};
 use rustc_hash::{FxHashMap, FxHashSet};

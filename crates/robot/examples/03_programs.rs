@@ -3,7 +3,7 @@
 //! `cargo run --release --example 03_programs -p denavit`
 
 use denavit::catalogue;
-use denavit::description::{Description, read_toml};
+use denavit::description::read_toml;
 use denavit::forward::pose_program;
 use denavit_program::Program;
 use denavit_symbolic::Symbol;
@@ -15,7 +15,8 @@ fn main() {
     println!("{}; depth {}", program.count(), program.depth());
 
     // The lengths get their values; nothing is compiled again when they change.
-    let fk = program.compile(&lengths(&robot, &program));
+    let length = |s: Symbol| robot.value(s);
+    let fk = program.compile_with(length).expect("the catalogue gives all lengths");
     let q = [0.1, -1.2, 1.4, 0.3, 0.8, -0.5];
     let pose = fk.scalar().eval(&q).to_vec();
     println!("position {:.4?}", [pose[3], pose[7], pose[11]]);
@@ -28,24 +29,20 @@ fn main() {
 
     // ∂(result)/∂q, sixteen rows of six, is a program like any other.
     let jacobian = program.jacobian();
-    let derivative = jacobian.compile(&lengths(&robot, &jacobian)).scalar().eval(&q).to_vec();
+    let jacobian_function = jacobian.compile_with(length).expect("the same lengths");
+    let derivative = jacobian_function.scalar().eval(&q).to_vec();
     println!("∂x/∂q {:.4?} for {}", &derivative[3 * 6..4 * 6], jacobian.count());
 
     // (cos, sin) in the place of each angle: no trigonometry is left.
     let pairs = program.with_pairs(program.variables()).expect("angles stand in sines and cosines only");
     assert_eq!(pairs.count().sincos, 0);
     let circle: Vec<f64> = q.iter().flat_map(|x| [x.cos(), x.sin()]).collect();
-    let same = pairs.compile(&lengths(&robot, &pairs)).scalar().eval(&circle).to_vec();
+    let of_pairs = pairs.compile_with(length).expect("the same lengths");
+    let same = of_pairs.scalar().eval(&circle).to_vec();
     assert!(pose.iter().zip(&same).all(|(a, b)| (a - b).abs() < 1e-14));
 
     // The text form reads back to the same program.
     let text = program.to_text();
     println!("{}", text.lines().take(12).collect::<Vec<_>>().join("\n"));
     assert_eq!(Program::from_text(&text).expect("it reads back").to_text(), text);
-}
-
-/// The values of a program's parameters.
-fn lengths(robot: &Description, program: &Program) -> Vec<f64> {
-    let value = |s: &Symbol| robot.parameters.iter().find(|p| p.symbol == *s)?.value?.eval(|_| None).ok();
-    program.parameters().iter().map(|s| value(s).expect("the catalogue gives all lengths")).collect()
 }

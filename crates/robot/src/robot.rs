@@ -5,8 +5,8 @@
 use crate::description::{Convention, Description, Row};
 use crate::geometry::{Rotation, Transform, Vector};
 use crate::scalar::Scalar;
+pub use denavit_program::MissingValue;
 use denavit_symbolic::{Angle, Expr, Rational, Symbol};
-use std::fmt;
 
 /// A serial chain over numbers or formulas.
 #[derive(Clone, Debug)]
@@ -44,21 +44,6 @@ pub struct Affine<T> {
     /// Joint numbers (from 0) and their factors.
     pub terms: Vec<(usize, T)>,
 }
-
-/// A parameter has no value where a number is needed.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct MissingValue {
-    /// The parameters without value.
-    pub parameters: Vec<String>,
-}
-
-impl fmt::Display for MissingValue {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "no value for {}", self.parameters.join(", "))
-    }
-}
-
-impl std::error::Error for MissingValue {}
 
 impl<T: Scalar> Affine<T> {
     fn linear(&self, q: &[T]) -> Option<T> {

@@ -7,25 +7,22 @@
 //!
 //! This crate knows formulas, not where they come from.
 
-pub mod angle;
 pub mod ball;
 pub mod equality;
 pub mod expr;
 pub mod factor;
-pub mod fraction;
 pub mod greek;
-mod lattice;
 pub mod parse;
 pub mod poly;
 pub mod print;
 pub mod rational;
 pub mod readable;
 pub mod ring;
+pub mod rules;
 pub mod vocabulary;
 
-pub use angle::Angle;
 pub use equality::{Verdict, equal};
-pub use expr::{Expr, Node, Symbol};
+pub use expr::{Angle, Expr, Node, Symbol, scoped, store_size};
 pub use greek::name as greek_name;
 pub use rational::Rational;
 pub use ring::{Refusal, Ring};

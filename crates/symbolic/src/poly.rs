@@ -1,8 +1,9 @@
 //! Sparse polynomials with rational coefficients in numbered atoms.
 //!
 //! A polynomial alone knows no rules between its atoms; those (C² + S² = 1, √2² = 2) belong to a
-//! [`Ring`](crate::ring::Ring), whose products are reduced by them.
+//! [`Ring`](crate::Ring), whose products are reduced by them.
 
+use crate::expr::Expr;
 use crate::rational::Rational;
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
@@ -203,6 +204,14 @@ impl Poly {
         found.sort_unstable();
         found.dedup();
         found
+    }
+
+    /// A plain sum of products, atoms being these formulas.
+    pub fn to_expr(&self, atom: impl Fn(Atom) -> Expr) -> Expr {
+        self.0.iter().fold(Expr::int(0), |sum, (m, r)| {
+            let product = m.factors().iter().fold(Expr::int(1), |x, &(a, e)| x * atom(a).powi(e.into()));
+            sum + Expr::from(r.clone()) * product
+        })
     }
 
     /// The largest monomial that divides every term.

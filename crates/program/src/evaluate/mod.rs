@@ -16,6 +16,8 @@ pub use scalar::Scalar;
 
 use crate::code::Code;
 use crate::program::Program;
+use denavit_symbolic::Symbol;
+use std::fmt;
 use std::sync::Arc;
 use tape::Tape;
 
@@ -40,6 +42,44 @@ impl Program {
         let isa = Isa::detect();
         let uniforms = code.uniforms(parameters).into();
         Function { code: code.into(), tape: tape.into(), uniforms, isa, arithmetic: isa.arithmetic() }
+    }
+
+    /// Compiles the program; `value` gives its parameters.
+    ///
+    /// # Errors
+    /// If a parameter has no value.
+    pub fn compile_with(&self, value: impl Fn(Symbol) -> Option<f64>) -> Result<Function, MissingValue> {
+        Ok(self.compile(&values(self.parameters(), value)?))
+    }
+}
+
+/// A parameter has no value where a number is needed.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct MissingValue {
+    /// The parameters without value.
+    pub parameters: Vec<String>,
+}
+
+impl fmt::Display for MissingValue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "no value for {}", self.parameters.join(", "))
+    }
+}
+
+impl std::error::Error for MissingValue {}
+
+/// The values of parameters, in order.
+pub(crate) fn values(
+    parameters: &[Symbol],
+    value: impl Fn(Symbol) -> Option<f64>,
+) -> Result<Vec<f64>, MissingValue> {
+    let found: Vec<Option<f64>> = parameters.iter().map(|&s| value(s)).collect();
+    let missing = parameters.iter().zip(&found).filter(|(_, x)| x.is_none());
+    let missing: Vec<String> = missing.map(|(s, _)| s.name().to_string()).collect();
+    if missing.is_empty() {
+        Ok(found.into_iter().flatten().collect())
+    } else {
+        Err(MissingValue { parameters: missing })
     }
 }
 

@@ -1,8 +1,7 @@
 //! From a graph with roots in it to levels of programs.
 
 use super::{Draft, Node, Root, Solver};
-use crate::graph::Graph;
-use crate::op::{Op, Stage, Value};
+use crate::graph::{Graph, Op, Stage, Value};
 use crate::program::Program;
 use crate::rebuild::{apply, unique};
 use denavit_symbolic::{Expr, Symbol};

@@ -13,7 +13,7 @@ pub use build::{Level, Output, Register, SolverBuilder};
 pub use evaluate::{Ended, Leaf, Leaves, Solutions, SolverBatch, SolverFunction, SolverScalar, Walk};
 pub use roots::{Roots, roots};
 
-use crate::op::Value;
+use crate::graph::Value;
 use denavit_symbolic::Symbol;
 
 /// An equation in one unknown, with a closed form for its roots.

@@ -3,7 +3,7 @@
 use super::field::{self, ONE, Value};
 use super::points::Points;
 use super::style::Style;
-use denavit_symbolic::angle::Angle;
+use denavit_symbolic::Angle;
 use denavit_symbolic::expr::{Expr, Node};
 use denavit_symbolic::parse::{Syntax, SyntaxKind};
 use rustc_hash::{FxHashMap, FxHashSet};

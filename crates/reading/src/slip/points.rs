@@ -6,7 +6,7 @@
 //! drawn depends on the seed and on names, never on the order of questions.
 
 use super::field::{self, K, Point, TURN, Value, mixed};
-use denavit_symbolic::angle::Angle;
+use denavit_symbolic::Angle;
 use denavit_symbolic::expr::{Expr, Node};
 use denavit_symbolic::rational::Rational;
 use rustc_hash::FxHashMap;

@@ -1,6 +1,6 @@
 //! How an author prints: spellings of atoms, what stands between factors and terms, which factor comes first.
 
-use denavit_symbolic::angle::Angle;
+use denavit_symbolic::Angle;
 use denavit_symbolic::expr::{Expr, Node};
 use denavit_symbolic::parse::{Syntax, SyntaxKind, parse};
 use denavit_symbolic::print;

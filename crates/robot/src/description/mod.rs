@@ -162,6 +162,11 @@ impl Description {
     pub fn variables(&self) -> Vec<Variable> {
         self.rows.iter().filter_map(|r| r.variable).collect()
     }
+
+    /// The value of a parameter, where it has one.
+    pub fn value(&self, parameter: Symbol) -> Option<f64> {
+        self.parameters.iter().find(|p| p.symbol == parameter)?.value?.eval(|_| None).ok()
+    }
 }
 
 /// Reports a number without unit that is improbable in SI: 90 rad, 151.9 m.

@@ -5,7 +5,7 @@ use crate::forward::algorithm::{self, Outputs, Proof, entry_name};
 use crate::forward::chain::Chain;
 use crate::geometry::Transform;
 use crate::robot::Robot;
-use denavit_program::{Graph, Program};
+use denavit_program::{Function, Graph, MissingValue, Program};
 use denavit_symbolic::{Expr, Refusal, Ring, Symbol, readable};
 use rustc_hash::FxHashSet;
 
@@ -37,6 +37,14 @@ pub struct ForwardModel {
 }
 
 impl ForwardModel {
+    /// The algorithm compiled for the lengths of a robot: joint variables in, the outputs of the algorithm out.
+    ///
+    /// # Errors
+    /// If a parameter has no value.
+    pub fn function(&self, description: &Description) -> Result<Function, MissingValue> {
+        self.algorithm.compile_with(|s| description.value(s))
+    }
+
     /// The model of the pose of `to` in `from`; the algorithm computes `outputs` of it.
     pub fn derive(description: &Description, from: Reference, to: Reference, outputs: Outputs) -> Self {
         let place = |r: Reference| match r {

@@ -6,7 +6,7 @@ use crate::description::Description;
 use crate::forward::{Proof, Reference, prove, symbol_order};
 use crate::geometry::{Axis, Transform, Vector};
 use crate::robot::Robot;
-use denavit_program::{Graph, Program, Value};
+use denavit_program::{Function, Graph, MissingValue, Program, Value};
 use denavit_symbolic::{Expr, Refusal, Symbol, readable};
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -24,6 +24,14 @@ pub struct JacobianModel {
 }
 
 impl JacobianModel {
+    /// The algorithm compiled for the lengths of a robot: joint variables in, the entries of the matrix row by row out.
+    ///
+    /// # Errors
+    /// If a parameter has no value.
+    pub fn function(&self, description: &Description) -> Result<Function, MissingValue> {
+        self.algorithm.compile_with(|s| description.value(s))
+    }
+
     /// The Jacobian at a viewpoint.
     pub fn derive(description: &Description, view: Viewpoint<Expr>) -> Self {
         Self::with(description, view, &mut Shortener::new(description))

@@ -20,6 +20,7 @@ mod motion_profiles;
 mod motion_timing;
 mod numeric;
 mod redundant;
+mod scope;
 mod singular;
 mod velocity;
 mod workspace;

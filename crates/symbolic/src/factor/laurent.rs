@@ -5,8 +5,7 @@
 
 use super::field::{Field, Gauss};
 use super::sparse::{Exhausted, Exponents, Sparse, Work};
-use crate::angle::Angle;
-use crate::expr::Expr;
+use crate::expr::{Angle, Expr};
 use crate::poly::{Atom, Monomial, Poly};
 use crate::rational::Rational;
 use crate::ring::{AtomKind, Ring};

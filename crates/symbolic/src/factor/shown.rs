@@ -1,8 +1,7 @@
 //! A factor as it is written, and its place among the others.
 
 use super::laurent::{Harmonic, expression, is_number};
-use crate::angle::Angle;
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Angle, Expr, Symbol};
 use crate::poly::{Atom, Poly};
 use crate::rational::Rational;
 use crate::readable::{literals, shortened, show};

@@ -1,7 +1,6 @@
 //! Where a factor is 0, solved for one angle, where that is exact and simple.
 
-use crate::angle::Angle;
-use crate::expr::{Expr, natural_order};
+use crate::expr::{Angle, Expr, natural_order};
 use crate::poly::{Atom, Monomial, Poly};
 use crate::rational::Rational;
 use crate::readable::{show, simplify};

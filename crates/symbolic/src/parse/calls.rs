@@ -6,8 +6,7 @@ use super::lexer::Kind;
 use super::measured::Context;
 use super::syntax::SyntaxKind;
 use super::{MAX_EXPONENT, MAX_OPERATORS, ParseError};
-use crate::angle::Angle;
-use crate::expr::{Expr, Node, Symbol};
+use crate::expr::{Angle, Expr, Node, Symbol};
 use crate::rational::Rational;
 
 /// The most operators on one way from the whole formula to a name in it.

@@ -5,8 +5,7 @@
 use super::ParseError;
 use super::grammar::{Parser, Read, Value};
 use super::syntax::{Syntax, SyntaxKind};
-use crate::angle::Angle;
-use crate::expr::Expr;
+use crate::expr::{Angle, Expr};
 use crate::rational::Rational;
 use std::ops::Range;
 

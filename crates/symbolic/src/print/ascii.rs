@@ -1,7 +1,24 @@
 //! `C1*(C23*(C4*C5*C6 - S4*S6) - S23*S5*C6)`: what a keyboard has, every product with its sign.
 
 use super::names::{Index, Spelling};
-use super::{Notation, Seam};
+use super::notation::{Notation, Seam};
+use super::{Style, print};
+use crate::expr::Expr;
+use crate::vocabulary::Vocabulary;
+use std::fmt;
+
+/// In ASCII, with full words: `cos(q2 + q3)`.
+impl fmt::Display for Expr {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&print(*self, &Vocabulary::default(), Style::Ascii))
+    }
+}
+
+impl fmt::Debug for Expr {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
 
 pub(super) const NOTATION: Notation = Notation {
     whole: ["", ""],

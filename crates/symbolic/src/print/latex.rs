@@ -1,7 +1,7 @@
 //! `C_{1}\left(C_{23}\left(C_{4} C_{5} C_{6} - S_{4} S_{6}\right) - S_{23} S_{5} C_{6}\right)`
 
 use super::names::{Index, Spelling, parts};
-use super::{Head, Notation, Seam};
+use super::notation::{Head, Notation, Seam};
 use crate::greek;
 
 pub(super) const NOTATION: Notation = Notation {

@@ -1,7 +1,7 @@
 //! Presentation MathML.
 
 use super::names::{Index, Spelling};
-use super::{Head, Notation, Seam};
+use super::notation::{Head, Notation, Seam};
 
 pub(super) const NOTATION: Notation = Notation {
     whole: ["<mrow>", "</mrow>"],

@@ -1,4 +1,4 @@
-//! Formulas as text: ASCII and Unicode that [`parse`](crate::parse) reads back, LaTeX, Typst and MathML.
+//! Formulas as text: ASCII and Unicode that the parser reads back, LaTeX, Typst and MathML.
 //!
 //! ```
 //! use denavit_symbolic::print::{Style, print};
@@ -22,6 +22,7 @@ mod broken;
 mod latex;
 mod mathml;
 mod names;
+mod notation;
 mod typst;
 mod unicode;
 mod width;
@@ -29,11 +30,11 @@ mod width;
 pub use broken::{BrokenLine, broken};
 pub use width::width;
 
-use crate::angle::Angle;
-use crate::expr::{Expr, Node};
+use crate::expr::{Angle, Expr, Node};
 use crate::rational::Rational;
-use crate::vocabulary::{Vocabulary, plain_name};
+use crate::vocabulary::Vocabulary;
 use names::{Index, Spelling};
+use notation::{Head, Notation, Seam};
 use rustc_hash::FxHashMap;
 use std::rc::Rc;
 
@@ -80,104 +81,6 @@ impl Style {
             Style::MathMl => &mathml::NOTATION,
         }
     }
-}
-
-/// Everything that differs between the styles.
-#[derive(Clone, Copy)]
-struct Notation {
-    /// Around the whole formula.
-    whole: [&'static str; 2],
-    plus: &'static str,
-    minus: &'static str,
-    negative: &'static str,
-    paren: [&'static str; 2],
-    /// Before, between and after the parts of a fraction with a bar; `None` writes `a/b`.
-    bar: Option<[&'static str; 3]>,
-    root: [&'static str; 2],
-    /// The root sign of a bare integer, where it needs no parentheses.
-    short_root: Option<&'static str>,
-    /// The root where a symbol is called `sqrt`.
-    root_sign: [&'static str; 2],
-    /// The names of functions, which stand before an argument in `call`.
-    sine: &'static str,
-    cosine: &'static str,
-    arctangent: &'static str,
-    /// Before, between and behind the arguments of a function.
-    call: [&'static str; 3],
-    pi: &'static str,
-    /// π where its name means something else.
-    half_turn: &'static str,
-    /// Behind a number of degrees.
-    degree: &'static str,
-    /// Behind a number in an angle, where a bare number would be degrees.
-    radian: &'static str,
-    /// Before a power and between base and exponent; what closes it comes with the exponent.
-    power: [&'static str; 2],
-    exponent: fn(i32) -> String,
-    /// A number without sign or fraction bar.
-    digits: fn(String) -> String,
-    symbol: fn(&Spelling) -> String,
-    /// The sine or cosine (first letter) of numbered angles.
-    trig: fn(char, &Index) -> String,
-    times: fn(&Seam) -> &'static str,
-}
-
-impl Notation {
-    /// With other spellings for what the vocabulary gives another meaning: a length may be called `pi` or `cos`.
-    fn beside(mut self, vocabulary: &Vocabulary) -> Self {
-        let is_taken = |word: &str| vocabulary.lookup(word).is_some();
-        if is_taken("pi") || is_taken("π") {
-            self.pi = self.half_turn;
-        }
-        if is_taken("sin") || is_taken("cos") {
-            let letters = if is_taken("C") || is_taken("S") { ["s", "c"] } else { ["S", "C"] };
-            (self.sine, self.cosine) = (letters[0], letters[1]);
-        }
-        if is_taken("sqrt") {
-            self.root = self.root_sign;
-        }
-        if is_taken("atan2") {
-            self.arctangent = "arctan2";
-        }
-        self
-    }
-}
-
-/// Where two factors meet.
-struct Seam<'a> {
-    /// What is written so far.
-    left: &'a str,
-    right: Head,
-    /// A slash stands to the left, so that only a visible sign keeps the order of reading.
-    after_slash: bool,
-    /// Words that run across the border of a digit and a letter.
-    bridges: &'a [String],
-}
-
-impl Seam<'_> {
-    /// True if a known word that runs across a border lies in `text`.
-    fn bridges_at(&self, text: &str) -> bool {
-        self.bridges.iter().any(|w| text.contains(w.as_str()) || text.ends_with('(') && w.contains(text))
-    }
-
-    /// True if a bracket here would complete the start of a known word such as `d2(x)`.
-    fn calls(&self) -> bool {
-        let heads = self.bridges.iter().filter_map(|w| w.split_once('('));
-        heads.into_iter().any(|(head, _)| {
-            let tail = self.left.char_indices().rev().nth(4 * head.len() + 20).map_or(0, |(i, _)| i);
-            plain_name(&self.left[tail..]).ends_with(head)
-        })
-    }
-}
-
-/// How a factor starts.
-enum Head {
-    Number,
-    Paren,
-    Word(Rc<str>),
-    Call,
-    Root,
-    Fraction,
 }
 
 /// What the place of a formula asks of it.

@@ -1,7 +1,6 @@
 //! Names of symbols taken apart, and the indices of short sines and cosines.
 
-use crate::angle::Angle;
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Angle, Expr, Symbol};
 use crate::greek;
 use crate::rational::Rational;
 use crate::vocabulary::Vocabulary;

@@ -1,7 +1,7 @@
 //! `C_1 (C_23 (C_4 C_5 C_6 - S_4 S_6) - S_23 S_5 C_6)`
 
 use super::names::{Index, Spelling};
-use super::{Head, Notation, Seam};
+use super::notation::{Head, Notation, Seam};
 use crate::greek;
 
 pub(super) const NOTATION: Notation = Notation {

@@ -1,8 +1,9 @@
 //! `C1(C23(C4C5C6 − S4S6) − S23S5C6)`: as in a textbook, with `·` where factors side by side would be read
 //! differently.
 
+use super::ascii;
 use super::names::{Spelling, is_letter};
-use super::{Head, Notation, Seam, ascii};
+use super::notation::{Head, Notation, Seam};
 use crate::greek;
 use crate::vocabulary::plain_name;
 

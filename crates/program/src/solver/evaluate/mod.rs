@@ -11,7 +11,8 @@ pub use leaves::{Ended, Leaf, Leaves};
 pub use walk::{SolverScalar, Walk};
 
 use super::{Register, Root, Solver};
-use crate::evaluate::{Arithmetic, Function, Isa};
+use crate::evaluate::{Arithmetic, Function, Isa, MissingValue, values};
+use denavit_symbolic::Symbol;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -88,6 +89,20 @@ impl Solver {
         };
         let levels = self.levels.iter().map(|l| l.program.compile(parameters)).collect();
         SolverFunction { shape: shape.into(), levels }
+    }
+
+    /// Compiles the solver; `value` gives its parameters.
+    ///
+    /// # Errors
+    /// If a parameter has no value.
+    ///
+    /// # Panics
+    /// If there are more than 64 nodes.
+    pub fn compile_with(
+        &self,
+        value: impl Fn(Symbol) -> Option<f64>,
+    ) -> Result<SolverFunction, MissingValue> {
+        Ok(self.compile(&values(&self.parameters, value)?))
     }
 }
 

@@ -8,7 +8,9 @@ use super::families;
 use crate::description::Description;
 use crate::geometry::Transform;
 use crate::inverse::answer::{Answer, Doubt, Obstacle, Solution};
-use crate::inverse::derivation::{Goal, InverseModel, NumericCondition, Random, Step, Unknown, compile};
+use crate::inverse::derivation::{
+    Goal, InverseModel, NumericCondition, Random, Step, Unknown, Variant, compile,
+};
 use crate::inverse::newton;
 use crate::inverse::space::{JointSpace, norm};
 use crate::robot::{MissingValue, Robot};
@@ -79,25 +81,9 @@ impl InverseModel {
     /// If a parameter has no value.
     pub fn solver(&self, description: &Description) -> Result<InverseSolver, MissingValue> {
         let robot = Robot::numeric(description)?;
-        let value = |s: Symbol| {
-            let p = description.parameters.iter().find(|p| p.symbol == s)?;
-            p.value?.eval(|_| None).ok()
-        };
-        let missing: Vec<String> = self
-            .compiled
-            .solver
-            .parameters
-            .iter()
-            .filter(|s| value(**s).is_none())
-            .map(|s| s.name().to_string())
-            .collect();
-        if !missing.is_empty() {
-            return Err(MissingValue { parameters: missing });
-        }
-        let parameters: Vec<f64> =
-            self.compiled.solver.parameters.iter().map(|&s| value(s).unwrap_or(0.0)).collect();
-        let function = self.compiled.solver.compile(&parameters);
-        let nearest = compile::without_residual(self).compile(&parameters).scalar();
+        let value = |s: Symbol| description.value(s);
+        let function = self.compiled.solver.compile_with(value)?;
+        let nearest = compile::without_residual(self).compile_with(value)?.scalar();
         let facts = |steps: &[Step], labels: &[Option<String>]| -> Vec<NodeFacts> {
             let pairs = steps.iter().zip(labels);
             pairs
@@ -115,15 +101,11 @@ impl InverseModel {
                 .collect()
         };
         let nodes = facts(&self.steps, &self.labels);
-        let variants = self
-            .variants
-            .iter()
-            .map(|v| VariantSolver {
-                step: v.step,
-                scalar: v.compiled.solver.compile(&parameters).scalar(),
-                nodes: facts(&v.steps, &v.labels),
-            })
-            .collect();
+        let variant = |v: &Variant| -> Result<VariantSolver, MissingValue> {
+            let scalar = v.compiled.solver.compile_with(value)?.scalar();
+            Ok(VariantSolver { step: v.step, scalar, nodes: facts(&v.steps, &v.labels) })
+        };
+        let variants = self.variants.iter().map(variant).collect::<Result<Vec<_>, _>>()?;
         let space = JointSpace::new(description, robot.reach());
         let conditions = self
             .conditions

@@ -3,11 +3,13 @@
 //! Every angle has a cosine and a sine, with the rule S² → 1 − C². Angles that are sums of one another (θ2, θ23) are
 //! atoms of their own here: an equation holds whichever of them its product was formed with.
 
+use denavit_symbolic::Expr;
 use denavit_symbolic::poly::{Atom, Monomial, Poly};
 use denavit_symbolic::ring::{AtomKind, Ring};
-use denavit_symbolic::{Expr, Rational};
+use denavit_symbolic::rules::{Formed, Rules};
 use rustc_hash::FxHashMap;
 use std::cell::Cell;
+use std::convert::Infallible;
 
 /// What an atom stands for.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -34,7 +36,7 @@ const LONG: u64 = 12;
 pub struct Algebra {
     kinds: Vec<Kind>,
     exprs: Vec<Expr>,
-    rules: Vec<Option<Poly>>,
+    rules: Rules,
     numbers: FxHashMap<Kind, Atom>,
     /// Products of terms that were formed.
     work: Cell<u64>,
@@ -49,7 +51,6 @@ impl Algebra {
         let number = Atom::try_from(self.kinds.len()).expect("fewer than 65536 atoms");
         self.kinds.push(kind);
         self.exprs.push(expr());
-        self.rules.push(None);
         self.numbers.insert(kind, number);
         number
     }
@@ -58,8 +59,8 @@ impl Algebra {
     pub fn pair(&mut self, angle: usize, expr: Expr) -> (Poly, Poly) {
         let c = self.atom(Kind::Cos(angle), || expr.cos());
         let s = self.atom(Kind::Sin(angle), || expr.sin());
-        if self.rules[usize::from(s)].is_none() {
-            self.rules[usize::from(s)] = Some(one_minus_square(c));
+        if self.rules.square(s).is_none() {
+            self.rules.set_pair(c, s);
         }
         (Poly::atom(c), Poly::atom(s))
     }
@@ -107,34 +108,15 @@ impl Algebra {
         if let Some(r) = b.as_constant() {
             return a.scaled(&r);
         }
-        let mut terms = Vec::with_capacity(a.terms().len() * b.terms().len());
-        let mut pending: Vec<(Monomial, Rational)> = vec![];
-        let mut long = 0;
-        for (m, r) in a.terms() {
-            for (n, t) in b.terms() {
-                let product = r * t;
-                long += u64::from(product.to_parts().is_none());
-                pending.push((m.times(n), product));
-                while let Some((m, r)) = pending.pop() {
-                    let square = m
-                        .factors()
-                        .iter()
-                        .find(|f| f.1 >= 2 && self.rules[usize::from(f.0)].is_some())
-                        .copied();
-                    match square {
-                        None => terms.push((m, r)),
-                        Some((atom, exponent)) => {
-                            let rest = m.without(atom).times(&Monomial::power(atom, exponent - 2));
-                            let rule = self.rules[usize::from(atom)].as_ref().map_or(&[][..], Poly::terms);
-                            pending.extend(rule.iter().map(|(n, t)| (rest.times(n), &r * t)));
-                        }
-                    }
-                }
+        let mut work = self.work.get();
+        let Ok(product) = self.rules.times(a, b, |formed, r| {
+            if formed == Formed::Product {
+                work += if r.to_parts().is_some() { 1 } else { 1 + LONG };
             }
-        }
-        let products = (a.terms().len() * b.terms().len()) as u64;
-        self.work.set(self.work.get() + products + LONG * long);
-        Poly::from_terms(terms)
+            Ok::<(), Infallible>(())
+        });
+        self.work.set(work);
+        product
     }
 
     /// The square.
@@ -157,10 +139,7 @@ impl Algebra {
 
     /// A polynomial as a sum of products.
     pub fn formula(&self, p: &Poly) -> Expr {
-        p.terms().iter().fold(Expr::int(0), |sum, (m, r)| {
-            let product = m.factors().iter().fold(Expr::int(1), |x, &(a, n)| x * self.expr(a).powi(n.into()));
-            sum + Expr::from(r.clone()) * product
-        })
+        p.to_expr(|a| self.expr(a))
     }
 
     /// A constant formula of the robot as a polynomial; what is none becomes an atom as it stands.
@@ -175,7 +154,7 @@ impl Algebra {
                 let e = ring.atom_expr(a);
                 let atom = self.atom(Kind::Constant(e), || e);
                 if let AtomKind::Surd(k) = ring.kind(a) {
-                    self.rules[usize::from(atom)] = Some(Poly::constant((*k).into()));
+                    self.rules.set(atom, Poly::constant((*k).into()));
                 }
                 product = product.times(&Monomial::power(atom, n));
             }
@@ -184,15 +163,11 @@ impl Algebra {
         for (c, s) in ring.pairs().collect::<Vec<_>>() {
             let (c, s) = (ring.atom_expr(c), ring.atom_expr(s));
             if let (Some(c), Some(s)) = (self.find(Kind::Constant(c)), self.find(Kind::Constant(s))) {
-                self.rules[usize::from(s)] = Some(one_minus_square(c));
+                self.rules.set_pair(c, s);
             }
         }
         Poly::from_terms(terms)
     }
-}
-
-fn one_minus_square(c: Atom) -> Poly {
-    Poly::from_terms([(Monomial::power(c, 2), -Rational::ONE), (Monomial::one(), Rational::ONE)])
 }
 
 fn monomial_value(m: &Monomial, atoms: &[f64]) -> f64 {

@@ -5,12 +5,15 @@
 //! atoms only and the leading terms are coprime, so the normal form is unique: two formulas of the ring whose
 //! atoms are independent are equal exactly when their normal forms are identical.
 
-use crate::angle::Angle;
-use crate::expr::{Expr, Node, Symbol};
-use crate::fraction::Fraction;
-use crate::lattice;
-use crate::poly::{Atom, Monomial, Poly, accumulate};
+mod fraction;
+mod lattice;
+
+pub use fraction::Fraction;
+
+use crate::expr::{Angle, Expr, Node, Symbol, natural_order};
+use crate::poly::{Atom, Poly};
 use crate::rational::Rational;
+use crate::rules::Rules;
 use rustc_hash::FxHashMap;
 use std::fmt;
 use std::rc::Rc;
@@ -75,7 +78,7 @@ struct Generator {
 /// Atoms, their rules, and the normal forms found so far.
 pub struct Ring {
     atoms: Vec<AtomKind>,
-    rules: Vec<Option<Poly>>,
+    rules: Rules,
     numbers: FxHashMap<AtomKind, Atom>,
     generators: Vec<Generator>,
     basis: Vec<Angle>,
@@ -94,7 +97,7 @@ impl Ring {
     pub fn with_basis(basis: &[Angle], exprs: &[Expr], symbols: &[Symbol]) -> Self {
         let mut ring = Ring {
             atoms: vec![],
-            rules: vec![],
+            rules: Rules::default(),
             numbers: FxHashMap::default(),
             generators: vec![],
             basis: vec![],
@@ -110,7 +113,7 @@ impl Ring {
                 _ => {}
             }
         }
-        names.sort_by(|a, b| crate::expr::natural_order(&a.name(), &b.name()));
+        names.sort_by(|a, b| natural_order(&a.name(), &b.name()));
         for &s in symbols.iter().chain(&names) {
             ring.atom(AtomKind::Symbol(s), None);
         }
@@ -173,7 +176,9 @@ impl Ring {
         }
         let number = Atom::try_from(self.atoms.len()).expect("fewer than 65536 atoms in a formula");
         self.atoms.push(kind.clone());
-        self.rules.push(rule);
+        if let Some(square) = rule {
+            self.rules.set(number, square);
+        }
         self.numbers.insert(kind, number);
         number
     }
@@ -181,9 +186,8 @@ impl Ring {
     fn generator(&mut self, angle: Angle) -> usize {
         let number = self.generators.len();
         let cos = self.atom(AtomKind::Cos(number), None);
-        let square =
-            Poly::from_terms([(Monomial::power(cos, 2), -Rational::ONE), (Monomial::one(), Rational::ONE)]);
-        let sin = self.atom(AtomKind::Sin(number), Some(square));
+        let sin = self.atom(AtomKind::Sin(number), None);
+        self.rules.set_pair(cos, sin);
         if !angle.is_constant() {
             self.basis.push(angle.clone());
         }
@@ -196,39 +200,13 @@ impl Ring {
     /// # Errors
     /// [`Refusal::TooLarge`] once the ring's budget is used up.
     pub fn times(&mut self, a: &Poly, b: &Poly) -> Result<Poly, Refusal> {
-        let mut sum = FxHashMap::default();
-        for (m, r) in a.terms() {
-            for (n, t) in b.terms() {
-                self.add_reduced(&mut sum, m.times(n), r * t)?;
-            }
-        }
-        Ok(Poly::from_map(sum))
-    }
-
-    /// Adds a term to a sum, squares of quadratic atoms replaced.
-    fn add_reduced(
-        &mut self,
-        sum: &mut FxHashMap<Monomial, Rational>,
-        m: Monomial,
-        r: Rational,
-    ) -> Result<(), Refusal> {
-        let mut pending = vec![(m, r)];
-        while let Some((m, r)) = pending.pop() {
+        let budget = &mut self.budget;
+        self.rules.times(a, b, |_, r| {
             // Long numbers take the square of their length.
             let words = r.bits() / 64;
-            self.budget = self.budget.checked_sub(1 + words * words / 16).ok_or(Refusal::TooLarge)?;
-            let quadratic =
-                m.factors().iter().copied().find(|&(a, e)| e >= 2 && self.rules[usize::from(a)].is_some());
-            match quadratic {
-                None => accumulate(sum, m, r),
-                Some((atom, exponent)) => {
-                    let rest = m.without(atom).times(&Monomial::power(atom, exponent - 2));
-                    let rule = self.rules[usize::from(atom)].as_ref().map_or(&[][..], Poly::terms);
-                    pending.extend(rule.iter().map(|(n, t)| (rest.times(n), &r * t)));
-                }
-            }
-        }
-        Ok(())
+            *budget = budget.checked_sub(1 + words * words / 16).ok_or(Refusal::TooLarge)?;
+            Ok(())
+        })
     }
 
     /// `pⁿ` in normal form.
@@ -480,13 +458,9 @@ impl Ring {
         }
     }
 
-    /// A polynomial as a plain sum of products (for a form to read, see [`readable`](crate::readable)).
+    /// A polynomial as a plain sum of products (for a form to read, see the module `readable`).
     pub fn poly_expr(&self, p: &Poly) -> Expr {
-        p.terms().iter().fold(Expr::int(0), |sum, (m, r)| {
-            let product =
-                m.factors().iter().fold(Expr::int(1), |x, &(a, e)| x * self.atom_expr(a).powi(e.into()));
-            sum + Expr::from(r.clone()) * product
-        })
+        p.to_expr(|a| self.atom_expr(a))
     }
 
     fn fraction_expr(&self, f: &Fraction) -> Expr {

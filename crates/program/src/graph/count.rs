@@ -1,6 +1,6 @@
 //! What a program costs, counted by one stated rule.
 
-use crate::op::{Op, Stage};
+use super::op::{Op, Stage};
 use std::fmt;
 
 /// How operations are counted.

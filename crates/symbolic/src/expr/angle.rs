@@ -2,7 +2,7 @@
 //!
 //! Sines and cosines are taken of these, so that θ2+θ3 is an angle of its own and equal angles look equal.
 
-use crate::expr::{Expr, Node, natural_order};
+use super::{Expr, Node, natural_order};
 use crate::rational::Rational;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;

@@ -5,12 +5,17 @@
 //! outwards (`a·(−b)` is `−(a·b)`), `0` and `1` disappear, and the argument of a sine or cosine is a sorted sum
 //! of angles without quarter turns or leading sign (`cos(θ + π/2)` is `−sin θ`).
 //!
-//! Nodes live in a store of the thread, which grows until the thread ends: a service derives on worker threads.
+//! Nodes live in a store of the thread, which grows until the thread ends; [`scoped`] gives a piece of work a store of
+//! its own.
 
-use crate::angle::Angle;
+mod angle;
+mod store;
+
+pub use angle::Angle;
+pub use store::{scoped, store_size};
+
 use crate::rational::Rational;
 use rustc_hash::FxHashMap;
-use std::cell::RefCell;
 use std::fmt;
 use std::marker::PhantomData;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -55,48 +60,19 @@ pub enum Node {
     Atan2(Expr, Expr),
 }
 
-#[derive(Default)]
-struct Store {
-    nodes: Vec<Node>,
-    ids: FxHashMap<Node, u32>,
-    names: Vec<Rc<str>>,
-    symbols: FxHashMap<Rc<str>, u32>,
-}
-
-thread_local! {
-    static STORE: RefCell<Store> = RefCell::default();
-}
-
 fn intern(node: Node) -> Expr {
-    STORE.with_borrow_mut(|s| {
-        if let Some(&id) = s.ids.get(&node) {
-            return Expr(id, PhantomData);
-        }
-        let id = u32::try_from(s.nodes.len()).expect("fewer than 2^32 expressions a thread");
-        s.nodes.push(node.clone());
-        s.ids.insert(node, id);
-        Expr(id, PhantomData)
-    })
+    Expr(store::intern(node), PhantomData)
 }
 
 impl Symbol {
     /// The symbol with this name.
     pub fn new(name: &str) -> Self {
-        STORE.with_borrow_mut(|s| {
-            if let Some(&id) = s.symbols.get(name) {
-                return Symbol(id, PhantomData);
-            }
-            let id = u32::try_from(s.names.len()).expect("fewer than 2^32 symbols a thread");
-            let name: Rc<str> = name.into();
-            s.names.push(name.clone());
-            s.symbols.insert(name, id);
-            Symbol(id, PhantomData)
-        })
+        Symbol(store::intern_name(name), PhantomData)
     }
 
     /// Its name.
     pub fn name(self) -> Rc<str> {
-        STORE.with_borrow(|s| s.names[self.0 as usize].clone())
+        store::name(self.0)
     }
 }
 
@@ -118,7 +94,7 @@ impl Expr {
 
     /// The node behind the handle.
     pub fn node(self) -> Node {
-        STORE.with_borrow(|s| s.nodes[self.0 as usize].clone())
+        store::node(self.0)
     }
 
     /// The value if the node is a rational constant.
@@ -400,19 +376,6 @@ impl Div for Expr {
             false => intern(Node::Div(a, b)),
         };
         Expr::with_number(&(r / t), rest)
-    }
-}
-
-impl fmt::Debug for Expr {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt::Display::fmt(self, f)
-    }
-}
-
-/// In ASCII, with full words: `cos(q2 + q3)`.
-impl fmt::Display for Expr {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&crate::print::print(*self, &Default::default(), crate::print::Style::Ascii))
     }
 }
 

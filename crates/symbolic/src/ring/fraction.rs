@@ -3,9 +3,9 @@
 //! The ring is no unique factorisation domain (S·S = (1−C)(1+C)), so fractions are not reduced to lowest terms;
 //! two are equal when their difference has numerator 0.
 
+use super::{AtomKind, Refusal, Ring};
 use crate::poly::Poly;
 use crate::rational::Rational;
-use crate::ring::{Refusal, Ring};
 
 /// `num / Π denᵢ^nᵢ`.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -80,7 +80,7 @@ impl Ring {
         }
         if let [(m, r)] = f.num.terms()
             && let [(atom, 1)] = m.factors()
-            && let crate::ring::AtomKind::Surd(n) = *self.kind(*atom)
+            && let AtomKind::Surd(n) = *self.kind(*atom)
         {
             // 1/(r√n) = √n/(r·n): a number in the denominator is no condition.
             let scale = (r * &Rational::from(n)).recip().ok_or(Refusal::Undefined)?;

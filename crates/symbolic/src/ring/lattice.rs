@@ -3,8 +3,7 @@
 //! The angles of a formula span a lattice. A basis taken from the angles that occur (θ2, θ2+θ3, …) keeps a
 //! polynomial short, where single angles would expand every merged sum.
 
-use crate::angle::Angle;
-use crate::expr::Expr;
+use crate::expr::{Angle, Expr};
 use crate::rational::Rational;
 
 /// The coordinates of `angle` in `basis`, constants left aside: `angle = Σ nᵢ·basisᵢ + constant`.

@@ -3,8 +3,12 @@
 //! A [`Value`] is a node with a sign, so that `a·(−b)` and `−(a·b)` are one product and negation costs nothing.
 //! Operands of sums and products are ordered; numbers are folded; nothing else is rewritten.
 
-use crate::count::Count;
-use crate::op::{Op, Stage, Value};
+mod count;
+mod op;
+
+pub use count::{COUNTING_RULE, Count};
+pub use op::{Op, Stage, Value};
+
 use denavit_symbolic::{Expr, Node, Rational, Symbol};
 use rustc_hash::FxHashMap;
 use std::cell::RefCell;

@@ -1,7 +1,7 @@
 //! The operations: what each reads, computes and costs, and how it varies with its operands.
 
+use super::Graph;
 use crate::domain::Domain;
-use crate::graph::Graph;
 use denavit_symbolic::{Rational, Symbol};
 
 /// A node's result, with a sign.
