@@ -6,11 +6,10 @@ use denavit::catalogue;
 use denavit::check::code::Language;
 use denavit::check::document::Format;
 use denavit::check::{Options, check};
-use denavit::description::read_toml;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {
-    let Some(Ok((robot, _))) = catalogue::text("staubli-rx90").map(read_toml) else { return };
+    let Some(robot) = catalogue::robot("staubli-rx90") else { return };
     for format in [Format::Markdown, Format::Latex, Format::Plain, Format::Toml] {
         let _ = check(text, format, Some(&robot), &Options::default());
         let _ = check(text, format, None, &Options::default());

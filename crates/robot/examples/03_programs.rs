@@ -3,19 +3,19 @@
 //! `cargo run --release --example 03_programs -p denavit`
 
 use denavit::catalogue;
-use denavit::description::{Description, read_toml};
 use denavit::forward::pose_program;
 use denavit_program::Program;
-use denavit_symbolic::Symbol;
 
 fn main() {
-    let (robot, _) = catalogue::text("ur5").map(read_toml).expect("in the catalogue").expect("no errors");
+    let robot = catalogue::robot("ur5").expect("in the catalogue");
+    let lengths =
+        |program: &Program| robot.values(program.parameters()).expect("the catalogue gives all lengths");
     // Sixteen results, the matrix row by row.
     let program = pose_program(&robot);
     println!("{}; depth {}", program.count(), program.depth());
 
     // The lengths get their values; nothing is compiled again when they change.
-    let fk = program.compile(&lengths(&robot, &program));
+    let fk = program.compile(&lengths(&program));
     let q = [0.1, -1.2, 1.4, 0.3, 0.8, -0.5];
     let pose = fk.scalar().eval(&q).to_vec();
     println!("position {:.4?}", [pose[3], pose[7], pose[11]]);
@@ -28,24 +28,18 @@ fn main() {
 
     // ∂(result)/∂q, sixteen rows of six, is a program like any other.
     let jacobian = program.jacobian();
-    let derivative = jacobian.compile(&lengths(&robot, &jacobian)).scalar().eval(&q).to_vec();
+    let derivative = jacobian.compile(&lengths(&jacobian)).scalar().eval(&q).to_vec();
     println!("∂x/∂q {:.4?} for {}", &derivative[3 * 6..4 * 6], jacobian.count());
 
     // (cos, sin) in the place of each angle: no trigonometry is left.
     let pairs = program.with_pairs(program.variables()).expect("angles stand in sines and cosines only");
     assert_eq!(pairs.count().sincos, 0);
     let circle: Vec<f64> = q.iter().flat_map(|x| [x.cos(), x.sin()]).collect();
-    let same = pairs.compile(&lengths(&robot, &pairs)).scalar().eval(&circle).to_vec();
+    let same = pairs.compile(&lengths(&pairs)).scalar().eval(&circle).to_vec();
     assert!(pose.iter().zip(&same).all(|(a, b)| (a - b).abs() < 1e-14));
 
     // The text form reads back to the same program.
     let text = program.to_text();
     println!("{}", text.lines().take(12).collect::<Vec<_>>().join("\n"));
     assert_eq!(Program::from_text(&text).expect("it reads back").to_text(), text);
-}
-
-/// The values of a program's parameters.
-fn lengths(robot: &Description, program: &Program) -> Vec<f64> {
-    let value = |s: &Symbol| robot.parameters.iter().find(|p| p.symbol == *s)?.value?.eval(|_| None).ok();
-    program.parameters().iter().map(|s| value(s).expect("the catalogue gives all lengths")).collect()
 }

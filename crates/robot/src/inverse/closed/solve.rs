@@ -79,23 +79,8 @@ impl InverseModel {
     /// If a parameter has no value.
     pub fn solver(&self, description: &Description) -> Result<InverseSolver, MissingValue> {
         let robot = Robot::numeric(description)?;
-        let value = |s: Symbol| {
-            let p = description.parameters.iter().find(|p| p.symbol == s)?;
-            p.value?.eval(|_| None).ok()
-        };
-        let missing: Vec<String> = self
-            .compiled
-            .solver
-            .parameters
-            .iter()
-            .filter(|s| value(**s).is_none())
-            .map(|s| s.name().to_string())
-            .collect();
-        if !missing.is_empty() {
-            return Err(MissingValue { parameters: missing });
-        }
-        let parameters: Vec<f64> =
-            self.compiled.solver.parameters.iter().map(|&s| value(s).unwrap_or(0.0)).collect();
+        let value = |s: Symbol| description.value(s);
+        let parameters = description.values(&self.compiled.solver.parameters)?;
         let function = self.compiled.solver.compile(&parameters);
         let nearest = compile::without_residual(self).compile(&parameters).scalar();
         let facts = |steps: &[Step], labels: &[Option<String>]| -> Vec<NodeFacts> {
