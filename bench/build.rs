@@ -1,9 +1,8 @@
 //! Generates source code for some arms and compiles it, Rust with this compiler, C with gcc and clang.
 
 use denavit::catalogue;
-use denavit::description::read_toml;
-use denavit_generate::{Options, Wanted, generate};
 use denavit_emit::{Language, Precision};
+use denavit_generate::{Options, Wanted, generate};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
@@ -83,8 +82,7 @@ fn c(out: &Path, source: &Source, compiler: &str, level: &str, target: &str) {
 }
 
 fn write(out: &Path, language: Language, source: &Source) -> PathBuf {
-    let text = catalogue::text(source.robot).expect("a robot of the catalogue");
-    let (description, _) = read_toml(text).unwrap_or_else(|_| panic!("{} can be read", source.robot));
+    let description = catalogue::robot(source.robot).expect("a robot of the catalogue");
     let (functions, name) = (vec![source.wanted], Some(source.name.into()));
     let inverse = Default::default();
     let options = Options { language, functions, inverse, precision: source.precision, name, fixed: false };

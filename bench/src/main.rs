@@ -108,14 +108,12 @@ fn main() -> Result<()> {
 }
 
 fn read(name: &str) -> Result<Description> {
-    let text = catalogue::text(name).context("a robot of the catalogue")?;
-    description::read_toml(text).map(|r| r.0).map_err(|_| anyhow::anyhow!("{name} cannot be read"))
+    catalogue::robot(name).context("a robot of the catalogue")
 }
 
 /// The values of a program's parameters.
 fn values(d: &Description, program: &Program) -> Vec<f64> {
-    let value = |s| d.parameters.iter().find(|p| p.symbol == s)?.value?.eval(|_| None).ok();
-    program.parameters().iter().map(|s| value(*s).unwrap_or(f64::NAN)).collect()
+    d.values(program.parameters()).expect("the catalogue gives all lengths")
 }
 
 fn compiled(d: &Description, program: &Program) -> Function {

@@ -3,14 +3,13 @@
 #![no_main]
 
 use denavit::catalogue;
+use denavit_check::{Options, check};
 use denavit_reading::code::Language;
 use denavit_reading::document::Format;
-use denavit_check::{Options, check};
-use denavit::description::read_toml;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {
-    let Some(Ok((robot, _))) = catalogue::text("staubli-rx90").map(read_toml) else { return };
+    let Some(robot) = catalogue::robot("staubli-rx90") else { return };
     for format in [Format::Markdown, Format::Latex, Format::Plain, Format::Toml] {
         let _ = check(text, format, Some(&robot), &Options::default());
         let _ = check(text, format, None, &Options::default());

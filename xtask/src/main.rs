@@ -128,11 +128,7 @@ fn denavit<W: AsRef<OsStr>>(words: impl IntoIterator<Item = W>) -> Result<String
 
 /// A robot of the catalogue.
 fn robot(name: &str) -> Result<Description> {
-    let text = catalogue::text(name).with_context(|| format!("no robot `{name}` in the catalogue"))?;
-    match description::read_toml(text) {
-        Ok((description, _)) => Ok(description),
-        Err(findings) => bail!("{}", description::render(&findings, &format!("{name}.toml"), text)),
-    }
+    catalogue::robot(name).with_context(|| format!("no robot `{name}` in the catalogue"))
 }
 
 /// Days since 1970-01-01 as year-month-day in UTC (Hinnant, *chrono-compatible low-level date algorithms*).

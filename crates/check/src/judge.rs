@@ -415,11 +415,9 @@ pub(super) fn counterexample(printed: Expr, right: Expr, subject: &Subject) -> O
     for seed in 0..20_u32 {
         let value = |s: Symbol| -> Option<f64> {
             let index = symbols.iter().position(|x| *x == s)?;
-            let known =
-                d.parameters.iter().find(|p| p.symbol == s).and_then(|p| p.value?.eval(|_| None).ok());
-            let turns = variables
-                .iter()
-                .any(|v| v.symbol == s && v.kind == denavit::description::JointKind::Revolute);
+            let known = d.value(s);
+            let turns =
+                variables.iter().any(|v| v.symbol == s && v.kind == denavit::description::JointKind::Revolute);
             let spread = f64::from((seed * 37 + 17 * index as u32 + 20) % 160);
             Some(match known {
                 Some(x) => x,

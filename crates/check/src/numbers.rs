@@ -73,7 +73,7 @@ impl Configuration {
                 });
             }
             let stated = self.lengths.iter().find(|l| l.0 == s).map(|l| l.1);
-            stated.or_else(|| d.parameters.iter().find(|p| p.symbol == s)?.value?.eval(|_| None).ok())
+            stated.or_else(|| d.value(s))
         };
         e.eval(value).ok().filter(|x| x.is_finite())
     }

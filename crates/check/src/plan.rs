@@ -9,7 +9,7 @@ use super::walk::{Assertion, Defined, Walk};
 use denavit::catalogue;
 use denavit::description::table::{PrintedTable, tables};
 use denavit::description::{
-    Convention, Description, Diagnostic, Diagnostics, JointKind, Parameter, TableKind, line_column, read_toml,
+    Convention, Description, Diagnostic, Diagnostics, JointKind, Parameter, TableKind, line_column,
 };
 use denavit::geometry::Transform;
 use denavit_reading::code::Language;
@@ -114,8 +114,8 @@ impl Plan {
                     }
                 },
                 Event::Directive(directive) => match words(directive) {
-                    ("robot", name) => match catalogue::text(name).and_then(|t| read_toml(t).ok()) {
-                        Some((d, _)) => named(&d),
+                    ("robot", name) => match catalogue::robot(name) {
+                        Some(d) => named(&d),
                         None => {
                             notes
                                 .error(directive.span.clone(), format!("no robot `{name}` in the catalogue"));
@@ -351,7 +351,7 @@ fn with_tool(d: &Description, place: &str) -> Option<Description> {
     let [x, y, z] = lengths[..] else { return None };
     let mut d = d.clone();
     for symbol in [x, y, z].iter().flat_map(|e| e.symbols()) {
-        if !d.parameters.iter().any(|p| p.symbol == symbol) {
+        if d.parameter(symbol).is_none() {
             d.parameters.push(Parameter { symbol, value: None });
         }
     }

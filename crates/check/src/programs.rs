@@ -44,11 +44,10 @@ pub(super) fn assertions(
 
 /// Lengths of the robot that a program sets to numbers.
 fn given_in(function: &Reading, subject: &Subject, lexis: &Lexis) -> Vec<(Symbol, Expr)> {
-    let parameters = &subject.description.parameters;
     let of = |a: &Assigned| {
         let Value::Scalar(cell) = &a.value else { return None };
         let symbol = lexis.names.lookup(&a.name)?.as_symbol()?;
-        let is_length = parameters.iter().any(|p| p.symbol == symbol);
+        let is_length = subject.description.parameter(symbol).is_some();
         (is_length && cell.value.symbols().is_empty()).then_some((symbol, cell.value))
     };
     function.assigned.iter().filter_map(of).collect()
@@ -167,12 +166,12 @@ impl Program<'_> {
     /// A computed value against the right one; lengths that the program has as numbers are numbers in both.
     fn piece(&self, place: Option<(usize, usize)>, cell: &Cell, wanted: Expr) -> Piece {
         let d = &self.subject.description;
-        let uses = |e: Expr| e.symbols().iter().any(|s| d.parameters.iter().any(|p| p.symbol == *s));
+        let uses = |e: Expr| e.symbols().iter().any(|s| d.parameter(*s).is_some());
         let wanted = match uses(cell.value) {
             true => wanted,
             false => wanted.substitute(|s| {
                 let given = self.given.iter().rev().find(|g| g.0 == s).map(|g| g.1);
-                given.or_else(|| d.parameters.iter().find(|p| p.symbol == s)?.value)
+                given.or_else(|| d.exact_value(s))
             }),
         };
         let printed = cell.syntax.clone().filter(|_| self.text.get(cell.span.clone()).is_some());

@@ -59,7 +59,7 @@ impl Closed {
             let fixed = [d.base, d.tool].into_iter().flat_map(|x| x.matrix()).flatten();
             cells.chain(fixed).any(|e| e.symbols().contains(&s))
         };
-        let is_left = |s: Symbol| model.description.parameters.iter().any(|p| p.symbol == s);
+        let is_left = |s: Symbol| model.description.parameter(s).is_some();
         let assumed: Vec<(Symbol, Expr)> = d
             .parameters
             .iter()

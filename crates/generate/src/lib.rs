@@ -14,7 +14,7 @@ use denavit::inverse as ik;
 use denavit::robot::MissingValue;
 use denavit_emit::{File, Language, Library, Parameter, Precision};
 use denavit_program::Count;
-use denavit_symbolic::{Expr, Symbol};
+use denavit_symbolic::Expr;
 use forward::Forward;
 use general::General;
 use inverse::Closed;
@@ -203,8 +203,7 @@ pub fn with_values(d: &Description) -> Result<Description, MissingValue> {
     if !parameters.is_empty() {
         return Err(MissingValue { parameters });
     }
-    let value = |s: Symbol| d.parameters.iter().find(|p| p.symbol == s)?.value;
-    let fixed = |e: Expr| e.substitute(value);
+    let fixed = |e: Expr| e.substitute(|s| d.exact_value(s));
     let mut new = d.clone();
     for row in &mut new.rows {
         for cell in [&mut row.theta, &mut row.d, &mut row.a, &mut row.alpha, &mut row.gamma, &mut row.b] {

@@ -39,10 +39,8 @@ impl Sample {
 
 /// Values of the parameters: those of the robot file, and others where it has none.
 pub(super) fn parameters(d: &Description) -> Vec<f64> {
-    let value = |(k, e): (usize, Option<Expr>)| {
-        e.and_then(|e| e.eval(|_| None).ok()).unwrap_or(0.25 + 0.0625 * k as f64)
-    };
-    d.parameters.iter().map(|p| p.value).enumerate().map(value).collect()
+    let parameters = d.parameters.iter().enumerate();
+    parameters.map(|(k, p)| p.number().unwrap_or(0.25 + 0.0625 * k as f64)).collect()
 }
 
 /// Zero, quarter turns, and random configurations inside (−π, π) and half a metre.

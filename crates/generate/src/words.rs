@@ -1,7 +1,7 @@
 //! What every file opens with, and what the inputs are called.
 
 use super::forward::Forward;
-use denavit::description::{Convention, Description, JointKind, Measure, Row};
+use denavit::description::{Description, JointKind, Measure};
 use denavit::geometry::Transform;
 use denavit_emit::Parameter;
 use denavit_symbolic::print::{Style, print};
@@ -51,25 +51,9 @@ pub(super) fn text(e: Expr) -> String {
 /// The table with aligned columns, its letters those of the convention.
 fn table(d: &Description) -> Vec<String> {
     let convention = d.convention;
-    let (x, z) = (convention.length_x(), convention.length_z());
-    let branches = d.rows.iter().any(|r| !r.gamma.is_zero() || !r.b.is_zero());
-    let cells = |row: &Row| -> Vec<String> {
-        let screw_x = [row.alpha, row.a];
-        let screw_z = [row.theta, row.d];
-        let list: Vec<Expr> = match convention {
-            Convention::Standard => vec![row.theta, row.d, row.a, row.alpha],
-            _ if branches => [vec![row.gamma, row.b], screw_x.to_vec(), screw_z.to_vec()].concat(),
-            _ => [screw_x, screw_z].concat(),
-        };
-        list.into_iter().map(text).collect()
-    };
-    let head: Vec<&str> = match convention {
-        Convention::Standard => vec!["theta", z, x, "alpha"],
-        _ if branches => vec!["gamma", "b", "alpha", x, "theta", z],
-        _ => vec!["alpha", x, "theta", z],
-    };
-    let mut rows: Vec<Vec<String>> = vec![head.into_iter().map(str::to_string).collect()];
-    rows.extend(d.rows.iter().map(cells));
+    let columns = d.columns();
+    let mut rows: Vec<Vec<String>> = vec![columns.iter().map(|c| c.key(convention).to_string()).collect()];
+    rows.extend(d.rows.iter().map(|row| columns.iter().map(|c| text(c.of(row))).collect()));
     let width = |c: usize| rows.iter().map(|r| r[c].len()).max().unwrap_or(0);
     let widths: Vec<usize> = (0..rows[0].len()).map(width).collect();
     let line = |(i, row): (usize, &Vec<String>)| {

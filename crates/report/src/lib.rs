@@ -14,4 +14,4 @@ mod sections;
 pub use cell::{cell, decimals};
 pub use derivation::Derivation;
 pub use document::{Document, Figure, Part, Section, Table};
-pub use sections::{Errata, Options, Topic, columns, report};
+pub use sections::{Errata, Options, Topic, report};

@@ -3,15 +3,13 @@
 //! `cargo run --example 02_is_it_true -p denavit`
 
 use denavit::catalogue;
-use denavit::description::read_toml;
 use denavit::forward::{ForwardModel, Outputs, Reference};
 use denavit_symbolic::parse::parse;
 use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::{Verdict, equal};
 
 fn main() {
-    let (robot, _) =
-        catalogue::text("staubli-rx90").map(read_toml).expect("in the catalogue").expect("no errors");
+    let robot = catalogue::robot("staubli-rx90").expect("in the catalogue");
     let names = robot.vocabulary();
     let model = ForwardModel::derive(&robot, Reference::Frame(0), Reference::Frame(6), Outputs::ALL);
     let n_x = model.matrix.expect("six joints are small")[0][1];

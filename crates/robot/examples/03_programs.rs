@@ -3,13 +3,11 @@
 //! `cargo run --release --example 03_programs -p denavit`
 
 use denavit::catalogue;
-use denavit::description::read_toml;
 use denavit::forward::pose_program;
 use denavit_program::Program;
-use denavit_symbolic::Symbol;
 
 fn main() {
-    let (robot, _) = catalogue::text("ur5").map(read_toml).expect("in the catalogue").expect("no errors");
+    let robot = catalogue::robot("ur5").expect("in the catalogue");
     // Sixteen results, the matrix row by row.
     let program = pose_program(&robot);
     println!("{}; depth {}", program.count(), program.depth());

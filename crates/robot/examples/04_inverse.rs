@@ -4,11 +4,10 @@
 
 use denavit::Robot;
 use denavit::catalogue;
-use denavit::description::read_toml;
 use denavit::inverse::{InverseModel, Options};
 
 fn main() {
-    let (robot, _) = catalogue::text("ur5").map(read_toml).expect("in the catalogue").expect("no errors");
+    let robot = catalogue::robot("ur5").expect("in the catalogue");
 
     // Link lengths stay symbols: one derivation serves all robots of the family.
     let model = InverseModel::derive(&robot, &Options::default()).expect("a UR5 has a closed form");

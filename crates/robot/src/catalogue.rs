@@ -1,5 +1,6 @@
 //! Robots that people own or study, each a robot file with its source.
 
+use crate::description::{Description, read_toml};
 use include_dir::{Dir, include_dir};
 
 static FILES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/catalogue");
@@ -14,4 +15,9 @@ pub fn names() -> Vec<&'static str> {
 /// The robot file with this name.
 pub fn text(name: &str) -> Option<&'static str> {
     FILES.get_file(format!("{name}.toml"))?.contents_utf8()
+}
+
+/// The robot with this name; a test holds that every file can be read.
+pub fn robot(name: &str) -> Option<Description> {
+    read_toml(text(name)?).ok().map(|(description, _)| description)
 }

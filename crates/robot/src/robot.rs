@@ -2,10 +2,10 @@
 //!
 //! `x_ij` is frame j seen from frame i; frame i is rigidly attached behind row i of the table, frame 0 before row 1.
 
-use crate::description::{Convention, Description, Row};
+use crate::description::{Convention, Description, Row, Screw};
 use crate::geometry::{Rotation, Transform, Vector};
 use crate::scalar::Scalar;
-pub use denavit_program::MissingValue;
+pub use crate::description::MissingValue;
 use denavit_symbolic::{Angle, Expr, Rational, Symbol};
 
 /// A serial chain over numbers or formulas.
@@ -149,12 +149,8 @@ impl Robot<f64> {
     /// # Errors
     /// If a parameter that the table uses has no value.
     pub fn numeric(description: &Description) -> Result<Self, MissingValue> {
-        let value = |s: Symbol| {
-            let parameter = description.parameters.iter().find(|p| p.symbol == s)?;
-            parameter.value?.eval(|_| None).ok()
-        };
         let mut missing: Vec<String> = vec![];
-        let mut number = |e: Expr| match e.eval(value) {
+        let mut number = |e: Expr| match e.eval(|s| description.value(s)) {
             Ok(x) => x,
             Err(s) => {
                 let name = s.name().to_string();
@@ -196,15 +192,11 @@ impl Robot<f64> {
 }
 
 fn link(convention: Convention, row: &Row, variables: &[Symbol]) -> Link<Expr> {
-    let x = Transform::rotation_x(row.alpha) * Transform::translation_x(row.a);
-    let (before, after) = match convention {
-        Convention::Standard => (Transform::identity(), x),
-        Convention::Craig => (x, Transform::identity()),
-        Convention::Khalil => {
-            let branch = Transform::rotation_z(row.gamma) * Transform::translation_z(row.b);
-            (branch * x, Transform::identity())
-        }
+    let (screws, joint) = row.screws(convention);
+    let product = |screws: &[Screw]| {
+        screws.iter().map(Screw::transform).reduce(|x, y| x * y).unwrap_or_else(Transform::identity)
     };
+    let (before, after) = (product(&screws[..joint]), product(&screws[joint + 1..]));
     Link { before, theta: affine(row.theta, variables, true), d: affine(row.d, variables, false), after }
 }
 

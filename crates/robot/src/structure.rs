@@ -215,8 +215,7 @@ fn nearly_special(
     between: &[Transform<Expr>],
     relations: &[Relation],
 ) -> Vec<NearlySpecial> {
-    let value = |s| description.parameters.iter().find(|p| p.symbol == s)?.value?.eval(|_| None).ok();
-    let number = |e: Expr| e.eval(value).unwrap_or(f64::NAN);
+    let number = |e: Expr| e.eval(|s| description.value(s)).unwrap_or(f64::NAN);
     let sizes = between.iter().map(|x| x.translation.map(number).norm()).filter(|x| x.is_finite());
     let reach: f64 = sizes.sum();
     let mut found = vec![];

@@ -26,7 +26,7 @@ pub struct Open {
 /// All robots of the catalogue.
 pub fn list() -> Value {
     let robots = catalogue::names().into_iter().filter_map(|name| {
-        let (d, _) = read_toml(catalogue::text(name)?).ok()?;
+        let d = catalogue::robot(name)?;
         let letter = |kind| if kind == JointKind::Revolute { 'R' } else { 'P' };
         let joints: String = d.variables().iter().map(|v| letter(v.kind)).collect();
         Some(json!({

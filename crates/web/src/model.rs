@@ -2,7 +2,7 @@
 
 use crate::session::Subject;
 use denavit::Robot;
-use denavit::description::{Convention, JointKind, Measure};
+use denavit::description::{JointKind, Measure};
 use denavit::structure::Structure;
 use denavit_symbolic::Expr;
 use serde_json::{Value, json};
@@ -36,7 +36,7 @@ pub fn model(subject: &Subject) -> Value {
     json!({
         "name": d.name,
         "convention": d.convention.name(),
-        "letters": letters(subject),
+        "letters": d.columns().iter().map(|c| c.key(d.convention)).collect::<Vec<_>>(),
         "joints": joints(subject),
         "rows": d.rows.len(),
         "parameters": parameters.collect::<Vec<_>>(),
@@ -50,23 +50,7 @@ pub fn model(subject: &Subject) -> Value {
 
 /// A constant at the robot's own values.
 pub fn number(subject: &Subject, e: Expr) -> Option<f64> {
-    let parameters = &subject.valued.parameters;
-    let value = |s| parameters.iter().find(|p| p.symbol == s)?.value?.eval(|_| None).ok();
-    e.eval(value).ok().filter(|x| x.is_finite())
-}
-
-/// The letters of the table; those for branches where a row has them.
-fn letters(subject: &Subject) -> Vec<&'static str> {
-    let d = &subject.description;
-    let (x, z) = (d.convention.length_x(), d.convention.length_z());
-    let mut letters = match d.convention {
-        Convention::Standard => vec!["theta", z, x, "alpha"],
-        Convention::Craig | Convention::Khalil => vec!["alpha", x, "theta", z],
-    };
-    if d.rows.iter().any(|r| !r.gamma.is_zero() || !r.b.is_zero()) {
-        letters.splice(0..0, ["gamma", "b"]);
-    }
-    letters
+    e.eval(|s| subject.valued.value(s)).ok().filter(|x| x.is_finite())
 }
 
 fn joints(subject: &Subject) -> Vec<Value> {

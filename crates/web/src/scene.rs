@@ -2,8 +2,8 @@
 
 use crate::refusal::Refusal;
 use crate::session::Subject;
-use denavit::description::{Convention, JointKind, Row};
-use denavit::geometry::{Axis, Transform, Vector};
+use denavit::description::{Cell, JointKind, Row};
+use denavit::geometry::{Transform, Vector};
 use denavit::velocity::{Viewpoint, geometric, measures};
 use denavit_report::figure::Arm;
 use denavit_symbolic::Expr;
@@ -11,10 +11,8 @@ use denavit_symbolic::print::{Style, print};
 use serde_json::{Value, json};
 
 /// A step of a row as it stands in the table.
-pub struct Cell {
-    letter: &'static str,
-    axis: Axis,
-    turns: bool,
+pub struct Step {
+    cell: Cell,
     value: Expr,
     text: String,
 }
@@ -94,73 +92,44 @@ pub fn matrix(x: &Transform<f64>) -> Value {
 
 /// The steps of each row with the frames before them.
 fn steps(subject: &Subject, q: &[f64], frames: &[Transform<f64>]) -> Value {
-    let cells = subject.cells.get_or_init(|| {
+    let cells = subject.steps.get_or_init(|| {
         let rows = subject.description.rows.iter().zip(&subject.valued.rows);
         rows.map(|(own, valued)| cells(subject, own, valued)).collect()
     });
     let variables = subject.valued.variables();
-    let parameters = &subject.valued.parameters;
     let value = |s| match variables.iter().position(|v| v.symbol == s) {
         Some(k) => Some(q[k]),
-        None => parameters.iter().find(|p| p.symbol == s)?.value?.eval(|_| None).ok(),
+        None => subject.valued.value(s),
     };
-    let row = |(cells, start): (&Vec<Cell>, &Transform<f64>)| -> Value {
+    let convention = subject.description.convention;
+    let row = |(steps, start): (&Vec<Step>, &Transform<f64>)| -> Value {
         let mut frame = *start;
-        let step = |cell: &Cell| {
-            let x = cell.value.eval(value).unwrap_or(f64::NAN);
+        let step = |Step { cell, value: formula, text }: &Step| {
+            let x = formula.eval(value).unwrap_or(f64::NAN);
             let before = frame;
-            let along = |x: f64| match cell.axis {
-                Axis::X => Vector([x, 0.0, 0.0]),
-                Axis::Y => Vector([0.0, x, 0.0]),
-                Axis::Z => Vector([0.0, 0.0, x]),
-            };
-            let Vector([a, b, c]) = along(x);
-            frame = frame
-                * match cell.turns {
-                    true => Transform::rotation_about(cell.axis, x),
-                    false => Transform::translation(a, b, c),
-                };
+            frame = frame * cell.transform(x);
             json!({
-                "letter": cell.letter,
-                "axis": if cell.axis == Axis::X { "x" } else { "z" },
+                "letter": cell.key(convention),
+                "axis": cell.axis().to_string(),
                 "frame": matrix(&before),
                 "value": x,
-                "text": cell.text,
+                "text": text,
             })
         };
-        cells.iter().map(step).collect()
+        steps.iter().map(step).collect()
     };
     cells.iter().zip(frames).map(row).collect()
 }
 
-/// The steps of a row in the convention's order.
-fn cells(subject: &Subject, own: &Row, valued: &Row) -> Vec<Cell> {
+/// The steps of a row in the convention's order; those of a branch only where there is one.
+fn cells(subject: &Subject, own: &Row, valued: &Row) -> Vec<Step> {
     let convention = subject.description.convention;
     let names = subject.description.vocabulary();
-    let cell = |letter, axis, turns, shown: Expr, value: Expr| Cell {
-        letter,
-        axis,
-        turns,
-        value,
-        text: print(shown, &names, Style::Unicode),
+    let shown = convention.order().iter().filter(|c| own.is_branch() || !c.is_of_branch());
+    let step = |&cell: &Cell| Step {
+        cell,
+        value: cell.of(valued),
+        text: print(cell.of(own), &names, Style::Unicode),
     };
-    let about_z = [
-        cell("theta", Axis::Z, true, own.theta, valued.theta),
-        cell(convention.length_z(), Axis::Z, false, own.d, valued.d),
-    ];
-    let about_x = [
-        cell("alpha", Axis::X, true, own.alpha, valued.alpha),
-        cell(convention.length_x(), Axis::X, false, own.a, valued.a),
-    ];
-    let branch =
-        [cell("gamma", Axis::Z, true, own.gamma, valued.gamma), cell("b", Axis::Z, false, own.b, valued.b)];
-    let has_branch = !own.gamma.is_zero() || !own.b.is_zero();
-    let [alpha, a] = about_x;
-    match convention {
-        Convention::Standard => about_z.into_iter().chain([a, alpha]).collect(),
-        Convention::Craig | Convention::Khalil => {
-            let before = branch.into_iter().filter(|_| has_branch);
-            before.chain([alpha, a]).chain(about_z).collect()
-        }
-    }
+    shown.map(step).collect()
 }

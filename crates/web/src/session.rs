@@ -36,7 +36,7 @@ pub struct Subject {
     /// What its formulas say, by topic.
     pub formulas: Vec<(String, crate::values::Definitions)>,
     /// The texts of its cells, row by row.
-    pub cells: OnceCell<Vec<Vec<crate::scene::Cell>>>,
+    pub steps: OnceCell<Vec<Vec<crate::scene::Step>>>,
 }
 
 impl Session {
@@ -112,7 +112,7 @@ impl Subject {
             arm,
             solver: None,
             formulas: vec![],
-            cells: OnceCell::new(),
+            steps: OnceCell::new(),
         })
     }
 

@@ -86,11 +86,7 @@ impl Definitions {
         for (v, x) in subject.valued.variables().iter().zip(q) {
             known.insert(v.symbol, *x);
         }
-        for p in &subject.valued.parameters {
-            if let Some(x) = p.value.and_then(|v| v.eval(|_| None).ok()) {
-                known.insert(p.symbol, x);
-            }
-        }
+        known.extend(subject.valued.known_values());
         let pose = subject.robot.pose(q).matrix();
         for (column, letter) in ["n", "o", "a", "p"].iter().enumerate() {
             for (row, axis) in ["x", "y", "z"].iter().enumerate() {

@@ -68,9 +68,7 @@ impl Arm {
             // Lengths in (0.2, 1) that have nothing to do with each other.
             p.value = Some(Rational::new(31 + (7 * k as i64) % 69, 100).into());
         }
-        let value = |e: Option<Expr>| e.and_then(|e| e.eval(|_| None).ok());
-        let parameters =
-            numbers.parameters.iter().filter_map(|p| Some((p.symbol, value(p.value)?))).collect();
+        let parameters = numbers.known_values();
         let robot = Robot::numeric(&numbers).ok()?;
         let q: Vec<Expr> = variables.iter().map(|&v| v.into()).collect();
         let matrix = Robot::symbolic(&description).pose(&q).matrix();

@@ -259,7 +259,7 @@ impl Walk<'_> {
         if let ([name, value], [Scalar::Formula(_, left), right]) = (spans, read)
             && let SyntaxKind::Name(e) = left.kind
             && let Some(symbol) = e.as_symbol()
-            && self.subject.description.parameters.iter().any(|p| p.symbol == symbol)
+            && self.subject.description.parameter(symbol).is_some()
         {
             let is_constant = match right {
                 Scalar::Formula(_, s) => s.value().symbols().is_empty(),

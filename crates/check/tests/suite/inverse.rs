@@ -3,7 +3,7 @@
 
 use crate::common::printed::{formulas, list, read, string, text, values};
 use denavit::catalogue;
-use denavit::description::{Description, read_toml};
+use denavit::description::Description;
 use denavit::geometry::Transform;
 use denavit::geometry::orientation::{EulerSet, OrientationSet};
 use denavit::inverse::Goal;
@@ -23,7 +23,7 @@ fn pose() -> [[Symbol; 4]; 3] {
 }
 
 fn robot(name: &str) -> Description {
-    read_toml(catalogue::text(name).expect("a robot of the catalogue")).expect("a catalogue robot").0
+    catalogue::robot(name).expect("a robot of the catalogue")
 }
 
 /// A robot of a file's claims, and the names its formulas use.
@@ -131,9 +131,7 @@ fn same_signs(id: &str, d: &Description, found: &[Where], told: &[Expr]) {
         for n in 1..100 {
             let joint =
                 |s: Symbol| q.iter().position(|&v| v == s).map(|j| f64::from(n) * (1.7 + j as f64).sqrt());
-            let parameter =
-                |s: Symbol| d.parameters.iter().find(|p| p.symbol == s)?.value?.eval(|_| None).ok();
-            let value = product.eval(|s| joint(s).or_else(|| parameter(s)).or(Some(0.4))).expect("numbers");
+            let value = product.eval(|s| joint(s).or_else(|| d.value(s)).or(Some(0.4))).expect("numbers");
             assert!(value > 0.0, "{id}: {condition} and {told}");
         }
     }

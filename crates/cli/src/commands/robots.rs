@@ -4,7 +4,7 @@ use crate::arguments::RobotsArguments;
 use crate::failure::Failure;
 use crate::terminal::{Align, table};
 use denavit::catalogue;
-use denavit::description::{Description, JointKind, read_toml};
+use denavit::description::{Description, JointKind};
 use serde_json::json;
 use std::io::Write;
 
@@ -15,7 +15,7 @@ use std::io::Write;
 pub fn run(arguments: &RobotsArguments) -> Result<(), Failure> {
     let robots: Vec<(&str, Description)> = catalogue::names()
         .into_iter()
-        .filter_map(|name| Some((name, read_toml(catalogue::text(name)?).ok()?.0)))
+        .filter_map(|name| Some((name, catalogue::robot(name)?)))
         .filter(|(name, d)| arguments.filter.as_ref().is_none_or(|text| matches(text, name, &d.name)))
         .collect();
     let mut out = anstream::stdout();

@@ -90,11 +90,11 @@ fn cell(e: Expr, is_angle: bool) -> String {
 
 /// The table in its own letters, with base, tool and the values of the parameters.
 pub fn dh_table(d: &Description) -> String {
-    let columns = denavit_report::columns(d);
+    let columns = d.columns();
     let has_limits = d.rows.iter().any(|r| r.limits.is_some());
     let has_names = d.rows.iter().any(|r| r.name.is_some());
     let mut header: Vec<&str> = vec!["j", ""];
-    header.extend(columns.iter().map(|c| c.0));
+    header.extend(columns.iter().map(|c| c.letter(d.convention)));
     if has_limits {
         header.push("limits");
     }
@@ -112,7 +112,7 @@ pub fn dh_table(d: &Description) -> String {
                 None => "–",
             };
             let mut cells = vec![(i + 1).to_string(), kind.to_string()];
-            cells.extend(columns.iter().map(|(_, of, is_angle)| cell(of(row), *is_angle)));
+            cells.extend(columns.iter().map(|c| cell(c.of(row), c.turns())));
             if has_limits {
                 let turns = row.variable.is_some_and(|v| v.kind == JointKind::Revolute);
                 let unit = if turns { "" } else { " m" };
@@ -192,20 +192,14 @@ fn structure(d: &Description) -> String {
 fn as_json(d: &Description) -> serde_json::Value {
     let text = |e: Expr| print(e, &Vocabulary::new(), Style::Ascii);
     let s = Structure::of(d);
-    let columns = denavit_report::columns(d);
-    let letter = |heading: &str| match heading {
-        "θ" => "theta".to_string(),
-        "α" => "alpha".to_string(),
-        "γ" => "gamma".to_string(),
-        other => other.to_string(),
-    };
+    let columns = d.columns();
     let rows: Vec<_> = d
         .rows
         .iter()
         .map(|row| {
             let mut cells = serde_json::Map::new();
-            for (heading, of, _) in &columns {
-                cells.insert(letter(heading), text(of(row)).into());
+            for c in &columns {
+                cells.insert(c.key(d.convention).into(), text(c.of(row)).into());
             }
             cells.insert("variable".into(), row.variable.map(|v| v.symbol.name().to_string()).into());
             cells.insert("limits".into(), row.limits.map(|l| l.map(text).to_vec()).into());

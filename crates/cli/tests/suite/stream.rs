@@ -1,6 +1,5 @@
 //! `fk --input`: a line of JSON in, a line of JSON out.
 
-use denavit::description::read_toml;
 use denavit::{Robot, catalogue};
 use serde_json::{Value, json};
 use std::io::{BufRead, BufReader, Write};
@@ -114,7 +113,7 @@ fn a_line_that_is_too_long_is_passed_over() {
 fn the_answer_is_that_of_one_configuration() {
     for options in [&[][..], &["--frames", "all", "--orientation", "quaternion"], &["--frames", "3"]] {
         for name in ["franka-panda", "ur5", "stanford"] {
-            let (d, _) = read_toml(catalogue::text(name).expect("a robot")).expect("readable");
+            let d = catalogue::robot(name).expect("a robot");
             let robot = Robot::numeric(&d).expect("all values");
             let q = |i: usize| -> Vec<f64> {
                 (0..robot.joints)

@@ -1,12 +1,12 @@
 //! Generated inverse kinematics by elimination: built, and run on its own vectors.
 
-use denavit::description::JointKind;
+use denavit::description::{JointKind, read_toml};
+use denavit_generate::{Generated, Options, Wanted, generate};
 use denavit::geometry::{Rotation, Transform};
 use denavit::inverse::general::GeneralSolver;
 use denavit::inverse::{self, Goal, JointSpace};
-use denavit::{Robot, catalogue, description};
+use denavit::{Description, Robot, catalogue};
 use denavit_emit::{Language, Precision};
-use denavit_generate::{Generated, Options, Wanted, generate};
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -21,8 +21,7 @@ const ONE_SLIDE: &str = include_str!("../robots/one-slide.toml");
 /// Two of them.
 const TWO_SLIDES: &str = include_str!("../robots/two-slides.toml");
 
-fn generated(text: &str, language: Language, functions: &[Wanted]) -> Generated {
-    let d = description::read_toml(text).expect("it can be read").0;
+fn generated(d: &Description, language: Language, functions: &[Wanted]) -> Generated {
     let options = Options {
         language,
         functions: functions.to_vec(),
@@ -31,11 +30,15 @@ fn generated(text: &str, language: Language, functions: &[Wanted]) -> Generated 
         name: Some("arm".into()),
         fixed: false,
     };
-    generate(&d, &options).expect("nothing is fixed")
+    generate(d, &options).expect("nothing is fixed")
 }
 
-fn catalogued(name: &str) -> &'static str {
-    catalogue::text(name).expect("the catalogue has it")
+fn catalogued(name: &str) -> Description {
+    catalogue::robot(name).expect("the catalogue has it")
+}
+
+fn read(text: &str) -> Description {
+    read_toml(text).expect("it can be read").0
 }
 
 /// A folder of its own with the files.
@@ -57,10 +60,10 @@ fn run(command: &mut Command) {
 }
 
 /// Both functions and the inverse one alone, as C.
-fn check_c(name: &str, text: &str, least: usize) {
+fn check_c(name: &str, d: &Description, least: usize) {
     for (suffix, functions) in [("both", &[Wanted::Pose, Wanted::Inverse][..]), ("alone", &[Wanted::Inverse])]
     {
-        let found = generated(text, Language::C, functions);
+        let found = generated(d, Language::C, functions);
         let inverse = found.inverse.as_ref().unwrap_or_else(|| panic!("{name}: {:?}", found.refused));
         assert!(inverse.by_elimination && inverse.vectors >= least, "{name}: {} poses", inverse.vectors);
         let target = folder(&format!("elimination-c-{name}-{suffix}"), &found);
@@ -76,10 +79,9 @@ struct Aligned {
 
 /// Poses within reach of an arm whose first axis is z of the base and whose last one is z of the tool, at which our solver
 /// is certain of all solutions, none of them nearly double.
-fn aligned(text: &str, count: usize) -> Vec<Aligned> {
-    let d = description::read_toml(text).expect("it can be read").0;
-    let robot = Robot::numeric(&d).expect("all values are known");
-    let space = JointSpace::new(&d, robot.reach());
+fn aligned(d: &Description, count: usize) -> Vec<Aligned> {
+    let robot = Robot::numeric(d).expect("all values are known");
+    let space = JointSpace::new(d, robot.reach());
     let mut solver = GeneralSolver::new(&robot, &space).expect("it has six axes");
     let mut random = Random(53);
     let mut angle = || 6.0 * random.unit() - 3.0;
@@ -155,9 +157,9 @@ int main(void)
 "#;
 
 /// Where the last axis is parallel to the first, C finds the sets of solutions that our solver finds.
-fn check_aligned(name: &str, text: &str) {
-    let all = aligned(text, share(2000, 60));
-    let found = generated(text, Language::C, &[Wanted::Inverse]);
+fn check_aligned(name: &str, d: &Description) {
+    let all = aligned(d, share(2000, 60));
+    let found = generated(d, Language::C, &[Wanted::Inverse]);
     let target = folder(&format!("elimination-c-{name}-aligned"), &found);
     let (mut poses, mut known, mut first) = (String::new(), String::new(), vec![0]);
     let row = |x: &[f64]| x.iter().map(|x| format!("{x:?}")).collect::<Vec<String>>().join(", ");
@@ -169,7 +171,7 @@ fn check_aligned(name: &str, text: &str) {
         first.push(first[first.len() - 1] + pose.solutions.len());
     }
     let first: Vec<String> = first.iter().map(usize::to_string).collect();
-    let joints = description::read_toml(text).expect("it can be read").0.variables();
+    let joints = d.variables();
     let angles: Vec<&str> =
         joints.iter().map(|v| if v.kind == JointKind::Revolute { "1" } else { "0" }).collect();
     let program = ALIGNED
@@ -184,8 +186,8 @@ fn check_aligned(name: &str, text: &str) {
     run(Command::new("./aligned").current_dir(&target));
 }
 
-fn check_rust(name: &str, text: &str, least: usize) {
-    let found = generated(text, Language::Rust, &[Wanted::Pose, Wanted::Inverse]);
+fn check_rust(name: &str, d: &Description, least: usize) {
+    let found = generated(d, Language::Rust, &[Wanted::Pose, Wanted::Inverse]);
     let inverse = found.inverse.as_ref().unwrap_or_else(|| panic!("{name}: {:?}", found.refused));
     assert!(inverse.by_elimination && inverse.vectors >= least, "{name}: {} poses", inverse.vectors);
     let target = folder(&format!("elimination-rust-{name}"), &found);
@@ -205,24 +207,24 @@ fn check_rust(name: &str, text: &str, least: usize) {
 
 #[test]
 fn c_finds_all_solutions() {
-    check_c("crx", catalogued("fanuc-crx10ia-l"), 15);
-    check_c("oblique", catalogued("oblique-6r"), 15);
-    check_c("one-slide", ONE_SLIDE, 12);
+    check_c("crx", &catalogued("fanuc-crx10ia-l"), 15);
+    check_c("oblique", &catalogued("oblique-6r"), 15);
+    check_c("one-slide", &read(ONE_SLIDE), 12);
 }
 
 #[test]
 fn c_finds_all_solutions_where_the_last_axis_is_parallel_to_the_first() {
-    check_aligned("crx", catalogued("fanuc-crx10ia-l"));
-    check_aligned("jaco", catalogued("kinova-jaco"));
-    check_aligned("mico", catalogued("kinova-mico"));
-    check_aligned("one-slide", ONE_SLIDE);
+    check_aligned("crx", &catalogued("fanuc-crx10ia-l"));
+    check_aligned("jaco", &catalogued("kinova-jaco"));
+    check_aligned("mico", &catalogued("kinova-mico"));
+    check_aligned("one-slide", &read(ONE_SLIDE));
 }
 
 #[test]
 fn rust_finds_all_solutions() {
-    check_rust("crx", catalogued("fanuc-crx10ia-l"), 15);
-    check_rust("oblique", catalogued("oblique-6r"), 15);
-    check_rust("two-slides", TWO_SLIDES, 8);
+    check_rust("crx", &catalogued("fanuc-crx10ia-l"), 15);
+    check_rust("oblique", &catalogued("oblique-6r"), 15);
+    check_rust("two-slides", &read(TWO_SLIDES), 8);
 }
 
 /// What is generated in no other language, and what C does not serve, is said.
@@ -230,10 +232,10 @@ fn rust_finds_all_solutions() {
 fn what_is_not_generated_is_said() {
     let functions = [Wanted::Pose, Wanted::Inverse];
     for language in [Language::Python, Language::Matlab, Language::JavaScript, Language::Cuda] {
-        let found = generated(catalogued("oblique-6r"), language, &functions);
+        let found = generated(&catalogued("oblique-6r"), language, &functions);
         let why = found.refused.expect("a reason");
         assert!(found.inverse.is_none() && why.contains("in C and Rust"), "{why}");
     }
-    let why = generated(TWO_SLIDES, Language::C, &functions).refused.expect("a reason");
+    let why = generated(&read(TWO_SLIDES), Language::C, &functions).refused.expect("a reason");
     assert!(why.contains("at most one prismatic joint"), "{why}");
 }

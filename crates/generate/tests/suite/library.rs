@@ -1,22 +1,30 @@
 //! What the tests of generated functions hold.
 
+use denavit::description::read_toml;
 use denavit::forward::Proof;
 use denavit::inverse::{self, Goal};
-use denavit::{catalogue, description};
+use denavit::{Description, catalogue};
 use denavit_emit::{Language, Precision};
 use denavit_generate::{Generated, Options, Wanted, generate};
 
+fn robot(name: &str) -> Description {
+    catalogue::robot(name).expect("the catalogue has it")
+}
+
+fn symbols() -> Description {
+    read_toml(include_str!("../robots/symbols.toml")).expect("it can be read").0
+}
+
 fn generated(name: &str, goal: Goal, given: Option<Vec<usize>>) -> Generated {
-    generated_for(catalogue::text(name).expect("the catalogue has it"), goal, given)
+    generated_for(&robot(name), goal, given)
 }
 
-fn generated_for(text: &str, goal: Goal, given: Option<Vec<usize>>) -> Generated {
+fn generated_for(d: &Description, goal: Goal, given: Option<Vec<usize>>) -> Generated {
     let inverse = inverse::Options { goal, given };
-    functions(text, &[Wanted::Pose, Wanted::Inverse], inverse)
+    functions(d, &[Wanted::Pose, Wanted::Inverse], inverse)
 }
 
-fn functions(text: &str, wanted: &[Wanted], inverse: inverse::Options) -> Generated {
-    let d = description::read_toml(text).expect("it can be read").0;
+fn functions(d: &Description, wanted: &[Wanted], inverse: inverse::Options) -> Generated {
     let options = Options {
         language: Language::Python,
         functions: wanted.to_vec(),
@@ -25,7 +33,7 @@ fn functions(text: &str, wanted: &[Wanted], inverse: inverse::Options) -> Genera
         name: None,
         fixed: false,
     };
-    generate(&d, &options).expect("nothing is fixed")
+    generate(d, &options).expect("nothing is fixed")
 }
 
 /// Six random configurations and one a joint are in general position in all but one joint; where rounding decides how
@@ -53,8 +61,7 @@ fn most_poses_are_kept() {
 /// An angle with a value is put into the closed form, so that another one in the parameters would not be read.
 #[test]
 fn what_is_part_of_the_closed_form_is_said() {
-    let text = include_str!("../robots/symbols.toml");
-    let found = generated_for(text, Goal::Pose, None);
+    let found = generated_for(&symbols(), Goal::Pose, None);
     assert_eq!(found.inverse.expect("a closed form").assumed.len(), 1);
     assert!(
         found.files.iter().all(|f| f.text.contains("ik holds for alpha1 = ") || f.path.ends_with(".toml"))
@@ -76,9 +83,8 @@ fn an_arm_in_general_position_is_refused() {
 #[test]
 fn jacobians_are_proved_to_be_derivatives() {
     let catalogue = ["stanford", "parallelogram-5r", "prrrrp", "franka-panda", "oblique-6r"];
-    let texts = catalogue.map(|name| catalogue::text(name).expect("the catalogue has it"));
-    for text in texts.into_iter().chain([include_str!("../robots/symbols.toml")]) {
-        let found = functions(text, &[Wanted::Jacobian, Wanted::JacobianAndPose], Default::default());
+    for d in catalogue.map(robot).into_iter().chain([symbols()]) {
+        let found = functions(&d, &[Wanted::Jacobian, Wanted::JacobianAndPose], Default::default());
         assert!(found.functions.iter().all(|f| f.2 == Proof::Proved), "{:?}", found.functions);
     }
 }
@@ -86,8 +92,8 @@ fn jacobians_are_proved_to_be_derivatives() {
 /// Both in one pass take one sine and cosine an angle, and fewer operations than one after the other.
 #[test]
 fn pose_and_jacobian_come_in_one_pass() {
-    let text = catalogue::text("ur5").expect("the catalogue has it");
-    let wanted = |list: &[Wanted]| functions(text, list, Default::default()).functions;
+    let d = robot("ur5");
+    let wanted = |list: &[Wanted]| functions(&d, list, Default::default()).functions;
     let both = wanted(&[Wanted::Pose, Wanted::Jacobian]);
     let [(_, pose, _), (_, jacobian, _), (third, one_pass, _)] = both[..] else { panic!("{both:?}") };
     assert_eq!(third, Wanted::JacobianAndPose);

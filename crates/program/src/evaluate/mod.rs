@@ -68,8 +68,11 @@ impl fmt::Display for MissingValue {
 
 impl std::error::Error for MissingValue {}
 
-/// The values of parameters, in order.
-pub(crate) fn values(
+/// The values of parameters, in order; `value` gives each.
+///
+/// # Errors
+/// If a parameter has no value.
+pub fn values(
     parameters: &[Symbol],
     value: impl Fn(Symbol) -> Option<f64>,
 ) -> Result<Vec<f64>, MissingValue> {

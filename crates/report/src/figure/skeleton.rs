@@ -99,11 +99,7 @@ impl Chain {
     pub fn new(description: &Description) -> Result<Self, MissingValue> {
         let filled = description.filled();
         let robot = Robot::numeric(&filled)?;
-        let number = |e: &Expr| {
-            e.eval(|s| {
-                filled.parameters.iter().find(|p| p.symbol == s).and_then(|p| p.value?.eval(|_| None).ok())
-            })
-        };
+        let number = |e: &Expr| e.eval(|s| filled.value(s));
         let own: Vec<&Row> = filled.rows.iter().filter(|r| r.variable.is_some()).collect();
         let limits = own.iter().map(|r| {
             let [low, high] = r.limits.as_ref()?;
@@ -166,17 +162,15 @@ impl Chain {
         for (i, (row, part)) in self.rows.iter().zip(&self.robot.links).enumerate() {
             let before = frame * part.before;
             let [b_label, x_label, z_label] = &self.lengths[i];
-            if self.convention != Convention::Standard {
-                // Tz(b) stands before Tx.
-                let b = part.before.translation.dot(Vector([0.0, 0.0, 1.0]));
-                let corner = match row.b.is_zero() || row.alpha.is_zero() && row.a.is_zero() {
-                    true => frame.translation,
-                    false => frame.translation + frame.rotation.z().scale(b),
-                };
-                self.measure(&mut lengths, frame.translation, corner, b_label, false);
-                self.measure(&mut lengths, corner, before.translation, x_label, false);
-                link.extend([corner, before.translation]);
-            }
+            // What stands before the axis or behind it, and is nothing on the other side: Tz(b), then Tx.
+            let b = part.before.translation.dot(Vector([0.0, 0.0, 1.0]));
+            let corner = match row.b.is_zero() || row.alpha.is_zero() && row.a.is_zero() {
+                true => frame.translation,
+                false => frame.translation + frame.rotation.z().scale(b),
+            };
+            self.measure(&mut lengths, frame.translation, corner, b_label, false);
+            self.measure(&mut lengths, corner, before.translation, x_label, false);
+            link.extend([corner, before.translation]);
             let behind = frame * part.transform(q);
             let axis = before.rotation.z();
             let mut travel = part.d.offset;
@@ -193,16 +187,14 @@ impl Chain {
                     foot: before.translation,
                     axis,
                     travel,
-                    frame: if self.convention == Convention::Standard { i } else { i + 1 },
+                    frame: self.convention.axis_frame(i),
                     label: own.map(|o| o.1).unwrap_or_default(),
                 });
             } else {
                 link.push(end);
             }
-            if self.convention == Convention::Standard {
-                self.measure(&mut lengths, end, behind.translation, x_label, false);
-                link.push(behind.translation);
-            }
+            self.measure(&mut lengths, end, behind.translation, x_label, false);
+            link.push(behind.translation);
             frame = behind;
             frames.push(frame);
         }

@@ -149,11 +149,9 @@ pub fn to_segment(p: Vector<f64>, a: Vector<f64>, b: Vector<f64>) -> f64 {
 mod tests {
     use crate::figure::Arm;
     use denavit::catalogue;
-    use denavit::description::read_toml;
 
     fn slides(name: &str) -> (Arm, Vec<f64>) {
-        let text = catalogue::text(name).expect("a robot of the catalogue");
-        let arm = Arm::new(&read_toml(text).expect("a readable file").0).expect("an arm");
+        let arm = Arm::new(&catalogue::robot(name).expect("a robot of the catalogue")).expect("an arm");
         let slides = arm.slides.to_vec();
         (arm, slides)
     }

@@ -30,8 +30,7 @@ pub fn section(s: &Setting) -> Option<Section> {
     let variables = s.description.variables();
     let mut values: Vec<(Symbol, f64)> =
         variables.iter().map(|v| v.symbol).zip(s.q.iter().copied()).collect();
-    let parameter = |p: &denavit::description::Parameter| Some((p.symbol, p.value?.eval(|_| None).ok()?));
-    values.extend(s.valued.parameters.iter().filter_map(parameter));
+    values.extend(s.valued.known_values());
     let value =
         |e: Expr, values: &[(Symbol, f64)]| e.eval(|x| values.iter().rev().find(|v| v.0 == x).map(|v| v.1));
     let mut rows: Vec<[Line; 2]> = vec![];

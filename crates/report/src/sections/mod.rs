@@ -14,7 +14,6 @@ mod velocity;
 mod workspace;
 
 pub use setting::{Errata, Options, Topic};
-pub use table::columns;
 
 use crate::document::{Document, Section};
 use denavit::description::Description;

@@ -3,7 +3,7 @@
 use super::setting::{Setting, quantities};
 use crate::cell::cell;
 use crate::document::{Part, Section, Table};
-use denavit::description::{Convention, Description, JointKind, Row};
+use denavit::description::{Convention, Description, JointKind};
 use denavit::explain::{Block, Factor, Line, Math};
 use denavit::geometry::Transform;
 use denavit_symbolic::Expr;
@@ -74,37 +74,13 @@ fn meanings(s: &Setting) -> Vec<Line> {
     rows.into_iter().map(|(name, said)| symbol(name).text(s.say(": ", " : ")).text(said)).collect()
 }
 
-/// A column: its heading, what stands in it, whether that is an angle.
-pub type Column = (&'static str, fn(&Row) -> Expr, bool);
-
-/// The columns of a convention in its own letters.
-pub fn columns(d: &Description) -> Vec<Column> {
-    let theta: Column = ("θ", |r| r.theta, true);
-    let alpha: Column = ("α", |r| r.alpha, true);
-    match d.convention {
-        Convention::Standard => vec![theta, ("d", |r| r.d, false), ("a", |r| r.a, false), alpha],
-        Convention::Craig => vec![alpha, ("a", |r| r.a, false), theta, ("d", |r| r.d, false)],
-        Convention::Khalil => {
-            let mut columns = vec![alpha, ("d", |r| r.a, false), theta, ("r", |r| r.d, false)];
-            if d.rows.iter().any(|r| !r.gamma.is_zero() || !r.b.is_zero()) {
-                let branch: [Column; 2] = [("γ", |r| r.gamma, true), ("b", |r| r.b, false)];
-                columns.splice(0..0, branch);
-            }
-            columns
-        }
-    }
-}
-
 fn one(s: &Setting, d: &Description, section: &mut Section) {
-    let columns = columns(d);
+    let columns = d.columns();
     let has_limits = d.rows.iter().any(|r| r.limits.is_some());
     let mut head = vec![Line::default().math(Expr::symbol("j")), s.line("joint", "liaison")];
-    let letter = |name: &str| {
-        Expr::symbol(denavit_symbolic::greek::name(name.chars().next().unwrap_or('x')).unwrap_or(name))
-    };
     head.extend(columns.iter().map(|c| {
-        let line = Line::default().math(letter(c.0));
-        if c.2 { line } else { line.text(" (m)") }
+        let line = Line::default().math(Expr::symbol(c.key(d.convention)));
+        if c.turns() { line } else { line.text(" (m)") }
     }));
     if has_limits {
         head.push(s.line("limits", "butées"));
@@ -116,7 +92,7 @@ fn one(s: &Setting, d: &Description, section: &mut Section) {
             None => "–",
         };
         let mut cells = vec![Line::new(i.to_string()), Line::new(kind)];
-        cells.extend(columns.iter().map(|(_, of, is_angle)| cell(of(row), *is_angle)));
+        cells.extend(columns.iter().map(|c| cell(c.of(row), c.turns())));
         if has_limits {
             let turns = row.variable.is_some_and(|v| v.kind == JointKind::Revolute);
             let mut line = Line::default();

@@ -6,8 +6,7 @@ use denavit_report::figure::drawing::{Anchor, Drawing, Ink, Label, LabelPiece, S
 use denavit_report::figure::{Arm, Bounds, Options, isometric, labels, scheme, svg, tikz, typst};
 
 fn description(name: &str) -> Description {
-    let text = catalogue::text(name).expect("a robot of the catalogue");
-    read_toml(text).expect("a readable file").0
+    catalogue::robot(name).expect("a robot of the catalogue")
 }
 
 fn drawings(arm: &Arm) -> [Drawing; 3] {

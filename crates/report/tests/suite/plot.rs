@@ -4,11 +4,10 @@ use denavit::inverse::JointSpace;
 use denavit::workspace::Workspace;
 use denavit::{Robot, catalogue};
 use denavit_report::figure::drawing::{Drawing, Ink, Label, Segment, Shape};
-use denavit_report::figure::plot::{Curve, arm_line, curves, workspace_plot};
+use denavit_report::figure::plot::{Curve, Panel, arm_line, curves, workspace_plot};
 
 fn arm(name: &str) -> (Robot<f64>, Workspace) {
-    let text = catalogue::text(name).expect("a robot of the catalogue");
-    let description = denavit::description::read_toml(text).expect("a description").0;
+    let description = catalogue::robot(name).expect("a robot of the catalogue");
     let robot = Robot::numeric(&description).expect("all parameters have values");
     let space = JointSpace::new(&description, robot.reach());
     let workspace = Workspace::new(&robot, &space).expect("a workspace");
@@ -83,6 +82,11 @@ fn an_arm_is_drawn_where_it_lies_in_the_section() {
     assert_eq!(arm_line(&workspace, &robot, &[0.3; 6]), None);
 }
 
+fn lines_in(drawing: &Drawing, ink: Ink) -> usize {
+    let is_of = |s: &&Shape| matches!(s, Shape::Path { stroke: Some(s), .. } if s.ink == ink);
+    drawing.shapes.iter().filter(is_of).count()
+}
+
 #[test]
 fn curves_are_interrupted_where_there_is_no_value() {
     let points = |gap: bool| {
@@ -94,14 +98,18 @@ fn curves_are_interrupted_where_there_is_no_value() {
         points: points(gap),
         is_dashed: gap,
     });
-    let labels = [Label::words("t / s"), Label::words("q / rad")];
-    let drawing = curves("Joints", labels.clone(), &lines);
+    let across = Label::words("t / s");
+    let [one, two] = [&lines[..], &lines[..1]]
+        .map(|curves| Panel { label: Label::words("q / rad"), curves: curves.to_vec() });
+    let drawing = curves("Joints", &across, &[one.clone()], &[]);
     check_on_page(&drawing);
-    let of = |k: u8| {
-        let is_of = |s: &&Shape| matches!(s, Shape::Path { stroke: Some(s), .. } if s.ink == Ink::Series(k));
-        drawing.shapes.iter().filter(is_of).count()
-    };
     // The line and its sample in the legend; two pieces and the sample.
-    assert_eq!([of(0), of(1)], [2, 3]);
-    check_on_page(&curves("", labels, &[]));
+    assert_eq!([0, 1].map(|k| lines_in(&drawing, Ink::Series(k))), [2, 3]);
+    // Another panel has the line alone; both have the mark at 4, none that at 40.
+    let both = curves("Joints", &across, &[one, two], &[4.0, 40.0]);
+    check_on_page(&both);
+    assert_eq!([0, 1].map(|k| lines_in(&both, Ink::Series(k))), [3, 3]);
+    assert_eq!(lines_in(&both, Ink::Accent), 2);
+    assert!(both.height > 1.5 * drawing.height);
+    check_on_page(&curves("", &across, &[], &[]));
 }

@@ -1,7 +1,7 @@
 //! Reports of the whole catalogue, as trees and as pages.
 
 use denavit::catalogue;
-use denavit::description::{Convention, Description, read_toml};
+use denavit::description::{Convention, Description};
 use denavit::explain::{Block, Branch, Language, Line, math, plain};
 use denavit_report::{Document, Options, Part, Topic, render, report};
 use denavit_symbolic::print::Style;
@@ -10,7 +10,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 fn description(name: &str) -> Description {
-    read_toml(catalogue::text(name).expect("in the catalogue")).expect("a robot").0
+    catalogue::robot(name).expect("in the catalogue")
 }
 
 /// The tree as an outline: what each part says, formulas as text, pictures by their size.

@@ -12,7 +12,7 @@ impl Description {
             .parameters
             .iter()
             .filter(|p| self.measure(p.symbol) == Measure::Length)
-            .filter_map(|p| p.value?.eval(|_| None).ok().map(f64::abs))
+            .filter_map(|p| p.number().map(f64::abs))
             .filter(|x| x.is_finite() && *x > 0.0)
             .collect();
         let usual = if known.is_empty() { 0.4 } else { known.iter().sum::<f64>() / known.len() as f64 };

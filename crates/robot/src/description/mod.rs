@@ -10,6 +10,8 @@ pub mod diagnostic;
 mod filled;
 mod named;
 mod names;
+mod order;
+mod parameters;
 mod robot_file;
 mod rows;
 pub mod table;
@@ -19,6 +21,8 @@ mod value;
 pub use cell::MAX_LENGTH as MAX_CELL_BYTES;
 pub use convert::{Conversion, SameChain, prove_same_chain};
 pub use diagnostic::{Diagnostic, Diagnostics, Severity, line_column, render};
+pub use order::{Cell, Screw};
+pub use parameters::MissingValue;
 pub use robot_file::{MAX_BYTES, MAX_ROWS, read_toml, write_toml};
 pub use table::{TableKind, TableOptions, read_table};
 pub use value::{Measure, read_value};
@@ -161,11 +165,6 @@ impl Description {
     /// The joint variables, `q1` first.
     pub fn variables(&self) -> Vec<Variable> {
         self.rows.iter().filter_map(|r| r.variable).collect()
-    }
-
-    /// The value of a parameter, where it has one.
-    pub fn value(&self, parameter: Symbol) -> Option<f64> {
-        self.parameters.iter().find(|p| p.symbol == parameter)?.value?.eval(|_| None).ok()
     }
 }
 

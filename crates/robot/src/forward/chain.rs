@@ -56,16 +56,8 @@ pub(super) fn elements(
         elements.push(Elementary::Fixed(description.base));
     }
     for (i, row) in description.rows.iter().enumerate().take(to).skip(from) {
-        let x = [Turn(Axis::X, row.alpha), Shift(Axis::X, row.a)];
-        let z = [Turn(Axis::Z, row.theta), Shift(Axis::Z, row.d)];
-        match description.convention {
-            Convention::Standard => elements.extend(z.into_iter().chain(x)),
-            Convention::Craig => elements.extend(x.into_iter().chain(z)),
-            Convention::Khalil => {
-                let branch = [Turn(Axis::Z, row.gamma), Shift(Axis::Z, row.b)];
-                elements.extend(branch.into_iter().chain(x).chain(z));
-            }
-        }
+        let screws = row.screws(description.convention).0.into_iter();
+        elements.extend(screws.flat_map(|s| [Turn(s.axis, s.angle), Shift(s.axis, s.length)]));
         elements.push(Elementary::EndOfRow(i + 1));
     }
     if tool {

@@ -1,5 +1,7 @@
 //! What inverse kinematics answers: solutions, families of them, or what stands in the way.
 
+use super::self_motion::SelfMotion;
+
 /// All solutions of one pose.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Answer {
@@ -102,6 +104,30 @@ pub struct Family {
     pub(in crate::inverse) at: Vec<(usize, [f64; 2])>,
     /// The signs of the nodes of the solver.
     pub(in crate::inverse) signs: Vec<i8>,
+}
+
+impl Family {
+    /// Free unknowns and how the joints move at a solution; nothing is known further along.
+    pub(in crate::inverse) fn new(representative: Solution, free: Vec<String>, direction: Vec<f64>) -> Self {
+        Family {
+            representative,
+            dimension: free.len(),
+            free,
+            direction,
+            is_affine: false,
+            interval: None,
+            feasible: vec![],
+            curve: vec![],
+            at: vec![],
+            signs: vec![],
+        }
+    }
+
+    /// What was followed from a solution: a family by its length s.
+    pub(in crate::inverse) fn followed(representative: Solution, motion: SelfMotion) -> Self {
+        let SelfMotion { direction, is_affine, curve, .. } = motion;
+        Family { is_affine, curve, ..Family::new(representative, vec!["s".into()], direction) }
+    }
 }
 
 /// Why a pose has no solution, and how near the arm comes.

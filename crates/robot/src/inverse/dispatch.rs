@@ -266,18 +266,8 @@ impl InverseKinematics {
             let motion = follow(&self.robot, &self.space, self.goal, pose, &q);
             let within_limits = self.space.within(&q);
             let (branch, guard) = (String::new(), 0.0);
-            answer.families.push(Family {
-                representative: Solution { q, residual, branch, multiplicity: 1, within_limits, guard },
-                dimension: 1,
-                free: vec!["s".into()],
-                direction: motion.direction,
-                is_affine: motion.is_affine,
-                interval: None,
-                feasible: vec![],
-                curve: motion.curve,
-                at: vec![],
-                signs: vec![],
-            });
+            let found = Solution { q, residual, branch, multiplicity: 1, within_limits, guard };
+            answer.families.push(Family::followed(found, motion));
         }
     }
 

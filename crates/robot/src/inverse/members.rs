@@ -117,15 +117,13 @@ fn scaled(space: &JointSpace, direction: &[f64]) -> Vec<f64> {
 mod tests {
     use super::*;
     use crate::catalogue;
-    use crate::description::read_toml;
     use crate::inverse::{Goal, Options};
 
     /// Members of every family of the pose at `q`, checked: they have the pose, neighbours are near, and those that are
     /// closed come back.
     #[track_caller]
     fn members(name: &str, options: &Options, q: &[f64]) -> Vec<(Family, Members)> {
-        let text = catalogue::text(name).expect("it is in the catalogue");
-        let (d, _) = read_toml(text).expect("it can be read");
+        let d = catalogue::robot(name).expect("it is in the catalogue");
         let mut inverse = InverseKinematics::new(&d, options).expect("all parameters have values");
         let pose = inverse.robot.pose(q);
         let given: Vec<f64> = inverse.given.iter().map(|&j| q[j]).collect();

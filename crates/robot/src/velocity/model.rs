@@ -234,13 +234,11 @@ fn differentiated(description: &Description, x: &Transform<Expr>) -> Vec<[Vector
 mod tests {
     use super::*;
     use crate::catalogue;
-    use crate::description::read_toml;
 
     /// With one entry's sign turned, or two rows exchanged, the proof fails.
     #[test]
     fn what_is_wrong_is_not_proved() {
-        let text = catalogue::text("staubli-rx90").unwrap();
-        let Ok((description, _)) = read_toml(text) else { panic!("a catalogue file") };
+        let description = catalogue::robot("staubli-rx90").expect("it is in the catalogue");
         let robot = Robot::symbolic(&description);
         let view = Viewpoint::of(Reference::Frame(6), Reference::Frame(3));
         let right = JacobianModel::derive(&description, view);

@@ -1,7 +1,7 @@
 //! Programs of Jacobians for evaluators and generated code: one pass along the chain, parallel axes merged.
 
 use super::geometric::{Viewpoint, rows_before};
-use crate::description::{Convention, Description};
+use crate::description::Description;
 use crate::forward::{Reference, Walked};
 use crate::geometry::{Transform, Vector};
 use crate::robot::Robot;
@@ -48,11 +48,9 @@ impl Columns {
         let robot = Robot::symbolic(description);
         let walked = Walked::new(description);
         let point = walked.place(view.at).act_on_point(view.offset);
-        // Rz(θ)·Tz(d) stands first in a row of the standard convention, last in the others.
-        let before = usize::from(description.convention == Convention::Standard);
         let mut columns = vec![[Vector::zero(); 2]; robot.joints];
         for (i, link) in robot.links.iter().enumerate().take(rows_before(&robot, view.body)) {
-            let screw: Transform<Expr> = walked.place(Reference::Frame(i + 1 - before));
+            let screw: Transform<Expr> = walked.place(Reference::Frame(description.convention.axis_frame(i)));
             let z = screw.rotation.z();
             let lever = z.cross(point - screw.translation);
             for &(j, k) in &link.theta.terms {

@@ -33,10 +33,10 @@ fn check_table(found: &Description, name: &str, names: &[(&str, Expr)]) {
 /// Names for the values of the catalogue's robot, for a table of numbers.
 fn with_values(d: &Description) -> Description {
     let mut d = d.clone();
-    let values: Vec<_> = d.parameters.iter().filter_map(|p| Some((p.symbol, p.value?))).collect();
+    let own = d.clone();
     for row in &mut d.rows {
         for cell in [&mut row.theta, &mut row.d, &mut row.a, &mut row.alpha] {
-            *cell = cell.substitute(|s| values.iter().find(|v| v.0 == s).map(|v| v.1));
+            *cell = cell.substitute(|s| own.exact_value(s));
         }
     }
     d.tool = denavit::geometry::Transform::identity();
@@ -229,11 +229,8 @@ fn parameters_of_a_table_get_values_from_lines() {
                 | 1 | 0 | 0 | 0 | θ₁ | 0 |\n| 2 | 0 | 90° | D3 | θ₂ | L |\n\nD3 = 450 mm, L = 0.3 m\nD3 = x\n";
     let (d, findings) = read_table(text, TableKind::Markdown, &TableOptions::default()).expect("a table");
     assert_eq!(d.name, "My arm");
-    let values: Vec<(String, Option<f64>)> = d
-        .parameters
-        .iter()
-        .map(|p| (p.symbol.name().to_string(), p.value.and_then(|v| v.eval(|_| None).ok())))
-        .collect();
+    let values: Vec<(String, Option<f64>)> =
+        d.parameters.iter().map(|p| (p.symbol.name().to_string(), p.number())).collect();
     assert_eq!(values, [("D3".to_string(), Some(0.45)), ("L".to_string(), Some(0.3))]);
     assert_eq!(shown(text, &findings).len(), 1, "{:?}", shown(text, &findings));
     assert!(shown(text, &findings)[0].starts_with("11:6 note: `D3 = x` is not taken for the value of `D3`"));
@@ -404,7 +401,7 @@ fn lines_do_not_contradict_each_other() {
     for (number, expected) in [(1, (Convention::Standard, 3.0)), (2, (Convention::Craig, 4.0))] {
         let options = TableOptions { table: Some(number), ..TableOptions::default() };
         let found = table(&both, TableKind::Csv, &options);
-        let value = found.parameters[0].value.and_then(|v| v.eval(|_| None).ok());
+        let value = found.parameters[0].number();
         assert_eq!(
             (found.convention, value),
             (expected.0, Some(expected.1)),

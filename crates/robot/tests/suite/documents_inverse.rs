@@ -7,7 +7,7 @@
 
 use crate::common::printed::{formulas, list, read, string, strings, text, values};
 use denavit::catalogue;
-use denavit::description::{Description, read_toml};
+use denavit::description::Description;
 use denavit::geometry::Transform;
 use denavit::inverse::{Goal, InverseModel, InverseSolver, Options};
 use denavit::robot::Robot;
@@ -53,8 +53,7 @@ struct Model {
 impl Model {
     /// The first `arm` rows of a robot, or all; `change` is made to the table.
     fn new(file: &Table, name: &str, arm: Option<usize>, change: Option<&str>) -> Self {
-        let robot = catalogue::text(name).expect("a robot of the catalogue");
-        let mut description = read_toml(robot).expect("a catalogue robot").0;
+        let mut description = catalogue::robot(name).expect("a robot of the catalogue");
         if let Some(change) = change {
             assert_eq!(change, "joint 5: alpha = -90 deg");
             description.rows[4].alpha = -description.rows[4].alpha;
@@ -79,9 +78,6 @@ impl Model {
         for (k, p) in (1..).zip(open) {
             p.value = Some(Rational::new(24 + 7 * k, 100).into());
         }
-        let values = numbers.parameters.iter();
-        let parameters =
-            values.map(|p| (p.symbol, p.value.and_then(|v| v.eval(|_| None).ok()).expect("a value")));
         let goal = if arm.is_some() { Goal::Position } else { Goal::Pose };
         let inverse = InverseModel::derive(&numbers, &Options { goal, given: None }).expect("a closed form");
         let variables: Vec<Symbol> = description.variables().iter().map(|v| v.symbol).collect();
@@ -92,7 +88,7 @@ impl Model {
         Model {
             is_angle: (0..q.len()).map(|j| inverse.chain.is_angle(j)).collect(),
             pose: places.map(|(r, c)| (symbol(r, c), entries[r][c])).collect(),
-            parameters: parameters.collect(),
+            parameters: numbers.known_values().into_iter().collect(),
             robot: Robot::numeric(&numbers).expect("numbers"),
             solver: inverse.solver(&numbers).expect("numbers"),
             variables,

@@ -7,7 +7,7 @@
 use crate::common::printed::{list, read, string, strings, text};
 #[allow(dead_code, reason = "values of inverse kinematics are not read here")]
 use denavit::catalogue;
-use denavit::description::{Description, read_toml};
+use denavit::description::Description;
 use denavit::forward::{Proof, Reference};
 use denavit::geometry::{Rotation, Transform, Vector};
 use denavit::robot::Robot;
@@ -66,8 +66,7 @@ struct Arm {
 
 impl Arm {
     fn new(file: &Table, name: &str, rows: Option<usize>) -> Self {
-        let robot = catalogue::text(name).expect("a robot of the catalogue");
-        let mut description = read_toml(robot).expect("a catalogue robot").0;
+        let mut description = catalogue::robot(name).expect("a robot of the catalogue");
         let mut names = description.vocabulary();
         description.rows.truncate(rows.unwrap_or(usize::MAX));
         if file["robots"].as_array().is_some_and(|own| own.iter().any(|r| text(r) == name)) {

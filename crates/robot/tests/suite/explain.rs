@@ -1,7 +1,7 @@
 //! Explanations of inverse kinematics: every formula that is printed is proved; two are looked at in full.
 
 use denavit::catalogue;
-use denavit::description::{Description, read_toml};
+use denavit::description::Description;
 use denavit::explain::{Language, Math, Proof, math, text};
 use denavit::inverse::explain::Explanation;
 use denavit::inverse::{Goal, InverseModel, Options, Refusal};
@@ -9,8 +9,7 @@ use denavit_symbolic::print::Style;
 use denavit_symbolic::{Expr, Node, Symbol};
 
 fn robot(name: &str) -> Description {
-    let text = catalogue::text(name).unwrap_or_else(|| panic!("no robot {name}"));
-    read_toml(text).unwrap_or_else(|errors| panic!("{name}: {errors:?}")).0
+    catalogue::robot(name).unwrap_or_else(|| panic!("no robot {name}"))
 }
 
 fn explanation(name: &str, given: Option<Vec<usize>>) -> Explanation {
@@ -154,11 +153,10 @@ fn formulas_give_the_solutions_of_the_solver() {
         let answer = model.solver(&d).expect("values").solve(&pose, &fixed);
         assert!(answer.families.is_empty() && !answer.solutions.is_empty(), "{name}");
 
-        let constant = |s: Symbol| d.parameters.iter().find(|p| p.symbol == s)?.value?.eval(|_| None).ok();
-        let number = |x: Expr| x.eval(constant).expect("a constant");
+        let number = |x: Expr| x.eval(|s| d.value(s)).expect("a constant");
         let moved = model.chain.base.map(number).inverse() * pose * model.chain.tool.map(number).inverse();
         let mut start = Values::default();
-        start.known.extend(d.parameters.iter().filter_map(|p| Some((p.symbol, constant(p.symbol)?))));
+        start.known.extend(d.known_values());
         let entries = e.pose.iter().zip(moved.matrix().into_iter().flatten());
         start.known.extend(entries.filter_map(|(s, x)| Some((s.as_symbol()?, x))));
         for (&j, &x) in model.given.iter().zip(&fixed) {

@@ -46,9 +46,7 @@ fn every_robot_agrees_with_pinocchio() {
             let value = |s: Symbol| -> Option<f64> {
                 let variables = description.variables();
                 let joint = variables.iter().position(|v| v.symbol == s).map(|j| q[j]);
-                joint.or_else(|| {
-                    description.parameters.iter().find(|p| p.symbol == s)?.value?.eval(|_| None).ok()
-                })
+                joint.or_else(|| description.value(s))
             };
             let traced = model.algorithm.eval(value).unwrap_or_else(|s| panic!("{name}: no value for {s:?}"));
             let pose = robot.pose(&q).matrix();

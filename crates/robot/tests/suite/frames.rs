@@ -1,6 +1,6 @@
 //! Programs for evaluators and generated code, against the numbers of the plain product.
 
-use denavit::description::{Description, JointKind, read_toml};
+use denavit::description::{Description, JointKind};
 use denavit::forward::{ForwardModel, Outputs, Proof, Reference, frames_program, pose_program, prove};
 use denavit::geometry::Transform;
 use denavit::{Robot, catalogue};
@@ -9,8 +9,7 @@ use denavit_symbolic::{Expr, Rational};
 use std::num::NonZero;
 
 fn robot(name: &str) -> Description {
-    let text = catalogue::text(name).unwrap_or_else(|| panic!("no robot {name}"));
-    read_toml(text).unwrap_or_else(|errors| panic!("{name}: {errors:?}")).0
+    catalogue::robot(name).unwrap_or_else(|| panic!("no robot {name}"))
 }
 
 /// A robot of the catalogue; a parameter without value gets one between 0.25 and 1.
@@ -28,9 +27,7 @@ fn all_frames(d: &Description) -> Program {
 }
 
 fn compiled(d: &Description, program: &Program) -> Function {
-    let value = |s| d.parameters.iter().find(|p| p.symbol == s)?.value?.eval(|_| None).ok();
-    let values: Option<Vec<f64>> = program.parameters().iter().map(|s| value(*s)).collect();
-    program.compile(&values.expect("every parameter has a value"))
+    program.compile(&d.values(program.parameters()).expect("every parameter has a value"))
 }
 
 /// Knuth's linear congruential generator: joint variables in (−π, π), or within a metre.

@@ -21,8 +21,7 @@ const REFUSED: [&str; 9] = [
 ];
 
 fn robot(name: &str) -> Description {
-    let text = catalogue::text(name).expect("the catalogue has it");
-    let mut d = description::read_toml(text).expect("the catalogue can be read").0;
+    let mut d = catalogue::robot(name).expect("the catalogue has it");
     // Robots given with symbols only get lengths that are not special.
     let mut next = 0.31;
     for p in &mut d.parameters {

@@ -33,7 +33,7 @@ impl Case {
     }
 
     fn named(name: &str) -> Self {
-        Self::text(catalogue::text(name).expect("a robot of the catalogue"))
+        Self::of(catalogue::robot(name).expect("a robot of the catalogue"))
     }
 
     fn text(text: &str) -> Self {

@@ -94,8 +94,7 @@ fn random_configuration(random: &mut Random, n: usize) -> Vec<f64> {
 
 /// Runs a program on a robot's own values.
 fn run(d: &Description, program: &Program, inputs: &[f64]) -> Vec<f64> {
-    let value = |s: Symbol| d.parameters.iter().find(|p| p.symbol == s)?.value?.eval(|_| None).ok();
-    let parameters: Vec<f64> = program.parameters().iter().map(|&s| value(s).unwrap_or(f64::NAN)).collect();
+    let parameters = d.values(program.parameters()).expect("every parameter has a value");
     program.compile(&parameters).scalar().eval(inputs).to_vec()
 }
 
@@ -505,7 +504,7 @@ fn joint_velocities_as_formulas() {
             known.push((row.to_string(), 0.1 * (k as f64) - 0.2));
         }
         for p in &d.parameters {
-            let value = p.value.and_then(|e| e.eval(|_| None).ok()).unwrap_or(0.3 + random.unit());
+            let value = p.number().unwrap_or(0.3 + random.unit());
             known.push((p.symbol.name().to_string(), value));
         }
         for v in &variables {

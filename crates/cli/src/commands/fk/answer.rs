@@ -20,9 +20,9 @@ pub fn function(description: &Description, of: &[Reference]) -> Function {
 
 /// A program at the robot's own values, as one function that rounds the same on every machine.
 pub fn strict(description: &Description, program: &Program) -> Function {
-    let value = |s| description.parameters.iter().find(|p| p.symbol == s)?.value?.eval(|_| None).ok();
     // One without a value is in no formula: the robot over numbers exists.
-    let values: Vec<f64> = program.parameters().iter().map(|s| value(*s).unwrap_or(f64::NAN)).collect();
+    let values: Vec<f64> =
+        program.parameters().iter().map(|s| description.value(*s).unwrap_or(f64::NAN)).collect();
     let function = program.compile(&values);
     function.on(function.target().0, Arithmetic::Strict)
 }

@@ -12,7 +12,7 @@ use denavit::velocity::{
     rate_program, torques,
 };
 use denavit_program::Program;
-use denavit_symbolic::{Expr, Symbol};
+use denavit_symbolic::Expr;
 use serde_json::{Map, Value, json};
 
 /// What is asked besides the Jacobian.
@@ -194,14 +194,8 @@ pub fn name(frame: Reference) -> String {
 
 /// The viewpoint with numbers.
 fn evaluated(description: &Description, view: &Viewpoint<Expr>) -> Viewpoint<f64> {
-    let value = |s: Symbol| parameter(description, s);
-    let offset = view.offset.map(|e| e.eval(value).unwrap_or(f64::NAN));
+    let offset = view.offset.map(|e| e.eval(|s| description.value(s)).unwrap_or(f64::NAN));
     Viewpoint { axes: view.axes, body: view.body, at: view.at, offset }
-}
-
-/// The value of a parameter.
-fn parameter(description: &Description, s: Symbol) -> Option<f64> {
-    description.parameters.iter().find(|p| p.symbol == s)?.value?.eval(|_| None).ok()
 }
 
 /// The results of a program at the robot's own values.
@@ -217,5 +211,5 @@ fn by_rows(entries: &[f64]) -> Jacobian<f64> {
 /// The joints' largest velocities, if all have one.
 fn velocity_limits(description: &Description) -> Option<Vec<f64>> {
     let rows = description.rows.iter().filter(|r| r.variable.is_some());
-    rows.map(|r| r.velocity?.eval(|s| parameter(description, s)).ok()).collect()
+    rows.map(|r| r.velocity?.eval(|s| description.value(s)).ok()).collect()
 }

@@ -36,7 +36,7 @@ pub fn run(arguments: &PathArguments) -> Result<(), Failure> {
         PathFormat::Json => report::json(&description, &planned, &sampled),
     };
     if let Some(file) = &arguments.plot {
-        let picture = plot::svg(&description, &planned, &sampled).map_err(Failure::GaveUp)?;
+        let picture = plot::picture(&description, &planned, &sampled);
         std::fs::write(file, picture)
             .map_err(|e| Failure::Input(format!("error: --plot {}: {e}", file.display())))?;
     }

@@ -1,17 +1,28 @@
 //! Axes with numbers, a faint grid, and labels that stand upright.
 
-use super::recorder::{FINE, Recorder, colour};
 use crate::figure::drawing::{Anchor, Ink, Label, Segment, Shape, Stroke};
-use plotters::prelude::*;
-use std::convert::Infallible;
 use std::ops::Range;
 
-/// The size of numbers and labels, points.
+/// The size of numbers and of names in legends, points.
 pub(super) const NUMBERS: f64 = 9.0;
 /// The size of the labels of axes, points.
 pub(super) const WORDS: f64 = 10.0;
 /// Lines of axes, points.
-const THIN: f64 = 0.6;
+pub(super) const THIN: f64 = 0.6;
+/// Lines of the grid, points.
+const GRID: f64 = 0.4;
+/// How far a tick stands out, points.
+pub(super) const TICK: f64 = 3.0;
+/// How far the middle of a digit is above its base line, by its size.
+pub(super) const MIDDLE: f64 = 0.34;
+/// How high a digit is, by its size.
+const DIGIT: f64 = 0.7;
+/// Between a tick and its number, points.
+const GAP: f64 = 3.0;
+/// From the horizontal axis down to the base line of its label, points.
+const BELOW: f64 = 32.0;
+/// Room for a number, beside the next and below it, points.
+const ROOM: [f64; 2] = [38.0, 24.0];
 
 /// Where a plot stands on its page, points: x and y of the upper left corner, width, height.
 #[derive(Clone, Copy)]
@@ -51,77 +62,77 @@ impl Scales {
     }
 }
 
-/// Draws the axes of an area: the numbers stand outside of it, to the left and below; the label of the vertical axis above
-/// its end, that of the horizontal axis below its numbers.
-pub(super) fn axes(
-    shapes: &mut Vec<Shape>,
-    page: [f64; 2],
-    area: Area,
-    [x, y]: [Range<f64>; 2],
-    labels: [Label; 2],
-) -> Scales {
-    const LEFT: f64 = 40.0;
-    const BELOW: f64 = 20.0;
-    let scales = Scales { area_at: area.at, area_size: area.size, x: x.clone(), y: y.clone() };
-    // The recorder cannot fail; a chart that has no room is left away.
-    let _ = mesh(shapes, page, [LEFT, BELOW], area, [x, y]);
-    let [left, top] = area.at;
-    let [wide, high] = area.size;
-    let [across, up] = labels;
-    let mut text = |at: [f64; 2], anchor, label| {
-        shapes.push(Shape::Text { at, anchor, size: WORDS, ink: Ink::Line, label });
+/// Draws the axes of an area: the numbers stand outside of it, to the left and below, the label of the horizontal axis
+/// below its numbers.
+pub(super) fn axes(shapes: &mut Vec<Shape>, area: Area, [x, y]: [Range<f64>; 2], across: Label) -> Scales {
+    let ([left, top], [wide, high]) = (area.at, area.size);
+    let (right, bottom) = (left + wide, top + high);
+    let scales = Scales { area_at: area.at, area_size: area.size, x, y };
+    let [ticks_x, ticks_y] = [ticks(&scales.x, wide / ROOM[0]), ticks(&scales.y, high / ROOM[1])];
+    let [xs, ys]: [Vec<f64>; 2] = [
+        ticks_x.iter().map(|t| scales.place([t.value, scales.y.start])[0]).collect(),
+        ticks_y.iter().map(|t| scales.place([scales.x.start, t.value])[1]).collect(),
+    ];
+    let mut lines = |ink, width, segments: Vec<Segment>| {
+        if !segments.is_empty() {
+            shapes.push(Shape::Path { segments, fill: None, stroke: stroke(ink, width) });
+        }
     };
-    text([left + 0.5 * wide, top + high + BELOW + 12.0], Anchor::Middle, across);
-    text([left - 4.0, top - 9.0], Anchor::Middle, up);
+    let grid = xs.iter().map(|&x| [[x, top], [x, bottom]]).chain(ys.iter().map(|&y| [[left, y], [right, y]]));
+    lines(Ink::Faint, GRID, grid.flat_map(segment).collect());
+    let axes = [[[left, top], [left, bottom]], [[left, bottom], [right, bottom]]].into_iter();
+    let ticks = xs.iter().map(|&x| [[x, bottom], [x, bottom + TICK]]);
+    let ticks = ticks.chain(ys.iter().map(|&y| [[left - TICK, y], [left, y]]));
+    lines(Ink::Line, THIN, axes.chain(ticks).flat_map(segment).collect());
+
+    for (tick, x) in ticks_x.into_iter().zip(xs) {
+        let at = [x, bottom + TICK + GAP + DIGIT * NUMBERS];
+        shapes.push(text(at, Anchor::Middle, NUMBERS, Label::words(tick.text)));
+    }
+    for (tick, y) in ticks_y.into_iter().zip(ys) {
+        let at = [left - TICK - GAP, y + MIDDLE * NUMBERS];
+        shapes.push(text(at, Anchor::End, NUMBERS, Label::words(tick.text)));
+    }
+    shapes.push(text([left + 0.5 * wide, bottom + BELOW], Anchor::Middle, WORDS, across));
     scales
 }
 
-fn mesh(
-    shapes: &mut Vec<Shape>,
-    page: [f64; 2],
-    [left, below]: [f64; 2],
-    area: Area,
-    [x, y]: [Range<f64>; 2],
-) -> Result<(), DrawingAreaErrorKind<Infallible>> {
-    let root = Recorder { shapes, size: page }.into_drawing_area();
-    let root = root.shrink(
-        (fine(area.at[0] - left), fine(area.at[1])),
-        (fine(area.size[0] + left), fine(area.size[1] + below)),
-    );
-    let mut chart = ChartBuilder::on(&root)
-        .x_label_area_size(fine(below))
-        .y_label_area_size(fine(left))
-        .build_cartesian_2d(x.clone(), y.clone())?;
-    let [count_x, count_y] = [0, 1].map(|k| labels(area.size[k]));
-    let [show_x, show_y] = [decimals(&x, count_x), decimals(&y, count_y)];
-    let font = ("sans-serif", f64::from(FINE) * NUMBERS).into_font().color(&colour(Ink::Line));
-    chart
-        .configure_mesh()
-        .light_line_style(TRANSPARENT)
-        .bold_line_style(colour(Ink::Faint).stroke_width(wide(0.4)))
-        .axis_style(colour(Ink::Line).stroke_width(wide(THIN)))
-        .set_all_tick_mark_size(fine(3.0))
-        .x_labels(count_x)
-        .y_labels(count_y)
-        .x_label_formatter(&|v| number(*v, show_x))
-        .y_label_formatter(&|v| number(*v, show_y))
-        .label_style(font)
-        .draw()?;
-    root.present()
+/// A value with a number of its own.
+#[derive(Clone, PartialEq, Debug)]
+struct Tick {
+    value: f64,
+    text: String,
 }
 
-/// How many numbers have room along a side.
-fn labels(length: f64) -> usize {
-    (length / 38.0).clamp(2.0, 9.0) as usize
-}
-
-/// How many decimals numbers need that stand so close.
-fn decimals(range: &Range<f64>, count: usize) -> usize {
-    let step = (range.end - range.start) / count.max(1) as f64;
-    if !step.is_finite() || step <= 0.0 {
-        return 1;
+/// The multiples of 1, 2 or 5 times a power of ten in a range, not many more than have room; none where the range is empty
+/// or too narrow to tell them apart.
+fn ticks(range: &Range<f64>, room: f64) -> Vec<Tick> {
+    let count = room.floor().clamp(2.0, 9.0);
+    let least = (range.end - range.start) / count;
+    let largest = range.start.abs().max(range.end.abs());
+    if !(least.is_finite() && least > 1e-9 * largest && least > 1e-300) {
+        return vec![];
     }
-    (-step.log10()).ceil().clamp(0.0, 6.0) as usize
+    let below = least.log10().floor() as i32;
+    let mantissa = least / 10_f64.powi(below);
+    let factors = [(1, below), (2, below), (5, below)];
+    let fits = |(factor, _): &(i64, i32)| mantissa <= *factor as f64 * (1.0 + 1e-9);
+    let (factor, power) = factors.into_iter().find(fits).unwrap_or((1, below + 1));
+    let step = factor as f64 * 10_f64.powi(power);
+    // A limit that is a multiple has its number, whatever rounding says.
+    let (first, last) = ((range.start / step - 1e-6).ceil(), (range.end / step + 1e-6).floor());
+    let multiples = (first as i64)..=(last as i64);
+    multiples.map(|n| Tick { value: n as f64 * step, text: written(n * factor, power) }).collect()
+}
+
+/// `n`·10^`power`, with a power of ten where there would be many zeros.
+fn written(n: i64, power: i32) -> String {
+    match power {
+        _ if n == 0 => "0".into(),
+        0..6 => number(n as f64 * 10_f64.powi(power), 0),
+        -6..0 => number(n as f64 * 10_f64.powi(power), power.unsigned_abs() as usize),
+        _ => format!("{}e{}", number(n as f64, 0), number(f64::from(power), 0)),
+    }
 }
 
 /// A number as it is printed: a true minus sign, no negative zero.
@@ -131,15 +142,49 @@ pub(super) fn number(v: f64, decimals: usize) -> String {
     if v < 0.0 && !is_zero { format!("−{text}") } else { text }
 }
 
-fn fine(length: f64) -> i32 {
-    (length * f64::from(FINE)).round() as i32
-}
-
-fn wide(width: f64) -> u32 {
-    (width * f64::from(FINE)).round() as u32
+fn segment([from, to]: [[f64; 2]; 2]) -> [Segment; 2] {
+    [Segment::Move(from), Segment::Line(to)]
 }
 
 /// A line of this ink and width, points.
 pub(super) fn stroke(ink: Ink, width: f64) -> Option<Stroke> {
     Some(Stroke { ink, width, dash: None })
+}
+
+/// Words or symbols of this size, points.
+pub(super) fn text(at: [f64; 2], anchor: Anchor, size: f64, label: Label) -> Shape {
+    Shape::Text { at, anchor, size, ink: Ink::Line, label }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn texts(range: Range<f64>, room: f64) -> String {
+        ticks(&range, room).iter().map(|t| t.text.as_str()).collect::<Vec<_>>().join(" ")
+    }
+
+    #[test]
+    fn steps_are_one_two_or_five() {
+        for (range, room, expect) in [
+            (0.0..1.0, 5.0, "0 0.2 0.4 0.6 0.8 1.0"),
+            (-0.31..0.31, 7.9, "−0.3 −0.2 −0.1 0 0.1 0.2 0.3"),
+            (0.0..0.9, 2.0, "0 0.5"),
+            (-100.0..250.0, 5.0, "−100 0 100 200"),
+            (-60.0..120.0, 5.0, "−50 0 50 100"),
+            // 0.1 + 0.2 and its like do not lose the last number.
+            (0.1..0.1 + 0.2, 2.0, "0.1 0.2 0.3"),
+            (0.0..4e-9, 2.0, "0 2e−9 4e−9"),
+            (0.0..3.2e7, 3.0, "0 2e7"),
+        ] {
+            assert_eq!(texts(range, room), expect);
+        }
+    }
+
+    #[test]
+    fn ranges_without_width_have_no_numbers() {
+        for range in [1.0..1.0, 2.0..1.0, 0.0..f64::INFINITY, f64::NAN..1.0, 1e18..1e18 + 1.0] {
+            assert_eq!(texts(range, 5.0), "");
+        }
+    }
 }

@@ -1,8 +1,8 @@
 //! A section of the workspace: the region in levels of manipulability, its edge, a bar that explains the levels.
 
-use super::axes::{Area, NUMBERS, WORDS, axes, number, stroke};
-use super::recorder::circle;
+use super::axes::{Area, MIDDLE, NUMBERS, THIN, TICK, WORDS, axes, number, stroke, text};
 use crate::figure::drawing::{Anchor, Drawing, Ink, Label, Segment, Shape};
+use crate::figure::solid::{arc, closed, polygon};
 use denavit::Robot;
 use denavit::geometry::Vector;
 use denavit::workspace::{Field, Section, Workspace, contours};
@@ -37,7 +37,9 @@ pub fn workspace_plot(workspace: &Workspace, arm: Option<&[[f64; 2]]>) -> Drawin
     let mut shapes = vec![];
     let area = Area { at: [LEFT, ABOVE], size };
     let metres = |symbol: &str| Label::symbol(symbol, "").and(Label::words(" / m"));
-    let scales = axes(&mut shapes, page, area, ranges, workspace.section.symbols().map(metres));
+    let [across, up] = workspace.section.symbols().map(metres);
+    let scales = axes(&mut shapes, area, ranges, across);
+    shapes.push(text([LEFT - 4.0, ABOVE - 9.0], Anchor::Middle, WORDS, up));
 
     let outline: Vec<Segment> = workspace.boundary.iter().flat_map(|line| scales.line(line, true)).collect();
     shapes.push(Shape::Path { segments: outline.clone(), fill: Some(ink(0)), stroke: None });
@@ -253,39 +255,28 @@ fn bar([x, y]: [f64; 2], high: f64) -> Vec<Shape> {
     let at = |part: f64| y + high * (1.0 - part);
     let box_of = |low: f64, top: f64| {
         let (a, b) = (at(low), at(top));
-        vec![
-            Segment::Move([x, a]),
-            Segment::Line([x + WIDE, a]),
-            Segment::Line([x + WIDE, b]),
-            Segment::Line([x, b]),
-            Segment::Close,
-        ]
+        polygon(&[[x, a], [x + WIDE, a], [x + WIDE, b], [x, b]])
     };
     for level in 0..LEVELS {
         let segments = box_of(share(level), share(level + 1));
         shapes.push(Shape::Path { segments, fill: Some(ink(level)), stroke: None });
     }
-    shapes.push(Shape::Path { segments: box_of(0.0, 1.0), fill: None, stroke: stroke(Ink::Line, 0.6) });
+    shapes.push(Shape::Path { segments: box_of(0.0, 1.0), fill: None, stroke: stroke(Ink::Line, THIN) });
     for quarter in 0..=4_u8 {
         let part = f64::from(quarter) / 4.0;
-        let segments = vec![Segment::Move([x + WIDE, at(part)]), Segment::Line([x + WIDE + 3.0, at(part)])];
-        shapes.push(Shape::Path { segments, fill: None, stroke: stroke(Ink::Line, 0.6) });
-        shapes.push(Shape::Text {
-            at: [x + WIDE + 6.0, at(part) + 0.34 * NUMBERS],
-            anchor: Anchor::Start,
-            size: NUMBERS,
-            ink: Ink::Line,
-            label: Label::words(number(part, 2)),
-        });
+        let segments = vec![Segment::Move([x + WIDE, at(part)]), Segment::Line([x + WIDE + TICK, at(part)])];
+        shapes.push(Shape::Path { segments, fill: None, stroke: stroke(Ink::Line, THIN) });
+        let place = [x + WIDE + 2.0 * TICK, at(part) + MIDDLE * NUMBERS];
+        shapes.push(text(place, Anchor::Start, NUMBERS, Label::words(number(part, 2))));
     }
-    shapes.push(Shape::Text {
-        at: [x, y - 9.0],
-        anchor: Anchor::Start,
-        size: WORDS,
-        ink: Ink::Line,
-        label: Label::symbol("w", "").and(Label::words(" / ")).and(Label::symbol("w", "max")),
-    });
+    let label = Label::symbol("w", "").and(Label::words(" / ")).and(Label::symbol("w", "max"));
+    shapes.push(text([x, y - 9.0], Anchor::Start, WORDS, label));
     shapes
+}
+
+/// A circle, points.
+fn circle(centre: [f64; 2], r: f64) -> Vec<Segment> {
+    closed(arc(centre, [r, 0.0], [0.0, r], 0.0, std::f64::consts::TAU))
 }
 
 fn described(workspace: &Workspace) -> String {

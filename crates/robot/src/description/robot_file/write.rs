@@ -51,18 +51,9 @@ fn write_row(out: &mut String, row: &Row, convention: Convention) {
     if let Some(name) = &row.name {
         let _ = writeln!(out, "name = {}", quoted(name));
     }
-    let (x, z) = (convention.length_x(), convention.length_z());
-    let (theta, alpha) = (("theta", row.theta, Quantity::Angle), ("alpha", row.alpha, Quantity::Angle));
-    let (d, a) = ((z, row.d, Quantity::Length), (x, row.a, Quantity::Length));
-    let branch = [("gamma", row.gamma, Quantity::Angle), ("b", row.b, Quantity::Length)];
-    let letters = match convention {
-        Convention::Standard => [theta, d, a, alpha],
-        Convention::Craig | Convention::Khalil => [alpha, a, theta, d],
-    };
-    for (key, e, quantity) in branch.into_iter().chain(letters) {
-        if !e.is_zero() {
-            let _ = writeln!(out, "{key} = {}", cell(e, quantity));
-        }
+    for c in convention.order().iter().filter(|c| !c.of(row).is_zero()) {
+        let quantity = if c.turns() { Quantity::Angle } else { Quantity::Length };
+        let _ = writeln!(out, "{} = {}", c.key(convention), cell(c.of(row), quantity));
     }
     let turns = row.variable.is_none_or(|v| v.kind == JointKind::Revolute);
     let (value, rate, change) = match turns {

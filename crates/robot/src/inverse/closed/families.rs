@@ -268,18 +268,10 @@ impl InverseSolver {
                 let length = norm(&direction);
                 direction.iter_mut().for_each(|d| *d /= length);
             }
-            answer.families.push(Family {
-                dimension: at.len(),
-                free: at.iter().map(|&(i, _)| self.nodes[i].unknown.clone()).collect(),
-                direction,
-                is_affine,
-                interval: (free.len() == 1).then(|| self.interval(pose, given, (free[0], steps), &group)),
-                feasible: vec![],
-                curve: vec![],
-                at,
-                signs,
-                representative,
-            });
+            let unknowns = at.iter().map(|&(i, _)| self.nodes[i].unknown.clone()).collect();
+            let interval = (free.len() == 1).then(|| self.interval(pose, given, (free[0], steps), &group));
+            let family = Family::new(representative, unknowns, direction);
+            answer.families.push(Family { is_affine, interval, at, signs, ..family });
         }
     }
 

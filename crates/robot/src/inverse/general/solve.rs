@@ -5,7 +5,7 @@ use crate::geometry::Transform;
 use crate::inverse::answer::{Answer, Doubt, Family, Solution};
 use crate::inverse::derivation::Goal;
 use crate::inverse::newton;
-use crate::inverse::self_motion::{follow, is_self_motion};
+use crate::inverse::self_motion::{SelfMotion, follow, is_self_motion};
 use crate::inverse::space::JointSpace;
 use crate::robot::Robot;
 use denavit_elimination::{self as elimination, Certificate, Plan};
@@ -123,18 +123,7 @@ impl GeneralSolver {
             };
             let motion = follow(robot, space, goal, pose, &s.q);
             answer.solutions.retain(|t| !self.is_on(pose, size, &motion.curve, &t.q));
-            answer.families.push(Family {
-                representative: s,
-                dimension: 1,
-                free: vec!["s".into()],
-                direction,
-                is_affine: motion.is_affine,
-                interval: None,
-                feasible: vec![],
-                curve: motion.curve,
-                at: vec![],
-                signs: vec![],
-            });
+            answer.families.push(Family::followed(s, SelfMotion { direction, ..motion }));
         }
     }
 

@@ -5,12 +5,12 @@
 //! turns, v = z for one that slides; a joint that stands in several rows moves by their sum.
 
 use super::task::{Frame, Linear, Place, Shape, apply, cross, sub};
-use crate::description::{Convention, Description};
+use crate::description::Description;
 use crate::forward::{Reference, frames_program};
 use crate::inverse::space::JointSpace;
 use crate::robot::{MissingValue, Robot};
 use denavit_program::{Graph, Program, Scalar, Value};
-use denavit_symbolic::{Expr, Symbol};
+use denavit_symbolic::Expr;
 use rustc_hash::FxHashSet;
 
 /// A row of the table that a joint moves: the row's axis, and by how much.
@@ -69,8 +69,6 @@ impl Motion {
         frames: &[Frame],
     ) -> Result<Self, MissingValue> {
         let rows = description.rows.len();
-        // Rz(θ)·Tz(d) stands first in a row of the standard convention, last in the others.
-        let standard = description.convention == Convention::Standard;
         let mut references = vec![];
         let mut movers = vec![];
         let mut results = 0;
@@ -88,7 +86,7 @@ impl Motion {
                 movers.push(Mover { row, at: results, joint, turn, slide });
             }
             if !joints.is_empty() {
-                references.push(Reference::Frame(if standard { row } else { row + 1 }));
+                references.push(Reference::Frame(description.convention.axis_frame(row)));
                 results += 6;
             }
         }
@@ -104,7 +102,7 @@ impl Motion {
             results += 12;
         }
         let program = program(description, &references, axes);
-        let scalar = program.compile(&values(description, &program)?).scalar();
+        let scalar = program.compile(&description.values(program.parameters())?).scalar();
         let units = space.is_angle.iter().map(|&a| if a { 1.0 } else { space.reach }).collect();
         Ok(Motion { scalar, movers, frames: moved, joints: robot.joints, units })
     }
@@ -175,16 +173,4 @@ fn program(description: &Description, frames: &[Reference], axes: usize) -> Prog
         }
     }
     Program::new(&graph, &results, |_| None, &FxHashSet::default())
-}
-
-/// The values of a program's parameters.
-fn values(description: &Description, program: &Program) -> Result<Vec<f64>, MissingValue> {
-    let value = |s: Symbol| description.parameters.iter().find(|p| p.symbol == s)?.value?.eval(|_| None).ok();
-    let of = |s: &Symbol| value(*s).ok_or_else(|| s.name().to_string());
-    let found: Vec<Result<f64, String>> = program.parameters().iter().map(of).collect();
-    let parameters: Vec<String> = found.iter().filter_map(|v| v.clone().err()).collect();
-    if !parameters.is_empty() {
-        return Err(MissingValue { parameters });
-    }
-    Ok(found.into_iter().flatten().collect())
 }

@@ -83,16 +83,11 @@ impl Manifold {
     pub fn answer(self) -> Answer {
         let dimension = self.dimension;
         let family = |c: Component| Family {
-            representative: c.representative,
             dimension,
-            free: vec![c.parameter],
-            direction: c.direction,
-            is_affine: false,
             interval: Some(c.domain),
             feasible: c.feasible,
             curve: c.curve,
-            at: vec![],
-            signs: vec![],
+            ..Family::new(c.representative, vec![c.parameter], c.direction)
         };
         let families = self.components.into_iter().map(family).collect();
         Answer { doubt: self.doubt, families, ..Answer::empty() }

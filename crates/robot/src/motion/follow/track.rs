@@ -117,13 +117,12 @@ impl Follower {
     pub fn new(description: &Description) -> Result<Self, Unprepared> {
         let inverse = InverseKinematics::new(description, &crate::inverse::Options::default())?;
         let found = Singularities::derive(description, Reference::Tool).ok();
-        let value = |p: &crate::description::Parameter| Some((p.symbol, p.value?.eval(|_| None).ok()?));
         let factor = |expr: Expr| Factor { expr, program: program(description, expr) };
         Ok(Follower {
             inverse,
             is_complete: found.as_ref().is_some_and(|f| f.is_complete),
             factors: found.map(|f| f.common.iter().map(|s| factor(s.factor)).collect()),
-            parameters: description.parameters.iter().filter_map(value).collect(),
+            parameters: description.known_values(),
         })
     }
 

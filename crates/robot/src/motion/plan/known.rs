@@ -21,8 +21,7 @@ pub struct KnownLimits {
 impl KnownLimits {
     /// Those that a description states: velocities and accelerations.
     pub fn of(description: &Description) -> Self {
-        let value =
-            |s: Symbol| description.parameters.iter().find(|p| p.symbol == s)?.value?.eval(|_| None).ok();
+        let value = |s: Symbol| description.value(s);
         let all = |cell: &dyn Fn(&Row) -> Option<Expr>| -> Option<Vec<f64>> {
             let rows = description.rows.iter().filter(|r| r.variable.is_some());
             rows.map(|r| cell(r)?.eval(value).ok()).collect()

@@ -180,13 +180,11 @@ impl Planned {
 mod tests {
     use super::*;
     use crate::catalogue;
-    use crate::description::read_toml;
     use crate::motion::MotionError;
     use crate::motion::hand::{Line, Orientation};
 
     fn ur5() -> (Description, Robot<f64>) {
-        let text = catalogue::text("ur5").expect("it is in the catalogue");
-        let (d, _) = read_toml(text).expect("it can be read");
+        let d = catalogue::robot("ur5").expect("it is in the catalogue");
         let robot = Robot::numeric(&d).expect("all parameters have values");
         (d, robot)
     }

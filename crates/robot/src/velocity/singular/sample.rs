@@ -34,10 +34,9 @@ impl Finder {
     /// For a robot.
     pub fn new(description: &Description) -> Self {
         let with_values = description.filled();
-        let value = |p: &crate::description::Parameter| Some((p.symbol, p.value?.eval(|_| None).ok()?));
         Finder {
             robot: Robot::numeric(&with_values).ok(),
-            values: with_values.parameters.iter().filter_map(value).collect(),
+            values: with_values.known_values(),
             variables: description.variables().iter().map(|v| v.symbol).collect(),
         }
     }

@@ -4,12 +4,11 @@
 pub mod printed;
 
 use denavit::catalogue;
-use denavit::description::{Description, Diagnostic, line_column, read_toml, render};
+use denavit::description::{Description, Diagnostic, line_column};
 
 /// A robot of the catalogue.
 pub fn robot(name: &str) -> Description {
-    let text = catalogue::text(name).expect("a robot of the catalogue");
-    read_toml(text).unwrap_or_else(|e| panic!("{}", render(&e, name, text))).0
+    catalogue::robot(name).unwrap_or_else(|| panic!("no robot {name}"))
 }
 
 /// `line:column severity: message | hint` of each finding.
