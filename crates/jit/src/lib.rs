@@ -35,6 +35,11 @@
 //!
 //! The code lives in memory of its own, which no part of a program can write once it can run. It is freed with the last
 //! [`MachineCode`] that uses it.
+//!
+//! [`Function`]: denavit_program::Function
+//! [`Function::scalar`]: denavit_program::Function::scalar
+//! [`Function::batch`]: denavit_program::Function::batch
+//! [`Function::target`]: denavit_program::Function::target
 
 mod code;
 mod emit;
