@@ -4,6 +4,7 @@
 //! Khalil's. The same product is cut at other places: each X moves to the neighbouring row, and the one at the
 //! end of the chain becomes part of the base or of the tool.
 
+use super::order::Screw;
 use super::{Convention, Description, Row};
 use crate::geometry::{Axis, Rotation, Transform, Vector};
 use denavit_symbolic::{Angle, Expr, Refusal, Ring, Verdict, equal};
@@ -35,28 +36,6 @@ impl SameChain {
     /// True if proved equal.
     pub fn is_equal(&self) -> bool {
         *self == SameChain::Equal
-    }
-}
-
-/// Rotation about and translation along one axis.
-#[derive(Clone, Copy, PartialEq, Debug)]
-struct Screw {
-    axis: Axis,
-    angle: Expr,
-    length: Expr,
-}
-
-impl Screw {
-    fn is_identity(&self) -> bool {
-        self.angle.is_zero() && self.length.is_zero()
-    }
-
-    fn transform(&self) -> Transform<Expr> {
-        let shift = match self.axis {
-            Axis::Z => Transform::translation_z(self.length),
-            Axis::X | Axis::Y => Transform::translation_x(self.length),
-        };
-        Transform::rotation_about(self.axis, self.angle) * shift
     }
 }
 
@@ -151,13 +130,7 @@ impl Description {
     fn screws(&self) -> Vec<Screw> {
         let mut screws: Vec<Screw> = vec![];
         for row in &self.rows {
-            let (z, x) = (z_screw(row.theta, row.d), x_screw(row.alpha, row.a));
-            let row = match self.convention {
-                Convention::Standard => vec![z, x],
-                Convention::Craig => vec![x, z],
-                Convention::Khalil => vec![z_screw(row.gamma, row.b), x, z],
-            };
-            for screw in row {
+            for screw in row.screws(self.convention) {
                 if let Some(last) = screws.last_mut().filter(|l| l.axis == screw.axis) {
                     last.angle = Angle::of(last.angle + screw.angle).to_expr();
                     last.length = Angle::of(last.length + screw.length).to_expr();

@@ -3,8 +3,8 @@
 use super::setting::{Sample, Setting};
 use crate::description::{Description, JointKind};
 use crate::geometry::Transform;
-use crate::inverse::derivation::Random;
 use crate::inverse::{Answer, Goal, InverseKinematics, InverseModel, InverseSolver, Options};
+use crate::random::Random;
 use crate::robot::Robot;
 use crate::structure::Structure;
 use denavit_symbolic::{Expr, Rational, Symbol};

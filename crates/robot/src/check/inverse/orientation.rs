@@ -8,7 +8,7 @@ use super::proof;
 use super::setting::{Sample, Setting, Unknown};
 use crate::geometry::Rotation;
 use crate::geometry::orientation::{OrientationSet, extract, extraction_formulas, rotation};
-use crate::inverse::derivation::Random;
+use crate::random::Random;
 use denavit_symbolic::{Expr, Symbol};
 use std::f64::consts::{FRAC_PI_2, PI};
 
