@@ -416,8 +416,9 @@ pub(super) fn counterexample(printed: Expr, right: Expr, subject: &Subject) -> O
         let value = |s: Symbol| -> Option<f64> {
             let index = symbols.iter().position(|x| *x == s)?;
             let known = d.value(s);
-            let turns =
-                variables.iter().any(|v| v.symbol == s && v.kind == denavit::description::JointKind::Revolute);
+            let turns = variables
+                .iter()
+                .any(|v| v.symbol == s && v.kind == denavit::description::JointKind::Revolute);
             let spread = f64::from((seed * 37 + 17 * index as u32 + 20) % 160);
             Some(match known {
                 Some(x) => x,

@@ -13,7 +13,7 @@ fn main() {
     println!("{}; depth {}", program.count(), program.depth());
 
     // The lengths get their values; nothing is compiled again when they change.
-    let length = |s: Symbol| robot.value(s);
+    let length = |s| robot.value(s);
     let fk = program.compile_with(length).expect("the catalogue gives all lengths");
     let q = [0.1, -1.2, 1.4, 0.3, 0.8, -0.5];
     let pose = fk.scalar().eval(&q).to_vec();

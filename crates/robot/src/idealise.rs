@@ -7,8 +7,9 @@
 use crate::description::{Convention, Description, JointKind, Row};
 use crate::geometry::orientation::{OrientationSet, extract};
 use crate::geometry::{Rotation, Transform, Vector};
-use crate::inverse::{JointSpace, Random};
-use crate::robot::{MissingValue, Robot};
+use crate::mechanism::{MissingValue, Reference, Robot, Walk};
+use crate::random::Random;
+use crate::space::JointSpace;
 use denavit_symbolic::{Expr, Rational};
 use std::f64::consts::PI;
 
@@ -87,11 +88,11 @@ pub fn idealised(description: &Description, tolerance: f64) -> Result<Ideal, Mis
     let axes = axes_at_rest(&robot);
     let mut snaps = vec![];
     let mut rows: Vec<Row> = vec![];
-    let moving: Vec<usize> = (0..robot.links.len()).filter(|&k| moves(&robot, k)).collect();
+    let moving: Vec<usize> = (0..robot.links.len()).filter(|&k| robot.links[k].moves()).collect();
     let size = size(&axes.frames);
     let mut here = axes.frames[0];
     for (k, &link) in moving.iter().enumerate() {
-        let turns = !robot.links[link].theta.terms.is_empty();
+        let turns = robot.links[link].turns();
         let (place, there) = match axes.frames.get(k + 1) {
             Some(next) => Place::of(&(here.inverse() * *next), tolerance),
             None => (Place::default(), Transform::identity()),
@@ -145,12 +146,6 @@ pub fn idealised(description: &Description, tolerance: f64) -> Result<Ideal, Mis
     Ok(Ideal { description: ideal, snaps, rotation_error, position_error })
 }
 
-/// True if link `k` moves.
-fn moves(robot: &Robot<f64>, k: usize) -> bool {
-    let link = &robot.links[k];
-    !link.theta.terms.is_empty() || !link.d.terms.is_empty()
-}
-
 /// The arm with all joint variables 0.
 struct AtRest {
     /// A frame on each axis, z along it.
@@ -159,16 +154,10 @@ struct AtRest {
 }
 
 fn axes_at_rest(robot: &Robot<f64>) -> AtRest {
-    let rest = vec![0.0; robot.joints];
-    let mut here = robot.base;
-    let mut frames = vec![];
-    for (k, link) in robot.links.iter().enumerate() {
-        if moves(robot, k) {
-            frames.push(here * link.before);
-        }
-        here = here * link.transform(&rest);
-    }
-    AtRest { frames, tool: here * robot.tool }
+    let walk = Walk::seen_from(robot, &vec![0.0; robot.joints], Reference::Base);
+    let place = |k: usize| walk.place(Reference::Frame(k)) * robot.links[k].before;
+    let frames = (0..robot.links.len()).filter(|&k| robot.links[k].moves()).map(place).collect();
+    AtRest { frames, tool: walk.place(Reference::Tool) }
 }
 
 /// The sum of the distances between consecutive axes, each from the point where the one before was reached.

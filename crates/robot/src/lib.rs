@@ -2,7 +2,8 @@
 //!
 //! - [`description`]: what somebody wrote down, made precise: tables, robot files, their errors.
 //! - [`geometry`]: homogeneous transforms and orientations, usable on their own.
-//! - [`robot`]: the chain to compute with, over numbers or formulas.
+//! - [`space`]: the joint variables: angles and lengths, limits, copies whole turns away.
+//! - [`mechanism`]: the chain to compute with, over numbers or formulas; its moving axes; walks along it.
 //! - [`structure`]: parallel and meeting axes, spherical wrists.
 //! - [`idealise`]: the special arm beside a nearly special one.
 //! - [`inverse`]: inverse kinematics of any arm: closed forms with their derivation, elimination, redundancy, descent.
@@ -19,15 +20,17 @@ pub mod forward;
 pub mod geometry;
 pub mod idealise;
 pub mod inverse;
+pub mod mechanism;
 pub mod motion;
-pub mod robot;
+pub mod random;
 pub mod scalar;
+pub mod space;
 pub mod structure;
 pub mod velocity;
 pub mod workspace;
 
 pub use description::Description;
-pub use robot::Robot;
+pub use mechanism::{Robot, robot};
 pub use scalar::Scalar;
 
 /// The code in the README is true.

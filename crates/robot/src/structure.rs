@@ -4,8 +4,8 @@
 //! by their formulas. Axes that are nearly so in numbers are reported apart.
 
 use crate::description::{Description, JointKind};
-use crate::geometry::{Rotation, Transform, Vector};
-use crate::robot::{Link, Robot};
+use crate::geometry::Transform;
+use crate::mechanism::{Lengths, MovingAxes, Robot};
 use denavit_symbolic::{Expr, readable};
 use std::fmt;
 
@@ -160,31 +160,18 @@ fn parallel_runs(joints: &[JointKind], relations: &[Relation]) -> Vec<Vec<usize>
 
 /// The constant transform from the frame behind joint k's motion to the frame before joint k+1's.
 fn between_joints(description: &Description) -> Vec<Transform<Expr>> {
-    let robot = Robot::symbolic(description);
+    let axes = MovingAxes::new(&Robot::symbolic(description), Lengths::Behind);
     let mut found: Vec<Transform<Expr>> = vec![];
     let mut current: Option<Transform<Expr>> = None;
-    for (link, row) in robot.links.iter().zip(&description.rows) {
-        let before = current.map(|x| x * link.before);
-        let fixed = resting_screw(link);
-        match row.variable {
-            Some(_) => {
-                // Rz and Tz about one axis commute: the joint's constant part stands behind its motion.
-                found.extend(before);
-                current = Some(fixed * link.after);
-            }
-            None => current = before.map(|x| x * fixed * link.after),
-        }
+    for (axis, constant) in axes.moving.iter().zip(&axes.constants) {
+        let before = current.map(|x| x * *constant);
+        // An axis that only follows other joints counts as at rest.
+        let is_own = description.rows[axis.row].variable.is_some_and(|v| v.kind == axis.kind);
+        found.extend(before.filter(|_| is_own));
+        let start = if is_own { Some(Transform::identity()) } else { before };
+        current = start.map(|x| x * axis.at_rest());
     }
     found.iter().map(|x| x.map(readable::settled)).collect()
-}
-
-/// Rz(θ)·Tz(d) without the joint variables.
-fn resting_screw(link: &Link<Expr>) -> Transform<Expr> {
-    let mut turn = Rotation::about_z(link.theta.offset);
-    for _ in 0..link.theta.quarters {
-        turn = turn * Rotation::about_z(Expr::pi() / Expr::int(2));
-    }
-    Transform::from_rotation_translation(turn, Vector([Expr::int(0), Expr::int(0), link.d.offset]))
 }
 
 /// How the z axis of a frame lies to the z axis it is given from, and where the two meet: the coordinate of the

@@ -3,8 +3,8 @@
 use super::setting::{Sample, Setting};
 use denavit::description::{Description, JointKind};
 use denavit::geometry::Transform;
-use denavit::inverse::derivation::Random;
 use denavit::inverse::{Answer, Goal, InverseKinematics, InverseModel, InverseSolver, Options};
+use denavit::random::Random;
 use denavit::robot::Robot;
 use denavit::structure::Structure;
 use denavit_symbolic::{Expr, Rational, Symbol};

@@ -8,7 +8,7 @@ use super::proof;
 use super::setting::{Sample, Setting, Unknown};
 use denavit::geometry::Rotation;
 use denavit::geometry::orientation::{OrientationSet, extract, extraction_formulas, rotation};
-use denavit::inverse::derivation::Random;
+use denavit::random::Random;
 use denavit_symbolic::{Expr, Symbol};
 use std::f64::consts::{FRAC_PI_2, PI};
 

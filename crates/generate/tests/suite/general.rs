@@ -1,12 +1,12 @@
 //! Generated inverse kinematics by elimination: built, and run on its own vectors.
 
 use denavit::description::{JointKind, read_toml};
-use denavit_generate::{Generated, Options, Wanted, generate};
 use denavit::geometry::{Rotation, Transform};
 use denavit::inverse::general::GeneralSolver;
 use denavit::inverse::{self, Goal, JointSpace};
 use denavit::{Description, Robot, catalogue};
 use denavit_emit::{Language, Precision};
+use denavit_generate::{Generated, Options, Wanted, generate};
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};

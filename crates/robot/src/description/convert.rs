@@ -129,7 +129,7 @@ impl Description {
     fn screws(&self) -> Vec<Screw> {
         let mut screws: Vec<Screw> = vec![];
         for row in &self.rows {
-            for screw in row.screws(self.convention).0 {
+            for screw in row.screws(self.convention) {
                 if let Some(last) = screws.last_mut().filter(|l| l.axis == screw.axis) {
                     last.angle = Angle::of(last.angle + screw.angle).to_expr();
                     last.length = Angle::of(last.length + screw.length).to_expr();

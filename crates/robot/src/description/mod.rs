@@ -1,13 +1,13 @@
 //! What somebody wrote down about a robot: its Denavit–Hartenberg table, exactly.
 //!
 //! A [`Description`] is text made precise: every cell an exact formula in parameters and joint variables. It is
-//! read from a robot file or from a table as it stands in a document, and turned into a
-//! [`Robot`](crate::robot::Robot) to compute with.
+//! read from a robot file or from a table as it stands in a document, and turned into a `Robot` to compute with.
 
 mod cell;
 pub mod convert;
 pub mod diagnostic;
 mod filled;
+mod joints;
 mod named;
 mod names;
 mod order;
@@ -21,7 +21,7 @@ mod value;
 pub use cell::MAX_LENGTH as MAX_CELL_BYTES;
 pub use convert::{Conversion, SameChain, prove_same_chain};
 pub use diagnostic::{Diagnostic, Diagnostics, Severity, line_column, render};
-pub use order::{Cell, Screw};
+pub use order::{Cell, Screw, Screws};
 pub use parameters::MissingValue;
 pub use robot_file::{MAX_BYTES, MAX_ROWS, read_toml, write_toml};
 pub use table::{TableKind, TableOptions, read_table};

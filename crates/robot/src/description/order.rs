@@ -33,6 +33,17 @@ pub struct Screw {
     pub length: Expr,
 }
 
+/// The screws of a row, in order.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Screws {
+    /// The constant ones before the joint's.
+    pub before: Vec<Screw>,
+    /// The joint's own: θ and d.
+    pub joint: Screw,
+    /// The constant ones behind it.
+    pub behind: Vec<Screw>,
+}
+
 impl Cell {
     /// The axis that it turns about or slides along.
     pub fn axis(self) -> Axis {
@@ -109,9 +120,15 @@ impl Convention {
         }
     }
 
+    /// True if a row begins with its joint's screw, so that its axis is the z of the frame before; in the other conventions
+    /// it is the z of the row's own frame.
+    pub fn begins_with_joint(self) -> bool {
+        self.order()[0] == Cell::Theta
+    }
+
     /// The frame whose z is the axis of θ and d of a row (from 0): the one before the row, or the row's own.
     pub fn axis_frame(self, row: usize) -> usize {
-        if self.order()[0] == Cell::Theta { row } else { row + 1 }
+        if self.begins_with_joint() { row } else { row + 1 }
     }
 }
 
@@ -130,19 +147,20 @@ impl Row {
         !self.gamma.is_zero() || !self.b.is_zero()
     }
 
-    /// The row as the screws about its axes, in order, and which of them is θ, d.
-    pub fn screws(&self, convention: Convention) -> (Vec<Screw>, usize) {
-        let order = convention.order();
-        let value = |axis: &[Cell], turns: bool| {
+    /// What the row multiplies.
+    pub fn screws(&self, convention: Convention) -> Screws {
+        let cell = |axis: &[Cell], turns: bool| {
             axis.iter().find(|c| c.turns() == turns).map_or(Expr::int(0), |c| c.of(self))
         };
         let screw = |axis: &[Cell]| Screw {
             axis: axis[0].axis(),
-            angle: value(axis, true),
-            length: value(axis, false),
+            angle: cell(axis, true),
+            length: cell(axis, false),
         };
-        let moving = order.iter().position(|c| *c == Cell::Theta).map_or(0, |k| k / 2);
-        (order.chunks(2).map(screw).collect(), moving)
+        let axes: Vec<&[Cell]> = convention.order().chunks(2).collect();
+        let joint = axes.iter().position(|a| a.contains(&Cell::Theta)).unwrap_or_default();
+        let all = |axes: &[&[Cell]]| axes.iter().map(|a| screw(a)).collect();
+        Screws { before: all(&axes[..joint]), joint: screw(axes[joint]), behind: all(&axes[joint + 1..]) }
     }
 }
 
@@ -160,5 +178,16 @@ impl Screw {
             Axis::Z => Transform::translation_z(self.length),
         };
         Transform::rotation_about(self.axis, self.angle) * shift
+    }
+}
+
+impl IntoIterator for Screws {
+    type Item = Screw;
+    type IntoIter = std::vec::IntoIter<Screw>;
+    fn into_iter(self) -> Self::IntoIter {
+        let mut all = self.before;
+        all.push(self.joint);
+        all.extend(self.behind);
+        all.into_iter()
     }
 }

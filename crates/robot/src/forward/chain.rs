@@ -5,9 +5,11 @@
 //! a factor: Rz(θ2)·Tx(a)·Rz(θ3) is Rz(θ2+θ3) with the item a·(C2, S2, 0) before it. Whether axes are parallel is
 //! read off the exact constant rotation between them, so that a turn there and back is found, and 89.99° is not.
 
-use crate::description::{Convention, Description};
+use crate::description::Description;
 use crate::geometry::{Axis, Rotation, Transform, Vector};
-use denavit_symbolic::{Angle, Expr, Node, Rational, Symbol, equal, readable};
+use crate::mechanism::elements::{Elementary, elements};
+use crate::mechanism::parallel::{flip, parallel};
+use denavit_symbolic::{Angle, Expr, Symbol, readable};
 
 /// A chain of rotations about one angle each, with the displacements between them.
 #[derive(Clone, Debug)]
@@ -33,45 +35,12 @@ pub struct Item {
     pub length: Expr,
 }
 
-/// An elementary transform of the table.
-pub(super) enum Elementary {
-    Turn(Axis, Expr),
-    Shift(Axis, Expr),
-    Fixed(Transform<Expr>),
-    /// The end of a row of the table.
-    EndOfRow(usize),
-}
-
-/// What rows `from+1 … to` multiply, in order, with the base before row 1 and the tool behind the last on request.
-pub(super) fn elements(
-    description: &Description,
-    from: usize,
-    to: usize,
-    base: bool,
-    tool: bool,
-) -> Vec<Elementary> {
-    use Elementary::{Shift, Turn};
-    let mut elements = vec![];
-    if base {
-        elements.push(Elementary::Fixed(description.base));
-    }
-    for (i, row) in description.rows.iter().enumerate().take(to).skip(from) {
-        let screws = row.screws(description.convention).0.into_iter();
-        elements.extend(screws.flat_map(|s| [Turn(s.axis, s.angle), Shift(s.axis, s.length)]));
-        elements.push(Elementary::EndOfRow(i + 1));
-    }
-    if tool {
-        elements.push(Elementary::Fixed(description.tool));
-    }
-    elements
-}
-
 impl Chain {
     /// The chain of rows `from+1 … to`, with the base before row 1 and the tool behind the last on request.
     pub fn new(description: &Description, from: usize, to: usize, base: bool, tool: bool) -> Self {
         let mut builder = Builder {
             variables: description.variables().iter().map(|v| v.symbol).collect(),
-            folds_behind: description.convention == Convention::Standard,
+            folds_behind: description.convention.begins_with_joint(),
             chain: Chain { factors: vec![], items: vec![], angles: vec![], frames: vec![from] },
             group: None,
             constant: Rotation::identity(),
@@ -228,10 +197,6 @@ impl Builder {
     }
 }
 
-pub(super) fn flip(flipped: bool) -> Rotation<Expr> {
-    if flipped { Rotation::about_x(Expr::pi()) } else { Rotation::identity() }
-}
-
 fn is_signed_unit(v: Vector<Expr>) -> bool {
     v.0.iter().filter(|e| !e.is_zero()).count() == 1
         && v.0.iter().all(|e| e.as_number().is_some_and(|r| r.is_zero() || r.abs().is_one()))
@@ -239,28 +204,4 @@ fn is_signed_unit(v: Vector<Expr>) -> bool {
 
 fn is_signed_permutation(r: &Rotation<Expr>) -> bool {
     [r.x(), r.y(), r.z()].into_iter().all(is_signed_unit)
-}
-
-/// If the rotation is Rz(γ) or Rz(γ)·Rx(π): γ, and whether z is reversed.
-pub(super) fn parallel(r: &Rotation<Expr>) -> Option<(Expr, bool)> {
-    let [[c, _, x], [s, _, y], [_, _, z]] = r.rows();
-    if !x.is_zero() || !y.is_zero() {
-        return None;
-    }
-    let flipped = z.as_number()?.is_negative();
-    Some((constant_angle(s, c)?, flipped))
-}
-
-/// The constant angle with this sine and cosine, if it is a multiple of π/60 or stands there as a symbol.
-fn constant_angle(s: Expr, c: Expr) -> Option<Expr> {
-    if let Node::Cos(a) = c.node()
-        && let Some(angle) = [a, -a].into_iter().find(|x| x.sin() == s)
-    {
-        return Some(angle);
-    }
-    let numeric = s.eval(|_| None).ok()?.atan2(c.eval(|_| None).ok()?);
-    let sixtieths = (numeric / std::f64::consts::PI * 60.0).round();
-    let gamma = Expr::from(Rational::new(sixtieths as i64, 60)) * Expr::pi();
-    let (exact_s, exact_c) = gamma.sin_cos();
-    (equal(exact_s, s).is_equal() && equal(exact_c, c).is_equal()).then_some(gamma)
 }

@@ -5,11 +5,10 @@
 
 use crate::description::Description;
 use crate::forward::algorithm::{Outputs, entry_name};
-use crate::forward::chain::{Elementary, elements, flip, parallel};
-use crate::forward::model::{ForwardModel, Reference};
-use crate::geometry::{Axis, Rotation, Transform};
+use crate::forward::model::ForwardModel;
+use crate::mechanism::{Reference, Walk};
 use denavit_program::{Graph, Op, Program, Value};
-use denavit_symbolic::{Expr, Rational, Symbol, readable};
+use denavit_symbolic::{Expr, Rational, Symbol};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// The tool in the base: the algorithm of [`ForwardModel::of_tool`] with the sixteen entries `t11`, `t12` … `t44` as its
@@ -83,7 +82,7 @@ pub fn frames_program(description: &Description, of: &[Reference]) -> Program {
     let parameters: Vec<Symbol> = description.parameters.iter().map(|p| p.symbol).collect();
     let taken: FxHashSet<String> =
         variables.iter().chain(&parameters).map(|s| s.name().to_string()).collect();
-    let walked = Walked::new(description);
+    let walked = Walk::merged(description);
     let mut graph = Graph::new(&variables, &parameters);
     let mut entries = |frame: Reference| -> Vec<(String, Value)> {
         let label = match frame {
@@ -97,98 +96,11 @@ pub fn frames_program(description: &Description, of: &[Reference]) -> Program {
     };
     // A shared value that is no result has the name of the first frame in which it stands.
     let mut names: FxHashMap<u32, String> = FxHashMap::default();
-    for i in 0..walked.frames.len() {
+    for i in 0..=description.rows.len() {
         for (name, v) in entries(Reference::Frame(i)) {
             names.entry(v.node).or_insert(name);
         }
     }
     let results: Vec<(String, Value)> = of.iter().flat_map(|&frame| entries(frame)).collect();
     Program::new(&graph, &results, |node| names.get(&node).cloned(), &taken)
-}
-
-/// Every frame in the base as a product along the chain, each from the one before.
-#[derive(Clone, Debug)]
-pub struct Walked {
-    /// Frames 0 … n.
-    frames: Vec<Transform<Expr>>,
-    tool: Transform<Expr>,
-}
-
-impl Walked {
-    /// The frames of a robot. The only rule besides multiplication is Rz(a)·Rz(b) = Rz(a+b), for axes that are exactly
-    /// parallel.
-    pub fn new(description: &Description) -> Self {
-        let n = description.rows.len();
-        let mut walk = Walk {
-            x: description.base,
-            before: description.base.rotation,
-            angle: Expr::int(0),
-            since: Rotation::identity(),
-        };
-        let mut frames = vec![walk.x];
-        for e in elements(description, 0, n, false, true) {
-            match e {
-                Elementary::Turn(Axis::Z, angle) => walk.joint(angle),
-                Elementary::Turn(axis, angle) => walk.turn(Rotation::about(axis, angle)),
-                Elementary::Shift(axis, length) => walk.shift(axis, length),
-                Elementary::EndOfRow(_) => frames.push(walk.x),
-                Elementary::Fixed(tool) => {
-                    for axis in Axis::ALL {
-                        walk.shift(axis, tool.translation.0[axis.index()]);
-                    }
-                    walk.turn(tool.rotation);
-                }
-            }
-        }
-        Walked { frames, tool: walk.x }
-    }
-
-    /// A frame in the base.
-    ///
-    /// # Panics
-    /// If the robot has no such frame.
-    pub fn place(&self, frame: Reference) -> Transform<Expr> {
-        match frame {
-            Reference::Base => Transform::identity(),
-            Reference::Frame(i) => self.frames[i],
-            Reference::Tool => self.tool,
-        }
-    }
-}
-
-/// The place reached: its rotation is `before · Rz(angle) · since`, with a constant `since`.
-struct Walk {
-    x: Transform<Expr>,
-    before: Rotation<Expr>,
-    angle: Expr,
-    since: Rotation<Expr>,
-}
-
-impl Walk {
-    /// About the current z. If that is parallel to the z of the turn before, the angles are added and `before`,
-    /// which often has zeros, serves again.
-    fn joint(&mut self, theta: Expr) {
-        match parallel(&self.since) {
-            // Rz(φ)·Rz(γ)·S·Rz(θ) = Rz(φ + γ ± θ)·S, with S = 1 or Rx(π)
-            Some((gamma, flipped)) => {
-                self.angle = self.angle + gamma + if flipped { -theta } else { theta };
-                self.since = flip(flipped);
-            }
-            None => {
-                (self.before, self.angle, self.since) = (self.x.rotation, theta, Rotation::identity());
-            }
-        }
-        self.x.rotation = self.before * Rotation::about_z(self.angle) * self.since;
-    }
-
-    /// A constant rotation.
-    fn turn(&mut self, r: Rotation<Expr>) {
-        self.since = (self.since * r).map(readable::settled);
-        self.x.rotation = self.x.rotation * r;
-    }
-
-    /// Along a current axis.
-    fn shift(&mut self, axis: Axis, length: Expr) {
-        self.x.translation = self.x.translation + self.x.rotation.column(axis).scale(length);
-    }
 }

@@ -5,7 +5,8 @@ mod chain;
 mod frames;
 mod model;
 
+pub use crate::mechanism::Reference;
 pub use algorithm::{Outputs, Proof, entry_name};
 pub use chain::Chain;
-pub use frames::{Walked, frames_program, pose_program};
-pub use model::{ForwardModel, Reference, link_transforms, prove, symbol_order};
+pub use frames::{frames_program, pose_program};
+pub use model::{ForwardModel, link_transforms, prove, symbol_order};

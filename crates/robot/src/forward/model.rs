@@ -4,21 +4,10 @@ use crate::description::Description;
 use crate::forward::algorithm::{self, Outputs, Proof, entry_name};
 use crate::forward::chain::Chain;
 use crate::geometry::Transform;
-use crate::robot::Robot;
+use crate::mechanism::{Reference, Robot};
 use denavit_program::{Function, Graph, MissingValue, Program};
 use denavit_symbolic::{Expr, Refusal, Ring, Symbol, readable};
 use rustc_hash::FxHashSet;
-
-/// A frame of the robot.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Reference {
-    /// The base, in which frame 0 has a constant place.
-    Base,
-    /// The frame behind row i; frame 0 stands before row 1.
-    Frame(usize),
-    /// The tool, at a constant place in the last frame.
-    Tool,
-}
 
 /// A transform between two frames as formulas.
 #[derive(Clone, Debug)]

@@ -11,16 +11,17 @@
 
 use super::answer::{Answer, Doubt, Family, Obstacle, Solution};
 use super::closed::InverseSolver;
-use super::derivation::{Goal, InverseModel, Options, Random, Refusal};
+use super::derivation::{Goal, InverseModel, Options, Refusal};
 use super::general::GeneralSolver;
 use super::newton;
 use super::numeric::NumericSolver;
 use super::redundant::{Criterion, RedundantSolver};
 use super::self_motion::{follow, follow_loosely};
-use super::space::{JointSpace, norm};
 use crate::description::Description;
 use crate::geometry::Transform;
-use crate::robot::{MissingValue, Robot};
+use crate::mechanism::{MissingValue, Robot};
+use crate::random::Random;
+use crate::space::{JointSpace, norm};
 use crate::structure::{NearlySpecial, Structure};
 use std::f64::consts::{PI, TAU};
 use std::fmt;

@@ -4,8 +4,8 @@ use super::answer::Family;
 use super::dispatch::{InverseKinematics, TOLERANCE};
 use super::newton;
 use super::self_motion::follow_loosely;
-use super::space::JointSpace;
 use crate::geometry::Transform;
+use crate::space::JointSpace;
 use std::f64::consts::TAU;
 
 /// The most members.

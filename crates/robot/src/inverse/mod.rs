@@ -17,8 +17,8 @@ pub(crate) mod newton;
 pub mod numeric;
 pub mod redundant;
 pub mod self_motion;
-mod space;
 
+pub use crate::space::JointSpace;
 pub use answer::{Answer, Doubt, Family, Obstacle, Solution};
 pub use closed::{InverseSolver, variables};
 pub use derivation::*;
@@ -27,4 +27,3 @@ pub use members::{MAX_MEMBERS, Members};
 pub use numeric::NumericSolver;
 pub use redundant::{Component, Criterion, Manifold, NotSolved, RedundantSolver};
 pub use self_motion::{CurveEnd, SelfMotion};
-pub use space::JointSpace;

@@ -1,8 +1,9 @@
 //! Newton's method on the pose.
 
-use super::derivation::{Goal, Random};
+use super::derivation::Goal;
 use crate::geometry::{Axis, Rotation, Transform, Vector};
-use crate::robot::Robot;
+use crate::mechanism::Robot;
+use crate::random::Random;
 use crate::velocity;
 
 /// Steps of a polish; two or three are usual.

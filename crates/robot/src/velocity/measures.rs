@@ -2,7 +2,7 @@
 
 use super::geometric::{Jacobian, Viewpoint, geometric};
 use super::svd::{Svd, dot, svd};
-use crate::robot::Robot;
+use crate::mechanism::Robot;
 
 /// What one block of rows can do: the linear one in metres a radian, or the angular one without unit.
 #[derive(Clone, PartialEq, Debug)]

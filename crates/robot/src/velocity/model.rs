@@ -1,11 +1,11 @@
 //! The Jacobian as formulas, its algorithm, and the proof that it is the derivative of the forward model.
 
-use super::geometric::{Jacobian, Seen, Viewpoint, geometric, rows_before};
+use super::geometric::{Jacobian, Viewpoint, geometric};
 use super::program::entry_name;
 use crate::description::Description;
 use crate::forward::{Proof, Reference, prove, symbol_order};
 use crate::geometry::{Axis, Transform, Vector};
-use crate::robot::Robot;
+use crate::mechanism::{Robot, Walk};
 use denavit_program::{Function, Graph, MissingValue, Program, Value};
 use denavit_symbolic::{Expr, Refusal, Symbol, readable};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -50,7 +50,7 @@ impl JacobianModel {
     /// all entries. The twist in any other frame and at any other point of the body follows from
     /// it by a rotation and a lever arm.
     pub fn shortest(description: &Description, body: Reference) -> Self {
-        let frames = rows_before(&Robot::symbolic(description), body);
+        let frames = Robot::symbolic(description).rows_before(body);
         let points: Vec<Reference> = (0..=frames).rev().map(Reference::Frame).collect();
         Self::shortest_of(description, body, &points)
     }
@@ -64,7 +64,7 @@ impl JacobianModel {
     fn shortest_of(description: &Description, body: Reference, points: &[Reference]) -> Self {
         let robot = Robot::symbolic(description);
         let q = variables(description);
-        let n = rows_before(&robot, body);
+        let n = robot.rows_before(body);
         let mut shortener = Shortener::new(description);
         // From the middle of the chain formulas are shortest; what comes later is soon known to be longer.
         let mut middle_first: Vec<usize> = (0..=n).collect();
@@ -178,7 +178,7 @@ fn proof(
     algorithm: &Program,
 ) -> Proof {
     let q = variables(description);
-    let seen = Seen::from(robot, &q, Reference::Base);
+    let seen = Walk::seen_from(robot, &q, Reference::Base);
     let body = seen.place(view.body);
     let derivatives = differentiated(description, &body);
     let axes = seen.place(view.axes).rotation;

@@ -1,10 +1,9 @@
 //! Programs of Jacobians for evaluators and generated code: one pass along the chain, parallel axes merged.
 
-use super::geometric::{Viewpoint, rows_before};
+use super::geometric::Viewpoint;
 use crate::description::Description;
-use crate::forward::{Reference, Walked};
-use crate::geometry::{Transform, Vector};
-use crate::robot::Robot;
+use crate::geometry::Vector;
+use crate::mechanism::{Reference, Robot, Twist, Walk};
 use denavit_program::{Graph, Program, Value};
 use denavit_symbolic::{Expr, Symbol};
 use rustc_hash::FxHashSet;
@@ -29,7 +28,7 @@ pub fn jacobian_program(description: &Description, view: &Viewpoint<Expr>) -> Pr
 /// If the robot has no such frame.
 pub fn jacobian_and_pose_program(description: &Description, view: &Viewpoint<Expr>) -> Program {
     let columns = Columns::new(description, view);
-    let pose = columns.walked.place(view.body).matrix();
+    let pose = columns.walk.place(view.body).matrix();
     let entry = |r: usize, c: usize| (format!("t{}{}", r + 1, c + 1), pose[r][c]);
     let entries: Vec<(String, Expr)> = (0..16).map(|k| entry(k / 4, k % 4)).collect();
     columns.program(&entries)
@@ -39,34 +38,24 @@ pub fn jacobian_and_pose_program(description: &Description, view: &Viewpoint<Exp
 struct Columns {
     variables: Vec<Symbol>,
     parameters: Vec<Symbol>,
-    walked: Walked,
-    columns: Vec<[Vector<Expr>; 2]>,
+    walk: Walk<Expr>,
+    columns: Vec<Twist<Expr>>,
 }
 
 impl Columns {
     fn new(description: &Description, view: &Viewpoint<Expr>) -> Self {
         let robot = Robot::symbolic(description);
-        let walked = Walked::new(description);
-        let point = walked.place(view.at).act_on_point(view.offset);
+        let walk = Walk::merged(description);
+        let point = walk.place(view.at).act_on_point(view.offset);
         let mut columns = vec![[Vector::zero(); 2]; robot.joints];
-        for (i, link) in robot.links.iter().enumerate().take(rows_before(&robot, view.body)) {
-            let screw: Transform<Expr> = walked.place(Reference::Frame(description.convention.axis_frame(i)));
-            let z = screw.rotation.z();
-            let lever = z.cross(point - screw.translation);
-            for &(j, k) in &link.theta.terms {
-                columns[j] = [columns[j][0] + lever.scale(k), columns[j][1] + z.scale(k)];
-            }
-            for &(j, k) in &link.d.terms {
-                columns[j][0] = columns[j][0] + z.scale(k);
-            }
-        }
+        walk.twists(&robot, view.body, point, &mut columns);
         if view.axes != Reference::Base {
-            let turn = walked.place(view.axes).rotation.inverse();
+            let turn = walk.place(view.axes).rotation.inverse();
             columns.iter_mut().flatten().for_each(|v| *v = turn * *v);
         }
         let variables = description.variables().iter().map(|v| v.symbol).collect();
         let parameters = description.parameters.iter().map(|p| p.symbol).collect();
-        Columns { variables, parameters, walked, columns }
+        Columns { variables, parameters, walk, columns }
     }
 
     /// The columns and more results as a program.

@@ -3,8 +3,8 @@
 use super::geometric::{Viewpoint, geometric};
 use super::measures::measures;
 use crate::description::Description;
-use crate::inverse::JointSpace;
-use crate::robot::Robot;
+use crate::mechanism::Robot;
+use crate::space::JointSpace;
 
 /// Below this part of the largest value found an example counts as singular.
 const SINGULAR: f64 = 0.02;

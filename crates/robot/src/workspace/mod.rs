@@ -22,8 +22,8 @@ pub use contour::{Field, area, contours};
 pub use extremes::Extremes;
 pub use section::Section;
 
-use crate::inverse::JointSpace;
-use crate::robot::Robot;
+use crate::mechanism::Robot;
+use crate::space::JointSpace;
 use std::fmt;
 
 /// A section of the reachable workspace.

@@ -7,7 +7,7 @@ use super::solve::{InverseSolver, LOOSE, NEAR, ROUGH, SHORT, draft, variables};
 use crate::geometry::Transform;
 use crate::inverse::answer::{Answer, Doubt, Family, Solution};
 use crate::inverse::newton;
-use crate::inverse::space::{norm, wrapped};
+use crate::space::{norm, wrapped};
 use denavit_program::solver::Leaf;
 use std::f64::consts::{PI, TAU};
 

@@ -8,12 +8,11 @@ use super::families;
 use crate::description::Description;
 use crate::geometry::Transform;
 use crate::inverse::answer::{Answer, Doubt, Obstacle, Solution};
-use crate::inverse::derivation::{
-    Goal, InverseModel, NumericCondition, Random, Step, Unknown, Variant, compile,
-};
+use crate::inverse::derivation::{Goal, InverseModel, NumericCondition, Step, Unknown, Variant, compile};
 use crate::inverse::newton;
-use crate::inverse::space::{JointSpace, norm};
-use crate::robot::{MissingValue, Robot};
+use crate::mechanism::{MissingValue, Robot};
+use crate::random::Random;
+use crate::space::{JointSpace, norm};
 use denavit_program::solver::{Leaf, SolverFunction, SolverScalar, TOLERANCE};
 use denavit_symbolic::{Expr, Symbol};
 use std::f64::consts::TAU;

@@ -9,7 +9,7 @@ use super::algebra::{Algebra, Column, Kind, Matrix, identity};
 use crate::description::{Description, JointKind};
 use crate::explain::Language;
 use crate::geometry::{Rotation, Transform, Vector};
-use crate::robot::{Affine, Robot};
+use crate::mechanism::{Affine, Lengths, Link, MovingAxes, MovingAxis, Robot, parallel};
 use denavit_symbolic::poly::Poly;
 use denavit_symbolic::{Expr, Rational, Ring, Symbol, readable};
 
@@ -194,9 +194,7 @@ impl Chain {
                 continue;
             }
             let parallel = turn.and_then(|(g, flipped, since)| {
-                let z = since.map(readable::settled).z();
-                let sign = (z[0].is_zero() && z[1].is_zero()).then(|| z[2].as_number()).flatten()?;
-                Some((g, flipped != sign.is_negative()))
+                Some((g, flipped != parallel::reversed(&since.map(readable::settled))?))
             });
             let (group, reversed) = parallel.unwrap_or_else(|| {
                 groups.push(0);
@@ -415,33 +413,29 @@ fn about_z(c: &Poly, s: &Poly) -> Matrix {
 
 /// The moving axes with the constants before each, and what stands behind the last.
 fn screws(robot: &Robot<Expr>) -> Result<(Vec<Screw>, Transform<Expr>), Unsuitable> {
-    let mut found: Vec<Screw> = vec![];
-    let mut constant = robot.base;
-    for (row, link) in robot.links.iter().enumerate() {
-        constant = constant * link.before;
-        let helical = link.theta.terms.iter().any(|t| link.d.terms.iter().any(|u| u.0 == t.0));
-        if helical {
-            return Err(Unsuitable::Helical(row + 1));
-        }
-        // Rz and Tz about one axis commute; quarter turns of an angle and offsets of a displacement are constants.
-        let quarters =
-            Transform::rotation_z(Expr::from(Rational::new(i64::from(link.theta.quarters), 2)) * Expr::pi());
-        constant = constant * quarters;
-        if link.theta.terms.is_empty() {
-            constant = constant * Transform::rotation_z(link.theta.offset);
-        } else {
-            let form = Affine { quarters: 0, ..link.theta.clone() };
-            let before = std::mem::replace(&mut constant, Transform::identity());
-            found.push(Screw { before, form, kind: JointKind::Revolute, row });
-        }
-        if !link.d.terms.is_empty() {
-            let form = Affine { offset: Expr::int(0), ..link.d.clone() };
-            let before = std::mem::replace(&mut constant, Transform::identity());
-            found.push(Screw { before, form, kind: JointKind::Prismatic, row });
-        }
-        constant = constant * Transform::translation_z(link.d.offset) * link.after;
+    let turns_by = |l: &Link<Expr>, j: usize| l.theta.terms.iter().any(|t| t.0 == j);
+    if let Some(row) = robot.links.iter().position(|l| l.d.terms.iter().any(|t| turns_by(l, t.0))) {
+        return Err(Unsuitable::Helical(row + 1));
     }
-    Ok((found, constant * robot.tool))
+    let MovingAxes { moving, mut constants } = MovingAxes::new(robot, Lengths::Behind);
+    // Quarter turns of an angle and offsets of a displacement are constants.
+    for (k, axis) in moving.iter().enumerate() {
+        if axis.kind == JointKind::Prismatic {
+            constants[k + 1] = axis.at_rest() * constants[k + 1];
+        } else {
+            let quarters = Rational::new(i64::from(axis.value.quarters), 2);
+            constants[k] = constants[k] * Transform::rotation_z(Expr::from(quarters) * Expr::pi());
+        }
+    }
+    let tail = constants.pop().unwrap_or_else(Transform::identity);
+    let screw = |(axis, before): (MovingAxis<Expr>, Transform<Expr>)| {
+        let mut form = Affine { quarters: 0, ..axis.value };
+        if axis.kind == JointKind::Prismatic {
+            form.offset = Expr::int(0);
+        }
+        Screw { before, form, kind: axis.kind, row: axis.row }
+    };
+    Ok((moving.into_iter().zip(constants).map(screw).collect(), tail))
 }
 
 /// Brings constant displacements along axes that stay parallel to one place: those of the first axes into the base,

@@ -6,6 +6,7 @@
 use super::algebra::{Algebra, Kind};
 use super::chain::{Chain, Difference, Element, Motion};
 use crate::geometry::{Rotation, Transform, Vector};
+use crate::random::Random;
 use denavit_symbolic::poly::{Atom, Monomial, Poly};
 use denavit_symbolic::{Expr, Rational, Symbol};
 use std::collections::BTreeMap;
@@ -350,18 +351,4 @@ fn pose(chain: &Chain, axes: &[f64], atoms: &[f64]) -> Transform<f64> {
             Element::Axis(k) => Transform::rotation_z(axes[*k]),
         }
     })
-}
-
-/// A small generator of numbers that look random (splitmix64).
-pub struct Random(pub u64);
-
-impl Random {
-    /// A number in [0, 1).
-    pub fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
 }

@@ -19,7 +19,6 @@ pub(super) use conditions::NumericCondition;
 pub use conditions::{Condition, Task};
 pub(super) use equations::equations;
 pub use equations::{Entry, Goal, Source, Split};
-pub use known::Random;
 pub use known::Unknown;
 pub(super) use known::{Known, Samples, axis_unknown};
 pub use model::{InverseModel, Options, Refusal, Stuck, Variant, branch_words};

@@ -3,7 +3,7 @@
 
 use super::reading::Reading;
 use crate::explain::Proof;
-use crate::inverse::derivation::Random;
+use crate::random::Random;
 use denavit_symbolic::{Expr, Symbol, Verdict, equal};
 use rustc_hash::FxHashMap;
 

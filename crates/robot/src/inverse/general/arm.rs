@@ -1,9 +1,9 @@
 //! The arm in the form that elimination takes: six axes and the constant transforms between them.
 
-use crate::geometry::{Axis, Rotation, Transform, Vector};
-use crate::robot::{Link, Robot};
+use crate::description::JointKind;
+use crate::geometry::Transform;
+use crate::mechanism::{Lengths, MovingAxes, Robot};
 use denavit_elimination::{Arm, Joint, Rigid};
-use std::f64::consts::FRAC_PI_2;
 use std::fmt;
 
 /// Why elimination does not serve an arm.
@@ -46,34 +46,23 @@ pub struct SixAxes {
 impl SixAxes {
     /// That of a robot with as many joints as axes.
     pub fn new(robot: &Robot<f64>) -> Result<Self, Unsuited> {
-        let rows = || robot.links.iter().enumerate();
-        let moves = |l: &Link<f64>| !l.theta.terms.is_empty() || !l.d.terms.is_empty();
-        if let Some((k, _)) = rows().find(|(_, l)| !l.theta.terms.is_empty() && !l.d.terms.is_empty()) {
-            return Err(Unsuited::TwoInOne(k + 1));
+        let MovingAxes { moving, constants } = MovingAxes::new(robot, Lengths::Before);
+        if let Some(row) = robot.links.iter().position(|l| l.turns() && l.slides()) {
+            return Err(Unsuited::TwoInOne(row + 1));
         }
-        let count = rows().filter(|(_, l)| moves(l)).count();
-        if count != 6 || robot.joints != 6 {
-            return Err(Unsuited::Axes(count.max(robot.joints)));
+        if moving.len() != 6 || robot.joints != 6 {
+            return Err(Unsuited::Axes(moving.len().max(robot.joints)));
         }
-        let mut constants = vec![robot.base];
         let (mut joints, mut offsets, mut coupling) = ([Joint::Revolute; 6], [0.0; 6], [[0.0; 6]; 6]);
-        for link in &robot.links {
-            let last = constants.len() - 1;
-            if !moves(link) {
-                constants[last] = constants[last] * link.transform(&[0.0; 6]);
-                continue;
+        for (k, axis) in moving.iter().enumerate() {
+            if axis.kind == JointKind::Prismatic {
+                joints[k] = Joint::Prismatic;
             }
-            let turns = !link.theta.terms.is_empty();
-            let axis = if turns { &link.theta } else { &link.d };
-            joints[last] = if turns { Joint::Revolute } else { Joint::Prismatic };
-            offsets[last] = axis.offset + f64::from(axis.quarters) * FRAC_PI_2;
-            for &(j, k) in &axis.terms {
-                coupling[last][j] = k;
+            offsets[k] = axis.value.constant();
+            for &(j, factor) in &axis.value.terms {
+                coupling[k][j] = factor;
             }
-            constants[last] = constants[last] * link.before * still(link, turns);
-            constants.push(link.after);
         }
-        constants[6] = constants[6] * robot.tool;
         let is_slide: [bool; 6] = std::array::from_fn(|k| joints[k] == Joint::Prismatic);
         let is_one_to_one = coupling
             .iter()
@@ -93,16 +82,6 @@ impl SixAxes {
         let of = |row: &[f64; 6]| (0..6).map(|k| row[k] * (x[k] - self.offsets[k])).sum();
         self.inverse.iter().map(of).collect()
     }
-}
-
-/// The part of a joint's screw that does not move.
-fn still(link: &Link<f64>, turns: bool) -> Transform<f64> {
-    if turns {
-        return Transform::translation_z(link.d.offset);
-    }
-    let (s, c) = link.theta.sin_cos(&[]);
-    let turned = Rotation::from_sin_cos(Axis::Z, s, c);
-    Transform::from_rotation_translation(turned, Vector([0.0; 3]))
 }
 
 pub(super) fn rigid(x: &Transform<f64>) -> Rigid {

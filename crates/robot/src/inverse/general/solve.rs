@@ -6,8 +6,8 @@ use crate::inverse::answer::{Answer, Doubt, Family, Solution};
 use crate::inverse::derivation::Goal;
 use crate::inverse::newton;
 use crate::inverse::self_motion::{SelfMotion, follow, is_self_motion};
-use crate::inverse::space::JointSpace;
-use crate::robot::Robot;
+use crate::mechanism::Robot;
+use crate::space::JointSpace;
 use denavit_elimination::{self as elimination, Certificate, Plan};
 
 /// Finds the solutions of poses for any robot with six joints.

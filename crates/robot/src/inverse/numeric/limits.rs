@@ -1,8 +1,9 @@
 //! What the joints may do: limits as a descent keeps to them, and configurations to start from.
 
-use crate::inverse::derivation::Random;
-use crate::inverse::space::{JointSpace, wrapped};
-use crate::robot::Robot;
+use crate::description::JointKind;
+use crate::mechanism::{Link, Robot};
+use crate::random::Random;
+use crate::space::{JointSpace, wrapped};
 use std::f64::consts::{PI, TAU};
 
 /// The range of each joint, radians and metres.
@@ -26,10 +27,8 @@ impl Limits {
         let n = robot.joints;
         // A joint whose turns also move a length, or of which an angle takes a fraction, is not the same after one.
         let is_whole = |j: usize| {
-            robot.links.iter().all(|l| {
-                l.theta.terms.iter().all(|t| t.0 != j || t.1.fract() == 0.0)
-                    && l.d.terms.iter().all(|t| t.0 != j)
-            })
+            let mut movers = robot.links.iter().flat_map(Link::movers).filter(|m| m.joint == j);
+            movers.all(|m| m.kind == JointKind::Revolute && m.factor.fract() == 0.0)
         };
         let is_periodic: Vec<bool> = (0..n).map(|j| space.is_angle[j] && is_whole(j)).collect();
         let (mut low, mut high, mut start) = (vec![], vec![], vec![]);

@@ -1,28 +1,25 @@
 //! Frames and the motions of their joints, from one program.
 //!
-//! The program gives the axis and a point of every joint that moves, and the frames of the tasks. The derivatives of
-//! the frames by the joints are the screws of these axes (Whitney 1972): ω = z, v = z × (p − o) for a joint that
-//! turns, v = z for one that slides; a joint that stands in several rows moves by their sum.
+//! The program gives the axis and a point of every row that moves, and the frames of the tasks; the derivatives of the
+//! frames by the joints are the screws of these axes ([`Line::twist`]).
 
-use super::task::{Frame, Linear, Place, Shape, apply, cross, sub};
+use super::task::{Frame, Linear, Place, Shape, apply};
 use crate::description::Description;
-use crate::forward::{Reference, frames_program};
-use crate::inverse::space::JointSpace;
-use crate::robot::{MissingValue, Robot};
+use crate::geometry::Vector;
+use crate::mechanism::{Line, MissingValue, Mover, Robot, Twist, Walk};
+use crate::space::JointSpace;
 use denavit_program::{Graph, Program, Scalar, Value};
-use denavit_symbolic::Expr;
+use denavit_symbolic::{Expr, Symbol};
 use rustc_hash::FxHashSet;
 
-/// A row of the table that a joint moves: the row's axis, and by how much.
+/// A row of the table and a joint that moves it.
 #[derive(Clone, Copy, PartialEq, Debug)]
-struct Mover {
+struct Moving {
     row: usize,
-    /// Where axis and point stand among the program's results.
+    /// Where the row's axis stands among the program's results: its direction and a point.
     at: usize,
-    joint: usize,
-    /// Radians about the axis, and displacement along it, for one unit of the joint.
-    turn: f64,
-    slide: f64,
+    /// For one unit of the joint.
+    mover: Mover<f64>,
 }
 
 /// A frame of a task: the rows before it move it.
@@ -36,7 +33,7 @@ struct Moved {
 #[derive(Clone, Debug)]
 pub(super) struct Motion {
     scalar: Scalar,
-    movers: Vec<Mover>,
+    movers: Vec<Moving>,
     frames: Vec<Moved>,
     /// How many joints there are.
     pub joints: usize,
@@ -68,42 +65,25 @@ impl Motion {
         space: &JointSpace,
         frames: &[Frame],
     ) -> Result<Self, MissingValue> {
-        let rows = description.rows.len();
-        let mut references = vec![];
+        let units = space.is_angle.iter().map(|&a| if a { 1.0 } else { space.reach }).collect::<Vec<_>>();
+        let walk = Walk::merged(description);
+        let mut results: Vec<Expr> = vec![];
         let mut movers = vec![];
-        let mut results = 0;
-        for (row, link) in robot.links.iter().enumerate() {
-            let mut joints: Vec<usize> = link.theta.terms.iter().chain(&link.d.terms).map(|t| t.0).collect();
-            joints.sort_unstable();
-            joints.dedup();
-            let factor = |terms: &[(usize, f64)], j: usize| {
-                terms.iter().filter(|t| t.0 == j).map(|t| t.1).sum::<f64>()
-            };
-            for &joint in &joints {
-                let unit = if space.is_angle[joint] { 1.0 } else { space.reach };
-                let turn = factor(&link.theta.terms, joint) * unit;
-                let slide = factor(&link.d.terms, joint) * unit;
-                movers.push(Mover { row, at: results, joint, turn, slide });
-            }
-            if !joints.is_empty() {
-                references.push(Reference::Frame(description.convention.axis_frame(row)));
-                results += 6;
-            }
+        for (row, (link, axis)) in robot.links.iter().zip(walk.axes()).enumerate().filter(|r| r.1.0.moves()) {
+            let at = results.len();
+            let unit = |m: Mover<f64>| Mover { factor: m.factor * units[m.joint], ..m };
+            movers.extend(link.movers().map(|m| Moving { row, at, mover: unit(m) }));
+            results.extend(axis.direction.0.into_iter().chain(axis.point.0));
         }
-        let axes = references.len();
         let mut moved = vec![];
         for frame in frames {
-            let (reference, rows) = match *frame {
-                Frame::Tool => (Reference::Tool, rows),
-                Frame::Link(i) => (Reference::Frame(i.min(rows)), i.min(rows)),
-            };
-            references.push(reference);
-            moved.push(Moved { rows, at: results });
-            results += 12;
+            let reference = frame.reference(robot.links.len());
+            let x = walk.place(reference);
+            moved.push(Moved { rows: robot.rows_before(reference), at: results.len() });
+            results.extend(x.rotation.rows().into_iter().flatten().chain(x.translation.0));
         }
-        let program = program(description, &references, axes);
-        let scalar = program.compile(&description.values(program.parameters())?).scalar();
-        let units = space.is_angle.iter().map(|&a| if a { 1.0 } else { space.reach }).collect();
+        let program = program(description, &results);
+        let scalar = program.compile_with(|s| description.value(s))?.scalar();
         Ok(Motion { scalar, movers, frames: moved, joints: robot.joints, units })
     }
 
@@ -129,9 +109,9 @@ impl Motion {
             *r = linear.r;
             cost += linear.r.iter().map(|x| x * x).sum::<f64>();
             c.fill([0.0; 6]);
-            for mover in self.movers.iter().take_while(|m| m.row < frame.rows) {
-                let axis: &[f64; 6] = results[mover.at..].first_chunk().unwrap_or(&[0.0; 6]);
-                add_motion(&mut c[mover.joint], mover, axis, &at, &linear);
+            for Moving { at: axis, mover, .. } in self.movers.iter().take_while(|m| m.row < frame.rows) {
+                let twist = line(results, *axis).twist(mover, Vector(at.p));
+                add_motion(&mut c[mover.joint], twist, &linear);
             }
         }
         point.cost = cost;
@@ -139,12 +119,7 @@ impl Motion {
 }
 
 #[inline(always)]
-fn add_motion(column: &mut [f64; 6], mover: &Mover, axis: &[f64; 6], at: &Place, linear: &Linear) {
-    let [x, y, z, ox, oy, oz] = *axis;
-    let z = [x, y, z];
-    let lever = cross(z, sub(at.p, [ox, oy, oz]));
-    let turn = z.map(|x| mover.turn * x);
-    let shift = [0, 1, 2].map(|i| mover.turn * lever[i] + mover.slide * z[i]);
+fn add_motion(column: &mut [f64; 6], [Vector(shift), Vector(turn)]: Twist<f64>, linear: &Linear) {
     let turn = linear.turn.as_ref().map_or(turn, |m| apply(m, turn));
     let shift = linear.shift.as_ref().map_or(shift, |m| apply(m, shift));
     let [a, b] = linear.weights;
@@ -154,23 +129,22 @@ fn add_motion(column: &mut [f64; 6], mover: &Mover, axis: &[f64; 6], at: &Place,
     }
 }
 
+#[inline(always)]
+fn line(results: &[f64], at: usize) -> Line<f64> {
+    let [x, y, z, ox, oy, oz] = *results[at..].first_chunk().unwrap_or(&[0.0; 6]);
+    Line { direction: Vector([x, y, z]), point: Vector([ox, oy, oz]) }
+}
+
 fn place(results: &[f64], at: usize) -> Place {
     let x: &[f64; 12] = results[at..].first_chunk().unwrap_or(&[0.0; 12]);
     Place { r: [[x[0], x[1], x[2]], [x[3], x[4], x[5]], [x[6], x[7], x[8]]], p: [x[9], x[10], x[11]] }
 }
 
-/// z and origin of the first `axes` frames, rotation by rows and origin of the others.
-fn program(description: &Description, frames: &[Reference], axes: usize) -> Program {
-    let whole = frames_program(description, frames);
-    let entries: Vec<Expr> = whole.formulas();
-    let mut graph = Graph::new(whole.variables(), whole.parameters());
-    let mut results: Vec<(String, Value)> = vec![];
-    for (k, matrix) in entries.chunks_exact(16).enumerate() {
-        let rotation = [0, 1, 2, 4, 5, 6, 8, 9, 10];
-        let chosen = if k < axes { &[2, 6, 10][..] } else { &rotation[..] };
-        for &i in chosen.iter().chain(&[3, 7, 11]) {
-            results.push((format!("x{k}_{i}"), graph.trace(matrix[i])));
-        }
-    }
+fn program(description: &Description, results: &[Expr]) -> Program {
+    let variables: Vec<Symbol> = description.variables().iter().map(|v| v.symbol).collect();
+    let parameters: Vec<Symbol> = description.parameters.iter().map(|p| p.symbol).collect();
+    let mut graph = Graph::new(&variables, &parameters);
+    let results: Vec<(String, Value)> =
+        results.iter().enumerate().map(|(k, &e)| (format!("x{k}"), graph.trace(e))).collect();
     Program::new(&graph, &results, |_| None, &FxHashSet::default())
 }

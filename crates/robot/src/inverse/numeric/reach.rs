@@ -6,11 +6,11 @@
 
 use super::limits::Limits;
 use super::task::{Frame, Place, dot, sub};
-use crate::geometry::Transform;
-use crate::robot::Robot;
+use crate::description::JointKind;
+use crate::mechanism::{Affine, Lengths, MovingAxes, Robot};
 
 /// What of space a frame can come to.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Default, Debug)]
 pub(super) struct Reach {
     /// From here distances count, metres in the base.
     centre: [f64; 3],
@@ -25,61 +25,26 @@ pub(super) struct Reach {
 impl Reach {
     /// That of a frame.
     pub fn new(robot: &Robot<f64>, limits: &Limits, frame: Frame) -> Self {
-        let rows = match frame {
-            Frame::Tool => robot.links.len(),
-            Frame::Link(i) => i.min(robot.links.len()),
-        };
-        let still = vec![0.0; robot.joints];
-        let mut x = robot.base;
-        let mut centre = None;
+        // A constant length along an axis belongs to what is before it, so that the pieces end on axes.
+        let chain = robot.up_to(frame.reference(robot.links.len()));
+        let axes = MovingAxes::new(&chain, Lengths::Before);
+        let Some((last, before)) = axes.constants.split_last() else { return Reach::default() };
         let mut pieces: Vec<[f64; 2]> = vec![];
-        let mut end = |x: &mut Transform<f64>, pieces: &mut Vec<[f64; 2]>| {
-            match centre {
-                None => centre = Some(x.translation.0),
-                Some(_) => pieces.push([x.translation.norm(); 2]),
+        for (k, (axis, constant)) in axes.moving.iter().zip(before).enumerate() {
+            if k > 0 {
+                pieces.push([constant.translation.norm(); 2]);
             }
-            *x = Transform::identity();
+            if axis.kind == JointKind::Prismatic {
+                pieces.push(travel(&axis.value, limits));
+            }
+        }
+        let Some(first) = before.first() else {
+            return Reach { centre: last.translation.0, ..Reach::default() }; // Nothing moves.
         };
-        for link in &robot.links[..rows] {
-            let turns = !link.theta.terms.is_empty();
-            let slides = !link.d.terms.is_empty();
-            if !turns && !slides {
-                x = x * link.transform(&still);
-                continue;
-            }
-            // Rz(θ)·Tz(d) = Tz(d)·Rz(θ): a constant d belongs to what is before the axis.
-            x = x * link.before;
-            if !slides {
-                x = x * Transform::translation_z(link.d.offset);
-            }
-            end(&mut x, &mut pieces);
-            if slides {
-                let mut range = [link.d.offset; 2];
-                for &(j, k) in &link.d.terms {
-                    let [a, b] = [k * limits.low[j], k * limits.high[j]];
-                    range = [range[0] + a.min(b), range[1] + a.max(b)];
-                }
-                let longest = range[0].abs().max(range[1].abs());
-                let shortest =
-                    if range[0] * range[1] <= 0.0 { 0.0 } else { range[0].abs().min(range[1].abs()) };
-                pieces.push([shortest, longest]);
-            }
-            x = link.after;
-        }
-        if frame == Frame::Tool {
-            x = x * robot.tool;
-        }
-        let behind = x.inverse().translation.0;
-        let length = x.translation.norm();
-        match centre {
-            // Nothing moves.
-            None => Reach { centre: x.translation.0, behind: [0.0; 3], wrist: [0.0; 2], frame: [0.0; 2] },
-            Some(centre) => {
-                let wrist = shell(&pieces);
-                pieces.push([length; 2]);
-                Reach { centre, behind, wrist, frame: shell(&pieces) }
-            }
-        }
+        let wrist = shell(&pieces);
+        pieces.push([last.translation.norm(); 2]);
+        let behind = last.inverse().translation.0;
+        Reach { centre: first.translation.0, behind, wrist, frame: shell(&pieces) }
     }
 
     /// How far, in metres, a target is beyond what the frame can come to; with its orientation to be met, how far the
@@ -98,6 +63,17 @@ impl Reach {
         let at = [target.p[0] + lever[0], target.p[1] + lever[1], target.p[2] + lever[2]];
         own.max(outside(at, self.wrist))
     }
+}
+
+/// The shortest and the longest displacement of a slide within the limits.
+fn travel(d: &Affine<f64>, limits: &Limits) -> [f64; 2] {
+    let mut range = [d.offset; 2];
+    for &(j, k) in &d.terms {
+        let [a, b] = [k * limits.low[j], k * limits.high[j]];
+        range = [range[0] + a.min(b), range[1] + a.max(b)];
+    }
+    let [a, b] = range.map(f64::abs);
+    [if range[0] * range[1] <= 0.0 { 0.0 } else { a.min(b) }, a.max(b)]
 }
 
 /// The distances that the end of a chain of pieces can have from its start.

@@ -5,6 +5,7 @@
 
 use crate::geometry::{Axis, Transform};
 use crate::inverse::derivation::Goal;
+use crate::mechanism::Reference;
 use denavit_program::kernel;
 
 /// A frame that is to be somewhere.
@@ -14,6 +15,16 @@ pub enum Frame {
     Tool,
     /// The frame behind row i of the table, from 1; frame 0 stands before row 1.
     Link(usize),
+}
+
+impl Frame {
+    /// As a frame of a table with so many rows.
+    pub(super) fn reference(self, rows: usize) -> Reference {
+        match self {
+            Frame::Tool => Reference::Tool,
+            Frame::Link(i) => Reference::Frame(i.min(rows)),
+        }
+    }
 }
 
 /// What of a pose counts.

@@ -17,8 +17,8 @@ use super::wrapped;
 use crate::description::{Description, JointKind};
 use crate::geometry::{Rotation, Transform, Vector};
 use crate::inverse::derivation::settled;
-use crate::inverse::space::JointSpace;
-use crate::robot::Robot;
+use crate::mechanism::{Lengths, MovingAxes, MovingAxis, Robot};
+use crate::space::JointSpace;
 use crate::structure::Structure;
 use std::f64::consts::PI;
 
@@ -382,27 +382,15 @@ fn branch(elbow: &Elbow, i: usize, j: usize) -> String {
 
 /// The joints of a chain in which each turns one axis, in order, and the eight constant transforms around them.
 fn chain(robot: &Robot<f64>) -> Option<(Vec<Turn>, Vec<Transform<f64>>)> {
-    let (mut turns, mut fixed): (Vec<Turn>, Vec<Transform<f64>>) = (vec![], vec![]);
-    let mut current = robot.base;
-    for link in &robot.links {
-        current = current * link.before;
-        let lift = Transform::translation_z(link.d.offset);
-        let angle = link.theta.offset + f64::from(link.theta.quarters) * PI / 2.0;
-        match link.theta.terms[..] {
-            [] => current = current * Transform::rotation_z(angle) * lift * link.after,
-            [(joint, sense)] if joint == turns.len() && sense.abs() == 1.0 && link.d.terms.is_empty() => {
-                turns.push(Turn { joint, sense, offset: angle });
-                fixed.push(current);
-                current = lift * link.after;
-            }
-            _ => return None,
+    let MovingAxes { moving, constants } = MovingAxes::new(robot, Lengths::Behind);
+    let turn = |(k, axis): (usize, &MovingAxis<f64>)| match axis.value.terms[..] {
+        [(joint, sense)] if axis.kind == JointKind::Revolute && joint == k && sense.abs() == 1.0 => {
+            Some(Turn { joint, sense, offset: axis.value.constant() })
         }
-        if !link.d.terms.is_empty() {
-            return None;
-        }
-    }
-    fixed.push(current * robot.tool);
-    (turns.len() == 7).then_some((turns, fixed))
+        _ => None,
+    };
+    let turns: Vec<Turn> = moving.iter().enumerate().map(turn).collect::<Option<_>>()?;
+    (turns.len() == 7).then_some((turns, constants))
 }
 
 /// Where the z axis of a frame meets the z axis that it is seen from: the coordinates along the first and the second.

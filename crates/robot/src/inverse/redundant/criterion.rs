@@ -3,8 +3,8 @@
 use crate::inverse::derivation::Goal;
 use crate::inverse::newton;
 use crate::inverse::self_motion::Frame;
-use crate::inverse::space::JointSpace;
-use crate::robot::Robot;
+use crate::mechanism::Robot;
+use crate::space::JointSpace;
 
 /// What makes a configuration good.
 #[derive(Clone, PartialEq, Debug)]

@@ -10,8 +10,8 @@ use crate::geometry::Transform;
 use crate::inverse::derivation::Goal;
 use crate::inverse::newton;
 use crate::inverse::self_motion::{CurveEnd, Tracker};
-use crate::inverse::space::JointSpace;
-use crate::robot::Robot;
+use crate::mechanism::Robot;
+use crate::space::JointSpace;
 use std::f64::consts::PI;
 
 /// Values of the joint that is held.

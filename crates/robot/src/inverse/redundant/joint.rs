@@ -10,8 +10,8 @@ use crate::description::Description;
 use crate::geometry::Transform;
 use crate::inverse::closed::variables;
 use crate::inverse::derivation::{Goal, InverseModel};
-use crate::inverse::space::JointSpace;
-use crate::robot::MissingValue;
+use crate::mechanism::MissingValue;
+use crate::space::JointSpace;
 use denavit_program::solver::{Leaf, SolverScalar};
 use std::f64::consts::{PI, TAU};
 

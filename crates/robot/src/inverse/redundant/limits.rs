@@ -1,7 +1,7 @@
 //! The limits of a joint as a distance: negative inside, positive outside.
 
 use super::wrapped;
-use crate::inverse::space::JointSpace;
+use crate::space::JointSpace;
 use std::f64::consts::PI;
 
 /// What a joint may be beyond its limit, for rounding (radians or metres).

@@ -5,8 +5,8 @@
 
 use crate::geometry::Transform;
 use crate::inverse::general::GeneralSolver;
-use crate::inverse::space::JointSpace;
-use crate::robot::{Link, Robot};
+use crate::mechanism::{Link, Robot};
+use crate::space::JointSpace;
 use std::f64::consts::PI;
 
 /// Values at which the ends are compared.
@@ -46,17 +46,16 @@ impl Locked {
 
     fn at_end(robot: &Robot<f64>, space: &JointSpace, is_first: bool) -> Option<Self> {
         let joint = if is_first { 0 } else { robot.joints - 1 };
-        let uses = |l: &Link<f64>| l.theta.terms.iter().chain(&l.d.terms).any(|t| t.0 == joint);
-        let moves = |l: &&Link<f64>| !l.theta.terms.is_empty() || !l.d.terms.is_empty();
+        let uses = |l: &Link<f64>| l.movers().any(|m| m.joint == joint);
         let count = robot.links.len();
         let place = if is_first {
-            robot.links.iter().position(|l| moves(&l))?
+            robot.links.iter().position(Link::moves)?
         } else {
-            robot.links.iter().rposition(|l| moves(&l))?
+            robot.links.iter().rposition(Link::moves)?
         };
         let link = robot.links[place].clone();
         let is_alone = robot.links.iter().filter(|l| uses(l)).count() == 1
-            && link.theta.terms.iter().chain(&link.d.terms).all(|t| t.0 == joint)
+            && link.movers().all(|m| m.joint == joint)
             && uses(&link);
         if !is_alone {
             return None;

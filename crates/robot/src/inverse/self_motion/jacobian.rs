@@ -6,7 +6,7 @@
 use crate::geometry::{Transform, Vector};
 use crate::inverse::derivation::Goal;
 use crate::inverse::newton;
-use crate::robot::Robot;
+use crate::mechanism::Robot;
 use crate::velocity::{Svd, svd};
 
 /// What a configuration is measured with.

@@ -12,9 +12,9 @@ pub(in crate::inverse) use jacobian::Frame;
 
 use super::derivation::Goal;
 use super::newton;
-use super::space::{JointSpace, wrapped};
 use crate::geometry::Transform;
-use crate::robot::Robot;
+use crate::mechanism::Robot;
+use crate::space::{JointSpace, wrapped};
 
 /// The longest step, radians (slides: by the size of the arm), and the shortest.
 const LONGEST: f64 = 0.08;

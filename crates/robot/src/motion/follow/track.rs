@@ -5,8 +5,8 @@ use super::events::{Event, EventKind};
 use crate::description::Description;
 use crate::forward::Reference;
 use crate::inverse::{Goal, InverseKinematics, JointSpace, Unprepared, newton};
+use crate::mechanism::Robot;
 use crate::motion::hand::HandPath;
-use crate::robot::Robot;
 use crate::velocity::{
     Damping, Place, RateSolver, Singularities, Viewpoint, Whole, geometric, nearest_singularity,
 };

@@ -4,11 +4,11 @@ use super::known::Known;
 use super::timed::{Still, Timed, by_quintic, fastest, over_duration};
 use super::{PlanError, PlanOptions, Planned};
 use crate::description::Description;
+use crate::mechanism::Robot;
 use crate::motion::follow::{Alternative, Followed, Follower, Options};
 use crate::motion::hand::HandPath;
 use crate::motion::path::{Ends, cubic_spline_at};
 use crate::motion::{JointPath, MotionError};
-use crate::robot::Robot;
 use std::cmp::Reverse;
 
 /// Along a path from a configuration, or from the best.

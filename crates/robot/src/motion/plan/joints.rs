@@ -4,10 +4,10 @@ use super::known::Known;
 use super::timed::{Timed, by_quintic, fastest, over_duration};
 use super::{PlanError, PlanOptions, Planned};
 use crate::description::Description;
-use crate::inverse::JointSpace;
 use crate::motion::path::{Blend, Ends, PiecewisePath, blended, cubic_spline};
 use crate::motion::profile::{Law, synchronised};
 use crate::motion::{JointState, Limits, MotionError, move_within_limits};
+use crate::space::JointSpace;
 
 /// Through configurations, one entry a joint each.
 pub(super) fn plan(

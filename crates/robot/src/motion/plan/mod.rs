@@ -23,7 +23,7 @@ use super::profile::Law;
 use super::trajectory::Trajectory;
 use crate::description::Description;
 use crate::explain::decimals;
-use crate::robot::Robot;
+use crate::mechanism::Robot;
 use std::fmt;
 
 /// What is to be moved along.

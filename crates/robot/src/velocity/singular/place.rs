@@ -1,10 +1,11 @@
 //! How the axes lie at a singular configuration.
 
+use crate::description::JointKind;
 use crate::explain::Language;
-use crate::forward::Reference;
 use crate::geometry::Vector;
-use crate::robot::Robot;
-use crate::velocity::geometric::{Seen, Viewpoint, geometric};
+use crate::mechanism::walk::along;
+use crate::mechanism::{Reference, Robot};
+use crate::velocity::geometric::{Viewpoint, geometric};
 use crate::velocity::measures::Whole;
 use std::fmt;
 
@@ -140,15 +141,12 @@ fn moving(free: &[f64], joints: usize) -> Vec<usize> {
 
 /// The axes in the base, if each joint moves one row.
 fn axes(robot: &Robot<f64>, q: &[f64]) -> Option<Vec<Axis>> {
-    let seen = Seen::from(robot, q, Reference::Base);
     let mut axes: Vec<Option<Axis>> = vec![None; robot.joints];
-    for (link, screw) in robot.links.iter().zip(&seen.screws) {
-        for (terms, turns) in [(&link.theta.terms, true), (&link.d.terms, false)] {
-            for &(j, _) in terms {
-                let axis = Axis { z: screw.rotation.z(), o: screw.translation, turns };
-                if axes[j].replace(axis).is_some() {
-                    return None;
-                }
+    for (link, (line, _)) in robot.links.iter().zip(along(&robot.links, q, robot.base)) {
+        for mover in link.movers() {
+            let turns = mover.kind == JointKind::Revolute;
+            if axes[mover.joint].replace(Axis { z: line.direction, o: line.point, turns }).is_some() {
+                return None;
             }
         }
     }

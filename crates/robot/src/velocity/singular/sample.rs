@@ -1,8 +1,8 @@
 //! Configurations at which one factor of a determinant is 0 and the others are not.
 
 use crate::description::Description;
-use crate::inverse::derivation::Random;
-use crate::robot::Robot;
+use crate::mechanism::Robot;
+use crate::random::Random;
 use denavit_symbolic::{Expr, Symbol};
 
 /// Random starts.

@@ -2,11 +2,13 @@
 //!
 //! `x_ij` is frame j seen from frame i; frame i is rigidly attached behind row i of the table, frame 0 before row 1.
 
+use super::walk::Reference;
+pub use crate::description::MissingValue;
 use crate::description::{Convention, Description, Row, Screw};
 use crate::geometry::{Rotation, Transform, Vector};
 use crate::scalar::Scalar;
-pub use crate::description::MissingValue;
 use denavit_symbolic::{Angle, Expr, Rational, Symbol};
+use std::f64::consts::FRAC_PI_2;
 
 /// A serial chain over numbers or formulas.
 #[derive(Clone, Debug)]
@@ -59,6 +61,11 @@ impl<T: Scalar> Affine<T> {
         }
     }
 
+    /// The same with all joint variables 0.
+    pub(crate) fn at_rest(&self) -> Self {
+        Affine { terms: vec![], ..*self }
+    }
+
     /// Sine and cosine at a configuration.
     pub(crate) fn sin_cos(&self, q: &[T]) -> (T, T) {
         let (mut s, mut c) = self.value(q).sin_cos();
@@ -69,17 +76,55 @@ impl<T: Scalar> Affine<T> {
     }
 }
 
+impl Affine<f64> {
+    /// The constant part, with the quarter turns.
+    pub fn constant(&self) -> f64 {
+        self.offset + f64::from(self.quarters) * FRAC_PI_2
+    }
+}
+
 impl<T: Scalar> Link<T> {
+    /// True if a joint turns it.
+    pub fn turns(&self) -> bool {
+        !self.theta.terms.is_empty()
+    }
+
+    /// True if a joint slides it.
+    pub fn slides(&self) -> bool {
+        !self.d.terms.is_empty()
+    }
+
+    /// True if a joint moves it.
+    pub fn moves(&self) -> bool {
+        self.turns() || self.slides()
+    }
+
     /// Frame i in frame i−1 at a configuration.
     pub fn transform(&self, q: &[T]) -> Transform<T> {
-        let (s, c) = self.theta.sin_cos(q);
-        let (o, l) = (T::zero(), T::one());
-        let screw = Transform::from_rotation_translation(
-            Rotation::from_rows([[c, -s, o], [s, c, o], [o, o, l]]),
-            Vector([o, o, self.d.value(q)]),
-        );
-        self.before * screw * self.after
+        let (sin_cos, d) = (self.theta.sin_cos(q), self.d.value(q));
+        let one = Transform::identity();
+        if self.before == one {
+            return screw_times(sin_cos, d, &self.after);
+        }
+        let x = times_screw(&self.before, sin_cos, d);
+        if self.after == one { x } else { x * self.after }
     }
+}
+
+/// x · Rz(θ)·Tz(d)
+fn times_screw<T: Scalar>(x: &Transform<T>, (s, c): (T, T), d: T) -> Transform<T> {
+    let rows = x.rotation.rows().map(|[a, b, z]| [a * c + b * s, a * -s + b * c, z]);
+    Transform::from_rotation_translation(Rotation::from_rows(rows), x.rotation.z().scale(d) + x.translation)
+}
+
+/// Rz(θ)·Tz(d) · x
+fn screw_times<T: Scalar>((s, c): (T, T), d: T, x: &Transform<T>) -> Transform<T> {
+    let ([a, b, z], Vector([p, q, r])) = (x.rotation.rows(), x.translation);
+    let turned = |a: T, b: T| (c * a + -s * b, s * a + c * b);
+    let columns = [0, 1, 2].map(|j| turned(a[j], b[j]));
+    let (p, q) = turned(p, q);
+    let rows = [columns.map(|v| v.0), columns.map(|v| v.1), z];
+    Transform::from_rotation_translation(Rotation::from_rows(rows), Vector([p, q, r + d]))
 }
 
 impl<T: Scalar> Robot<T> {
@@ -96,6 +141,13 @@ impl<T: Scalar> Robot<T> {
             frames.push(x_0i);
         }
         frames
+    }
+
+    /// The robot that ends with a frame: without the rows behind it.
+    pub fn up_to(&self, frame: Reference) -> Self {
+        let tool = if frame == Reference::Tool { self.tool } else { Transform::identity() };
+        let base = if frame == Reference::Base { Transform::identity() } else { self.base };
+        Robot { base, links: self.links[..self.rows_before(frame)].to_vec(), tool, joints: self.joints }
     }
 
     /// The tool in the base: base · ⁰Tₙ · tool.
@@ -192,12 +244,16 @@ impl Robot<f64> {
 }
 
 fn link(convention: Convention, row: &Row, variables: &[Symbol]) -> Link<Expr> {
-    let (screws, joint) = row.screws(convention);
+    let screws = row.screws(convention);
     let product = |screws: &[Screw]| {
         screws.iter().map(Screw::transform).reduce(|x, y| x * y).unwrap_or_else(Transform::identity)
     };
-    let (before, after) = (product(&screws[..joint]), product(&screws[joint + 1..]));
-    Link { before, theta: affine(row.theta, variables, true), d: affine(row.d, variables, false), after }
+    Link {
+        before: product(&screws.before),
+        theta: affine(screws.joint.angle, variables, true),
+        d: affine(screws.joint.length, variables, false),
+        after: product(&screws.behind),
+    }
 }
 
 fn affine(e: Expr, variables: &[Symbol], is_angle: bool) -> Affine<Expr> {

@@ -1,7 +1,5 @@
 //! The space of the joints: which of them turn, how configurations differ, what the limits allow.
 
-use crate::description::{Description, JointKind};
-use denavit_symbolic::Symbol;
 use std::f64::consts::{PI, TAU};
 
 /// Solutions this near (radians, and lengths by the reach) are the same: two roots that coincide differ by as much.
@@ -21,17 +19,6 @@ pub struct JointSpace {
 }
 
 impl JointSpace {
-    /// That of a description; limits without value are none.
-    pub fn new(description: &Description, reach: f64) -> Self {
-        let value = |s: Symbol| description.value(s);
-        let limits = description.rows.iter().filter(|r| r.variable.is_some()).map(|r| {
-            let [low, high] = r.limits?;
-            Some([low.eval(value).ok()?, high.eval(value).ok()?])
-        });
-        let is_angle = description.variables().iter().map(|v| v.kind == JointKind::Revolute).collect();
-        JointSpace { is_angle, limits: limits.collect(), reach }
-    }
-
     /// The space of the joints that are not held.
     pub fn held(&self, held: &[usize]) -> Self {
         let left = |j: &usize| !held.contains(j);
@@ -111,11 +98,11 @@ impl JointSpace {
 }
 
 /// The angle in (−π, π].
-pub(super) fn wrapped(x: f64) -> f64 {
+pub(crate) fn wrapped(x: f64) -> f64 {
     let y = x - TAU * (x / TAU).round();
     if y <= -PI { y + TAU } else { y }
 }
 
-pub(super) fn norm(v: &[f64]) -> f64 {
+pub(crate) fn norm(v: &[f64]) -> f64 {
     v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }

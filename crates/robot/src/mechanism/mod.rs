@@ -1,0 +1,16 @@
+//! The arm as a mechanism.
+//!
+//! - [`robot`]: the chain to compute with, over numbers or formulas.
+//! - [`axes`]: its normal form, the moving axes with the constants between them.
+//! - [`walk`]: one pass along it: where frames and axes are, and how the joints move them.
+
+pub mod axes;
+pub(crate) mod elements;
+mod merged;
+pub(crate) mod parallel;
+pub mod robot;
+pub mod walk;
+
+pub use axes::{Lengths, MovingAxes, MovingAxis};
+pub use robot::{Affine, Link, MissingValue, Robot};
+pub use walk::{Line, Mover, Reference, Twist, Walk};
