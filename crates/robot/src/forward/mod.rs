@@ -5,7 +5,7 @@ mod chain;
 mod frames;
 mod model;
 
-pub use algorithm::{Outputs, Proof, entry_name};
+pub use algorithm::{Outputs, Proof, UnknownPart, entry_name};
 pub use chain::Chain;
 pub use frames::{Walked, frames_program, pose_program};
 pub use model::{ForwardModel, Reference, link_transforms, prove, symbol_order};

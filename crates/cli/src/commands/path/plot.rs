@@ -1,6 +1,7 @@
 //! Joints, velocities and manipulability over time, as SVG.
 
 use super::samples::{Sample, Sampled};
+use crate::terminal::words;
 use denavit::description::{Description, JointKind};
 use denavit::motion::follow::EventKind;
 use denavit::motion::plan::Planned;
@@ -70,7 +71,8 @@ fn draw(
     let root = SVGBackend::with_string(text, (SIZE.0 * FINE.unsigned_abs(), SIZE.1 * FINE.unsigned_abs()))
         .into_drawing_area();
     root.fill(&WHITE)?;
-    let root = root.titled(&format!("{}: {}", d.name, planned.words), ("sans-serif", 22 * FINE))?;
+    let root =
+        root.titled(&format!("{}: {}", d.name, words().course(&planned.course)), ("sans-serif", 22 * FINE))?;
     let panels = root.split_evenly((3, 1));
     for (panel, (title, curves)) in panels.iter().zip([
         ("joints / ° (slides / cm)", &joints[..]),

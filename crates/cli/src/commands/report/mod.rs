@@ -13,7 +13,7 @@ use crate::load;
 use denavit::check::document::Format;
 use denavit::check::{Checked, check};
 use denavit::description::Description;
-use denavit::explain::Language;
+use denavit_report::words::Language;
 use denavit_report::{Document, Errata, Options, Topic, render, report};
 use std::fs;
 use std::io::Write;

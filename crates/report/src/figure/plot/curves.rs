@@ -2,6 +2,7 @@
 
 use super::axes::{Area, NUMBERS, Scales, WORDS, axes};
 use crate::figure::drawing::{Anchor, Drawing, Ink, Label, Segment, Shape, Stroke};
+use crate::words::Language;
 
 /// A line of a plot.
 #[derive(Clone, PartialEq, Debug)]
@@ -72,7 +73,7 @@ pub fn curves(title: &str, labels: [Label; 2], curves: &[Curve]) -> Drawing {
         });
     }
     let names: Vec<String> = curves.iter().map(|c| plain(&c.name)).collect();
-    let description = format!("{title}: {} over the horizontal axis", names.join(", "));
+    let description = Language::default().words().curves_picture(title, &names);
     Drawing { width: page[0], height: page[1], description, shapes }
 }
 

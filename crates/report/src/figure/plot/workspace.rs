@@ -3,6 +3,7 @@
 use super::axes::{Area, NUMBERS, WORDS, axes, number, stroke};
 use super::recorder::circle;
 use crate::figure::drawing::{Anchor, Drawing, Ink, Label, Segment, Shape};
+use crate::words::Language;
 use denavit::Robot;
 use denavit::geometry::Vector;
 use denavit::workspace::{Field, Section, Workspace, contours};
@@ -75,7 +76,8 @@ pub fn workspace_plot(workspace: &Workspace, arm: Option<&[[f64; 2]]>) -> Drawin
         }
     }
     shapes.extend(bar([LEFT + size[0] + 18.0, ABOVE], size[1].min(160.0)));
-    Drawing { width: page[0], height: page[1], description: described(workspace), shapes }
+    let description = described(workspace);
+    Drawing { width: page[0], height: page[1], description, shapes }
 }
 
 /// The arm's frames as a line in the section of its workspace, at a configuration; none where they do not lie in one half
@@ -289,16 +291,7 @@ fn bar([x, y]: [f64; 2], high: f64) -> Vec<Shape> {
 }
 
 fn described(workspace: &Workspace) -> String {
-    let [u, v] = workspace.section.symbols();
-    let ([a, b], [c, d]) = (workspace.extremes.first, workspace.extremes.second);
-    let n = |x: f64| number(x, 3);
-    format!(
-        "Section of the workspace, {}: {u} from {} to {} m, {v} from {} to {} m; coloured by manipulability, \
-         its largest value 1",
-        workspace.section,
-        n(a),
-        n(b),
-        n(c),
-        n(d)
-    )
+    let extremes = [workspace.extremes.first, workspace.extremes.second];
+    let ranges = extremes.map(|range| range.map(|x| number(x, 3)));
+    Language::default().words().workspace_picture(&workspace.section, ranges)
 }

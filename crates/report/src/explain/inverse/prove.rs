@@ -2,8 +2,8 @@
 //! what is left must vanish identically.
 
 use super::reading::Reading;
-use crate::explain::Proof;
-use crate::inverse::derivation::Random;
+use crate::document::Proof;
+use denavit::inverse::derivation::Random;
 use denavit_symbolic::{Expr, Symbol, Verdict, equal};
 use rustc_hash::FxHashMap;
 
