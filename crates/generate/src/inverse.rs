@@ -72,7 +72,7 @@ impl Closed {
         let facts = Inverse {
             by_elimination: false,
             max_solutions: model.max_solutions(),
-            branches: model.labels.iter().flatten().cloned().collect(),
+            branches: model.labels.iter().flatten().map(ToString::to_string).collect(),
             given: model.given.iter().map(|&j| model.chain.variables[j]).collect(),
             given_by_choice: model.given_by_choice,
             assumed,

@@ -61,7 +61,9 @@ impl Wanted {
             (Wanted::JacobianAndPose, Proof::Proved) => {
                 "proved equal to the product of the link transforms and its derivative".into()
             }
-            _ => proof.to_string(),
+            (_, Proof::Proved) => "proved equal to the product of the link transforms".into(),
+            (_, Proof::Undecided(why)) => format!("not proved: {why}"),
+            (_, Proof::Failed) => "not proved: the canonical forms differ".into(),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Quantities as they stand in tables.
 
-use denavit::explain::Line;
-pub use denavit::explain::decimals;
+use crate::document::Line;
+pub use denavit::quantity::decimals;
 use denavit_symbolic::{Angle, Expr, Rational};
 
 /// A length as a formula or in metres, an angle in degrees; what is no multiple of π in radians.

@@ -1,12 +1,12 @@
 //! The link transforms, a forward model and its algorithm as a document.
 
-use crate::document::{Document, Part, Section};
+use crate::document::{Document, Factor, Line, Math, Part, Section};
 use crate::render::too_long;
+use crate::words::{Heading, Language, Names, Wording};
 use denavit::description::Description;
-use denavit::explain::{Factor, Language, Line, Math, Piece, count};
 use denavit::forward::{ForwardModel, Outputs, Reference, link_transforms};
 use denavit::geometry::Transform;
-use denavit_program::{COUNTING_RULE, Step};
+use denavit_program::Step;
 use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Expr, Node};
@@ -68,75 +68,52 @@ impl<'a> Derivation<'a> {
 
     /// The names of the two frames: `0` and `6`, or `base` and `tool` where those differ from them.
     pub fn frames(&self) -> [String; 2] {
-        self.frames_in(Language::English)
+        self.frames_in(Language::English.words())
     }
 
-    fn frames_in(&self, language: Language) -> [String; 2] {
+    fn frames_in(&self, words: &dyn Wording) -> [String; 2] {
         let d = self.description;
         [self.model.from, self.model.to].map(|r| match r {
             Reference::Base if d.base == Transform::identity() => "0".into(),
-            Reference::Base => "base".into(),
+            Reference::Base => words.base(),
             Reference::Frame(i) => i.to_string(),
             Reference::Tool if d.tool == Transform::identity() => d.rows.len().to_string(),
-            Reference::Tool => language.pick("tool", "outil").into(),
+            Reference::Tool => words.tool(),
         })
     }
 
     /// The matrix and its algorithm, a section each; headings have this level.
     pub fn sections(&self, level: u8, language: Language) -> [Section; 2] {
-        let say = |english: &str, french: &str| language.spaced(language.pick(english, french));
+        let words = language.words();
         // An entry of the matrix is called as the algorithm calls it: t11.
         let mut section = Section::new(self.description.vocabulary());
-        let [from, to] = self.frames_in(language);
+        let [from, to] = self.frames_in(words);
         let frame = Factor::Frame { from: from.clone(), to: to.clone() };
-        let title = Line::new(say("Forward model ", "Modèle géométrique direct "));
+        let title = Line::new(words.forward_title());
         section.heading(level, title.math(Math::Product(vec![frame])));
         match &self.model.matrix {
             Ok(rows) if too_long(&matrix(&from, &to, rows), &section.names) => {
-                section.paragraph(Line::new(say(
-                    "The entries of the matrix are too long to be printed; the algorithm below computes them.",
-                    "Les éléments de la matrice sont trop longs pour être imprimés ; l'algorithme ci-dessous les calcule.",
-                )));
+                section.paragraph(Line::new(words.long_matrix()));
             }
             Ok(rows) => section.formula(matrix(&from, &to, rows)),
-            Err(why) => {
-                let why = denavit::explain::refusal(*why, language);
-                section.paragraph(Line::new(
-                    say("The matrix is not expanded: ", "La matrice n'est pas développée : ") + &why + ".",
-                ));
-            }
+            Err(why) => section.paragraph(Line::new(words.no_matrix(*why))),
         }
         let matrix = section;
         let mut section = Section::new(self.names.clone());
-        section.heading(level, Line::new(say("Algorithm", "Algorithme")));
-        section.paragraph(Line::new(say(
-            "The same model as the shortest program that was found for it:",
-            "Le même modèle, par le programme le plus court trouvé :",
-        )));
-        section.paragraph(self.legend(language));
+        section.heading(level, Line::new(words.heading(Heading::Algorithm)));
+        section.paragraph(Line::new(words.shortest_program()));
+        section.paragraph(self.legend(words));
         let steps = self.steps.iter().filter(|s| !(s.is_output && s.value.as_number().is_some()));
         let steps = steps.map(|s| Math::equation(Expr::symbol(&s.name), s.value));
         section.push(Part::Equations(steps.collect()));
-        let cost = format!(
-            "{}{} {}.",
-            count(&self.model.algorithm.count(), language),
-            language.pick(";", "\u{a0};"),
-            self.model.proof.of_model(language)
-        );
+        let cost = words.forward_cost(&self.model.algorithm.count(), self.model.proof);
         section.paragraph(Line::new(cost));
-        section.paragraph(Line::new(language.pick(
-            format!("Counted: {COUNTING_RULE}."),
-            language.spaced(
-                "On compte chaque multiplication et chaque addition dont le résultat dépend d'une variable ; les signes ne \
-                 comptent pas ; le sinus et le cosinus d'un même angle forment un couple ; une constante ajoutée à une \
-                 variable (son décalage) et ce qui ne dépend que des paramètres sont comptés à part.",
-            ),
-        )));
+        section.paragraph(Line::new(words.counting_rule()));
         [matrix, section]
     }
 
     /// What the short names of sines and cosines mean, angle by angle.
-    fn legend(&self, language: Language) -> Line {
+    fn legend(&self, words: &dyn Wording) -> Line {
         let mut angles: Vec<(Expr, Vec<Expr>)> = vec![];
         for (_, e) in self.trigonometry() {
             let (Node::Sin(angle) | Node::Cos(angle)) = e.node() else { continue };
@@ -145,30 +122,20 @@ impl<'a> Derivation<'a> {
                 None => angles.push((angle, vec![e])),
             }
         }
-        let mut line = Line::default();
-        for (k, (angle, taken)) in angles.into_iter().enumerate() {
-            line = line.text(if k > 0 { "; " } else { "" }).list(taken.iter().map(|&e| e.into()));
-            let is_cosine = |e: &Expr| matches!(e.node(), Node::Cos(_));
-            line = line.text(match (taken.iter().any(is_cosine), taken.iter().all(is_cosine)) {
-                (true, true) => language.pick(": cosine of ", " : cosinus de "),
-                (true, false) => language.pick(": cosine and sine of ", " : cosinus et sinus de "),
-                (false, _) => language.pick(": sine of ", " : sinus de "),
-            });
-            line = line.math(angle);
-        }
-        let mut line = if line.0.is_empty() { line } else { line.text(".") };
-        for piece in &mut line.0 {
-            if let Piece::Text(words) = piece {
-                *words = language.spaced(&words.replace("; ", language.pick("; ", " ; ")));
-            }
-        }
-        line
+        let is_cosine = |e: &Expr| matches!(e.node(), Node::Cos(_));
+        let names = angles.into_iter().map(|(angle, taken)| Names {
+            has_cosine: taken.iter().any(is_cosine),
+            has_sine: !taken.iter().all(is_cosine),
+            names: taken.into_iter().map(Math::from).collect(),
+            angle,
+        });
+        words.names(names.collect())
     }
 
     /// The document of `denavit derive`.
     pub fn document(&self, language: Language) -> Document {
         let mut links = Section::new(self.names.clone());
-        links.heading(2, Line::new(language.pick("Link transforms", "Matrices de passage")));
+        links.heading(2, Line::new(language.words().heading(Heading::Links)));
         links.push(transforms(&self.links));
         let [matrix, algorithm] = self.sections(2, language);
         Document { title: self.description.name.clone(), language, sections: vec![links, matrix, algorithm] }

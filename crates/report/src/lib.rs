@@ -1,15 +1,18 @@
 //! Documents about a robot: what `denavit` derives, as a document that one would hand in.
 //!
-//! [`report`] makes a [`Document`], a tree that knows no format; [`render`] writes it as Typst, LaTeX, Markdown and
-//! HTML. [`figure`] draws the arm. [`json`] is what other programs read. Nothing here opens a file; nothing computes what the robot crate should.
+//! [`report`] makes a [`Document`], a tree that knows no format ([`document`]); [`explain`] the derivations in it; all words
+//! are those of [`words`]. [`render`] writes it as Typst, LaTeX, Markdown and HTML. [`figure`] draws the arm. [`json`] is what
+//! other programs read. Nothing here opens a file; nothing computes what the robot crate should.
 
 mod cell;
 mod derivation;
-mod document;
+pub mod document;
+pub mod explain;
 pub mod figure;
 pub mod json;
 pub mod render;
 mod sections;
+pub mod words;
 
 pub use cell::{cell, decimals};
 pub use derivation::Derivation;

@@ -57,16 +57,6 @@ impl Measured {
     pub fn is_angle(self) -> bool {
         matches!(self, Measured::Angle | Measured::Turn)
     }
-
-    /// Its name and letter.
-    pub fn words(self) -> &'static str {
-        match self {
-            Measured::Angle => "angle α",
-            Measured::Normal => "common normal a",
-            Measured::Offset => "offset d",
-            Measured::Turn => "angle θ",
-        }
-    }
 }
 
 /// Special angles are multiples of this.

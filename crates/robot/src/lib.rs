@@ -10,18 +10,18 @@
 //! - [`catalogue`]: robots that people own or study.
 //! - [`forward`]: link transforms, the simplified forward model, the shortest algorithm for it.
 //! - [`velocity`]: Jacobians, singularities, velocities and forces.
-//! - [`explain`]: derivations as documents.
+//! - [`quantity`]: numbers as a person reads them.
 //! - [`motion`]: paths of joints and hand, followed and timed.
 
 pub mod catalogue;
 pub mod description;
-pub mod explain;
 pub mod forward;
 pub mod geometry;
 pub mod idealise;
 pub mod inverse;
 pub mod mechanism;
 pub mod motion;
+pub mod quantity;
 pub mod random;
 pub mod scalar;
 pub mod space;

@@ -7,7 +7,6 @@ use crate::description::{Description, JointKind};
 use crate::geometry::Transform;
 use crate::mechanism::{Lengths, MovingAxes, Robot};
 use denavit_symbolic::{Expr, readable};
-use std::fmt;
 
 /// How an axis lies to the one before it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -42,18 +41,28 @@ impl Relation {
     }
 }
 
-impl fmt::Display for Relation {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Relation::Coincident => "coincide",
-            Relation::Parallel => "are parallel",
-            Relation::MeetPerpendicular => "meet at a right angle",
-            Relation::Meet => "meet",
-            Relation::Perpendicular => "are perpendicular, at a distance",
-            Relation::Skew => "are skew",
-            Relation::PerpendicularDirections => "are perpendicular",
-            Relation::ObliqueDirections => "are oblique",
-        })
+/// What two axes can be, with nothing rounded.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Special {
+    /// On one line.
+    Coincident,
+    /// Parallel.
+    Parallel,
+    /// At right angles.
+    Perpendicular,
+    /// In one plane, not parallel.
+    Meeting,
+}
+
+impl Special {
+    /// The word of the JSON form.
+    pub fn name(self) -> &'static str {
+        match self {
+            Special::Coincident => "coincident",
+            Special::Parallel => "parallel",
+            Special::Perpendicular => "perpendicular",
+            Special::Meeting => "meeting",
+        }
     }
 }
 
@@ -63,19 +72,11 @@ pub struct NearlySpecial {
     /// The joints, from 1.
     pub joints: (usize, usize),
     /// What they nearly are.
-    pub nearly: &'static str,
+    pub nearly: Special,
     /// By how much they miss it (radians or metres).
     pub by: f64,
     /// True if `by` is an angle.
     pub is_angle: bool,
-}
-
-impl fmt::Display for NearlySpecial {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let unit = if self.is_angle { "rad" } else { "m" };
-        let (first, second) = self.joints;
-        write!(f, "axes {first} and {second} are nearly {}: {:.3e} {unit} off", self.nearly, self.by)
-    }
 }
 
 /// What is special about an arm.
@@ -216,12 +217,12 @@ fn nearly_special(
         };
         match relation {
             Relation::Coincident => {}
-            Relation::Parallel => report("coincident", p[0].hypot(p[1]), reach, false),
+            Relation::Parallel => report(Special::Coincident, p[0].hypot(p[1]), reach, false),
             _ => {
-                report("parallel", across, 1.0, true);
-                report("perpendicular", z[2].asin(), 1.0, true);
+                report(Special::Parallel, across, 1.0, true);
+                report(Special::Perpendicular, z[2].asin(), 1.0, true);
                 if matches!(relation, Relation::Perpendicular | Relation::Skew) && across > NEARLY {
-                    report("meeting", (p[1] * z[0] - p[0] * z[1]) / across, reach, false);
+                    report(Special::Meeting, (p[1] * z[0] - p[0] * z[1]) / across, reach, false);
                 }
             }
         }

@@ -2,7 +2,6 @@
 
 use crate::refusal::Refusal;
 use crate::session::Subject;
-use denavit::explain::Language as Tongue;
 use denavit::inverse;
 use denavit_check::check as checked;
 use denavit_emit::{Language, Precision};
@@ -10,6 +9,7 @@ use denavit_generate::{Options as Wish, Wanted, generate};
 use denavit_reading::document::Format;
 use denavit_report::figure::svg::{Palette, svg};
 use denavit_report::figure::{Options as Look, View, isometric, scheme};
+use denavit_report::words::Language as Tongue;
 use denavit_report::{Options, json as as_json, render};
 use serde::Deserialize;
 use serde_json::{Value, json};

@@ -21,6 +21,7 @@ mod solve;
 mod values;
 mod velocity;
 
+use denavit_report::words::{Language, Wording};
 use refusal::Refusal;
 use robot_file::RobotFile;
 use serde::Deserialize;
@@ -30,6 +31,11 @@ use std::cell::RefCell;
 
 thread_local! {
     static SESSION: RefCell<Session> = RefCell::new(Session::default());
+}
+
+/// The words of the page.
+fn words() -> &'static dyn Wording {
+    Language::English.words()
 }
 
 /// What can be asked.

@@ -1,6 +1,7 @@
 //! What the page has to know of a robot before anything is computed.
 
 use crate::session::Subject;
+use crate::words;
 use denavit::Robot;
 use denavit::description::{JointKind, Measure};
 use denavit::structure::Structure;
@@ -12,7 +13,7 @@ use std::f64::consts::PI;
 pub fn model(subject: &Subject) -> Value {
     let d = &subject.description;
     let structure = Structure::of(&subject.valued);
-    let mut remarks: Vec<String> = structure.nearly.iter().map(ToString::to_string).collect();
+    let mut remarks: Vec<String> = structure.nearly.iter().map(|near| words().nearly(near)).collect();
     let missing: Vec<String> =
         d.parameters.iter().filter(|p| p.value.is_none()).map(|p| p.symbol.name().to_string()).collect();
     if !missing.is_empty() {

@@ -4,10 +4,11 @@ use crate::refusal::Refusal;
 use crate::scene::matrix;
 use crate::session::Subject;
 use crate::solve;
+use crate::words;
 use denavit::geometry::{Transform, Vector};
 use denavit::motion::follow::{Event, EventKind};
 use denavit::motion::hand::{Arc, Chain, HandPath, Line, Orientation};
-use denavit::motion::plan::{KnownLimits, PlanOptions, Planned, Verdict, Wish as Stretch};
+use denavit::motion::plan::{Course, KnownLimits, PlanOptions, Planned, Verdict, Wish as Stretch};
 use denavit::velocity::{Viewpoint, Whole, geometric};
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -121,11 +122,7 @@ fn asked(subject: &Subject, here: &[f64], stretch: &[Point]) -> Result<Stretch, 
             Point::Joint { .. } => {}
         }
     }
-    let words = match parts.len() {
-        1 => "a path of the hand".to_string(),
-        n => format!("a path of the hand in {n} parts"),
-    };
-    Ok(Stretch::Hand { path: Box::new(Chain::new(parts)), start: Some(here.to_vec()), words })
+    Ok(Stretch::Hand { path: Box::new(Chain::new(parts)), start: Some(here.to_vec()) })
 }
 
 impl Sampled {
@@ -147,14 +144,17 @@ impl Sampled {
             let time = nearest.map_or(start, |k| self.times[k]);
             self.events.push(told(subject, event, time));
         }
-        self.words.push(planned.words.clone());
-        self.timing.push(planned.timing.clone());
+        self.words.push(match &planned.course {
+            Course::Hand(parts) => words().hand_path(parts.len()),
+            course => words().course(course),
+        });
+        self.timing.push(words().timing(&planned.timing, &subject.description));
         if self.alternatives.is_empty() {
             self.alternatives = planned
                 .alternatives
                 .iter()
                 .map(|a| {
-                    json!({ "q": a.start, "words": a.branch, "reached": a.reached, "withinLimits": a.within_limits })
+                    json!({ "q": a.start, "words": words().branch(&a.branch), "reached": a.reached, "withinLimits": a.within_limits })
                 })
                 .collect();
         }
@@ -187,5 +187,5 @@ fn told(subject: &Subject, event: &Event, time: f64) -> Value {
         EventKind::Limit { .. } | EventKind::WithinLimits { .. } => "limit",
         EventKind::End { .. } => "end",
     };
-    json!({ "time": time, "kind": kind, "words": event.sentence(&subject.description) })
+    json!({ "time": time, "kind": kind, "words": words().event(event, &subject.description) })
 }

@@ -3,8 +3,9 @@
 use crate::refusal::Refusal;
 use crate::scene::{bodies, matrix};
 use crate::session::Subject;
+use crate::words;
 use denavit::geometry::Transform;
-use denavit::inverse::{Answer, Family, JointSpace, Members, Nearest, Solution};
+use denavit::inverse::{Answer, Family, JointSpace, Members, Nearest, Obstacle, Solution};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -61,7 +62,7 @@ pub fn solve(subject: &mut Subject, wish: &Wish) -> Result<Value, Refusal> {
     let members: Vec<_> = shown.families.iter().map(|f| solver.members(&target, f)).collect();
     if let (Some(o), false) = (&answer.obstacle, answer.is_reachable()) {
         value["obstacle"] = json!({
-            "words": o.words(),
+            "words": obstacle(o),
             "q": o.q,
             "pose": matrix(&target),
             "angle": o.angle,
@@ -72,7 +73,7 @@ pub fn solve(subject: &mut Subject, wish: &Wish) -> Result<Value, Refusal> {
     let shown: &Answer = &shown;
     value["complete"] = answer.is_complete().into();
     if let Some(doubt) = answer.doubt {
-        value["doubt"] = doubt.words().into();
+        value["doubt"] = words().doubt(doubt).into();
     }
     value["solutions"] = shown.solutions.iter().map(|s| solution(subject, s)).collect();
     let families = shown.families.iter().zip(&members);
@@ -89,6 +90,16 @@ pub fn solve(subject: &mut Subject, wish: &Wish) -> Result<Value, Refusal> {
     Ok(value)
 }
 
+/// Why there is no solution.
+fn obstacle(found: &Obstacle) -> String {
+    let why = words().obstacle(found);
+    let conditions: Vec<&str> = found.violated.iter().map(|v| v.0.as_str()).collect();
+    match conditions[..] {
+        [] => why,
+        _ => format!("{why}; {}", words().violated(&conditions)),
+    }
+}
+
 /// The copy of a solution, whole turns away, that is nearest to where the arm is.
 fn copy(space: &JointSpace, s: &Solution, near: &[f64]) -> Nearest {
     let q = space.nearest_copy(&s.q, near);
@@ -99,7 +110,7 @@ fn copy(space: &JointSpace, s: &Solution, near: &[f64]) -> Nearest {
 fn solution(subject: &Subject, s: &Solution) -> Value {
     json!({
         "q": s.q,
-        "branch": s.branch,
+        "branch": s.branch.to_string(),
         "residual": s.residual,
         "multiplicity": s.multiplicity,
         "withinLimits": s.within_limits,

@@ -4,7 +4,7 @@ use crate::formulas;
 use crate::refusal::Refusal;
 use crate::session::Subject;
 use denavit::description::Description;
-use denavit::explain::{Math, Sign};
+use denavit_report::document::{Math, Sign};
 use denavit_report::{Document, render};
 use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::vocabulary::Vocabulary;

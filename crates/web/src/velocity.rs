@@ -4,9 +4,10 @@ use crate::formulas::formula;
 use crate::refusal::Refusal;
 use crate::scene::bodies;
 use crate::session::Subject;
-use denavit::explain::Math;
+use crate::words;
 use denavit::forward::Reference;
 use denavit::velocity::{ROWS, Singularities, Viewpoint, geometric, singular_configuration};
+use denavit_report::document::Math;
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::{Style, print};
 use serde_json::{Value, json};
@@ -46,7 +47,7 @@ pub fn singular(subject: &Subject) -> Result<Value, Refusal> {
             conditions.map(|(angle, v)| format!("{angle} = {}", print(v, &names, Style::Unicode))).collect();
         let factor = Math::equation(one.factor, Expr::int(0));
         json!({
-            "words": one.example.as_ref().map_or_else(String::new, |e| e.place.to_string()),
+            "words": one.example.as_ref().map_or_else(String::new, |e| words().place(&e.place)),
             "factor": formula(&factor, &names),
             "conditions": conditions,
             "scene": q.as_ref().map(|q| bodies(&subject.arm.at(q))),

@@ -2,7 +2,8 @@
 
 use crate::arguments::Format;
 use crate::terminal::{FAINT, HEADING, NAME, styled};
-use denavit::explain::{Block, Language, Mark, text};
+use denavit_report::document::{Block, Mark, text};
+use denavit_report::words::Language;
 use denavit_report::{Document, Part, Section, render};
 use denavit_symbolic::vocabulary::Vocabulary;
 

@@ -6,11 +6,11 @@ use crate::commands::report::put;
 use crate::commands::robots::joints;
 use crate::failure::Failure;
 use crate::load;
-use crate::terminal::{Align, FAINT, HEADING, NAME, styled, table};
+use crate::terminal::{Align, FAINT, HEADING, NAME, styled, table, words};
 use denavit::description::{Description, JointKind, Measure, write_toml};
-use denavit::explain::plain;
 use denavit::geometry::Transform;
 use denavit::structure::{Relation, Structure};
+use denavit_report::document::plain;
 use denavit_report::figure::svg::{Palette, svg};
 use denavit_report::figure::{self, Arm};
 use denavit_symbolic::Expr;
@@ -166,7 +166,7 @@ fn structure(d: &Description) -> String {
     for (k, relation) in s.relations.iter().enumerate() {
         let said = |run: &Vec<usize>| run.contains(&(k + 1)) && run.contains(&(k + 2));
         if *relation != Relation::Parallel || !s.parallel.iter().any(said) {
-            text += &format!("  axes {} and {} {relation}\n", k + 1, k + 2);
+            text += &format!("  axes {} and {} {}\n", k + 1, k + 2, words().relation(*relation));
         }
     }
     for &first in &s.spherical {
@@ -178,7 +178,7 @@ fn structure(d: &Description) -> String {
         text += &format!("  axes {}, {}, {} meet in one point: {part}\n", first, first + 1, first + 2);
     }
     for near in &s.nearly {
-        text += &format!("  {near}; nothing is rounded\n");
+        text += &format!("  {}; nothing is rounded\n", words().nearly(near));
     }
     for (name, q) in &d.poses {
         let variables = d.variables();
@@ -221,10 +221,10 @@ fn as_json(d: &Description) -> serde_json::Value {
         "structure": {
             "schematic": s.schematic(),
             "parallel": s.parallel,
-            "relations": s.relations.iter().map(ToString::to_string).collect::<Vec<_>>(),
+            "relations": s.relations.iter().map(|r| words().relation(*r)).collect::<Vec<_>>(),
             "spherical_wrists": s.spherical,
             "nearly": s.nearly.iter()
-                .map(|n| json!({"joints": [n.joints.0, n.joints.1], "nearly": n.nearly, "by": n.by})).collect::<Vec<_>>(),
+                .map(|n| json!({"joints": [n.joints.0, n.joints.1], "nearly": n.nearly.name(), "by": n.by})).collect::<Vec<_>>(),
         },
     })
 }

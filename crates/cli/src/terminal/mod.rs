@@ -3,6 +3,7 @@
 pub use denavit_report::decimals;
 
 use anstyle::{AnsiColor, Style};
+use denavit_report::words::{Language, Wording};
 use unicode_width::UnicodeWidthStr;
 
 /// Headings.
@@ -11,6 +12,11 @@ pub const HEADING: Style = Style::new().bold();
 pub const FAINT: Style = Style::new().dimmed();
 /// Names of results.
 pub const NAME: Style = AnsiColor::Cyan.on_default();
+
+/// The words of a terminal.
+pub fn words() -> &'static dyn Wording {
+    Language::English.words()
+}
 
 /// The text in a style.
 pub fn styled(text: &str, style: Style) -> String {

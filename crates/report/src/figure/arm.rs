@@ -20,5 +20,5 @@ pub fn isometric(arm: &Arm, options: &Options) -> Drawing {
     if options.lengths {
         picture.lengths(true);
     }
-    picture.finish("Picture")
+    picture.finish(false)
 }

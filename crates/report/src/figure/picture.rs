@@ -8,6 +8,7 @@ use super::pose::Arm;
 use super::slide::to_segment;
 use super::solid::{Form, Paint, Solid, Style, arc, line, paint, polygon, polyline};
 use super::view::{Bounds, Paper, View};
+use crate::words::Language;
 use denavit::description::JointKind;
 use denavit::geometry::Vector;
 
@@ -338,7 +339,7 @@ impl<'a> Picture<'a> {
     }
 
     /// The drawing; labels find their places last, when all lines are known.
-    pub fn finish(mut self, what: &str) -> Drawing {
+    pub fn finish(mut self, is_scheme: bool) -> Drawing {
         for wish in &self.wishes {
             self.sheet.place(wish, &mut self.shapes);
         }
@@ -350,8 +351,8 @@ impl<'a> Picture<'a> {
             JointKind::Prismatic => 'P',
         });
         let joints: String = joints.collect();
-        let description =
-            format!("{what} of {}, joints {joints} from the base to the hand", self.arm.chain.name);
+        let words = Language::default().words();
+        let description = words.arm_picture(is_scheme, &self.arm.chain.name, &joints);
         Drawing { width: self.size[0], height: self.size[1], description, shapes: self.shapes }
     }
 

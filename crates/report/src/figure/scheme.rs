@@ -22,5 +22,5 @@ pub fn scheme(arm: &Arm, options: &Options) -> Drawing {
     if options.lengths {
         picture.lengths(false);
     }
-    picture.finish("Line diagram")
+    picture.finish(true)
 }

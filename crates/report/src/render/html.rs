@@ -4,10 +4,11 @@
 
 use super::layout::{columns, display, equation, inline, is_wide, mark, named};
 use super::nested::{Item, nested};
+use crate::document::{Block, BrokenLine, Laid, Line, Math, Piece, math};
 use crate::document::{Document, Figure, Part, Section, Table};
 use crate::figure::svg::{Palette, style, svg};
+use crate::words::Wording;
 use base64::Engine;
-use denavit::explain::{Block, BrokenLine, Laid, Language, Line, Math, Piece, math};
 use denavit_symbolic::print::Style;
 use denavit_symbolic::vocabulary::Vocabulary;
 use std::fmt::Write;
@@ -23,10 +24,15 @@ pub fn page(document: &Document) -> String {
 
 /// The page with the font of its formulas (WOFF2, base64) put in by whoever has it already.
 pub fn page_with(document: &Document, font: &str) -> String {
-    let language = document.language.pick("en", "fr");
+    let language = document.language.words().code();
     let title = escaped(&document.title);
-    let mut writer =
-        Writer { out: String::new(), contents: vec![], figures: 0, tables: 0, language: document.language };
+    let mut writer = Writer {
+        out: String::new(),
+        contents: vec![],
+        figures: 0,
+        tables: 0,
+        said: document.language.words(),
+    };
     for section in &document.sections {
         writer.section(section);
     }
@@ -40,8 +46,7 @@ pub fn page_with(document: &Document, font: &str) -> String {
         style()
     );
     if writer.contents.len() > 3 {
-        let _ =
-            writeln!(out, "<nav aria-label=\"{}\">\n<ol>", document.language.pick("Contents", "Sommaire"));
+        let _ = writeln!(out, "<nav aria-label=\"{}\">\n<ol>", document.language.words().contents());
         for (k, heading) in writer.contents.iter().enumerate() {
             let _ = writeln!(out, "<li><a href=\"#s{}\">{heading}</a></li>", k + 1);
         }
@@ -56,7 +61,7 @@ struct Writer {
     contents: Vec<String>,
     figures: usize,
     tables: usize,
-    language: Language,
+    said: &'static dyn Wording,
 }
 
 impl Writer {
@@ -104,7 +109,7 @@ impl Writer {
             }
             Block::Formula { math, number, proof } => {
                 let mark = mark(*proof, ["✓", "≈", "NOT TRUE"]);
-                let said = self.said(mark);
+                let said = self.said.spoken_mark(mark);
                 let number = number.map(|n| format!("({n})")).unwrap_or_default();
                 let tail = match (number.is_empty(), mark.is_empty()) {
                     (true, true) => String::new(),
@@ -134,17 +139,9 @@ impl Writer {
         }
     }
 
-    fn said(&self, mark: &str) -> &'static str {
-        match mark {
-            "✓" => self.language.pick("proved", "démontré"),
-            "≈" => self.language.pick("checked at sample poses", "vérifié pour des poses d'essai"),
-            _ => self.language.pick("not true", "faux"),
-        }
-    }
-
     /// One that may be wider than a screen can be scrolled by keys.
     fn formula(&mut self, set: &str, alt: &str, tail: &str, is_wide: bool) {
-        let label = self.language.pick("formula", "formule");
+        let label = self.said.formula();
         let scrolled = if is_wide {
             format!(" tabindex=\"0\" role=\"group\" aria-label=\"{label}\"")
         } else {
@@ -181,7 +178,7 @@ impl Writer {
 
     fn table(&mut self, table: &Table, names: &Vocabulary) {
         self.tables += 1;
-        let word = self.language.pick("Table", "Tableau");
+        let word = self.said.table();
         let _ = writeln!(
             self.out,
             "<div class=\"table\" tabindex=\"0\" role=\"group\" aria-label=\"{word} {}\"><table>\n<caption><b>{word} {}.</b> {}</caption>\n<thead><tr>",

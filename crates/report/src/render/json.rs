@@ -5,9 +5,9 @@
 
 use super::html::{escaped, lines, rows, spoken, words};
 use super::layout::{display, equation, is_wide, named};
+use crate::document::{Block, Branch, Math, Proof, Sign, math};
 use crate::document::{Document, Part, Section};
 use crate::figure::svg::{Palette, svg};
-use denavit::explain::{Block, Branch, Math, Proof, Sign, math};
 use denavit_emit::{Language, expression};
 use denavit_symbolic::print::Style;
 use denavit_symbolic::vocabulary::Vocabulary;

@@ -2,9 +2,9 @@
 
 use super::layout::{self, WIDE, columns, display, equation, inline, mark, named, shares};
 use super::nested::{Item, nested};
+use crate::document::{Block, BrokenLine, Laid, Line, Math, Piece, math};
 use crate::document::{Document, Figure, Part, Section, Table};
 use crate::figure::tikz::tikz;
-use denavit::explain::{Block, BrokenLine, Laid, Language, Line, Math, Piece, math};
 use denavit_symbolic::greek;
 use denavit_symbolic::print::Style;
 use denavit_symbolic::vocabulary::Vocabulary;
@@ -36,9 +36,10 @@ pub fn whole(document: &Document) -> String {
          \\allowdisplaybreaks\n\\setcounter{{MaxMatrixCols}}{{20}}\n\\setcounter{{secnumdepth}}{{1}}\n\\setlength{{\\parindent}}{{0pt}}\n\\setlength{{\\parskip}}{{4pt}}\n\\sloppy\n",
         env!("CARGO_PKG_VERSION")
     );
-    // Without a package for it: most installations have none for French.
-    if document.language == Language::French {
-        out += "\\renewcommand{\\tablename}{Tableau}\n";
+    // Without a package for it: most installations have none but for English.
+    let table = document.language.words().table();
+    if table != "Table" {
+        let _ = writeln!(out, "\\renewcommand{{\\tablename}}{{{table}}}");
     }
     let _ = writeln!(
         out,
@@ -119,7 +120,7 @@ fn block(block: &Block, names: &Vocabulary, star: &str, out: &mut String) {
 }
 
 /// LaTeX nests four lists at most; what is deeper is set in one line each.
-fn tree(branch: &denavit::explain::Branch, names: &Vocabulary, out: &mut String) {
+fn tree(branch: &crate::document::Branch, names: &Vocabulary, out: &mut String) {
     nested(branch, &mut |item| {
         let _ = match item {
             Item::Open(depth) if depth < 4 => {

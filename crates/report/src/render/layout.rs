@@ -1,7 +1,7 @@
 //! What fits a page, the same in every format: lines of formulas, matrices by names, what stands side by side.
 
 use crate::document::Table;
-use denavit::explain::{Block, Factor, Laid, Line, Math, Proof, aligned, laid, math, matrix_width, plain};
+use crate::document::{Block, Factor, Laid, Line, Math, Proof, aligned, laid, math, matrix_width, plain};
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::{Style, width};
 use denavit_symbolic::vocabulary::Vocabulary;

@@ -3,9 +3,10 @@
 use super::latex::rows;
 use super::layout::{columns, display, equation, mark, named};
 use super::nested::{Item, nested};
+use crate::document::{Block, Line, Math, Piece, math};
 use crate::document::{Document, Figure, Part, Section, Table};
 use crate::figure::svg::{Palette, svg};
-use denavit::explain::{Block, Language, Line, Math, Piece, math};
+use crate::words::Wording;
 use denavit_symbolic::print::Style;
 use denavit_symbolic::vocabulary::Vocabulary;
 use std::fmt::Write;
@@ -27,7 +28,7 @@ pub fn whole(document: &Document, folder: &str) -> Markdown {
         tables: 0,
         pictures: 0,
         folder,
-        language: document.language,
+        said: document.language.words(),
     };
     for section in &document.sections {
         writer.section(section);
@@ -41,7 +42,7 @@ struct Writer<'a> {
     tables: usize,
     pictures: usize,
     folder: &'a str,
-    language: Language,
+    said: &'static dyn Wording,
 }
 
 impl Writer<'_> {
@@ -125,7 +126,7 @@ impl Writer<'_> {
 
     fn table(&mut self, table: &Table, names: &Vocabulary) {
         self.tables += 1;
-        let word = self.language.pick("Table", "Tableau");
+        let word = self.said.table();
         let _ = writeln!(self.out, "**{word} {}.** {}\n", self.tables, words(&table.caption, names));
         let cells = |row: &Vec<Line>| row.iter().map(|c| cell(c, names)).collect::<Vec<_>>().join(" | ");
         let _ = writeln!(self.out, "| {} |\n|{}", cells(&table.head), ":-:|".repeat(table.head.len()));

@@ -1,6 +1,6 @@
 //! A tree as a list of lists.
 
-use denavit::explain::{Branch, Line};
+use crate::document::{Branch, Line};
 
 /// What a nested list is written of; the number is the depth.
 pub enum Item<'a> {

@@ -2,10 +2,10 @@
 
 use super::layout::{self, WIDE, columns, display, equation, inline, mark, named, shares};
 use super::nested::{Item, nested};
+use crate::document::{Block, BrokenLine, Laid, Line, Math, Piece, math};
 use crate::document::{Document, Figure, Part, Section, Table};
 use crate::figure::Drawing;
 use crate::figure::typst::typst as drawn;
-use denavit::explain::{Block, BrokenLine, Laid, Language, Line, Math, Piece, math};
 use denavit_symbolic::print::Style;
 use denavit_symbolic::vocabulary::Vocabulary;
 use std::fmt::Write;
@@ -50,10 +50,7 @@ pub fn fragment(document: &Document) -> String {
 
 /// A document of its own.
 pub fn whole(document: &Document) -> String {
-    let language = match document.language {
-        Language::English => "en",
-        Language::French => "fr",
-    };
+    let language = document.language.words().code();
     let title = quoted(&document.title);
     let mut out = HEAD.to_string() + LOOK;
     // No date, so that the same robot gives the same bytes.

@@ -1,9 +1,9 @@
 //! What is wrong in the document that the robot comes from.
 
 use super::setting::Setting;
-use crate::document::Section;
-use denavit::explain::{Block, Language, Line};
-use denavit_check::{Claim, Entry, Finding, Slip, Standing};
+use crate::document::{Block, Line, Section};
+use crate::words::{Heading, List, Standings};
+use denavit_check::{Claim, Entry, Finding, Standing};
 
 /// The counts, the causes and the slips; nothing if no document was checked or it claims nothing.
 pub fn section(s: &Setting) -> Option<Section> {
@@ -13,36 +13,19 @@ pub fn section(s: &Setting) -> Option<Section> {
         return None;
     }
     let mut section = Section::new(s.description.vocabulary());
-    section.heading(2, s.line("Errata", "Errata"));
+    section.heading(2, Line::new(s.words.heading(Heading::Errata)));
     let t = checked.tally();
-    let (n, name) = (checked.claims.len(), errata.name);
-    let counted = [
-        (t.equal, ["proved", "proved"], ["démontrée", "démontrées"]),
-        (t.wrong, ["wrong", "wrong"], ["fausse", "fausses"]),
-        (t.conditional, ["right under a condition"; 2], ["juste sous condition", "justes sous condition"]),
-        (t.undecided, ["undecided"; 2], ["indécise", "indécises"]),
-        (t.unreadable, ["unreadable"; 2], ["illisible", "illisibles"]),
-    ];
-    let parts = counted.into_iter().filter(|c| c.0 > 0);
-    let parts: Vec<String> = parts.map(|(n, en, fr)| s.language.counted(n, en, fr)).collect();
-    section.paragraph(Line::new(s.language.spaced(&s.language.pick(
-        format!("{name} claims {n} formulas: {}.", s.language.listed(&parts)),
-        format!("{name} énonce {n} formules : {}.", s.language.listed(&parts)),
-    ))));
+    let standings = Standings {
+        equal: t.equal,
+        wrong: t.wrong,
+        conditional: t.conditional,
+        undecided: t.undecided,
+        unreadable: t.unreadable,
+    };
+    section.paragraph(Line::new(s.words.claims(errata.name, checked.claims.len(), standings)));
     for cause in &checked.causes {
         let counts = [&cause.turns_right, &cause.turns_wrong, &cause.stays_wrong].map(Vec::len);
-        let mut line = Line::default().strong(cause.change.clone());
-        line = line.text(s.language.spaced(&s.language.pick(
-            format!(
-                " would turn {} of them right and {} wrong; {} would stay wrong.",
-                counts[0], counts[1], counts[2]
-            ),
-            format!(
-                " en rendrait {} justes et {} fausses ; {} resteraient fausses.",
-                counts[0], counts[1], counts[2]
-            ),
-        )));
-        section.paragraph(line);
+        section.paragraph(Line::default().strong(cause.change.clone()).text(s.words.cause(counts)));
     }
     let mut all = Listed::default();
     for claim in checked.claims.iter().filter(|c| c.standing() != Standing::Equal) {
@@ -50,22 +33,16 @@ pub fn section(s: &Setting) -> Option<Section> {
             all.add(s, errata.text, claim, entry);
         }
     }
-    for (english, french, lines) in [
-        ("Wrong", "Faux", all.wrong),
-        ("Right under a condition", "Juste sous condition", all.conditional),
-        ("Not decided or not readable", "Indécis ou illisible", all.open),
-    ] {
+    let lists = [(List::Wrong, all.wrong), (List::Conditional, all.conditional), (List::Open, all.open)];
+    for (list, lines) in lists {
         if lines.is_empty() {
             continue;
         }
-        section.heading(3, s.line(english, french));
+        section.heading(3, Line::new(s.words.list(list)));
         let more = lines.len().saturating_sub(ROWS);
         section.push(Block::List(lines.into_iter().take(ROWS).collect()));
         if more > 0 {
-            section.paragraph(Line::new(s.language.pick(
-                format!("And {more} more; `denavit check` lists them."),
-                format!("Et {more} autres ; `denavit check` les donne."),
-            )));
+            section.paragraph(Line::new(s.words.more(more)));
         }
     }
     Some(section)
@@ -86,11 +63,9 @@ impl Listed {
         let printed = text.get(entry.span.clone()).unwrap_or_default();
         let printed = shortened(&printed.split_whitespace().collect::<Vec<_>>().join(" "));
         let head = Line::default().strong(shortened(&format!("{}{place}", claim.name)));
-        let head = head.text(s.language.spaced(
-            &s.language.pick(format!(", line {number}: {printed}"), format!(", ligne {number} : {printed}")),
-        ));
+        let head = head.text(s.words.printed(number, &printed));
         let right = |line: Line, correct: &Option<String>| match correct {
-            Some(formula) => line.text(s.say("; right: ", " ; juste : ")).text(shortened(formula)),
+            Some(formula) => line.text(s.words.right()).text(shortened(formula)),
             None => line,
         };
         match &entry.finding {
@@ -98,12 +73,12 @@ impl Listed {
             Finding::Wrong(w) => {
                 let line = right(head, &w.correct);
                 self.wrong.push(match &w.slip {
-                    Some(found) => line.text(" (").text(slip(s, found)).text(")"),
+                    Some(found) => line.text(format!(" ({})", s.words.slip(&found.id, &found.kind))),
                     None => line,
                 });
             }
             Finding::Conditional { condition, correct, .. } => {
-                let line = head.text(s.language.pick(format!(" ({condition})"), String::new()));
+                let line = head.text(s.words.condition(condition));
                 self.conditional.push(right(line, correct));
             }
             Finding::Undecided { .. } | Finding::Unreadable(_) => self.open.push(head),
@@ -129,30 +104,4 @@ fn shortened(text: &str) -> String {
         }
     }
     out
-}
-
-/// The kind of a slip in words.
-fn slip(s: &Setting, slip: &Slip) -> String {
-    if s.language == Language::English {
-        return slip.kind.clone();
-    }
-    let words = match &slip.id[..] {
-        "sign" => "un signe",
-        "sine-for-cosine" => "un sinus pour un cosinus, ou l'inverse",
-        "index" => "un indice",
-        "symbol" => "un symbole pour un autre",
-        "lost-factor" => "un facteur manque",
-        "extra-factor" => "un facteur de trop",
-        "lost-term" => "un terme manque",
-        "extra-term" => "un terme de trop",
-        "bracket" => "une parenthèse mal placée",
-        "exponent" => "un exposant",
-        "number" => "un nombre",
-        "exchanged" => "deux noms échangés",
-        "transposed" => "deux éléments échangés par transposition",
-        "entry" => "l'élément d'une autre place",
-        "several" => "plusieurs fautes",
-        _ => "une partie remplacée",
-    };
-    s.language.spaced(words)
 }

@@ -2,9 +2,9 @@
 
 use super::setting::Setting;
 use crate::cell::decimals;
-use crate::document::{Part, Section, Table};
+use crate::document::{Factor, Line, Math, Part, Section, Table};
+use crate::words::{Caption, Column, Heading};
 use denavit::description::JointKind;
-use denavit::explain::{Factor, Line, Math};
 use denavit::geometry::Transform;
 use denavit::geometry::orientation::{EulerSet, OrientationSet, extract};
 use denavit_symbolic::{Expr, Symbol};
@@ -16,16 +16,11 @@ pub fn section(s: &Setting) -> Option<Section> {
     let steps = model.algorithm.steps();
     let names = steps.iter().fold(s.description.vocabulary(), |v, step| v.symbol(&step.name));
     let mut section = Section::new(names);
-    section.heading(2, s.line("A worked example", "Exemple numérique"));
+    section.heading(2, Line::new(s.words.heading(Heading::Example)));
     if let Some(assumed) = s.assumed() {
         section.paragraph(assumed);
     }
-    let mut line = s.line("With ", "Avec ");
-    line.0.extend(s.configuration(&s.q).0);
-    section.paragraph(line.text(s.say(
-        " the steps of the algorithm, one after another, are",
-        " les étapes de l'algorithme donnent, l'une après l'autre,",
-    )));
+    section.paragraph(s.words.example(s.configuration(&s.q)));
 
     let variables = s.description.variables();
     let mut values: Vec<(Symbol, f64)> =
@@ -42,29 +37,19 @@ pub fn section(s: &Setting) -> Option<Section> {
     }
     section.push(Part::Table(side_by_side(
         &rows,
-        [s.line("step", "étape"), s.line("value", "valeur")],
-        s.line(
-            "The steps of the forward algorithm in numbers; lengths in metres.",
-            "Les étapes de l'algorithme direct en nombres ; longueurs en mètres.",
-        ),
+        [Column::Step, Column::Value].map(|c| Line::new(s.words.column(c))),
+        Line::new(s.words.caption(Caption::Steps)),
     )));
 
     let pose = robot.pose(&s.q);
-    section.paragraph(
-        s.line("and the pose of the tool in the base is", "et la pose de l'outil dans la base est"),
-    );
+    section.paragraph(Line::new(s.words.example_pose()));
     section.formula(numbers(&pose));
     let angles = |set: OrientationSet| -> String {
         let values = extract(&pose.rotation, set).values;
         values.iter().map(|x| format!("{}°", decimals(x.to_degrees(), 2))).collect::<Vec<_>>().join(", ")
     };
     let (rpy, zyz) = (angles(OrientationSet::Rpy), angles(OrientationSet::Euler(EulerSet::ZYZ)));
-    section.paragraph(Line::new(s.language.pick(
-        format!("Its orientation: roll, pitch, yaw {rpy} (about the fixed axes x, y, z); Euler angles ZYZ {zyz}."),
-        s.language.spaced(&format!(
-            "Son orientation : roulis, tangage, lacet {rpy} (autour des axes fixes x, y, z) ; angles d'Euler ZYZ {zyz}."
-        )),
-    )));
+    section.paragraph(Line::new(s.words.orientation(&rpy, &zyz)));
     let by_steps = |x: &str| values.iter().rev().find(|v| *v.0.name() == *x).map(|v| v.1);
     let entries = pose.matrix();
     let far = (0..3).flat_map(|r| (0..4).map(move |c| (r, c))).filter_map(|(r, c)| {
@@ -72,16 +57,7 @@ pub fn section(s: &Setting) -> Option<Section> {
         Some((by_steps(&name)? - entries[r][c]).abs())
     });
     let far = far.fold(0.0, f64::max);
-    section.paragraph(Line::new(s.language.pick(
-        format!(
-            "The product of the link transforms, multiplied out in numbers, differs from it by {} at most.",
-            power(far)
-        ),
-        s.language.spaced(&format!(
-            "Le produit numérique des matrices de passage en diffère de {} au plus.",
-            power(far)
-        )),
-    )));
+    section.paragraph(Line::new(s.words.difference(&power(far))));
     Some(section)
 }
 

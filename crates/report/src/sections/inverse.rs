@@ -2,12 +2,12 @@
 
 use super::example::{numbers, plain};
 use super::setting::Setting;
-use crate::document::{Part, Section, Table};
+use crate::document::{Block, Line, Part, Section, Table};
+use crate::explain::Explanation;
 use crate::figure::{Options, isometric};
 use crate::render::too_long;
+use crate::words::{Caption, Column, Heading, Wording};
 use denavit::description::JointKind;
-use denavit::explain::{Block, Language, Line};
-use denavit::inverse::explain::Explanation;
 use denavit::inverse::{Goal, InverseKinematics, Refusal, Solution};
 use denavit_symbolic::Expr;
 
@@ -24,7 +24,6 @@ pub fn sections(s: &Setting) -> Vec<Section> {
 }
 
 fn derivation(s: &Setting) -> Section {
-    let title = s.line("Inverse kinematics", "Modèle géométrique inverse");
     let explained = match s.inverse() {
         Ok(model) => Some(Explanation::of(model)),
         Err(Refusal::Stuck(stuck)) => Some(Explanation::of_stuck(&s.description, stuck, Goal::Pose)),
@@ -32,27 +31,23 @@ fn derivation(s: &Setting) -> Section {
     };
     let names = explained.as_ref().map_or_else(|| s.description.vocabulary(), Explanation::names);
     let mut section = Section::new(names);
-    section.heading(2, title);
+    section.heading(2, Line::new(s.words.heading(Heading::Inverse)));
     match (explained, s.inverse()) {
-        (Some(e), _) => lowered(e.document(s.language), s.language, &mut section),
-        (None, Err(why)) => section.paragraph(Line::new(s.language.pick(
-            format!("There is no closed form: {why}."),
-            s.language.spaced(&format!("Il n'y a pas de forme explicite : {}.", why)),
-        ))),
+        (Some(e), _) => lowered(e.document(s.options.language), s.words, &mut section),
+        (None, Err(why)) => section.paragraph(Line::new(s.words.refused(why))),
         (None, Ok(_)) => {}
     }
     section
 }
 
 /// A document as a part of another: its title left out, its headings one level lower.
-pub fn lowered(blocks: Vec<Block>, language: Language, section: &mut Section) {
+pub fn lowered(blocks: Vec<Block>, words: &dyn Wording, section: &mut Section) {
     for block in blocks {
         match block {
             Block::Heading(1, _) => {}
-            Block::Formula { math, .. } if too_long(&math, &section.names) => section.paragraph(Line::new(language.pick(
-                "A formula that is too long to be printed stands here; `--json` of the command has it.",
-                "Ici se trouve une formule trop longue pour être imprimée ; l’option `--json` de la commande la donne.",
-            ))),
+            Block::Formula { math, .. } if too_long(&math, &section.names) => {
+                section.paragraph(Line::new(words.long_formula()));
+            }
             Block::Heading(level, line) => section.heading(level + 1, line),
             other => section.push(other),
         }
@@ -69,37 +64,31 @@ fn solutions(s: &Setting) -> Option<Section> {
     let given: Vec<f64> = solver.given.iter().map(|&j| s.q[j]).collect();
     let answer = solver.solve(&pose, &given);
     let mut section = Section::new(s.description.vocabulary());
-    section.heading(3, s.line("The solutions at the example", "Les solutions de l'exemple"));
-    let mut line = s.line("The pose of the tool at ", "La pose de l'outil pour ");
-    line.0.extend(s.configuration(&s.q).0);
-    section.paragraph(line.text(s.say(" is", " est")));
+    section.heading(3, Line::new(s.words.heading(Heading::Solutions)));
+    section.paragraph(s.words.pose_at(s.configuration(&s.q)));
     section.formula(numbers(&pose));
     if !given.is_empty() {
-        let mut line = s.line("With ", "Avec ");
+        let mut line = Line::default();
         let variables = s.description.variables();
         for (k, &j) in solver.given.iter().enumerate() {
             line = line.text(if k > 0 { ", " } else { "" }).math(Expr::from(variables[j].symbol));
             line = line.text(format!(" = {}", s.reading(s.q[j], variables[j].kind)));
         }
-        section.paragraph(line.text(s.say(" given:", " donné :")));
+        section.paragraph(s.words.given_values(line));
     }
     let representatives = answer.families.iter().map(|f| &f.representative);
     let found: Vec<Solution> = answer.solutions.iter().chain(representatives).cloned().collect();
     let found: Vec<Solution> = found.into_iter().map(|f| turned(f, &solver.space)).collect();
     if found.is_empty() {
-        section.paragraph(
-            s.line("No solution was found in numbers.", "Aucune solution n'a été trouvée numériquement."),
-        );
+        section.paragraph(Line::new(s.words.no_solution()));
         return Some(section);
     }
     let shown = &found[..found.len().min(SHOWN)];
     section.push(table(s, shown, answer.solutions.len()));
-    section.paragraph(counted(s, answer.solutions.len(), answer.families.len(), answer.is_complete()));
+    let (isolated, families) = (answer.solutions.len(), answer.families.len());
+    section.paragraph(Line::new(s.words.found(isolated, families, answer.is_complete())));
     if found.len() > SHOWN {
-        section.paragraph(Line::new(s.language.pick(
-            format!("The first {SHOWN} of them are shown."),
-            format!("Seules les {SHOWN} premières sont montrées."),
-        )));
+        section.paragraph(Line::new(s.words.first_of_them(SHOWN)));
     }
     section.push(pictures(s, shown)?);
     Some(section)
@@ -119,39 +108,6 @@ fn turned(mut found: Solution, space: &denavit::inverse::JointSpace) -> Solution
     found
 }
 
-fn counted(s: &Setting, isolated: usize, families: usize, complete: bool) -> Line {
-    let mut text = s.language.counted(
-        isolated,
-        ["isolated solution", "isolated solutions"],
-        ["solution isolée", "solutions isolées"],
-    );
-    if families > 0 {
-        text += s.language.pick(" and ", " et ");
-        text += &s.language.counted(
-            families,
-            [
-                "family in which the arm moves with its hand still",
-                "families in which the arm moves with its hand still",
-            ],
-            [
-                "famille dans laquelle le bras bouge sans que la main bouge",
-                "familles dans lesquelles le bras bouge sans que la main bouge",
-            ],
-        );
-        text += s
-            .language
-            .pick(" (marked *: one member each is shown)", " (marquées * : un membre de chacune est montré)");
-    }
-    text += &match complete {
-        true => s.say(
-            "; these are all. Each was put into the chain again.",
-            " ; il n'y en a pas d'autres. Chacune a été reportée dans la chaîne.",
-        ),
-        false => s.say("; others may exist.", " ; il peut en exister d'autres."),
-    };
-    Line::new(s.language.spaced(&text))
-}
-
 fn table(s: &Setting, found: &[Solution], isolated: usize) -> Part {
     let variables = s.description.variables();
     let mut head = vec![Line::default()];
@@ -162,45 +118,28 @@ fn table(s: &Setting, found: &[Solution], isolated: usize) -> Part {
     let has_branches = found.iter().any(|f| !f.branch.is_empty());
     let has_limits = found.iter().any(|f| !f.within_limits);
     if has_branches {
-        head.push(s.line("branch", "branche"));
+        head.push(Line::new(s.words.column(Column::Branch)));
     }
     if has_limits {
-        head.push(s.line("limits", "butées"));
+        head.push(Line::new(s.words.column(Column::Limits)));
     }
     let rows = found.iter().enumerate().map(|(k, f)| {
         let star = if k < isolated { "" } else { "*" };
         let mut cells = vec![Line::new(format!("{}{star}", k + 1))];
         cells.extend(f.q.iter().zip(&variables).map(|(x, v)| Line::new(plain(*x, v.kind))));
         if has_branches {
-            cells.push(Line::new(branch(s, &f.branch)));
+            cells.push(Line::new(s.words.branch(&f.branch)));
         }
         if has_limits {
-            cells.push(if f.within_limits {
-                s.line("within", "respectées")
-            } else {
-                s.line("beyond", "dépassées")
-            });
+            cells.push(Line::new(s.words.within_limits(f.within_limits)));
         }
         cells
     });
     Part::Table(Table {
-        caption: s
-            .line("All configurations with this pose.", "Toutes les configurations qui donnent cette pose."),
+        caption: Line::new(s.words.caption(Caption::Configurations)),
         head,
         rows: rows.collect(),
     })
-}
-
-/// The name of a branch; its labels are words.
-fn branch(s: &Setting, label: &str) -> String {
-    match s.language {
-        Language::English => label.replace('-', "−"),
-        Language::French => label
-            .replace("shoulder", "épaule")
-            .replace("elbow", "coude")
-            .replace("wrist", "poignet")
-            .replace('-', "−"),
-    }
 }
 
 fn pictures(s: &Setting, found: &[Solution]) -> Option<Part> {
@@ -212,11 +151,8 @@ fn pictures(s: &Setting, found: &[Solution]) -> Option<Part> {
     let picture =
         |(k, a): (usize, &crate::figure::Arm)| (isometric(a, &options), Line::new((k + 1).to_string()));
     Some(Part::figures(
-        s.language,
+        s.words,
         arms.iter().enumerate().map(picture).collect(),
-        s.line(
-            "The configurations of the table, all with the same pose of the tool.",
-            "Les configurations du tableau, toutes avec la même pose de l'outil.",
-        ),
+        Line::new(s.words.caption(Caption::Pictures)),
     ))
 }

@@ -1,9 +1,9 @@
 //! The link transforms: the general one of the convention, and that of each row.
 
 use super::setting::Setting;
-use crate::document::Section;
+use crate::document::{Factor, Line, Math, Section};
+use crate::words::Heading;
 use denavit::description::Convention;
-use denavit::explain::{Factor, Math};
 use denavit::forward::link_transforms;
 use denavit_symbolic::Expr;
 
@@ -15,10 +15,8 @@ pub fn section(s: &Setting) -> Section {
     let names =
         ["theta_j".to_string(), "alpha_j".into(), format!("{}_j", letters[0]), format!("{}_j", letters[1])];
     let mut section = Section::new(names.iter().fold(s.description.vocabulary(), |v, n| v.symbol(n)));
-    section.heading(2, s.line("Link transforms", "Matrices de passage"));
-    section.paragraph(
-        s.line("The transform of a row of the table is", "La matrice de passage d'une ligne du tableau est"),
-    );
+    section.heading(2, Line::new(s.words.heading(Heading::Links)));
+    section.paragraph(Line::new(s.words.row_transform()));
     let ([c, sn], [ca, sa]) = ([theta.cos(), theta.sin()], [alpha.cos(), alpha.sin()]);
     let (o, l) = (Expr::int(0), Expr::int(1));
     let rows = match s.description.convention {
@@ -31,7 +29,7 @@ pub fn section(s: &Setting) -> Section {
     };
     let frame = Factor::Frame { from: "j−1".into(), to: "j".into() };
     section.formula(Math::Matrix(frame, rows.iter().map(|r| r.to_vec()).collect()));
-    section.paragraph(s.line("and so, row by row,", "et donc, ligne par ligne,"));
+    section.paragraph(Line::new(s.words.row_by_row()));
     section.push(crate::derivation::transforms(&link_transforms(&s.description)));
     section
 }

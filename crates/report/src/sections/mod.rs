@@ -39,9 +39,6 @@ pub fn report(description: &Description, options: &Options) -> Document {
         };
         made
     });
-    let title = language.pick(
-        format!("Kinematics of the {}", description.name),
-        language.spaced(&format!("Modélisation géométrique et cinématique : {}", description.name)),
-    );
+    let title = language.words().title(&description.name);
     Document { title, language, sections: sections.collect() }
 }

@@ -1,17 +1,17 @@
 //! Where methods and numbers come from.
 
 use super::setting::{Setting, Topic};
-use crate::document::Section;
+use crate::document::{Block, Line, Section};
+use crate::words::Heading;
 use denavit::description::Convention;
-use denavit::explain::{Block, Line};
 
 /// The list.
 pub fn section(s: &Setting) -> Section {
     let mut section = Section::new(s.description.vocabulary());
-    section.heading(2, s.line("References", "Références"));
+    section.heading(2, Line::new(s.words.heading(Heading::References)));
     let mut all = vec![];
     if let Some(source) = &s.description.source {
-        all.push(s.line("The robot: ", "Le robot : ").text(source.clone()));
+        all.push(Line::new(s.words.robot()).text(source.clone()));
     }
     let has = |topic: Topic| s.options.topics.contains(&topic);
     all.push(Line::new(match s.description.convention {
@@ -44,10 +44,7 @@ pub fn section(s: &Setting) -> Section {
             "T. Yoshikawa. Manipulability of robotic mechanisms. International Journal of Robotics Research 4 (1985), 3–9.",
         ));
     }
-    all.push(Line::new(s.language.pick(
-        format!("Derived, proved and printed by denavit {}.", env!("CARGO_PKG_VERSION")),
-        format!("Établi, démontré et imprimé par denavit {}.", env!("CARGO_PKG_VERSION")),
-    )));
+    all.push(Line::new(s.words.made_by(env!("CARGO_PKG_VERSION"))));
     section.push(Block::List(all));
     section
 }

@@ -1,9 +1,10 @@
 //! What a report is about: the robot, a configuration, what was asked for.
 
 use crate::cell::{cell, decimals};
+use crate::document::Line;
 use crate::figure::Arm;
+use crate::words::{Language, Wording};
 use denavit::description::{Convention, Description, JointKind, Measure, Parameter};
-use denavit::explain::{Language, Line};
 use denavit::forward::{ForwardModel, Outputs, Reference};
 use denavit::inverse::{InverseModel, JointSpace, Refusal};
 use denavit::robot::Robot;
@@ -99,7 +100,7 @@ pub struct Errata<'a> {
 pub struct Setting<'a> {
     pub description: Description,
     pub options: &'a Options<'a>,
-    pub language: Language,
+    pub words: &'static dyn Wording,
     pub structure: Structure,
     /// The robot with values for all lengths, some of them chosen here.
     pub valued: Description,
@@ -126,7 +127,7 @@ impl<'a> Setting<'a> {
         let arm = arm.map(|a| if a.pose() == q { a } else { a.at(&q) });
         Setting {
             options,
-            language: options.language,
+            words: options.language.words(),
             structure: Structure::of(&description),
             description,
             valued,
@@ -163,27 +164,12 @@ impl<'a> Setting<'a> {
         Some((robot, space))
     }
 
-    /// Words in the language of the report.
-    pub fn say(&self, english: &str, french: &str) -> String {
-        self.language.spaced(self.language.pick(english, french))
-    }
-
-    /// A line of words in the language of the report.
-    pub fn line(&self, english: &str, french: &str) -> Line {
-        Line::new(self.say(english, french))
-    }
-
     /// The lengths that the robot does not give, with the values that numbers here take for them; nothing if it gives all.
     pub fn assumed(&self) -> Option<Line> {
         let missing = self.description.parameters.iter().zip(&self.valued.parameters);
         let chosen: Vec<_> = missing.filter(|(own, _)| own.value.is_none()).map(|(_, p)| p).collect();
-        (!chosen.is_empty()).then(|| {
-            let line = self.line(
-                "The robot gives no values for some lengths. Figures and numbers take ",
-                "Certaines longueurs n'ont pas de valeur. Les figures et les nombres supposent ",
-            );
-            quantities(line, &self.valued, &chosen)
-        })
+        (!chosen.is_empty())
+            .then(|| quantities(Line::new(self.words.assumed_lengths()), &self.valued, &chosen))
     }
 
     /// The values of the joints in a line: `q1 = 30°, …`.

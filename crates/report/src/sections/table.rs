@@ -2,44 +2,26 @@
 
 use super::setting::{Setting, quantities};
 use crate::cell::cell;
-use crate::document::{Part, Section, Table};
+use crate::document::{Block, Factor, Line, Math, Part, Section, Table};
+use crate::words::{Column as Heads, Heading};
 use denavit::description::{Convention, Description, JointKind};
-use denavit::explain::{Block, Factor, Line, Math};
 use denavit::geometry::Transform;
 use denavit_symbolic::Expr;
 
 /// The table in its own convention, and in those that were asked for beside.
 pub fn sections(s: &Setting) -> Vec<Section> {
     let mut section = Section::new(s.description.vocabulary());
-    section.heading(2, s.line("Denavit–Hartenberg table", "Paramètres de Denavit–Hartenberg"));
+    section.heading(2, Line::new(s.words.heading(Heading::Table)));
     one(s, &s.description, &mut section);
     section.push(Block::List(meanings(s)));
     let mut all = vec![section];
     for &convention in s.options.conventions.iter().filter(|c| **c != s.description.convention) {
         let other = s.description.converted(convention);
         let mut section = Section::new(other.description.vocabulary());
-        section.heading(
-            3,
-            Line::new(match convention {
-                Convention::Standard => s.say("In the standard convention", "Dans la convention standard"),
-                Convention::Craig => s.say("In Craig's convention", "Dans la convention de Craig"),
-                Convention::Khalil => s.say(
-                    "In Khalil and Kleinfinger's convention",
-                    "Dans la convention de Khalil et Kleinfinger",
-                ),
-            }),
-        );
+        section.heading(3, Line::new(s.words.converted(convention)));
         one(s, &other.description, &mut section);
-        section.paragraph(Line::new(match denavit::description::prove_same_chain(&s.description, &other.description).is_equal() {
-            true => s.say(
-                "Proved: both tables give the same pose of the tool, whatever the joint values and lengths.",
-                "Démontré : les deux tableaux donnent la même pose de l'outil, quelles que soient les variables et les longueurs.",
-            ),
-            false => s.say(
-                "That both tables give the same pose is not proved: the expansion is too large.",
-                "L'égalité des poses n'est pas démontrée : le développement est trop grand.",
-            ),
-        }));
+        let proof = denavit::description::prove_same_chain(&s.description, &other.description);
+        section.paragraph(Line::new(s.words.same_pose(proof.is_equal())));
         all.push(section);
     }
     all
@@ -55,35 +37,26 @@ fn meanings(s: &Setting) -> Vec<Line> {
         Convention::Standard => (own, before),
         Convention::Craig | Convention::Khalil => (before, own),
     };
-    let axis = |english: &str, french: &str, axis: &str, frame: &str, between: &str| {
-        s.language.spaced(&s.language.pick(
-            format!("{english} from the {between} axis of frame j−1 to that of frame j, {axis} axis of frame {frame}"),
-            format!("{french} de l'axe {between} du repère j−1 à celui du repère j, {axis} du repère {frame}"),
-        ))
-    };
-    let about =
-        |letter: &str| s.language.pick(format!("about the {letter}"), format!("autour de l'axe {letter}"));
-    let along =
-        |letter: &str| s.language.pick(format!("along the {letter}"), format!("le long de l'axe {letter}"));
     let rows = [
-        ("theta", axis("angle", "angle", &about("z"), along_z, "x")),
-        (z, axis("distance", "distance", &along("z"), along_z, "x")),
-        ("alpha", axis("angle", "angle", &about("x"), along_x, "z")),
-        (x, axis("distance", "distance", &along("x"), along_x, "z")),
+        ("theta", true, 'z', along_z),
+        (z, false, 'z', along_z),
+        ("alpha", true, 'x', along_x),
+        (x, false, 'x', along_x),
     ];
-    rows.into_iter().map(|(name, said)| symbol(name).text(s.say(": ", " : ")).text(said)).collect()
+    let row = |(name, is_angle, axis, frame)| symbol(name).text(s.words.parameter(is_angle, axis, frame));
+    rows.map(row).to_vec()
 }
 
 fn one(s: &Setting, d: &Description, section: &mut Section) {
     let columns = d.columns();
     let has_limits = d.rows.iter().any(|r| r.limits.is_some());
-    let mut head = vec![Line::default().math(Expr::symbol("j")), s.line("joint", "liaison")];
+    let mut head = vec![Line::default().math(Expr::symbol("j")), Line::new(s.words.column(Heads::Joint))];
     head.extend(columns.iter().map(|c| {
         let line = Line::default().math(Expr::symbol(c.key(d.convention)));
         if c.turns() { line } else { line.text(" (m)") }
     }));
     if has_limits {
-        head.push(s.line("limits", "butées"));
+        head.push(Line::new(s.words.column(Heads::Limits)));
     }
     let rows = (1..).zip(&d.rows).map(|(i, row)| {
         let kind = match row.variable.map(|v| v.kind) {
@@ -106,43 +79,24 @@ fn one(s: &Setting, d: &Description, section: &mut Section) {
         }
         cells
     });
-    let caption = match d.convention {
-        Convention::Standard => s.line(
-            "Parameters in the standard convention; lengths in metres.",
-            "Paramètres dans la convention standard ; longueurs en mètres.",
-        ),
-        Convention::Craig => s.line(
-            "Parameters in Craig's (modified) convention; lengths in metres.",
-            "Paramètres dans la convention modifiée de Craig ; longueurs en mètres.",
-        ),
-        Convention::Khalil => s.line(
-            "Parameters in Khalil and Kleinfinger's convention; lengths in metres.",
-            "Paramètres dans la convention de Khalil et Kleinfinger ; longueurs en mètres.",
-        ),
-    };
+    let caption = Line::new(s.words.parameters(d.convention));
     section.push(Part::Table(Table { caption, head, rows: rows.collect() }));
     values(s, d, section);
-    for (x, english, french) in [
-        (&d.base, "Frame 0 stands in the base at", "Le repère 0 est placé dans la base par"),
-        (&d.tool, "The tool stands in the last frame at", "L'outil est placé dans le dernier repère par"),
-    ] {
+    let mut placed = |x: &Transform<Expr>, words: String, from: String, to: String| {
         if *x != Transform::identity() {
-            section.paragraph(s.line(english, french));
-            let (from, to) = if std::ptr::eq(x, &d.base) {
-                (s.say("base", "base"), "0".to_string())
-            } else {
-                (d.rows.len().to_string(), s.say("tool", "outil"))
-            };
+            section.paragraph(Line::new(words));
             let rows = x.matrix().iter().map(|r| r.to_vec()).collect();
             section.formula(Math::Matrix(Factor::Frame { from, to }, rows));
         }
-    }
+    };
+    placed(&d.base, s.words.base_stands(), s.words.base(), "0".into());
+    placed(&d.tool, s.words.tool_stands(), d.rows.len().to_string(), s.words.tool());
 }
 
 /// The values of the parameters, where they are known.
 fn values(s: &Setting, d: &Description, section: &mut Section) {
     let known: Vec<_> = d.parameters.iter().filter(|p| p.value.is_some()).collect();
     if !known.is_empty() {
-        section.paragraph(quantities(s.line("Values: ", "Valeurs : "), d, &known));
+        section.paragraph(quantities(Line::new(s.words.values()), d, &known));
     }
 }

@@ -2,14 +2,12 @@
 
 use super::inverse::lowered;
 use super::setting::Setting;
-use crate::document::{Part, Section};
+use crate::document::{Line, Math, Part, Section};
+use crate::explain::{jacobian_document, singularities_document, velocity_vocabulary};
 use crate::figure::{Options, isometric};
-use denavit::explain::{Line, Math};
+use crate::words::{Caption, Heading};
 use denavit::forward::Reference;
-use denavit::velocity::{
-    JacobianModel, Obstacle, Place, Singularities, jacobian_document, singularities_document,
-    velocity_vocabulary,
-};
+use denavit::velocity::{JacobianModel, Obstacle, Place, Singularities};
 use denavit_symbolic::Expr;
 
 /// The size of a picture, points.
@@ -17,12 +15,12 @@ const SIZE: [f64; 2] = [150.0, 150.0];
 
 /// Formulas and pictures.
 pub fn sections(s: &Setting) -> Vec<Section> {
-    let title = s.line("Jacobian and singularities", "Jacobienne et singularités");
+    let title = Line::new(s.words.heading(Heading::Velocity));
     match s.singular() {
         Ok(found) => {
             let mut section = Section::new(velocity_vocabulary(&s.description));
             section.heading(2, title);
-            lowered(singularities_document(&s.description, found, s.language), s.language, &mut section);
+            lowered(singularities_document(&s.description, found, s.options.language), s.words, &mut section);
             let mut all = vec![section];
             all.extend(pictures(s, found));
             all
@@ -31,17 +29,9 @@ pub fn sections(s: &Setting) -> Vec<Section> {
             let model = JacobianModel::shortest(&s.description, Reference::Tool);
             let mut section = Section::new(velocity_vocabulary(&s.description));
             section.heading(2, title);
-            lowered(jacobian_document(&s.description, &model, s.language), s.language, &mut section);
-            section.paragraph(Line::new(match why {
-                Obstacle::AlwaysSingular(_) => s.say(
-                    "The arm has fewer than six directions everywhere: all minors of its size vanish.",
-                    "Le bras a partout moins de six degrés de liberté : tous les mineurs de cette taille sont nuls.",
-                ),
-                _ => s.say(
-                    "The determinant is too large to be expanded.",
-                    "Le déterminant est trop grand pour être développé.",
-                ),
-            }));
+            lowered(jacobian_document(&s.description, &model, s.options.language), s.words, &mut section);
+            let is_everywhere = matches!(why, Obstacle::AlwaysSingular(_));
+            section.paragraph(Line::new(s.words.no_singularities(is_everywhere)));
             vec![section]
         }
     }
@@ -72,14 +62,7 @@ fn pictures(s: &Setting, found: &Singularities) -> Option<Section> {
         (isometric(a, &options), Line::default().math(Math::equation(*factor, Expr::int(0))))
     });
     let mut section = Section::new(s.description.vocabulary());
-    section.push(Part::figures(
-        s.language,
-        pictures.collect(),
-        s.line(
-            "A configuration at each singularity; the axes that make it one are marked.",
-            "Une configuration à chaque singularité ; les axes en cause sont marqués.",
-        ),
-    ));
+    section.push(Part::figures(s.words, pictures.collect(), Line::new(s.words.caption(Caption::Singular))));
     Some(section)
 }
 

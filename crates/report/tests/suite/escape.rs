@@ -1,7 +1,8 @@
 //! Whatever words a document contains, in no format do they become anything but words.
 
-use denavit::explain::{Block, Branch, Language, Line, Math};
+use denavit_report::document::{Block, Branch, Line, Math};
 use denavit_report::figure::drawing::{Anchor, Drawing, Ink, Label, Shape};
+use denavit_report::words::Language;
 use denavit_report::{Document, Figure, Part, Section, Table, render};
 use denavit_symbolic::Expr;
 use denavit_symbolic::vocabulary::Vocabulary;

@@ -1,6 +1,8 @@
 //! Tests of documents and figures, one program.
 
 mod escape;
+mod explain;
 mod figures;
+mod language;
 mod plot;
 mod report;

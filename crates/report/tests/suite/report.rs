@@ -2,7 +2,8 @@
 
 use denavit::catalogue;
 use denavit::description::{Convention, Description};
-use denavit::explain::{Block, Branch, Language, Line, math, plain};
+use denavit_report::document::{Block, Branch, Line, math, plain};
+use denavit_report::words::Language;
 use denavit_report::{Document, Options, Part, Topic, render, report};
 use denavit_symbolic::print::Style;
 use denavit_symbolic::vocabulary::Vocabulary;
@@ -155,7 +156,7 @@ fn sections_are_those_asked_for() {
 
 /// The words of the tree alone: no formulas.
 fn words(document: &Document) -> Vec<String> {
-    use denavit::explain::Piece;
+    use denavit_report::document::Piece;
     let mut found = vec![];
     let mut take = |line: &Line| {
         for piece in &line.0 {

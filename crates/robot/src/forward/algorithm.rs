@@ -39,11 +39,23 @@ pub fn entry_name((row, column): (usize, usize)) -> String {
     format!("t{}{}", row + 1, column + 1)
 }
 
+/// A part of a pose that is not known.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct UnknownPart(pub String);
+
+impl fmt::Display for UnknownPart {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "unknown part `{}`; known are x, y, z, orientation, position, all", self.0)
+    }
+}
+
+impl std::error::Error for UnknownPart {}
+
 impl FromStr for Outputs {
-    type Err = String;
+    type Err = UnknownPart;
 
     /// A list of `x`, `y`, `z`, `position`, `orientation` or `all`, separated by commas.
-    fn from_str(text: &str) -> Result<Self, String> {
+    fn from_str(text: &str) -> Result<Self, UnknownPart> {
         let mut outputs = Outputs { columns: [false; 3], position: false };
         for part in text.split(',').map(str::trim) {
             match part {
@@ -53,11 +65,7 @@ impl FromStr for Outputs {
                 "orientation" | "rotation" => outputs.columns = [true; 3],
                 "position" | "p" => outputs.position = true,
                 "all" => outputs = Outputs::ALL,
-                other => {
-                    return Err(format!(
-                        "unknown part `{other}`; known are x, y, z, orientation, position, all"
-                    ));
-                }
+                other => return Err(UnknownPart(other.into())),
             }
         }
         Ok(outputs)
@@ -74,16 +82,6 @@ pub enum Proof {
     /// The canonical forms differ. With constant angles whose sines are related in ways the ring does not know,
     /// the two sides may still be equal; otherwise this is a defect of the program.
     Failed,
-}
-
-impl fmt::Display for Proof {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Proof::Proved => f.write_str("proved equal to the product of the link transforms"),
-            Proof::Undecided(why) => write!(f, "not proved: {why}"),
-            Proof::Failed => f.write_str("not proved: the canonical forms differ"),
-        }
-    }
 }
 
 const AXES: [char; 3] = ['x', 'y', 'z'];

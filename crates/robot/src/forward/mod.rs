@@ -6,7 +6,7 @@ mod frames;
 mod model;
 
 pub use crate::mechanism::Reference;
-pub use algorithm::{Outputs, Proof, entry_name};
+pub use algorithm::{Outputs, Proof, UnknownPart, entry_name};
 pub use chain::Chain;
 pub use frames::{frames_program, pose_program};
 pub use model::{ForwardModel, link_transforms, prove, symbol_order};

@@ -1,5 +1,6 @@
 //! What inverse kinematics answers: solutions, families of them, or what stands in the way.
 
+use super::branch::Branch;
 use super::self_motion::SelfMotion;
 
 /// All solutions of one pose.
@@ -48,19 +49,6 @@ pub enum Doubt {
     OneAsked,
 }
 
-impl Doubt {
-    /// In words: "not complete: …".
-    pub fn words(self) -> &'static str {
-        match self {
-            Doubt::Sampled => "some solutions were found by trying values",
-            Doubt::DoubleRoot => "undecided near a double root",
-            Doubt::Uncounted => "the roots could not be counted",
-            Doubt::Searched => "searched for from several starts",
-            Doubt::OneAsked => "one was asked for",
-        }
-    }
-}
-
 /// An isolated solution.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Solution {
@@ -69,7 +57,7 @@ pub struct Solution {
     /// The distance from the pose: rotation (Frobenius norm of two columns) and position by the arm's size, together.
     pub residual: f64,
     /// The branch: `shoulder+ elbow− wrist+`.
-    pub branch: String,
+    pub branch: Branch,
     /// How many branches coincide here.
     pub multiplicity: u32,
     /// Whether the robot's limits allow it, or a copy of it a whole turn away.
@@ -144,19 +132,4 @@ pub struct Obstacle {
     /// The conditions of the arm that the pose violates, the worst first, with what is left instead of 0 (a number
     /// without dimension, or metres).
     pub violated: Vec<(String, f64)>,
-}
-
-impl Obstacle {
-    /// Why there is no solution, in words.
-    pub fn words(&self) -> String {
-        let why = match &self.unknown {
-            Some(x) => format!("no branch has a value for {x}"),
-            None => "the hand cannot take this pose".into(),
-        };
-        let conditions: Vec<&str> = self.violated.iter().map(|v| v.0.as_str()).collect();
-        match conditions[..] {
-            [] => why,
-            _ => format!("{why}; a pose of this arm meets {}", conditions.join(", ")),
-        }
-    }
 }

@@ -10,8 +10,9 @@
 //! Nothing is rounded to a special arm here: see [`idealised`](crate::idealise::idealised).
 
 use super::answer::{Answer, Doubt, Family, Obstacle, Solution};
+use super::branch::Branch;
 use super::closed::InverseSolver;
-use super::derivation::{Goal, InverseModel, Options, Refusal};
+use super::derivation::{Goal, InverseModel, NotGiven, Options, Refusal};
 use super::general::GeneralSolver;
 use super::newton;
 use super::numeric::NumericSolver;
@@ -66,14 +67,14 @@ pub enum Unprepared {
     /// A parameter has no value.
     Missing(MissingValue),
     /// Values are given for joints that the arm does not have, or for too many.
-    Given(String),
+    Given(NotGiven),
 }
 
 impl fmt::Display for Unprepared {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Unprepared::Missing(why) => write!(f, "{why}"),
-            Unprepared::Given(why) => f.write_str(why),
+            Unprepared::Given(why) => write!(f, "{why}"),
         }
     }
 }
@@ -160,7 +161,7 @@ impl InverseKinematics {
                 this.given.clone_from(&model.given);
                 Some(Box::new(model.solver(description)?))
             }
-            Err(Refusal::Given(why)) => return Err(Unprepared::Given(why.english)),
+            Err(Refusal::Given(why)) => return Err(Unprepared::Given(why)),
             Err(_) => {
                 this.given = asked;
                 this.given.sort_unstable();
@@ -266,7 +267,7 @@ impl InverseKinematics {
             }
             let motion = follow(&self.robot, &self.space, self.goal, pose, &q);
             let within_limits = self.space.within(&q);
-            let (branch, guard) = (String::new(), 0.0);
+            let (branch, guard) = (Branch::default(), 0.0);
             let found = Solution { q, residual, branch, multiplicity: 1, within_limits, guard };
             answer.families.push(Family::followed(found, motion));
         }
@@ -301,7 +302,7 @@ impl InverseKinematics {
             let mut q = outcome.q;
             self.space.wrap(&mut q);
             let within_limits = self.space.within(&q);
-            let (branch, guard) = (String::new(), 0.0);
+            let (branch, guard) = (Branch::default(), 0.0);
             answer.doubt = Some(Doubt::Searched);
             answer.solutions.push(Solution { q, residual, branch, multiplicity: 1, within_limits, guard });
             return;

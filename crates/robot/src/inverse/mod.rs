@@ -3,14 +3,13 @@
 //! - [`derivation`]: closed forms. The chain is brought into a normal form ([`Chain`]); all its scalar equations are
 //!   formed; a search takes the cheapest equation that holds one unknown until nothing is unknown
 //!   ([`InverseModel::derive`]); the steps become a [`Solver`](denavit_program::solver::Solver).
-//! - [`explain`]: the derivation in words.
 //! - [`closed`]: numbers from closed forms, [`InverseSolver`].
 
 mod answer;
+mod branch;
 pub mod closed;
 pub mod derivation;
 mod dispatch;
-pub mod explain;
 pub mod general;
 mod members;
 pub(crate) mod newton;
@@ -20,6 +19,7 @@ pub mod self_motion;
 
 pub use crate::space::JointSpace;
 pub use answer::{Answer, Doubt, Family, Obstacle, Solution};
+pub use branch::{Branch, Choice, Label, Part};
 pub use closed::{InverseSolver, variables};
 pub use derivation::*;
 pub use dispatch::{InverseKinematics, Nearest, Unprepared};

@@ -65,11 +65,80 @@ pub enum MotionError {
     },
     /// The path does not know its third derivative.
     NoThirdDerivative,
-    /// A state at an end of the motion violates the limits, or must violate them; says why.
-    State(String),
-    /// The method found no answer, though there may be one; says where it ended.
-    NoAnswer(String),
+    /// A state at an end of the motion violates the limits, or must violate them.
+    State(StateError),
+    /// The method found no answer, though there may be one.
+    NoAnswer(Failure),
 }
+
+/// What is wrong with a state at an end of a motion. Joints are counted from 0; shown from 1.
+#[derive(Clone, Debug, PartialEq)]
+pub enum StateError {
+    /// Its velocity or its acceleration is outside of the limits.
+    OutsideLimits(End, usize),
+    /// While its acceleration goes to zero the velocity exceeds the limit.
+    ExceedsVelocity(End, usize),
+    /// Its velocity is above the limit.
+    AboveLimit,
+    /// Its velocity is against the direction of motion.
+    AgainstMotion,
+    /// What the solver of time-optimal moves says.
+    Refused(String),
+}
+
+/// An end of a motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// Where it begins.
+    Start,
+    /// Where it ends.
+    End,
+}
+
+/// Where a method ended without an answer.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Failure {
+    /// The motion that was found violates its limits or its goal.
+    Unsound,
+    /// No profile was found.
+    NoProfile,
+    /// What the solver of time-optimal moves says.
+    Refused(String),
+}
+
+impl fmt::Display for StateError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let name = |end: &End| if *end == End::Start { "start" } else { "end" };
+        match self {
+            Self::OutsideLimits(end, joint) => {
+                write!(f, "the {} of joint {} is outside its limits", name(end), joint + 1)
+            }
+            Self::ExceedsVelocity(end, joint) => write!(
+                f,
+                "with the acceleration at the {} joint {} exceeds its velocity limit",
+                name(end),
+                joint + 1
+            ),
+            Self::AboveLimit => f.write_str("an end velocity is above its limit"),
+            Self::AgainstMotion => f.write_str("an end velocity is against the direction of motion"),
+            Self::Refused(why) => f.write_str(why),
+        }
+    }
+}
+
+impl std::error::Error for StateError {}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Unsound => "the motion found violates its limits or its goal",
+            Self::NoProfile => "no profile",
+            Self::Refused(why) => why,
+        })
+    }
+}
+
+impl std::error::Error for Failure {}
 
 impl fmt::Display for MotionError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -111,7 +180,8 @@ impl fmt::Display for MotionError {
                 )
             }
             Self::NoThirdDerivative => write!(f, "the path does not know its third derivative"),
-            Self::State(why) | Self::NoAnswer(why) => f.write_str(why),
+            Self::State(why) => write!(f, "{why}"),
+            Self::NoAnswer(why) => write!(f, "{why}"),
         }
     }
 }

@@ -25,7 +25,7 @@ mod state_to_state;
 pub mod timing;
 mod trajectory;
 
-pub use error::MotionError;
+pub use error::{End, Failure, MotionError, StateError};
 pub use in_time::{InTime, Slowed};
 pub use jerk_limited::JerkLimited;
 pub use limits::{Limits, Range};

@@ -3,7 +3,7 @@
 //! The method is that of Berscheid & Kröger, *Jerk-limited real-time trajectory generation with arbitrary target
 //! states* (RSS 2021), in the crate `rsruckig`. What it returns is checked here before it is passed on.
 
-use super::error::{MotionError, joints};
+use super::error::{End, Failure, MotionError, StateError, joints};
 use super::limits::Limits;
 use super::profile::{JointMove, Phases, Profile, Sample, TimeLaw};
 use super::trajectory::JointState;
@@ -37,15 +37,13 @@ pub fn move_within_limits(
         joints("accelerations", limits.dof(), &state.qdd)?;
     }
     let jerk = limits.jerk().ok_or(MotionError::NoJerkLimits)?;
-    end_holds("start", from, limits, jerk, 1.0)?;
-    end_holds("end", to, limits, jerk, -1.0)?;
-    let mut failure = MotionError::NoAnswer(String::new());
+    end_holds(End::Start, from, limits, jerk, 1.0)?;
+    end_holds(End::End, to, limits, jerk, -1.0)?;
+    let mut failure = MotionError::NoAnswer(Failure::NoProfile);
     for share in SHARES {
         match solve(from, to, limits, jerk, 1.0 - share) {
             Ok(found) if is_sound(&found, to, limits) => return Ok(found),
-            Ok(_) => {
-                failure = MotionError::NoAnswer("the motion found violates its limits or its goal".into())
-            }
+            Ok(_) => failure = MotionError::NoAnswer(Failure::Unsound),
             // What is refused with the limits given is refused with tighter ones.
             Err(e @ MotionError::State(_)) if share == 0.0 => return Err(e),
             Err(e) if share == 0.0 => failure = e,
@@ -58,7 +56,7 @@ pub fn move_within_limits(
 /// Refuses a state outside the limits, and one that is on the way out (`time` 1) or comes from outside (−1): while the
 /// acceleration a goes to zero the velocity still changes by a²/2j.
 fn end_holds(
-    name: &str,
+    end: End,
     state: &JointState,
     limits: &Limits,
     jerk: &[f64],
@@ -70,12 +68,10 @@ fn end_holds(
         let velocity = limits.velocity()[i];
         let most = velocity.share(v).max(limits.acceleration()[i].share(a));
         if most > 1.0 + TOLERANCE {
-            return Err(MotionError::State(format!("the {name} of joint {} is outside its limits", i + 1)));
+            return Err(MotionError::State(StateError::OutsideLimits(end, i)));
         }
         if velocity.share(then) > 1.0 + TOLERANCE {
-            let what =
-                format!("with the acceleration at the {name} joint {} exceeds its velocity limit", i + 1);
-            return Err(MotionError::State(what));
+            return Err(MotionError::State(StateError::ExceedsVelocity(end, i)));
         }
     }
     Ok(())
@@ -107,7 +103,7 @@ fn solve(
     (input.min_velocity, input.min_acceleration) = (Some(lowest.0), Some(lowest.1));
     let mut found = RuckigTrajectory::<0>::new(Some(n));
     Ruckig::<0, ThrowErrorHandler>::new(Some(n), 0.001).calculate(&input, &mut found).map_err(refusal)?;
-    let profiles = found.get_profiles().first().ok_or(MotionError::NoAnswer("no profile".into()))?;
+    let profiles = found.get_profiles().first().ok_or(MotionError::NoAnswer(Failure::NoProfile))?;
     let laws = profiles.iter().map(|p| TimeLaw::Phases(phases(p))).collect();
     Ok(JointMove::new(laws, found.get_duration()))
 }
@@ -116,8 +112,8 @@ fn refusal(error: RuckigError) -> MotionError {
     // The first line; what follows repeats the input.
     let first = |text: &str| text.lines().next().unwrap_or_default().trim().to_string();
     match error {
-        RuckigError::ValidationError(text) => MotionError::State(first(&text)),
-        RuckigError::CalculatorError(text) => MotionError::NoAnswer(first(&text)),
+        RuckigError::ValidationError(text) => MotionError::State(StateError::Refused(first(&text))),
+        RuckigError::CalculatorError(text) => MotionError::NoAnswer(Failure::Refused(first(&text))),
     }
 }
 

@@ -14,7 +14,6 @@ mod regular;
 mod singular;
 mod solve;
 mod svd;
-mod words;
 mod wrench;
 
 pub use analytic::{AnalyticJacobian, analytic, determinant, rates};
@@ -31,5 +30,4 @@ pub use singular::{
 };
 pub use solve::{Damping, JointRates, RateSolver};
 pub use svd::{Svd, svd};
-pub use words::{jacobian_document, singularities_document, velocity_vocabulary};
 pub use wrench::{Wrench, largest_wrench, torques};

@@ -1,7 +1,6 @@
 //! Which plane the workspace is seen in: chosen by how the axes lie, never by the robot's name.
 
 use crate::geometry::{Axis, Vector};
-use std::fmt;
 
 /// A plane with two coordinates in metres; all vectors are given in the base.
 #[derive(Clone, PartialEq, Debug)]
@@ -69,19 +68,6 @@ impl Section {
             Section::Plane { directions: [u, v] } | Section::Projection { directions: [u, v] } => {
                 [along(*u).unwrap_or("u"), along(*v).unwrap_or("v")]
             }
-        }
-    }
-}
-
-impl fmt::Display for Section {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [u, v] = self.symbols();
-        match self {
-            Section::ThroughAxis { joint, .. } => {
-                write!(f, "half plane through axis {} (distance {u} from it, height {v} along it)", joint + 1)
-            }
-            Section::Plane { .. } => write!(f, "{u}–{v} plane, in which the arm moves"),
-            Section::Projection { .. } => write!(f, "projection onto the {u}–{v} plane"),
         }
     }
 }

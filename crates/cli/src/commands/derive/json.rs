@@ -1,6 +1,7 @@
 //! The derivation as JSON; formulas are plain text that parses back.
 
 use crate::commands::robots::joints;
+use crate::terminal::words;
 use denavit_report::Derivation;
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::Style;
@@ -42,7 +43,7 @@ pub fn document(d: &Derivation) -> String {
                 "depth": d.model.algorithm.depth(),
                 "cycles": d.model.algorithm.cycles(),
             },
-            "proof": d.model.proof.to_string(),
+            "proof": words().forward_proof(d.model.proof),
         },
     });
     format!("{document}\n")

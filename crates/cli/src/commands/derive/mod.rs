@@ -7,10 +7,11 @@ use crate::arguments::{DeriveArguments, Format, RobotArguments};
 use crate::commands::document;
 use crate::failure::Failure;
 use crate::load;
+use crate::terminal::words;
 use denavit::description::Description;
-use denavit::explain::Language;
 use denavit::forward::{Outputs, Proof, Reference};
 use denavit_report::Derivation;
+use denavit_report::words::Language;
 use std::io::Write;
 
 /// Derives a robot's formulas.
@@ -70,6 +71,6 @@ fn verdict(derivation: &Derivation) -> Result<(), Failure> {
     match (&derivation.model.matrix, derivation.model.proof) {
         (Err(why), _) => Err(Failure::GaveUp(format!("the matrix is not expanded: {why}"))),
         (_, Proof::Proved) => Ok(()),
-        (_, proof) => Err(Failure::GaveUp(format!("the algorithm is {proof}"))),
+        (_, proof) => Err(Failure::GaveUp(format!("the algorithm is {}", words().forward_proof(proof)))),
     }
 }

@@ -1,7 +1,7 @@
 //! The derivation for a terminal.
 
 use crate::commands::show::{dh_table, title};
-use crate::terminal::{Align, FAINT, HEADING, NAME, lowered, matrix, matrix_width, raised, styled};
+use crate::terminal::{Align, FAINT, HEADING, NAME, lowered, matrix, matrix_width, raised, styled, words};
 use denavit_program::COUNTING_RULE;
 use denavit_report::Derivation;
 use denavit_symbolic::Expr;
@@ -84,6 +84,6 @@ fn algorithm(d: &Derivation) -> String {
             "names: x3y is the y component, in frame 3, of the last x axis (so y, z); p a partial position";
         let _ = writeln!(text, "  {}", styled(meaning, FAINT));
     }
-    let _ = writeln!(text, "  {}", d.model.proof);
+    let _ = writeln!(text, "  {}", words().forward_proof(d.model.proof));
     text
 }

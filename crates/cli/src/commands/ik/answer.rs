@@ -1,14 +1,14 @@
 //! The solutions of a pose, as a table and as JSON.
 
 use crate::commands::fk::plural;
-use crate::terminal::{Align, FAINT, HEADING, NAME, matrix, number, styled, table};
+use crate::terminal::{Align, FAINT, HEADING, NAME, matrix, number, styled, table, words};
 use denavit::description::{Description, JointKind};
-use denavit::explain::reading;
 use denavit::geometry::Transform;
 use denavit::idealise::{Ideal, Snap};
 use denavit::inverse::{
     Answer, Criterion, Family, InverseKinematics, JointSpace, Nearest, Obstacle, Solution,
 };
+use denavit::quantity::reading;
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
 
@@ -41,7 +41,7 @@ impl Question {
         let name = |j: &usize| variables[*j].symbol.name().to_string();
         let names = solver.given.iter().map(name).zip(given.iter().copied()).collect();
         let ideal = ideal.map(|i| {
-            let snap = |s: &Snap| json!({"axes": [s.axes.0, s.axes.1], "what": s.what.words(), "from": s.from, "to": s.to});
+            let snap = |s: &Snap| json!({"axes": [s.axes.0, s.axes.1], "what": words().measured(s.what), "from": s.from, "to": s.to});
             json!({
                 "rotation_error": i.rotation_error,
                 "position_error": i.position_error,
@@ -89,7 +89,7 @@ impl Question {
             value["given"] = self.names.iter().map(|(n, x)| (n.clone(), Value::from(*x))).collect();
         }
         if let Some(doubt) = answer.doubt {
-            value["doubt"] = doubt.words().into();
+            value["doubt"] = words().doubt(doubt).into();
         }
         if let Some(ideal) = &self.ideal {
             value["idealised"] = ideal.clone();
@@ -117,7 +117,7 @@ fn solution(s: &Solution, space: &JointSpace) -> Value {
     json!({
         "q": s.q,
         "residual": s.residual,
-        "branch": s.branch,
+        "branch": s.branch.to_string(),
         "multiplicity": s.multiplicity,
         "within_limits": s.within_limits,
         "turns": turns,
@@ -143,15 +143,12 @@ fn family(f: &Family, space: &JointSpace) -> Value {
 /// Why there is no solution.
 pub fn obstacle(d: &Description, answer: &Answer) -> String {
     match &answer.obstacle {
-        Some(Obstacle { unknown, q, angle, distance, violated }) => {
+        Some(found @ Obstacle { q, angle, distance, violated, .. }) => {
+            let why = words().obstacle(found);
             let conditions: Vec<&str> = violated.iter().map(|v| v.0.as_str()).collect();
             let which = match conditions[..] {
                 [] => String::new(),
-                _ => format!("\n  a pose of this arm meets {}", conditions.join(", ")),
-            };
-            let why = match unknown {
-                Some(x) => format!("no branch has a value for {x}"),
-                None => "the hand cannot take this pose".into(),
+                _ => format!("\n  {}", words().violated(&conditions)),
             };
             let at: Vec<String> = d
                 .variables()
@@ -236,7 +233,7 @@ impl Report<'_> {
         }
         text += &self.unmarked();
         if let Some(doubt) = answer.doubt {
-            text += &format!("  not complete, there may be more: {}\n", doubt.words());
+            text += &format!("  not complete, there may be more: {}\n", words().doubt(doubt));
         }
         text
     }
@@ -274,7 +271,7 @@ impl Report<'_> {
             .map(|(k, s)| {
                 let mut row = vec![(k + 1).to_string()];
                 row.extend(variables.iter().zip(&s.q).map(|(v, &x)| reading(x, v.kind)));
-                row.push(s.branch.clone());
+                row.push(words().branch(&s.branch));
                 row.push(format!("{:.0e}", s.residual));
                 let mut notes = vec![];
                 if s.multiplicity > 1 {

@@ -1,8 +1,9 @@
 //! The derivation as JSON; formulas are plain text that parses back.
 
+use crate::terminal::words;
 use denavit::description::Description;
-use denavit::explain::{Language, Math, Words, math};
-use denavit::inverse::explain::{Explanation, Statement};
+use denavit_report::document::{Math, math};
+use denavit_report::explain::{Explanation, Statement};
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::{Style, print};
 use serde_json::{Value, json};
@@ -10,10 +11,6 @@ use serde_json::{Value, json};
 /// A derivation that did not begin, or whose numbers were asked for.
 pub fn refusal(d: &Description, why: &str) -> Value {
     json!({"schema": 1, "robot": d.name, "status": "refused", "complete": false, "why": why, "solutions": [], "families": []})
-}
-
-fn english(words: &Words) -> &str {
-    &words.english
 }
 
 /// Schema 1 of `ik` without a pose.
@@ -32,7 +29,7 @@ pub fn document(e: &Explanation) -> String {
             value["number"] = n.into();
         }
         if let Some(p) = s.proof {
-            value["proof"] = p.words(Language::English).into();
+            value["proof"] = words().proof(p).into();
         }
         value
     };
@@ -50,7 +47,7 @@ pub fn document(e: &Explanation) -> String {
                         "elements": o.elements,
                         "inverse": o.inverse,
                         "squares_added": o.squared,
-                        "why": o.why.as_ref().map(english),
+                        "why": o.why.as_ref().map(|why| words().component(why)),
                         "equations": all(&o.equations),
                     })
                 })
@@ -58,16 +55,16 @@ pub fn document(e: &Explanation) -> String {
             let conditions: Vec<Value> = s
                 .conditions
                 .iter()
-                .map(|c| json!({"when": c.when.iter().map(formula).collect::<Vec<_>>(), "then": english(&c.then)}))
+                .map(|c| json!({"when": c.when.iter().map(formula).collect::<Vec<_>>(), "then": words().consequence(c.then)}))
                 .collect();
             json!({
                 "unknown": text(s.unknown),
                 "meaning": s.meaning.map(text),
                 "values": s.values,
-                "label": s.label.as_ref().map(english),
+                "label": s.label.map(|label| label.to_string()),
                 "sign": s.sign.map(text),
-                "type": s.number,
-                "kind": english(&s.kind),
+                "type": s.kind.number(),
+                "kind": words().kind(s.kind),
                 "sources": sources,
                 "names": all(&s.names),
                 "form": s.form.iter().map(formula).collect::<Vec<_>>(),
@@ -75,7 +72,7 @@ pub fn document(e: &Explanation) -> String {
                 "solution": all(&s.solution),
                 "conditions": conditions,
                 "used_by": s.used_by,
-                "remark": english(&s.remark),
+                "remark": words().remark(s.remark),
             })
         })
         .collect();
@@ -92,7 +89,7 @@ pub fn document(e: &Explanation) -> String {
         "pose_conditions": all(&e.leftovers),
         "max_solutions": e.solutions,
         "missing": e.missing.iter().map(|q| text(*q)).collect::<Vec<_>>(),
-        "proof": e.proof().words(Language::English),
+        "proof": words().proof(e.proof()),
     });
     format!("{document}\n")
 }

@@ -11,13 +11,15 @@ use crate::commands::document;
 use crate::commands::fk::{configuration, without_values};
 use crate::failure::Failure;
 use crate::load;
+use crate::terminal::words;
 use answer::{Question, Report};
 use denavit::description::{Description, JointKind};
-use denavit::explain::reading;
-use denavit::explain::{Block, Language};
 use denavit::idealise::{Ideal, idealised};
-use denavit::inverse::explain::Explanation;
 use denavit::inverse::{Criterion, Goal, InverseKinematics, InverseModel, Options, Refusal, Unprepared};
+use denavit::quantity::reading;
+use denavit_report::document::Block;
+use denavit_report::explain::Explanation;
+use denavit_report::words::Language;
 use std::io::Write;
 
 /// Solves a pose, or shows the derivation.
@@ -51,7 +53,11 @@ pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
     let mut solver =
         InverseKinematics::new(&description, &options).map_err(|why| unprepared(&description, name, &why))?;
     for near in &solver.nearly {
-        writeln!(anstream::stderr(), "note: {near}; solved as it stands, `--idealise` takes it so")?;
+        writeln!(
+            anstream::stderr(),
+            "note: {}; solved as it stands, `--idealise` takes it so",
+            words().nearly(near)
+        )?;
     }
     let at = arguments.q.as_deref().map(|text| configuration(&description, text)).transpose()?;
     let read = |text: &str| configuration(&description, text);
@@ -113,7 +119,7 @@ fn ideal(description: &Description, name: &str, tolerance: f64) -> Result<Ideal,
         writeln!(
             err,
             "note: {} of axes {} and {}: {from} taken as {to}",
-            snap.what.words(),
+            words().measured(snap.what),
             snap.axes.0,
             snap.axes.1
         )?;

@@ -1,10 +1,10 @@
 //! What can be said of a derivation in a few lines.
 
 use crate::commands::show::title;
-use crate::terminal::{Align, FAINT, HEADING, NAME, styled, table};
-use denavit::explain::{Language, Math, Sign, math};
-use denavit::inverse::explain::Explanation;
+use crate::terminal::{Align, FAINT, HEADING, NAME, styled, table, words};
 use denavit::structure::Structure;
+use denavit_report::document::{Math, Sign, math};
+use denavit_report::explain::Explanation;
 use denavit_symbolic::print::{Style, print};
 
 /// Structure, a line a step, how many solutions.
@@ -36,8 +36,8 @@ pub fn text(e: &Explanation) -> String {
                 (k + 1).to_string(),
                 print(s.unknown, &names, Style::Unicode) + &meaning.unwrap_or_default(),
                 s.values.to_string(),
-                s.label.as_ref().map(|l| l.english.clone()).unwrap_or_default(),
-                s.number.replace("none", "–"),
+                s.label.map(|label| words().label(label)).unwrap_or_default(),
+                s.kind.number().replace("none", "–"),
                 equation,
             ]
         })
@@ -75,8 +75,5 @@ pub fn text(e: &Explanation) -> String {
         text += &format!("  the pose must meet {}\n", formula(&s.math));
     }
     let hint = "--explain shows every step, --symbolic the formulas, --pose and -q solve";
-    text + &format!(
-        "  {}\n",
-        styled(&format!("all formulas {}; {hint}", e.proof().words(Language::English)), FAINT)
-    )
+    text + &format!("  {}\n", styled(&format!("all formulas {}; {hint}", words().proof(e.proof())), FAINT))
 }

@@ -3,8 +3,8 @@
 use super::answer::{Answer, Held, name};
 use crate::terminal::{Align, FAINT, HEADING, NAME, decimals, number, styled, table};
 use denavit::description::JointKind;
-use denavit::explain::rate;
-use denavit::explain::reading;
+use denavit::quantity::rate;
+use denavit::quantity::reading;
 use denavit::velocity::{Jacobian, ROWS};
 
 /// Everything that was asked.

@@ -4,13 +4,13 @@ use super::answer::name;
 use crate::arguments::Format;
 use crate::commands::document;
 use crate::failure::Failure;
+use crate::terminal::words;
 use denavit::description::Description;
-use denavit::explain::{Block, Language, Line, Math};
-use denavit::forward::{Proof, Reference};
-use denavit::velocity::{
-    JacobianModel, Minor, Obstacle, ROWS, Singularities, Singularity, Viewpoint, jacobian_document,
-    singularities_document, velocity_vocabulary,
-};
+use denavit::forward::Reference;
+use denavit::velocity::{JacobianModel, Minor, Obstacle, ROWS, Singularities, Singularity, Viewpoint};
+use denavit_report::document::{Block, Line, Math};
+use denavit_report::explain::{jacobian_document, singularities_document, velocity_vocabulary};
+use denavit_report::words::Language;
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::vocabulary::Vocabulary;
@@ -132,10 +132,7 @@ fn model_json(description: &Description, model: &JacobianModel) -> serde_json::M
         "count": {
             "multiplications": count.multiplications, "additions": count.additions, "sincos": count.sincos,
         },
-        "proof": match model.proof {
-            Proof::Proved => "proved equal to the derivative of the product of the link transforms".to_string(),
-            other => other.to_string(),
-        },
+        "proof": words().jacobian_proof(model.proof),
     });
     match object {
         Value::Object(map) => map,
@@ -162,7 +159,7 @@ fn singularities_json(description: &Description, found: &Singularities) -> Strin
         json!({
             "factor": text(s.factor), "power": s.power, "zeros": zeros,
             "example": s.example.as_ref().map(|e| json!({
-                "q": e.q, "free": e.free, "lost": e.lost, "why": e.place.to_string(),
+                "q": e.q, "free": e.free, "lost": e.lost, "why": words().place(&e.place),
             })),
         })
     };

@@ -3,6 +3,7 @@
 use crate::arguments::PathArguments;
 use crate::commands::ik::unprepared;
 use crate::failure::Failure;
+use crate::terminal::words;
 use denavit::Robot;
 use denavit::description::Description;
 use denavit::motion::plan::{KnownLimits, PlanError, PlanOptions, Planned, Verdict, Wish};
@@ -45,6 +46,6 @@ pub fn plan(
 pub fn verdict(planned: &Planned) -> Result<(), Failure> {
     match planned.verdict() {
         Verdict::Whole => Ok(()),
-        no => Err(Failure::No(no.to_string())),
+        no => Err(Failure::No(words().verdict(no))),
     }
 }

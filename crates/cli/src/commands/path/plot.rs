@@ -1,6 +1,7 @@
 //! Joints, velocities and manipulability over time, as SVG.
 
 use super::samples::{Sample, Sampled};
+use crate::terminal::words;
 use denavit::description::{Description, JointKind};
 use denavit::motion::follow::EventKind;
 use denavit::motion::plan::Planned;
@@ -46,7 +47,7 @@ pub fn picture(d: &Description, planned: &Planned, sampled: &Sampled) -> String 
             }],
         },
     ];
-    let title = format!("{}: {}", d.name, planned.words);
+    let title = format!("{}: {}", d.name, words().course(&planned.course));
     let across = Label::symbol("t", "").and(Label::words(" / s"));
     svg(&curves(&title, &across, &panels, &singular_times(planned, sampled)), Palette::File, "path")
 }

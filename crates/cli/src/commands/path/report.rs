@@ -1,11 +1,11 @@
 //! The path in words: what was met, what else is possible, how it was timed.
 
 use super::samples::Sampled;
-use crate::terminal::{Align, HEADING, decimals, styled, table};
+use crate::terminal::{Align, HEADING, decimals, styled, table, words};
 use denavit::description::{Description, JointKind};
-use denavit::explain::reading;
 use denavit::motion::follow::{Alternative, Event, EventKind};
 use denavit::motion::plan::Planned;
+use denavit::quantity::reading;
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::{Style, print};
 use serde_json::{Value, json};
@@ -16,7 +16,12 @@ const ROWS: usize = 11;
 /// Everything for reading.
 pub fn text(d: &Description, planned: &Planned, sampled: &Sampled) -> String {
     let duration = planned.trajectory.duration();
-    let mut text = format!("{}: {}, {} s\n", styled(&d.name, HEADING), planned.words, decimals(duration, 4));
+    let mut text = format!(
+        "{}: {}, {} s\n",
+        styled(&d.name, HEADING),
+        words().course(&planned.course),
+        decimals(duration, 4)
+    );
     text += &remarks(d, planned);
     let variables = d.variables();
     let mut header = vec!["t / s".to_string()];
@@ -48,7 +53,7 @@ pub fn text(d: &Description, planned: &Planned, sampled: &Sampled) -> String {
 
 /// Timing, events, alternatives.
 pub fn remarks(d: &Description, planned: &Planned) -> String {
-    let mut text = format!("  timing: {}\n", planned.timing);
+    let mut text = format!("  timing: {}\n", words().timing(&planned.timing, d));
     let Some(followed) = &planned.followed else { return text };
     for event in &followed.events {
         text += &format!("  {}\n", self::event(d, event));
@@ -81,7 +86,7 @@ pub fn remarks(d: &Description, planned: &Planned) -> String {
 }
 
 fn event(d: &Description, event: &Event) -> String {
-    format!("at {} % {}", decimals(100.0 * event.s, 3), event.sentence(d))
+    format!("at {} % {}", decimals(100.0 * event.s, 3), words().event(event, d))
 }
 
 fn alternative(d: &Description, a: &Alternative) -> String {
@@ -96,7 +101,8 @@ fn alternative(d: &Description, a: &Alternative) -> String {
         0 => String::new(),
         n => format!(", {}", crate::commands::fk::plural(n, "singular configuration")),
     };
-    let branch = if a.branch.is_empty() { String::new() } else { format!("  ({})", a.branch) };
+    let branch =
+        if a.branch.is_empty() { String::new() } else { format!("  ({})", words().branch(&a.branch)) };
     format!("{}{branch}: {far}{limits}{singular}", q.join(", "))
 }
 
@@ -107,14 +113,14 @@ pub fn json(d: &Description, planned: &Planned, sampled: &Sampled) -> String {
     let event = |e: &Event| -> Value {
         let mut object = match &e.kind {
             EventKind::Singular { factor, place, crossed } => json!({
-                "kind": "singular", "factor": factor.map(text), "why": place.as_ref().map(ToString::to_string),
+                "kind": "singular", "factor": factor.map(text), "why": place.as_ref().map(|p| words().place(p)),
                 "crossed": crossed,
             }),
             EventKind::Limit { joint, limit } => json!({"kind": "limit", "joint": joint + 1, "limit": limit}),
             EventKind::WithinLimits { joint } => json!({"kind": "within_limits", "joint": joint + 1}),
             EventKind::End { reachable, factor, place } => json!({
                 "kind": "end", "reachable": reachable, "factor": factor.map(text),
-                "why": place.as_ref().map(ToString::to_string),
+                "why": place.as_ref().map(|p| words().place(p)),
             }),
         };
         object["s"] = e.s.into();
@@ -124,8 +130,8 @@ pub fn json(d: &Description, planned: &Planned, sampled: &Sampled) -> String {
     let mut object = json!({
         "schema": 1,
         "robot": d.name,
-        "path": planned.words,
-        "timing": planned.timing,
+        "path": words().course(&planned.course),
+        "timing": words().timing(&planned.timing, d),
         "duration": planned.trajectory.duration(),
         "samples": sampled.samples.iter().map(super::samples::Sample::json).collect::<Vec<_>>(),
     });
@@ -138,7 +144,7 @@ pub fn json(d: &Description, planned: &Planned, sampled: &Sampled) -> String {
     if !planned.alternatives.is_empty() {
         let one = |a: &Alternative| {
             json!({
-                "q": a.start, "branch": a.branch, "reached": a.reached, "singular": a.singular,
+                "q": a.start, "branch": a.branch.to_string(), "reached": a.reached, "singular": a.singular,
                 "within_limits": a.within_limits,
             })
         };

@@ -63,13 +63,9 @@ pub fn read(
     if parts.is_empty() {
         return Err(Failure::Usage("say where the path goes: --line, --arc, --joint or --via".into()));
     }
-    let (lines, arcs) = (arguments.line.len(), arguments.arc.len());
-    let count = |n: usize, word: &str| (n > 0).then(|| crate::commands::fk::plural(n, word));
-    let words =
-        [count(lines, "line"), count(arcs, "arc")].into_iter().flatten().collect::<Vec<_>>().join(", ");
     let path: Box<dyn HandPath + Send + Sync> =
         if parts.len() == 1 { parts.remove(0) } else { Box::new(Chain::new(parts)) };
-    Ok(Wish::Hand { path, start, words })
+    Ok(Wish::Hand { path, start })
 }
 
 /// A pose, or with a plus sign in front a displacement along the base's axes from the one before.
@@ -155,13 +151,12 @@ fn via(
             poses.insert(0, own);
         }
     }
-    let words = format!("spline through {} poses", poses.len());
     let spline = PoseSpline::new(poses).ok_or_else(|| {
         Failure::Input(format!(
             "error: {named}: a spline needs two poses, and no two in a row may be the same"
         ))
     })?;
-    Ok(Wish::Hand { path: Box::new(spline), start, words })
+    Ok(Wish::Hand { path: Box::new(spline), start })
 }
 
 enum WayPoint {

@@ -3,6 +3,7 @@
 use super::axes::{Area, MIDDLE, NUMBERS, THIN, TICK, WORDS, axes, number, stroke, text};
 use crate::figure::drawing::{Anchor, Drawing, Ink, Label, Segment, Shape};
 use crate::figure::solid::{arc, closed, polygon};
+use crate::words::Language;
 use denavit::Robot;
 use denavit::geometry::Vector;
 use denavit::workspace::{Field, Section, Workspace, contours};
@@ -77,7 +78,8 @@ pub fn workspace_plot(workspace: &Workspace, arm: Option<&[[f64; 2]]>) -> Drawin
         }
     }
     shapes.extend(bar([LEFT + size[0] + 18.0, ABOVE], size[1].min(160.0)));
-    Drawing { width: page[0], height: page[1], description: described(workspace), shapes }
+    let description = described(workspace);
+    Drawing { width: page[0], height: page[1], description, shapes }
 }
 
 /// The arm's frames as a line in the section of its workspace, at a configuration; none where they do not lie in one half
@@ -280,16 +282,7 @@ fn circle(centre: [f64; 2], r: f64) -> Vec<Segment> {
 }
 
 fn described(workspace: &Workspace) -> String {
-    let [u, v] = workspace.section.symbols();
-    let ([a, b], [c, d]) = (workspace.extremes.first, workspace.extremes.second);
-    let n = |x: f64| number(x, 3);
-    format!(
-        "Section of the workspace, {}: {u} from {} to {} m, {v} from {} to {} m; coloured by manipulability, \
-         its largest value 1",
-        workspace.section,
-        n(a),
-        n(b),
-        n(c),
-        n(d)
-    )
+    let extremes = [workspace.extremes.first, workspace.extremes.second];
+    let ranges = extremes.map(|range| range.map(|x| number(x, 3)));
+    Language::default().words().workspace_picture(&workspace.section, ranges)
 }

@@ -8,6 +8,7 @@ use super::families;
 use crate::description::Description;
 use crate::geometry::Transform;
 use crate::inverse::answer::{Answer, Doubt, Obstacle, Solution};
+use crate::inverse::branch::{Branch, Label};
 use crate::inverse::derivation::{Goal, InverseModel, NumericCondition, Step, Unknown, Variant, compile};
 use crate::inverse::newton;
 use crate::mechanism::{MissingValue, Robot};
@@ -55,7 +56,7 @@ pub(super) struct NodeFacts {
     pub offset: f64,
     pub terms: Vec<(usize, f64)>,
     pub is_angle: bool,
-    pub label: Option<String>,
+    pub label: Option<Label>,
 }
 
 /// A residual above this is more than rounding, and Newton's method lowers it.
@@ -83,7 +84,7 @@ impl InverseModel {
         let value = |s: Symbol| description.value(s);
         let function = self.compiled.solver.compile_with(value)?;
         let nearest = compile::without_residual(self).compile_with(value)?.scalar();
-        let facts = |steps: &[Step], labels: &[Option<String>]| -> Vec<NodeFacts> {
+        let facts = |steps: &[Step], labels: &[Option<Label>]| -> Vec<NodeFacts> {
             let pairs = steps.iter().zip(labels);
             pairs
                 .map(|(s, label)| NodeFacts {
@@ -95,7 +96,7 @@ impl InverseModel {
                     terms: self.chain.unknown_terms(s.unknown),
                     unknown: self.chain.describe(s.unknown),
                     is_angle: matches!(s.unknown, Unknown::Angle(_)),
-                    label: label.clone(),
+                    label: *label,
                 })
                 .collect()
         };
@@ -312,7 +313,7 @@ impl InverseSolver {
                 continue;
             }
             tried.push(s.q.clone());
-            let mut s = Solution { multiplicity: 1, branch: String::new(), ..s.clone() };
+            let mut s = Solution { multiplicity: 1, branch: Branch::default(), ..s.clone() };
             // What converges slowly lies between two roots that nearly coincide, and is none.
             if !self.improve(pose, &mut s)
                 || s.residual > 1e-3 * self.tolerance
@@ -348,8 +349,14 @@ impl InverseSolver {
             .filter_map(|q| newton::approach(&self.robot, self.goal, pose, q, &self.given, size))
             .min_by(|a, b| a.1.total_cmp(&b.1));
         let Some((q, residual)) = near else { return };
-        let mut s =
-            Solution { q, residual, branch: String::new(), multiplicity: 1, within_limits: true, guard: 0.0 };
+        let mut s = Solution {
+            q,
+            residual,
+            branch: Branch::default(),
+            multiplicity: 1,
+            within_limits: true,
+            guard: 0.0,
+        };
         if self.improve(pose, &mut s) {
             answer.doubt = Some(Doubt::Sampled);
             answer.solutions.push(s);
@@ -383,24 +390,13 @@ impl InverseSolver {
 }
 
 pub(super) fn draft(nodes: &[NodeFacts], leaf: &Leaf) -> Solution {
-    let branch: Vec<String> = nodes
-        .iter()
-        .zip(leaf.signs)
-        .enumerate()
-        .filter(|(i, (n, _))| n.label.is_some() && leaf.free >> i & 1 == 0)
-        .map(|(_, (n, sign))| {
-            let label = n.label.as_deref().unwrap_or_default();
-            match sign {
-                -1 => format!("{label}−"),
-                1 => format!("{label}+"),
-                k => format!("{label}{k}"),
-            }
-        })
-        .collect();
+    // What is free has no root of its own.
+    let label = |(i, n): (usize, &NodeFacts)| n.label.filter(|_| leaf.free >> i & 1 == 0);
+    let branch = Branch::of_signs(nodes.iter().enumerate().map(label), leaf.signs);
     Solution {
         q: leaf.outputs.to_vec(),
         residual: leaf.residual,
-        branch: branch.join(" "),
+        branch,
         multiplicity: leaf.multiplicity,
         within_limits: true,
         guard: leaf.guard,

@@ -96,7 +96,7 @@ impl Algebra {
     }
 
     /// What is done counts from here on.
-    pub(in crate::inverse) fn restart(&self) {
+    pub fn restart(&self) {
         self.work.set(0);
     }
 

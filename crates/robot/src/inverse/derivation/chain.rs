@@ -7,7 +7,6 @@
 
 use super::algebra::{Algebra, Column, Kind, Matrix, identity};
 use crate::description::{Description, JointKind};
-use crate::explain::Language;
 use crate::geometry::{Rotation, Transform, Vector};
 use crate::mechanism::{Affine, Lengths, Link, MovingAxes, MovingAxis, Robot, parallel};
 use denavit_symbolic::poly::Poly;
@@ -105,43 +104,24 @@ pub enum Unsuitable {
 /// Terms of an element of a product that is worked with.
 const LONGEST: usize = 3_000;
 /// Joints of the longest chain that is derived.
-const MAX_AXES: usize = 8;
-
-impl Unsuitable {
-    /// In words.
-    pub fn words(&self, language: Language) -> String {
-        language.pick(
-            match self {
-                Unsuitable::Helical(row) => format!("row {row} turns and slides at once (a helical joint)"),
-                Unsuitable::Coupling => {
-                    "the joint variables do not follow from the angles and displacements of the rows".into()
-                }
-                Unsuitable::NoJoint => "the robot has no joint".into(),
-                Unsuitable::TooLong(n) => {
-                    format!("the robot has {n} joints; closed forms are derived for up to {MAX_AXES}")
-                }
-            },
-            language.spaced(&match self {
-                Unsuitable::Helical(row) => {
-                    format!("la ligne {row} tourne et glisse à la fois (liaison hélicoïdale)")
-                }
-                Unsuitable::Coupling => {
-                    "les variables articulaires ne se déduisent pas des angles et des déplacements des lignes".into()
-                }
-                Unsuitable::NoJoint => "le robot n'a aucune articulation".into(),
-                Unsuitable::TooLong(n) => {
-                    format!("le robot a {n} articulations ; les formes explicites sont cherchées jusqu'à {MAX_AXES}")
-                }
-            }),
-        )
-    }
-}
+pub const MAX_AXES: usize = 8;
 
 impl std::fmt::Display for Unsuitable {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&self.words(Language::English))
+        match self {
+            Unsuitable::Helical(row) => write!(f, "row {row} turns and slides at once (a helical joint)"),
+            Unsuitable::Coupling => {
+                f.write_str("the joint variables do not follow from the angles and displacements of the rows")
+            }
+            Unsuitable::NoJoint => f.write_str("the robot has no joint"),
+            Unsuitable::TooLong(n) => {
+                write!(f, "the robot has {n} joints; closed forms are derived for up to {MAX_AXES}")
+            }
+        }
     }
 }
+
+impl std::error::Error for Unsuitable {}
 
 /// How much of the tool stays in the chain.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

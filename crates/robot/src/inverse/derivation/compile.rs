@@ -6,6 +6,7 @@ use super::equations::{Goal, Split};
 use super::known::Unknown;
 use super::plan::{Determinant, Form, Norm, Row, Step};
 use crate::geometry::{Rotation, Transform, Vector};
+use crate::inverse::branch::Label;
 use denavit_program::solver::{Draft, Output, Root, Solver, SolverBuilder};
 use denavit_program::{Op, Stage, Value};
 use denavit_symbolic::poly::{Atom, Monomial, Poly};
@@ -85,7 +86,7 @@ pub fn compile(
     splits: &[Split],
     goal: Goal,
     given: &[usize],
-    labels: &[Option<String>],
+    labels: &[Option<Label>],
 ) -> Compiled {
     compile_with(chain, steps, Some(splits), goal, given, labels)
 }
@@ -101,7 +102,7 @@ fn compile_with(
     splits: Option<&[Split]>,
     goal: Goal,
     given: &[usize],
-    labels: &[Option<String>],
+    labels: &[Option<Label>],
 ) -> Compiled {
     let inputs = Inputs::new(chain, goal, given);
     let names = names(chain, steps, &inputs);
@@ -128,7 +129,7 @@ fn compile_with(
     }
     let size = builder.size(goal);
     for (i, step) in steps.iter().enumerate() {
-        let label = labels.get(i).cloned().flatten();
+        let label = labels.get(i).copied().flatten();
         builder.step(i, step, &names[i], label);
     }
     let residual = match splits {
@@ -370,7 +371,7 @@ impl Builder<'_> {
         self.solver.graph.sqrt(sum)
     }
 
-    fn step(&mut self, i: usize, step: &Step, names: &[Symbol], label: Option<String>) {
+    fn step(&mut self, i: usize, step: &Step, names: &[Symbol], label: Option<Label>) {
         let mut guard = None;
         let mut degree = step.degree;
         let root = match &step.form {
@@ -406,7 +407,13 @@ impl Builder<'_> {
                 one: self.norm(&all[4]),
             },
         };
-        self.solver.node(Draft { root, guard, degree, results: names.to_vec(), label });
+        self.solver.node(Draft {
+            root,
+            guard,
+            degree,
+            results: names.to_vec(),
+            label: label.map(|l| l.to_string()),
+        });
         let inputs: Vec<Value> = names.iter().map(|s| self.solver.graph.input(*s)).collect();
         match step.unknown {
             Unknown::Slide(k) => {

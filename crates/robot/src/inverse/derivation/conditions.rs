@@ -8,11 +8,9 @@ use super::chain::{Chain, Motion};
 use super::equations::{Equation, Source};
 use super::known::{Known, Samples, Unknown};
 use super::plan::Step;
-use crate::explain::Language;
 use denavit_symbolic::Expr;
 use denavit_symbolic::poly::{Atom, Monomial, Poly};
 use rustc_hash::FxHashSet;
-use std::fmt;
 
 /// A condition on the pose, in its entries and in what the steps before it find.
 #[derive(Clone, Debug)]
@@ -48,40 +46,6 @@ pub enum Task {
     Orientation,
     /// None of these: a set of poses of this dimension.
     Other(usize),
-}
-
-impl Task {
-    /// In words: what the hand can be told.
-    pub fn words(self, language: Language) -> String {
-        language.pick(
-            match self {
-                Task::Pose => "any position and orientation".into(),
-                Task::PositionAndAxis => "a position and the direction of the tool's axis".into(),
-                Task::PositionAndTurn => "a position and a turn about one direction (x, y, z, φ)".into(),
-                Task::Planar => "a place and a turn in a plane (x, y, φ)".into(),
-                Task::Position => "a position (x, y, z)".into(),
-                Task::Orientation => "an orientation".into(),
-                Task::Other(n) => format!("a {n}-dimensional set of poses"),
-            },
-            match self {
-                Task::Pose => "une position et une orientation quelconques".into(),
-                Task::PositionAndAxis => "une position et la direction de l’axe de l’outil".into(),
-                Task::PositionAndTurn => {
-                    "une position et une rotation autour d’une direction (x, y, z, φ)".into()
-                }
-                Task::Planar => "une position et une rotation dans un plan (x, y, φ)".into(),
-                Task::Position => "une position (x, y, z)".into(),
-                Task::Orientation => "une orientation".into(),
-                Task::Other(n) => format!("une pose prise dans un ensemble de dimension {n}"),
-            },
-        )
-    }
-}
-
-impl fmt::Display for Task {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.words(Language::English))
-    }
 }
 
 /// What an arm serves, from the ranks of its motion: of the pose, of the position alone, of position and axis.

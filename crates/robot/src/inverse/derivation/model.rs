@@ -9,7 +9,7 @@ use super::known::{Samples, Unknown, axis_unknown};
 use super::plan::{Form, Step};
 use super::search::{self, Outcome};
 use crate::description::Description;
-use crate::explain::{Language, Words};
+use crate::inverse::branch::{Label, Part};
 use denavit_symbolic::poly::Poly;
 use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::vocabulary::Vocabulary;
@@ -56,7 +56,7 @@ pub struct InverseModel {
     /// For steps whose equation does not determine its unknown everywhere, derivations that find it in another way.
     pub variants: Vec<Variant>,
     /// What the branches of each step are called, if it has more than one.
-    pub labels: Vec<Option<String>>,
+    pub labels: Vec<Option<Label>>,
     /// Both sides of the chain's equations at each two cuts.
     pub splits: Vec<Split>,
     /// The steps as a solver, and its inputs.
@@ -71,7 +71,7 @@ pub struct Variant {
     /// The steps of the variant.
     pub steps: Vec<Step>,
     /// What their branches are called.
-    pub labels: Vec<Option<String>>,
+    pub labels: Vec<Option<Label>>,
     /// Its solver.
     pub compiled: Compiled,
 }
@@ -82,7 +82,7 @@ pub enum Refusal {
     /// The robot has no normal form.
     Unsuitable(Unsuitable),
     /// Values are given for joints that the arm does not have, or for too many.
-    Given(Words),
+    Given(NotGiven),
     /// The derivation ended before everything was found.
     Stuck(Box<Stuck>),
 }
@@ -106,49 +106,87 @@ pub struct Stuck {
     pub is_spent: bool,
 }
 
-impl Refusal {
-    /// In words.
-    pub fn words(&self, language: Language) -> String {
-        match self {
-            Refusal::Unsuitable(why) => why.words(language),
-            Refusal::Given(why) => why.of(language),
-            Refusal::Stuck(stuck) => stuck.words(language),
+/// Why no values can be given for some joints.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum NotGiven {
+    /// The arm does not have the joint.
+    NoSuchJoint {
+        /// The joint, from 0.
+        joint: usize,
+        /// How many there are.
+        joints: usize,
+    },
+    /// The arm has no more joints than its hand can use.
+    NoSurplus,
+    /// The arm has fewer joints too many.
+    TooMany {
+        /// How many values are given.
+        given: usize,
+        /// How many joints the arm has too many.
+        surplus: usize,
+    },
+}
+
+impl fmt::Display for NotGiven {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let joints = |n: usize| if n == 1 { "joint" } else { "joints" };
+        match *self {
+            NotGiven::NoSuchJoint { joint, joints } => {
+                write!(f, "joint {} is given, but there are only {joints}", joint + 1)
+            }
+            NotGiven::NoSurplus => {
+                f.write_str("no joint can be given: the arm has no more joints than its hand can use")
+            }
+            NotGiven::TooMany { given, surplus } => {
+                let (more, only) = (joints(given), joints(surplus));
+                write!(f, "{given} {more} given, but the arm has only {surplus} {only} too many")
+            }
         }
     }
 }
 
+impl std::error::Error for NotGiven {}
+
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.words(Language::English))
-    }
-}
-
-impl Stuck {
-    /// In words: what was found, what was not.
-    pub fn words(&self, language: Language) -> String {
-        let name = |j: &usize| self.chain.variables[*j].name().to_string();
-        let missing = self.missing.iter().map(name).collect::<Vec<String>>().join(", ");
-        let found: Vec<String> = self.steps.iter().map(|s| self.chain.describe(s.unknown)).collect();
-        let found = if found.is_empty() { language.pick("nothing", "rien").into() } else { found.join(", ") };
-        language.spaced(&if self.is_spent {
-            language.pick(
-                format!("no closed form within the bound on work: found {found} so far; open: {missing}"),
-                format!("pas de forme explicite dans la limite de calcul : trouvé jusqu'ici {found} ; reste {missing}"),
-            )
-        } else {
-            language.pick(
-                format!(
-                    "no closed form: found {found}; no equation of degree up to 4 in one unknown is left for {missing}"
-                ),
-                format!(
-                    "pas de forme explicite : trouvé {found} ; pour {missing}, il ne reste aucune équation de degré au plus 4 à une seule inconnue"
-                ),
-            )
-        })
+        match self {
+            Refusal::Unsuitable(why) => write!(f, "{why}"),
+            Refusal::Given(why) => write!(f, "{why}"),
+            Refusal::Stuck(stuck) => write!(f, "{stuck}"),
+        }
     }
 }
 
 impl std::error::Error for Refusal {}
+
+impl fmt::Display for Stuck {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [found, missing] = [self.found(), self.open()].map(|all| all.join(", "));
+        let found = if found.is_empty() { "nothing".into() } else { found };
+        if self.is_spent {
+            write!(f, "no closed form within the bound on work: found {found} so far; open: {missing}")
+        } else {
+            write!(
+                f,
+                "no closed form: found {found}; no equation of degree up to 4 in one unknown is left for {missing}"
+            )
+        }
+    }
+}
+
+impl std::error::Error for Stuck {}
+
+impl Stuck {
+    /// The unknowns that were found, as formulas to read.
+    pub fn found(&self) -> Vec<String> {
+        self.steps.iter().map(|s| self.chain.describe(s.unknown)).collect()
+    }
+
+    /// The joint variables that were not found, by name.
+    pub fn open(&self) -> Vec<String> {
+        self.missing.iter().map(|&j| self.chain.variables[j].name().to_string()).collect()
+    }
+}
 
 /// Sets of joints that are tried as given.
 const TRIALS: usize = 40;
@@ -166,10 +204,7 @@ impl InverseModel {
         let chain = Chain::new(&settled, end).map_err(Refusal::Unsuitable)?;
         let n = chain.variables.len();
         if let Some(j) = options.given.iter().flatten().find(|&&j| j >= n) {
-            return Err(Refusal::Given(Words::new(
-                format!("joint {} is given, but there are only {n}", j + 1),
-                format!("l'articulation {} est donnée, mais il n'y en a que {n}", j + 1),
-            )));
+            return Err(Refusal::Given(NotGiven::NoSuchJoint { joint: *j, joints: n }));
         }
         let (found, splits) = equations(&chain, options.goal);
         let value = |s: Symbol| settled.parameters.iter().find(|p| p.symbol == s)?.value?.eval(|_| None).ok();
@@ -182,7 +217,10 @@ impl InverseModel {
         asked.sort_unstable();
         asked.dedup();
         if asked.len() > surplus {
-            return Err(Refusal::Given(too_many(&asked, surplus)));
+            return Err(Refusal::Given(match surplus {
+                0 => NotGiven::NoSurplus,
+                _ => NotGiven::TooMany { given: asked.len(), surplus },
+            }));
         }
         let (given, outcome) = choose(&problem, &asked, surplus);
         if !outcome.is_complete() || !is_whole(&chain, &splits) {
@@ -256,31 +294,6 @@ impl InverseModel {
 /// True if the product of the whole chain was not too long to be formed.
 fn is_whole(chain: &Chain, splits: &[Split]) -> bool {
     splits.iter().any(|s| s.left == 0 && s.right == chain.elements.len())
-}
-
-fn too_many(asked: &[usize], surplus: usize) -> Words {
-    if surplus == 0 {
-        return Words::new(
-            "no joint can be given: the arm has no more joints than its hand can use",
-            "aucune articulation ne peut être donnée : le bras n'en a pas plus que son organe terminal ne peut en utiliser",
-        );
-    }
-    let joints = |language: Language, k: usize| {
-        language.counted(k, ["joint", "joints"], ["articulation", "articulations"])
-    };
-    let (n, given) = (surplus, asked.len());
-    Words::new(
-        format!(
-            "{} given, but the arm has only {} too many",
-            joints(Language::English, given),
-            joints(Language::English, n)
-        ),
-        format!(
-            "{} {}, mais le bras n'en a que {n} en trop",
-            joints(Language::French, given),
-            if given < 2 { "donnée" } else { "données" }
-        ),
-    )
 }
 
 /// The axes that joint variables determine.
@@ -393,25 +406,14 @@ fn rank(chain: &Chain, samples: &Samples, goal: Goal) -> usize {
     rank
 }
 
-/// What branches are called, in each language.
-const BRANCHES: [[&str; 2]; 4] =
-    [["shoulder", "épaule"], ["elbow", "coude"], ["wrist", "poignet"], ["reach", "portée"]];
-
-/// The names of branches in a language: `shoulder+ elbow2−` is `épaule+ coude2−`.
-pub fn branch_words(label: &str, language: Language) -> String {
-    BRANCHES.iter().fold(label.to_string(), |text, [english, french]| {
-        text.replace(english, language.pick(english, french))
-    })
-}
-
 /// What people call the branches: the first turning joint's are the shoulder's, those of the last three joints the
 /// wrist's, those between the elbow's; joints of an arm that has fewer than five are an elbow's but for the first.
-fn labels(chain: &Chain, steps: &[Step]) -> Vec<Option<String>> {
+fn labels(chain: &Chain, steps: &[Step]) -> Vec<Option<Label>> {
     let n = chain.axes.len();
     let turns: Vec<usize> = (0..n).filter(|&k| chain.axes[k].motion != Motion::Slide).collect();
     let ends_turning = n >= 5 && chain.axes[n - 3..].iter().all(|a| a.motion != Motion::Slide);
     let wrist = if ends_turning { n - if n == 5 { 2 } else { 3 } } else { n };
-    let mut used: Vec<String> = vec![];
+    let mut used: Vec<Part> = vec![];
     steps
         .iter()
         .map(|step| {
@@ -427,20 +429,19 @@ fn labels(chain: &Chain, steps: &[Step]) -> Vec<Option<String>> {
                 Unknown::Angle(d) => (0..n).rev().find(|&k| matches!(chain.axes[k].motion, Motion::Turn { group, node, .. } if group == d.group && node <= d.to)).unwrap_or(0),
             };
             let spans_wrist = last >= wrist && (first >= wrist || last - first >= 2);
-            let name = if matches!(step.unknown, Unknown::Slide(_)) {
-                "reach"
+            let part = if matches!(step.unknown, Unknown::Slide(_)) {
+                Part::Reach
             } else if spans_wrist {
-                "wrist"
+                Part::Wrist
             } else if first == turns[0] && (turns.len() > 3 || matches!(step.form, Form::Line))
                 || turns.len() >= 7 && turns[..3].contains(&last)
             {
-                "shoulder"
+                Part::Shoulder
             } else {
-                "elbow"
+                Part::Elbow
             };
-            let same = used.iter().filter(|u| *u == name).count();
-            used.push(name.to_string());
-            Some(if same == 0 { name.to_string() } else { format!("{name}{}", same + 1) })
+            used.push(part);
+            Some(Label { part, number: used.iter().filter(|p| **p == part).count() })
         })
         .collect()
 }

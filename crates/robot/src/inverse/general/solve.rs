@@ -3,6 +3,7 @@
 use super::arm::{SixAxes, Unsuited, rigid};
 use crate::geometry::Transform;
 use crate::inverse::answer::{Answer, Doubt, Family, Solution};
+use crate::inverse::branch::Branch;
 use crate::inverse::derivation::Goal;
 use crate::inverse::newton;
 use crate::inverse::self_motion::{SelfMotion, follow, is_self_motion};
@@ -102,7 +103,7 @@ impl GeneralSolver {
                 continue;
             }
             let within_limits = self.space.within(&q);
-            let (branch, multiplicity, guard) = (String::new(), found.multiplicity, found.singular);
+            let (branch, multiplicity, guard) = (Branch::default(), found.multiplicity, found.singular);
             answer.solutions.push(Solution { q, residual, branch, multiplicity, within_limits, guard });
         }
     }

@@ -16,6 +16,7 @@ use super::spherical::{Matrix, Spherical, Swivel, Turn, act, dot, product, trans
 use super::wrapped;
 use crate::description::{Description, JointKind};
 use crate::geometry::{Rotation, Transform, Vector};
+use crate::inverse::branch::{Branch, Choice, Label, Part};
 use crate::inverse::derivation::settled;
 use crate::mechanism::{Lengths, MovingAxes, MovingAxis, Robot};
 use crate::space::JointSpace;
@@ -59,7 +60,7 @@ struct Elbow {
     q: f64,
     /// 0 where the two elbows meet, 1 at most.
     guard: f64,
-    mark: &'static str,
+    choice: Choice,
     shoulder: Swivel,
     wrist: Swivel,
 }
@@ -168,7 +169,7 @@ impl ArmAngle {
         let away = root.max(0.0).sqrt().atan2(rest);
         let r_07 = pose.rotation.rows();
         let hand = product(&r_07, &self.tool);
-        let one = |tau: f64, mark: &'static str| {
+        let one = |tau: f64, choice: Choice| {
             let p = self.forearm(tau);
             let length = dot(p, p).sqrt();
             let at = self.reference(p.map(|x| x / length), d);
@@ -186,12 +187,15 @@ impl ArmAngle {
             Elbow {
                 q: wrapped(self.elbow.sense * (tau - self.elbow.offset)),
                 guard: away.sin(),
-                mark,
+                choice,
                 shoulder: swivel.between(&self.base.rotation.inverse().rows(), &identity),
                 wrist: swivel.transposed().between(&transposed(&link), &hand),
             }
         };
-        [Some(one(middle + away, "+")), (away > 0.0 && away < PI).then(|| one(middle - away, "−"))]
+        [
+            Some(one(middle + away, Choice::Plus)),
+            (away > 0.0 && away < PI).then(|| one(middle - away, Choice::Minus)),
+        ]
     }
 
     /// The joints at ψ, on a branch.
@@ -375,9 +379,10 @@ impl ArmAngle {
     }
 }
 
-fn branch(elbow: &Elbow, i: usize, j: usize) -> String {
-    let mark = |x: usize| if x == 0 { "+" } else { "−" };
-    ["shoulder", mark(i), " elbow", elbow.mark, " wrist", mark(j)].concat()
+fn branch(elbow: &Elbow, i: usize, j: usize) -> Branch {
+    let choice = |x: usize| if x == 0 { Choice::Plus } else { Choice::Minus };
+    let all = [(Part::Shoulder, choice(i)), (Part::Elbow, elbow.choice), (Part::Wrist, choice(j))];
+    Branch(all.map(|(part, choice)| (Label { part, number: 1 }, choice)).to_vec())
 }
 
 /// The joints of a chain in which each turns one axis, in order, and the eight constant transforms around them.

@@ -7,6 +7,7 @@ use super::limits::{Range, SLACK, excess};
 use super::locked::Locked;
 use super::manifold::{Chart, Found, Piece};
 use crate::geometry::Transform;
+use crate::inverse::branch::Branch;
 use crate::inverse::derivation::Goal;
 use crate::inverse::newton;
 use crate::inverse::self_motion::{CurveEnd, Tracker};
@@ -171,7 +172,7 @@ impl ByCurve {
             }
         }
         Piece {
-            branch: String::new(),
+            branch: Branch::default(),
             parameter: "s".into(),
             domain: [0.0, whole],
             feasible: parts,
@@ -195,5 +196,5 @@ impl ByCurve {
 }
 
 fn plain(q: Vec<f64>) -> Found {
-    Found { q, guard: None, branch: String::new() }
+    Found { q, guard: None, branch: Branch::default() }
 }

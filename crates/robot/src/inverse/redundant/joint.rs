@@ -8,6 +8,7 @@ use super::limits::{Range, SLACK, excess};
 use super::manifold::{Chart, Found, Piece};
 use crate::description::Description;
 use crate::geometry::Transform;
+use crate::inverse::branch::{self, Label};
 use crate::inverse::closed::variables;
 use crate::inverse::derivation::{Goal, InverseModel};
 use crate::mechanism::MissingValue;
@@ -43,7 +44,7 @@ pub(super) struct ByJoint {
     pub given: Vec<usize>,
     /// The name of the parameter.
     pub name: String,
-    labels: Vec<Option<String>>,
+    labels: Vec<Option<Label>>,
     space: JointSpace,
     ranges: Vec<Range>,
 }
@@ -515,21 +516,8 @@ impl Lowest {
 }
 
 /// What a branch is called.
-fn branch(labels: &[Option<String>], signs: &[i8]) -> String {
-    let mut name = String::new();
-    for (label, sign) in labels.iter().zip(signs) {
-        let Some(label) = label else { continue };
-        if !name.is_empty() {
-            name.push(' ');
-        }
-        name.push_str(label);
-        match sign {
-            -1 => name.push('−'),
-            1 => name.push('+'),
-            k => name += &k.to_string(),
-        }
-    }
-    name
+fn branch(labels: &[Option<Label>], signs: &[i8]) -> branch::Branch {
+    branch::Branch::of_signs(labels.iter().copied(), signs)
 }
 
 /// On a circle cut at ±π, the parts at its two ends are one.

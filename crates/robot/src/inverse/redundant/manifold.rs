@@ -1,6 +1,7 @@
 //! What a redundant arm can do at one pose: curves of configurations, each with a parameter.
 
 use crate::inverse::answer::{Answer, Doubt, Family, Solution};
+use crate::inverse::branch::Branch;
 
 /// All configurations of a pose, as curves.
 #[derive(Clone, PartialEq, Debug)]
@@ -17,7 +18,7 @@ pub struct Manifold {
 #[derive(Clone, PartialEq, Debug)]
 pub struct Component {
     /// The branch: `shoulder+ elbow− wrist+`; empty for a curve that was followed.
-    pub branch: String,
+    pub branch: Branch,
     /// The parameter: `ψ` (the arm angle, radians), the name of a joint variable (radians or metres), or `s` (the length
     /// along the curve, radians with slides by the reach).
     pub parameter: String,
@@ -40,7 +41,7 @@ pub struct Component {
 /// A component before members of it are computed.
 #[derive(Clone, Debug)]
 pub(super) struct Piece {
-    pub branch: String,
+    pub branch: Branch,
     pub parameter: String,
     pub domain: [f64; 2],
     pub feasible: Vec<[f64; 2]>,
@@ -54,7 +55,7 @@ pub(super) struct Found {
     pub q: Vec<f64>,
     /// The smallest quantity that was divided by, if it is known.
     pub guard: Option<f64>,
-    pub branch: String,
+    pub branch: Branch,
 }
 
 /// How the joints follow from the parameter.

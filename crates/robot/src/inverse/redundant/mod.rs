@@ -25,6 +25,7 @@ pub use criterion::Criterion;
 pub use manifold::{Component, Manifold};
 
 use super::answer::{Doubt, Solution};
+use super::branch::Branch;
 use super::derivation::{Goal, InverseModel, Options};
 use super::newton;
 use super::self_motion::Frame;
@@ -182,7 +183,7 @@ impl RedundantSolver {
     /// The best member within the limits by a criterion; nothing if there is none.
     pub fn best(&mut self, pose: &Transform<f64>, criterion: &Criterion) -> Option<Solution> {
         let pose = &newton::nearest_rigid(pose).0;
-        let mut best: Option<(f64, Vec<f64>, String)> = None;
+        let mut best: Option<(f64, Vec<f64>, Branch)> = None;
         for piece in self.pieces(pose) {
             for interval in &piece.feasible {
                 let found = criterion::least(*interval, |x| {

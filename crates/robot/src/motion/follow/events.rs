@@ -1,10 +1,7 @@
 //! What is met on the way.
 
-use crate::description::Description;
-use crate::explain::reading;
 use crate::velocity::Place;
 use denavit_symbolic::Expr;
-use denavit_symbolic::print::{Style, print};
 
 /// Something on the way, at a parameter of the path.
 #[derive(Clone, PartialEq, Debug)]
@@ -50,52 +47,6 @@ pub enum EventKind {
         /// How the axes lie.
         place: Option<Place>,
     },
-}
-
-impl Event {
-    /// What happens, in words: `passes through a singular configuration: S5 = 0; …`. The path is the subject, or a joint.
-    pub fn sentence(&self, description: &Description) -> String {
-        let names = description.vocabulary();
-        let why = |factor: &Option<Expr>, place: &Option<Place>| {
-            let zero = factor.map(|f| format!("{} = 0", print(f, &names, Style::Unicode)));
-            let parts: Vec<String> = [zero, place.as_ref().map(ToString::to_string)]
-                .into_iter()
-                .flatten()
-                .filter(|p| !p.is_empty())
-                .collect();
-            if parts.is_empty() { String::new() } else { format!(": {}", parts.join("; ")) }
-        };
-        let variables = description.variables();
-        let few = variables.len() < 6;
-        match &self.kind {
-            EventKind::Singular { factor, place, crossed } => {
-                let how = match (crossed, self.s) {
-                    (false, 0.0) => "starts in",
-                    (true, _) => "passes through",
-                    _ => "touches, or nearly,",
-                };
-                format!("it {how} a singular configuration{}", why(factor, place))
-            }
-            EventKind::Limit { joint, limit } => {
-                let v = variables[*joint];
-                let how = if self.s == 0.0 { "is beyond" } else { "leaves" };
-                format!("{} {how} its limit {}", v.symbol.name(), reading(*limit, v.kind))
-            }
-            EventKind::WithinLimits { joint } => {
-                format!("{} is within its limits again", variables[*joint].symbol.name())
-            }
-            EventKind::End { reachable: false, .. } if self.s == 0.0 && few => format!(
-                "it leaves what the hand can reach: the orientation is to be kept too, and {} joints cannot do both",
-                variables.len()
-            ),
-            EventKind::End { reachable: false, factor, place } => {
-                format!("it leaves what the hand can reach{}", why(factor, place))
-            }
-            EventKind::End { reachable: true, factor, place } => {
-                format!("the branch ends; the hand can go on with another{}", why(factor, place))
-            }
-        }
-    }
 }
 
 impl EventKind {

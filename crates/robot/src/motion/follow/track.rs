@@ -4,7 +4,7 @@ use super::between::HermitePath;
 use super::events::{Event, EventKind};
 use crate::description::Description;
 use crate::forward::Reference;
-use crate::inverse::{Goal, InverseKinematics, JointSpace, Unprepared, newton};
+use crate::inverse::{Branch, Goal, InverseKinematics, JointSpace, Unprepared, newton};
 use crate::mechanism::Robot;
 use crate::motion::hand::HandPath;
 use crate::velocity::{
@@ -64,8 +64,8 @@ impl Followed {
 pub struct Alternative {
     /// The configuration at the start.
     pub start: Vec<f64>,
-    /// Its branch in words, if it has a name.
-    pub branch: String,
+    /// Its branch, if it has a name.
+    pub branch: Branch,
     /// Up to which s it goes.
     pub reached: f64,
     /// Singular configurations on the way.
@@ -136,11 +136,11 @@ impl Follower {
 
     /// The configurations in which the path can start, those within the limits first: all solutions, of a family its
     /// representative, moved by whole turns to be within the limits or near to their middle.
-    pub fn starts(&mut self, path: &dyn HandPath) -> Vec<(Vec<f64>, String)> {
+    pub fn starts(&mut self, path: &dyn HandPath) -> Vec<(Vec<f64>, Branch)> {
         let answer = self.inverse.solve(&path.pose(0.0), &[]);
         let all = answer.solutions.iter().chain(answer.families.iter().map(|f| &f.representative));
         let middle = self.space().middle();
-        let mut starts: Vec<(Vec<f64>, String)> =
+        let mut starts: Vec<(Vec<f64>, Branch)> =
             all.map(|s| (self.space().nearest_copy(&s.q, &middle), s.branch.clone())).collect();
         starts.sort_by_key(|s| self.outside(&s.0).is_some());
         starts

@@ -1,6 +1,6 @@
 //! Arcs of circles.
 
-use super::{HandPath, turn};
+use super::{HandPath, Stretch, turn};
 use crate::geometry::{Rotation, Transform, Vector};
 use std::fmt;
 
@@ -70,6 +70,10 @@ impl Arc {
 }
 
 impl HandPath for Arc {
+    fn stretches(&self) -> Vec<Stretch> {
+        vec![Stretch::Arc]
+    }
+
     fn pose(&self, s: f64) -> Transform<f64> {
         let r: Rotation<f64> = turn::about(self.turned.scale(s));
         let position = self.centre + r * (self.from.translation - self.centre);

@@ -1,6 +1,6 @@
 //! Straight lines.
 
-use super::{HandPath, turn};
+use super::{HandPath, Stretch, turn};
 use crate::geometry::{Transform, Vector};
 
 /// How the orientation goes from one end to the other.
@@ -24,6 +24,10 @@ pub struct Line {
 }
 
 impl HandPath for Line {
+    fn stretches(&self) -> Vec<Stretch> {
+        vec![Stretch::Line]
+    }
+
     fn pose(&self, s: f64) -> Transform<f64> {
         match self.orientation {
             Orientation::Slerp => Transform::from_rotation_translation(

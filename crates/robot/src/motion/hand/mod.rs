@@ -13,10 +13,24 @@ pub use spline::PoseSpline;
 
 use crate::geometry::Transform;
 
+/// What a part of a path is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Stretch {
+    /// A straight line.
+    Line,
+    /// An arc of a circle.
+    Arc,
+    /// A smooth curve through so many poses.
+    Spline(usize),
+}
+
 /// A path of the hand.
 pub trait HandPath {
     /// The pose at s in [0, 1].
     fn pose(&self, s: f64) -> Transform<f64>;
+
+    /// What it consists of.
+    fn stretches(&self) -> Vec<Stretch>;
 
     /// Where the direction of the motion may jump, increasing, the ends not among them.
     fn corners(&self) -> Vec<f64> {
@@ -70,6 +84,10 @@ impl Chain {
 }
 
 impl HandPath for Chain {
+    fn stretches(&self) -> Vec<Stretch> {
+        self.parts.iter().flat_map(|p| p.stretches()).collect()
+    }
+
     fn pose(&self, s: f64) -> Transform<f64> {
         let last = self.parts.len() - 1;
         let k = self.ends.partition_point(|e| *e <= s).min(last);

@@ -1,6 +1,6 @@
 //! Smooth curves through poses.
 
-use super::{HandPath, turn};
+use super::{HandPath, Stretch, turn};
 use crate::geometry::{Transform, Vector};
 
 /// Through poses, smooth in position (a natural cubic spline over the chords) and in orientation (a cubic Bézier curve of
@@ -72,6 +72,10 @@ fn natural(at: &[f64], values: &[Vector<f64>]) -> Vec<Vector<f64>> {
 }
 
 impl HandPath for PoseSpline {
+    fn stretches(&self) -> Vec<Stretch> {
+        vec![Stretch::Spline(self.poses.len())]
+    }
+
     fn pose(&self, s: f64) -> Transform<f64> {
         let k = self.at.partition_point(|a| *a <= s).clamp(1, self.at.len() - 1) - 1;
         let h = self.at[k + 1] - self.at[k];

@@ -1,9 +1,9 @@
 //! Why there is no motion, in plain words.
 
 use crate::description::JointKind;
-use crate::explain::{decimals, rate};
 use crate::inverse::Unprepared;
 use crate::motion::MotionError;
+use crate::quantity::{decimals, rate};
 use std::fmt;
 
 /// Why a wish has no motion.

@@ -2,7 +2,7 @@
 
 use super::known::Known;
 use super::timed::{Still, Timed, by_quintic, fastest, over_duration};
-use super::{PlanError, PlanOptions, Planned};
+use super::{Course, PlanError, PlanOptions, Planned, TimingLaw};
 use crate::description::Description;
 use crate::mechanism::Robot;
 use crate::motion::follow::{Alternative, Followed, Follower, Options};
@@ -16,7 +16,7 @@ pub(super) fn plan(
     description: &Description,
     robot: &Robot<f64>,
     follower: &mut Follower,
-    (path, start, words): (&dyn HandPath, Option<Vec<f64>>, String),
+    (path, start): (&dyn HandPath, Option<Vec<f64>>),
     limits: &Known<'_>,
     options: &PlanOptions,
 ) -> Result<Planned, PlanError> {
@@ -32,7 +32,7 @@ pub(super) fn plan(
         alternatives = follower.alternatives(path, &follow);
     }
     let (trajectory, timing): Timed = if followed.reached <= 0.0 {
-        (Box::new(Still(start)), "it does not start".into())
+        (Box::new(Still(start)), TimingLaw::Still.into())
     } else {
         match &limits.all {
             Some(limits) if limits.jerk().is_some() => {
@@ -47,7 +47,8 @@ pub(super) fn plan(
             }
         }
     };
-    Ok(Planned { trajectory, words, timing, followed: Some(followed), alternatives })
+    let course = Course::Hand(path.stretches());
+    Ok(Planned { trajectory, course, timing, followed: Some(followed), alternatives })
 }
 
 /// The branch that goes furthest, within the limits, past the fewest singular configurations; of equals the first.

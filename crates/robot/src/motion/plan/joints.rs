@@ -2,7 +2,7 @@
 
 use super::known::Known;
 use super::timed::{Timed, by_quintic, fastest, over_duration};
-use super::{PlanError, PlanOptions, Planned};
+use super::{Course, PlanError, PlanOptions, Planned, TimingLaw};
 use crate::description::Description;
 use crate::motion::path::{Blend, Ends, PiecewisePath, blended, cubic_spline};
 use crate::motion::profile::{Law, synchronised};
@@ -16,10 +16,10 @@ pub(super) fn plan(
     limits: &Known<'_>,
     options: &PlanOptions,
 ) -> Result<Planned, PlanError> {
-    let words = match points.len() {
-        2 => "joint move".to_string(),
-        n if options.blend.is_some() => format!("straight joint moves past {n} way-points"),
-        n => format!("joint spline through {n} way-points"),
+    let course = match points.len() {
+        2 => Course::Move,
+        n if options.blend.is_some() => Course::Straight(n),
+        n => Course::Spline(n),
     };
     let path = || through(points, options.blend);
     let (trajectory, timing) = match (&limits.all, points) {
@@ -31,7 +31,7 @@ pub(super) fn plan(
         let joint = description.variables()[j].symbol.name().to_string();
         return Err(PlanError::OutsideLimits { joint });
     }
-    Ok(Planned { trajectory, words, timing, followed: None, alternatives: vec![] })
+    Ok(Planned { trajectory, course, timing, followed: None, alternatives: vec![] })
 }
 
 /// A move from rest to rest by a law, the fastest that the limits know otherwise.
@@ -40,10 +40,10 @@ fn between([a, b]: [&[f64]; 2], limits: &Limits, law: Option<Law>) -> Result<Tim
     let law = law.unwrap_or(if has_jerk { Law::DoubleS } else { Law::Trapezoidal });
     if law == Law::DoubleS && has_jerk {
         let found = move_within_limits(&JointState::at_rest(a), &JointState::at_rest(b), limits)?;
-        return Ok((Box::new(found), "the fastest within velocity, acceleration and jerk limits".into()));
+        return Ok((Box::new(found), TimingLaw::Fastest.into()));
     }
     let found = synchronised(a, b, limits, law)?;
-    Ok((Box::new(found), format!("{} law, all joints together, within the limits", law.words())))
+    Ok((Box::new(found), TimingLaw::Together(law).into()))
 }
 
 /// A smooth curve through way-points, or straight lines between them with rounded corners.

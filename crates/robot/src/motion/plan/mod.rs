@@ -18,13 +18,11 @@ pub use known::KnownLimits;
 
 use super::error::{joints as one_a_joint, positive};
 use super::follow::{self, Alternative, Followed, Follower};
-use super::hand::HandPath;
+use super::hand::{HandPath, Stretch};
 use super::profile::Law;
 use super::trajectory::Trajectory;
 use crate::description::Description;
-use crate::explain::decimals;
 use crate::mechanism::Robot;
-use std::fmt;
 
 /// What is to be moved along.
 pub enum Wish {
@@ -36,8 +34,6 @@ pub enum Wish {
         path: Box<dyn HandPath + Send + Sync>,
         /// The configuration at the start; the one whose branch goes furthest otherwise.
         start: Option<Vec<f64>>,
-        /// The path in words: `2 lines`.
-        words: String,
     },
 }
 
@@ -78,14 +74,63 @@ impl Default for PlanOptions {
 pub struct Planned {
     /// The joints in time; at rest at the start if the path cannot be followed at all.
     pub trajectory: Box<dyn Trajectory>,
-    /// What path it is, in words.
-    pub words: String,
-    /// How it was timed, in words.
-    pub timing: String,
+    /// What path it is.
+    pub course: Course,
+    /// How it was timed.
+    pub timing: Timing,
     /// What was met on the way, for a path of the hand.
     pub followed: Option<Followed>,
     /// What comes of the configurations in which a path of the hand can start, where that was asked for or matters.
     pub alternatives: Vec<Alternative>,
+}
+
+/// What path is taken.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Course {
+    /// From one configuration to another.
+    Move,
+    /// Straight moves of the joints past so many way-points, with rounded corners.
+    Straight(usize),
+    /// A smooth curve of the joints through so many way-points.
+    Spline(usize),
+    /// A path of the hand, by its parts.
+    Hand(Vec<Stretch>),
+}
+
+/// How a path was timed.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Timing {
+    /// The law.
+    pub by: TimingLaw,
+    /// The duration in seconds, if it is longer than the law needs because that was asked for.
+    pub slowed_to: Option<f64>,
+}
+
+/// The law of a timing.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum TimingLaw {
+    /// None: the path cannot be followed at all.
+    Still,
+    /// The fastest along the path within velocity and acceleration limits.
+    TimeOptimal,
+    /// Fast along the path within velocity, acceleration and jerk limits.
+    JerkLimited,
+    /// The fastest between two configurations within velocity, acceleration and jerk limits.
+    Fastest,
+    /// A law for all joints together, within the limits.
+    Together(Law),
+    /// A quintic law; no limits are known.
+    Quintic {
+        /// Seconds.
+        duration: f64,
+        /// The joint (from 0) that becomes fastest, and its velocity, rad/s or m/s.
+        fastest: Option<(usize, f64)>,
+    },
+    /// A quintic law within velocity limits; no accelerations are known.
+    QuinticWithin {
+        /// Seconds.
+        duration: f64,
+    },
 }
 
 /// Whether a motion does all that was wished.
@@ -97,18 +142,6 @@ pub enum Verdict {
     Ends(f64),
     /// The whole path, but a joint leaves its limits on the way.
     BeyondLimits,
-}
-
-impl fmt::Display for Verdict {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Verdict::Whole => write!(f, "the path is followed to its end"),
-            Verdict::Ends(reached) => {
-                write!(f, "the path cannot be followed beyond {} % of its way", decimals(100.0 * reached, 4))
-            }
-            Verdict::BeyondLimits => write!(f, "the path leaves the limits of the joints"),
-        }
-    }
 }
 
 impl Planned {
@@ -155,13 +188,13 @@ impl Planned {
                 points.iter().try_for_each(|p| one_a_joint("way-points", n, p))?;
                 joints::plan(description, &points, &limits, options)
             }
-            Wish::Hand { path, start, words } => {
+            Wish::Hand { path, start } => {
                 start.iter().try_for_each(|q| one_a_joint("the start", n, q))?;
                 let follower = match follower {
                     Some(follower) => follower,
                     None => follower.insert(Follower::new(description).map_err(PlanError::Unprepared)?),
                 };
-                hand::plan(description, robot, follower, (&*path, start, words), &limits, options)
+                hand::plan(description, robot, follower, (&*path, start), &limits, options)
             }
         }
     }
@@ -218,19 +251,19 @@ mod tests {
         // 1 rad at 1.5 rad/s, and 1.5/4 s to gain that speed.
         limits.acceleration = all(4.0);
         let found = of_joints(&MOVE, &limits, &usual).expect("by a trapezoidal law");
-        assert!((found.trajectory.duration() - (1.0 / 1.5 + 1.5 / 4.0)).abs() < 1e-9, "{}", found.timing);
+        assert!((found.trajectory.duration() - (1.0 / 1.5 + 1.5 / 4.0)).abs() < 1e-9, "{:?}", found.timing);
         limits.jerk = all(100.0);
         let slower = of_joints(&MOVE, &limits, &usual).expect("with limited jerk").trajectory.duration();
         assert!(slower > found.trajectory.duration());
         let spline = of_joints(&[[0.0; 6], [0.5; 6], [0.2; 6]], &limits, &usual).expect("a spline");
-        assert_eq!(spline.words, "joint spline through 3 way-points");
+        assert_eq!(spline.course, Course::Spline(3));
     }
 
     #[test]
     fn refusals_are_typed() {
         let (nothing, usual) = (KnownLimits::default(), PlanOptions::default());
         let refusal = |limits: &KnownLimits, options: &PlanOptions| match of_joints(&MOVE, limits, options) {
-            Ok(found) => panic!("{}", found.timing),
+            Ok(found) => panic!("{:?}", found.timing),
             Err(why) => why,
         };
         let jerk = KnownLimits { jerk: all(1.0), ..KnownLimits::default() };
@@ -261,8 +294,7 @@ mod tests {
             to.translation.0[0] += by;
             Box::new(Line { from, to, orientation: Orientation::Slerp })
         };
-        let wish =
-            |by: f64, start: Option<Vec<f64>>| Wish::Hand { path: line(by), start, words: "line".into() };
+        let wish = |by: f64, start: Option<Vec<f64>>| Wish::Hand { path: line(by), start };
         let (limits, usual) = (KnownLimits::of(&d), PlanOptions::default());
         let mut follower = None;
         let mut plan = |w: Wish| Planned::reusing(&mut follower, &d, &robot, w, &limits, &usual);

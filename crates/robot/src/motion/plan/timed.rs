@@ -1,21 +1,26 @@
-//! Timings of a path, each with its words.
+//! Timings of a path.
 
-use super::PlanError;
+use super::{PlanError, Timing, TimingLaw};
 use crate::description::Description;
-use crate::explain::{decimals, rate};
 use crate::motion::{InTime, JerkLimited, JointPath, JointState, Limits, Slowed, TimeOptimal, Trajectory};
 
 /// A motion, and how it was timed.
-pub(super) type Timed = (Box<dyn Trajectory>, String);
+pub(super) type Timed = (Box<dyn Trajectory>, Timing);
+
+impl From<TimingLaw> for Timing {
+    fn from(by: TimingLaw) -> Self {
+        Timing { by, slowed_to: None }
+    }
+}
 
 /// The fastest timing of a path.
 pub(super) fn fastest<P: JointPath + 'static>(path: P, limits: &Limits) -> Result<Timed, PlanError> {
     if limits.jerk().is_some() {
         let found = JerkLimited::default().time(path, limits)?;
-        return Ok((Box::new(found), "fast, within velocity, acceleration and jerk limits".into()));
+        return Ok((Box::new(found), TimingLaw::JerkLimited.into()));
     }
     let found = TimeOptimal::default().time(path, limits)?;
-    Ok((Box::new(found), "time-optimal within velocity and acceleration limits".into()))
+    Ok((Box::new(found), TimingLaw::TimeOptimal.into()))
 }
 
 /// A path by a quintic law: over the duration asked for, or the usual one, longer if velocities are limited.
@@ -32,15 +37,8 @@ pub(super) fn by_quintic<P: JointPath + Clone + 'static>(
     let fastest = timed.fastest();
     let Some(limits) = velocity else {
         let most = fastest.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
-        let most = most.map(|(j, v)| {
-            format!("; the fastest joint, {}, turns at {}", name(j), rate(*v, variables[j].kind))
-        });
-        let words = format!(
-            "a quintic law over {} s, no limits are known{}",
-            decimals(duration, 4),
-            most.unwrap_or_default()
-        );
-        return Ok((Box::new(timed), words));
+        let by = TimingLaw::Quintic { duration, fastest: most.map(|(j, v)| (j, *v)) };
+        return Ok((Box::new(timed), by.into()));
     };
     let over = fastest.iter().zip(limits).map(|(v, l)| v / l).enumerate();
     let (joint, ratio) = over.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0));
@@ -56,24 +54,22 @@ pub(super) fn by_quintic<P: JointPath + Clone + 'static>(
         _ => {
             let needed = duration * ratio.max(if asked.is_some() { 1.0 } else { 1e-6 });
             let duration = if asked.is_some() { duration } else { needed.max(usual) };
-            let words = format!(
-                "a quintic law over {} s within the velocity limits, no accelerations are known",
-                decimals(duration, 4)
-            );
-            Ok((Box::new(InTime::new(path, duration)?), words))
+            let by = TimingLaw::QuinticWithin { duration };
+            Ok((Box::new(InTime::new(path, duration)?), by.into()))
         }
     }
 }
 
 /// A motion that takes longer, or as long as it does.
-pub(super) fn over_duration((motion, words): Timed, asked: Option<f64>) -> Result<Timed, PlanError> {
+pub(super) fn over_duration((motion, timing): Timed, asked: Option<f64>) -> Result<Timed, PlanError> {
     let own = motion.duration();
     match asked {
-        None => Ok((motion, words)),
+        None => Ok((motion, timing)),
         Some(asked) if asked < own * (1.0 - 1e-9) => Err(PlanError::TooShort { asked, needed: own }),
         Some(asked) => {
             let factor = if own > 0.0 { asked / own } else { 1.0 };
-            Ok((Box::new(Slowed::new(motion, factor)), format!("{words}, slowed down to {asked} s")))
+            let timing = Timing { slowed_to: Some(asked), ..timing };
+            Ok((Box::new(Slowed::new(motion, factor)), timing))
         }
     }
 }

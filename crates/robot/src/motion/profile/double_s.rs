@@ -4,7 +4,7 @@
 //! being symmetric it covers T(Δ) times the mean of its end velocities. What is left is the peak velocity.
 
 use super::Phases;
-use crate::motion::error::{MotionError, finite, positive};
+use crate::motion::error::{MotionError, StateError, finite, positive};
 
 /// The fastest motion between two positions and velocities, with no acceleration at its ends, and these greatest
 /// velocity, acceleration and jerk: at most seven phases.
@@ -23,13 +23,13 @@ pub fn double_s(
     positive("limits", &[max_velocity, max_acceleration, max_jerk])?;
     finite("end states", &[from, to, v0, v1])?;
     if v0.abs().max(v1.abs()) > max_velocity {
-        return Err(MotionError::State("an end velocity is above its limit".into()));
+        return Err(MotionError::State(StateError::AboveLimit));
     }
     let backward = to < from || (to == from && v0 + v1 < 0.0);
     let sign = if backward { -1.0 } else { 1.0 };
     let (v0, v1, distance) = (sign * v0, sign * v1, sign * (to - from));
     if v0 < 0.0 || v1 < 0.0 {
-        return Err(MotionError::State("an end velocity is against the direction of motion".into()));
+        return Err(MotionError::State(StateError::AgainstMotion));
     }
     let needed = ramp.distance(v0, v1);
     if distance < needed * (1.0 - 1e-12) {

@@ -18,18 +18,6 @@ pub enum Law {
     DoubleS,
 }
 
-impl Law {
-    /// In words, before "law".
-    pub(in crate::motion) fn words(self) -> &'static str {
-        match self {
-            Law::Cubic => "a cubic",
-            Law::Quintic => "a quintic",
-            Law::Trapezoidal => "a trapezoidal",
-            Law::DoubleS => "a jerk-limited",
-        }
-    }
-}
-
 /// The time law of one joint.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TimeLaw {

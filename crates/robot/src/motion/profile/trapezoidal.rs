@@ -1,7 +1,7 @@
 //! Trapezoidal velocity (Biagiotti & Melchiorri 2008, §3.2).
 
 use super::Phases;
-use crate::motion::error::{MotionError, finite, positive};
+use crate::motion::error::{MotionError, StateError, finite, positive};
 
 /// The fastest motion between two positions and velocities with these greatest velocity and acceleration: speed up,
 /// cruise, slow down; triangular where the distance is too short to cruise. It turns round where it has to.
@@ -17,7 +17,7 @@ pub fn trapezoidal(
     positive("limits", &[max_velocity, max_acceleration])?;
     finite("end states", &[from, to, v0, v1])?;
     if v0.abs().max(v1.abs()) > max_velocity {
-        return Err(MotionError::State("an end velocity is above its limit".into()));
+        return Err(MotionError::State(StateError::AboveLimit));
     }
     // Distance of the direct change of velocity: what is beyond it takes a peak above both, what is below it a
     // peak below both.

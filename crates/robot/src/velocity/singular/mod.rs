@@ -13,7 +13,6 @@ use super::inverse::RateFormulas;
 use super::measures::Whole;
 use super::model::JacobianModel;
 use crate::description::Description;
-use crate::explain::{Language, refusal};
 use crate::forward::{Reference, symbol_order};
 use crate::geometry::Vector;
 use crate::mechanism::Robot;
@@ -36,34 +35,21 @@ pub enum Obstacle {
     AlwaysSingular(usize),
 }
 
-impl Obstacle {
-    /// In words.
-    pub fn words(&self, language: Language) -> String {
-        language.spaced(&match self {
-            Obstacle::TooLarge(why) => {
-                let why = refusal(*why, language);
-                language.pick(
-                    format!("the determinant is not expanded: {why}"),
-                    format!("le déterminant n'est pas développé : {why}"),
-                )
+impl fmt::Display for Obstacle {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Obstacle::TooLarge(why) => write!(f, "the determinant is not expanded: {why}"),
+            Obstacle::ManyJoints(n) => {
+                write!(f, "{n} joints are too many: minors are expanded up to {MAX_JOINTS}")
             }
-            Obstacle::ManyJoints(n) => language.pick(
-                format!("{n} joints are too many: minors are expanded up to {MAX_JOINTS}"),
-                format!("{n} articulations sont trop : les mineurs sont développés jusqu'à {MAX_JOINTS}"),
-            ),
-            Obstacle::AlwaysSingular(rank) => language.pick(
-                format!("every configuration is singular: the rank is {rank} at the most"),
-                format!("toutes les configurations sont singulières : le rang vaut au plus {rank}"),
-            ),
-        })
+            Obstacle::AlwaysSingular(rank) => {
+                write!(f, "every configuration is singular: the rank is {rank} at the most")
+            }
+        }
     }
 }
 
-impl fmt::Display for Obstacle {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.words(Language::English))
-    }
-}
+impl std::error::Error for Obstacle {}
 
 /// Where an arm is singular.
 #[derive(Clone, Debug)]

@@ -1,13 +1,11 @@
 //! How the axes lie at a singular configuration.
 
 use crate::description::JointKind;
-use crate::explain::Language;
 use crate::geometry::Vector;
 use crate::mechanism::walk::along;
 use crate::mechanism::{Reference, Robot};
 use crate::velocity::geometric::{Viewpoint, geometric};
 use crate::velocity::measures::Whole;
-use std::fmt;
 
 /// What makes a configuration singular. Joints are counted from 0; shown from 1.
 #[derive(Clone, PartialEq, Debug)]
@@ -175,97 +173,4 @@ fn in_plane(p: Vector<f64>, a: &Axis, b: &Axis, size: f64) -> bool {
     length > TOUCH * size.min(1.0)
         && (between.dot(normal) / length).abs() < TOUCH * size
         && ((p - a.o).dot(normal) / length).abs() < TOUCH * size
-}
-
-/// `axes 2 and 3`, `les axes 2 et 3`.
-fn axes_words(axes: &[usize], language: Language) -> String {
-    let numbers = language.numbers(axes);
-    language.pick(
-        format!("axes {numbers}"),
-        if axes.len() == 1 { format!("l'axe {numbers}") } else { format!("les axes {numbers}") },
-    )
-}
-
-impl Place {
-    /// In words.
-    pub fn words(&self, language: Language) -> String {
-        let numbers = |joints: &[usize]| language.numbers(joints);
-        language.spaced(&match self {
-            Place::OneLine(i, j) => {
-                let (i, j) = (i + 1, j + 1);
-                language.pick(
-                    format!("axes {i} and {j} lie on one line"),
-                    format!("les axes {i} et {j} sont sur une même droite"),
-                )
-            }
-            Place::OnePlane(axes) => {
-                let axes = numbers(axes);
-                language.pick(
-                    format!("the parallel axes {axes} lie in one plane: stretched or folded"),
-                    format!("les axes parallèles {axes} sont dans un même plan : bras tendu ou replié"),
-                )
-            }
-            Place::CentreOnAxis { wrist, axis } => {
-                let (wrist, axis) = (numbers(wrist), axis + 1);
-                language.pick(
-                    format!("the point where axes {wrist} meet lies on axis {axis}"),
-                    format!("le point de concours des axes {wrist} est sur l'axe {axis}"),
-                )
-            }
-            Place::CentreInPlane { wrist, axes, parallel } => {
-                let (wrist, axes) = (numbers(wrist), numbers(axes));
-                let text = language.pick(
-                    format!("the point where axes {wrist} meet lies in one plane with axes {axes}"),
-                    format!("le point de concours des axes {wrist} est dans le plan des axes {axes}"),
-                );
-                let bent = language.pick(": stretched or folded", " : bras tendu ou replié");
-                text + if *parallel { bent } else { "" }
-            }
-            Place::Parallel(axes) => {
-                let axes = numbers(axes);
-                language.pick(format!("axes {axes} are parallel"), format!("les axes {axes} sont parallèles"))
-            }
-            Place::Line { meets, parallel } => {
-                let meets = axes_words(meets, language);
-                let text =
-                    language.pick(format!("one line meets {meets}"), format!("une droite rencontre {meets}"));
-                match &parallel[..] {
-                    [] => text,
-                    [axis] => language.pick(
-                        format!("{text} and is parallel to axes {}", axis + 1),
-                        format!("{text} et est parallèle à l'axe {}", axis + 1),
-                    ),
-                    axes => language.pick(
-                        format!("{text} and is parallel to axes {}", numbers(axes)),
-                        format!("{text} et est parallèle aux axes {}", numbers(axes)),
-                    ),
-                }
-            }
-            Place::SelfMotion(joints) => match &joints[..] {
-                [j] => language.pick(
-                    format!("joint {} moves nothing", j + 1),
-                    format!("l'articulation {} ne fait rien bouger", j + 1),
-                ),
-                joints => language.pick(
-                    format!("joints {} can move together while the body stands still", numbers(joints)),
-                    format!(
-                        "les articulations {} peuvent se mouvoir ensemble, le corps restant immobile",
-                        numbers(joints)
-                    ),
-                ),
-            },
-            Place::Lost => language
-                .pick(
-                    "the joints that there are have one direction less",
-                    "les articulations présentes ont une direction de moins",
-                )
-                .into(),
-        })
-    }
-}
-
-impl fmt::Display for Place {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.words(Language::English))
-    }
 }

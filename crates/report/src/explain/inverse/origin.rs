@@ -1,11 +1,12 @@
 //! Where an equation comes from: which matrices are moved, and which element of the two sides it is.
 
+use super::explained::Component;
 use super::reading::{Reading, negated};
-use crate::description::Convention;
-use crate::explain::{Factor, Language, Words};
-use crate::inverse::derivation::Kind;
-use crate::inverse::derivation::{Chain, Element, Motion};
-use crate::inverse::derivation::{Entry, Source, Split};
+use crate::document::Factor;
+use denavit::description::Convention;
+use denavit::inverse::derivation::Kind;
+use denavit::inverse::derivation::{Chain, Element, Motion};
+use denavit::inverse::derivation::{Entry, Source, Split};
 use denavit_symbolic::poly::Poly;
 use denavit_symbolic::{Expr, Rational};
 use std::ops::Range;
@@ -253,7 +254,7 @@ impl<'a> Matrices<'a> {
 
     /// Why few joints occur in an element: turning about an axis changes no component along it; a joint whose axis
     /// passes through a point does not move it.
-    pub fn why_short(&self, cut: &Cut) -> Option<Words> {
+    pub fn why_short(&self, cut: &Cut) -> Option<Component> {
         let chain = self.chain();
         let middle: Vec<usize> = chain.elements[cut.left..cut.right]
             .iter()
@@ -297,55 +298,8 @@ impl<'a> Matrices<'a> {
         }
         let mut free: Vec<usize> = front.iter().chain(&of).copied().collect();
         free.sort_unstable();
-        (!free.is_empty()).then(|| short(&front, (cut.column == 3, &of), &free))
+        (!free.is_empty()).then(|| Component { along: front, of, is_point: cut.column == 3, free })
     }
-}
-
-/// That the component along some axes, of a direction or of a point on other axes, is free of some joints.
-fn short(along: &[usize], (is_point, of): (bool, &[usize]), free: &[usize]) -> Words {
-    let (english, french) = (Language::English, Language::French);
-    let mut said = Words::new("a component", "une composante");
-    // In French what it is a component of comes first.
-    let whole = match (of, is_point) {
-        ([], _) => Words::default(),
-        ([axis], false) => Words::new(
-            format!(" of the direction of axis {}", axis + 1),
-            format!(" de la direction de l'axe {}", axis + 1),
-        ),
-        (_, false) => Words::new(
-            format!(" of the direction of axis {}", english.numbers(of)),
-            format!(" de la direction des axes {}", french.numbers(of)),
-        ),
-        ([axis], true) => Words::new(
-            format!(" of a point on axis {}", axis + 1),
-            format!(" d'un point de l'axe {}", axis + 1),
-        ),
-        (_, true) => Words::new(
-            format!(" of a point on axes {}", english.numbers(of)),
-            format!(" d'un point commun aux axes {}", french.numbers(of)),
-        ),
-    };
-    let axis = match along {
-        [] => Words::default(),
-        [axis] => Words::new(format!(" along axis {}", axis + 1), format!(" suivant l'axe {}", axis + 1)),
-        _ => Words::new(
-            format!(" along the parallel axes {}", english.numbers(along)),
-            format!(" suivant les axes parallèles {}", french.numbers(along)),
-        ),
-    };
-    let joints = match free {
-        [joint] => Words::new(
-            format!(": free of joint {}", joint + 1),
-            format!(" : indépendante de l'articulation {}", joint + 1),
-        ),
-        _ => Words::new(
-            format!(": free of joints {}", english.numbers(free)),
-            format!(" : indépendante des articulations {}", french.numbers(free)),
-        ),
-    };
-    said.english += &(axis.english + &whole.english + &joints.english);
-    said.french += &(whole.french + &axis.french + &joints.french);
-    said
 }
 
 fn start(axes: &[usize], k: usize) -> usize {
@@ -373,9 +327,9 @@ pub fn elementary(r: &[[Expr; 3]; 3]) -> Option<Vec<Factor>> {
     for a in quarters {
         for b in quarters {
             for c in quarters {
-                let product = crate::geometry::Rotation::about_z(a)
-                    * crate::geometry::Rotation::about_x(b)
-                    * crate::geometry::Rotation::about_z(c);
+                let product = denavit::geometry::Rotation::about_z(a)
+                    * denavit::geometry::Rotation::about_x(b)
+                    * denavit::geometry::Rotation::about_z(c);
                 if product.rows() == *r {
                     let all = [('z', a), ('x', b), ('z', c)];
                     return Some(

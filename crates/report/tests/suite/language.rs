@@ -1,17 +1,31 @@
 //! Documents in two languages: of the same structure, with the same formulas, each in its own words.
 
-use crate::common::robot;
+use denavit::catalogue;
 use denavit::description::{Description, read_toml};
-use denavit::explain::{Block, Branch, Language, Line, Math, Piece, Words, count, math};
-use denavit::forward::Reference;
-use denavit::inverse::explain::Explanation;
-use denavit::inverse::{Goal, InverseModel, Options, Refusal, Task, Unsuitable, branch_words};
-use denavit::velocity::{
-    JacobianModel, Obstacle, Place, Singularities, jacobian_document, singularities_document,
+use denavit::forward::{Proof, Reference};
+use denavit::idealise::Measured;
+use denavit::inverse::{
+    Branch as Roots, Choice, Doubt, Goal, InverseModel, Label, Options, Part, Refusal, Task, Unsuitable,
 };
+use denavit::motion::follow::{Event, EventKind};
+use denavit::motion::hand::Stretch;
+use denavit::motion::plan::{Course, Timing, TimingLaw, Verdict};
+use denavit::motion::profile::Law;
+use denavit::structure::{NearlySpecial, Relation, Special};
+use denavit::velocity::{JacobianModel, Obstacle, Place, Singularities};
 use denavit_program::Count;
+use denavit_report::document::{Block, Branch, Line, Math, Piece, math};
+use denavit_report::explain::{
+    Bound, Component, Consequence, Explanation, Kind, Remark, jacobian_document, singularities_document,
+};
+use denavit_report::words::{Language, Wording};
 use denavit_symbolic::print::Style;
 use denavit_symbolic::vocabulary::Vocabulary;
+
+fn robot(name: &str) -> Description {
+    let text = catalogue::text(name).expect("a robot of the catalogue");
+    read_toml(text).unwrap_or_else(|errors| panic!("{name}: {errors:?}")).0
+}
 
 /// Of each kind one: spherical wrist, UR, SCARA, planar, slides, joints too many, no closed form, few joints.
 const ROBOTS: [&str; 12] = [
@@ -106,7 +120,10 @@ fn tokens(text: &str) -> Vec<String> {
 
 /// Panics where a text is not in its language.
 fn check_text(text: &str, language: Language, place: &str) {
-    let foreign = language.pick(FRENCH, ENGLISH);
+    let foreign = match language {
+        Language::English => FRENCH,
+        Language::French => ENGLISH,
+    };
     for word in tokens(text) {
         // `d` and `s` are lengths as well as what an apostrophe leaves; in English only 's.
         let is_name = word.chars().count() == 1 && language == Language::English;
@@ -212,8 +229,8 @@ fn explanation(description: &Description, goal: Goal, name: &str) -> Explanation
     match InverseModel::derive(description, &Options { goal, given: None }) {
         Ok(model) => Explanation::of(&model),
         Err(Refusal::Stuck(found)) => {
-            for language in [Language::English, Language::French] {
-                check_text(&found.words(language), language, name);
+            for language in Language::ALL {
+                check_text(&language.words().stuck(&found), language, name);
             }
             Explanation::of_stuck(description, &found, goal)
         }
@@ -280,8 +297,8 @@ fn documents_of_velocities() {
                 );
             }
             Err(why) => {
-                for language in [Language::English, Language::French] {
-                    check_text(&why.words(language), language, name);
+                for language in Language::ALL {
+                    check_text(&language.words().unknown_singularities(&why), language, name);
                 }
             }
         }
@@ -304,30 +321,22 @@ fn rare_words() {
     };
     let french = "1 multiplication, 2 additions, 3 couples sinus-cosinus, 1 division, 2 racines, 1 arc tangente\u{a0}; à \
                   part\u{a0}: 2 décalages de variables, 4 opérations sur les seuls paramètres";
-    assert_eq!(count(&program, Language::French), french);
-    assert_eq!(count(&program, Language::English), program.to_string());
-    assert_eq!(
-        count(&Count::default(), Language::French),
-        "0 multiplication, 0 addition, 0 couple sinus-cosinus"
-    );
+    let [in_english, in_french] = Language::ALL.map(Language::words);
+    assert_eq!(in_french.count(&program), french);
+    assert_eq!(in_english.count(&program), program.to_string());
+    assert_eq!(in_french.count(&Count::default()), "0 multiplication, 0 addition, 0 couple sinus-cosinus");
 
-    let both = |text: &dyn Fn(Language) -> String| {
-        let [english, french] = [Language::English, Language::French].map(text);
-        check_text(&english, Language::English, "rare");
-        check_text(&french, Language::French, "rare");
-        assert_ne!(english, french);
-    };
     use denavit_symbolic::Refusal::{OutsideBasis, TooLarge, Undefined};
     for why in [OutsideBasis, TooLarge, Undefined] {
-        both(&|l| Obstacle::TooLarge(why).words(l));
-        both(&|l| denavit::forward::Proof::Undecided(why).of_model(l));
+        both(&|w| w.unknown_singularities(&Obstacle::TooLarge(why)));
+        both(&|w| w.forward_proof(Proof::Undecided(why)));
     }
-    both(&|l| denavit::forward::Proof::Proved.of_model(l));
-    both(&|l| denavit::forward::Proof::Failed.of_jacobian(l));
-    both(&|l| Obstacle::ManyJoints(9).words(l));
-    both(&|l| Obstacle::AlwaysSingular(5).words(l));
+    both(&|w| w.forward_proof(Proof::Proved));
+    both(&|w| w.jacobian_proof(Proof::Failed));
+    both(&|w| w.unknown_singularities(&Obstacle::ManyJoints(9)));
+    both(&|w| w.unknown_singularities(&Obstacle::AlwaysSingular(5)));
     for why in [Unsuitable::Helical(2), Unsuitable::Coupling, Unsuitable::NoJoint, Unsuitable::TooLong(9)] {
-        both(&|l| why.words(l));
+        both(&|w| w.unsuitable(&why));
     }
     for task in [
         Task::Pose,
@@ -338,7 +347,7 @@ fn rare_words() {
         Task::Orientation,
         Task::Other(2),
     ] {
-        both(&|l| task.words(l));
+        both(&|w| w.task(task));
     }
     for place in [
         Place::OneLine(3, 5),
@@ -352,25 +361,149 @@ fn rare_words() {
         Place::SelfMotion(vec![2, 4]),
         Place::Lost,
     ] {
-        both(&|l| place.words(l));
+        both(&|w| w.place(&place));
     }
     for given in [vec![9], vec![0], vec![0, 1]] {
         let options = Options { given: Some(given), ..Options::default() };
         let why = InverseModel::derive(&robot("staubli-rx90"), &options).expect_err("too many");
-        both(&|l| why.words(l));
+        both(&|w| w.refusal(&why));
+    }
+}
+
+/// Panics where a message is not in its language, or the same in two.
+fn both(message: &dyn Fn(&'static dyn Wording) -> String) {
+    let said = Language::ALL.map(|language| message(language.words()));
+    for (text, language) in said.iter().zip(Language::ALL) {
+        check_text(text, language, "a message");
+    }
+    assert_ne!(said[0], said[1]);
+}
+
+#[test]
+fn remarks_on_steps() {
+    use Bound::{Reach, Span};
+    for then in [
+        Consequence::NoSolution(Reach),
+        Consequence::NoSolution(Span),
+        Consequence::TwoValues(Reach),
+        Consequence::TwoValues(Span),
+        Consequence::Coincide,
+        Consequence::OpenDisplacement,
+        Consequence::OpenAngle,
+        Consequence::OpenUnless,
+        Consequence::OpenJoint,
+        Consequence::Roots,
+        Consequence::HalfTurn,
+        Consequence::Free,
+        Consequence::OneValue,
+        Consequence::OneEquation,
+    ] {
+        both(&|w| w.consequence(then));
+    }
+    for kind in [
+        Kind::Displacement,
+        Kind::DisplacementSquared,
+        Kind::Quartic,
+        Kind::Homogeneous,
+        Kind::Cosine,
+        Kind::Sine,
+        Kind::Linear,
+        Kind::Pair,
+        Kind::Separate,
+    ] {
+        both(&|w| w.kind(kind));
+    }
+    for remark in [Remark::MayAdd, Remark::SquaresAddNone, Remark::Whole, Remark::AddsNone] {
+        both(&|w| w.remark(remark));
+    }
+    let component = |along: &[usize], of: &[usize], is_point, free: &[usize]| Component {
+        along: along.to_vec(),
+        of: of.to_vec(),
+        is_point,
+        free: free.to_vec(),
+    };
+    let point = component(&[1, 2], &[3], true, &[1, 2, 3]);
+    let said = "une composante d’un point de l’axe 4 suivant les axes parallèles 2 et 3\u{a0}: indépendante des \
+                articulations 2, 3 et 4";
+    assert_eq!(Language::French.words().component(&point), said);
+    let said = "a component along the parallel axes 2 and 3 of a point on axis 4: free of joints 2, 3 and 4";
+    assert_eq!(Language::English.words().component(&point), said);
+    both(&|w| w.component(&component(&[0], &[], false, &[0])));
+    both(&|w| w.component(&component(&[], &[4], false, &[4])));
+    both(&|w| w.component(&component(&[], &[4, 5], true, &[4, 5])));
+    for doubt in [Doubt::Sampled, Doubt::DoubleRoot, Doubt::Uncounted, Doubt::Searched, Doubt::OneAsked] {
+        both(&|w| w.doubt(doubt));
     }
 }
 
 #[test]
-fn french_print() {
-    let french = Language::French;
-    assert_eq!(french.spaced("l'axe : « un » ; d'où"), "l’axe\u{a0}: «\u{a0}un\u{a0}»\u{a0}; d’où");
-    assert_eq!(Words::new("a", "n'est ?").of(french), "n’est\u{a0}?");
-    assert_eq!(french.numbers(&[0, 3, 4]), "1, 4 et 5");
-    assert_eq!(french.counted(0, ["joint", "joints"], ["articulation", "articulations"]), "0 articulation");
-    assert_eq!(
-        Language::English.counted(0, ["joint", "joints"], ["articulation", "articulations"]),
-        "0 joints"
-    );
-    assert_eq!(branch_words("shoulder+ elbow2− wrist+", french), "épaule+ coude2− poignet+");
+fn motions_and_axes() {
+    let ur5 = robot("ur5");
+    let s = denavit_symbolic::Expr::symbol("q5").sin();
+    let (factor, place) = (Some(s), Some(Place::OneLine(3, 5)));
+    let kinds = [
+        EventKind::Singular { factor, place: place.clone(), crossed: true },
+        EventKind::Singular { factor: None, place: None, crossed: false },
+        EventKind::Limit { joint: 2, limit: 1.0 },
+        EventKind::WithinLimits { joint: 2 },
+        EventKind::End { reachable: true, factor, place },
+        EventKind::End { reachable: false, factor: None, place: None },
+    ];
+    for kind in kinds {
+        for at in [0.0, 0.5] {
+            let event = Event { s: at, q: vec![0.0; 6], kind: kind.clone() };
+            both(&|w| w.event(&event, &ur5));
+        }
+    }
+    let laws = [
+        TimingLaw::Still,
+        TimingLaw::TimeOptimal,
+        TimingLaw::JerkLimited,
+        TimingLaw::Fastest,
+        TimingLaw::Together(Law::Cubic),
+        TimingLaw::Together(Law::DoubleS),
+        TimingLaw::Quintic { duration: 1.5, fastest: Some((0, 1.0)) },
+        TimingLaw::QuinticWithin { duration: 2.0 },
+    ];
+    for by in laws {
+        for slowed_to in [None, Some(4.0)] {
+            both(&|w| w.timing(&Timing { by, slowed_to }, &ur5));
+        }
+    }
+    for course in [
+        Course::Move,
+        Course::Straight(3),
+        Course::Spline(4),
+        Course::Hand(vec![Stretch::Line, Stretch::Line, Stretch::Arc]),
+        Course::Hand(vec![Stretch::Spline(5)]),
+    ] {
+        both(&|w| w.course(&course));
+    }
+    let parts = Course::Hand(vec![Stretch::Line, Stretch::Arc, Stretch::Line]);
+    assert_eq!(Language::English.words().course(&parts), "2 lines, 1 arc");
+    for verdict in [Verdict::Whole, Verdict::Ends(0.25), Verdict::BeyondLimits] {
+        both(&|w| w.verdict(verdict));
+    }
+    for relation in [Relation::Coincident, Relation::Parallel, Relation::Meet, Relation::Skew] {
+        both(&|w| w.relation(relation));
+    }
+    for nearly in [Special::Coincident, Special::Parallel, Special::Perpendicular, Special::Meeting] {
+        let near = NearlySpecial { joints: (2, 3), nearly, by: 1e-4, is_angle: true };
+        both(&|w| w.nearly(&near));
+    }
+    both(&|w| w.measured(Measured::Normal));
+}
+
+#[test]
+fn names_of_branches() {
+    let label = |part, number| Label { part, number };
+    let branch = Roots(vec![
+        (label(Part::Shoulder, 1), Choice::Plus),
+        (label(Part::Elbow, 2), Choice::Minus),
+        (label(Part::Wrist, 1), Choice::Root(3)),
+    ]);
+    assert_eq!(branch.to_string(), "shoulder+ elbow2− wrist3");
+    assert_eq!(Language::English.words().branch(&branch), branch.to_string());
+    assert_eq!(Language::French.words().branch(&branch), "épaule+ coude2− poignet3");
+    assert_eq!(Language::French.words().numbers(&[0, 3, 4]), "1, 4 et 5");
 }

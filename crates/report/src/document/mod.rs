@@ -1,7 +1,20 @@
-//! The document tree: what explanations are made of, and what only a report has.
+//! Documents in no format: a tree of headings, paragraphs and formulas, and what only a report has.
+//!
+//! [`text`] is such a tree for a terminal, [`math()`] a formula in any style, [`laid`] one in lines that fit a page.
+
+mod lines;
+mod math;
+mod text;
+mod tree;
+
+pub use denavit_symbolic::print::BrokenLine;
+pub use lines::{Laid, aligned, laid, matrix_width};
+pub use math::math;
+pub use text::{Mark, plain, text};
+pub use tree::{Block, Branch, Factor, Line, Math, Piece, Proof, Sign};
 
 use crate::figure::drawing::Drawing;
-use denavit::explain::{Block, Language, Line, Math, plain};
+use crate::words::{Language, Wording};
 use denavit_symbolic::vocabulary::Vocabulary;
 
 /// A document in no format.
@@ -98,17 +111,16 @@ impl Section {
 
 impl Part {
     /// One picture; its caption says what is to be seen, for those who do not see it, too.
-    pub fn figure(language: Language, drawing: Drawing, caption: Line) -> Self {
-        Part::figures(language, vec![(drawing, Line::default())], caption)
+    pub fn figure(words: &dyn Wording, drawing: Drawing, caption: Line) -> Self {
+        Part::figures(words, vec![(drawing, Line::default())], caption)
     }
 
     /// Pictures side by side, each with a caption of its own.
-    pub fn figures(language: Language, mut pictures: Vec<(Drawing, Line)>, caption: Line) -> Self {
+    pub fn figures(words: &dyn Wording, mut pictures: Vec<(Drawing, Line)>, caption: Line) -> Self {
         for (drawing, own) in &mut pictures {
             let own = plain(own, &Vocabulary::new());
             let whole = plain(&caption, &Vocabulary::new());
-            let colon = language.pick(": ", "\u{a0}: ");
-            drawing.description = if own.is_empty() { whole } else { format!("{own}{colon}{whole}") };
+            drawing.description = if own.is_empty() { whole } else { words.picture(&own, &whole) };
         }
         Part::Figure(Figure { caption, pictures })
     }

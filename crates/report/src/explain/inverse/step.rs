@@ -1,13 +1,13 @@
 //! One step: from where its equation comes, of which type it is, its solution, what can go wrong.
 
-use super::explained::{Case, Explained, Source, Statement};
+use super::explained::{Bound, Case, Consequence, Explained, Kind, Remark, Source, Statement};
 use super::names::Names;
 use super::origin::Matrices;
 use super::prove::{Prover, identity};
 use super::reading::{Reading, negated};
-use super::sentence;
-use crate::explain::{Math, Proof, Sign, Words};
-use crate::inverse::derivation::{Determinant, Form, Norm, Origin, Row, Step};
+use crate::document::{Math, Proof, Sign};
+use denavit::inverse::Label;
+use denavit::inverse::derivation::{Determinant, Elimination, Form, Norm, Origin, Row, Step};
 use denavit_symbolic::poly::{Monomial, Poly};
 use denavit_symbolic::{Expr, Rational};
 
@@ -38,7 +38,7 @@ impl Context<'_> {
     }
 
     /// Explains step `i`.
-    pub fn explain(&mut self, i: usize, step: &Step, label: Option<&str>) -> Explained {
+    pub fn explain(&mut self, i: usize, step: &Step, label: Option<Label>) -> Explained {
         let (unknown, meaning) = self.reading.name(step.unknown);
         let sources = self.sources(i, step);
         let mut done = Explained {
@@ -48,19 +48,18 @@ impl Context<'_> {
             elimination: self.elimination(step),
             sources,
             names: vec![],
-            kind: Words::default(),
-            number: "",
+            kind: kind(&step.form),
             form: vec![],
             coefficients: vec![],
             solution: vec![],
             conditions: vec![],
-            label: label.map(sentence::label),
+            label,
             sign: (step.cost.roots > 1).then(|| {
                 self.signs += 1;
                 Expr::symbol(&format!("κ{}", self.signs))
             }),
             used_by: vec![],
-            remark: sentence::remark(step),
+            remark: remark(step),
         };
         match &step.form {
             Form::Ratio { numerator, denominator } => self.ratio(i, numerator, denominator, &mut done),
@@ -155,15 +154,13 @@ impl Context<'_> {
         self.names.expr(self.reading, p, 2 + i)
     }
 
-    fn elimination(&self, step: &Step) -> Option<(Expr, Words)> {
+    fn elimination(&self, step: &Step) -> Option<(Expr, Elimination)> {
         let Origin::Eliminated { unknown, how, .. } = step.origins.first()? else { return None };
         let (name, meaning) = self.reading.name(*unknown);
-        Some((meaning.unwrap_or(name), sentence::elimination(*how)))
+        Some((meaning.unwrap_or(name), *how))
     }
 
     fn ratio(&mut self, i: usize, numerator: &Poly, denominator: &Poly, done: &mut Explained) {
-        done.kind = Words::new("linear in the displacement", "linéaire par rapport au déplacement");
-        done.number = "1";
         let [a, b, ..] = self.letters;
         done.form = vec![Math::equation(a * done.unknown, b)];
         let r = done.meaning.unwrap_or(done.unknown);
@@ -178,7 +175,7 @@ impl Context<'_> {
         if self.reading.rank_of(denominator) > 0 {
             done.conditions.push(Case {
                 when: vec![Math::equation(unsigned(d), Expr::int(0))],
-                then: sentence::open_displacement(),
+                then: Consequence::OpenDisplacement,
             });
         }
     }
@@ -188,8 +185,6 @@ impl Context<'_> {
     }
 
     fn quadratic(&mut self, i: usize, a: &Poly, b: &Poly, c: &Norm, done: &mut Explained) {
-        done.kind = Words::new("quadratic in the displacement", "du second degré par rapport au déplacement");
-        done.number = "5";
         let [la, lb, lc, ..] = self.letters;
         let r = done.unknown;
         let zero = Expr::int(0);
@@ -216,23 +211,15 @@ impl Context<'_> {
         let inside =
             if b.is_zero() && a.is_one() { -c } else { lb.powi(2) - if a.is_one() { lc } else { la * lc } };
         done.conditions = vec![
-            Case { when: vec![Math::relation(inside, Sign::Less, zero)], then: sentence::out_of_reach() },
             Case {
-                when: vec![Math::equation(inside, zero)],
-                then: Words::new(
-                    "both values coincide (multiplicity 2)",
-                    "les deux valeurs sont confondues (multiplicité 2)",
-                ),
+                when: vec![Math::relation(inside, Sign::Less, zero)],
+                then: Consequence::NoSolution(Bound::Reach),
             },
+            Case { when: vec![Math::equation(inside, zero)], then: Consequence::Coincide },
         ];
     }
 
     fn quartic(&mut self, i: usize, step: &Step, all: &[Norm; 5], done: &mut Explained) {
-        done.kind = Words::new(
-            "of degree 2 in cosine and sine: degree 4 in tan(θ/2)",
-            "de degré 2 en cosinus et sinus : degré 4 en tan(θ/2)",
-        );
-        done.number = "none";
         let (c, s) = self.pair_of(step);
         let [a, b, d, e, g] = self.letters;
         let name = done.unknown;
@@ -269,18 +256,15 @@ impl Context<'_> {
         done.solution.push(Statement { math: Math::equation(quartic, zero), number: None, proof });
         done.solution.push(self.plain(name, two * t.atan2(one)));
         done.conditions = vec![
-            Case { when: vec![], then: sentence::roots() },
-            Case {
-                when: vec![Math::equation(a - d + g, zero)],
-                then: Words::new("one root is the half turn", "une des racines est le demi-tour"),
-            },
+            Case { when: vec![], then: Consequence::Roots },
+            Case { when: vec![Math::equation(a - d + g, zero)], then: Consequence::HalfTurn },
             Case {
                 when: [a, b, d, e, g]
                     .into_iter()
                     .filter(|x| !x.is_zero())
                     .map(|x| Math::equation(x, zero))
                     .collect(),
-                then: Words::new("the joint is free", "l'articulation est libre"),
+                then: Consequence::Free,
             },
         ];
     }
@@ -290,11 +274,6 @@ impl Context<'_> {
         let [a, b, ..] = self.letters;
         let name = done.unknown;
         let zero = Expr::int(0);
-        done.kind = Words::new(
-            "linear in cosine and sine, without right-hand side",
-            "linéaire en cosinus et sinus, sans second membre",
-        );
-        done.number = "2";
         let (c, s) = self.pair_of(step);
         done.form = vec![Math::equation(a * c + b * s, zero)];
         let (x, y) = (self.known(i, &row.b), self.known(i, &negated(&row.a)));
@@ -304,7 +283,7 @@ impl Context<'_> {
         done.solution = vec![Statement { proof, ..self.plain(name, (k * y).atan2(k * x)) }];
         done.conditions = vec![Case {
             when: vec![Math::equation(unsigned(x), zero), Math::equation(unsigned(y), zero)],
-            then: sentence::open_angle(),
+            then: Consequence::OpenAngle,
         }];
     }
 
@@ -316,17 +295,13 @@ impl Context<'_> {
         let r = self.helpers[0];
         let (zero, one) = (Expr::int(0), Expr::int(1));
         let k = done.sign.unwrap_or(one);
-        done.number = "2";
         let lone = |p: &Poly| self.reading.rank_of(p) == 0 && p.terms().len() == 1;
         for (of, other, is_cos) in [(&row.a, &row.b, true), (&row.b, &row.a, false)] {
             if !other.is_zero() || !lone(of) {
                 continue;
             }
             // A cos = C: the cosine itself, the sine by the root.
-            done.kind = match is_cos {
-                true => Words::new("one cosine alone", "un cosinus seul"),
-                false => Words::new("one sine alone", "un sinus seul"),
-            };
+            done.kind = if is_cos { Kind::Cosine } else { Kind::Sine };
             let (letter, value, rest) = if is_cos { (la, c, s) } else { (lb, s, c) };
             done.form = vec![Math::equation(letter * value, lc)];
             let factor = self.known(i, of);
@@ -351,7 +326,6 @@ impl Context<'_> {
             self.reach(i, row, done, Some(vn));
             return;
         }
-        done.kind = Words::new("linear in cosine and sine", "linéaire en cosinus et sinus");
         done.form = vec![Math::equation(la * c + lb * s, lc)];
         // The equation times −1 exchanges the branches.
         let flipped = flipped(self, row);
@@ -376,7 +350,7 @@ impl Context<'_> {
                 .filter(|e| !e.is_zero())
                 .map(|e| Math::equation(unsigned(e), zero))
                 .collect();
-            done.conditions.push(Case { when, then: sentence::open_unless() });
+            done.conditions.push(Case { when, then: Consequence::OpenUnless });
         }
     }
 
@@ -390,10 +364,10 @@ impl Context<'_> {
                 let squares = Norm { squares: row.c.squares.clone(), plus: Poly::zero() };
                 let distance = self.sum(i, &squares);
                 let both = Math::Chain(low, vec![(Sign::AtMost, distance), (Sign::AtMost, high)]);
-                (both, sentence::too_short())
+                (both, Bound::Span)
             }
             (None, Some(v)) => {
-                (Math::Chain(-one, vec![(Sign::AtMost, v), (Sign::AtMost, one)]), sentence::out_of_reach())
+                (Math::Chain(-one, vec![(Sign::AtMost, v), (Sign::AtMost, one)]), Bound::Reach)
             }
             (None, None) => {
                 let coefficients: Vec<Expr> = [&row.a, &row.b].map(|p| self.known(i, p)).to_vec();
@@ -403,10 +377,10 @@ impl Context<'_> {
                 let (a, b, c) =
                     if total <= SHORT { (coefficients[0], coefficients[1], right) } else { (la, lb, lc) };
                 let (left, right) = (length_squared(a, b), c.powi(2));
-                (Math::relation(left, Sign::AtLeast, right), sentence::out_of_reach())
+                (Math::relation(left, Sign::AtLeast, right), Bound::Reach)
             }
         };
-        done.conditions.push(Case { when: vec![when], then: sentence::two_values(&less) });
+        done.conditions.push(Case { when: vec![when], then: Consequence::TwoValues(less) });
     }
 
     /// Bounds of D² = Σ squares for A² + B² = C², C = D² − K, with A, B, K constants: K ± √(A² + B²), as squares
@@ -457,11 +431,6 @@ impl Context<'_> {
         let (c, s) = self.pair_of(step);
         let name = done.unknown;
         let zero = Expr::int(0);
-        done.number = "3";
-        done.kind = Words::new(
-            "two equations, linear in cosine and sine",
-            "deux équations linéaires en cosinus et sinus",
-        );
         let lone = |p: &Poly| p.terms().len() == 1 && self.reading.rank_of(p) == 0;
         let rows = [0, 1].map(|k| flipped(self, &step.rows[k]).unwrap_or_else(|| step.rows[k].clone()));
         let (r1, r2) = (&rows[0], &rows[1]);
@@ -469,10 +438,7 @@ impl Context<'_> {
             .into_iter()
             .find(|(x, y)| x.b.is_zero() && y.a.is_zero() && lone(&x.a) && lone(&y.b));
         if let Some((x, y)) = separate {
-            done.kind = Words::new(
-                "cosine and sine, each from an equation of its own",
-                "cosinus et sinus, chacun donné par sa propre équation",
-            );
+            done.kind = Kind::Separate;
             let mut values = vec![];
             for (row, of, value) in [(x, &x.a, c), (y, &y.b, s)] {
                 let negative = of.terms()[0].1.is_negative();
@@ -491,7 +457,7 @@ impl Context<'_> {
                 done.solution.push(Statement { proof: Some(py), ..self.plain(s, y) });
                 done.solution.push(self.plain(name, s.atan2(c)));
             }
-            done.conditions.push(Case { when: vec![], then: sentence::one_value() });
+            done.conditions.push(Case { when: vec![], then: Consequence::OneValue });
             return;
         }
         let coefficients = |row: &Row| [self.known(i, &row.a), self.known(i, &row.b), self.sum(i, &row.c)];
@@ -507,7 +473,7 @@ impl Context<'_> {
         let general = determinant == Determinant::General;
         if !general {
             let value =
-                crate::inverse::derivation::Samples::new(self.reading.chain, |_| None).values(&exact)[0];
+                denavit::inverse::derivation::Samples::new(self.reading.chain, |_| None).values(&exact)[0];
             if value < 0.0 {
                 (x, y, delta) = (b1 * c2 - b2 * c1, a2 * c1 - a1 * c2, a2 * b1 - a1 * b2);
             }
@@ -528,7 +494,7 @@ impl Context<'_> {
             done.solution.push(Statement { proof: Some(py), ..self.plain(s, y / symbol) });
             done.solution.push(self.plain(name, s.atan2(c)));
             done.conditions
-                .push(Case { when: vec![Math::equation(symbol, zero)], then: sentence::one_equation() });
+                .push(Case { when: vec![Math::equation(symbol, zero)], then: Consequence::OneEquation });
         } else {
             done.solution.push(Statement { proof, ..self.plain(name, y.atan2(x)) });
             match determinant {
@@ -538,11 +504,34 @@ impl Context<'_> {
                         .filter(|e| !e.is_zero())
                         .map(|e| Math::equation(unsigned(e), zero))
                         .collect(),
-                    then: sentence::open_joint(),
+                    then: Consequence::OpenJoint,
                 }),
-                _ => done.conditions.push(Case { when: vec![], then: sentence::one_value() }),
+                _ => done.conditions.push(Case { when: vec![], then: Consequence::OneValue }),
             }
         }
+    }
+}
+
+/// The type of a form; some are refined by the coefficients.
+fn kind(form: &Form) -> Kind {
+    match form {
+        Form::Ratio { .. } => Kind::Displacement,
+        Form::Quadratic { .. } => Kind::DisplacementSquared,
+        Form::Quartic(_) => Kind::Quartic,
+        Form::Line => Kind::Homogeneous,
+        Form::Sincos => Kind::Linear,
+        Form::Pair { .. } => Kind::Pair,
+    }
+}
+
+/// What is lost or added on the way.
+fn remark(step: &Step) -> Remark {
+    let squares = step.origins.iter().any(|o| matches!(o, Origin::Squares { .. }));
+    match (&step.form, step.cost.spurious, squares) {
+        (_, true, _) => Remark::MayAdd,
+        (_, false, true) => Remark::SquaresAddNone,
+        (Form::Pair { .. } | Form::Line | Form::Sincos | Form::Ratio { .. }, ..) => Remark::Whole,
+        _ => Remark::AddsNone,
     }
 }
 

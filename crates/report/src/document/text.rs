@@ -1,8 +1,8 @@
 //! A document as text of bounded width.
 
-use super::document::{Block, Branch, Factor, Line, Math, Piece, Proof};
-use super::language::Language;
 use super::math::math;
+use super::tree::{Block, Branch, Factor, Line, Math, Piece, Proof};
+use crate::words::{Language, Wording};
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::Style;
 use denavit_symbolic::vocabulary::Vocabulary;
@@ -30,7 +30,7 @@ pub fn text(
     language: Language,
     mark: &dyn Fn(Mark, &str) -> String,
 ) -> String {
-    let writer = Writer { names, language, mark };
+    let writer = Writer { names, words: language.words(), mark };
     let mut out = String::new();
     for block in blocks {
         match block {
@@ -48,14 +48,15 @@ pub fn text(
                 }
             }
             Block::Formula { math: Math::Matrix(name, rows), number: None, proof } => {
-                let tail = writer.sign(*proof).trim_start();
+                let tail = writer.sign(*proof);
                 out += &writer.matrix(name, rows, tail);
             }
             Block::Formula { math: m, number, proof } => {
                 let formula = math(m, names, Style::Unicode);
                 let tail = match (number, proof) {
-                    (Some(n), proof) => format!("({n}){}", writer.sign(*proof)),
-                    (None, Some(_)) => format!("   {}", writer.sign(*proof).trim_start()),
+                    (Some(n), None) => format!("({n})"),
+                    (Some(n), Some(_)) => format!("({n}) {}", writer.sign(*proof)),
+                    (None, Some(_)) => format!("   {}", writer.sign(*proof)),
                     (None, None) => String::new(),
                 };
                 let mut lines = broken(&formula, WIDTH - 8);
@@ -116,18 +117,13 @@ fn broken(formula: &str, width: usize) -> Vec<String> {
 
 struct Writer<'a> {
     names: &'a Vocabulary,
-    language: Language,
+    words: &'static dyn Wording,
     mark: &'a dyn Fn(Mark, &str) -> String,
 }
 
 impl Writer<'_> {
     fn sign(&self, proof: Option<Proof>) -> &'static str {
-        match proof {
-            Some(Proof::Proved) => " ✓",
-            Some(Proof::Sampled) => " ≈",
-            Some(Proof::Wrong) => self.language.pick(" NOT TRUE", " FAUX"),
-            None => "",
-        }
+        proof.map(|p| self.words.mark(p)).unwrap_or_default()
     }
 
     /// A matrix in aligned columns; one that is too wide entry by entry, without those that are 0.
@@ -148,7 +144,7 @@ impl Writer<'_> {
                     out += &format!("      {name}{}{between}{} = {entry}\n", r + 1, c + 1);
                 }
             }
-            let rest = self.language.pick("the other entries are 0", "les autres éléments sont nuls");
+            let rest = self.words.other_entries_vanish();
             return format!("{out}      ({rest}){tail}\n");
         }
         for (r, row) in cells.iter().enumerate() {

@@ -1,26 +1,26 @@
-//! The derivation in words and formulas, every formula proved.
+//! The derivation of an inverse model, every formula proved.
 //!
-//! An [`Explanation`] holds what is said, step by step; [`Explanation::document`] says it in a language, as a tree of
-//! [`crate::explain`].
+//! An [`Explanation`] holds what is to be said, step by step; [`Explanation::document`] says it in a language.
 
 mod explained;
 mod names;
 mod origin;
 mod prove;
 mod reading;
-mod sentence;
 mod step;
-mod words;
+mod written;
 
-pub use explained::{Case, Explained, Source, Statement};
+pub use explained::{Bound, Case, Component, Consequence, Explained, Kind, Remark, Source, Statement};
 
-use super::derivation::{
+use crate::document::{Block, Branch, Factor, Math, Proof};
+use crate::words::Language;
+use denavit::description::Description;
+use denavit::geometry::Transform;
+use denavit::inverse::Label;
+use denavit::inverse::derivation::{
     Chain, Condition, Form, Goal, InverseModel, Motion, Norm, Split, Step, Stuck, Task, Unknown,
     axis_unknown, equations, settled,
 };
-use crate::description::Description;
-use crate::explain::{Block, Branch, Factor, Language, Math, Proof};
-use crate::geometry::Transform;
 use denavit_symbolic::poly::Poly;
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Expr, Node, Rational, Symbol};
@@ -70,7 +70,7 @@ struct Facts<'a> {
     description: &'a Description,
     chain: &'a Chain,
     steps: &'a [Step],
-    labels: &'a [Option<String>],
+    labels: &'a [Option<Label>],
     splits: &'a [Split],
     conditions: &'a [Condition],
     given: &'a [usize],
@@ -165,17 +165,17 @@ impl Explanation {
 
     /// The document.
     pub fn document(&self, language: Language) -> Vec<Block> {
-        language.set(words::document(self, language))
+        written::document(self, language.words())
     }
 
     /// The formulas alone, to be computed one after another.
     pub fn summary(&self, language: Language) -> Vec<Block> {
-        language.set(words::formulas(self, language))
+        written::formulas(self, language.words())
     }
 
     /// The branches, with the number of the solution at the ends; nothing if the derivation ended early.
     pub fn branches(&self, language: Language) -> Option<Branch> {
-        self.solutions.map(|_| words::branches(&self.steps, &mut 0, language))
+        self.solutions.map(|_| written::branches(&self.steps, &mut 0, language.words()))
     }
 }
 
@@ -223,7 +223,7 @@ impl Facts<'_> {
         };
         let mut steps: Vec<Explained> = vec![];
         for (i, step) in self.steps.iter().enumerate() {
-            steps.push(context.explain(i, step, self.labels.get(i).and_then(Option::as_deref)));
+            steps.push(context.explain(i, step, self.labels.get(i).copied().flatten()));
         }
         for (i, step) in self.steps.iter().enumerate() {
             for p in polys(step) {

@@ -1,6 +1,5 @@
-//! A document that knows no notation: headings, paragraphs, formulas, lists, a tree.
+//! What documents are made of: headings, paragraphs, formulas, lists, a tree of branches; no notation.
 
-use super::language::Language;
 use denavit_symbolic::Expr;
 
 /// A part of a document.
@@ -34,17 +33,6 @@ pub enum Proof {
     Sampled,
     /// It does not hold.
     Wrong,
-}
-
-impl Proof {
-    /// In words.
-    pub fn words(self, language: Language) -> &'static str {
-        match self {
-            Proof::Proved => language.pick("proved", "démontré"),
-            Proof::Sampled => language.pick("checked at sample poses", "vérifié en des poses d’essai"),
-            Proof::Wrong => language.pick("NOT TRUE", "FAUX"),
-        }
-    }
 }
 
 /// Text with formulas in it.

@@ -2,8 +2,8 @@
 //! what is left must vanish identically.
 
 use super::reading::Reading;
-use crate::explain::Proof;
-use crate::random::Random;
+use crate::document::Proof;
+use denavit::random::Random;
 use denavit_symbolic::{Expr, Symbol, Verdict, equal};
 use rustc_hash::FxHashMap;
 

@@ -1,0 +1,12 @@
+//! Derivations as documents.
+//!
+//! What is to be said is gathered as facts (an [`Explanation`], the singularities of `denavit`) and written in a language
+//! of [`crate::words`] as a tree of [`crate::document`].
+
+mod inverse;
+mod velocity;
+
+pub use inverse::{
+    Bound, Case, Component, Consequence, Explained, Explanation, Kind, Remark, Source, Statement,
+};
+pub use velocity::{jacobian_document, singularities_document, velocity_vocabulary};

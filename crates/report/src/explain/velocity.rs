@@ -1,0 +1,154 @@
+//! The Jacobian and its singularities.
+
+use crate::document::{Block, Factor, Line, Math, Proof, Sign};
+use crate::words::{Gain, Language, Loss, Wording};
+use denavit::description::Description;
+use denavit::forward::Proof as Forward;
+use denavit::velocity::{
+    Example, JacobianModel, Minor, Place, REST, ROWS, Singularities, Singularity, Viewpoint,
+};
+use denavit_symbolic::Expr;
+use denavit_symbolic::vocabulary::Vocabulary;
+
+/// The robot's names and those of velocities: `dq1`, `vx`, and where a point is apart.
+pub fn velocity_vocabulary(description: &Description) -> Vocabulary {
+    let rates = description.variables().into_iter().map(|v| format!("d{}", v.symbol.name()));
+    let twist = ROWS.iter().chain(&REST).map(ToString::to_string);
+    rates.chain(twist).fold(description.vocabulary(), |v, name| v.symbol(&name))
+}
+
+/// The matrix, with its place and what it costs.
+pub fn jacobian_document(description: &Description, model: &JacobianModel, language: Language) -> Vec<Block> {
+    let words = language.words();
+    let mut blocks = vec![Block::Heading(1, Line::new(words.jacobian_title(&description.name)))];
+    blocks.extend(matrix(model, words));
+    blocks
+}
+
+/// The matrix where it is shortest, its determinant in factors, and what happens at each singularity.
+pub fn singularities_document(
+    description: &Description,
+    found: &Singularities,
+    language: Language,
+) -> Vec<Block> {
+    let words = language.words();
+    let mut blocks = jacobian_document(description, &found.jacobian, language);
+    blocks.push(paragraph(words.shortest()));
+    blocks.push(Block::Heading(2, Line::new(words.determinant_title())));
+    blocks.extend(determinants(found, words));
+    blocks.push(Block::Heading(2, Line::new(words.singularities_title())));
+    if found.common.is_empty() {
+        blocks.push(paragraph(words.no_singularity(found.is_complete)));
+    }
+    for (k, s) in found.common.iter().enumerate() {
+        blocks.push(Block::Heading(3, Line::new(format!("{}. ", k + 1)).math(vanishing(s.factor))));
+        blocks.push(Block::List(remarks(&found.jacobian.view, s, words)));
+    }
+    if !found.is_complete {
+        blocks.push(paragraph(words.besides()));
+    }
+    blocks.extend(rates(found, words));
+    blocks
+}
+
+fn paragraph(words: String) -> Block {
+    Block::Paragraph(Line::new(words))
+}
+
+/// The joint velocities for a twist.
+fn rates(found: &Singularities, words: &dyn Wording) -> Vec<Block> {
+    let Some(rates) = &found.rates else { return vec![] };
+    let mut blocks = vec![Block::Heading(2, Line::new(words.rates_title()))];
+    blocks.push(paragraph(words.rates(rates.steps.len() != 3)));
+    for (name, value) in &rates.steps {
+        let math = Math::equation(Expr::symbol(name), *value);
+        blocks.push(Block::Formula { math, number: None, proof: rates.is_proved.then_some(Proof::Proved) });
+    }
+    let different = rates.conditions.iter().map(|&c| Math::relation(c, Sign::Different, Expr::int(0)));
+    if !rates.conditions.is_empty() {
+        blocks.push(Block::List(vec![words.different(different.collect())]));
+    }
+    blocks
+}
+
+fn vanishing(factor: Expr) -> Math {
+    Math::equation(factor, Expr::int(0))
+}
+
+fn matrix(model: &JacobianModel, words: &dyn Wording) -> Vec<Block> {
+    let view = &model.view;
+    let is_apart = view.offset.0.iter().any(|e| !e.is_zero());
+    let offset = is_apart.then(|| view.offset.0.map(Math::Expr));
+    let place = words.viewpoint(view.body, view.at, offset, view.axes);
+    let formula = match &model.matrix {
+        Ok(matrix) => Block::Formula {
+            math: Math::Matrix(Factor::named("J"), matrix.rows().to_vec()),
+            number: None,
+            proof: (model.proof == Forward::Proved).then_some(Proof::Proved),
+        },
+        Err(why) => paragraph(words.no_entries(*why)),
+    };
+    let cost = words.jacobian_cost(&model.algorithm.count(), model.proof);
+    vec![Block::Paragraph(place), formula, paragraph(cost)]
+}
+
+fn determinants(found: &Singularities, words: &dyn Wording) -> Vec<Block> {
+    let formula = |m: &Minor| Block::Formula {
+        math: Math::Determinant(Factor::named("J"), m.determinant.to_expr()),
+        number: None,
+        proof: Some(Proof::Proved),
+    };
+    if let [whole] = &found.minors[..] {
+        return vec![formula(whole)];
+    }
+    let of_joints = |m: &Minor| m.rows.len() == 6;
+    let mut blocks = vec![paragraph(words.several_determinants(found.minors.first().is_some_and(of_joints)))];
+    for m in &found.minors {
+        let rows: Vec<&str> = m.rows.iter().map(|&r| ROWS[r]).collect();
+        blocks.push(paragraph(match of_joints(m) {
+            true => words.minor_of_joints(&m.joints),
+            false => words.minor_of_rows(&rows),
+        }));
+        blocks.push(formula(m));
+    }
+    blocks
+}
+
+/// Where, why, what is lost, what comes free.
+fn remarks(view: &Viewpoint<Expr>, s: &Singularity, words: &dyn Wording) -> Vec<Line> {
+    let mut lines = vec![];
+    if let Some(zero) = s.zeros.first() {
+        let values = zero.values().into_iter();
+        lines.push(words.zeros(values.map(|x| Math::equation(zero.angle(), x)).collect()));
+    }
+    let Some(example) = &s.example else {
+        lines.push(Line::new(words.no_example()));
+        return lines;
+    };
+    lines.push(Line::default().strong(words.place(&example.place)));
+    lines.extend(loss(view, example).map(|loss| Line::new(words.lost(loss))));
+    lines.extend(gain(example).map(|gain| Line::new(words.gained(&gain))));
+    lines
+}
+
+/// What is lost, where it is lost along or about one axis everywhere on the singularity.
+fn loss(view: &Viewpoint<Expr>, example: &Example) -> Option<Loss> {
+    let [w] = &example.lost[..] else { return None };
+    let parts: Vec<usize> = (0..6).filter(|&k| w[k] != 0.0).collect();
+    Some(match parts[..] {
+        [k] if k < 3 => Loss::VelocityAlong(['x', 'y', 'z'][k], view.axes),
+        [k] => Loss::RotationAbout(['x', 'y', 'z'][k - 3], view.axes),
+        _ if parts.iter().all(|&k| k < 3) => Loss::Velocity,
+        _ if parts.iter().all(|&k| k >= 3) => Loss::Rotation,
+        _ => Loss::Screw,
+    })
+}
+
+fn gain(example: &Example) -> Option<Gain> {
+    let [free] = &example.free[..] else { return None };
+    let moving: Vec<usize> = (0..free.len()).filter(|&j| free[j] != 0.0).collect();
+    Some(match (&example.place, &moving[..]) {
+        (Place::OneLine(..), &[i, j]) => Gain::Turns { joints: [i, j], is_same: free[i] * free[j] >= 0.0 },
+        _ => Gain::Moves(moving),
+    })
+}

@@ -1,0 +1,183 @@
+//! Jacobians and singularities.
+
+use super::English;
+use crate::document::{Line, Math};
+use crate::words::{Gain, Loss, Terms, Velocity};
+use denavit::forward::{Proof, Reference};
+use denavit::velocity::{Obstacle, Place};
+use denavit_program::Count;
+use denavit_symbolic::Refusal;
+
+impl Velocity for English {
+    fn jacobian_title(&self, robot: &str) -> String {
+        format!("Jacobian of the {robot}")
+    }
+
+    fn viewpoint(&self, body: Reference, at: Reference, offset: Option<[Math; 3]>, axes: Reference) -> Line {
+        let [body, at, axes] = [body, at, axes].map(|frame| self.of_frame(frame));
+        let mut line =
+            Line::new(format!("Linear rows first: the velocity of the point {body} at the origin {at}"));
+        if let Some(offset) = offset {
+            line = line.text(" plus (").list(offset).text(")");
+        }
+        line.text(format!(", then its angular velocity, along the axes {axes}."))
+    }
+
+    fn no_entries(&self, why: Refusal) -> String {
+        format!("The entries are not expanded: {}.", self.unexpanded(why))
+    }
+
+    fn jacobian_cost(&self, count: &Count, proof: Proof) -> String {
+        format!("{}; {}.", self.count(count), self.jacobian_proof(proof))
+    }
+
+    fn shortest(&self) -> String {
+        "In this frame and at this point the matrix is shortest. The twist along other axes, and at another point of the \
+         same body, follows by a rotation and a lever arm, which leave the determinant as it is."
+            .into()
+    }
+
+    fn determinant_title(&self) -> String {
+        "Determinant".into()
+    }
+
+    fn several_determinants(&self, has_surplus: bool) -> String {
+        match has_surplus {
+            true => {
+                "There are more joints than directions: the arm is singular where the determinants with all choices of six \
+                 joints are 0."
+            }
+            false => {
+                "There are fewer joints than directions: the arm is singular where the determinants of all choices of rows \
+                 are 0. Those that are 0 everywhere are left out."
+            }
+        }
+        .into()
+    }
+
+    fn minor_of_joints(&self, joints: &[usize]) -> String {
+        format!("Joints {}:", plain(joints))
+    }
+
+    fn minor_of_rows(&self, rows: &[&str]) -> String {
+        format!("Rows {}:", rows.join(", "))
+    }
+
+    fn singularities_title(&self) -> String {
+        "Singularities".into()
+    }
+
+    fn no_singularity(&self, is_complete: bool) -> String {
+        match is_complete {
+            true => "There are none: a determinant is never 0.",
+            false => "No factor that depends on the joints is shared by all of the determinants.",
+        }
+        .into()
+    }
+
+    fn besides(&self) -> String {
+        "Besides, the arm is singular where all of the determinants above are 0 at once.".into()
+    }
+
+    fn zeros(&self, all: Vec<Math>) -> Line {
+        let mut line = Line::new("where ");
+        for (k, math) in all.into_iter().enumerate() {
+            line = line.text(if k > 0 { " or " } else { "" }).math(math);
+        }
+        line
+    }
+
+    fn no_example(&self) -> String {
+        "no configuration was found where this factor alone is 0".into()
+    }
+
+    fn place(&self, place: &Place) -> String {
+        let numbers = |joints: &[usize]| self.numbers(joints);
+        match place {
+            Place::OneLine(i, j) => format!("axes {} and {} lie on one line", i + 1, j + 1),
+            Place::OnePlane(axes) => {
+                format!("the parallel axes {} lie in one plane: stretched or folded", numbers(axes))
+            }
+            Place::CentreOnAxis { wrist, axis } => {
+                format!("the point where axes {} meet lies on axis {}", numbers(wrist), axis + 1)
+            }
+            Place::CentreInPlane { wrist, axes, parallel } => {
+                let (wrist, axes) = (numbers(wrist), numbers(axes));
+                let bent = if *parallel { ": stretched or folded" } else { "" };
+                format!("the point where axes {wrist} meet lies in one plane with axes {axes}{bent}")
+            }
+            Place::Parallel(axes) => format!("axes {} are parallel", numbers(axes)),
+            Place::Line { meets, parallel } => {
+                let text = format!("one line meets axes {}", numbers(meets));
+                match &parallel[..] {
+                    [] => text,
+                    axes => format!("{text} and is parallel to axes {}", numbers(axes)),
+                }
+            }
+            Place::SelfMotion(joints) => match &joints[..] {
+                [j] => format!("joint {} moves nothing", j + 1),
+                joints => {
+                    format!("joints {} can move together while the body stands still", numbers(joints))
+                }
+            },
+            Place::Lost => "the joints that there are have one direction less".into(),
+        }
+    }
+
+    fn lost(&self, loss: Loss) -> String {
+        match loss {
+            Loss::VelocityAlong(axis, frame) => {
+                format!("lost: velocity along the {axis} axis {}", self.of_frame(frame))
+            }
+            Loss::RotationAbout(axis, frame) => {
+                format!("lost: rotation about the {axis} axis {}", self.of_frame(frame))
+            }
+            Loss::Velocity => "lost: a velocity of the point, in one direction".into(),
+            Loss::Rotation => "lost: a rotation, about one direction".into(),
+            Loss::Screw => "lost: a screw, a velocity and a rotation together".into(),
+        }
+    }
+
+    fn gained(&self, gain: &Gain) -> String {
+        match gain {
+            Gain::Turns { joints: [i, j], is_same } => {
+                let way = if *is_same { "together" } else { "against each other" };
+                let (i, j) = (i + 1, j + 1);
+                format!("gained: joints {i} and {j} turn {way} while the body stands still")
+            }
+            Gain::Moves(joints) => {
+                let (all, several) = (plain(joints), joints.len() != 1);
+                let (joints, moves) = if several { ("joints", "move") } else { ("joint", "moves") };
+                format!("gained: {joints} {all} {moves} at first with the body at rest")
+            }
+        }
+    }
+
+    fn rates_title(&self) -> String {
+        "Joint velocities for a twist".into()
+    }
+
+    fn rates(&self, has_wrist: bool) -> String {
+        match has_wrist {
+            false => "The linear rows give the velocities of the three joints.",
+            true => {
+                "The last three joints do not move the point: the linear rows give the velocities of the first three \
+                 joints. rx, ry and rz are what these leave of the angular velocity for the others."
+            }
+        }
+        .into()
+    }
+
+    fn different(&self, all: Vec<Math>) -> Line {
+        Line::new("where ").list(all)
+    }
+
+    fn unknown_singularities(&self, why: &Obstacle) -> String {
+        why.to_string()
+    }
+}
+
+/// Numbers from 0, shown from 1, with commas alone.
+fn plain(joints: &[usize]) -> String {
+    joints.iter().map(|j| (j + 1).to_string()).collect::<Vec<_>>().join(", ")
+}

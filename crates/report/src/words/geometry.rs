@@ -1,0 +1,16 @@
+//! What is said of axes.
+
+use denavit::idealise::Measured;
+use denavit::structure::{NearlySpecial, Relation};
+
+/// What is said of axes.
+pub trait Geometry {
+    /// How two axes lie; behind them.
+    fn relation(&self, relation: Relation) -> String;
+
+    /// What two axes nearly are, and by how much they miss it.
+    fn nearly(&self, near: &NearlySpecial) -> String;
+
+    /// What is measured between two axes.
+    fn measured(&self, what: Measured) -> String;
+}

@@ -1,0 +1,49 @@
+//! Everything that is said, in every language.
+//!
+//! A message is a method with typed arguments, one trait a topic; each language answers all of them in a folder of its own,
+//! where its genders, plurals and elisions stay. A further language is a folder, a line in [`Language::words`] and what the
+//! compiler then asks for.
+
+mod english;
+mod french;
+mod geometry;
+mod inverse;
+mod motion;
+mod report;
+mod terms;
+mod velocity;
+
+pub use geometry::Geometry;
+pub use inverse::{Coefficients, Given, Inverse};
+pub use motion::Motion;
+pub use report::{Caption, Column, Factors, Glance, Heading, List, Names, Report, Standings};
+pub use terms::Terms;
+pub use velocity::{Gain, Loss, Velocity};
+
+/// The language of the words around formulas.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Language {
+    /// English.
+    #[default]
+    English,
+    /// French, with the terms of courses in robotics.
+    French,
+}
+
+/// All messages.
+pub trait Wording: Terms + Geometry + Inverse + Velocity + Motion + Report {}
+
+impl<T: Terms + Geometry + Inverse + Velocity + Motion + Report> Wording for T {}
+
+impl Language {
+    /// All languages.
+    pub const ALL: [Language; 2] = [Language::English, Language::French];
+
+    /// What is said in this language.
+    pub fn words(self) -> &'static dyn Wording {
+        match self {
+            Language::English => &english::English,
+            Language::French => &french::French,
+        }
+    }
+}

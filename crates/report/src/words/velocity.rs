@@ -1,0 +1,102 @@
+//! What is said of Jacobians and singularities.
+
+use crate::document::{Line, Math};
+use denavit::forward::{Proof, Reference};
+use denavit::velocity::{Obstacle, Place};
+use denavit_program::Count;
+use denavit_symbolic::Refusal;
+
+/// What is lost at a singularity.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Loss {
+    /// The velocity along an axis of a frame.
+    VelocityAlong(char, Reference),
+    /// The rotation about an axis of a frame.
+    RotationAbout(char, Reference),
+    /// A velocity of the point, in one direction.
+    Velocity,
+    /// A rotation, about one direction.
+    Rotation,
+    /// A velocity and a rotation together.
+    Screw,
+}
+
+/// What comes free at a singularity. Joints are counted from 0.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Gain {
+    /// Two joints turn while the body stands still, in the same direction or against each other.
+    Turns {
+        /// The joints.
+        joints: [usize; 2],
+        /// Whether they turn in the same direction.
+        is_same: bool,
+    },
+    /// Joints move at first with the body at rest.
+    Moves(Vec<usize>),
+}
+
+/// What is said of Jacobians and singularities.
+pub trait Velocity {
+    /// The title of a Jacobian.
+    fn jacobian_title(&self, robot: &str) -> String;
+
+    /// Which point of which body moves, where it is (a displacement from an origin, if it is not there), along whose axes.
+    fn viewpoint(&self, body: Reference, at: Reference, offset: Option<[Math; 3]>, axes: Reference) -> Line;
+
+    /// Why the entries of a Jacobian are not there.
+    fn no_entries(&self, why: Refusal) -> String;
+
+    /// What a program costs, and whether its Jacobian is proved.
+    fn jacobian_cost(&self, count: &Count, proof: Proof) -> String;
+
+    /// That the matrix is shortest as it is shown.
+    fn shortest(&self) -> String;
+
+    /// The heading of determinants.
+    fn determinant_title(&self) -> String;
+
+    /// Why there are several determinants: the arm has more joints than directions, or fewer.
+    fn several_determinants(&self, has_surplus: bool) -> String;
+
+    /// Before the determinant with some joints (from 0).
+    fn minor_of_joints(&self, joints: &[usize]) -> String;
+
+    /// Before the determinant of some rows.
+    fn minor_of_rows(&self, rows: &[&str]) -> String;
+
+    /// The heading of singularities.
+    fn singularities_title(&self) -> String;
+
+    /// That there are no singularities, or none that all determinants share.
+    fn no_singularity(&self, is_complete: bool) -> String;
+
+    /// That all determinants may be 0 at once besides.
+    fn besides(&self) -> String;
+
+    /// Where a factor is 0.
+    fn zeros(&self, all: Vec<Math>) -> Line;
+
+    /// That a factor is never 0 alone.
+    fn no_example(&self) -> String;
+
+    /// How the axes lie at a singular configuration.
+    fn place(&self, place: &Place) -> String;
+
+    /// What is lost.
+    fn lost(&self, loss: Loss) -> String;
+
+    /// What comes free.
+    fn gained(&self, gain: &Gain) -> String;
+
+    /// The heading of joint velocities.
+    fn rates_title(&self) -> String;
+
+    /// How joint velocities follow: for three joints, or for three and a wrist.
+    fn rates(&self, has_wrist: bool) -> String;
+
+    /// What must not be 0.
+    fn different(&self, all: Vec<Math>) -> Line;
+
+    /// Why the singularities are not known as formulas.
+    fn unknown_singularities(&self, why: &Obstacle) -> String;
+}
