@@ -2,11 +2,12 @@
 //!
 //! A step that has to install something first (a Python environment, say) does so on its own, when it runs.
 
-use crate::languages::python;
+use crate::languages::{python, quietly};
 use crate::steps::{self, Step};
 use crate::{cargo, command, path, succeed};
 use anyhow::{Context, Result, bail};
 use std::collections::BTreeSet;
+use std::path::Path;
 use std::process::Command;
 
 const fn step(name: &'static str, words: &'static [&'static str]) -> Step {
@@ -131,7 +132,26 @@ fn own_nextest() -> Option<std::path::PathBuf> {
 }
 
 /// The test of every report, which `cargo xtask documents` runs.
-pub const REPORTS: &str = "every_robot_has_a_page";
+const REPORTS: &str = "every_robot_has_a_page";
+
+/// Runs the test that makes the reports of the whole catalogue; it leaves them in a folder as Typst documents.
+///
+/// # Errors
+/// If the test fails.
+pub fn reports(folder: &Path) -> Result<()> {
+    let mut test = match nextest() {
+        Some(mut runner) => {
+            runner.args(["run", "--workspace", "--locked", "-E", &format!("test({REPORTS})")]);
+            runner
+        }
+        None => {
+            let mut cargo = cargo();
+            cargo.args(["test", "--workspace", "--locked", "--tests", REPORTS]);
+            cargo
+        }
+    };
+    quietly(test.env("DENAVIT_DOCUMENTS", folder))
+}
 
 /// All tests, but what other steps run.
 fn tests() -> Result<()> {

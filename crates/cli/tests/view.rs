@@ -153,7 +153,8 @@ fn the_page_in_the_program() {
 #[cfg(unix)]
 fn interruptible() -> Command {
     let words = ["--default-signal=INT", env!("CARGO_BIN_EXE_denavit")];
-    let is_there = Command::new("env").args(words).arg("--version").output().is_ok_and(|o| o.status.success());
+    let is_there =
+        Command::new("env").args(words).arg("--version").output().is_ok_and(|o| o.status.success());
     let mut command = Command::new(if is_there { "env" } else { words[1] });
     command.args(if is_there { &words[..] } else { &[] });
     command

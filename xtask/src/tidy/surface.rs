@@ -5,6 +5,7 @@
 use super::{File, code, text_files};
 use anyhow::Result;
 use std::collections::BTreeSet;
+use std::io::Write;
 
 /// What begins an item that has a name.
 const KINDS: &[&str] = &["fn", "struct", "enum", "trait", "const", "type", "static"];
@@ -16,8 +17,9 @@ const KINDS: &[&str] = &["fn", "struct", "enum", "trait", "const", "type", "stat
 pub fn print() -> Result<()> {
     let files = text_files()?;
     let unused = unused(&files);
-    unused.iter().for_each(|line| println!("{line}"));
-    println!("{} public items that nobody uses", unused.len());
+    // A reader may have seen enough.
+    let _ =
+        writeln!(std::io::stdout(), "{}\n{} public items that nobody uses", unused.join("\n"), unused.len());
     Ok(())
 }
 
@@ -26,15 +28,15 @@ fn unused(files: &[File]) -> Vec<String> {
     let mut found = vec![];
     for package in roots.filter(|p| p.starts_with("crates/")) {
         let source = format!("{package}/src/");
-        let used = used(files, &source);
-        let named = renamed(files, &source);
+        let (used, named, told) = (used(files, &source), renamed(files, &source), signatures(files, &source));
         for file in files.iter().filter(|f| f.path.starts_with(&source) && f.path.ends_with(".rs")) {
+            let items = items(&file.text);
             let is_open = is_public(files, &source, &file.path[source.len()..]);
-            for (line, name, is_inner) in items(&file.text) {
-                let is_shown = is_open
-                    || named.contains(name)
-                    || (is_inner && items(&file.text).iter().any(|i| named.contains(i.1)));
-                if is_shown && !used.contains(name) {
+            let is_named = items.iter().any(|i| named.contains(i.name));
+            for Item { line, name, kind, is_inner } in items {
+                let is_shown = is_open || named.contains(name) || (is_inner && is_named);
+                let is_told = kind != "fn" && told.contains(name);
+                if is_shown && !is_told && !used.contains(name) {
                     found.push(format!("{}:{line}: `{name}`", file.path));
                 }
             }
@@ -43,26 +45,44 @@ fn unused(files: &[File]) -> Vec<String> {
     found
 }
 
-/// Public items with their lines, and whether they stand within something.
-fn items(text: &str) -> Vec<(usize, &str, bool)> {
-    let item = |(n, line): (usize, &'_ str)| -> Option<(usize, usize, usize, bool)> {
-        let rest = line.trim_start().strip_prefix("pub ")?;
-        let mut words =
-            rest.split_whitespace().skip_while(|w| matches!(*w, "unsafe" | "async" | "extern" | "\"C\""));
-        let kind = words.next()?;
-        let mut name = words.next()?;
-        if !KINDS.contains(&kind) {
-            return None;
-        }
-        if kind == "const" && name == "fn" {
-            name = words.next()?;
-        }
-        let length = name.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(name.len());
-        let start = name.as_ptr() as usize - text.as_ptr() as usize;
-        Some((n, start, length, line.starts_with(' ')))
-    };
-    let found = code(text).into_iter().filter_map(item);
-    found.map(|(n, start, length, inner)| (n, &text[start..start + length], inner)).collect()
+/// A public item.
+struct Item<'a> {
+    line: usize,
+    name: &'a str,
+    kind: &'a str,
+    /// Whether it stands within something.
+    is_inner: bool,
+}
+
+fn items(text: &str) -> Vec<Item<'_>> {
+    code(text).into_iter().filter_map(|(n, line)| item(n, line)).collect()
+}
+
+fn item(n: usize, line: &str) -> Option<Item<'_>> {
+    let rest = line.trim_start().strip_prefix("pub ")?;
+    let before = |w: &&str| matches!(*w, "unsafe" | "async" | "extern" | "\"C\"");
+    let mut all = rest.split_whitespace().skip_while(before);
+    let mut kind = all.next().filter(|kind| KINDS.contains(kind))?;
+    let mut declared = all.next()?;
+    if (kind, declared) == ("const", "fn") {
+        (kind, declared) = ("fn", all.next()?);
+    }
+    let name = words(declared).next().filter(|name| declared.starts_with(name))?;
+    Some(Item { line: n, name, kind, is_inner: line.starts_with(' ') })
+}
+
+/// Words of what a crate shows, without the names that are declared there: a type that a public function takes or gives has
+/// a user.
+fn signatures<'a>(files: &'a [File], source: &str) -> BTreeSet<&'a str> {
+    let own = files.iter().filter(|f| f.path.starts_with(source) && f.path.ends_with(".rs"));
+    let lines = own.flat_map(|f| code(&f.text));
+    let shown = lines.filter(|(_, line)| line.trim_start().starts_with("pub ") || line.contains("-> "));
+    let mut told = BTreeSet::new();
+    for (n, line) in shown {
+        let declared = item(n, line).map(|i| i.name);
+        told.extend(words(line).filter(|w| Some(*w) != declared));
+    }
+    told
 }
 
 /// Words outside of a crate's own code: everybody else's, and those in its documentation.
