@@ -4,6 +4,7 @@ use anyhow::{Context, Result, anyhow};
 use std::fs::File;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
+use std::sync::OnceLock;
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -31,6 +32,7 @@ struct Ended {
 /// # Errors
 /// The first step that fails.
 pub fn run(first: &[Step], front: &[Step], aside: &[Step]) -> Result<()> {
+    this_program();
     let mut ended = in_order(first, false);
     if ended.iter().all(|e| e.result.is_ok()) {
         let both = thread::scope(|scope| {
@@ -70,8 +72,14 @@ fn in_order(steps: &[Step], kept: bool) -> Vec<Ended> {
     ended
 }
 
+/// Where this program is; a build on the way may put another one of the same text there.
+fn this_program() -> Option<&'static PathBuf> {
+    static PLACE: OnceLock<Option<PathBuf>> = OnceLock::new();
+    PLACE.get_or_init(|| std::env::current_exe().ok()).as_ref()
+}
+
 fn this(step: &Step) -> Result<Command> {
-    let mut command = Command::new(std::env::current_exe()?);
+    let mut command = Command::new(this_program().context("a program knows where it is")?);
     command.args(step.words).stdin(Stdio::null());
     Ok(command)
 }
@@ -87,7 +95,7 @@ fn aside(step: &Step) -> Result<String> {
     let log = log(step)?;
     let file = File::create(&log)?;
     let status = this(step)?.stdout(file.try_clone()?).stderr(file).status()?;
-    let said = std::fs::read_to_string(&log).context("what a step printed")?;
+    let said = String::from_utf8_lossy(&std::fs::read(&log)?).into_owned();
     println!("\n━━ {}, side by side ━━\n{}", step.name, said.trim_end());
     if !status.success() {
         return Err(anyhow!("{status}; what it printed is in {}", log.display()));
