@@ -1,7 +1,8 @@
 //! Speed of what evaluates a pose, in units of six `sincos` calls of the C library timed in the same run; with the
-//! argument `inverse`, of what solves one, in units of `ik-geo`; with `arms`, of what solves one without a closed form.
+//! argument `inverse`, of what solves one, in units of `ik-geo`; with `arms`, of what solves one without a closed form; with
+//! `derivation` and `report`, the CPU time of deriving the models of every robot and of writing about it.
 //!
-//! Prints one JSON object: the unit in ns and a figure for each entry. `cargo xtask bench` makes tables of it.
+//! Prints one JSON object, here the unit in ns and a figure for each entry. `cargo xtask bench` makes tables of it.
 
 extern crate irb2400_ik_v3;
 extern crate irb2400_ik_v4;
@@ -18,11 +19,13 @@ extern crate ur5j_v4;
 
 mod arms;
 mod compiled;
+mod derivation;
 mod inverse;
 mod jacobian;
 mod measure;
 mod memory;
 mod peers;
+mod report;
 
 use anyhow::{Context, Result};
 use denavit::forward::{Reference, frames_program, pose_program};
@@ -49,6 +52,8 @@ fn main() -> Result<()> {
         ["inverse"] => return inverse::run(random),
         ["arms"] => return arms::run(false, random),
         ["arms", "--quick"] => return arms::run(true, random),
+        ["derivation"] => return derivation::run(),
+        ["report", folder] => return report::run(folder.as_ref()),
         _ => anyhow::bail!("no such benchmark: {}", arguments.join(" ")),
     }
     let ur5 = read("ur5")?;

@@ -1,5 +1,7 @@
 //! Timing: everything in turn, several rounds, as ratios to the unit measured in the same round.
 
+use anyhow::{Context, Result, bail};
+use cpu_time::ThreadTime;
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -145,4 +147,50 @@ impl Spread {
         let mean = sorted.iter().sum::<f64>() / sorted.len() as f64;
         Spread { mean, median: at_most(0.5), p99: at_most(0.99) }
     }
+}
+
+/// CPU times of some runs, ms.
+pub struct Processor {
+    pub median: f64,
+    least: f64,
+    largest: f64,
+}
+
+impl Processor {
+    pub fn json(&self) -> serde_json::Value {
+        serde_json::json!({"median": self.median, "least": self.least, "largest": self.largest})
+    }
+}
+
+/// The stack of a thread that derives, bytes.
+const STACK: usize = 64 << 20;
+
+/// CPU times of `work`, each in a thread of its own; `None` if it is refused, which it says by `false`.
+///
+/// # Errors
+/// If the work fails.
+pub fn processor_times(
+    name: &'static str,
+    repeats: usize,
+    work: fn(&str) -> Result<bool>,
+) -> Result<Option<Processor>> {
+    let mut milliseconds = vec![];
+    for _ in 0..repeats {
+        let measured = std::thread::Builder::new().stack_size(STACK).spawn(move || -> Result<_> {
+            let start = ThreadTime::now();
+            let done = work(name)?;
+            Ok(done.then(|| start.elapsed().as_secs_f64() * 1e3))
+        })?;
+        let Ok(time) = measured.join() else { bail!("{name}: the derivation panicked") };
+        match time.context(name)? {
+            Some(time) => milliseconds.push(time),
+            None => return Ok(None),
+        }
+    }
+    milliseconds.sort_by(f64::total_cmp);
+    Ok(Some(Processor {
+        median: milliseconds[repeats / 2],
+        least: milliseconds[0],
+        largest: milliseconds[repeats - 1],
+    }))
 }

@@ -1,10 +1,7 @@
 //! docs/operation-counts.md: our operation counts beside those of SymPy, OpenSYMORO and the documents.
 
-use crate::{path, robot};
+use crate::{CATALOGUE, denavit, path, robots};
 use anyhow::{Context, Result, bail};
-use denavit::catalogue;
-use denavit::forward::{ForwardModel, Outputs, Proof, Reference};
-use denavit_program::{COUNTING_RULE, Count};
 use serde_json::Value;
 use std::fmt::Write;
 use std::fs;
@@ -12,6 +9,9 @@ use std::fs;
 const PAGE: &str = "docs/operation-counts.md";
 const SYMPY: &str = "crates/robot/tests/peers/sympy_counts.json";
 const OPENSYMORO: &str = "crates/robot/tests/peers/opensymoro.json";
+
+/// How the program begins to say that a model is proved.
+const PROVED: &str = "proved ";
 
 /// Results that somebody asked for in part: robot, outputs, what it is, and multiplications and additions of others.
 const PARTS: &[(&str, &str, &str, &str)] = &[
@@ -38,14 +38,40 @@ impl Triple {
     }
 }
 
-impl From<Count> for Triple {
-    fn from(c: Count) -> Self {
-        Triple {
-            multiplications: c.multiplications.into(),
-            additions: (c.additions + c.offsets).into(),
-            sincos: c.sincos.into(),
-        }
+/// A forward model as `denavit derive` gives it.
+struct Model {
+    count: Triple,
+    proof: String,
+}
+
+impl Model {
+    fn derive(robot: &str, extra: &[&str]) -> Result<Self> {
+        let printed = denavit([&["derive", robot, "--json"], extra].concat())?;
+        let forward = &serde_json::from_str::<Value>(&printed)?["forward"];
+        let count = &forward["count"];
+        let number = |key: &str| count[key].as_u64().with_context(|| format!("{robot}: no number of {key}"));
+        let count = Triple {
+            multiplications: number("multiplications")?,
+            additions: number("additions")? + number("offsets")?,
+            sincos: number("sincos")?,
+        };
+        Ok(Model { count, proof: forward["proof"].as_str().context("a proof")?.into() })
     }
+
+    /// ⁰Tₙ, without base and tool.
+    fn of_table(robot: &str) -> Result<Self> {
+        let text = fs::read_to_string(path(&format!("{CATALOGUE}/{robot}.toml")))?;
+        let file: toml::Table = text.parse()?;
+        let rows = file.get("joints").and_then(|joints| joints.as_array()).context("a list of joints")?.len();
+        Model::derive(robot, &["--from", "0", "--to", &rows.to_string()])
+    }
+}
+
+/// What the program says of its way to count.
+fn counting_rule() -> Result<String> {
+    let printed = denavit(["derive", PARTS[0].0])?;
+    let rule = printed.lines().find_map(|l| l.trim().strip_prefix("counted: "));
+    rule.map(String::from).context("`derive` says how it counts")
 }
 
 /// Writes the page, or with `check` compares it.
@@ -84,12 +110,10 @@ fn page(sympy: &Value, opensymoro: &Value) -> Result<(String, Vec<String>)> {
     let mut rows = String::new();
     let mut above = vec![];
     let mut unproved = vec![];
-    for name in catalogue::names() {
-        let description = robot(name)?;
-        let last = Reference::Frame(description.rows.len());
-        let model = ForwardModel::derive(&description, Reference::Frame(0), last, Outputs::ALL);
-        let ours = Triple::from(model.algorithm.count());
-        if model.proof != Proof::Proved {
+    for name in &robots()? {
+        let model = Model::of_table(name)?;
+        let ours = model.count;
+        if !model.proof.starts_with(PROVED) {
             unproved.push(format!("`{name}` ({})", model.proof));
         }
         let peer = &sympy["robots"][name];
@@ -114,8 +138,7 @@ fn page(sympy: &Value, opensymoro: &Value) -> Result<(String, Vec<String>)> {
     }
     let mut parts = String::new();
     for (name, outputs, what, other) in PARTS {
-        let outputs: Outputs = outputs.parse().map_err(anyhow::Error::msg)?;
-        let ours = Triple::from(ForwardModel::of_tool(&robot(name)?, outputs).algorithm.count());
+        let ours = Model::derive(name, &["--only", outputs])?.count;
         let _ = writeln!(parts, "| {name} | {what} | {} | {other} |", ours.show());
     }
     let proved = match &unproved[..] {
@@ -125,13 +148,14 @@ fn page(sympy: &Value, opensymoro: &Value) -> Result<(String, Vec<String>)> {
             names.join(", ")
         ),
     };
+    let rule = counting_rule()?;
     let version = sympy["provenance"]["sympy"].as_str().unwrap_or("version unknown");
     let source = opensymoro["provenance"].as_str().unwrap_or_default();
     let text = format!(
         "# Operation counts\n\n\
          What the forward model costs to evaluate: multiplications, additions, sine/cosine pairs. The transform is ⁰Tₙ\n\
          with all twelve entries, without base and tool, every length of the table a symbol.\n\n\
-         Rule: {COUNTING_RULE}. In this table the offsets of joints are among the additions, as they are in SymPy's.\n\n\
+         Rule: {rule}. In this table the offsets of joints are among the additions, as they are in SymPy's.\n\n\
          - **SymPy** {version}: `cse` of the twelve entries, simplified with `trigsimp` first or straight from the product\n\
          (the better of `cse` with and without its optimisations); figures from\n\
          [`sympy_counts.json`](../{SYMPY}), which the script beside it makes.\n\

@@ -1,9 +1,8 @@
 //! Reports of robots as other programs read them: LaTeX, Typst and a browser.
 
 use crate::languages::{apt, python, quietly};
-use crate::{cargo, command, path, starts, succeed};
+use crate::{command, path, program, robots, starts, succeed};
 use anyhow::{Context, Result, bail};
-use denavit::catalogue;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -20,7 +19,6 @@ const OVERFULL: f64 = 3.0;
 /// # Errors
 /// If something cannot be installed, or a document is refused, runs off its page, or is not accessible.
 pub fn run() -> Result<()> {
-    succeed(cargo().args(["build", "--release", "--locked", "-p", "denavit-cli"]))?;
     let folder = path("target/documents");
     if folder.exists() {
         fs::remove_dir_all(&folder)?;
@@ -31,7 +29,7 @@ pub fn run() -> Result<()> {
 }
 
 fn report(robot: &str, to: &Path, extra: &[&str]) -> Result<()> {
-    quietly(command(path("target/release/denavit")).args(["report", robot, "-o"]).arg(to).args(extra))
+    quietly(command(program()?).args(["report", robot, "-o"]).arg(to).args(extra))
 }
 
 /// Six robots by pdfTeX, as it comes with Debian's base packages.
@@ -66,12 +64,15 @@ fn overfull(line: &str) -> f64 {
     rest.and_then(|r| r.split("pt").next()).and_then(|n| n.parse().ok()).unwrap_or(0.0)
 }
 
-/// Every robot of the catalogue by Typst.
+/// Every robot of the catalogue by Typst; the test of all reports writes them.
 fn typst(folder: &Path) -> Result<()> {
     let python = python(&["typst", "pillow"])?;
     fs::create_dir_all(folder)?;
-    for robot in catalogue::names() {
-        report(robot, &folder.join(format!("{robot}.typ")), &[])?;
+    crate::test::reports(folder)?;
+    let missing: Vec<String> =
+        robots()?.into_iter().filter(|r| !folder.join(format!("{r}.typ")).exists()).collect();
+    if !missing.is_empty() {
+        bail!("no documents of {}", missing.join(", "));
     }
     for robot in ROBOTS {
         report(

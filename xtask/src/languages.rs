@@ -1,11 +1,12 @@
 //! Generated source code in every language, built and run on its own vectors.
 
-use crate::{command, path, succeed};
+use crate::{command, path, program, succeed};
 use anyhow::{Context, Result, bail};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::Mutex;
 use std::thread;
 
 /// Robots of different structure: parallel and crossing axes, slides, couplings, redundant arms, a rail, oblique
@@ -36,22 +37,23 @@ const PYTHON_PACKAGES: &[&str] = &["numpy", "nvidia-cuda-nvrtc-cu12"];
 /// If something cannot be installed, or a generated folder fails.
 pub fn run() -> Result<()> {
     install()?;
-    let python = python(PYTHON_PACKAGES)?;
-    succeed(crate::cargo().args(["build", "--locked", "-p", "denavit-cli"]))?;
-    let folder = path("target/generated");
-    if folder.exists() {
-        fs::remove_dir_all(&folder)?;
+    let tools =
+        Tools { python: python(PYTHON_PACKAGES)?, program: program()?, folder: path("target/generated") };
+    if tools.folder.exists() {
+        fs::remove_dir_all(&tools.folder)?;
     }
-    // Two at a time: compilers take a core each.
-    let (first, second) = ROBOTS.split_at(ROBOTS.len() / 2);
-    let half = |robots: &'static [&'static str]| {
-        let (python, folder) = (python.clone(), folder.clone());
-        move || robots.iter().try_for_each(|robot| one(robot, &python, &folder))
+    // Two at a time: compilers take a core each. All Rust is one of the parts.
+    let parts = Mutex::new(ROBOTS.iter().map(Some).rev().chain([None]).collect::<Vec<_>>());
+    let next = || parts.lock().ok()?.pop();
+    let work = || -> Result<()> {
+        while let Some(part) = next() {
+            part.map_or_else(|| tools.rust(), |robot| tools.others(robot))?;
+        }
+        Ok(())
     };
     let (a, b) = thread::scope(|scope| {
-        let other = scope.spawn(half(second));
-        let own = half(first)();
-        (own, other.join())
+        let other = scope.spawn(work);
+        (work(), other.join())
     });
     a?;
     b.unwrap_or_else(|_| bail!("a test thread panicked"))?;
@@ -59,63 +61,94 @@ pub fn run() -> Result<()> {
     Ok(())
 }
 
-fn one(robot: &str, python: &Path, folder: &Path) -> Result<()> {
-    let stem = Path::new(robot).file_stem().and_then(|s| s.to_str()).context("a name")?;
-    let generate = |language: &str, extra: &[&str]| -> Result<PathBuf> {
-        let target = folder.join(format!("{stem}-{language}{}", extra.concat()));
-        let functions = ["--functions", "fk,frames,jacobian,ik", "--language", language, "--output"];
-        let output = command(path("target/debug/denavit"))
-            .args(["generate", robot])
-            .args(functions)
-            .arg(&target)
-            .args(extra)
-            .output()?;
-        if !output.status.success() {
-            bail!("generate {robot} --language {language}: {}", String::from_utf8_lossy(&output.stderr));
-        }
-        Ok(target)
-    };
-    rust(&generate("rust", &[])?, folder)?;
-    for extra in [&[][..], &["--float"]] {
-        c(&generate("c", extra)?, stem)?;
-    }
-    let target = generate("python", &[])?;
-    quietly(Command::new(python).args(["-W", "error"]).arg(test_file(&target, ".py")?).current_dir(&target))?;
-    let target = generate("matlab", &[])?;
-    quietly(
-        Command::new("octave")
-            .args(["--no-gui", "--quiet"])
-            .arg(test_file(&target, ".m")?)
-            .current_dir(&target),
-    )?;
-    let target = generate("javascript", &[])?;
-    quietly(Command::new("node").arg("--test").current_dir(&target))?;
-    for extra in [&[][..], &["--float"]] {
-        let target = generate("cuda", extra)?;
-        quietly(Command::new(python).arg(test_file(&target, ".py")?).current_dir(&target))?;
-    }
-    if FIXED.contains(&robot) {
-        c(&generate("c", &["--fixed"])?, stem)?;
-        rust(&generate("rust", &["--fixed"])?, folder)?;
-    }
-    Ok(())
+/// What generates and interprets, and where.
+struct Tools {
+    python: PathBuf,
+    program: PathBuf,
+    folder: PathBuf,
 }
 
-/// With the standard library and without, with and without fused multiplications.
-fn rust(target: &Path, folder: &Path) -> Result<()> {
-    let build = folder.join("rust-target").join(thread_name());
-    let cargo = |arguments: &[&str], flags: &str| {
-        let mut cargo = crate::cargo();
-        cargo.args(arguments).current_dir(target).env("CARGO_TARGET_DIR", &build);
-        cargo.env("RUSTFLAGS", format!("-D warnings {flags}"));
-        quietly(&mut cargo)
-    };
-    cargo(&["test", "--quiet"], "")?;
-    cargo(&["build", "--quiet", "--no-default-features"], "")?;
-    if cfg!(target_arch = "x86_64") && std::is_x86_feature_detected!("fma") {
-        cargo(&["test", "--quiet"], "-C target-cpu=x86-64-v3")?;
+impl Tools {
+    /// Generates source code into `target`.
+    fn generate(&self, robot: &str, language: &str, extra: &[&str], target: PathBuf) -> Result<PathBuf> {
+        let functions = ["--functions", "fk,frames,jacobian,ik", "--language", language, "--output"];
+        let mut generate = command(&self.program);
+        generate.args(["generate", robot]).args(functions).arg(&target).args(extra);
+        quietly(&mut generate)?;
+        Ok(target)
     }
-    Ok(())
+
+    /// Every language but Rust.
+    fn others(&self, robot: &str) -> Result<()> {
+        let stem = stem(robot)?;
+        let generate = |language: &str, extra: &[&str]| {
+            let target = self.folder.join(format!("{stem}-{language}{}", extra.concat()));
+            self.generate(robot, language, extra, target)
+        };
+        for extra in [&[][..], &["--float"]] {
+            c(&generate("c", extra)?, stem)?;
+        }
+        let target = generate("python", &[])?;
+        quietly(
+            Command::new(&self.python)
+                .args(["-W", "error"])
+                .arg(test_file(&target, ".py")?)
+                .current_dir(&target),
+        )?;
+        let target = generate("matlab", &[])?;
+        quietly(
+            Command::new("octave")
+                .args(["--no-gui", "--quiet"])
+                .arg(test_file(&target, ".m")?)
+                .current_dir(&target),
+        )?;
+        let target = generate("javascript", &[])?;
+        quietly(Command::new("node").arg("--test").current_dir(&target))?;
+        for extra in [&[][..], &["--float"]] {
+            let target = generate("cuda", extra)?;
+            quietly(Command::new(&self.python).arg(test_file(&target, ".py")?).current_dir(&target))?;
+        }
+        if FIXED.contains(&robot) {
+            c(&generate("c", &["--fixed"])?, stem)?;
+        }
+        Ok(())
+    }
+
+    /// All packages in one workspace, with the standard library and without, with and without fused multiplications; and
+    /// one of them as its user has it.
+    fn rust(&self) -> Result<()> {
+        let folder = self.folder.join("rust");
+        let mut members = vec![];
+        for robot in ROBOTS {
+            let stem = stem(robot)?;
+            members.push(stem.to_string());
+            self.generate(robot, "rust", &[], folder.join(stem))?;
+            if FIXED.contains(robot) {
+                let name = format!("{}_fixed", stem.replace('-', "_"));
+                self.generate(robot, "rust", &["--fixed", "--name", &name], folder.join(&name))?;
+                members.push(name);
+            }
+        }
+        let manifest = format!("[workspace]\nresolver = \"3\"\nmembers = {members:?}\n");
+        fs::write(folder.join("Cargo.toml"), manifest)?;
+        let cargo = |folder: &Path, arguments: &[&str], flags: &str| {
+            let mut cargo = crate::cargo();
+            cargo.args(arguments).args(["--quiet", "--offline"]).current_dir(folder);
+            cargo.env("CARGO_TARGET_DIR", self.folder.join("rust-target"));
+            quietly(cargo.env("RUSTFLAGS", format!("-D warnings {flags}")))
+        };
+        cargo(&folder, &["test", "--workspace"], "")?;
+        cargo(&folder, &["build", "--workspace", "--no-default-features"], "")?;
+        if cfg!(target_arch = "x86_64") && std::is_x86_feature_detected!("fma") {
+            cargo(&folder, &["test", "--workspace"], "-C target-cpu=x86-64-v3")?;
+        }
+        let alone = self.folder.join("rust-alone");
+        cargo(&self.generate(ROBOTS[0], "rust", &[], alone)?, &["test"], "")
+    }
+}
+
+fn stem(robot: &str) -> Result<&str> {
+    Path::new(robot).file_stem().and_then(|s| s.to_str()).context("a name")
 }
 
 /// Under two compilers, as C and as C++.
@@ -133,11 +166,6 @@ fn c(target: &Path, stem: &str) -> Result<()> {
         quietly(&mut cpp)?;
     }
     Ok(())
-}
-
-/// A name for this thread's build folder, so that two builds do not wait for each other.
-fn thread_name() -> String {
-    format!("{:?}", thread::current().id()).replace(['(', ')'], "")
 }
 
 fn test_file(target: &Path, ending: &str) -> Result<PathBuf> {
@@ -196,7 +224,9 @@ fn install() -> Result<()> {
 
 /// Debian's package manager.
 pub fn apt(arguments: &[&str]) -> Result<()> {
-    quietly(Command::new("apt-get").args(arguments).env("DEBIAN_FRONTEND", "noninteractive"))
+    // Another step may be installing something.
+    let wait = ["-o", "DPkg::Lock::Timeout=600"];
+    quietly(Command::new("apt-get").args(wait).args(arguments).env("DEBIAN_FRONTEND", "noninteractive"))
 }
 
 /// The Python of the project's environment, with these packages.

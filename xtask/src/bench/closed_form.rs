@@ -1,48 +1,41 @@
 //! CPU time of deriving the inverse model of every robot of the catalogue, lengths as symbols and as numbers.
 
 use super::MISSED;
-use super::derivation::{Times, times};
-use crate::robot;
-use anyhow::Result;
-use denavit::catalogue;
-use denavit::inverse::{InverseModel, Options};
-use denavit_generate::with_values;
+use super::derivation::Times;
+use anyhow::{Context, Result};
+use serde_json::Value;
 use std::fmt::Write;
-use std::hint::black_box;
 
-/// Measurements a figure.
-const REPEATS: usize = 3;
 /// What a derivation may take, ms: with symbols, with numbers.
 const BOUNDS: [f64; 2] = [1000.0, 200.0];
 
-struct Row {
-    name: &'static str,
+struct Row<'a> {
+    name: &'a str,
     symbols: Times,
     /// `None` if a length has no value.
     numbers: Option<Times>,
     /// The largest number of solutions and the joints that are given, or `None` if there is no closed form.
-    found: Option<(usize, String)>,
+    found: Option<(u64, &'a str)>,
 }
 
-/// Measures, prints the table, and gives the text for the page.
+/// The text for the page, of robots as they were measured.
 ///
 /// # Errors
-/// If a robot of the catalogue cannot be read.
-pub fn run() -> Result<String> {
-    let mut rows = vec![];
-    for name in catalogue::names() {
-        let Some(symbols) = times(name, REPEATS, derive)? else { continue };
-        let numbers = times(name, REPEATS, derive_fixed)?;
-        let model = InverseModel::derive(&robot(name)?, &Options::default());
-        let found = model.ok().map(|m| {
-            let given = m.given.iter().map(|&j| m.chain.variables[j].name().to_string());
-            (m.max_solutions(), given.collect::<Vec<_>>().join(", "))
-        });
-        rows.push(Row { name, symbols, numbers, found });
-    }
-    let text = format!("{INTRODUCTION}\n{}\n\n{}", verdict(&rows), table(&rows));
-    println!("{text}");
-    Ok(text)
+/// If a figure is not there.
+pub fn section(robots: &[Value]) -> Result<String> {
+    let row = |robot| row(robot).context("a robot with its figures");
+    let rows = robots.iter().map(row).collect::<Result<Vec<_>>>()?;
+    Ok(format!("{INTRODUCTION}\n{}\n\n{}", verdict(&rows), table(&rows)))
+}
+
+fn row(robot: &Value) -> Option<Row<'_>> {
+    let closed = &robot["closed"];
+    Some(Row {
+        name: robot["name"].as_str()?,
+        symbols: Times::read(&robot["symbols"])?,
+        numbers: Times::read(&robot["numbers"]),
+        found: closed["solutions"].as_u64().zip(closed["given"].as_str()),
+    })
 }
 
 const INTRODUCTION: &str = "\
@@ -52,18 +45,6 @@ numbers put in. Median of 3 runs, each in a fresh thread; release build, one thr
 the time of the refusal. Given are joints of an arm that has too many, as the derivation chooses them.\n\n\
 For comparison, from the project's goals and not measured in this run: Robotics Toolbox 1.5 3 to 25 s (300 s for the worst),\n\
 IKBT 16 to 143 s, IKFast minutes to hours.\n";
-
-fn derive(name: &str) -> Result<bool> {
-    let description = robot(name)?;
-    let _ = black_box(InverseModel::derive(&description, &Options::default()));
-    Ok(true)
-}
-
-fn derive_fixed(name: &str) -> Result<bool> {
-    let Ok(description) = with_values(&robot(name)?) else { return Ok(false) };
-    let _ = black_box(InverseModel::derive(&description, &Options::default()));
-    Ok(true)
-}
 
 fn table(rows: &[Row]) -> String {
     let width = rows.iter().map(|r| r.name.len()).max().unwrap_or(0);
@@ -82,7 +63,7 @@ fn table(rows: &[Row]) -> String {
             format!("{:.0}{}", t.median, if t.median > bound { format!(" {MISSED}") } else { String::new() })
         };
         let (solutions, given) = match &row.found {
-            Some((n, given)) => (n.to_string(), given.as_str()),
+            Some((n, given)) => (n.to_string(), *given),
             None => ("refused".into(), ""),
         };
         let numbers = row.numbers.as_ref().map_or(String::new(), |t| cell(t, BOUNDS[1]));

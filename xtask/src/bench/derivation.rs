@@ -1,24 +1,14 @@
-//! CPU time of deriving the forward model of every robot of the catalogue; behind it that of the inverse model.
-//!
-//! Measured: reading the robot file, the link transforms, the simplified matrix, the search for the shortest
-//! algorithm, and the proof; each time in a fresh thread, so that no formula is known from the run before.
-//! References in the same run: the bare normal form of the same product over single joint angles, and SymPy's
-//! `trigsimp` of the twelve entries for two robots.
+//! CPU time of deriving the models of every robot of the catalogue: the package `bench` with the argument `derivation`;
+//! beside it SymPy's `trigsimp` of the twelve entries for two robots.
 
-use super::closed_form;
-use crate::{command, path, robot, succeed};
+use super::evaluation::measured;
+use super::{closed_form, inverse};
+use crate::{command, path, succeed};
 use anyhow::{Context, Result, bail};
-use cpu_time::ThreadTime;
-use denavit::catalogue;
-use denavit::forward::{ForwardModel, Outputs, link_transforms, symbol_order};
-use denavit::robot::Robot;
-use denavit_symbolic::{Angle, Expr, Ring};
+use serde_json::Value;
 use std::fmt::Write;
-use std::hint::black_box;
 use std::process::Command;
 
-/// Measurements a figure.
-const REPEATS: usize = 9;
 /// What a derivation may take, ms.
 const BOUND: f64 = 50.0;
 /// Robots for which SymPy is asked as well.
@@ -32,8 +22,16 @@ pub struct Times {
     largest: f64,
 }
 
-struct Row {
-    name: &'static str,
+impl Times {
+    /// As they are measured; `None` if the work was refused.
+    pub fn read(value: &Value) -> Option<Self> {
+        let figure = |key: &str| value[key].as_f64();
+        Some(Times { median: figure("median")?, least: figure("least")?, largest: figure("largest")? })
+    }
+}
+
+struct Row<'a> {
+    name: &'a str,
     ours: Times,
     /// `None` if the expansion is refused as too large.
     naive: Option<Times>,
@@ -44,69 +42,30 @@ struct Row {
 /// Measures, prints the table, and gives the section of the page.
 ///
 /// # Errors
-/// If a robot of the catalogue cannot be read.
+/// If the package `bench` does not build or run.
 pub fn run() -> Result<String> {
     let python = python();
     if let Err(e) = &python {
         println!("no SymPy, so no ratio to it: {e:#}");
     }
+    inverse::cmake()?;
+    let measured = measured(&["derivation"])?;
+    let robots = measured["robots"].as_array().context("a list of robots")?;
     let mut rows = vec![];
-    for name in catalogue::names() {
-        let ours = times(name, REPEATS, derive)?.context("a derivation is never refused")?;
-        let naive = times(name, REPEATS, expand)?;
+    for robot in robots {
+        let name = robot["name"].as_str().context("a name")?;
         let sympy = match &python {
             Ok(program) if WITH_SYMPY.contains(&name) => Some(trigsimp(program, name)?),
             _ => None,
         };
-        rows.push(Row { name, ours, naive, sympy });
+        let ours = Times::read(&robot["forward"]).context("times")?;
+        rows.push(Row { name, ours, naive: Times::read(&robot["naive"]), sympy });
     }
     let table = table(&rows);
     println!("{table}\n{}", verdict(&rows));
-    let inverse = closed_form::run()?;
-    Ok(format!("{}\n{inverse}", section(&rows, &table)))
-}
-
-/// What is measured: from the text of the robot file to the proof.
-fn derive(name: &str) -> Result<bool> {
-    let description = robot(name)?;
-    black_box(link_transforms(&description));
-    black_box(ForwardModel::of_tool(&description, Outputs::ALL));
-    Ok(true)
-}
-
-/// The naive reference: the product of the link transforms in normal form over the single joint angles. False if
-/// that is too large.
-fn expand(name: &str) -> Result<bool> {
-    let description = robot(name)?;
-    let q: Vec<Expr> = description.variables().iter().map(|v| v.symbol.into()).collect();
-    let pose = Robot::symbolic(&description).pose(&q).matrix();
-    let entries: Vec<Expr> = pose.into_iter().flatten().collect();
-    let angles: Vec<Angle> = q.into_iter().map(Angle::of).collect();
-    let mut ring = Ring::with_basis(&angles, &entries, &symbol_order(&description));
-    Ok(entries.into_iter().all(|e| black_box(ring.normal(e)).is_ok()))
-}
-
-/// CPU times of `work`, each in a thread of its own; `None` if the work is refused.
-pub fn times(name: &'static str, repeats: usize, work: fn(&str) -> Result<bool>) -> Result<Option<Times>> {
-    let mut milliseconds = vec![];
-    for _ in 0..repeats {
-        let measured = std::thread::Builder::new().stack_size(64 << 20).spawn(move || -> Result<_> {
-            let start = ThreadTime::now();
-            let done = work(name)?;
-            Ok(done.then(|| start.elapsed().as_secs_f64() * 1e3))
-        })?;
-        let Ok(time) = measured.join() else { bail!("{name}: the derivation panicked") };
-        match time.with_context(|| name)? {
-            Some(time) => milliseconds.push(time),
-            None => return Ok(None),
-        }
-    }
-    milliseconds.sort_by(f64::total_cmp);
-    Ok(Some(Times {
-        median: milliseconds[repeats / 2],
-        least: milliseconds[0],
-        largest: milliseconds[repeats - 1],
-    }))
+    let inverse = closed_form::section(robots)?;
+    println!("{inverse}");
+    Ok(format!("{}\n{inverse}", section(&rows, &table, &measured["repeats"][0])))
 }
 
 /// A Python with SymPy: the project's environment, the system's, or an environment made for it.
@@ -183,11 +142,11 @@ fn verdict(rows: &[Row]) -> String {
     )
 }
 
-fn section(rows: &[Row], table: &str) -> String {
+fn section(rows: &[Row], table: &str, repeats: &Value) -> String {
     format!(
         "CPU time of deriving the forward model of each robot of the catalogue: reading the robot file, the link\n\
          transforms, the simplified matrix, the search for the shortest algorithm, and the proof that it equals the\n\
-         product. Median of {REPEATS} runs, each in a fresh thread that knows no formula yet; release build, one thread.\n\n\
+         product. Median of {repeats} runs, each in a fresh thread that knows no formula yet; release build, one thread.\n\n\
          - **naive**: only the normal form of the same product over single joint angles; no merging of parallel axes, no\n\
          readable form, no search, no proof. What the rest costs is the difference; the share is naive to ours.\n\
          - **SymPy**: the product and `trigsimp` of its twelve entries (version {SYMPY}), CPU time, once; the ratio is SymPy to ours.\n\n\

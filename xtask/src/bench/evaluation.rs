@@ -1,10 +1,9 @@
 //! Speed of evaluators and generated code beside peers: the package `bench`.
 
-use crate::{cargo, path};
+use crate::{cargo, path, target};
 use anyhow::{Context, Result, bail};
 use serde_json::Value;
 use std::fmt::Write;
-use std::path::PathBuf;
 use std::process::Stdio;
 
 /// Measures, prints the tables, and gives the section of the page.
@@ -32,8 +31,7 @@ pub fn measured(arguments: &[&str]) -> Result<Value> {
     let mut cargo = cargo();
     cargo.args(["run", "--release", "--quiet", "--manifest-path"]).arg(path("bench/Cargo.toml"));
     cargo.arg("--").args(arguments);
-    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| path("target"), PathBuf::from);
-    cargo.env("CARGO_TARGET_DIR", target.join("bench")).stderr(Stdio::inherit());
+    cargo.env("CARGO_TARGET_DIR", target().join("bench")).stderr(Stdio::inherit());
     if cfg!(target_arch = "x86_64") {
         cargo.env("RUSTFLAGS", "-C target-cpu=x86-64-v3");
     }

@@ -1,11 +1,11 @@
 //! Speed of inverse kinematics beside peers: the package `bench` with the argument `inverse`.
 
 use super::evaluation::measured;
-use crate::succeed;
+use crate::languages::apt;
+use crate::starts;
 use anyhow::{Context, Result};
 use serde_json::Value;
 use std::fmt::Write;
-use std::process::{Command, Stdio};
 
 /// Measures, prints the tables, and gives the section of the page.
 ///
@@ -63,13 +63,10 @@ fn table(arm: &Value) -> Result<String> {
 /// # Errors
 /// If it cannot be installed.
 pub fn cmake() -> Result<()> {
-    let started = Command::new("cmake").arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
-    if started.is_ok_and(|s| s.success()) {
+    if starts("cmake") {
         return Ok(());
     }
     println!("installing cmake");
-    let mut apt = Command::new("apt-get");
-    apt.args(["install", "-y", "-qq", "--no-install-recommends", "cmake"]);
-    succeed(apt.env("DEBIAN_FRONTEND", "noninteractive").stdout(Stdio::null()))
+    apt(&["install", "-y", "-qq", "--no-install-recommends", "cmake"])
         .context("ik-geo is built with CMake: install it")
 }

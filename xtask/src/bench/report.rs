@@ -1,25 +1,17 @@
-//! CPU time of a report of every robot of the catalogue: as a page of HTML, and as a PDF by Typst.
-//!
-//! Measured: from the text of the robot file to the bytes of the page; for PDF the time of the Typst package behind it. The
-//! reference in the same run: the formulas alone (forward model, inverse model, singularities), which the report derives, too.
+//! CPU time of a report of every robot of the catalogue: the package `bench` with the argument `report`; behind it the time of
+//! the Typst package, which makes a PDF of it.
 
-use super::MISSED;
-use super::derivation::times;
+use super::evaluation::measured;
+use super::{MISSED, inverse};
 use crate::languages::python;
-use crate::{command, path, robot};
+use crate::{command, path};
 use anyhow::{Context, Result, bail};
-use denavit::catalogue;
-use denavit::forward::{ForwardModel, Outputs, Reference};
-use denavit::inverse::{InverseModel, Options};
-use denavit::velocity::Singularities;
-use denavit_report::{render, report};
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::fs;
-use std::hint::black_box;
+use std::path::Path;
 
-/// Measurements a figure.
-const REPEATS: usize = 3;
 /// What a page and a PDF may take, ms.
 const BOUNDS: [f64; 2] = [2_000.0, 5_000.0];
 /// Rows of the table: the slowest.
@@ -34,7 +26,7 @@ for path in sorted(pathlib.Path(sys.argv[1]).glob('*.typ')):
 ";
 
 struct Row {
-    name: &'static str,
+    name: String,
     formulas: f64,
     page: f64,
     pdf: f64,
@@ -43,58 +35,41 @@ struct Row {
 /// Measures, prints the table, and gives the section of the page.
 ///
 /// # Errors
-/// If a robot of the catalogue cannot be read, or there is no Typst.
+/// If the package `bench` does not build or run, or there is no Typst.
 pub fn run() -> Result<String> {
+    inverse::cmake()?;
     let folder = path("target/bench-report");
     if folder.exists() {
         fs::remove_dir_all(&folder)?;
     }
     fs::create_dir_all(&folder)?;
-    let median = |name: &'static str, work: fn(&str) -> Result<bool>| -> Result<f64> {
-        Ok(times(name, REPEATS, work)?.context("never refused")?.median)
+    let measured = measured(&["report", &folder.to_string_lossy()])?;
+    let behind = compiled(&folder)?;
+    let row = |robot: &Value| {
+        let (name, page) = (robot["name"].as_str()?, robot["page"].as_f64()?);
+        let pdf = page + behind.get(name)?;
+        Some(Row { name: name.into(), formulas: robot["formulas"].as_f64()?, page, pdf })
     };
-    let mut rows = vec![];
-    for name in catalogue::names() {
-        let (formulas, page) = (median(name, formulas)?, median(name, page)?);
-        let markup = render::typst(&report(&robot(name)?, &denavit_report::Options::default()));
-        fs::write(folder.join(format!("{name}.typ")), markup)?;
-        rows.push(Row { name, formulas, page, pdf: f64::NAN });
-    }
-    let python = python(&["typst"])?;
-    let output = command(python).args(["-c", COMPILE]).arg(&folder).output()?;
-    if !output.status.success() {
-        bail!("Typst: {}", String::from_utf8_lossy(&output.stderr));
-    }
-    let text = String::from_utf8(output.stdout)?;
-    let behind: BTreeMap<&str, f64> = text
-        .lines()
-        .filter_map(|l| {
-            let (name, time) = l.split_once(' ')?;
-            Some((name, time.parse().ok()?))
-        })
-        .collect();
-    for row in &mut rows {
-        row.pdf = row.page + behind.get(row.name).context(row.name)?;
-    }
+    let robots = measured["robots"].as_array().context("a list of robots")?;
+    let mut rows = robots.iter().map(row).collect::<Option<Vec<Row>>>().context("figures of each robot")?;
     rows.sort_by(|a, b| b.pdf.total_cmp(&a.pdf));
     let section = section(&rows);
     println!("{section}");
     Ok(section)
 }
 
-fn formulas(name: &str) -> Result<bool> {
-    let description = robot(name)?;
-    black_box(ForwardModel::of_tool(&description, Outputs::ALL));
-    // A refusal is an answer, too.
-    let _ = black_box(InverseModel::derive(&description, &Options::default()));
-    let _ = black_box(Singularities::derive(&description, Reference::Tool));
-    Ok(true)
-}
-
-fn page(name: &str) -> Result<bool> {
-    let document = report(&robot(name)?, &denavit_report::Options::default());
-    black_box(render::html(&document));
-    Ok(true)
+/// What Typst takes for each document of a folder, CPU ms.
+fn compiled(folder: &Path) -> Result<BTreeMap<String, f64>> {
+    let python = python(&["typst"])?;
+    let output = command(python).args(["-c", COMPILE]).arg(folder).output()?;
+    if !output.status.success() {
+        bail!("Typst: {}", String::from_utf8_lossy(&output.stderr));
+    }
+    let line = |l: &str| {
+        let (name, time) = l.split_once(' ')?;
+        Some((name.to_string(), time.parse().ok()?))
+    };
+    Ok(String::from_utf8(output.stdout)?.lines().filter_map(line).collect())
 }
 
 fn section(rows: &[Row]) -> String {

@@ -8,7 +8,7 @@ use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 const INDEX: &str = "<!doctype html><html lang=\"en\"><head><title>t</title></head><body></body></html>";
 
@@ -29,7 +29,11 @@ struct Viewed {
 
 impl Viewed {
     fn start(arguments: &[&str]) -> Viewed {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_denavit"))
+        Viewed::start_by(Command::new(env!("CARGO_BIN_EXE_denavit")), arguments)
+    }
+
+    fn start_by(mut command: Command, arguments: &[&str]) -> Viewed {
+        let mut child = command
             .arg("view")
             .args(arguments)
             .args(["--no-open", "--json"])
@@ -142,16 +146,35 @@ fn the_page_in_the_program() {
     assert!(index.contains("content=\"robot.toml\""), "{index}");
 }
 
+/// The command with an interrupt's usual effect: where this process ignores it (started by a script with `&`, or by nohup),
+/// a child inherits that, and GNU's `env` puts it right.
+#[cfg(unix)]
+fn interruptible() -> Command {
+    let words = ["--default-signal=INT", env!("CARGO_BIN_EXE_denavit")];
+    let is_there =
+        Command::new("env").args(words).arg("--version").output().is_ok_and(|o| o.status.success());
+    let mut command = Command::new(if is_there { "env" } else { words[1] });
+    command.args(if is_there { &words[..] } else { &[] });
+    command
+}
+
 #[cfg(unix)]
 #[test]
 fn it_ends_with_an_interrupt() {
     use std::os::unix::process::ExitStatusExt;
     let folder = page("interrupt");
-    let mut viewed = Viewed::start(&["--page", path(&folder)]);
+    let mut viewed = Viewed::start_by(interruptible(), &["--page", path(&folder)]);
     let id = viewed.child.id().to_string();
     let interrupt = Command::new("kill").args(["-INT", &id]).status().expect("kill starts");
     assert!(interrupt.success());
-    let status = viewed.child.wait().expect("it ends");
+    let deadline = Instant::now() + Duration::from_secs(30);
+    let status = loop {
+        match viewed.child.try_wait().expect("it is our child") {
+            Some(status) => break status,
+            None => assert!(Instant::now() < deadline, "the interrupt does not end it"),
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    };
     assert_eq!(status.signal(), Some(2));
     std::fs::remove_dir_all(folder).expect("it is there");
 }

@@ -1,7 +1,7 @@
 //! Emitted solvers build without a warning, and find all solutions in every language.
 
 use crate::solver_support::samples;
-use crate::support::{folder, has_fma, is_there, only, run, run_with, write};
+use crate::support::{check_rust, folder, has_fma, is_there, only, run, write};
 use denavit_emit::{Language, Precision};
 
 #[test]
@@ -38,22 +38,12 @@ fn c_finds_all_solutions() {
 
 #[test]
 fn rust_finds_all_solutions_alone_and_in_blocks() {
-    for (k, sample) in samples().iter().enumerate() {
-        let folder = folder(&format!("solver-rust-{k}"));
-        write(&sample.library(), Language::Rust, &folder);
-        let manifest = std::fs::read_to_string(folder.join("Cargo.toml")).expect("a manifest");
-        std::fs::write(folder.join("Cargo.toml"), manifest + "\n[workspace]\n").expect("written");
-        let target = folder.join("target");
-        let target = target.to_str().expect("a path");
-        run_with(&folder, &[env!("CARGO"), "fmt", "--check"], &[]);
-        let fused = "-D warnings -C target-feature=+avx2,+fma";
-        for flags in ["-D warnings", fused].into_iter().take(if has_fma() { 2 } else { 1 }) {
-            let variables = [("RUSTFLAGS", flags), ("CARGO_TARGET_DIR", target)];
-            run_with(&folder, &[env!("CARGO"), "test", "-q", "--offline"], &variables);
-        }
-        let variables = [("RUSTFLAGS", "-D warnings"), ("CARGO_TARGET_DIR", target)];
-        run_with(&folder, &[env!("CARGO"), "test", "-q", "--offline", "--no-default-features"], &variables);
+    let folder = folder("solver-rust");
+    let members: Vec<String> = (0..samples().len()).map(|k| format!("sample-{k}")).collect();
+    for (sample, member) in samples().iter().zip(&members) {
+        write(&sample.library(), Language::Rust, &folder.join(member));
     }
+    check_rust(&folder, &members);
 }
 
 #[test]

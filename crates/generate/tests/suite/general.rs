@@ -22,12 +22,16 @@ const ONE_SLIDE: &str = include_str!("../robots/one-slide.toml");
 const TWO_SLIDES: &str = include_str!("../robots/two-slides.toml");
 
 fn generated(d: &Description, language: Language, functions: &[Wanted]) -> Generated {
+    generated_as("arm", d, language, functions)
+}
+
+fn generated_as(name: &str, d: &Description, language: Language, functions: &[Wanted]) -> Generated {
     let options = Options {
         language,
         functions: functions.to_vec(),
         inverse: inverse::Options { goal: Goal::Pose, given: None },
         precision: Precision::Double,
-        name: Some("arm".into()),
+        name: Some(name.into()),
         fixed: false,
     };
     generate(d, &options).expect("nothing is fixed")
@@ -186,23 +190,28 @@ fn check_aligned(name: &str, d: &Description) {
     run(Command::new("./aligned").current_dir(&target));
 }
 
-fn check_rust(name: &str, d: &Description, least: usize) {
-    let found = generated(d, Language::Rust, &[Wanted::Pose, Wanted::Inverse]);
-    let inverse = found.inverse.as_ref().unwrap_or_else(|| panic!("{name}: {:?}", found.refused));
-    assert!(inverse.by_elimination && inverse.vectors >= least, "{name}: {} poses", inverse.vectors);
-    let target = folder(&format!("elimination-rust-{name}"), &found);
-    // A workspace of its own: the folder lies in that of this package.
-    let manifest = target.join("Cargo.toml");
-    let text = fs::read_to_string(&manifest).expect("it is there") + "\n[workspace]\n";
-    fs::write(&manifest, text).expect("it can be written");
+/// Packages with the inverse model beside the forward one, as one workspace: two runs of cargo serve all of them.
+fn check_rust(arms: &[(&str, &Description, usize)]) {
+    let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join("elimination-rust");
+    let _ = fs::remove_dir_all(&root);
+    for (name, d, least) in arms {
+        let functions = [Wanted::Pose, Wanted::Inverse];
+        let found = generated_as(name, d, Language::Rust, &functions);
+        let inverse = found.inverse.as_ref().unwrap_or_else(|| panic!("{name}: {:?}", found.refused));
+        assert!(inverse.by_elimination && inverse.vectors >= *least, "{name}: {} poses", inverse.vectors);
+        folder(&format!("elimination-rust/{name}"), &found);
+    }
+    let members: Vec<&str> = arms.iter().map(|arm| arm.0).collect();
+    let manifest = format!("[workspace]\nresolver = \"3\"\nmembers = {members:?}\n");
+    fs::write(root.join("Cargo.toml"), manifest).expect("it can be written");
     let cargo = |arguments: &[&str]| {
         let mut cargo = Command::new(env!("CARGO"));
-        cargo.args(arguments).current_dir(&target).env("RUSTFLAGS", "-D warnings");
-        cargo.env("CARGO_TARGET_DIR", Path::new(env!("CARGO_TARGET_TMPDIR")).join("elimination-rust-target"));
+        cargo.args(arguments).args(["--workspace", "--quiet", "--offline"]).current_dir(&root);
+        cargo.env("RUSTFLAGS", "-D warnings").env("CARGO_TARGET_DIR", root.join("target"));
         run(&mut cargo);
     };
-    cargo(&["test", "--quiet", "--offline"]);
-    cargo(&["build", "--quiet", "--offline", "--no-default-features"]);
+    cargo(&["test"]);
+    cargo(&["build", "--no-default-features"]);
 }
 
 #[test]
@@ -222,9 +231,11 @@ fn c_finds_all_solutions_where_the_last_axis_is_parallel_to_the_first() {
 
 #[test]
 fn rust_finds_all_solutions() {
-    check_rust("crx", &catalogued("fanuc-crx10ia-l"), 15);
-    check_rust("oblique", &catalogued("oblique-6r"), 15);
-    check_rust("two-slides", &read(TWO_SLIDES), 8);
+    check_rust(&[
+        ("crx", &catalogued("fanuc-crx10ia-l"), 15),
+        ("oblique", &catalogued("oblique-6r"), 15),
+        ("two-slides", &read(TWO_SLIDES), 8),
+    ]);
 }
 
 /// What is generated in no other language, and what C does not serve, is said.

@@ -8,7 +8,8 @@ use denavit_report::{Document, Options, Part, Topic, render, report};
 use denavit_symbolic::print::Style;
 use denavit_symbolic::vocabulary::Vocabulary;
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn description(name: &str) -> Description {
     catalogue::robot(name).expect("in the catalogue")
@@ -89,41 +90,62 @@ fn trees_of_six_robots() {
     }
 }
 
+/// Does something with every robot of the catalogue, on all cores.
+fn each_robot(check: impl Fn(&str) + Sync) {
+    let names = catalogue::names();
+    let next = AtomicUsize::new(0);
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    std::thread::scope(|scope| {
+        for _ in 0..cores {
+            let work = || {
+                while let Some(name) = names.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    check(name);
+                }
+            };
+            std::thread::Builder::new().stack_size(64 << 20).spawn_scoped(scope, work).expect("a thread");
+        }
+    });
+}
+
+/// Where `DENAVIT_DOCUMENTS` names a folder, the English reports are left there as Typst documents, for those who have Typst.
 #[test]
 fn every_robot_has_a_page() {
-    for name in catalogue::names() {
+    let folder = std::env::var_os("DENAVIT_DOCUMENTS").map(PathBuf::from);
+    each_robot(|name| {
         for language in [Language::English, Language::French] {
-            let d = description(name);
-            let document = report(&d, &Options { language, ..Options::default() });
-            let html = render::html(&document);
-            let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
-            let page = roxmltree::Document::parse_with_options(&html, options).expect(name);
-            let elements = || page.descendants().filter(|n| n.is_element());
-            let mut level = 1;
-            for heading in
-                elements().filter_map(|e| e.tag_name().name().strip_prefix('h')?.parse::<u8>().ok())
-            {
-                assert!(
-                    heading <= level + 1,
-                    "{name}: a heading of level {heading} below one of level {level}"
-                );
-                level = heading;
-            }
-            for e in elements() {
-                match e.tag_name().name() {
-                    "math" => assert!(e.attribute("alttext").is_some_and(|t| !t.is_empty()), "{name}"),
-                    "svg" => assert!(
-                        e.children().any(|c| c.has_tag_name(("http://www.w3.org/2000/svg", "title"))),
-                        "{name}"
-                    ),
-                    _ => {}
-                }
-            }
-            assert!(!html.contains("NaN") && !html.contains("NOT TRUE"), "{name}");
+            let document = report(&description(name), &Options { language, ..Options::default() });
+            check_page(name, &render::html(&document));
             // What is a formula in one notation is one in the others.
             assert!(!render::latex(&document).contains("NaN"), "{name}");
+            if let Some(folder) = folder.as_ref().filter(|_| language == Language::English) {
+                let file = folder.join(format!("{name}.typ"));
+                std::fs::write(file, render::typst(&document)).expect("the folder is there");
+            }
+        }
+    });
+}
+
+/// A page is well formed, its headings are nested, and formulas and pictures have their texts.
+fn check_page(name: &str, html: &str) {
+    let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
+    let page = roxmltree::Document::parse_with_options(html, options).expect(name);
+    let elements = || page.descendants().filter(|n| n.is_element());
+    let mut level = 1;
+    for heading in elements().filter_map(|e| e.tag_name().name().strip_prefix('h')?.parse::<u8>().ok()) {
+        assert!(heading <= level + 1, "{name}: a heading of level {heading} below one of level {level}");
+        level = heading;
+    }
+    for e in elements() {
+        match e.tag_name().name() {
+            "math" => assert!(e.attribute("alttext").is_some_and(|t| !t.is_empty()), "{name}"),
+            "svg" => assert!(
+                e.children().any(|c| c.has_tag_name(("http://www.w3.org/2000/svg", "title"))),
+                "{name}"
+            ),
+            _ => {}
         }
     }
+    assert!(!html.contains("NaN") && !html.contains("NOT TRUE"), "{name}");
 }
 
 #[test]

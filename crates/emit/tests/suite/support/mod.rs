@@ -232,3 +232,22 @@ pub fn has_fma() -> bool {
     #[cfg(not(target_arch = "x86_64"))]
     false
 }
+
+/// Builds and tests Rust packages in folders of `folder`, as one workspace, so that three runs of cargo serve all of them:
+/// with and without fused multiplications, and without the standard library. Nothing in a package is touched.
+pub fn check_rust(folder: &Path, members: &[String]) {
+    let manifest = format!("[workspace]\nresolver = \"3\"\nmembers = {members:?}\n");
+    std::fs::write(folder.join("Cargo.toml"), manifest).expect("written");
+    run_with(folder, &[env!("CARGO"), "fmt", "--all", "--check"], &[]);
+    let target = folder.join("target");
+    let target = target.to_str().expect("a path");
+    let test = |flags: &str, extra: &[&str]| {
+        let words = [&[env!("CARGO"), "test", "-q", "--offline", "--workspace"], extra].concat();
+        run_with(folder, &words, &[("RUSTFLAGS", flags), ("CARGO_TARGET_DIR", target)]);
+    };
+    test("-D warnings", &[]);
+    if has_fma() {
+        test("-D warnings -C target-feature=+avx2,+fma", &[]);
+    }
+    test("-D warnings", &["--no-default-features"]);
+}

@@ -1,22 +1,19 @@
 //! The rules of the project that a program can check. One line a violation, with its place.
 
-use crate::{cargo, command, denavit, path};
+mod circles;
+mod crates;
+mod index;
+mod sessions;
+mod surface;
+
+pub use index::print as index;
+pub use surface::print as surface;
+
+use crate::{command, path};
 use anyhow::{Context, Result, bail};
-use serde_json::Value;
-use std::collections::BTreeSet;
 use std::fmt::Display;
 use std::fs;
 
-/// Folders and packages in the order of dependency: nothing depends on what stands behind it.
-const LAYERS: &[(&str, &str)] = &[
-    ("crates/symbolic", "denavit-symbolic"),
-    ("crates/program", "denavit-program"),
-    ("crates/robot", "denavit"),
-    ("crates/report", "denavit-report"),
-    ("crates/cli", "denavit-cli"),
-    ("crates/web", "denavit-web"),
-    ("crates/jit", "denavit-jit"),
-];
 /// Crates of pure algebra, and the words they do not say.
 const ABSTRACT: &[&str] = &["crates/symbolic/src/", "crates/program/src/", "crates/jit/src/"];
 const CONCRETE_WORDS: &[&str] = &["joint", "robot"];
@@ -35,9 +32,16 @@ const OUTSIDE_WORLD: &[&str] =
     &["std::fs", "std::io", "std::time", "std::env", "print!(", "println!(", "eprint!(", "eprintln!("];
 /// What nothing but a test contains.
 const UNFINISHED: &[&str] = &[".unwrap()", "todo!", "unimplemented!", "dbg!"];
-const MAX_LINES: usize = 700;
+const MAX_LINES: usize = 600;
 /// Longer files, each with the reason.
-const LONG_FILES: &[(&str, &str)] = &[];
+const LONG_FILES: &[(&str, &str)] = &[
+    ("crates/cli/src/arguments.rs", "the words of every verb"),
+    ("crates/robot/src/check/names.rs", "to be divided"),
+    ("crates/robot/src/inverse/derivation/compile.rs", "to be divided"),
+    ("crates/robot/tests/check_hostile.rs", "to be divided"),
+    ("crates/robot/tests/documents_inverse.rs", "to be divided"),
+    ("crates/symbolic/src/print/mod.rs", "to be divided"),
+];
 const REQUIRED: &[&str] = &["README.md", "CHANGELOG.md", "ARCHITECTURE.md", "LICENSE-MIT", "LICENSE-APACHE"];
 const FIRST_COMMANDS: [&str; 2] = ["cargo run --release -- derive staubli-rx90", "cargo xtask test"];
 /// Folders of one machine, without the slash behind them.
@@ -60,22 +64,35 @@ impl Report {
     }
 }
 
-/// Checks all rules and prints what violates them.
+/// What is checked: the rules, which take a moment, or what the program prints in the project's pages, or both.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    Rules,
+    Sessions,
+    Both,
+}
+
+/// Checks and prints what violates the rules.
 ///
 /// # Errors
 /// If something does.
-pub fn run() -> Result<()> {
+pub fn run(part: Part) -> Result<()> {
     let files = text_files()?;
     let mut report = Report::default();
-    required(&files, &mut report);
-    layers(&mut report)?;
-    words(&files, &mut report);
-    lengths(&files, &mut report);
-    machine_folders(&files, &mut report);
-    sources(&files, &mut report);
-    architecture(&files, &mut report);
-    first_commands(&files, &mut report);
-    sessions(&files, &mut report)?;
+    if part != Part::Sessions {
+        required(&files, &mut report);
+        crates::layers(&mut report)?;
+        words(&files, &mut report);
+        lengths(&files, &mut report);
+        machine_folders(&files, &mut report);
+        sources(&files, &mut report);
+        headers(&files, &mut report);
+        circles::circles(&files, &mut report);
+        first_commands(&files, &mut report);
+    }
+    if part != Part::Rules {
+        sessions::sessions(&files, &mut report)?;
+    }
     for line in &report.violations {
         println!("{line}");
     }
@@ -113,34 +130,6 @@ fn required(files: &[File], report: &mut Report) {
     for name in REQUIRED.iter().filter(|name| find(files, name).is_none()) {
         report.add(name, 1, "the file does not exist");
     }
-}
-
-fn layers(report: &mut Report) -> Result<()> {
-    let output = cargo().args(["metadata", "--format-version", "1", "--no-deps"]).output()?;
-    if !output.status.success() {
-        bail!("cargo metadata: {}", String::from_utf8_lossy(&output.stderr).trim());
-    }
-    let metadata: Value = serde_json::from_slice(&output.stdout)?;
-    let layer = |name: &Value| LAYERS.iter().position(|l| Some(l.1) == name.as_str());
-    for package in metadata["packages"].as_array().into_iter().flatten() {
-        let Some(own) = layer(&package["name"]) else { continue };
-        let manifest = format!("{}/Cargo.toml", LAYERS[own].0);
-        let text = fs::read_to_string(path(&manifest))?;
-        for dependency in package["dependencies"].as_array().into_iter().flatten() {
-            if let Some(other) = layer(&dependency["name"])
-                && other >= own
-            {
-                let name = LAYERS[other].1;
-                let line = text.lines().position(|l| l.starts_with(name)).map_or(1, |i| i + 1);
-                report.add(
-                    &manifest,
-                    line,
-                    format!("{} depends on {name}, which comes after it", LAYERS[own].1),
-                );
-            }
-        }
-    }
-    Ok(())
 }
 
 fn words(files: &[File], report: &mut Report) {
@@ -218,8 +207,11 @@ fn lengths(files: &[File], report: &mut Report) {
                 format!("{n} lines; at most {MAX_LINES} without a stated reason"),
             );
         } else if allowed && n <= MAX_LINES {
-            report.add("xtask/src/tidy.rs", 1, format!("{} is not long any more", file.path));
+            report.add("xtask/src/tidy/mod.rs", 1, format!("{} is not long any more", file.path));
         }
+    }
+    for (path, _) in LONG_FILES.iter().filter(|l| find(files, l.0).is_none()) {
+        report.add("xtask/src/tidy/mod.rs", 1, format!("{path}, a long file, is not there"));
     }
 }
 
@@ -253,50 +245,20 @@ fn sources(files: &[File], report: &mut Report) {
     }
 }
 
-/// The code map names every module, and nothing that is not there.
-fn architecture(files: &[File], report: &mut Report) {
-    const MAP: &str = "ARCHITECTURE.md";
-    let Some(map) = find(files, MAP) else { return };
-    let exists = |p: &str| files.iter().any(|f| f.path == p || (p.ends_with('/') && f.path.starts_with(p)));
-    let mut folder = String::new();
-    let mut named: BTreeSet<String> = BTreeSet::new();
-    let mut fenced = false;
-    for (i, line) in map.text.lines().enumerate() {
-        fenced ^= line.trim_start().starts_with("```");
-        if fenced {
-            continue;
-        }
-        if let Some(heading) = line.strip_prefix("## ") {
-            let first = heading.split_whitespace().next().unwrap_or_default();
-            folder = first.trim_matches(['`', ':', ',']).trim_end_matches('/').to_string();
-        }
-        for token in line.split('`').skip(1).step_by(2).filter(|t| is_path(t)) {
-            let places = [token.to_string(), format!("{folder}/src/{token}"), format!("{folder}/{token}")];
-            match places.into_iter().find(|p| exists(p)) {
-                Some(place) => {
-                    named.insert(place);
-                }
-                None => report.add(MAP, i + 1, format!("`{token}` does not exist")),
-            }
-        }
-    }
-    let modules = files.iter().filter(|f| f.path.starts_with("crates/") && f.path.contains("/src/"));
-    for file in modules.filter(|f| f.path.ends_with(".rs")) {
-        // `x/` stands for `x/mod.rs`; the root of a crate is the crate.
-        let root = ["/src/lib.rs", "/src/main.rs"].iter().any(|r| file.path.ends_with(r));
-        let module = file.path.strip_suffix("mod.rs").is_some_and(|folder| named.contains(folder));
-        if !root && !module && !named.contains(&file.path) {
-            report.add(MAP, 1, format!("`{}` is not named", file.path));
+/// Every source file says in its first line what it is: `cargo xtask index` makes the index of these lines.
+fn headers(files: &[File], report: &mut Report) {
+    for file in files.iter().filter(|f| is_source(f)) {
+        if index::first_line(&file.text).is_none() {
+            report.add(&file.path, 1, "no `//!` line says what it is");
         }
     }
 }
 
-/// Whether a word in code type is meant as a path of this project.
-fn is_path(token: &str) -> bool {
-    let endings = [".rs", ".toml", ".md", ".json", ".py"];
-    let plain = token.chars().all(|c| c.is_alphanumeric() || "_-./".contains(c));
-    let ending = endings.iter().any(|e| token.ends_with(e) && token.len() > e.len());
-    plain && (ending || (token.ends_with('/') && token.len() > 1))
+/// Whether a file is source code of the project, and no test data or text of which generated code is made.
+fn is_source(file: &File) -> bool {
+    let folder = ["/src/", "/examples/", "/tests/", "/fuzz_targets/"].iter().any(|f| file.path.contains(f));
+    let is_ours = ["crates/", "xtask/", "bench/", "fuzz/"].iter().any(|f| file.path.starts_with(f));
+    file.path.ends_with(".rs") && folder && is_ours && !file.path.contains("/src/kernel/")
 }
 
 fn first_commands(files: &[File], report: &mut Report) {
@@ -319,102 +281,9 @@ fn first_commands(files: &[File], report: &mut Report) {
     }
 }
 
-/// Every block behind `<!-- denavit ARGUMENTS -->` is what the program prints.
-fn sessions(files: &[File], report: &mut Report) -> Result<()> {
-    for file in files.iter().filter(|f| f.path.ends_with(".md")) {
-        let mut lines = file.text.lines().enumerate();
-        while let Some((i, line)) = lines.next() {
-            let Some(marked) = line.trim().strip_prefix("<!-- denavit ").and_then(|l| l.strip_suffix("-->"))
-            else {
-                continue;
-            };
-            if !lines.next().is_some_and(|(_, l)| l.starts_with("```")) {
-                report.add(&file.path, i + 1, "no block follows");
-                continue;
-            }
-            let block: Vec<&str> =
-                lines.by_ref().map(|(_, l)| l).take_while(|l| !l.starts_with("```")).collect();
-            let printed = denavit(words_of(marked))?;
-            let shown = block.strip_prefix(&[""][..]).unwrap_or(&block);
-            let shown = if shown.first().is_some_and(|l| l.starts_with("$ ")) { &shown[1..] } else { shown };
-            if let Err(k) = agrees(shown, &printed.lines().collect::<Vec<_>>()) {
-                let n = i + 3 + (block.len() - shown.len()) + k;
-                report.add(&file.path, n, format!("`denavit {}` does not print this", marked.trim()));
-            }
-        }
-    }
-    Ok(())
-}
-
-/// Words as a shell separates them; quotes hold together what stands between them.
-fn words_of(text: &str) -> Vec<String> {
-    let (mut words, mut quote) = (vec![], None);
-    let mut word: Option<String> = None;
-    for c in text.chars() {
-        match quote {
-            Some(q) if c == q => quote = None,
-            None if c == '"' || c == '\'' => {
-                quote = Some(c);
-                word.get_or_insert_default();
-            }
-            None if c.is_whitespace() => words.extend(word.take()),
-            _ => word.get_or_insert_default().push(c),
-        }
-    }
-    words.extend(word);
-    words
-}
-
-/// Whether the lines shown are those printed, where `…` stands for any number of lines; else the first shown line
-/// that is not there.
-fn agrees(shown: &[&str], printed: &[&str]) -> Result<(), usize> {
-    let mut at = 0;
-    let mut free = false; // after `…` a part may begin anywhere
-    let parts: Vec<&[&str]> = shown.split(|l| l.trim() == "…").collect();
-    let mut line = 0;
-    for (k, part) in parts.iter().enumerate() {
-        let is_last = k + 1 == parts.len();
-        let same = |from: usize| {
-            part.iter().zip(&printed[from..]).take_while(|(a, b)| a.trim_end() == b.trim_end()).count()
-        };
-        let fits = |from: usize| same(from) == part.len() && (!is_last || from + part.len() == printed.len());
-        let last = if free { printed.len().saturating_sub(part.len()) } else { at };
-        match (at..=last).find(|&from| fits(from)) {
-            Some(from) => at = from + part.len(),
-            None => {
-                return Err(
-                    line + (at..=last.max(at)).map(same).max().unwrap_or(0).min(part.len().saturating_sub(1))
-                );
-            }
-        }
-        line += part.len() + 1;
-        free = true;
-    }
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_block_may_leave_lines_out() {
-        let printed = ["a", "b", "c", "d"];
-        for (shown, expected) in [
-            (&["a", "b", "c", "d"][..], Ok(())),
-            (&["a", "…"], Ok(())),
-            (&["…", "d"], Ok(())),
-            (&["a", "…", "c", "…"], Ok(())),
-            (&["a", "b", "c", "d", "…"], Ok(())),
-            (&["a", "b", "x", "d"], Err(2)),
-            (&["a", "b"], Err(1)),
-            (&["b", "…"], Err(0)),
-            (&["a", "…", "x", "…"], Err(2)),
-            (&["…", "c"], Err(1)),
-        ] {
-            assert_eq!(agrees(shown, &printed), expected, "{shown:?}");
-        }
-    }
 
     #[test]
     fn tests_and_comments_are_no_code() {
@@ -430,16 +299,10 @@ mod tests {
     }
 
     #[test]
-    fn the_code_map_is_complete_and_true() {
-        let map = "# Map\n## crates/x\n- `a.rs`: one, after `b/`\n- `c.rs`: gone\n";
-        let sources = ["lib", "a", "b/mod", "b/d"].map(|f| format!("crates/x/src/{f}.rs"));
-        let mut files: Vec<(&str, &str)> = sources.iter().map(|f| (f.as_str(), "")).collect();
-        files.push(("ARCHITECTURE.md", map));
-        let expected = [
-            "ARCHITECTURE.md:4: `c.rs` does not exist",
-            "ARCHITECTURE.md:1: `crates/x/src/b/d.rs` is not named",
-        ];
-        assert_eq!(check(architecture, &files), expected);
+    fn a_file_says_what_it_is() {
+        let files =
+            [("crates/x/src/a.rs", "//! What.\n"), ("crates/x/src/b.rs", "use c;\n"), ("x/src/c.rs", "")];
+        assert_eq!(check(headers, &files), ["crates/x/src/b.rs:1: no `//!` line says what it is"]);
     }
 
     #[test]
@@ -465,6 +328,5 @@ mod tests {
         assert!(contains("x.unwrap()", ".unwrap()"));
         assert!(grouped("use std::{fmt, fs};", "std::fs"));
         assert!(!grouped("use std::{fmt, ops};", "std::fs"));
-        assert_eq!(words_of(" fk -q '1, 2' ur5"), ["fk", "-q", "1, 2", "ur5"]);
     }
 }
