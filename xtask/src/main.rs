@@ -11,7 +11,7 @@ mod tidy;
 mod web;
 
 use anyhow::{Context, Result, bail};
-use denavit::{Description, catalogue, description};
+use denavit::{Description, catalogue};
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};

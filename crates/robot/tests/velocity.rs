@@ -14,7 +14,7 @@ use denavit::velocity::{
 };
 use denavit::{Robot, catalogue};
 use denavit_program::Program;
-use denavit_symbolic::{Expr, Symbol};
+use denavit_symbolic::Expr;
 use serde_json::Value;
 
 /// The robots of the five documents.
