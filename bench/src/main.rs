@@ -29,7 +29,7 @@ mod report;
 
 use anyhow::{Context, Result};
 use denavit::forward::{Reference, frames_program, pose_program};
-use denavit::{Description, Robot, catalogue, description};
+use denavit::{Description, Robot, catalogue};
 use denavit_jit::MachineCode;
 use denavit_program::{Arithmetic, Block, Function, Isa, Program, Real};
 use measure::{COUNT, Entry};

@@ -101,7 +101,7 @@ fn curves_are_interrupted_where_there_is_no_value() {
     let across = Label::words("t / s");
     let [one, two] = [&lines[..], &lines[..1]]
         .map(|curves| Panel { label: Label::words("q / rad"), curves: curves.to_vec() });
-    let drawing = curves("Joints", &across, &[one.clone()], &[]);
+    let drawing = curves("Joints", &across, std::slice::from_ref(&one), &[]);
     check_on_page(&drawing);
     // The line and its sample in the legend; two pieces and the sample.
     assert_eq!([0, 1].map(|k| lines_in(&drawing, Ink::Series(k))), [2, 3]);
