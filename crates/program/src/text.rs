@@ -103,7 +103,7 @@ impl Program {
         if !reader.errors.is_empty() {
             return Err(reader.errors);
         }
-        // Symbols stay for the life of the thread, so that they are made only for a text that is right.
+        // Symbols stay as long as their store, so that they are made only for a text that is right.
         let symbols = |names: &[String]| names.iter().map(|n| Symbol::new(n)).collect();
         let [variables, parameters] = [symbols(&reader.variables), symbols(&reader.parameters)];
         let ops = reader.ops.into_iter().map(|line| match line {

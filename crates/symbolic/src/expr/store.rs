@@ -126,7 +126,7 @@ mod tests {
     #[test]
     fn the_outer_store_comes_back_after_a_panic() {
         let sum = Expr::symbol("a") + Expr::symbol("b");
-        let result = std::panic::catch_unwind(|| scoped(|| -> () { panic!("{}", Expr::symbol("c")) }));
+        let result = std::panic::catch_unwind(|| scoped(|| -> u8 { panic!("{}", Expr::symbol("c")) }));
         assert!(result.is_err());
         assert_eq!(sum.to_string(), "a + b");
     }
