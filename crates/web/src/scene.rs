@@ -2,7 +2,7 @@
 
 use crate::refusal::Refusal;
 use crate::session::Subject;
-use denavit::description::{Convention, JointKind, Row};
+use denavit::description::{JointKind, Row};
 use denavit::geometry::{Axis, Transform, Vector};
 use denavit::velocity::{Viewpoint, geometric, measures};
 use denavit_report::figure::Arm;
@@ -156,11 +156,10 @@ fn cells(subject: &Subject, own: &Row, valued: &Row) -> Vec<Cell> {
         [cell("gamma", Axis::Z, true, own.gamma, valued.gamma), cell("b", Axis::Z, false, own.b, valued.b)];
     let has_branch = !own.gamma.is_zero() || !own.b.is_zero();
     let [alpha, a] = about_x;
-    match convention {
-        Convention::Standard => about_z.into_iter().chain([a, alpha]).collect(),
-        Convention::Craig | Convention::Khalil => {
-            let before = branch.into_iter().filter(|_| has_branch);
-            before.chain([alpha, a]).chain(about_z).collect()
-        }
+    if convention.begins_with_joint() {
+        about_z.into_iter().chain([a, alpha]).collect()
+    } else {
+        let before = branch.into_iter().filter(|_| has_branch);
+        before.chain([alpha, a]).chain(about_z).collect()
     }
 }

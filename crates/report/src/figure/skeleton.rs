@@ -166,7 +166,7 @@ impl Chain {
         for (i, (row, part)) in self.rows.iter().zip(&self.robot.links).enumerate() {
             let before = frame * part.before;
             let [b_label, x_label, z_label] = &self.lengths[i];
-            if self.convention != Convention::Standard {
+            if !self.convention.begins_with_joint() {
                 // Tz(b) stands before Tx.
                 let b = part.before.translation.dot(Vector([0.0, 0.0, 1.0]));
                 let corner = match row.b.is_zero() || row.alpha.is_zero() && row.a.is_zero() {
@@ -193,13 +193,13 @@ impl Chain {
                     foot: before.translation,
                     axis,
                     travel,
-                    frame: if self.convention == Convention::Standard { i } else { i + 1 },
+                    frame: if self.convention.begins_with_joint() { i } else { i + 1 },
                     label: own.map(|o| o.1).unwrap_or_default(),
                 });
             } else {
                 link.push(end);
             }
-            if self.convention == Convention::Standard {
+            if self.convention.begins_with_joint() {
                 self.measure(&mut lengths, end, behind.translation, x_label, false);
                 link.push(behind.translation);
             }
