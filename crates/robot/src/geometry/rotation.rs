@@ -182,8 +182,8 @@ impl<T> Index<(usize, usize)> for Rotation<T> {
 impl<T: Scalar> Mul for Rotation<T> {
     type Output = Self;
     fn mul(self, r_bc: Self) -> Self {
-        let columns = Axis::ALL.map(|a| r_bc.column(a));
-        Rotation(self.0.map(|row| columns.map(|column| Vector(row).dot(column))))
+        let [x, y, z] = r_bc.0;
+        Rotation(self.0.map(|[a, b, c]| [0, 1, 2].map(|j| a * x[j] + b * y[j] + c * z[j])))
     }
 }
 

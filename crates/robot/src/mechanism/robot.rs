@@ -2,7 +2,7 @@
 //!
 //! `x_ij` is frame j seen from frame i; frame i is rigidly attached behind row i of the table, frame 0 before row 1.
 
-use super::walk::Reference;
+use super::walk::{Line, Reference};
 pub use crate::description::MissingValue;
 use crate::description::{Convention, Description, Row, Screw};
 use crate::geometry::{Rotation, Transform, Vector};
@@ -23,7 +23,7 @@ pub struct Robot<T> {
     pub joints: usize,
 }
 
-/// A row: constant, Rz(θ)·Tz(d), constant.
+/// A row: constant, Rz(θ)·Tz(d), constant. Made by [`Link::new`], and not changed in place.
 #[derive(Clone, Debug)]
 pub struct Link<T> {
     /// What stands before the joint's screw.
@@ -34,6 +34,8 @@ pub struct Link<T> {
     pub d: Affine<T>,
     /// What stands behind it.
     pub after: Transform<T>,
+    /// Whether `before` and `after` do nothing: one of them does, in every convention.
+    is_bare: [bool; 2],
 }
 
 /// `offset + quarters·π/2 + Σ kᵢ·q[i]`; the quarter turns are kept apart because their sines are exact.
@@ -84,6 +86,12 @@ impl Affine<f64> {
 }
 
 impl<T: Scalar> Link<T> {
+    /// The row of these parts.
+    pub fn new(before: Transform<T>, theta: Affine<T>, d: Affine<T>, after: Transform<T>) -> Self {
+        let is_bare = [before, after].map(|x| x == Transform::identity());
+        Link { before, theta, d, after, is_bare }
+    }
+
     /// True if a joint turns it.
     pub fn turns(&self) -> bool {
         !self.theta.terms.is_empty()
@@ -102,12 +110,26 @@ impl<T: Scalar> Link<T> {
     /// Frame i in frame i−1 at a configuration.
     pub fn transform(&self, q: &[T]) -> Transform<T> {
         let (sin_cos, d) = (self.theta.sin_cos(q), self.d.value(q));
-        let one = Transform::identity();
-        if self.before == one {
+        let [is_first, is_last] = self.is_bare;
+        if is_first {
             return screw_times(sin_cos, d, &self.after);
         }
         let x = times_screw(&self.before, sin_cos, d);
-        if self.after == one { x } else { x * self.after }
+        if is_last { x } else { x * self.after }
+    }
+
+    /// For a place of the frame before the row: the row's axis, the z in which its screw stands, and the frame behind it.
+    pub fn step(&self, frame: &Transform<T>, q: &[T]) -> (Line<T>, Transform<T>) {
+        (self.axis(frame), *frame * self.transform(q))
+    }
+
+    /// The row's axis, for a place of the frame before the row.
+    pub fn axis(&self, frame: &Transform<T>) -> Line<T> {
+        if self.is_bare[0] {
+            return Line::z_of(frame);
+        }
+        let direction = frame.rotation * self.before.rotation.z();
+        Line { direction, point: frame.act_on_point(self.before.translation) }
     }
 }
 
@@ -192,7 +214,7 @@ impl Robot<f64> {
                 .filter_map(|&(j, k)| Some((left.iter().position(|&l| l == j)?, k)))
                 .collect(),
         };
-        let links = self.links.iter().map(|l| Link { theta: affine(&l.theta), d: affine(&l.d), ..l.clone() });
+        let links = self.links.iter().map(|l| Link::new(l.before, affine(&l.theta), affine(&l.d), l.after));
         Robot { base: self.base, links: links.collect(), tool: self.tool, joints: left.len() }
     }
 
@@ -228,11 +250,9 @@ impl Robot<f64> {
         let links = links
             .into_iter()
             .zip(&symbolic.links)
-            .map(|((before, after), link)| Link {
-                before,
-                theta: affine(&link.theta, &mut number),
-                d: affine(&link.d, &mut number),
-                after,
+            .map(|((before, after), link)| {
+                let (theta, d) = (affine(&link.theta, &mut number), affine(&link.d, &mut number));
+                Link::new(before, theta, d, after)
             })
             .collect();
         if missing.is_empty() {
@@ -248,12 +268,9 @@ fn link(convention: Convention, row: &Row, variables: &[Symbol]) -> Link<Expr> {
     let product = |screws: &[Screw]| {
         screws.iter().map(Screw::transform).reduce(|x, y| x * y).unwrap_or_else(Transform::identity)
     };
-    Link {
-        before: product(&screws.before),
-        theta: affine(screws.joint.angle, variables, true),
-        d: affine(screws.joint.length, variables, false),
-        after: product(&screws.behind),
-    }
+    let (theta, d) =
+        (affine(screws.joint.angle, variables, true), affine(screws.joint.length, variables, false));
+    Link::new(product(&screws.before), theta, d, product(&screws.behind))
 }
 
 fn affine(e: Expr, variables: &[Symbol], is_angle: bool) -> Affine<Expr> {

@@ -77,12 +77,6 @@ impl<T: Scalar> Link<T> {
         let turns = self.theta.terms.iter().map(of(JointKind::Revolute));
         turns.chain(self.d.terms.iter().map(of(JointKind::Prismatic)))
     }
-
-    /// The row's axis, for a place of the frame before the row.
-    pub fn axis(&self, frame: &Transform<T>) -> Line<T> {
-        let direction = frame.rotation * self.before.rotation.z();
-        Line { direction, point: frame.act_on_point(self.before.translation) }
-    }
 }
 
 /// Row by row the axis and the frame behind, from the frame before the first row on; nothing is kept.
@@ -92,9 +86,9 @@ pub fn along<T: Scalar>(
     start: Transform<T>,
 ) -> impl Iterator<Item = (Line<T>, Transform<T>)> {
     links.iter().scan(start, move |frame, link| {
-        let axis = link.axis(frame);
-        *frame = *frame * link.transform(q);
-        Some((axis, *frame))
+        let (axis, behind) = link.step(frame, q);
+        *frame = behind;
+        Some((axis, behind))
     })
 }
 
