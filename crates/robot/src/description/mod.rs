@@ -17,7 +17,7 @@ mod units;
 mod value;
 
 pub use cell::MAX_LENGTH as MAX_CELL_BYTES;
-pub use convert::{Conversion, SameChain, prove_same_chain};
+pub use convert::{Conversion, Moved, SameChain, prove_same_chain};
 pub use diagnostic::{Diagnostic, Diagnostics, Severity, line_column, render};
 pub use robot_file::{MAX_BYTES, MAX_ROWS, read_toml, write_toml};
 pub use table::{TableKind, TableOptions, read_table};
