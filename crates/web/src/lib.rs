@@ -21,7 +21,7 @@ mod solve;
 mod values;
 mod velocity;
 
-use denavit_report::words::{Language, Wording};
+use denavit_report::words::{English, Wording};
 use refusal::Refusal;
 use robot_file::RobotFile;
 use serde::Deserialize;
@@ -33,9 +33,9 @@ thread_local! {
     static SESSION: RefCell<Session> = RefCell::new(Session::default());
 }
 
-/// The words of the page.
-fn words() -> &'static dyn Wording {
-    Language::English.words()
+/// The words of the page; called directly, each stands in the part of the engine that says it.
+fn words() -> impl Wording {
+    English
 }
 
 /// What can be asked.

@@ -13,6 +13,8 @@ mod report;
 mod terms;
 mod velocity;
 
+pub use english::English;
+pub use french::French;
 pub use geometry::Geometry;
 pub use inverse::{Coefficients, Given, Inverse};
 pub use motion::Motion;
@@ -42,8 +44,8 @@ impl Language {
     /// What is said in this language.
     pub fn words(self) -> &'static dyn Wording {
         match self {
-            Language::English => &english::English,
-            Language::French => &french::French,
+            Language::English => &English,
+            Language::French => &French,
         }
     }
 }

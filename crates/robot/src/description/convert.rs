@@ -13,8 +13,21 @@ use denavit_symbolic::{Angle, Expr, Refusal, Ring, Verdict, equal};
 pub struct Conversion {
     /// The same robot.
     pub description: Description,
-    /// What moved into the base, the tool or neighbouring rows, in words.
-    pub note: String,
+    /// What moved into the base, the tool or neighbouring rows.
+    pub moved: Vec<Moved>,
+}
+
+/// What a conversion moved, because the other convention has no place for it. Rows are counted from 0.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Moved {
+    /// γ and b of the first row into the base.
+    BranchToBase,
+    /// γ and b of the next row into this one.
+    BranchToRow(usize),
+    /// The turn about x and the length along it of the first row into the base.
+    FirstToBase,
+    /// Those of the last row into the tool.
+    LastToTool,
 }
 
 /// Whether two descriptions are the same function from joint variables to the pose of the tool.
@@ -57,26 +70,22 @@ impl Description {
     /// Where the frame of a link moves, its centre of mass and inertia are expressed in the new one.
     pub fn converted(&self, to: Convention) -> Conversion {
         let mut d = self.clone();
-        let mut notes = vec![];
+        let mut moved = vec![];
         let from = self.convention;
         d.convention = to;
         if from == Convention::Khalil && to != Convention::Khalil {
-            d.fold_branches(&mut notes);
+            d.fold_branches(&mut moved);
         }
         match (from == Convention::Standard, to == Convention::Standard) {
-            (false, true) => d.shift_to_standard(&mut notes),
-            (true, false) => d.shift_from_standard(&mut notes),
+            (false, true) => d.shift_to_standard(&mut moved),
+            (true, false) => d.shift_from_standard(&mut moved),
             _ => {}
         }
-        let note = match notes.as_slice() {
-            [] => "base and tool are unchanged".to_string(),
-            notes => notes.join("; "),
-        };
-        Conversion { description: d, note }
+        Conversion { description: d, moved }
     }
 
     /// Rz(γ)·Tz(b) before a row goes to the Z of the row before, or to the base.
-    fn fold_branches(&mut self, notes: &mut Vec<String>) {
+    fn fold_branches(&mut self, moved: &mut Vec<Moved>) {
         for i in 0..self.rows.len() {
             let branch = z_screw(self.rows[i].gamma, self.rows[i].b);
             if branch.is_identity() {
@@ -85,23 +94,23 @@ impl Description {
             (self.rows[i].gamma, self.rows[i].b) = (Expr::int(0), Expr::int(0));
             if i == 0 {
                 self.base = self.base * branch.transform();
-                notes.push("γ1 and b1 are part of the base".into());
+                moved.push(Moved::BranchToBase);
             } else {
                 let before = &mut self.rows[i - 1];
                 before.theta = plus(before.theta, branch.angle);
                 before.d = plus(before.d, branch.length);
                 move_frame(before, &branch.transform().inverse());
-                notes.push(format!("γ{} and b{} are part of row {i}", i + 1, i + 1));
+                moved.push(Moved::BranchToRow(i - 1));
             }
         }
     }
 
     /// X₁Z₁ X₂Z₂ … XₙZₙ = X₁ · Z₁X₂ · Z₂X₃ … Zₙ
-    fn shift_to_standard(&mut self, notes: &mut Vec<String>) {
+    fn shift_to_standard(&mut self, moved: &mut Vec<Moved>) {
         let screws: Vec<Screw> = self.rows.iter().map(|r| x_screw(r.alpha, r.a)).collect();
         if let Some(first) = screws.first().filter(|s| !s.is_identity()) {
             self.base = self.base * first.transform();
-            notes.push("α and length x of the first row are part of the base".into());
+            moved.push(Moved::FirstToBase);
         }
         let behind = screws.into_iter().skip(1).chain([x_screw(Expr::int(0), Expr::int(0))]);
         for (row, x) in self.rows.iter_mut().zip(behind) {
@@ -111,7 +120,7 @@ impl Description {
     }
 
     /// Z₁X₁ Z₂X₂ … ZₙXₙ = Z₁ · X₁Z₂ · X₂Z₃ … · Xₙ
-    fn shift_from_standard(&mut self, notes: &mut Vec<String>) {
+    fn shift_from_standard(&mut self, moved: &mut Vec<Moved>) {
         let mut x = x_screw(Expr::int(0), Expr::int(0));
         for row in &mut self.rows {
             let own = x_screw(row.alpha, row.a);
@@ -121,7 +130,7 @@ impl Description {
         }
         if !x.is_identity() {
             self.tool = x.transform() * self.tool;
-            notes.push("α and length x of the last row are part of the tool".into());
+            moved.push(Moved::LastToTool);
         }
     }
 

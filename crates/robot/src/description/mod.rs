@@ -19,7 +19,7 @@ mod units;
 mod value;
 
 pub use cell::MAX_LENGTH as MAX_CELL_BYTES;
-pub use convert::{Conversion, SameChain, prove_same_chain};
+pub use convert::{Conversion, Moved, SameChain, prove_same_chain};
 pub use diagnostic::{Diagnostic, Diagnostics, Severity, line_column, render};
 pub use order::{Cell, Screw, Screws};
 pub use parameters::MissingValue;

@@ -1,7 +1,7 @@
 //! Names for what occurs again: X = C1px + S1py.
 
 use super::reading::{Reading, Short, negated};
-use denavit::inverse::derivation::Kind;
+use denavit::inverse::derivation::{Kind, Norm};
 use denavit_symbolic::Expr;
 use denavit_symbolic::poly::Poly;
 use std::cell::RefCell;
@@ -86,7 +86,7 @@ impl Names {
     }
 
     /// As [`Names::expr`], for a sum with squares.
-    pub fn norm(&self, reading: &Reading, n: &denavit::inverse::derivation::Norm, rank: usize) -> Expr {
+    pub fn norm(&self, reading: &Reading, n: &Norm, rank: usize) -> Expr {
         let short: Short = &|p| self.of(p, rank);
         reading.norm(n, short)
     }

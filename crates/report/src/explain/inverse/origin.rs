@@ -4,9 +4,8 @@ use super::explained::Component;
 use super::reading::{Reading, negated};
 use crate::document::Factor;
 use denavit::description::Convention;
-use denavit::inverse::derivation::Kind;
-use denavit::inverse::derivation::{Chain, Element, Motion};
-use denavit::inverse::derivation::{Entry, Source, Split};
+use denavit::geometry::Rotation;
+use denavit::inverse::derivation::{Chain, Element, Entry, Kind, Motion, Source, Split};
 use denavit_symbolic::poly::Poly;
 use denavit_symbolic::{Expr, Rational};
 use std::ops::Range;
@@ -327,9 +326,7 @@ pub fn elementary(r: &[[Expr; 3]; 3]) -> Option<Vec<Factor>> {
     for a in quarters {
         for b in quarters {
             for c in quarters {
-                let product = denavit::geometry::Rotation::about_z(a)
-                    * denavit::geometry::Rotation::about_x(b)
-                    * denavit::geometry::Rotation::about_z(c);
+                let product = Rotation::about_z(a) * Rotation::about_x(b) * Rotation::about_z(c);
                 if product.rows() == *r {
                     let all = [('z', a), ('x', b), ('z', c)];
                     return Some(

@@ -1,10 +1,8 @@
 //! Polynomials of a derivation as formulas that a person would write.
 
-use denavit::inverse::derivation::Kind;
-use denavit::inverse::derivation::{Chain, Difference, Motion};
-use denavit::inverse::derivation::{Known, Unknown, axis_unknown};
-use denavit::inverse::derivation::{Norm, Step};
-use denavit::inverse::derivation::{outermost, split};
+use denavit::inverse::derivation::{
+    Chain, Difference, Kind, Known, Motion, Norm, Step, Unknown, axis_unknown, index, outermost, split,
+};
 use denavit_symbolic::poly::{Atom, Monomial, Poly};
 use denavit_symbolic::{Expr, Rational};
 use std::collections::VecDeque;
@@ -306,7 +304,7 @@ impl<'a> Reading<'a> {
         if value.as_symbol().is_some() {
             return (value, None);
         }
-        let index = denavit::inverse::derivation::index(self.chain, x);
+        let index = index(self.chain, x);
         let is_sum = value.symbols().len() > 1
             && self.chain.axes.iter().all(|a| match (a.motion, x) {
                 (Motion::Turn { group, node, reversed }, Unknown::Angle(d)) => {

@@ -7,7 +7,7 @@ use super::prove::{Prover, identity};
 use super::reading::{Reading, negated};
 use crate::document::{Math, Proof, Sign};
 use denavit::inverse::Label;
-use denavit::inverse::derivation::{Determinant, Elimination, Form, Norm, Origin, Row, Step};
+use denavit::inverse::derivation::{Determinant, Elimination, Form, Norm, Origin, Row, Samples, Step};
 use denavit_symbolic::poly::{Monomial, Poly};
 use denavit_symbolic::{Expr, Rational};
 
@@ -472,8 +472,7 @@ impl Context<'_> {
         let exact = algebra.times(&r1.a, &r2.b).minus(&algebra.times(&r2.a, &r1.b));
         let general = determinant == Determinant::General;
         if !general {
-            let value =
-                denavit::inverse::derivation::Samples::new(self.reading.chain, |_| None).values(&exact)[0];
+            let value = Samples::new(self.reading.chain, |_| None).values(&exact)[0];
             if value < 0.0 {
                 (x, y, delta) = (b1 * c2 - b2 * c1, a2 * c1 - a1 * c2, a2 * b1 - a1 * b2);
             }
