@@ -5,6 +5,7 @@ mod counts;
 mod documents;
 mod errata;
 mod languages;
+mod runner;
 mod soak;
 mod steps;
 mod test;
