@@ -1,7 +1,7 @@
 //! Reports of robots as other programs read them: LaTeX, Typst and a browser.
 
 use crate::languages::{apt, python, quietly};
-use crate::{command, path, program, robots, starts, succeed};
+use crate::{command, path, program, robots, runner, starts, succeed};
 use anyhow::{Context, Result, bail};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -68,7 +68,7 @@ fn overfull(line: &str) -> f64 {
 fn typst(folder: &Path) -> Result<()> {
     let python = python(&["typst", "pillow"])?;
     fs::create_dir_all(folder)?;
-    crate::test::reports(folder)?;
+    runner::reports(folder)?;
     let missing: Vec<String> =
         robots()?.into_iter().filter(|r| !folder.join(format!("{r}.typ")).exists()).collect();
     if !missing.is_empty() {

