@@ -109,7 +109,7 @@ impl Arm {
     /// plane for an arm that stays in one; with fewer joints √det(Jᵀ J). Slides count by the arm's size.
     pub fn measure(&self) -> f64 {
         let columns = || {
-            let all = self.walk.velocities().zip(&self.weights);
+            let all = self.walk.columns.iter().zip(&self.weights);
             all.filter(|c| *c.1 > 0.0).map(|(c, w)| c.scale(w.sqrt()))
         };
         if self.movers < self.dimension {
@@ -153,8 +153,8 @@ impl Arm {
             }
             if is_fresh {
                 let gradient = self.section.rows(self.walk.point);
-                for (row, c) in self.rows.iter_mut().zip(self.walk.velocities()) {
-                    *row = [gradient[0].dot(c), gradient[1].dot(c)];
+                for (row, c) in self.rows.iter_mut().zip(&self.walk.columns) {
+                    *row = [gradient[0].dot(*c), gradient[1].dot(*c)];
                 }
             }
             self.damped_step(q, error, damping);
@@ -243,7 +243,7 @@ impl Arm {
         for _ in 0..PROBES {
             sequence.next(&self.ranges, &mut q);
             self.walk.to(&q);
-            let columns = self.walk.velocities().zip(&self.weights).map(|(c, w)| c.scale(w.sqrt()));
+            let columns = self.walk.columns.iter().zip(&self.weights).map(|(c, w)| c.scale(w.sqrt()));
             velocities.push(columns.collect());
         }
         let is_still = |j: usize| velocities.iter().all(|v| v[j].norm() <= STILL * self.length);
@@ -270,7 +270,7 @@ impl Arm {
             self.section = Section::Plane { directions: across(normal) };
             self.shoulder = movers.iter().copied().find(|&j| is_angle[j]).and_then(|j| {
                 // Slides before it carry the shoulder along.
-                (movers.first() == Some(&j)).then(|| self.walk.row_of(j).map(|r| self.walk.axis(r).point))?
+                (movers.first() == Some(&j)).then(|| self.walk.row_of(j).map(|r| self.walk.axes[r].point))?
             });
             return Ok(());
         }
@@ -301,19 +301,19 @@ impl Arm {
                 turning = Some((k, j, row));
                 break;
             }
-            slides.push((j, self.walk.axis(row).direction));
+            slides.push((j, self.walk.axes[row].direction));
         }
         let Some((k, joint, row)) = turning else { return false };
         let ways: Vec<Vector<f64>> = slides.iter().map(|s| s.1).collect();
         if span(&ways, 1e-7).len() > 2 {
             return false;
         }
-        let Line { direction, point: on } = self.walk.axis(row);
+        let Line { direction, point: on } = self.walk.axes[row];
         let direction = upwards(direction);
         let point = on - direction.scale(on.dot(direction));
         self.section = Section::ThroughAxis { joint, point, direction };
         let second = movers.get(k + 1).and_then(|&j| self.walk.row_of(j).filter(|_| is_angle[j]));
-        self.shoulder = second.and_then(|r| foot(self.walk.axis(row), self.walk.axis(r)));
+        self.shoulder = second.and_then(|r| foot(self.walk.axes[row], self.walk.axes[r]));
         let middle = self.middle();
         let across: Vec<usize> =
             slides.iter().filter(|s| s.1.cross(direction).norm() > 1e-7).map(|s| s.0).collect();

@@ -110,8 +110,8 @@ pub(super) fn climb(arm: &mut Arm, objective: Objective, q: &mut Vec<f64>) -> f6
 fn gradient_at(arm: &mut Arm, objective: Objective, q: &[f64], unit: &[f64], gradient: &mut [f64]) -> f64 {
     arm.walk.to(q);
     let (value, by_point) = objective.value(&arm.section, arm.walk.point);
-    for ((g, c), u) in gradient.iter_mut().zip(arm.walk.velocities()).zip(unit) {
-        *g = by_point.dot(c) * u;
+    for ((g, c), u) in gradient.iter_mut().zip(&arm.walk.columns).zip(unit) {
+        *g = by_point.dot(*c) * u;
     }
     value
 }
