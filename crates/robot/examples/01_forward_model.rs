@@ -44,7 +44,7 @@ fn main() {
     println!("y = {}", print(matrix[1][3], &names, Style::Unicode));
     assert_eq!(print(matrix[0][3], &names, Style::Latex), "a_{1} C_{1} + a_{2} C_{12}");
 
-    println!("{}; {}", model.algorithm.count(), model.proof);
+    println!("{}; {:?}", model.algorithm.count(), model.proof);
     assert_eq!(model.proof, Proof::Proved);
 
     // The same chain over numbers.

@@ -437,7 +437,7 @@ fn singularities_have_names() {
         (
             "cylindrical-wrist",
             "(a3 + a4 + a5 + q3)*sin(q5)",
-            &[Place::CentreOnAxis { wrist: wrist(), axis: 1 }, Place::OneLine(3, 5)],
+            vec![Place::CentreOnAxis { wrist: wrist(), axis: 1 }, Place::OneLine(3, 5)],
         ),
     ];
     for (name, determinant, places) in expected {

@@ -297,7 +297,7 @@ impl<'a> Matrices<'a> {
         }
         let mut free: Vec<usize> = front.iter().chain(&of).copied().collect();
         free.sort_unstable();
-        (!free.is_empty()).then(|| Component { along: front, of, is_point: cut.column == 3, free })
+        (!free.is_empty()).then_some(Component { along: front, of, is_point: cut.column == 3, free })
     }
 }
 
