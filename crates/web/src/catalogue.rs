@@ -3,11 +3,13 @@
 use crate::refusal::Refusal;
 use crate::robot_file::RobotFile;
 use crate::session::{Subject, finding};
+use crate::words;
 use denavit::catalogue;
 use denavit::description::{
     Convention, Description, Diagnostic, JointKind, TableKind, TableOptions, line_column, prove_same_chain,
     read_table, read_toml, write_toml,
 };
+use denavit_report::words::Geometry as _;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -120,7 +122,7 @@ pub fn convert(subject: &Subject, to: &str) -> Result<Value, Refusal> {
     let conversion = subject.description.converted(convention(to)?);
     let proved = prove_same_chain(&subject.description, &conversion.description).is_equal();
     let mut value = opened(&conversion.description, vec![]);
-    value["words"] = conversion.note.into();
+    value["words"] = words().moved(&conversion.moved).into();
     value["proved"] = proved.into();
     Ok(value)
 }

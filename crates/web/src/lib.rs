@@ -21,7 +21,7 @@ mod solve;
 mod values;
 mod velocity;
 
-use denavit_report::words::{English, Wording};
+use denavit_report::words::English;
 use refusal::Refusal;
 use robot_file::RobotFile;
 use serde::Deserialize;
@@ -34,7 +34,7 @@ thread_local! {
 }
 
 /// The words of the page; called directly, each stands in the part of the engine that says it.
-fn words() -> impl Wording {
+fn words() -> English {
     English
 }
 

@@ -5,6 +5,7 @@ use crate::words;
 use denavit::Robot;
 use denavit::description::{JointKind, Measure};
 use denavit::structure::Structure;
+use denavit_report::words::Geometry as _;
 use denavit_symbolic::Expr;
 use serde_json::{Value, json};
 use std::f64::consts::PI;

@@ -10,6 +10,7 @@ use denavit::motion::follow::{Event, EventKind};
 use denavit::motion::hand::{Arc, Chain, HandPath, Line, Orientation};
 use denavit::motion::plan::{Course, KnownLimits, PlanOptions, Planned, Verdict, Wish as Stretch};
 use denavit::velocity::{Viewpoint, Whole, geometric};
+use denavit_report::words::{Motion as _, Terms as _};
 use serde::Deserialize;
 use serde_json::{Value, json};
 

@@ -6,6 +6,7 @@ use crate::session::Subject;
 use crate::words;
 use denavit::geometry::Transform;
 use denavit::inverse::{Answer, Family, JointSpace, Members, Nearest, Obstacle, Solution};
+use denavit_report::words::Inverse as _;
 use serde::Deserialize;
 use serde_json::{Value, json};
 

@@ -8,6 +8,7 @@ use crate::words;
 use denavit::forward::Reference;
 use denavit::velocity::{ROWS, Singularities, Viewpoint, geometric, singular_configuration};
 use denavit_report::document::Math;
+use denavit_report::words::Velocity as _;
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::{Style, print};
 use serde_json::{Value, json};

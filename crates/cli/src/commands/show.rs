@@ -28,7 +28,7 @@ pub fn run(arguments: &ShowArguments) -> Result<(), Failure> {
     let mut description = load::robot(&arguments.robot)?;
     if let Some(to) = arguments.to {
         let conversion = description.converted(to.into());
-        writeln!(anstream::stderr(), "note: {}", conversion.note)?;
+        writeln!(anstream::stderr(), "note: {}", words().moved(&conversion.moved))?;
         description = conversion.description;
     }
     let mut out = anstream::stdout();

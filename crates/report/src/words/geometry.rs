@@ -1,9 +1,10 @@
-//! What is said of axes.
+//! What is said of axes and tables.
 
+use denavit::description::Moved;
 use denavit::idealise::Measured;
 use denavit::structure::{NearlySpecial, Relation};
 
-/// What is said of axes.
+/// What is said of axes and tables.
 pub trait Geometry {
     /// How two axes lie; behind them.
     fn relation(&self, relation: Relation) -> String;
@@ -13,4 +14,7 @@ pub trait Geometry {
 
     /// What is measured between two axes.
     fn measured(&self, what: Measured) -> String;
+
+    /// What a conversion to another convention moved.
+    fn moved(&self, all: &[Moved]) -> String;
 }

@@ -1,7 +1,7 @@
 //! Documents in two languages: of the same structure, with the same formulas, each in its own words.
 
 use denavit::catalogue;
-use denavit::description::{Description, read_toml};
+use denavit::description::{Description, Moved, read_toml};
 use denavit::forward::{Proof, Reference};
 use denavit::idealise::Measured;
 use denavit::inverse::{
@@ -492,6 +492,12 @@ fn motions_and_axes() {
         both(&|w| w.nearly(&near));
     }
     both(&|w| w.measured(Measured::Normal));
+    for moved in [Moved::BranchToBase, Moved::BranchToRow(0), Moved::FirstToBase, Moved::LastToTool] {
+        both(&|w| w.moved(&[moved, moved]));
+    }
+    both(&|w| w.moved(&[]));
+    let branch = Language::English.words().moved(&[Moved::BranchToRow(0)]);
+    assert_eq!(branch, "γ2 and b2 are part of row 1");
 }
 
 #[test]

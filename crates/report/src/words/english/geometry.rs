@@ -1,7 +1,8 @@
-//! Axes.
+//! Axes and tables.
 
 use super::English;
 use crate::words::Geometry;
+use denavit::description::Moved;
 use denavit::idealise::Measured;
 use denavit::structure::{NearlySpecial, Relation};
 
@@ -34,5 +35,18 @@ impl Geometry for English {
             Measured::Turn => "angle θ",
         }
         .into()
+    }
+
+    fn moved(&self, all: &[Moved]) -> String {
+        if all.is_empty() {
+            return "base and tool are unchanged".into();
+        }
+        let one = |moved: &Moved| match moved {
+            Moved::BranchToBase => "γ1 and b1 are part of the base".into(),
+            Moved::BranchToRow(row) => format!("γ{0} and b{0} are part of row {1}", row + 2, row + 1),
+            Moved::FirstToBase => "α and length x of the first row are part of the base".into(),
+            Moved::LastToTool => "α and length x of the last row are part of the tool".into(),
+        };
+        all.iter().map(one).collect::<Vec<String>>().join("; ")
     }
 }

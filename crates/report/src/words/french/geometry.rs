@@ -1,7 +1,8 @@
-//! Axes.
+//! Axes and tables.
 
 use super::{French, printed};
 use crate::words::Geometry;
+use denavit::description::Moved;
 use denavit::idealise::Measured;
 use denavit::structure::{NearlySpecial, Relation, Special};
 
@@ -39,5 +40,23 @@ impl Geometry for French {
             Measured::Offset => "décalage d",
             Measured::Turn => "angle θ",
         })
+    }
+
+    fn moved(&self, all: &[Moved]) -> String {
+        if all.is_empty() {
+            return say!("la base et l'outil sont inchangés");
+        }
+        let one = |moved: &Moved| match moved {
+            Moved::BranchToBase => "γ1 et b1 passent dans la base".into(),
+            Moved::BranchToRow(row) => format!("γ{0} et b{0} passent dans la ligne {1}", row + 2, row + 1),
+            Moved::FirstToBase => {
+                "α et la longueur suivant x de la première ligne passent dans la base".into()
+            }
+            Moved::LastToTool => {
+                say!("α et la longueur suivant x de la dernière ligne passent dans l'outil")
+            }
+        };
+        let all = all.iter().map(one).collect::<Vec<String>>().join(" ; ");
+        printed(&all)
     }
 }
