@@ -64,23 +64,16 @@ pub fn run(seconds: u32, wanted: &[&str]) -> Result<()> {
 /// ones, a million for each arm by elimination, singular poses by thousands; hours.
 fn inverse() -> Result<()> {
     println!("\n━━ {INVERSE} ━━");
-    let closed = [
-        "-p",
-        "denavit",
-        "--test",
-        "inverse",
-        "--test",
-        "singular",
-        "--test",
-        "redundant",
-        "--test",
-        "numeric",
+    let soaks: [(&str, &[&str]); 3] = [
+        ("denavit", &["inverse::", "singular::", "redundant::", "numeric::"]),
+        // Ten thousand derivations, each in a store of its own.
+        ("denavit", &["scope::", "--include-ignored"]),
+        ("denavit-elimination", &[]),
     ];
-    let tests: [&[&str]; 2] = [&closed, &["-p", "denavit-elimination"]];
-    for test in tests {
+    for (package, tests) in soaks {
         let mut cargo = command("cargo");
-        cargo.args(["test", "--release", "--no-fail-fast"]).args(test).args(["--", "--nocapture"]);
-        succeed(cargo.env("DENAVIT_SOAK", "1"))?;
+        cargo.args(["test", "--release", "--no-fail-fast", "-p", package, "--test", "suite", "--"]);
+        succeed(cargo.args(tests).arg("--nocapture").env("DENAVIT_SOAK", "1"))?;
     }
     Ok(())
 }
@@ -122,5 +115,6 @@ pub fn miri() -> Result<()> {
         succeed(&mut command)
     };
     rustup(&["component", "add", "--toolchain", "nightly", "miri", "rust-src"])?;
-    rustup(&["run", "nightly", "cargo", "miri", "test", "-p", "denavit-program", "--test", "conformance"])
+    let suite = ["-p", "denavit-program", "--test", "suite", "conformance::"];
+    rustup(&[&["run", "nightly", "cargo", "miri", "test"], &suite[..]].concat())
 }

@@ -3,6 +3,7 @@
 use super::matrix::Matrix;
 use super::names::{Name, Token, tokens};
 use super::subject::{Subject, elementary};
+use denavit::geometry::orientation::OrientationSet;
 use denavit_reading::document::formula;
 use denavit_symbolic::parse::{ParseError, Syntax, parse_syntax};
 use denavit_symbolic::readable::literals;
@@ -279,4 +280,16 @@ pub(super) fn read(text: &str, span: &Range<usize>, names: &Vocabulary) -> Resul
     let moved = |r: &Range<usize>| r.start + span.start..r.end + span.start;
     parse_syntax(&source, names)
         .map_err(|errors| errors.into_iter().map(|e| ParseError { span: moved(&e.span), ..e }).collect())
+}
+
+/// The set of angles that words name: `ZYZ`, `RPY`, `roll-pitch-yaw`.
+pub(super) fn set_in(words: &str) -> Option<OrientationSet> {
+    let upper = words.to_uppercase();
+    let is_word = |w: &&str| (w.len() == 3) && w.chars().all(|c| matches!(c, 'X' | 'Y' | 'Z'));
+    let sequence = upper.split(|c: char| !c.is_alphanumeric()).find(is_word);
+    if let Some(sequence) = sequence {
+        return sequence.to_lowercase().parse().ok();
+    }
+    let is_rpy = upper.split(|c: char| !c.is_alphanumeric()).any(|w| w == "RPY") || upper.contains("ROLL");
+    is_rpy.then_some(OrientationSet::Rpy)
 }

@@ -1,10 +1,10 @@
 //! Which robot each part of a document is about: tables and directives in their order.
 
 use super::Options;
+use super::lexis::set_in;
 use super::lexis::{Columns, Lexis};
 use super::programs;
 use super::subject::Subject;
-use super::values::set_in;
 use super::walk::{Assertion, Defined, Walk};
 use denavit::catalogue;
 use denavit::description::table::{PrintedTable, tables};

@@ -9,7 +9,6 @@ use super::outcome::{Claim, Counterexample, Entry, Finding, Wrong};
 use super::plan::{Plan, Walked};
 use super::subject::Subject;
 use super::walk::{Assertion, Spoken};
-use denavit::geometry::orientation::OrientationSet;
 use denavit::inverse::Goal;
 use denavit_symbolic::factor::Zero;
 use denavit_symbolic::parse::Syntax;
@@ -396,16 +395,4 @@ fn entry_names(formula: &str, columns: Columns) -> String {
         }
     }
     out.replace('`', "")
-}
-
-/// The set of angles that words name: `ZYZ`, `RPY`, `roll-pitch-yaw`.
-pub(super) fn set_in(words: &str) -> Option<OrientationSet> {
-    let upper = words.to_uppercase();
-    let is_word = |w: &&str| (w.len() == 3) && w.chars().all(|c| matches!(c, 'X' | 'Y' | 'Z'));
-    let sequence = upper.split(|c: char| !c.is_alphanumeric()).find(is_word);
-    if let Some(sequence) = sequence {
-        return sequence.to_lowercase().parse().ok();
-    }
-    let is_rpy = upper.split(|c: char| !c.is_alphanumeric()).any(|w| w == "RPY") || upper.contains("ROLL");
-    is_rpy.then_some(OrientationSet::Rpy)
 }

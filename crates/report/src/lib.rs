@@ -8,10 +8,12 @@ mod cell;
 mod derivation;
 pub mod document;
 pub mod explain;
+mod explained;
 pub mod figure;
 pub mod json;
 pub mod render;
 mod sections;
+mod tree;
 pub mod words;
 
 pub use cell::{cell, decimals};

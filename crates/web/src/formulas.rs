@@ -6,10 +6,12 @@ use crate::values::Definitions;
 use denavit::description::Description;
 use denavit::forward::Reference;
 use denavit::velocity::JacobianModel;
-use denavit_report::document::{Block, Line, Math};
+use denavit_emit::{Language as Code, expression};
+use denavit_report::document::{Block, Line, Math, Sign, math};
 use denavit_report::explain::{jacobian_document, velocity_vocabulary};
 use denavit_report::words::Language;
 use denavit_report::{Document, Options, Part, Section, Topic, render, report};
+use denavit_symbolic::print::Style;
 use denavit_symbolic::vocabulary::Vocabulary;
 use serde_json::{Value, json};
 
@@ -23,7 +25,7 @@ pub fn formulas(subject: &mut Subject, topic: &str, q: &[f64]) -> Result<Value, 
     let definitions = Definitions::of(&subject.description, &document);
     let value = json!({
         "topic": topic,
-        "blocks": render::json_parts(&document),
+        "blocks": render::json_parts(&document, sources),
         "joints": definitions.joints(),
     });
     subject.formulas.retain(|(known, _)| known != topic);
@@ -74,5 +76,37 @@ fn jacobian(description: &Description) -> Document {
 
 /// A formula in every notation.
 pub fn formula(m: &Math, names: &Vocabulary) -> Value {
-    render::json_formula(m, names)
+    render::json_formula(m, names, sources)
+}
+
+/// What somebody may want to copy.
+fn sources(m: &Math, names: &Vocabulary) -> Vec<(&'static str, String)> {
+    vec![("python", code(m, names, Code::Python)), ("c", code(m, names, Code::C))]
+}
+
+/// An assignment in a programming language; what no language has is given as plain text behind a sign of comment.
+fn code(m: &Math, names: &Vocabulary, language: Code) -> String {
+    let spelled = |e: &_| expression(*e, language);
+    let end = if language == Code::C { ";" } else { "" };
+    let [open, close] = if language == Code::C { ["{", "}"] } else { ["[", "]"] };
+    match m {
+        Math::Expr(e) => spelled(e),
+        Math::Chain(left, rest)
+            if left.as_symbol().is_some() && rest[..].iter().all(|r| r.0 == Sign::Equal) =>
+        {
+            let right = rest.last().map(|r| spelled(&r.1)).unwrap_or_default();
+            format!("{} = {right}{end}", spelled(left))
+        }
+        Math::Matrix(_, all) => {
+            let row = |row: &Vec<_>| {
+                format!("{open}{}{close}", row.iter().map(spelled).collect::<Vec<_>>().join(", "))
+            };
+            format!("{open}{}{close}", all.iter().map(row).collect::<Vec<_>>().join(",\n "))
+        }
+        Math::Determinant(_, e) => format!("det = {}{end}", spelled(e)),
+        other => {
+            let comment = if language == Code::C { "//" } else { "#" };
+            format!("{comment} {}", math(other, names, Style::Ascii))
+        }
+    }
 }

@@ -1,8 +1,8 @@
 //! Equations between scalars: entries, definitions, identities, values of joints and angles.
 
 use super::{Assertion, Defined, Pair, Piece, Reference, Scalar, Spoken, Walk};
+use crate::lexis::set_in;
 use crate::names::Name;
-use crate::values::set_in;
 use denavit::description::read_value;
 use denavit::geometry::orientation::OrientationSet;
 use denavit_reading::document::Statement;

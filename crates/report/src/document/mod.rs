@@ -2,16 +2,13 @@
 //!
 //! [`text`] is such a tree for a terminal, [`math()`] a formula in any style, [`laid`] one in lines that fit a page.
 
-mod lines;
-mod math;
 mod text;
-mod tree;
 
-pub use denavit_symbolic::print::BrokenLine;
-pub use lines::{Laid, aligned, laid, matrix_width};
-pub use math::math;
+pub use crate::tree::{
+    Block, Branch, BrokenLine, Factor, Laid, Line, Math, Piece, Proof, Sign, aligned, laid, math,
+    matrix_width,
+};
 pub use text::{Mark, plain, text};
-pub use tree::{Block, Branch, Factor, Line, Math, Piece, Proof, Sign};
 
 use crate::figure::drawing::Drawing;
 use crate::words::{Language, Wording};

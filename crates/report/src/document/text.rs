@@ -1,7 +1,6 @@
 //! A document as text of bounded width.
 
-use super::math::math;
-use super::tree::{Block, Branch, Factor, Line, Math, Piece, Proof};
+use crate::tree::{Block, Branch, Factor, Line, Math, Piece, Proof, math};
 use crate::words::{Language, Wording};
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::Style;

@@ -1,23 +1,26 @@
 //! The tree for a program that shows it: parts as JSON, each formula in every notation that somebody may want to copy.
 //!
-//! A formula is `{"mathml", "text", "latex", "typst", "python", "c", "wide"}` and, where it defines a name, `"name"`. Words are
+//! A formula is `{"mathml", "text", "latex", "typst", "wide"}` with its source code by language and, where it defines a name,
+//! `"name"`. Words are
 //! HTML: text with `math` elements and `strong`.
 
 use super::html::{escaped, lines, rows, spoken, words};
 use super::layout::{display, equation, is_wide, named};
-use crate::document::{Block, Branch, Math, Proof, Sign, math};
+use crate::document::{Block, Branch, Math, Proof, math};
 use crate::document::{Document, Part, Section};
 use crate::figure::svg::{Palette, svg};
-use denavit_emit::{Language, expression};
 use denavit_symbolic::print::Style;
 use denavit_symbolic::vocabulary::Vocabulary;
 use serde_json::{Value, json};
 
+/// A formula as source code: languages and texts.
+pub type Sources = fn(&Math, &Vocabulary) -> Vec<(&'static str, String)>;
+
 /// The parts of a document, in order, as one list.
-pub fn parts(document: &Document) -> Value {
+pub fn parts(document: &Document, sources: Sources) -> Value {
     let mut out = vec![];
     for section in &document.sections {
-        section_parts(section, &mut out);
+        section_parts(section, sources, &mut out);
     }
     out.into()
 }
@@ -50,14 +53,14 @@ fn formulas_of(block: &Block, names: &Vocabulary, out: &mut Vec<(Math, Vocabular
     }
 }
 
-fn section_parts(section: &Section, out: &mut Vec<Value>) {
+fn section_parts(section: &Section, sources: Sources, out: &mut Vec<Value>) {
     let names = &section.names;
     for part in &section.parts {
         match part {
-            Part::Block(block) => self::block(block, names, out),
-            Part::Equations(all) => out.push(equations(all, names)),
+            Part::Block(block) => self::block(block, names, sources, out),
+            Part::Equations(all) => out.push(equations(all, names, sources)),
             Part::Beside(all) => {
-                let all: Vec<Value> = all.iter().map(|m| formula(m, names)).collect();
+                let all: Vec<Value> = all.iter().map(|m| formula(m, names, sources)).collect();
                 out.push(json!({ "kind": "beside", "formulas": all }));
             }
             Part::Summary(rows) => {
@@ -89,10 +92,10 @@ fn section_parts(section: &Section, out: &mut Vec<Value>) {
     }
 }
 
-fn block(block: &Block, names: &Vocabulary, out: &mut Vec<Value>) {
+fn block(block: &Block, names: &Vocabulary, sources: Sources, out: &mut Vec<Value>) {
     if let Some(named) = named(block, names) {
-        self::block(&named.matrix, &named.names, out);
-        out.push(equations(&named.entries, &named.names));
+        self::block(&named.matrix, &named.names, sources, out);
+        out.push(equations(&named.entries, &named.names, sources));
         return;
     }
     out.push(match block {
@@ -101,7 +104,7 @@ fn block(block: &Block, names: &Vocabulary, out: &mut Vec<Value>) {
         }
         Block::Paragraph(line) => json!({ "kind": "paragraph", "html": words(line, names) }),
         Block::Formula { math, number, proof } => {
-            let mut value = json!({ "kind": "formula", "formula": formula(math, names) });
+            let mut value = json!({ "kind": "formula", "formula": formula(math, names, sources) });
             if let Some(number) = number {
                 value["number"] = (*number).into();
             }
@@ -129,20 +132,20 @@ fn tree(branch: &Branch, names: &Vocabulary) -> Value {
 }
 
 /// Equations below each other, aligned at their signs.
-fn equations(all: &[Math], names: &Vocabulary) -> Value {
+fn equations(all: &[Math], names: &Vocabulary, sources: Sources) -> Value {
     let each = all.iter().map(|m| {
         let set = format!("<mtable class=\"lines\">{}</mtable>", rows(&equation(m, names, Style::MathMl)));
-        noted(m, names, &set)
+        noted(m, names, sources, &set)
     });
     json!({ "kind": "equations", "formulas": each.collect::<Vec<_>>() })
 }
 
 /// A formula in every notation.
-pub fn formula(m: &Math, names: &Vocabulary) -> Value {
-    noted(m, names, &lines(&display(m, names, Style::MathMl)))
+pub fn formula(m: &Math, names: &Vocabulary, sources: Sources) -> Value {
+    noted(m, names, sources, &lines(&display(m, names, Style::MathMl)))
 }
 
-fn noted(m: &Math, names: &Vocabulary, set: &str) -> Value {
+fn noted(m: &Math, names: &Vocabulary, sources: Sources, set: &str) -> Value {
     let text = spoken(m, names);
     let mathml =
         format!("<math display=\"block\" displaystyle=\"true\" alttext=\"{}\">{set}</math>", escaped(&text));
@@ -150,42 +153,16 @@ fn noted(m: &Math, names: &Vocabulary, set: &str) -> Value {
         "mathml": mathml,
         "latex": math(m, names, Style::Latex),
         "typst": math(m, names, Style::Typst),
-        "python": code(m, names, Language::Python),
-        "c": code(m, names, Language::C),
         "wide": is_wide(m, names),
         "text": text,
     });
+    for (language, text) in sources(m, names) {
+        value[language] = text.into();
+    }
     if let Math::Chain(left, _) = m
         && let Some(name) = left.as_symbol()
     {
         value["name"] = (*name.name()).into();
     }
     value
-}
-
-/// An assignment in a programming language; what no language has is given as plain text behind a sign of comment.
-fn code(m: &Math, names: &Vocabulary, language: Language) -> String {
-    let spelled = |e: &_| expression(*e, language);
-    let end = if language == Language::C { ";" } else { "" };
-    let [open, close] = if language == Language::C { ["{", "}"] } else { ["[", "]"] };
-    match m {
-        Math::Expr(e) => spelled(e),
-        Math::Chain(left, rest)
-            if left.as_symbol().is_some() && rest[..].iter().all(|r| r.0 == Sign::Equal) =>
-        {
-            let right = rest.last().map(|r| spelled(&r.1)).unwrap_or_default();
-            format!("{} = {right}{end}", spelled(left))
-        }
-        Math::Matrix(_, all) => {
-            let row = |row: &Vec<_>| {
-                format!("{open}{}{close}", row.iter().map(spelled).collect::<Vec<_>>().join(", "))
-            };
-            format!("{open}{}{close}", all.iter().map(row).collect::<Vec<_>>().join(",\n "))
-        }
-        Math::Determinant(_, e) => format!("det = {}{end}", spelled(e)),
-        other => {
-            let comment = if language == Language::C { "//" } else { "#" };
-            format!("{comment} {}", math(other, names, Style::Ascii))
-        }
-    }
 }

@@ -9,7 +9,7 @@ mod nested;
 mod typst;
 
 pub use html::{page as html, page_with as html_with};
-pub use json::{formula as json_formula, formulas, parts as json_parts};
+pub use json::{Sources, formula as json_formula, formulas, parts as json_parts};
 pub use latex::{fragment as latex_fragment, whole as latex};
 pub use layout::too_long;
 pub use markdown::{Markdown, whole as markdown};

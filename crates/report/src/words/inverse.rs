@@ -1,7 +1,7 @@
 //! What is said of inverse kinematics: its derivation step by step, and why there is none.
 
-use crate::document::{Line, Math, Proof};
-use crate::explain::{Case, Component, Consequence, Kind, Remark, Source};
+use crate::explained::{Case, Component, Consequence, Kind, Remark, Source};
+use crate::tree::{Line, Math, Proof};
 use denavit::inverse::derivation::{Elimination, NotGiven};
 use denavit::inverse::{Doubt, Goal, Label, Obstacle, Refusal, Stuck, Task, Unsuitable};
 use denavit_symbolic::Expr;

@@ -1,6 +1,6 @@
 //! What is said in the sections of a report.
 
-use crate::document::{Line, Math};
+use crate::tree::{Line, Math};
 use denavit::description::Convention;
 use denavit::forward::Proof;
 use denavit::inverse::Refusal;

@@ -1,6 +1,6 @@
 //! Terms that several documents share: lists, frames, operation counts, proofs, branches.
 
-use crate::document::Proof;
+use crate::tree::Proof;
 use denavit::forward::{Proof as ForwardProof, Reference};
 use denavit::inverse::{Branch, Label, Part};
 use denavit_program::Count;

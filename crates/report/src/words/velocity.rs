@@ -1,6 +1,6 @@
 //! What is said of Jacobians and singularities.
 
-use crate::document::{Line, Math};
+use crate::tree::{Line, Math};
 use denavit::forward::{Proof, Reference};
 use denavit::velocity::{Obstacle, Place};
 use denavit_program::Count;

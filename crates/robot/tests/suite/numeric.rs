@@ -374,7 +374,7 @@ fn searches_can_be_stopped() {
     assert!(solver.solve(&pose, None).is_solved());
 }
 
-/// Prints figures: `cargo test --release -p denavit --test numeric -- --ignored --nocapture speed`.
+/// Prints figures: `cargo test --release -p denavit --test suite numeric -- --ignored --nocapture speed`.
 #[test]
 #[ignore = "measures"]
 fn speed() {

@@ -463,7 +463,7 @@ fn arms_without_closed_form_are_served_by_curves() {
     }
 }
 
-/// Mean times in microseconds: `cargo test --release --test redundant -- --ignored --nocapture`.
+/// Mean times in microseconds: `cargo test --release -p denavit --test suite redundant -- --ignored --nocapture`.
 #[test]
 #[ignore = "prints times"]
 fn times() {

@@ -2,7 +2,6 @@
 //!
 //! An [`Explanation`] holds what is to be said, step by step; [`Explanation::document`] says it in a language.
 
-mod explained;
 mod names;
 mod origin;
 mod prove;
@@ -10,7 +9,7 @@ mod reading;
 mod step;
 mod written;
 
-pub use explained::{Bound, Case, Component, Consequence, Explained, Kind, Remark, Source, Statement};
+pub use crate::explained::{Bound, Case, Component, Consequence, Explained, Kind, Remark, Source, Statement};
 
 use crate::document::{Block, Branch, Factor, Math, Proof};
 use crate::words::Language;

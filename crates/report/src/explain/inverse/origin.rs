@@ -1,8 +1,8 @@
 //! Where an equation comes from: which matrices are moved, and which element of the two sides it is.
 
-use super::explained::Component;
 use super::reading::{Reading, negated};
 use crate::document::Factor;
+use crate::explained::Component;
 use denavit::description::Convention;
 use denavit::geometry::Rotation;
 use denavit::inverse::derivation::{Chain, Element, Entry, Kind, Motion, Source, Split};

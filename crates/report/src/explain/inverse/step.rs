@@ -1,11 +1,11 @@
 //! One step: from where its equation comes, of which type it is, its solution, what can go wrong.
 
-use super::explained::{Bound, Case, Consequence, Explained, Kind, Remark, Source, Statement};
 use super::names::Names;
 use super::origin::Matrices;
 use super::prove::{Prover, identity};
 use super::reading::{Reading, negated};
 use crate::document::{Math, Proof, Sign};
+use crate::explained::{Bound, Case, Consequence, Explained, Kind, Remark, Source, Statement};
 use denavit::inverse::Label;
 use denavit::inverse::derivation::{Determinant, Elimination, Form, Norm, Origin, Row, Samples, Step};
 use denavit_symbolic::poly::{Monomial, Poly};

@@ -1,8 +1,8 @@
 //! An explanation as a document.
 
 use super::Explanation;
-use super::explained::{Explained, Statement};
 use crate::document::{Block, Branch, Factor, Line, Math};
+use crate::explained::{Explained, Statement};
 use crate::words::{Coefficients, Given, Wording};
 use denavit_symbolic::readable::literals;
 use denavit_symbolic::{Expr, Symbol};

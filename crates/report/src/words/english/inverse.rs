@@ -1,8 +1,8 @@
 //! Inverse kinematics.
 
 use super::{English, counted};
-use crate::document::{Line, Math, Proof};
-use crate::explain::{Bound, Case, Component, Consequence, Kind, Remark, Source};
+use crate::explained::{Bound, Case, Component, Consequence, Kind, Remark, Source};
+use crate::tree::{Line, Math, Proof};
 use crate::words::{Coefficients, Given, Inverse, Terms};
 use denavit::inverse::derivation::{Elimination, NotGiven};
 use denavit::inverse::{Doubt, Goal, Label, Obstacle, Stuck, Task, Unsuitable};

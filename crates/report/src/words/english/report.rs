@@ -1,7 +1,7 @@
 //! The sections of a report.
 
 use super::{English, counted};
-use crate::document::Line;
+use crate::tree::Line;
 use crate::words::report::{Caption, Column, Factors, Glance, Heading, List, Names, Report, Standings};
 use crate::words::{Inverse, Terms};
 use denavit::description::{Convention, JointKind};

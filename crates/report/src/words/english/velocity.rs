@@ -1,7 +1,7 @@
 //! Jacobians and singularities.
 
 use super::English;
-use crate::document::{Line, Math};
+use crate::tree::{Line, Math};
 use crate::words::{Gain, Loss, Terms, Velocity};
 use denavit::forward::{Proof, Reference};
 use denavit::velocity::{Obstacle, Place};

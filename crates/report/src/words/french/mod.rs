@@ -16,7 +16,7 @@ mod report;
 mod terms;
 mod velocity;
 
-use crate::document::{Line, Piece};
+use crate::tree::{Line, Piece};
 
 /// French.
 pub struct French;

@@ -1,7 +1,7 @@
 //! Terms that several documents share.
 
 use super::{French, counted};
-use crate::document::Proof;
+use crate::tree::Proof;
 use crate::words::Terms;
 use denavit::forward::{Proof as ForwardProof, Reference};
 use denavit::inverse::Part;

@@ -1,7 +1,7 @@
 //! Jacobians and singularities.
 
 use super::{French, printed};
-use crate::document::{Line, Math};
+use crate::tree::{Line, Math};
 use crate::words::{Gain, Loss, Terms, Velocity};
 use denavit::forward::{Proof, Reference};
 use denavit::velocity::{MAX_JOINTS, Obstacle, Place};

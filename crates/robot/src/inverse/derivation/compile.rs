@@ -1,15 +1,17 @@
 //! The steps of a derivation as a solver.
 
-use super::algebra::{Algebra, Kind};
+use super::algebra::Kind;
 use super::chain::{Chain, Difference, Element, Motion};
 use super::equations::{Goal, Split};
 use super::known::Unknown;
+use super::naming::{names, unique};
 use super::plan::{Determinant, Form, Norm, Row, Step};
+use super::terms::{outermost, split, square_root};
 use crate::geometry::{Rotation, Transform, Vector};
 use crate::inverse::branch::Label;
 use denavit_program::solver::{Draft, Output, Root, Solver, SolverBuilder};
 use denavit_program::{Op, Stage, Value};
-use denavit_symbolic::poly::{Atom, Monomial, Poly};
+use denavit_symbolic::poly::{Atom, Poly};
 use denavit_symbolic::{Expr, Rational, Symbol};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::VecDeque;
@@ -138,59 +140,6 @@ fn compile_with(
     };
     let outputs: Vec<Output> = (0..chain.variables.len()).map(|j| builder.output(j, given)).collect();
     Compiled { solver: builder.solver.finish(&outputs, residual, size), inputs }
-}
-
-fn unique(mut name: String, taken: &mut FxHashSet<String>) -> String {
-    while !taken.insert(name.clone()) {
-        name.push('_');
-    }
-    name
-}
-
-/// Names of the results of each step: c23, s23, k23; r3.
-fn names(chain: &Chain, steps: &[Step], inputs: &Inputs) -> Vec<Vec<Symbol>> {
-    let mut taken: FxHashSet<String> = chain
-        .variables
-        .iter()
-        .chain(&chain.parameters)
-        .chain(&chain.pose)
-        .chain(inputs.symbols().iter())
-        .map(|s| s.name().to_string())
-        .collect();
-    let mut name = |prefix: &str, index: &str| Symbol::new(&unique(format!("{prefix}{index}"), &mut taken));
-    steps
-        .iter()
-        .map(|step| {
-            let index = index(chain, step.unknown);
-            let mut found = match step.unknown {
-                Unknown::Angle(_) => vec![name("c", &index), name("s", &index)],
-                Unknown::Slide(_) => vec![name("r", &index)],
-            };
-            if step.cost.roots > 1 {
-                found.push(name("k", &index));
-            }
-            found
-        })
-        .collect()
-}
-
-/// The numbers of the axes whose angles add up to an unknown: 234.
-pub fn index(chain: &Chain, x: Unknown) -> String {
-    match x {
-        Unknown::Slide(k) => (k + 1).to_string(),
-        Unknown::Angle(d) => {
-            let numbers: Vec<String> = (0..chain.axes.len())
-                .filter(|&k| match chain.axes[k].motion {
-                    Motion::Turn { group, node, .. } => {
-                        group == d.group && (d.from + 1..=d.to).contains(&node)
-                    }
-                    Motion::Slide => false,
-                })
-                .map(|k| (k + 1).to_string())
-                .collect();
-            numbers.join(if chain.axes.len() > 9 { "_" } else { "" })
-        }
-    }
 }
 
 struct Builder<'a> {
@@ -621,60 +570,4 @@ impl Builder<'_> {
         };
         Output { name, value, is_angle: true }
     }
-}
-
-/// The atom that became known last, of those the first.
-pub fn outermost(p: &Poly, rank: impl Fn(Atom) -> usize) -> Option<Atom> {
-    p.atoms().into_iter().max_by_key(|&a| (rank(a), std::cmp::Reverse(a)))
-}
-
-/// p = atom·inside + rest.
-pub fn split(p: &Poly, atom: Atom) -> (Poly, Poly) {
-    let (mut inside, mut rest) = (vec![], vec![]);
-    for (m, r) in p.terms() {
-        match m.exponent(atom) {
-            0 => rest.push((m.clone(), r.clone())),
-            n => {
-                let lower = m.without(atom).times(&Monomial::power(atom, n - 1));
-                inside.push((lower, r.clone()));
-            }
-        }
-    }
-    (Poly::from_terms(inside), Poly::from_terms(rest))
-}
-
-/// The polynomial whose square this is, if there is one.
-fn square_root(a: &Algebra, p: &Poly) -> Option<Poly> {
-    let leading = |p: &Poly| p.terms().iter().max_by(|x, y| lexical(&x.0, &y.0)).cloned();
-    if p.is_zero() {
-        return Some(Poly::zero());
-    }
-    let (m, r) = leading(p)?;
-    if m.factors().iter().any(|f| f.1 % 2 == 1) {
-        return None;
-    }
-    let half = m.factors().iter().fold(Monomial::one(), |h, f| h.times(&Monomial::power(f.0, f.1 / 2)));
-    let first = (half, r.sqrt()?);
-    let mut root = Poly::term(first.0.clone(), first.1.clone());
-    for _ in 0..40 {
-        let rest = p.minus(&a.square(&root));
-        let Some((m, r)) = leading(&rest) else { return Some(root) };
-        if first.0.factors().iter().any(|f| m.exponent(f.0) < f.1) {
-            return None;
-        }
-        let next = Poly::term(m.over(&first.0), &r / &(&first.1 * &Rational::from(2)));
-        root = root.plus(&next);
-    }
-    None
-}
-
-/// Lexical order: the larger power of the first atom in which they differ.
-fn lexical(x: &Monomial, y: &Monomial) -> std::cmp::Ordering {
-    let mut atoms: Vec<Atom> = x.factors().iter().chain(y.factors()).map(|f| f.0).collect();
-    atoms.sort_unstable();
-    atoms
-        .iter()
-        .map(|&a| x.exponent(a).cmp(&y.exponent(a)))
-        .find(|o| o.is_ne())
-        .unwrap_or(std::cmp::Ordering::Equal)
 }

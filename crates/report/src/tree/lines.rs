@@ -1,7 +1,7 @@
 //! Formulas in lines that fit a page.
 
 use super::math::{Writer, with_indexed};
-use super::tree::{Factor, Math, Sign};
+use super::{Factor, Math, Sign};
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::{BrokenLine, Style, broken, width};
 use denavit_symbolic::vocabulary::Vocabulary;

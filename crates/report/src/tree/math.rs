@@ -1,6 +1,6 @@
 //! A formula of a document in any style.
 
-use super::tree::{Factor, Math, Sign};
+use super::{Factor, Math, Sign};
 use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Expr, Symbol};

@@ -5,6 +5,8 @@
 //! which the derived inverse model gives. Corrections are held in the same way, and their values proved to solve
 //! equations that are proved. `docs/errata-remarks.md` tells it in words.
 
+mod procedures;
+
 use crate::common::printed::{formulas, list, read, string, strings, text, values};
 use denavit::catalogue;
 use denavit::description::Description;
@@ -13,6 +15,7 @@ use denavit::inverse::{Goal, InverseModel, InverseSolver, Options};
 use denavit::robot::Robot;
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Expr, Rational, Symbol, Verdict, equal};
+use procedures::{check_procedures, run, steps};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::{PI, TAU};
 use toml::{Table, Value};
@@ -454,88 +457,6 @@ fn check(file: &Table) -> Vec<(String, usize)> {
     counts.into_iter().collect()
 }
 
-/// One branch of a procedure: the joint variables found so far, and the sums that must stay.
-#[derive(Clone)]
-struct Branch {
-    q: Vec<f64>,
-    sums: Vec<(Expr, f64)>,
-}
-
-/// All combinations of the values of the steps.
-fn run(model: &Model, steps: &[(Vec<Expr>, Vec<Vec<Expr>>)], pose: &Transform<f64>) -> Vec<Vec<f64>> {
-    let mut branches = vec![Branch { q: vec![0.0; model.variables.len()], sums: vec![] }];
-    for (of, values) in steps {
-        let next = branches.iter().flat_map(|branch| values.iter().map(move |value| (branch, value)));
-        branches = next
-            .filter_map(|(branch, value)| {
-                let found = model.values(value, &branch.q, pose);
-                if !found.iter().all(|x| x.is_finite()) {
-                    return None;
-                }
-                let mut branch = branch.clone();
-                for (&of, x) in of.iter().zip(found) {
-                    branch.sums.push((of, x));
-                    // The last variable of each sum makes up for what has changed in the others.
-                    for &(sum, x) in branch.sums.iter().rev() {
-                        let last = model.last(sum);
-                        branch.q[last] += x - model.value(sum, &branch.q, pose);
-                    }
-                }
-                Some(branch)
-            })
-            .collect();
-    }
-    branches.into_iter().map(|b| b.q).collect()
-}
-
-/// The steps of a procedure: as printed, or what is under the first of `keys` that a claim has.
-fn steps(
-    file: &Table,
-    procedure: &Table,
-    names: &Vocabulary,
-    keys: &[&str],
-) -> Vec<(Vec<Expr>, Vec<Vec<Expr>>)> {
-    let formulas_of = |id: &String| {
-        let all = list(file, "claims").into_iter().chain(list(file, "omitted"));
-        let claim = all.into_iter().find(|c| string(c, "id") == id).expect("a claim");
-        let right = keys.iter().find_map(|key| claim.get(*key).and_then(Value::as_table));
-        (formulas(claim, "of", names), values(right.unwrap_or(claim), names))
-    };
-    strings(procedure, "steps").iter().map(formulas_of).collect()
-}
-
-/// The corrected formulas, one after the other, give the solutions of the derived inverse model, and no others.
-fn check_procedures(file: &Table, change: Option<&str>) {
-    let keys: &[&str] = if change.is_some() { &["hypothesis_right", "right"] } else { &["right"] };
-    let mut models = Models::new(file, change);
-    for procedure in list(file, "procedures") {
-        let model = models.of(procedure);
-        let steps = steps(file, procedure, &model.names, keys);
-        let length = procedure.get("length").map(|l| read(text(l), &model.names));
-        let integer = |key: &str| procedure.get(key).and_then(Value::as_integer).map(|n| n as usize);
-        let mut most = 0;
-        let mut random = Random(13);
-        for _ in 0..POSES {
-            let q = model.random(&mut random);
-            let pose = model.robot.pose(&q);
-            let ours = run(model, &steps, &pose);
-            let derived = model.solver.solve(&pose, &[]);
-            assert_eq!(ours.len(), derived.solutions.len(), "{q:?}");
-            for solution in &derived.solutions {
-                assert!(ours.iter().any(|o| near(o, &solution.q)), "{:?} in {ours:?}", solution.q);
-            }
-            assert!(ours.iter().any(|o| near(o, &q)));
-            most = most.max(ours.len());
-            if let Some(length) = length {
-                let positive = ours.iter().filter(|o| model.value(length, o, &pose) > 0.0).count();
-                assert_eq!(Some(positive), integer("positive"));
-            }
-        }
-        assert_eq!(Some(most), integer("most"));
-        assert_eq!(Some(model.inverse.max_solutions()), integer("most"));
-    }
-}
-
 fn source(text: &str) -> Table {
     text.parse().expect("TOML")
 }
@@ -546,14 +467,14 @@ fn counts(of: &[(&str, usize)]) -> Vec<(String, usize)> {
 
 #[test]
 fn ur3() {
-    let file = source(include_str!("../sources/ur3_inverse.toml"));
+    let file = source(include_str!("../../sources/ur3_inverse.toml"));
     assert_eq!(check(&file), counts(&[("conditional", 2), ("right", 8), ("unreadable", 2), ("wrong", 14)]));
     check_procedures(&file, None);
 }
 
 #[test]
 fn cylindrical() {
-    let file = source(include_str!("../sources/cylindrical_inverse.toml"));
+    let file = source(include_str!("../../sources/cylindrical_inverse.toml"));
     assert_eq!(check(&file), counts(&[("conditional", 1), ("right", 4), ("wrong", 2)]));
     check_procedures(&file, None);
 }
@@ -561,7 +482,7 @@ fn cylindrical() {
 /// With α5 = −90°, as in the report's products, other formulas are right.
 #[test]
 fn ur3_with_the_likely_table() {
-    let file = source(include_str!("../sources/ur3_inverse.toml"));
+    let file = source(include_str!("../../sources/ur3_inverse.toml"));
     let change = string(file["hypothesis"].as_table().expect("a hypothesis"), "change").to_string();
     let mut models = Models::new(&file, Some(&change));
     let mut found_counts = BTreeMap::new();
@@ -586,7 +507,7 @@ fn ur3_with_the_likely_table() {
 /// The report's formulas together, all signs tried, never put the hand where it should be, with either table.
 #[test]
 fn ur3_as_printed_finds_nothing() {
-    let file = source(include_str!("../sources/ur3_inverse.toml"));
+    let file = source(include_str!("../../sources/ur3_inverse.toml"));
     let change = string(file["hypothesis"].as_table().expect("a hypothesis"), "change").to_string();
     for change in [None, Some(&change[..])] {
         let mut models = Models::new(&file, change);
@@ -615,8 +536,8 @@ fn ur3_as_printed_finds_nothing() {
 /// What the documents do not mention: poses at which their formulas divide by 0, where the arm can move by itself.
 #[test]
 fn degenerate_poses_have_families() {
-    let ur3 = source(include_str!("../sources/ur3_inverse.toml"));
-    let cylindrical = source(include_str!("../sources/cylindrical_inverse.toml"));
+    let ur3 = source(include_str!("../../sources/ur3_inverse.toml"));
+    let cylindrical = source(include_str!("../../sources/cylindrical_inverse.toml"));
     let reach = |m: &Model| -["a3", "a4", "a5"].iter().map(|a| m.parameters[&Symbol::new(a)]).sum::<f64>();
     type Case<'a> = (&'a Table, &'a str, usize, fn(f64) -> f64, bool);
     let cases: [Case<'_>; 8] = [

@@ -1,6 +1,6 @@
 //! What is said of a step.
 
-use crate::document::{Factor, Math, Proof};
+use crate::tree::{Factor, Math, Proof};
 use denavit::inverse::Label;
 use denavit::inverse::derivation::Elimination;
 use denavit_symbolic::Expr;

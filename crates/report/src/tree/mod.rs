@@ -1,5 +1,12 @@
 //! What documents are made of: headings, paragraphs, formulas, lists, a tree of branches; no notation.
 
+mod lines;
+mod math;
+
+pub use denavit_symbolic::print::BrokenLine;
+pub use lines::{Laid, aligned, laid, matrix_width};
+pub use math::math;
+
 use denavit_symbolic::Expr;
 
 /// A part of a document.
