@@ -40,8 +40,11 @@ fn c_finds_all_solutions() {
 fn rust_finds_all_solutions_alone_and_in_blocks() {
     let folder = folder("solver-rust");
     let members: Vec<String> = (0..samples().len()).map(|k| format!("sample-{k}")).collect();
-    for (sample, member) in samples().iter().zip(&members) {
-        write(&sample.library(), Language::Rust, &folder.join(member));
+    for (k, (sample, member)) in samples().iter().zip(&members).enumerate() {
+        let mut library = sample.library();
+        // In a workspace no two packages have one name.
+        library.name += &format!(" {k}");
+        write(&library, Language::Rust, &folder.join(member));
     }
     check_rust(&folder, &members);
 }
