@@ -1,17 +1,44 @@
-//! Robot manipulators, exactly: from a Denavit–Hartenberg table to formulas that are proved.
+//! Robot manipulators, exactly: from a Denavit–Hartenberg table to formulas that are proved and programs that compute them.
 //!
-//! - [`description`]: what somebody wrote down, made precise: tables, robot files, their errors.
-//! - [`geometry`]: homogeneous transforms and orientations, usable on their own.
-//! - [`space`]: the joint variables: angles and lengths, limits, copies whole turns away.
-//! - [`mechanism`]: the chain to compute with, over numbers or formulas; its moving axes; walks along it.
-//! - [`structure`]: parallel and meeting axes, spherical wrists.
-//! - [`idealise`]: the special arm beside a nearly special one.
-//! - [`inverse`]: inverse kinematics of any arm: closed forms with their derivation, elimination, redundancy, descent.
-//! - [`catalogue`]: robots that people own or study.
-//! - [`forward`]: link transforms, the simplified forward model, the shortest algorithm for it.
+//! ```
+//! use denavit::forward::{ForwardModel, Outputs, Proof, Reference};
+//! use denavit::inverse::{InverseKinematics, Options};
+//! use denavit::{Robot, catalogue};
+//!
+//! // A table, as somebody wrote it down.
+//! let description = catalogue::robot("ur5").expect("a robot of the catalogue");
+//! // Its forward model in formulas, proved equal to the product of its link transforms.
+//! let model = ForwardModel::derive(&description, Reference::Base, Reference::Tool, Outputs::ALL);
+//! assert_eq!(model.proof, Proof::Proved);
+//! // In numbers: a pose, and all configurations that bring the tool there.
+//! let robot = Robot::numeric(&description)?;
+//! let pose = robot.pose(&[0.3, -1.2, 1.5, 0.4, 0.9, -0.6]);
+//! let answer = InverseKinematics::new(&description, &Options::default())?.solve(&pose, &[]);
+//! assert!(answer.is_complete() && answer.solutions.len() == 8);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! What is written down:
+//!
+//! - [`description`]: tables and robot files made precise, their errors; [`catalogue`]: robots that people own or study.
+//!
+//! What it describes:
+//!
+//! - [`mechanism`]: the chain to compute with, over numbers or formulas ([`Scalar`]); its moving axes; walks along it.
+//! - [`geometry`]: homogeneous transforms and orientations; [`space`]: the joint variables, their limits and whole turns.
+//! - [`structure`]: parallel and meeting axes, spherical wrists; [`idealise`]: the special arm beside a nearly special one.
+//!
+//! What follows from it:
+//!
+//! - [`forward`]: link transforms, the simplified model, the shortest algorithm for it.
 //! - [`velocity`]: Jacobians, singularities, velocities and forces.
-//! - [`quantity`]: numbers as a person reads them.
-//! - [`motion`]: paths of joints and hand, followed and timed.
+//! - [`inverse`]: closed forms with their derivation, elimination, redundancy, descent.
+//! - [`motion`]: paths of joints and hand, followed and timed; [`workspace`]: where the tool point comes to.
+//!
+//! Formulas are those of [`symbolic`], compiled ones those of [`program`]. Expressions belong to a thread, whose store grows;
+//! [`symbolic::scoped`] gives a derivation a store of its own, dropped behind it.
+//!
+//! Beside them: [`quantity`], numbers as a person reads them, and [`random`], numbers that look random.
 
 pub mod catalogue;
 pub mod description;
@@ -29,6 +56,8 @@ pub mod structure;
 pub mod velocity;
 pub mod workspace;
 
+pub use denavit_program as program;
+pub use denavit_symbolic as symbolic;
 pub use description::Description;
 pub use mechanism::{Robot, robot};
 pub use scalar::Scalar;

@@ -2,7 +2,8 @@
 
 use crate::refusal::Refusal;
 use crate::robot_file::RobotFile;
-use crate::session::{Subject, finding};
+use crate::session::finding;
+use crate::subject::Subject;
 use crate::words;
 use denavit::catalogue;
 use denavit::description::{

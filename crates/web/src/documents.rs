@@ -1,7 +1,7 @@
 //! Printed formulas held against the robot, reports, source code, figures.
 
 use crate::refusal::Refusal;
-use crate::session::Subject;
+use crate::subject::Subject;
 use denavit::inverse;
 use denavit_check::check as checked;
 use denavit_emit::{Language, Precision};

@@ -1,8 +1,8 @@
 //! What is derived of a robot, as parts that a page shows: the sections of its report.
 
+use crate::definitions::Definitions;
 use crate::refusal::Refusal;
-use crate::session::Subject;
-use crate::values::Definitions;
+use crate::subject::Subject;
 use denavit::description::Description;
 use denavit::forward::Reference;
 use denavit::velocity::JacobianModel;

@@ -7,6 +7,7 @@
 
 mod border;
 mod catalogue;
+mod definitions;
 mod documents;
 mod formulas;
 mod model;
@@ -18,6 +19,8 @@ mod robot_file;
 mod scene;
 mod session;
 mod solve;
+mod steps;
+mod subject;
 mod values;
 mod velocity;
 

@@ -1,6 +1,6 @@
 //! What the page has to know of a robot before anything is computed.
 
-use crate::session::Subject;
+use crate::subject::Subject;
 use crate::words;
 use denavit::Robot;
 use denavit::description::{JointKind, Measure};

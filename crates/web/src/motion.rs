@@ -2,8 +2,8 @@
 
 use crate::refusal::Refusal;
 use crate::scene::matrix;
-use crate::session::Subject;
 use crate::solve;
+use crate::subject::Subject;
 use crate::words;
 use denavit::geometry::{Transform, Vector};
 use denavit::motion::follow::{Event, EventKind};

@@ -1,7 +1,7 @@
 //! Where the tool comes to.
 
 use crate::refusal::Refusal;
-use crate::session::Subject;
+use crate::subject::Subject;
 use denavit::geometry::Vector;
 use denavit::workspace::{Section, Workspace};
 use serde_json::{Value, json};

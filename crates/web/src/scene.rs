@@ -1,21 +1,13 @@
 //! The arm in a configuration, as bodies to draw.
 
 use crate::refusal::Refusal;
-use crate::session::Subject;
-use denavit::description::{Cell, JointKind, Row};
+use crate::steps::{self, Step};
+use crate::subject::Subject;
+use denavit::description::JointKind;
 use denavit::geometry::{Transform, Vector};
 use denavit::velocity::{Viewpoint, geometric, measures};
 use denavit_report::figure::Arm;
-use denavit_symbolic::Expr;
-use denavit_symbolic::print::{Style, print};
 use serde_json::{Value, json};
-
-/// A step of a row as it stands in the table.
-pub struct Step {
-    cell: Cell,
-    value: Expr,
-    text: String,
-}
 
 /// Frames, bodies, the steps of all rows, how well the hand can move.
 ///
@@ -92,10 +84,7 @@ pub fn matrix(x: &Transform<f64>) -> Value {
 
 /// The steps of each row with the frames before them.
 fn steps(subject: &Subject, q: &[f64], frames: &[Transform<f64>]) -> Value {
-    let cells = subject.steps.get_or_init(|| {
-        let rows = subject.description.rows.iter().zip(&subject.valued.rows);
-        rows.map(|(own, valued)| cells(subject, own, valued)).collect()
-    });
+    let cells = subject.steps.get_or_init(|| steps::of(&subject.description, &subject.valued));
     let variables = subject.valued.variables();
     let value = |s| match variables.iter().position(|v| v.symbol == s) {
         Some(k) => Some(q[k]),
@@ -119,17 +108,4 @@ fn steps(subject: &Subject, q: &[f64], frames: &[Transform<f64>]) -> Value {
         steps.iter().map(step).collect()
     };
     cells.iter().zip(frames).map(row).collect()
-}
-
-/// The steps of a row in the convention's order; those of a branch only where there is one.
-fn cells(subject: &Subject, own: &Row, valued: &Row) -> Vec<Step> {
-    let convention = subject.description.convention;
-    let names = subject.description.vocabulary();
-    let shown = convention.order().iter().filter(|c| own.is_branch() || !c.is_of_branch());
-    let step = |&cell: &Cell| Step {
-        cell,
-        value: cell.of(valued),
-        text: print(cell.of(own), &names, Style::Unicode),
-    };
-    shown.map(step).collect()
 }

@@ -2,7 +2,7 @@
 
 use crate::refusal::Refusal;
 use crate::scene::{bodies, matrix};
-use crate::session::Subject;
+use crate::subject::Subject;
 use crate::words;
 use denavit::geometry::Transform;
 use denavit::inverse::{Answer, Family, JointSpace, Members, Nearest, Obstacle, Solution};

@@ -3,7 +3,7 @@
 use crate::formulas::formula;
 use crate::refusal::Refusal;
 use crate::scene::bodies;
-use crate::session::Subject;
+use crate::subject::Subject;
 use crate::words;
 use denavit::forward::Reference;
 use denavit::velocity::{ROWS, Singularities, Viewpoint, geometric, singular_configuration};

@@ -431,6 +431,9 @@ impl InverseKinematics {
     }
 
     /// All solutions of many poses, in their order, by as many threads; the same whatever their number.
+    ///
+    /// # Panics
+    /// If the number of given values is not that of [`given`](Self::given) joints: a panic of a thread is that of the caller.
     pub fn solve_all(&self, poses: &[Transform<f64>], given: &[f64], threads: NonZero<usize>) -> Vec<Answer> {
         let share = poses.len().div_ceil(threads.get()).max(1);
         std::thread::scope(|scope| {
@@ -439,7 +442,10 @@ impl InverseKinematics {
                 poses.iter().map(|pose| solver.solve(pose, given)).collect::<Vec<_>>()
             };
             let parts: Vec<_> = poses.chunks(share).map(|part| scope.spawn(move || work(part))).collect();
-            parts.into_iter().flat_map(|part| part.join().unwrap_or_default()).collect()
+            parts
+                .into_iter()
+                .flat_map(|part| part.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+                .collect()
         })
     }
 }

@@ -203,3 +203,13 @@ fn given_joints_without_a_closed_form() {
         assert!(holds(&mut solver, &pose, &answer, &q), "{q:?} is not among {answer:#?}");
     }
 }
+
+/// Nothing is lost silently when a thread fails: its panic is the caller's.
+#[test]
+#[should_panic(expected = "one value per given joint")]
+fn a_panic_of_a_thread_is_that_of_the_caller() {
+    let d = robot("ur5");
+    let solver = InverseKinematics::new(&d, &Options::default()).expect("a solver");
+    let poses = vec![Transform::identity(); 8];
+    let _ = solver.solve_all(&poses, &[0.0], NonZero::new(2).expect("some"));
+}

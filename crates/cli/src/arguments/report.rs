@@ -1,0 +1,82 @@
+//! The arguments of `report`.
+
+use super::{ConventionName, RobotArguments};
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+/// `report`
+#[derive(Args)]
+pub struct ReportArguments {
+    /// The robot.
+    #[command(flatten)]
+    pub robot: RobotArguments,
+    /// The file; its ending says the format: .pdf, .html, .typ (Typst), .tex (LaTeX) or .md (- for standard output)
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+    /// The format, if the ending does not say it
+    #[arg(long, value_enum)]
+    pub format: Option<ReportFormat>,
+    /// Only these sections, as in `--sections table,forward,inverse`
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "SECTIONS")]
+    pub sections: Vec<SectionName>,
+    /// The language of the words
+    #[arg(long, value_enum, default_value = "en")]
+    pub language: ReportLanguage,
+    /// Show the table in these conventions, too, proved the same
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "CONVENTIONS")]
+    pub conventions: Vec<ConventionName>,
+    /// The configuration of figures and examples, as for `fk`; one that shows the arm well otherwise
+    #[arg(short, allow_hyphen_values = true, value_name = "CONFIGURATION")]
+    pub q: Option<String>,
+}
+
+/// The format of a report.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ReportFormat {
+    /// A PDF, by Typst
+    Pdf,
+    /// One web page that needs nothing else
+    Html,
+    /// Typst markup
+    Typst,
+    /// LaTeX for amsmath, amssymb and tikz
+    Latex,
+    /// Markdown with a folder of figures
+    Markdown,
+}
+
+/// A language.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ReportLanguage {
+    /// English
+    En,
+    /// Français
+    Fr,
+}
+
+/// A section of a report.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum SectionName {
+    /// The robot at a glance
+    Summary,
+    /// The arm with its frames, and its line diagram
+    Figures,
+    /// The Denavit–Hartenberg table
+    Table,
+    /// The link transforms
+    Links,
+    /// The forward model and its algorithm
+    Forward,
+    /// Numbers at a configuration
+    Example,
+    /// Inverse kinematics, step by step, and all solutions at the example
+    Inverse,
+    /// The Jacobian, its determinant and the singularities
+    Velocity,
+    /// The reachable region and the manipulability in it
+    Workspace,
+    /// What is wrong in the document that the robot comes from
+    Errata,
+    /// Where methods and numbers come from
+    References,
+}
