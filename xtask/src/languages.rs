@@ -196,7 +196,7 @@ pub fn quietly(command: &mut Command) -> Result<()> {
 }
 
 /// Debian packages for the programs that are missing.
-fn install() -> Result<()> {
+pub fn install() -> Result<()> {
     const PROGRAMS: &[(&str, &str)] = &[
         ("gcc", "gcc"),
         ("g++", "g++"),

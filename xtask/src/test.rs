@@ -28,7 +28,6 @@ const FRONT: &[Step] = &[
     step("doctests", &["step", "doctests"]),
     step("examples", &["step", "examples"]),
     step("documentation", &["step", "documentation"]),
-    step("benchmark", &["step", "benchmark"]),
 ];
 /// What waits for installers, browsers and interpreters.
 const ASIDE: &[Step] = &[
@@ -38,6 +37,7 @@ const ASIDE: &[Step] = &[
     step("documents", &["documents"]),
     step("page, driven", &["page"]),
     step("languages", &["languages"]),
+    step("benchmark", &["step", "benchmark"]),
 ];
 /// After an edit.
 const QUICK: &[Step] = &[
@@ -161,6 +161,7 @@ fn changed() -> Result<BTreeSet<String>> {
 
 /// The package `bench`, which is no member of the workspace, compiles.
 fn benchmark() -> Result<()> {
+    crate::languages::install()?;
     crate::bench::cmake()?;
     let mut check = cargo();
     check.args(["check", "--locked", "--manifest-path", "bench/Cargo.toml"]);

@@ -4,7 +4,7 @@ use super::setting::{Setting, quantities};
 use crate::cell::cell;
 use crate::document::{Block, Factor, Line, Math, Part, Section, Table};
 use crate::words::{Column as Heads, Heading};
-use denavit::description::{Convention, Description, JointKind};
+use denavit::description::{Description, JointKind};
 use denavit::geometry::Transform;
 use denavit_symbolic::Expr;
 
@@ -33,10 +33,8 @@ fn meanings(s: &Setting) -> Vec<Line> {
     let [x, z] = [s.description.convention.length_x(), s.description.convention.length_z()];
     // From which frame's x axis the twist and the length are taken.
     let (before, own) = ("j−1", "j");
-    let (along_x, along_z) = match s.description.convention {
-        Convention::Standard => (own, before),
-        Convention::Craig | Convention::Khalil => (before, own),
-    };
+    let begins_with_joint = s.description.convention.begins_with_joint();
+    let (along_x, along_z) = if begins_with_joint { (own, before) } else { (before, own) };
     let rows = [
         ("theta", true, 'z', along_z),
         (z, false, 'z', along_z),
