@@ -2,7 +2,7 @@
 
 use super::matrix::Matrix;
 use super::names::{Index, Name, index, pair};
-use denavit::description::{Cell, Convention, Description, JointKind};
+use denavit::description::{Convention, Description, JointKind};
 use denavit::forward::Reference;
 use denavit::geometry::{Axis, Rotation, Transform, Vector};
 use denavit::robot::Robot;
@@ -209,13 +209,14 @@ impl Subject {
     /// The transform of row `j` of any table of this convention, in the document's letters.
     pub fn general_link(&self, index: char) -> Transform<Expr> {
         let symbol = |letter: &str| Expr::symbol(&format!("{letter}{index}"));
-        let of = |cell: Cell| match cell {
-            Cell::A => symbol(&self.letters[0]),
-            Cell::D => symbol(&self.letters[1]),
-            angle => symbol(angle.letter(self.description.convention)),
-        };
-        let cells = self.description.convention.order().iter().filter(|c| !c.is_of_branch());
-        cells.fold(Transform::identity(), |x, &cell| x * cell.transform(of(cell)))
+        let (theta, alpha) = (symbol("θ"), symbol("α"));
+        let (x, z) = (symbol(&self.letters[0]), symbol(&self.letters[1]));
+        let screw_z = Transform::rotation_z(theta) * Transform::translation_z(z);
+        let screw_x = Transform::rotation_x(alpha) * Transform::translation_x(x);
+        match self.description.convention {
+            Convention::Standard => screw_z * screw_x,
+            Convention::Craig | Convention::Khalil => screw_x * screw_z,
+        }
     }
 
     /// What a matrix's name means, and in words what that is.
