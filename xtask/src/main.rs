@@ -48,7 +48,8 @@ cargo xtask page                 drives the page, as it is built, in a browser
 cargo xtask documents            reports as LaTeX, Typst and a browser read them
 cargo xtask errata [--write]     compares docs/errata.md with what `denavit check` says of the documents; --write renews it
 cargo xtask soak [--seconds N] [TARGET...]
-                                 feeds random bytes to the readers, N seconds each (60)
+                                 feeds random bytes to the readers, N seconds each (60); TARGET `suites`: the tests at the size
+                                 that takes hours
 cargo xtask miri                 the evaluators' conformance suite under Miri (half an hour)
 cargo xtask help                 this text
 ";

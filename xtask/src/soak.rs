@@ -12,8 +12,8 @@ const TARGETS: &[(&str, &str)] = &[
     ("table", "fuzz/seeds/table"),
     ("document", "examples/documents"),
 ];
-/// The soak that is not a fuzz target.
-const INVERSE: &str = "inverse";
+/// The soak that is not a fuzz target: tests at their full size.
+const SUITES: &str = "suites";
 /// Longest input in bytes.
 const MAX_BYTES: u32 = 4096;
 /// Seconds after which one input counts as a hang (the build is unoptimised for speed and instrumented).
@@ -26,14 +26,14 @@ const MEMORY: u32 = 2048;
 /// # Errors
 /// If a target crashes (the input is left under `fuzz/artifacts`), or the tools are not there.
 pub fn run(seconds: u32, wanted: &[&str]) -> Result<()> {
-    if let Some(unknown) = wanted.iter().find(|w| **w != INVERSE && TARGETS.iter().all(|t| t.0 != **w)) {
-        let known: Vec<&str> = TARGETS.iter().map(|t| t.0).chain([INVERSE]).collect();
+    if let Some(unknown) = wanted.iter().find(|w| **w != SUITES && TARGETS.iter().all(|t| t.0 != **w)) {
+        let known: Vec<&str> = TARGETS.iter().map(|t| t.0).chain([SUITES]).collect();
         bail!("no fuzz target `{unknown}`; there are {}", known.join(", "));
     }
-    if wanted.is_empty() || wanted.contains(&INVERSE) {
-        inverse()?;
+    if wanted.is_empty() || wanted.contains(&SUITES) {
+        suites()?;
     }
-    if wanted == [INVERSE] {
+    if wanted == [SUITES] {
         return Ok(());
     }
     install()?;
@@ -62,13 +62,15 @@ pub fn run(seconds: u32, wanted: &[&str]) -> Result<()> {
 
 /// The tests of inverse kinematics in full: 100,000 random configurations for each closed form, the whole grid of special
 /// ones, a million for each arm by elimination, singular poses by thousands; hours.
-fn inverse() -> Result<()> {
-    println!("\n━━ {INVERSE} ━━");
-    let soaks: [(&str, &[&str]); 3] = [
+fn suites() -> Result<()> {
+    println!("\n━━ {SUITES} ━━");
+    let soaks: [(&str, &[&str]); 4] = [
         ("denavit", &["inverse::", "singular::", "redundant::", "numeric::"]),
         // Ten thousand derivations, each in a store of its own.
         ("denavit", &["scope::", "--include-ignored"]),
         ("denavit-elimination", &[]),
+        // Documents that nobody should write; those that take minutes each are in no other test.
+        ("denavit-check", &["hostile::", "--include-ignored"]),
     ];
     for (package, tests) in soaks {
         let mut cargo = command("cargo");

@@ -7,8 +7,7 @@ use denavit_symbolic::Symbol;
 impl JointSpace {
     /// That of a description; limits without value are none. `reach` is the sum of the robot's lengths, metres.
     pub fn new(description: &Description, reach: f64) -> Self {
-        let value =
-            |s: Symbol| description.parameters.iter().find(|p| p.symbol == s)?.value?.eval(|_| None).ok();
+        let value = |s: Symbol| description.value(s);
         let limits = description.rows.iter().filter(|r| r.variable.is_some()).map(|r| {
             let [low, high] = r.limits?;
             Some([low.eval(value).ok()?, high.eval(value).ok()?])

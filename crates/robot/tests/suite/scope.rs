@@ -81,7 +81,7 @@ fn resident() -> f64 {
 /// `cargo test --release -p denavit --test suite scope -- --ignored --nocapture`
 #[test]
 #[cfg(target_os = "linux")]
-#[ignore = "minutes"]
+#[ignore = "takes minutes: cargo xtask soak suites"]
 fn ten_thousand_derivations_in_bounded_memory() {
     let before = store_size();
     let (mut highest, mut early) = (0.0_f64, 0.0_f64);

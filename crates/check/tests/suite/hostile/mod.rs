@@ -163,7 +163,7 @@ fn deep_nesting() {
 }
 
 #[test]
-#[ignore = "takes minutes: cargo test -p denavit-check --test suite hostile -- --ignored"]
+#[ignore = "takes minutes: cargo xtask soak suites"]
 fn long_lines() {
     let n = 4 << 20;
     for (what, piece) in [
@@ -199,7 +199,7 @@ fn long_lines() {
 }
 
 #[test]
-#[ignore = "takes minutes: cargo test -p denavit-check --test suite hostile -- --ignored"]
+#[ignore = "takes minutes: cargo xtask soak suites"]
 fn many_statements() {
     let n = 100_000;
     endure("100,000 equations", "$$ n_x = 1 $$\n".repeat(n));
@@ -220,7 +220,7 @@ fn many_statements() {
 }
 
 #[test]
-#[ignore = "takes minutes: cargo test -p denavit-check --test suite hostile -- --ignored"]
+#[ignore = "takes minutes: cargo xtask soak suites"]
 fn large_matrices() {
     let rows = |n: usize, m: usize, cell: &str| {
         let row = vec![cell; m].join(" & ");
@@ -254,7 +254,7 @@ fn large_matrices() {
 }
 
 #[test]
-#[ignore = "takes minutes: cargo test -p denavit-check --test suite hostile -- --ignored"]
+#[ignore = "takes minutes: cargo xtask soak suites"]
 fn long_formulas() {
     let terms = |n: usize, term: &dyn Fn(usize) -> String| (0..n).map(term).collect::<Vec<_>>().join(" + ");
     for n in [500, 1_900, 5_000] {
@@ -364,7 +364,7 @@ fn greek(i: usize) -> String {
 
 /// Documents that people wrote, with a few bytes changed, moved or lost.
 #[test]
-#[ignore = "takes minutes: cargo test -p denavit-check --test suite hostile -- --ignored"]
+#[ignore = "takes minutes: cargo xtask soak suites"]
 fn documents_that_were_damaged() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/documents");
     let mut files: Vec<_> =

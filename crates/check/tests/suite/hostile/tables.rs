@@ -3,7 +3,7 @@
 use super::{SOUND, endure, greek};
 
 #[test]
-#[ignore = "takes minutes: cargo test -p denavit-check --test suite hostile -- --ignored"]
+#[ignore = "takes minutes: cargo xtask soak suites"]
 fn directives_and_tables() {
     for words in [
         "tool ((((",
@@ -116,7 +116,7 @@ fn directives_and_tables() {
 }
 
 #[test]
-#[ignore = "takes minutes: cargo test -p denavit-check --test suite hostile -- --ignored"]
+#[ignore = "takes minutes: cargo xtask soak suites"]
 fn definitions() {
     let end = "$$ n_x = D9 $$\n";
     endure("of themselves", format!("$$ D1 = D1 + 1 $$\n$$ D2 = D3 $$\n$$ D3 = D2 $$\n{end}"));

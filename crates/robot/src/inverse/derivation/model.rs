@@ -207,7 +207,7 @@ impl InverseModel {
             return Err(Refusal::Given(NotGiven::NoSuchJoint { joint: *j, joints: n }));
         }
         let (found, splits) = equations(&chain, options.goal);
-        let value = |s: Symbol| settled.parameters.iter().find(|p| p.symbol == s)?.value?.eval(|_| None).ok();
+        let value = |s: Symbol| settled.value(s);
         let samples = Samples::new(&chain, value);
         let problem = Problem::new(&chain, &found, &splits, &samples);
         let rank = rank(&chain, &samples, options.goal);
