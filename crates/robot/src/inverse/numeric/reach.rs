@@ -10,7 +10,7 @@ use crate::description::JointKind;
 use crate::mechanism::{Affine, Lengths, MovingAxes, Robot};
 
 /// What of space a frame can come to.
-#[derive(Clone, Copy, PartialEq, Default, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Reach {
     /// From here distances count, metres in the base.
     centre: [f64; 3],
@@ -28,7 +28,7 @@ impl Reach {
         // A constant length along an axis belongs to what is before it, so that the pieces end on axes.
         let chain = robot.up_to(frame.reference(robot.links.len()));
         let axes = MovingAxes::new(&chain, Lengths::Before);
-        let Some((last, before)) = axes.constants.split_last() else { return Reach::default() };
+        let (last, before) = axes.constants.split_last().expect("a constant stands behind the last axis");
         let mut pieces: Vec<[f64; 2]> = vec![];
         for (k, (axis, constant)) in axes.moving.iter().zip(before).enumerate() {
             if k > 0 {
@@ -39,7 +39,9 @@ impl Reach {
             }
         }
         let Some(first) = before.first() else {
-            return Reach { centre: last.translation.0, ..Reach::default() }; // Nothing moves.
+            // Nothing moves: the frame is where it is.
+            let centre = last.translation.0;
+            return Reach { centre, behind: [0.0; 3], wrist: [0.0; 2], frame: [0.0; 2] };
         };
         let wrist = shell(&pieces);
         pieces.push([last.translation.norm(); 2]);
