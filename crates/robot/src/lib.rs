@@ -1,14 +1,14 @@
 //! Robot manipulators, exactly: from a Denavit–Hartenberg table to formulas that are proved and programs that compute them.
 //!
 //! ```
-//! use denavit::forward::{ForwardModel, Outputs, Proof, Reference};
+//! use denavit::forward::{ForwardModel, Outputs, Proof};
 //! use denavit::inverse::{InverseKinematics, Options};
 //! use denavit::{Robot, catalogue};
 //!
 //! // A table, as somebody wrote it down.
 //! let description = catalogue::robot("ur5").expect("a robot of the catalogue");
 //! // Its forward model in formulas, proved equal to the product of its link transforms.
-//! let model = ForwardModel::derive(&description, Reference::Base, Reference::Tool, Outputs::ALL);
+//! let model = ForwardModel::of_tool(&description, Outputs::ALL);
 //! assert_eq!(model.proof, Proof::Proved);
 //! // In numbers: a pose, and all configurations that bring the tool there.
 //! let robot = Robot::numeric(&description)?;

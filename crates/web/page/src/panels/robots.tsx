@@ -1,6 +1,6 @@
 // Where a robot comes from: the catalogue, a file, a table pasted from a document. And where it goes: a file.
 
-import { useEffect, useMemo, useRef, useState } from "preact/hooks";
+import { useEffect, useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
 import type { Convention, Finding, Input, Listed } from "../engine/types.ts";
 import { batch, engine, file, note, panel, replace, said, signal, stale } from "../state.ts";
 import { flush } from "../table/cells.ts";
@@ -138,7 +138,7 @@ function Catalogue() {
   const search = useRef<HTMLInputElement>(null);
   listed ??= engine().now.call("catalogue", {}).robots;
   const found = useMemo(() => filter(listed ?? [], words), [words]);
-  useEffect(() => search.current?.focus(), []);
+  useLayoutEffect(() => search.current?.focus(), []);
 
   const take = (name: string) => {
     dialog.value = null;

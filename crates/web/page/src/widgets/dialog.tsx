@@ -1,7 +1,7 @@
 // A modal dialog on the browser's own: it keeps the focus inside, Escape closes it, and the focus goes back after.
 
 import type { ComponentChildren } from "preact";
-import { useEffect, useId, useRef } from "preact/hooks";
+import { useId, useLayoutEffect, useRef } from "preact/hooks";
 import { Button } from "./button.tsx";
 
 interface DialogProps {
@@ -13,10 +13,13 @@ interface DialogProps {
 export function Dialog({ title, onClose, children }: DialogProps) {
   const dialog = useRef<HTMLDialogElement>(null);
   const titleId = useId();
-  useEffect(() => {
+  // Before the next event is taken: who types on while the dialog goes would lose the focus to the button behind it.
+  useLayoutEffect(() => {
     const before = document.activeElement;
-    dialog.current?.showModal();
+    const shown = dialog.current;
+    shown?.showModal();
     return () => {
+      shown?.close();
       if (before instanceof HTMLElement) before.focus();
     };
   }, []);
@@ -25,7 +28,7 @@ export function Dialog({ title, onClose, children }: DialogProps) {
       class="dialog"
       ref={dialog}
       aria-labelledby={titleId}
-      onClose={onClose}
+      onClose={(event) => event.currentTarget.isConnected && onClose()}
       onClick={(event) => {
         // The dialog itself is hit only outside what it holds.
         if (event.target === dialog.current) onClose();
