@@ -8,6 +8,7 @@
 
 use crate::{
     fourier::Trigonometric,
+    instructions::Instructions,
     lanes::{Lanes, WIDTH},
 };
 
@@ -46,13 +47,13 @@ impl Chart {
 
     /// Cosines and sines of `θ` at those of `θ'`, and the weight `w(θ')`.
     #[inline(always)]
-    pub fn nodes<const FUSED: bool>(&self, c: Lanes, s: Lanes) -> [Lanes; 3] {
+    pub fn nodes<I: Instructions>(&self, c: Lanes, s: Lanes) -> [Lanes; 3] {
         let square = self.kappa * self.kappa;
         let (near, far) = (Lanes::ONE.plus(c), Lanes::ONE.minus(c).scale(square));
         let (sum, inverse) = (near.plus(far), Lanes::ONE.over(near.plus(far)));
         let (c, s) = (near.minus(far).times(inverse), s.scale(2.0 * self.kappa).times(inverse));
         let [c0, s0] = self.centre;
-        [s.scale_add::<FUSED>(-s0, c.scale(c0)), c.scale_add::<FUSED>(s0, s.scale(c0)), sum.scale(0.5)]
+        [s.scale_add::<I>(-s0, c.scale(c0)), c.scale_add::<I>(s0, s.scale(c0)), sum.scale(0.5)]
     }
 
     /// Cosine and sine of `θ` at those of `θ'`.
@@ -93,7 +94,7 @@ const WIDEST: f64 = 2.8;
 /// `angles` are sorted, those to be looked at are marked. Around each of them the polynomial may vanish as far as it is
 /// below its `noise`: the arc ends on either side where it is certainly not zero.
 #[inline(always)]
-pub fn crowds<const FUSED: bool>(
+pub fn crowds<I: Instructions>(
     angles: &[f64],
     marked: &[bool],
     polynomial: &Trigonometric,
@@ -114,7 +115,7 @@ pub fn crowds<const FUSED: bool>(
         }
         let mut ends = [0.0; 2];
         for (end, side) in ends.iter_mut().zip([-1.0, 1.0]) {
-            *end = clear::<FUSED>(polynomial, angle, side, noise);
+            *end = clear::<I>(polynomial, angle, side, noise);
         }
         let [low, high] = ends;
         out[found] = ((low + high) / 2.0, (high - low) / 2.0);
@@ -125,7 +126,7 @@ pub fn crowds<const FUSED: bool>(
 
 /// The first of steps from an angle to one side at which the polynomial is clear of its noise.
 #[inline(always)]
-fn clear<const FUSED: bool>(polynomial: &Trigonometric, from: f64, side: f64, noise: f64) -> f64 {
+fn clear<I: Instructions>(polynomial: &Trigonometric, from: f64, side: f64, noise: f64) -> f64 {
     let mut at = from;
     let mut step = side * LEAST;
     for _ in 0..3 {
@@ -136,7 +137,7 @@ fn clear<const FUSED: bool>(polynomial: &Trigonometric, from: f64, side: f64, no
             steps[l] = at;
             (s.0[l], c.0[l]) = at.sin_cos();
         }
-        let values = polynomial.values::<FUSED>(c, s).magnitude();
+        let values = polynomial.values::<I>(c, s).magnitude();
         for l in 0..WIDTH {
             if values.0[l] > noise {
                 return steps[l];

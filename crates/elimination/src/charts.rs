@@ -1,10 +1,7 @@
 //! Which charts of the circle a way to solve goes through, and which of their roots are tried.
 
 use crate::{
-    certificate::Verdict,
-    chart::{Chart, crowds},
-    fourier::Trigonometric,
-    roots::Roots,
+    certificate::Verdict, chart::Chart, fourier::Trigonometric, instructions::Instructions, roots::Roots,
     work::Work,
 };
 
@@ -48,7 +45,7 @@ impl Charts {
     /// Takes the verdict in a chart, with the marks and the polynomial that it left in `work`, and adds charts of the arcs
     /// in question.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-    pub fn settle<const FUSED: bool>(&mut self, chart: &Chart, verdict: Verdict, work: &mut Work) {
+    pub fn settle<I: Instructions>(&mut self, chart: &Chart, verdict: Verdict, work: &mut Work) {
         if self.done == 1 {
             work.effort = 0;
         }
@@ -60,7 +57,7 @@ impl Charts {
         let (marks, n) = (&work.marks, work.marks.count);
         let threshold = CLEAR * noise(&work.polynomial);
         let crowds =
-            crowds::<FUSED>(&marks.angles[..n], &marks.marked[..n], &work.polynomial, threshold, &mut arcs);
+            I::crowds(&marks.angles[..n], &marks.marked[..n], &work.polynomial, threshold, &mut arcs);
         if crowds == 0 || chart.depth == self.depth || self.count + crowds > CHARTS {
             self.total = if self.total == Verdict::Uncertain { self.total } else { verdict };
             return;

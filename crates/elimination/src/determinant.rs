@@ -13,6 +13,7 @@
 
 use crate::{
     arm::Joint,
+    instructions::Instructions,
     lanes::{Lanes, one_by_one},
 };
 
@@ -26,7 +27,7 @@ pub type Strip = [[Lanes; 9]; 6];
 ///
 /// `rows` are those of [`Eliminated`](crate::eliminate::Eliminated); `c` and `s` the hidden joint's monomials.
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-pub fn strips<const FUSED: bool>(
+pub fn strips<I: Instructions>(
     rows: &[[f64; 27]; 6],
     multiplied: Joint,
     c: Lanes,
@@ -42,9 +43,9 @@ pub fn strips<const FUSED: bool>(
         let row = &rows[i];
         for w in 0..3 {
             one_by_one();
-            let one = entry::<FUSED>(row, w, c, s);
-            let first = entry::<FUSED>(row, 3 + w, c, s);
-            let second = entry::<FUSED>(row, 6 + w, c, s);
+            let one = entry::<I>(row, w, c, s);
+            let first = entry::<I>(row, 3 + w, c, s);
+            let second = entry::<I>(row, 6 + w, c, s);
             let (a, b, c) = if half {
                 (one.plus(first), second.scale(2.0 * r), one.minus(first))
             } else {
@@ -62,13 +63,13 @@ pub fn strips<const FUSED: bool>(
 
 /// `E₁ + c E_c + s E_s`
 #[inline(always)]
-fn entry<const FUSED: bool>(row: &[f64; 27], k: usize, c: Lanes, s: Lanes) -> Lanes {
-    s.scale_add::<FUSED>(row[18 + k], c.scale_add::<FUSED>(row[9 + k], Lanes::splat(row[k])))
+fn entry<I: Instructions>(row: &[f64; 27], k: usize, c: Lanes, s: Lanes) -> Lanes {
+    s.scale_add::<I>(row[18 + k], c.scale_add::<I>(row[9 + k], Lanes::splat(row[k])))
 }
 
 /// Eliminates the first `columns` columns of six rows with partial pivoting; the product of the pivots, signed.
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-pub fn reduce<const FUSED: bool, const N: usize>(m: &mut [[Lanes; N]; 6], columns: usize) -> Lanes {
+pub fn reduce<I: Instructions, const N: usize>(m: &mut [[Lanes; N]; 6], columns: usize) -> Lanes {
     let mut product = Lanes::ONE;
     for k in 0..columns {
         for r in k + 1..6 {
@@ -88,7 +89,7 @@ pub fn reduce<const FUSED: bool, const N: usize>(m: &mut [[Lanes; N]; 6], column
             m[r][k] = factor;
             for c in k + 1..N {
                 one_by_one();
-                m[r][c] = factor.mul_sub::<FUSED>(m[k][c], m[r][c]);
+                m[r][c] = factor.mul_sub::<I>(m[k][c], m[r][c]);
             }
         }
     }
@@ -108,13 +109,13 @@ pub fn core(upper: &Strip, lower: &Strip, out: &mut [[Lanes; 6]; 6]) {
 
 /// The determinant at eight values of the hidden joint.
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-pub fn determinant<const FUSED: bool>(rows: &[[f64; 27]; 6], multiplied: Joint, c: Lanes, s: Lanes) -> Lanes {
+pub fn determinant<I: Instructions>(rows: &[[f64; 27]; 6], multiplied: Joint, c: Lanes, s: Lanes) -> Lanes {
     let (mut upper, mut lower) = ([[Lanes::ZERO; 9]; 6], [[Lanes::ZERO; 9]; 6]);
-    strips::<FUSED>(rows, multiplied, c, s, &mut upper, &mut lower);
-    let first = reduce::<FUSED, 9>(&mut upper, 3);
-    let second = reduce::<FUSED, 9>(&mut lower, 3);
+    strips::<I>(rows, multiplied, c, s, &mut upper, &mut lower);
+    let first = reduce::<I, 9>(&mut upper, 3);
+    let second = reduce::<I, 9>(&mut lower, 3);
     let mut rest = [[Lanes::ZERO; 6]; 6];
     core(&upper, &lower, &mut rest);
-    let third = reduce::<FUSED, 6>(&mut rest, 6);
+    let third = reduce::<I, 6>(&mut rest, 6);
     first.times(second).times(third)
 }

@@ -2,6 +2,7 @@
 
 use crate::{
     forms::{FORMS, forms, interpolate, left_alone, move_by_joint_back, moved, nodes},
+    instructions::{Instructions, Strict},
     lanes::{Lanes, mul_add, one_by_one},
     rigid::Rigid,
     split::Split,
@@ -36,7 +37,7 @@ const RANK: f64 = 1e-11;
 
 /// Eliminates the first two joints of the split at a pose; `closing` is `A₆ T⁻¹ B`, scaled.
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-pub fn eliminate<const FUSED: bool>(split: &Split, closing: &Rigid, out: &mut Eliminated) {
+pub fn eliminate<I: Instructions>(split: &Split, closing: &Rigid, out: &mut Eliminated) {
     out.links = split.links_at(closing);
     let right = right_side(split, out);
 
@@ -59,7 +60,7 @@ pub fn eliminate<const FUSED: bool>(split: &Split, closing: &Rigid, out: &mut El
         // The column with the most left in the rows from k on.
         let mut left = Lanes::ZERO;
         for row in &rows[k..] {
-            left = row[0].mul_add::<FUSED>(row[0], left);
+            left = row[0].mul_add::<I>(row[0], left);
         }
         let mut pivot = 8;
         let mut norm = 0.0;
@@ -87,7 +88,7 @@ pub fn eliminate<const FUSED: bool>(split: &Split, closing: &Rigid, out: &mut El
         for i in k..FORMS {
             for (sum, entry) in sum.iter_mut().zip(&rows[i]) {
                 one_by_one();
-                *sum = entry.scale_add::<FUSED>(v[i], *sum);
+                *sum = entry.scale_add::<I>(v[i], *sum);
             }
         }
         for sum in &mut sum {
@@ -96,7 +97,7 @@ pub fn eliminate<const FUSED: bool>(split: &Split, closing: &Rigid, out: &mut El
         for i in k..FORMS {
             for (entry, sum) in rows[i].iter_mut().zip(&sum) {
                 one_by_one();
-                *entry = sum.scale_add::<FUSED>(v[i], *entry);
+                *entry = sum.scale_add::<I>(v[i], *entry);
             }
         }
     }
@@ -109,7 +110,7 @@ pub fn eliminate<const FUSED: bool>(split: &Split, closing: &Rigid, out: &mut El
             for (j, row) in rows.iter().enumerate().skip(rank) {
                 let weight = mixture(i, j);
                 for (mixed, entry) in mixed.iter_mut().zip(row) {
-                    *mixed = entry.scale_add::<FUSED>(weight, *mixed);
+                    *mixed = entry.scale_add::<I>(weight, *mixed);
                 }
             }
         }
@@ -150,7 +151,7 @@ fn right_side(split: &Split, out: &mut Eliminated) -> [[f64; 9]; FORMS] {
 
 /// A fixed number between −1 and 1 without pattern.
 fn mixture(i: usize, j: usize) -> f64 {
-    let x = mul_add::<false>((i * FORMS + j + 1) as f64, 0.618_033_988_749_894_9, 0.0);
+    let x = mul_add::<Strict>((i * FORMS + j + 1) as f64, 0.618_033_988_749_894_9, 0.0);
     let y = (x - x.floor()) * 997.0;
     2.0 * (y - y.floor()) - 1.0
 }

@@ -4,6 +4,7 @@ use crate::{
     arm::Joint,
     determinant::{Strip, core, reduce, strips},
     eigen::{SHARED, null_vector, real_eigenvalues},
+    instructions::{Instructions, Strict},
     lanes::{Lanes, mul_add},
 };
 
@@ -13,7 +14,7 @@ pub const UNKNOWNS: usize = 12;
 /// A null vector in each lane, and how small the second smallest pivot was compared to the first: where this is small
 /// too, several solutions share the value of the hidden joint, and the vector is any mixture of theirs.
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-pub fn null_vectors<const FUSED: bool>(
+pub fn null_vectors<I: Instructions>(
     rows: &[[f64; 27]; 6],
     multiplied: Joint,
     c: Lanes,
@@ -21,9 +22,9 @@ pub fn null_vectors<const FUSED: bool>(
     x: &mut [Lanes; UNKNOWNS],
 ) -> Lanes {
     let (mut upper, mut lower) = ([[Lanes::ZERO; 9]; 6], [[Lanes::ZERO; 9]; 6]);
-    strips::<FUSED>(rows, multiplied, c, s, &mut upper, &mut lower);
-    reduce::<FUSED, 9>(&mut upper, 3);
-    reduce::<FUSED, 9>(&mut lower, 3);
+    strips::<I>(rows, multiplied, c, s, &mut upper, &mut lower);
+    reduce::<I, 9>(&mut upper, 3);
+    reduce::<I, 9>(&mut lower, 3);
     let mut m = [[Lanes::ZERO; 6]; 6];
     core(&upper, &lower, &mut m);
     let mut order = [Lanes::ZERO; 6];
@@ -63,7 +64,7 @@ pub fn null_vectors<const FUSED: bool>(
         for r in k + 1..6 {
             let factor = m[r][k].times(inverse);
             for c in k + 1..6 {
-                m[r][c] = factor.mul_sub::<FUSED>(m[k][c], m[r][c]);
+                m[r][c] = factor.mul_sub::<I>(m[k][c], m[r][c]);
             }
         }
     }
@@ -75,7 +76,7 @@ pub fn null_vectors<const FUSED: bool>(
     for k in (0..5).rev() {
         let mut sum = Lanes::ZERO;
         for c in k + 1..6 {
-            sum = m[k][c].mul_sub::<FUSED>(y[c], sum);
+            sum = m[k][c].mul_sub::<I>(y[c], sum);
         }
         let pivot = m[k][k].where_is(0.0, Lanes::splat(1e-300), m[k][k]);
         y[k] = sum.over(pivot);
@@ -88,7 +89,7 @@ pub fn null_vectors<const FUSED: bool>(
         x[3 + c] = entry;
     }
     let middle = [x[3], x[4], x[5], x[6], x[7], x[8]];
-    let (a, b) = (outer::<FUSED>(&upper, &middle), outer::<FUSED>(&lower, &middle));
+    let (a, b) = (outer::<I>(&upper, &middle), outer::<I>(&lower, &middle));
     x[..3].copy_from_slice(&a);
     x[9..].copy_from_slice(&b);
     small
@@ -96,15 +97,15 @@ pub fn null_vectors<const FUSED: bool>(
 
 /// The three unknowns that a reduced strip has eliminated.
 #[inline(always)]
-fn outer<const FUSED: bool>(strip: &Strip, middle: &[Lanes; 6]) -> [Lanes; 3] {
+fn outer<I: Instructions>(strip: &Strip, middle: &[Lanes; 6]) -> [Lanes; 3] {
     let mut out = [Lanes::ZERO; 3];
     for k in (0..3).rev() {
         let mut sum = Lanes::ZERO;
         for c in 0..6 {
-            sum = strip[k][3 + c].mul_sub::<FUSED>(middle[c], sum);
+            sum = strip[k][3 + c].mul_sub::<I>(middle[c], sum);
         }
         for c in k + 1..3 {
-            sum = strip[k][c].mul_sub::<FUSED>(out[c], sum);
+            sum = strip[k][c].mul_sub::<I>(out[c], sum);
         }
         let pivot = strip[k][k].where_is(0.0, Lanes::splat(1e-300), strip[k][k]);
         out[k] = sum.over(pivot);
@@ -128,7 +129,7 @@ pub fn shared(
     out: &mut [[f64; UNKNOWNS]; SHARED],
 ) -> usize {
     let (mut upper, mut lower) = ([[Lanes::ZERO; 9]; 6], [[Lanes::ZERO; 9]; 6]);
-    strips::<false>(rows, multiplied, Lanes::splat(c), Lanes::splat(s), &mut upper, &mut lower);
+    strips::<Strict>(rows, multiplied, Lanes::splat(c), Lanes::splat(s), &mut upper, &mut lower);
     let mut m = [[0.0; UNKNOWNS]; UNKNOWNS];
     for i in 0..6 {
         for k in 0..9 {
@@ -182,7 +183,7 @@ pub fn shared(
         let mut vector = [0.0; UNKNOWNS];
         for (basis, &g) in basis.iter().zip(&g).take(count) {
             for (entry, b) in vector.iter_mut().zip(basis) {
-                *entry = mul_add::<false>(g, *b, *entry);
+                *entry = mul_add::<Strict>(g, *b, *entry);
             }
         }
         out[found] = vector;

@@ -1,5 +1,6 @@
 //! From samples on the circle to a trigonometric polynomial `p(θ) = Σ cₖ exp(i k θ)`, with a measure of its noise.
 
+use crate::instructions::Instructions;
 use crate::lanes::Lanes;
 
 /// Largest number of samples.
@@ -41,14 +42,14 @@ impl Default for Trigonometric {
 impl Trigonometric {
     /// Its values at eight angles, given by cosines and sines: `c₀ + 2 Re Σ cₖ zᵏ` by Horner's rule.
     #[inline(always)]
-    pub fn values<const FUSED: bool>(&self, c: Lanes, s: Lanes) -> Lanes {
+    pub fn values<I: Instructions>(&self, c: Lanes, s: Lanes) -> Lanes {
         let (mut re, mut im) = (Lanes::ZERO, Lanes::ZERO);
         for k in (1..=self.degree).rev() {
             let (a, b) = (re.plus(Lanes::splat(self.re[k])), im.plus(Lanes::splat(self.im[k])));
-            re = b.mul_sub::<FUSED>(s, a.times(c));
-            im = b.mul_add::<FUSED>(c, a.times(s));
+            re = b.mul_sub::<I>(s, a.times(c));
+            im = b.mul_add::<I>(c, a.times(s));
         }
-        re.scale_add::<FUSED>(2.0, Lanes::splat(self.re[0]))
+        re.scale_add::<I>(2.0, Lanes::splat(self.re[0]))
     }
 }
 
@@ -86,7 +87,7 @@ impl<const GROUPS: usize> Fourier<GROUPS> {
 
     /// The polynomial through the samples, divided by the largest of them; false if they are all zero or not numbers.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-    pub fn fit<const FUSED: bool>(
+    pub fn fit<I: Instructions>(
         &self,
         degree: usize,
         samples: &[Lanes; GROUPS],
@@ -104,7 +105,7 @@ impl<const GROUPS: usize> Fourier<GROUPS> {
         for node in 0..8 * GROUPS {
             let sample = samples[node / 8].0[node % 8];
             for (sum, entry) in sums.iter_mut().zip(&self.table[node]) {
-                *sum = entry.scale_add::<FUSED>(sample, *sum);
+                *sum = entry.scale_add::<I>(sample, *sum);
             }
         }
         let sum = |k: usize| sums[k / 8].0[k % 8] / top;

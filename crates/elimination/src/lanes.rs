@@ -1,7 +1,9 @@
 //! Eight doubles side by side, and the arithmetic on them.
 //!
-//! Each operation is one loop over the eight lanes, which the compiler turns into vector instructions; `FUSED` says
-//! whether products inside sums keep all their digits (`mul_add`) or are rounded on their own.
+//! Each operation is one loop over the eight lanes, which the compiler turns into vector instructions; a set of
+//! instructions says whether products inside sums keep all their digits.
+
+use crate::instructions::Instructions;
 
 /// Number of lanes.
 pub const WIDTH: usize = 8;
@@ -13,8 +15,8 @@ pub struct Lanes(pub [f64; WIDTH]);
 
 /// `a b + c`.
 #[inline(always)]
-pub fn mul_add<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
-    if FUSED { a.mul_add(b, c) } else { a * b + c }
+pub fn mul_add<I: Instructions>(a: f64, b: f64, c: f64) -> f64 {
+    if I::FUSED { a.mul_add(b, c) } else { a * b + c }
 }
 
 /// Stands in loops over lanes: it generates no code, and keeps the compiler from making vectors across iterations, with
@@ -38,30 +40,30 @@ impl Lanes {
 
     /// `self b + c`.
     #[inline(always)]
-    pub fn mul_add<const FUSED: bool>(self, b: Lanes, c: Lanes) -> Lanes {
+    pub fn mul_add<I: Instructions>(self, b: Lanes, c: Lanes) -> Lanes {
         let mut out = c;
         for l in 0..WIDTH {
-            out.0[l] = mul_add::<FUSED>(self.0[l], b.0[l], c.0[l]);
+            out.0[l] = mul_add::<I>(self.0[l], b.0[l], c.0[l]);
         }
         out
     }
 
     /// `c - self b`.
     #[inline(always)]
-    pub fn mul_sub<const FUSED: bool>(self, b: Lanes, c: Lanes) -> Lanes {
+    pub fn mul_sub<I: Instructions>(self, b: Lanes, c: Lanes) -> Lanes {
         let mut out = c;
         for l in 0..WIDTH {
-            out.0[l] = mul_add::<FUSED>(-self.0[l], b.0[l], c.0[l]);
+            out.0[l] = mul_add::<I>(-self.0[l], b.0[l], c.0[l]);
         }
         out
     }
 
     /// `self x + c` with one number for all lanes.
     #[inline(always)]
-    pub fn scale_add<const FUSED: bool>(self, x: f64, c: Lanes) -> Lanes {
+    pub fn scale_add<I: Instructions>(self, x: f64, c: Lanes) -> Lanes {
         let mut out = c;
         for l in 0..WIDTH {
-            out.0[l] = mul_add::<FUSED>(self.0[l], x, c.0[l]);
+            out.0[l] = mul_add::<I>(self.0[l], x, c.0[l]);
         }
         out
     }

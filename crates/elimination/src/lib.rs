@@ -6,8 +6,8 @@
 //! joints, and Newton's method on the pose the last digits. Discs around the roots certify that nothing is missing.
 //! At poses where this determinant vanishes identically (the last axis parallel to the first, say), a wider matrix serves.
 //!
-//! What computes in lanes is compiled into one loop, once for each set of instructions ([`Isa`]), so that it uses them; not
-//! so for WebAssembly, where size counts.
+//! What computes in lanes is compiled part by part for each set of instructions ([`Isa`]), inlined there, so that it uses
+//! them; not so for WebAssembly, where size counts.
 //!
 //! In reading order: [`Arm`], [`Plan::new`] (offline), [`Plan::solve`] (online), [`Answer`].
 
@@ -26,6 +26,7 @@ mod eliminate;
 mod extract;
 mod forms;
 mod fourier;
+mod instructions;
 mod lanes;
 mod measure;
 mod native;

@@ -4,8 +4,6 @@
 //! has found.
 #![allow(unsafe_code)]
 
-#[cfg(target_arch = "x86_64")]
-use crate::solve::{Task, solve};
 use crate::{answer::Answer, plan::Plan, rigid::Rigid};
 
 /// A set of instructions that this processor has: a value exists only where they were found.
@@ -61,25 +59,99 @@ impl Plan {
         match isa.0 {
             Set::Portable => self.solve_portably(pose, answer),
             #[cfg(target_arch = "x86_64")]
-            Set::Avx2 => unsafe { avx2(self, pose, answer) },
+            Set::Avx2 => unsafe { sets::avx2(self, pose, answer) },
             #[cfg(target_arch = "x86_64")]
-            Set::Avx512 => unsafe { avx512(self, pose, answer) },
+            Set::Avx512 => unsafe { sets::avx512(self, pose, answer) },
         }
     }
 }
 
-/// For AVX2 with fused multiplications.
+/// Sets of instructions that only [`Plan::solve_on`] names, where they were found: with the parts of the solver compiled
+/// for them.
 #[cfg(target_arch = "x86_64")]
-#[inline(never)]
-#[target_feature(enable = "avx2,fma")]
-fn avx2(plan: &Plan, pose: &Rigid, answer: &mut Answer) {
-    solve::<true>(&plan.constants, Task::Answer(&plan.method), &plan.target(pose), answer);
-}
+mod sets {
+    use crate::{
+        arm::{Arm, Joint},
+        certificate::Verdict,
+        eliminate::Eliminated,
+        extract::UNKNOWNS,
+        fourier::Trigonometric,
+        instructions::{Arcs, Instructions},
+        lanes::Lanes,
+        plan::Plan,
+        remaining::{First, Value},
+        rigid::Rigid,
+        slides::Sliding,
+        solve::{Task, solve},
+        split::Split,
+        triple::Triple,
+        work::Work,
+    };
 
-/// For AVX-512.
-#[cfg(target_arch = "x86_64")]
-#[inline(never)]
-#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
-fn avx512(plan: &Plan, pose: &Rigid, answer: &mut Answer) {
-    solve::<true>(&plan.constants, Task::Answer(&plan.method), &plan.target(pose), answer);
+    /// Functions with the names of parts, each compiled for instructions.
+    macro_rules! parts {
+        ($set:ident $features:literal: $(fn $module:ident::$name:ident($($argument:ident: $kind:ty),*) $(-> $result:ty)?;)*) => {$(
+            fn $name($($argument: $kind),*) $(-> $result)? {
+                #[inline(never)]
+                #[target_feature(enable = $features)]
+                fn part($($argument: $kind),*) $(-> $result)? {
+                    crate::$module::$name::<$set>($($argument),*)
+                }
+                // SAFETY: only parts of a solution call parts, and `Plan::solve_on` begins one where the instructions
+                // were found.
+                unsafe { part($($argument),*) }
+            }
+        )*};
+    }
+
+    /// A set, and the solver for it.
+    macro_rules! set {
+        ($set:ident, $features:literal, $solve:ident) => {
+            pub(super) enum $set {}
+
+            impl Instructions for $set {
+                const FUSED: bool = true;
+                parts! { $set $features:
+                    fn eliminate::eliminate(split: &Split, closing: &Rigid, out: &mut Eliminated);
+                    fn determinant::determinant(rows: &[[f64; 27]; 6], multiplied: Joint, c: Lanes, s: Lanes) -> Lanes;
+                    fn extract::null_vectors(
+                        rows: &[[f64; 27]; 6],
+                        multiplied: Joint,
+                        c: Lanes,
+                        s: Lanes,
+                        x: &mut [Lanes; UNKNOWNS]
+                    ) -> Lanes;
+                    fn remaining::complete(
+                        split: &Split,
+                        eliminated: &Eliminated,
+                        first: &First,
+                        branch: f64,
+                        hidden: &Value,
+                        x: &[Lanes; UNKNOWNS],
+                        out: &mut [Value; 6]
+                    );
+                    fn newton::polish(arm: &Arm, target: &Rigid, values: &mut [Value; 6]) -> Lanes;
+                    fn newton::smallest_singular_values(arm: &Arm, values: &[Value; 6]) -> Lanes;
+                    fn chart::crowds(
+                        angles: &[f64],
+                        marked: &[bool],
+                        polynomial: &Trigonometric,
+                        noise: f64,
+                        out: &mut Arcs
+                    ) -> usize;
+                    fn slides::solve_sliding(arm: &Arm, sliding: &Sliding, target: &Rigid, work: &mut Work) -> Verdict;
+                    fn triple::solve_triple(arm: &Arm, triple: &Triple, target: &Rigid, work: &mut Work) -> Verdict;
+                }
+            }
+
+            #[inline(never)]
+            #[target_feature(enable = $features)]
+            pub(super) fn $solve(plan: &Plan, pose: &Rigid, answer: &mut crate::Answer) {
+                solve::<$set>(&plan.constants, Task::Answer(&plan.method), &plan.target(pose), answer);
+            }
+        };
+    }
+
+    set!(Avx2, "avx2,fma", avx2);
+    set!(Avx512, "avx512f,avx512dq,avx512vl,avx2,fma", avx512);
 }

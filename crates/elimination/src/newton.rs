@@ -5,6 +5,7 @@
 use crate::{
     arm::{Arm, Joint},
     determinant::reduce,
+    instructions::Instructions,
     lanes::Lanes,
     remaining::Value,
     rigid::Rigid,
@@ -20,7 +21,7 @@ struct Motion {
 
 /// Where the chain is at the values.
 #[inline(always)]
-fn forward<const FUSED: bool>(arm: &Arm, values: &[Value; 6]) -> Motion {
+fn forward<I: Instructions>(arm: &Arm, values: &[Value; 6]) -> Motion {
     let mut at = Motion {
         rotation: [[Lanes::ZERO; 3]; 3],
         position: [Lanes::ZERO; 3],
@@ -41,22 +42,20 @@ fn forward<const FUSED: bool>(arm: &Arm, values: &[Value; 6]) -> Motion {
             at.axes[i][x] = row[2];
             at.points[i][x] = at.position[x];
             let row = match arm.joints[i] {
-                Joint::Revolute => [
-                    s.mul_add::<FUSED>(row[1], c.times(row[0])),
-                    s.mul_sub::<FUSED>(row[0], c.times(row[1])),
-                    row[2],
-                ],
+                Joint::Revolute => {
+                    [s.mul_add::<I>(row[1], c.times(row[0])), s.mul_sub::<I>(row[0], c.times(row[1])), row[2]]
+                }
                 Joint::Prismatic => {
-                    at.position[x] = c.mul_add::<FUSED>(row[2], at.position[x]);
+                    at.position[x] = c.mul_add::<I>(row[2], at.position[x]);
                     row
                 }
             };
             let mut position = at.position[x];
             for k in 0..3 {
-                position = row[k].scale_add::<FUSED>(link.translation[k], position);
+                position = row[k].scale_add::<I>(link.translation[k], position);
                 let mut entry = row[0].scale(link.rotation[0][k]);
-                entry = row[1].scale_add::<FUSED>(link.rotation[1][k], entry);
-                entry = row[2].scale_add::<FUSED>(link.rotation[2][k], entry);
+                entry = row[1].scale_add::<I>(link.rotation[1][k], entry);
+                entry = row[2].scale_add::<I>(link.rotation[2][k], entry);
                 at.rotation[x][k] = entry;
             }
             at.position[x] = position;
@@ -67,7 +66,7 @@ fn forward<const FUSED: bool>(arm: &Arm, values: &[Value; 6]) -> Motion {
 
 /// The twist that is left to the pose, and the square of the distance (in SE(3): the turn's chord, and the shift).
 #[inline(always)]
-fn error<const FUSED: bool>(at: &Motion, target: &Rigid) -> ([Lanes; 6], Lanes) {
+fn error<I: Instructions>(at: &Motion, target: &Rigid) -> ([Lanes; 6], Lanes) {
     let mut twist = [Lanes::ZERO; 6];
     let mut square = Lanes::ZERO;
     for k in 0..3 {
@@ -76,23 +75,23 @@ fn error<const FUSED: bool>(at: &Motion, target: &Rigid) -> ([Lanes; 6], Lanes) 
         let goal = [target.rotation[0][k], target.rotation[1][k], target.rotation[2][k]];
         for x in 0..3 {
             let (y, z) = ((x + 1) % 3, (x + 2) % 3);
-            twist[3 + x] = column[y].scale_add::<FUSED>(0.5 * goal[z], twist[3 + x]);
-            twist[3 + x] = column[z].scale_add::<FUSED>(-0.5 * goal[y], twist[3 + x]);
+            twist[3 + x] = column[y].scale_add::<I>(0.5 * goal[z], twist[3 + x]);
+            twist[3 + x] = column[z].scale_add::<I>(-0.5 * goal[y], twist[3 + x]);
             let apart = column[x].minus(Lanes::splat(goal[x]));
-            square = apart.mul_add::<FUSED>(apart, square);
+            square = apart.mul_add::<I>(apart, square);
         }
     }
     square = square.scale(0.5);
     for x in 0..3 {
         twist[x] = Lanes::splat(target.translation[x]).minus(at.position[x]);
-        square = twist[x].mul_add::<FUSED>(twist[x], square);
+        square = twist[x].mul_add::<I>(twist[x], square);
     }
     (twist, square)
 }
 
 /// The geometric Jacobian in the first six of `N` columns.
 #[inline(always)]
-fn jacobian<const FUSED: bool, const N: usize>(arm: &Arm, at: &Motion, m: &mut [[Lanes; N]; 6]) {
+fn jacobian<I: Instructions, const N: usize>(arm: &Arm, at: &Motion, m: &mut [[Lanes; N]; 6]) {
     for i in 0..6 {
         let z = &at.axes[i];
         for x in 0..3 {
@@ -101,7 +100,7 @@ fn jacobian<const FUSED: bool, const N: usize>(arm: &Arm, at: &Motion, m: &mut [
                 Joint::Revolute => {
                     let (a, b) =
                         (at.position[w].minus(at.points[i][w]), at.position[y].minus(at.points[i][y]));
-                    m[x][i] = z[w].mul_sub::<FUSED>(b, z[y].times(a));
+                    m[x][i] = z[w].mul_sub::<I>(b, z[y].times(a));
                     m[3 + x][i] = z[x];
                 }
                 Joint::Prismatic => {
@@ -124,13 +123,13 @@ const MOST: u32 = 24;
 
 /// Newton's method on all lanes, each kept at its best; the distances to the pose that are left.
 #[inline(always)]
-pub fn polish<const FUSED: bool>(arm: &Arm, target: &Rigid, values: &mut [Value; 6]) -> Lanes {
+pub fn polish<I: Instructions>(arm: &Arm, target: &Rigid, values: &mut [Value; 6]) -> Lanes {
     let mut best = Lanes::splat(f64::INFINITY);
     let mut now = *values;
     let mut patience = Lanes::splat(4.0);
     for _ in 0..MOST {
-        let at = forward::<FUSED>(arm, &now);
-        let (twist, square) = error::<FUSED>(&at, target);
+        let at = forward::<I>(arm, &now);
+        let (twist, square) = error::<I>(&at, target);
         // A lane that has not halved its distance uses up its patience.
         let slow = square.where_less(best.scale(0.25), Lanes::ZERO, Lanes::ONE);
         patience = patience.minus(slow);
@@ -146,16 +145,16 @@ pub fn polish<const FUSED: bool>(arm: &Arm, target: &Rigid, values: &mut [Value;
         }
 
         let mut m = [[Lanes::ZERO; 7]; 6];
-        jacobian::<FUSED, 7>(arm, &at, &mut m);
+        jacobian::<I, 7>(arm, &at, &mut m);
         for (row, twist) in m.iter_mut().zip(&twist) {
             row[6] = *twist;
         }
-        reduce::<FUSED, 7>(&mut m, 6);
+        reduce::<I, 7>(&mut m, 6);
         let mut step = [Lanes::ZERO; 6];
         for k in (0..6).rev() {
             let mut sum = m[k][6];
             for c in k + 1..6 {
-                sum = m[k][c].mul_sub::<FUSED>(step[c], sum);
+                sum = m[k][c].mul_sub::<I>(step[c], sum);
             }
             let flat = m[k][k].magnitude();
             step[k] = flat.where_less(Lanes::splat(FLAT), Lanes::ZERO, sum.over(m[k][k]));
@@ -168,7 +167,7 @@ pub fn polish<const FUSED: bool>(arm: &Arm, target: &Rigid, values: &mut [Value;
         for i in 0..6 {
             let step = step[i].times(factor);
             now[i] = match arm.joints[i] {
-                Joint::Revolute => turned::<FUSED>(&now[i], step),
+                Joint::Revolute => turned::<I>(&now[i], step),
                 Joint::Prismatic => [now[i][0].plus(step), Lanes::ZERO],
             };
         }
@@ -178,18 +177,18 @@ pub fn polish<const FUSED: bool>(arm: &Arm, target: &Rigid, values: &mut [Value;
 
 /// Cosine and sine after a turn by at most 0.6 rad: Taylor's polynomials, then back to length 1.
 #[inline(always)]
-fn turned<const FUSED: bool>(value: &Value, step: Lanes) -> Value {
+fn turned<I: Instructions>(value: &Value, step: Lanes) -> Value {
     let square = step.times(step);
     let (mut c, mut s) = (Lanes::splat(1.0 / 479_001_600.0), Lanes::splat(1.0 / 6_227_020_800.0));
     for k in (0..6).rev() {
         // cos: terms (2k)!, sin: (2k + 1)!, signs alternating
-        c = c.mul_sub::<FUSED>(square, Lanes::splat(RECIPROCAL[2 * k]));
-        s = s.mul_sub::<FUSED>(square, Lanes::splat(RECIPROCAL[2 * k + 1]));
+        c = c.mul_sub::<I>(square, Lanes::splat(RECIPROCAL[2 * k]));
+        s = s.mul_sub::<I>(square, Lanes::splat(RECIPROCAL[2 * k + 1]));
     }
     let s = s.times(step);
     let [x, y] = *value;
-    let (nx, ny) = (s.mul_sub::<FUSED>(y, c.times(x)), s.mul_add::<FUSED>(x, c.times(y)));
-    let length = ny.mul_add::<FUSED>(ny, nx.times(nx));
+    let (nx, ny) = (s.mul_sub::<I>(y, c.times(x)), s.mul_add::<I>(x, c.times(y)));
+    let length = ny.mul_add::<I>(ny, nx.times(nx));
     let back = Lanes::splat(1.5).minus(length.scale(0.5));
     [nx.times(back), ny.times(back)]
 }
@@ -212,14 +211,14 @@ const RECIPROCAL: [f64; 12] = [
 
 /// The smallest singular value of the Jacobian in each lane: power iterations with the inverse, from its longest row.
 #[inline(always)]
-pub fn smallest_singular_values<const FUSED: bool>(arm: &Arm, values: &[Value; 6]) -> Lanes {
-    let at = forward::<FUSED>(arm, values);
+pub fn smallest_singular_values<I: Instructions>(arm: &Arm, values: &[Value; 6]) -> Lanes {
+    let at = forward::<I>(arm, values);
     let mut m = [[Lanes::ZERO; 12]; 6];
-    jacobian::<FUSED, 12>(arm, &at, &mut m);
+    jacobian::<I, 12>(arm, &at, &mut m);
     for (k, row) in m.iter_mut().enumerate() {
         row[6 + k] = Lanes::ONE;
     }
-    reduce::<FUSED, 12>(&mut m, 6);
+    reduce::<I, 12>(&mut m, 6);
     let mut inverse = [[Lanes::ZERO; 6]; 6];
     for k in (0..6).rev() {
         let flat = m[k][k].magnitude();
@@ -228,7 +227,7 @@ pub fn smallest_singular_values<const FUSED: bool>(arm: &Arm, values: &[Value; 6
         for j in 0..6 {
             let mut sum = m[k][6 + j];
             for c in k + 1..6 {
-                sum = m[k][c].mul_sub::<FUSED>(inverse[c][j], sum);
+                sum = m[k][c].mul_sub::<I>(inverse[c][j], sum);
             }
             inverse[k][j] = sum.times(pivot);
         }
@@ -238,7 +237,7 @@ pub fn smallest_singular_values<const FUSED: bool>(arm: &Arm, values: &[Value; 6
     for row in &inverse {
         let mut square = Lanes::ZERO;
         for entry in row {
-            square = entry.mul_add::<FUSED>(*entry, square);
+            square = entry.mul_add::<I>(*entry, square);
         }
         for (x, entry) in x.iter_mut().zip(row) {
             *x = longest.where_less(square, *entry, *x);
@@ -249,7 +248,7 @@ pub fn smallest_singular_values<const FUSED: bool>(arm: &Arm, values: &[Value; 6
     for _ in 0..4 {
         let mut square = Lanes::ZERO;
         for x in &x {
-            square = x.mul_add::<FUSED>(*x, square);
+            square = x.mul_add::<I>(*x, square);
         }
         let back = Lanes::ONE.over(square.root());
         for x in &mut x {
@@ -258,17 +257,17 @@ pub fn smallest_singular_values<const FUSED: bool>(arm: &Arm, values: &[Value; 6
         let mut image = [Lanes::ZERO; 6];
         for (image, row) in image.iter_mut().zip(&inverse) {
             for (entry, x) in row.iter().zip(&x) {
-                *image = entry.mul_add::<FUSED>(*x, *image);
+                *image = entry.mul_add::<I>(*x, *image);
             }
         }
         growth = Lanes::ZERO;
         for image in &image {
-            growth = image.mul_add::<FUSED>(*image, growth);
+            growth = image.mul_add::<I>(*image, growth);
         }
         x = [Lanes::ZERO; 6];
         for (image, row) in image.iter().zip(&inverse) {
             for (x, entry) in x.iter_mut().zip(row) {
-                *x = entry.mul_add::<FUSED>(*image, *x);
+                *x = entry.mul_add::<I>(*image, *x);
             }
         }
     }

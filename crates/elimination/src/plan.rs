@@ -5,6 +5,7 @@ use crate::{
     arm::{Arm, Joint},
     determinant::DEGREE,
     fourier::Fourier,
+    instructions::Portable,
     rigid::{Rigid, dot},
     slides::Sliding,
     solve::{Constants, Method, Task, Way, portable},
@@ -114,7 +115,7 @@ impl Plan {
     /// All configurations at a pose, on the instructions that every processor of the target has; slides and translations
     /// in the arm's unit.
     pub(crate) fn solve_portably(&self, pose: &Rigid, answer: &mut Answer) {
-        portable::<FUSED>(&self.constants, Task::Answer(&self.method), &self.target(pose), answer);
+        portable::<Portable<FUSED>>(&self.constants, Task::Answer(&self.method), &self.target(pose), answer);
     }
 
     /// The pose, lengths divided by the arm's size.

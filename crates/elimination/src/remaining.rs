@@ -1,6 +1,9 @@
 //! From a null vector at a value of the hidden joint to all six joints, eight candidates at a time.
 
-use crate::{arm::Joint, eliminate::Eliminated, extract::UNKNOWNS, lanes::Lanes, rigid::Rigid, split::Split};
+use crate::{
+    arm::Joint, eliminate::Eliminated, extract::UNKNOWNS, instructions::Instructions, lanes::Lanes,
+    rigid::Rigid, split::Split,
+};
 
 /// A joint's value in each lane: cosine and sine, or the slide (scaled) and nothing.
 pub type Value = [Lanes; 2];
@@ -64,7 +67,7 @@ impl First {
 /// The values of all joints, in the arm's order, of the candidates with the hidden joint at `hidden` and the null vectors
 /// `x`; `branch` (±1) chooses between the first joint's angles where the forms leave it open.
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-pub fn complete<const FUSED: bool>(
+pub fn complete<I: Instructions>(
     split: &Split,
     eliminated: &Eliminated,
     first: &First,
@@ -75,7 +78,7 @@ pub fn complete<const FUSED: bool>(
 ) {
     let mut ring = [[Lanes::ZERO; 2]; 6];
     ring[2] = *hidden;
-    trio::<FUSED>(split, x, &mut ring);
+    trio::<I>(split, x, &mut ring);
 
     // The dropped joint's line, and its x direction, in the frame before the second joint's inverse.
     let links = &eliminated.links;
@@ -85,14 +88,14 @@ pub fn complete<const FUSED: bool>(
     let mut e = splat([r[0][0], r[1][0], r[2][0]]);
     for i in [4, 3, 2] {
         let link = &links[i - 1];
-        p = through::<FUSED>(link, true, joint::<FUSED>(split.kinds[i], &ring[i], true, p));
-        l = through::<FUSED>(link, false, joint::<FUSED>(split.kinds[i], &ring[i], false, l));
-        e = through::<FUSED>(link, false, joint::<FUSED>(split.kinds[i], &ring[i], false, e));
+        p = through::<I>(link, true, joint::<I>(split.kinds[i], &ring[i], true, p));
+        l = through::<I>(link, false, joint::<I>(split.kinds[i], &ring[i], false, l));
+        e = through::<I>(link, false, joint::<I>(split.kinds[i], &ring[i], false, e));
     }
 
     // The first joint.
-    let pp = product::<FUSED>(&p, &p);
-    let pl = product::<FUSED>(&p, &l);
+    let pp = product::<I>(&p, &p);
+    let pl = product::<I>(&p, &l);
     let normal = p[1].times(l[0]);
     let normal = p[0].times(l[1]).minus(normal);
     let last = pp.times(l[2]).minus(pl.times(p[2]).scale(2.0));
@@ -103,48 +106,48 @@ pub fn complete<const FUSED: bool>(
     let mut m = [Lanes::ZERO; 2];
     for (k, form) in seen.into_iter().enumerate() {
         let rest = form.minus(Lanes::splat(eliminated.first[k][0]));
-        m[0] = rest.scale_add::<FUSED>(first.weights[0][k], m[0]);
-        m[1] = rest.scale_add::<FUSED>(first.weights[1][k], m[1]);
+        m[0] = rest.scale_add::<I>(first.weights[0][k], m[0]);
+        m[1] = rest.scale_add::<I>(first.weights[1][k], m[1]);
     }
     if let Some(open) = first.open {
-        let left = Lanes::ONE.minus(m[1].mul_add::<FUSED>(m[1], m[0].times(m[0])));
+        let left = Lanes::ONE.minus(m[1].mul_add::<I>(m[1], m[0].times(m[0])));
         let left = left.larger(Lanes::ZERO).root().scale(branch);
-        m[0] = left.scale_add::<FUSED>(open[0], m[0]);
-        m[1] = left.scale_add::<FUSED>(open[1], m[1]);
+        m[0] = left.scale_add::<I>(open[0], m[0]);
+        m[1] = left.scale_add::<I>(open[1], m[1]);
     }
     ring[0] = match split.kinds[0] {
-        Joint::Revolute => unit::<FUSED>(m[0], m[1]),
+        Joint::Revolute => unit::<I>(m[0], m[1]),
         Joint::Prismatic => [m[0], Lanes::ZERO],
     };
 
     // The same line from the other side, up to the second joint: L₁⁻¹ Z₁⁻¹ L₆⁻¹
     let close = &links[5];
-    let p2 = joint_back::<FUSED>(split.kinds[0], &ring[0], true, splat(close.point_back([0.0; 3])));
-    let p2 = through_back::<FUSED>(&links[0], true, p2);
-    let l2 = joint_back::<FUSED>(split.kinds[0], &ring[0], false, splat(close.rotation[2]));
-    let l2 = through_back::<FUSED>(&links[0], false, l2);
+    let p2 = joint_back::<I>(split.kinds[0], &ring[0], true, splat(close.point_back([0.0; 3])));
+    let p2 = through_back::<I>(&links[0], true, p2);
+    let l2 = joint_back::<I>(split.kinds[0], &ring[0], false, splat(close.rotation[2]));
+    let l2 = through_back::<I>(&links[0], false, l2);
     ring[1] = match split.kinds[1] {
         // (x', y') = (c x + s y, c y − s x)
         Joint::Revolute => {
             let mut c = p[0].times(p2[0]);
-            c = p[1].mul_add::<FUSED>(p2[1], c);
-            c = l[0].mul_add::<FUSED>(l2[0], c);
-            c = l[1].mul_add::<FUSED>(l2[1], c);
+            c = p[1].mul_add::<I>(p2[1], c);
+            c = l[0].mul_add::<I>(l2[0], c);
+            c = l[1].mul_add::<I>(l2[1], c);
             let mut s = p[0].times(p2[1]);
-            s = p[1].mul_sub::<FUSED>(p2[0], s);
-            s = l[0].mul_add::<FUSED>(l2[1], s);
-            s = l[1].mul_sub::<FUSED>(l2[0], s);
-            unit::<FUSED>(c, s)
+            s = p[1].mul_sub::<I>(p2[0], s);
+            s = l[0].mul_add::<I>(l2[1], s);
+            s = l[1].mul_sub::<I>(l2[0], s);
+            unit::<I>(c, s)
         }
         Joint::Prismatic => [p2[2].minus(p[2]), Lanes::ZERO],
     };
 
     // The dropped joint: Z₆⁻¹ e₁ = (c, −s, 0) in the frame behind L₆.
-    let mut y = joint::<FUSED>(split.kinds[1], &ring[1], false, e);
-    y = through::<FUSED>(&links[0], false, y);
-    y = joint::<FUSED>(split.kinds[0], &ring[0], false, y);
-    y = through::<FUSED>(close, false, y);
-    ring[5] = unit::<FUSED>(y[0], y[1].negated());
+    let mut y = joint::<I>(split.kinds[1], &ring[1], false, e);
+    y = through::<I>(&links[0], false, y);
+    y = joint::<I>(split.kinds[0], &ring[0], false, y);
+    y = through::<I>(close, false, y);
+    ring[5] = unit::<I>(y[0], y[1].negated());
 
     for (i, value) in ring.into_iter().enumerate() {
         out[split.joints[i]] = match split.kinds[i] {
@@ -156,7 +159,7 @@ pub fn complete<const FUSED: bool>(
 
 /// The two joints of the trio behind the hidden one, from the null vector.
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-fn trio<const FUSED: bool>(split: &Split, x: &[Lanes; UNKNOWNS], ring: &mut [Value; 6]) {
+fn trio<I: Instructions>(split: &Split, x: &[Lanes; UNKNOWNS], ring: &mut [Value; 6]) {
     let (multiplied, other) = split.multiplied_and_other();
     let weight = if multiplied == Joint::Revolute { 1.0 / 3.0f64.sqrt() } else { 1.0 };
     let mut y = *x;
@@ -166,13 +169,13 @@ fn trio<const FUSED: bool>(split: &Split, x: &[Lanes; UNKNOWNS], ring: &mut [Val
     // y = (u³, u²v, uv², v³) ⊗ w: the rows without the last block are u z, those without the first v z.
     let (mut uu, mut uv, mut vv) = (Lanes::ZERO, Lanes::ZERO, Lanes::ZERO);
     for k in 0..9 {
-        uu = y[k].mul_add::<FUSED>(y[k], uu);
-        uv = y[k].mul_add::<FUSED>(y[k + 3], uv);
-        vv = y[k + 3].mul_add::<FUSED>(y[k + 3], vv);
+        uu = y[k].mul_add::<I>(y[k], uu);
+        uv = y[k].mul_add::<I>(y[k + 3], uv);
+        vv = y[k + 3].mul_add::<I>(y[k + 3], vv);
     }
     let (value, u, v) = match multiplied {
         Joint::Revolute => {
-            let value = unit::<FUSED>(uu.minus(vv), uv.plus(uv));
+            let value = unit::<I>(uu.minus(vv), uv.plus(uv));
             let [c, s] = value;
             // Half angles without cancellation: the larger of u and v by a root, the other from s = 2 u v.
             let large = Lanes::splat(0.5).plus(c.magnitude().scale(0.5)).root();
@@ -191,34 +194,34 @@ fn trio<const FUSED: bool>(split: &Split, x: &[Lanes; UNKNOWNS], ring: &mut [Val
     let mut w = [Lanes::ZERO; 3];
     for (j, w) in w.iter_mut().enumerate() {
         for (k, power) in powers.iter().enumerate() {
-            *w = y[3 * k + j].mul_add::<FUSED>(*power, *w);
+            *w = y[3 * k + j].mul_add::<I>(*power, *w);
         }
     }
     let other_value = match other {
         Joint::Revolute => {
-            let [c, s] = unit::<FUSED>(w[1], w[2]);
+            let [c, s] = unit::<I>(w[1], w[2]);
             [w[0].where_less(Lanes::ZERO, c.negated(), c), w[0].where_less(Lanes::ZERO, s.negated(), s)]
         }
         Joint::Prismatic => [w[1].over(w[0]), Lanes::ZERO],
     };
     let (fourth, fifth) = if split.last_multiplied { (other_value, value) } else { (value, other_value) };
-    ring[3] = without_offset::<FUSED>(split, split.kinds[3], fourth);
-    ring[4] = without_offset::<FUSED>(split, split.kinds[4], fifth);
+    ring[3] = without_offset::<I>(split, split.kinds[3], fourth);
+    ring[4] = without_offset::<I>(split, split.kinds[4], fifth);
 }
 
 #[inline(always)]
-fn without_offset<const FUSED: bool>(split: &Split, kind: Joint, [c, s]: Value) -> Value {
+fn without_offset<I: Instructions>(split: &Split, kind: Joint, [c, s]: Value) -> Value {
     let [oc, os] = split.offset;
     match kind {
-        Joint::Revolute => [s.scale_add::<FUSED>(os, c.scale(oc)), c.scale_add::<FUSED>(-os, s.scale(oc))],
+        Joint::Revolute => [s.scale_add::<I>(os, c.scale(oc)), c.scale_add::<I>(-os, s.scale(oc))],
         Joint::Prismatic => [c, s],
     }
 }
 
 /// `(c, s)` divided by its length; `(1, 0)` if it has none.
 #[inline(always)]
-pub fn unit<const FUSED: bool>(c: Lanes, s: Lanes) -> Value {
-    let square = s.mul_add::<FUSED>(s, c.times(c));
+pub fn unit<I: Instructions>(c: Lanes, s: Lanes) -> Value {
+    let square = s.mul_add::<I>(s, c.times(c));
     let inverse = Lanes::ONE.over(square.where_is(0.0, Lanes::ONE, square).root());
     [square.where_is(0.0, Lanes::ONE, c.times(inverse)), s.times(inverse)]
 }
@@ -229,42 +232,40 @@ fn splat(v: [f64; 3]) -> Vector {
 }
 
 #[inline(always)]
-fn product<const FUSED: bool>(a: &Vector, b: &Vector) -> Lanes {
-    a[2].mul_add::<FUSED>(b[2], a[1].mul_add::<FUSED>(b[1], a[0].times(b[0])))
+fn product<I: Instructions>(a: &Vector, b: &Vector) -> Lanes {
+    a[2].mul_add::<I>(b[2], a[1].mul_add::<I>(b[1], a[0].times(b[0])))
 }
 
 /// A direction, or a point, through a constant transform.
 #[inline(always)]
-fn through<const FUSED: bool>(by: &Rigid, point: bool, v: Vector) -> Vector {
+fn through<I: Instructions>(by: &Rigid, point: bool, v: Vector) -> Vector {
     let mut out = if point { splat(by.translation) } else { [Lanes::ZERO; 3] };
     for (out, row) in out.iter_mut().zip(&by.rotation) {
         for (v, x) in v.iter().zip(row) {
-            *out = v.scale_add::<FUSED>(*x, *out);
+            *out = v.scale_add::<I>(*x, *out);
         }
     }
     out
 }
 
 #[inline(always)]
-fn through_back<const FUSED: bool>(by: &Rigid, point: bool, v: Vector) -> Vector {
-    through::<FUSED>(&by.inverse(), point, v)
+fn through_back<I: Instructions>(by: &Rigid, point: bool, v: Vector) -> Vector {
+    through::<I>(&by.inverse(), point, v)
 }
 
 /// A direction, or a point, moved by a joint.
 #[inline(always)]
-fn joint<const FUSED: bool>(kind: Joint, [c, s]: &Value, point: bool, v: Vector) -> Vector {
+fn joint<I: Instructions>(kind: Joint, [c, s]: &Value, point: bool, v: Vector) -> Vector {
     match kind {
-        Joint::Revolute => {
-            [s.mul_sub::<FUSED>(v[1], c.times(v[0])), s.mul_add::<FUSED>(v[0], c.times(v[1])), v[2]]
-        }
+        Joint::Revolute => [s.mul_sub::<I>(v[1], c.times(v[0])), s.mul_add::<I>(v[0], c.times(v[1])), v[2]],
         Joint::Prismatic => [v[0], v[1], if point { v[2].plus(*c) } else { v[2] }],
     }
 }
 
 #[inline(always)]
-fn joint_back<const FUSED: bool>(kind: Joint, [c, s]: &Value, point: bool, v: Vector) -> Vector {
+fn joint_back<I: Instructions>(kind: Joint, [c, s]: &Value, point: bool, v: Vector) -> Vector {
     match kind {
-        Joint::Revolute => joint::<FUSED>(kind, &[*c, s.negated()], point, v),
-        Joint::Prismatic => joint::<FUSED>(kind, &[c.negated(), *s], point, v),
+        Joint::Revolute => joint::<I>(kind, &[*c, s.negated()], point, v),
+        Joint::Prismatic => joint::<I>(kind, &[c.negated(), *s], point, v),
     }
 }

@@ -5,6 +5,7 @@
 
 use crate::{
     fourier::Trigonometric,
+    instructions::Instructions,
     lanes::{Lanes, WIDTH},
 };
 
@@ -44,7 +45,7 @@ const MOST: u32 = 40;
 impl<const GROUPS: usize> Roots<GROUPS> {
     /// Finds the roots; `noise` is the relative error of the polynomial on the circle that the radii allow for.
     #[inline(always)]
-    pub fn find<const FUSED: bool>(&mut self, of: &Trigonometric, noise: f64) {
+    pub fn find<I: Instructions>(&mut self, of: &Trigonometric, noise: f64) {
         let mut degree = of.degree;
         while degree > 0 && of.re[degree] * of.re[degree] + of.im[degree] * of.im[degree] < LEADING * LEADING
         {
@@ -83,41 +84,41 @@ impl<const GROUPS: usize> Roots<GROUPS> {
                 let (mut dr, mut di) = (Lanes::ZERO, Lanes::ZERO);
                 for k in (0..count).rev() {
                     // P' ← P' z + P,   P ← P z + c
-                    let t = di.mul_sub::<FUSED>(y, pr);
-                    let next = dr.mul_add::<FUSED>(x, t);
-                    di = dr.mul_add::<FUSED>(y, di.mul_add::<FUSED>(x, pi));
+                    let t = di.mul_sub::<I>(y, pr);
+                    let next = dr.mul_add::<I>(x, t);
+                    di = dr.mul_add::<I>(y, di.mul_add::<I>(x, pi));
                     dr = next;
-                    let t = pi.mul_sub::<FUSED>(y, Lanes::splat(re[k]));
-                    let next = pr.mul_add::<FUSED>(x, t);
-                    pi = pr.mul_add::<FUSED>(y, pi.mul_add::<FUSED>(x, Lanes::splat(im[k])));
+                    let t = pi.mul_sub::<I>(y, Lanes::splat(re[k]));
+                    let next = pr.mul_add::<I>(x, t);
+                    pi = pr.mul_add::<I>(y, pi.mul_add::<I>(x, Lanes::splat(im[k])));
                     pr = next;
                 }
                 let (mut sr, mut si) = (Lanes::ZERO, Lanes::ZERO);
                 for k in 0..count {
                     let dx = x.minus(Lanes::splat(self.re[k / 8].0[k % 8]));
                     let dy = y.minus(Lanes::splat(self.im[k / 8].0[k % 8]));
-                    let square = dy.mul_add::<FUSED>(dy, dx.times(dx));
+                    let square = dy.mul_add::<I>(dy, dx.times(dx));
                     let inverse = square.where_is(0.0, Lanes::ZERO, Lanes::ONE.over(square));
-                    sr = dx.mul_add::<FUSED>(inverse, sr);
-                    si = dy.mul_sub::<FUSED>(inverse, si);
+                    sr = dx.mul_add::<I>(inverse, sr);
+                    si = dy.mul_sub::<I>(inverse, si);
                 }
                 // step = P / (P' − P S)
-                let er = pi.mul_add::<FUSED>(si, pr.mul_sub::<FUSED>(sr, dr));
-                let ei = pi.mul_sub::<FUSED>(sr, pr.mul_sub::<FUSED>(si, di));
-                let square = ei.mul_add::<FUSED>(ei, er.times(er));
+                let er = pi.mul_add::<I>(si, pr.mul_sub::<I>(sr, dr));
+                let ei = pi.mul_sub::<I>(sr, pr.mul_sub::<I>(si, di));
+                let square = ei.mul_add::<I>(ei, er.times(er));
                 let inverse = square.where_is(0.0, Lanes::ZERO, Lanes::ONE.over(square));
-                let step_r = pi.mul_add::<FUSED>(ei, pr.times(er)).times(inverse);
-                let step_i = pr.mul_sub::<FUSED>(ei, pi.times(er)).times(inverse);
+                let step_r = pi.mul_add::<I>(ei, pr.times(er)).times(inverse);
+                let step_i = pr.mul_sub::<I>(ei, pi.times(er)).times(inverse);
                 // No step where P is at its rounding error, and none of roots that do not exist.
-                let modulus = y.mul_add::<FUSED>(y, x.times(x));
+                let modulus = y.mul_add::<I>(y, x.times(x));
                 let scale = growth(modulus, degree);
-                let value = pi.mul_add::<FUSED>(pi, pr.times(pr)).root();
+                let value = pi.mul_add::<I>(pi, pr.times(pr)).root();
                 let go = value.where_less(scale.scale(FLOOR), Lanes::ZERO, live[g]);
                 let (step_r, step_i) =
                     (go.where_is(0.0, Lanes::ZERO, step_r), go.where_is(0.0, Lanes::ZERO, step_i));
                 next_re[g] = x.minus(step_r);
                 next_im[g] = y.minus(step_i);
-                let step = step_i.mul_add::<FUSED>(step_i, step_r.times(step_r)).over(modulus);
+                let step = step_i.mul_add::<I>(step_i, step_r.times(step_r)).over(modulus);
                 largest = largest.larger(step);
             }
             (self.re, self.im) = (next_re, next_im);
@@ -125,12 +126,12 @@ impl<const GROUPS: usize> Roots<GROUPS> {
                 break;
             }
         }
-        self.bound::<FUSED>(&re, &im, degree, noise);
+        self.bound::<I>(&re, &im, degree, noise);
     }
 
     /// Smith's radii `n (|P(z)| + noise s(z)) / |cₙ Π (z − zⱼ)|`, with `s(z) = max(1, |z|ⁿ)`.
     #[inline(always)]
-    fn bound<const FUSED: bool>(&mut self, re: &[f64; 25], im: &[f64; 25], degree: usize, noise: f64) {
+    fn bound<I: Instructions>(&mut self, re: &[f64; 25], im: &[f64; 25], degree: usize, noise: f64) {
         let count = 2 * degree;
         let leading = (re[count] * re[count] + im[count] * im[count]).sqrt();
         for g in 0..GROUPS {
@@ -138,15 +139,15 @@ impl<const GROUPS: usize> Roots<GROUPS> {
             let (mut pr, mut pi) = (Lanes::splat(re[count]), Lanes::splat(im[count]));
             let mut product = Lanes::splat(leading * leading);
             for k in (0..count).rev() {
-                let t = pi.mul_sub::<FUSED>(y, Lanes::splat(re[k]));
-                let next = pr.mul_add::<FUSED>(x, t);
-                pi = pr.mul_add::<FUSED>(y, pi.mul_add::<FUSED>(x, Lanes::splat(im[k])));
+                let t = pi.mul_sub::<I>(y, Lanes::splat(re[k]));
+                let next = pr.mul_add::<I>(x, t);
+                pi = pr.mul_add::<I>(y, pi.mul_add::<I>(x, Lanes::splat(im[k])));
                 pr = next;
             }
             for k in 0..count {
                 let dx = x.minus(Lanes::splat(self.re[k / 8].0[k % 8]));
                 let dy = y.minus(Lanes::splat(self.im[k / 8].0[k % 8]));
-                let square = dy.mul_add::<FUSED>(dy, dx.times(dx));
+                let square = dy.mul_add::<I>(dy, dx.times(dx));
                 // The root itself; roots that coincide keep a radius that reaches everything near.
                 let mut own = Lanes::ZERO;
                 if k / 8 == g {
@@ -155,9 +156,9 @@ impl<const GROUPS: usize> Roots<GROUPS> {
                 let square = own.where_is(1.0, Lanes::ONE, square.larger(Lanes::splat(1e-30)));
                 product = product.times(square);
             }
-            let scale = growth(y.mul_add::<FUSED>(y, x.times(x)), degree);
-            let value = pi.mul_add::<FUSED>(pi, pr.times(pr)).root();
-            let error = scale.scale_add::<FUSED>(noise, value).scale(count as f64);
+            let scale = growth(y.mul_add::<I>(y, x.times(x)), degree);
+            let value = pi.mul_add::<I>(pi, pr.times(pr)).root();
+            let error = scale.scale_add::<I>(noise, value).scale(count as f64);
             self.radius[g] = error.over(product.root());
         }
     }

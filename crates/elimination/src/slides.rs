@@ -13,8 +13,8 @@ use crate::{
     chart::Chart,
     charts::{Charts, DEEPEST, NEARBY, near_roots, noise},
     fourier::{Fourier, Trigonometric, USELESS},
+    instructions::{Instructions, Strict},
     lanes::{Lanes, WIDTH},
-    newton::polish,
     remaining::{Value, unit},
     rigid::Rigid,
     work::Work,
@@ -69,16 +69,16 @@ impl Complex {
     }
 
     #[inline(always)]
-    fn times<const FUSED: bool>(self, b: Complex) -> Complex {
+    fn times<I: Instructions>(self, b: Complex) -> Complex {
         Complex {
-            re: self.im.mul_sub::<FUSED>(b.im, self.re.times(b.re)),
-            im: self.im.mul_add::<FUSED>(b.re, self.re.times(b.im)),
+            re: self.im.mul_sub::<I>(b.im, self.re.times(b.re)),
+            im: self.im.mul_add::<I>(b.re, self.re.times(b.im)),
         }
     }
 
     #[inline(always)]
-    fn scale_add<const FUSED: bool>(self, x: f64, c: Complex) -> Complex {
-        Complex { re: self.re.scale_add::<FUSED>(x, c.re), im: self.im.scale_add::<FUSED>(x, c.im) }
+    fn scale_add<I: Instructions>(self, x: f64, c: Complex) -> Complex {
+        Complex { re: self.re.scale_add::<I>(x, c.re), im: self.im.scale_add::<I>(x, c.im) }
     }
 
     #[inline(always)]
@@ -149,8 +149,9 @@ impl Sliding {
             for pose in poses {
                 let between = self.at(pose);
                 let mut polynomial = Trigonometric::default();
-                let samples = self.samples::<false>(arm, &between, pose, &Chart::WHOLE);
-                if !self.fourier.fit::<false>(DEGREE, &samples, &mut polynomial) || polynomial.noise > 1e-10 {
+                let samples = self.samples::<Strict>(arm, &between, pose, &Chart::WHOLE);
+                if !self.fourier.fit::<Strict>(DEGREE, &samples, &mut polynomial) || polynomial.noise > 1e-10
+                {
                     degree = DEGREE + 1;
                     break;
                 }
@@ -182,7 +183,7 @@ impl Sliding {
 
     /// Products of the branches at the nodes of a chart.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-    fn samples<const FUSED: bool>(
+    fn samples<I: Instructions>(
         &self,
         arm: &Arm,
         between: &[Rigid; 4],
@@ -191,12 +192,12 @@ impl Sliding {
     ) -> [Lanes; 4] {
         let mut samples = [Lanes::ZERO; 4];
         for (g, sample) in samples.iter_mut().enumerate() {
-            let [c, s, weight] = chart.nodes::<FUSED>(self.fourier.cosines[g], self.fourier.sines[g]);
+            let [c, s, weight] = chart.nodes::<I>(self.fourier.cosines[g], self.fourier.sines[g]);
             let mut product = Complex::real(Lanes::ONE);
             let mut square = Lanes::ZERO;
             for side in [1.0, -1.0] {
-                let (branch, size) = self.branch::<FUSED>(arm, between, target, c, s, side, true);
-                product = product.times::<FUSED>(determinant::<FUSED>(&branch));
+                let (branch, size) = self.branch::<I>(arm, between, target, c, s, side, true);
+                product = product.times::<I>(determinant::<I>(&branch));
                 square = size;
             }
             *sample = product.re;
@@ -214,7 +215,7 @@ impl Sliding {
     /// `complex`, else the nearest real one.
     #[inline(always)]
     #[allow(clippy::too_many_arguments)]
-    fn branch<const FUSED: bool>(
+    fn branch<I: Instructions>(
         &self,
         arm: &Arm,
         between: &[Rigid; 4],
@@ -227,23 +228,23 @@ impl Sliding {
         // w = (C₄ Z₁ C₁)ᵀ e₃, v = C₂ e₃: w·(Z₂ v) = (C₃)₃₃
         let row = between[3].rotation[2];
         let turned = [
-            s.scale_add::<FUSED>(row[1], c.scale(row[0])),
-            c.scale_add::<FUSED>(row[1], s.scale(-row[0])),
+            s.scale_add::<I>(row[1], c.scale(row[0])),
+            c.scale_add::<I>(row[1], s.scale(-row[0])),
             Lanes::splat(row[2]),
         ];
         let mut w = [Lanes::ZERO; 3];
         for (k, w) in w.iter_mut().enumerate() {
             for (turned, row) in turned.iter().zip(&between[0].rotation) {
-                *w = turned.scale_add::<FUSED>(row[k], *w);
+                *w = turned.scale_add::<I>(row[k], *w);
             }
         }
         let third = &between[1].rotation;
         let v = [third[0][2], third[1][2], third[2][2]];
-        let a = w[1].scale_add::<FUSED>(v[1], w[0].scale(v[0]));
-        let b = w[0].scale_add::<FUSED>(-v[1], w[1].scale(v[0]));
-        let k = w[2].scale_add::<FUSED>(-v[2], Lanes::splat(between[2].rotation[2][2]));
-        let square = b.mul_add::<FUSED>(b, a.times(a));
-        let left = k.mul_sub::<FUSED>(k, square);
+        let a = w[1].scale_add::<I>(v[1], w[0].scale(v[0]));
+        let b = w[0].scale_add::<I>(-v[1], w[1].scale(v[0]));
+        let k = w[2].scale_add::<I>(-v[2], Lanes::splat(between[2].rotation[2][2]));
+        let square = b.mul_add::<I>(b, a.times(a));
+        let left = k.mul_sub::<I>(k, square);
         let root = left.magnitude().root().scale(side);
         let none = if complex { root } else { Lanes::ZERO };
         let root = Complex {
@@ -253,11 +254,11 @@ impl Sliding {
         let inverse = Lanes::ONE.over(square.larger(Lanes::splat(1e-200)));
         // (c₂, s₂) = ((A, B) K + (−B, A) root) / (A² + B²)
         let c2 = Complex {
-            re: b.mul_sub::<FUSED>(root.re, a.times(k)).times(inverse),
+            re: b.mul_sub::<I>(root.re, a.times(k)).times(inverse),
             im: b.times(root.im).times(inverse).negated(),
         };
         let s2 = Complex {
-            re: a.mul_add::<FUSED>(root.re, b.times(k)).times(inverse),
+            re: a.mul_add::<I>(root.re, b.times(k)).times(inverse),
             im: a.times(root.im).times(inverse),
         };
 
@@ -267,21 +268,21 @@ impl Sliding {
             s2.scale(v[0]).plus(c2.scale(v[1])),
             Complex::real(Lanes::splat(v[2])),
         ];
-        let y = turn::<FUSED>(&between[0], &y);
+        let y = turn::<I>(&between[0], &y);
         let (c1, s1) = (Complex::real(c), Complex::real(s));
         let y = [
-            c1.times::<FUSED>(y[0]).minus(s1.times::<FUSED>(y[1])),
-            s1.times::<FUSED>(y[0]).plus(c1.times::<FUSED>(y[1])),
+            c1.times::<I>(y[0]).minus(s1.times::<I>(y[1])),
+            s1.times::<I>(y[0]).plus(c1.times::<I>(y[1])),
             y[2],
         ];
-        let h = turn::<FUSED>(&between[3], &y);
+        let h = turn::<I>(&between[3], &y);
         let w = [Complex::real(w[0]), Complex::real(w[1]), Complex::real(w[2])];
         let y = [
-            c2.times::<FUSED>(w[0]).plus(s2.times::<FUSED>(w[1])),
-            c2.times::<FUSED>(w[1]).minus(s2.times::<FUSED>(w[0])),
+            c2.times::<I>(w[0]).plus(s2.times::<I>(w[1])),
+            c2.times::<I>(w[1]).minus(s2.times::<I>(w[0])),
             w[2],
         ];
-        let g = turn::<FUSED>(&between[1].inverse(), &y);
+        let g = turn::<I>(&between[1].inverse(), &y);
         let m = &between[2].rotation;
         let (a, b) = ([m[2][0], m[2][1]], [m[0][2], m[1][2]]);
         let size = 1.0 / (a[0] * a[0] + a[1] * a[1]);
@@ -295,12 +296,12 @@ impl Sliding {
         for (joint, [c, s]) in self.turns.into_iter().zip([[c1, s1], [c2, s2], [c3, s3], [c4, s4]]) {
             values[joint] = [c, s.scale(self.sign)];
         }
-        (self.position::<FUSED>(arm, target, values), square)
+        (self.position::<I>(arm, target, values), square)
     }
 
     /// The chain with the slides at 0.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-    fn position<const FUSED: bool>(&self, arm: &Arm, target: &Rigid, values: [[Complex; 2]; 6]) -> Branch {
+    fn position<I: Instructions>(&self, arm: &Arm, target: &Rigid, values: [[Complex; 2]; 6]) -> Branch {
         let mut rotation = [[Complex::ZERO; 3]; 3];
         let mut offset = [Complex::ZERO; 3];
         for x in 0..3 {
@@ -323,17 +324,17 @@ impl Sliding {
                 }
                 let row = match arm.joints[i] {
                     Joint::Revolute => [
-                        c.times::<FUSED>(row[0]).plus(s.times::<FUSED>(row[1])),
-                        c.times::<FUSED>(row[1]).minus(s.times::<FUSED>(row[0])),
+                        c.times::<I>(row[0]).plus(s.times::<I>(row[1])),
+                        c.times::<I>(row[1]).minus(s.times::<I>(row[0])),
                         row[2],
                     ],
                     Joint::Prismatic => row,
                 };
                 for k in 0..3 {
-                    offset[x] = row[k].scale_add::<FUSED>(link.translation[k], offset[x]);
+                    offset[x] = row[k].scale_add::<I>(link.translation[k], offset[x]);
                     let entry = row[0].scale(link.rotation[0][k]);
-                    let entry = row[1].scale_add::<FUSED>(link.rotation[1][k], entry);
-                    rotation[x][k] = row[2].scale_add::<FUSED>(link.rotation[2][k], entry);
+                    let entry = row[1].scale_add::<I>(link.rotation[1][k], entry);
+                    rotation[x][k] = row[2].scale_add::<I>(link.rotation[2][k], entry);
                 }
             }
         }
@@ -350,31 +351,31 @@ fn parallel(rotation: &Rigid) -> bool {
 }
 
 #[inline(always)]
-fn turn<const FUSED: bool>(by: &Rigid, v: &[Complex; 3]) -> [Complex; 3] {
+fn turn<I: Instructions>(by: &Rigid, v: &[Complex; 3]) -> [Complex; 3] {
     let mut out = [Complex::ZERO; 3];
     for (out, row) in out.iter_mut().zip(&by.rotation) {
         for (v, x) in v.iter().zip(row) {
-            *out = v.scale_add::<FUSED>(*x, *out);
+            *out = v.scale_add::<I>(*x, *out);
         }
     }
     out
 }
 
 #[inline(always)]
-fn determinant<const FUSED: bool>(of: &Branch) -> Complex {
+fn determinant<I: Instructions>(of: &Branch) -> Complex {
     let [a, b] = &of.directions;
     let mut sum = Complex::ZERO;
     for x in 0..3 {
         let (y, z) = ((x + 1) % 3, (x + 2) % 3);
-        let normal = a[y].times::<FUSED>(b[z]).minus(a[z].times::<FUSED>(b[y]));
-        sum = sum.plus(of.offset[x].times::<FUSED>(normal));
+        let normal = a[y].times::<I>(b[z]).minus(a[z].times::<I>(b[y]));
+        sum = sum.plus(of.offset[x].times::<I>(normal));
     }
     sum
 }
 
 /// Solves one ring and adds what it finds to `work.found`.
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-pub(crate) fn solve_sliding<const FUSED: bool>(
+pub(crate) fn solve_sliding<I: Instructions>(
     arm: &Arm,
     sliding: &Sliding,
     target: &Rigid,
@@ -384,15 +385,15 @@ pub(crate) fn solve_sliding<const FUSED: bool>(
     work.candidates.clear();
     let mut charts = Charts::whole(DEEPEST);
     while let Some(chart) = charts.next() {
-        let verdict = solve_chart::<FUSED>(arm, sliding, &between, target, &chart, work);
-        charts.settle::<FUSED>(&chart, verdict, work);
+        let verdict = solve_chart::<I>(arm, sliding, &between, target, &chart, work);
+        charts.settle::<I>(&chart, verdict, work);
     }
     charts.verdict(work)
 }
 
 /// Finds the roots that a chart shows, and the configurations that belong to them.
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-fn solve_chart<const FUSED: bool>(
+fn solve_chart<I: Instructions>(
     arm: &Arm,
     sliding: &Sliding,
     between: &[Rigid; 4],
@@ -401,20 +402,20 @@ fn solve_chart<const FUSED: bool>(
     work: &mut Work,
 ) -> Verdict {
     work.marks.count = 0;
-    let samples = sliding.samples::<FUSED>(arm, between, target, chart);
-    let useful = sliding.fourier.fit::<FUSED>(sliding.degree, &samples, &mut work.polynomial);
+    let samples = sliding.samples::<I>(arm, between, target, chart);
+    let useful = sliding.fourier.fit::<I>(sliding.degree, &samples, &mut work.polynomial);
     if !useful || work.polynomial.noise > USELESS {
         return Verdict::Uncertain;
     }
-    work.wide.find::<FUSED>(&work.polynomial, noise(&work.polynomial));
+    work.wide.find::<I>(&work.polynomial, noise(&work.polynomial));
     let mut near = [([0.0; 2], false); NEARBY];
     let count = near_roots(chart, &work.wide, &mut near);
     for group in near[..count].chunks(WIDTH) {
         let [c, s] = gather(group, |(pair, _)| *pair);
         for side in [1.0, -1.0] {
-            let (branch, _) = sliding.branch::<FUSED>(arm, between, target, c, s, side, false);
-            let mut values = real_values::<FUSED>(sliding, &branch);
-            let residual = polish::<FUSED>(arm, target, &mut values);
+            let (branch, _) = sliding.branch::<I>(arm, between, target, c, s, side, false);
+            let mut values = real_values::<I>(sliding, &branch);
+            let residual = I::polish(arm, target, &mut values);
             for l in 0..group.len() {
                 if residual.0[l] <= ACCEPTED {
                     add(arm, &mut work.found, Found { values: lane(&values, l), residual: residual.0[l] });
@@ -427,25 +428,25 @@ fn solve_chart<const FUSED: bool>(
 
 /// The joints' values with the slides that come nearest to the position.
 #[inline(always)]
-fn real_values<const FUSED: bool>(sliding: &Sliding, branch: &Branch) -> [Value; 6] {
+fn real_values<I: Instructions>(sliding: &Sliding, branch: &Branch) -> [Value; 6] {
     let mut values = [[Lanes::ZERO; 2]; 6];
     for joint in sliding.turns {
         let [c, s] = &branch.values[joint];
-        values[joint] = unit::<FUSED>(c.re, s.re);
+        values[joint] = unit::<I>(c.re, s.re);
     }
     let [a, b] = &branch.directions;
     let (mut aa, mut ab, mut bb) = (Lanes::ZERO, Lanes::ZERO, Lanes::splat(1e-30));
     let (mut ao, mut bo) = (Lanes::ZERO, Lanes::ZERO);
     for x in 0..3 {
-        aa = a[x].re.mul_add::<FUSED>(a[x].re, aa);
-        ab = a[x].re.mul_add::<FUSED>(b[x].re, ab);
-        bb = b[x].re.mul_add::<FUSED>(b[x].re, bb);
-        ao = a[x].re.mul_add::<FUSED>(branch.offset[x].re, ao);
-        bo = b[x].re.mul_add::<FUSED>(branch.offset[x].re, bo);
+        aa = a[x].re.mul_add::<I>(a[x].re, aa);
+        ab = a[x].re.mul_add::<I>(b[x].re, ab);
+        bb = b[x].re.mul_add::<I>(b[x].re, bb);
+        ao = a[x].re.mul_add::<I>(branch.offset[x].re, ao);
+        bo = b[x].re.mul_add::<I>(branch.offset[x].re, bo);
     }
-    let det = ab.mul_sub::<FUSED>(ab, aa.times(bb)).larger(Lanes::splat(1e-30));
+    let det = ab.mul_sub::<I>(ab, aa.times(bb)).larger(Lanes::splat(1e-30));
     let inverse = Lanes::splat(-1.0).over(det);
-    values[sliding.slides[0]][0] = bo.mul_sub::<FUSED>(ab, ao.times(bb)).times(inverse);
-    values[sliding.slides[1]][0] = ao.mul_sub::<FUSED>(ab, bo.times(aa)).times(inverse);
+    values[sliding.slides[0]][0] = bo.mul_sub::<I>(ab, ao.times(bb)).times(inverse);
+    values[sliding.slides[1]][0] = ao.mul_sub::<I>(ab, bo.times(aa)).times(inverse);
     values
 }

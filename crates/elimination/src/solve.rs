@@ -7,18 +7,17 @@ use crate::{
     certificate::{Verdict, verdict},
     chart::Chart,
     charts::{self, Charts, NEARBY, TOGETHER, near_roots, noise},
-    determinant::{DEGREE, determinant},
+    determinant::DEGREE,
     eigen::SHARED,
-    eliminate::eliminate,
-    extract::{SMALL, UNKNOWNS, null_vectors, shared},
+    extract::{SMALL, UNKNOWNS, shared},
     fourier::{Fourier, USELESS},
+    instructions::Instructions,
     lanes::{Lanes, WIDTH},
-    newton::{polish, smallest_singular_values},
-    remaining::{First, complete},
+    remaining::First,
     rigid::Rigid,
-    slides::{Sliding, solve_sliding},
+    slides::Sliding,
     split::Split,
-    triple::{Triple, solve_triple},
+    triple::Triple,
     wide_roots::{self, wide_candidates, wide_verdict},
     work::Work,
 };
@@ -43,7 +42,7 @@ pub(crate) struct Constants {
 
 /// Solves one split, by the 12 × 12 matrix or by the wider one, and adds what it finds to `work.found`.
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-fn solve_split<const FUSED: bool>(
+fn solve_split<I: Instructions>(
     constants: &Constants,
     split: &Split,
     wide: bool,
@@ -52,21 +51,21 @@ fn solve_split<const FUSED: bool>(
 ) -> Verdict {
     let arm = &constants.arm;
     let closing = arm.links[5].then(&target.inverse()).then(&arm.base);
-    eliminate::<FUSED>(split, &closing, &mut work.eliminated);
+    I::eliminate(split, &closing, &mut work.eliminated);
     if wide {
         work.matrix.fill(&work.eliminated, split);
     }
     let mut charts = Charts::whole(if wide { wide_roots::DEEPEST } else { charts::DEEPEST });
     while let Some(chart) = charts.next() {
-        let verdict = solve_chart::<FUSED>(constants, split, wide, target, &chart, work);
-        charts.settle::<FUSED>(&chart, verdict, work);
+        let verdict = solve_chart::<I>(constants, split, wide, target, &chart, work);
+        charts.settle::<I>(&chart, verdict, work);
     }
     charts.verdict(work)
 }
 
 /// Finds the roots that a chart shows, and the configurations that belong to them.
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-fn solve_chart<const FUSED: bool>(
+fn solve_chart<I: Instructions>(
     constants: &Constants,
     split: &Split,
     wide: bool,
@@ -78,12 +77,12 @@ fn solve_chart<const FUSED: bool>(
     let is_useful = if wide {
         wide_candidates(&constants.wide, split, chart, work)
     } else {
-        narrow_candidates::<FUSED>(constants, split, chart, work)
+        narrow_candidates::<I>(constants, split, chart, work)
     };
     if !is_useful {
         return Verdict::Uncertain;
     }
-    accept::<FUSED>(&constants.arm, split, target, work);
+    accept::<I>(&constants.arm, split, target, work);
     let (hidden, sign) = (split.joints[2], split.sign);
     if wide {
         wide_verdict(hidden, sign, chart, work)
@@ -94,7 +93,7 @@ fn solve_chart<const FUSED: bool>(
 
 /// Finds the roots that a chart shows, and what may belong to them; false if the samples are of no use.
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-fn narrow_candidates<const FUSED: bool>(
+fn narrow_candidates<I: Instructions>(
     constants: &Constants,
     split: &Split,
     chart: &Chart,
@@ -103,20 +102,20 @@ fn narrow_candidates<const FUSED: bool>(
     let (multiplied, _) = split.multiplied_and_other();
     let mut samples = [Lanes::ZERO; 3];
     for (g, sample) in samples.iter_mut().enumerate() {
-        let [c, s, weight] = chart.nodes::<FUSED>(constants.fourier.cosines[g], constants.fourier.sines[g]);
+        let [c, s, weight] = chart.nodes::<I>(constants.fourier.cosines[g], constants.fourier.sines[g]);
         let square = weight.times(weight);
         let square = square.times(square);
-        *sample = determinant::<FUSED>(&work.eliminated.rows, multiplied, c, s).times(square.times(square));
+        *sample = I::determinant(&work.eliminated.rows, multiplied, c, s).times(square.times(square));
     }
-    let useful = constants.fourier.fit::<FUSED>(DEGREE, &samples, &mut work.polynomial);
+    let useful = constants.fourier.fit::<I>(DEGREE, &samples, &mut work.polynomial);
     if !useful || work.polynomial.noise > USELESS {
         return false;
     }
-    work.roots.find::<FUSED>(&work.polynomial, noise(&work.polynomial));
+    work.roots.find::<I>(&work.polynomial, noise(&work.polynomial));
 
     let mut near = [([0.0; 2], false); NEARBY];
     let count = near_roots(chart, &work.roots, &mut near);
-    candidates::<FUSED>(split, &near[..count], work);
+    candidates::<I>(split, &near[..count], work);
     true
 }
 
@@ -124,14 +123,14 @@ fn narrow_candidates<const FUSED: bool>(
 ///
 /// Where several configurations share a root, the middles of close roots are exact: they serve instead of the roots.
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-fn candidates<const FUSED: bool>(split: &Split, near: &[([f64; 2], bool)], work: &mut Work) {
+fn candidates<I: Instructions>(split: &Split, near: &[([f64; 2], bool)], work: &mut Work) {
     work.candidates.clear();
     let (multiplied, _) = split.multiplied_and_other();
     let mut small = [0.0; NEARBY];
     for (g, group) in near.chunks(WIDTH).enumerate() {
         let [c, s] = gather(group, |(pair, _)| *pair);
         let mut x = [Lanes::ZERO; UNKNOWNS];
-        let pivots = null_vectors::<FUSED>(&work.eliminated.rows, multiplied, c, s, &mut x);
+        let pivots = I::null_vectors(&work.eliminated.rows, multiplied, c, s, &mut x);
         for (l, (pair, _)) in group.iter().enumerate() {
             let mut vector = [0.0; UNKNOWNS];
             for (entry, x) in vector.iter_mut().zip(&x) {
@@ -173,7 +172,7 @@ fn candidates<const FUSED: bool>(split: &Split, near: &[([f64; 2], bool)], work:
 
 /// Completes and polishes the candidates, and keeps those that reach the pose and are new.
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-fn accept<const FUSED: bool>(arm: &Arm, split: &Split, target: &Rigid, work: &mut Work) {
+fn accept<I: Instructions>(arm: &Arm, split: &Split, target: &Rigid, work: &mut Work) {
     let first = First::new(split.kinds[0], &work.eliminated.first);
     let branches: &[f64] = if first.open.is_some() { &[1.0, -1.0] } else { &[1.0] };
     for group in work.candidates.chunks(WIDTH) {
@@ -181,8 +180,8 @@ fn accept<const FUSED: bool>(arm: &Arm, split: &Split, target: &Rigid, work: &mu
         let x = gather(group, |candidate| candidate.x);
         for &branch in branches {
             let mut values = [[Lanes::ZERO; 2]; 6];
-            complete::<FUSED>(split, &work.eliminated, &first, branch, &hidden, &x, &mut values);
-            let residual = polish::<FUSED>(arm, target, &mut values);
+            I::complete(split, &work.eliminated, &first, branch, &hidden, &x, &mut values);
+            let residual = I::polish(arm, target, &mut values);
             for l in 0..group.len() {
                 if residual.0[l] <= ACCEPTED {
                     let values = lane(&values, l);
@@ -264,10 +263,10 @@ impl<'a> Task<'a> {
     }
 }
 
-/// Does a task at a pose, lengths divided by the arm's size: the last verdict. All of the solver is compiled into each
+/// Does a task at a pose, lengths divided by the arm's size: the last verdict. What is no part of its own is compiled into each
 /// function that calls this, for its instructions: there is one for each set of instructions.
 #[inline(always)]
-pub(crate) fn solve<const FUSED: bool>(
+pub(crate) fn solve<I: Instructions>(
     constants: &Constants,
     task: Task,
     target: &Rigid,
@@ -282,33 +281,33 @@ pub(crate) fn solve<const FUSED: bool>(
             break;
         }
         last = match way {
-            Way::Split { split, wide } => solve_split::<FUSED>(constants, split, wide, target, work),
-            Way::Slides(way) => solve_sliding::<FUSED>(&constants.arm, way, target, work),
-            Way::Triple(triple) => solve_triple::<FUSED>(&constants.arm, triple, target, work),
+            Way::Split { split, wide } => solve_split::<I>(constants, split, wide, target, work),
+            Way::Slides(way) => I::solve_sliding(&constants.arm, way, target, work),
+            Way::Triple(triple) => I::solve_triple(&constants.arm, triple, target, work),
         };
         turn += 1;
     }
     answer.splits = turn as u32;
     if matches!(task, Task::Answer(_)) {
-        report::<FUSED>(constants, last, answer);
+        report::<I>(constants, last, answer);
     }
     last
 }
 
 /// [`solve`] for the instructions that every processor of the target has.
 #[inline(never)]
-pub(crate) fn portable<const FUSED: bool>(
+pub(crate) fn portable<I: Instructions>(
     constants: &Constants,
     task: Task,
     target: &Rigid,
     answer: &mut Answer,
 ) -> Verdict {
-    solve::<FUSED>(constants, task, target, answer)
+    solve::<I>(constants, task, target, answer)
 }
 
 /// Turns what was found into solutions, with their singular values.
 #[inline(always)]
-fn report<const FUSED: bool>(constants: &Constants, last: Verdict, answer: &mut Answer) {
+fn report<I: Instructions>(constants: &Constants, last: Verdict, answer: &mut Answer) {
     answer.solutions.clear();
     let mut all_isolated = true;
     for group in answer.work.found.chunks(WIDTH) {
@@ -323,7 +322,7 @@ fn report<const FUSED: bool>(constants: &Constants, last: Verdict, answer: &mut 
         for (i, value) in values.iter_mut().enumerate() {
             *value = [flat[2 * i], flat[2 * i + 1]];
         }
-        let singular = smallest_singular_values::<FUSED>(&constants.arm, &values);
+        let singular = I::smallest_singular_values(&constants.arm, &values);
         for (l, found) in group.iter().enumerate() {
             let mut q = [0.0; 6];
             for (i, q) in q.iter_mut().enumerate() {

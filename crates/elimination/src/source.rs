@@ -15,6 +15,7 @@ pub const FILES: &[(&str, &str)] = &[
     ("extract.rs", include_str!("extract.rs")),
     ("forms.rs", include_str!("forms.rs")),
     ("fourier.rs", include_str!("fourier.rs")),
+    ("instructions.rs", include_str!("instructions.rs")),
     ("lanes.rs", include_str!("lanes.rs")),
     ("newton.rs", include_str!("newton.rs")),
     ("plan.rs", include_str!("plan.rs")),

@@ -7,8 +7,8 @@ use crate::{
     arm::{Arm, Joint},
     candidate::{ACCEPTED, Found, add, lane},
     certificate::Verdict,
+    instructions::Instructions,
     lanes::Lanes,
-    newton::polish,
     rigid::{Rigid, cross, dot},
     work::Work,
 };
@@ -48,7 +48,7 @@ const MEETING: f64 = 1e-7;
 
 /// Both branches, polished.
 #[inline(always)]
-pub(crate) fn solve_triple<const FUSED: bool>(
+pub(crate) fn solve_triple<I: Instructions>(
     arm: &Arm,
     triple: &Triple,
     target: &Rigid,
@@ -117,7 +117,7 @@ pub(crate) fn solve_triple<const FUSED: bool>(
         for (value, [c, s]) in values.iter_mut().zip(pairs) {
             *value = [Lanes::splat(c), Lanes::splat(s)];
         }
-        let residual = polish::<FUSED>(arm, target, &mut values).0[0];
+        let residual = I::polish(arm, target, &mut values).0[0];
         if residual <= ACCEPTED {
             add(arm, &mut work.found, Found { values: lane(&values, 0), residual });
         } else {

@@ -10,7 +10,10 @@
 //! which all 24 equations lose rank: the mixtures add others, and complex solutions at a real angle add pairs. Both are
 //! recognised and dismissed, so that the [certificate](crate::certificate) asks for the rest only.
 
-use crate::{arm::Joint, chart::Chart, eliminate::Eliminated, fourier::Fourier, lanes::Lanes, split::Split};
+use crate::{
+    arm::Joint, chart::Chart, eliminate::Eliminated, fourier::Fourier, instructions::Strict, lanes::Lanes,
+    split::Split,
+};
 
 /// Unknowns: `u³ … v³` times `u'³ … v'³`, the second faster.
 pub(crate) const MONOMIALS: usize = 16;
@@ -70,7 +73,7 @@ impl Wide {
     pub fn samples(&self, fourier: &Fourier<4>, chart: &Chart) -> [Lanes; 4] {
         let mut samples = [Lanes::ZERO; 4];
         for (g, sample) in samples.iter_mut().enumerate() {
-            let [c, s, weight] = chart.nodes::<false>(fourier.cosines[g], fourier.sines[g]);
+            let [c, s, weight] = chart.nodes::<Strict>(fourier.cosines[g], fourier.sines[g]);
             for l in 0..8 {
                 let square = weight.0[l] * weight.0[l];
                 let fourth = square * square;

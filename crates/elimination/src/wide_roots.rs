@@ -9,6 +9,7 @@ use crate::{
     eigen::SHARED,
     extract::{ALMOST, UNKNOWNS},
     fourier::{Fourier, USELESS},
+    instructions::Strict,
     products::NullSpace,
     roots::Roots,
     split::Split,
@@ -41,11 +42,11 @@ const CERTAIN: f64 = 100.0;
 pub(crate) fn wide_candidates(fourier: &Fourier<4>, split: &Split, chart: &Chart, work: &mut Work) -> bool {
     work.candidates.clear();
     let samples = work.matrix.samples(fourier, chart);
-    let is_useful = fourier.fit::<false>(DEGREE, &samples, &mut work.polynomial);
+    let is_useful = fourier.fit::<Strict>(DEGREE, &samples, &mut work.polynomial);
     if !is_useful || work.polynomial.noise > USELESS {
         return false;
     }
-    work.wide.find::<false>(&work.polynomial, noise(&work.polynomial));
+    work.wide.find::<Strict>(&work.polynomial, noise(&work.polynomial));
     let mut group = [NONE; ROOTS];
     for own in 0..grouped(chart, &work.wide, &mut group) {
         settle(split, chart, &group, own, work);
