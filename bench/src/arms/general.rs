@@ -101,7 +101,7 @@ pub fn measure(poses: usize, random: &mut impl FnMut() -> f64) -> Result<Value> 
     for name in CATALOGUE.iter().copied().chain([""]) {
         cases.push(Case::new(name, poses, random)?);
     }
-    let worth: Vec<Worth> = cases.iter_mut().map(Case::worth).collect();
+    let worth: Vec<Worth> = cases.iter().map(Case::worth).collect();
     let lacking = cases.iter().zip(&worth).filter(|(_, w)| w.check.drawn_found < poses);
     let lacking = lacking.map(|(case, w)| {
         let lost = poses - w.check.drawn_found;
@@ -111,7 +111,7 @@ pub fn measure(poses: usize, random: &mut impl FnMut() -> f64) -> Result<Value> 
     ensure!(lacking.is_empty(), "{}", lacking.join("\n"));
 
     let (mut arms, mut peers) = (vec![], vec![]);
-    for (case, worth) in cases.iter_mut().zip(worth) {
+    for (case, worth) in cases.iter().zip(worth) {
         let times = case.times();
         if case.name == OBLIQUE {
             peers.push(case.peer("gen_six_dof", Family::General, &times)?);
@@ -143,11 +143,11 @@ impl Case {
         Ok(Case { name, arm, solver, drawn, poses })
     }
 
-    fn worth(&mut self) -> Worth {
+    fn worth(&self) -> Worth {
         let (mut answers, mut second, mut complete) = (vec![], 0, 0);
         for pose in &self.poses {
             let answer = self.solver.solve(pose);
-            second += usize::from(self.solver.splits() > 1);
+            second += usize::from(self.solver.splits(pose) > 1);
             complete += usize::from(answer.is_complete());
             answers.push(joints(answer.solutions.into_iter().map(|s| s.q)));
         }
@@ -162,7 +162,7 @@ impl Case {
     }
 
     /// What each pose takes, µs.
-    fn times(&mut self) -> Vec<f64> {
+    fn times(&self) -> Vec<f64> {
         times(self.poses.len(), |k| {
             black_box(self.solver.solve(black_box(&self.poses[k])));
         })

@@ -34,7 +34,7 @@ fn arm(name: &str, limit: f64, count: usize, random: &mut impl FnMut() -> f64) -
     let apart = theirs.iter().zip(ours).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     ensure!(apart < 1e-12, "{name} is another arm for `k`");
 
-    let descent = |mut solver: NumericSolver| -> Solve<'static> {
+    let descent = |solver: NumericSolver| -> Solve<'static> {
         Box::new(move |pose, seed| {
             let outcome = solver.solve(pose, Some(seed));
             outcome.is_solved().then_some(outcome.q)

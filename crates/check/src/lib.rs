@@ -35,7 +35,7 @@ use plan::Plan;
 /// The longest document, in bytes.
 pub const MAX_BYTES: usize = 8_000_000;
 /// The most formulas of a document that are judged.
-pub const MAX_FORMULAS: usize = 20_000;
+pub(crate) const MAX_FORMULAS: usize = 20_000;
 
 /// What may be told beside the document.
 #[derive(Clone, Debug, Default)]

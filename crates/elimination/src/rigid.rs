@@ -35,7 +35,7 @@ impl Rigid {
 
     /// A direction turned by the inverse.
     #[inline]
-    pub fn turn_back(&self, v: [f64; 3]) -> [f64; 3] {
+    pub(crate) fn turn_back(&self, v: [f64; 3]) -> [f64; 3] {
         let r = &self.rotation;
         [
             r[0][0] * v[0] + r[1][0] * v[1] + r[2][0] * v[2],
@@ -54,7 +54,7 @@ impl Rigid {
 
     /// A point moved by the inverse.
     #[inline]
-    pub fn point_back(&self, p: [f64; 3]) -> [f64; 3] {
+    pub(crate) fn point_back(&self, p: [f64; 3]) -> [f64; 3] {
         let t = &self.translation;
         self.turn_back([p[0] - t[0], p[1] - t[1], p[2] - t[2]])
     }

@@ -116,13 +116,13 @@ impl Split {
 
     /// What the multiplied joint does, and what the other one does.
     #[inline]
-    pub fn multiplied_and_other(&self) -> (Joint, Joint) {
+    pub(crate) fn multiplied_and_other(&self) -> (Joint, Joint) {
         if self.last_multiplied { (self.kinds[4], self.kinds[3]) } else { (self.kinds[3], self.kinds[4]) }
     }
 
     /// The links with the pose in its place; `closing` is `A₆ T⁻¹ B`.
     #[inline]
-    pub fn links_at(&self, closing: &Rigid) -> [Rigid; 6] {
+    pub(crate) fn links_at(&self, closing: &Rigid) -> [Rigid; 6] {
         let mut links = self.links;
         links[self.pose_link] = if self.sign > 0.0 { *closing } else { closing.inverse() };
         links

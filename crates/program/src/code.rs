@@ -47,7 +47,7 @@ pub enum Opcode {
 
 impl Opcode {
     /// How many operands it reads.
-    pub fn arity(self) -> usize {
+    pub(crate) fn arity(self) -> usize {
         match self {
             Opcode::Copy | Opcode::Neg | Opcode::Sqrt | Opcode::SinCos => 1,
             Opcode::Add | Opcode::Sub | Opcode::Mul | Opcode::NegMul | Opcode::Div | Opcode::Atan2 => 2,

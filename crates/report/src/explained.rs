@@ -35,7 +35,7 @@ pub struct Source {
 
 impl Source {
     /// The rows and the columns of its elements, each in a row of equal ones once.
-    pub fn rows_and_columns(&self) -> [Vec<usize>; 2] {
+    pub(crate) fn rows_and_columns(&self) -> [Vec<usize>; 2] {
         let mut rows: Vec<usize> = self.elements.iter().map(|e| e.0).collect();
         let mut columns: Vec<usize> = self.elements.iter().map(|e| e.1).collect();
         rows.dedup();
@@ -105,7 +105,7 @@ pub struct Case {
 
 impl Case {
     /// True if all of its expressions vanish at once.
-    pub fn is_zeros(&self) -> bool {
+    pub(crate) fn is_zeros(&self) -> bool {
         self.when.iter().all(|m| m.exprs().last().is_some_and(|e| e.is_zero()))
     }
 }

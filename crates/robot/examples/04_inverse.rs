@@ -16,7 +16,7 @@ fn main() {
     println!("at most {} solutions", model.max_solutions());
 
     // The lengths get their values; now poses are solved, in microseconds.
-    let mut solver = model.solver(&robot).expect("the catalogue gives all lengths");
+    let solver = model.solver(&robot).expect("the catalogue gives all lengths");
     let numbers = Robot::numeric(&robot).expect("the catalogue gives all lengths");
     let q = [0.1, -1.2, 1.4, 0.3, 0.8, -0.5];
     let pose = numbers.pose(&q);

@@ -51,6 +51,7 @@ pub mod motion;
 pub mod quantity;
 pub mod random;
 pub mod scalar;
+mod shared;
 pub mod space;
 pub mod structure;
 pub mod velocity;

@@ -29,7 +29,7 @@ impl Ball {
     }
 
     /// True if the value is certainly not 0.
-    pub fn excludes_zero(self) -> bool {
+    pub(crate) fn excludes_zero(self) -> bool {
         self.mid.abs() > self.radius
     }
 

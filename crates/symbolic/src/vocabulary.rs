@@ -97,7 +97,7 @@ impl Vocabulary {
     }
 
     /// The symbol of angle number `n`.
-    pub fn angle_number(&self, n: u32) -> Option<Symbol> {
+    pub(crate) fn angle_number(&self, n: u32) -> Option<Symbol> {
         match self.angles.get(&n) {
             Some(&s) => Some(s),
             None if self.is_open && !self.sliding.contains_key(&n) => Some(Symbol::new(&format!("q{n}"))),
@@ -106,7 +106,7 @@ impl Vocabulary {
     }
 
     /// True if variable number `n` is a length.
-    pub fn is_sliding(&self, n: u32) -> bool {
+    pub(crate) fn is_sliding(&self, n: u32) -> bool {
         self.sliding.contains_key(&n)
     }
 
@@ -131,7 +131,7 @@ impl Vocabulary {
     }
 
     /// True if [`Vocabulary::words`] has the word.
-    pub fn is_declared(&self, word: &str) -> bool {
+    pub(crate) fn is_declared(&self, word: &str) -> bool {
         let number = |rest: &str| rest.parse::<u32>().ok().filter(|n| n.to_string() == rest);
         let angle = |rest: &str| number(rest).is_some_and(|n| self.angles.contains_key(&n));
         let sliding = |rest: &str| number(rest).is_some_and(|n| self.sliding.contains_key(&n));

@@ -163,7 +163,7 @@ impl Arm {
     pub fn sample(&mut self, q: Vec<f64>) -> Option<(Sample, Answer)> {
         let pose = self.robot.pose(&q);
         let given: Vec<f64> = self.setting.given.iter().map(|&j| q[j]).collect();
-        let answer = match &mut self.solver {
+        let answer = match &self.solver {
             Method::Closed(solver) => solver.solve(&pose, &given),
             Method::Dispatched(solver) => solver.solve(&pose, &[]),
             Method::None => Answer::empty(),

@@ -58,7 +58,7 @@ impl General {
             Some(format!("elimination computes with the values of parameters: {missing}"))
         })?;
         let space = JointSpace::new(d, robot.reach());
-        let mut solver = GeneralSolver::new(&robot, &space)
+        let solver = GeneralSolver::new(&robot, &space)
             .map_err(|why| Some(format!("nor does elimination serve the arm: {why}")))?;
         let (axes, plan) = solver.parts();
         let (axes, plan, tables) = (axes.clone(), plan.clone(), plan.tables());
@@ -77,7 +77,7 @@ impl General {
             }
         }
         let is_angle = std::array::from_fn(|j| variables[j].kind == JointKind::Revolute);
-        let vectors = Tester { robot, space, solver: &mut solver }.vectors(d);
+        let vectors = Tester { robot, space, solver: &solver }.vectors(d);
         let assumed = d.parameters.iter().filter_map(|p| Some((p.symbol, p.value?)));
         let facts = Inverse {
             by_elimination: true,
@@ -149,7 +149,7 @@ fn about(d: &Description, assumed: &[(Symbol, Expr)]) -> Vec<String> {
 struct Tester<'a> {
     robot: Robot<f64>,
     space: JointSpace,
-    solver: &'a mut GeneralSolver,
+    solver: &'a GeneralSolver,
 }
 
 /// A residual above this is no clean solution.
@@ -199,7 +199,7 @@ impl Tester<'_> {
     }
 
     /// All solutions; nothing if these may not be all, or some are not clean.
-    fn solutions(&mut self, pose: &Transform<f64>) -> Option<Vec<Vec<f64>>> {
+    fn solutions(&self, pose: &Transform<f64>) -> Option<Vec<Vec<f64>>> {
         let Answer { solutions, families, doubt, .. } = self.solver.solve(pose);
         let is_clean = solutions.iter().all(|s| s.residual <= CLEAN && s.guard >= SINGULAR);
         let holds = doubt.is_none() && families.is_empty() && is_clean;

@@ -4,6 +4,7 @@
 //! calling function is compiled for ([`crate::evaluate::machine`]).
 
 use crate::code::Opcode;
+use crate::evaluate::machine::{Instructions, Work};
 use crate::evaluate::real::Real;
 use crate::evaluate::tape::{Cells, Tape};
 
@@ -50,7 +51,25 @@ fn loops<T: Real, const N: usize>(out: &mut [T; N], [a, b, c, d]: [&[T; N]; 4], 
 
 /// Runs the tape once over all lanes of the register file.
 #[inline(always)]
-pub(crate) fn run<T: Real, const FUSED: bool, const N: usize>(tape: &Tape, file: &mut [Lanes<T, N>]) {
+pub(crate) fn run<I: Instructions, T: Real, const FUSED: bool, const N: usize>(
+    tape: &Tape,
+    file: &mut [Lanes<T, N>],
+) {
+    I::apart::<_, FUSED>(Run(tape, file));
+}
+
+/// One run of a tape.
+pub(crate) struct Run<'a, T, const N: usize>(pub &'a Tape, pub &'a mut [Lanes<T, N>]);
+
+impl<T: Real, const N: usize> Work for Run<'_, T, N> {
+    #[inline(always)]
+    fn run<I: Instructions, const FUSED: bool>(self) {
+        execute::<T, FUSED, N>(self.0, self.1);
+    }
+}
+
+#[inline(always)]
+fn execute<T: Real, const FUSED: bool, const N: usize>(tape: &Tape, file: &mut [Lanes<T, N>]) {
     assert_eq!(file.len(), tape.registers, "the file has the tape's registers");
     let mut cells = &tape.cells[..];
     for run in &tape.runs {

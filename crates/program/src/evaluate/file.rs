@@ -1,7 +1,7 @@
 //! Register files of blocks: one array a register, in two widths.
 
-use crate::evaluate::block::{self, Lanes};
-use crate::evaluate::machine::{self, Arithmetic, Isa, Work};
+use crate::evaluate::block::{self, Lanes, Run};
+use crate::evaluate::machine::{self, Arithmetic, Instructions, Isa, Work};
 use crate::evaluate::real::Real;
 use crate::evaluate::rows;
 use crate::evaluate::tape::Tape;
@@ -40,15 +40,6 @@ fn filled<T: Real, const N: usize>(tape: &Tape, uniforms: &[f64]) -> Vec<Lanes<T
     file
 }
 
-struct Once<'a, T, const N: usize>(&'a Tape, &'a mut [Lanes<T, N>]);
-
-impl<T: Real, const N: usize> Work for Once<'_, T, N> {
-    #[inline(always)]
-    fn run<const FUSED: bool>(self) {
-        block::run::<T, FUSED, N>(self.0, self.1);
-    }
-}
-
 /// Block by block: rows in, run, rows out.
 struct Rows<'a, T, const N: usize> {
     tape: &'a Tape,
@@ -59,14 +50,14 @@ struct Rows<'a, T, const N: usize> {
 
 impl<T: Real, const N: usize> Work for Rows<'_, T, N> {
     #[inline(always)]
-    fn run<const FUSED: bool>(self) {
+    fn run<I: Instructions, const FUSED: bool>(self) {
         let (n, m) = (self.tape.variables, self.tape.outputs);
         let stream = size_of_val(self.outputs) > STREAMED;
         let mut staging = vec![T::default(); if stream { N * m } else { 0 }];
         for (k, out) in self.outputs.chunks_mut(N * m).enumerate() {
             let count = out.len() / m;
             rows::read(&self.variables[k * N * n..(k * N + count) * n], &mut self.file[..n]);
-            block::run::<T, FUSED, N>(self.tape, self.file);
+            block::run::<I, T, FUSED, N>(self.tape, self.file);
             let results = &self.file[n..n + m];
             if stream {
                 let staged = &mut staging[..out.len()];
@@ -123,8 +114,8 @@ macro_rules! file {
             }
             fn run(&mut self, isa: Isa, arithmetic: Arithmetic, tape: &Tape) {
                 match self {
-                    $name::Wide(file) => isa.run(arithmetic, Once(tape, file)),
-                    $name::Narrow(file) => isa.run(arithmetic, Once(tape, file)),
+                    $name::Wide(file) => isa.run(arithmetic, Run(tape, file)),
+                    $name::Narrow(file) => isa.run(arithmetic, Run(tape, file)),
                 }
             }
             fn run_rows(

@@ -29,10 +29,59 @@ pub enum Arithmetic {
 }
 
 /// Loops that can be compiled for any set of instructions. `run` must be `#[inline(always)]`, as must be what it
-/// calls, for the compiler to use them.
+/// calls, for the compiler to use them; but what it gives to [`Instructions::apart`].
 pub(crate) trait Work {
     /// Does it.
-    fn run<const FUSED: bool>(self);
+    fn run<I: Instructions, const FUSED: bool>(self);
+}
+
+/// A set of instructions at compile time. Only [`Isa::run`] names one, where the processor has them.
+pub(crate) trait Instructions {
+    /// Does some work in a function of its own, which all that calls for it share.
+    fn apart<W: Work, const FUSED: bool>(work: W);
+}
+
+enum Portable {}
+
+impl Instructions for Portable {
+    #[inline(never)]
+    fn apart<W: Work, const FUSED: bool>(work: W) {
+        work.run::<Self, FUSED>();
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+enum Avx2 {}
+
+#[cfg(target_arch = "x86_64")]
+impl Instructions for Avx2 {
+    #[inline]
+    fn apart<W: Work, const FUSED: bool>(work: W) {
+        #[inline(never)]
+        #[target_feature(enable = "avx2,fma")]
+        fn compiled<W: Work, const FUSED: bool>(work: W) {
+            work.run::<Avx2, FUSED>();
+        }
+        // SAFETY: see [`Instructions`].
+        unsafe { compiled::<W, FUSED>(work) }
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+enum Avx512 {}
+
+#[cfg(target_arch = "x86_64")]
+impl Instructions for Avx512 {
+    #[inline]
+    fn apart<W: Work, const FUSED: bool>(work: W) {
+        #[inline(never)]
+        #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
+        fn compiled<W: Work, const FUSED: bool>(work: W) {
+            work.run::<Avx512, FUSED>();
+        }
+        // SAFETY: see [`Instructions`].
+        unsafe { compiled::<W, FUSED>(work) }
+    }
 }
 
 impl Isa {
@@ -87,32 +136,18 @@ impl Isa {
     /// Does some work, compiled for this set.
     #[inline]
     pub(crate) fn run<W: Work>(self, arithmetic: Arithmetic, work: W) {
-        #[cfg(target_arch = "x86_64")]
-        #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
-        fn avx512<W: Work, const FUSED: bool>(work: W) {
-            work.run::<FUSED>();
-        }
-        #[cfg(target_arch = "x86_64")]
-        #[target_feature(enable = "avx2,fma")]
-        fn avx2<W: Work, const FUSED: bool>(work: W) {
-            work.run::<FUSED>();
-        }
-        #[inline(never)]
-        fn portable<W: Work, const FUSED: bool>(work: W) {
-            work.run::<FUSED>();
-        }
-        // SAFETY of the calls: `Isa::available` makes `Avx2` and `Avx512` only where their instructions are found.
+        // `Isa::available` makes `Avx2` and `Avx512` only where their instructions are found.
         match (self.0, arithmetic) {
             #[cfg(target_arch = "x86_64")]
-            (Set::Avx512, Arithmetic::Fused) => unsafe { avx512::<W, true>(work) },
+            (Set::Avx512, Arithmetic::Fused) => Avx512::apart::<W, true>(work),
             #[cfg(target_arch = "x86_64")]
-            (Set::Avx512, Arithmetic::Strict) => unsafe { avx512::<W, false>(work) },
+            (Set::Avx512, Arithmetic::Strict) => Avx512::apart::<W, false>(work),
             #[cfg(target_arch = "x86_64")]
-            (Set::Avx2, Arithmetic::Fused) => unsafe { avx2::<W, true>(work) },
+            (Set::Avx2, Arithmetic::Fused) => Avx2::apart::<W, true>(work),
             #[cfg(target_arch = "x86_64")]
-            (Set::Avx2, Arithmetic::Strict) => unsafe { avx2::<W, false>(work) },
-            (Set::Portable, Arithmetic::Fused) => portable::<W, true>(work),
-            (Set::Portable, Arithmetic::Strict) => portable::<W, false>(work),
+            (Set::Avx2, Arithmetic::Strict) => Avx2::apart::<W, false>(work),
+            (Set::Portable, Arithmetic::Fused) => Portable::apart::<W, true>(work),
+            (Set::Portable, Arithmetic::Strict) => Portable::apart::<W, false>(work),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The interpreter for one configuration at a time. It allocates nothing after it is made.
 
 use crate::code::Opcode;
-use crate::evaluate::machine::{Arithmetic, Isa, Work};
+use crate::evaluate::machine::{Arithmetic, Instructions, Isa, Work};
 use crate::evaluate::tape::{Cells, Run, Tape};
 use crate::kernel;
 
@@ -162,7 +162,7 @@ struct Pairs<'a, R, F: ?Sized>(&'a mut F, &'a [Cells<R>]);
 
 impl<R: Copy, F: File<R> + ?Sized> Work for Pairs<'_, R, F> {
     #[inline(always)]
-    fn run<const FUSED: bool>(self) {
+    fn run<I: Instructions, const FUSED: bool>(self) {
         let Pairs(file, cells) = self;
         let x = lanes(file, cells, 0);
         if !x.iter().fold(true, |all, x| all & kernel::sin_cos_in_range(*x)) {
@@ -185,7 +185,7 @@ struct Angles<'a, R, F: ?Sized>(&'a mut F, &'a [Cells<R>]);
 
 impl<R: Copy, F: File<R> + ?Sized> Work for Angles<'_, R, F> {
     #[inline(always)]
-    fn run<const FUSED: bool>(self) {
+    fn run<I: Instructions, const FUSED: bool>(self) {
         let Angles(file, cells) = self;
         let (y, x) = (lanes(file, cells, 0), lanes(file, cells, 1));
         if !y.iter().zip(&x).fold(true, |all, (y, x)| all & kernel::atan2_in_range(*y, *x)) {

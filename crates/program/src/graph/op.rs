@@ -79,7 +79,7 @@ impl Op {
 
     /// The same operation on nodes that are numbered otherwise.
     #[must_use]
-    pub fn renumbered(&self, at: impl Fn(u32) -> u32) -> Op {
+    pub(crate) fn renumbered(&self, at: impl Fn(u32) -> u32) -> Op {
         let moved = |v: Value| Value { node: at(v.node), ..v };
         match self.clone() {
             op @ (Op::Number(_) | Op::Pi | Op::Input(_)) => op,
@@ -113,7 +113,7 @@ impl Op {
     }
 
     /// How the result of this operation, which is `own`, varies with each operand as it is read (with its sign).
-    pub fn partials(&self, own: Value, graph: &mut Graph) -> Vec<Value> {
+    pub(crate) fn partials(&self, own: Value, graph: &mut Graph) -> Vec<Value> {
         let one = graph.number(&Rational::ONE);
         let plain = |node: u32| Value { node, negative: false };
         match *self {

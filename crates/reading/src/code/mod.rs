@@ -47,11 +47,11 @@ pub const MAX_BYTES: usize = 1_000_000;
 /// The deepest nesting of brackets and blocks.
 pub const MAX_NESTING: usize = 100;
 /// The most statements that are carried out.
-pub const MAX_STATEMENTS: usize = 100_000;
+pub(crate) const MAX_STATEMENTS: usize = 100_000;
 /// The most rows and columns of a matrix, and items of a list that is counted out.
-pub const MAX_SIDE: usize = 64;
+pub(crate) const MAX_SIDE: usize = 64;
 /// The most turns of a loop.
-pub const MAX_TURNS: usize = 64;
+pub(crate) const MAX_TURNS: usize = 64;
 /// The most operators in a row.
 const MAX_CHAIN: usize = 2_000;
 /// The most calls inside one another.

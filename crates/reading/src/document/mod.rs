@@ -171,9 +171,9 @@ pub enum Format {
 }
 
 /// The most statements that are read.
-pub const MAX_STATEMENTS: usize = 20_000;
+pub(crate) const MAX_STATEMENTS: usize = 20_000;
 /// The longest formula that is read, in bytes.
-pub const MAX_FORMULA: usize = 1 << 18;
+pub(crate) const MAX_FORMULA: usize = 1 << 18;
 const MAX_NOTES: usize = 1000;
 
 /// Reads the statements of `text`.

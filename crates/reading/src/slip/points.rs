@@ -34,7 +34,7 @@ impl Points {
 
     /// Points at which all the formulas have values: roots are taken of squares, and no divisor is 0. `None` if none
     /// were found.
-    pub fn fitting(seed: u64, formulas: &[Expr]) -> Option<Self> {
+    pub(crate) fn fitting(seed: u64, formulas: &[Expr]) -> Option<Self> {
         let has_values = |points: &mut Points| formulas.iter().all(|&e| points.value(e).is_some());
         let mut points = Points::new(seed);
         if has_values(&mut points) {

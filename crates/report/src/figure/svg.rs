@@ -88,7 +88,7 @@ const SERIES: [[u8; 3]; 8] = [
 ];
 
 /// A colour on a light page.
-pub fn rgb(ink: Ink) -> [u8; 3] {
+pub(crate) fn rgb(ink: Ink) -> [u8; 3] {
     match ink {
         Ink::Line => [26, 26, 26],
         Ink::Faint => [150, 156, 164],
@@ -107,7 +107,7 @@ pub fn rgb(ink: Ink) -> [u8; 3] {
 }
 
 /// A colour on a dark page.
-pub fn rgb_dark(ink: Ink) -> [u8; 3] {
+pub(crate) fn rgb_dark(ink: Ink) -> [u8; 3] {
     match ink {
         Ink::Line => [226, 228, 232],
         Ink::Faint => [112, 118, 128],

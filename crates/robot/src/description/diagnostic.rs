@@ -41,13 +41,6 @@ pub struct Diagnostic {
 }
 
 impl Diagnostic {
-    /// The same finding with a hint.
-    #[must_use]
-    pub fn with_hint(mut self, hint: impl Into<String>) -> Self {
-        self.hint = Some(hint.into());
-        self
-    }
-
     /// `file:line:column: error: message`, the line of the text with the place marked, and the hint.
     pub fn render(&self, file: &str, text: &str) -> String {
         let (line, column) = line_column(text, self.span.start);
@@ -146,7 +139,7 @@ impl Diagnostics {
     }
 
     /// True if one of them is an error.
-    pub fn has_errors(&self) -> bool {
+    pub(crate) fn has_errors(&self) -> bool {
         self.left_out > 0 || self.list.iter().any(|d| d.severity == Severity::Error)
     }
 
@@ -251,7 +244,7 @@ mod tests {
             hint: None,
         };
         assert_eq!(
-            d.with_hint("declare it").render("arm.toml", text),
+            Diagnostic { hint: Some("declare it".into()), ..d }.render("arm.toml", text),
             "arm.toml:2:15: error: `L7` is unknown\n  | theta = \"q1 + L7\"\n  |               ^^\n  = hint: declare it\n"
         );
     }

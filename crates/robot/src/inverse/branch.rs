@@ -41,7 +41,7 @@ pub struct Branch(pub Vec<(Label, Choice)>);
 
 impl Choice {
     /// By the sign of a solver's node.
-    pub fn of_sign(sign: i8) -> Self {
+    pub(crate) fn of_sign(sign: i8) -> Self {
         match sign {
             1 => Choice::Plus,
             -1 => Choice::Minus,
@@ -52,7 +52,7 @@ impl Choice {
 
 impl Branch {
     /// By the signs of a solver's nodes.
-    pub fn of_signs(labels: impl IntoIterator<Item = Option<Label>>, signs: &[i8]) -> Self {
+    pub(crate) fn of_signs(labels: impl IntoIterator<Item = Option<Label>>, signs: &[i8]) -> Self {
         let all = labels.into_iter().zip(signs);
         Branch(all.filter_map(|(label, &sign)| Some((label?, Choice::of_sign(sign)))).collect())
     }

@@ -22,6 +22,7 @@ use crate::description::Description;
 use crate::geometry::Transform;
 use crate::mechanism::{MissingValue, Robot};
 use crate::random::Random;
+use crate::shared::Shared;
 use crate::space::{JointSpace, norm};
 use crate::structure::{NearlySpecial, Structure};
 use std::f64::consts::{PI, TAU};
@@ -56,9 +57,16 @@ enum Method {
     /// By elimination; the closed form beside it, where there is one.
     General(Box<GeneralSolver>, Option<Box<InverseSolver>>),
     /// By elimination for the joints that are not given, at the values that are held.
-    Held(Vec<f64>, Option<Box<GeneralSolver>>),
+    Held(Shared<Held>),
     Redundant(Box<RedundantSolver>),
     Numeric,
+}
+
+/// The rest of an arm with joints at values: prepared anew where the values change.
+#[derive(Clone, Debug, Default)]
+struct Held {
+    values: Vec<f64>,
+    general: Option<Box<GeneralSolver>>,
 }
 
 /// Why there is no solver for a robot.
@@ -178,7 +186,7 @@ impl InverseKinematics {
                 Err(_) => closed.map_or(Method::Numeric, Method::Closed),
             },
             Some(solver) => Method::Closed(solver),
-            None if six => Method::Held(vec![], None),
+            None if six => Method::Held(Shared::new(Held::default())),
             None => Method::Numeric,
         };
         Ok(this)
@@ -200,11 +208,11 @@ impl InverseKinematics {
     /// If there is not one value per given joint.
     ///
     /// A pose is taken to be as precise as its rotation is orthonormal: the nearest rotation is meant.
-    pub fn solve(&mut self, pose: &Transform<f64>, given: &[f64]) -> Answer {
+    pub fn solve(&self, pose: &Transform<f64>, given: &[f64]) -> Answer {
         assert_eq!(given.len(), self.given.len(), "one value per given joint");
         let as_given = pose;
         let pose = &newton::nearest_rigid(pose).0;
-        let mut answer = match &mut self.method {
+        let mut answer = match &self.method {
             // What it may miss the pose by follows from the pose as it is given.
             Method::Closed(solver) => return solver.solve(as_given, given),
             Method::General(general, closed) => {
@@ -216,7 +224,9 @@ impl InverseKinematics {
                 }
                 answer
             }
-            Method::Held(values, general) => {
+            Method::Held(held) => {
+                let mut own = held.lend();
+                let Held { values, general } = &mut *own;
                 if values != given || general.is_none() {
                     let held: Vec<(usize, f64)> =
                         self.given.iter().copied().zip(given.iter().copied()).collect();
@@ -249,7 +259,7 @@ impl InverseKinematics {
 
     /// Self-motions that a parameter's samples miss, because it stays the same along them or nearly so: found by descent
     /// from configurations all over, and followed.
-    fn follow_more(&mut self, pose: &Transform<f64>, answer: &mut Answer) {
+    fn follow_more(&self, pose: &Transform<f64>, answer: &mut Answer) {
         let mut random = Random(1);
         let size = self.size(pose);
         let span = |j: usize| {
@@ -288,7 +298,7 @@ impl InverseKinematics {
     }
 
     /// By descent: a solution, or the nearest configuration.
-    fn search(&mut self, pose: &Transform<f64>, answer: &mut Answer) {
+    fn search(&self, pose: &Transform<f64>, answer: &mut Answer) {
         let size = self.size(pose);
         let miss = |q: &[f64]| newton::distance(&self.robot, self.goal, pose, q, size);
         let mut outcome = self.numeric.solve(pose, self.seed.as_deref());
@@ -320,13 +330,13 @@ impl InverseKinematics {
     }
 
     /// The configuration of an answer that is nearest to another, families included: within the limits if one is.
-    pub fn nearest(&mut self, pose: &Transform<f64>, answer: &Answer, to: &[f64]) -> Option<Nearest> {
+    pub fn nearest(&self, pose: &Transform<f64>, answer: &Answer, to: &[f64]) -> Option<Nearest> {
         let size = self.size(pose);
         let mut candidates: Vec<Vec<f64>> = answer.solutions.iter().map(|s| s.q.clone()).collect();
-        if let Method::Redundant(solver) = &mut self.method {
+        if let Method::Redundant(solver) = &self.method {
             candidates.extend(solver.best(pose, &Criterion::Nearest(to.to_vec())).map(|s| s.q));
         }
-        if let Method::Closed(solver) = &mut self.method {
+        if let Method::Closed(solver) = &self.method {
             for family in &answer.families {
                 let given: Vec<f64> = self.given.iter().map(|&j| family.representative.q[j]).collect();
                 candidates.extend(solver.members_at(pose, &given, family, to).into_iter().map(|s| s.q));
@@ -385,12 +395,12 @@ impl InverseKinematics {
 
     /// The best configuration of an answer by a criterion, within the limits if one is; of a family that was not followed its
     /// representative stands for all.
-    pub fn best(&mut self, pose: &Transform<f64>, answer: &Answer, criterion: &Criterion) -> Option<Nearest> {
+    pub fn best(&self, pose: &Transform<f64>, answer: &Answer, criterion: &Criterion) -> Option<Nearest> {
         if let Criterion::Nearest(to) = criterion {
             return self.nearest(pose, answer, to);
         }
         let middle = self.space.middle();
-        if let Method::Redundant(solver) = &mut self.method
+        if let Method::Redundant(solver) = &self.method
             && let Some(s) = solver.best(pose, criterion)
         {
             return Some(Nearest::of(&self.space, &s.q, &middle));
@@ -409,8 +419,8 @@ impl InverseKinematics {
     ///
     /// # Panics
     /// If there is not one value per given joint.
-    pub fn one(&mut self, pose: &Transform<f64>, given: &[f64], seed: Option<&[f64]>) -> Answer {
-        let mut answer = match &mut self.method {
+    pub fn one(&self, pose: &Transform<f64>, given: &[f64], seed: Option<&[f64]>) -> Answer {
+        let mut answer = match &self.method {
             Method::Redundant(solver) => match solver.within_limits(pose, seed) {
                 Some(s) => Answer { solutions: vec![s], ..Answer::empty() },
                 None => self.solve(pose, given),
@@ -438,8 +448,7 @@ impl InverseKinematics {
         let share = poses.len().div_ceil(threads.get()).max(1);
         std::thread::scope(|scope| {
             let work = |poses: &[Transform<f64>]| {
-                let mut solver = self.clone();
-                poses.iter().map(|pose| solver.solve(pose, given)).collect::<Vec<_>>()
+                poses.iter().map(|pose| self.solve(pose, given)).collect::<Vec<_>>()
             };
             let parts: Vec<_> = poses.chunks(share).map(|part| scope.spawn(move || work(part))).collect();
             parts

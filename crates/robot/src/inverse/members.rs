@@ -124,7 +124,7 @@ mod tests {
     #[track_caller]
     fn members(name: &str, options: &Options, q: &[f64]) -> Vec<(Family, Members)> {
         let d = catalogue::robot(name).expect("it is in the catalogue");
-        let mut inverse = InverseKinematics::new(&d, options).expect("all parameters have values");
+        let inverse = InverseKinematics::new(&d, options).expect("all parameters have values");
         let pose = inverse.robot.pose(q);
         let given: Vec<f64> = inverse.given.iter().map(|&j| q[j]).collect();
         let families = inverse.solve(&pose, &given).families;

@@ -166,7 +166,7 @@ impl<T: Scalar> Robot<T> {
     }
 
     /// The robot that ends with a frame: without the rows behind it.
-    pub fn up_to(&self, frame: Reference) -> Self {
+    pub(crate) fn up_to(&self, frame: Reference) -> Self {
         let tool = if frame == Reference::Tool { self.tool } else { Transform::identity() };
         let base = if frame == Reference::Base { Transform::identity() } else { self.base };
         Robot { base, links: self.links[..self.rows_before(frame)].to_vec(), tool, joints: self.joints }

@@ -56,7 +56,7 @@ pub struct Walk<T> {
 
 impl<T: Scalar> Line<T> {
     /// The z of a frame.
-    pub fn z_of(frame: &Transform<T>) -> Self {
+    pub(crate) fn z_of(frame: &Transform<T>) -> Self {
         Line { direction: frame.rotation.z(), point: frame.translation }
     }
 
@@ -72,7 +72,7 @@ impl<T: Scalar> Line<T> {
 
 impl<T: Scalar> Link<T> {
     /// How the joints move the row.
-    pub fn movers(&self) -> impl Iterator<Item = Mover<T>> {
+    pub(crate) fn movers(&self) -> impl Iterator<Item = Mover<T>> {
         let of = |kind| move |&(joint, factor): &(usize, T)| Mover { joint, kind, factor };
         let turns = self.theta.terms.iter().map(of(JointKind::Revolute));
         turns.chain(self.d.terms.iter().map(of(JointKind::Prismatic)))
@@ -111,7 +111,7 @@ pub fn twists<T: Scalar>(
 
 impl<T: Scalar> Robot<T> {
     /// How many rows of the table move a body.
-    pub fn rows_before(&self, body: Reference) -> usize {
+    pub(crate) fn rows_before(&self, body: Reference) -> usize {
         match body {
             Reference::Base => 0,
             Reference::Frame(i) => i,

@@ -18,7 +18,7 @@ impl Range {
     }
 
     /// The greatest magnitude that is allowed in both directions.
-    pub fn both_ways(self) -> f64 {
+    pub(crate) fn both_ways(self) -> f64 {
         self.upper.min(-self.lower)
     }
 

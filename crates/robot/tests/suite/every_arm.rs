@@ -23,7 +23,7 @@ fn solver(description: &Description) -> InverseKinematics {
 }
 
 /// Whether a configuration is among the solutions, or in a family.
-fn holds(solver: &mut InverseKinematics, pose: &Transform<f64>, answer: &Answer, q: &[f64]) -> bool {
+fn holds(solver: &InverseKinematics, pose: &Transform<f64>, answer: &Answer, q: &[f64]) -> bool {
     answer.solutions.iter().any(|s| solver.space.distance(&s.q, q) <= 1e-5)
         || !answer.families.is_empty()
             && solver.nearest(pose, answer, q).is_some_and(|n| solver.space.distance(&n.q, q) <= 1e-4)
@@ -38,7 +38,7 @@ fn with_numbers() -> impl Iterator<Item = (&'static str, Description)> {
 #[test]
 fn every_robot_is_solved() {
     for (name, description) in with_numbers() {
-        let mut solver = solver(&description);
+        let solver = solver(&description);
         let mut random = Random(1);
         for _ in 0..20 {
             let q = configuration(&mut random, &solver);
@@ -46,7 +46,7 @@ fn every_robot_is_solved() {
             let given: Vec<f64> = solver.given.iter().map(|&j| q[j]).collect();
             let answer = solver.solve(&pose, &given);
             assert!(
-                holds(&mut solver, &pose, &answer, &q),
+                holds(&solver, &pose, &answer, &q),
                 "{name} ({}): {q:?} is not among {answer:#?}",
                 solver.method()
             );
@@ -58,7 +58,7 @@ fn every_robot_is_solved() {
 #[test]
 fn one_is_within_the_limits() {
     for (name, description) in with_numbers() {
-        let mut solver = solver(&description);
+        let solver = solver(&description);
         let mut random = Random(2);
         for _ in 0..20 {
             let q = configuration(&mut random, &solver);
@@ -99,7 +99,7 @@ fn perturbed(name: &str, by: f64) -> Description {
 fn nearly_special_arms_are_solved_as_they_are() {
     for name in ["ur5", "ur10e", "puma560", "abb-irb2400-10"] {
         for by in [1e-3, 1e-5, 1e-7, 1e-9] {
-            let mut solver = solver(&perturbed(name, by));
+            let solver = solver(&perturbed(name, by));
             assert!(!solver.nearly.is_empty());
             let mut random = Random(4);
             let mut doubtful = 0;
@@ -108,7 +108,7 @@ fn nearly_special_arms_are_solved_as_they_are() {
                 let pose = solver.robot.pose(&q);
                 let answer = solver.solve(&pose, &[]);
                 assert!(
-                    holds(&mut solver, &pose, &answer, &q),
+                    holds(&solver, &pose, &answer, &q),
                     "{name} off by {by}: {q:?} is not among {answer:#?}"
                 );
                 assert!(answer.solutions.iter().all(|s| s.residual <= 1e-10));
@@ -122,7 +122,7 @@ fn nearly_special_arms_are_solved_as_they_are() {
 #[test]
 fn unreachable_poses_say_how_near_the_arm_comes() {
     for name in ["fanuc-crx10ia-l", "kuka-iiwa-14", "ur5"] {
-        let mut solver = solver(&robot(name));
+        let solver = solver(&robot(name));
         let q = configuration(&mut Random(5), &solver);
         let mut pose = solver.robot.pose(&q);
         let direction = pose.translation.scale(1.0 / pose.translation.norm());
@@ -157,7 +157,7 @@ fn many_poses_are_solved_in_order_on_any_number_of_threads() {
 /// Whole turns within the limits are counted, and the nearest copy is taken.
 #[test]
 fn whole_turns_within_the_limits() {
-    let mut solver = solver(&robot("ur5"));
+    let solver = solver(&robot("ur5"));
     let q = [0.3, -1.2, 1.4, -0.7, 0.8, 2.9];
     let pose = solver.robot.pose(&q);
     let answer = solver.solve(&pose, &[]);
@@ -172,7 +172,7 @@ fn whole_turns_within_the_limits() {
 #[test]
 fn the_best_solution_by_a_criterion() {
     for name in ["ur5", "fanuc-crx10ia-l", "franka-panda"] {
-        let mut solver = solver(&robot(name));
+        let solver = solver(&robot(name));
         let q = configuration(&mut Random(8), &solver);
         let pose = solver.robot.pose(&q);
         let answer = solver.solve(&pose, &[]);
@@ -193,14 +193,14 @@ fn the_best_solution_by_a_criterion() {
 #[test]
 fn given_joints_without_a_closed_form() {
     let options = Options { goal: Goal::Pose, given: Some(vec![2]) };
-    let mut solver = InverseKinematics::new(&robot("rethink-sawyer"), &options).expect("numbers");
+    let solver = InverseKinematics::new(&robot("rethink-sawyer"), &options).expect("numbers");
     assert_eq!((solver.method(), solver.given.as_slice()), ("elimination", [2].as_slice()));
     let mut random = Random(9);
     for _ in 0..5 {
         let q = configuration(&mut random, &solver);
         let pose = solver.robot.pose(&q);
         let answer = solver.solve(&pose, &[q[2]]);
-        assert!(holds(&mut solver, &pose, &answer, &q), "{q:?} is not among {answer:#?}");
+        assert!(holds(&solver, &pose, &answer, &q), "{q:?} is not among {answer:#?}");
     }
 }
 

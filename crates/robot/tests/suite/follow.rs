@@ -94,7 +94,7 @@ fn a_line_out_of_the_workspace() {
     // The wrist's centre is the origin of frame 6, and axis 1 meets axis 2 in the origin.
     let away = path.pose(*s).translation.norm();
     assert!((away - 0.9).abs() < 1e-6, "{away}");
-    let mut inverse = InverseKinematics::new(&robot("staubli-rx90"), &Inverse::default()).expect("solvable");
+    let inverse = InverseKinematics::new(&robot("staubli-rx90"), &Inverse::default()).expect("solvable");
     assert!(!inverse.solve(&path.pose(s + 1e-5), &[]).is_reachable());
     assert!(inverse.solve(&path.pose(s - 1e-5), &[]).is_reachable());
 }

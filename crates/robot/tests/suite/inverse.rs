@@ -62,7 +62,7 @@ impl Case {
         Case { solver, robot: Robot::numeric(d).expect("all parameters have values"), is_angle }
     }
 
-    fn solve(&mut self, q: &[f64]) -> Answer {
+    fn solve(&self, q: &[f64]) -> Answer {
         let given: Vec<f64> = self.solver.given().iter().map(|&j| q[j]).collect();
         self.solver.solve(&self.robot.pose(q), &given)
     }
@@ -72,7 +72,7 @@ impl Case {
     }
 
     /// The configuration is a solution, or a member of a family.
-    fn holds(&mut self, answer: &Answer, q: &[f64], tolerance: f64) -> bool {
+    fn holds(&self, answer: &Answer, q: &[f64], tolerance: f64) -> bool {
         // Near a singularity joints are determined to rounding by the guard only.
         if answer.solutions.iter().any(|s| self.near(&s.q, q, tolerance + 1e-13 / s.guard)) {
             return true;
@@ -99,7 +99,7 @@ fn served() -> Vec<&'static str> {
 fn random_configurations_are_found() {
     let count = share(100_000, 1_000);
     for name in served() {
-        let mut case = Case::new(name);
+        let case = Case::new(name);
         let mut random = Random(1);
         for _ in 0..count {
             let q = case.random(&mut random);
@@ -126,7 +126,7 @@ fn random_configurations_are_found() {
 fn special_configurations_are_found() {
     let values = [0.0, FRAC_PI_2, -FRAC_PI_2, PI];
     for name in served() {
-        let mut case = Case::new(name);
+        let case = Case::new(name);
         let n = case.is_angle.len();
         let total = 4_usize.pow(n as u32);
         let step = (total / share(4096, 512)).max(1) | 1;
@@ -211,7 +211,7 @@ fn singular(robot: &Robot<f64>, q: &[f64], joint: usize) -> Vec<f64> {
 fn the_neighbourhood_of_singularities_is_solved() {
     let arms = served().into_iter().filter(|n| robot(n).variables().len() == 6 && *n != "prrrrp");
     for name in arms {
-        let mut case = Case::new(name);
+        let case = Case::new(name);
         let mut random = Random(3);
         let mut seen = 0;
         for _ in 0..share(100, 2) {
@@ -260,7 +260,7 @@ fn peers_count_the_same() {
             Err(Refusal::Given(_)) => continue,
             Err(e) => panic!("{name}: {e}"),
         };
-        let mut case = Case::with(&d, &m);
+        let case = Case::with(&d, &m);
         for c in entry["cases"].as_array().expect("a list") {
             let Some(count) = c["count"].as_u64() else { continue };
             let q: Vec<f64> = c["q"].as_array().expect("joints").iter().filter_map(|x| x.as_f64()).collect();
@@ -332,7 +332,7 @@ fn positions_alone_are_solved() {
         let d = robot(name);
         let m = InverseModel::derive(&d, &Options { goal: Goal::Position, given: None })
             .unwrap_or_else(|e| panic!("{name}: {e}"));
-        let mut case = Case::with(&d, &m);
+        let case = Case::with(&d, &m);
         let mut random = Random(5);
         for _ in 0..500 {
             let q = case.random(&mut random);
@@ -345,7 +345,7 @@ fn positions_alone_are_solved() {
 #[test]
 fn poses_out_of_reach_say_what_is_in_the_way() {
     for name in ["ur5", "puma560", "planar-3r", "scara", "rhino-xr3"] {
-        let mut case = Case::new(name);
+        let case = Case::new(name);
         let q = vec![0.3; case.is_angle.len()];
         let near = case.robot.pose(&q);
         let far =

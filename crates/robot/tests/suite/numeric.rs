@@ -74,7 +74,7 @@ fn missed(goal: Goal, a: &Transform<f64>, b: &Transform<f64>) -> (f64, f64) {
 
 /// Reaches targets of random configurations, all of them.
 fn check_reached(case: &Case, goal: Goal, targets: usize, with_seed: bool) {
-    let mut solver = case.solver(goal);
+    let solver = case.solver(goal);
     let mut random = Random(11);
     for i in 0..targets {
         let pose = case.robot.pose(&case.random(&mut random));
@@ -152,7 +152,7 @@ fn beyond_reach_the_arm_stretches() {
     // Lengths 1, 0.8, 0.4: 2.2 m at most. A point at 3 m along a line is missed by 0.8 m, and the nearest
     // configuration is the stretched one.
     let case = Case::named("planar-3r");
-    let mut solver = case.solver(Goal::Position);
+    let solver = case.solver(Goal::Position);
     for (k, seed) in [None, Some([0.0; 3]), Some([PI, 0.0, 0.0]), Some([1.0, -2.0, 0.3])].iter().enumerate() {
         let direction = 0.3 + k as f64;
         let target = Transform::translation(3.0 * direction.cos(), 3.0 * direction.sin(), 0.0);
@@ -185,7 +185,7 @@ fn a_hole_in_the_middle_is_proved() {
 fn a_slide_stops_at_its_limit() {
     // A slide of 0.1 to 0.5 m along z: a target at 0.8 m is missed by 0.3 m, one at 0.3 m is met.
     let slide = "name = \"slide\"\nconvention = \"standard\"\n[[joints]]\nd = \"q1\"\nlimits = [\"0.1 m\", \"0.5 m\"]\n";
-    let mut solver = Case::text(slide).solver(Goal::Position);
+    let solver = Case::text(slide).solver(Goal::Position);
     let outcome = solver.solve(&Transform::translation_z(0.8), None);
     assert_eq!(outcome.status, Status::Unreachable, "{outcome:?}");
     assert!(outcome.q == [0.5] && (outcome.residuals[0].distance - 0.3).abs() < 1e-15, "{outcome:?}");
@@ -231,7 +231,7 @@ fn outcomes_are_the_same_to_the_bit() {
     let mut random = Random(5);
     let mut poses: Vec<_> = (0..101).map(|_| case.robot.pose(&case.random(&mut random))).collect();
     poses[17] = Transform::translation(3.0, 0.0, 0.0) * poses[17];
-    let mut solver = case.solver(Goal::Pose);
+    let solver = case.solver(Goal::Pose);
     let alone: Vec<Outcome> = poses.iter().map(|p| solver.solve(p, None)).collect();
     let wanted = bits(&alone);
     for threads in [1, 2, 3] {
@@ -253,8 +253,8 @@ fn a_posture_is_approached_with_the_hand_still() {
     let near = [0.0, -PI / 4.0, 0.0, -3.0 * PI / 4.0, 0.0, FRAC_PI_2, PI / 4.0];
     let task = [Task::hard(Frame::Tool, TaskKind::Pose)];
     let posture = [Preference::Posture { near: near.to_vec(), weight: 1.0 }];
-    let mut wishing = NumericSolver::with_tasks(&case.description, &task, &posture).expect("it has numbers");
-    let mut plain = case.solver(Goal::Pose);
+    let wishing = NumericSolver::with_tasks(&case.description, &task, &posture).expect("it has numbers");
+    let plain = case.solver(Goal::Pose);
     let mut random = Random(3);
     for _ in 0..200 {
         let pose = case.robot.pose(&case.random(&mut random));
@@ -274,7 +274,7 @@ fn a_posture_is_approached_with_the_hand_still() {
     let middle = [Preference::MiddleOfLimits { weight: 1.0 }];
     let position = [Task::hard(Frame::Tool, TaskKind::Position)];
     let arm = chain(3, true);
-    let mut solver = NumericSolver::with_tasks(&arm.description, &position, &middle).expect("it has numbers");
+    let solver = NumericSolver::with_tasks(&arm.description, &position, &middle).expect("it has numbers");
     let outcome = solver.solve(&Transform::translation_x(0.3 - 1e-9), None);
     assert!(outcome.is_solved() && outcome.q.iter().all(|x| x.abs() < 1e-3), "{outcome:?}");
 }
@@ -286,7 +286,7 @@ fn soft_tasks_yield_to_hard_ones() {
     let arm = chain(4, true);
     let tasks =
         [Task::hard(Frame::Tool, TaskKind::Position), Task::soft(Frame::Link(2), TaskKind::Position, 1.0)];
-    let mut solver = NumericSolver::with_tasks(&arm.description, &tasks, &[]).expect("it has numbers");
+    let solver = NumericSolver::with_tasks(&arm.description, &tasks, &[]).expect("it has numbers");
     let at = |x, y| Transform::translation(x, y, 0.0);
     let outcome = solver.solve_tasks(&[at(0.2, 0.0), at(0.1, 0.1)], None);
     assert!(outcome.is_solved());
@@ -316,7 +316,7 @@ fn parts_of_poses_are_met_and_the_rest_is_free() {
     ];
     for (name, turns, shifts, axes) in kinds {
         let task = [Task::hard(Frame::Tool, TaskKind::Components { turns, shifts, axes })];
-        let mut solver = NumericSolver::with_tasks(&case.description, &task, &[]).expect("it has numbers");
+        let solver = NumericSolver::with_tasks(&case.description, &task, &[]).expect("it has numbers");
         for i in 0..100 {
             let target = case.robot.pose(&case.random(&mut random));
             let outcome = solver.solve(&target, None);
@@ -349,7 +349,7 @@ fn rotation_vector(r: &Rotation<f64>) -> [f64; 3] {
 fn two_frames_of_a_long_arm_are_placed_at_once() {
     let case = chain(20, false);
     let tasks = [Task::hard(Frame::Tool, TaskKind::Pose), Task::hard(Frame::Link(10), TaskKind::Position)];
-    let mut solver = NumericSolver::with_tasks(&case.description, &tasks, &[]).expect("it has numbers");
+    let solver = NumericSolver::with_tasks(&case.description, &tasks, &[]).expect("it has numbers");
     let mut random = Random(2);
     for i in 0..50 {
         let q = case.random(&mut random);
@@ -381,7 +381,7 @@ fn speed() {
     use std::time::Instant;
     for (name, seeded) in [("ur5", false), ("ur5", true), ("franka-panda", false), ("franka-panda", true)] {
         let case = Case::named(name);
-        let mut solver = case.solver(Goal::Pose);
+        let solver = case.solver(Goal::Pose);
         let mut random = Random(23);
         let mut times = vec![];
         let (mut solved, mut restarts, mut iterations, mut worst) = (0, 0, 0, 0.0_f64);
@@ -425,7 +425,7 @@ fn speed() {
     for joints in [7, 15, 30, 60] {
         let case = chain(joints, false);
         let begin = Instant::now();
-        let mut solver = case.solver(Goal::Pose);
+        let solver = case.solver(Goal::Pose);
         let making = begin.elapsed();
         let mut random = Random(1);
         let poses: Vec<_> = (0..200).map(|_| case.robot.pose(&case.random(&mut random))).collect();

@@ -116,7 +116,7 @@ fn off(space: &JointSpace, curve: &[Vec<f64>], q: &[f64]) -> f64 {
 }
 
 /// True if a member of the manifold is the configuration; for curves, if it is near their samples.
-fn is_on(s: &mut RedundantSolver, pose: &Transform<f64>, m: &Manifold, q: &[f64]) -> bool {
+fn is_on(s: &RedundantSolver, pose: &Transform<f64>, m: &Manifold, q: &[f64]) -> bool {
     let space = s.space.clone();
     m.components.iter().any(|c| match s.parameter_at(q) {
         Some(x) => s.member(pose, c, x).is_some_and(|member| {
@@ -130,7 +130,7 @@ fn is_on(s: &mut RedundantSolver, pose: &Transform<f64>, m: &Manifold, q: &[f64]
 #[test]
 fn all_branches_of_the_arm_angle_hold_the_pose() {
     for d in [robot("kuka-iiwa-7"), robot("kuka-lwr4"), skewed()] {
-        let mut s = solver(&d);
+        let s = solver(&d);
         assert_eq!(s.parameter(), "ψ", "{}", d.name);
         let mut random = Random(1);
         for _ in 0..share(500, 25) {
@@ -139,7 +139,7 @@ fn all_branches_of_the_arm_angle_hold_the_pose() {
             let m = s.manifold(&pose);
             assert_eq!(m.doubt, None);
             assert_eq!(m.components.len(), 8, "{}: {q:?}", d.name);
-            assert!(is_on(&mut s, &pose, &m, &q), "{}: {q:?}", d.name);
+            assert!(is_on(&s, &pose, &m, &q), "{}: {q:?}", d.name);
             assert!(m.is_feasible());
             for c in &m.components {
                 assert!(c.is_closed && c.domain == [-PI, PI]);
@@ -165,7 +165,7 @@ fn check_curve(s: &RedundantSolver, pose: &Transform<f64>, c: &Component) {
 
 #[test]
 fn oblique_twists_leave_arcs() {
-    let mut s = solver(&oblique());
+    let s = solver(&oblique());
     assert_eq!(s.parameter(), "ψ");
     let mut random = Random(2);
     let mut arcs = 0;
@@ -173,7 +173,7 @@ fn oblique_twists_leave_arcs() {
         let q = within(&s.space, &mut random);
         let pose = s.robot.pose(&q);
         let m = s.manifold(&pose);
-        assert!(is_on(&mut s, &pose, &m, &q), "{q:?}");
+        assert!(is_on(&s, &pose, &m, &q), "{q:?}");
         for c in &m.components {
             assert!(error(&s.robot, &pose, &c.representative.q) <= 1e-12);
             arcs += usize::from(!c.is_closed);
@@ -182,14 +182,14 @@ fn oblique_twists_leave_arcs() {
                 assert!(s.member(&pose, c, outside).is_none(), "{} ends at {:?}", c.branch, c.domain);
             }
         }
-        check_feasible(&mut s, &pose, &m, 1e-9);
+        check_feasible(&s, &pose, &m, 1e-9);
     }
     assert!(arcs > 0);
 }
 
 /// Feasible intervals hold all samples that the limits allow and no other; at their ends a joint is at a limit, or the
 /// branch ends.
-fn check_feasible(s: &mut RedundantSolver, pose: &Transform<f64>, m: &Manifold, exact: f64) {
+fn check_feasible(s: &RedundantSolver, pose: &Transform<f64>, m: &Manifold, exact: f64) {
     for c in &m.components {
         let [low, high] = c.domain;
         let inside = |x: f64, margin: f64| {
@@ -234,15 +234,15 @@ fn feasible_intervals_are_exact() {
         (robot("ufactory-xarm7"), 3),
     ];
     for (d, count) in cases {
-        let mut s = solver(&d);
+        let s = solver(&d);
         let mut random = Random(3);
         for _ in 0..share(20 * count, count) {
             let q = within(&s.space, &mut random);
             let pose = s.robot.pose(&q);
             let m = s.manifold(&pose);
-            assert!(is_on(&mut s, &pose, &m, &q), "{}: {q:?}", d.name);
+            assert!(is_on(&s, &pose, &m, &q), "{}: {q:?}", d.name);
             assert!(m.is_feasible(), "{}: {q:?}", d.name);
-            check_feasible(&mut s, &pose, &m, 1e-9);
+            check_feasible(&s, &pose, &m, 1e-9);
         }
     }
 }
@@ -254,7 +254,7 @@ fn reachable_targets_are_all_solved_within_the_limits() {
     let named = ["kuka-iiwa-7", "kuka-iiwa-14", "kuka-lwr4", "franka-panda", "kinova-gen3", "ufactory-xarm7"]
         .map(robot);
     for d in named.into_iter().chain([skew, skew_oblique]) {
-        let mut s = solver(&d);
+        let s = solver(&d);
         let mut random = Random(4);
         for _ in 0..share(10_000, 2_000) {
             let q = within(&s.space, &mut random);
@@ -269,7 +269,7 @@ fn reachable_targets_are_all_solved_within_the_limits() {
 #[test]
 fn the_parameter_of_the_seed_is_tried_first() {
     for d in [robot("kuka-iiwa-7"), skewed(), robot("franka-panda")] {
-        let mut s = solver(&d);
+        let s = solver(&d);
         let mut random = Random(5);
         let mut same = 0;
         for _ in 0..100 {
@@ -285,7 +285,7 @@ fn the_parameter_of_the_seed_is_tried_first() {
 #[test]
 fn poses_out_of_reach_have_no_manifold() {
     for name in ["kuka-iiwa-7", "franka-panda"] {
-        let mut s = solver(&robot(name));
+        let s = solver(&robot(name));
         let near = s.robot.pose(&[0.3, 0.4, 0.5, -1.0, 0.6, 0.7, 0.8]);
         let shift = near.translation + Vector([30.0, 0.0, 0.0]);
         let pose = Transform::from_rotation_translation(near.rotation, shift);
@@ -318,7 +318,7 @@ fn quality(s: &RedundantSolver, criterion: &Criterion, q: &[f64], guard: f64) ->
 #[test]
 fn the_best_is_no_worse_than_any_sample() {
     for d in [robot("kuka-iiwa-7"), skewed(), robot("franka-panda")] {
-        let mut s = solver(&d);
+        let s = solver(&d);
         let mut random = Random(6);
         for _ in 0..share(50, 3) {
             let q = within(&s.space, &mut random);
@@ -350,7 +350,7 @@ fn the_best_is_no_worse_than_any_sample() {
 #[test]
 fn curves_close_and_agree_with_closed_forms() {
     for d in [robot("franka-panda"), robot("kuka-iiwa-7"), skewed()] {
-        let mut s = solver(&d);
+        let s = solver(&d);
         let mut random = Random(7);
         let mut closed = 0;
         for _ in 0..share(100, 6) {
@@ -365,7 +365,7 @@ fn curves_close_and_agree_with_closed_forms() {
                 assert!(w[0].iter().zip(&w[1]).all(|(x, y)| (x - y).abs() <= 0.11));
             }
             for x in followed.curve.iter().step_by(7) {
-                assert!(is_on(&mut s, &pose, &m, x), "{}: {x:?} of the curve through {q:?}", d.name);
+                assert!(is_on(&s, &pose, &m, x), "{}: {x:?} of the curve through {q:?}", d.name);
             }
             if followed.is_closed() {
                 let (first, last) = (&followed.curve[0], &followed.curve[followed.curve.len() - 1]);
@@ -426,7 +426,7 @@ fn arms_without_surplus_are_refused() {
 fn slides_and_two_surplus_joints_are_served() {
     for name in ["rail-puma", "smart5-six-rail", "anthropomorphic-8r"] {
         let d = robot(name);
-        let Ok(mut s) = RedundantSolver::new(&d, Goal::Pose) else { panic!("{name} is refused") };
+        let Ok(s) = RedundantSolver::new(&d, Goal::Pose) else { panic!("{name} is refused") };
         let mut random = Random(8);
         for _ in 0..5 {
             let q: Vec<f64> =
@@ -442,7 +442,7 @@ fn slides_and_two_surplus_joints_are_served() {
 fn arms_without_closed_form_are_served_by_curves() {
     for name in ["rethink-baxter-left", "rethink-sawyer"] {
         let d = robot(name);
-        let mut s = solver(&d);
+        let s = solver(&d);
         assert_eq!(s.parameter(), "s");
         let mut random = Random(9);
         for _ in 0..share(50, 2) {
@@ -451,11 +451,7 @@ fn arms_without_closed_form_are_served_by_curves() {
             let x = s.within_limits(&pose, None).unwrap_or_else(|| panic!("{name}: {q:?}"));
             assert!(error(&s.robot, &pose, &x.q) <= 1e-10);
             let m = s.manifold(&pose);
-            assert!(
-                is_on(&mut s, &pose, &m, &q),
-                "{name}: {q:?} is on none of {} curves",
-                m.components.len()
-            );
+            assert!(is_on(&s, &pose, &m, &q), "{name}: {q:?} is on none of {} curves", m.components.len());
             for c in &m.components {
                 check_curve(&s, &pose, c);
             }
@@ -470,7 +466,7 @@ fn times() {
     for name in ["kuka-iiwa-7", "kuka-iiwa-14", "kuka-lwr4", "franka-panda", "kinova-gen3", "ufactory-xarm7"]
     {
         let d = robot(name);
-        let mut s = solver(&d);
+        let s = solver(&d);
         let mut random = Random(10);
         let poses: Vec<_> = (0..10_000).map(|_| s.robot.pose(&within(&s.space, &mut random))).collect();
         let start = std::time::Instant::now();

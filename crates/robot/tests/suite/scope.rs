@@ -42,7 +42,7 @@ fn what_is_compiled_goes_to_other_threads() {
 #[test]
 fn what_was_derived_inside_works_outside() {
     let q = [0.1, -1.2, 1.4, 0.3, 0.8, -0.5];
-    let (function, mut solver) = scoped(|| {
+    let (function, solver) = scoped(|| {
         let d = robot("ur5");
         let function =
             pose_program(&d).compile_with(|s| d.value(s)).expect("the catalogue gives all lengths");

@@ -136,7 +136,7 @@ fn is_same(robot: &Robot<f64>, pose: &Transform<f64>, found: &[f64], q: &[f64]) 
 }
 
 /// Whether a configuration is among the solutions or in a family.
-fn holds(solver: &mut InverseKinematics, pose: &Transform<f64>, answer: &Answer, q: &[f64]) -> bool {
+fn holds(solver: &InverseKinematics, pose: &Transform<f64>, answer: &Answer, q: &[f64]) -> bool {
     let robot = solver.robot.clone();
     answer.solutions.iter().any(|s| is_same(&robot, pose, &s.q, q))
         || solver.nearest(pose, answer, q).is_some_and(|n| is_same(&robot, pose, &n.q, q))
@@ -156,7 +156,7 @@ fn solver(name: &str) -> InverseKinematics {
 }
 
 /// What the answer to the pose of a configuration lacks, if anything.
-fn lack(solver: &mut InverseKinematics, q: &[f64]) -> Option<&'static str> {
+fn lack(solver: &InverseKinematics, q: &[f64]) -> Option<&'static str> {
     let pose = solver.robot.pose(q);
     let answer = solver.solve(&pose, &[]);
     assert!(reach_the_pose(solver, &pose, &answer), "{q:?}: {answer:?}");
@@ -167,7 +167,7 @@ fn lack(solver: &mut InverseKinematics, q: &[f64]) -> Option<&'static str> {
 }
 
 fn solve_near_singular(name: &str, count: usize) {
-    let mut solver = solver(name);
+    let solver = solver(name);
     let mut random = Random(7);
     let (mut lacking, mut tried) = (vec![], 0);
     while tried < count * OFFSETS.len() {
@@ -176,7 +176,7 @@ fn solve_near_singular(name: &str, count: usize) {
         for offset in OFFSETS {
             let q: Vec<f64> = at.iter().zip(&way).map(|(x, d)| x + offset * d).collect();
             tried += 1;
-            lacking.extend(lack(&mut solver, &q).map(|what| (what, offset, q)));
+            lacking.extend(lack(&solver, &q).map(|what| (what, offset, q)));
         }
     }
     let count = |what: &str| lacking.iter().filter(|l| l.0 == what).count();
@@ -218,14 +218,14 @@ fn panda() {
 /// the other configuration there is none in a narrow part of the circle.
 #[test]
 fn narrow_parts_of_a_circle_are_found() {
-    let mut solver = solver("franka-panda");
+    let solver = solver("franka-panda");
     let stretched = -(82.5_f64 / 316.0).atan() - (82.5_f64 / 384.0).atan();
     let way = [0.31, -0.22, 0.43, 0.17, -0.38, 0.09, -0.27];
     for (q5, q6) in [(0.0, 1.0), (PI, 2.0)] {
         let at = [0.3, 0.5, -0.4, stretched, q5, q6, 0.7];
         for offset in OFFSETS {
             let q: Vec<f64> = at.iter().zip(&way).map(|(x, d)| x + offset * d).collect();
-            assert_eq!(lack(&mut solver, &q), None, "{q:?}");
+            assert_eq!(lack(&solver, &q), None, "{q:?}");
         }
     }
     let q = [
@@ -237,5 +237,5 @@ fn narrow_parts_of_a_circle_are_found() {
         -1.7113874875870494,
         -2.2144113117926834,
     ];
-    assert_eq!(lack(&mut solver, &q), None, "{q:?}");
+    assert_eq!(lack(&solver, &q), None, "{q:?}");
 }

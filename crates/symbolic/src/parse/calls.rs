@@ -218,7 +218,7 @@ impl Parser<'_> {
         Ok(value)
     }
 
-    pub fn without_radians(&self, e: Expr) -> Expr {
+    pub(crate) fn without_radians(&self, e: Expr) -> Expr {
         if !self.vocabulary.in_degrees() {
             return e;
         }
@@ -245,7 +245,7 @@ impl Parser<'_> {
         Ok(Value { expr, height, bits: sum, has_name, has_unit, size, part: 0 })
     }
 
-    pub fn too_large(&self, start: usize) -> ParseError {
+    pub(crate) fn too_large(&self, start: usize) -> ParseError {
         ParseError::new(self.span_from(start), "the numbers become too large")
     }
 

@@ -127,14 +127,14 @@ fn bracketed(tokens: &[&Kind]) -> Option<(String, usize)> {
 
 impl Value {
     /// True for a number with a unit.
-    pub fn is_quantity(&self) -> bool {
+    pub(crate) fn is_quantity(&self) -> bool {
         self.has_unit && !self.has_name
     }
 }
 
 impl Parser<'_> {
     /// The unit at the present token, and its place.
-    pub fn unit_here(&self) -> Option<(String, Range<usize>)> {
+    pub(crate) fn unit_here(&self) -> Option<(String, Range<usize>)> {
         let measures = self.measures.as_deref()?;
         let name = match self.peek()? {
             Kind::Word(word) => word,
@@ -161,7 +161,7 @@ impl Parser<'_> {
         Ok(Value { has_unit: true, ..self.made(expr, &[product], start)? })
     }
 
-    pub fn two_values(&self) -> ParseError {
+    pub(crate) fn two_values(&self) -> ParseError {
         let e = ParseError::new(self.span_of(self.at), "two values without a sign between them");
         e.hint("write a product with `*`")
     }

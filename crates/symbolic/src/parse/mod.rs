@@ -34,7 +34,7 @@ pub const MAX_BYTES: usize = 65_536;
 /// The deepest nesting of brackets, roots and fractions.
 pub const MAX_NESTING: usize = 100;
 /// The most operators in one sum or product.
-pub const MAX_OPERATORS: usize = 2_000;
+pub(crate) const MAX_OPERATORS: usize = 2_000;
 /// The most signs of two values in one formula that are chosen by themselves.
 pub const MAX_SIGN_CHOICES: usize = 6;
 /// The largest magnitude of an exponent.

@@ -158,7 +158,7 @@ impl Ring {
 
     /// True if different normal forms prove different functions: every atom is free, a sine or cosine of an
     /// independent angle, or the root of a squarefree integer.
-    pub fn is_independent(&self, p: &Poly) -> bool {
+    pub(crate) fn is_independent(&self, p: &Poly) -> bool {
         p.atoms().into_iter().all(|a| match self.kind(a) {
             AtomKind::Symbol(_) | AtomKind::Pi => true,
             AtomKind::Surd(_) => true,

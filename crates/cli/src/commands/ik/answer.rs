@@ -53,7 +53,7 @@ impl Question {
     }
 
     /// The answer, and the solution that is best by the criterion, if there is one.
-    pub fn ask(&self, solver: &mut InverseKinematics, pose: &Transform<f64>) -> (Answer, Option<Nearest>) {
+    pub fn ask(&self, solver: &InverseKinematics, pose: &Transform<f64>) -> (Answer, Option<Nearest>) {
         let answer = match (&self.criterion, self.one) {
             (Some(Criterion::Nearest(to)), true) => solver.one(pose, &self.given, Some(to)),
             (_, true) => solver.one(pose, &self.given, None),

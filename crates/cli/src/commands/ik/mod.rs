@@ -78,7 +78,7 @@ pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
         (None, Some(text)) => pose::read(text, &arguments.orientation, goal)?,
         (None, None) => return Ok(()),
     };
-    let (answer, nearest) = question.ask(&mut solver, &pose);
+    let (answer, nearest) = question.ask(&solver, &pose);
     let text = if arguments.json {
         question.json(&pose, &answer, nearest.as_ref())
     } else {

@@ -30,7 +30,7 @@ struct Poses {
 
 impl Poses {
     fn solved(&mut self, pose: &Transform<f64>) -> String {
-        let (mut answer, nearest) = self.question.ask(&mut self.solver, pose);
+        let (mut answer, nearest) = self.question.ask(&self.solver, pose);
         // Curves are long; they are for one pose.
         answer.families.iter_mut().for_each(|f| f.curve.clear());
         let text = self.question.json(pose, &answer, nearest.as_ref());

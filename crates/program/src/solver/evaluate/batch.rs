@@ -3,7 +3,7 @@
 use super::lanes::{ALIVE, State, Tapes, different, is_finite, is_near, is_possible, root};
 use super::{Shape, SolverFunction, SolverScalar};
 use crate::evaluate::block::{self, Lanes};
-use crate::evaluate::machine::{Arithmetic, Isa, Work};
+use crate::evaluate::machine::{Arithmetic, Instructions, Isa, Work};
 use crate::evaluate::rows;
 use crate::solver::roots::power;
 use crate::solver::{CANDIDATE, TOLERANCE};
@@ -240,12 +240,12 @@ struct Rows<'a> {
 
 impl Work for Rows<'_> {
     #[inline(always)]
-    fn run<const FUSED: bool>(self) {
+    fn run<I: Instructions, const FUSED: bool>(self) {
         let Rows { shape, fast, careful, variables, mut part } = self;
         let v = shape.variables;
         for (block, variables) in variables.chunks(N * v).enumerate() {
             let first = block * N;
-            let unclear = fast.block::<FUSED>(shape, variables, first, &mut part);
+            let unclear = fast.block::<I, FUSED>(shape, variables, first, &mut part);
             for (lane, row) in variables.chunks_exact(v).enumerate() {
                 if unclear[lane] != 0.0 {
                     one(shape, careful, row, first + lane, &mut part);
@@ -258,7 +258,7 @@ impl Work for Rows<'_> {
 impl Fast {
     /// The solutions of up to N rows; 1 for each row that is not clear, else 0.
     #[inline(always)]
-    fn block<const FUSED: bool>(
+    fn block<I: Instructions, const FUSED: bool>(
         &mut self,
         shape: &Shape,
         variables: &[f64],
@@ -269,7 +269,7 @@ impl Fast {
         let rows = variables.len() / shape.variables;
         rows::read(variables, &mut file[..shape.variables]);
         let (before, levels) = tapes.levels.split_first().expect("there is a level more than nodes");
-        block::run::<f64, FUSED, N>(before, file);
+        block::run::<I, f64, FUSED, N>(before, file);
         let size = file[shape.size as usize].0;
         for (degree, scale) in scales.iter_mut().enumerate() {
             (0..N).for_each(|i| scale.0[i] = power(size[i].abs(), degree as u8));
@@ -291,7 +291,7 @@ impl Fast {
                 let scale = &scales[usize::from(step.degree)].0;
                 root(i, step, file, scale, &[k; N], &mut state);
                 states[i + 1] = state;
-                block::run::<f64, FUSED, N>(level, file);
+                block::run::<I, f64, FUSED, N>(level, file);
             }
             let State { ended, unclear: marked, .. } = &states[last];
             let residual = &file[shape.residual as usize].0;

@@ -4,7 +4,7 @@ use super::lanes::{State, Tapes, different, is_near, root};
 use super::leaves::{Leaves, Record};
 use super::{Shape, SolverFunction};
 use crate::evaluate::block::{self, Lanes};
-use crate::evaluate::machine::{Arithmetic, Isa, Work};
+use crate::evaluate::machine::{Arithmetic, Instructions, Isa, Work};
 use crate::solver::CANDIDATE;
 use crate::solver::roots::{power, roots};
 use std::sync::Arc;
@@ -95,21 +95,21 @@ struct Solve<'a> {
 
 impl Work for Solve<'_> {
     #[inline(always)]
-    fn run<const FUSED: bool>(self) {
+    fn run<I: Instructions, const FUSED: bool>(self) {
         let Solve { shape, tapes, file, passes, variables, leaves, is_clear } = self;
         leaves.clear();
         for (register, x) in file.iter_mut().zip(variables) {
             register.0 = [*x; N];
         }
         let (before, rest) = tapes.levels.split_first().expect("there is a level more than nodes");
-        block::run::<f64, FUSED, N>(before, file);
+        block::run::<I, f64, FUSED, N>(before, file);
         let size = file[shape.size as usize].0[0].abs();
         for pass in passes {
             let mut state = State::<N>::START;
             for (i, (step, level)) in shape.steps.iter().zip(rest).enumerate() {
                 let scale = [power(size, step.degree); N];
                 root(i, step, file, &scale, &pass.k[i].0, &mut state);
-                block::run::<f64, FUSED, N>(level, file);
+                block::run::<I, f64, FUSED, N>(level, file);
             }
             if !take(shape, file, pass, &state, passes.len() == 1, size, leaves) {
                 *is_clear = false;

@@ -40,7 +40,7 @@ impl Walk {
 
     /// Guards count as vanished up to `looseness` times what rounding leaves, from the next call on: for variables that
     /// are known less well, or that made an earlier root coincide.
-    pub fn set_looseness(&mut self, looseness: f64) {
+    pub(crate) fn set_looseness(&mut self, looseness: f64) {
         self.looseness = looseness;
     }
 

@@ -92,7 +92,7 @@ impl Names {
     }
 
     /// Names that were used since the last call and not said before, with their meanings, inner ones first.
-    pub fn introduced(&self, reading: &Reading) -> Vec<(Expr, Expr)> {
+    pub(crate) fn introduced(&self, reading: &Reading) -> Vec<(Expr, Expr)> {
         let mut found: Vec<(usize, Expr)> = vec![];
         loop {
             let pending: Vec<usize> = self.used.borrow_mut().drain(..).collect();

@@ -76,7 +76,7 @@ impl<'a> Reading<'a> {
     }
 
     /// When all of a polynomial is known.
-    pub fn rank_of(&self, p: &Poly) -> usize {
+    pub(crate) fn rank_of(&self, p: &Poly) -> usize {
         p.atoms().into_iter().map(|a| self.rank(a)).max().unwrap_or(0)
     }
 
@@ -111,7 +111,7 @@ impl<'a> Reading<'a> {
     }
 
     /// The steps whose results are in a polynomial that is known after `steps` steps.
-    pub fn steps_in(&self, p: &Poly, steps: usize) -> Vec<usize> {
+    pub(crate) fn steps_in(&self, p: &Poly, steps: usize) -> Vec<usize> {
         let mut found = vec![];
         for a in p.atoms() {
             match self.chain.algebra.kind(a) {

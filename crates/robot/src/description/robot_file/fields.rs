@@ -54,7 +54,12 @@ pub(super) fn clamp(text: &str, span: Range<usize>) -> Range<usize> {
 
 impl Reader<'_> {
     /// Reports the keys that are not among `known`; `hint` knows better than the nearest word.
-    pub fn unknown_keys(&mut self, fields: &Fields, known: &[&str], hint: impl Fn(&str) -> Option<String>) {
+    pub(crate) fn unknown_keys(
+        &mut self,
+        fields: &Fields,
+        known: &[&str],
+        hint: impl Fn(&str) -> Option<String>,
+    ) {
         for (key, span) in fields.keys().filter(|(key, _)| !known.contains(key)) {
             let shown: String = key.chars().take(40).collect();
             let hint = hint(key).unwrap_or_else(|| match nearest(key, known.iter().copied()) {

@@ -121,7 +121,7 @@ impl Layout {
     }
 
     /// True if a grid begins with the number behind the last row's.
-    pub fn counts_on(&self, grid: &Grid) -> bool {
+    pub(crate) fn counts_on(&self, grid: &Grid) -> bool {
         let next = grid.rows.first().and_then(|r| self.number(r));
         next.is_some() && next == self.last_number().map(|n| n + 1)
     }
@@ -145,7 +145,7 @@ impl Layout {
     }
 
     /// True if the rows of `next` go on counting where these end, under the same heads.
-    pub fn continues_in(&self, next: &Layout) -> bool {
+    pub(crate) fn continues_in(&self, next: &Layout) -> bool {
         let roles = |l: &Layout| l.columns.iter().map(|c| (c.role, c.previous)).collect::<Vec<_>>();
         let (last, first) = (self.last_number(), next.rows.first().and_then(|r| next.number(r)));
         roles(self) == roles(next) && last.is_some() && last.map(|n| n + 1) == first

@@ -3,10 +3,9 @@
 //! Where an equation leaves its unknown free, the unknown is given values all round; what solves the pose then, on one
 //! branch and for neighbouring values, is a family, or a single solution if its neighbours are none.
 
-use super::solve::{InverseSolver, LOOSE, NEAR, ROUGH, SHORT, draft, variables};
+use super::solve::{InverseSolver, LOOSE, NEAR, ROUGH, SHORT, Solving, draft, variables};
 use crate::geometry::Transform;
 use crate::inverse::answer::{Answer, Doubt, Family, Solution};
-use crate::inverse::newton;
 use crate::space::{norm, wrapped};
 use denavit_program::solver::Leaf;
 use std::f64::consts::{PI, TAU};
@@ -34,7 +33,7 @@ const FINEST: usize = 100;
 impl InverseSolver {
     /// The members of a family with its free unknown (radians or metres) at a value; the first, if it has several.
     pub fn members(
-        &mut self,
+        &self,
         pose: &Transform<f64>,
         given: &[f64],
         family: &Family,
@@ -44,12 +43,26 @@ impl InverseSolver {
         if let Some((i, x)) = at.first_mut() {
             *x = if self.nodes[*i].is_angle { [value.cos(), value.sin()] } else { [value, 0.0] };
         }
-        self.with_free(pose, given, &at, &family.signs)
+        let (pose, mut solving) = self.at(pose);
+        solving.with_free(&pose, given, &at, &family.signs)
     }
 
     /// The members of a family with its free unknowns as they are at a configuration: those among them show whether the
     /// configuration belongs to the family.
     pub fn members_at(
+        &self,
+        pose: &Transform<f64>,
+        given: &[f64],
+        family: &Family,
+        q: &[f64],
+    ) -> Vec<Solution> {
+        let (pose, mut solving) = self.at(pose);
+        solving.members_at(&pose, given, family, q)
+    }
+}
+
+impl Solving<'_> {
+    fn members_at(
         &mut self,
         pose: &Transform<f64>,
         given: &[f64],
@@ -68,18 +81,18 @@ impl InverseSolver {
         at: &[(usize, [f64; 2])],
         signs: &[i8],
     ) -> Vec<Solution> {
-        let pose = &newton::nearest_rigid(pose).0;
+        let solver = self.solver;
         let variables = variables(self.goal, pose, given);
         let mut free = vec![None; self.nodes.len()];
         for &(i, x) in at {
             free[i] = Some(x);
         }
-        let leaves = self.scalar.solve_loosely(&variables, &free, LOOSE);
+        let leaves = self.memory.scalar.solve_loosely(&variables, &free, LOOSE);
         // Where two roots coincide there is one sign for both.
         let branch: Vec<Leaf> = leaves.iter().filter(|l| l.signs == signs).collect();
         let all = || leaves.iter().filter(|l| l.free != 0 || l.guard < NEAR).collect();
         let kept: Vec<Leaf> = if branch.is_empty() { all() } else { branch };
-        let found: Vec<Solution> = kept.iter().map(|l| draft(&self.nodes, l)).collect();
+        let found: Vec<Solution> = kept.iter().map(|l| draft(&solver.nodes, l)).collect();
         found.into_iter().filter_map(|s| self.member(pose, s)).collect()
     }
 
@@ -108,6 +121,7 @@ impl InverseSolver {
 
     /// Gives free unknowns values all round, and gathers what solves the pose.
     pub(super) fn families(&mut self, pose: &Transform<f64>, given: &[f64], met: u64, answer: &mut Answer) {
+        let solver = self.solver;
         let variables = variables(self.goal, pose, given);
         let mut free: Vec<usize> = (0..self.nodes.len()).filter(|i| met >> i & 1 == 1).collect();
         let mut members: Vec<Member> = vec![];
@@ -121,11 +135,11 @@ impl InverseSolver {
             let count = steps.pow(free.len().min(3) as u32);
             for number in 0..count {
                 let at = self.values(&free, steps, number);
-                let leaves = self.scalar.solve_loosely(&variables, &at, LOOSE);
+                let leaves = self.memory.scalar.solve_loosely(&variables, &at, LOOSE);
                 more |= leaves.met_free();
                 for leaf in leaves.iter().filter(|l| l.free != 0) {
                     members.push(Member {
-                        solution: draft(&self.nodes, &leaf),
+                        solution: draft(&solver.nodes, &leaf),
                         signs: leaf.signs.to_vec(),
                         free: leaf.free,
                         number,
@@ -340,13 +354,14 @@ impl InverseSolver {
         let step = width / steps as f64;
         let first = group[0].number as f64 * step - if is_angle { 0.0 } else { self.space.reach };
         let last = first + (group.len() - 1) as f64 * step;
+        let solver = self.solver;
         let variables = variables(self.goal, pose, given);
         let mut holds = |x: f64| {
             let mut at = vec![None; self.nodes.len()];
             at[node] = Some(if is_angle { [x.cos(), x.sin()] } else { [x, 0.0] });
-            let leaves = self.scalar.solve_loosely(&variables, &at, LOOSE);
+            let leaves = self.memory.scalar.solve_loosely(&variables, &at, LOOSE);
             let branch = leaves.iter().find(|l| l.signs == group[0].signs);
-            let found = branch.map(|l| draft(&self.nodes, &l));
+            let found = branch.map(|l| draft(&solver.nodes, &l));
             found.is_some_and(|s| self.member(pose, s).is_some())
         };
         let mut end = |inside: f64, outside: f64| {

@@ -13,18 +13,18 @@ use crate::inverse::derivation::{Goal, InverseModel, NumericCondition, Step, Unk
 use crate::inverse::newton;
 use crate::mechanism::{MissingValue, Robot};
 use crate::random::Random;
+use crate::shared::{Lent, Shared};
 use crate::space::{JointSpace, norm};
 use denavit_program::solver::{Leaf, SolverFunction, SolverScalar, TOLERANCE};
 use denavit_symbolic::{Expr, Symbol};
 use std::f64::consts::TAU;
+use std::ops::Deref;
 
 /// Finds the solutions of poses for a robot with numbers.
 #[derive(Clone, Debug)]
 pub struct InverseSolver {
     function: SolverFunction,
-    pub(super) scalar: SolverScalar,
-    /// The same with every branch kept, however far from a solution.
-    nearest: SolverScalar,
+    memory: Shared<Memory>,
     /// The robot that is moved.
     pub robot: Robot<f64>,
     pub(super) goal: Goal,
@@ -36,16 +36,39 @@ pub struct InverseSolver {
     /// What stands before the first axis and behind the last one in the normal form.
     base: Transform<f64>,
     tool: Transform<f64>,
-    /// What a solution may miss the pose by.
-    tolerance: f64,
 }
 
 /// A derivation that finds the unknown of a step in another way.
 #[derive(Clone, Debug)]
 struct VariantSolver {
     step: usize,
-    scalar: SolverScalar,
     nodes: Vec<NodeFacts>,
+}
+
+/// What computes a pose, with the memory that it computes in.
+#[derive(Clone, Debug)]
+pub(super) struct Memory {
+    pub scalar: SolverScalar,
+    /// The same with every branch kept, however far from a solution.
+    nearest: SolverScalar,
+    /// Those of the variants.
+    variants: Vec<SolverScalar>,
+}
+
+/// A solver at work on a pose.
+pub(super) struct Solving<'a> {
+    pub solver: &'a InverseSolver,
+    pub memory: Lent<'a, Memory>,
+    /// What a solution may miss the pose by.
+    tolerance: f64,
+}
+
+impl Deref for Solving<'_> {
+    type Target = InverseSolver;
+
+    fn deref(&self) -> &InverseSolver {
+        self.solver
+    }
 }
 
 /// What is known of a node of the solver.
@@ -101,11 +124,14 @@ impl InverseModel {
                 .collect()
         };
         let nodes = facts(&self.steps, &self.labels);
-        let variant = |v: &Variant| -> Result<VariantSolver, MissingValue> {
-            let scalar = v.compiled.solver.compile_with(value)?.scalar();
-            Ok(VariantSolver { step: v.step, scalar, nodes: facts(&v.steps, &v.labels) })
+        let variant = |v: &Variant| VariantSolver { step: v.step, nodes: facts(&v.steps, &v.labels) };
+        let scalar = |v: &Variant| Ok(v.compiled.solver.compile_with(value)?.scalar());
+        let variants = self.variants.iter().map(variant).collect();
+        let memory = Memory {
+            scalar: function.scalar(),
+            nearest,
+            variants: self.variants.iter().map(scalar).collect::<Result<_, MissingValue>>()?,
         };
-        let variants = self.variants.iter().map(variant).collect::<Result<Vec<_>, _>>()?;
         let space = JointSpace::new(description, robot.reach());
         let conditions = self
             .conditions
@@ -115,12 +141,10 @@ impl InverseModel {
         let number = |e: Expr| e.eval(value).unwrap_or(f64::NAN);
         Ok(InverseSolver {
             variants,
-            tolerance: TOLERANCE,
+            memory: Shared::new(memory),
             conditions,
             base: self.chain.base.map(number),
             tool: self.chain.tool.map(number),
-            scalar: function.scalar(),
-            nearest,
             function,
             robot,
             goal: self.goal,
@@ -160,19 +184,31 @@ impl InverseSolver {
     ///
     /// A pose is taken to be as precise as its rotation is orthonormal: the nearest rotation is meant, and solutions may
     /// miss the pose by as much.
-    pub fn solve(&mut self, pose: &Transform<f64>, given: &[f64]) -> Answer {
+    pub fn solve(&self, pose: &Transform<f64>, given: &[f64]) -> Answer {
         assert_eq!(given.len(), self.given.len(), "one value per given joint");
+        let (pose, mut solving) = self.at(pose);
+        solving.solve(&pose, given)
+    }
+
+    /// The rigid pose that is meant, and what solves it.
+    pub(super) fn at(&self, pose: &Transform<f64>) -> (Transform<f64>, Solving<'_>) {
         let (pose, defect) = newton::nearest_rigid(pose);
-        let pose = &pose;
-        self.tolerance = (4.0 * defect).clamp(TOLERANCE, LOOSEST);
+        let tolerance = (4.0 * defect).clamp(TOLERANCE, LOOSEST);
+        (pose, Solving { solver: self, memory: self.memory.lend(), tolerance })
+    }
+}
+
+impl Solving<'_> {
+    fn solve(&mut self, pose: &Transform<f64>, given: &[f64]) -> Answer {
+        let solver = self.solver;
         let variables = variables(self.goal, pose, given);
         let mut answer = Answer::empty();
-        let leaves = self.scalar.solve(&variables, &[]);
+        let leaves = self.memory.scalar.solve(&variables, &[]);
         let met = leaves.met_free();
         let near = leaves.iter().any(|l| l.free == 0 && l.guard < NEAR);
         let mut found: Vec<(Solution, u64)> = vec![];
         for leaf in leaves.iter() {
-            found.push((draft(&self.nodes, &leaf), leaf.free));
+            found.push((draft(&solver.nodes, &leaf), leaf.free));
         }
         for (mut s, free) in found {
             if free == 0 && self.improve(pose, &mut s) {
@@ -182,7 +218,7 @@ impl InverseSolver {
         if met != 0 || near || !answer.is_reachable() {
             // Where roots coincide they are known to the square root of a rounding error only, and so are the guards
             // of what follows.
-            let loose = met | self.scalar.solve_loosely(&variables, &[], LOOSE).met_free();
+            let loose = met | self.memory.scalar.solve_loosely(&variables, &[], LOOSE).met_free();
             let loose = loose & !self.other_ways(pose, &variables, loose, &mut answer);
             if loose != 0 {
                 self.families(pose, given, loose, &mut answer);
@@ -262,11 +298,12 @@ impl InverseSolver {
     fn other_ways(&mut self, pose: &Transform<f64>, variables: &[f64], met: u64, answer: &mut Answer) -> u64 {
         let mut settled = 0;
         let mut found: Vec<Solution> = vec![];
-        for v in self.variants.iter_mut().filter(|v| met >> v.step & 1 == 1) {
-            if v.scalar.solve_loosely(variables, &[], LOOSE).met_free() != 0 {
+        let ways = self.solver.variants.iter().zip(&mut self.memory.variants);
+        for (v, scalar) in ways.filter(|(v, _)| met >> v.step & 1 == 1) {
+            if scalar.solve_loosely(variables, &[], LOOSE).met_free() != 0 {
                 continue;
             }
-            let leaves = v.scalar.solve_carefully(variables, &[]);
+            let leaves = scalar.solve_carefully(variables, &[]);
             found.extend(leaves.iter().map(|l| draft(&v.nodes, &l)));
             settled |= 1 << v.step;
         }
@@ -282,6 +319,7 @@ impl InverseSolver {
     /// The branches however far from the pose, the nearest first; unknowns that are free are given values all round, one
     /// at a time.
     fn nearest(&mut self, pose: &Transform<f64>, variables: &[f64], met: u64) -> Vec<Solution> {
+        let solver = self.solver;
         let free: Vec<usize> = (0..self.nodes.len()).filter(|i| met >> i & 1 == 1).collect();
         let mut starts: Vec<Solution> = vec![];
         let rounds: Vec<&[usize]> = if free.is_empty() { vec![&[]] } else { free.chunks(1).collect() };
@@ -289,8 +327,8 @@ impl InverseSolver {
             let steps = if unknown.is_empty() { 1 } else { families::round(1) };
             for number in 0..steps {
                 let at = self.values(unknown, steps, number);
-                let leaves = self.nearest.solve_loosely(variables, &at, LOOSE);
-                starts.extend(leaves.iter().map(|l| draft(&self.nodes, &l)));
+                let leaves = self.memory.nearest.solve_loosely(variables, &at, LOOSE);
+                starts.extend(leaves.iter().map(|l| draft(&solver.nodes, &l)));
             }
         }
         for s in &mut starts {
@@ -336,7 +374,7 @@ impl InverseSolver {
         answer: &mut Answer,
     ) {
         let size = self.size(pose);
-        let leaves = self.scalar.solve_carefully(variables, &[]);
+        let leaves = self.memory.scalar.solve_carefully(variables, &[]);
         let last = leaves.ended().max_by_key(|end| end.node).map(|end| end.node);
         let unknown = last.filter(|_| starts.is_empty()).map(|i| self.nodes[i].unknown.clone());
         let from: Vec<Vec<f64>> = if starts.is_empty() {

@@ -130,7 +130,7 @@ impl Algebra {
     }
 
     /// The value, and the sum of the terms' magnitudes.
-    pub fn value_and_size(p: &Poly, atoms: &[f64]) -> (f64, f64) {
+    pub(crate) fn value_and_size(p: &Poly, atoms: &[f64]) -> (f64, f64) {
         p.terms().iter().fold((0.0, 0.0), |(v, s), (m, r)| {
             let x = r.to_f64() * monomial_value(m, atoms);
             (v + x, s + x.abs())

@@ -206,7 +206,7 @@ impl NumericCondition {
 
 impl Samples {
     /// Six directions in which the first sample's pose can move: three turns, three shifts, as changes of its entries.
-    pub fn pose_directions(&self) -> Vec<[f64; 12]> {
+    pub(crate) fn pose_directions(&self) -> Vec<[f64; 12]> {
         let atoms = self.first();
         let mut found = vec![];
         for axis in 0..3 {

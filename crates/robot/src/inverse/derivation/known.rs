@@ -128,7 +128,7 @@ impl Known {
     }
 
     /// The polynomial with its unknown angles written in those of `basis`.
-    pub fn in_basis(&self, chain: &Chain, p: &Poly, basis: &[Unknown]) -> Poly {
+    pub(crate) fn in_basis(&self, chain: &Chain, p: &Poly, basis: &[Unknown]) -> Poly {
         let a = &chain.algebra;
         let mut pairs: BTreeMap<usize, (Poly, Poly)> = BTreeMap::new();
         for atom in p.atoms() {

@@ -276,7 +276,7 @@ impl InverseModel {
     }
 
     /// A condition as a formula to read: `S1·px = C1·py`.
-    pub fn condition_text(&self, c: &Condition) -> String {
+    pub(crate) fn condition_text(&self, c: &Condition) -> String {
         let vocabulary = Vocabulary::default();
         let flipped = c.pose.terms().first().is_some_and(|t| t.1.is_negative());
         let sign = Rational::from(if flipped { -1 } else { 1 });
@@ -456,7 +456,7 @@ impl Chain {
     }
 
     /// An unknown's factors of the joint variables.
-    pub fn unknown_terms(&self, x: Unknown) -> Vec<(usize, f64)> {
+    pub(crate) fn unknown_terms(&self, x: Unknown) -> Vec<(usize, f64)> {
         let mut sum = vec![0.0; self.variables.len()];
         for (k, axis) in self.axes.iter().enumerate() {
             let sign = match (x, axis.motion) {

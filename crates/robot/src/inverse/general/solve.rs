@@ -8,6 +8,7 @@ use crate::inverse::derivation::Goal;
 use crate::inverse::newton;
 use crate::inverse::self_motion::{SelfMotion, follow, is_self_motion};
 use crate::mechanism::Robot;
+use crate::shared::Shared;
 use crate::space::JointSpace;
 use denavit_elimination::{self as elimination, Certificate, Plan};
 
@@ -20,7 +21,7 @@ pub struct GeneralSolver {
     pub space: JointSpace,
     axes: SixAxes,
     plan: Plan,
-    found: elimination::Answer,
+    found: Shared<elimination::Answer>,
 }
 
 /// A solution may miss the pose by this (see [`Solution::residual`]).
@@ -42,7 +43,7 @@ impl GeneralSolver {
     pub fn new(robot: &Robot<f64>, space: &JointSpace) -> Result<Self, Unsuited> {
         let axes = SixAxes::new(robot)?;
         let plan = Plan::new(&axes.arm).map_err(|e| Unsuited::Degenerate(e.to_string()))?;
-        let found = elimination::Answer::default();
+        let found = Shared::new(elimination::Answer::default());
         Ok(GeneralSolver { robot: robot.clone(), space: space.clone(), axes, plan, found })
     }
 
@@ -51,22 +52,25 @@ impl GeneralSolver {
         (&self.axes, &self.plan)
     }
 
-    /// How many splits of the loop the last pose took.
-    pub fn splits(&self) -> u32 {
-        self.found.splits
+    /// How many splits of the loop a pose takes.
+    pub fn splits(&self, pose: &Transform<f64>) -> u32 {
+        let mut found = self.found.lend();
+        self.plan.solve(&rigid(pose), &mut found);
+        found.splits
     }
 
     /// All solutions of a pose of the tool in the base, in ascending order of their joint variables.
-    pub fn solve(&mut self, pose: &Transform<f64>) -> Answer {
+    pub fn solve(&self, pose: &Transform<f64>) -> Answer {
         let mut answer = Answer::empty();
-        self.plan.solve(&rigid(pose), &mut self.found);
-        answer.doubt = match self.found.certificate {
+        let mut found = self.found.lend();
+        self.plan.solve(&rigid(pose), &mut found);
+        answer.doubt = match found.certificate {
             Certificate::Complete => None,
             Certificate::NearDoubleRoot => Some(Doubt::DoubleRoot),
             Certificate::Undecided => Some(Doubt::Uncounted),
         };
         let size = self.space.reach.hypot(pose.translation.norm()).max(f64::MIN_POSITIVE);
-        self.collect(pose, size, &mut answer);
+        self.collect(&found.solutions, pose, size, &mut answer);
         self.families(pose, size, &mut answer);
         answer.solutions.sort_by(|a, b| {
             let unequal = a.q.iter().zip(&b.q).map(|(x, y)| x.total_cmp(y)).find(|o| o.is_ne());
@@ -76,9 +80,15 @@ impl GeneralSolver {
     }
 
     /// Adds what was found and solves the pose.
-    fn collect(&self, pose: &Transform<f64>, size: f64, answer: &mut Answer) {
+    fn collect(
+        &self,
+        found: &[elimination::Solution],
+        pose: &Transform<f64>,
+        size: f64,
+        answer: &mut Answer,
+    ) {
         let miss = |q: &[f64]| newton::distance(&self.robot, Goal::Pose, pose, q, size);
-        for found in &self.found.solutions {
+        for found in found {
             let mut q = self.axes.joints(&found.q);
             let mut residual = miss(&q);
             if residual > ROUGH

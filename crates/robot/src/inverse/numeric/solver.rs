@@ -13,8 +13,10 @@ use crate::description::Description;
 use crate::geometry::Transform;
 use crate::inverse::derivation::Goal;
 use crate::mechanism::{MissingValue, Robot};
+use crate::shared::{Lent, Shared};
 use crate::space::JointSpace;
 use std::num::NonZero;
+use std::ops::Deref;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
@@ -37,19 +39,40 @@ const STARTS_FOR_UNREACHABLE: usize = 64;
 /// Errors, radians and lengths of the arm, that are the same.
 const SAME: f64 = 1e-6;
 
-/// Finds joint variables by descent. It keeps its memory between calls; clone it for other threads. What it finds does
-/// not depend on earlier calls.
+/// Finds joint variables by descent. What it finds does not depend on earlier calls.
 #[derive(Clone, Debug)]
 pub struct NumericSolver {
     /// How long and how well to search.
     pub options: NumericOptions,
-    hard: Problem,
-    wishes: Wishes,
+    memory: Shared<Memory>,
+    /// The arm's size.
+    size: f64,
     /// For each task whether it is hard.
     is_hard: Vec<bool>,
     reaches: Arc<[Reach]>,
     /// Configurations to start from, and the frames of the hard tasks there.
     starts: Arc<[(Vec<f64>, Vec<Place>)]>,
+}
+
+/// What descents work on, and in.
+#[derive(Clone, Debug)]
+struct Memory {
+    hard: Problem,
+    wishes: Wishes,
+}
+
+/// A solver at work on targets.
+struct Search<'a> {
+    solver: &'a NumericSolver,
+    memory: Lent<'a, Memory>,
+}
+
+impl Deref for Search<'_> {
+    type Target = NumericSolver;
+
+    fn deref(&self) -> &NumericSolver {
+        self.solver
+    }
 }
 
 /// A configuration where a descent gave up.
@@ -122,7 +145,8 @@ impl NumericSolver {
         let tolerance = [options.angle, options.distance];
         let hard =
             Problem { motion, shapes, limits, size: space.reach, tolerance, stepper: Stepper::default() };
-        Ok(NumericSolver { options, hard, wishes, is_hard, reaches, starts })
+        let memory = Shared::new(Memory { hard, wishes });
+        Ok(NumericSolver { options, memory, size: space.reach, is_hard, reaches, starts })
     }
 
     /// A configuration for a pose: of all solutions the one that descents find first, from `seed` if there is one. If
@@ -130,7 +154,7 @@ impl NumericSolver {
     ///
     /// # Panics
     /// If there is not one task, or `seed` has not one value per joint.
-    pub fn solve(&mut self, pose: &Transform<f64>, seed: Option<&[f64]>) -> Outcome {
+    pub fn solve(&self, pose: &Transform<f64>, seed: Option<&[f64]>) -> Outcome {
         self.solve_tasks(std::slice::from_ref(pose), seed)
     }
 
@@ -139,16 +163,16 @@ impl NumericSolver {
     ///
     /// # Panics
     /// As [`NumericSolver::solve`].
-    pub fn nearest(&mut self, pose: &Transform<f64>, from: Option<&[f64]>) -> Outcome {
-        self.search(std::slice::from_ref(pose), from, true)
+    pub fn nearest(&self, pose: &Transform<f64>, from: Option<&[f64]>) -> Outcome {
+        self.search().run(std::slice::from_ref(pose), from, true)
     }
 
     /// A configuration for targets, one for each task.
     ///
     /// # Panics
     /// If there is not one target per task, or `seed` has not one value per joint.
-    pub fn solve_tasks(&mut self, targets: &[Transform<f64>], seed: Option<&[f64]>) -> Outcome {
-        self.search(targets, seed, false)
+    pub fn solve_tasks(&self, targets: &[Transform<f64>], seed: Option<&[f64]>) -> Outcome {
+        self.search().run(targets, seed, false)
     }
 
     /// [`NumericSolver::solve`] for many poses, on all cores or as many threads as `threads` says. Each outcome is that
@@ -163,10 +187,9 @@ impl NumericSolver {
         let mut outcomes: Vec<Option<Outcome>> = vec![None; poses.len()];
         std::thread::scope(|scope| {
             for (poses, outcomes) in poses.chunks(share).zip(outcomes.chunks_mut(share)) {
-                let mut own = self.clone();
                 let work = move || {
                     for (pose, outcome) in poses.iter().zip(outcomes) {
-                        *outcome = Some(own.solve(pose, None));
+                        *outcome = Some(self.solve(pose, None));
                     }
                 };
                 if threads == 1 {
@@ -181,18 +204,24 @@ impl NumericSolver {
 
     /// The arm's size, by which distances are compared with angles, metres.
     pub fn size(&self) -> f64 {
-        self.hard.size
+        self.size
     }
 
-    fn search(&mut self, targets: &[Transform<f64>], seed: Option<&[f64]>, is_thorough: bool) -> Outcome {
+    fn search(&self) -> Search<'_> {
+        Search { solver: self, memory: self.memory.lend() }
+    }
+}
+
+impl Search<'_> {
+    fn run(&mut self, targets: &[Transform<f64>], seed: Option<&[f64]>, is_thorough: bool) -> Outcome {
         assert_eq!(targets.len(), self.is_hard.len(), "one target per task");
-        assert!(seed.is_none_or(|q| q.len() == self.hard.motion.joints), "one value per joint");
-        self.hard.tolerance = [self.options.angle, self.options.distance];
+        assert!(seed.is_none_or(|q| q.len() == self.memory.hard.motion.joints), "one value per joint");
+        self.memory.hard.tolerance = [self.solver.options.angle, self.solver.options.distance];
         let part = |hard: bool| -> Vec<Place> {
             targets.iter().zip(&self.is_hard).filter(|t| *t.1 == hard).map(|t| t.0.into()).collect()
         };
         let (targets, soft) = (part(true), part(false));
-        let posture = self.wishes.preferences.iter().find_map(|p| match p {
+        let posture = self.memory.wishes.preferences.iter().find_map(|p| match p {
             Preference::Posture { near, .. } => Some(near.clone()),
             Preference::MiddleOfLimits { .. } => None,
         });
@@ -211,10 +240,11 @@ impl NumericSolver {
         };
         let is_solved = bottom == Bottom::Met;
         let agreeing = if let Bottom::Above(n) = bottom { n } else { 0 };
-        self.hard.limits.settle(&mut q, near.as_deref());
-        if is_solved && !self.wishes.is_empty() {
-            self.wishes.follow(&mut self.hard, &targets, &soft, &mut q);
-            self.hard.limits.settle(&mut q, near.as_deref());
+        self.memory.hard.limits.settle(&mut q, near.as_deref());
+        if is_solved && !self.memory.wishes.is_empty() {
+            let Memory { hard, wishes } = &mut *self.memory;
+            wishes.follow(hard, &targets, &soft, &mut q);
+            hard.limits.settle(&mut q, near.as_deref());
         }
         let status = if is_solved {
             Status::Solved
@@ -256,14 +286,14 @@ impl NumericSolver {
                 Some(q) if number == 0 => {
                     point.q.clear();
                     point.q.extend_from_slice(q);
-                    self.hard.limits.admit(&mut point.q);
+                    self.memory.hard.limits.admit(&mut point.q);
                     patience = PATIENCE_WITH_SEED;
                 }
                 _ => self.start(targets, after_seed, &mut order, &mut point.q),
             }
             found.starts += 1;
             let most = self.options.max_iterations;
-            if self.hard.descend(targets, &mut point, patience, &mut found.steps, most) == Ended::Met {
+            if self.memory.hard.descend(targets, &mut point, patience, &mut found.steps, most) == Ended::Met {
                 return Some(point.q);
             }
             found.candidates.push(Candidate { cost: point.cost, q: point.q.clone() });
@@ -274,11 +304,11 @@ impl NumericSolver {
     /// Start `number` for these targets: those whose frames are known in order of their distance, then others.
     fn start(&self, targets: &[Place], number: usize, order: &mut Vec<(f64, usize)>, q: &mut Vec<f64>) {
         if number >= self.starts.len() {
-            return self.hard.limits.start(number as u64, q);
+            return self.memory.hard.limits.start(number as u64, q);
         }
         if order.is_empty() {
             let apart = |places: &[Place]| -> f64 {
-                let tasks = self.hard.shapes.iter().zip(places).zip(targets);
+                let tasks = self.memory.hard.shapes.iter().zip(places).zip(targets);
                 tasks.map(|((shape, at), target)| shape.apart(at, target)).sum()
             };
             order.extend(self.starts.iter().enumerate().map(|(k, s)| (apart(&s.1), k)));
@@ -297,8 +327,8 @@ impl NumericSolver {
         let mut point = Point::default();
         for candidate in found.candidates.iter().take(BOTTOMS) {
             point.q.clone_from(&candidate.q);
-            let is_stationary = polish(&mut self.hard, targets, &mut point);
-            if self.hard.is_met(targets, &point.q) {
+            let is_stationary = polish(&mut self.memory.hard, targets, &mut point);
+            if self.memory.hard.is_met(targets, &point.q) {
                 return (point.q, Bottom::Met);
             }
             let error = point.cost.sqrt();
@@ -322,7 +352,7 @@ impl NumericSolver {
             // No start at all, or nothing that could be computed.
             None => {
                 let mut q = vec![];
-                self.hard.limits.start(0, &mut q);
+                self.memory.hard.limits.start(0, &mut q);
                 (q, Bottom::Above(0))
             }
         }
@@ -330,20 +360,20 @@ impl NumericSolver {
 
     /// How far beyond reach the farthest target is, if one is.
     fn beyond_reach(&self, targets: &[Place]) -> Option<f64> {
-        let tasks = self.reaches.iter().zip(&self.hard.shapes).zip(targets);
+        let tasks = self.reaches.iter().zip(&self.memory.hard.shapes).zip(targets);
         let beyond = tasks.filter_map(|((reach, shape), target)| {
             let [position, orientation] = shape.fixes();
             position.then(|| reach.beyond(target, orientation))
         });
         let worst = beyond.fold(0.0, f64::max);
         // Rounding stays far below a tolerance of 1e-9.
-        (worst > self.hard.size * (self.options.distance + self.options.angle)).then_some(worst)
+        (worst > self.memory.hard.size * (self.options.distance + self.options.angle)).then_some(worst)
     }
 
     fn residuals(&mut self, hard: &[Place], soft: &[Place], q: &[f64]) -> Vec<Residual> {
-        let mut of_hard = self.hard.residuals(hard, q).into_iter();
-        let places = if soft.is_empty() { vec![] } else { self.wishes.motion.places(q) };
-        let soft = self.wishes.shapes.iter().zip(&places).zip(soft);
+        let mut of_hard = self.memory.hard.residuals(hard, q).into_iter();
+        let places = if soft.is_empty() { vec![] } else { self.memory.wishes.motion.places(q) };
+        let soft = self.memory.wishes.shapes.iter().zip(&places).zip(soft);
         let mut of_soft = soft.map(|((s, at), target)| s.residual(at, target));
         let next = |&hard: &bool| if hard { of_hard.next() } else { of_soft.next() };
         self.is_hard.iter().filter_map(next).collect()

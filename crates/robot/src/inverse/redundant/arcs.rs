@@ -73,7 +73,7 @@ impl Arcs {
     }
 
     /// What is in both.
-    pub fn intersection(&self, other: &Arcs) -> Arcs {
+    pub(crate) fn intersection(&self, other: &Arcs) -> Arcs {
         if self.0.first() == Some(&CIRCLE) {
             return other.clone();
         }

@@ -51,8 +51,8 @@ impl ByCurve {
     }
 
     /// The `number`th group of configurations of a pose; nothing after the last.
-    fn starts(&mut self, pose: &Transform<f64>, number: usize) -> Option<Vec<Vec<f64>>> {
-        if let Some(locked) = &mut self.locked {
+    fn starts(&self, pose: &Transform<f64>, number: usize) -> Option<Vec<Vec<f64>>> {
+        if let Some(locked) = &self.locked {
             let [low, high] = locked.span(&self.space);
             let value = low + (high - low) * radical(number + 1, 2);
             return (number < VALUES).then(|| locked.configurations(pose, value).0);
@@ -77,7 +77,7 @@ impl ByCurve {
     }
 
     /// One within the limits, the first that is met; with a seed, the nearest on its own curve.
-    pub fn within(&mut self, pose: &Transform<f64>, seed: Option<&[f64]>) -> Option<Found> {
+    pub fn within(&self, pose: &Transform<f64>, seed: Option<&[f64]>) -> Option<Found> {
         if let Some(seed) = seed {
             let size = self.space.reach.hypot(pose.translation.norm());
             let near = newton::approach(&self.robot, self.goal, pose, seed, &[], size);
@@ -119,7 +119,7 @@ impl ByCurve {
     }
 
     /// All curves that are met.
-    pub fn pieces(&mut self, pose: &Transform<f64>) -> Vec<Piece> {
+    pub fn pieces(&self, pose: &Transform<f64>) -> Vec<Piece> {
         let mut found: Vec<Piece> = vec![];
         for number in 0.. {
             let Some(starts) = self.starts(pose, number) else { break };

@@ -12,6 +12,7 @@ use crate::inverse::branch::{self, Label};
 use crate::inverse::closed::variables;
 use crate::inverse::derivation::{Goal, InverseModel};
 use crate::mechanism::MissingValue;
+use crate::shared::Shared;
 use crate::space::JointSpace;
 use denavit_program::solver::{Leaf, SolverScalar};
 use std::f64::consts::{PI, TAU};
@@ -38,7 +39,7 @@ const SLICES: usize = 7;
 /// The solver for given joints.
 #[derive(Clone, Debug)]
 pub(super) struct ByJoint {
-    scalar: SolverScalar,
+    scalar: Shared<SolverScalar>,
     goal: Goal,
     /// The joints that are given; the last one is the parameter.
     pub given: Vec<usize>,
@@ -82,7 +83,7 @@ impl ByJoint {
         let given = model.given.clone();
         let name = given.last().map(|&j| description.variables()[j].symbol.name().to_string());
         Ok(ByJoint {
-            scalar: solver.function().scalar(),
+            scalar: Shared::new(solver.function().scalar()),
             goal: model.goal,
             name: name.unwrap_or_default(),
             labels: model.labels.clone(),
@@ -103,7 +104,7 @@ impl ByJoint {
     }
 
     /// One within the limits, if one of a few values has one; values near those of `seed` come first.
-    pub fn quick(&mut self, pose: &Transform<f64>, seed: Option<&[f64]>) -> Option<Found> {
+    pub fn quick(&self, pose: &Transform<f64>, seed: Option<&[f64]>) -> Option<Found> {
         let m = self.given.len();
         let mut inputs = variables(self.goal, pose, &vec![0.0; m]);
         let first = inputs.len() - m;
@@ -117,7 +118,8 @@ impl ByJoint {
                     (None, _) => low + (high - low) * radical(number + 1, BASES[k % BASES.len()]),
                 };
             }
-            let leaves = self.scalar.solve(&inputs, &[]);
+            let mut scalar = self.scalar.lend();
+            let leaves = scalar.solve(&inputs, &[]);
             let ranges = &self.ranges;
             let good = |l: &Leaf| l.free == 0 && l.residual <= SOLVED && excess(ranges, l.outputs) <= SLACK;
             let found = match seed {
@@ -137,7 +139,7 @@ impl ByJoint {
 
     /// The member of a component at a value.
     pub fn member(
-        &mut self,
+        &self,
         pose: &Transform<f64>,
         (signs, others): (&[i8], &[f64]),
         x: f64,
@@ -152,11 +154,12 @@ impl ByJoint {
         variables(self.goal, pose, &given)
     }
 
-    fn on(&mut self, inputs: &mut [f64], signs: &[i8], x: f64, most: f64) -> Option<Vec<f64>> {
+    fn on(&self, inputs: &mut [f64], signs: &[i8], x: f64, most: f64) -> Option<Vec<f64>> {
         if let Some(last) = inputs.last_mut() {
             *last = x;
         }
-        let leaves = self.scalar.solve(inputs, &[]);
+        let mut scalar = self.scalar.lend();
+        let leaves = scalar.solve(inputs, &[]);
         let good = |l: &Leaf| l.free == 0 && l.residual <= most;
         // At its very end a branch is one with another, whose signs are kept.
         let other = |l: &Leaf| l.signs.iter().zip(signs).filter(|(a, b)| a != b).count();
@@ -168,11 +171,12 @@ impl ByJoint {
         Some(leaf.outputs.to_vec())
     }
 
-    fn sample(&mut self, inputs: &mut [f64], x: f64) -> Sample {
+    fn sample(&self, inputs: &mut [f64], x: f64) -> Sample {
         if let Some(last) = inputs.last_mut() {
             *last = x;
         }
-        let leaves = self.scalar.solve(inputs, &[]);
+        let mut scalar = self.scalar.lend();
+        let leaves = scalar.solve(inputs, &[]);
         let good = leaves.iter().filter(|l| l.free == 0 && l.residual <= SOLVED);
         let branch = |l: Leaf| Branch {
             signs: l.signs.to_vec(),
@@ -190,7 +194,7 @@ impl ByJoint {
     }
 
     /// All branches of a pose; with more than one joint given, for a grid of values of the others.
-    pub fn pieces(&mut self, pose: &Transform<f64>) -> Vec<Piece> {
+    pub fn pieces(&self, pose: &Transform<f64>) -> Vec<Piece> {
         let others = self.given[..self.given.len() - 1].to_vec();
         let count = SLICES.pow(others.len() as u32);
         let mut found = vec![];
@@ -211,7 +215,7 @@ impl ByJoint {
     }
 
     /// The branches with the other given joints at some values.
-    fn slice(&mut self, pose: &Transform<f64>, others: &[f64], found: &mut Vec<Piece>) {
+    fn slice(&self, pose: &Transform<f64>, others: &[f64], found: &mut Vec<Piece>) {
         let mut inputs = self.inputs(pose, others);
         let parameter = self.parameter();
         let is_angle = self.space.is_angle[parameter];
@@ -296,7 +300,7 @@ impl ByJoint {
     }
 
     /// Values from `low` to `high`, denser where branches move fast or end.
-    fn samples(&mut self, inputs: &mut [f64], [low, high]: [f64; 2]) -> Vec<Sample> {
+    fn samples(&self, inputs: &mut [f64], [low, high]: [f64; 2]) -> Vec<Sample> {
         let at = (0..=VALUES).map(|k| low + (high - low) * k as f64 / VALUES as f64);
         let mut samples: Vec<Sample> = at.map(|x| self.sample(inputs, x)).collect();
         for k in (1..samples.len() - 1).rev() {
@@ -331,7 +335,7 @@ impl ByJoint {
     }
 
     /// Adds what is [hidden](Self::hidden) where the circle is cut: the first and the last sample are one.
-    fn hidden_at_the_seam(&mut self, inputs: &mut [f64], samples: &mut Vec<Sample>) {
+    fn hidden_at_the_seam(&self, inputs: &mut [f64], samples: &mut Vec<Sample>) {
         let last = samples.len() - 1;
         let three = [last - 1, 0, 1].map(|k| &samples[k]);
         let between = [samples[last - 1].x - TAU, samples[1].x];
@@ -346,7 +350,7 @@ impl ByJoint {
 
     /// A place near the middle one of three neighbours, between the others: with branches that the two beside it do not
     /// have (an island), or without branches that they have (a hole).
-    fn hidden(&mut self, inputs: &mut [f64], three: [&Sample; 3], between: [f64; 2]) -> Option<Sample> {
+    fn hidden(&self, inputs: &mut [f64], three: [&Sample; 3], between: [f64; 2]) -> Option<Sample> {
         let [a, b, c] = three;
         let is_least = |&i: &usize| b.gaps[i].is_finite() && b.gaps[i] <= a.gaps[i] && b.gaps[i] < c.gaps[i];
         let nodes: Vec<usize> = (0..b.gaps.len()).filter(is_least).collect();
@@ -359,7 +363,7 @@ impl ByJoint {
 
     /// Where the gap of a node closes that is least at the middle one of three neighbours.
     fn island(
-        &mut self,
+        &self,
         inputs: &mut [f64],
         [a, b, c]: [&Sample; 3],
         between: [f64; 2],
@@ -417,7 +421,7 @@ impl ByJoint {
 
     /// A place where two branches that come near one another have ended.
     fn hole(
-        &mut self,
+        &self,
         inputs: &mut [f64],
         middle: &Sample,
         between: [f64; 2],
@@ -449,14 +453,7 @@ impl ByJoint {
     }
 
     /// The last place of a branch between one where it exists and one where it does not.
-    fn end(
-        &mut self,
-        inputs: &mut [f64],
-        signs: &[i8],
-        inside: f64,
-        outside: f64,
-        turn: f64,
-    ) -> Option<Point> {
+    fn end(&self, inputs: &mut [f64], signs: &[i8], inside: f64, outside: f64, turn: f64) -> Option<Point> {
         let (mut inside, mut outside) = (inside, outside);
         let mut last = None;
         for _ in 0..60 {

@@ -34,12 +34,12 @@ impl Locked {
             [true, false].iter().filter_map(|&is_first| Locked::at_end(robot, space, is_first)).collect();
         let q: Vec<f64> = (0..n).map(|j| middle(space, j) + 0.3 + 0.1 * j as f64).collect();
         let pose = robot.pose(&q);
-        let mut score = |end: &mut Locked| -> usize {
+        let score = |end: &Locked| -> usize {
             let [low, high] = end.span(space);
             let value = |k: usize| low + (high - low) * (k as f64 + 0.5) / VALUES as f64;
             (0..VALUES).map(|k| end.configurations(&pose, value(k)).0.len()).sum()
         };
-        let scores: Vec<usize> = ends.iter_mut().map(&mut score).collect();
+        let scores: Vec<usize> = ends.iter().map(score).collect();
         let best = (0..ends.len()).max_by_key(|&k| (scores[k], k))?;
         Some(ends.swap_remove(best))
     }
@@ -80,7 +80,7 @@ impl Locked {
     }
 
     /// All configurations with the joint at a value, and whether they are all.
-    pub fn configurations(&mut self, pose: &Transform<f64>, value: f64) -> (Vec<Vec<f64>>, bool) {
+    pub fn configurations(&self, pose: &Transform<f64>, value: f64) -> (Vec<Vec<f64>>, bool) {
         let at = |x: f64| {
             let mut q = vec![0.0; self.joints];
             q[self.joint] = x;

@@ -165,7 +165,7 @@ impl RedundantSolver {
     }
 
     /// All configurations of a pose of the tool in the base.
-    pub fn manifold(&mut self, pose: &Transform<f64>) -> Manifold {
+    pub fn manifold(&self, pose: &Transform<f64>) -> Manifold {
         let pose = &newton::nearest_rigid(pose).0;
         let pieces = self.pieces(pose);
         let components = pieces.into_iter().filter_map(|piece| self.component(pose, piece)).collect();
@@ -174,14 +174,14 @@ impl RedundantSolver {
 
     /// The member of a component at a value of its parameter, for the pose that the component was made for; nothing
     /// outside its domain.
-    pub fn member(&mut self, pose: &Transform<f64>, component: &Component, value: f64) -> Option<Solution> {
+    pub fn member(&self, pose: &Transform<f64>, component: &Component, value: f64) -> Option<Solution> {
         let pose = &newton::nearest_rigid(pose).0;
         let q = self.configuration(pose, &component.chart, value)?;
         self.solution(pose, Found { q, guard: None, branch: component.branch.clone() })
     }
 
     /// The best member within the limits by a criterion; nothing if there is none.
-    pub fn best(&mut self, pose: &Transform<f64>, criterion: &Criterion) -> Option<Solution> {
+    pub fn best(&self, pose: &Transform<f64>, criterion: &Criterion) -> Option<Solution> {
         let pose = &newton::nearest_rigid(pose).0;
         let mut best: Option<(f64, Vec<f64>, Branch)> = None;
         for piece in self.pieces(pose) {
@@ -208,9 +208,9 @@ impl RedundantSolver {
     /// One configuration within the limits, found quickly: the parameter is tried at a few values, from that of `seed`
     /// on, before feasible intervals are computed. Nothing if there is none (see [`Manifold::doubt`] for how sure that
     /// is).
-    pub fn within_limits(&mut self, pose: &Transform<f64>, seed: Option<&[f64]>) -> Option<Solution> {
+    pub fn within_limits(&self, pose: &Transform<f64>, seed: Option<&[f64]>) -> Option<Solution> {
         let pose = &newton::nearest_rigid(pose).0;
-        let quick = match &mut self.method {
+        let quick = match &self.method {
             Method::ArmAngle(arm) => arm.within(pose, seed),
             Method::Curve(by) => by.within(pose, seed),
             Method::Joint(by) => by.quick(pose, seed),
@@ -244,16 +244,16 @@ impl RedundantSolver {
         }
     }
 
-    fn pieces(&mut self, pose: &Transform<f64>) -> Vec<Piece> {
-        match &mut self.method {
+    fn pieces(&self, pose: &Transform<f64>) -> Vec<Piece> {
+        match &self.method {
             Method::ArmAngle(arm) => arm.pieces(pose),
             Method::Joint(by) => by.pieces(pose),
             Method::Curve(by) => by.pieces(pose),
         }
     }
 
-    fn configuration(&mut self, pose: &Transform<f64>, chart: &Chart, x: f64) -> Option<Vec<f64>> {
-        match (&mut self.method, chart) {
+    fn configuration(&self, pose: &Transform<f64>, chart: &Chart, x: f64) -> Option<Vec<f64>> {
+        match (&self.method, chart) {
             (Method::ArmAngle(arm), &Chart::ArmAngle { elbow, shoulder, wrist }) => {
                 arm.member(pose, (elbow, shoulder, wrist), x)
             }
@@ -295,7 +295,7 @@ impl RedundantSolver {
         self.robot.joints - self.surplus
     }
 
-    fn component(&mut self, pose: &Transform<f64>, piece: Piece) -> Option<Component> {
+    fn component(&self, pose: &Transform<f64>, piece: Piece) -> Option<Component> {
         let q = self.configuration(pose, &piece.chart, piece.middle())?;
         let representative = self.solution(pose, Found { q, guard: None, branch: piece.branch.clone() })?;
         let frame = self.frame();
@@ -322,7 +322,7 @@ impl RedundantSolver {
     }
 
     /// Members all along the domain of a piece, without jumps of whole turns.
-    fn sampled(&mut self, pose: &Transform<f64>, piece: &Piece) -> Vec<Vec<f64>> {
+    fn sampled(&self, pose: &Transform<f64>, piece: &Piece) -> Vec<Vec<f64>> {
         let [low, high] = piece.domain;
         let mut found: Vec<Vec<f64>> = vec![];
         let mut push = |space: &JointSpace, mut q: Vec<f64>| {

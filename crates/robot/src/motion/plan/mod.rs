@@ -163,7 +163,7 @@ impl Planned {
     ///
     /// # Errors
     /// See [`PlanError`].
-    pub fn reusing(
+    pub(crate) fn reusing(
         follower: &mut Option<Follower>,
         description: &Description,
         robot: &Robot<f64>,

@@ -552,7 +552,7 @@ fn degenerate_poses_have_families() {
     ];
     let mut random = Random(19);
     for (file, robot, joint, special, has_family) in cases {
-        let mut model = Model::new(file, robot, None, None);
+        let model = Model::new(file, robot, None, None);
         for _ in 0..5 {
             let mut q = model.random(&mut random);
             q[joint] = special(if joint == 2 { reach(&model) } else { 0.0 });
