@@ -1,7 +1,7 @@
 //! What `check` reads and says, statement by statement.
 
 use denavit_check::{
-    Change, Checked, Condition, Finding, Noted, Options, Remark, Standing, Unreadable, check,
+    Change, Checked, Condition, Finding, Noted, Options, Remark, Standing, TableCell, Unreadable, check,
 };
 use denavit_reading::code::Language;
 use denavit_reading::document::Format;
@@ -86,12 +86,8 @@ fn a_matrix_wrong_as_a_whole_is_named() {
 fn a_cell_of_the_table_explains_many_errors() {
     let text = "n_x = C1 C2\n\nn_y = S1 C2\n\na_x = -C1 S2\n\na_y = -S1 S2\n\na_z = C2\n\nP_x = R2 S1 - r3 C1 S2\n\nP_y = -R2 C1 - r3 S1 S2\n\nP_z = r3 C2";
     let all = checked(STANFORD, text);
-    let is_angle = match &all.causes[0].change {
-        Change::Alpha { .. } | Change::Offset { .. } | Change::CountedBackwards(_) => true,
-        Change::Opposite(cell) => cell.letter == "α",
-        _ => false,
-    };
-    assert!(is_angle, "{:?}", all.causes);
+    let exchanged = TableCell { letter: "α".into(), row: 2 };
+    assert_eq!(all.causes[0].change, Change::ExchangedWithNext(exchanged));
     assert!(all.causes[0].turns_wrong.is_empty() && all.causes[0].turns_right.len() >= 4);
 }
 
