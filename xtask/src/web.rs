@@ -53,6 +53,7 @@ const PARTS: [split::Part; 3] = [
             "denavit_report::render::typst",
             "denavit_report::sections::errata",
             "denavit_reading",
+            "denavit_report::words::check",
             "denavit_report::words::french",
             "denavit_web::answer_documents",
             "denavit_web::documents",

@@ -1,6 +1,7 @@
 //! One change of the robot, or of what is meant, that turns many wrong formulas right.
 
 use super::Options;
+use super::facts::{Change, SlipKind, TableCell};
 use super::judge::Judge;
 use super::outcome::{Cause, Claim, Entry, Finding};
 use super::plan::{Plan, Walked};
@@ -11,13 +12,13 @@ use denavit_reading::document::Document;
 use denavit_reading::slip::Points;
 use denavit_symbolic::{Expr, equal};
 
-/// A change of the table, in words.
+/// A change of the table.
 struct Hypothesis {
-    words: String,
+    change: Change,
     robot: usize,
     /// How plausible it is beforehand.
     prior: i64,
-    change: Box<dyn Fn(&Description) -> Description>,
+    changed: Box<dyn Fn(&Description) -> Description>,
 }
 
 /// No more causes than these are told.
@@ -47,7 +48,11 @@ pub(super) fn causes(
     let is_wrong = |c: usize, e: usize| matches!(claims[c].entries[e].finding, Finding::Wrong(_));
     // Two entries that were exchanged are one slip.
     let weight = |e: &Entry| match &e.finding {
-        Finding::Wrong(wrong) if wrong.slip.as_ref().is_some_and(|s| s.id == "transposed") => 1,
+        Finding::Wrong(wrong)
+            if wrong.slip.as_ref().is_some_and(|s| matches!(s.kind, SlipKind::ExchangedWith(..))) =>
+        {
+            1
+        }
         Finding::Wrong(_) => 2,
         _ => 0,
     };
@@ -61,7 +66,7 @@ pub(super) fn causes(
         let changed = plan.with(&|s: &Subject| {
             let is_meant = std::ptr::eq(s, &raw const plan.subjects[hypothesis.robot]);
             let same = same_row(s, &plan.subjects[hypothesis.robot]);
-            (is_meant || same).then(|| s.with((hypothesis.change)(&s.description)))
+            (is_meant || same).then(|| s.with((hypothesis.changed)(&s.description)))
         });
         let other = changed.walk(text, document, options);
         if other.assertions.len() != walked.assertions.len() {
@@ -69,7 +74,7 @@ pub(super) fn causes(
         }
         let mut points = Points::new(3);
         let mut cause = Cause {
-            change: hypothesis.words,
+            change: hypothesis.change,
             slip: None,
             turns_right: vec![],
             turns_wrong: vec![],
@@ -164,17 +169,19 @@ fn hypotheses(plan: &Plan) -> Vec<Hypothesis> {
             continue;
         }
         let d = &subject.description;
-        let mut add = |words: String, change: Box<dyn Fn(&Description) -> Description>| {
-            let prior = match words.chars().next() {
+        let mut add = |change: Change, changed: Box<dyn Fn(&Description) -> Description>| {
+            let prior = match letter(&change) {
                 Some('α') => 4,
                 Some('θ') => 0,
                 _ => 2,
             };
-            found.push(Hypothesis { words, robot, prior, change });
+            found.push(Hypothesis { change, robot, prior, changed });
         };
+        let [x, z] = &subject.letters;
         let quarter = Expr::pi() / Expr::int(2);
         for (i, row) in d.rows.iter().enumerate() {
             let n = i + 1;
+            let cell = |letter: &str| TableCell { letter: letter.to_string(), row: n };
             let with = |edit: fn(&mut Row)| -> Box<dyn Fn(&Description) -> Description> {
                 Box::new(move |d| {
                     let mut d = d.clone();
@@ -185,30 +192,29 @@ fn hypotheses(plan: &Plan) -> Vec<Hypothesis> {
                 })
             };
             if !row.alpha.is_zero() {
-                add(format!("α{n} with the opposite sign in the table"), with(|r| r.alpha = -r.alpha));
-                add(format!("α{n} = 0 in the table"), with(|r| r.alpha = Expr::int(0)));
+                add(Change::Opposite(cell("α")), with(|r| r.alpha = -r.alpha));
+                add(Change::Alpha { row: n, degrees: 0 }, with(|r| r.alpha = Expr::int(0)));
             } else {
-                add(format!("α{n} = 90° in the table"), with(|r| r.alpha = Expr::pi() / Expr::int(2)));
-                add(format!("α{n} = -90° in the table"), with(|r| r.alpha = -Expr::pi() / Expr::int(2)));
+                add(Change::Alpha { row: n, degrees: 90 }, with(|r| r.alpha = Expr::pi() / Expr::int(2)));
+                add(Change::Alpha { row: n, degrees: -90 }, with(|r| r.alpha = -Expr::pi() / Expr::int(2)));
             }
             if row.alpha == quarter || row.alpha == -quarter {
-                add(format!("α{n} = 180° in the table"), with(|r| r.alpha = Expr::pi()));
+                add(Change::Alpha { row: n, degrees: 180 }, with(|r| r.alpha = Expr::pi()));
             }
-            for (words, edit) in [
-                ("90°", (|r| r.theta = r.theta + Expr::pi() / Expr::int(2)) as fn(&mut Row)),
-                ("-90°", |r| r.theta = r.theta - Expr::pi() / Expr::int(2)),
-                ("180°", |r| r.theta = r.theta + Expr::pi()),
+            for (degrees, edit) in [
+                (90, (|r| r.theta = r.theta + Expr::pi() / Expr::int(2)) as fn(&mut Row)),
+                (-90, |r| r.theta = r.theta - Expr::pi() / Expr::int(2)),
+                (180, |r| r.theta = r.theta + Expr::pi()),
             ] {
-                add(format!("θ{n} with an offset of {words} more"), with(edit));
+                add(Change::Offset { row: n, degrees }, with(edit));
             }
             if row.variable.is_some_and(|v| v.kind == denavit::description::JointKind::Revolute) {
-                add(format!("θ{n} counted the other way"), with(|r| r.theta = -r.theta));
+                add(Change::CountedBackwards(n), with(|r| r.theta = -r.theta));
             }
             if !row.d.is_zero() {
-                let [_, z] = &subject.letters;
-                add(format!("{z}{n} with the opposite sign in the table"), with(|r| r.d = -r.d));
+                add(Change::Opposite(cell(z)), with(|r| r.d = -r.d));
                 add(
-                    format!("{z}{n} forgotten"),
+                    Change::Forgotten(cell(z)),
                     with(|r| {
                         r.d = r.variable.map_or(Expr::int(0), |v| {
                             if r.d.symbols().contains(&v.symbol) { v.symbol.into() } else { Expr::int(0) }
@@ -217,9 +223,8 @@ fn hypotheses(plan: &Plan) -> Vec<Hypothesis> {
                 );
             }
             if !row.a.is_zero() {
-                let [x, _] = &subject.letters;
-                add(format!("{x}{n} with the opposite sign in the table"), with(|r| r.a = -r.a));
-                add(format!("{x}{n} forgotten"), with(|r| r.a = Expr::int(0)));
+                add(Change::Opposite(cell(x)), with(|r| r.a = -r.a));
+                add(Change::Forgotten(cell(x)), with(|r| r.a = Expr::int(0)));
             }
             if i + 1 < d.rows.len() {
                 let swap = move |edit: fn(&mut Row, &mut Row)| -> Box<dyn Fn(&Description) -> Description> {
@@ -231,19 +236,14 @@ fn hypotheses(plan: &Plan) -> Vec<Hypothesis> {
                         d
                     })
                 };
-                let m = n + 1;
                 if row.alpha != d.rows[i + 1].alpha {
                     add(
-                        format!("α{n} and α{m} exchanged in the table"),
+                        Change::ExchangedWithNext(cell("α")),
                         swap(|a, b| std::mem::swap(&mut a.alpha, &mut b.alpha)),
                     );
                 }
                 if row.a != d.rows[i + 1].a {
-                    let [x, _] = &subject.letters;
-                    add(
-                        format!("{x}{n} and {x}{m} exchanged in the table"),
-                        swap(|a, b| std::mem::swap(&mut a.a, &mut b.a)),
-                    );
+                    add(Change::ExchangedWithNext(cell(x)), swap(|a, b| std::mem::swap(&mut a.a, &mut b.a)));
                 }
             }
         }
@@ -252,7 +252,7 @@ fn hypotheses(plan: &Plan) -> Vec<Hypothesis> {
             let same = (d.convention == Convention::Standard) == (convention == Convention::Standard);
             if !same && convention != Convention::Khalil {
                 add(
-                    format!("the table read in the convention `{convention}`"),
+                    Change::Convention(convention),
                     Box::new(move |d| Description { convention, ..d.clone() }),
                 );
             }
@@ -266,7 +266,7 @@ fn hypotheses(plan: &Plan) -> Vec<Hypothesis> {
             .all(|(a, b)| a == b)
         {
             add(
-                "the tool left out".into(),
+                Change::NoTool,
                 Box::new(|d| Description { tool: denavit::geometry::Transform::identity(), ..d.clone() }),
             );
         }
@@ -274,7 +274,7 @@ fn hypotheses(plan: &Plan) -> Vec<Hypothesis> {
             let symbol = p.symbol;
             let zero = move |e: Expr| e.substitute(|s| (s == symbol).then(|| Expr::int(0)));
             add(
-                format!("{} = 0", symbol.name()),
+                Change::Vanishing(symbol),
                 Box::new(move |d| {
                     let mut d = d.clone();
                     for row in &mut d.rows {
@@ -286,4 +286,17 @@ fn hypotheses(plan: &Plan) -> Vec<Hypothesis> {
         }
     }
     found
+}
+
+/// The letter that a change is about.
+fn letter(change: &Change) -> Option<char> {
+    match change {
+        Change::Opposite(cell) | Change::Forgotten(cell) | Change::ExchangedWithNext(cell) => {
+            cell.letter.chars().next()
+        }
+        Change::Alpha { .. } => Some('α'),
+        Change::Offset { .. } | Change::CountedBackwards(_) => Some('θ'),
+        Change::Vanishing(symbol) => symbol.name().chars().next(),
+        Change::Convention(_) | Change::NoTool | Change::Definition { .. } => None,
+    }
 }

@@ -1,12 +1,13 @@
 //! A slip in a definition shows in every result that uses it: the one change of the definition that mends them all.
 
+use super::facts::{Change, SlipKind};
 use super::judge::{Judge, slip};
 use super::outcome::{Cause, Claim, Finding};
 use super::plan::Walked;
 use super::walk::{Defined, Pair, Piece};
 use denavit_reading::slip::{Effort, Value, Wanted, needed, repairs};
 use denavit_symbolic::parse::{Syntax, SyntaxKind, parse_syntax};
-use denavit_symbolic::vocabulary::plain_name;
+use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
 use denavit_symbolic::{Expr, equal};
 
 /// No more definitions than these are looked at.
@@ -85,7 +86,7 @@ fn mended(
     // Proved: each use with the mended definition is right.
     let is_right = |pair: &Pair| {
         let now: Expr = best.value;
-        let names = names.clone().alias(&defined.name, now);
+        let names = Vocabulary::clone(names).alias(&defined.name, now);
         let source = text.get(pair.span.clone()).unwrap_or_default();
         parse_syntax(source, &names).is_ok_and(|s| equal(s.value(), pair.wanted).is_equal())
     };
@@ -93,7 +94,7 @@ fn mended(
         return None;
     }
     Some(Cause {
-        change: format!("the definition of {}: {}", defined.name, best.slip.words()),
+        change: Change::Definition { name: defined.name.clone(), slip: SlipKind::Formula(best.slip.clone()) },
         slip: Some(slip(best, defined.span.start)),
         turns_right: uses.iter().map(|u| (u.0, u.1)).collect(),
         turns_wrong: vec![],

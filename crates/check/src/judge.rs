@@ -1,5 +1,8 @@
 //! The verdict on each pair of formulas, by proof; what is wrong with it, and the smallest change that mends it.
 
+use super::facts::{Condition, Remark, SlipKind, Unproved};
+use super::formula::Formula;
+use super::inverse::Composed;
 use super::lexis::Columns;
 use super::numbers;
 use super::outcome::{Claim, Counterexample, Entry, Finding, Patch, Slip, Wrong};
@@ -8,9 +11,8 @@ use super::subject::Subject;
 use super::values;
 use super::walk::{Assertion, Pair, Piece};
 use super::whole;
-use denavit::description::{Diagnostic, Severity};
 use denavit_reading::slip::{Effort, Lexicon, Points, Repair, Slip as Kind, Wanted, repairs};
-use denavit_symbolic::parse::{ParseError, Syntax, SyntaxKind};
+use denavit_symbolic::parse::{Syntax, SyntaxKind};
 use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::readable::{literals, simplify};
 use denavit_symbolic::vocabulary::Vocabulary;
@@ -22,13 +24,13 @@ use std::rc::Rc;
 /// A formula of more literals is not shown.
 const MAX_SHOWN: u64 = 300;
 
-/// The claims of a document with their verdicts.
+/// The claims of a document with their verdicts, and what the formulas of all joints yield together.
 pub(super) fn judge(
     text: &str,
     plan: &Plan,
     walked: &Walked,
     tolerance: Option<f64>,
-) -> (Vec<Claim>, Vec<(Range<usize>, String)>) {
+) -> (Vec<Claim>, Vec<(Range<usize>, Composed)>) {
     let mut judge = Judge { tolerance, ..Judge::new(text, plan, walked) };
     let mut claims: Vec<Claim> = walked.assertions.iter().map(|a| judge.claim(a)).collect();
     let (values, notes) = values::judge(plan, walked, Columns::of(text));
@@ -142,23 +144,16 @@ impl<'a> Judge<'a> {
             Patch { span: there.span.clone(), now: source(here) },
         ];
         patches.sort_by_key(|p| p.span.start);
-        wrong.correct = Some(source(there));
+        wrong.correct = vec![source(there)];
         wrong.rivals = vec![];
-        wrong.slip = Some(Slip {
-            kind: format!("exchanged with row {r}, column {c}"),
-            id: "transposed".into(),
-            patches,
-            formula: source(there),
-        });
+        wrong.slip = Some(Slip { kind: SlipKind::ExchangedWith(r, c), patches, formula: source(there) });
     }
 
     fn entry(&mut self, piece: &Piece, subject: usize) -> Entry {
         match piece {
-            Piece::Unreadable { place, span, errors } => Entry {
-                place: *place,
-                span: span.clone(),
-                finding: Finding::Unreadable(errors.iter().map(diagnostic).collect()),
-            },
+            Piece::Unreadable { place, span, errors } => {
+                Entry { place: *place, span: span.clone(), finding: Finding::Unreadable(errors.clone()) }
+            }
             Piece::Number { place, span, answer } => Entry {
                 place: *place,
                 span: span.clone(),
@@ -179,17 +174,13 @@ impl<'a> Judge<'a> {
         match equal(pair.value, pair.wanted) {
             Verdict::Equal { conditions } => {
                 let names = self.vocabulary(subject);
-                Finding::Equal {
-                    unless_zero: conditions.iter().map(|c| print(*c, names, Style::Ascii)).collect(),
-                }
+                Finding::Equal { unless_zero: conditions.iter().map(|c| Formula::new(*c, names)).collect() }
             }
             Verdict::Different { .. } => Finding::Wrong(Box::new(self.wrong(pair, subject))),
             Verdict::Undecided(_) => {
                 match counterexample(pair.value, pair.wanted, &self.plan.subjects[subject]) {
                     Some(_) => Finding::Wrong(Box::new(self.wrong(pair, subject))),
-                    None => Finding::Undecided {
-                        why: "neither proved equal nor different anywhere that was tried".into(),
-                    },
+                    None => Finding::Undecided { why: Unproved::NotFound },
                 }
             }
         }
@@ -200,11 +191,7 @@ impl<'a> Judge<'a> {
         let values: Vec<Expr> = printed.variants().iter().map(Syntax::value).collect();
         let is_one = values.iter().any(|&v| equal(v, pair.wanted).is_equal());
         if is_one {
-            return Finding::Conditional {
-                condition: "with one of its signs".into(),
-                correct: None,
-                remarks: vec![],
-            };
+            return Finding::Conditional { condition: Condition::OneSign, correct: vec![], remarks: vec![] };
         }
         let symbols: Vec<Symbol> = values.iter().chain([&pair.wanted]).flat_map(|e| e.symbols()).collect();
         for seed in 0..30_u32 {
@@ -218,9 +205,9 @@ impl<'a> Judge<'a> {
             }
         }
         Finding::Conditional {
-            condition: "with the sign that belongs to the configuration".into(),
-            correct: None,
-            remarks: vec!["found so in samples, not proved".into()],
+            condition: Condition::OwnSign,
+            correct: vec![],
+            remarks: vec![Remark::Sampled],
         }
     }
 
@@ -250,14 +237,13 @@ impl<'a> Judge<'a> {
             _ => return None,
         };
         Some(Slip {
-            kind: "another entry".into(),
-            id: "entry".into(),
+            kind: SlipKind::OtherEntry,
             patches: vec![Patch { span: pair.span.clone(), now: now.clone() }],
             formula: now,
         })
     }
 
-    fn vocabulary(&self, subject: usize) -> &'a Vocabulary {
+    fn vocabulary(&self, subject: usize) -> &'a Rc<Vocabulary> {
         self.walked.names_of(subject)
     }
 
@@ -274,8 +260,8 @@ impl<'a> Judge<'a> {
         wrong.slip = slips.next();
         wrong.rivals = slips.collect();
         wrong.correct = match &wrong.slip {
-            Some(slip) => Some(slip.formula.clone()),
-            None => shown(pair.wanted, names),
+            Some(slip) => vec![slip.formula.clone()],
+            None => shown(pair.wanted, names).iter().map(ToString::to_string).collect(),
         };
         wrong
     }
@@ -340,8 +326,7 @@ fn visit(syntax: &Syntax, each: &mut dyn FnMut(&Syntax)) {
 pub(super) fn slip(repair: Repair, start: usize) -> Slip {
     let moved = |r: &Range<usize>| r.start + start..r.end + start;
     Slip {
-        kind: repair.slip.words(),
-        id: repair.slip.id().to_string(),
+        kind: SlipKind::Formula(repair.slip),
         patches: repair.patches.iter().map(|p| Patch { span: moved(&p.span), now: p.now.clone() }).collect(),
         formula: repair.formula,
     }
@@ -378,22 +363,13 @@ fn lexicon(subject: &Subject, spellings: &[(Expr, String)]) -> Option<Lexicon> {
     Some(lexicon)
 }
 
-pub(super) fn diagnostic(e: &ParseError) -> Diagnostic {
-    Diagnostic {
-        severity: Severity::Error,
-        span: e.span.clone(),
-        message: e.message.clone(),
-        hint: e.hint.clone(),
-    }
-}
-
-/// A formula as text, simplified, unless it is too long.
-fn shown(e: Expr, names: &Vocabulary) -> Option<String> {
+/// A formula simplified, unless it is too long to be shown.
+fn shown(e: Expr, names: &Rc<Vocabulary>) -> Option<Formula> {
     if literals(e) > 20 * MAX_SHOWN {
         return None;
     }
     let simple = simplify(e, &e.symbols()).ok()?.expr;
-    (literals(simple) <= MAX_SHOWN).then(|| print(simple, names, Style::Ascii))
+    (literals(simple) <= MAX_SHOWN).then(|| Formula::new(simple, names))
 }
 
 /// A number for a symbol that looks random.
@@ -439,7 +415,7 @@ pub(super) fn counterexample(printed: Expr, right: Expr, subject: &Subject) -> O
 }
 
 /// The parameter that would have to be 0.
-fn holds_if(pair: &Pair, subject: &Subject) -> Option<String> {
+fn holds_if(pair: &Pair, subject: &Subject) -> Option<Symbol> {
     let mut points = Points::new(11);
     let found = subject.description.parameters.iter().find(|p| {
         let without = |e: Expr| e.substitute(|s| (s == p.symbol).then(|| Expr::int(0)));
@@ -450,5 +426,5 @@ fn holds_if(pair: &Pair, subject: &Subject) -> Option<String> {
         let (a, b) = (points.value(without(pair.value)), points.value(without(pair.wanted)));
         a.is_some() && a == b && equal(without(pair.value), without(pair.wanted)).is_equal()
     })?;
-    Some(format!("{} = 0", found.symbol.name()))
+    Some(found.symbol)
 }

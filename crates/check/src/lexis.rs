@@ -1,5 +1,6 @@
 //! What the names of a document mean at a place of it: the robot's quantities, and what was defined further up.
 
+use super::facts::Meaning;
 use super::matrix::Matrix;
 use super::names::{Name, Token, tokens};
 use super::subject::{Subject, elementary};
@@ -56,7 +57,7 @@ pub(super) struct Lexis {
     columns: Columns,
     /// Names that the robot gives their meaning, not the document.
     right: BTreeSet<String>,
-    matrices: BTreeMap<String, (Matrix, Option<String>)>,
+    matrices: BTreeMap<String, (Matrix, Option<Meaning>)>,
     scalars: Vec<(String, Expr)>,
     /// Frames named by letters are anywhere.
     pub anywhere: Cell<bool>,
@@ -164,8 +165,8 @@ impl Lexis {
         self.right.insert(plain_name(name));
     }
 
-    /// A name for a matrix; in words what it is, if it is known from the robot.
-    pub fn define_matrix(&mut self, name: &Name, value: Matrix, about: Option<String>) {
+    /// A name for a matrix; what it is, if it is known from the robot.
+    pub fn define_matrix(&mut self, name: &Name, value: Matrix, about: Option<Meaning>) {
         let is_long = value.0.iter().flatten().flatten().any(|&e| literals(e) > MAX_LITERALS);
         if !is_long && self.matrices.len() < MAX_NAMES {
             self.matrices.insert(name.key(), (value, about));
@@ -222,8 +223,8 @@ impl Lexis {
         }
     }
 
-    /// What a matrix's name means, powers included, and in words what that is if it is known from the robot.
-    pub fn matrix(&self, subject: &Subject, name: &Name) -> Option<(Matrix, Option<String>)> {
+    /// What a matrix's name means, powers included, and what that is if it is known from the robot.
+    pub fn matrix(&self, subject: &Subject, name: &Name) -> Option<(Matrix, Option<Meaning>)> {
         let anywhere = self.anywhere.get();
         let is_free = || crate::subject::frames(name).is_some_and(|(i, j)| i.is_letter() && j.is_letter());
         let known = self.matrices.get(&name.key()).filter(|_| !(anywhere && is_free()));
@@ -245,8 +246,8 @@ impl Lexis {
             matrix = matrix.transposed();
         }
         let about = found.1.map(|about| match (name.is_inverse, name.is_transposed) {
-            (true, _) => format!("the inverse of {about}"),
-            (_, true) => format!("the transpose of {about}"),
+            (true, _) => Meaning::Inverse(about.into()),
+            (_, true) => Meaning::Transpose(about.into()),
             _ => about,
         });
         Some((matrix, about))

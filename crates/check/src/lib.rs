@@ -7,11 +7,14 @@
 
 mod causes;
 mod definitions;
+mod facts;
+mod formula;
 pub mod inverse;
 mod judge;
 mod lexis;
 mod matrix;
 mod names;
+mod note;
 mod numbers;
 mod outcome;
 mod plan;
@@ -22,14 +25,22 @@ mod values;
 mod walk;
 mod whole;
 
+pub use facts::{
+    About, Change, Condition, Instead, Jacobian, Meaning, Remark, ShortRow, SlipKind, TableCell, Unproved,
+    Zeros,
+};
+pub use formula::Formula;
+pub use note::{Note, Noted, Unread, Unreadable};
+pub use numbers::decimal;
 pub use outcome::{
     Cause, Checked, Claim, Counterexample, Entry, Finding, Patch, Slip, Standing, Tally, Wrong,
 };
 
-use denavit::description::{Description, Diagnostic, Diagnostics, TableOptions};
+use denavit::description::{Description, TableOptions};
 use denavit_reading::code::Language;
 use denavit_reading::document::{self, Document, Format};
 use judge::Judge;
+use note::Notes;
 use plan::Plan;
 
 /// The longest document, in bytes.
@@ -59,11 +70,11 @@ pub fn check(
     format: Format,
     robot: Option<&Description>,
     options: &Options,
-) -> Result<Checked, Vec<Diagnostic>> {
-    let mut notes = Diagnostics::default();
+) -> Result<Checked, Vec<Note>> {
+    let mut notes = Notes::default();
     if text.len() > MAX_BYTES {
-        notes.error(0..0, format!("the document has {} bytes; at most {MAX_BYTES} are read", text.len()));
-        return Err(notes.list().to_vec());
+        notes.error(0..0, Noted::TooLong { bytes: text.len(), most: MAX_BYTES });
+        return Err(notes.found());
     }
     let document = match options.language {
         Some(_) => Document::default(),
@@ -72,40 +83,30 @@ pub fn check(
     let plan = Plan::of(text, format, &document, robot, options, &mut notes)?;
     let walked = plan.walk(text, &document, options);
     if !plan.has_robot && walked.assertions.is_empty() {
-        notes
-            .error(0..0, "there is no robot: no table of Denavit-Hartenberg parameters stands in the document")
-            .hint(
-                "name the robot before the file, or put its table into the document, its header with at least three of \
-                 theta, d, a, alpha, r",
-            );
-        return Err(notes.list().to_vec());
+        notes.error(0..0, Noted::NoRobot);
+        return Err(notes.found());
     }
     for (span, error) in &walked.skipped {
-        let finding = notes.note(span.clone(), format!("passed over: {}", error.message));
-        error.hint.iter().for_each(|hint| finding.hint(hint.clone()));
+        notes.note(span.clone(), Noted::PassedOver(error.clone()));
     }
     for error in &walked.refused {
-        let finding = notes.warning(error.span.clone(), format!("not read: {}", error.message));
-        error.hint.iter().for_each(|hint| finding.hint(hint.clone()));
+        notes.warning(error.span.clone(), Noted::NotRead(error.why.clone()));
     }
     for note in &document.notes {
-        notes.warning(note.span.clone(), note.message.clone());
+        notes.warning(note.span.clone(), Noted::Document(note.message.clone()));
     }
-    let (mut claims, remarks) = judge::judge(text, &plan, &walked, options.tolerance);
-    for (span, remark) in remarks {
-        notes.note(span, remark);
+    let (mut claims, composed) = judge::judge(text, &plan, &walked, options.tolerance);
+    for (span, composed) in composed {
+        notes.note(span, Noted::Together(composed));
     }
     let mut causes = definitions::causes(&mut Judge::new(text, &plan, &walked), text, &walked, &claims);
     if causes.is_empty() {
         causes = causes::causes(text, &document, &plan, options, &walked, &mut claims);
     }
-    let mut notes = notes.list().to_vec();
-    notes.sort_by_key(|n| n.span.start);
-    notes.dedup();
     Ok(Checked {
         claims,
         causes,
-        notes,
+        notes: notes.sorted(),
         robots: plan.subjects.iter().map(|s| s.description.clone()).collect(),
     })
 }

@@ -1,5 +1,6 @@
 //! Numeric answers: a matrix of numbers at a configuration that the document states.
 
+use super::facts::{Remark, Unproved};
 use super::outcome::{Finding, Wrong};
 use super::subject::Subject;
 use denavit::description::JointKind;
@@ -106,30 +107,29 @@ pub(super) fn judge(answer: &Answer, subject: &Subject, tolerance: Option<f64>) 
     };
     let at = |unit, turned| answer.at.value(answer.wanted, subject, unit, turned);
     let Some(right) = at(units[0], false) else {
-        return Finding::Undecided { why: "a length has no value: state it before, `a1 = 0.5 m`".into() };
+        return Finding::Undecided { why: Unproved::NoLength };
     };
     let near = |x: f64, allowed: f64| (x - answer.printed).abs() <= allowed;
     if near(right, allowed) {
         return Finding::Equal { unless_zero: vec![] };
     }
-    let mut wrong = Wrong { correct: Some(shown(right)), ..Wrong::default() };
+    let mut wrong = Wrong { correct: vec![decimal(right)], ..Wrong::default() };
     let other = at(units[1], false).filter(|x| near(*x, allowed));
     let turned = at(units[0], true).filter(|x| near(*x, allowed));
     let scaled = [1000.0, 0.001].into_iter().find(|k| near(right * k, allowed * k.max(1.0)));
     wrong.remarks.push(match (other.or(turned), scaled) {
-        (Some(_), _) => "right if degrees are taken for radians, or radians for degrees".into(),
-        (None, Some(k)) if k > 1.0 => "right in millimetres".into(),
-        (None, Some(_)) => "right in metres".into(),
-        (None, None) if near(-right, allowed) => "right but for its sign".into(),
-        (None, None) if near(right, 12.0 * allowed) => {
-            "off in the last digit: angles or π were rounded on the way".into()
-        }
-        (None, None) => format!("off by {}", shown((answer.printed - right).abs())),
+        (Some(_), _) => Remark::AngleUnit,
+        (None, Some(k)) if k > 1.0 => Remark::Millimetres,
+        (None, Some(_)) => Remark::Metres,
+        (None, None) if near(-right, allowed) => Remark::Sign,
+        (None, None) if near(right, 12.0 * allowed) => Remark::LastDigit,
+        (None, None) => Remark::OffBy((answer.printed - right).abs()),
     });
     Finding::Wrong(Box::new(wrong))
 }
 
-fn shown(x: f64) -> String {
+/// A number with at most six digits behind the point.
+pub fn decimal(x: f64) -> String {
     let text = format!("{x:.6}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".into() } else { text.to_string() }

@@ -1,6 +1,10 @@
 //! What is said of a document.
 
-use denavit::description::{Description, Diagnostic};
+use super::facts::{About, Change, Condition, Instead, Remark, SlipKind, Unproved};
+use super::formula::Formula;
+use super::note::{Note, Unread};
+use denavit::description::Description;
+use denavit_symbolic::Symbol;
 use std::ops::Range;
 
 /// A document, held against a robot.
@@ -11,7 +15,7 @@ pub struct Checked {
     /// Single changes that would turn several claims right.
     pub causes: Vec<Cause>,
     /// What else is worth saying: statements that were passed over, tables and directives with errors.
-    pub notes: Vec<Diagnostic>,
+    pub notes: Vec<Note>,
     /// The robots that the claims are about.
     pub robots: Vec<Description>,
 }
@@ -55,14 +59,14 @@ pub struct Claim {
     pub span: Range<usize>,
     /// Its left side as printed.
     pub name: String,
-    /// What it is about, in words.
-    pub about: String,
+    /// What it is about.
+    pub about: About,
     /// Its formulas: one, or the entries of a matrix.
     pub entries: Vec<Entry>,
-    /// What a matrix with several wrong entries is as a whole: `its inverse`, `frame 3 in frame 2`.
-    pub instead: Option<String>,
+    /// What a matrix with several wrong entries is as a whole.
+    pub instead: Option<Instead>,
     /// What else is to be said of it.
-    pub remarks: Vec<String>,
+    pub remarks: Vec<Remark>,
     /// Which of the robots it is about.
     pub robot: usize,
 }
@@ -120,27 +124,27 @@ pub struct Entry {
 pub enum Finding {
     /// Proved equal; the expressions must not be 0.
     Equal {
-        /// Denominators, as text.
-        unless_zero: Vec<String>,
+        /// Denominators.
+        unless_zero: Vec<Formula>,
     },
     /// Right where a condition holds.
     Conditional {
-        /// The condition in words.
-        condition: String,
-        /// What holds everywhere, in the author's notation, if it is known.
-        correct: Option<String>,
+        /// The condition.
+        condition: Condition,
+        /// What holds everywhere, each value in the author's notation; nothing if it is not known.
+        correct: Vec<String>,
         /// What happens elsewhere.
-        remarks: Vec<String>,
+        remarks: Vec<Remark>,
     },
     /// Refuted.
     Wrong(Box<Wrong>),
     /// Neither proved nor refuted.
     Undecided {
         /// Why.
-        why: String,
+        why: Unproved,
     },
     /// Not read.
-    Unreadable(Vec<Diagnostic>),
+    Unreadable(Vec<Unread>),
 }
 
 impl Finding {
@@ -159,31 +163,29 @@ impl Finding {
 /// Why a formula is wrong, and what it should be.
 #[derive(Clone, Debug, Default)]
 pub struct Wrong {
-    /// The right formula, in the author's notation where the slip is known.
-    pub correct: Option<String>,
+    /// The right formula, each value of it, in the author's notation where the slip is known; nothing if it is not known.
+    pub correct: Vec<String>,
     /// The smallest change that makes it right.
     pub slip: Option<Slip>,
     /// Other changes that are as small.
     pub rivals: Vec<Slip>,
     /// Printed minus right.
-    pub difference: Option<String>,
+    pub difference: Option<Formula>,
     /// A configuration at which both values differ.
     pub counterexample: Option<Counterexample>,
-    /// Where it is right all the same: `D1 = 0`.
-    pub holds_if: Option<String>,
+    /// It is right all the same where this parameter is 0.
+    pub holds_if: Option<Symbol>,
     /// The change that makes it right under a cause (its number in [`Checked::causes`]).
     pub under_cause: Option<(usize, Slip)>,
     /// What else is to be said.
-    pub remarks: Vec<String>,
+    pub remarks: Vec<Remark>,
 }
 
 /// A change of the printed text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slip {
-    /// What was done, in words: `a sign`, `sine for cosine`.
-    pub kind: String,
-    /// The kind as an identifier: `sign`, `sine-cosine`, `lost-factor`.
-    pub id: String,
+    /// What was done.
+    pub kind: SlipKind,
     /// Parts of the document and what should stand there.
     pub patches: Vec<Patch>,
     /// The formula after the change.
@@ -213,8 +215,8 @@ pub struct Counterexample {
 /// One change that turns several claims right.
 #[derive(Clone, Debug)]
 pub struct Cause {
-    /// The change in words: `α5 with the opposite sign in the table`.
-    pub change: String,
+    /// The change.
+    pub change: Change,
     /// The place in the document, and what should stand there, if it is a definition.
     pub slip: Option<Slip>,
     /// Claim and entry (numbers from 0) that it turns right.

@@ -3,22 +3,24 @@
 use super::Options;
 use super::lexis::set_in;
 use super::lexis::{Columns, Lexis};
+use super::note::{Note, Noted, Notes, Unread, Unreadable};
 use super::programs;
 use super::subject::Subject;
 use super::walk::{Assertion, Defined, Walk};
 use denavit::catalogue;
 use denavit::description::table::{PrintedTable, tables};
 use denavit::description::{
-    Convention, Description, Diagnostic, Diagnostics, JointKind, Parameter, TableKind, line_column,
+    Convention, Description, Diagnostic, JointKind, Parameter, TableKind, line_column,
 };
 use denavit::geometry::Transform;
 use denavit_reading::code::Language;
 use denavit_reading::document::{CodeBlock, Directive, Document, Format};
-use denavit_symbolic::parse::{ParseError, parse};
+use denavit_symbolic::parse::parse;
 use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
 use denavit_symbolic::{Expr, Symbol};
 use std::collections::BTreeSet;
 use std::ops::Range;
+use std::rc::Rc;
 
 /// The robots of a document, and from where on each holds.
 pub(super) struct Plan {
@@ -32,25 +34,25 @@ pub(super) struct Plan {
 /// What the statements of a document claim.
 pub(super) struct Walked {
     pub assertions: Vec<Assertion>,
-    pub skipped: Vec<(Range<usize>, ParseError)>,
+    pub skipped: Vec<(Range<usize>, Unreadable)>,
     /// Names that the document defines by formulas.
     pub defined: Vec<Defined>,
     /// What of programs could not be read.
-    pub refused: Vec<ParseError>,
+    pub refused: Vec<Unread>,
     /// The names of each robot's part of the document, at its end.
-    pub names: Vec<Vocabulary>,
+    pub names: Vec<Rc<Vocabulary>>,
     /// The same with the entries of the pose as symbols.
-    pub inverse_names: Vec<Vocabulary>,
+    pub inverse_names: Vec<Rc<Vocabulary>>,
 }
 
 impl Walked {
     /// The names of a robot's part of the document, at its end.
-    pub fn names_of(&self, subject: usize) -> &Vocabulary {
+    pub fn names_of(&self, subject: usize) -> &Rc<Vocabulary> {
         &self.names[subject.min(self.names.len() - 1)]
     }
 
     /// The same with the entries of the pose as symbols.
-    pub fn inverse_names_of(&self, subject: usize) -> &Vocabulary {
+    pub fn inverse_names_of(&self, subject: usize) -> &Rc<Vocabulary> {
         &self.inverse_names[subject.min(self.inverse_names.len() - 1)]
     }
 }
@@ -69,17 +71,16 @@ impl Plan {
         document: &Document,
         robot: Option<&Description>,
         options: &Options,
-        notes: &mut Diagnostics,
-    ) -> Result<Self, Vec<Diagnostic>> {
+        notes: &mut Notes,
+    ) -> Result<Self, Vec<Note>> {
         let mentioned = mentioned(text);
         let named = |d: &Description| Subject::new(d.clone()).map(|s| with_names(s, &mentioned));
         let from_table = |d: &Description, table: &PrintedTable| {
             let convention = [d.convention.length_x(), d.convention.length_z()];
             let letters = [0, 1].map(|k| table.letters[k].unwrap_or(convention[k]).to_string());
             let subject = Subject::printed(d.clone(), letters, table.variables.clone(), table.previous)?;
-            let line = line_column(text, table.span.start).0;
             let mut subject = with_names(subject, &mentioned);
-            subject.title = Some(format!("the table in line {line}"));
+            subject.line = Some(line_column(text, table.span.start).0);
             Some(subject)
         };
         let mut plan = Plan { subjects: vec![], turns: vec![], has_robot: true };
@@ -105,7 +106,7 @@ impl Plan {
                         let own = found
                             .iter()
                             .filter(|f| f.span.start >= table.span.start && f.span.end <= table.span.end);
-                        own.for_each(|f| notes.add(f.clone()));
+                        own.for_each(|f| notes.add(f.clone().into()));
                         from_table(d, table)
                     }
                     Err(errors) => {
@@ -117,8 +118,7 @@ impl Plan {
                     ("robot", name) => match catalogue::robot(name) {
                         Some(d) => named(&d),
                         None => {
-                            notes
-                                .error(directive.span.clone(), format!("no robot `{name}` in the catalogue"));
+                            notes.error(directive.span.clone(), Noted::UnknownRobot(name.into()));
                             continue;
                         }
                     },
@@ -129,7 +129,7 @@ impl Plan {
                         match number.and_then(|n| printed.get(n)) {
                             Some(table @ PrintedTable { robot: Ok((d, _)), .. }) => from_table(d, table),
                             _ => {
-                                notes.error(directive.span.clone(), "there is no such table");
+                                notes.error(directive.span.clone(), Noted::NoSuchTable);
                                 continue;
                             }
                         }
@@ -144,9 +144,7 @@ impl Plan {
                     ("convention", name) => match Convention::ALL.into_iter().find(|c| c.name() == name) {
                         Some(convention) => Subject::new(nothing(convention)),
                         None => {
-                            let finding =
-                                notes.error(directive.span.clone(), format!("unknown convention `{name}`"));
-                            finding.hint("the conventions are standard, craig and khalil");
+                            notes.error(directive.span.clone(), Noted::UnknownConvention(name.into()));
                             continue;
                         }
                     },
@@ -154,8 +152,7 @@ impl Plan {
                         Some(subject) => match with_tool(&subject.description, place) {
                             Some(d) => Some(subject.with(d)),
                             None => {
-                                let finding = notes.error(directive.span.clone(), "a tool is three lengths");
-                                finding.hint("write `tool 0, 0, r_7`");
+                                notes.error(directive.span.clone(), Noted::NoTool);
                                 continue;
                             }
                         },
@@ -168,13 +165,13 @@ impl Plan {
         }
         if plan.subjects.is_empty() {
             if !failed.is_empty() {
-                return Err(failed);
+                return Err(failed.into_iter().map(Note::from).collect());
             }
             // Formulas that hold of any robot need none.
             plan.has_robot = false;
             plan.push(0, Subject::new(nothing(Convention::Standard)));
         }
-        failed.iter().for_each(|f| notes.add(f.clone()));
+        failed.into_iter().for_each(|f| notes.add(f.into()));
         Ok(plan)
     }
 
@@ -202,8 +199,8 @@ impl Plan {
         let mut told = options.claim.as_deref();
         for statement in &document.statements {
             while let Some(&(_, number)) = turns.next_if(|t| t.0 <= statement.span.start) {
-                names.push(walk.lexis.names.clone());
-                inverse_names.push(walk.lexis.inverse_names());
+                names.push(Rc::new(walk.lexis.names.clone()));
+                inverse_names.push(Rc::new(walk.lexis.inverse_names()));
                 walk.turn_to(&self.subjects[number], number);
             }
             let mut claim = told.take();
@@ -219,9 +216,7 @@ impl Plan {
                         if let Some((name, meaning)) = words.split_once('=') {
                             let done = walk.alias(name.trim(), meaning.trim());
                             if done.is_none() {
-                                let error =
-                                    ParseError::new(directive.span.clone(), "the alias cannot be read");
-                                walk.skipped.push((directive.span.clone(), error));
+                                walk.skipped.push((directive.span.clone(), Unreadable::Alias));
                             }
                         }
                     }
@@ -232,8 +227,8 @@ impl Plan {
                 walk.statement(statement, claim);
             }
         }
-        names.push(walk.lexis.names.clone());
-        inverse_names.push(walk.lexis.inverse_names());
+        names.push(Rc::new(walk.lexis.names.clone()));
+        inverse_names.push(Rc::new(walk.lexis.inverse_names()));
         let (mut assertions, mut refused) = (walk.assertions, vec![]);
         for (span, language) in programs(text, document, options) {
             let number = self.turns.iter().rev().find(|t| t.0 <= span.start).map_or(0, |t| t.1);
@@ -254,7 +249,7 @@ enum Event<'a> {
 }
 
 /// The convention that a text names in its words, if it names one only and has no line for it.
-fn said(text: &str, notes: &mut Diagnostics) -> Option<Convention> {
+fn said(text: &str, notes: &mut Notes) -> Option<Convention> {
     if text.lines().any(|l| l.trim_start().to_lowercase().starts_with("convention:")) {
         return None;
     }
@@ -286,7 +281,7 @@ fn said(text: &str, notes: &mut Diagnostics) -> Option<Convention> {
     ];
     let mut named = found.iter().filter_map(|(c, at)| Some((*c, (*at)?)));
     let (convention, (at, length)) = named.next().filter(|_| named.next().is_none())?;
-    notes.note(at..at + length, format!("tables are read as {convention}: the text says so"));
+    notes.note(at..at + length, Noted::ReadAs(convention));
     Some(convention)
 }
 

@@ -1,5 +1,6 @@
 //! Products and sums of matrices as they are printed: matrices between names of matrices.
 
+use super::facts::Meaning;
 use super::lexis::Lexis;
 use super::matrix::Matrix;
 use super::names::{Name, Token, tokens};
@@ -12,8 +13,8 @@ use denavit_symbolic::Expr;
 pub(super) enum Factor<'a> {
     /// A matrix in print.
     Grid(&'a Grid),
-    /// What a name means, and in words what it is if the robot gives it.
-    Named(Matrix, Option<String>),
+    /// What a name means, and what it is if the robot gives it.
+    Named(Matrix, Option<Meaning>),
     /// A part in brackets.
     Worked,
 }
@@ -25,8 +26,8 @@ pub(super) struct Product<'a> {
     pub factors: Option<Vec<Factor<'a>>>,
     /// The value, if all that it needs is there.
     pub value: Option<Matrix>,
-    /// In words what it is, where it is a product of names that the robot gives a meaning.
-    pub about: Option<String>,
+    /// What it is, where it is a product of names that the robot gives a meaning.
+    pub about: Option<Meaning>,
 }
 
 enum Piece<'a> {
@@ -98,8 +99,8 @@ impl<'a> Reader<'a, '_> {
             self.at += 1;
             let term = self.product()?;
             let value = sum.value.zip(term.value).and_then(|(a, b)| a.plus(&b, is_minus));
-            let sign = if is_minus { "−" } else { "+" };
-            let about = sum.about.zip(term.about).map(|(a, b)| format!("{a} {sign} {b}"));
+            let both = sum.about.zip(term.about);
+            let about = both.map(|(a, b)| Meaning::Sum { terms: [a, b].into(), is_difference: is_minus });
             sum = Product { factors: None, value, about };
         }
         Ok(sum)
@@ -108,7 +109,7 @@ impl<'a> Reader<'a, '_> {
     fn product(&mut self) -> Result<Product<'a>, NotMatrices> {
         let mut factors = vec![];
         let mut value: Option<Matrix> = None;
-        let mut abouts: Option<Vec<String>> = Some(vec![]);
+        let mut abouts: Option<Vec<Meaning>> = Some(vec![]);
         let mut is_cross = false;
         loop {
             let is_first = factors.is_empty();
@@ -184,7 +185,7 @@ impl<'a> Reader<'a, '_> {
             is_cross = matches!(self.token(), Some(Token::Times));
             self.at += usize::from(matches!(self.token(), Some(Token::Times | Token::Dot)));
         }
-        let about = abouts.map(|all| all.join(" times "));
+        let about = abouts.map(Meaning::product);
         Ok(Product { factors: Some(factors), value, about })
     }
 

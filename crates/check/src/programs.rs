@@ -1,12 +1,14 @@
 //! What straight-line code computes, as claims about the robot: matrices and scalars whose names say what they are, and
 //! what a function returns.
 
+use super::facts::{About, Meaning};
 use super::lexis::Lexis;
 use super::matrix::Matrix;
+use super::note::{Unread, Unreadable};
 use super::subject::Subject;
 use super::walk::{Assertion, Pair, Piece};
+use denavit::forward::Reference;
 use denavit_reading::code::{Assigned, Cell, Code, Language, Reading, Value, read};
-use denavit_symbolic::parse::ParseError;
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Expr, Symbol};
 use std::ops::Range;
@@ -20,10 +22,11 @@ pub(super) fn assertions(
     subject: &Subject,
     lexis: &Lexis,
     number: usize,
-) -> (Vec<Assertion>, Vec<ParseError>) {
+) -> (Vec<Assertion>, Vec<Unread>) {
     let joints: Vec<Expr> = subject.description.variables().iter().map(|v| v.symbol.into()).collect();
     let meaning = |name: &str| lexis.names.lookup(name);
-    let Code { functions, mut refusals } = read(text, span.clone(), language, &meaning, &joints);
+    let Code { functions, refusals } = read(text, span.clone(), language, &meaning, &joints);
+    let mut refusals: Vec<Unread> = refusals.into_iter().map(Unread::from).collect();
     let mut found = vec![];
     for function in &functions {
         let names = Rc::new(names_in(function, lexis));
@@ -34,9 +37,8 @@ pub(super) fn assertions(
         found.extend(program.assigned(function));
         found.extend(program.returned(function));
         if found.len() == before && !function.returned.is_empty() {
-            let message = format!("nothing says what `{}` returns", function.name);
-            let hint = "return a pose, a position or a Jacobian as an array, or give what is returned a name such as T06, px, J";
-            refusals.push(ParseError::new(function.span.clone(), message).hint(hint));
+            let why = Unreadable::NothingTold(function.name.clone());
+            refusals.push(Unread::new(function.span.clone(), why));
         }
     }
     (found, refusals)
@@ -112,7 +114,7 @@ impl Program<'_> {
                     None => self.lexis.names.lookup(name).filter(|_| self.lexis.is_right(name))?,
                 };
                 let pieces = vec![self.piece(None, cell, wanted)];
-                Some(self.assertion(shown, "an entry".into(), span, pieces, None))
+                Some(self.assertion(shown, About::Entry, span, pieces, None))
             }
             Value::Matrix(rows) => {
                 let name = self.lexis.lone_name(name, &(0..name.len()))?;
@@ -121,7 +123,7 @@ impl Program<'_> {
                 }
                 let (matrix, about) = self.lexis.matrix(self.subject, &name)?;
                 let pieces = self.compare(rows, &matrix)?;
-                Some(self.assertion(shown, about?, span, pieces, Some(matrix)))
+                Some(self.assertion(shown, About::Matrix(about?), span, pieces, Some(matrix)))
             }
         }
     }
@@ -138,18 +140,20 @@ impl Program<'_> {
         let columns = rows.first()?.len();
         let joints = self.subject.description.variables().len();
         let is_jacobian = function.name.to_lowercase().contains("jac") || shown.starts_with('J');
+        let hand = Meaning::Frame { of: Reference::Tool, seen_from: Reference::Frame(0) };
         let (matrix, about) = match (rows.len(), columns) {
             (n, m) if is_jacobian && m == joints && n <= 6 => {
                 let values = Matrix(rows.iter().map(|r| r.iter().map(|c| Some(c.value)).collect()).collect());
-                super::walk::nearest_jacobian(self.subject, &values)?
+                let (matrix, jacobian) = super::walk::nearest_jacobian(self.subject, &values)?;
+                (matrix, Meaning::Jacobian(jacobian))
             }
-            (4, 4) => (Matrix::of(&pose), "the hand in frame 0".into()),
-            (3, 3) => (Matrix::of_rotation(&pose.rotation), "the rotation of the hand in frame 0".into()),
-            (3, 1) => (Matrix::column(&pose.translation), "the position of the hand".into()),
+            (4, 4) => (Matrix::of(&pose), hand),
+            (3, 3) => (Matrix::of_rotation(&pose.rotation), Meaning::Rotation(hand.into())),
+            (3, 1) => (Matrix::column(&pose.translation), Meaning::Position),
             _ => return None,
         };
         let pieces = self.compare(rows, &matrix)?;
-        Some(self.assertion(shown, about, span, pieces, Some(matrix)))
+        Some(self.assertion(shown, About::Matrix(about), span, pieces, Some(matrix)))
     }
 
     fn compare(&self, rows: &[Vec<Cell>], matrix: &Matrix) -> Option<Vec<Piece>> {
@@ -181,7 +185,7 @@ impl Program<'_> {
     fn assertion(
         &self,
         name: &str,
-        about: String,
+        about: About,
         span: &Range<usize>,
         pieces: Vec<Piece>,
         whole: Option<Matrix>,

@@ -1,8 +1,9 @@
 //! What formulas are about: a robot, its frames, and what people call its quantities.
 
+use super::facts::{Jacobian, Meaning};
 use super::matrix::Matrix;
 use super::names::{Index, Name, index, pair};
-use denavit::description::{Convention, Description, JointKind};
+use denavit::description::{Convention, Description, JointKind, Screw};
 use denavit::forward::Reference;
 use denavit::geometry::{Axis, Rotation, Transform, Vector};
 use denavit::robot::Robot;
@@ -15,8 +16,8 @@ use denavit_symbolic::{Expr, Symbol};
 #[derive(Clone, Debug)]
 pub(super) struct Subject {
     pub description: Description,
-    /// Which table of the document it is, in words.
-    pub title: Option<String>,
+    /// The line of its table in the document.
+    pub line: Option<usize>,
     /// The letters of the table for the lengths along x and z.
     pub letters: [String; 2],
     /// What the table calls the joint variables.
@@ -55,7 +56,7 @@ impl Subject {
         }
         let robot = Robot::symbolic(&description);
         let q = description.variables().iter().map(|v| v.symbol.into()).collect();
-        Some(Subject { description, title: None, letters, variables, previous, robot, q })
+        Some(Subject { description, line: None, letters, variables, previous, robot, q })
     }
 
     /// The same with another table.
@@ -123,28 +124,24 @@ impl Subject {
 
     /// Jacobians that people print: of the tool or the last frame, along the axes of frame 0 or their own, linear
     /// rows first or last, with all rows or the linear ones.
-    pub fn jacobians(&self, rows: usize) -> Vec<(String, Matrix)> {
+    pub fn jacobians(&self, rows: usize) -> Vec<(Jacobian, Matrix)> {
         let n = self.last();
         let mut found = vec![];
-        let bodies = [(Reference::Tool, "the hand"), (Reference::Frame(n), "the origin of the last frame")];
         let axes = (0..=n).map(Reference::Frame).chain([Reference::Tool]);
         let axes: Vec<Reference> = axes.collect();
-        for (body, what) in bodies {
+        for body in [Reference::Tool, Reference::Frame(n)] {
             for &along in &axes {
                 let j = geometric(&self.robot, &self.q, &Viewpoint::of(body, along)).rows();
-                let name = match along {
-                    Reference::Frame(0) => format!("the Jacobian of {what}"),
-                    Reference::Frame(k) => format!("the Jacobian of {what} along the axes of frame {k}"),
-                    _ => format!("the Jacobian of {what} along its own axes"),
-                };
+                let jacobian = Jacobian { body, axes: along, is_angular_first: false, rows };
                 let part = |order: [usize; 6]| {
                     Matrix(
                         order.iter().take(rows).map(|&r| j[r].iter().map(|&e| Some(e)).collect()).collect(),
                     )
                 };
-                found.push((name.clone(), part([0, 1, 2, 3, 4, 5])));
+                found.push((jacobian, part([0, 1, 2, 3, 4, 5])));
                 if rows == 6 {
-                    found.push((format!("{name}, angular rows first"), part([3, 4, 5, 0, 1, 2])));
+                    let turned = Jacobian { is_angular_first: true, ..jacobian };
+                    found.push((turned, part([3, 4, 5, 0, 1, 2])));
                 }
             }
         }
@@ -211,17 +208,17 @@ impl Subject {
         let symbol = |letter: &str| Expr::symbol(&format!("{letter}{index}"));
         let (theta, alpha) = (symbol("θ"), symbol("α"));
         let (x, z) = (symbol(&self.letters[0]), symbol(&self.letters[1]));
-        let screw_z = Transform::rotation_z(theta) * Transform::translation_z(z);
-        let screw_x = Transform::rotation_x(alpha) * Transform::translation_x(x);
-        match self.description.convention {
-            Convention::Standard => screw_z * screw_x,
-            Convention::Craig | Convention::Khalil => screw_x * screw_z,
+        let screw_z = Screw { axis: Axis::Z, angle: theta, length: z }.transform();
+        let screw_x = Screw { axis: Axis::X, angle: alpha, length: x }.transform();
+        match self.description.convention.begins_with_joint() {
+            true => screw_z * screw_x,
+            false => screw_x * screw_z,
         }
     }
 
-    /// What a matrix's name means, and in words what that is.
+    /// What a matrix's name means, and what that is.
     /// Frames named by letters, `{}^iT_j`, are somewhere if `anywhere`, and have no meaning otherwise.
-    pub fn meaning(&self, name: &Name, anywhere: bool) -> Option<(Matrix, String)> {
+    pub fn meaning(&self, name: &Name, anywhere: bool) -> Option<(Matrix, Meaning)> {
         let (from, to) = frames(name)?;
         let place = |i: &Index| match i {
             Index::Number(k) => Some(Some(*k)),
@@ -229,37 +226,27 @@ impl Subject {
             Index::Letter('n', 0) => Some(Some(self.last())),
             Index::Letter(..) => None,
         };
-        let (matrix, mut about) = match (&from, &to) {
+        let (transform, frame) = match (&from, &to) {
             (Index::Letter(i, a), Index::Letter(j, b)) if i == j && (b - a).abs() == 1 && *b.max(a) == 0 => {
                 let link = self.general_link(*j);
                 let link = if b > a { link } else { link.inverse() };
-                (link, "the transform of any row".to_string())
+                (link, Meaning::Row)
             }
             (Index::Letter(i, 0), Index::Letter(j, 0)) if anywhere && i != j && *i != 'n' && *j != 'n' => {
-                (between(*i, *j), format!("frame {j} in frame {i}, wherever they are"))
+                (between(*i, *j), Meaning::AnyFrame { of: *j, seen_from: *i })
             }
             _ => {
                 let (i, j) = (place(&from)?, place(&to)?);
-                (self.transform(i, j)?, frame_words(i, j))
+                (self.transform(i, j)?, Meaning::Frame { of: frame(j), seen_from: frame(i) })
             }
         };
-        let matrix = match name.base.as_str() {
-            "T" | "A" | "H" | "M" => Matrix::of(&matrix),
-            "R" => {
-                about = format!("the rotation of {about}");
-                Matrix::of_rotation(&matrix.rotation)
-            }
-            "Z" | "z" => {
-                about = format!("the axis z of {about}");
-                Matrix::column(&matrix.rotation.z())
-            }
-            "P" | "p" | "O" | "Ω" => {
-                about = format!("the origin of {about}");
-                Matrix::column(&matrix.translation)
-            }
+        Some(match name.base.as_str() {
+            "T" | "A" | "H" | "M" => (Matrix::of(&transform), frame),
+            "R" => (Matrix::of_rotation(&transform.rotation), Meaning::Rotation(frame.into())),
+            "Z" | "z" => (Matrix::column(&transform.rotation.z()), Meaning::AxisZ(frame.into())),
+            "P" | "p" | "O" | "Ω" => (Matrix::column(&transform.translation), Meaning::Origin(frame.into())),
             _ => return None,
-        };
-        Some((matrix, about))
+        })
     }
 }
 
@@ -273,9 +260,9 @@ fn between(i: char, j: char) -> Transform<Expr> {
     if i < j { x } else { x.inverse() }
 }
 
-fn frame_words(from: Option<usize>, to: Option<usize>) -> String {
-    let name = |k: Option<usize>| k.map_or("the hand".to_string(), |k| format!("frame {k}"));
-    format!("{} in {}", name(to), name(from))
+/// A frame by its number; `None` stands for the tool.
+fn frame(number: Option<usize>) -> Reference {
+    number.map_or(Reference::Tool, Reference::Frame)
 }
 
 /// From which frame to which a name leads.
@@ -308,7 +295,7 @@ pub(super) fn frames(name: &Name) -> Option<(Index, Index)> {
 }
 
 /// `Rot(x, θ)`, `Trans(a, b, c)`, `R_z(θ)`, with arguments read by `value`.
-pub(super) fn elementary(name: &Name, value: &dyn Fn(&str) -> Option<Expr>) -> Option<(Matrix, String)> {
+pub(super) fn elementary(name: &Name, value: &dyn Fn(&str) -> Option<Expr>) -> Option<(Matrix, Meaning)> {
     let axis = |text: &str| match text.trim_matches(['\\', '{', '}', ' ']) {
         "x" | "X" => Some(Axis::X),
         "y" | "Y" => Some(Axis::Y),
@@ -326,7 +313,7 @@ pub(super) fn elementary(name: &Name, value: &dyn Fn(&str) -> Option<Expr>) -> O
         ([about, argument], None) if name.sub.is_empty() => (axis(about)?, argument),
         ([x, y, z], None) if matches!(name.base.as_str(), "Trans" | "trans") => {
             let x = Transform::translation(value(x)?, value(y)?, value(z)?);
-            return Some((Matrix::of(&x), "a translation".into()));
+            return Some((Matrix::of(&x), Meaning::Translation));
         }
         _ => return None,
     };
@@ -334,11 +321,9 @@ pub(super) fn elementary(name: &Name, value: &dyn Fn(&str) -> Option<Expr>) -> O
     match name.base.as_str() {
         _ if is_turn => {
             let x = Transform::rotation_about(about, value);
-            Some((Matrix::of(&x), format!("the rotation about {about}")))
+            Some((Matrix::of(&x), Meaning::RotationAbout(about)))
         }
-        "Trans" | "trans" => {
-            Some((Matrix::of(&along(about, value)), format!("the translation along {about}")))
-        }
+        "Trans" | "trans" => Some((Matrix::of(&along(about, value)), Meaning::TranslationAlong(about))),
         _ => None,
     }
 }

@@ -1,9 +1,9 @@
-//! Printed values of joint variables and of orientation angles: from statements to the judges, and their answers in
-//! words.
+//! Printed values of joint variables and of orientation angles: from statements to the judges, and from their answers to
+//! verdicts.
 
-use super::inverse::{
-    Cause, Composed, Fault, Inverse, Judgement, Undecided, Values, Verdict, Where, orientation,
-};
+use super::facts::{Condition, Remark, Unproved, Zeros};
+use super::formula::Formula;
+use super::inverse::{Composed, Fault, Inverse, Judgement, Values, Verdict, Where, orientation};
 use super::lexis::{Columns, pose_symbol};
 use super::outcome::{Claim, Counterexample, Entry, Finding, Wrong};
 use super::plan::{Plan, Walked};
@@ -12,23 +12,23 @@ use super::walk::{Assertion, Spoken};
 use denavit::inverse::Goal;
 use denavit_symbolic::factor::Zero;
 use denavit_symbolic::parse::Syntax;
-use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::readable::{literals, simplify};
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Expr, Symbol};
 use std::ops::Range;
+use std::rc::Rc;
 
 /// No more formulas of a document than these are judged in this way.
 const MAX_VALUES: usize = 300;
-/// What is said of a part of the document.
-pub(super) type Remark = (Range<usize>, String);
+/// What the formulas of all joints yield together, in a part of the document.
+pub(super) type Together = (Range<usize>, Composed);
 
 /// A formula of more literals is not shown.
 const MAX_SHOWN: u64 = 200;
 
 /// The claims about values of joints and angles, each with its place among all assertions; what the formulas of all
-/// joints yield together, in words.
-pub(super) fn judge(plan: &Plan, walked: &Walked, columns: Columns) -> (Vec<(usize, Claim)>, Vec<Remark>) {
+/// joints yield together.
+pub(super) fn judge(plan: &Plan, walked: &Walked, columns: Columns) -> (Vec<(usize, Claim)>, Vec<Together>) {
     let mut claims = vec![];
     let mut notes = vec![];
     for (number, subject) in plan.subjects.iter().enumerate() {
@@ -54,7 +54,7 @@ pub(super) fn judge(plan: &Plan, walked: &Walked, columns: Columns) -> (Vec<(usi
 
 struct Judge<'a> {
     subject: &'a Subject,
-    names: &'a Vocabulary,
+    names: &'a Rc<Vocabulary>,
     columns: Columns,
 }
 
@@ -65,7 +65,7 @@ impl Judge<'_> {
         &self,
         statements: &[Statement<'_>],
         claims: &mut Vec<(usize, Claim)>,
-        notes: &mut Vec<(Range<usize>, String)>,
+        notes: &mut Vec<Together>,
     ) {
         let pose = [0, 1, 2].map(|r| [0, 1, 2, 3].map(|c| pose_symbol(self.columns, r, c)));
         let mut all: Vec<Values> = vec![];
@@ -113,82 +113,62 @@ impl Judge<'_> {
             && let (Ok(composed), Some(span)) = (inverse.composed(&last), spans)
             && composed.open.is_empty()
         {
-            notes.push((span, together(&composed)));
+            notes.push((span, composed));
         }
     }
 
-    fn shown(&self, e: Expr) -> Option<String> {
+    fn shown(&self, e: Expr) -> Option<Formula> {
         shown(e, self.names)
     }
 
     fn finding(&self, j: &Judgement, sides: &[(Range<usize>, Syntax)]) -> Finding {
-        let remarks: Vec<String> = j.faults.iter().filter_map(|f| self.fault(f, j, sides)).collect();
-        let correct = j.right.as_ref().and_then(|r| {
-            let branches: Option<Vec<String>> = r.branches.iter().map(|b| self.shown(*b.first()?)).collect();
-            let mut branches = branches?;
-            branches.dedup();
-            Some(branches.join(" or "))
-        });
-        let grounds = match j.grounds.proved {
-            true => String::new(),
-            false => {
-                format!("by comparison with all solutions at {} poses", j.grounds.poses + j.grounds.special)
-            }
-        };
+        let mut remarks: Vec<Remark> = j.faults.iter().filter_map(|f| self.fault(f, j, sides)).collect();
+        if !j.grounds.proved {
+            remarks.push(Remark::Compared(j.grounds.poses + j.grounds.special));
+        }
+        let correct = self.correct(j);
         match j.verdict {
             Verdict::Right => Finding::Equal { unless_zero: self.divisors(j) },
             Verdict::Incomplete => {
-                let missing = j
-                    .missing
-                    .map_or(String::new(), |m| format!(": it gives {} of {} values", m.given, m.existing));
-                let mut remarks = remarks;
-                remarks.extend(Some(grounds).filter(|g| !g.is_empty()));
-                Finding::Conditional {
-                    condition: format!("as far as it goes, but solutions are left out{missing}"),
-                    correct,
-                    remarks,
-                }
+                Finding::Conditional { condition: Condition::Incomplete(j.missing), correct, remarks }
             }
             Verdict::Conditional => {
-                let conditions: Vec<String> = j
-                    .branches
-                    .iter()
-                    .filter_map(|b| match b {
-                        Where::If(conditions) => {
-                            let all: Option<Vec<String>> =
-                                conditions.iter().map(|c| Some(format!("{} > 0", self.shown(*c)?))).collect();
-                            Some(all?.join(" and "))
-                        }
-                        _ => None,
-                    })
-                    .collect();
-                let mut conditions = conditions;
-                conditions.dedup();
-                let condition = match conditions.is_empty() {
-                    true => "in a part of all configurations".to_string(),
-                    false => format!("where {}", conditions.join(", or where ")),
-                };
-                let mut remarks = remarks;
-                remarks.extend(Some(grounds).filter(|g| !g.is_empty()));
+                let condition = Condition::Configurations(self.conditions(j));
                 Finding::Conditional { condition, correct, remarks }
             }
-            Verdict::Wrong => {
-                let mut remarks = remarks;
-                remarks.extend(Some(grounds).filter(|g| !g.is_empty()));
-                Finding::Wrong(Box::new(Wrong {
-                    correct,
-                    counterexample: j.counterexample.as_ref().and_then(|c| self.counterexample(c)),
-                    remarks,
-                    ..Wrong::default()
-                }))
-            }
-            Verdict::Undecided(why) => Finding::Undecided { why: undecided(why) },
+            Verdict::Wrong => Finding::Wrong(Box::new(Wrong {
+                correct,
+                counterexample: j.counterexample.as_ref().and_then(|c| self.counterexample(c)),
+                remarks,
+                ..Wrong::default()
+            })),
+            Verdict::Undecided(why) => Finding::Undecided { why: Unproved::Values(why) },
         }
     }
 
+    /// The values that are right, if all of them can be shown.
+    fn correct(&self, j: &Judgement) -> Vec<String> {
+        let branches = j.right.iter().flat_map(|r| &r.branches);
+        let shown = branches.map(|b| Some(self.shown(*b.first()?)?.to_string()));
+        let mut all = shown.collect::<Option<Vec<String>>>().unwrap_or_default();
+        all.dedup();
+        all
+    }
+
+    /// What must be positive, for each branch that is right somewhere.
+    fn conditions(&self, j: &Judgement) -> Vec<Vec<Formula>> {
+        let positive = j.branches.iter().filter_map(|b| match b {
+            Where::If(conditions) => conditions.iter().map(|c| self.shown(*c)).collect(),
+            _ => None,
+        });
+        let mut all: Vec<Vec<Formula>> = positive.collect();
+        all.dedup();
+        all
+    }
+
     /// What must not be 0.
-    fn divisors(&self, j: &Judgement) -> Vec<String> {
-        let mut found: Vec<String> = vec![];
+    fn divisors(&self, j: &Judgement) -> Vec<Formula> {
+        let mut found: Vec<Formula> = vec![];
         for fault in &j.faults {
             if let Fault::DivisionByZero { factor, .. } = fault {
                 found.extend(self.shown(*factor).filter(|f| !found.contains(f)));
@@ -197,58 +177,32 @@ impl Judge<'_> {
         found
     }
 
-    fn fault(&self, fault: &Fault, j: &Judgement, sides: &[(Range<usize>, Syntax)]) -> Option<String> {
+    fn fault(&self, fault: &Fault, j: &Judgement, sides: &[(Range<usize>, Syntax)]) -> Option<Remark> {
         let count: usize = sides.iter().map(|(_, s)| 1 << s.sign_choices().min(6)).sum();
-        let which = |branch: usize| if count > 1 { format!("value {} ", branch + 1) } else { String::new() };
-        let share = |x: f64| format!("{} %", (100.0 * x).round());
+        let which = |branch: usize| (count > 1).then_some(branch);
         Some(match fault {
-            Fault::WrongQuadrant { branch, cause, conditions } => {
-                let conditions: Vec<String> =
-                    conditions.iter().filter_map(|c| Some(format!("{} > 0", self.shown(*c)?))).collect();
-                let what = match cause {
-                    Cause::Arctan => "an arctangent of a quotient loses the quadrant: atan2 keeps it",
-                    Cause::Arcsin => "an arcsine gives one of two angles",
-                    Cause::Arccos => "an arccosine gives one of two angles",
-                    Cause::Atan2 => "both arguments of atan2 have the wrong sign elsewhere",
-                    Cause::Root => "the sign of the root is not that of the configuration",
-                    Cause::Other => "the sign is lost",
-                };
-                let place = if conditions.is_empty() {
-                    String::new()
-                } else {
-                    format!(" (right where {})", conditions.join(" and "))
-                };
-                format!("{}{what}{place}", which(*branch))
+            Fault::WrongQuadrant { branch, cause, conditions } => Remark::SignLost {
+                value: which(*branch),
+                by: *cause,
+                right_where: conditions.iter().filter_map(|c| self.shown(*c)).collect(),
+            },
+            Fault::MissingBranch => Remark::LeftOut(j.missing?),
+            Fault::ExtraBranch { branch, share } => {
+                Remark::NoSolution { value: which(*branch), share: *share }
             }
-            Fault::MissingBranch => {
-                let m = j.missing?;
-                format!(
-                    "solutions are left out at {} of the poses: {} of {} values",
-                    share(m.poses),
-                    m.given,
-                    m.existing
-                )
-            }
-            Fault::ExtraBranch { branch, share: x } => {
-                format!("{}belongs to no solution at {} of the poses", which(*branch), share(*x))
-            }
-            Fault::OutOfDomain { branch, share: x } => {
-                format!("{}is no number at {} of the poses", which(*branch), share(*x))
-            }
-            Fault::DivisionByZero { factor, zeros, .. } => {
-                let zeros: Vec<String> = zeros.iter().take(2).map(|z| self.zero(z)).collect();
-                let place = if zeros.is_empty() { String::new() } else { format!(" ({})", zeros.join("; ")) };
-                format!("division by zero where {} = 0{place}", self.shown(*factor)?)
-            }
-            Fault::FailsAt(q) => format!("wrong at q = {q:.4?}, though the joint is determined there"),
-            Fault::Residual(e) => format!("left minus right is {}", self.shown(*e)?),
+            Fault::OutOfDomain { branch, share } => Remark::NoNumber { value: which(*branch), share: *share },
+            Fault::DivisionByZero { factor, zeros, .. } => Remark::DivisionByZero {
+                zeros: zeros.iter().take(2).map(|z| self.zeros(z)).collect(),
+                factor: self.shown(*factor)?,
+            },
+            Fault::FailsAt(q) => Remark::FailsAt(q.clone()),
+            Fault::Residual(e) => Remark::Residual(self.shown(*e)?),
         })
     }
 
-    fn zero(&self, zero: &Zero) -> String {
-        let angle = self.shown(zero.angle()).unwrap_or_default();
-        let values: Vec<String> = zero.values().iter().filter_map(|v| self.shown(*v)).collect();
-        format!("{angle} = {}", values.join(" or "))
+    fn zeros(&self, zero: &Zero) -> Zeros {
+        let values = zero.values().iter().filter_map(|v| self.shown(*v)).collect();
+        Zeros { angle: self.shown(zero.angle()), values }
     }
 
     fn counterexample(&self, c: &super::inverse::Counterexample) -> Option<Counterexample> {
@@ -270,8 +224,8 @@ fn claim(assertion: &Assertion, entry: Entry) -> Claim {
     }
 }
 
-/// A formula as text, simplified if that is quick, unless it is too long.
-fn shown(e: Expr, names: &Vocabulary) -> Option<String> {
+/// A formula simplified if that is quick, unless it is too long to be shown.
+fn shown(e: Expr, names: &Rc<Vocabulary>) -> Option<Formula> {
     let size = literals(e);
     if size > 10 * MAX_SHOWN {
         return None;
@@ -279,35 +233,15 @@ fn shown(e: Expr, names: &Vocabulary) -> Option<String> {
     let has_function = e.symbols().is_empty();
     let simple = simplify(e, &e.symbols()).map_or(e, |s| if has_function { e } else { s.expr });
     let shorter = if literals(simple) < size { simple } else { e };
-    (literals(shorter) <= MAX_SHOWN).then(|| print(shorter, names, Style::Ascii))
-}
-
-fn undecided(why: Undecided) -> String {
-    match why {
-        Undecided::UnknownSymbol(s) => {
-            format!("`{}` is neither a joint, a length nor an entry of the pose", s.name())
-        }
-        Undecided::Shape => "there are too many values".into(),
-        Undecided::Circular => "the formula uses the joint that it is for".into(),
-        Undecided::NeverDefined => "the formula is no number at any pose".into(),
-        Undecided::NoSamples => "there are no poses to try it at".into(),
-        Undecided::NoEnumeration => "the solutions of this arm cannot be listed".into(),
-    }
-}
-
-fn together(c: &Composed) -> String {
-    let spurious = match c.spurious {
-        0 => String::new(),
-        n => format!(", and {n} configurations that do not reach the pose"),
-    };
-    format!(
-        "one after another the formulas yield {} of {} solutions at {} poses{spurious}",
-        c.yielded, c.existing, c.poses
-    )
+    (literals(shorter) <= MAX_SHOWN).then(|| Formula::new(shorter, names))
 }
 
 /// Formulas for the angles of an orientation, those of one set together.
-fn orientations(statements: &[Statement<'_>], columns: Columns, names: &Vocabulary) -> Vec<(usize, Claim)> {
+fn orientations(
+    statements: &[Statement<'_>],
+    columns: Columns,
+    names: &Rc<Vocabulary>,
+) -> Vec<(usize, Claim)> {
     let entries = [0, 1, 2].map(|r| [0, 1, 2].map(|c| pose_symbol(columns, r, c)));
     let mut found = vec![];
     let mut rest = statements;
@@ -337,34 +271,8 @@ fn orientations(statements: &[Statement<'_>], columns: Columns, names: &Vocabula
         for (k, (at, assertion, spoken)) in group.iter().enumerate() {
             let Spoken::Angle { value: (span, _), .. } = spoken else { continue };
             let finding = match &judged {
-                None => Finding::Undecided { why: "these are no angles of that set".into() },
-                Some(o) => {
-                    let range = shown(o.range, &Vocabulary::new()).unwrap_or_default().replace('`', "");
-                    let judgement = &o.angles[k].1;
-                    match judgement.verdict {
-                        Verdict::Right => {
-                            Finding::Equal { unless_zero: vec![range.replacen("angle ", "", 9)] }
-                        }
-                        Verdict::Undecided(why) => Finding::Undecided { why: undecided(why) },
-                        _ => {
-                            let right = judgement
-                                .right
-                                .as_ref()
-                                .and_then(|r| shown(*r.branches.first()?.first()?, names));
-                            let right = right.map(|r| entry_names(&r, columns));
-                            match judgement.verdict {
-                                Verdict::Wrong => {
-                                    Finding::Wrong(Box::new(Wrong { correct: right, ..Wrong::default() }))
-                                }
-                                _ => Finding::Conditional {
-                                    condition: conditions(judgement),
-                                    correct: right,
-                                    remarks: vec![],
-                                },
-                            }
-                        }
-                    }
-                }
+                None => Finding::Undecided { why: Unproved::NotOfSet },
+                Some(o) => of_angle(&o.angles[k].1, o.range, columns, names),
             };
             found.push((*at, claim(assertion, Entry { place: None, span: span.clone(), finding })));
         }
@@ -372,18 +280,36 @@ fn orientations(statements: &[Statement<'_>], columns: Columns, names: &Vocabula
     found
 }
 
-fn conditions(j: &Judgement) -> String {
-    let mut found: Vec<String> = vec![];
-    for b in &j.branches {
-        if let Where::If(all) = b {
-            found.extend(all.iter().filter_map(|c| Some(format!("{} > 0", shown(*c, &Vocabulary::new())?))));
+/// The verdict on an angle in its range.
+fn of_angle(j: &Judgement, range: Expr, columns: Columns, names: &Rc<Vocabulary>) -> Finding {
+    let right = || -> Vec<String> {
+        let right = j.right.as_ref().and_then(|r| shown(*r.branches.first()?.first()?, names));
+        right.iter().map(|r| entry_names(&r.to_string(), columns)).collect()
+    };
+    match j.verdict {
+        Verdict::Right => Finding::Equal { unless_zero: vec![in_own_names(range)] },
+        Verdict::Undecided(why) => Finding::Undecided { why: Unproved::Values(why) },
+        Verdict::Wrong => Finding::Wrong(Box::new(Wrong { correct: right(), ..Wrong::default() })),
+        Verdict::Incomplete | Verdict::Conditional => {
+            Finding::Conditional { condition: orientations_of(j), correct: right(), remarks: vec![] }
         }
     }
-    if found.is_empty() {
-        "in a part of all orientations".into()
-    } else {
-        format!("where {}", found.join(" and "))
-    }
+}
+
+/// A formula in the angles of a set, these named as the set names them.
+fn in_own_names(e: Expr) -> Formula {
+    let own = |s: Symbol| s.name().strip_prefix("angle ").map(Expr::symbol);
+    Formula::new(e.substitute(own), &Rc::default())
+}
+
+/// In which part of all orientations an angle is right.
+fn orientations_of(j: &Judgement) -> Condition {
+    let names = Rc::default();
+    let all = j.branches.iter().filter_map(|b| match b {
+        Where::If(all) => Some(all),
+        _ => None,
+    });
+    Condition::Orientations(all.flatten().filter_map(|c| shown(*c, &names)).collect())
 }
 
 /// The entries of the rotation as r11 … r33.

@@ -1,5 +1,6 @@
 //! A matrix that is wrong as a whole: another one in its place, its transpose, two of its rows exchanged.
 
+use super::facts::Instead;
 use super::matrix::Matrix;
 use super::plan::Plan;
 use super::subject::Subject;
@@ -25,7 +26,7 @@ fn pairs(assertion: &Assertion) -> Vec<&Pair> {
 }
 
 /// What a printed matrix with several wrong entries is instead, if every entry of it says so.
-pub(super) fn instead(assertion: &Assertion, plan: &Plan) -> Option<String> {
+pub(super) fn instead(assertion: &Assertion, plan: &Plan) -> Option<Instead> {
     let subject = &plan.subjects[assertion.subject];
     let whole = assertion.whole.as_ref()?;
     let pairs = pairs(assertion);
@@ -53,7 +54,7 @@ pub(super) fn instead(assertion: &Assertion, plan: &Plan) -> Option<String> {
 }
 
 /// The matrix of the same frames by the other tables of the document.
-fn elsewhere(whole: &Matrix, subject: &Subject, plan: &Plan) -> Vec<(String, Matrix)> {
+fn elsewhere(whole: &Matrix, subject: &Subject, plan: &Plan) -> Vec<(Instead, Matrix)> {
     let n = subject.last();
     let form = |x: Transform<Expr>| match whole.0.len() {
         3 if whole.0[0].len() == 3 => Matrix::of_rotation(&x.rotation),
@@ -66,20 +67,20 @@ fn elsewhere(whole: &Matrix, subject: &Subject, plan: &Plan) -> Vec<(String, Mat
     };
     let others = plan.subjects.iter().filter_map(|s| {
         let matrix = of(s, i, j).filter(|m| m != whole)?;
-        Some((format!("frame {j} in frame {i} of {}", s.title.as_ref()?), matrix))
+        Some((Instead::ByTable { of: j, seen_from: i, line: s.line? }, matrix))
     });
     others.collect()
 }
 
 /// Matrices that people print for another.
-fn candidates(whole: &Matrix, subject: &Subject) -> Vec<(String, Matrix)> {
+fn candidates(whole: &Matrix, subject: &Subject) -> Vec<(Instead, Matrix)> {
     let mut found = vec![];
     let (rows, columns) = whole.shape().unwrap_or((0, 0));
     if let Some(inverse) = whole.inverse() {
-        found.push(("its inverse".to_string(), inverse));
+        found.push((Instead::Inverse, inverse));
     }
     if rows == columns {
-        found.push(("its transpose".into(), whole.transposed()));
+        found.push((Instead::Transpose, whole.transposed()));
     }
     if (rows, columns) == (4, 4) {
         let mut turned = whole.clone();
@@ -88,28 +89,28 @@ fn candidates(whole: &Matrix, subject: &Subject) -> Vec<(String, Matrix)> {
                 turned.0[r][c] = whole.0[c][r];
             }
         }
-        found.push(("it with the rotation transposed".into(), turned));
+        found.push((Instead::RotationTransposed, turned));
     }
     let last = |n: usize| if n == 4 { 3 } else { n };
     for i in 0..last(rows) {
         for j in i + 1..last(rows) {
             let mut m = whole.clone();
             m.0.swap(i, j);
-            found.push((format!("it with rows {} and {} exchanged", i + 1, j + 1), m));
+            found.push((Instead::RowsExchanged(i + 1, j + 1), m));
         }
         let mut m = whole.clone();
         m.0[i].iter_mut().for_each(|e| *e = e.map(|e| -e));
-        found.push((format!("it with the signs of row {} changed", i + 1), m));
+        found.push((Instead::RowSigns(i + 1), m));
     }
     for i in 0..last(columns) {
         for j in i + 1..last(columns) {
             let mut m = whole.clone();
             m.0.iter_mut().for_each(|row| row.swap(i, j));
-            found.push((format!("it with columns {} and {} exchanged", i + 1, j + 1), m));
+            found.push((Instead::ColumnsExchanged(i + 1, j + 1), m));
         }
         let mut m = whole.clone();
         m.0.iter_mut().for_each(|row| row[i] = row[i].map(|e| -e));
-        found.push((format!("it with the signs of column {} changed", i + 1), m));
+        found.push((Instead::ColumnSigns(i + 1), m));
     }
     let n = subject.last();
     let form = |x: &Transform<Expr>| match (rows, columns) {
@@ -125,15 +126,15 @@ fn candidates(whole: &Matrix, subject: &Subject) -> Vec<(String, Matrix)> {
     let longest = if n > MAX_LINKS { 1 } else { n };
     let pairs = || (0..=n).flat_map(|i| (i + 1..=n.min(i + longest)).map(move |j| (i, j)));
     for (i, j) in pairs() {
-        found.extend(product((i..j).collect()).map(|m| (format!("frame {j} in frame {i}"), m)));
+        found.extend(product((i..j).collect()).map(|m| (Instead::Frame { of: j, seen_from: i }, m)));
     }
     for (i, j) in pairs().filter(|(i, j)| j - i > 1) {
         let backwards = product((i..j).rev().collect());
-        let order = format!("the links of frame {j} in frame {i} multiplied in the opposite order");
-        found.extend(backwards.map(|m| (order, m)));
+        found.extend(backwards.map(|m| (Instead::Backwards { of: j, seen_from: i }, m)));
         for without in i..j {
             let rest = product((i..j).filter(|k| *k != without).collect());
-            found.extend(rest.map(|m| (format!("frame {j} in frame {i} without link {}", without + 1), m)));
+            let link = without + 1;
+            found.extend(rest.map(|m| (Instead::Without { of: j, seen_from: i, link }, m)));
         }
     }
     found

@@ -22,10 +22,10 @@ pub fn check(subject: &Subject, text: &str, name: &str) -> Result<Value, Refusal
     let format = Format::of(name, text);
     match checked(text, format, Some(&subject.description), &denavit_check::Options::default()) {
         Ok(found) => Ok(as_json::checked(name, text, &found)),
-        Err(findings) => {
-            let first = findings.first();
-            let error = first.map_or_else(|| "nothing can be read".into(), |d| d.message.clone());
-            Err(Refusal { error, hint: first.and_then(|d| d.hint.clone()) })
+        Err(notes) => {
+            let first = notes.first().map(|n| Tongue::English.words().note(n));
+            let hint = first.as_ref().and_then(|d| d.hint.clone());
+            Err(Refusal { error: first.map_or_else(|| "nothing can be read".into(), |d| d.message), hint })
         }
     }
 }

@@ -1,14 +1,15 @@
 //! A printed matrix, or a product of printed matrices, against the matrix that it should be.
 
 use super::{Assertion, Cell, Pair, Piece, Reference, Walk};
+use crate::facts::{Jacobian, Meaning, Remark, ShortRow};
 use crate::matrix::Matrix;
+use crate::note::{Unread, Unreadable};
 use crate::numbers::{Answer, half_unit};
 use crate::product::{Factor, NotMatrices, Product};
 use crate::subject::Subject;
 use denavit::geometry::Transform;
 use denavit_reading::document::{Fence, Grid, Part, Side, Statement};
 use denavit_reading::slip::Points;
-use denavit_symbolic::parse::ParseError;
 use denavit_symbolic::readable::literals;
 use denavit_symbolic::{Expr, equal};
 use std::ops::Range;
@@ -56,8 +57,8 @@ impl Walk<'_> {
         if columns != joints || !(2..=6).contains(&rows) {
             return None;
         }
-        let (matrix, about) = nearest_jacobian(self.subject, &printed)?;
-        Some(Reference { matrix, about })
+        let (matrix, jacobian) = nearest_jacobian(self.subject, &printed)?;
+        Some(Reference { matrix, about: Some(Meaning::Jacobian(jacobian)) })
     }
 
     /// Holds a side against a matrix that is known.
@@ -76,7 +77,8 @@ impl Walk<'_> {
                 self.compare_grid(grid, &reference.matrix, out);
             }
             Some([Factor::Grid(grid), Factor::Grid(rates)])
-                if reference.about.starts_with("the Jacobian") && rates.rows.iter().all(|r| r.len() == 1) =>
+                if reference.about.as_ref().is_some_and(Meaning::begins_with_jacobian)
+                    && rates.rows.iter().all(|r| r.len() == 1) =>
             {
                 self.compare_grid(grid, &reference.matrix, out);
             }
@@ -177,22 +179,22 @@ impl Walk<'_> {
             _ => false,
         };
         if cells.len() > wanted.0.len() {
-            out.remarks.push(format!("{} rows are printed for {}", cells.len(), wanted.0.len()));
+            out.remarks.push(Remark::ManyRows { printed: cells.len(), wanted: wanted.0.len() });
         }
         let depends = wanted.0.iter().flatten().flatten().any(|e| !e.symbols().is_empty());
         let is_numeric =
             depends && self.at.is_complete(self.subject) && cells.iter().flatten().all(is_number);
         for (r, row) in cells.iter().enumerate() {
             if row.len() < width {
-                let message = format!("row {} has {} elements for {width}", r + 1, row.len());
+                let short = ShortRow { row: r + 1, elements: row.len(), width };
                 // The last row of a homogeneous matrix says nothing.
                 if (r, width) == (3, 4) {
-                    out.remarks.push(message);
+                    out.remarks.push(Remark::ShortRow(short));
                     continue;
                 }
                 let first = grid.rows[r].first().map_or(grid.span.start, |s| s.start);
                 let last = grid.rows[r].last().map_or(grid.span.end, |s| s.end);
-                let errors = vec![ParseError::new(first..last.max(first), message)];
+                let errors = vec![Unread::new(first..last.max(first), Unreadable::ShortRow(short))];
                 out.pieces.push(Piece::Unreadable { place: None, span: first..last.max(first), errors });
                 continue;
             }
@@ -207,7 +209,7 @@ impl Walk<'_> {
                     }),
                     Cell::Lone(name) => {
                         let span = grid.rows[r][c].clone();
-                        let errors = vec![ParseError::new(span.clone(), format!("unknown `{}`", name.key()))];
+                        let errors = vec![Unread::new(span.clone(), Unreadable::Unknown(name.key()))];
                         out.pieces.push(Piece::Unreadable { place, span, errors });
                     }
                     Cell::Formulas(formulas) => {
@@ -215,9 +217,7 @@ impl Walk<'_> {
                             if wanted.0.get(r).is_none_or(|row| c >= row.len()) && c < 4 && r < 4 {
                                 continue;
                             }
-                            let remark =
-                                format!("row {}, column {} has nothing to compare with", r + 1, c + 1);
-                            out.remarks.push(remark);
+                            out.remarks.push(Remark::Incomparable(r + 1, c + 1));
                             continue;
                         };
                         for (span, syntax) in formulas {
@@ -281,9 +281,8 @@ impl Walk<'_> {
         }
         let is_right = different.is_empty() && same.is_some();
         if different.len() > 1 {
-            let places: Vec<String> =
-                different[1..].iter().filter_map(|p| p.place).map(|(r, c)| format!("{r},{c}")).collect();
-            out.remarks.push(format!("worked out, entries {} differ, too", places.join("; ")));
+            let places = different[1..].iter().filter_map(|p| p.place).collect();
+            out.remarks.push(Remark::OthersDiffer(places));
         }
         out.pieces.extend(different.into_iter().take(1).map(Piece::Pair));
         out.pieces.extend(same.filter(|_| is_right).map(Piece::Pair));
@@ -300,12 +299,12 @@ fn is_too_long(value: Option<&Matrix>) -> bool {
 }
 
 fn too_long(span: &Range<usize>) -> Piece {
-    let errors = vec![ParseError::new(span.clone(), "the product is too long to be worked out")];
+    let errors = vec![Unread::new(span.clone(), Unreadable::LongProduct)];
     Piece::Unreadable { place: None, span: span.clone(), errors }
 }
 
 /// Of the Jacobians that people print, the one that agrees with a matrix in most entries.
-pub(crate) fn nearest_jacobian(subject: &Subject, printed: &Matrix) -> Option<(Matrix, String)> {
+pub(crate) fn nearest_jacobian(subject: &Subject, printed: &Matrix) -> Option<(Matrix, Jacobian)> {
     let (rows, _) = printed.shape()?;
     let mut points = Points::new(7);
     let mut same = |m: &Matrix| {
@@ -316,13 +315,12 @@ pub(crate) fn nearest_jacobian(subject: &Subject, printed: &Matrix) -> Option<(M
         });
         agree.count()
     };
-    let mut best: Option<(usize, String, Matrix)> = None;
+    let mut best: Option<(usize, Jacobian, Matrix)> = None;
     for (about, matrix) in subject.jacobians(rows) {
         let count = same(&matrix);
         if best.as_ref().is_none_or(|b| count > b.0) {
             best = Some((count, about, matrix));
         }
     }
-    let part = if matches!(rows, 2 | 3 | 6) { String::new() } else { format!(", {rows} rows of 6") };
-    best.map(|(_, about, matrix)| (matrix, about + &part))
+    best.map(|(_, about, matrix)| (matrix, about))
 }

@@ -1,12 +1,14 @@
 //! Equations between matrices: what is known of a side, what is compared, what is defined.
 
 use super::{Assertion, Cell, Cells, Definition, MAX_ELEMENTS, Piece, Reference, Scalar, Walk};
+use crate::facts::{About, Meaning};
 use crate::matrix::Matrix;
 use crate::names::{Name, Token, tokens};
+use crate::note::{Unread, Unreadable};
 use crate::product::{Factor, NotMatrices, Product, product};
 use denavit_reading::document::{Fence, Grid, Part, Side, Statement, sides};
 use denavit_symbolic::Expr;
-use denavit_symbolic::parse::{ParseError, Syntax, SyntaxKind};
+use denavit_symbolic::parse::{Syntax, SyntaxKind};
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -73,8 +75,8 @@ impl Walk<'_> {
         }
         let count = elements(grid);
         let cells: Cells = if count > MAX_ELEMENTS {
-            let message = format!("the matrix has {count} elements; at most {MAX_ELEMENTS} are read");
-            let errors = vec![ParseError::new(grid.span.clone(), message)];
+            let why = Unreadable::ManyElements { elements: count, most: MAX_ELEMENTS };
+            let errors = vec![Unread::new(grid.span.clone(), why)];
             vec![vec![Cell::Broken(grid.span.clone(), errors)]]
         } else {
             grid.rows.iter().map(|row| row.iter().map(|span| self.cell(span, grid)).collect()).collect()
@@ -213,9 +215,7 @@ impl Walk<'_> {
             .map(|side| product(self.text, side, &self.lexis, subject, &|grid| self.printed(grid)))
             .collect();
         if !read.iter().any(|r| r.is_ok()) {
-            let error =
-                ParseError::new(statement.span.clone(), "neither a formula nor a product of matrices");
-            self.skipped.push((statement.span.clone(), error));
+            self.skipped.push((statement.span.clone(), Unreadable::NeitherFormulaNorProduct));
             return definitions;
         }
         if self.whole_configuration(statement) {
@@ -224,11 +224,11 @@ impl Walk<'_> {
         let told = claim.and_then(|words| self.told_matrix(words.split(' ').next().unwrap_or(words)));
         let named = read.iter().enumerate().find_map(|(i, r)| match r {
             Ok(Product { value: Some(matrix), about: Some(about), .. }) => {
-                Some((i, Reference { matrix: matrix.clone(), about: about.clone() }))
+                Some((i, Reference { matrix: matrix.clone(), about: Some(about.clone()) }))
             }
             Ok(Product { value: Some(matrix), factors, .. }) => match factors.as_deref() {
                 Some([Factor::Grid(grid)]) if self.is_right_names(grid) => {
-                    Some((i, Reference { matrix: matrix.clone(), about: "the hand".into() }))
+                    Some((i, Reference { matrix: matrix.clone(), about: Some(Meaning::Hand) }))
                 }
                 _ => None,
             },
@@ -243,8 +243,8 @@ impl Walk<'_> {
                 None => (usize::MAX, None),
             },
         };
-        let mut assertion =
-            self.assertion(statement, reference.as_ref().map_or(String::new(), |r| r.about.clone()));
+        let about = reference.as_ref().and_then(|r| r.about.clone()).map_or(About::Matrices, About::Matrix);
+        let mut assertion = self.assertion(statement, about);
         let mut names: Vec<&Grid> = vec![];
         let mut unread: Vec<Range<usize>> = vec![];
         let factors = read.iter().find_map(|r| match r {
@@ -271,7 +271,7 @@ impl Walk<'_> {
                 // A side that cannot be read matters where nothing else is judged.
                 if assertion.pieces.is_empty() && names.is_empty() {
                     for span in unread {
-                        let error = ParseError::new(span.clone(), "no product of matrices that are known");
+                        let error = Unread::new(span.clone(), Unreadable::NoKnownProduct);
                         assertion.pieces.push(Piece::Unreadable { place: None, span, errors: vec![error] });
                     }
                 }
@@ -283,13 +283,12 @@ impl Walk<'_> {
                     _ => None,
                 });
                 if let Some((i, matrix)) = first {
-                    let reference = Reference { matrix, about: "what stands before it".into() };
+                    let reference = Reference { matrix, about: None };
                     for (k, r) in read.iter().enumerate().skip(i + 1) {
                         if let Ok(product) = r {
                             self.compare(product, &reference, None, &statement.sides[k].span, &mut assertion);
                         }
                     }
-                    assertion.about = "an equation between matrices".into();
                 }
             }
         }
@@ -301,7 +300,8 @@ impl Walk<'_> {
         }) {
             let Some(under) = &grid.under else { continue };
             let Some(found) = self.told_matrix(self.source(under)) else { continue };
-            let mut part = self.assertion(statement, found.about.clone());
+            let about = found.about.clone().map_or(About::Matrices, About::Matrix);
+            let mut part = self.assertion(statement, about);
             part.name = self.source(under).to_string();
             part.span = grid.span.clone();
             let product = Product { factors: Some(vec![Factor::Grid(grid)]), value: None, about: None };
@@ -309,7 +309,7 @@ impl Walk<'_> {
             own.push(part);
         }
         // Names that are defined: a matrix, or its entries.
-        let defined = reference.as_ref().map(|r| (r.matrix.clone(), Some(r.about.clone()))).or_else(|| {
+        let defined = reference.as_ref().map(|r| (r.matrix.clone(), r.about.clone())).or_else(|| {
             read.iter().find_map(|r| match r {
                 Ok(Product { value: Some(matrix), .. }) => Some((matrix.clone(), None)),
                 _ => None,

@@ -6,15 +6,17 @@ mod scalars;
 
 pub(super) use compare::nearest_jacobian;
 
+use super::facts::{About, Meaning, Remark};
 use super::lexis::{Columns, Lexis, read};
 use super::matrix::Matrix;
 use super::names::Name;
+use super::note::{Unread, Unreadable};
 use super::numbers::{Answer, Configuration};
 use super::subject::Subject;
 use denavit::geometry::orientation::OrientationSet;
 use denavit_reading::document::{Part, Statement};
 use denavit_symbolic::Expr;
-use denavit_symbolic::parse::{ParseError, Syntax, whole_word};
+use denavit_symbolic::parse::{Syntax, whole_word};
 use denavit_symbolic::vocabulary::Vocabulary;
 use rustc_hash::FxHashMap;
 use std::cell::RefCell;
@@ -50,7 +52,7 @@ pub(super) enum Piece {
     Unreadable {
         place: Option<(usize, usize)>,
         span: Range<usize>,
-        errors: Vec<ParseError>,
+        errors: Vec<Unread>,
     },
 }
 
@@ -60,11 +62,11 @@ pub(super) struct Assertion {
     pub span: Range<usize>,
     /// The left side as printed.
     pub name: String,
-    /// In words what it is about.
-    pub about: String,
+    /// What it is about.
+    pub about: About,
     pub pieces: Vec<Piece>,
     /// Remarks, such as a row that is too short.
-    pub remarks: Vec<String>,
+    pub remarks: Vec<Remark>,
     /// Which of the robots of the document it is about.
     pub subject: usize,
     /// The names of its formulas, where they are its own.
@@ -115,7 +117,7 @@ pub(super) struct Walk<'a> {
     /// The set of angles that a directive names.
     pub angles: Option<OrientationSet>,
     /// Statements that say nothing of the robot and could not be read.
-    pub skipped: Vec<(Range<usize>, ParseError)>,
+    pub skipped: Vec<(Range<usize>, Unreadable)>,
     /// The prose that was looked at last.
     last_prose: Range<usize>,
     /// The cells of the matrices of the present statement.
@@ -133,19 +135,19 @@ enum Cell {
     Formulas(Vec<(Range<usize>, Syntax)>),
     /// A name without meaning.
     Lone(Name),
-    Broken(Range<usize>, Vec<ParseError>),
+    Broken(Range<usize>, Vec<Unread>),
 }
 
 /// A side of an equation between scalars.
 enum Scalar {
     Formula(Range<usize>, Syntax),
     Lone(Name),
-    Broken(Range<usize>, Vec<ParseError>),
+    Broken(Range<usize>, Vec<Unread>),
 }
 
 /// A name that a statement defines.
 enum Definition {
-    Matrix(Name, Matrix, Option<String>),
+    Matrix(Name, Matrix, Option<Meaning>),
     /// An entry of a matrix that the robot gives.
     Entry(String, Expr),
     /// The value of a cell.
@@ -155,7 +157,8 @@ enum Definition {
 /// What is known before anything is compared.
 struct Reference {
     matrix: Matrix,
-    about: String,
+    /// What it is by the robot; nothing where it is what was printed first.
+    about: Option<Meaning>,
 }
 
 impl<'a> Walk<'a> {
@@ -230,7 +233,7 @@ impl<'a> Walk<'a> {
         name.split_whitespace().collect::<Vec<_>>().join(" ")
     }
 
-    fn assertion(&self, statement: &Statement, about: String) -> Assertion {
+    fn assertion(&self, statement: &Statement, about: About) -> Assertion {
         Assertion {
             span: statement.span.clone(),
             name: self.claim_name(statement),

@@ -1,12 +1,14 @@
 //! Equations between scalars: entries, definitions, identities, values of joints and angles.
 
 use super::{Assertion, Defined, Pair, Piece, Reference, Scalar, Spoken, Walk};
+use crate::facts::About;
 use crate::lexis::set_in;
 use crate::names::Name;
+use crate::note::{Unread, Unreadable};
 use denavit::description::read_value;
 use denavit::geometry::orientation::OrientationSet;
 use denavit_reading::document::Statement;
-use denavit_symbolic::parse::{Function, ParseError, Syntax, SyntaxKind};
+use denavit_symbolic::parse::{Function, Syntax, SyntaxKind};
 use denavit_symbolic::vocabulary::plain_name;
 use denavit_symbolic::{Angle, Expr, Node};
 use std::ops::Range;
@@ -36,7 +38,7 @@ impl Walk<'_> {
                     None => Scalar::Lone(name),
                 }
             }
-            _ => Scalar::Broken(span.clone(), errors),
+            _ => Scalar::Broken(span.clone(), errors.into_iter().map(Unread::from).collect()),
         }
     }
 
@@ -87,8 +89,8 @@ impl Walk<'_> {
         }
         if let Some(spoken) = self.values(&spans, &read).or_else(|| self.angle(statement, &read)) {
             let about = match spoken {
-                Spoken::Joint { .. } => "values of a joint".to_string(),
-                Spoken::Angle { set, .. } => format!("an angle of the set {set}"),
+                Spoken::Joint { .. } => About::Joint,
+                Spoken::Angle { set, .. } => About::Angle(set),
             };
             let assertion = Assertion { spoken: Some(spoken), ..self.assertion(statement, about) };
             self.assertions.push(assertion);
@@ -139,7 +141,7 @@ impl Walk<'_> {
             for s in &read {
                 if let Scalar::Broken(span, errors) = s {
                     let error = errors.first().cloned();
-                    self.skipped.extend(error.map(|e| (span.clone(), e)));
+                    self.skipped.extend(error.map(|e| (span.clone(), e.why)));
                     break;
                 }
             }
@@ -159,9 +161,7 @@ impl Walk<'_> {
                 Scalar::Formula(span, syntax)
                     if is_measured(syntax.value()) && !wanted.symbols().is_empty() =>
                 {
-                    let message = "a number, but the joints have no values here";
-                    let hint = "state them before: `θ1 = 30°, θ2 = 45°`, or `q = [0.5, 0.8]`";
-                    let errors = vec![ParseError::new(span.clone(), message).hint(hint)];
+                    let errors = vec![Unread::new(span.clone(), Unreadable::NoConfiguration)];
                     pieces.push(Piece::Unreadable { place: None, span: span.clone(), errors });
                 }
                 Scalar::Formula(span, syntax) => pieces.push(Piece::Pair(Pair {
@@ -173,7 +173,7 @@ impl Walk<'_> {
                 })),
                 Scalar::Lone(_) if i == 0 => {}
                 Scalar::Lone(name) => {
-                    let errors = vec![ParseError::new(spans[i].clone(), format!("unknown `{}`", name.key()))];
+                    let errors = vec![Unread::new(spans[i].clone(), Unreadable::Unknown(name.key()))];
                     pieces.push(Piece::Unreadable { place: None, span: spans[i].clone(), errors });
                 }
                 Scalar::Broken(span, errors) => {
@@ -190,9 +190,9 @@ impl Walk<'_> {
             return true;
         }
         let about = if at == usize::MAX || at == 0 && self.is_right_name(&spans[0]) {
-            "an entry".to_string()
+            About::Entry
         } else {
-            "an equation".to_string()
+            About::Equation
         };
         let mut assertion = self.assertion(statement, about);
         assertion.pieces = pieces;
@@ -396,7 +396,7 @@ impl Walk<'_> {
     pub(super) fn told_matrix(&self, words: &str) -> Option<Reference> {
         let name = self.lexis.lone_name(words, &(0..words.len()))?;
         let (matrix, about) = self.lexis.matrix(self.subject, &name)?;
-        Some(Reference { matrix, about: about? })
+        Some(Reference { matrix, about: Some(about?) })
     }
 }
 

@@ -3,7 +3,6 @@
 //! `snapshots/*.txt` holds what is expected of each claim, reviewed against the sources; `docs/errata.md` tells the
 //! wrong ones. A line that ends in `…` leaves open how it goes on; a lone `…` under a claim, what is said of it.
 
-use crate::common::shown;
 use denavit::description::line_column;
 use denavit_check::{Checked, Claim, Entry, Finding, Options, Patch, Slip, Standing, check};
 use denavit_reading::document::Format;
@@ -14,8 +13,7 @@ fn document(name: &str) -> String {
 }
 
 fn checked(text: &str) -> Checked {
-    check(text, Format::Markdown, None, &Options::default())
-        .unwrap_or_else(|errors| panic!("{:?}", shown(text, &errors)))
+    check(text, Format::Markdown, None, &Options::default()).unwrap_or_else(|errors| panic!("{errors:?}"))
 }
 
 /// `3,4 ` for an entry of a matrix.
@@ -33,8 +31,8 @@ fn block(text: &str, claim: &Claim) -> Vec<String> {
         match &entry.finding {
             Finding::Equal { .. } => {}
             Finding::Wrong(wrong) => {
-                let slip = wrong.slip.as_ref().map_or("", |s| &s.id);
-                let right = wrong.correct.as_deref().unwrap_or("");
+                let slip = wrong.slip.as_ref().map_or("", |s| s.kind.id());
+                let right = wrong.correct.join(" or ");
                 lines.push(format!("    {place}{slip}: {right}"));
                 lines.extend(
                     wrong
@@ -44,16 +42,18 @@ fn block(text: &str, claim: &Claim) -> Vec<String> {
                 );
             }
             Finding::Conditional { condition, correct, .. } => {
-                lines.push(format!("    {place}right {condition}"));
-                lines.extend(correct.iter().map(|c| format!("    {place}everywhere: {c}")));
+                lines.push(format!("    {place}right {condition:?}"));
+                if !correct.is_empty() {
+                    lines.push(format!("    {place}everywhere: {}", correct.join(" or ")));
+                }
             }
-            Finding::Undecided { why } => lines.push(format!("    {place}{why}")),
+            Finding::Undecided { why } => lines.push(format!("    {place}{why:?}")),
             Finding::Unreadable(errors) => {
-                lines.extend(errors.iter().map(|e| format!("    {place}{}", e.message)));
+                lines.extend(errors.iter().map(|e| format!("    {place}{:?}", e.why)));
             }
         }
     }
-    lines.extend(claim.remarks.iter().map(|r| format!("    {r}")));
+    lines.extend(claim.remarks.iter().map(|r| format!("    {r:?}")));
     lines
 }
 
@@ -68,7 +68,7 @@ fn found(text: &str, checked: &Checked) -> Vec<Vec<String>> {
     };
     let causes = (1..).zip(&checked.causes).map(|(k, cause)| {
         vec![
-            format!("cause {k}: {}", cause.change),
+            format!("cause {k}: {:?}", cause.change),
             format!("    turns right: {}", names(&cause.turns_right)),
             format!("    turns wrong: {}", names(&cause.turns_wrong)),
             format!("    stays wrong: {}", names(&cause.stays_wrong)),

@@ -489,7 +489,7 @@ fn study(name: &'static str, count: usize) -> [Count; 8] {
                     match &e.finding {
                         Finding::Wrong(w) => {
                             w.slip.as_ref().is_some_and(|s| test(cell, &s.formula, true))
-                                || w.correct.as_ref().is_some_and(|s| test(cell, s, false))
+                                || w.correct.first().is_some_and(|s| test(cell, s, false))
                         }
                         _ => false,
                     }

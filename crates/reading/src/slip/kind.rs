@@ -1,4 +1,4 @@
-//! The kinds of slips, and what they are called.
+//! The kinds of slips.
 
 /// What kind of slip it is.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -65,33 +65,5 @@ impl Slip {
             Slip::Replaced => "replaced",
             Slip::Several(_) => "several",
         }
-    }
-
-    /// What the slip is, in words: `a sign`, `a sign and an index`.
-    pub fn words(&self) -> String {
-        let words = match self {
-            Slip::Sign => "a sign",
-            Slip::SineForCosine => "sine and cosine swapped",
-            Slip::Index => "an index",
-            Slip::Symbol => "another symbol",
-            Slip::LostFactor => "a lost factor",
-            Slip::ExtraFactor => "a factor too many",
-            Slip::LostTerm => "a lost term",
-            Slip::ExtraTerm => "a term too many",
-            Slip::Bracket => "a bracket",
-            Slip::Exponent => "an exponent",
-            Slip::Number => "a number",
-            Slip::Exchanged => "two names exchanged",
-            Slip::Replaced => "another expression",
-            Slip::Several(all) => {
-                return match all.first() {
-                    Some(first) if all.iter().all(|s| s == first) => {
-                        format!("{}, {} times", first.words(), all.len())
-                    }
-                    _ => all.iter().map(Slip::words).collect::<Vec<_>>().join(" and "),
-                };
-            }
-        };
-        words.to_string()
     }
 }

@@ -1,7 +1,8 @@
 //! What was found in a document.
 
+use crate::words::{Language, Wording};
 use denavit::description::line_column;
-use denavit_check::{Cause, Checked, Claim, Counterexample, Entry, Finding, Slip};
+use denavit_check::{Cause, Checked, Claim, Counterexample, Entry, Finding, Remark, Slip, Unread};
 use serde_json::{Value, json};
 use std::ops::Range;
 
@@ -22,7 +23,7 @@ pub fn checked(name: &str, text: &str, checked: &Checked) -> Value {
         },
         "causes": checked.causes.iter().map(|c| cause(document, c)).collect::<Vec<_>>(),
         "claims": checked.claims.iter().map(|c| claim(document, c)).collect::<Vec<_>>(),
-        "notes": checked.notes.iter().map(|n| json!({
+        "notes": checked.notes.iter().map(|n| words().note(n)).map(|n| json!({
             "severity": n.severity.name(),
             "at": place(document, &n.span),
             "message": n.message,
@@ -37,6 +38,15 @@ pub fn entry_name(claim: &Claim, place: Option<(usize, usize)>) -> String {
         Some((r, c)) => format!("{}, row {r}, column {c}", claim.name),
         None => claim.name.clone(),
     }
+}
+
+/// JSON is in English.
+fn words() -> &'static dyn Wording {
+    Language::English.words()
+}
+
+fn remarks(all: &[Remark]) -> Vec<String> {
+    all.iter().map(|r| words().remarked(r)).collect()
 }
 
 /// A document with what was found in it.
@@ -67,7 +77,7 @@ fn cause(document: &Document<'_>, cause: &Cause) -> Value {
         places.iter().filter_map(name).collect::<Vec<String>>()
     };
     json!({
-        "change": cause.change,
+        "change": words().change(&cause.change),
         "slip": cause.slip.as_ref().map(|s| slip(document, s)),
         "turns_right": names(&cause.turns_right),
         "turns_wrong": names(&cause.turns_wrong),
@@ -83,14 +93,14 @@ fn claim(document: &Document<'_>, claim: &Claim) -> Value {
     let of = |key: &str| speaker.and_then(|i| entries[i].get(key)).cloned().unwrap_or(Value::Null);
     json!({
         "claim": claim.name,
-        "about": claim.about,
+        "about": words().about(&claim.about),
         "at": place(document, &claim.span),
         "robot": claim.robot,
         "verdict": standing.name(),
         "correct": of("correct"),
         "slip": of("slip"),
-        "instead": claim.instead,
-        "remarks": claim.remarks,
+        "instead": claim.instead.map(|i| words().instead(i)),
+        "remarks": remarks(&claim.remarks),
         "entries": entries,
     })
 }
@@ -109,27 +119,30 @@ fn entry(document: &Document<'_>, entry: &Entry) -> Value {
     match &entry.finding {
         Finding::Equal { unless_zero } => {
             if !unless_zero.is_empty() {
-                set("unless_zero", json!(unless_zero));
+                set("unless_zero", unless_zero.iter().map(ToString::to_string).collect());
             }
         }
-        Finding::Conditional { condition, correct, remarks } => {
-            set("condition", json!(condition));
-            set("correct", json!(correct));
-            set("remarks", json!(remarks));
+        Finding::Conditional { condition, correct, remarks: all } => {
+            set("condition", json!(words().right_where(condition)));
+            set("correct", json!(words().either(correct)));
+            set("remarks", json!(remarks(all)));
         }
-        Finding::Undecided { why } => set("why", json!(why)),
+        Finding::Undecided { why } => set("why", json!(words().unproved(*why))),
         Finding::Unreadable(findings) => {
-            let of = |d: &denavit::description::Diagnostic| json!({ "at": place(document, &d.span), "message": d.message, "hint": d.hint });
+            let of = |u: &Unread| {
+                let d = words().unread(u);
+                json!({ "at": place(document, &d.span), "message": d.message, "hint": d.hint })
+            };
             set("errors", findings.iter().map(of).collect());
         }
         Finding::Wrong(wrong) => {
-            set("correct", json!(wrong.correct));
+            set("correct", json!(words().either(&wrong.correct)));
             set("slip", json!(wrong.slip.as_ref().map(|s| slip(document, s))));
             set("rivals", wrong.rivals.iter().map(|s| slip(document, s)).collect());
-            set("difference", json!(wrong.difference));
+            set("difference", json!(wrong.difference.as_ref().map(ToString::to_string)));
             set("counterexample", json!(wrong.counterexample.as_ref().map(example)));
-            set("holds_if", json!(wrong.holds_if));
-            set("remarks", json!(wrong.remarks));
+            set("holds_if", json!(wrong.holds_if.map(|p| words().is_zero(p))));
+            set("remarks", json!(remarks(&wrong.remarks)));
             if let Some((cause, under)) = &wrong.under_cause {
                 set("under_cause", json!({ "cause": cause, "slip": slip(document, under) }));
             }
@@ -144,8 +157,8 @@ fn slip(document: &Document<'_>, slip: &Slip) -> Value {
         .iter()
         .map(|p| json!({ "at": place(document, &p.span), "was": document.source(&p.span), "now": p.now }));
     json!({
-        "kind": slip.id,
-        "words": slip.kind,
+        "kind": slip.kind.id(),
+        "words": words().slip(&slip.kind),
         "patches": patches.collect::<Vec<_>>(),
         "formula": slip.formula,
     })

@@ -25,7 +25,7 @@ pub fn section(s: &Setting) -> Option<Section> {
     section.paragraph(Line::new(s.words.claims(errata.name, checked.claims.len(), standings)));
     for cause in &checked.causes {
         let counts = [&cause.turns_right, &cause.turns_wrong, &cause.stays_wrong].map(Vec::len);
-        section.paragraph(Line::default().strong(cause.change.clone()).text(s.words.cause(counts)));
+        section.paragraph(Line::default().strong(s.words.change(&cause.change)).text(s.words.cause(counts)));
     }
     let mut all = Listed::default();
     for claim in checked.claims.iter().filter(|c| c.standing() != Standing::Equal) {
@@ -64,8 +64,8 @@ impl Listed {
         let printed = shortened(&printed.split_whitespace().collect::<Vec<_>>().join(" "));
         let head = Line::default().strong(shortened(&format!("{}{place}", claim.name)));
         let head = head.text(s.words.printed(number, &printed));
-        let right = |line: Line, correct: &Option<String>| match correct {
-            Some(formula) => line.text(s.words.right()).text(shortened(formula)),
+        let right = |line: Line, correct: &[String]| match s.words.either(correct) {
+            Some(formula) => line.text(s.words.right()).text(shortened(&formula)),
             None => line,
         };
         match &entry.finding {
@@ -73,12 +73,12 @@ impl Listed {
             Finding::Wrong(w) => {
                 let line = right(head, &w.correct);
                 self.wrong.push(match &w.slip {
-                    Some(found) => line.text(format!(" ({})", s.words.slip(&found.id, &found.kind))),
+                    Some(found) => line.text(format!(" ({})", s.words.slip(&found.kind))),
                     None => line,
                 });
             }
             Finding::Conditional { condition, correct, .. } => {
-                let line = head.text(s.words.condition(condition));
+                let line = head.text(format!(" ({})", s.words.right_where(condition)));
                 self.conditional.push(right(line, correct));
             }
             Finding::Undecided { .. } | Finding::Unreadable(_) => self.open.push(head),

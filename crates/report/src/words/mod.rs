@@ -4,6 +4,7 @@
 //! where its genders, plurals and elisions stay. A further language is a folder, a line in [`Language::words`] and what the
 //! compiler then asks for.
 
+mod check;
 mod english;
 mod french;
 mod geometry;
@@ -13,6 +14,7 @@ mod report;
 mod terms;
 mod velocity;
 
+pub use check::Check;
 pub use english::English;
 pub use french::French;
 pub use geometry::Geometry;
@@ -33,9 +35,9 @@ pub enum Language {
 }
 
 /// All messages.
-pub trait Wording: Terms + Geometry + Inverse + Velocity + Motion + Report {}
+pub trait Wording: Terms + Geometry + Inverse + Velocity + Motion + Check + Report {}
 
-impl<T: Terms + Geometry + Inverse + Velocity + Motion + Report> Wording for T {}
+impl<T: Terms + Geometry + Inverse + Velocity + Motion + Check + Report> Wording for T {}
 
 impl Language {
     /// All languages.

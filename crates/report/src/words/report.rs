@@ -322,12 +322,6 @@ pub trait Report {
     /// Before the right formula.
     fn right(&self) -> String;
 
-    /// A condition in the words of the check, where they are of this language.
-    fn condition(&self, condition: &str) -> String;
-
-    /// A slip, by its identifier, and by its words in English.
-    fn slip(&self, id: &str, english: &str) -> String;
-
     /// Before the source of a robot.
     fn robot(&self) -> String;
 

@@ -1,5 +1,6 @@
 //! Tests of documents and figures, one program.
 
+mod checked;
 mod escape;
 mod explain;
 mod figures;

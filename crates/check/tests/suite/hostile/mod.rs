@@ -4,8 +4,8 @@
 mod tables;
 
 use crate::common::{Random, robot, share};
-use denavit::description::{Diagnostic, Severity};
-use denavit_check::{Checked, Options, check};
+use denavit::description::Severity;
+use denavit_check::{Checked, Note, Options, check};
 use denavit_reading::document::Format;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -49,7 +49,7 @@ fn apart<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> Option
 }
 
 /// What is said of a document. All places lie in it.
-fn judged(text: &str, format: Format, named: Option<&str>) -> Result<Checked, Vec<Diagnostic>> {
+fn judged(text: &str, format: Format, named: Option<&str>) -> Result<Checked, Vec<Note>> {
     let named = named.map(robot);
     let result = check(text, format, named.as_ref(), &Options::default());
     let inside = |span: &std::ops::Range<usize>| {
@@ -64,7 +64,7 @@ fn judged(text: &str, format: Format, named: Option<&str>) -> Result<Checked, Ve
             &checked.notes
         }
         Err(errors) => {
-            assert!(errors.iter().any(|e| e.severity == Severity::Error && !e.message.is_empty()));
+            assert!(errors.iter().any(|e| e.severity == Severity::Error));
             errors
         }
     };
@@ -91,11 +91,11 @@ fn endure(what: &str, text: impl Into<String>) {
                 let said = match &result {
                     Ok(checked) => {
                         let t = checked.tally();
-                        let note = checked.notes.first().map_or("", |n| &n.message);
+                        let note = checked.notes.first().map_or(String::new(), |n| format!("{:?}", n.what));
                         let [a, b, c, d, e] = [t.equal, t.wrong, t.conditional, t.undecided, t.unreadable];
                         format!("{a} right, {b} wrong, {c} in part, {d} open, {e} unread; {note}")
                     }
-                    Err(errors) => errors.first().map_or(String::new(), |e| e.message.clone()),
+                    Err(errors) => errors.first().map_or(String::new(), |e| format!("{:?}", e.what)),
                 };
                 (took, said)
             });

@@ -3,6 +3,7 @@
 use super::Document;
 use super::marked::{Piece, pieces};
 use super::terminal::at;
+use crate::terminal::words;
 use denavit_check::{Claim, Entry, Finding, Patch, Standing};
 use denavit_report::json::entry_name;
 use std::fmt::Write;
@@ -60,7 +61,7 @@ pub fn page(document: &Document) -> String {
             out,
             "<aside class=\"wrong\"><p><strong>{}</strong> would turn {} formulas right and {} wrong; {} would stay \
              wrong.</p></aside>",
-            escaped(&cause.change),
+            escaped(&words().change(&cause.change)),
             cause.turns_right.len(),
             cause.turns_wrong.len(),
             cause.stays_wrong.len()
@@ -159,12 +160,12 @@ fn note(document: &Document, claim: &Claim) -> Option<String> {
         return None;
     }
     let mut out = format!("<aside class=\"{}\">", class(standing));
-    if let Some(instead) = &claim.instead {
+    if let Some(instead) = claim.instead {
         let _ = write!(
             out,
             "<p><strong><code>{}</code></strong>: what is printed is {}</p>",
             escaped(&claim.name),
-            escaped(instead)
+            escaped(&words().instead(instead))
         );
     }
     let is_told = |e: &&Entry| e.finding.standing() != Standing::Equal && claim.instead.is_none();
@@ -173,7 +174,7 @@ fn note(document: &Document, claim: &Claim) -> Option<String> {
         let _ = write!(out, "<p><strong><code>{name}</code></strong>: {}</p>", finding(document, entry));
     }
     claim.remarks.iter().for_each(|r| {
-        let _ = write!(out, "<p>{}</p>", escaped(r));
+        let _ = write!(out, "<p>{}</p>", escaped(&words().remarked(r)));
     });
     Some(out + "</aside>\n")
 }
@@ -182,15 +183,20 @@ fn finding(document: &Document, entry: &Entry) -> String {
     let code = |text: &str| format!("<code>{}</code>", escaped(text));
     match &entry.finding {
         Finding::Equal { .. } => "proved equal".into(),
-        Finding::Undecided { why } => escaped(why),
+        Finding::Undecided { why } => escaped(&words().unproved(*why)),
         Finding::Unreadable(errors) => {
             let first = errors.first();
-            format!("cannot be read: {}", first.map_or(String::new(), |e| escaped(&e.message)))
+            format!(
+                "cannot be read: {}",
+                first.map_or(String::new(), |e| escaped(&words().unreadable(&e.why)))
+            )
         }
         Finding::Conditional { condition, correct, remarks } => {
-            let everywhere = correct.as_ref().map_or(String::new(), |c| format!("; everywhere {}", code(c)));
-            let remarks: String = remarks.iter().map(|r| format!("; {}", escaped(r))).collect();
-            format!("right {}{everywhere}{remarks}", escaped(condition))
+            let everywhere =
+                words().either(correct).map_or(String::new(), |c| format!("; everywhere {}", code(&c)));
+            let remarks: String =
+                remarks.iter().map(|r| format!("; {}", escaped(&words().remarked(r)))).collect();
+            format!("right {}{everywhere}{remarks}", escaped(&words().right_where(condition)))
         }
         Finding::Wrong(wrong) => {
             let patches = wrong.slip.as_ref().map_or(&[][..], |s| &s.patches);
@@ -198,23 +204,23 @@ fn finding(document: &Document, entry: &Entry) -> String {
                 Some(slip) => {
                     format!(
                         "{}: <code>{}</code>",
-                        escaped(&slip.kind),
+                        escaped(&words().slip(&slip.kind)),
                         changed(document.text, &entry.span, patches)
                     )
                 }
                 None => "wrong".into(),
             };
-            if let (None, Some(correct)) = (&wrong.slip, &wrong.correct) {
-                let _ = write!(out, "; right is {}", code(correct));
+            if let (None, Some(correct)) = (&wrong.slip, words().either(&wrong.correct)) {
+                let _ = write!(out, "; right is {}", code(&correct));
             }
             if let Some((cause, slip)) = &wrong.under_cause {
-                let _ = write!(out, "; by cause {}: {}", cause + 1, escaped(&slip.kind));
+                let _ = write!(out, "; by cause {}: {}", cause + 1, escaped(&words().slip(&slip.kind)));
             }
             if let Some(example) = &wrong.counterexample {
                 let _ = write!(out, "<br><span class=\"faint\">{}</span>", escaped(&at(example)));
             }
             for remark in &wrong.remarks {
-                let _ = write!(out, "<br>{}", escaped(remark));
+                let _ = write!(out, "<br>{}", escaped(&words().remarked(remark)));
             }
             out
         }

@@ -1,6 +1,7 @@
 //! The list as Markdown, as `docs/errata.md` has it.
 
 use super::Document;
+use crate::terminal::words;
 use denavit_check::{Claim, Finding, Standing};
 use denavit_report::json::entry_name;
 use std::ops::Range;
@@ -19,7 +20,7 @@ pub fn list(document: &Document) -> String {
         t.unreadable
     );
     for (n, cause) in (1..).zip(&checked.causes) {
-        out += &format!("\n**Cause {n}: {}.**", escaped(&cause.change));
+        out += &format!("\n**Cause {n}: {}.**", escaped(&words().change(&cause.change)));
         for (what, places) in [
             ("turns right", &cause.turns_right),
             ("turns wrong", &cause.turns_wrong),
@@ -46,22 +47,26 @@ pub fn list(document: &Document) -> String {
             let (verdict, right, said) = match &entry.finding {
                 Finding::Equal { .. } => continue,
                 Finding::Wrong(w) => {
-                    let slip = w.slip.iter().map(|s| escaped(&s.kind));
+                    let slip = w.slip.iter().map(|s| escaped(&words().slip(&s.kind)));
                     let under = w.under_cause.iter().map(|(cause, s)| {
-                        format!("by cause {}, {}: {}", cause + 1, escaped(&s.kind), code(&s.formula))
+                        let kind = escaped(&words().slip(&s.kind));
+                        format!("by cause {}, {kind}: {}", cause + 1, code(&s.formula))
                     });
-                    let remarks = w.remarks.iter().map(|r| escaped(r));
+                    let remarks = w.remarks.iter().map(|r| escaped(&words().remarked(r)));
                     let said: Vec<String> = slip.chain(under).chain(remarks).collect();
-                    ("wrong", w.correct.as_deref().map(code).unwrap_or_default(), said.join("; "))
+                    ("wrong", right(&w.correct), said.join("; "))
                 }
                 Finding::Conditional { condition, correct, remarks } => {
-                    let said = [format!("right {condition}")];
-                    let said: Vec<String> = said.iter().chain(remarks).map(|r| escaped(r)).collect();
-                    ("conditional", correct.as_deref().map(code).unwrap_or_default(), said.join("; "))
+                    let remarks = remarks.iter().map(|r| words().remarked(r));
+                    let said =
+                        std::iter::once(format!("right {}", words().right_where(condition))).chain(remarks);
+                    let said: Vec<String> = said.map(|r| escaped(&r)).collect();
+                    ("conditional", right(correct), said.join("; "))
                 }
-                Finding::Undecided { why } => ("undecided", String::new(), escaped(why)),
+                Finding::Undecided { why } => ("undecided", String::new(), escaped(&words().unproved(*why))),
                 Finding::Unreadable(errors) => {
-                    let why = errors.first().map(|e| escaped(&e.message)).unwrap_or_default();
+                    let why =
+                        errors.first().map(|e| escaped(&words().unreadable(&e.why))).unwrap_or_default();
                     ("unreadable", String::new(), why)
                 }
             };
@@ -69,7 +74,7 @@ pub fn list(document: &Document) -> String {
         }
         for remark in &claim.remarks {
             let (name, line) = (code(&claim.name), document.line(claim.span.start));
-            rows.push(format!("| {name} | {line} | remark | | | {} |\n", escaped(remark)));
+            rows.push(format!("| {name} | {line} | remark | | | {} |\n", escaped(&words().remarked(remark))));
         }
     }
     if !rows.is_empty() {
@@ -94,6 +99,11 @@ fn names(document: &Document, places: &[(usize, usize)]) -> String {
         Some(code(&entry_name(claim, claim.entries.get(e)?.place)))
     };
     places.iter().filter_map(name).collect::<Vec<_>>().join(", ")
+}
+
+/// What is right, if it is known.
+fn right(correct: &[String]) -> String {
+    words().either(correct).as_deref().map(code).unwrap_or_default()
 }
 
 /// A text in backquotes inside a table.

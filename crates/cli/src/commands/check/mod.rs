@@ -9,8 +9,9 @@ mod terminal;
 use crate::arguments::CheckArguments;
 use crate::failure::Failure;
 use crate::load;
-use denavit::description::{Severity, line_column, render};
-use denavit_check::{Checked, MAX_BYTES, Options, check};
+use crate::terminal::words;
+use denavit::description::{Diagnostic, Severity, line_column, render};
+use denavit_check::{Checked, MAX_BYTES, Note, Options, check};
 use denavit_reading::code::Language;
 use denavit_reading::document::Format;
 use std::fs;
@@ -59,11 +60,10 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     };
     let format = Format::of(&name, &text);
     let checked = check(&text, format, robot.as_ref(), &options)
-        .map_err(|findings| Failure::Input(render(&findings, &name, &text)))?;
+        .map_err(|notes| Failure::Input(render(&findings(notes.iter()), &name, &text)))?;
     let document = Document { name: &name, text: &text, checked: &checked };
     let worth = checked.notes.iter().filter(|n| arguments.all || n.severity != Severity::Note);
-    let notes: Vec<_> = worth.cloned().collect();
-    write!(anstream::stderr(), "{}", render(&notes, &name, &text))?;
+    write!(anstream::stderr(), "{}", render(&findings(worth), &name, &text))?;
     let mut out = anstream::stdout();
     if let Some(file) = &arguments.html {
         fs::write(file, html::page(&document))
@@ -81,6 +81,11 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
         write!(out, "{}", terminal::report(&document, arguments.all))?;
     }
     verdict(&document)
+}
+
+/// Notes in words.
+fn findings<'a>(notes: impl Iterator<Item = &'a Note>) -> Vec<Diagnostic> {
+    notes.map(|n| words().note(n)).collect()
 }
 
 /// The language of a program, by its file's ending.

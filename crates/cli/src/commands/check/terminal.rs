@@ -2,7 +2,7 @@
 
 use super::Document;
 use super::marked::{Piece, pieces};
-use crate::terminal::{FAINT, HEADING, NAME, decimals, styled};
+use crate::terminal::{FAINT, HEADING, NAME, decimals, styled, words};
 use anstyle::{AnsiColor, Style};
 use denavit_check::{Cause, Claim, Counterexample, Entry, Finding, Patch, Slip, Standing, Wrong};
 use denavit_report::json::entry_name;
@@ -60,7 +60,7 @@ fn told(document: &Document, n: usize, cause: &Cause) -> String {
         names.truncate(12);
         format!("{}{}", names.join(", "), if more > 0 { format!(" and {more} more") } else { String::new() })
     };
-    let mut out = format!("{} {}\n", styled(&format!("cause {n}:"), HEADING), cause.change);
+    let mut out = format!("{} {}\n", styled(&format!("cause {n}:"), HEADING), words().change(&cause.change));
     if let Some(slip) = &cause.slip
         && let (Some(first), Some(last)) = (slip.patches.first(), slip.patches.last())
     {
@@ -101,21 +101,21 @@ fn shown(document: &Document, claim: &Claim) -> String {
         Standing::Unreadable => "cannot be read",
     };
     let line = document.line(claim.span.start);
-    let about = if claim.about.is_empty() { String::new() } else { format!(" ({})", claim.about) };
+    let about = words().about(&claim.about);
     let mut out = format!(
-        "{} {}{about}, line {line}: {}\n",
+        "{} {} ({about}), line {line}: {}\n",
         styled(sign, style),
         styled(&claim.name, NAME),
         styled(word, style)
     );
-    if let Some(instead) = &claim.instead {
-        out += &format!("    what is printed is {instead}\n");
+    if let Some(instead) = claim.instead {
+        out += &format!("    what is printed is {}\n", words().instead(instead));
     }
     for entry in claim.entries.iter().filter(|_| claim.instead.is_none()) {
         out += &finding(document, entry);
     }
     for remark in &claim.remarks {
-        out += &format!("    {remark}\n");
+        out += &format!("    {}\n", words().remarked(remark));
     }
     out + "\n"
 }
@@ -124,22 +124,27 @@ fn finding(document: &Document, entry: &Entry) -> String {
     let place = entry.place.map_or(String::new(), |(r, c)| format!("row {r}, column {c}: "));
     match &entry.finding {
         Finding::Equal { unless_zero } if unless_zero.is_empty() => String::new(),
-        Finding::Equal { unless_zero } => format!("    {place}where {} is not 0\n", unless_zero.join(", ")),
-        Finding::Undecided { why } => format!("    {place}{why}\n"),
+        Finding::Equal { unless_zero } => {
+            let factors: Vec<String> = unless_zero.iter().map(ToString::to_string).collect();
+            format!("    {place}where {} is not 0\n", factors.join(", "))
+        }
+        Finding::Undecided { why } => format!("    {place}{}\n", words().unproved(*why)),
         Finding::Unreadable(findings) => findings
             .iter()
             .take(3)
-            .map(|d| {
+            .map(|u| {
+                let d = words().unread(u);
                 format!("    {}", d.render(document.name, document.text).replace('\n', "\n    ").trim_end())
                     + "\n"
             })
             .collect(),
         Finding::Conditional { condition, correct, remarks } => {
+            let condition = words().right_where(condition);
             let mut out = format!("    {place}{}\n    right {condition}\n", document.source(&entry.span));
-            if let Some(correct) = correct {
-                out += &format!("    everywhere  {}\n", styled(correct, GOOD));
+            if let Some(correct) = words().either(correct) {
+                out += &format!("    everywhere  {}\n", styled(&correct, GOOD));
             }
-            remarks.iter().for_each(|r| out += &format!("    {r}\n"));
+            remarks.iter().for_each(|r| out += &format!("    {}\n", words().remarked(r)));
             out
         }
         Finding::Wrong(w) => wrong(document, entry, &place, w),
@@ -150,35 +155,35 @@ fn wrong(document: &Document, entry: &Entry, place: &str, wrong: &Wrong) -> Stri
     let mut out = String::new();
     let patches: &[Patch] = wrong.slip.as_ref().map_or(&[], |s| &s.patches);
     out += &format!("    {place}{}\n", marked(document, &entry.span, patches));
-    if let Some(correct) = &wrong.correct {
+    if let Some(correct) = words().either(&wrong.correct) {
         let correct = correct.split_whitespace().collect::<Vec<_>>().join(" ");
         out += &format!("    right       {}\n", styled(&correct, GOOD));
     }
     if let Some(slip) = &wrong.slip {
         let rivals: Vec<String> = wrong.rivals.iter().map(|r| rival(document, &entry.span, r)).collect();
         let or = if rivals.is_empty() { String::new() } else { format!("; or {}", rivals.join("; or ")) };
-        out += &format!("    the slip    {}{or}\n", slip.kind);
+        out += &format!("    the slip    {}{or}\n", words().slip(&slip.kind));
     }
     if let Some((cause, slip)) = &wrong.under_cause {
         out += &format!(
             "    by cause {}  {}: {}\n",
             cause + 1,
-            slip.kind,
+            words().slip(&slip.kind),
             marked(document, &entry.span, &slip.patches)
         );
     }
     if let Some(example) = &wrong.counterexample {
         out += &format!("    {}\n", styled(&at(example), FAINT));
     }
-    if let Some(condition) = &wrong.holds_if {
-        out += &format!("    right only if {condition}\n");
+    if let Some(parameter) = wrong.holds_if {
+        out += &format!("    right only if {}\n", words().is_zero(parameter));
     }
-    wrong.remarks.iter().for_each(|r| out += &format!("    {r}\n"));
+    wrong.remarks.iter().for_each(|r| out += &format!("    {}\n", words().remarked(r)));
     out
 }
 
 fn rival(document: &Document, span: &Range<usize>, slip: &Slip) -> String {
-    format!("{}: {}", slip.kind, marked(document, span, &slip.patches))
+    format!("{}: {}", words().slip(&slip.kind), marked(document, span, &slip.patches))
 }
 
 /// The values at a configuration.

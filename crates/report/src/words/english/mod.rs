@@ -1,5 +1,6 @@
 //! English.
 
+mod check;
 mod geometry;
 mod inverse;
 mod motion;

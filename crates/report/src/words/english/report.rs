@@ -450,14 +450,6 @@ impl Report for English {
         "; right: ".into()
     }
 
-    fn condition(&self, condition: &str) -> String {
-        format!(" ({condition})")
-    }
-
-    fn slip(&self, _: &str, english: &str) -> String {
-        english.into()
-    }
-
     fn robot(&self) -> String {
         "The robot: ".into()
     }

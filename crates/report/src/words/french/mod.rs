@@ -9,6 +9,7 @@ macro_rules! say {
     };
 }
 
+mod check;
 mod geometry;
 mod inverse;
 mod motion;

@@ -459,32 +459,6 @@ impl Report for French {
         say!(" ; juste : ")
     }
 
-    fn condition(&self, _: &str) -> String {
-        // The words of the check are English.
-        String::new()
-    }
-
-    fn slip(&self, id: &str, _: &str) -> String {
-        printed(match id {
-            "sign" => "un signe",
-            "sine-for-cosine" => "un sinus pour un cosinus, ou l'inverse",
-            "index" => "un indice",
-            "symbol" => "un symbole pour un autre",
-            "lost-factor" => "un facteur manque",
-            "extra-factor" => "un facteur de trop",
-            "lost-term" => "un terme manque",
-            "extra-term" => "un terme de trop",
-            "bracket" => "une parenthèse mal placée",
-            "exponent" => "un exposant",
-            "number" => "un nombre",
-            "exchanged" => "deux noms échangés",
-            "transposed" => "deux éléments échangés par transposition",
-            "entry" => "l'élément d'une autre place",
-            "several" => "plusieurs fautes",
-            _ => "une partie remplacée",
-        })
-    }
-
     fn robot(&self) -> String {
         say!("Le robot : ")
     }

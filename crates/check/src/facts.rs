@@ -1,0 +1,349 @@
+//! The facts that verdicts rest on; their words are the report's.
+
+use super::formula::Formula;
+use super::inverse::{Cause as SignLoss, Missing, Undecided};
+use denavit::description::Convention;
+use denavit::forward::Reference;
+use denavit::geometry::Axis;
+use denavit::geometry::orientation::OrientationSet;
+use denavit_reading::slip::Slip;
+use denavit_symbolic::Symbol;
+
+/// What a claim is about.
+#[derive(Clone, PartialEq, Debug)]
+pub enum About {
+    /// A matrix or a vector that the robot gives.
+    Matrix(Meaning),
+    /// Matrices that are said to be equal, whatever they are.
+    Matrices,
+    /// An entry of a matrix that the robot gives.
+    Entry,
+    /// Formulas that are said to be equal.
+    Equation,
+    /// Values of a joint.
+    Joint,
+    /// An angle of an orientation.
+    Angle(OrientationSet),
+}
+
+/// What a matrix or a vector is by the robot. Frames are numbered by rows; the tool is the hand.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Meaning {
+    /// The pose of the hand, entry by entry.
+    Hand,
+    /// The position of the hand.
+    Position,
+    /// The transform of any row of a table.
+    Row,
+    /// A frame in another.
+    Frame {
+        /// Which.
+        of: Reference,
+        /// In which.
+        seen_from: Reference,
+    },
+    /// A frame in another, both named by letters, wherever they are.
+    AnyFrame {
+        /// Which.
+        of: char,
+        /// In which.
+        seen_from: char,
+    },
+    /// The rotation of a transform.
+    Rotation(Box<Meaning>),
+    /// The axis z of a frame.
+    AxisZ(Box<Meaning>),
+    /// The origin of a frame.
+    Origin(Box<Meaning>),
+    /// An inverse.
+    Inverse(Box<Meaning>),
+    /// A transpose.
+    Transpose(Box<Meaning>),
+    /// A product of several.
+    Product(Vec<Meaning>),
+    /// A sum of two, or their difference.
+    Sum {
+        /// Both.
+        terms: Box<[Meaning; 2]>,
+        /// Whether the second is subtracted.
+        is_difference: bool,
+    },
+    /// The rotation about an axis.
+    RotationAbout(Axis),
+    /// The translation along an axis.
+    TranslationAlong(Axis),
+    /// A translation along all axes.
+    Translation,
+    /// A Jacobian.
+    Jacobian(Jacobian),
+}
+
+/// Which Jacobian a matrix is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Jacobian {
+    /// The point that moves: the hand, or the origin of the last frame.
+    pub body: Reference,
+    /// Along whose axes: frame 0 is the usual one, the tool stands for the hand's own.
+    pub axes: Reference,
+    /// Whether the angular rows stand first.
+    pub is_angular_first: bool,
+    /// How many rows there are.
+    pub rows: usize,
+}
+
+impl Meaning {
+    /// A product of one factor is that factor.
+    pub(super) fn product(mut factors: Vec<Meaning>) -> Self {
+        if factors.len() == 1 { factors.remove(0) } else { Meaning::Product(factors) }
+    }
+
+    /// True if a Jacobian stands first in it.
+    pub(super) fn begins_with_jacobian(&self) -> bool {
+        match self {
+            Meaning::Jacobian(_) => true,
+            Meaning::Product(factors) => factors.first().is_some_and(Meaning::begins_with_jacobian),
+            Meaning::Sum { terms, .. } => terms[0].begins_with_jacobian(),
+            _ => false,
+        }
+    }
+}
+
+/// What a matrix with several wrong entries is as a whole. Numbers count from 1 but for those of frames.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Instead {
+    /// The inverse of what it should be.
+    Inverse,
+    /// Its transpose.
+    Transpose,
+    /// It with the rotation transposed.
+    RotationTransposed,
+    /// It with two rows exchanged.
+    RowsExchanged(usize, usize),
+    /// It with the signs of a row changed.
+    RowSigns(usize),
+    /// It with two columns exchanged.
+    ColumnsExchanged(usize, usize),
+    /// It with the signs of a column changed.
+    ColumnSigns(usize),
+    /// Another frame in another one.
+    Frame {
+        /// Which.
+        of: usize,
+        /// In which.
+        seen_from: usize,
+    },
+    /// The links between two frames multiplied in the opposite order.
+    Backwards {
+        /// The frame.
+        of: usize,
+        /// In which.
+        seen_from: usize,
+    },
+    /// A frame in another without one of the links between.
+    Without {
+        /// The frame.
+        of: usize,
+        /// In which.
+        seen_from: usize,
+        /// The link that is left out.
+        link: usize,
+    },
+    /// The same frames by another table of the document.
+    ByTable {
+        /// The frame.
+        of: usize,
+        /// In which.
+        seen_from: usize,
+        /// The line of that table.
+        line: usize,
+    },
+}
+
+/// What else is to be said of a claim or of a formula.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Remark {
+    /// A matrix has more rows than it should have.
+    ManyRows {
+        /// Those in print.
+        printed: usize,
+        /// Those that it should have.
+        wanted: usize,
+    },
+    /// A row is too short.
+    ShortRow(ShortRow),
+    /// There is nothing to compare an entry with (row and column from 1).
+    Incomparable(usize, usize),
+    /// Further entries of a product (row and column from 1) that differ when it is worked out.
+    OthersDiffer(Vec<(usize, usize)>),
+    /// A number is right if degrees are taken for radians, or radians for degrees.
+    AngleUnit,
+    /// It is right in millimetres.
+    Millimetres,
+    /// It is right in metres.
+    Metres,
+    /// It is right but for its sign.
+    Sign,
+    /// It is off in the last digit.
+    LastDigit,
+    /// It is off by so much.
+    OffBy(f64),
+    /// Found in samples, not proved.
+    Sampled,
+    /// Compared with all solutions at so many poses.
+    Compared(usize),
+    /// A function or a root loses a sign.
+    SignLost {
+        /// Which of several values (from 0).
+        value: Option<usize>,
+        /// What loses it.
+        by: SignLoss,
+        /// It is right where these are positive.
+        right_where: Vec<Formula>,
+    },
+    /// Solutions are left out.
+    LeftOut(Missing),
+    /// A value belongs to no solution at a share of the poses.
+    NoSolution {
+        /// Which of several values (from 0).
+        value: Option<usize>,
+        /// The share.
+        share: f64,
+    },
+    /// A value is no number at a share of the poses.
+    NoNumber {
+        /// Which of several values (from 0).
+        value: Option<usize>,
+        /// The share.
+        share: f64,
+    },
+    /// A divisor vanishes.
+    DivisionByZero {
+        /// What vanishes.
+        factor: Formula,
+        /// Where, if it is known.
+        zeros: Vec<Zeros>,
+    },
+    /// Wrong at a configuration at which the joint is determined, radians and metres.
+    FailsAt(Vec<f64>),
+    /// The left side minus the right one.
+    Residual(Formula),
+}
+
+/// A printed row with fewer elements than others.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct ShortRow {
+    /// Its number, from 1.
+    pub row: usize,
+    /// Its elements.
+    pub elements: usize,
+    /// Those of the longest.
+    pub width: usize,
+}
+
+/// Where a factor vanishes.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Zeros {
+    /// An angle; nothing if it is too long to be shown.
+    pub angle: Option<Formula>,
+    /// Its values there.
+    pub values: Vec<Formula>,
+}
+
+/// Where a formula is right.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Condition {
+    /// With one of its signs.
+    OneSign,
+    /// With the sign that belongs to the configuration.
+    OwnSign,
+    /// As far as it goes: solutions are left out.
+    Incomplete(Option<Missing>),
+    /// In a part of all configurations: where all formulas of one of these lists are positive, if that is known.
+    Configurations(Vec<Vec<Formula>>),
+    /// In a part of all orientations: where all of these are positive, if that is known.
+    Orientations(Vec<Formula>),
+}
+
+/// Why a formula is neither proved nor refuted.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Unproved {
+    /// A length has no value.
+    NoLength,
+    /// Neither proved equal nor found different.
+    NotFound,
+    /// The names are those of no angles of the set.
+    NotOfSet,
+    /// What the judge of values says.
+    Values(Undecided),
+}
+
+/// What was done to a formula.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum SlipKind {
+    /// A change of the formula.
+    Formula(Slip),
+    /// It stands in another entry's place (row and column from 1), and that one in its place.
+    ExchangedWith(usize, usize),
+    /// The entry of another place.
+    OtherEntry,
+}
+
+impl SlipKind {
+    /// A word for programs: `lost-factor`.
+    pub fn id(&self) -> &'static str {
+        match self {
+            SlipKind::Formula(slip) => slip.id(),
+            SlipKind::ExchangedWith(..) => "transposed",
+            SlipKind::OtherEntry => "entry",
+        }
+    }
+}
+
+/// A change of the robot, or of what is meant. Rows are counted from 1.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Change {
+    /// A cell with the opposite sign.
+    Opposite(TableCell),
+    /// A cell forgotten.
+    Forgotten(TableCell),
+    /// A cell exchanged with that of the next row.
+    ExchangedWithNext(TableCell),
+    /// The α of a row, in degrees.
+    Alpha {
+        /// The row.
+        row: usize,
+        /// Its α.
+        degrees: i32,
+    },
+    /// The θ of a row with an offset more, in degrees.
+    Offset {
+        /// The row.
+        row: usize,
+        /// The offset.
+        degrees: i32,
+    },
+    /// The θ of a row counted the other way.
+    CountedBackwards(usize),
+    /// The table read in another convention.
+    Convention(Convention),
+    /// The tool left out.
+    NoTool,
+    /// A parameter that is 0.
+    Vanishing(Symbol),
+    /// A definition of the document with a slip.
+    Definition {
+        /// The name that is defined.
+        name: String,
+        /// The slip.
+        slip: SlipKind,
+    },
+}
+
+/// A cell of a table: the letter of its column as printed, and its row.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct TableCell {
+    /// The letter.
+    pub letter: String,
+    /// The row, from 1.
+    pub row: usize,
+}

@@ -1,0 +1,365 @@
+//! Documents that were checked.
+
+use super::English;
+use crate::words::Check;
+use crate::words::check::{percent, positive};
+use denavit::forward::Reference;
+use denavit_check::inverse::{Cause, Composed, Undecided};
+use denavit_check::{
+    About, Change, Condition, Formula, Instead, Jacobian, Meaning, Noted, Remark, ShortRow, SlipKind,
+    TableCell, Unproved, Unreadable, Zeros, decimal,
+};
+use denavit_reading::slip::Slip;
+
+impl Check for English {
+    fn about(&self, about: &About) -> String {
+        match about {
+            About::Matrix(meaning) => return self.meaning(meaning),
+            About::Matrices => "an equation between matrices",
+            About::Entry => "an entry",
+            About::Equation => "an equation",
+            About::Joint => "values of a joint",
+            About::Angle(set) => return format!("an angle of the set {set}"),
+        }
+        .into()
+    }
+
+    fn meaning(&self, meaning: &Meaning) -> String {
+        let of = |what: &str, whose: &Meaning| format!("{what} of {}", self.meaning(whose));
+        match meaning {
+            Meaning::Hand => "the hand".into(),
+            Meaning::Position => "the position of the hand".into(),
+            Meaning::Row => "the transform of any row".into(),
+            Meaning::Frame { of, seen_from } => format!("{} in {}", frame(*of), frame(*seen_from)),
+            Meaning::AnyFrame { of, seen_from } => {
+                format!("frame {of} in frame {seen_from}, wherever they are")
+            }
+            Meaning::Rotation(whose) => of("the rotation", whose),
+            Meaning::AxisZ(whose) => of("the axis z", whose),
+            Meaning::Origin(whose) => of("the origin", whose),
+            Meaning::Inverse(whose) => of("the inverse", whose),
+            Meaning::Transpose(whose) => of("the transpose", whose),
+            Meaning::Product(factors) => {
+                factors.iter().map(|f| self.meaning(f)).collect::<Vec<_>>().join(" times ")
+            }
+            Meaning::Sum { terms, is_difference } => {
+                let sign = if *is_difference { "−" } else { "+" };
+                format!("{} {sign} {}", self.meaning(&terms[0]), self.meaning(&terms[1]))
+            }
+            Meaning::RotationAbout(axis) => format!("the rotation about {axis}"),
+            Meaning::TranslationAlong(axis) => format!("the translation along {axis}"),
+            Meaning::Translation => "a translation".into(),
+            Meaning::Jacobian(jacobian) => matrix_of_velocities(jacobian),
+        }
+    }
+
+    fn instead(&self, instead: Instead) -> String {
+        match instead {
+            Instead::Inverse => "its inverse".into(),
+            Instead::Transpose => "its transpose".into(),
+            Instead::RotationTransposed => "it with the rotation transposed".into(),
+            Instead::RowsExchanged(i, j) => format!("it with rows {i} and {j} exchanged"),
+            Instead::RowSigns(i) => format!("it with the signs of row {i} changed"),
+            Instead::ColumnsExchanged(i, j) => format!("it with columns {i} and {j} exchanged"),
+            Instead::ColumnSigns(i) => format!("it with the signs of column {i} changed"),
+            Instead::Frame { of, seen_from } => format!("frame {of} in frame {seen_from}"),
+            Instead::Backwards { of, seen_from } => {
+                format!("the links of frame {of} in frame {seen_from} multiplied in the opposite order")
+            }
+            Instead::Without { of, seen_from, link } => {
+                format!("frame {of} in frame {seen_from} without link {link}")
+            }
+            Instead::ByTable { of, seen_from, line } => {
+                format!("frame {of} in frame {seen_from} of the table in line {line}")
+            }
+        }
+    }
+
+    fn remarked(&self, remark: &Remark) -> String {
+        match remark {
+            Remark::ManyRows { printed, wanted } => format!("{printed} rows are printed for {wanted}"),
+            Remark::ShortRow(row) => short_row(*row),
+            Remark::Incomparable(r, c) => format!("row {r}, column {c} has nothing to compare with"),
+            Remark::OthersDiffer(places) => {
+                let places: Vec<String> = places.iter().map(|(r, c)| format!("{r},{c}")).collect();
+                format!("worked out, entries {} differ, too", places.join("; "))
+            }
+            Remark::AngleUnit => "right if degrees are taken for radians, or radians for degrees".into(),
+            Remark::Millimetres => "right in millimetres".into(),
+            Remark::Metres => "right in metres".into(),
+            Remark::Sign => "right but for its sign".into(),
+            Remark::LastDigit => "off in the last digit: angles or π were rounded on the way".into(),
+            Remark::OffBy(x) => format!("off by {}", decimal(*x)),
+            Remark::Sampled => "found so in samples, not proved".into(),
+            Remark::Compared(poses) => format!("by comparison with all solutions at {poses} poses"),
+            Remark::SignLost { value, by, right_where } => {
+                let place = match &right_where[..] {
+                    [] => String::new(),
+                    some => format!(" (right where {})", positive(some, " and ")),
+                };
+                format!("{}{}{place}", which(*value), sign_lost(*by))
+            }
+            Remark::LeftOut(m) => format!(
+                "solutions are left out at {} % of the poses: {} of {} values",
+                percent(m.poses),
+                m.given,
+                m.existing
+            ),
+            Remark::NoSolution { value, share } => {
+                format!("{}belongs to no solution at {} % of the poses", which(*value), percent(*share))
+            }
+            Remark::NoNumber { value, share } => {
+                format!("{}is no number at {} % of the poses", which(*value), percent(*share))
+            }
+            Remark::DivisionByZero { factor, zeros } => division_by_zero(factor, zeros),
+            Remark::FailsAt(q) => format!("wrong at q = {q:.4?}, though the joint is determined there"),
+            Remark::Residual(e) => format!("left minus right is {e}"),
+        }
+    }
+
+    fn right_where(&self, condition: &Condition) -> String {
+        match condition {
+            Condition::OneSign => "with one of its signs".into(),
+            Condition::OwnSign => "with the sign that belongs to the configuration".into(),
+            Condition::Incomplete(missing) => {
+                let gives = missing.map(|m| format!(": it gives {} of {} values", m.given, m.existing));
+                format!("as far as it goes, but solutions are left out{}", gives.unwrap_or_default())
+            }
+            Condition::Configurations(any) if any.is_empty() => "in a part of all configurations".into(),
+            Condition::Configurations(any) => {
+                let any: Vec<String> = any.iter().map(|all| positive(all, " and ")).collect();
+                format!("where {}", any.join(", or where "))
+            }
+            Condition::Orientations(all) if all.is_empty() => "in a part of all orientations".into(),
+            Condition::Orientations(all) => format!("where {}", positive(all, " and ")),
+        }
+    }
+
+    fn either(&self, values: &[String]) -> Option<String> {
+        (!values.is_empty()).then(|| values.join(" or "))
+    }
+
+    fn unproved(&self, why: Unproved) -> String {
+        match why {
+            Unproved::NoLength => "a length has no value: state it before, `a1 = 0.5 m`",
+            Unproved::NotFound => "neither proved equal nor different anywhere that was tried",
+            Unproved::NotOfSet => "these are no angles of that set",
+            Unproved::Values(why) => return self.undecided(why),
+        }
+        .into()
+    }
+
+    fn undecided(&self, why: Undecided) -> String {
+        match why {
+            Undecided::UnknownSymbol(s) => {
+                return format!("`{}` is neither a joint, a length nor an entry of the pose", s.name());
+            }
+            Undecided::Shape => "there are too many values",
+            Undecided::Circular => "the formula uses the joint that it is for",
+            Undecided::NeverDefined => "the formula is no number at any pose",
+            Undecided::NoSamples => "there are no poses to try it at",
+            Undecided::NoEnumeration => "the solutions of this arm cannot be listed",
+        }
+        .into()
+    }
+
+    fn slip(&self, kind: &SlipKind) -> String {
+        match kind {
+            SlipKind::Formula(slip) => self.formula_slip(slip),
+            SlipKind::ExchangedWith(r, c) => format!("exchanged with row {r}, column {c}"),
+            SlipKind::OtherEntry => "another entry".into(),
+        }
+    }
+
+    fn formula_slip(&self, slip: &Slip) -> String {
+        match slip {
+            Slip::Sign => "a sign",
+            Slip::SineForCosine => "sine and cosine swapped",
+            Slip::Index => "an index",
+            Slip::Symbol => "another symbol",
+            Slip::LostFactor => "a lost factor",
+            Slip::ExtraFactor => "a factor too many",
+            Slip::LostTerm => "a lost term",
+            Slip::ExtraTerm => "a term too many",
+            Slip::Bracket => "a bracket",
+            Slip::Exponent => "an exponent",
+            Slip::Number => "a number",
+            Slip::Exchanged => "two names exchanged",
+            Slip::Replaced => "another expression",
+            Slip::Several(all) => {
+                return match all.first() {
+                    Some(first) if all.iter().all(|s| s == first) => {
+                        format!("{}, {} times", self.formula_slip(first), all.len())
+                    }
+                    _ => all.iter().map(|s| self.formula_slip(s)).collect::<Vec<_>>().join(" and "),
+                };
+            }
+        }
+        .into()
+    }
+
+    fn change(&self, change: &Change) -> String {
+        match change {
+            Change::Opposite(TableCell { letter, row }) => {
+                format!("{letter}{row} with the opposite sign in the table")
+            }
+            Change::Forgotten(TableCell { letter, row }) => format!("{letter}{row} forgotten"),
+            Change::ExchangedWithNext(TableCell { letter, row }) => {
+                format!("{letter}{row} and {letter}{} exchanged in the table", row + 1)
+            }
+            Change::Alpha { row, degrees: 0 } => format!("α{row} = 0 in the table"),
+            Change::Alpha { row, degrees } => format!("α{row} = {degrees}° in the table"),
+            Change::Offset { row, degrees } => format!("θ{row} with an offset of {degrees}° more"),
+            Change::CountedBackwards(row) => format!("θ{row} counted the other way"),
+            Change::Convention(convention) => format!("the table read in the convention `{convention}`"),
+            Change::NoTool => "the tool left out".into(),
+            Change::Vanishing(symbol) => self.is_zero(*symbol),
+            Change::Definition { name, slip } => format!("the definition of {name}: {}", self.slip(slip)),
+        }
+    }
+
+    fn unreadable(&self, why: &Unreadable) -> String {
+        match why {
+            Unreadable::Syntax { message, .. } => message.clone(),
+            Unreadable::Unknown(name) => format!("unknown `{name}`"),
+            Unreadable::ManyElements { elements, most } => {
+                format!("the matrix has {elements} elements; at most {most} are read")
+            }
+            Unreadable::ShortRow(row) => short_row(*row),
+            Unreadable::LongProduct => "the product is too long to be worked out".into(),
+            Unreadable::NeitherFormulaNorProduct => "neither a formula nor a product of matrices".into(),
+            Unreadable::NoKnownProduct => "no product of matrices that are known".into(),
+            Unreadable::NoConfiguration => "a number, but the joints have no values here".into(),
+            Unreadable::Alias => "the alias cannot be read".into(),
+            Unreadable::NothingTold(function) => format!("nothing says what `{function}` returns"),
+        }
+    }
+
+    fn unreadable_hint(&self, why: &Unreadable) -> Option<String> {
+        match why {
+            Unreadable::Syntax { hint, .. } => hint.clone(),
+            Unreadable::NoConfiguration => {
+                Some("state them before: `θ1 = 30°, θ2 = 45°`, or `q = [0.5, 0.8]`".into())
+            }
+            Unreadable::NothingTold(_) => Some(
+                "return a pose, a position or a Jacobian as an array, or give what is returned a name such as T06, px, J"
+                    .into(),
+            ),
+            Unreadable::Unknown(_)
+            | Unreadable::ManyElements { .. }
+            | Unreadable::ShortRow(_)
+            | Unreadable::LongProduct
+            | Unreadable::NeitherFormulaNorProduct
+            | Unreadable::NoKnownProduct
+            | Unreadable::Alias => None,
+        }
+    }
+
+    fn noted(&self, what: &Noted) -> String {
+        match what {
+            Noted::Table { message, .. } | Noted::Document(message) => message.clone(),
+            Noted::TooLong { bytes, most } => {
+                format!("the document has {bytes} bytes; at most {most} are read")
+            }
+            Noted::NoRobot => {
+                "there is no robot: no table of Denavit-Hartenberg parameters stands in the document".into()
+            }
+            Noted::ReadAs(convention) => format!("tables are read as {convention}: the text says so"),
+            Noted::UnknownRobot(name) => format!("no robot `{name}` in the catalogue"),
+            Noted::NoSuchTable => "there is no such table".into(),
+            Noted::UnknownConvention(name) => format!("unknown convention `{name}`"),
+            Noted::NoTool => "a tool is three lengths".into(),
+            Noted::PassedOver(why) => format!("passed over: {}", self.unreadable(why)),
+            Noted::NotRead(why) => format!("not read: {}", self.unreadable(why)),
+            Noted::Together(composed) => together(composed),
+        }
+    }
+
+    fn noted_hint(&self, what: &Noted) -> Option<String> {
+        let hint = match what {
+            Noted::Table { hint, .. } => return hint.clone(),
+            Noted::PassedOver(why) | Noted::NotRead(why) => return self.unreadable_hint(why),
+            Noted::NoRobot => {
+                "name the robot before the file, or put its table into the document, its header with at least three of \
+                 theta, d, a, alpha, r"
+            }
+            Noted::UnknownConvention(_) => "the conventions are standard, craig and khalil",
+            Noted::NoTool => "write `tool 0, 0, r_7`",
+            Noted::Document(_)
+            | Noted::TooLong { .. }
+            | Noted::ReadAs(_)
+            | Noted::UnknownRobot(_)
+            | Noted::NoSuchTable
+            | Noted::Together(_) => return None,
+        };
+        Some(hint.into())
+    }
+}
+
+fn frame(which: Reference) -> String {
+    match which {
+        Reference::Base => "the base".into(),
+        Reference::Frame(k) => format!("frame {k}"),
+        Reference::Tool => "the hand".into(),
+    }
+}
+
+fn matrix_of_velocities(jacobian: &Jacobian) -> String {
+    let body = match jacobian.body {
+        Reference::Tool => "the hand",
+        Reference::Base | Reference::Frame(_) => "the origin of the last frame",
+    };
+    let axes = match jacobian.axes {
+        Reference::Frame(0) => String::new(),
+        Reference::Frame(k) => format!(" along the axes of frame {k}"),
+        Reference::Base | Reference::Tool => " along its own axes".into(),
+    };
+    let first = if jacobian.is_angular_first { ", angular rows first" } else { "" };
+    let part = match jacobian.rows {
+        2 | 3 | 6 => String::new(),
+        rows => format!(", {rows} rows of 6"),
+    };
+    format!("the Jacobian of {body}{axes}{first}{part}")
+}
+
+fn short_row(ShortRow { row, elements, width }: ShortRow) -> String {
+    format!("row {row} has {elements} elements for {width}")
+}
+
+/// Which of several values, before what is said of it.
+fn which(value: Option<usize>) -> String {
+    value.map_or(String::new(), |k| format!("value {} ", k + 1))
+}
+
+fn sign_lost(by: Cause) -> &'static str {
+    match by {
+        Cause::Arctan => "an arctangent of a quotient loses the quadrant: atan2 keeps it",
+        Cause::Arcsin => "an arcsine gives one of two angles",
+        Cause::Arccos => "an arccosine gives one of two angles",
+        Cause::Atan2 => "both arguments of atan2 have the wrong sign elsewhere",
+        Cause::Root => "the sign of the root is not that of the configuration",
+        Cause::Other => "the sign is lost",
+    }
+}
+
+fn division_by_zero(factor: &Formula, zeros: &[Zeros]) -> String {
+    let zero = |zeros: &Zeros| {
+        let angle = zeros.angle.as_ref().map(ToString::to_string).unwrap_or_default();
+        let values: Vec<String> = zeros.values.iter().map(ToString::to_string).collect();
+        format!("{angle} = {}", values.join(" or "))
+    };
+    let zeros: Vec<String> = zeros.iter().map(zero).collect();
+    let place = if zeros.is_empty() { String::new() } else { format!(" ({})", zeros.join("; ")) };
+    format!("division by zero where {factor} = 0{place}")
+}
+
+fn together(c: &Composed) -> String {
+    let spurious = match c.spurious {
+        0 => String::new(),
+        n => format!(", and {n} configurations that do not reach the pose"),
+    };
+    format!(
+        "one after another the formulas yield {} of {} solutions at {} poses{spurious}",
+        c.yielded, c.existing, c.poses
+    )
+}
