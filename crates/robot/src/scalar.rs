@@ -21,10 +21,12 @@ pub trait Scalar:
     /// An integer.
     fn int(n: i64) -> Self;
     /// 0
+    #[inline]
     fn zero() -> Self {
         Self::int(0)
     }
     /// 1
+    #[inline]
     fn one() -> Self {
         Self::int(1)
     }
@@ -35,24 +37,30 @@ pub trait Scalar:
 }
 
 impl Scalar for f64 {
+    #[inline]
     fn int(n: i64) -> Self {
         n as f64
     }
+    #[inline]
     fn sin_cos(self) -> (Self, Self) {
         f64::sin_cos(self)
     }
+    #[inline]
     fn sqrt(self) -> Self {
         f64::sqrt(self)
     }
 }
 
 impl Scalar for Expr {
+    #[inline]
     fn int(n: i64) -> Self {
         Expr::int(n)
     }
+    #[inline]
     fn sin_cos(self) -> (Self, Self) {
         Expr::sin_cos(self)
     }
+    #[inline]
     fn sqrt(self) -> Self {
         Expr::sqrt(self)
     }

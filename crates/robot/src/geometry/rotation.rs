@@ -4,7 +4,7 @@
 //! columns n, o, a (Paul 1981) or s, n, a (Khalil and Dombre 2002).
 //! Angles are in radians and positive by the right-hand rule.
 
-use super::vector::{Axis, Vector};
+use super::vector::{Axis, Vector, three};
 use crate::scalar::Scalar;
 use std::fmt;
 use std::ops::{Index, Mul};
@@ -40,6 +40,7 @@ pub enum NotRigid {
 
 impl<T: Scalar> Rotation<T> {
     /// No rotation.
+    #[inline]
     pub fn identity() -> Self {
         Rotation(Axis::ALL.map(|a| Vector::unit(a).0))
     }
@@ -84,38 +85,45 @@ impl<T: Scalar> Rotation<T> {
 
     /// The matrix with these rows, unchecked: that it is a rotation is the caller's word.
     /// [`Rotation::from_matrix`] checks numbers.
+    #[inline]
     pub fn from_rows(rows: [[T; 3]; 3]) -> Self {
         Rotation(rows)
     }
 
     /// The rows.
+    #[inline]
     pub fn rows(&self) -> [[T; 3]; 3] {
         self.0
     }
 
     /// The first column: axis x of the rotated frame (n; s in Khalil's letters).
+    #[inline]
     pub fn x(&self) -> Vector<T> {
         self.column(Axis::X)
     }
 
     /// The second column: axis y of the rotated frame (o; n in Khalil's letters).
+    #[inline]
     pub fn y(&self) -> Vector<T> {
         self.column(Axis::Y)
     }
 
     /// The third column: axis z of the rotated frame (a, the approach direction of a hand).
+    #[inline]
     pub fn z(&self) -> Vector<T> {
         self.column(Axis::Z)
     }
 
     /// An axis of the rotated frame.
+    #[inline]
     pub fn column(&self, axis: Axis) -> Vector<T> {
-        Vector(self.0.map(|row| row[axis.index()]))
+        Vector(three(|i| self.0[i][axis.index()]))
     }
 
     /// r_ba from r_ab: the transpose.
+    #[inline]
     pub fn inverse(&self) -> Self {
-        Rotation(Axis::ALL.map(|a| self.column(a).0))
+        Rotation(three(|i| three(|j| self.0[j][i])))
     }
 
     /// The determinant: 1 for a rotation.
@@ -124,6 +132,7 @@ impl<T: Scalar> Rotation<T> {
     }
 
     /// The same matrix in another scalar type.
+    #[inline]
     pub fn map<U>(&self, mut f: impl FnMut(T) -> U) -> Rotation<U> {
         Rotation(self.0.map(|row| row.map(&mut f)))
     }
@@ -173,6 +182,7 @@ impl Rotation<f64> {
 /// If an index is not below 3.
 impl<T> Index<(usize, usize)> for Rotation<T> {
     type Output = T;
+    #[inline]
     fn index(&self, (row, column): (usize, usize)) -> &T {
         &self.0[row][column]
     }
@@ -181,17 +191,20 @@ impl<T> Index<(usize, usize)> for Rotation<T> {
 /// r_ac = r_ab · r_bc
 impl<T: Scalar> Mul for Rotation<T> {
     type Output = Self;
+    #[inline]
     fn mul(self, r_bc: Self) -> Self {
-        let [x, y, z] = r_bc.0;
-        Rotation(self.0.map(|[a, b, c]| [0, 1, 2].map(|j| a * x[j] + b * y[j] + c * z[j])))
+        let (rows, [x, y, z]) = (self.0, r_bc.0);
+        let entry = |[a, b, c]: [T; 3], j: usize| a * x[j] + b * y[j] + c * z[j];
+        Rotation(three(|i| three(|j| entry(rows[i], j))))
     }
 }
 
 /// v_a = r_ab · v_b
 impl<T: Scalar> Mul<Vector<T>> for Rotation<T> {
     type Output = Vector<T>;
+    #[inline]
     fn mul(self, v_b: Vector<T>) -> Vector<T> {
-        Vector(self.0.map(|row| Vector(row).dot(v_b)))
+        Vector(three(|i| Vector(self.0[i]).dot(v_b)))
     }
 }
 

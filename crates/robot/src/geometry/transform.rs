@@ -48,11 +48,13 @@ pub struct Transform<T> {
 
 impl<T: Scalar> Transform<T> {
     /// The same frame.
+    #[inline]
     pub fn identity() -> Self {
         Self::from_rotation_translation(Rotation::identity(), Vector::zero())
     }
 
     /// First the translation (in `a`), then the rotation about the new origin.
+    #[inline]
     pub fn from_rotation_translation(rotation: Rotation<T>, translation: Vector<T>) -> Self {
         Transform { rotation, translation }
     }
@@ -98,17 +100,20 @@ impl<T: Scalar> Transform<T> {
     }
 
     /// x_ba from x_ab: [Rᵀ, −Rᵀp].
+    #[inline]
     pub fn inverse(&self) -> Self {
         let r_ba = self.rotation.inverse();
         Self::from_rotation_translation(r_ba, -(r_ba * self.translation))
     }
 
     /// The coordinates in `a` of a point given in `b`: R·p + t.
+    #[inline]
     pub fn act_on_point(&self, p_b: Vector<T>) -> Vector<T> {
         self.rotation * p_b + self.translation
     }
 
     /// The coordinates in `a` of a free vector (a direction, a velocity, a force) given in `b`: R·v.
+    #[inline]
     pub fn act_on_vector(&self, v_b: Vector<T>) -> Vector<T> {
         self.rotation * v_b
     }
@@ -120,6 +125,7 @@ impl<T: Scalar> Transform<T> {
     }
 
     /// The same transform in another scalar type.
+    #[inline]
     pub fn map<U>(&self, mut f: impl FnMut(T) -> U) -> Transform<U> {
         Transform { rotation: self.rotation.map(&mut f), translation: self.translation.map(&mut f) }
     }
@@ -149,6 +155,7 @@ impl Transform<f64> {
 /// x_ac = x_ab · x_bc
 impl<T: Scalar> Mul for Transform<T> {
     type Output = Self;
+    #[inline]
     fn mul(self, x_bc: Self) -> Self {
         let p_ac = self.act_on_point(x_bc.translation);
         Self::from_rotation_translation(self.rotation * x_bc.rotation, p_ac)

@@ -20,6 +20,7 @@ impl Axis {
     pub const ALL: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
 
     /// 0, 1 or 2: the row or column that belongs to the axis.
+    #[inline]
     pub fn index(self) -> usize {
         self as usize
     }
@@ -35,36 +36,48 @@ impl fmt::Display for Axis {
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Vector<T>(pub [T; 3]);
 
+/// What is for 0, 1 and 2, in this order. Not by `array::map`, which the compiler may leave as a call.
+#[inline(always)]
+pub(crate) fn three<U>(mut of: impl FnMut(usize) -> U) -> [U; 3] {
+    [of(0), of(1), of(2)]
+}
+
 impl<T: Scalar> Vector<T> {
     /// The vector with these coordinates.
+    #[inline]
     pub fn new(x: T, y: T, z: T) -> Self {
         Vector([x, y, z])
     }
 
     /// The vector whose coordinates are 0.
+    #[inline]
     pub fn zero() -> Self {
         Vector([T::zero(); 3])
     }
 
     /// The unit vector along an axis of the frame.
+    #[inline]
     pub fn unit(axis: Axis) -> Self {
         Vector(Axis::ALL.map(|a| if a == axis { T::one() } else { T::zero() }))
     }
 
     /// The inner product a · b.
+    #[inline]
     pub fn dot(self, b: Self) -> T {
         self.0[0] * b.0[0] + self.0[1] * b.0[1] + self.0[2] * b.0[2]
     }
 
     /// The cross product a × b.
+    #[inline]
     pub fn cross(self, b: Self) -> Self {
         let ([ax, ay, az], [bx, by, bz]) = (self.0, b.0);
         Vector([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx])
     }
 
     /// Each coordinate times `k`.
+    #[inline]
     pub fn scale(self, k: T) -> Self {
-        Vector(self.0.map(|x| x * k))
+        Vector(three(|i| self.0[i] * k))
     }
 
     /// The Euclidean length, in the unit of the coordinates.
@@ -73,6 +86,7 @@ impl<T: Scalar> Vector<T> {
     }
 
     /// The same coordinates in another scalar type.
+    #[inline]
     pub fn map<U>(self, f: impl FnMut(T) -> U) -> Vector<U> {
         Vector(self.0.map(f))
     }
@@ -82,6 +96,7 @@ impl<T: Scalar> Vector<T> {
 /// If the index is not below 3.
 impl<T> Index<usize> for Vector<T> {
     type Output = T;
+    #[inline]
     fn index(&self, i: usize) -> &T {
         &self.0[i]
     }
@@ -89,6 +104,7 @@ impl<T> Index<usize> for Vector<T> {
 
 impl<T: Scalar> Add for Vector<T> {
     type Output = Self;
+    #[inline]
     fn add(self, b: Self) -> Self {
         Vector([self.0[0] + b.0[0], self.0[1] + b.0[1], self.0[2] + b.0[2]])
     }
@@ -96,6 +112,7 @@ impl<T: Scalar> Add for Vector<T> {
 
 impl<T: Scalar> Sub for Vector<T> {
     type Output = Self;
+    #[inline]
     fn sub(self, b: Self) -> Self {
         Vector([self.0[0] - b.0[0], self.0[1] - b.0[1], self.0[2] - b.0[2]])
     }
@@ -103,13 +120,15 @@ impl<T: Scalar> Sub for Vector<T> {
 
 impl<T: Scalar> Neg for Vector<T> {
     type Output = Self;
+    #[inline]
     fn neg(self) -> Self {
-        Vector(self.0.map(|x| -x))
+        Vector(three(|i| -self.0[i]))
     }
 }
 
 impl<T: Scalar> Mul<T> for Vector<T> {
     type Output = Self;
+    #[inline]
     fn mul(self, k: T) -> Self {
         self.scale(k)
     }

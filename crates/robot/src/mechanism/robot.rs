@@ -50,11 +50,13 @@ pub struct Affine<T> {
 }
 
 impl<T: Scalar> Affine<T> {
+    #[inline]
     fn linear(&self, q: &[T]) -> Option<T> {
         self.terms.iter().map(|&(j, k)| if k == T::one() { q[j] } else { k * q[j] }).reduce(|a, b| a + b)
     }
 
     /// The value at a configuration, quarter turns left aside.
+    #[inline]
     fn value(&self, q: &[T]) -> T {
         match self.linear(q) {
             None => self.offset,
@@ -69,6 +71,7 @@ impl<T: Scalar> Affine<T> {
     }
 
     /// Sine and cosine at a configuration.
+    #[inline]
     pub(crate) fn sin_cos(&self, q: &[T]) -> (T, T) {
         let (mut s, mut c) = self.value(q).sin_cos();
         for _ in 0..self.quarters {
@@ -108,6 +111,7 @@ impl<T: Scalar> Link<T> {
     }
 
     /// Frame i in frame i−1 at a configuration.
+    #[inline]
     pub fn transform(&self, q: &[T]) -> Transform<T> {
         let (sin_cos, d) = (self.theta.sin_cos(q), self.d.value(q));
         let [is_first, is_last] = self.is_bare;
@@ -119,11 +123,13 @@ impl<T: Scalar> Link<T> {
     }
 
     /// For a place of the frame before the row: the row's axis, the z in which its screw stands, and the frame behind it.
+    #[inline]
     pub fn step(&self, frame: &Transform<T>, q: &[T]) -> (Line<T>, Transform<T>) {
         (self.axis(frame), *frame * self.transform(q))
     }
 
     /// The row's axis, for a place of the frame before the row.
+    #[inline]
     pub fn axis(&self, frame: &Transform<T>) -> Line<T> {
         if self.is_bare[0] {
             return Line::z_of(frame);
@@ -134,18 +140,22 @@ impl<T: Scalar> Link<T> {
 }
 
 /// x · Rz(θ)·Tz(d)
+#[inline]
 fn times_screw<T: Scalar>(x: &Transform<T>, (s, c): (T, T), d: T) -> Transform<T> {
-    let rows = x.rotation.rows().map(|[a, b, z]| [a * c + b * s, a * -s + b * c, z]);
+    let row = |[a, b, z]: [T; 3]| [a * c + b * s, a * -s + b * c, z];
+    let rows = x.rotation.rows();
+    let rows = [row(rows[0]), row(rows[1]), row(rows[2])];
     Transform::from_rotation_translation(Rotation::from_rows(rows), x.rotation.z().scale(d) + x.translation)
 }
 
 /// Rz(θ)·Tz(d) · x
+#[inline]
 fn screw_times<T: Scalar>((s, c): (T, T), d: T, x: &Transform<T>) -> Transform<T> {
     let ([a, b, z], Vector([p, q, r])) = (x.rotation.rows(), x.translation);
     let turned = |a: T, b: T| (c * a + -s * b, s * a + c * b);
-    let columns = [0, 1, 2].map(|j| turned(a[j], b[j]));
+    let [x, y, w] = [turned(a[0], b[0]), turned(a[1], b[1]), turned(a[2], b[2])];
     let (p, q) = turned(p, q);
-    let rows = [columns.map(|v| v.0), columns.map(|v| v.1), z];
+    let rows = [[x.0, y.0, w.0], [x.1, y.1, w.1], z];
     Transform::from_rotation_translation(Rotation::from_rows(rows), Vector([p, q, r + d]))
 }
 

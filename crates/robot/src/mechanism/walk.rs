@@ -56,6 +56,7 @@ pub struct Walk<T> {
 
 impl<T: Scalar> Line<T> {
     /// The z of a frame.
+    #[inline]
     pub(crate) fn z_of(frame: &Transform<T>) -> Self {
         Line { direction: frame.rotation.z(), point: frame.translation }
     }
