@@ -10,7 +10,7 @@ import { NumberField } from "../widgets/number.tsx";
 import { Slider } from "../widgets/slider.tsx";
 
 export function measureOf(joint: Joint): Measure {
-  return joint.kind === "revolute" ? "angle" : "length";
+  return joint.kind === "R" ? "angle" : "length";
 }
 
 /** `q1 (shoulder)` */

@@ -112,7 +112,7 @@ function formatJoint(value: number, index: number): string {
 function same(one: number[], other: number[]): boolean {
   return one.every((value, index) => {
     const by = value - (other[index] ?? Number.NaN);
-    const turns = robot.value?.joints[index]?.kind === "revolute" ? Math.round(by / (2 * Math.PI)) * 2 * Math.PI : 0;
+    const turns = robot.value?.joints[index]?.kind === "R" ? Math.round(by / (2 * Math.PI)) * 2 * Math.PI : 0;
     return Math.abs(by - turns) < 1e-5;
   });
 }
@@ -225,7 +225,7 @@ function Option({ solution, index, isActive, isCurrent, onTake }: OptionProps) {
           const joint = robot.value?.joints[at];
           return (
             <span key={at} class={highlighted.value.has(at) ? "lit" : undefined}>
-              {joint ? format(value, measureOf(joint), look.value, joint.kind === "revolute" && look.value.angles === "rad" ? 3 : undefined) : short(value)}
+              {joint ? format(value, measureOf(joint), look.value, joint.kind === "R" && look.value.angles === "rad" ? 3 : undefined) : short(value)}
             </span>
           );
         })}
@@ -281,7 +281,7 @@ function nearest(curve: number[][], to: number[]): { index: number; distance: nu
   curve.forEach((member, index) => {
     const distance = member.reduce((sum, value, joint) => {
       const by = value - (to[joint] ?? 0);
-      const turned = robot.value?.joints[joint]?.kind === "revolute" ? by - Math.round(by / (2 * Math.PI)) * 2 * Math.PI : by;
+      const turned = robot.value?.joints[joint]?.kind === "R" ? by - Math.round(by / (2 * Math.PI)) * 2 * Math.PI : by;
       return sum + turned * turned;
     }, 0);
     if (distance < least) [best, least] = [index, distance];

@@ -71,7 +71,7 @@ function namesOf({ symbols }: Scene, palette: Palette): Label[] {
     if (joint === null || !model || !highlighted.peek().has(joint)) return [];
     const { name, kind } = model.joints[joint];
     const value = q.peek()[joint];
-    const text = `${name} = ${kind === "revolute" ? inAngle(value) : inLength(value)}`;
+    const text = `${name} = ${kind === "R" ? inAngle(value) : inLength(value)}`;
     return [{ text, at: add(centre, [0, 0, 1], Math.max(radius, half)), toward: [0, 0, 1], colour: palette.text, size: 13, plate: true, rank: 40 }];
   });
 }
