@@ -171,7 +171,7 @@ fn a_pose_beyond_reach_is_followed_to_the_nearest() {
     assert!(distance > 7.0, "{distance}");
     let reached = told("scene", json!({ "q": answer["nearest"]["q"] }));
     let tool = reached["frames"].as_array().and_then(|f| f.last().cloned()).expect("a tool");
-    assert!(far(&tool, &answer["obstacle"]["pose"]) < 1e-6);
+    assert!(far(&tool, &answer["stop"]["pose"]) < 1e-6);
 }
 
 #[test]
@@ -233,7 +233,7 @@ fn documents_code_and_pictures_are_made() {
     }
     let workspace = told("workspace", json!({}));
     assert!(workspace["area"].as_f64().is_some_and(|a| a > 0.0));
-    assert!(!told("singular", json!({}))["singular"].as_array().expect("a list").is_empty());
+    assert!(!told("singular", json!({}))["singularities"].as_array().expect("a list").is_empty());
 }
 
 #[test]
@@ -257,15 +257,15 @@ fn a_path_through_joints_and_lines_is_planned() {
     let points = json!([{ "kind": "joint", "q": to }, { "kind": "line", "pose": pose }]);
     let path = told("path", json!({ "start": q, "points": points, "samples": 50 }));
     let all = path["q"].as_array().expect("configurations");
-    assert_eq!(path["times"].as_array().map(Vec::len), Some(all.len()));
+    assert_eq!(path["t"].as_array().map(Vec::len), Some(all.len()));
     assert_eq!(path["reached"], 1.0);
     for (shown, right) in numbers(&all[0]).iter().zip(&q) {
         assert!((shown - right).abs() < 1e-9);
     }
-    let last = path["poses"].as_array().and_then(|p| p.last().cloned()).expect("a pose");
+    let last = path["pose"].as_array().and_then(|p| p.last().cloned()).expect("a pose");
     assert!(far(&last, &pose) < 1e-5, "{last} {pose}");
     // Times go on, and the whole takes as long as it says.
-    let times = numbers(&path["times"]);
+    let times = numbers(&path["t"]);
     assert!(times.windows(2).all(|t| t[0] <= t[1]) && times.last().copied() == path["duration"].as_f64());
     for points in [json!([]), json!([{ "kind": "joint", "q": [1] }])] {
         let refused = ask("path", json!({ "start": q, "points": points, "samples": 5 }));
@@ -280,7 +280,7 @@ fn a_self_motion_keeps_the_hand_still() {
     let answer = told("solve", json!({ "q": [0.3, -0.4, 0.2, 0.5, 0.0, -0.2] }));
     let family = &answer["families"][0];
     let curve = family["curve"].as_array().expect("members");
-    assert!(curve.len() > 20 && family["closed"] == true, "{family}");
+    assert!(curve.len() > 20 && answer["motions"][0]["closed"] == true, "{family}");
     for q in curve.iter().step_by(7) {
         let pose = told("solve", json!({ "q": q, "quick": true }))["pose"].clone();
         assert!(far(&pose, &answer["pose"]) < 1e-6);

@@ -80,7 +80,7 @@ export interface RobotModel {
   joints: Joint[];
   /** How many rows the table has. */
   rows: number;
-  parameters: { name: string; measure: "length" | "angle"; value: number | null; given: boolean }[];
+  parameters: { name: string; measure: "length" | "angle"; value: number; given: boolean }[];
   /** The configuration to begin with, a regular one. */
   q: number[];
   poses: { name: string; q: number[] }[];

@@ -27,14 +27,14 @@ export function Plots({ path }: { path: Path }) {
   const kinds = useMemo(() => {
     return (["R", "P"] as const)
       .filter((kind) => joints.some((joint) => joint.kind === kind))
-      .map((kind) => ({ kind, positions: curves(path.q, joints, kind, units, hidden), speeds: curves(path.qd, joints, kind, units, hidden) }));
+      .map((kind) => ({ kind, positions: curves(path.q, joints, kind, units, hidden), speeds: curves(path.velocity, joints, kind, units, hidden) }));
   }, [path, joints, units, hidden]);
   const manipulability = useMemo<Series[]>(() => [{ name: "manipulability", joint: null, values: path.manipulability }], [path]);
-  const common = { times: path.times, events: path.events };
+  const common = { times: path.t, events: path.events };
   const mixed = kinds.length > 1;
   return (
     <div class="plots">
-      <Legend times={path.times} entries={entries} hidden={hidden} toggle={toggle} />
+      <Legend times={path.t} entries={entries} hidden={hidden} toggle={toggle} />
       {kinds.map(({ kind, positions }) => (
         <Plot key={kind} title={mixed ? (kind === "R" ? "Joint angles" : "Joint displacements") : "Joints"} unit={unit(kind, units)} degrees={unit(kind, units) === "°"} series={positions} {...common} />
       ))}

@@ -11,5 +11,5 @@ export function describe(model: RobotModel | null, now: Scene | null, q: number[
   const [x, y, z] = hand ? originOf(hand) : [0, 0, 0];
   const count = model.joints.length === 1 ? "one joint" : `${model.joints.length} joints`;
   const also = others > 0 ? ` ${others} other ${others === 1 ? "configuration" : "configurations"} with the same hand.` : "";
-  return `${model.name}, ${count}: ${joints.join(", ")}. Hand at x ${inLength(x)}, y ${inLength(y)}, z ${inLength(z)}.${also}`;
+  return `${model.robot}, ${count}: ${joints.join(", ")}. Hand at x ${inLength(x)}, y ${inLength(y)}, z ${inLength(z)}.${also}`;
 }
