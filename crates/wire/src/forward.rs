@@ -32,6 +32,13 @@ pub struct Placed<'a> {
     pub within_limits: Option<bool>,
 }
 
+impl Placed<'_> {
+    /// Appends a line; compiled here, because there may be millions.
+    pub fn write(&self, out: &mut Vec<u8>) {
+        crate::line(self, out);
+    }
+}
+
 /// The link transforms and a forward model.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Derived {

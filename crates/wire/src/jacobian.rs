@@ -41,6 +41,11 @@ impl<'a> Matrix<'a> {
         let jacobian = entries.chunks(q.len().max(1)).collect();
         Matrix { frame, jacobian, q, robot, rows: ROWS, schema: Schema }
     }
+
+    /// Appends a line; compiled here, because there may be millions.
+    pub fn write(&self, out: &mut Vec<u8>) {
+        crate::line(self, out);
+    }
 }
 
 /// Everything about a configuration; with orientation, rates, twist, wrench or derivatives where those were asked for.

@@ -286,3 +286,68 @@ fn a_self_motion_keeps_the_hand_still() {
         assert!(far(&pose, &answer["pose"]) < 1e-6);
     }
 }
+
+/// The keys of an answer that are in camel case; those of maps are names in formulas.
+fn camels(value: &Value, out: &mut Vec<String>) {
+    match value {
+        Value::Object(map) => {
+            for (key, value) in map {
+                if key.chars().any(|c| c.is_ascii_uppercase()) {
+                    out.push(key.clone());
+                }
+                if !(key == "joints" && value.is_object()) && key != "values" {
+                    camels(value, out);
+                }
+            }
+        }
+        Value::Array(all) => all.iter().for_each(|value| camels(value, out)),
+        _ => {}
+    }
+}
+
+#[test]
+fn names_are_those_of_the_command_line() {
+    let d = denavit::catalogue::robot("puma560").expect("it is in the catalogue");
+    let q = [0.3, -0.4, 0.2, 0.5, 0.6, -0.2];
+    let (_, model) = taken("puma560");
+    let to: Vec<f64> = q.iter().map(|x| x + 0.1).collect();
+    let line = json!([{ "kind": "line", "pose": told("solve", json!({ "q": to }))["pose"] }]);
+    let answer = told("solve", json!({ "q": q, "near": q }));
+    let path = told("path", json!({ "start": q, "points": line, "samples": 10 }));
+    let scene = told("scene", json!({ "q": q }));
+    let singular = told("singular", json!({}));
+    let jacobian = told("jacobian", json!({ "q": q, "frame": "base" }));
+    let formulas = told("formulas", json!({ "topic": "jacobian", "q": q }));
+    let mut found = vec![];
+    for one in [&model, &answer, &path, &scene, &singular, &jacobian, &formulas] {
+        camels(one, &mut found);
+    }
+    assert!(found.is_empty(), "{found:?}");
+
+    // What `ik`, `show`, `jacobian` and `robots` print.
+    let read = |text: String| -> Value { serde_json::from_str(&text).expect("an answer is JSON") };
+    let mut solver = denavit::inverse::InverseKinematics::new(&d, &Default::default()).expect("it is solved");
+    let solved = solver.solve(&solver.robot.pose(&q), &[]);
+    let solution = |s| denavit_wire::inverse::Solution::of(s, &solver.space);
+    let solutions: Vec<_> = solved.solutions.iter().map(solution).collect();
+    assert_eq!(answer["solutions"], read(denavit_wire::text(&solutions)));
+    let shown = read(denavit_wire::text(&denavit_wire::robot::Robot::of(&d)));
+    assert_eq!(model["robot"], shown["robot"]);
+    assert_eq!(model["structure"], shown["structure"]);
+    assert_eq!(jacobian["robot"], shown["robot"]);
+    assert_eq!(jacobian["rows"], json!(["vx", "vy", "vz", "wx", "wy", "wz"]));
+    let kinds: String =
+        model["joints"].as_array().into_iter().flatten().filter_map(|j| j["kind"].as_str()).collect();
+    assert_eq!(shown["joints"], kinds);
+    let listed = told("catalogue", json!({}))["robots"].clone();
+    let whole = denavit_wire::catalogue::Catalogue::whole();
+    assert_eq!(listed, read(denavit_wire::text(&whole.robots)));
+    for place in [&answer["nearest"], &path["starts"][0]] {
+        assert!(place["within_limits"].is_boolean(), "{place}");
+    }
+    assert!(
+        scene["within_limits"].as_array().is_some_and(|all| all.len() == 6),
+        "{}",
+        scene["within_limits"]
+    );
+}

@@ -87,6 +87,6 @@ impl Answers {
             schema: Schema,
             within_limits: (!self.limits.is_empty()).then(|| self.limits.iter().zip(q).all(inside)),
         };
-        denavit_wire::line(&placed, out);
+        placed.write(out);
     }
 }

@@ -47,7 +47,7 @@ impl Worker for Jacobians {
                 Ok(()) => {
                     let q = &rows[row * n..][..n];
                     let entries = &results[row * 6 * n..][..6 * n];
-                    denavit_wire::line(&Matrix::of(&self.robot, &self.frame, q, entries), out);
+                    Matrix::of(&self.robot, &self.frame, q, entries).write(out);
                     row += 1;
                 }
                 Err((line, why)) => {
