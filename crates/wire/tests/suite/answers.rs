@@ -2,7 +2,7 @@
 
 use denavit::Robot;
 use denavit::catalogue;
-use denavit::description::Description;
+use denavit::description::{Description, JointKind};
 use denavit::forward::{Outputs, Proof, Reference};
 use denavit::geometry::Vector;
 use denavit::geometry::orientation::{OrientationSet, extract};
@@ -93,13 +93,19 @@ fn solved(d: &Description, q: &[f64]) -> Vec<(&'static str, String)> {
         solutions: answer.solutions.iter().map(|s| wire::Solution::of(s, &solver.space)).collect(),
         status: wire::status(answer),
     };
-    assert_eq!([wire::status(&answer), wire::status(&none)], ["solved", "unreachable"], "{}", d.name);
+    assert_eq!(wire::status(&answer), "solved", "{}", d.name);
+    // A slide without limits may reach everything.
+    assert!(has_slide(d) || wire::status(&none) == "unreachable", "{}", d.name);
     let mut all = vec![("ik", text(&wire_of(&answer))), ("ik", text(&wire_of(&none)))];
     all.push(match InverseModel::derive(d, &options) {
         Ok(model) => ("ik", text(&derivation::Derivation::of(&Explanation::of(&model)))),
         Err(why) => ("ik", text(&wire::Refused::of(d, &why.to_string()))),
     });
     all
+}
+
+fn has_slide(d: &Description) -> bool {
+    d.variables().iter().any(|v| v.kind == JointKind::Prismatic)
 }
 
 fn moving(d: &Description, numbers: &Robot<f64>, q: &[f64]) -> Vec<(&'static str, String)> {

@@ -75,7 +75,7 @@ fn limits_have_one_name() {
 /// A family is one of its members and more.
 #[test]
 fn a_family_is_a_solution() {
-    let all = answers("franka-panda");
+    let all = answers("puma560");
     let q = [0.3, -0.4, 0.2, 0.5, 0.0, -0.2];
     let d = catalogue::robot("puma560").expect("it is in the catalogue");
     let mut solver = denavit::inverse::InverseKinematics::new(&d, &Default::default()).expect("it is solved");
