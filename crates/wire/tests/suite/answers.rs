@@ -148,10 +148,10 @@ fn moving(d: &Description, numbers: &Robot<f64>, q: &[f64]) -> Vec<(&'static str
     let names = d.vocabulary();
     let print = |e: Expr| print(e, &names, Style::Ascii);
     let formulas = match Singularities::derive(d, Reference::Tool) {
-        Ok(found) => singular::Model::with_singularities(&d.name, &found, &print),
+        Ok(found) => singular::Model::with_singularities(&d.name, &found, print),
         Err(why) => singular::Model {
             always_singular: Some(why.to_string()),
-            ..singular::Model::of(&d.name, &JacobianModel::shortest(d, Reference::Tool), &print)
+            ..singular::Model::of(&d.name, &JacobianModel::shortest(d, Reference::Tool), print)
         },
     };
     vec![
