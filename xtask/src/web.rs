@@ -40,6 +40,9 @@ const PARTS: [split::Part; 3] = [
             "denavit_web::reach",
             "denavit_web::values",
             "denavit_web::velocity",
+            "denavit_wire::parts",
+            "denavit_wire::path",
+            "denavit_wire::singular",
         ],
     },
     split::Part {
@@ -57,6 +60,8 @@ const PARTS: [split::Part; 3] = [
             "denavit_report::words::french",
             "denavit_web::answer_documents",
             "denavit_web::documents",
+            "denavit_wire::check",
+            "denavit_wire::code",
         ],
     },
 ];

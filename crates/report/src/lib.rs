@@ -1,8 +1,8 @@
 //! Documents about a robot: what `denavit` derives, as a document that one would hand in.
 //!
 //! [`report`] makes a [`Document`], a tree that knows no format ([`document`]); [`explain`] the derivations in it; all words
-//! are those of [`words`]. [`render`] writes it as Typst, LaTeX, Markdown and HTML. [`figure`] draws the arm. [`json`] is what
-//! other programs read. Nothing here opens a file; nothing computes what the robot crate should.
+//! are those of [`words`]. [`render`] writes it as Typst, LaTeX, Markdown and HTML. [`figure`] draws the arm. Nothing
+//! here opens a file; nothing computes what the robot crate should.
 
 mod cell;
 mod derivation;
@@ -10,7 +10,6 @@ pub mod document;
 pub mod explain;
 mod explained;
 pub mod figure;
-pub mod json;
 pub mod render;
 mod sections;
 mod tree;

@@ -2,17 +2,16 @@
 
 use crate::refusal::Refusal;
 use crate::robot_file::RobotFile;
-use crate::session::finding;
 use crate::subject::Subject;
 use crate::words;
 use denavit::catalogue;
 use denavit::description::{
-    Convention, Description, Diagnostic, JointKind, TableKind, TableOptions, line_column, prove_same_chain,
-    read_table, read_toml, write_toml,
+    Convention, Description, Diagnostic, TableKind, TableOptions, prove_same_chain, read_table, read_toml,
+    write_toml,
 };
 use denavit_report::words::Geometry as _;
-use serde::Deserialize;
-use serde_json::{Value, json};
+use denavit_wire::finding::Finding;
+use serde::{Deserialize, Serialize};
 
 /// A text that holds a robot.
 #[derive(Deserialize)]
@@ -26,24 +25,28 @@ pub struct Open {
     table: Option<usize>,
 }
 
-/// All robots of the catalogue.
-pub fn list() -> Value {
-    let robots = catalogue::names().into_iter().filter_map(|name| {
-        let d = catalogue::robot(name)?;
-        let letter = |kind| if kind == JointKind::Revolute { 'R' } else { 'P' };
-        let joints: String = d.variables().iter().map(|v| letter(v.kind)).collect();
-        Some(json!({
-            "name": name, "title": d.name, "joints": joints, "convention": d.convention.name(), "source": d.source,
-        }))
-    });
-    json!({ "robots": robots.collect::<Vec<_>>() })
+/// The cells of a text, and what is to be said of it.
+#[derive(Serialize)]
+pub struct Opened {
+    file: Option<RobotFile>,
+    findings: Vec<Finding>,
+}
+
+/// A robot in another convention.
+#[derive(Serialize)]
+pub struct Converted {
+    file: Option<RobotFile>,
+    /// Whether both are proved to be the same chain.
+    proved: bool,
+    /// What moved.
+    words: String,
 }
 
 /// Reads a robot: its cells, and what is to be said of the text.
 ///
 /// # Errors
 /// If there is no such robot in the catalogue, no such kind of text, or no such convention.
-pub fn open(open: &Open) -> Result<Value, Refusal> {
+pub fn open(open: &Open) -> Result<Opened, Refusal> {
     let text = match open.kind.as_str() {
         "robot" => catalogue::text(&open.text)
             .ok_or_else(|| Refusal::new(format!("no robot `{}` in the catalogue", open.text)))?,
@@ -71,7 +74,7 @@ pub fn open(open: &Open) -> Result<Value, Refusal> {
     for &kind in kinds {
         match read_table(text, kind, &options) {
             Ok((description, findings)) => {
-                return Ok(opened(&description, findings.iter().map(|d| placed(d, text)).collect()));
+                return Ok(Opened { file: cells(&description), findings: placed(&findings, text) });
             }
             // The reader that came furthest says best what is wrong.
             Err(findings) if failed.as_ref().is_none_or(|before| reached(before) < reached(&findings)) => {
@@ -80,8 +83,7 @@ pub fn open(open: &Open) -> Result<Value, Refusal> {
             Err(_) => {}
         }
     }
-    let findings: Vec<Value> = failed.iter().flatten().map(|d| placed(d, text)).collect();
-    Ok(json!({ "file": null, "findings": findings }))
+    Ok(Opened { file: None, findings: placed(&failed.unwrap_or_default(), text) })
 }
 
 /// How far into a text a reader came.
@@ -90,24 +92,19 @@ fn reached(findings: &[Diagnostic]) -> usize {
 }
 
 /// A robot file, with its errors in its cells if it has some.
-fn robot_file(text: &str) -> Value {
+fn robot_file(text: &str) -> Opened {
     let findings = match read_toml(text) {
         Ok((_, findings)) | Err(findings) => findings,
     };
-    let findings: Vec<Value> = findings.iter().map(|d| placed(d, text)).collect();
-    json!({ "file": RobotFile::from_toml(text), "findings": findings })
+    Opened { file: RobotFile::from_toml(text), findings: placed(&findings, text) }
 }
 
-fn opened(description: &Description, findings: Vec<Value>) -> Value {
-    json!({ "file": RobotFile::from_toml(&write_toml(description)), "findings": findings })
+fn cells(description: &Description) -> Option<RobotFile> {
+    RobotFile::from_toml(&write_toml(description))
 }
 
-fn placed(d: &Diagnostic, text: &str) -> Value {
-    let (line, column) = line_column(text, d.span.start);
-    let mut value = finding(d);
-    value["line"] = line.into();
-    value["column"] = column.into();
-    value
+fn placed(findings: &[Diagnostic], text: &str) -> Vec<Finding> {
+    findings.iter().map(|d| Finding::placed(d, text)).collect()
 }
 
 fn convention(name: &str) -> Result<Convention, Refusal> {
@@ -119,11 +116,9 @@ fn convention(name: &str) -> Result<Convention, Refusal> {
 ///
 /// # Errors
 /// If there is no such convention.
-pub fn convert(subject: &Subject, to: &str) -> Result<Value, Refusal> {
+pub fn convert(subject: &Subject, to: &str) -> Result<Converted, Refusal> {
     let conversion = subject.description.converted(convention(to)?);
     let proved = prove_same_chain(&subject.description, &conversion.description).is_equal();
-    let mut value = opened(&conversion.description, vec![]);
-    value["words"] = words().moved(&conversion.moved).into();
-    value["proved"] = proved.into();
-    Ok(value)
+    let (file, words) = (cells(&conversion.description), words().moved(&conversion.moved));
+    Ok(Converted { file, proved, words })
 }

@@ -7,7 +7,6 @@ use denavit_report::{Document, render};
 use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Expr, Node, Symbol};
-use serde_json::{Map, Value, json};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// The names that a document defines, in its order, and what they are about.
@@ -72,14 +71,14 @@ impl Definitions {
     }
 
     /// For each name the joints, from 0.
-    pub fn joints(&self) -> Value {
+    pub fn joints(&self) -> BTreeMap<String, BTreeSet<usize>> {
         let known = self.joints.iter().filter(|(_, joints)| !joints.is_empty());
-        known.map(|(name, joints)| (name.clone(), json!(joints))).collect::<Map<String, Value>>().into()
+        known.map(|(name, joints)| (name.clone(), joints.clone())).collect()
     }
 
     /// The number of each name at a configuration; names whose sign a branch decides are left out unless one sign gives the
     /// joint's own value.
-    pub fn values(&self, valued: &Description, robot: &Robot<f64>, q: &[f64]) -> Map<String, Value> {
+    pub fn values(&self, valued: &Description, robot: &Robot<f64>, q: &[f64]) -> BTreeMap<String, f64> {
         let mut known: HashMap<Symbol, f64> = HashMap::new();
         for (v, x) in valued.variables().iter().zip(q) {
             known.insert(v.symbol, *x);
@@ -91,16 +90,16 @@ impl Definitions {
                 known.entry(Symbol::new(&format!("{letter}{axis}"))).or_insert(pose[row][column]);
             }
         }
-        let mut values = Map::new();
+        let mut values = BTreeMap::new();
         for (name, e) in &self.short {
             if let Ok(x) = e.eval(|s| known.get(&s).copied()) {
-                values.insert(name.clone(), x.into());
+                values.insert(name.clone(), x);
             }
         }
         for (name, e) in &self.defined {
             let Ok(x) = e.eval(|s| known.get(&s).copied()) else { continue };
             known.entry(*name).or_insert(x);
-            values.insert(name.name().to_string(), x.into());
+            values.insert(name.name().to_string(), x);
         }
         values
     }

@@ -10,18 +10,18 @@ use denavit_reading::document::Format;
 use denavit_report::figure::svg::{Palette, svg};
 use denavit_report::figure::{Options as Look, View, isometric, scheme};
 use denavit_report::words::Language as Tongue;
-use denavit_report::{Options, json as as_json, render};
-use serde::Deserialize;
-use serde_json::{Value, json};
+use denavit_report::{Options, render};
+use denavit_wire::check::Checked;
+use serde::{Deserialize, Serialize};
 
 /// The claims of a text, each with its verdict.
 ///
 /// # Errors
 /// If the text cannot be read.
-pub fn check(subject: &Subject, text: &str, name: &str) -> Result<Value, Refusal> {
+pub fn check(subject: &Subject, text: &str, name: &str) -> Result<Checked, Refusal> {
     let format = Format::of(name, text);
     match checked(text, format, Some(&subject.description), &denavit_check::Options::default()) {
-        Ok(found) => Ok(as_json::checked(name, text, &found)),
+        Ok(found) => Ok(Checked::of(name, text, &found)),
         Err(notes) => {
             let first = notes.first().map(|n| Tongue::English.words().note(n));
             let hint = first.as_ref().and_then(|d| d.hint.clone());
@@ -30,11 +30,26 @@ pub fn check(subject: &Subject, text: &str, name: &str) -> Result<Value, Refusal
     }
 }
 
+/// A file beside others.
+#[derive(Serialize)]
+struct File {
+    path: String,
+    text: String,
+}
+
+/// A report, in Markdown with its figures.
+#[derive(Serialize)]
+pub struct Written {
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    files: Vec<File>,
+    text: String,
+}
+
 /// The whole report.
 ///
 /// # Errors
 /// If there is no such format or language.
-pub fn report(subject: &Subject, format: &str, language: &str, q: &[f64]) -> Result<Value, Refusal> {
+pub fn report(subject: &Subject, format: &str, language: &str, q: &[f64]) -> Result<Written, Refusal> {
     let language = match language {
         "en" => Tongue::English,
         "fr" => Tongue::French,
@@ -50,20 +65,29 @@ pub fn report(subject: &Subject, format: &str, language: &str, q: &[f64]) -> Res
         "latex" => render::latex(&document),
         "markdown" => {
             let written = render::markdown(&document, "figures");
-            let figures: Vec<Value> =
-                written.figures.iter().map(|(path, text)| json!({ "path": path, "text": text })).collect();
-            return Ok(json!({ "text": written.text, "files": figures }));
+            let figures = written.figures.into_iter().map(|(path, text)| File { path, text });
+            return Ok(Written { files: figures.collect(), text: written.text });
         }
         other => return Err(Refusal::new(format!("no format `{other}`: html, typst, latex or markdown"))),
     };
-    Ok(json!({ "text": text }))
+    Ok(Written { files: vec![], text })
+}
+
+/// Source code.
+#[derive(Serialize)]
+pub struct Code {
+    files: Vec<File>,
+    /// The command that tests it.
+    test: String,
+    /// What is to be said of it, line by line.
+    words: String,
 }
 
 /// Source code that builds and tests itself.
 ///
 /// # Errors
 /// If there is no such language.
-pub fn code(subject: &Subject, language: &str, name: Option<String>) -> Result<Value, Refusal> {
+pub fn code(subject: &Subject, language: &str, name: Option<String>) -> Result<Code, Refusal> {
     let wanted = |l: &Language| l.name().eq_ignore_ascii_case(language);
     let language = Language::ALL
         .into_iter()
@@ -79,14 +103,15 @@ pub fn code(subject: &Subject, language: &str, name: Option<String>) -> Result<V
         fixed: false,
     };
     let made = generate(&subject.description, &options).map_err(|why| Refusal::new(why.to_string()))?;
-    let files: Vec<Value> = made.files.iter().map(|f| json!({ "path": f.path, "text": f.text })).collect();
     let mut words: Vec<String> = made
         .functions
         .iter()
         .map(|(wanted, count, proof)| format!("{wanted}: {count}; {}", wanted.claim(*proof)))
         .collect();
     words.extend(made.refused.iter().map(|why| format!("no ik: {why}")));
-    Ok(json!({ "files": files, "words": words.join("\n"), "test": made.test_command(language) }))
+    let test = made.test_command(language);
+    let files = made.files.into_iter().map(|f| File { path: f.path, text: f.text }).collect();
+    Ok(Code { files, test, words: words.join("\n") })
 }
 
 /// A figure that is asked for.
@@ -98,16 +123,22 @@ pub struct Picture {
     elevation: Option<f64>,
 }
 
+/// A figure.
+#[derive(Serialize)]
+pub struct Drawn {
+    svg: String,
+}
+
 /// The arm, or its line diagram, as SVG.
 ///
 /// # Errors
 /// If the configuration does not fit.
-pub fn figure(subject: &Subject, picture: &Picture) -> Result<Value, Refusal> {
+pub fn figure(subject: &Subject, picture: &Picture) -> Result<Drawn, Refusal> {
     let arm = subject.arm.at(subject.configuration(&picture.q)?);
     let mut look = Look::main();
     if let (Some(azimuth), Some(elevation)) = (picture.azimuth, picture.elevation) {
         look.view = Some(View::from_angles(azimuth, elevation));
     }
     let drawing = if picture.scheme { scheme(&arm, &look) } else { isometric(&arm, &look) };
-    Ok(json!({ "svg": svg(&drawing, Palette::File, "figure") }))
+    Ok(Drawn { svg: svg(&drawing, Palette::File, "figure") })
 }

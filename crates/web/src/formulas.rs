@@ -6,31 +6,35 @@ use crate::subject::Subject;
 use denavit::description::Description;
 use denavit::forward::Reference;
 use denavit::velocity::JacobianModel;
-use denavit_emit::{Language as Code, expression};
-use denavit_report::document::{Block, Line, Math, Sign, math};
+use denavit_report::document::{Block, Line};
 use denavit_report::explain::{jacobian_document, velocity_vocabulary};
 use denavit_report::words::Language;
-use denavit_report::{Document, Options, Part, Section, Topic, render, report};
-use denavit_symbolic::print::Style;
-use denavit_symbolic::vocabulary::Vocabulary;
-use serde_json::{Value, json};
+use denavit_report::{Document, Options, Part, Section, Topic, report};
+use denavit_wire::parts::{self, parts};
+use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What is shown of a topic.
+#[derive(Serialize)]
+pub struct Formulas {
+    blocks: Vec<parts::Part>,
+    /// For each name in the formulas the joints, from 0, that it is about.
+    joints: BTreeMap<String, BTreeSet<usize>>,
+    topic: String,
+}
 
 /// The parts of a topic, and what the names in its formulas are about.
 ///
 /// # Errors
 /// If there is no such topic.
-pub fn formulas(subject: &mut Subject, topic: &str, q: &[f64]) -> Result<Value, Refusal> {
+pub fn formulas(subject: &mut Subject, topic: &str, q: &[f64]) -> Result<Formulas, Refusal> {
     let q = subject.configuration(q)?.to_vec();
     let document = document(subject, topic, &q)?;
     let definitions = Definitions::of(&subject.description, &document);
-    let value = json!({
-        "topic": topic,
-        "blocks": render::json_parts(&document, sources),
-        "joints": definitions.joints(),
-    });
+    let shown = Formulas { blocks: parts(&document), joints: definitions.joints(), topic: topic.to_string() };
     subject.formulas.retain(|(known, _)| known != topic);
     subject.formulas.push((topic.to_string(), definitions));
-    Ok(value)
+    Ok(shown)
 }
 
 /// What a report says about a topic.
@@ -72,41 +76,4 @@ fn jacobian(description: &Description) -> Document {
     let below = blocks.into_iter().filter(|b| !matches!(b, Block::Heading(1, _)));
     section.parts.extend(below.map(Part::from));
     Document { title: description.name.clone(), language, sections: vec![section] }
-}
-
-/// A formula in every notation.
-pub fn formula(m: &Math, names: &Vocabulary) -> Value {
-    render::json_formula(m, names, sources)
-}
-
-/// What somebody may want to copy.
-fn sources(m: &Math, names: &Vocabulary) -> Vec<(&'static str, String)> {
-    vec![("python", code(m, names, Code::Python)), ("c", code(m, names, Code::C))]
-}
-
-/// An assignment in a programming language; what no language has is given as plain text behind a sign of comment.
-fn code(m: &Math, names: &Vocabulary, language: Code) -> String {
-    let spelled = |e: &_| expression(*e, language);
-    let end = if language == Code::C { ";" } else { "" };
-    let [open, close] = if language == Code::C { ["{", "}"] } else { ["[", "]"] };
-    match m {
-        Math::Expr(e) => spelled(e),
-        Math::Chain(left, rest)
-            if left.as_symbol().is_some() && rest[..].iter().all(|r| r.0 == Sign::Equal) =>
-        {
-            let right = rest.last().map(|r| spelled(&r.1)).unwrap_or_default();
-            format!("{} = {right}{end}", spelled(left))
-        }
-        Math::Matrix(_, all) => {
-            let row = |row: &Vec<_>| {
-                format!("{open}{}{close}", row.iter().map(spelled).collect::<Vec<_>>().join(", "))
-            };
-            format!("{open}{}{close}", all.iter().map(row).collect::<Vec<_>>().join(",\n "))
-        }
-        Math::Determinant(_, e) => format!("det = {}{end}", spelled(e)),
-        other => {
-            let comment = if language == Code::C { "//" } else { "#" };
-            format!("{comment} {}", math(other, names, Style::Ascii))
-        }
-    }
 }

@@ -25,10 +25,10 @@ mod values;
 mod velocity;
 
 use denavit_report::words::English;
+use denavit_wire::catalogue::Catalogue;
 use refusal::Refusal;
 use robot_file::RobotFile;
-use serde::Deserialize;
-use serde_json::Value;
+use serde::{Deserialize, Serialize};
 use session::Session;
 use std::cell::RefCell;
 
@@ -80,20 +80,26 @@ enum DocumentRequest {
     Figure(documents::Picture),
 }
 
+/// A robot file as it is written.
+#[derive(Serialize)]
+struct Text {
+    text: String,
+}
+
 /// Answers a request about the robot.
 pub fn answer(request: &str) -> String {
     answered(request, |session, request| match request {
-        Request::Catalogue {} => Ok(catalogue::list()),
-        Request::Open(open) => catalogue::open(&open),
-        Request::Edit { file } => Ok(session.edit(&file)),
-        Request::Write { file } => Ok(serde_json::json!({ "text": file.to_toml().text })),
-        Request::Convert { to } => catalogue::convert(session.robot()?, &to),
-        Request::Scene { q } => scene::scene(session.robot()?, &q),
-        Request::Ghost { q } => scene::ghost(session.robot()?, &q),
-        Request::Solve(wish) => solve::solve(session.robot()?, &wish),
-        Request::Orientations {} => Ok(orientation::sets()),
-        Request::Angles { pose, set } => orientation::angles(&pose, &set),
-        Request::Pose { xyz, set, values } => orientation::pose(xyz, &set, &values),
+        Request::Catalogue {} => told(Ok(Catalogue::whole())),
+        Request::Open(open) => told(catalogue::open(&open)),
+        Request::Edit { file } => told(Ok(session.edit(&file))),
+        Request::Write { file } => told(Ok(Text { text: file.to_toml().text })),
+        Request::Convert { to } => told(catalogue::convert(session.robot()?, &to)),
+        Request::Scene { q } => told(scene::scene(session.robot()?, &q)),
+        Request::Ghost { q } => told(scene::ghost(session.robot()?, &q)),
+        Request::Solve(wish) => told(solve::solve(session.robot()?, &wish)),
+        Request::Orientations {} => told(Ok(orientation::sets())),
+        Request::Angles { pose, set } => told(orientation::angles(&pose, &set)),
+        Request::Pose { xyz, set, values } => told(orientation::pose(xyz, &set, &values)),
         Request::Jacobian { q, frame } => velocity::jacobian(session.robot()?, &q, &frame),
     })
 }
@@ -101,31 +107,36 @@ pub fn answer(request: &str) -> String {
 /// Answers a request for what is derived.
 pub fn answer_more(request: &str) -> String {
     answered(request, |session, request| match request {
-        MoreRequest::Formulas { topic, q } => formulas::formulas(session.robot()?, &topic, &q),
-        MoreRequest::Values { topic, q } => values::values(session.robot()?, &topic, &q),
-        MoreRequest::Singular {} => velocity::singular(session.robot()?),
-        MoreRequest::Workspace {} => reach::workspace(session.robot()?),
-        MoreRequest::Path(wish) => motion::path(session.robot()?, &wish),
+        MoreRequest::Formulas { topic, q } => told(formulas::formulas(session.robot()?, &topic, &q)),
+        MoreRequest::Values { topic, q } => told(values::values(session.robot()?, &topic, &q)),
+        MoreRequest::Singular {} => told(velocity::singular(session.robot()?)),
+        MoreRequest::Workspace {} => told(reach::workspace(session.robot()?)),
+        MoreRequest::Path(wish) => told(motion::path(session.robot()?, &wish)),
     })
 }
 
 /// Answers a request about documents and source code.
 pub fn answer_documents(request: &str) -> String {
     answered(request, |session, request| match request {
-        DocumentRequest::Check { text, name } => documents::check(session.robot()?, &text, &name),
+        DocumentRequest::Check { text, name } => told(documents::check(session.robot()?, &text, &name)),
         DocumentRequest::Report { format, language, q } => {
-            documents::report(session.robot()?, &format, &language, &q)
+            told(documents::report(session.robot()?, &format, &language, &q))
         }
-        DocumentRequest::Code { language, name } => documents::code(session.robot()?, &language, name),
-        DocumentRequest::Figure(picture) => documents::figure(session.robot()?, &picture),
+        DocumentRequest::Code { language, name } => told(documents::code(session.robot()?, &language, name)),
+        DocumentRequest::Figure(picture) => told(documents::figure(session.robot()?, &picture)),
     })
+}
+
+/// An answer as text.
+fn told<T: Serialize>(answer: Result<T, Refusal>) -> Result<String, Refusal> {
+    answer.map(|answer| denavit_wire::text(&answer))
 }
 
 fn answered<R: for<'a> Deserialize<'a>>(
     request: &str,
-    answer: impl FnOnce(&mut Session, R) -> Result<Value, Refusal>,
+    answer: impl FnOnce(&mut Session, R) -> Result<String, Refusal>,
 ) -> String {
     let read = serde_json::from_str(request).map_err(|e| Refusal::new(format!("not a request: {e}")));
     let result = read.and_then(|request| SESSION.with_borrow_mut(|session| answer(session, request)));
-    result.unwrap_or_else(Refusal::into_json).to_string()
+    result.unwrap_or_else(|refusal| denavit_wire::text(&refusal))
 }

@@ -1,18 +1,18 @@
 //! Paths through way-points: planned stretch by stretch, sampled for drawings and plots.
 
 use crate::refusal::Refusal;
-use crate::scene::matrix;
 use crate::solve;
 use crate::subject::Subject;
 use crate::words;
 use denavit::geometry::{Transform, Vector};
-use denavit::motion::follow::{Event, EventKind};
+use denavit::motion::follow::Event;
 use denavit::motion::hand::{Arc, Chain, HandPath, Line, Orientation};
 use denavit::motion::plan::{Course, KnownLimits, PlanOptions, Planned, Verdict, Wish as Stretch};
 use denavit::velocity::{Viewpoint, Whole, geometric};
-use denavit_report::words::{Motion as _, Terms as _};
-use serde::Deserialize;
-use serde_json::{Value, json};
+use denavit_report::words::Motion as _;
+use denavit_wire::path::{Start, kind};
+use denavit_wire::pose::{Matrix, matrix};
+use serde::{Deserialize, Serialize};
 
 /// A path that is asked for.
 #[derive(Deserialize)]
@@ -36,14 +36,45 @@ enum Point {
 /// The most samples of a path, and way-points.
 const MOST: [usize; 2] = [5_000, 200];
 
+/// A path, sample by sample.
+#[derive(Serialize)]
+pub struct Path {
+    /// Seconds.
+    duration: f64,
+    events: Vec<Met>,
+    manipulability: Vec<f64>,
+    /// What path it is, in words.
+    path: String,
+    pose: Vec<Matrix>,
+    q: Vec<Vec<f64>>,
+    /// The part of the way that could be followed, 1 if all.
+    reached: f64,
+    /// Where the first stretch of the hand can start.
+    starts: Vec<Start>,
+    /// Seconds.
+    t: Vec<f64>,
+    /// How it was timed, in words.
+    timing: String,
+    velocity: Vec<Vec<f64>>,
+}
+
+/// What is met on the way.
+#[derive(Serialize)]
+struct Met {
+    kind: &'static str,
+    /// Seconds.
+    t: f64,
+    words: String,
+}
+
 /// What the stretches of a path come to.
 #[derive(Default)]
 struct Sampled {
     times: Vec<f64>,
     q: Vec<Vec<f64>>,
-    qd: Vec<Vec<f64>>,
-    events: Vec<Value>,
-    alternatives: Vec<Value>,
+    velocity: Vec<Vec<f64>>,
+    events: Vec<Met>,
+    starts: Vec<Start>,
     words: Vec<String>,
     timing: Vec<String>,
     /// How much of all stretches was gone.
@@ -56,7 +87,7 @@ struct Sampled {
 ///
 /// # Errors
 /// If a way-point is none, or a stretch cannot be planned.
-pub fn path(subject: &Subject, wish: &Wish) -> Result<Value, Refusal> {
+pub fn path(subject: &Subject, wish: &Wish) -> Result<Path, Refusal> {
     if wish.points.is_empty() {
         return Err(Refusal::new("the path has no way-points"));
     }
@@ -137,7 +168,7 @@ impl Sampled {
             let state = motion.eval(t);
             self.times.push(start + t);
             self.q.push(state.q);
-            self.qd.push(state.qd);
+            self.velocity.push(state.qd);
         }
         for event in planned.followed.iter().flat_map(|f| &f.events) {
             let near = |k: &usize| subject.space.distance(&self.q[*k], &event.q);
@@ -150,43 +181,32 @@ impl Sampled {
             course => words().course(course),
         });
         self.timing.push(words().timing(&planned.timing, &subject.description));
-        if self.alternatives.is_empty() {
-            self.alternatives = planned
-                .alternatives
-                .iter()
-                .map(|a| {
-                    json!({ "q": a.start, "words": words().branch(&a.branch), "reached": a.reached, "withinLimits": a.within_limits })
-                })
-                .collect();
+        if self.starts.is_empty() {
+            self.starts = planned.alternatives.iter().map(Start::from).collect();
         }
     }
 
-    fn told(self, subject: &Subject) -> Value {
+    fn told(self, subject: &Subject) -> Path {
         let whole = |q: &Vec<f64>| {
             let jacobian = geometric(&subject.robot, q, &Viewpoint::tool());
             Whole::new(&jacobian, &subject.space.is_angle, subject.robot.reach().max(1e-9)).manipulability
         };
-        json!({
-            "words": self.words.join(", then "),
-            "timing": self.timing.join("; then "),
-            "duration": self.times.last(),
-            "reached": if self.stopped { self.reached } else { 1.0 },
-            "times": self.times,
-            "manipulability": self.q.iter().map(whole).collect::<Vec<_>>(),
-            "poses": self.q.iter().map(|q| matrix(&subject.robot.pose(q))).collect::<Vec<_>>(),
-            "q": self.q,
-            "qd": self.qd,
-            "events": self.events,
-            "alternatives": self.alternatives,
-        })
+        Path {
+            duration: self.times.last().copied().unwrap_or(0.0),
+            events: self.events,
+            manipulability: self.q.iter().map(whole).collect(),
+            path: self.words.join(", then "),
+            pose: self.q.iter().map(|q| matrix(&subject.robot.pose(q))).collect(),
+            q: self.q,
+            reached: if self.stopped { self.reached } else { 1.0 },
+            starts: self.starts,
+            t: self.times,
+            timing: self.timing.join("; then "),
+            velocity: self.velocity,
+        }
     }
 }
 
-fn told(subject: &Subject, event: &Event, time: f64) -> Value {
-    let kind = match event.kind {
-        EventKind::Singular { .. } => "singular",
-        EventKind::Limit { .. } | EventKind::WithinLimits { .. } => "limit",
-        EventKind::End { .. } => "end",
-    };
-    json!({ "time": time, "kind": kind, "words": words().event(event, &subject.description) })
+fn told(subject: &Subject, event: &Event, t: f64) -> Met {
+    Met { kind: kind(&event.kind), t, words: words().event(event, &subject.description) }
 }

@@ -1,11 +1,11 @@
 //! Orientations as one types them.
 
 use crate::refusal::Refusal;
-use crate::scene::matrix;
 use crate::solve;
 use denavit::geometry::orientation::{OrientationSet, extract, rotation};
 use denavit::geometry::{Transform, Vector};
-use serde_json::{Value, json};
+use denavit_wire::pose::{Matrix, Orientation, matrix};
+use serde::Serialize;
 
 const SETS: [(&str, &str); 15] = [
     ("rpy", "roll, pitch, yaw (fixed axes x, y, z)"),
@@ -25,13 +25,34 @@ const SETS: [(&str, &str); 15] = [
     ("axis-angle", "axis and angle"),
 ];
 
+/// A set.
+#[derive(Serialize)]
+struct Set {
+    name: &'static str,
+    /// What its values are called.
+    names: &'static [&'static str],
+    title: &'static str,
+}
+
+/// All sets.
+#[derive(Serialize)]
+pub struct Sets {
+    sets: Vec<Set>,
+}
+
+/// A pose.
+#[derive(Serialize)]
+pub struct Posed {
+    pose: Matrix,
+}
+
 /// The sets, with the names of their values.
-pub fn sets() -> Value {
+pub fn sets() -> Sets {
     let all = SETS.into_iter().filter_map(|(name, title)| {
         let set: OrientationSet = name.parse().ok()?;
-        Some(json!({ "name": name, "title": title, "names": set.names() }))
+        Some(Set { name, names: set.names(), title })
     });
-    json!({ "sets": all.collect::<Vec<_>>() })
+    Sets { sets: all.collect() }
 }
 
 fn set(name: &str) -> Result<OrientationSet, Refusal> {
@@ -43,16 +64,15 @@ fn set(name: &str) -> Result<OrientationSet, Refusal> {
 ///
 /// # Errors
 /// If there is no such set, or the matrix is no pose.
-pub fn angles(pose: &[Vec<f64>], name: &str) -> Result<Value, Refusal> {
-    let found = extract(&solve::pose(pose)?.rotation, set(name)?);
-    Ok(json!({ "values": found.values, "singular": found.singular }))
+pub fn angles(pose: &[Vec<f64>], name: &str) -> Result<Orientation, Refusal> {
+    Ok(extract(&solve::pose(pose)?.rotation, set(name)?).into())
 }
 
 /// The pose with a position and an orientation.
 ///
 /// # Errors
 /// If there is no such set, or the values are no orientation.
-pub fn pose(xyz: [f64; 3], name: &str, values: &[f64]) -> Result<Value, Refusal> {
+pub fn pose(xyz: [f64; 3], name: &str, values: &[f64]) -> Result<Posed, Refusal> {
     let turn = rotation(set(name)?, values).map_err(|why| Refusal::new(why.to_string()))?;
-    Ok(json!({ "pose": matrix(&Transform::from_rotation_translation(turn, Vector(xyz))) }))
+    Ok(Posed { pose: matrix(&Transform::from_rotation_translation(turn, Vector(xyz))) })
 }

@@ -4,19 +4,54 @@ use crate::refusal::Refusal;
 use crate::subject::Subject;
 use denavit::geometry::Vector;
 use denavit::workspace::{Section, Workspace};
-use serde_json::{Value, json};
+use serde::Serialize;
+
+/// A section of where the tool comes to, in the base.
+#[derive(Serialize)]
+pub struct Reached {
+    /// What is filled, square metres.
+    area: f64,
+    axis: Option<Axis>,
+    boundary: Vec<Vec<[f64; 2]>>,
+    cells: Vec<Cell>,
+    first: [f64; 3],
+    /// What the coordinates are called.
+    names: [&'static str; 2],
+    origin: [f64; 3],
+    remarks: Vec<String>,
+    /// Whether the section turns about the axis.
+    revolves: bool,
+    second: [f64; 3],
+    /// Of a cell.
+    size: [f64; 2],
+}
+
+/// A point of an axis, and its direction.
+#[derive(Serialize)]
+struct Axis {
+    along: [f64; 3],
+    at: [f64; 3],
+}
+
+/// A place that is reached.
+#[derive(Serialize)]
+struct Cell {
+    at: [f64; 2],
+    /// Manipulability, from 0 to 1.
+    value: f64,
+}
 
 /// A section of the workspace.
 ///
 /// # Errors
 /// If there is none to show.
-pub fn workspace(subject: &Subject) -> Result<Value, Refusal> {
+pub fn workspace(subject: &Subject) -> Result<Reached, Refusal> {
     let found =
         Workspace::new(&subject.robot, &subject.space).map_err(|why| Refusal::new(why.to_string()))?;
     let Plane { origin, directions: [first, second], axis } = Plane::of(&found.section);
     let cells = (0..found.grid.len()).filter_map(|k| {
         let value = found.manipulability[k]?;
-        Some(json!({ "at": found.grid.centre(k), "value": value }))
+        Some(Cell { at: found.grid.centre(k), value })
     });
     let mut remarks = vec![];
     for (all, what) in [(&found.assumed, "is taken to slide"), (&found.held, "is held")] {
@@ -29,19 +64,19 @@ pub fn workspace(subject: &Subject) -> Result<Value, Refusal> {
             });
         }
     }
-    Ok(json!({
-        "origin": origin.0,
-        "first": first.0,
-        "second": second.0,
-        "revolves": axis.is_some(),
-        "axis": axis.map(|[at, along]| json!({ "at": at.0, "along": along.0 })),
-        "names": found.section.symbols(),
-        "boundary": found.boundary,
-        "cells": cells.collect::<Vec<_>>(),
-        "size": [found.grid.side, found.grid.side],
-        "remarks": remarks,
-        "area": found.area(),
-    }))
+    Ok(Reached {
+        area: found.area(),
+        axis: axis.map(|[at, along]| Axis { along: along.0, at: at.0 }),
+        boundary: found.boundary.clone(),
+        cells: cells.collect(),
+        first: first.0,
+        names: found.section.symbols(),
+        origin: origin.0,
+        remarks,
+        revolves: axis.is_some(),
+        second: second.0,
+        size: [found.grid.side; 2],
+    })
 }
 
 /// The section's plane: a point, two directions, and the axis that it turns about (a point and a direction).

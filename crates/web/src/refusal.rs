@@ -1,13 +1,14 @@
 //! Why a request is not answered.
 
-use serde_json::{Value, json};
+use serde::Serialize;
 
 /// A sentence for whoever uses the page, and what would help.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Refusal {
     /// What is wrong.
     pub error: String,
     /// What would help.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub hint: Option<String>,
 }
 
@@ -15,13 +16,5 @@ impl Refusal {
     /// Without a hint.
     pub fn new(error: impl Into<String>) -> Self {
         Refusal { error: error.into(), hint: None }
-    }
-
-    /// As the page reads it.
-    pub fn into_json(self) -> Value {
-        match self.hint {
-            Some(hint) => json!({ "error": self.error, "hint": hint }),
-            None => json!({ "error": self.error }),
-        }
     }
 }

@@ -1,16 +1,24 @@
 //! What an engine remembers from one request to the next: the robot in hand.
 
-use crate::model;
+use crate::model::Model;
 use crate::refusal::Refusal;
 use crate::robot_file::RobotFile;
 use crate::subject::Subject;
-use denavit::description::{Diagnostic, read_toml};
-use serde_json::{Value, json};
+use denavit::description::{Diagnostic, Severity, read_toml};
+use denavit_wire::finding::Finding;
+use serde::Serialize;
 
 /// What an engine knows.
 #[derive(Default)]
 pub struct Session {
     robot: Option<Subject>,
+}
+
+/// What is known of a robot file.
+#[derive(Serialize)]
+pub struct Edited {
+    findings: Vec<Finding>,
+    robot: Option<Model>,
 }
 
 impl Session {
@@ -23,40 +31,33 @@ impl Session {
     }
 
     /// Takes a robot file in hand; one with errors leaves the robot before.
-    pub fn edit(&mut self, file: &RobotFile) -> Value {
+    pub fn edit(&mut self, file: &RobotFile) -> Edited {
         let written = file.to_toml();
-        let cell = |d: &Diagnostic| {
-            let mut value = finding(d);
-            value["cell"] = written.cell(d.span.start).into();
-            value
-        };
+        let found =
+            |d: &Diagnostic| Finding { cell: written.cell(d.span.start).map(Into::into), ..Finding::of(d) };
         let (description, findings) = match read_toml(&written.text) {
             Ok(read) => read,
             Err(findings) => {
-                let findings: Vec<Value> = findings.iter().map(cell).collect();
-                return json!({ "robot": null, "findings": findings });
+                return Edited { findings: findings.iter().map(found).collect(), robot: None };
             }
         };
-        let mut findings: Vec<Value> = findings.iter().map(cell).collect();
+        let mut findings: Vec<Finding> = findings.iter().map(found).collect();
         match Subject::new(description) {
             Ok(subject) => {
-                let model = model::model(&subject);
+                let model = Model::of(&subject);
                 self.robot = Some(subject);
-                json!({ "robot": model, "findings": findings })
+                Edited { findings, robot: Some(model) }
             }
             Err(why) => {
-                findings.push(json!({ "severity": "error", "message": why }));
-                json!({ "robot": null, "findings": findings })
+                findings.push(Finding {
+                    at: None,
+                    cell: None,
+                    hint: None,
+                    message: why,
+                    severity: Severity::Error.name(),
+                });
+                Edited { findings, robot: None }
             }
         }
     }
-}
-
-/// A finding without its place.
-pub fn finding(d: &Diagnostic) -> Value {
-    let mut value = json!({ "severity": d.severity.name(), "message": d.message });
-    if let Some(hint) = &d.hint {
-        value["hint"] = hint.as_str().into();
-    }
-    value
 }

@@ -1,14 +1,16 @@
 //! All configurations that bring the hand to a pose.
 
 use crate::refusal::Refusal;
-use crate::scene::{bodies, matrix};
+use crate::scene::{Bodies, bodies};
 use crate::subject::Subject;
 use crate::words;
 use denavit::geometry::Transform;
-use denavit::inverse::{Answer, Family, JointSpace, Members, Nearest, Obstacle, Solution};
+use denavit::inverse::{Family, JointSpace, Members, Nearest, Obstacle, Solution};
 use denavit_report::words::Inverse as _;
-use serde::Deserialize;
-use serde_json::{Value, json};
+use denavit_wire::inverse as wire;
+use denavit_wire::pose::{Matrix, matrix};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// A pose, or the one of a configuration; what is near to where the arm is comes first to mind.
 #[derive(Deserialize)]
@@ -21,11 +23,57 @@ pub struct Wish {
     quick: bool,
 }
 
+/// All that was found for a pose. An arm that cannot take it has the solutions of the nearest pose that it can.
+#[derive(Serialize)]
+pub struct Found {
+    complete: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    doubt: Option<String>,
+    families: Vec<wire::Family>,
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    given: BTreeMap<String, f64>,
+    /// Which solution, from 0, the nearest is a copy of.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    index: Option<usize>,
+    method: &'static str,
+    /// What is said and drawn of each family.
+    motions: Vec<Motion>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    nearest: Option<wire::Nearest>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    obstacle: Option<wire::Obstacle>,
+    pose: Matrix,
+    /// Each solution as it is drawn.
+    scenes: Vec<Bodies>,
+    solutions: Vec<wire::Solution>,
+    status: &'static str,
+    /// What stands in the way, and where the arm is instead.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stop: Option<Stop>,
+}
+
+/// A family as it is shown.
+#[derive(Serialize)]
+struct Motion {
+    /// Whether it comes back to where it began.
+    closed: bool,
+    scene: Bodies,
+    words: String,
+}
+
+/// Where an arm ends that cannot take the pose.
+#[derive(Serialize)]
+struct Stop {
+    pose: Matrix,
+    scene: Bodies,
+    words: String,
+}
+
 /// All solutions of the pose.
 ///
 /// # Errors
 /// If there is no pose in it, or the robot cannot be solved.
-pub fn solve(subject: &mut Subject, wish: &Wish) -> Result<Value, Refusal> {
+pub fn solve(subject: &mut Subject, wish: &Wish) -> Result<Found, Refusal> {
     let asked = match (&wish.pose, &wish.q) {
         (Some(rows), _) => pose(rows)?,
         (None, Some(q)) => subject.robot.pose(subject.configuration(q)?),
@@ -42,11 +90,7 @@ pub fn solve(subject: &mut Subject, wish: &Wish) -> Result<Value, Refusal> {
         true => solver.one(&asked, &given, Some(&near)),
         false => solver.solve(&asked, &given),
     };
-    let mut value = json!({
-        "pose": matrix(&asked),
-        "method": solver.method(),
-        "given": solver.given.iter().zip(&given).map(|(j, x)| json!({ "joint": j, "value": x })).collect::<Vec<_>>(),
-    });
+    let (method, own) = (solver.method(), solver.given.clone());
     // An arm that cannot take the pose is followed to the nearest that it can.
     let (shown, target) = match &answer.obstacle {
         Some(o) if !answer.is_reachable() => {
@@ -61,38 +105,39 @@ pub fn solve(subject: &mut Subject, wish: &Wish) -> Result<Value, Refusal> {
         _ => solver.nearest(&target, &shown, &near),
     };
     let members: Vec<_> = shown.families.iter().map(|f| solver.members(&target, f)).collect();
-    if let (Some(o), false) = (&answer.obstacle, answer.is_reachable()) {
-        value["obstacle"] = json!({
-            "words": obstacle(o),
-            "q": o.q,
-            "pose": matrix(&target),
-            "angle": o.angle,
-            "distance": o.distance,
-            "scene": bodies(&subject.arm.at(&o.q)),
-        });
-    }
-    let shown: &Answer = &shown;
-    value["complete"] = answer.is_complete().into();
-    if let Some(doubt) = answer.doubt {
-        value["doubt"] = words().doubt(doubt).into();
-    }
-    value["solutions"] = shown.solutions.iter().map(|s| solution(subject, s)).collect();
-    let families = shown.families.iter().zip(&members);
-    value["families"] = families.map(|(f, m)| family(subject, f, m)).collect();
-    if let Some(n) = nearest {
-        let is_same = |s: &Solution| subject.space.is_same(&s.q, &n.q);
-        value["nearest"] = json!({
-            "q": n.q,
-            "distance": n.distance,
-            "withinLimits": n.within_limits,
-            "index": shown.solutions.iter().position(is_same),
-        });
-    }
-    Ok(value)
+    let obstacle = answer.obstacle.as_ref().filter(|_| !answer.is_reachable());
+    let variables = subject.valued.variables();
+    let name = |j: &usize| variables[*j].symbol.name().to_string();
+    let is_nearest = |s: &Solution| nearest.as_ref().is_some_and(|n| subject.space.is_same(&s.q, &n.q));
+    let along = |(f, m): (&Family, &Members)| wire::Family {
+        curve: m.members.clone(),
+        ..wire::Family::of(f, &subject.space)
+    };
+    let families = || shown.families.iter().zip(&members);
+    Ok(Found {
+        complete: answer.is_complete(),
+        doubt: wire::doubt(&answer),
+        families: families().map(along).collect(),
+        given: own.iter().map(name).zip(given).collect(),
+        index: shown.solutions.iter().position(is_nearest),
+        method,
+        motions: families().map(|(f, m)| motion(subject, f, m)).collect(),
+        nearest: nearest.as_ref().map(wire::Nearest::of),
+        obstacle: obstacle.map(wire::Obstacle::from),
+        pose: matrix(&asked),
+        scenes: shown.solutions.iter().map(|s| bodies(&subject.arm.at(&s.q))).collect(),
+        solutions: shown.solutions.iter().map(|s| wire::Solution::of(s, &subject.space)).collect(),
+        status: wire::status(&answer),
+        stop: obstacle.map(|o| Stop {
+            pose: matrix(&target),
+            scene: bodies(&subject.arm.at(&o.q)),
+            words: why(o),
+        }),
+    })
 }
 
 /// Why there is no solution.
-fn obstacle(found: &Obstacle) -> String {
+fn why(found: &Obstacle) -> String {
     let why = words().obstacle(found);
     let conditions: Vec<&str> = found.violated.iter().map(|v| v.0.as_str()).collect();
     match conditions[..] {
@@ -108,18 +153,7 @@ fn copy(space: &JointSpace, s: &Solution, near: &[f64]) -> Nearest {
     Nearest { q, distance, within_limits: s.within_limits }
 }
 
-fn solution(subject: &Subject, s: &Solution) -> Value {
-    json!({
-        "q": s.q,
-        "branch": s.branch.to_string(),
-        "residual": s.residual,
-        "multiplicity": s.multiplicity,
-        "withinLimits": s.within_limits,
-        "scene": bodies(&subject.arm.at(&s.q)),
-    })
-}
-
-fn family(subject: &Subject, f: &Family, along: &Members) -> Value {
+fn motion(subject: &Subject, f: &Family, along: &Members) -> Motion {
     let variables = subject.valued.variables();
     let largest = f.direction.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
     let moving = variables.iter().zip(&f.direction).filter(|(_, x)| x.abs() > 1e-9 * largest);
@@ -131,15 +165,11 @@ fn family(subject: &Subject, f: &Family, along: &Members) -> Value {
         (false, 1) => ", in these proportions here",
         _ => "",
     };
-    json!({
-        "free": f.free,
-        "words": format!("the hand stands still while the joints move: {}{where_}", parts.join(", ")),
-        "dimension": f.dimension,
-        "direction": f.direction,
-        "representative": solution(subject, &f.representative),
-        "curve": along.members,
-        "closed": along.is_closed,
-    })
+    Motion {
+        closed: along.is_closed,
+        scene: bodies(&subject.arm.at(&f.representative.q)),
+        words: format!("the hand stands still while the joints move: {}{where_}", parts.join(", ")),
+    }
 }
 
 /// A pose from rows of rows.

@@ -3,13 +3,20 @@
 use crate::formulas;
 use crate::refusal::Refusal;
 use crate::subject::Subject;
-use serde_json::{Value, json};
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// Names and their numbers; null where a number is not finite.
+#[derive(Serialize)]
+pub struct Values {
+    values: BTreeMap<String, f64>,
+}
 
 /// The current number of each name that a topic defines.
 ///
 /// # Errors
 /// If there is no such topic, or the configuration does not fit.
-pub fn values(subject: &mut Subject, topic: &str, q: &[f64]) -> Result<Value, Refusal> {
+pub fn values(subject: &mut Subject, topic: &str, q: &[f64]) -> Result<Values, Refusal> {
     subject.configuration(q)?;
     if !subject.formulas.iter().any(|(known, _)| known == topic) {
         formulas::formulas(subject, topic, q)?;
@@ -18,5 +25,5 @@ pub fn values(subject: &mut Subject, topic: &str, q: &[f64]) -> Result<Value, Re
     let values = found
         .map(|(_, definitions)| definitions.values(&subject.valued, &subject.robot, q))
         .unwrap_or_default();
-    Ok(json!({ "values": values }))
+    Ok(Values { values })
 }

@@ -1,38 +1,61 @@
 //! Jacobians in numbers, and where the arm is singular.
 
-use crate::formulas::formula;
 use crate::refusal::Refusal;
-use crate::scene::bodies;
+use crate::scene::{Bodies, bodies};
 use crate::subject::Subject;
 use crate::words;
 use denavit::forward::Reference;
-use denavit::velocity::{ROWS, Singularities, Viewpoint, geometric, singular_configuration};
+use denavit::velocity::{Singularities, Viewpoint, geometric, singular_configuration};
 use denavit_report::document::Math;
 use denavit_report::words::Velocity as _;
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::{Style, print};
-use serde_json::{Value, json};
+use denavit_wire::jacobian::{Matrix, frame};
+use denavit_wire::parts::Formula;
+use denavit_wire::singular::Zeros;
+use serde::Serialize;
 
-/// The Jacobian of the tool.
+/// Where the arm is singular.
+#[derive(Serialize)]
+pub struct Singular {
+    /// Whether these are all.
+    complete: bool,
+    singularities: Vec<Place>,
+}
+
+/// The zeros of a factor.
+#[derive(Serialize)]
+struct Place {
+    factor: Formula,
+    /// A configuration there, near to the one that the arm is drawn in.
+    q: Option<Vec<f64>>,
+    scene: Option<Bodies>,
+    /// How the axes lie.
+    why: Option<String>,
+    zeros: Vec<Zeros>,
+}
+
+/// The Jacobian of the tool, as text.
 ///
 /// # Errors
 /// If the configuration does not fit, or there is no such frame.
-pub fn jacobian(subject: &Subject, q: &[f64], frame: &str) -> Result<Value, Refusal> {
+pub fn jacobian(subject: &Subject, q: &[f64], axes: &str) -> Result<String, Refusal> {
     let q = subject.configuration(q)?;
-    let view = match frame {
+    let view = match axes {
         "base" => Viewpoint::tool(),
         "tool" => Viewpoint::of(Reference::Tool, Reference::Tool),
         other => return Err(Refusal::new(format!("no frame `{other}`: base or tool"))),
     };
-    let rows = geometric(&subject.robot, q, &view).rows();
-    Ok(json!({ "rows": ROWS, "jacobian": rows }))
+    let entries = geometric(&subject.robot, q, &view).rows().concat();
+    let name = &subject.description.name;
+    Ok(denavit_wire::text(&Matrix::of(name, &frame(view.axes), q, &entries)))
 }
 
 /// The factors whose zeros make the arm singular, each with a configuration near the one it is drawn in.
 ///
 /// # Errors
 /// If the arm is singular everywhere, or its determinant too large.
-pub fn singular(subject: &Subject) -> Result<Value, Refusal> {
+pub fn singular(subject: &Subject) -> Result<Singular, Refusal> {
     let found = Singularities::derive(&subject.description, Reference::Tool)
         .map_err(|why| Refusal::new(why.to_string()))?;
     let names = subject.description.vocabulary();
@@ -40,22 +63,13 @@ pub fn singular(subject: &Subject) -> Result<Value, Refusal> {
     let near = denavit::velocity::regular_configuration(&subject.valued, subject.arm.pose().to_vec());
     let all = found.common.iter().map(|one| {
         let q = singular_configuration(&subject.valued, one.factor, &factors, &near);
-        let conditions = one.zeros.iter().flat_map(|z| {
-            let angle = print(z.angle(), &names, Style::Unicode);
-            z.values().into_iter().map(move |v| (angle.clone(), v))
-        });
-        let conditions: Vec<String> =
-            conditions.map(|(angle, v)| format!("{angle} = {}", print(v, &names, Style::Unicode))).collect();
-        let factor = Math::equation(one.factor, Expr::int(0));
-        json!({
-            "words": one.example.as_ref().map_or_else(String::new, |e| words().place(&e.place)),
-            "factor": formula(&factor, &names),
-            "conditions": conditions,
-            "scene": q.as_ref().map(|q| bodies(&subject.arm.at(q))),
-            "q": q,
-        })
+        Place {
+            factor: Formula::of(&Math::equation(one.factor, Expr::int(0)), &names),
+            scene: q.as_ref().map(|q| bodies(&subject.arm.at(q))),
+            q,
+            why: one.example.as_ref().map(|e| words().place(&e.place)),
+            zeros: one.zeros.iter().map(|z| Zeros::of(z, |e| print(e, &names, Style::Unicode))).collect(),
+        }
     });
-    let singular: Vec<Value> = all.collect();
-    let remark = (!found.is_complete).then_some("there may be more: not all zeros of the minors are solved");
-    Ok(json!({ "singular": singular, "remark": remark }))
+    Ok(Singular { complete: found.is_complete, singularities: all.collect() })
 }

@@ -37,6 +37,7 @@ const SCIENCE: &[&str] = &[
     "crates/check/src/",
     "crates/generate/src/",
     "crates/report/src/",
+    "crates/wire/src/",
 ];
 const OUTSIDE_WORLD: &[&str] =
     &["std::fs", "std::io", "std::time", "std::env", "print!(", "println!(", "eprint!(", "eprintln!("];

@@ -9,7 +9,7 @@ use denavit::forward::Proof;
 use denavit::inverse;
 use denavit_emit::{Language, Precision};
 use denavit_generate::{Generated, Inverse, Options, Wanted};
-use serde_json::json;
+use denavit_wire::code::Written;
 use std::fs;
 use std::io::Write;
 use std::path::Path;
@@ -68,7 +68,8 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
     }
     let mut out = anstream::stdout();
     if arguments.json {
-        writeln!(out, "{}", as_json(&generated, language, &arguments.output))?;
+        let written = Written::of(&generated, language, &arguments.output);
+        writeln!(out, "{}", denavit_wire::text(&written))?;
     } else {
         write!(out, "{}", report(&generated, language, &arguments.output))?;
     }
@@ -165,38 +166,4 @@ fn in_words(ik: &Inverse) -> String {
         text += &format!("; with the values of {} in it", assumed.join(", "));
     }
     text
-}
-
-fn as_json(generated: &Generated, language: Language, folder: &Path) -> serde_json::Value {
-    let functions: Vec<_> = generated.functions.iter().map(|(wanted, count, proof)| {
-        json!({
-            "name": wanted.name(),
-            "count": {"multiplications": count.multiplications, "additions": count.additions, "sincos": count.sincos},
-            "proved": *proof == Proof::Proved,
-        })
-    }).collect();
-    let names = |list: Vec<denavit_symbolic::Symbol>| -> Vec<String> {
-        list.iter().map(|s| s.name().to_string()).collect()
-    };
-    let inverse = generated.inverse.as_ref().map(|ik| {
-        json!({
-            "method": if ik.by_elimination { "elimination" } else { "closed form" },
-            "max_solutions": ik.max_solutions,
-            "branches": ik.branches,
-            "given": names(ik.given.clone()),
-            "given_by_choice": ik.given_by_choice,
-            "assumed": names(ik.assumed.iter().map(|a| a.0).collect()),
-            "poses_in_test": ik.vectors,
-        })
-    });
-    let files: Vec<&str> = generated.files.iter().map(|f| f.path.as_str()).collect();
-    json!({
-        "schema": 1,
-        "language": language.name(),
-        "folder": folder.display().to_string(),
-        "files": files,
-        "functions": functions,
-        "ik": inverse,
-        "test": generated.test_command(language),
-    })
 }

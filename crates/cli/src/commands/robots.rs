@@ -4,8 +4,9 @@ use crate::arguments::RobotsArguments;
 use crate::failure::Failure;
 use crate::terminal::{Align, table};
 use denavit::catalogue;
-use denavit::description::{Description, JointKind};
-use serde_json::json;
+use denavit::description::Description;
+use denavit_wire::catalogue::Catalogue;
+use denavit_wire::robot::joints;
 use std::io::Write;
 
 /// Lists the catalogue.
@@ -23,14 +24,8 @@ pub fn run(arguments: &RobotsArguments) -> Result<(), Failure> {
         return Err(Failure::No(format!("no robot of the catalogue matches `{text}`")));
     }
     if arguments.json {
-        let list: Vec<_> = robots
-            .iter()
-            .map(|(name, d)| {
-                json!({"name": name, "title": d.name, "joints": joints(d),
-                       "convention": d.convention.name(), "source": d.source})
-            })
-            .collect();
-        writeln!(out, "{}", json!({"schema": 1, "robots": list}))?;
+        let list = Catalogue::of(robots.iter().map(|(name, d)| (*name, d)));
+        writeln!(out, "{}", denavit_wire::text(&list))?;
         return Ok(());
     }
     let rows: Vec<Vec<String>> = robots
@@ -44,9 +39,4 @@ pub fn run(arguments: &RobotsArguments) -> Result<(), Failure> {
 fn matches(text: &str, name: &str, title: &str) -> bool {
     let text = text.to_lowercase();
     name.contains(&text) || title.to_lowercase().contains(&text)
-}
-
-/// `RRPRRR`.
-pub fn joints(d: &Description) -> String {
-    d.variables().iter().map(|v| if v.kind == JointKind::Revolute { 'R' } else { 'P' }).collect()
 }

@@ -3,7 +3,6 @@
 use crate::arguments::ShowArguments;
 use crate::commands::fk::{configuration, without_values};
 use crate::commands::report::put;
-use crate::commands::robots::joints;
 use crate::failure::Failure;
 use crate::load;
 use crate::terminal::{Align, FAINT, HEADING, NAME, styled, table, words};
@@ -14,9 +13,8 @@ use denavit_report::document::plain;
 use denavit_report::figure::svg::{Palette, svg};
 use denavit_report::figure::{self, Arm};
 use denavit_symbolic::Expr;
-use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::vocabulary::Vocabulary;
-use serde_json::json;
+use denavit_wire::robot::{Robot, joints};
 use std::io::Write;
 use std::path::Path;
 
@@ -38,7 +36,7 @@ pub fn run(arguments: &ShowArguments) -> Result<(), Failure> {
     if arguments.toml {
         write!(out, "{}", write_toml(&description))?;
     } else if arguments.json {
-        writeln!(out, "{}", as_json(&description))?;
+        writeln!(out, "{}", denavit_wire::text(&Robot::of(&description)))?;
     } else {
         write!(out, "{}{}{}", title(&description), dh_table(&description), structure(&description))?;
     }
@@ -187,44 +185,4 @@ fn structure(d: &Description) -> String {
         text += &format!("  pose {}: {}\n", styled(name, NAME), values.join(", "));
     }
     text
-}
-
-fn as_json(d: &Description) -> serde_json::Value {
-    let text = |e: Expr| print(e, &Vocabulary::new(), Style::Ascii);
-    let s = Structure::of(d);
-    let columns = d.columns();
-    let rows: Vec<_> = d
-        .rows
-        .iter()
-        .map(|row| {
-            let mut cells = serde_json::Map::new();
-            for c in &columns {
-                cells.insert(c.key(d.convention).into(), text(c.of(row)).into());
-            }
-            cells.insert("variable".into(), row.variable.map(|v| v.symbol.name().to_string()).into());
-            cells.insert("limits".into(), row.limits.map(|l| l.map(text).to_vec()).into());
-            serde_json::Value::Object(cells)
-        })
-        .collect();
-    let matrix = |x: &Transform<Expr>| x.matrix().map(|row| row.map(text).to_vec()).to_vec();
-    json!({
-        "schema": 1,
-        "robot": d.name,
-        "source": d.source,
-        "convention": d.convention.name(),
-        "joints": joints(d),
-        "rows": rows,
-        "base": matrix(&d.base),
-        "tool": matrix(&d.tool),
-        "parameters": d.parameters.iter()
-            .map(|p| json!({"name": &*p.symbol.name(), "value": p.value.map(text)})).collect::<Vec<_>>(),
-        "structure": {
-            "schematic": s.schematic(),
-            "parallel": s.parallel,
-            "relations": s.relations.iter().map(|r| words().relation(*r)).collect::<Vec<_>>(),
-            "spherical_wrists": s.spherical,
-            "nearly": s.nearly.iter()
-                .map(|n| json!({"joints": [n.joints.0, n.joints.1], "nearly": n.nearly.name(), "by": n.by})).collect::<Vec<_>>(),
-        },
-    })
 }

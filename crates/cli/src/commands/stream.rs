@@ -6,9 +6,10 @@
 
 use crate::commands::fk::plural;
 use crate::failure::Failure;
+use denavit_wire::Schema;
+use denavit_wire::finding::BadLine;
 use indicatif::{HumanCount, ProgressBar, ProgressStyle};
 use serde_json::error::Category;
-use serde_json::json;
 use std::fs::File;
 use std::io::{self, IsTerminal, Read, Write};
 use std::num::NonZero;
@@ -216,8 +217,7 @@ pub fn parsed<T>(line: &[u8], what: &str, read: fn(&[u8]) -> serde_json::Result<
 
 /// The answer to a line that cannot be read.
 pub fn complaint(line: usize, why: &str, out: &mut Vec<u8>) {
-    // Writing to memory does not fail.
-    let _ = writeln!(out, "{}", json!({"schema": 1, "line": line, "error": why}));
+    denavit_wire::line(&BadLine { error: why, line, schema: Schema }, out);
 }
 
 /// A bar on standard error, where that is a terminal and the answers go elsewhere.

@@ -222,11 +222,27 @@ impl Writer {
 }
 
 /// The formula for those who hear it.
-pub(super) fn spoken(m: &Math, names: &Vocabulary) -> String {
+fn spoken(m: &Math, names: &Vocabulary) -> String {
     math(m, names, Style::Unicode)
 }
 
-pub(super) fn lines(laid: &Laid) -> String {
+/// A formula on lines of its own, as a `math` element.
+pub fn math_display(m: &Math, names: &Vocabulary) -> String {
+    element(m, names, &lines(&display(m, names, Style::MathMl)))
+}
+
+/// One of several equations below each other, to be aligned at their signs, as a `math` element.
+pub fn math_aligned(m: &Math, names: &Vocabulary) -> String {
+    let rows = rows(&equation(m, names, Style::MathMl));
+    element(m, names, &format!("<mtable class=\"lines\">{rows}</mtable>"))
+}
+
+fn element(m: &Math, names: &Vocabulary, set: &str) -> String {
+    let text = escaped(&spoken(m, names));
+    format!("<math display=\"block\" displaystyle=\"true\" alttext=\"{text}\">{set}</math>")
+}
+
+fn lines(laid: &Laid) -> String {
     match &laid.lines[..] {
         [one] => format!("<mrow>{}{}</mrow>", laid.left, one.text),
         _ => format!("<mtable class=\"lines\">{}</mtable>", rows(laid)),
@@ -234,7 +250,7 @@ pub(super) fn lines(laid: &Laid) -> String {
 }
 
 /// Rows of a table, with the place where they are aligned.
-pub(super) fn rows(laid: &Laid) -> String {
+fn rows(laid: &Laid) -> String {
     let line = |(k, line): (usize, &BrokenLine)| {
         let left = if k == 0 { laid.left.as_str() } else { "" };
         let indent = match line.depth {
@@ -250,7 +266,8 @@ pub(super) fn rows(laid: &Laid) -> String {
     laid.lines.iter().enumerate().map(line).collect()
 }
 
-pub(super) fn words(line: &Line, names: &Vocabulary) -> String {
+/// A line of text: `math` elements for its formulas, and `strong`.
+pub fn words(line: &Line, names: &Vocabulary) -> String {
     let piece = |p: &Piece| match p {
         Piece::Text(t) => escaped(t),
         Piece::Strong(t) => format!("<strong>{}</strong>", escaped(t)),

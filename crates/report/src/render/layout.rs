@@ -1,7 +1,7 @@
 //! What fits a page, the same in every format: lines of formulas, matrices by names, what stands side by side.
 
-use crate::document::Table;
 use crate::document::{Block, Factor, Laid, Line, Math, Proof, aligned, laid, math, matrix_width, plain};
+use crate::document::{Document, Part, Table};
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::{Style, width};
 use denavit_symbolic::vocabulary::Vocabulary;
@@ -155,6 +155,34 @@ pub fn named(block: &Block, names: &Vocabulary) -> Option<Named> {
     let math = Math::Matrix(name.clone(), short);
     let matrix = Block::Formula { math, number: *number, proof: *proof };
     Some(Named { matrix, entries, names: with.into_owned() })
+}
+
+/// Every formula as it is shown, with its names: wide matrices by the names of their entries.
+pub fn formulas(document: &Document) -> Vec<(Math, Vocabulary)> {
+    let mut out = vec![];
+    for section in &document.sections {
+        for part in &section.parts {
+            match part {
+                Part::Block(block) => formulas_of(block, &section.names, &mut out),
+                Part::Equations(all) | Part::Beside(all) => {
+                    out.extend(all.iter().map(|m| (m.clone(), section.names.clone())));
+                }
+                _ => {}
+            }
+        }
+    }
+    out
+}
+
+fn formulas_of(block: &Block, names: &Vocabulary, out: &mut Vec<(Math, Vocabulary)>) {
+    match (named(block, names), block) {
+        (Some(named), _) => {
+            formulas_of(&named.matrix, &named.names, out);
+            out.extend(named.entries.into_iter().map(|m| (m, named.names.clone())));
+        }
+        (None, Block::Formula { math, .. }) => out.push((math.clone(), names.clone())),
+        _ => {}
+    }
 }
 
 /// How many pictures stand side by side.

@@ -1,16 +1,14 @@
 //! A document tree in each format.
 
 mod html;
-mod json;
 mod latex;
 mod layout;
 mod markdown;
 mod nested;
 mod typst;
 
-pub use html::{page as html, page_with as html_with};
-pub use json::{Sources, formula as json_formula, formulas, parts as json_parts};
+pub use html::{math_aligned, math_display, page as html, page_with as html_with, words as html_words};
 pub use latex::{fragment as latex_fragment, whole as latex};
-pub use layout::too_long;
+pub use layout::{Named, formulas, is_wide, named, too_long};
 pub use markdown::{Markdown, whole as markdown};
 pub use typst::{fragment as typst_fragment, whole as typst};

@@ -2,7 +2,7 @@
 
 import { batch, computed, effect, signal } from "@preact/signals";
 import { Cancelled, EngineError, type Engines } from "./engine/client.ts";
-import type { Answer, Finding, Matrix, Path, RobotFile, RobotModel, Scene, Singular, Topic, Workspace } from "./engine/types.ts";
+import type { Answer, Finding, Matrix, Path, RobotFile, RobotModel, Scene, Singularity, Topic, Workspace } from "./engine/types.ts";
 
 let engines: Engines;
 
@@ -293,7 +293,7 @@ export type Panel = "table" | "joints" | "hand" | "formulas" | "path" | "check" 
 export const panel = signal<Panel>("joints");
 export const topic = signal<Topic>("forward");
 export const workspace = signal<Workspace | null>(null);
-export const singular = signal<Singular[] | null>(null);
+export const singular = signal<Singularity[] | null>(null);
 
 // The path ----------------------------------------------------------------------------------------------------------
 

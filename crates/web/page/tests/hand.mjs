@@ -117,7 +117,7 @@ scenario("the keys go through all solutions, and each holds the hand where it is
     await option.getByText("arm is here").waitFor();
     const { q } = await shared(page, (s) => (seen.length === 0 ? s.target : farthest(s.q, seen.at(-1)) > 1e-6), `solution ${k + 1} is in the address`);
     assert.ok(apart(handAt(engine, q), pose) < 1e-9, `solution ${k + 1} holds the hand`);
-    assert.ok(seen.every((other) => farthest(q, other, Array(6).fill("revolute")) > 1e-3), `solution ${k + 1} is another one`);
+    assert.ok(seen.every((other) => farthest(q, other, Array(6).fill("R")) > 1e-3), `solution ${k + 1} is another one`);
     seen.push(q);
     await page.keyboard.press("ArrowDown");
   }

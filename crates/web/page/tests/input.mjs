@@ -86,7 +86,7 @@ scenario("cells take any text without harm", async (page) => {
     assert.equal(await theta.getAttribute("aria-invalid"), null);
   }
   await tab(page, "Hand").click();
-  await until(async () => (await page.getByRole("region", { name: "Inverse solutions" }).getByRole("option").count()) === 8, `${robot.name} is solved`);
+  await until(async () => (await page.getByRole("region", { name: "Inverse solutions" }).getByRole("option").count()) === 8, `${robot.robot} is solved`);
 });
 
 /** Makes the engine beside the page stop at its next answer, as a trap does. */

@@ -34,7 +34,7 @@ scenario("arrow keys step a joint by 1°, with shift by 10°, with alt by 0.1°"
 
 scenario("a prismatic joint steps by 1 mm and is typed in any unit of length", async (page) => {
   const { robot } = await openRobot(page, "scara");
-  const at = robot.joints.findIndex((joint) => joint.kind === "prismatic");
+  const at = robot.joints.findIndex((joint) => joint.kind === "P");
   const { name } = robot.joints[at];
   const first = 1000 * robot.q[at];
   await slider(page, name).focus();

@@ -30,7 +30,7 @@ scenario("ten robots of the catalogue are loaded, drawn and solved", async (page
     const search = page.getByRole("combobox", { name: /Search the catalogue/ });
     await search.fill(words);
     const options = page.getByRole("listbox", { name: "Robots" }).getByRole("option");
-    await until(async () => (await options.first().textContent()).includes(robot.name.slice(0, 5)), `${words} finds ${robot.name}`);
+    await until(async () => (await options.first().textContent()).includes(robot.robot.slice(0, 5)), `${words} finds ${robot.name}`);
     const before = await page.evaluate(() => window.denavit.frames);
     await search.press("Enter");
     await page.getByRole("dialog").waitFor({ state: "detached" });
@@ -43,7 +43,7 @@ scenario("ten robots of the catalogue are loaded, drawn and solved", async (page
     assert.equal(await sliders.count(), robot.joints.length, `${name}: a slider for each joint`);
     for (const [k, joint] of robot.joints.entries()) {
       const shown = await valueOf(page.getByRole("textbox", { name: new RegExp(`^${joint.name}\\b`) }));
-      close(shown, joint.kind === "revolute" ? degrees(robot.q[k]) : 1000 * robot.q[k], 0.006, `${name} ${joint.name}`);
+      close(shown, joint.kind === "R" ? degrees(robot.q[k]) : 1000 * robot.q[k], 0.006, `${name} ${joint.name}`);
     }
 
     // The picture.

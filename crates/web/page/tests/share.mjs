@@ -30,7 +30,7 @@ scenario("a copied link opens the same robot, joints, target and panel elsewhere
   assert.equal(await tab(other, "Share").getAttribute("aria-selected"), "true");
   await tab(other, "Hand").click();
   const again = await shared(other, (s) => s.panel === "hand", "the other page has an address");
-  assert.ok(farthest(again.q, sent.q, Array(6).fill("revolute")) < 1e-9, "the same joints");
+  assert.ok(farthest(again.q, sent.q, Array(6).fill("R")) < 1e-9, "the same joints");
   assert.ok(apart(again.target, sent.target) < 1e-9, "the same target");
   assert.equal(again.look.lengths, "m");
   close(await valueOf(other.getByRole("textbox", { name: "Position x" })), x, 6e-6);

@@ -156,7 +156,7 @@ export function close(one, other, by, words = "") {
 export function farthest(one, other, kinds = []) {
   assert.equal(one.length, other.length);
   const turn = 2 * Math.PI;
-  return Math.max(...one.map((x, k) => Math.abs(kinds[k] === "revolute" ? x - other[k] - turn * Math.round((x - other[k]) / turn) : x - other[k])));
+  return Math.max(...one.map((x, k) => Math.abs(kinds[k] === "R" ? x - other[k] - turn * Math.round((x - other[k]) / turn) : x - other[k])));
 }
 
 export const degrees = (x) => (x * 180) / Math.PI;

@@ -171,7 +171,7 @@ fn a_pose_beyond_reach_is_followed_to_the_nearest() {
     assert!(distance > 7.0, "{distance}");
     let reached = told("scene", json!({ "q": answer["nearest"]["q"] }));
     let tool = reached["frames"].as_array().and_then(|f| f.last().cloned()).expect("a tool");
-    assert!(far(&tool, &answer["obstacle"]["pose"]) < 1e-6);
+    assert!(far(&tool, &answer["stop"]["pose"]) < 1e-6);
 }
 
 #[test]
@@ -233,7 +233,7 @@ fn documents_code_and_pictures_are_made() {
     }
     let workspace = told("workspace", json!({}));
     assert!(workspace["area"].as_f64().is_some_and(|a| a > 0.0));
-    assert!(!told("singular", json!({}))["singular"].as_array().expect("a list").is_empty());
+    assert!(!told("singular", json!({}))["singularities"].as_array().expect("a list").is_empty());
 }
 
 #[test]
@@ -257,15 +257,15 @@ fn a_path_through_joints_and_lines_is_planned() {
     let points = json!([{ "kind": "joint", "q": to }, { "kind": "line", "pose": pose }]);
     let path = told("path", json!({ "start": q, "points": points, "samples": 50 }));
     let all = path["q"].as_array().expect("configurations");
-    assert_eq!(path["times"].as_array().map(Vec::len), Some(all.len()));
+    assert_eq!(path["t"].as_array().map(Vec::len), Some(all.len()));
     assert_eq!(path["reached"], 1.0);
     for (shown, right) in numbers(&all[0]).iter().zip(&q) {
         assert!((shown - right).abs() < 1e-9);
     }
-    let last = path["poses"].as_array().and_then(|p| p.last().cloned()).expect("a pose");
+    let last = path["pose"].as_array().and_then(|p| p.last().cloned()).expect("a pose");
     assert!(far(&last, &pose) < 1e-5, "{last} {pose}");
     // Times go on, and the whole takes as long as it says.
-    let times = numbers(&path["times"]);
+    let times = numbers(&path["t"]);
     assert!(times.windows(2).all(|t| t[0] <= t[1]) && times.last().copied() == path["duration"].as_f64());
     for points in [json!([]), json!([{ "kind": "joint", "q": [1] }])] {
         let refused = ask("path", json!({ "start": q, "points": points, "samples": 5 }));
@@ -280,9 +280,77 @@ fn a_self_motion_keeps_the_hand_still() {
     let answer = told("solve", json!({ "q": [0.3, -0.4, 0.2, 0.5, 0.0, -0.2] }));
     let family = &answer["families"][0];
     let curve = family["curve"].as_array().expect("members");
-    assert!(curve.len() > 20 && family["closed"] == true, "{family}");
+    assert!(curve.len() > 20 && answer["motions"][0]["closed"] == true, "{family}");
     for q in curve.iter().step_by(7) {
         let pose = told("solve", json!({ "q": q, "quick": true }))["pose"].clone();
         assert!(far(&pose, &answer["pose"]) < 1e-6);
     }
+}
+
+/// The keys of an answer that are in camel case; those of maps are names in formulas.
+fn camels(value: &Value, out: &mut Vec<String>) {
+    match value {
+        Value::Object(map) => {
+            for (key, value) in map {
+                if key.chars().any(|c| c.is_ascii_uppercase()) {
+                    out.push(key.clone());
+                }
+                if !(key == "joints" && value.is_object()) && key != "values" {
+                    camels(value, out);
+                }
+            }
+        }
+        Value::Array(all) => all.iter().for_each(|value| camels(value, out)),
+        _ => {}
+    }
+}
+
+#[test]
+fn names_are_those_of_the_command_line() {
+    let d = denavit::catalogue::robot("puma560").expect("it is in the catalogue");
+    let q = [0.3, -0.4, 0.2, 0.5, 0.6, -0.2];
+    let (_, model) = taken("puma560");
+    let to: Vec<f64> = q.iter().map(|x| x + 0.1).collect();
+    // Out of reach before its end: what comes of the other starts is told.
+    let mut far = told("solve", json!({ "q": to }))["pose"].clone();
+    far[2][3] = 9.into();
+    let line = json!([{ "kind": "line", "pose": far }]);
+    let answer = told("solve", json!({ "q": q, "near": q }));
+    let path = told("path", json!({ "start": q, "points": line, "samples": 10 }));
+    let scene = told("scene", json!({ "q": q }));
+    let singular = told("singular", json!({}));
+    let jacobian = told("jacobian", json!({ "q": q, "frame": "base" }));
+    let formulas = told("formulas", json!({ "topic": "jacobian", "q": q }));
+    let mut found = vec![];
+    for one in [&model, &answer, &path, &scene, &singular, &jacobian, &formulas] {
+        camels(one, &mut found);
+    }
+    assert!(found.is_empty(), "{found:?}");
+
+    // What `ik`, `show`, `jacobian` and `robots` print.
+    let read = |text: String| -> Value { serde_json::from_str(&text).expect("an answer is JSON") };
+    let solver = denavit::inverse::InverseKinematics::new(&d, &Default::default()).expect("it is solved");
+    let solved = solver.solve(&solver.robot.pose(&q), &[]);
+    let solution = |s| denavit_wire::inverse::Solution::of(s, &solver.space);
+    let solutions: Vec<_> = solved.solutions.iter().map(solution).collect();
+    assert_eq!(answer["solutions"], read(denavit_wire::text(&solutions)));
+    let shown = read(denavit_wire::text(&denavit_wire::robot::Robot::of(&d)));
+    assert_eq!(model["robot"], shown["robot"]);
+    assert_eq!(model["structure"], shown["structure"]);
+    assert_eq!(jacobian["robot"], shown["robot"]);
+    assert_eq!(jacobian["rows"], json!(["vx", "vy", "vz", "wx", "wy", "wz"]));
+    let kinds: String =
+        model["joints"].as_array().into_iter().flatten().filter_map(|j| j["kind"].as_str()).collect();
+    assert_eq!(shown["joints"], kinds);
+    let listed = told("catalogue", json!({}))["robots"].clone();
+    let whole = denavit_wire::catalogue::Catalogue::whole();
+    assert_eq!(listed, read(denavit_wire::text(&whole.robots)));
+    for place in [&answer["nearest"], &path["starts"][0]] {
+        assert!(place["within_limits"].is_boolean(), "{place}");
+    }
+    assert!(
+        scene["within_limits"].as_array().is_some_and(|all| all.len() == 6),
+        "{}",
+        scene["within_limits"]
+    );
 }

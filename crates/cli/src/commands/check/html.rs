@@ -5,7 +5,7 @@ use super::marked::{Piece, pieces};
 use super::terminal::at;
 use crate::terminal::words;
 use denavit_check::{Claim, Entry, Finding, Patch, Standing};
-use denavit_report::json::entry_name;
+use denavit_wire::check::entry_name;
 use std::fmt::Write;
 use std::ops::Range;
 

@@ -3,7 +3,7 @@
 use super::Document;
 use crate::terminal::words;
 use denavit_check::{Claim, Finding, Standing};
-use denavit_report::json::entry_name;
+use denavit_wire::check::entry_name;
 use std::ops::Range;
 
 /// Counts, causes, and a table of what is not right.

@@ -74,7 +74,8 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
         let rubric = fs::read_to_string(file).map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
         write!(out, "{}", rubric::sheet(&document, &name, &rubric)?)?;
     } else if arguments.json {
-        writeln!(out, "{}", denavit_report::json::checked(&name, &text, &checked))?;
+        let found = denavit_wire::check::Checked::of(&name, &text, &checked);
+        writeln!(out, "{}", denavit_wire::text(&found))?;
     } else if arguments.markdown {
         write!(out, "{}", markdown::list(&document))?;
     } else {

@@ -5,7 +5,7 @@ use super::marked::{Piece, pieces};
 use crate::terminal::{FAINT, HEADING, NAME, decimals, styled, words};
 use anstyle::{AnsiColor, Style};
 use denavit_check::{Cause, Claim, Counterexample, Entry, Finding, Patch, Slip, Standing, Wrong};
-use denavit_report::json::entry_name;
+use denavit_wire::check::entry_name;
 use std::ops::Range;
 
 const GOOD: Style = AnsiColor::Green.on_default();

@@ -1,6 +1,5 @@
 //! `denavit derive`: formulas, in the format asked for.
 
-mod json;
 mod terminal;
 
 use crate::arguments::{DeriveArguments, Format, RobotArguments};
@@ -12,6 +11,7 @@ use denavit::description::Description;
 use denavit::forward::{Outputs, Proof, Reference};
 use denavit_report::Derivation;
 use denavit_report::words::Language;
+use denavit_wire::forward::Derived;
 use std::io::Write;
 
 /// Derives a robot's formulas.
@@ -59,7 +59,7 @@ pub fn reference(d: &Description, text: &str, option: &str) -> Result<Reference,
 fn printed(derivation: &Derivation, format: Format) -> String {
     match format {
         Format::Terminal => terminal::document(derivation),
-        Format::Json => json::document(derivation),
+        Format::Json => format!("{}\n", denavit_wire::text(&Derived::of(derivation))),
         Format::Latex | Format::Typst | Format::Html => {
             document::written(&derivation.document(Language::English), format)
         }

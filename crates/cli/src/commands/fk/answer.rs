@@ -6,7 +6,9 @@ use denavit::forward::{Reference, frames_program};
 use denavit::geometry::orientation::{OrientationSet, extract};
 use denavit::geometry::{Rotation, Transform, Vector};
 use denavit_program::{Arithmetic, Function, Program};
-use std::io::Write;
+use denavit_wire::Schema;
+use denavit_wire::forward::Placed;
+use denavit_wire::pose::{matrices, matrix_of};
 
 /// Entries of a pose.
 const POSE: usize = 16;
@@ -44,7 +46,7 @@ pub struct Answers {
     pub joints: usize,
     /// How many results a configuration has.
     pub results: usize,
-    /// The robot's name, as JSON.
+    /// The robot's name.
     robot: String,
     /// For each joint; none if no joint has limits.
     limits: Vec<Option<[f64; 2]>>,
@@ -65,68 +67,26 @@ impl Answers {
             function: function(description, &poses),
             joints,
             results: POSE * poses.len(),
-            robot: serde_json::Value::from(description.name.as_str()).to_string(),
+            robot: description.name.clone(),
             limits,
             orientation: request.orientation,
         }
     }
 
-    /// Writes the answer: an object on one line, keys in alphabetical order.
+    /// Writes the answer: an object on one line.
     pub fn write(&self, q: &[f64], results: &[f64], out: &mut Vec<u8>) {
         let (frames, pose) = results.split_at(self.results - POSE);
-        out.push(b'{');
-        if !frames.is_empty() {
-            out.extend(b"\"frames\":");
-            list(out, frames.chunks_exact(POSE), matrix);
-            out.push(b',');
-        }
-        if let Some(set) = self.orientation {
-            let found = transforms(pose).map(|x| extract(&x.rotation, set));
-            for o in found {
-                // Writing to memory does not fail.
-                let _ = write!(
-                    out,
-                    "\"orientation\":{{\"set\":\"{set}\",\"singular\":{},\"values\":",
-                    o.singular
-                );
-                list(out, o.values, number);
-                out.extend(b"},");
-            }
-        }
-        out.extend(b"\"pose\":");
-        matrix(out, pose);
-        out.extend(b",\"q\":");
-        list(out, q.iter().copied(), number);
-        out.extend(b",\"robot\":");
-        out.extend(self.robot.as_bytes());
-        out.extend(b",\"schema\":1");
-        if !self.limits.is_empty() {
-            let inside =
-                |(l, x): (&Option<[f64; 2]>, &f64)| l.is_none_or(|[low, high]| (low..=high).contains(x));
-            let all = self.limits.iter().zip(q).all(inside);
-            let _ = write!(out, ",\"within_limits\":{all}");
-        }
-        out.extend(b"}\n");
+        let orientation = self.orientation.zip(transforms(pose).next());
+        let inside = |(l, x): (&Option<[f64; 2]>, &f64)| l.is_none_or(|[low, high]| (low..=high).contains(x));
+        let placed = Placed {
+            frames: &matrices(frames),
+            orientation: orientation.map(|(set, x)| extract(&x.rotation, set).into()),
+            pose: matrix_of(pose),
+            q,
+            robot: &self.robot,
+            schema: Schema,
+            within_limits: (!self.limits.is_empty()).then(|| self.limits.iter().zip(q).all(inside)),
+        };
+        placed.write(out);
     }
-}
-
-fn list<T>(out: &mut Vec<u8>, items: impl IntoIterator<Item = T>, item: impl Fn(&mut Vec<u8>, T)) {
-    out.push(b'[');
-    for (k, x) in items.into_iter().enumerate() {
-        if k > 0 {
-            out.push(b',');
-        }
-        item(out, x);
-    }
-    out.push(b']');
-}
-
-fn matrix(out: &mut Vec<u8>, entries: &[f64]) {
-    list(out, entries.chunks_exact(4), |out, row| list(out, row.iter().map(|x| x + 0.0), number));
-}
-
-/// The shortest decimals that read back as the same double; `null` if it is not finite.
-fn number(out: &mut Vec<u8>, x: f64) {
-    // A number has a JSON form, and writing to memory does not fail.
-    let _ = serde_json::to_writer(out, &x);
 }

@@ -4,12 +4,13 @@ use crate::commands::fk::plural;
 use crate::terminal::{Align, FAINT, HEADING, NAME, matrix, number, styled, table, words};
 use denavit::description::{Description, JointKind};
 use denavit::geometry::Transform;
-use denavit::idealise::{Ideal, Snap};
+use denavit::idealise::Ideal;
 use denavit::inverse::{
     Answer, Criterion, Family, InverseKinematics, JointSpace, Nearest, Obstacle, Solution,
 };
 use denavit::quantity::reading;
-use serde_json::{Value, json};
+use denavit_wire::Schema;
+use denavit_wire::inverse::{self as wire, Idealised};
 use std::f64::consts::TAU;
 
 /// What does not change from pose to pose.
@@ -25,7 +26,7 @@ pub struct Question {
     method: &'static str,
     names: Vec<(String, f64)>,
     space: JointSpace,
-    ideal: Option<Value>,
+    ideal: Option<Idealised>,
 }
 
 impl Question {
@@ -40,14 +41,7 @@ impl Question {
         let variables = description.variables();
         let name = |j: &usize| variables[*j].symbol.name().to_string();
         let names = solver.given.iter().map(name).zip(given.iter().copied()).collect();
-        let ideal = ideal.map(|i| {
-            let snap = |s: &Snap| json!({"axes": [s.axes.0, s.axes.1], "what": words().measured(s.what), "from": s.from, "to": s.to});
-            json!({
-                "rotation_error": i.rotation_error,
-                "position_error": i.position_error,
-                "changes": i.snaps.iter().map(snap).collect::<Vec<_>>(),
-            })
-        });
+        let ideal = ideal.map(Idealised::from);
         let (robot, method, space) = (description.name.clone(), solver.method(), solver.space.clone());
         Question { given, criterion, one, robot, method, names, space, ideal }
     }
@@ -71,73 +65,26 @@ impl Question {
         }
     }
 
-    /// The answer on one line.
-    pub fn json(&self, pose: &Transform<f64>, answer: &Answer, nearest: Option<&Nearest>) -> String {
-        let solution = |s| solution(s, &self.space);
-        let family = |f| family(f, &self.space);
-        let mut value = json!({
-            "schema": 1,
-            "robot": self.robot,
-            "method": self.method,
-            "pose": pose.matrix().map(|row| row.to_vec()).to_vec(),
-            "status": if answer.is_reachable() { "solved" } else { "unreachable" },
-            "complete": answer.is_complete(),
-            "solutions": answer.solutions.iter().map(solution).collect::<Vec<_>>(),
-            "families": answer.families.iter().map(family).collect::<Vec<_>>(),
-        });
-        if !self.names.is_empty() {
-            value["given"] = self.names.iter().map(|(n, x)| (n.clone(), Value::from(*x))).collect();
+    /// The answer.
+    pub fn wire(&self, pose: &Transform<f64>, answer: &Answer, nearest: Option<&Nearest>) -> wire::Answer {
+        let is_near = matches!(self.criterion, Some(Criterion::Nearest(_)));
+        wire::Answer {
+            best: nearest.filter(|_| !is_near).map(wire::Nearest::best),
+            complete: answer.is_complete(),
+            doubt: wire::doubt(answer),
+            families: answer.families.iter().map(|f| wire::Family::of(f, &self.space)).collect(),
+            given: self.names.iter().cloned().collect(),
+            idealised: self.ideal.clone(),
+            method: self.method,
+            nearest: nearest.filter(|_| is_near).map(wire::Nearest::of),
+            obstacle: answer.obstacle.as_ref().map(wire::Obstacle::from),
+            pose: pose.matrix(),
+            robot: self.robot.clone(),
+            schema: Schema,
+            solutions: answer.solutions.iter().map(|s| wire::Solution::of(s, &self.space)).collect(),
+            status: wire::status(answer),
         }
-        if let Some(doubt) = answer.doubt {
-            value["doubt"] = words().doubt(doubt).into();
-        }
-        if let Some(ideal) = &self.ideal {
-            value["idealised"] = ideal.clone();
-        }
-        if let Some(Nearest { q, distance, within_limits }) = nearest {
-            let mut best = json!({"q": q, "within_limits": within_limits});
-            if matches!(self.criterion, Some(Criterion::Nearest(_))) {
-                best["distance"] = (*distance).into();
-            }
-            value[self.superlative()] = best;
-        }
-        if let Some(Obstacle { unknown, q, angle, distance, violated }) = &answer.obstacle {
-            let violated: Vec<Value> =
-                violated.iter().map(|(condition, by)| json!({"condition": condition, "by": by})).collect();
-            value["obstacle"] = json!({
-                "unknown": unknown, "nearest": q, "angle": angle, "distance": distance, "violated": violated,
-            });
-        }
-        format!("{value}\n")
     }
-}
-
-fn solution(s: &Solution, space: &JointSpace) -> Value {
-    let turns: Option<Vec<[i32; 2]>> = s.q.iter().enumerate().map(|(j, &x)| space.turns(j, x)).collect();
-    json!({
-        "q": s.q,
-        "residual": s.residual,
-        "branch": s.branch.to_string(),
-        "multiplicity": s.multiplicity,
-        "within_limits": s.within_limits,
-        "turns": turns,
-    })
-}
-
-fn family(f: &Family, space: &JointSpace) -> Value {
-    let mut value = solution(&f.representative, space);
-    value["dimension"] = f.dimension.into();
-    value["free"] = f.free.clone().into();
-    value["direction"] = f.direction.clone().into();
-    value["affine"] = f.is_affine.into();
-    value["interval"] = f.interval.map(|i| i.to_vec()).into();
-    if !f.feasible.is_empty() {
-        value["feasible"] = json!(f.feasible);
-    }
-    if !f.curve.is_empty() {
-        value["curve"] = json!(f.curve);
-    }
-    value
 }
 
 /// Why there is no solution.

@@ -1,7 +1,6 @@
 //! `denavit ik`: joint variables for a pose; the derivation of their formulas.
 
 mod answer;
-mod json;
 pub mod pose;
 mod stream;
 mod summary;
@@ -20,6 +19,8 @@ use denavit::quantity::reading;
 use denavit_report::document::Block;
 use denavit_report::explain::Explanation;
 use denavit_report::words::Language;
+use denavit_wire::derivation::Derivation;
+use denavit_wire::inverse::Refused;
 use std::io::Write;
 
 /// Solves a pose, or shows the derivation.
@@ -80,7 +81,7 @@ pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
     };
     let (answer, nearest) = question.ask(&solver, &pose);
     let text = if arguments.json {
-        question.json(&pose, &answer, nearest.as_ref())
+        format!("{}\n", denavit_wire::text(&question.wire(&pose, &answer, nearest.as_ref())))
     } else {
         Report {
             question: &question,
@@ -138,7 +139,7 @@ fn printed(arguments: &IkArguments, e: &Explanation) -> String {
     let title = format!("Inverse kinematics of the {}", e.description.name);
     let written = |blocks: &[Block]| document::document(&title, &e.names(), blocks, format);
     match (format, arguments.explain, arguments.symbolic) {
-        (Format::Json, ..) => json::document(e),
+        (Format::Json, ..) => format!("{}\n", denavit_wire::text(&Derivation::of(e))),
         (_, true, _) => written(&e.document(Language::English)),
         (_, _, true) => written(&e.summary(Language::English)),
         (Format::Terminal, ..) => summary::text(e),
@@ -161,7 +162,7 @@ fn refused(
     };
     let mut out = anstream::stdout();
     match stuck {
-        None if arguments.json => writeln!(out, "{}", json::refusal(description, &why))?,
+        None if arguments.json => writeln!(out, "{}", denavit_wire::text(&Refused::of(description, &why)))?,
         Some(stuck) => {
             let explanation = Explanation::of_stuck(description, stuck, arguments.goal.into());
             write!(out, "{}", printed(arguments, &explanation))?;

@@ -29,17 +29,16 @@ struct Poses {
 }
 
 impl Poses {
-    fn solved(&mut self, pose: &Transform<f64>) -> String {
+    fn solved(&mut self, pose: &Transform<f64>, out: &mut Vec<u8>) {
         let (mut answer, nearest) = self.question.ask(&self.solver, pose);
         // Curves are long; they are for one pose.
         answer.families.iter_mut().for_each(|f| f.curve.clear());
-        let text = self.question.json(pose, &answer, nearest.as_ref());
+        denavit_wire::line(&self.question.wire(pose, &answer, nearest.as_ref()), out);
         if self.follow
             && let Some(nearest) = nearest
         {
             self.question.criterion = Some(Criterion::Nearest(nearest.q));
         }
-        text
     }
 }
 
@@ -49,7 +48,7 @@ impl Worker for Poses {
         for (number, line) in chunk.lines() {
             let value = parsed(line, "a JSON 4×4 matrix", |l| serde_json::from_slice(l));
             match value.and_then(|v| pose::matrix(&v)) {
-                Ok(pose) => out.extend(self.solved(&pose).into_bytes()),
+                Ok(pose) => self.solved(&pose, out),
                 Err(why) => {
                     complaint(number, &why, out);
                     bad += 1;

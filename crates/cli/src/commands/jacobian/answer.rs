@@ -13,7 +13,8 @@ use denavit::velocity::{
 };
 use denavit_program::Program;
 use denavit_symbolic::Expr;
-use serde_json::{Map, Value, json};
+use denavit_wire::Schema;
+use denavit_wire::jacobian::{self as wire, Analytic, Largest, Near, Rates, frame};
 
 /// What is asked besides the Jacobian.
 pub struct Questions {
@@ -43,7 +44,7 @@ pub struct Answer<'a> {
     pub jacobian: Jacobian<f64>,
     pub measures: Measures,
     pub nearest: Option<NearestSingularity>,
-    pub analytic: Option<(OrientationSet, Orientation, AnalyticJacobian<f64>)>,
+    pub analytic: Option<(Orientation, AnalyticJacobian<f64>)>,
     /// The twist at the joint velocities, J̇, and J̇q̇.
     pub motion: Option<([f64; 6], Jacobian<f64>, [f64; 6])>,
     pub solved: Option<JointRates>,
@@ -72,7 +73,7 @@ impl<'a> Answer<'a> {
             };
             let o = extract(&pose.rotation, set);
             let found = analytic(&jacobian, set, &o.values);
-            (set, o, found)
+            (o, found)
         });
         let solved = questions.twist.map(|(twist, rows)| {
             let mut solver = RateSolver::new(&space.is_angle, length);
@@ -115,81 +116,47 @@ impl<'a> Answer<'a> {
         }
     }
 
-    /// Schema 1 of `jacobian`.
-    pub fn json(&self) -> String {
-        let m = &self.measures;
-        let mut object = Map::new();
-        let mut put = |key: &str, value: Value| object.insert(key.into(), value);
-        put("schema", 1.into());
-        put("robot", self.description.name.as_str().into());
-        put("q", json!(self.q));
-        put("frame", name(self.view.axes).into());
-        put("of", name(self.view.body).into());
-        put("at", name(self.view.at).into());
-        put("rows", json!(ROWS));
-        put("jacobian", json!(self.jacobian.rows()));
-        put("rank", m.whole.rank.into());
-        put("singular_values", json!(m.whole.singular_values));
-        put("length", json!(m.length));
-        put("condition", json!(m.whole.condition));
-        put("manipulability", json!(m.whole.manipulability));
-        for (key, block) in [("linear", &m.linear), ("angular", &m.angular)] {
-            let values = json!({
-                "singular_values": block.singular_values,
-                "manipulability": block.manipulability,
-                "condition": block.condition,
-            });
-            put(key, values);
+    /// Everything that was answered.
+    pub fn wire(&self) -> wire::Answer {
+        let Measures { linear, angular, whole, length } = &self.measures;
+        let motion = self.motion.as_ref();
+        let held = self.held.as_ref();
+        wire::Answer {
+            analytic: self.analytic.as_ref().map(|(o, rates)| Analytic::of(o.clone().into(), rates)),
+            angular: angular.into(),
+            at: frame(self.view.at),
+            condition: whole.condition,
+            drift: motion.map(|m| m.2),
+            frame: frame(self.view.axes),
+            free: whole.free.clone(),
+            hessian: self.hessian.as_ref().map(|h| h.iter().map(Jacobian::rows).collect()),
+            jacobian: self.jacobian.rows(),
+            jacobian_rate: motion.map(|m| m.1.rows()),
+            joint_rates: self.solved.as_ref().map(|s| Rates::of(s, &self.questions.damping)),
+            largest_wrench: held
+                .and_then(|h| h.largest)
+                .map(|(factor, joint)| Largest { factor, joint: joint + 1 }),
+            length: *length,
+            linear: linear.into(),
+            lost: whole.lost.clone(),
+            manipulability: whole.manipulability,
+            nearest_singularity: self.nearest.as_ref().map(Near::from),
+            of: frame(self.view.body),
+            q: self.q.clone(),
+            rank: whole.rank,
+            robot: self.description.name.clone(),
+            rows: ROWS,
+            schema: Schema,
+            singular_values: whole.singular_values.clone(),
+            torques: held.map(|h| h.torques.clone()),
+            twist: motion.map(|m| m.0),
         }
-        put("lost", json!(m.whole.lost));
-        put("free", json!(m.whole.free));
-        if let Some(n) = &self.nearest {
-            put("nearest_singularity", json!({"q": n.q, "distance": n.distance}));
-        }
-        if let Some((set, o, a)) = &self.analytic {
-            let rows = json!({
-                "set": set.to_string(), "values": o.values, "singular": o.singular, "rows": a.names,
-                "jacobian": a.rows,
-            });
-            put("analytic", rows);
-        }
-        if let Some((twist, rate, drift)) = &self.motion {
-            put("twist", json!(twist));
-            put("jacobian_rate", json!(rate.rows()));
-            put("drift", json!(drift));
-        }
-        if let Some(s) = &self.solved {
-            let rates = json!({
-                "rates": s.rates, "achieved": s.achieved, "damped": s.damped, "scale": s.scale,
-                "damping": {"threshold": self.questions.damping.threshold, "largest": self.questions.damping.largest},
-            });
-            put("joint_rates", rates);
-        }
-        if let Some(Held { torques, largest }) = &self.held {
-            put("torques", json!(torques));
-            if let Some((factor, joint)) = largest {
-                put("largest_wrench", json!({"factor": factor, "joint": joint + 1}));
-            }
-        }
-        if let Some(hessian) = &self.hessian {
-            put("hessian", json!(hessian.iter().map(Jacobian::rows).collect::<Vec<_>>()));
-        }
-        format!("{}\n", Value::Object(object))
     }
 }
 
 /// The length that lengths are divided by where they stand beside angles.
 fn size(space: &JointSpace) -> f64 {
     if space.reach > 0.0 { space.reach } else { 1.0 }
-}
-
-/// `base`, `tool`, or a number.
-pub fn name(frame: Reference) -> String {
-    match frame {
-        Reference::Base => "base".into(),
-        Reference::Tool => "tool".into(),
-        Reference::Frame(i) => i.to_string(),
-    }
 }
 
 /// The viewpoint with numbers.

@@ -54,7 +54,11 @@ pub fn run(arguments: &JacobianArguments) -> Result<(), Failure> {
             let q = configuration(&description, text)?;
             let questions = questions(&description, arguments, robot.joints)?;
             let answer = Answer::new(&description, &robot, view, &q, questions);
-            let text = if arguments.json { answer.json() } else { report::text(&answer) };
+            let text = if arguments.json {
+                format!("{}\n", denavit_wire::text(&answer.wire()))
+            } else {
+                report::text(&answer)
+            };
             write!(anstream::stdout(), "{text}")?;
             Ok(())
         }

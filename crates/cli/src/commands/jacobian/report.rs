@@ -1,6 +1,6 @@
 //! The answer for reading.
 
-use super::answer::{Answer, Held, name};
+use super::answer::{Answer, Held};
 use crate::terminal::{Align, FAINT, HEADING, NAME, decimals, number, styled, table};
 use denavit::description::JointKind;
 use denavit::quantity::rate;
@@ -19,8 +19,8 @@ pub fn text(a: &Answer) -> String {
     text += &format!("Jacobian of {}\n", seen(a));
     text += &matrix(a, &a.jacobian);
     text += &quality(a);
-    if let Some((set, o, analytic)) = &a.analytic {
-        text += &format!("\nAnalytic Jacobian: position and {set}\n");
+    if let Some((o, analytic)) = &a.analytic {
+        text += &format!("\nAnalytic Jacobian: position and {}\n", o.set);
         let rows = analytic.names.iter().zip(&analytic.rows);
         let rows: Vec<(String, &[f64])> = rows.map(|(n, r)| (n.clone(), &r[..])).collect();
         text += &numbers(a, &rows);
@@ -66,7 +66,7 @@ pub fn text(a: &Answer) -> String {
 }
 
 fn seen(a: &Answer) -> String {
-    let frame = |f| match name(f) {
+    let frame = |f| match denavit_wire::jacobian::frame(f) {
         n if n.parse::<usize>().is_ok() => format!("frame {n}"),
         n => format!("the {n}"),
     };

@@ -1,14 +1,13 @@
 //! `jacobian --input`: a line of joint variables in, a line with the Jacobian out.
 
-use super::answer::name;
 use crate::commands::fk::strict;
 use crate::commands::stream::{self, Chunk, Worker, complaint, joints};
 use crate::failure::Failure;
 use denavit::description::Description;
-use denavit::velocity::{ROWS, Viewpoint, jacobian_program};
+use denavit::velocity::{Viewpoint, jacobian_program};
 use denavit_program::Batch;
 use denavit_symbolic::Expr;
-use serde_json::json;
+use denavit_wire::jacobian::{Matrix, frame};
 use std::path::Path;
 
 /// Answers a line for each line: the Jacobian, or what is wrong with the line.
@@ -18,7 +17,7 @@ use std::path::Path;
 pub fn run(description: &Description, view: &Viewpoint<Expr>, path: &Path) -> Result<(), Failure> {
     let function = strict(description, &jacobian_program(description, view));
     let joints = description.variables().len();
-    let (robot, frame) = (description.name.clone(), name(view.axes));
+    let (robot, frame) = (description.name.clone(), frame(view.axes));
     let worker = || Jacobians { batch: function.batch(), joints, robot: robot.clone(), frame: frame.clone() };
     stream::run(worker, path)
 }
@@ -47,13 +46,8 @@ impl Worker for Jacobians {
             match line {
                 Ok(()) => {
                     let q = &rows[row * n..][..n];
-                    let jacobian: Vec<&[f64]> = results[row * 6 * n..][..6 * n].chunks(n.max(1)).collect();
-                    let answer = json!({
-                        "schema": 1, "robot": self.robot, "frame": self.frame, "q": q, "rows": ROWS,
-                        "jacobian": jacobian,
-                    });
-                    out.extend(answer.to_string().as_bytes());
-                    out.push(b'\n');
+                    let entries = &results[row * 6 * n..][..6 * n];
+                    Matrix::of(&self.robot, &self.frame, q, entries).write(out);
                     row += 1;
                 }
                 Err((line, why)) => {

@@ -12,6 +12,7 @@ use crate::commands::fk::without_values;
 use crate::failure::Failure;
 use crate::load;
 use denavit::Robot;
+use denavit_wire::path::Path;
 use samples::Sampled;
 use std::io::Write;
 
@@ -33,7 +34,10 @@ pub fn run(arguments: &PathArguments) -> Result<(), Failure> {
         PathFormat::Text => report::text(&description, &planned, &sampled),
         PathFormat::Csv => sampled.csv(&description),
         PathFormat::Ndjson => sampled.ndjson(),
-        PathFormat::Json => report::json(&description, &planned, &sampled),
+        PathFormat::Json => {
+            let path = Path::of(&description, &planned, sampled.wire());
+            format!("{}\n", denavit_wire::text(&path))
+        }
     };
     if let Some(file) = &arguments.plot {
         let picture = plot::picture(&description, &planned, &sampled);

@@ -3,12 +3,9 @@
 use super::samples::Sampled;
 use crate::terminal::{Align, HEADING, decimals, styled, table, words};
 use denavit::description::{Description, JointKind};
-use denavit::motion::follow::{Alternative, Event, EventKind};
+use denavit::motion::follow::{Alternative, Event};
 use denavit::motion::plan::Planned;
 use denavit::quantity::reading;
-use denavit_symbolic::Expr;
-use denavit_symbolic::print::{Style, print};
-use serde_json::{Value, json};
 
 /// Rows of the table.
 const ROWS: usize = 11;
@@ -104,51 +101,4 @@ fn alternative(d: &Description, a: &Alternative) -> String {
     let branch =
         if a.branch.is_empty() { String::new() } else { format!("  ({})", words().branch(&a.branch)) };
     format!("{}{branch}: {far}{limits}{singular}", q.join(", "))
-}
-
-/// Schema 1 of `path`.
-pub fn json(d: &Description, planned: &Planned, sampled: &Sampled) -> String {
-    let names = d.vocabulary();
-    let text = |e: Expr| print(e, &names, Style::Ascii);
-    let event = |e: &Event| -> Value {
-        let mut object = match &e.kind {
-            EventKind::Singular { factor, place, crossed } => json!({
-                "kind": "singular", "factor": factor.map(text), "why": place.as_ref().map(|p| words().place(p)),
-                "crossed": crossed,
-            }),
-            EventKind::Limit { joint, limit } => json!({"kind": "limit", "joint": joint + 1, "limit": limit}),
-            EventKind::WithinLimits { joint } => json!({"kind": "within_limits", "joint": joint + 1}),
-            EventKind::End { reachable, factor, place } => json!({
-                "kind": "end", "reachable": reachable, "factor": factor.map(text),
-                "why": place.as_ref().map(|p| words().place(p)),
-            }),
-        };
-        object["s"] = e.s.into();
-        object["q"] = json!(e.q);
-        object
-    };
-    let mut object = json!({
-        "schema": 1,
-        "robot": d.name,
-        "path": words().course(&planned.course),
-        "timing": words().timing(&planned.timing, d),
-        "duration": planned.trajectory.duration(),
-        "samples": sampled.samples.iter().map(super::samples::Sample::json).collect::<Vec<_>>(),
-    });
-    if let Some(f) = &planned.followed {
-        object["reached"] = f.reached.into();
-        object["events"] = f.events.iter().map(event).collect();
-        object["deviation"] = json!({"position": f.deviation, "angle": f.turned});
-        object["certified"] = json!(f.certified);
-    }
-    if !planned.alternatives.is_empty() {
-        let one = |a: &Alternative| {
-            json!({
-                "q": a.start, "branch": a.branch.to_string(), "reached": a.reached, "singular": a.singular,
-                "within_limits": a.within_limits,
-            })
-        };
-        object["starts"] = planned.alternatives.iter().map(one).collect();
-    }
-    format!("{object}\n")
 }

@@ -8,7 +8,7 @@ use denavit::inverse::JointSpace;
 use denavit::motion::plan::Planned;
 use denavit::motion::{JointState, MotionError};
 use denavit::velocity::{Viewpoint, Whole, geometric};
-use serde_json::json;
+use denavit_wire::path as wire;
 use std::fmt::Write;
 
 /// Samples a motion has at most where no time between them is given.
@@ -79,7 +79,7 @@ impl Sampled {
                 .chain(rotation.into_iter().flatten())
                 .chain([s.manipulability]);
             // The shortest decimals that read back as the same double.
-            let line: Vec<String> = values.map(|x| serde_json::json!(x + 0.0).to_string()).collect();
+            let line: Vec<String> = values.map(|x| denavit_wire::text(&(x + 0.0))).collect();
             // Writing to memory does not fail.
             let _ = writeln!(out, "{}", line.join(","));
         }
@@ -88,16 +88,24 @@ impl Sampled {
 
     /// An object a line.
     pub fn ndjson(&self) -> String {
-        self.samples.iter().map(|s| format!("{}\n", s.json())).collect()
+        self.samples.iter().map(|s| format!("{}\n", denavit_wire::text(&s.wire()))).collect()
+    }
+
+    /// As other programs read it.
+    pub fn wire(&self) -> Vec<wire::Sample> {
+        self.samples.iter().map(Sample::wire).collect()
     }
 }
 
 impl Sample {
-    /// Schema 1.
-    pub fn json(&self) -> serde_json::Value {
-        json!({
-            "t": self.t, "q": self.state.q, "velocity": self.state.qd, "acceleration": self.state.qdd,
-            "pose": self.pose.matrix(), "manipulability": self.manipulability,
-        })
+    fn wire(&self) -> wire::Sample {
+        wire::Sample {
+            acceleration: self.state.qdd.clone(),
+            manipulability: self.manipulability,
+            pose: self.pose.matrix(),
+            q: self.state.q.clone(),
+            t: self.t,
+            velocity: self.state.qd.clone(),
+        }
     }
 }

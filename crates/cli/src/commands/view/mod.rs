@@ -15,7 +15,8 @@ mod tests;
 use crate::arguments::ViewArguments;
 use crate::failure::Failure;
 use crate::load;
-use serde_json::json;
+use denavit_wire::Schema;
+use denavit_wire::view::Served;
 use server::{Bounds, Server};
 use site::Site;
 use std::io::Write;
@@ -46,7 +47,7 @@ pub fn run(arguments: &ViewArguments) -> Result<(), Failure> {
     let address = server.address();
     let mut out = anstream::stdout();
     if arguments.json {
-        writeln!(out, "{}", json!({"schema": 1, "url": address}))?;
+        writeln!(out, "{}", denavit_wire::text(&Served { schema: Schema, url: address.clone() }))?;
     } else {
         writeln!(out, "{address}")?;
     }

@@ -212,7 +212,7 @@ function PlaceButton({ place, context }: { place: Place; context: Context }) {
 /** Joints and parameters in the units shown; what is not known by name stays as it is. */
 function measured(name: string, value: number): string {
   const joint = robot.value?.joints.find((one) => one.name === name);
-  const measure = joint ? (joint.kind === "revolute" ? "angle" : "length") : robot.value?.parameters.find((one) => one.name === name)?.measure;
+  const measure = joint ? (joint.kind === "R" ? "angle" : "length") : robot.value?.parameters.find((one) => one.name === name)?.measure;
   return measure ? formatWithUnit(value, measure, look.value) : number(value);
 }
 

@@ -12,7 +12,7 @@ export async function example(): Promise<string | null> {
   const at = taken.findIndex((text) => withSlip(text) !== null);
   if (at < 0) return null;
   const lines = taken.map((text, k) => (k === at ? withSlip(text)! : text));
-  return [`# Position of the hand of ${robot.peek()?.name ?? "the robot"}`, "", ...lines.flatMap((line) => [line, ""])].join("\n");
+  return [`# Position of the hand of ${robot.peek()?.robot ?? "the robot"}`, "", ...lines.flatMap((line) => [line, ""])].join("\n");
 }
 
 function formulasOf(block: Block): Formula[] {

@@ -1,4 +1,5 @@
-// What the engine is asked and what it answers: the JSON that crosses the border between the page and `crates/web/src`.
+// What the engine is asked and what it answers: the JSON that crosses the border between the page and `crates/web/src`. What
+// the command line says, too, has the names that it has there (`crates/wire`, `docs/json.md`).
 // Lengths are metres, angles radians, matrices rows of rows.
 
 /** A pose: four rows of four. */
@@ -52,10 +53,9 @@ export type Severity = "error" | "warning" | "note";
 export interface Finding {
   severity: Severity;
   message: string;
-  hint?: string;
+  hint: string | null;
   /** Where in a text that was opened. */
-  line?: number;
-  column?: number;
+  at?: Place;
   /** Where in a robot file: `joints.2.theta`, `joints.0.limits.1`, `parameters.3.value`, `tool.xyz.0`, `name`. */
   cell?: string;
 }
@@ -67,12 +67,13 @@ export interface Listed {
   /** `RRPRRR` */
   joints: string;
   convention: Convention;
-  source?: string;
+  source: string | null;
 }
 
 /** What a robot is, once it is read; `edit` answers with it. */
 export interface RobotModel {
-  name: string;
+  /** Its name. */
+  robot: string;
   convention: Convention;
   /** The letters of the table in the convention's order, with `gamma` and `b` where used. */
   letters: Letter[];
@@ -85,17 +86,32 @@ export interface RobotModel {
   poses: { name: string; q: number[] }[];
   /** How far the arm reaches, about. */
   reach: number;
-  /** `RRR·RRR with spherical wrist`, and remarks on geometry that is nearly special. */
-  structure: string;
+  /** What is special about it. */
+  structure: Structure;
+  /** On geometry that is nearly special, and values that are not known. */
   remarks: string[];
 }
+
+/** What is special about an arm; joints are counted from 1. */
+export interface Structure {
+  /** `RRR·RRR with spherical wrist` */
+  schematic: string;
+  parallel: number[][];
+  /** How axes k and k + 1 lie. */
+  relations: string[];
+  spherical_wrists: number[];
+  nearly: { joints: [number, number]; nearly: string; by: number }[];
+}
+
+/** A joint that turns, or slides. */
+export type JointKind = "R" | "P";
 
 export interface Joint {
   /** `q1` */
   name: string;
   /** The joint's own name, if it has one. */
-  title?: string;
-  kind: "revolute" | "prismatic";
+  title: string | null;
+  kind: JointKind;
   /** The row (from 0) that introduces it. */
   row: number;
   limits: [number, number] | null;
@@ -110,7 +126,7 @@ export interface Scene {
   /** Frames 0 … n and then the tool, in the base. */
   frames: Matrix[];
   /** A cylinder about its axis or a box along it for everything that moves. */
-  symbols: { joint: number | null; kind: Joint["kind"]; centre: Point; axis: Point; radius: number; half: number }[];
+  symbols: { joint: number | null; kind: JointKind; centre: Point; axis: Point; radius: number; half: number }[];
   /** Straight parts of links; link 0 is the base. A rod slides out of a joint. */
   bars: { from: Point; to: Point; link: number; rod: boolean }[];
   ground: { at: Point; up: Point };
@@ -119,9 +135,19 @@ export interface Scene {
   unit: number;
   /** The four elementary steps of each row, in the convention's order. */
   rows: Step[][];
-  /** √det(J Jᵀ) of the tool, the smallest singular value and the condition number, with lengths by the arm's reach. */
-  measures: { manipulability: number; smallest: number; condition: number };
-  withinLimits: boolean[];
+  /** Of the tool, with lengths by the arm's reach. */
+  measures: Measures;
+  within_limits: boolean[];
+}
+
+/** How well a body moves. */
+export interface Measures {
+  /** √det(J Jᵀ) */
+  manipulability: number;
+  /** The largest singular value by the smallest; null if it is infinite. */
+  condition: number | null;
+  /** Descending. */
+  singular_values: number[];
 }
 
 /** A step of a row: from one frame to the next, a turn about or a way along x or z of `frame`. */
@@ -135,20 +161,37 @@ export interface Step {
   text: string;
 }
 
-/** `solve` */
+/** `solve`. An arm that cannot take the pose has the solutions of the nearest that it can. */
 export interface Answer {
   pose: Matrix;
+  status: "solved" | "unreachable";
   method: "closed form" | "elimination" | "self-motion" | "descent";
   complete: boolean;
   doubt?: string;
   solutions: Solution[];
+  /** Each solution as it is drawn. */
+  scenes: Ghost[];
   families: Family[];
+  /** What is said of each family. */
+  motions: Motion[];
   /** Why there is none, and the nearest configuration. */
-  obstacle?: { words: string; q: number[]; pose: Matrix; angle: number; distance: number; scene: Ghost };
-  /** The solution nearest to where the arm was: whole turns from one of the list. */
-  nearest?: { q: number[]; distance: number; withinLimits: boolean; index: number | null };
-  /** Values for joints that are given beside the pose. */
-  given: { joint: number; value: number }[];
+  obstacle?: Obstacle;
+  /** The same in words, and what the arm takes instead. */
+  stop?: { words: string; pose: Matrix; scene: Ghost };
+  /** The solution nearest to where the arm was: whole turns from one of the list, */
+  nearest?: { q: number[]; distance: number; within_limits: boolean };
+  /** this one. */
+  index?: number;
+  /** Values of joints that are given beside the pose, by their names. */
+  given?: Record<string, number>;
+}
+
+export interface Obstacle {
+  nearest: number[];
+  angle: number;
+  distance: number;
+  unknown: string | null;
+  violated: { condition: string; by: number }[];
 }
 
 /** What a ghost is drawn from. */
@@ -159,19 +202,26 @@ export interface Solution {
   branch: string;
   residual: number;
   multiplicity: number;
-  withinLimits: boolean;
-  scene: Ghost;
+  within_limits: boolean;
+  /** For each joint the least and the greatest number of whole turns by which the limits allow to move it. */
+  turns: [number, number][] | null;
 }
 
-export interface Family {
+/** One configuration of it, and how it goes on. */
+export interface Family extends Solution {
   /** What is free: `q4 + q6`. */
   free: string[];
-  words: string;
   dimension: number;
   direction: number[];
-  representative: Solution;
+  affine: boolean;
+  interval: [number, number] | null;
+  feasible?: [number, number][];
   /** Members along it, in order; the first again at the end if it is closed. */
-  curve: number[][];
+  curve?: number[][];
+}
+
+export interface Motion {
+  words: string;
   closed: boolean;
 }
 
@@ -250,20 +300,30 @@ export type Waypoint =
   | { kind: "arc"; via: Point; pose: Matrix };
 
 export interface Path {
-  words: string;
+  /** What path it is. */
+  path: string;
   timing: string;
   duration: number;
   /** The part of the way that could be followed, 1 if all. */
   reached: number;
-  times: number[];
+  /** Sample by sample: seconds, joints, their velocities. */
+  t: number[];
   q: number[][];
-  qd: number[][];
-  /** Manipulability as in `Scene`, sample by sample. */
+  velocity: number[][];
+  /** Manipulability as in `Scene`. */
   manipulability: number[];
-  poses: Matrix[];
+  pose: Matrix[];
   /** Singular configurations and limits on the way. */
-  events: { time: number; words: string; kind: "singular" | "limit" | "end" }[];
-  alternatives: { q: number[]; words: string; reached: number; withinLimits: boolean }[];
+  events: PathEvent[];
+  /** Configurations in which it can start. */
+  starts: { q: number[]; branch: string; reached: number; singular: number; within_limits: boolean }[];
+}
+
+export interface PathEvent {
+  /** Seconds. */
+  t: number;
+  words: string;
+  kind: "singular" | "limit" | "within_limits" | "end";
 }
 
 /** `check`; the claims are those of `denavit check --json`. */
@@ -271,7 +331,7 @@ export interface Checked {
   tally: Record<Verdict, number>;
   causes: { change: string; turns_right: string[] }[];
   claims: Claim[];
-  notes: { severity: Severity; message: string; hint?: string; at: Place }[];
+  notes: (Finding & { at: Place })[];
 }
 
 export type Verdict = "equal" | "wrong" | "conditional" | "undecided" | "unreadable";
@@ -286,7 +346,8 @@ export interface Claim {
   claim: string;
   about: string;
   at: Place;
-  robot: number | string;
+  /** Which of the robots. */
+  robot: number;
   verdict: Verdict;
   correct: string | null;
   slip: Slip | null;
@@ -320,10 +381,11 @@ export interface Slip {
 }
 
 /** `singular`: singular configurations of the tool, with the factor that vanishes. */
-export interface Singular {
-  words: string;
+export interface Singularity {
+  why: string | null;
   factor: Formula;
-  conditions: string[];
+  /** The factor solved for angles. */
+  zeros: { angle: string; values: string[] }[];
   q: number[] | null;
   scene: Ghost | null;
 }
@@ -358,12 +420,12 @@ export interface Requests {
   /** `quick`: one solution near to where the arm is will do. */
   solve: [{ pose?: Matrix; q?: number[]; near?: number[]; quick?: boolean }, Answer];
   orientations: [Record<string, never>, { sets: OrientationSet[] }];
-  angles: [{ pose: Matrix; set: string }, { values: number[]; singular: boolean }];
+  angles: [{ pose: Matrix; set: string }, { set: string; values: number[]; singular: boolean }];
   pose: [{ xyz: Point; set: string; values: number[] }, { pose: Matrix }];
-  jacobian: [{ q: number[]; frame: "base" | "tool" }, { rows: string[]; jacobian: Matrix }];
+  jacobian: [{ q: number[]; frame: "base" | "tool" }, { robot: string; frame: string; q: number[]; rows: string[]; jacobian: Matrix }];
   formulas: [{ topic: Topic; q: number[] }, Formulas];
   values: [{ topic: Topic; q: number[] }, { values: Values }];
-  singular: [Record<string, never>, { singular: Singular[]; remark?: string }];
+  singular: [Record<string, never>, { singularities: Singularity[]; complete: boolean }];
   workspace: [Record<string, never>, Workspace];
   path: [PathRequest, Path];
   check: [{ text: string; name: string }, Checked];

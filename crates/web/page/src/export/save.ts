@@ -16,7 +16,7 @@ export function save(name: string, content: Blob | string, type = "text/plain"):
 
 /** A name for files about the present robot: `staubli-rx-90`. */
 export function fileName(): string {
-  const words = (robot.peek()?.name ?? "").normalize("NFD").replace(/\p{M}/gu, "").toLowerCase();
+  const words = (robot.peek()?.robot ?? "").normalize("NFD").replace(/\p{M}/gu, "").toLowerCase();
   return words.replace(/[^a-z0-9]+/g, "-").replace(/^-+|-+$/g, "") || "robot";
 }
 

@@ -115,7 +115,7 @@ function Names() {
     "A1 … (link transforms)",
     "P_x, n_x, t_34 (entries)",
     `${model.joints[0]?.name ?? "q1"} … ${model.joints.at(-1)?.name ?? ""}`,
-    model.joints.some((joint) => joint.kind === "revolute") && "C1, S23 (cosines, sines)",
+    model.joints.some((joint) => joint.kind === "R") && "C1, S23 (cosines, sines)",
     "J (Jacobian)",
     ...model.parameters.slice(0, 8).map((parameter) => parameter.name),
   ];

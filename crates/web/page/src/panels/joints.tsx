@@ -3,14 +3,14 @@
 import { useState } from "preact/hooks";
 import type { Joint } from "../engine/types.ts";
 import { change, file, highlighted, look, move, note, q, robot, scene, stale } from "../state.ts";
-import { isExact, nearness } from "../scene/arm.ts";
+import { isExact, nearness, smallest } from "../scene/arm.ts";
 import { forFile, formatWithUnit, type Measure, short, unitOf, format } from "../units.ts";
 import { Button } from "../widgets/button.tsx";
 import { NumberField } from "../widgets/number.tsx";
 import { Slider } from "../widgets/slider.tsx";
 
 export function measureOf(joint: Joint): Measure {
-  return joint.kind === "revolute" ? "angle" : "length";
+  return joint.kind === "R" ? "angle" : "length";
 }
 
 /** `q1 (shoulder)` */
@@ -53,7 +53,7 @@ function anywhere(joint: Joint): number {
 function JointRow({ joint, index }: { joint: Joint; index: number }) {
   const value = q.value[index] ?? 0;
   const measure = measureOf(joint);
-  const inside = scene.value?.withinLimits[index] ?? true;
+  const inside = scene.value?.within_limits[index] ?? true;
   const lit = highlighted.value.has(index);
   const light = () => (highlighted.value = new Set([index]));
   const dark = () => (highlighted.value = new Set());
@@ -65,7 +65,7 @@ function JointRow({ joint, index }: { joint: Joint; index: number }) {
   const remark = `limits-${joint.name}`;
   return (
     <li class={`joint${lit ? " lit" : ""}${inside ? "" : " beyond"}`} onPointerEnter={light} onPointerLeave={dark}>
-      <span class="joint-name" title={joint.title}>
+      <span class="joint-name" title={joint.title ?? undefined}>
         <JointSymbol name={joint.name} />
         {joint.title && <span class="joint-title">{joint.title}</span>}
       </span>
@@ -168,7 +168,8 @@ const NEAR = 0.05;
 function Measures() {
   const now = scene.value;
   if (!now) return null;
-  const { manipulability, smallest, condition } = now.measures;
+  const { manipulability } = now.measures;
+  const condition = now.measures.condition ?? Infinity;
   // 0 where the arm is singular, 1 where the hand moves equally well in all directions.
   const evenness = condition > 0 ? Math.min(1, 1 / condition) : 0;
   const near = nearness(now, robot.value?.reach ?? 1) > NEAR;
@@ -187,7 +188,7 @@ function Measures() {
         </div>
         <div>
           <dt>Smallest singular value</dt>
-          <dd>{short(smallest, 4)}</dd>
+          <dd>{short(smallest(now), 4)}</dd>
         </div>
         <div>
           <dt>Condition number</dt>

@@ -121,7 +121,7 @@ function Planned({ planned }: { planned: Path }) {
     <div class="planned">
       <div role="status">
         <p>
-          {sentence(planned.words)} {sentence(planned.timing)}
+          {sentence(planned.path)} {sentence(planned.timing)}
         </p>
         {planned.reached < 1 && <p class="warning-words">It can be followed for {percent} % of its way only.</p>}
       </div>
@@ -130,11 +130,11 @@ function Planned({ planned }: { planned: Path }) {
         <ul class="events" aria-label="On the way">
           {planned.events.map((event, k) => (
             <li key={k}>
-              <button type="button" onClick={() => seek(event.time, end)} title="Go there">
+              <button type="button" onClick={() => seek(event.t, end)} title="Go there">
                 <svg width="14" height="14" viewBox="-7 -7 14 14" class={`event event-${event.kind}`} aria-hidden="true">
                   <EventSign kind={event.kind} y={0} />
                 </svg>
-                <span class="event-time">{event.time.toFixed(2)} s</span>
+                <span class="event-time">{event.t.toFixed(2)} s</span>
                 <span>{event.words}</span>
               </button>
             </li>
@@ -152,18 +152,18 @@ function Planned({ planned }: { planned: Path }) {
 
 /** Other configurations of the start with the same hand. */
 function Alternatives({ planned }: { planned: Path }) {
-  if (planned.alternatives.length === 0) return null;
+  if (planned.starts.length === 0) return null;
   return (
     <details class="alternatives" open={planned.reached < 1}>
-      <summary>Other configurations to start in ({planned.alternatives.length})</summary>
+      <summary>Other configurations to start in ({planned.starts.length})</summary>
       <ul>
-        {planned.alternatives.map((other, k) => (
+        {planned.starts.map((other, k) => (
           <li key={k}>
             <div>
               <p>{jointWords(other.q)}</p>
               <p class="quiet">
-                {other.words}
-                {!other.withinLimits && " Beyond the limits."}
+                {other.branch}
+                {!other.within_limits && " Beyond the limits."}
               </p>
             </div>
             <Button label="Start so" hint="Plan the path again from this configuration" small disabled={planning.running} onClick={() => void plan(other.q)} />

@@ -200,7 +200,7 @@ function Catalogue() {
             role="option"
             aria-selected={index === at}
             class={index === at ? "robot active" : "robot"}
-            title={robot.source}
+            title={robot.source ?? undefined}
             onClick={() => take(robot.name)}
             onPointerMove={() => setActive(index)}
           >
@@ -271,7 +271,7 @@ function FromText({ text: first, name, findings: firstFindings }: { text: string
         millimetres: lengths === "" ? undefined : lengths === "mm",
         table: asksTable ? table : undefined,
       });
-      setFindings(answer.findings.map((finding) => ({ ...finding, hint: finding.hint?.replace(OPTION, "choose one below:") })));
+      setFindings(answer.findings.map((finding) => ({ ...finding, hint: finding.hint?.replace(OPTION, "choose one below:") ?? null })));
       if (answer.findings.some((finding) => finding.hint?.includes(OPTION))) setAsksTable(true);
       if (answer.opened) {
         batch(() => {
@@ -281,7 +281,7 @@ function FromText({ text: first, name, findings: firstFindings }: { text: string
         note(answer.findings.length > 0 ? answer.findings.map((finding) => sentence(finding.message)).join(" ") : "The table is read.");
       } else if (convention === "" && answer.findings.some((finding) => /convention/i.test(finding.message))) choice.current?.focus();
     } catch (why) {
-      setFindings([{ severity: "error", message: why instanceof Error ? why.message : String(why) }]);
+      setFindings([{ severity: "error", message: why instanceof Error ? why.message : String(why), hint: null }]);
     }
   };
 

@@ -2,7 +2,7 @@
 
 import type { TargetedKeyboardEvent } from "preact";
 import { useState } from "preact/hooks";
-import type { Answer, Family, Solution } from "../engine/types.ts";
+import type { Answer, Family, Motion, Solution } from "../engine/types.ts";
 import { answerNow, batch, ghost, highlighted, look, move, q, robot, solvedIn, solving, target } from "../state.ts";
 import { format, formatWithUnit, short } from "../units.ts";
 import { Button } from "../widgets/button.tsx";
@@ -40,21 +40,23 @@ const NEAR = 0.5;
 const MANY = 6;
 
 function Found({ answer }: { answer: Answer }) {
-  const { solutions, families, obstacle } = answer;
-  const places = families.map((family) => nearest(family.curve, q.value));
+  const { solutions, families, stop } = answer;
+  const given = Object.entries(answer.given ?? {});
+  const places = families.map((family) => nearest(family.curve ?? [], q.value));
   const least = Math.min(...places.map((place) => place.distance));
   const [all, setAll] = useState(false);
   // The nearest first to be seen, where there are dozens.
   const shown = all || families.length <= MANY ? families : families.filter((_, k) => places[k].distance <= [...places].map((p) => p.distance).sort((a, b) => a - b)[MANY - 1]);
   return (
     <>
-      {obstacle && <Obstacle obstacle={obstacle} />}
-      {obstacle && solutions.length + families.length > 0 && <p class="fine">Ways to the nearest pose:</p>}
+      {stop && answer.obstacle && <Obstacle words={stop.words} obstacle={answer.obstacle} />}
+      {stop && solutions.length + families.length > 0 && <p class="fine">Ways to the nearest pose:</p>}
       {solutions.length > 0 && <Listbox answer={answer} />}
       {families.map((family, index) => shown.includes(family) && (
         <FamilySlider
           key={index}
           family={family}
+          motion={answer.motions[index]}
           answer={answer}
           name={families.length > 1 ? `Self-motion ${index + 1}` : "Self-motion"}
           at={places[index].index}
@@ -64,15 +66,14 @@ function Found({ answer }: { answer: Answer }) {
       {shown.length < families.length && (
         <Button label={`Show all ${families.length} self-motions`} small onClick={() => setAll(true)} />
       )}
-      {answer.given.length > 0 && (
+      {given.length > 0 && (
         <p class="fine">
-          Given beside the pose:{" "}
-          {answer.given.map((one) => `${jointName(one.joint)} = ${formatJoint(one.value, one.joint)}`).join(", ")}
+          Given beside the pose: {given.map(([name, value]) => `${name} = ${formatJoint(name, value)}`).join(", ")}
         </p>
       )}
       <p class="fine">
         By {METHODS[answer.method]}.{" "}
-        {answer.complete ? (obstacle ? "No solution is missed." : "These are all there are.") : `There may be more${answer.doubt ? `: ${answer.doubt}` : ""}.`}
+        {answer.complete ? (stop ? "No solution is missed." : "These are all there are.") : `There may be more${answer.doubt ? `: ${answer.doubt}` : ""}.`}
       </p>
     </>
   );
@@ -103,8 +104,8 @@ function jointName(index: number): string {
   return robot.value?.joints[index]?.name ?? `q${index + 1}`;
 }
 
-function formatJoint(value: number, index: number): string {
-  const joint = robot.value?.joints[index];
+function formatJoint(name: string, value: number): string {
+  const joint = robot.value?.joints.find((one) => one.name === name);
   return joint ? formatWithUnit(value, measureOf(joint), look.value, 2) : short(value);
 }
 
@@ -112,7 +113,7 @@ function formatJoint(value: number, index: number): string {
 function same(one: number[], other: number[]): boolean {
   return one.every((value, index) => {
     const by = value - (other[index] ?? Number.NaN);
-    const turns = robot.value?.joints[index]?.kind === "revolute" ? Math.round(by / (2 * Math.PI)) * 2 * Math.PI : 0;
+    const turns = robot.value?.joints[index]?.kind === "R" ? Math.round(by / (2 * Math.PI)) * 2 * Math.PI : 0;
     return Math.abs(by - turns) < 1e-5;
   });
 }
@@ -193,11 +194,11 @@ interface OptionProps {
 
 function Option({ solution, index, isActive, isCurrent, onTake }: OptionProps) {
   const remarks = [
-    solution.withinLimits ? "" : "outside the limits",
+    solution.within_limits ? "" : "outside the limits",
     solution.multiplicity > 1 ? `${solution.multiplicity} branches coincide` : "",
     solution.residual > 1e-9 ? `residual ${solution.residual.toExponential(0)}` : "",
   ].filter(Boolean);
-  const names = ["solution", isActive && "active", isCurrent && "current", !solution.withinLimits && "beyond", ghost.value === index && "ghosted"];
+  const names = ["solution", isActive && "active", isCurrent && "current", !solution.within_limits && "beyond", ghost.value === index && "ghosted"];
   return (
     <div
       class={names.filter(Boolean).join(" ")}
@@ -225,7 +226,7 @@ function Option({ solution, index, isActive, isCurrent, onTake }: OptionProps) {
           const joint = robot.value?.joints[at];
           return (
             <span key={at} class={highlighted.value.has(at) ? "lit" : undefined}>
-              {joint ? format(value, measureOf(joint), look.value, joint.kind === "revolute" && look.value.angles === "rad" ? 3 : undefined) : short(value)}
+              {joint ? format(value, measureOf(joint), look.value, joint.kind === "R" && look.value.angles === "rad" ? 3 : undefined) : short(value)}
             </span>
           );
         })}
@@ -236,6 +237,7 @@ function Option({ solution, index, isActive, isCurrent, onTake }: OptionProps) {
 
 interface FamilyProps {
   family: Family;
+  motion: Motion;
   answer: Answer;
   name: string;
   /** The member of the curve that is nearest to the arm. */
@@ -243,19 +245,20 @@ interface FamilyProps {
   isHere: boolean;
 }
 
-function FamilySlider({ family, answer, name, at, isHere }: FamilyProps) {
-  const last = family.curve.length - 1;
+function FamilySlider({ family, motion, answer, name, at, isHere }: FamilyProps) {
+  const curve = family.curve ?? [];
+  const last = curve.length - 1;
   return (
     <div class="family">
       <div class="heading">
         <h3>
           {name} {isHere && <span class="tag">arm is here</span>}
         </h3>
-        <span class="fine">{family.closed ? "all round" : "between ends"}</span>
-        {!isHere && <Button label="Go there" small onClick={() => take(family.curve[at] ?? family.representative.q, answer)} />}
+        <span class="fine">{motion.closed ? "all round" : "between ends"}</span>
+        {!isHere && <Button label="Go there" small onClick={() => take(curve[at] ?? family.q, answer)} />}
       </div>
-      <p class="fine clamped" title={family.words}>
-        <Words text={sentence(family.words)} />
+      <p class="fine clamped" title={motion.words}>
+        <Words text={sentence(motion.words)} />
         {family.dimension > 1 && ` There are ${family.dimension} degrees of freedom; the slider goes along one.`}
       </p>
       {last > 0 && (
@@ -266,8 +269,8 @@ function FamilySlider({ family, answer, name, at, isHere }: FamilyProps) {
           measure="number"
           step={1}
           origin={0}
-          text={`${Math.round((100 * at) / last)} percent of the way${family.closed ? " round" : ""}`}
-          onChange={(to) => take(family.curve[Math.round(Math.min(last, Math.max(0, to)))], answer)}
+          text={`${Math.round((100 * at) / last)} percent of the way${motion.closed ? " round" : ""}`}
+          onChange={(to) => take(curve[Math.round(Math.min(last, Math.max(0, to)))], answer)}
         />
       )}
     </div>
@@ -281,7 +284,7 @@ function nearest(curve: number[][], to: number[]): { index: number; distance: nu
   curve.forEach((member, index) => {
     const distance = member.reduce((sum, value, joint) => {
       const by = value - (to[joint] ?? 0);
-      const turned = robot.value?.joints[joint]?.kind === "revolute" ? by - Math.round(by / (2 * Math.PI)) * 2 * Math.PI : by;
+      const turned = robot.value?.joints[joint]?.kind === "R" ? by - Math.round(by / (2 * Math.PI)) * 2 * Math.PI : by;
       return sum + turned * turned;
     }, 0);
     if (distance < least) [best, least] = [index, distance];
@@ -289,7 +292,7 @@ function nearest(curve: number[][], to: number[]): { index: number; distance: nu
   return { index: best, distance: Math.sqrt(least) };
 }
 
-function Obstacle({ obstacle }: { obstacle: NonNullable<Answer["obstacle"]> }) {
+function Obstacle({ words, obstacle }: { words: string; obstacle: NonNullable<Answer["obstacle"]> }) {
   const apart = [
     obstacle.distance > 1e-9 ? formatWithUnit(obstacle.distance, "length", look.value) : "",
     obstacle.angle > 1e-9 ? formatWithUnit(obstacle.angle, "angle", look.value) : "",
@@ -297,11 +300,11 @@ function Obstacle({ obstacle }: { obstacle: NonNullable<Answer["obstacle"]> }) {
   return (
     <Callout tone="warning">
       <span>
-        <Words text={sentence(obstacle.words)} />
+        <Words text={sentence(words)} />
       </span>
       {apart.length > 0 && <span>The nearest pose the arm reaches is {apart.join(" and ")} away.</span>}
       <span>
-        <Button label="Go to the nearest" icon="target" small onClick={() => move(obstacle.q)} />
+        <Button label="Go to the nearest" icon="target" small onClick={() => move(obstacle.nearest)} />
       </span>
     </Callout>
   );

@@ -21,25 +21,25 @@ export function Plots({ path }: { path: Path }) {
       joint: k,
       name: joint.name,
       values: path.q.map((q) => q[k] ?? NaN),
-      write: (value) => formatWithUnit(value, joint.kind === "revolute" ? "angle" : "length", units, units.angles === "deg" && joint.kind === "revolute" ? 1 : undefined),
+      write: (value) => formatWithUnit(value, joint.kind === "R" ? "angle" : "length", units, units.angles === "deg" && joint.kind === "R" ? 1 : undefined),
     }));
   }, [path, joints, units]);
   const kinds = useMemo(() => {
-    return (["revolute", "prismatic"] as const)
+    return (["R", "P"] as const)
       .filter((kind) => joints.some((joint) => joint.kind === kind))
-      .map((kind) => ({ kind, positions: curves(path.q, joints, kind, units, hidden), speeds: curves(path.qd, joints, kind, units, hidden) }));
+      .map((kind) => ({ kind, positions: curves(path.q, joints, kind, units, hidden), speeds: curves(path.velocity, joints, kind, units, hidden) }));
   }, [path, joints, units, hidden]);
   const manipulability = useMemo<Series[]>(() => [{ name: "manipulability", joint: null, values: path.manipulability }], [path]);
-  const common = { times: path.times, events: path.events };
+  const common = { times: path.t, events: path.events };
   const mixed = kinds.length > 1;
   return (
     <div class="plots">
-      <Legend times={path.times} entries={entries} hidden={hidden} toggle={toggle} />
+      <Legend times={path.t} entries={entries} hidden={hidden} toggle={toggle} />
       {kinds.map(({ kind, positions }) => (
-        <Plot key={kind} title={mixed ? (kind === "revolute" ? "Joint angles" : "Joint displacements") : "Joints"} unit={unit(kind, units)} degrees={unit(kind, units) === "°"} series={positions} {...common} />
+        <Plot key={kind} title={mixed ? (kind === "R" ? "Joint angles" : "Joint displacements") : "Joints"} unit={unit(kind, units)} degrees={unit(kind, units) === "°"} series={positions} {...common} />
       ))}
       {kinds.map(({ kind, speeds }) => (
-        <Plot key={kind} title={mixed ? (kind === "revolute" ? "Angular speeds" : "Linear speeds") : "Joint speeds"} unit={`${unit(kind, units)}/s`} degrees={unit(kind, units) === "°"} series={speeds} {...common} />
+        <Plot key={kind} title={mixed ? (kind === "R" ? "Angular speeds" : "Linear speeds") : "Joint speeds"} unit={`${unit(kind, units)}/s`} degrees={unit(kind, units) === "°"} series={speeds} {...common} />
       ))}
       <Plot title="Manipulability" unit="lengths by the arm’s reach" fromZero series={manipulability} {...common} />
     </div>
@@ -47,13 +47,13 @@ export function Plots({ path }: { path: Path }) {
 }
 
 function unit(kind: Joint["kind"], units: Units): string {
-  return unitOf(kind === "revolute" ? "angle" : "length", units);
+  return unitOf(kind === "R" ? "angle" : "length", units);
 }
 
 /** The curves of one kind of joint in the unit shown. */
 function curves(samples: number[][], joints: Joint[], kind: Joint["kind"], units: Units, hidden: ReadonlySet<number>): Series[] {
-  const isDegrees = kind === "revolute" && units.angles === "deg";
-  const factor = isDegrees ? 180 / Math.PI : kind === "prismatic" && units.lengths === "mm" ? 1000 : 1;
+  const isDegrees = kind === "R" && units.angles === "deg";
+  const factor = isDegrees ? 180 / Math.PI : kind === "P" && units.lengths === "mm" ? 1000 : 1;
   return joints.flatMap((joint, k) => {
     if (joint.kind !== kind || hidden.has(k)) return [];
     return [{ name: joint.name, joint: k, values: samples.map((sample) => (sample[k] ?? NaN) * factor) }];

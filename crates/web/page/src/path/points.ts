@@ -90,7 +90,7 @@ effect(() => {
   const model = robot.value;
   if (!model) return;
   // Another table of the same kind keeps its points, another arm has no use for them.
-  const now = model.joints.map((j) => j.kind).join(" ") + model.name;
+  const now = model.joints.map((j) => j.kind).join(" ") + model.robot;
   if (now === joints) return;
   joints = now;
   start.value = null;

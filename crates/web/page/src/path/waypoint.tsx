@@ -81,7 +81,7 @@ function Editor({ point, index }: { point: Waypoint; index: number }) {
               <NumberField
                 label={joint.name}
                 value={point.q[k] ?? 0}
-                measure={joint.kind === "revolute" ? "angle" : "length"}
+                measure={joint.kind === "R" ? "angle" : "length"}
                 onChange={(value) => put(index, { kind: "joint", q: point.q.map((old, j) => (j === k ? value : old)) })}
               />
             </label>
@@ -164,7 +164,7 @@ function words(point: Waypoint): string {
 export function jointWords(values: number[]): string {
   const joints = robot.value?.joints ?? [];
   const write = (x: number, k: number) => {
-    const measure: Measure = joints[k]?.kind === "prismatic" ? "length" : "angle";
+    const measure: Measure = joints[k]?.kind === "P" ? "length" : "angle";
     return formatWithUnit(x, measure, look.value, measure === "angle" && look.value.angles === "deg" ? 1 : undefined);
   };
   return values.map(write).join(", ");

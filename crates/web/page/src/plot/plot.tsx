@@ -113,7 +113,7 @@ export function Plot(props: Props) {
             </g>
           ))}
           {events.map((event, k) => (
-            <g key={k} class={`event event-${event.kind}`} transform={`translate(${x(event.time)} 0)`}>
+            <g key={k} class={`event event-${event.kind}`} transform={`translate(${x(event.t)} 0)`}>
               <line y1={MARGIN.top} y2={HEIGHT - MARGIN.bottom} />
               <EventSign kind={event.kind} y={MARGIN.top - 4} />
               <title>{event.words}</title>
@@ -168,8 +168,8 @@ export function seek(to: number, end: number): void {
 function timeKeys(event: KeyboardEvent, times: number[], events: PlotEvent[]): void {
   const end = times.at(-1) ?? 0;
   const now = time.peek();
-  const nextEvent = events.find((e) => e.time > now + 1e-6)?.time ?? end;
-  const lastEvent = events.findLast((e) => e.time < now - 1e-6)?.time ?? 0;
+  const nextEvent = events.find((e) => e.t > now + 1e-6)?.t ?? end;
+  const lastEvent = events.findLast((e) => e.t < now - 1e-6)?.t ?? 0;
   const steps: Record<string, number> = {
     ArrowRight: event.shiftKey ? nextEvent : now + end / 100,
     ArrowUp: now + end / 100,

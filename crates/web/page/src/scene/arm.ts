@@ -12,18 +12,23 @@ import type { Stage } from "./stage.ts";
 import { blend, type Colour, colours, type Palette } from "./theme.ts";
 import { inAngle, inLength } from "./units.ts";
 
-/** A smallest singular value that is 0 but for rounding. */
+/** The smallest singular value. */
+export function smallest({ measures }: Scene): number {
+  return measures.singular_values.at(-1) ?? 0;
+}
+
+/** Whether that is 0 but for rounding. */
 export function isExact(now: Scene | null): boolean {
-  return now !== null && now.measures.smallest < 1e-9;
+  return now !== null && smallest(now) < 1e-9;
 }
 
 /** Below this share of the best manipulability, or of the arm's length a radian, a configuration is called nearly singular. */
 const NEAR = 0.02;
 
 /** How near to a singular configuration an arm is: 0 where it is not, 1 where it is there. */
-export function nearness({ measures }: Scene, reach: number): number {
-  const smallest = measures.smallest / Math.max(1e-9, Math.min(1, reach));
-  return Math.min(1, Math.max(0, 1 - smallest / NEAR));
+export function nearness(now: Scene, reach: number): number {
+  const share = smallest(now) / Math.max(1e-9, Math.min(1, reach));
+  return Math.min(1, Math.max(0, 1 - share / NEAR));
 }
 
 /** The height of the floor; the arm's base tells it. */
@@ -40,11 +45,11 @@ export function floorOf({ ground, unit, bars }: Scene, reach: number): number {
 function paintOf(now: Scene, palette: Palette): Paint {
   const lit = highlighted.value;
   // The ghost that is pointed at may be where the arm is already.
-  const isHere = ghost.value !== null && ghost.value === answerNow.value?.nearest?.index;
+  const isHere = ghost.value !== null && ghost.value === answerNow.value?.index;
   const near = nearness(now, robot.value?.reach ?? 1);
   const back = selected.value === null ? 0 : 0.62;
   const tint = (colour: Colour): Tint => [blend(colour, palette.background, back), isHere ? 0.4 : 0];
-  const joints = { revolute: tint(palette.revolute), prismatic: tint(palette.prismatic) };
+  const joints = { R: tint(palette.revolute), P: tint(palette.prismatic) };
   const [glow, pin, link, rod, palm] = [[palette.glow, 0.8] as const, tint(blend(palette.pin, palette.near, near)), tint(palette.link), tint(palette.rod), tint(palette.hand)];
   const isLit = (joint: number | null) => joint !== null && lit.has(joint);
   return {
@@ -71,7 +76,7 @@ function namesOf({ symbols }: Scene, palette: Palette): Label[] {
     if (joint === null || !model || !highlighted.peek().has(joint)) return [];
     const { name, kind } = model.joints[joint];
     const value = q.peek()[joint];
-    const text = `${name} = ${kind === "revolute" ? inAngle(value) : inLength(value)}`;
+    const text = `${name} = ${kind === "R" ? inAngle(value) : inLength(value)}`;
     return [{ text, at: add(centre, [0, 0, 1], Math.max(radius, half)), toward: [0, 0, 1], colour: palette.text, size: 13, plate: true, rank: 40 }];
   });
 }

@@ -29,7 +29,7 @@ export function build(solids: Solids, arm: Ghost, unitLength: number, paint: Pai
   const links = arm.symbols.length;
   for (const { joint, kind, centre, axis, radius, half } of arm.symbols) {
     const tint = paint.joint(kind, joint);
-    if (kind === "revolute") {
+    if (kind === "R") {
       solids.cylinder("joint", add(centre, axis, -half), add(centre, axis, half), radius, tint);
       // A pin shows about which axis it turns.
       if (detail) {

@@ -2,7 +2,7 @@
 // where the arm can move with its hand still; the nearest configuration where the hand cannot come; singular ones.
 
 import { signal } from "@preact/signals";
-import type { Answer, Ghost, Scene, Singular } from "../engine/types.ts";
+import type { Answer, Ghost, Scene, Singularity } from "../engine/types.ts";
 import { answerNow, engine, ghost, look, note, playing, q, revision, said, scene, selected, show, singular, target } from "../state.ts";
 import { build, plain } from "./body.ts";
 import { mixed } from "./geometry.ts";
@@ -39,15 +39,15 @@ function solutions(answer: Answer, pointed: number | null): Shown[] {
   const made: Shown[] = [];
   answer.solutions.forEach((solution, index) => {
     // Where the arm itself is, no ghost.
-    if (index === answer.nearest?.index || made.length >= MOST) return;
+    if (index === answer.index || made.length >= MOST) return;
     const isPointed = index === pointed;
     made.push({
-      ghost: solution.scene,
+      ghost: answer.scenes[index],
       q: solution.q,
       kind: "solution",
       index,
-      colour: (p) => (isPointed ? p.ghostStrong : solution.withinLimits ? p.ghost : p.beyond),
-      density: isPointed ? 0.62 : solution.withinLimits ? 0.3 : 0.17,
+      colour: (p) => (isPointed ? p.ghostStrong : solution.within_limits ? p.ghost : p.beyond),
+      density: isPointed ? 0.62 : solution.within_limits ? 0.3 : 0.17,
       label: isPointed ? solution.branch : undefined,
     });
   });
@@ -61,7 +61,7 @@ function away(curve: number[][], here: number[]): number {
 
 /** A sweep along the family in which the arm is, and one member of each other: the same for the same answer. */
 function members(answer: Answer, here: number[]): Shown[] {
-  const curves = answer.families.map(({ curve, closed }) => ({ curve, closed })).filter(({ curve }) => curve.length > 1);
+  const curves = answer.families.map(({ curve = [] }, k) => ({ curve, closed: answer.motions[k].closed })).filter(({ curve }) => curve.length > 1);
   const distances = curves.map(({ curve }) => away(curve, here));
   const nearest = distances.indexOf(Math.min(...distances));
   const made: Shown[] = [];
@@ -78,12 +78,11 @@ function members(answer: Answer, here: number[]): Shown[] {
 }
 
 function obstacle(answer: Answer): Shown[] {
-  if (!answer.obstacle || !target.value) return [];
-  const { q: nearest, scene: there } = answer.obstacle;
-  return [{ ghost: there, q: nearest, kind: "obstacle", index: 0, colour: (p) => p.obstacle, density: 0.34, label: "nearest" }];
+  if (!answer.obstacle || !answer.stop || !target.value) return [];
+  return [{ ghost: answer.stop.scene, q: answer.obstacle.nearest, kind: "obstacle", index: 0, colour: (p) => p.obstacle, density: 0.34, label: "nearest" }];
 }
 
-function singulars(list: Singular[], pointed: number | null): Shown[] {
+function singulars(list: Singularity[], pointed: number | null): Shown[] {
   return list.flatMap((one, index): Shown[] => {
     if (!one.scene || !one.q) return [];
     const isPointed = index === pointed;
@@ -202,10 +201,10 @@ async function askSingular(now: number): Promise<boolean> {
   const { begin, finish } = wait("singular configurations", () => engine().formulas.cancel());
   try {
     begin();
-    const { singular: list, remark } = await engine().formulas.call("singular", {});
+    const { singularities: list, complete } = await engine().formulas.call("singular", {});
     if (revision.peek() !== now) return true;
     singular.value = list;
-    if (list.length === 0) note(remark ?? "This arm has no singular configuration that a formula tells.");
+    if (list.length === 0) note(complete ? "This arm has no singular configuration that a formula tells." : "There may be singular configurations that no formula tells.");
     return true;
   } catch (why) {
     said(why);

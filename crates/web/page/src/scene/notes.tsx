@@ -66,19 +66,19 @@ function Singulars() {
     <div class="scene-row scene-singular">
       <div class="scene-row-title">Singular</div>
       <ol>
-        {list.map(({ factor, words, q }, k) => (
+        {list.map(({ factor, why, q }, k) => (
           <li key={factor.text}>
             <button
               type="button"
               disabled={!q}
-              title={words}
+              title={why ?? undefined}
               onClick={() => q && move(q)}
               onPointerEnter={() => (singularAt.value = k)}
               onPointerLeave={() => (singularAt.value = null)}
               onFocus={() => (singularAt.value = k)}
               onBlur={() => (singularAt.value = null)}
             >
-              <b>{factor.text}</b> {words}
+              <b>{factor.text}</b> {why}
             </button>
           </li>
         ))}

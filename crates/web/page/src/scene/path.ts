@@ -15,17 +15,17 @@ const FRAMES = 10;
 const PIECES = 240;
 
 function nearestSample(along: Path, seconds: number): number {
-  const k = along.times.findIndex((t) => t >= seconds);
-  return k < 0 ? along.times.length - 1 : k;
+  const k = along.t.findIndex((t) => t >= seconds);
+  return k < 0 ? along.t.length - 1 : k;
 }
 
 function draw(stage: Stage, strokes: Strokes, marks: Solids, along: Path, size: number, palette: Palette, hasLabels: boolean): void {
-  const points = along.poses.map(originOf);
+  const points = along.pose.map(originOf);
   const step = Math.max(1, Math.ceil(points.length / PIECES));
   const line = points.filter((_, k) => k % step === 0 || k === points.length - 1);
   strokes.chain(line, { colour: palette.path, width: 3, through: 0.45 });
   for (let k = 0; k <= FRAMES; k++) {
-    const pose = along.poses[Math.round((k * (along.poses.length - 1)) / FRAMES)];
+    const pose = along.pose[Math.round((k * (along.pose.length - 1)) / FRAMES)];
     drawFrame(strokes, pose, palette, { length: 1.1 * size, alpha: 0.7, width: 1.5 });
   }
   const labels: Label[] = [];
@@ -37,7 +37,7 @@ function draw(stage: Stage, strokes: Strokes, marks: Solids, along: Path, size: 
   mark(points.length - 1, along.reached < 1 ? "as far as it goes" : "end", palette.path, 8);
   for (const event of along.events) {
     const colour = event.kind === "singular" ? palette.singular : event.kind === "limit" ? palette.obstacle : palette.quiet;
-    mark(nearestSample(along, event.time), event.words.length > 44 ? event.kind : event.words, colour, 9, 0.26);
+    mark(nearestSample(along, event.t), event.words.length > 44 ? event.kind : event.words, colour, 9, 0.26);
   }
   stage.labels.set("path", labels);
 }
@@ -50,7 +50,7 @@ export function addPath(stage: Stage): void {
     stage.add(one.object);
     stage.onEnd(() => one.dispose());
   }
-  const shown = () => (look.value.path && path.value && path.value.poses.length > 1 ? path.value : null);
+  const shown = () => (look.value.path && path.value && path.value.pose.length > 1 ? path.value : null);
   // The line does not change while it is played.
   stage.watch(
     "path",
@@ -69,7 +69,7 @@ export function addPath(stage: Stage): void {
     () => ({ along: shown(), seconds: time.value, size: scene.peek()?.unit ?? 0.05, palette: colours.value }),
     ({ along, seconds, size, palette }) => {
       now.begin();
-      if (along) now.ball(originOf(along.poses[nearestSample(along, seconds)]), 0.36 * size, [palette.glow, 0.7]);
+      if (along) now.ball(originOf(along.pose[nearestSample(along, seconds)]), 0.36 * size, [palette.glow, 0.7]);
       now.end();
     },
   );

@@ -6,7 +6,7 @@ import { mixed } from "./geometry.ts";
 
 /** The joints at a time. */
 export function at(path_: Path, seconds: number): number[] {
-  const { times } = path_;
+  const { t: times } = path_;
   let [low, high] = [0, times.length - 1];
   while (high - low > 1) {
     const half = (low + high) >> 1;
@@ -41,7 +41,7 @@ export function runPlayer(): () => void {
     const along = path.peek();
     if (seconds === shownAt) return;
     shownAt = seconds;
-    if (!along || along.times.length === 0) return;
+    if (!along || along.t.length === 0) return;
     batch(() => {
       target.value = null;
       q.value = at(along, seconds);

@@ -16,7 +16,7 @@ function rate(joint: number, symbol: Symbol): number {
   const [before, after] = [now, then].map((at) => engine().now.call("scene", { q: at }).frames);
   const k = before.findIndex((frame, i) => differs(frame, after[i]));
   if (k < 0) return 1;
-  if (symbol.kind === "prismatic") {
+  if (symbol.kind === "P") {
     const moved = dot(sub(originOf(after[k]), originOf(before[k])), symbol.axis) / step;
     return Math.abs(moved) > 0.1 ? moved : 1;
   }
@@ -65,7 +65,7 @@ export function takeJoint(stage: Stage, symbol: Symbol, x: number, y: number): D
   highlighted.value = new Set([joint]);
   return {
     move: (nextX, nextY) => {
-      if (kind === "prismatic") total = nearestOnLine(orbit.ray(nextX, nextY), centre, axis) - start;
+      if (kind === "P") total = nearestOnLine(orbit.ray(nextX, nextY), centre, axis) - start;
       else total += turn(lastX, lastY, nextX - lastX, nextY - lastY);
       [lastX, lastY] = [nextX, nextY];
       let value = first[joint] + total / ratio;

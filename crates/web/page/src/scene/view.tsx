@@ -45,8 +45,8 @@ function build(canvas: HTMLCanvasElement, isSoftware: boolean): Stage {
   stage.onEnd(
     effect(() => {
       const model = robot.value;
-      if (!model || !scene.value || name === model.name) return;
-      name = model.name;
+      if (!model || !scene.value || name === model.robot) return;
+      name = model.robot;
       if (!first) stage.orbit.go({ azimuth: FACES.corner[0], elevation: FACES.corner[1] }, 0);
       if (!(first && isAskedFor())) fit(stage, false);
       first = false;

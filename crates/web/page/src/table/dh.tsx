@@ -1,7 +1,7 @@
 // The rows of the table, with what is wrong beneath the cell it is about.
 
 import { useState } from "preact/hooks";
-import type { Convention, Letter } from "../engine/types.ts";
+import type { Convention, JointKind, Letter } from "../engine/types.ts";
 import { change, file, highlighted, note, robot, selected } from "../state.ts";
 import { Button } from "../widgets/button.tsx";
 import { onGridKey } from "../widgets/grid.ts";
@@ -111,8 +111,8 @@ function RowCells({ index, letters }: { index: number; letters: Letter[] }) {
             type="button"
             class="row-button"
             aria-pressed={chosen}
-            aria-label={`Row ${index + 1}, ${kind ?? "fixed"}: show its four parameters in the scene`}
-            title={`${kind === "revolute" ? "Revolute" : kind === "prismatic" ? "Prismatic" : "Fixed"}; show the four parameters in the scene`}
+            aria-label={`Row ${index + 1}, ${kind ? KINDS[kind].toLowerCase() : "fixed"}: show its four parameters in the scene`}
+            title={`${kind ? KINDS[kind] : "Fixed"}; show the four parameters in the scene`}
             onClick={() => (selected.value = chosen ? null : index)}
           >
             {index + 1}
@@ -172,11 +172,13 @@ function FindingCells({ wrong, columns }: { wrong: { letter: Letter; at: number;
   );
 }
 
+const KINDS: Record<JointKind, string> = { R: "Revolute", P: "Prismatic" };
+
 /** A circle turns, a square slides, a dash is fixed. */
-function KindMark({ kind }: { kind: "revolute" | "prismatic" | null }) {
+function KindMark({ kind }: { kind: JointKind | null }) {
   return (
     <svg width="9" height="9" viewBox="0 0 10 10" fill="none" stroke="currentColor" stroke-width="1.6" aria-hidden="true">
-      {kind === "revolute" ? <circle cx="5" cy="5" r="3.6" /> : kind === "prismatic" ? <rect x="1.6" y="1.6" width="6.8" height="6.8" /> : <path d="M1 5h8" />}
+      {kind === "R" ? <circle cx="5" cy="5" r="3.6" /> : kind === "P" ? <rect x="1.6" y="1.6" width="6.8" height="6.8" /> : <path d="M1 5h8" />}
     </svg>
   );
 }

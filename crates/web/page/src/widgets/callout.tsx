@@ -26,10 +26,9 @@ export function Findings({ findings }: { findings: Finding[] }) {
       <ul class="findings">
         {findings.map((finding, index) => (
           <li key={index}>
-            {finding.line !== undefined && (
+            {finding.at && (
               <span class="quiet">
-                Line {finding.line}
-                {finding.column !== undefined && `, column ${finding.column}`}:{" "}
+                Line {finding.at.line}, column {finding.at.column}:{" "}
               </span>
             )}
             <Words text={sentence(finding.message)} />

@@ -30,8 +30,8 @@ export function StatusLine({ resting }: { resting: string }) {
         {now?.severity === "error" && <Button label="Dismiss the message" icon="close" bare kind="plain" onClick={() => (message.value = null)} />}
       </div>
       {robot.value && (
-        <span class="structure" title={robot.value.structure}>
-          {robot.value.structure}
+        <span class="structure" title={robot.value.structure.schematic}>
+          {robot.value.structure.schematic}
         </span>
       )}
     </footer>

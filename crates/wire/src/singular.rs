@@ -1,0 +1,181 @@
+//! The Jacobian as formulas, and where it is singular.
+
+use crate::jacobian::frame;
+use crate::program::{Named, Operations, Step};
+use crate::{Schema, words};
+use denavit::symbolic::factor::Zero;
+use denavit::velocity::{self, JacobianModel, Minor, ROWS, RateFormulas};
+use denavit_report::words::{Terms as _, Velocity as _};
+use denavit_symbolic::Expr;
+use serde::Serialize;
+
+/// A Jacobian as formulas; with where it is singular if that was asked for.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Model {
+    /// Why it is singular everywhere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub always_singular: Option<String>,
+    /// The origin that the point is given from.
+    pub at: String,
+    /// Whether the singularities are all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub complete: Option<bool>,
+    /// What the steps cost.
+    pub count: Operations,
+    /// Square parts that are 0 where it is singular.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub determinants: Option<Vec<Determinant>>,
+    /// Along whose axes.
+    pub frame: String,
+    /// The matrix, six rows; null if it is too large to expand.
+    pub jacobian: Option<[Vec<String>; 6]>,
+    /// The joint velocities for a twist, where they are short.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub joint_rates: Option<Rates>,
+    /// Whose velocity.
+    pub of: String,
+    /// What is proved of the steps.
+    pub proof: String,
+    /// The robot's name.
+    pub robot: String,
+    /// `vx` … `wz`.
+    pub rows: [&'static str; 6],
+    /// The version.
+    pub schema: Schema,
+    /// What the determinants have in common.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub singularities: Option<Vec<Singularity>>,
+    /// A program for the matrix.
+    pub steps: Vec<Step>,
+}
+
+/// A square part of the Jacobian.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Determinant {
+    /// In factors.
+    pub determinant: String,
+    /// Its joints.
+    pub joints: Vec<usize>,
+    /// Its rows by name.
+    pub rows: Vec<&'static str>,
+}
+
+/// The zeros of a factor.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Singularity {
+    /// A configuration where this factor alone is 0.
+    pub example: Option<Example>,
+    /// What is 0.
+    pub factor: String,
+    /// How often it divides the determinant.
+    pub power: u32,
+    /// The factor solved for an angle, where that is simple.
+    pub zeros: Vec<Zeros>,
+}
+
+/// Values of an angle.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Zeros {
+    /// The angle: `q5`, `q2 + q3`.
+    pub angle: String,
+    /// Its values.
+    pub values: Vec<String>,
+}
+
+impl Zeros {
+    /// Zeros, printed by `text`.
+    pub fn of(zero: &Zero, text: impl Fn(Expr) -> String) -> Self {
+        Zeros { angle: text(zero.angle()), values: zero.values().into_iter().map(text).collect() }
+    }
+}
+
+/// What happens at a singular configuration.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Example {
+    /// Motions of the joints that leave the body where it is.
+    pub free: Vec<Vec<f64>>,
+    /// Twists that cannot be had.
+    pub lost: Vec<[f64; 6]>,
+    /// The joint variables.
+    pub q: Vec<f64>,
+    /// How the axes lie.
+    pub why: String,
+}
+
+impl From<&velocity::Example> for Example {
+    fn from(e: &velocity::Example) -> Self {
+        Example { free: e.free.clone(), lost: e.lost.clone(), q: e.q.clone(), why: words().place(&e.place) }
+    }
+}
+
+/// Joint velocities for a twist `vx` … `wz`, as formulas.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Rates {
+    /// What must not be 0.
+    pub not_zero: Vec<String>,
+    /// Whether it is proved.
+    pub proved: bool,
+    /// Names and formulas; the velocity of joint 1 is `dq1`.
+    pub steps: Vec<Named>,
+}
+
+impl Rates {
+    fn of(rates: &RateFormulas, text: impl Fn(Expr) -> String) -> Self {
+        let named = |(name, value): &(String, Expr)| Named { name: name.clone(), value: text(*value) };
+        Rates {
+            not_zero: rates.conditions.iter().map(|&c| text(c)).collect(),
+            proved: rates.is_proved,
+            steps: rates.steps.iter().map(named).collect(),
+        }
+    }
+}
+
+impl Model {
+    /// The matrix of a robot, formulas printed by `text`.
+    pub fn of(robot: &str, model: &JacobianModel, text: impl Fn(Expr) -> String + Copy) -> Self {
+        let matrix = model.matrix.as_ref().ok();
+        Model {
+            always_singular: None,
+            at: frame(model.view.at),
+            complete: None,
+            count: Operations::from(&model.algorithm.count()),
+            determinants: None,
+            frame: frame(model.view.axes),
+            jacobian: matrix.map(|m| m.rows().map(|row| row.into_iter().map(text).collect())),
+            joint_rates: None,
+            of: frame(model.view.body),
+            proof: words().jacobian_proof(model.proof),
+            robot: robot.into(),
+            rows: ROWS,
+            schema: Schema,
+            singularities: None,
+            steps: model.algorithm.steps().iter().map(|s| Step::of(s, text)).collect(),
+        }
+    }
+
+    /// The matrix with where it is singular.
+    pub fn with_singularities(
+        robot: &str,
+        found: &velocity::Singularities,
+        text: impl Fn(Expr) -> String + Copy,
+    ) -> Self {
+        let determinant = |m: &Minor| Determinant {
+            determinant: text(m.determinant.to_expr()),
+            joints: m.joints.iter().map(|j| j + 1).collect(),
+            rows: m.rows.iter().map(|&r| ROWS[r]).collect(),
+        };
+        let singularity = |s: &velocity::Singularity| Singularity {
+            example: s.example.as_ref().map(Example::from),
+            factor: text(s.factor),
+            power: s.power,
+            zeros: s.zeros.iter().map(|z| Zeros::of(z, text)).collect(),
+        };
+        Model {
+            complete: Some(found.is_complete),
+            determinants: Some(found.minors.iter().map(determinant).collect()),
+            joint_rates: found.rates.as_ref().map(|rates| Rates::of(rates, text)),
+            singularities: Some(found.common.iter().map(singularity).collect()),
+            ..Self::of(robot, &found.jacobian, text)
+        }
+    }
+}

@@ -1,0 +1,4 @@
+//! Tests of the JSON of all doors, one program.
+
+mod answers;
+mod shapes;
