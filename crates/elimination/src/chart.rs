@@ -8,7 +8,7 @@
 
 use crate::{
     fourier::Trigonometric,
-    instructions::Instructions,
+    instructions::{Compute, Instructions, part},
     lanes::{Lanes, WIDTH},
 };
 
@@ -89,39 +89,40 @@ fn stretched(kappa: f64, c: f64, s: f64) -> [f64; 2] {
 /// Largest half width of a part (rad).
 const WIDEST: f64 = 2.8;
 
-/// The arcs in which there may be roots that are not where they seem to be, as `(centre, half width)`; their number.
-///
-/// `angles` are sorted, those to be looked at are marked. Around each of them the polynomial may vanish as far as it is
-/// below its `noise`: the arc ends on either side where it is certainly not zero.
-#[inline(always)]
-pub fn crowds<I: Instructions>(
-    angles: &[f64],
-    marked: &[bool],
-    polynomial: &Trigonometric,
-    noise: f64,
-    out: &mut [(f64, f64); 8],
-) -> usize {
-    let mut found = 0;
-    for (&angle, &marked) in angles.iter().zip(marked) {
-        let known = |&(centre, half_width): &(f64, f64)| {
-            let away = (angle - centre).rem_euclid(std::f64::consts::TAU);
-            away < half_width || std::f64::consts::TAU - away < half_width
-        };
-        if !marked || out[..found].iter().any(known) {
-            continue;
+part! {
+    /// The arcs in which there may be roots that are not where they seem to be, as `(centre, half width)`; their number.
+    ///
+    /// `angles` are sorted, those to be looked at are marked. Around each of them the polynomial may vanish as far as it is
+    /// below its `noise`: the arc ends on either side where it is certainly not zero.
+    pub fn crowds<I>(
+        angles: &[f64],
+        marked: &[bool],
+        polynomial: &Trigonometric,
+        noise: f64,
+        out: &mut [(f64, f64); 8],
+    ) -> usize {
+        let mut found = 0;
+        for (&angle, &marked) in angles.iter().zip(marked) {
+            let known = |&(centre, half_width): &(f64, f64)| {
+                let away = (angle - centre).rem_euclid(std::f64::consts::TAU);
+                away < half_width || std::f64::consts::TAU - away < half_width
+            };
+            if !marked || out[..found].iter().any(known) {
+                continue;
+            }
+            if found == out.len() {
+                return 0;
+            }
+            let mut ends = [0.0; 2];
+            for (end, side) in ends.iter_mut().zip([-1.0, 1.0]) {
+                *end = clear::<I>(polynomial, angle, side, noise);
+            }
+            let [low, high] = ends;
+            out[found] = ((low + high) / 2.0, (high - low) / 2.0);
+            found += 1;
         }
-        if found == out.len() {
-            return 0;
-        }
-        let mut ends = [0.0; 2];
-        for (end, side) in ends.iter_mut().zip([-1.0, 1.0]) {
-            *end = clear::<I>(polynomial, angle, side, noise);
-        }
-        let [low, high] = ends;
-        out[found] = ((low + high) / 2.0, (high - low) / 2.0);
-        found += 1;
+        found
     }
-    found
 }
 
 /// The first of steps from an angle to one side at which the polynomial is clear of its noise.

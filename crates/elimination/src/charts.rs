@@ -1,7 +1,11 @@
 //! Which charts of the circle a way to solve goes through, and which of their roots are tried.
 
 use crate::{
-    certificate::Verdict, chart::Chart, fourier::Trigonometric, instructions::Instructions, roots::Roots,
+    certificate::Verdict,
+    chart::{Chart, crowds},
+    fourier::Trigonometric,
+    instructions::Instructions,
+    roots::Roots,
     work::Work,
 };
 
@@ -57,7 +61,7 @@ impl Charts {
         let (marks, n) = (&work.marks, work.marks.count);
         let threshold = CLEAR * noise(&work.polynomial);
         let crowds =
-            I::crowds(&marks.angles[..n], &marks.marked[..n], &work.polynomial, threshold, &mut arcs);
+            crowds::<I>(&marks.angles[..n], &marks.marked[..n], &work.polynomial, threshold, &mut arcs);
         if crowds == 0 || chart.depth == self.depth || self.count + crowds > CHARTS {
             self.total = if self.total == Verdict::Uncertain { self.total } else { verdict };
             return;

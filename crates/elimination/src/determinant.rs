@@ -13,7 +13,7 @@
 
 use crate::{
     arm::Joint,
-    instructions::Instructions,
+    instructions::{Compute, Instructions, part},
     lanes::{Lanes, one_by_one},
 };
 
@@ -107,15 +107,16 @@ pub fn core(upper: &Strip, lower: &Strip, out: &mut [[Lanes; 6]; 6]) {
     }
 }
 
-/// The determinant at eight values of the hidden joint.
-#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-pub fn determinant<I: Instructions>(rows: &[[f64; 27]; 6], multiplied: Joint, c: Lanes, s: Lanes) -> Lanes {
-    let (mut upper, mut lower) = ([[Lanes::ZERO; 9]; 6], [[Lanes::ZERO; 9]; 6]);
-    strips::<I>(rows, multiplied, c, s, &mut upper, &mut lower);
-    let first = reduce::<I, 9>(&mut upper, 3);
-    let second = reduce::<I, 9>(&mut lower, 3);
-    let mut rest = [[Lanes::ZERO; 6]; 6];
-    core(&upper, &lower, &mut rest);
-    let third = reduce::<I, 6>(&mut rest, 6);
-    first.times(second).times(third)
+part! {
+    /// The determinant at eight values of the hidden joint.
+    pub fn determinant<I>(rows: &[[f64; 27]; 6], multiplied: Joint, c: Lanes, s: Lanes) -> Lanes {
+        let (mut upper, mut lower) = ([[Lanes::ZERO; 9]; 6], [[Lanes::ZERO; 9]; 6]);
+        strips::<I>(rows, multiplied, c, s, &mut upper, &mut lower);
+        let first = reduce::<I, 9>(&mut upper, 3);
+        let second = reduce::<I, 9>(&mut lower, 3);
+        let mut rest = [[Lanes::ZERO; 6]; 6];
+        core(&upper, &lower, &mut rest);
+        let third = reduce::<I, 6>(&mut rest, 6);
+        first.times(second).times(third)
+    }
 }

@@ -2,7 +2,7 @@
 
 use crate::{
     forms::{FORMS, forms, interpolate, left_alone, move_by_joint_back, moved, nodes},
-    instructions::{Instructions, Strict},
+    instructions::{Compute, Instructions, Strict, part},
     lanes::{Lanes, mul_add, one_by_one},
     rigid::Rigid,
     split::Split,
@@ -35,94 +35,95 @@ impl Default for Eliminated {
 /// Relative size of a column that counts as none.
 const RANK: f64 = 1e-11;
 
-/// Eliminates the first two joints of the split at a pose; `closing` is `A₆ T⁻¹ B`, scaled.
-#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-pub fn eliminate<I: Instructions>(split: &Split, closing: &Rigid, out: &mut Eliminated) {
-    out.links = split.links_at(closing);
-    let right = right_side(split, out);
+part! {
+    /// Eliminates the first two joints of the split at a pose; `closing` is `A₆ T⁻¹ B`, scaled.
+    pub fn eliminate<I>(split: &Split, closing: &Rigid, out: &mut Eliminated) {
+        out.links = split.links_at(closing);
+        let right = right_side(split, out);
 
-    // Columns 0 to 7: the right side without its constant; 8 to 34: the left side minus that constant.
-    let mut rows = [[Lanes::ZERO; 5]; FORMS];
-    for i in 0..FORMS {
-        let mut row = [0.0; 40];
-        row[..8].copy_from_slice(&right[i][1..]);
-        row[8..35].copy_from_slice(&split.left[i]);
-        row[8] -= right[i][0];
-        for (lanes, part) in rows[i].iter_mut().zip(row.chunks_exact(8)) {
-            lanes.0.copy_from_slice(part);
-        }
-    }
-
-    let mut rank = 0;
-    let mut used = [false; 8];
-    let mut largest = 0.0f64;
-    for k in 0..8 {
-        // The column with the most left in the rows from k on.
-        let mut left = Lanes::ZERO;
-        for row in &rows[k..] {
-            left = row[0].mul_add::<I>(row[0], left);
-        }
-        let mut pivot = 8;
-        let mut norm = 0.0;
-        for l in 0..8 {
-            if !used[l] && left.0[l] > norm {
-                (pivot, norm) = (l, left.0[l]);
+        // Columns 0 to 7: the right side without its constant; 8 to 34: the left side minus that constant.
+        let mut rows = [[Lanes::ZERO; 5]; FORMS];
+        for i in 0..FORMS {
+            let mut row = [0.0; 40];
+            row[..8].copy_from_slice(&right[i][1..]);
+            row[8..35].copy_from_slice(&split.left[i]);
+            row[8] -= right[i][0];
+            for (lanes, part) in rows[i].iter_mut().zip(row.chunks_exact(8)) {
+                lanes.0.copy_from_slice(part);
             }
         }
-        let norm = norm.sqrt();
-        largest = if norm > largest { norm } else { largest };
-        if pivot == 8 || norm <= RANK * largest {
-            break;
-        }
-        used[pivot] = true;
-        rank += 1;
 
-        // Reflection x ↦ x − v (v·x) β with v = column + sign norm e_k, β = 1 / (norm |v_k|)
-        let mut v = [0.0; FORMS];
-        for i in k..FORMS {
-            v[i] = rows[i][0].0[pivot];
-        }
-        v[k] += if v[k] < 0.0 { -norm } else { norm };
-        let beta = 1.0 / (norm * v[k].abs());
-        let mut sum = [Lanes::ZERO; 5];
-        for i in k..FORMS {
-            for (sum, entry) in sum.iter_mut().zip(&rows[i]) {
-                one_by_one();
-                *sum = entry.scale_add::<I>(v[i], *sum);
+        let mut rank = 0;
+        let mut used = [false; 8];
+        let mut largest = 0.0f64;
+        for k in 0..8 {
+            // The column with the most left in the rows from k on.
+            let mut left = Lanes::ZERO;
+            for row in &rows[k..] {
+                left = row[0].mul_add::<I>(row[0], left);
             }
-        }
-        for sum in &mut sum {
-            *sum = sum.scale(-beta);
-        }
-        for i in k..FORMS {
-            for (entry, sum) in rows[i].iter_mut().zip(&sum) {
-                one_by_one();
-                *entry = sum.scale_add::<I>(v[i], *entry);
+            let mut pivot = 8;
+            let mut norm = 0.0;
+            for l in 0..8 {
+                if !used[l] && left.0[l] > norm {
+                    (pivot, norm) = (l, left.0[l]);
+                }
             }
-        }
-    }
+            let norm = norm.sqrt();
+            largest = if norm > largest { norm } else { largest };
+            if pivot == 8 || norm <= RANK * largest {
+                break;
+            }
+            used[pivot] = true;
+            rank += 1;
 
-    // Fewer than eight columns: more than six equations remain, of which six fixed mixtures are taken.
-    for i in 0..6 {
-        let mut mixed = rows[8 + i];
-        if rank < 8 {
-            mixed = [Lanes::ZERO; 5];
-            for (j, row) in rows.iter().enumerate().skip(rank) {
-                let weight = mixture(i, j);
-                for (mixed, entry) in mixed.iter_mut().zip(row) {
-                    *mixed = entry.scale_add::<I>(weight, *mixed);
+            // Reflection x ↦ x − v (v·x) β with v = column + sign norm e_k, β = 1 / (norm |v_k|)
+            let mut v = [0.0; FORMS];
+            for i in k..FORMS {
+                v[i] = rows[i][0].0[pivot];
+            }
+            v[k] += if v[k] < 0.0 { -norm } else { norm };
+            let beta = 1.0 / (norm * v[k].abs());
+            let mut sum = [Lanes::ZERO; 5];
+            for i in k..FORMS {
+                for (sum, entry) in sum.iter_mut().zip(&rows[i]) {
+                    one_by_one();
+                    *sum = entry.scale_add::<I>(v[i], *sum);
+                }
+            }
+            for sum in &mut sum {
+                *sum = sum.scale(-beta);
+            }
+            for i in k..FORMS {
+                for (entry, sum) in rows[i].iter_mut().zip(&sum) {
+                    one_by_one();
+                    *entry = sum.scale_add::<I>(v[i], *entry);
                 }
             }
         }
-        let mut top = Lanes::ZERO;
-        for entry in &mixed[1..] {
-            top = top.larger(entry.magnitude());
-        }
-        let top = top.largest();
-        let scale = if top > 0.0 { 1.0 / top } else { 0.0 };
-        out.sizes[i] = top;
-        for (k, x) in out.rows[i].iter_mut().enumerate() {
-            *x = mixed[1 + k / 8].0[k % 8] * scale;
+
+        // Fewer than eight columns: more than six equations remain, of which six fixed mixtures are taken.
+        for i in 0..6 {
+            let mut mixed = rows[8 + i];
+            if rank < 8 {
+                mixed = [Lanes::ZERO; 5];
+                for (j, row) in rows.iter().enumerate().skip(rank) {
+                    let weight = mixture(i, j);
+                    for (mixed, entry) in mixed.iter_mut().zip(row) {
+                        *mixed = entry.scale_add::<I>(weight, *mixed);
+                    }
+                }
+            }
+            let mut top = Lanes::ZERO;
+            for entry in &mixed[1..] {
+                top = top.larger(entry.magnitude());
+            }
+            let top = top.largest();
+            let scale = if top > 0.0 { 1.0 / top } else { 0.0 };
+            out.sizes[i] = top;
+            for (k, x) in out.rows[i].iter_mut().enumerate() {
+                *x = mixed[1 + k / 8].0[k % 8] * scale;
+            }
         }
     }
 }

@@ -4,95 +4,96 @@ use crate::{
     arm::Joint,
     determinant::{Strip, core, reduce, strips},
     eigen::{SHARED, null_vector, real_eigenvalues},
-    instructions::{Instructions, Strict},
+    instructions::{Compute, Instructions, Strict, part},
     lanes::{Lanes, mul_add},
 };
 
 /// Unknowns `x` of the 12 × 12 matrix (see [`determinant`](crate::determinant)).
 pub const UNKNOWNS: usize = 12;
 
-/// A null vector in each lane, and how small the second smallest pivot was compared to the first: where this is small
-/// too, several solutions share the value of the hidden joint, and the vector is any mixture of theirs.
-#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-pub fn null_vectors<I: Instructions>(
-    rows: &[[f64; 27]; 6],
-    multiplied: Joint,
-    c: Lanes,
-    s: Lanes,
-    x: &mut [Lanes; UNKNOWNS],
-) -> Lanes {
-    let (mut upper, mut lower) = ([[Lanes::ZERO; 9]; 6], [[Lanes::ZERO; 9]; 6]);
-    strips::<I>(rows, multiplied, c, s, &mut upper, &mut lower);
-    reduce::<I, 9>(&mut upper, 3);
-    reduce::<I, 9>(&mut lower, 3);
-    let mut m = [[Lanes::ZERO; 6]; 6];
-    core(&upper, &lower, &mut m);
-    let mut order = [Lanes::ZERO; 6];
-    for (k, place) in order.iter_mut().enumerate() {
-        *place = Lanes::splat(k as f64);
-    }
+part! {
+    /// A null vector in each lane, and how small the second smallest pivot was compared to the first: where this is small
+    /// too, several solutions share the value of the hidden joint, and the vector is any mixture of theirs.
+    pub fn null_vectors<I>(
+        rows: &[[f64; 27]; 6],
+        multiplied: Joint,
+        c: Lanes,
+        s: Lanes,
+        x: &mut [Lanes; UNKNOWNS],
+    ) -> Lanes {
+        let (mut upper, mut lower) = ([[Lanes::ZERO; 9]; 6], [[Lanes::ZERO; 9]; 6]);
+        strips::<I>(rows, multiplied, c, s, &mut upper, &mut lower);
+        reduce::<I, 9>(&mut upper, 3);
+        reduce::<I, 9>(&mut lower, 3);
+        let mut m = [[Lanes::ZERO; 6]; 6];
+        core(&upper, &lower, &mut m);
+        let mut order = [Lanes::ZERO; 6];
+        for (k, place) in order.iter_mut().enumerate() {
+            *place = Lanes::splat(k as f64);
+        }
 
-    // Complete pivoting: the largest entry of what is left goes to the diagonal.
-    for k in 0..5 {
-        let (mut best, mut row, mut column) = (Lanes::splat(-1.0), Lanes::ZERO, Lanes::ZERO);
-        for r in k..6 {
-            for c in k..6 {
-                let entry = m[r][c].magnitude();
-                row = best.where_less(entry, Lanes::splat(r as f64), row);
-                column = best.where_less(entry, Lanes::splat(c as f64), column);
-                best = best.larger(entry);
+        // Complete pivoting: the largest entry of what is left goes to the diagonal.
+        for k in 0..5 {
+            let (mut best, mut row, mut column) = (Lanes::splat(-1.0), Lanes::ZERO, Lanes::ZERO);
+            for r in k..6 {
+                for c in k..6 {
+                    let entry = m[r][c].magnitude();
+                    row = best.where_less(entry, Lanes::splat(r as f64), row);
+                    column = best.where_less(entry, Lanes::splat(c as f64), column);
+                    best = best.larger(entry);
+                }
             }
-        }
-        for r in k + 1..6 {
-            for c in k..6 {
-                let (a, b) = (m[k][c], m[r][c]);
-                m[k][c] = row.where_is(r as f64, b, a);
-                m[r][c] = row.where_is(r as f64, a, b);
+            for r in k + 1..6 {
+                for c in k..6 {
+                    let (a, b) = (m[k][c], m[r][c]);
+                    m[k][c] = row.where_is(r as f64, b, a);
+                    m[r][c] = row.where_is(r as f64, a, b);
+                }
             }
-        }
-        for c in k + 1..6 {
-            for r in 0..6 {
-                let (a, b) = (m[r][k], m[r][c]);
-                m[r][k] = column.where_is(c as f64, b, a);
-                m[r][c] = column.where_is(c as f64, a, b);
-            }
-            let (a, b) = (order[k], order[c]);
-            order[k] = column.where_is(c as f64, b, a);
-            order[c] = column.where_is(c as f64, a, b);
-        }
-        let inverse = m[k][k].where_is(0.0, Lanes::ZERO, Lanes::ONE.over(m[k][k]));
-        for r in k + 1..6 {
-            let factor = m[r][k].times(inverse);
             for c in k + 1..6 {
-                m[r][c] = factor.mul_sub::<I>(m[k][c], m[r][c]);
+                for r in 0..6 {
+                    let (a, b) = (m[r][k], m[r][c]);
+                    m[r][k] = column.where_is(c as f64, b, a);
+                    m[r][c] = column.where_is(c as f64, a, b);
+                }
+                let (a, b) = (order[k], order[c]);
+                order[k] = column.where_is(c as f64, b, a);
+                order[c] = column.where_is(c as f64, a, b);
+            }
+            let inverse = m[k][k].where_is(0.0, Lanes::ZERO, Lanes::ONE.over(m[k][k]));
+            for r in k + 1..6 {
+                let factor = m[r][k].times(inverse);
+                for c in k + 1..6 {
+                    m[r][c] = factor.mul_sub::<I>(m[k][c], m[r][c]);
+                }
             }
         }
-    }
-    let small = m[4][4].magnitude().over(m[0][0].magnitude());
+        let small = m[4][4].magnitude().over(m[0][0].magnitude());
 
-    // Back substitution with the last unknown 1; then back to the order of the columns.
-    let mut y = [Lanes::ZERO; 6];
-    y[5] = Lanes::ONE;
-    for k in (0..5).rev() {
-        let mut sum = Lanes::ZERO;
-        for c in k + 1..6 {
-            sum = m[k][c].mul_sub::<I>(y[c], sum);
+        // Back substitution with the last unknown 1; then back to the order of the columns.
+        let mut y = [Lanes::ZERO; 6];
+        y[5] = Lanes::ONE;
+        for k in (0..5).rev() {
+            let mut sum = Lanes::ZERO;
+            for c in k + 1..6 {
+                sum = m[k][c].mul_sub::<I>(y[c], sum);
+            }
+            let pivot = m[k][k].where_is(0.0, Lanes::splat(1e-300), m[k][k]);
+            y[k] = sum.over(pivot);
         }
-        let pivot = m[k][k].where_is(0.0, Lanes::splat(1e-300), m[k][k]);
-        y[k] = sum.over(pivot);
-    }
-    for c in 0..6 {
-        let mut entry = Lanes::ZERO;
-        for (place, y) in order.iter().zip(&y) {
-            entry = place.where_is(c as f64, *y, entry);
+        for c in 0..6 {
+            let mut entry = Lanes::ZERO;
+            for (place, y) in order.iter().zip(&y) {
+                entry = place.where_is(c as f64, *y, entry);
+            }
+            x[3 + c] = entry;
         }
-        x[3 + c] = entry;
+        let middle = [x[3], x[4], x[5], x[6], x[7], x[8]];
+        let (a, b) = (outer::<I>(&upper, &middle), outer::<I>(&lower, &middle));
+        x[..3].copy_from_slice(&a);
+        x[9..].copy_from_slice(&b);
+        small
     }
-    let middle = [x[3], x[4], x[5], x[6], x[7], x[8]];
-    let (a, b) = (outer::<I>(&upper, &middle), outer::<I>(&lower, &middle));
-    x[..3].copy_from_slice(&a);
-    x[9..].copy_from_slice(&b);
-    small
 }
 
 /// The three unknowns that a reduced strip has eliminated.

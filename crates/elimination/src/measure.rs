@@ -13,7 +13,7 @@ use crate::{
     plan::{Plan, Unsuitable, check},
     rigid::Rigid,
     slides::Sliding,
-    solve::{Constants, Method, Task, Way, portable},
+    solve::{Constants, Method, Task, Way, solve},
     split::Split,
     triple::Triple,
     wide,
@@ -127,7 +127,7 @@ fn rank<W>(
     let mut tried: Vec<(W, Score)> = ways.into_iter().map(|way| (way, Score::default())).collect();
     let mut measure = |(way, score): &mut (W, Score), poses: &[([f64; 6], Rigid)]| {
         for (q, pose) in poses {
-            let verdict = portable::<Strict>(constants, Task::Trial(as_way(way)), pose, &mut answer);
+            let verdict = solve::<Strict>(constants, Task::Trial(as_way(way)), pose, &mut answer);
             score.add(&constants.arm, q, verdict, &answer.work);
             // Not worth more time.
             if score.poses == 5 && (score.missed > 3 || score.certified == 0) {

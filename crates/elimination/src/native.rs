@@ -55,103 +55,42 @@ impl Plan {
 
     /// The same on given instructions: other sets round otherwise.
     pub fn solve_on(&self, isa: Isa, pose: &Rigid, answer: &mut Answer) {
-        // SAFETY of the calls: `Isa::available` makes `Avx2` and `Avx512` only where their instructions are found.
         match isa.0 {
             Set::Portable => self.solve_portably(pose, answer),
             #[cfg(target_arch = "x86_64")]
-            Set::Avx2 => unsafe { sets::avx2(self, pose, answer) },
+            Set::Avx2 => self.solve_as::<sets::Avx2>(pose, answer),
             #[cfg(target_arch = "x86_64")]
-            Set::Avx512 => unsafe { sets::avx512(self, pose, answer) },
+            Set::Avx512 => self.solve_as::<sets::Avx512>(pose, answer),
         }
     }
 }
 
-/// Sets of instructions that only [`Plan::solve_on`] names, where they were found: with the parts of the solver compiled
-/// for them.
+/// Sets of instructions that only [`Plan::solve_on`] names, where they were found.
 #[cfg(target_arch = "x86_64")]
 mod sets {
-    use crate::{
-        arm::{Arm, Joint},
-        certificate::Verdict,
-        eliminate::Eliminated,
-        extract::UNKNOWNS,
-        fourier::Trigonometric,
-        instructions::{Arcs, Instructions},
-        lanes::Lanes,
-        plan::Plan,
-        remaining::{First, Value},
-        rigid::Rigid,
-        slides::Sliding,
-        solve::{Task, solve},
-        split::Split,
-        triple::Triple,
-        work::Work,
-    };
+    use crate::instructions::{Compute, Instructions};
 
-    /// Functions with the names of parts, each compiled for instructions.
-    macro_rules! parts {
-        ($set:ident $features:literal: $(fn $module:ident::$name:ident($($argument:ident: $kind:ty),*) $(-> $result:ty)?;)*) => {$(
-            fn $name($($argument: $kind),*) $(-> $result)? {
-                #[inline(never)]
-                #[target_feature(enable = $features)]
-                fn part($($argument: $kind),*) $(-> $result)? {
-                    crate::$module::$name::<$set>($($argument),*)
-                }
-                // SAFETY: only parts of a solution call parts, and `Plan::solve_on` begins one where the instructions
-                // were found.
-                unsafe { part($($argument),*) }
-            }
-        )*};
-    }
-
-    /// A set, and the solver for it.
     macro_rules! set {
-        ($set:ident, $features:literal, $solve:ident) => {
+        ($set:ident, $features:literal) => {
             pub(super) enum $set {}
 
             impl Instructions for $set {
                 const FUSED: bool = true;
-                parts! { $set $features:
-                    fn eliminate::eliminate(split: &Split, closing: &Rigid, out: &mut Eliminated);
-                    fn determinant::determinant(rows: &[[f64; 27]; 6], multiplied: Joint, c: Lanes, s: Lanes) -> Lanes;
-                    fn extract::null_vectors(
-                        rows: &[[f64; 27]; 6],
-                        multiplied: Joint,
-                        c: Lanes,
-                        s: Lanes,
-                        x: &mut [Lanes; UNKNOWNS]
-                    ) -> Lanes;
-                    fn remaining::complete(
-                        split: &Split,
-                        eliminated: &Eliminated,
-                        first: &First,
-                        branch: f64,
-                        hidden: &Value,
-                        x: &[Lanes; UNKNOWNS],
-                        out: &mut [Value; 6]
-                    );
-                    fn newton::polish(arm: &Arm, target: &Rigid, values: &mut [Value; 6]) -> Lanes;
-                    fn newton::smallest_singular_values(arm: &Arm, values: &[Value; 6]) -> Lanes;
-                    fn chart::crowds(
-                        angles: &[f64],
-                        marked: &[bool],
-                        polynomial: &Trigonometric,
-                        noise: f64,
-                        out: &mut Arcs
-                    ) -> usize;
-                    fn slides::solve_sliding(arm: &Arm, sliding: &Sliding, target: &Rigid, work: &mut Work) -> Verdict;
-                    fn triple::solve_triple(arm: &Arm, triple: &Triple, target: &Rigid, work: &mut Work) -> Verdict;
-                }
-            }
 
-            #[inline(never)]
-            #[target_feature(enable = $features)]
-            pub(super) fn $solve(plan: &Plan, pose: &Rigid, answer: &mut crate::Answer) {
-                solve::<$set>(&plan.constants, Task::Answer(&plan.method), &plan.target(pose), answer);
+                #[inline]
+                fn apart<W: Compute>(work: W) -> W::Output {
+                    #[inline(never)]
+                    #[target_feature(enable = $features)]
+                    fn compiled<W: Compute>(work: W) -> W::Output {
+                        work.run::<$set>()
+                    }
+                    // SAFETY: only `Plan::solve_on` begins with this set, where it was found; parts go on with theirs.
+                    unsafe { compiled(work) }
+                }
             }
         };
     }
 
-    set!(Avx2, "avx2,fma", avx2);
-    set!(Avx512, "avx512f,avx512dq,avx512vl,avx2,fma", avx512);
+    set!(Avx2, "avx2,fma");
+    set!(Avx512, "avx512f,avx512dq,avx512vl,avx2,fma");
 }

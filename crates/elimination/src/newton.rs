@@ -5,7 +5,7 @@
 use crate::{
     arm::{Arm, Joint},
     determinant::reduce,
-    instructions::Instructions,
+    instructions::{Compute, Instructions, part},
     lanes::Lanes,
     remaining::Value,
     rigid::Rigid,
@@ -121,58 +121,59 @@ const DONE: f64 = 4e-30;
 /// Most iterations.
 const MOST: u32 = 24;
 
-/// Newton's method on all lanes, each kept at its best; the distances to the pose that are left.
-#[inline(always)]
-pub fn polish<I: Instructions>(arm: &Arm, target: &Rigid, values: &mut [Value; 6]) -> Lanes {
-    let mut best = Lanes::splat(f64::INFINITY);
-    let mut now = *values;
-    let mut patience = Lanes::splat(4.0);
-    for _ in 0..MOST {
-        let at = forward::<I>(arm, &now);
-        let (twist, square) = error::<I>(&at, target);
-        // A lane that has not halved its distance uses up its patience.
-        let slow = square.where_less(best.scale(0.25), Lanes::ZERO, Lanes::ONE);
-        patience = patience.minus(slow);
-        for i in 0..6 {
-            for k in 0..2 {
-                values[i][k] = square.where_less(best, now[i][k], values[i][k]);
+part! {
+    /// Newton's method on all lanes, each kept at its best; the distances to the pose that are left.
+    pub fn polish<I>(arm: &Arm, target: &Rigid, values: &mut [Value; 6]) -> Lanes {
+        let mut best = Lanes::splat(f64::INFINITY);
+        let mut now = *values;
+        let mut patience = Lanes::splat(4.0);
+        for _ in 0..MOST {
+            let at = forward::<I>(arm, &now);
+            let (twist, square) = error::<I>(&at, target);
+            // A lane that has not halved its distance uses up its patience.
+            let slow = square.where_less(best.scale(0.25), Lanes::ZERO, Lanes::ONE);
+            patience = patience.minus(slow);
+            for i in 0..6 {
+                for k in 0..2 {
+                    values[i][k] = square.where_less(best, now[i][k], values[i][k]);
+                }
             }
-        }
-        best = square.where_less(best, square, best);
-        let open = square.where_less(Lanes::splat(DONE), Lanes::ZERO, patience);
-        if open.largest() <= 0.0 {
-            break;
-        }
+            best = square.where_less(best, square, best);
+            let open = square.where_less(Lanes::splat(DONE), Lanes::ZERO, patience);
+            if open.largest() <= 0.0 {
+                break;
+            }
 
-        let mut m = [[Lanes::ZERO; 7]; 6];
-        jacobian::<I, 7>(arm, &at, &mut m);
-        for (row, twist) in m.iter_mut().zip(&twist) {
-            row[6] = *twist;
-        }
-        reduce::<I, 7>(&mut m, 6);
-        let mut step = [Lanes::ZERO; 6];
-        for k in (0..6).rev() {
-            let mut sum = m[k][6];
-            for c in k + 1..6 {
-                sum = m[k][c].mul_sub::<I>(step[c], sum);
+            let mut m = [[Lanes::ZERO; 7]; 6];
+            jacobian::<I, 7>(arm, &at, &mut m);
+            for (row, twist) in m.iter_mut().zip(&twist) {
+                row[6] = *twist;
             }
-            let flat = m[k][k].magnitude();
-            step[k] = flat.where_less(Lanes::splat(FLAT), Lanes::ZERO, sum.over(m[k][k]));
+            reduce::<I, 7>(&mut m, 6);
+            let mut step = [Lanes::ZERO; 6];
+            for k in (0..6).rev() {
+                let mut sum = m[k][6];
+                for c in k + 1..6 {
+                    sum = m[k][c].mul_sub::<I>(step[c], sum);
+                }
+                let flat = m[k][k].magnitude();
+                step[k] = flat.where_less(Lanes::splat(FLAT), Lanes::ZERO, sum.over(m[k][k]));
+            }
+            let mut longest = Lanes::splat(STEP);
+            for step in &step {
+                longest = longest.larger(step.magnitude());
+            }
+            let factor = Lanes::splat(STEP).over(longest);
+            for i in 0..6 {
+                let step = step[i].times(factor);
+                now[i] = match arm.joints[i] {
+                    Joint::Revolute => turned::<I>(&now[i], step),
+                    Joint::Prismatic => [now[i][0].plus(step), Lanes::ZERO],
+                };
+            }
         }
-        let mut longest = Lanes::splat(STEP);
-        for step in &step {
-            longest = longest.larger(step.magnitude());
-        }
-        let factor = Lanes::splat(STEP).over(longest);
-        for i in 0..6 {
-            let step = step[i].times(factor);
-            now[i] = match arm.joints[i] {
-                Joint::Revolute => turned::<I>(&now[i], step),
-                Joint::Prismatic => [now[i][0].plus(step), Lanes::ZERO],
-            };
-        }
+        best.root()
     }
-    best.root()
 }
 
 /// Cosine and sine after a turn by at most 0.6 rad: Taylor's polynomials, then back to length 1.
@@ -209,67 +210,68 @@ const RECIPROCAL: [f64; 12] = [
     1.0 / 39_916_800.0,
 ];
 
-/// The smallest singular value of the Jacobian in each lane: power iterations with the inverse, from its longest row.
-#[inline(always)]
-pub fn smallest_singular_values<I: Instructions>(arm: &Arm, values: &[Value; 6]) -> Lanes {
-    let at = forward::<I>(arm, values);
-    let mut m = [[Lanes::ZERO; 12]; 6];
-    jacobian::<I, 12>(arm, &at, &mut m);
-    for (k, row) in m.iter_mut().enumerate() {
-        row[6 + k] = Lanes::ONE;
-    }
-    reduce::<I, 12>(&mut m, 6);
-    let mut inverse = [[Lanes::ZERO; 6]; 6];
-    for k in (0..6).rev() {
-        let flat = m[k][k].magnitude();
-        let pivot = flat.where_less(Lanes::splat(1e-15), Lanes::splat(1e-15), m[k][k]);
-        let pivot = Lanes::ONE.over(pivot);
-        for j in 0..6 {
-            let mut sum = m[k][6 + j];
-            for c in k + 1..6 {
-                sum = m[k][c].mul_sub::<I>(inverse[c][j], sum);
-            }
-            inverse[k][j] = sum.times(pivot);
+part! {
+    /// The smallest singular value of the Jacobian in each lane: power iterations with the inverse, from its longest row.
+    pub fn smallest_singular_values<I>(arm: &Arm, values: &[Value; 6]) -> Lanes {
+        let at = forward::<I>(arm, values);
+        let mut m = [[Lanes::ZERO; 12]; 6];
+        jacobian::<I, 12>(arm, &at, &mut m);
+        for (k, row) in m.iter_mut().enumerate() {
+            row[6 + k] = Lanes::ONE;
         }
-    }
-    // x ← the longest row, then x ← Xᵀ X x: the length grows by σ_min⁻² each time.
-    let (mut x, mut longest) = ([Lanes::ZERO; 6], Lanes::splat(-1.0));
-    for row in &inverse {
-        let mut square = Lanes::ZERO;
-        for entry in row {
-            square = entry.mul_add::<I>(*entry, square);
-        }
-        for (x, entry) in x.iter_mut().zip(row) {
-            *x = longest.where_less(square, *entry, *x);
-        }
-        longest = longest.larger(square);
-    }
-    let mut growth = Lanes::ONE;
-    for _ in 0..4 {
-        let mut square = Lanes::ZERO;
-        for x in &x {
-            square = x.mul_add::<I>(*x, square);
-        }
-        let back = Lanes::ONE.over(square.root());
-        for x in &mut x {
-            *x = x.times(back);
-        }
-        let mut image = [Lanes::ZERO; 6];
-        for (image, row) in image.iter_mut().zip(&inverse) {
-            for (entry, x) in row.iter().zip(&x) {
-                *image = entry.mul_add::<I>(*x, *image);
+        reduce::<I, 12>(&mut m, 6);
+        let mut inverse = [[Lanes::ZERO; 6]; 6];
+        for k in (0..6).rev() {
+            let flat = m[k][k].magnitude();
+            let pivot = flat.where_less(Lanes::splat(1e-15), Lanes::splat(1e-15), m[k][k]);
+            let pivot = Lanes::ONE.over(pivot);
+            for j in 0..6 {
+                let mut sum = m[k][6 + j];
+                for c in k + 1..6 {
+                    sum = m[k][c].mul_sub::<I>(inverse[c][j], sum);
+                }
+                inverse[k][j] = sum.times(pivot);
             }
         }
-        growth = Lanes::ZERO;
-        for image in &image {
-            growth = image.mul_add::<I>(*image, growth);
-        }
-        x = [Lanes::ZERO; 6];
-        for (image, row) in image.iter().zip(&inverse) {
+        // x ← the longest row, then x ← Xᵀ X x: the length grows by σ_min⁻² each time.
+        let (mut x, mut longest) = ([Lanes::ZERO; 6], Lanes::splat(-1.0));
+        for row in &inverse {
+            let mut square = Lanes::ZERO;
+            for entry in row {
+                square = entry.mul_add::<I>(*entry, square);
+            }
             for (x, entry) in x.iter_mut().zip(row) {
-                *x = entry.mul_add::<I>(*image, *x);
+                *x = longest.where_less(square, *entry, *x);
+            }
+            longest = longest.larger(square);
+        }
+        let mut growth = Lanes::ONE;
+        for _ in 0..4 {
+            let mut square = Lanes::ZERO;
+            for x in &x {
+                square = x.mul_add::<I>(*x, square);
+            }
+            let back = Lanes::ONE.over(square.root());
+            for x in &mut x {
+                *x = x.times(back);
+            }
+            let mut image = [Lanes::ZERO; 6];
+            for (image, row) in image.iter_mut().zip(&inverse) {
+                for (entry, x) in row.iter().zip(&x) {
+                    *image = entry.mul_add::<I>(*x, *image);
+                }
+            }
+            growth = Lanes::ZERO;
+            for image in &image {
+                growth = image.mul_add::<I>(*image, growth);
+            }
+            x = [Lanes::ZERO; 6];
+            for (image, row) in image.iter().zip(&inverse) {
+                for (x, entry) in x.iter_mut().zip(row) {
+                    *x = entry.mul_add::<I>(*image, *x);
+                }
             }
         }
+        Lanes::ONE.over(growth.root())
     }
-    Lanes::ONE.over(growth.root())
 }

@@ -5,10 +5,10 @@ use crate::{
     arm::{Arm, Joint},
     determinant::DEGREE,
     fourier::Fourier,
-    instructions::Portable,
+    instructions::{Instructions, Portable},
     rigid::{Rigid, dot},
     slides::Sliding,
-    solve::{Constants, Method, Task, Way, portable},
+    solve::{Constants, Method, Task, Way, solve},
     split::Split,
     triple::Triple,
     wide,
@@ -115,7 +115,12 @@ impl Plan {
     /// All configurations at a pose, on the instructions that every processor of the target has; slides and translations
     /// in the arm's unit.
     pub(crate) fn solve_portably(&self, pose: &Rigid, answer: &mut Answer) {
-        portable::<Portable<FUSED>>(&self.constants, Task::Answer(&self.method), &self.target(pose), answer);
+        self.solve_as::<Portable<FUSED>>(pose, answer);
+    }
+
+    /// The same on a set of instructions.
+    pub(crate) fn solve_as<I: Instructions>(&self, pose: &Rigid, answer: &mut Answer) {
+        solve::<I>(&self.constants, Task::Answer(&self.method), &self.target(pose), answer);
     }
 
     /// The pose, lengths divided by the arm's size.

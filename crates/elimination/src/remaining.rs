@@ -1,8 +1,13 @@
 //! From a null vector at a value of the hidden joint to all six joints, eight candidates at a time.
 
 use crate::{
-    arm::Joint, eliminate::Eliminated, extract::UNKNOWNS, instructions::Instructions, lanes::Lanes,
-    rigid::Rigid, split::Split,
+    arm::Joint,
+    eliminate::Eliminated,
+    extract::UNKNOWNS,
+    instructions::{Compute, Instructions, part},
+    lanes::Lanes,
+    rigid::Rigid,
+    split::Split,
 };
 
 /// A joint's value in each lane: cosine and sine, or the slide (scaled) and nothing.
@@ -64,96 +69,97 @@ impl First {
     }
 }
 
-/// The values of all joints, in the arm's order, of the candidates with the hidden joint at `hidden` and the null vectors
-/// `x`; `branch` (±1) chooses between the first joint's angles where the forms leave it open.
-#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-pub fn complete<I: Instructions>(
-    split: &Split,
-    eliminated: &Eliminated,
-    first: &First,
-    branch: f64,
-    hidden: &Value,
-    x: &[Lanes; UNKNOWNS],
-    out: &mut [Value; 6],
-) {
-    let mut ring = [[Lanes::ZERO; 2]; 6];
-    ring[2] = *hidden;
-    trio::<I>(split, x, &mut ring);
+part! {
+    /// The values of all joints, in the arm's order, of the candidates with the hidden joint at `hidden` and the null vectors
+    /// `x`; `branch` (±1) chooses between the first joint's angles where the forms leave it open.
+    pub fn complete<I>(
+        split: &Split,
+        eliminated: &Eliminated,
+        first: &First,
+        branch: f64,
+        hidden: &Value,
+        x: &[Lanes; UNKNOWNS],
+        out: &mut [Value; 6],
+    ) {
+        let mut ring = [[Lanes::ZERO; 2]; 6];
+        ring[2] = *hidden;
+        trio::<I>(split, x, &mut ring);
 
-    // The dropped joint's line, and its x direction, in the frame before the second joint's inverse.
-    let links = &eliminated.links;
-    let r = &links[4].rotation;
-    let mut p = splat(links[4].translation);
-    let mut l = splat([r[0][2], r[1][2], r[2][2]]);
-    let mut e = splat([r[0][0], r[1][0], r[2][0]]);
-    for i in [4, 3, 2] {
-        let link = &links[i - 1];
-        p = through::<I>(link, true, joint::<I>(split.kinds[i], &ring[i], true, p));
-        l = through::<I>(link, false, joint::<I>(split.kinds[i], &ring[i], false, l));
-        e = through::<I>(link, false, joint::<I>(split.kinds[i], &ring[i], false, e));
-    }
-
-    // The first joint.
-    let pp = product::<I>(&p, &p);
-    let pl = product::<I>(&p, &l);
-    let normal = p[1].times(l[0]);
-    let normal = p[0].times(l[1]).minus(normal);
-    let last = pp.times(l[2]).minus(pl.times(p[2]).scale(2.0));
-    let seen = match split.kinds[1] {
-        Joint::Revolute => [p[2], l[2], pp, pl, normal, last],
-        Joint::Prismatic => [p[0], p[1], l[0], l[1], l[2], normal],
-    };
-    let mut m = [Lanes::ZERO; 2];
-    for (k, form) in seen.into_iter().enumerate() {
-        let rest = form.minus(Lanes::splat(eliminated.first[k][0]));
-        m[0] = rest.scale_add::<I>(first.weights[0][k], m[0]);
-        m[1] = rest.scale_add::<I>(first.weights[1][k], m[1]);
-    }
-    if let Some(open) = first.open {
-        let left = Lanes::ONE.minus(m[1].mul_add::<I>(m[1], m[0].times(m[0])));
-        let left = left.larger(Lanes::ZERO).root().scale(branch);
-        m[0] = left.scale_add::<I>(open[0], m[0]);
-        m[1] = left.scale_add::<I>(open[1], m[1]);
-    }
-    ring[0] = match split.kinds[0] {
-        Joint::Revolute => unit::<I>(m[0], m[1]),
-        Joint::Prismatic => [m[0], Lanes::ZERO],
-    };
-
-    // The same line from the other side, up to the second joint: L₁⁻¹ Z₁⁻¹ L₆⁻¹
-    let close = &links[5];
-    let p2 = joint_back::<I>(split.kinds[0], &ring[0], true, splat(close.point_back([0.0; 3])));
-    let p2 = through_back::<I>(&links[0], true, p2);
-    let l2 = joint_back::<I>(split.kinds[0], &ring[0], false, splat(close.rotation[2]));
-    let l2 = through_back::<I>(&links[0], false, l2);
-    ring[1] = match split.kinds[1] {
-        // (x', y') = (c x + s y, c y − s x)
-        Joint::Revolute => {
-            let mut c = p[0].times(p2[0]);
-            c = p[1].mul_add::<I>(p2[1], c);
-            c = l[0].mul_add::<I>(l2[0], c);
-            c = l[1].mul_add::<I>(l2[1], c);
-            let mut s = p[0].times(p2[1]);
-            s = p[1].mul_sub::<I>(p2[0], s);
-            s = l[0].mul_add::<I>(l2[1], s);
-            s = l[1].mul_sub::<I>(l2[0], s);
-            unit::<I>(c, s)
+        // The dropped joint's line, and its x direction, in the frame before the second joint's inverse.
+        let links = &eliminated.links;
+        let r = &links[4].rotation;
+        let mut p = splat(links[4].translation);
+        let mut l = splat([r[0][2], r[1][2], r[2][2]]);
+        let mut e = splat([r[0][0], r[1][0], r[2][0]]);
+        for i in [4, 3, 2] {
+            let link = &links[i - 1];
+            p = through::<I>(link, true, joint::<I>(split.kinds[i], &ring[i], true, p));
+            l = through::<I>(link, false, joint::<I>(split.kinds[i], &ring[i], false, l));
+            e = through::<I>(link, false, joint::<I>(split.kinds[i], &ring[i], false, e));
         }
-        Joint::Prismatic => [p2[2].minus(p[2]), Lanes::ZERO],
-    };
 
-    // The dropped joint: Z₆⁻¹ e₁ = (c, −s, 0) in the frame behind L₆.
-    let mut y = joint::<I>(split.kinds[1], &ring[1], false, e);
-    y = through::<I>(&links[0], false, y);
-    y = joint::<I>(split.kinds[0], &ring[0], false, y);
-    y = through::<I>(close, false, y);
-    ring[5] = unit::<I>(y[0], y[1].negated());
-
-    for (i, value) in ring.into_iter().enumerate() {
-        out[split.joints[i]] = match split.kinds[i] {
-            Joint::Revolute => [value[0], value[1].scale(split.sign)],
-            Joint::Prismatic => [value[0].scale(split.sign), Lanes::ZERO],
+        // The first joint.
+        let pp = product::<I>(&p, &p);
+        let pl = product::<I>(&p, &l);
+        let normal = p[1].times(l[0]);
+        let normal = p[0].times(l[1]).minus(normal);
+        let last = pp.times(l[2]).minus(pl.times(p[2]).scale(2.0));
+        let seen = match split.kinds[1] {
+            Joint::Revolute => [p[2], l[2], pp, pl, normal, last],
+            Joint::Prismatic => [p[0], p[1], l[0], l[1], l[2], normal],
         };
+        let mut m = [Lanes::ZERO; 2];
+        for (k, form) in seen.into_iter().enumerate() {
+            let rest = form.minus(Lanes::splat(eliminated.first[k][0]));
+            m[0] = rest.scale_add::<I>(first.weights[0][k], m[0]);
+            m[1] = rest.scale_add::<I>(first.weights[1][k], m[1]);
+        }
+        if let Some(open) = first.open {
+            let left = Lanes::ONE.minus(m[1].mul_add::<I>(m[1], m[0].times(m[0])));
+            let left = left.larger(Lanes::ZERO).root().scale(branch);
+            m[0] = left.scale_add::<I>(open[0], m[0]);
+            m[1] = left.scale_add::<I>(open[1], m[1]);
+        }
+        ring[0] = match split.kinds[0] {
+            Joint::Revolute => unit::<I>(m[0], m[1]),
+            Joint::Prismatic => [m[0], Lanes::ZERO],
+        };
+
+        // The same line from the other side, up to the second joint: L₁⁻¹ Z₁⁻¹ L₆⁻¹
+        let close = &links[5];
+        let p2 = joint_back::<I>(split.kinds[0], &ring[0], true, splat(close.point_back([0.0; 3])));
+        let p2 = through_back::<I>(&links[0], true, p2);
+        let l2 = joint_back::<I>(split.kinds[0], &ring[0], false, splat(close.rotation[2]));
+        let l2 = through_back::<I>(&links[0], false, l2);
+        ring[1] = match split.kinds[1] {
+            // (x', y') = (c x + s y, c y − s x)
+            Joint::Revolute => {
+                let mut c = p[0].times(p2[0]);
+                c = p[1].mul_add::<I>(p2[1], c);
+                c = l[0].mul_add::<I>(l2[0], c);
+                c = l[1].mul_add::<I>(l2[1], c);
+                let mut s = p[0].times(p2[1]);
+                s = p[1].mul_sub::<I>(p2[0], s);
+                s = l[0].mul_add::<I>(l2[1], s);
+                s = l[1].mul_sub::<I>(l2[0], s);
+                unit::<I>(c, s)
+            }
+            Joint::Prismatic => [p2[2].minus(p[2]), Lanes::ZERO],
+        };
+
+        // The dropped joint: Z₆⁻¹ e₁ = (c, −s, 0) in the frame behind L₆.
+        let mut y = joint::<I>(split.kinds[1], &ring[1], false, e);
+        y = through::<I>(&links[0], false, y);
+        y = joint::<I>(split.kinds[0], &ring[0], false, y);
+        y = through::<I>(close, false, y);
+        ring[5] = unit::<I>(y[0], y[1].negated());
+
+        for (i, value) in ring.into_iter().enumerate() {
+            out[split.joints[i]] = match split.kinds[i] {
+                Joint::Revolute => [value[0], value[1].scale(split.sign)],
+                Joint::Prismatic => [value[0].scale(split.sign), Lanes::ZERO],
+            };
+        }
     }
 }
 

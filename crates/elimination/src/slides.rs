@@ -13,8 +13,9 @@ use crate::{
     chart::Chart,
     charts::{Charts, DEEPEST, NEARBY, near_roots, noise},
     fourier::{Fourier, Trigonometric, USELESS},
-    instructions::{Instructions, Strict},
+    instructions::{Compute, Instructions, Strict, part},
     lanes::{Lanes, WIDTH},
+    newton::polish,
     remaining::{Value, unit},
     rigid::Rigid,
     work::Work,
@@ -373,22 +374,23 @@ fn determinant<I: Instructions>(of: &Branch) -> Complex {
     sum
 }
 
-/// Solves one ring and adds what it finds to `work.found`.
-#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-pub(crate) fn solve_sliding<I: Instructions>(
-    arm: &Arm,
-    sliding: &Sliding,
-    target: &Rigid,
-    work: &mut Work,
-) -> Verdict {
-    let between = sliding.at(target);
-    work.candidates.clear();
-    let mut charts = Charts::whole(DEEPEST);
-    while let Some(chart) = charts.next() {
-        let verdict = solve_chart::<I>(arm, sliding, &between, target, &chart, work);
-        charts.settle::<I>(&chart, verdict, work);
+part! {
+    /// Solves one ring and adds what it finds to `work.found`.
+    pub(crate) fn solve_sliding<I>(
+        arm: &Arm,
+        sliding: &Sliding,
+        target: &Rigid,
+        work: &mut Work,
+    ) -> Verdict {
+        let between = sliding.at(target);
+        work.candidates.clear();
+        let mut charts = Charts::whole(DEEPEST);
+        while let Some(chart) = charts.next() {
+            let verdict = solve_chart::<I>(arm, sliding, &between, target, &chart, work);
+            charts.settle::<I>(&chart, verdict, work);
+        }
+        charts.verdict(work)
     }
-    charts.verdict(work)
 }
 
 /// Finds the roots that a chart shows, and the configurations that belong to them.
@@ -415,7 +417,7 @@ fn solve_chart<I: Instructions>(
         for side in [1.0, -1.0] {
             let (branch, _) = sliding.branch::<I>(arm, between, target, c, s, side, false);
             let mut values = real_values::<I>(sliding, &branch);
-            let residual = I::polish(arm, target, &mut values);
+            let residual = polish::<I>(arm, target, &mut values);
             for l in 0..group.len() {
                 if residual.0[l] <= ACCEPTED {
                     add(arm, &mut work.found, Found { values: lane(&values, l), residual: residual.0[l] });

@@ -7,17 +7,19 @@ use crate::{
     certificate::{Verdict, verdict},
     chart::Chart,
     charts::{self, Charts, NEARBY, TOGETHER, near_roots, noise},
-    determinant::DEGREE,
+    determinant::{DEGREE, determinant},
     eigen::SHARED,
-    extract::{SMALL, UNKNOWNS, shared},
+    eliminate::eliminate,
+    extract::{SMALL, UNKNOWNS, null_vectors, shared},
     fourier::{Fourier, USELESS},
-    instructions::Instructions,
+    instructions::{Compute, Instructions, part},
     lanes::{Lanes, WIDTH},
-    remaining::First,
+    newton::{polish, smallest_singular_values},
+    remaining::{First, complete},
     rigid::Rigid,
-    slides::Sliding,
+    slides::{Sliding, solve_sliding},
     split::Split,
-    triple::Triple,
+    triple::{Triple, solve_triple},
     wide_roots::{self, wide_candidates, wide_verdict},
     work::Work,
 };
@@ -51,7 +53,7 @@ fn solve_split<I: Instructions>(
 ) -> Verdict {
     let arm = &constants.arm;
     let closing = arm.links[5].then(&target.inverse()).then(&arm.base);
-    I::eliminate(split, &closing, &mut work.eliminated);
+    eliminate::<I>(split, &closing, &mut work.eliminated);
     if wide {
         work.matrix.fill(&work.eliminated, split);
     }
@@ -105,7 +107,7 @@ fn narrow_candidates<I: Instructions>(
         let [c, s, weight] = chart.nodes::<I>(constants.fourier.cosines[g], constants.fourier.sines[g]);
         let square = weight.times(weight);
         let square = square.times(square);
-        *sample = I::determinant(&work.eliminated.rows, multiplied, c, s).times(square.times(square));
+        *sample = determinant::<I>(&work.eliminated.rows, multiplied, c, s).times(square.times(square));
     }
     let useful = constants.fourier.fit::<I>(DEGREE, &samples, &mut work.polynomial);
     if !useful || work.polynomial.noise > USELESS {
@@ -130,7 +132,7 @@ fn candidates<I: Instructions>(split: &Split, near: &[([f64; 2], bool)], work: &
     for (g, group) in near.chunks(WIDTH).enumerate() {
         let [c, s] = gather(group, |(pair, _)| *pair);
         let mut x = [Lanes::ZERO; UNKNOWNS];
-        let pivots = I::null_vectors(&work.eliminated.rows, multiplied, c, s, &mut x);
+        let pivots = null_vectors::<I>(&work.eliminated.rows, multiplied, c, s, &mut x);
         for (l, (pair, _)) in group.iter().enumerate() {
             let mut vector = [0.0; UNKNOWNS];
             for (entry, x) in vector.iter_mut().zip(&x) {
@@ -180,8 +182,8 @@ fn accept<I: Instructions>(arm: &Arm, split: &Split, target: &Rigid, work: &mut 
         let x = gather(group, |candidate| candidate.x);
         for &branch in branches {
             let mut values = [[Lanes::ZERO; 2]; 6];
-            I::complete(split, &work.eliminated, &first, branch, &hidden, &x, &mut values);
-            let residual = I::polish(arm, target, &mut values);
+            complete::<I>(split, &work.eliminated, &first, branch, &hidden, &x, &mut values);
+            let residual = polish::<I>(arm, target, &mut values);
             for l in 0..group.len() {
                 if residual.0[l] <= ACCEPTED {
                     let values = lane(&values, l);
@@ -263,46 +265,36 @@ impl<'a> Task<'a> {
     }
 }
 
-/// Does a task at a pose, lengths divided by the arm's size: the last verdict. What is no part of its own is compiled into each
-/// function that calls this, for its instructions: there is one for each set of instructions.
-#[inline(always)]
-pub(crate) fn solve<I: Instructions>(
-    constants: &Constants,
-    task: Task,
-    target: &Rigid,
-    answer: &mut Answer,
-) -> Verdict {
-    let work = &mut answer.work;
-    work.found.clear();
-    let mut turn = 0;
-    let mut last = Verdict::Uncertain;
-    while let Some(way) = task.way(turn) {
-        if last == Verdict::Certified || last == Verdict::Pairs && way.is_wide() {
-            break;
+part! {
+    /// Does a task at a pose, lengths divided by the arm's size: the last verdict. What is no part of its own is compiled into each
+    /// function that calls this, for its instructions: there is one for each set of instructions.
+    pub(crate) fn solve<I>(
+        constants: &Constants,
+        task: Task<'_>,
+        target: &Rigid,
+        answer: &mut Answer,
+    ) -> Verdict {
+        let work = &mut answer.work;
+        work.found.clear();
+        let mut turn = 0;
+        let mut last = Verdict::Uncertain;
+        while let Some(way) = task.way(turn) {
+            if last == Verdict::Certified || last == Verdict::Pairs && way.is_wide() {
+                break;
+            }
+            last = match way {
+                Way::Split { split, wide } => solve_split::<I>(constants, split, wide, target, work),
+                Way::Slides(way) => solve_sliding::<I>(&constants.arm, way, target, work),
+                Way::Triple(triple) => solve_triple::<I>(&constants.arm, triple, target, work),
+            };
+            turn += 1;
         }
-        last = match way {
-            Way::Split { split, wide } => solve_split::<I>(constants, split, wide, target, work),
-            Way::Slides(way) => I::solve_sliding(&constants.arm, way, target, work),
-            Way::Triple(triple) => I::solve_triple(&constants.arm, triple, target, work),
-        };
-        turn += 1;
+        answer.splits = turn as u32;
+        if matches!(task, Task::Answer(_)) {
+            report::<I>(constants, last, answer);
+        }
+        last
     }
-    answer.splits = turn as u32;
-    if matches!(task, Task::Answer(_)) {
-        report::<I>(constants, last, answer);
-    }
-    last
-}
-
-/// [`solve`] for the instructions that every processor of the target has.
-#[inline(never)]
-pub(crate) fn portable<I: Instructions>(
-    constants: &Constants,
-    task: Task,
-    target: &Rigid,
-    answer: &mut Answer,
-) -> Verdict {
-    solve::<I>(constants, task, target, answer)
 }
 
 /// Turns what was found into solutions, with their singular values.
@@ -322,7 +314,7 @@ fn report<I: Instructions>(constants: &Constants, last: Verdict, answer: &mut An
         for (i, value) in values.iter_mut().enumerate() {
             *value = [flat[2 * i], flat[2 * i + 1]];
         }
-        let singular = I::smallest_singular_values(&constants.arm, &values);
+        let singular = smallest_singular_values::<I>(&constants.arm, &values);
         for (l, found) in group.iter().enumerate() {
             let mut q = [0.0; 6];
             for (i, q) in q.iter_mut().enumerate() {
