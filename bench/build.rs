@@ -2,7 +2,7 @@
 
 use denavit::catalogue;
 use denavit_emit::{Language, Precision};
-use denavit_generate::{Options, Wanted, generate};
+use denavit_generate::{PackageOptions, Wanted, generate};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
@@ -85,7 +85,7 @@ fn write(out: &Path, language: Language, source: &Source) -> PathBuf {
     let description = catalogue::robot(source.robot).expect("a robot of the catalogue");
     let (functions, name) = (vec![source.wanted], Some(source.name.into()));
     let inverse = Default::default();
-    let options = Options { language, functions, inverse, precision: source.precision, name, fixed: false };
+    let options = PackageOptions { language, functions, inverse, precision: source.precision, name, fixed: false };
     let generated = generate(&description, &options).expect("nothing is fixed");
     let folder = out.join(format!("{}_{language:?}", source.name));
     for file in generated.files {

@@ -11,7 +11,7 @@ use anyhow::{Context, Result};
 use denavit::catalogue;
 use denavit::forward::{ForwardModel, Outputs, link_transforms, symbol_order};
 use denavit_generate::with_values;
-use denavit::inverse::{InverseModel, Options};
+use denavit::inverse::{InverseModel, InverseOptions};
 use denavit::robot::Robot;
 use denavit_symbolic::{Angle, Expr, Ring};
 use serde_json::{Value, json};
@@ -36,7 +36,7 @@ fn robot(name: &'static str) -> Result<Value> {
     let naive = processor_times(name, forward, expand)?;
     let symbols = processor_times(name, inverse, invert)?.context("a refusal is an answer, too")?;
     let numbers = processor_times(name, inverse, invert_fixed)?;
-    let closed = InverseModel::derive(&read(name)?, &Options::default()).ok().map(|m| {
+    let closed = InverseModel::derive(&read(name)?, &InverseOptions::default()).ok().map(|m| {
         let given = m.given.iter().map(|&j| m.chain.variables[j].name().to_string());
         json!({"solutions": m.max_solutions(), "given": given.collect::<Vec<_>>().join(", ")})
     });
@@ -68,13 +68,13 @@ fn expand(name: &str) -> Result<bool> {
 
 /// From the text of the robot file to the compiled solver; for an arm without a closed form, to the refusal.
 fn invert(name: &str) -> Result<bool> {
-    let _ = black_box(InverseModel::derive(&read(name)?, &Options::default()));
+    let _ = black_box(InverseModel::derive(&read(name)?, &InverseOptions::default()));
     Ok(true)
 }
 
 /// The same with the numbers of lengths put in; false if a length has none.
 fn invert_fixed(name: &str) -> Result<bool> {
     let Ok(description) = with_values(&read(name)?) else { return Ok(false) };
-    let _ = black_box(InverseModel::derive(&description, &Options::default()));
+    let _ = black_box(InverseModel::derive(&description, &InverseOptions::default()));
     Ok(true)
 }

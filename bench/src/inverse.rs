@@ -7,7 +7,7 @@ use crate::measure::{Entry, measure, nanoseconds};
 use crate::peers::inverse::{Family, Geo, Opw};
 use crate::{compiled, read};
 use anyhow::{Result, ensure};
-use denavit::inverse::{InverseModel, Options, variables};
+use denavit::inverse::{InverseModel, InverseOptions, variables};
 use denavit::{Description, Robot};
 use denavit_jit::MachineSolver;
 use denavit_program::solver::{Leaves, Solutions, TOLERANCE};
@@ -152,7 +152,7 @@ fn apart(a: &Joints, b: &Joints) -> f64 {
 
 /// The interpreters and machine code.
 fn evaluators(description: &Description, poses: &Rc<Vec<Rows>>) -> Result<Vec<Contestant>> {
-    let model = InverseModel::derive(description, &Options::default()).map_err(|e| anyhow::anyhow!("{e}"))?;
+    let model = InverseModel::derive(description, &InverseOptions::default()).map_err(|e| anyhow::anyhow!("{e}"))?;
     let solver = model.solver(description)?;
     let function = solver.function().clone();
     let good = |leaves: &Leaves| -> Vec<Joints> {

@@ -8,7 +8,7 @@ use denavit::catalogue;
 use denavit::forward::{ForwardModel, Outputs, Reference};
 use denavit::inverse::{self, InverseModel};
 use denavit::velocity::Singularities;
-use denavit_report::{Options, render, report};
+use denavit_report::{ReportOptions, render, report};
 use serde_json::json;
 use std::fs;
 use std::hint::black_box;
@@ -26,7 +26,7 @@ pub fn run(folder: &Path) -> Result<()> {
     for name in catalogue::names() {
         let median = |work| processor_times(name, REPEATS, work)?.context("never refused").map(|t| t.median);
         robots.push(json!({"name": name, "formulas": median(formulas)?, "page": median(page)?}));
-        let markup = render::typst(&report(&read(name)?, &Options::default()));
+        let markup = render::typst(&report(&read(name)?, &ReportOptions::default()));
         fs::write(folder.join(format!("{name}.typ")), markup)?;
     }
     println!("{}", json!({"robots": robots}));
@@ -37,12 +37,12 @@ fn formulas(name: &str) -> Result<bool> {
     let description = read(name)?;
     black_box(ForwardModel::of_tool(&description, Outputs::ALL));
     // A refusal is an answer, too.
-    let _ = black_box(InverseModel::derive(&description, &inverse::Options::default()));
+    let _ = black_box(InverseModel::derive(&description, &inverse::InverseOptions::default()));
     let _ = black_box(Singularities::derive(&description, Reference::Tool));
     Ok(true)
 }
 
 fn page(name: &str) -> Result<bool> {
-    black_box(render::html(&report(&read(name)?, &Options::default())));
+    black_box(render::html(&report(&read(name)?, &ReportOptions::default())));
     Ok(true)
 }

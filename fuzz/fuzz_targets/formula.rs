@@ -5,7 +5,7 @@
 use denavit_symbolic::parse::{parse, parse_angle, parse_definition};
 use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::vocabulary::Vocabulary;
-use denavit_symbolic::{Expr, Ring, Symbol, Verdict, equal, readable};
+use denavit_symbolic::{Expr, Ring, Symbol, Equality, equal, readable};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {
@@ -33,7 +33,7 @@ fn check(formula: Expr, names: &Vocabulary, is_short: bool) {
     }
     let printed = print(formula, names, Style::Ascii);
     if let Ok(again) = parse(&printed, names) {
-        assert!(!matches!(equal(again, formula), Verdict::Different { .. }), "{printed}");
+        assert!(!matches!(equal(again, formula), Equality::Different { .. }), "{printed}");
     }
     let simple = if is_short {
         readable::simplify(formula, &[])

@@ -1,6 +1,6 @@
 //! One change of the robot, or of what is meant, that turns many wrong formulas right.
 
-use super::Options;
+use super::CheckOptions;
 use super::facts::{Change, SlipKind, TableCell};
 use super::judge::Judge;
 use super::outcome::{Cause, Claim, Entry, Finding};
@@ -37,7 +37,7 @@ pub(super) fn causes(
     text: &str,
     document: &Document,
     plan: &Plan,
-    options: &Options,
+    options: &CheckOptions,
     walked: &Walked,
     claims: &mut [Claim],
 ) -> Vec<Cause> {
@@ -140,7 +140,7 @@ fn explain_rest(
     text: &str,
     document: &Document,
     changed: &Plan,
-    options: &Options,
+    options: &CheckOptions,
     cause: &Cause,
     claims: &mut [Claim],
 ) {

@@ -16,7 +16,7 @@ use denavit_symbolic::parse::{Syntax, SyntaxKind};
 use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::readable::{literals, simplify};
 use denavit_symbolic::vocabulary::Vocabulary;
-use denavit_symbolic::{Expr, Symbol, Verdict, equal};
+use denavit_symbolic::{Equality, Expr, Symbol, equal};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::rc::Rc;
@@ -172,12 +172,12 @@ impl<'a> Judge<'a> {
             return self.with_signs(printed, pair);
         }
         match equal(pair.value, pair.wanted) {
-            Verdict::Equal { conditions } => {
+            Equality::Equal { conditions } => {
                 let names = self.vocabulary(subject);
                 Finding::Equal { unless_zero: conditions.iter().map(|c| Formula::new(*c, names)).collect() }
             }
-            Verdict::Different { .. } => Finding::Wrong(Box::new(self.wrong(pair, subject))),
-            Verdict::Undecided(_) => {
+            Equality::Different { .. } => Finding::Wrong(Box::new(self.wrong(pair, subject))),
+            Equality::Undecided(_) => {
                 match counterexample(pair.value, pair.wanted, &self.plan.subjects[subject]) {
                     Some(_) => Finding::Wrong(Box::new(self.wrong(pair, subject))),
                     None => Finding::Undecided { why: Unproved::NotFound },

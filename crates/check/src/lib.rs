@@ -37,7 +37,7 @@ pub use outcome::{
 };
 
 use denavit::description::{Description, TableOptions};
-use denavit_reading::code::Language;
+use denavit_reading::code::Dialect;
 use denavit_reading::document::{self, Document, Format};
 use judge::Judge;
 use note::Notes;
@@ -50,7 +50,7 @@ pub(crate) const MAX_FORMULAS: usize = 20_000;
 
 /// What may be told beside the document.
 #[derive(Clone, Debug, Default)]
-pub struct Options {
+pub struct CheckOptions {
     /// How the tables of the document are read.
     pub table: TableOptions,
     /// What the left side of the first statement means, `T06`.
@@ -58,7 +58,7 @@ pub struct Options {
     /// How far a numeric answer may be off, in its own unit.
     pub tolerance: Option<f64>,
     /// The text is a program in this language.
-    pub language: Option<Language>,
+    pub language: Option<Dialect>,
 }
 
 /// Holds a document against a robot, or against the tables that stand in it.
@@ -69,7 +69,7 @@ pub fn check(
     text: &str,
     format: Format,
     robot: Option<&Description>,
-    options: &Options,
+    options: &CheckOptions,
 ) -> Result<Checked, Vec<Note>> {
     let mut notes = Notes::default();
     if text.len() > MAX_BYTES {

@@ -1,6 +1,6 @@
 //! Which robot each part of a document is about: tables and directives in their order.
 
-use super::Options;
+use super::CheckOptions;
 use super::lexis::set_in;
 use super::lexis::{Columns, Lexis};
 use super::note::{Note, Noted, Notes, Unread, Unreadable};
@@ -13,7 +13,7 @@ use denavit::description::{
     Convention, Description, Diagnostic, JointKind, Parameter, TableKind, line_column,
 };
 use denavit::geometry::Transform;
-use denavit_reading::code::Language;
+use denavit_reading::code::Dialect;
 use denavit_reading::document::{CodeBlock, Directive, Document, Format};
 use denavit_symbolic::parse::parse;
 use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
@@ -70,7 +70,7 @@ impl Plan {
         format: Format,
         document: &Document,
         robot: Option<&Description>,
-        options: &Options,
+        options: &CheckOptions,
         notes: &mut Notes,
     ) -> Result<Self, Vec<Note>> {
         let mentioned = mentioned(text);
@@ -191,7 +191,7 @@ impl Plan {
     }
 
     /// Reads the statements.
-    pub fn walk(&self, text: &str, document: &Document, options: &Options) -> Walked {
+    pub fn walk(&self, text: &str, document: &Document, options: &CheckOptions) -> Walked {
         let (mut names, mut inverse_names) = (vec![], vec![]);
         let mut walk = Walk::new(text, &self.subjects[0]);
         let mut turns = self.turns.iter().skip(1).peekable();
@@ -355,14 +355,14 @@ fn with_tool(d: &Description, place: &str) -> Option<Description> {
 }
 
 /// The programs of a document, or the one that it is.
-fn programs(text: &str, document: &Document, options: &Options) -> Vec<(Range<usize>, Language)> {
+fn programs(text: &str, document: &Document, options: &CheckOptions) -> Vec<(Range<usize>, Dialect)> {
     if let Some(language) = options.language {
         return vec![(0..text.len(), language)];
     }
     let of = |block: &CodeBlock| {
         let language = match block.language.as_str() {
-            "python" | "py" | "python3" | "numpy" => Language::Python,
-            "matlab" | "octave" | "m" => Language::Matlab,
+            "python" | "py" | "python3" | "numpy" => Dialect::Python,
+            "matlab" | "octave" | "m" => Dialect::Matlab,
             _ => return None,
         };
         let is_skipped = block.directives.iter().any(|d| matches!(words(d).0, "skip" | "off"));

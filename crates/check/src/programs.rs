@@ -8,7 +8,7 @@ use super::note::{Unread, Unreadable};
 use super::subject::Subject;
 use super::walk::{Assertion, Pair, Piece};
 use denavit::forward::Reference;
-use denavit_reading::code::{Assigned, Cell, Code, Language, Reading, Value, read};
+use denavit_reading::code::{Assigned, Cell, Code, Dialect, Reading, Value, read};
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Expr, Symbol};
 use std::ops::Range;
@@ -18,7 +18,7 @@ use std::rc::Rc;
 pub(super) fn assertions(
     text: &str,
     span: &Range<usize>,
-    language: Language,
+    language: Dialect,
     subject: &Subject,
     lexis: &Lexis,
     number: usize,

@@ -1,7 +1,7 @@
 //! The inverse function: its words, and vectors from the solver's evaluator, each solution checked by the forward
 //! model in extended precision.
 
-use super::Options;
+use super::PackageOptions;
 use super::forward::{ends, traced};
 use super::samples::{self, Sample};
 use super::words::text;
@@ -52,7 +52,7 @@ pub(super) struct Closed {
 
 impl Closed {
     /// Derives it.
-    pub fn new(d: &Description, options: &Options) -> Result<Self, Refusal> {
+    pub fn new(d: &Description, options: &PackageOptions) -> Result<Self, Refusal> {
         let model = InverseModel::derive(d, &options.inverse)?;
         let occurs = |s: Symbol| {
             let cells = d.rows.iter().flat_map(|r| [r.theta, r.d, r.a, r.alpha, r.gamma, r.b]);

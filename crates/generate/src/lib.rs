@@ -85,13 +85,13 @@ impl fmt::Display for Wanted {
 
 /// How to generate.
 #[derive(Clone, Debug)]
-pub struct Options {
+pub struct PackageOptions {
     /// The language.
     pub language: Language,
     /// The functions.
     pub functions: Vec<Wanted>,
     /// What of the hand is given to the inverse model, and which joints beside it.
-    pub inverse: ik::Options,
+    pub inverse: ik::InverseOptions,
     /// Double or single precision, where the language has a choice.
     pub precision: Precision,
     /// The name of the files and functions; by default that of the robot.
@@ -136,7 +136,7 @@ impl Generated {
 ///
 /// # Errors
 /// With `fixed`: if a parameter has no value.
-pub fn generate(description: &Description, options: &Options) -> Result<Generated, MissingValue> {
+pub fn generate(description: &Description, options: &PackageOptions) -> Result<Generated, MissingValue> {
     let fixed;
     let d = if options.fixed {
         fixed = with_values(description)?;

@@ -2,7 +2,7 @@
 
 use crate::document::{Document, Factor, Line, Math, Part, Section};
 use crate::render::too_long;
-use crate::words::{Heading, Language, Names, Wording};
+use crate::words::{Heading, Names, Tongue, Wording};
 use denavit::description::Description;
 use denavit::forward::{ForwardModel, Outputs, Reference, link_transforms};
 use denavit::geometry::Transform;
@@ -68,7 +68,7 @@ impl<'a> Derivation<'a> {
 
     /// The names of the two frames: `0` and `6`, or `base` and `tool` where those differ from them.
     pub fn frames(&self) -> [String; 2] {
-        self.frames_in(Language::English.words())
+        self.frames_in(Tongue::English.words())
     }
 
     fn frames_in(&self, words: &dyn Wording) -> [String; 2] {
@@ -83,7 +83,7 @@ impl<'a> Derivation<'a> {
     }
 
     /// The matrix and its algorithm, a section each; headings have this level.
-    pub fn sections(&self, level: u8, language: Language) -> [Section; 2] {
+    pub fn sections(&self, level: u8, language: Tongue) -> [Section; 2] {
         let words = language.words();
         // An entry of the matrix is called as the algorithm calls it: t11.
         let mut section = Section::new(self.description.vocabulary());
@@ -133,7 +133,7 @@ impl<'a> Derivation<'a> {
     }
 
     /// The document of `denavit derive`.
-    pub fn document(&self, language: Language) -> Document {
+    pub fn document(&self, language: Tongue) -> Document {
         let mut links = Section::new(self.names.clone());
         links.heading(2, Line::new(language.words().heading(Heading::Links)));
         links.push(transforms(&self.links));

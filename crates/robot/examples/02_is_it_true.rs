@@ -6,7 +6,7 @@ use denavit::catalogue;
 use denavit::forward::{ForwardModel, Outputs, Reference};
 use denavit_symbolic::parse::parse;
 use denavit_symbolic::print::{Style, print};
-use denavit_symbolic::{Verdict, equal};
+use denavit_symbolic::{Equality, equal};
 
 fn main() {
     let robot = catalogue::robot("staubli-rx90").expect("in the catalogue");
@@ -20,7 +20,7 @@ fn main() {
     let verdict = equal(claim, n_x);
     println!("n_x = {printed}\nis wrong: {verdict:?}");
     println!("right is {}", print(n_x, &names, Style::Unicode));
-    assert!(matches!(verdict, Verdict::Different { .. }));
+    assert!(matches!(verdict, Equality::Different { .. }));
 
     let corrected = "C1(-C23(C4C5S6 + S4C6) + S23S5S6) + S1(S4C5S6 - C4C6)";
     assert!(equal(parse(corrected, &names).expect("it can be read"), n_x).is_equal());

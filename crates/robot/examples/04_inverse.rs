@@ -4,13 +4,13 @@
 
 use denavit::Robot;
 use denavit::catalogue;
-use denavit::inverse::{InverseModel, Options};
+use denavit::inverse::{InverseModel, InverseOptions};
 
 fn main() {
     let robot = catalogue::robot("ur5").expect("in the catalogue");
 
     // Link lengths stay symbols: one derivation serves all robots of the family.
-    let model = InverseModel::derive(&robot, &Options::default()).expect("a UR5 has a closed form");
+    let model = InverseModel::derive(&robot, &InverseOptions::default()).expect("a UR5 has a closed form");
     let unknowns: Vec<String> = model.steps.iter().map(|s| model.chain.describe(s.unknown)).collect();
     println!("found one after the other: {}", unknowns.join(", "));
     println!("at most {} solutions", model.max_solutions());

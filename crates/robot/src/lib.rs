@@ -2,7 +2,7 @@
 //!
 //! ```
 //! use denavit::forward::{ForwardModel, Outputs, Proof};
-//! use denavit::inverse::{InverseKinematics, Options};
+//! use denavit::inverse::{InverseKinematics, InverseOptions};
 //! use denavit::{Robot, catalogue};
 //!
 //! // A table, as somebody wrote it down.
@@ -13,7 +13,7 @@
 //! // In numbers: a pose, and all configurations that bring the tool there.
 //! let robot = Robot::numeric(&description)?;
 //! let pose = robot.pose(&[0.3, -1.2, 1.5, 0.4, 0.9, -0.6]);
-//! let answer = InverseKinematics::new(&description, &Options::default())?.solve(&pose, &[]);
+//! let answer = InverseKinematics::new(&description, &InverseOptions::default())?.solve(&pose, &[]);
 //! assert!(answer.is_complete() && answer.solutions.len() == 8);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

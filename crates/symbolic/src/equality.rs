@@ -7,7 +7,7 @@ use crate::ring::{Refusal, Ring};
 
 /// The answer to "are these two formulas equal?".
 #[derive(Clone, PartialEq, Debug)]
-pub enum Verdict {
+pub enum Equality {
     /// Proved equal wherever none of the recorded denominators vanishes.
     Equal {
         /// Expressions that must not be 0.
@@ -32,15 +32,15 @@ pub enum Reason {
     Dependent,
 }
 
-impl Verdict {
+impl Equality {
     /// True if proved equal.
     pub fn is_equal(&self) -> bool {
-        matches!(self, Verdict::Equal { .. })
+        matches!(self, Equality::Equal { .. })
     }
 }
 
 /// Decides whether two formulas are equal as functions of their symbols.
-pub fn equal(a: Expr, b: Expr) -> Verdict {
+pub fn equal(a: Expr, b: Expr) -> Equality {
     let difference = a - b;
     // A point that separates the values is found much sooner than two normal forms.
     if let Some(verdict) = refute(difference) {
@@ -49,7 +49,7 @@ pub fn equal(a: Expr, b: Expr) -> Verdict {
     let mut ring = Ring::new(&[a, b, difference], &[]);
     let form = match ring.normal(difference) {
         Ok(form) => form,
-        Err(why) => return Verdict::Undecided(Reason::Refused(why)),
+        Err(why) => return Equality::Undecided(Reason::Refused(why)),
     };
     if form.num.is_zero() {
         let mut factors: Vec<Poly> = vec![];
@@ -60,16 +60,16 @@ pub fn equal(a: Expr, b: Expr) -> Verdict {
         }
         factors.sort();
         factors.dedup();
-        return Verdict::Equal { conditions: factors.iter().map(|p| ring.poly_expr(p)).collect() };
+        return Equality::Equal { conditions: factors.iter().map(|p| ring.poly_expr(p)).collect() };
     }
     match ring.is_independent(&form.num) && form.den.iter().all(|d| ring.is_independent(&d.0)) {
-        true => Verdict::Different { witness: None },
-        false => Verdict::Undecided(Reason::Dependent),
+        true => Equality::Different { witness: None },
+        false => Equality::Undecided(Reason::Dependent),
     }
 }
 
 /// Looks for a point at which a formula is certainly not 0.
-fn refute(e: Expr) -> Option<Verdict> {
+fn refute(e: Expr) -> Option<Equality> {
     let symbols = e.symbols();
     let mut state = 0x9e37_79b9_7f4a_7c15_u64; // fixed seed: the same question has the same answer
     for _ in 0..8 {
@@ -82,7 +82,7 @@ fn refute(e: Expr) -> Option<Verdict> {
             .collect();
         let value = ball::evaluate(e, |s| point.iter().find(|p| p.0 == s).map(|p| p.1));
         if value.excludes_zero() {
-            return Some(Verdict::Different { witness: Some(point) });
+            return Some(Equality::Different { witness: Some(point) });
         }
     }
     None
@@ -104,7 +104,7 @@ mod tests {
 
     #[track_caller]
     fn differ(a: Expr, b: Expr) {
-        assert!(matches!(equal(a, b), Verdict::Different { .. }), "{a:?} ≠ {b:?}: {:?}", equal(a, b));
+        assert!(matches!(equal(a, b), Equality::Different { .. }), "{a:?} ≠ {b:?}: {:?}", equal(a, b));
     }
 
     fn deg(n: i64) -> Expr {
@@ -140,18 +140,18 @@ mod tests {
         differ(deg(20).sin(), deg(21).sin());
         // true, but for a reason the ring does not know
         let product = deg(20).cos() * deg(40).cos() * deg(80).cos();
-        assert_eq!(equal(product, Expr::from(Rational::new(1, 8))), Verdict::Undecided(Reason::Dependent));
+        assert_eq!(equal(product, Expr::from(Rational::new(1, 8))), Equality::Undecided(Reason::Dependent));
     }
 
     #[test]
     fn quotients_record_their_conditions() {
         let (a, b) = (x("a"), x("b"));
         let verdict = equal((a * a - b * b) / (a - b), a + b);
-        let Verdict::Equal { conditions } = verdict else { panic!("{verdict:?}") };
+        let Equality::Equal { conditions } = verdict else { panic!("{verdict:?}") };
         assert!(equal(conditions[0], a - b).is_equal() || equal(conditions[0], b - a).is_equal());
         differ(a / b, b / a);
         same(Expr::int(1) / (Expr::int(1) / a), a);
-        assert_eq!(equal(a / (a - a), b), Verdict::Undecided(Reason::Refused(Refusal::Undefined)));
+        assert_eq!(equal(a / (a - a), b), Equality::Undecided(Reason::Refused(Refusal::Undefined)));
         same(Expr::int(1) / Expr::int(2).sqrt(), Expr::int(2).sqrt() / Expr::int(2));
     }
 

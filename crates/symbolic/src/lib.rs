@@ -22,7 +22,7 @@ pub mod ring;
 pub mod rules;
 pub mod vocabulary;
 
-pub use equality::{Verdict, equal};
+pub use equality::{Equality, equal};
 pub use expr::{Angle, Expr, Node, Symbol, scoped, store_size};
 pub use greek::name as greek_name;
 pub use rational::Rational;

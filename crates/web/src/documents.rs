@@ -5,12 +5,12 @@ use crate::subject::Subject;
 use denavit::inverse;
 use denavit_check::check as checked;
 use denavit_emit::{Language, Precision};
-use denavit_generate::{Options as Wish, Wanted, generate};
+use denavit_generate::{PackageOptions, Wanted, generate};
 use denavit_reading::document::Format;
 use denavit_report::figure::svg::{Palette, svg};
-use denavit_report::figure::{Options as Look, View, isometric, scheme};
-use denavit_report::words::Language as Tongue;
-use denavit_report::{Options, render};
+use denavit_report::figure::{FigureOptions, View, isometric, scheme};
+use denavit_report::words::Tongue;
+use denavit_report::{ReportOptions, render};
 use denavit_wire::check::Checked;
 use serde::{Deserialize, Serialize};
 
@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 /// If the text cannot be read.
 pub fn check(subject: &Subject, text: &str, name: &str) -> Result<Checked, Refusal> {
     let format = Format::of(name, text);
-    match checked(text, format, Some(&subject.description), &denavit_check::Options::default()) {
+    match checked(text, format, Some(&subject.description), &denavit_check::CheckOptions::default()) {
         Ok(found) => Ok(Checked::of(name, text, &found)),
         Err(notes) => {
             let first = notes.first().map(|n| Tongue::English.words().note(n));
@@ -56,8 +56,10 @@ pub fn report(subject: &Subject, format: &str, language: &str, q: &[f64]) -> Res
         other => return Err(Refusal::new(format!("reports are not written in `{other}`: en or fr"))),
     };
     let pose = Some(subject.configuration(q)?.to_vec());
-    let document =
-        denavit_report::report(&subject.description, &Options { language, pose, ..Options::default() });
+    let document = denavit_report::report(
+        &subject.description,
+        &ReportOptions { language, pose, ..ReportOptions::default() },
+    );
     let text = match format {
         // The page has the font itself, and puts it there.
         "html" => render::html_with(&document, "FONT"),
@@ -94,10 +96,10 @@ pub fn code(subject: &Subject, language: &str, name: Option<String>) -> Result<C
         .find(wanted)
         .ok_or_else(|| Refusal::new(format!("no code is written in `{language}`")))?;
     let functions = vec![Wanted::Pose, Wanted::Jacobian, Wanted::Inverse];
-    let options = Wish {
+    let options = PackageOptions {
         language,
         functions,
-        inverse: inverse::Options::default(),
+        inverse: inverse::InverseOptions::default(),
         precision: Precision::Double,
         name: Some(name.unwrap_or_else(|| subject.description.name.clone())),
         fixed: false,
@@ -135,7 +137,7 @@ pub struct Drawn {
 /// If the configuration does not fit.
 pub fn figure(subject: &Subject, picture: &Picture) -> Result<Drawn, Refusal> {
     let arm = subject.arm.at(subject.configuration(&picture.q)?);
-    let mut look = Look::main();
+    let mut look = FigureOptions::main();
     if let (Some(azimuth), Some(elevation)) = (picture.azimuth, picture.elevation) {
         look.view = Some(View::from_angles(azimuth, elevation));
     }

@@ -8,8 +8,8 @@ use denavit::forward::Reference;
 use denavit::velocity::JacobianModel;
 use denavit_report::document::{Block, Line};
 use denavit_report::explain::{jacobian_document, velocity_vocabulary};
-use denavit_report::words::Language;
-use denavit_report::{Document, Options, Part, Section, Topic, report};
+use denavit_report::words::Tongue;
+use denavit_report::{Document, Part, ReportOptions, Section, Topic, report};
 use denavit_wire::parts::{self, parts};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -48,7 +48,7 @@ fn document(subject: &Subject, topic: &str, q: &[f64]) -> Result<Document, Refus
         "singularities" => Topic::Velocity,
         other => return Err(Refusal::new(format!("nothing is derived under the name `{other}`"))),
     };
-    let options = Options { topics: vec![section], pose: Some(q.to_vec()), ..Options::default() };
+    let options = ReportOptions { topics: vec![section], pose: Some(q.to_vec()), ..ReportOptions::default() };
     let mut document = report(&subject.description, &options);
     let first = document.sections.first_mut();
     match (topic, first) {
@@ -68,7 +68,7 @@ fn document(subject: &Subject, topic: &str, q: &[f64]) -> Result<Document, Refus
 
 /// The matrix alone: where the arm is singular takes longer.
 fn jacobian(description: &Description) -> Document {
-    let language = Language::English;
+    let language = Tongue::English;
     let model = JacobianModel::shortest(description, Reference::Tool);
     let blocks = jacobian_document(description, &model, language);
     let mut section = Section::new(velocity_vocabulary(description));

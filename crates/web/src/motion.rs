@@ -6,7 +6,7 @@ use crate::subject::Subject;
 use crate::words;
 use denavit::geometry::{Transform, Vector};
 use denavit::motion::follow::Event;
-use denavit::motion::hand::{Arc, Chain, HandPath, Line, Orientation};
+use denavit::motion::hand::{Arc, HandChain, HandPath, Line, Orientation};
 use denavit::motion::plan::{Course, KnownLimits, PlanOptions, Planned, Verdict, Wish as Stretch};
 use denavit::velocity::{Viewpoint, Whole, geometric};
 use denavit_report::words::Motion as _;
@@ -154,7 +154,7 @@ fn asked(subject: &Subject, here: &[f64], stretch: &[Point]) -> Result<Stretch, 
             Point::Joint { .. } => {}
         }
     }
-    Ok(Stretch::Hand { path: Box::new(Chain::new(parts)), start: Some(here.to_vec()) })
+    Ok(Stretch::Hand { path: Box::new(HandChain::new(parts)), start: Some(here.to_vec()) })
 }
 
 impl Sampled {

@@ -5,7 +5,7 @@ use crate::refusal::Refusal;
 use crate::steps::Step;
 use denavit::Robot;
 use denavit::description::Description;
-use denavit::inverse::{InverseKinematics, JointSpace, Options};
+use denavit::inverse::{InverseKinematics, InverseOptions, JointSpace};
 use denavit_report::figure::Arm;
 use std::cell::OnceCell;
 
@@ -67,7 +67,7 @@ impl Subject {
     /// If the robot cannot be solved as it is.
     pub fn solver(&mut self) -> Result<&mut InverseKinematics, Refusal> {
         if self.solver.is_none() {
-            let made = InverseKinematics::new(&self.valued, &Options::default());
+            let made = InverseKinematics::new(&self.valued, &InverseOptions::default());
             self.solver = Some(made.map_err(|why| Refusal::new(why.to_string()))?);
         }
         self.solver.as_mut().ok_or_else(|| Refusal::new("there is no solver"))

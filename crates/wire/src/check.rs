@@ -3,7 +3,7 @@
 use crate::Schema;
 use crate::finding::{Finding, Place};
 use denavit_check as check;
-use denavit_report::words::{Language, Wording};
+use denavit_report::words::{Tongue, Wording};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -215,7 +215,7 @@ impl From<check::Tally> for Tally {
 
 /// JSON is in English.
 fn words() -> &'static dyn Wording {
-    Language::English.words()
+    Tongue::English.words()
 }
 
 fn remarks(all: &[check::Remark]) -> Vec<String> {

@@ -3,7 +3,7 @@
 use super::setting::{Sample, Setting};
 use denavit::description::{Description, JointKind};
 use denavit::geometry::Transform;
-use denavit::inverse::{Answer, Goal, InverseKinematics, InverseModel, InverseSolver, Options};
+use denavit::inverse::{Answer, Goal, InverseKinematics, InverseModel, InverseOptions, InverseSolver};
 use denavit::random::Random;
 use denavit::robot::Robot;
 use denavit::structure::Structure;
@@ -76,7 +76,7 @@ impl Arm {
         let is_angle: Vec<bool> =
             description.variables().iter().map(|v| v.kind == JointKind::Revolute).collect();
         let mut setting = Setting::new(variables, is_angle, entries, parameters, robot.reach());
-        let options = Options { goal, given: None };
+        let options = InverseOptions { goal, given: None };
         let model = InverseModel::derive(&numbers, &options).ok();
         let closed = model.as_ref().and_then(|m| m.solver(&numbers).ok());
         let six =

@@ -34,7 +34,7 @@ use arm::Arm;
 use compare::{Comparison, Formulas, share};
 use denavit::description::Description;
 use denavit::inverse::Goal;
-use denavit_symbolic::{Expr, Symbol, Verdict as Equality, equal, readable};
+use denavit_symbolic::{Equality, Expr, Symbol, equal, readable};
 use setting::Unknown;
 use std::collections::BTreeMap;
 

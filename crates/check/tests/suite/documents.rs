@@ -4,7 +4,7 @@
 //! wrong ones. A line that ends in `…` leaves open how it goes on; a lone `…` under a claim, what is said of it.
 
 use denavit::description::line_column;
-use denavit_check::{Checked, Claim, Entry, Finding, Options, Patch, Slip, Standing, check};
+use denavit_check::{CheckOptions, Checked, Claim, Entry, Finding, Patch, Slip, Standing, check};
 use denavit_reading::document::Format;
 
 fn document(name: &str) -> String {
@@ -13,7 +13,8 @@ fn document(name: &str) -> String {
 }
 
 fn checked(text: &str) -> Checked {
-    check(text, Format::Markdown, None, &Options::default()).unwrap_or_else(|errors| panic!("{errors:?}"))
+    check(text, Format::Markdown, None, &CheckOptions::default())
+        .unwrap_or_else(|errors| panic!("{errors:?}"))
 }
 
 /// `3,4 ` for an entry of a matrix.

@@ -6,12 +6,12 @@ use denavit::description::JointKind;
 use denavit::forward::{ForwardModel, Outputs, Reference};
 use denavit::geometry::Transform;
 use denavit::{Description, Robot};
-use denavit_check::{Checked, Entry, Finding, Options, Standing, check};
+use denavit_check::{CheckOptions, Checked, Entry, Finding, Standing, check};
 use denavit_reading::document::Format;
 use denavit_symbolic::parse::{Syntax, SyntaxKind, parse, parse_syntax};
 use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::vocabulary::Vocabulary;
-use denavit_symbolic::{Expr, Node, Verdict, equal};
+use denavit_symbolic::{Equality, Expr, Node, equal};
 use std::sync::Mutex;
 use std::time::Instant;
 
@@ -178,7 +178,7 @@ impl Study {
     }
 
     fn check(&self, text: &str, format: Format) -> Checked {
-        check(text, format, Some(&self.description), &Options::default())
+        check(text, format, Some(&self.description), &CheckOptions::default())
             .unwrap_or_else(|e| panic!("{}: {e:?}\n{text}", self.name))
     }
 
@@ -191,7 +191,7 @@ impl Study {
         let syntax = self.read(&cell.text)?;
         let text = self.made(kind, sheet.style, &cell.text, &syntax, draw)?;
         let value = self.read(&text)?.value();
-        matches!(equal(value, cell.right), Verdict::Different { .. }).then_some(text)
+        matches!(equal(value, cell.right), Equality::Different { .. }).then_some(text)
     }
 
     fn made(
@@ -341,7 +341,7 @@ impl Study {
                     continue;
                 }
                 let (a, b) = (&sheet.rows[r][c], &sheet.rows[c][r]);
-                if matches!(equal(a.right, b.right), Verdict::Different { .. }) {
+                if matches!(equal(a.right, b.right), Equality::Different { .. }) {
                     return Some((sheet, vec![(r, c, b.text.clone()), (c, r, a.text.clone())]));
                 }
                 continue;

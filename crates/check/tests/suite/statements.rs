@@ -1,9 +1,9 @@
 //! What `check` reads and says, statement by statement.
 
 use denavit_check::{
-    Change, Checked, Condition, Finding, Noted, Options, Remark, Standing, TableCell, Unreadable, check,
+    Change, CheckOptions, Checked, Condition, Finding, Noted, Remark, Standing, TableCell, Unreadable, check,
 };
-use denavit_reading::code::Language;
+use denavit_reading::code::Dialect;
 use denavit_reading::document::Format;
 
 /// A planar arm with two links of its own names.
@@ -15,7 +15,8 @@ const STANFORD: &str = "convention: khalil\n\n| j | σ | α | d | θ | r |\n|---
 
 fn checked(table: &str, text: &str) -> Checked {
     let document = format!("{table}{text}\n");
-    check(&document, Format::Markdown, None, &Options::default()).unwrap_or_else(|e| panic!("{text}: {e:?}"))
+    check(&document, Format::Markdown, None, &CheckOptions::default())
+        .unwrap_or_else(|e| panic!("{text}: {e:?}"))
 }
 
 /// `name: standing` of each claim, with the formula after the first slip, or what the matrix is instead.
@@ -161,7 +162,7 @@ fn programs_are_read_not_run() {
         &denavit::description::TableOptions::default(),
     )
     .expect("a table");
-    let options = Options { language: Some(Language::Matlab), ..Options::default() };
+    let options = CheckOptions { language: Some(Dialect::Matlab), ..CheckOptions::default() };
     let all = check(matlab, Format::Plain, Some(&robot), &options).expect("a program");
     assert_eq!(all.claims.len(), 1);
     assert_eq!(all.claims[0].standing(), Standing::Equal, "{:?}", all.claims[0]);
@@ -184,7 +185,7 @@ fn what_cannot_be_read_says_where() {
         matches!(&errors[0].why, Unreadable::Syntax { message, .. } if message.contains("zeta")),
         "{errors:?}"
     );
-    let none = check("# Nothing\n\nx = 3\n", Format::Markdown, None, &Options::default());
+    let none = check("# Nothing\n\nx = 3\n", Format::Markdown, None, &CheckOptions::default());
     assert!(none.is_err_and(|e| e[0].what == Noted::NoRobot));
 }
 
@@ -197,6 +198,6 @@ fn toml_says_what_each_claim_is() {
         &denavit::description::TableOptions::default(),
     );
     let robot = table.expect("a table").0;
-    let all = check(text, Format::Toml, Some(&robot), &Options::default()).expect("claims");
+    let all = check(text, Format::Toml, Some(&robot), &CheckOptions::default()).expect("claims");
     assert_eq!(all.tally().equal, 1, "{:?}", all.claims);
 }

@@ -3,14 +3,14 @@
 use crate::arguments::Format;
 use crate::terminal::{FAINT, HEADING, NAME, styled};
 use denavit_report::document::{Block, Mark, text};
-use denavit_report::words::Language;
+use denavit_report::words::Tongue;
 use denavit_report::{Document, Part, Section, render};
 use denavit_symbolic::vocabulary::Vocabulary;
 
 /// The document, with a title for the page; JSON is not made here.
 pub fn document(title: &str, names: &Vocabulary, blocks: &[Block], format: Format) -> String {
     if matches!(format, Format::Terminal | Format::Json) {
-        return text(blocks, names, Language::English, &|mark, words| {
+        return text(blocks, names, Tongue::English, &|mark, words| {
             let style = match mark {
                 Mark::Heading => HEADING,
                 Mark::Strong => NAME,
@@ -22,7 +22,7 @@ pub fn document(title: &str, names: &Vocabulary, blocks: &[Block], format: Forma
     // The page has its title.
     let parts = blocks.iter().filter(|b| !matches!(b, Block::Heading(1, _))).cloned().map(Part::from);
     let section = Section { names: names.clone(), parts: parts.collect() };
-    let document = Document { title: title.into(), language: Language::English, sections: vec![section] };
+    let document = Document { title: title.into(), language: Tongue::English, sections: vec![section] };
     written(&document, format)
 }
 

@@ -8,7 +8,7 @@ use denavit::description::Description;
 use denavit::forward::Proof;
 use denavit::inverse;
 use denavit_emit::{Language, Precision};
-use denavit_generate::{Generated, Inverse, Options, Wanted};
+use denavit_generate::{Generated, Inverse, PackageOptions, Wanted};
 use denavit_wire::code::Written;
 use std::fs;
 use std::io::Write;
@@ -41,10 +41,10 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
     }
     let description = load::robot(&arguments.robot)?;
     let given = arguments.given.as_deref().map(|words| joints(words, &description)).transpose()?;
-    let options = Options {
+    let options = PackageOptions {
         language,
         functions,
-        inverse: inverse::Options { goal: arguments.goal.into(), given },
+        inverse: inverse::InverseOptions { goal: arguments.goal.into(), given },
         precision: if arguments.float { Precision::Single } else { Precision::Double },
         name: Some(
             arguments.name.clone().unwrap_or_else(|| name_of(&arguments.robot.robot, &description.name)),

@@ -58,7 +58,7 @@ fn figure(description: &Description, arguments: &ShowArguments, file: &Path) -> 
         Some(text) => arm.at(&configuration(description, text)?),
         None => arm,
     };
-    let options = figure::Options::main();
+    let options = figure::FigureOptions::main();
     let drawing =
         if arguments.scheme { figure::scheme(&arm, &options) } else { figure::isometric(&arm, &options) };
     put(file, svg(&drawing, Palette::File, "arm").as_bytes())

@@ -3,7 +3,7 @@
 pub use denavit_report::decimals;
 
 use anstyle::{AnsiColor, Style};
-use denavit_report::words::{Language, Wording};
+use denavit_report::words::{Tongue, Wording};
 use unicode_width::UnicodeWidthStr;
 
 /// Headings.
@@ -15,7 +15,7 @@ pub const NAME: Style = AnsiColor::Cyan.on_default();
 
 /// The words of a terminal.
 pub fn words() -> &'static dyn Wording {
-    Language::English.words()
+    Tongue::English.words()
 }
 
 /// The text in a style.

@@ -5,7 +5,7 @@
 mod c;
 mod rust;
 
-use super::Options;
+use super::PackageOptions;
 use super::inverse::Inverse;
 use super::samples::{self, Sample};
 use super::words::text;
@@ -49,7 +49,7 @@ impl General {
     ///
     /// # Errors
     /// If it is not an arm for elimination; with words if it is one, but not with these options.
-    pub fn new(d: &Description, options: &Options) -> Result<Self, Option<String>> {
+    pub fn new(d: &Description, options: &PackageOptions) -> Result<Self, Option<String>> {
         let variables = d.variables();
         if variables.len() != 6 || options.inverse.goal != Goal::Pose || options.inverse.given.is_some() {
             return Err(None);

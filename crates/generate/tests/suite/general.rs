@@ -6,7 +6,7 @@ use denavit::inverse::general::GeneralSolver;
 use denavit::inverse::{self, Goal, JointSpace};
 use denavit::{Description, Robot, catalogue};
 use denavit_emit::{Language, Precision};
-use denavit_generate::{Generated, Options, Wanted, generate};
+use denavit_generate::{Generated, PackageOptions, Wanted, generate};
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -26,10 +26,10 @@ fn generated(d: &Description, language: Language, functions: &[Wanted]) -> Gener
 }
 
 fn generated_as(name: &str, d: &Description, language: Language, functions: &[Wanted]) -> Generated {
-    let options = Options {
+    let options = PackageOptions {
         language,
         functions: functions.to_vec(),
-        inverse: inverse::Options { goal: Goal::Pose, given: None },
+        inverse: inverse::InverseOptions { goal: Goal::Pose, given: None },
         precision: Precision::Double,
         name: Some(name.into()),
         fixed: false,

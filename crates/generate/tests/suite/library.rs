@@ -5,7 +5,7 @@ use denavit::forward::Proof;
 use denavit::inverse::{self, Goal};
 use denavit::{Description, catalogue};
 use denavit_emit::{Language, Precision};
-use denavit_generate::{Generated, Options, Wanted, generate};
+use denavit_generate::{Generated, PackageOptions, Wanted, generate};
 
 fn robot(name: &str) -> Description {
     catalogue::robot(name).expect("the catalogue has it")
@@ -20,12 +20,12 @@ fn generated(name: &str, goal: Goal, given: Option<Vec<usize>>) -> Generated {
 }
 
 fn generated_for(d: &Description, goal: Goal, given: Option<Vec<usize>>) -> Generated {
-    let inverse = inverse::Options { goal, given };
+    let inverse = inverse::InverseOptions { goal, given };
     functions(d, &[Wanted::Pose, Wanted::Inverse], inverse)
 }
 
-fn functions(d: &Description, wanted: &[Wanted], inverse: inverse::Options) -> Generated {
-    let options = Options {
+fn functions(d: &Description, wanted: &[Wanted], inverse: inverse::InverseOptions) -> Generated {
+    let options = PackageOptions {
         language: Language::Python,
         functions: wanted.to_vec(),
         inverse,

@@ -1,6 +1,6 @@
 //! What an expression begins with: numbers, names, brackets, matrices and functions without a name.
 
-use super::Language;
+use super::Dialect;
 use super::grammar::{Parsed, Parser};
 use super::lexer::Mark;
 use super::tree::{Definition, Kind, Node, Parameter, Span, Statement, StatementKind, Suffix, SuffixKind};
@@ -37,7 +37,7 @@ const MATLAB_WORDS: &[&str] = &[
 impl Parser<'_> {
     pub fn primary(&mut self) -> Parsed<Node> {
         let start = self.at;
-        let is_matlab = self.language == Language::Matlab;
+        let is_matlab = self.language == Dialect::Matlab;
         let kind = match self.mark() {
             Some(Mark::Number(r, is_whole)) => Kind::Number(r.clone(), *is_whole),
             Some(Mark::Text(text)) => {
@@ -85,8 +85,8 @@ impl Parser<'_> {
             return Ok(self.node(Kind::Tuple(vec![]), start));
         }
         let inner = match self.language {
-            Language::Python => self.expressions()?,
-            Language::Matlab => self.expression()?,
+            Dialect::Python => self.expressions()?,
+            Dialect::Matlab => self.expression()?,
         };
         let inner = self.comprehension(inner)?;
         self.expect(")")?;

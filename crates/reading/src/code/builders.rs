@@ -1,6 +1,6 @@
 //! Functions that make matrices and lists.
 
-use super::Language;
+use super::Dialect;
 use super::calls::Given;
 use super::known::short;
 use super::machine::Machine;
@@ -107,7 +107,7 @@ impl<'a> Machine<'a> {
             Some(value) if sort == Sort::SympyMatrix && given.positional.len() == 3 => {
                 // Matrix(rows, columns, entries)
                 let columns = value.scalar(span)?.to_integer().and_then(|n| usize::try_from(n).ok());
-                let entries = given.positional[2].0.items(Language::Python, span)?;
+                let entries = given.positional[2].0.items(Dialect::Python, span)?;
                 let entries = entries.iter().map(|e| e.scalar(span).cloned()).collect::<Read<Vec<_>>>()?;
                 let Some(columns) = columns.filter(|&c| c > 0 && entries.len() % c == 0) else {
                     return refuse(span, "the size of the matrix does not fit its entries");
@@ -236,7 +236,7 @@ impl<'a> Machine<'a> {
         };
         let items = match (sort, &given) {
             (Sort::Matlab, given) => given.positional.iter().map(|p| p.0.clone()).collect(),
-            _ => self.first(given, path, span)?.items(Language::Python, span)?,
+            _ => self.first(given, path, span)?.items(Dialect::Python, span)?,
         };
         let blocks = items.iter().map(|i| i.matrix(sort, span)).collect::<Read<Vec<Matrix>>>()?;
         let total: u64 = blocks.iter().map(|b| b.entries.len() as u64).sum();
@@ -269,7 +269,7 @@ impl<'a> Machine<'a> {
     /// `np.block([[R, p], [0, 0, 0, 1]])`
     fn blocks(&mut self, value: &Object<'a>, span: &Span) -> Read<Object<'a>> {
         let mut bands = vec![];
-        for band in value.items(Language::Python, span)? {
+        for band in value.items(Dialect::Python, span)? {
             let items = match &band {
                 Object::List(items) => items.to_vec(),
                 other => vec![other.clone()],
@@ -339,7 +339,7 @@ impl<'a> Machine<'a> {
             _ => None,
         };
         if name == "zip" {
-            let lists = given.positional.iter().map(|(o, p)| o.items(Language::Python, p));
+            let lists = given.positional.iter().map(|(o, p)| o.items(Dialect::Python, p));
             let lists = lists.collect::<Read<Vec<Vec<Object<'a>>>>>()?;
             let length = lists.iter().map(Vec::len).min().unwrap_or(0);
             return Ok(Object::list(
@@ -369,15 +369,15 @@ impl<'a> Machine<'a> {
                 Some(_) => number(1),
                 None => Object::list(vec![number(rows), number(columns)]),
             },
-            "list" | "tuple" => Object::list(value.items(Language::Python, span)?),
+            "list" | "tuple" => Object::list(value.items(Dialect::Python, span)?),
             "reversed" => {
-                let mut items = value.items(Language::Python, span)?;
+                let mut items = value.items(Dialect::Python, span)?;
                 items.reverse();
                 Object::list(items)
             }
             _ => {
                 let start = second.unwrap_or(0);
-                let items = value.items(Language::Python, span)?.into_iter().enumerate();
+                let items = value.items(Dialect::Python, span)?.into_iter().enumerate();
                 let index = |i: usize| {
                     let n = Expr::int(start.saturating_add(i as i64));
                     Object::Scalar(Scalar::of(n, span).wholly(true))

@@ -5,7 +5,7 @@ use super::machine::{Flow, Frame, Machine, Slot};
 use super::scalar::{Read, Scalar, Stop, refuse, refuse_hint};
 use super::tree::{Argument, Kind, Node, Span, Suffix, SuffixKind};
 use super::value::{Closure, Object, Sort, object};
-use super::{Language, MAX_CALLS};
+use super::{Dialect, MAX_CALLS};
 use std::collections::BTreeMap;
 
 /// The arguments of a call.
@@ -79,7 +79,7 @@ impl<'a> Machine<'a> {
                     let given = self.arguments(arguments)?;
                     self.library(&path, given, &span)?
                 }
-                (SuffixKind::Call(arguments), value) if self.language == Language::Matlab => {
+                (SuffixKind::Call(arguments), value) if self.language == Dialect::Matlab => {
                     let items = arguments.iter().map(|a| &a.value).collect();
                     let step = self.step(&value, items, false, &span, false)?;
                     self.picked(&value, &step, &span)?
@@ -128,7 +128,7 @@ impl<'a> Machine<'a> {
         let result = self.deeper(span, |m| {
             m.defaults(d)?;
             for p in &d.parameters {
-                if !m.frame().slots.contains_key(p.name.as_str()) && m.language == Language::Python {
+                if !m.frame().slots.contains_key(p.name.as_str()) && m.language == Dialect::Python {
                     return refuse(span, format!("`{}` is called without `{}`", d.name, p.name));
                 }
             }

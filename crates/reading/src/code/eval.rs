@@ -1,6 +1,6 @@
 //! The values of expressions.
 
-use super::Language;
+use super::Dialect;
 use super::machine::Machine;
 use super::scalar::{Read, Scalar, Stop, combined, negated, operated, refuse, refuse_hint};
 use super::tree::{Definition, Kind, Node, Op, Span, Suffix, SuffixKind, mentioned};
@@ -41,7 +41,7 @@ impl<'a> Machine<'a> {
             Kind::Cells(rows) => self.cells(rows, span),
             Kind::Lambda(definition) => {
                 let mut captured = BTreeMap::new();
-                if self.language == Language::Matlab {
+                if self.language == Dialect::Matlab {
                     captured = self.captured(definition);
                     self.budget.charge(captured.len() as u64, span)?;
                 }
@@ -81,7 +81,7 @@ impl<'a> Machine<'a> {
 
     /// Several values where MATLAB asks for them.
     pub fn several(&mut self, node: &'a Node, count: usize) -> Read<Object<'a>> {
-        if self.language == Language::Python || count < 2 {
+        if self.language == Dialect::Python || count < 2 {
             return self.eval(node);
         }
         if let Kind::Path(base, suffixes) = &node.kind
@@ -135,7 +135,7 @@ impl<'a> Machine<'a> {
             "True" | "true" => return Ok(Object::Bool(true)),
             "False" | "false" => return Ok(Object::Bool(false)),
             "None" => return Ok(Object::Nothing),
-            "nargin" if self.language == Language::Matlab => {
+            "nargin" if self.language == Dialect::Matlab => {
                 let given = self.frame().given;
                 return Ok(Object::Scalar(Scalar::whole(given, span)));
             }
@@ -159,7 +159,7 @@ impl<'a> Machine<'a> {
 
     /// All joints, as the argument of a function.
     pub fn joint_vector(&self, span: &Span) -> Object<'a> {
-        let sort = if self.language == Language::Matlab { Sort::Matlab } else { Sort::Array };
+        let sort = if self.language == Dialect::Matlab { Sort::Matlab } else { Sort::Array };
         object(Matrix::vector(self.joints.iter().map(|&j| Scalar::of(j, span)).collect(), sort))
     }
 
@@ -173,7 +173,7 @@ impl<'a> Machine<'a> {
             }
             at = match frame.home {
                 Some((home, id)) if home < index && self.frames[home].id == id => Some(home),
-                _ if index > 0 && self.language == Language::Python => Some(0),
+                _ if index > 0 && self.language == Dialect::Python => Some(0),
                 _ => None,
             };
         }

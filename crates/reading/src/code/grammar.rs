@@ -1,6 +1,6 @@
 //! Expressions of both languages.
 
-use super::Language;
+use super::Dialect;
 use super::lexer::{Mark, Token};
 use super::tree::{Argument, Kind, Node, Op, Span, Suffix, SuffixKind};
 use super::{MAX_CHAIN, MAX_NESTING};
@@ -13,7 +13,7 @@ pub(super) struct Parser<'a> {
     pub text: &'a str,
     pub tokens: Vec<Token>,
     pub at: usize,
-    pub language: Language,
+    pub language: Dialect,
     /// A blank separates entries.
     pub in_matrix: bool,
     pub depth: usize,
@@ -124,7 +124,7 @@ impl Parser<'_> {
 
     pub fn starred(&mut self) -> Parsed<Node> {
         let start = self.at;
-        if self.language == Language::Python && self.eat("*") {
+        if self.language == Dialect::Python && self.eat("*") {
             let inner = Box::new(self.climb(0)?);
             return Ok(self.node(Kind::Star(inner), start));
         }
@@ -134,7 +134,7 @@ impl Parser<'_> {
     pub fn expression(&mut self) -> Parsed<Node> {
         self.nested(|p| {
             let start = p.at;
-            if p.language == Language::Matlab {
+            if p.language == Dialect::Matlab {
                 return p.climb(0);
             }
             if p.is_word("lambda") {
@@ -155,7 +155,7 @@ impl Parser<'_> {
 
     /// The operator that comes next, its level, and how many tokens it has.
     fn operator(&self) -> Parsed<Option<(u8, Op, usize)>> {
-        let is_python = self.language == Language::Python;
+        let is_python = self.language == Dialect::Python;
         let op = match self.mark() {
             Some(Mark::Op(op)) => *op,
             Some(Mark::Name(name)) if is_python => {
@@ -240,8 +240,8 @@ impl Parser<'_> {
         let op = match self.mark() {
             Some(Mark::Op("-")) => Op::Sub,
             Some(Mark::Op("+")) => Op::Add,
-            Some(Mark::Op("~" | "!")) if self.language == Language::Matlab => Op::Not,
-            Some(Mark::Name(n)) if n == "not" && self.language == Language::Python => {
+            Some(Mark::Op("~" | "!")) if self.language == Dialect::Matlab => Op::Not,
+            Some(Mark::Name(n)) if n == "not" && self.language == Dialect::Python => {
                 self.at += 1;
                 let inner = Box::new(self.nested(|p| p.climb(3))?);
                 return Ok(self.node(Kind::Unary(Op::Not, inner), start));
@@ -256,7 +256,7 @@ impl Parser<'_> {
     fn power(&mut self) -> Parsed<Node> {
         let start = self.at;
         let base = self.postfix()?;
-        if self.language == Language::Python {
+        if self.language == Dialect::Python {
             if !self.eat("**") {
                 return Ok(base);
             }
@@ -294,7 +294,7 @@ impl Parser<'_> {
         let mut suffixes = vec![];
         loop {
             let is_apart = self.tokens.get(self.at).is_some_and(|t| t.is_apart);
-            let is_matlab = self.language == Language::Matlab;
+            let is_matlab = self.language == Dialect::Matlab;
             if self.in_matrix && is_apart {
                 break;
             }
@@ -379,7 +379,7 @@ impl Parser<'_> {
 
     fn index_item(&mut self) -> Parsed<Node> {
         let start = self.at;
-        if self.language == Language::Matlab {
+        if self.language == Dialect::Matlab {
             let next = self.tokens.get(self.at + 1).map(|t| &t.mark);
             if self.is_op(":") && matches!(next, Some(Mark::Op("," | ")" | "}"))) {
                 self.at += 1;
@@ -406,7 +406,7 @@ impl Parser<'_> {
 
     /// `item for target in source`, if `for` comes next.
     pub fn comprehension(&mut self, item: Node) -> Parsed<Node> {
-        if self.language == Language::Matlab || !self.is_word("for") {
+        if self.language == Dialect::Matlab || !self.is_word("for") {
             return Ok(item);
         }
         let from = item.span.start;

@@ -1,6 +1,6 @@
 //! The names of NumPy, SymPy, `math`, Python and MATLAB that are known.
 
-use super::Language;
+use super::Dialect;
 use super::scalar::Scalar;
 use super::tree::Span;
 use super::value::Object;
@@ -141,8 +141,8 @@ const MATLAB: &[&str] = &[
 ];
 
 /// The path of a bare name.
-pub(super) fn path_of(name: &str, language: Language, stars: &[&str]) -> Option<String> {
-    if language == Language::Matlab {
+pub(super) fn path_of(name: &str, language: Dialect, stars: &[&str]) -> Option<String> {
+    if language == Dialect::Matlab {
         return MATLAB.contains(&name).then(|| format!("matlab.{name}"));
     }
     if PYTHON.contains(&name) && name != "reduce" {

@@ -1,6 +1,6 @@
 //! Text to tokens, for both languages: lines, indentation, brackets, and the quote that is a transpose.
 
-use super::Language;
+use super::Dialect;
 use super::tree::Span;
 use denavit_symbolic::Rational;
 
@@ -43,7 +43,7 @@ struct Lexer<'a> {
     text: &'a str,
     at: usize,
     end: usize,
-    language: Language,
+    language: Dialect,
     /// The brackets that are open.
     open: Vec<&'static str>,
     indents: Vec<usize>,
@@ -52,7 +52,7 @@ struct Lexer<'a> {
 }
 
 /// The tokens of a part of a text; the last statement is ended by a `Newline`.
-pub(super) fn tokens(text: &str, span: &Span, language: Language) -> Vec<Token> {
+pub(super) fn tokens(text: &str, span: &Span, language: Dialect) -> Vec<Token> {
     let mut lexer = Lexer {
         text,
         at: span.start,
@@ -80,26 +80,26 @@ impl<'a> Lexer<'a> {
 
     fn run(&mut self) {
         match self.language {
-            Language::Python => self.indentation(),
-            Language::Matlab => self.block_comment(),
+            Dialect::Python => self.indentation(),
+            Dialect::Matlab => self.block_comment(),
         }
         while let Some(c) = self.rest().chars().next() {
             match (c, self.language) {
                 ('\n', _) => self.newline(),
-                ('\\', Language::Python) if self.is_continued() => self.skip_line(true),
+                ('\\', Dialect::Python) if self.is_continued() => self.skip_line(true),
                 _ if c.is_whitespace() || c == '\u{feff}' => {
                     self.is_apart = true;
                     self.at += c.len_utf8();
                 }
                 ('#', _) => self.skip_line(false),
-                ('%', Language::Matlab) => self.skip_line(false),
-                ('.', Language::Matlab) if self.rest().starts_with("...") => self.skip_line(true),
+                ('%', Dialect::Matlab) => self.skip_line(false),
+                ('.', Dialect::Matlab) if self.rest().starts_with("...") => self.skip_line(true),
                 ('0'..='9', _) => self.number(),
                 ('.', _) if self.rest()[1..].starts_with(|c: char| c.is_ascii_digit()) => self.number(),
-                ('"' | '\'', Language::Python) => self.python_text(self.at),
-                ('"', Language::Matlab) => self.matlab_text('"'),
-                ('\'', Language::Matlab) if !self.is_transpose() => self.matlab_text('\''),
-                ('\'', Language::Matlab) => self.push(Mark::Op("'"), 1),
+                ('"' | '\'', Dialect::Python) => self.python_text(self.at),
+                ('"', Dialect::Matlab) => self.matlab_text('"'),
+                ('\'', Dialect::Matlab) if !self.is_transpose() => self.matlab_text('\''),
+                ('\'', Dialect::Matlab) => self.push(Mark::Op("'"), 1),
                 _ if c.is_alphabetic() || c == '_' => self.word(),
                 _ => self.operator(c),
             }
@@ -131,11 +131,11 @@ impl<'a> Lexer<'a> {
             (None, _) => {
                 self.push(Mark::Newline, 1);
                 match self.language {
-                    Language::Python => self.indentation(),
-                    Language::Matlab => self.block_comment(),
+                    Dialect::Python => self.indentation(),
+                    Dialect::Matlab => self.block_comment(),
                 }
             }
-            (Some(&("[" | "{")), Language::Matlab) => {
+            (Some(&("[" | "{")), Dialect::Matlab) => {
                 self.push(Mark::Op(";"), 1);
             }
             _ => {
@@ -217,7 +217,7 @@ impl<'a> Lexer<'a> {
         // In MATLAB the point of `2.*x` belongs to the operator.
         let is_operator = |b: Option<&u8>| matches!(b, Some(b'*' | b'/' | b'^' | b'\\' | b'\''));
         if bytes.get(length) == Some(&b'.')
-            && !(self.language == Language::Matlab && is_operator(bytes.get(length + 1)))
+            && !(self.language == Dialect::Matlab && is_operator(bytes.get(length + 1)))
         {
             length = digits(length + 1);
             is_whole = false;
@@ -248,7 +248,7 @@ impl<'a> Lexer<'a> {
         let rest = self.rest();
         let length = rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len());
         let word = &rest[..length];
-        if self.language == Language::Python
+        if self.language == Dialect::Python
             && word.len() <= 2
             && word.chars().all(|c| "rRbBuUfF".contains(c))
             && rest[length..].starts_with(['"', '\''])
@@ -313,7 +313,7 @@ impl<'a> Lexer<'a> {
     }
 
     fn operator(&mut self, c: char) {
-        let all = if self.language == Language::Python { PYTHON } else { MATLAB };
+        let all = if self.language == Dialect::Python { PYTHON } else { MATLAB };
         let Some(op) = all.iter().find(|op| self.rest().starts_with(**op)) else {
             return self.push(Mark::Bad(format!("`{c}` is not read here")), c.len_utf8());
         };

@@ -1,6 +1,6 @@
 //! Runs statements on formulas: names and their values, branches and loops that are known.
 
-use super::Language;
+use super::Dialect;
 use super::matlab::is_display;
 use super::place::{is_aliased, shallow};
 use super::report;
@@ -52,7 +52,7 @@ pub(super) enum Flow<'a> {
 }
 
 pub(super) struct Machine<'a> {
-    pub language: Language,
+    pub language: Dialect,
     pub names: &'a dyn Fn(&str) -> Option<Expr>,
     pub joints: &'a [Expr],
     pub functions: BTreeMap<&'a str, &'a Definition>,
@@ -78,7 +78,7 @@ pub(super) struct Machine<'a> {
 }
 
 impl<'a> Machine<'a> {
-    pub fn new(language: Language, names: &'a dyn Fn(&str) -> Option<Expr>, joints: &'a [Expr]) -> Self {
+    pub fn new(language: Dialect, names: &'a dyn Fn(&str) -> Option<Expr>, joints: &'a [Expr]) -> Self {
         Machine {
             language,
             names,
@@ -369,7 +369,7 @@ impl<'a> Machine<'a> {
         // In place in Python: other names of the same array would change as well.
         let is_matrix = matches!(old, Object::Matrix(_) | Object::List(_));
         let new = self.binary(op, old, by, span)?;
-        if let (true, Kind::Name(name), Language::Python) = (is_matrix, &target.kind, self.language)
+        if let (true, Kind::Name(name), Dialect::Python) = (is_matrix, &target.kind, self.language)
             && self.frame().slots.get(name.as_str()).and_then(|s| s.value.as_ref()).is_some_and(is_aliased)
         {
             let hint = format!("write `{name} = {name} …`, which makes a new one");
@@ -395,11 +395,11 @@ impl<'a> Machine<'a> {
                 self.budget.charge(value.weight(), span)?;
                 let items = match (&value, self.language) {
                     (Object::List(items), _) => items.to_vec(),
-                    (_, Language::Matlab) => vec![value],
+                    (_, Dialect::Matlab) => vec![value],
                     _ => value.items(self.language, right)?,
                 };
                 if items.len() < parts.len()
-                    || (items.len() > parts.len() && self.language == Language::Python)
+                    || (items.len() > parts.len() && self.language == Dialect::Python)
                 {
                     let message = format!("{} values for {} names", items.len(), parts.len());
                     return refuse(right, message);
@@ -423,7 +423,7 @@ impl<'a> Machine<'a> {
                     let hint = "give the value a name of its own";
                     return refuse_hint(&target.span, "a field of an object is not set", hint);
                 }
-                let is_matlab = self.language == Language::Matlab;
+                let is_matlab = self.language == Dialect::Matlab;
                 let old = match self.frame().slots.get(name.as_str()) {
                     Some(slot) => slot.value.clone().ok_or(Stop(None))?,
                     None if is_matlab => Object::Nothing,

@@ -1,6 +1,6 @@
 //! Statements of MATLAB and Octave.
 
-use super::Language;
+use super::Dialect;
 use super::atoms::called_name;
 use super::grammar::{Parsed, Parser};
 use super::lexer::{self, Mark};
@@ -31,9 +31,9 @@ const ENDS: &[&str] = &["end", "endfunction", "endif", "endfor", "endwhile", "en
 pub(super) fn parse(text: &str, span: &Span) -> (Vec<Statement>, Vec<ParseError>) {
     let mut parser = Parser {
         text,
-        tokens: lexer::tokens(text, span, Language::Matlab),
+        tokens: lexer::tokens(text, span, Dialect::Matlab),
         at: 0,
-        language: Language::Matlab,
+        language: Dialect::Matlab,
         in_matrix: false,
         depth: 0,
         in_index: false,

@@ -69,7 +69,7 @@ const MAX_REFUSALS: usize = 50;
 
 /// A programming language.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Language {
+pub enum Dialect {
     /// Python with NumPy, SymPy or `math`.
     Python,
     /// MATLAB or Octave.
@@ -149,7 +149,7 @@ pub struct Cell {
 pub fn read(
     text: &str,
     span: Range<usize>,
-    language: Language,
+    language: Dialect,
     names: &dyn Fn(&str) -> Option<Expr>,
     joints: &[Expr],
 ) -> Code {
@@ -160,8 +160,8 @@ pub fn read(
         return code;
     }
     let (program, errors) = match language {
-        Language::Python => python::parse(text, &span),
-        Language::Matlab => matlab::parse(text, &span),
+        Dialect::Python => python::parse(text, &span),
+        Dialect::Matlab => matlab::parse(text, &span),
     };
     let mut machine = Machine::new(language, names, joints);
     machine.refusals = errors;
@@ -254,8 +254,8 @@ fn arguments<'a>(
         [first, ..] => {
             let message = format!("what `{}` of `{}` stands for is not known", first.name, d.name);
             let hint = match machine.language {
-                Language::Python => "a function of the joints is `def fk(q):`",
-                Language::Matlab => "a function of the joints is `function T = fk(q)`",
+                Dialect::Python => "a function of the joints is `def fk(q):`",
+                Dialect::Matlab => "a function of the joints is `function T = fk(q)`",
             };
             return Err(ParseError::new(first.span.clone(), message).hint(hint));
         }

@@ -4,7 +4,7 @@ use super::machine::Machine;
 use super::scalar::{Read, Scalar, refuse, refuse_hint};
 use super::tree::{Kind, Node, Span, Suffix, SuffixKind};
 use super::value::{Matrix, Object, Sort, object, side};
-use super::{Language, MAX_LISTS};
+use super::{Dialect, MAX_LISTS};
 use denavit_symbolic::Expr;
 use std::rc::Rc;
 
@@ -70,13 +70,13 @@ impl<'a> Machine<'a> {
                 return refuse(&node.span, "an index is a known whole number");
             };
             let from_zero = match self.language {
-                Language::Python if n < 0 => n.checked_add(length as i64),
-                Language::Python => Some(n),
-                Language::Matlab => n.checked_sub(1),
+                Dialect::Python if n < 0 => n.checked_add(length as i64),
+                Dialect::Python => Some(n),
+                Dialect::Matlab => n.checked_sub(1),
             };
             let index = from_zero.and_then(|i| usize::try_from(i).ok());
             let Some(index) = index.filter(|&i| i < length || (grows && i < 4096)) else {
-                let first = if self.language == Language::Python { "0" } else { "1" };
+                let first = if self.language == Dialect::Python { "0" } else { "1" };
                 let message = format!("index {n} is out of range: there are {length}");
                 return refuse_hint(&node.span, message, format!("the first index is {first}"));
             };
@@ -136,7 +136,7 @@ impl<'a> Machine<'a> {
         span: &Span,
         grows: bool,
     ) -> Read<Step> {
-        let grows = grows && self.language == Language::Matlab;
+        let grows = grows && self.language == Dialect::Matlab;
         let lengths: Vec<usize> = match (value, items.len()) {
             (Object::Matrix(m), 1) => vec![match m.sort {
                 Sort::Matlab | Sort::SympyMatrix => m.entries.len(),
@@ -146,11 +146,11 @@ impl<'a> Machine<'a> {
                 return refuse(span, format!("two indices into an array of {}", m.shape()));
             }
             (Object::Matrix(m), 2) => vec![m.rows, m.columns],
-            (Object::Scalar(_), n) if self.language == Language::Matlab && n > 0 => vec![1; n],
+            (Object::Scalar(_), n) if self.language == Dialect::Matlab && n > 0 => vec![1; n],
             (Object::List(items), 1) => vec![items.len()],
             (Object::List(items), 2) if is_cell => vec![1, items.len()],
             // The pages of `A(:,:,i)` are kept as a list.
-            (Object::List(items), 3) if self.language == Language::Matlab => vec![1, 1, items.len()],
+            (Object::List(items), 3) if self.language == Dialect::Matlab => vec![1, 1, items.len()],
             (_, n) => {
                 return refuse(span, format!("{} with {n} indices is not read", value.about()));
             }
@@ -160,7 +160,7 @@ impl<'a> Machine<'a> {
         for (item, length) in items.into_iter().zip(lengths) {
             let pick = self.pick(item, length, grows)?;
             let is_slice = matches!(item.kind, Kind::Slice(_));
-            if matches!(pick, Pick::Many(_)) && !is_slice && !is_one && self.language == Language::Python {
+            if matches!(pick, Pick::Many(_)) && !is_slice && !is_one && self.language == Dialect::Python {
                 return refuse_hint(
                     &item.span,
                     "a list as an index is not read",
@@ -179,7 +179,7 @@ impl<'a> Machine<'a> {
                 let pick = step.picks.last().map_or(Pick::All(items.len()), Pick::clone);
                 match pick {
                     Pick::One(i)
-                        if step.is_cell || self.language == Language::Python || step.picks.len() == 3 =>
+                        if step.is_cell || self.language == Dialect::Python || step.picks.len() == 3 =>
                     {
                         items.get(i).cloned().unwrap_or(Object::Nothing)
                     }
@@ -192,7 +192,7 @@ impl<'a> Machine<'a> {
         };
         Ok(match picked {
             Object::Scalar(s) => Object::Scalar(s.named(span)),
-            Object::Nothing if self.language == Language::Matlab => {
+            Object::Nothing if self.language == Dialect::Matlab => {
                 return refuse(span, "this cell is empty");
             }
             picked => picked,
@@ -246,13 +246,13 @@ impl<'a> Machine<'a> {
             let (items, is_cell): (Vec<&'a Node>, bool) = match &suffix.kind {
                 SuffixKind::Index(items) => (self.indices(items), false),
                 SuffixKind::Cell(items) => (items.iter().collect(), true),
-                SuffixKind::Call(arguments) if self.language == Language::Matlab => {
+                SuffixKind::Call(arguments) if self.language == Dialect::Matlab => {
                     (arguments.iter().map(|a| &a.value).collect(), false)
                 }
                 _ => return refuse(span, "what is assigned to is not a name or its entries"),
             };
             // What does not exist yet is made by MATLAB.
-            if let (Object::Nothing, Language::Matlab) = (&value, self.language) {
+            if let (Object::Nothing, Dialect::Matlab) = (&value, self.language) {
                 value = match is_cell || items.len() == 3 {
                     true => Object::list(vec![]),
                     false => object(Matrix::new(0, 0, vec![], Sort::Matlab)),
@@ -293,7 +293,7 @@ impl<'a> Machine<'a> {
             *place = value;
             return Ok(());
         };
-        let is_python = self.language == Language::Python;
+        let is_python = self.language == Dialect::Python;
         if let (Object::Nothing | Object::Scalar(_), false) = (&*place, is_python) {
             *place = match (step.is_cell || step.picks.len() == 3, &*place) {
                 (true, _) => Object::list(vec![]),

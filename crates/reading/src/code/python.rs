@@ -1,6 +1,6 @@
 //! Statements of Python.
 
-use super::Language;
+use super::Dialect;
 use super::grammar::{Parsed, Parser};
 use super::lexer::{self, Mark};
 use super::tree::{Definition, Kind, Node, Op, Span, Statement, StatementKind};
@@ -25,9 +25,9 @@ const HARMLESS: &[&str] = &[
 pub(super) fn parse(text: &str, span: &Span) -> (Vec<Statement>, Vec<ParseError>) {
     let mut parser = Parser {
         text,
-        tokens: lexer::tokens(text, span, Language::Python),
+        tokens: lexer::tokens(text, span, Dialect::Python),
         at: 0,
-        language: Language::Python,
+        language: Dialect::Python,
         in_matrix: false,
         depth: 0,
         in_index: false,

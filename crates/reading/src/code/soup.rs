@@ -1,9 +1,9 @@
 //! Nothing that is handed over breaks the reader, or keeps it long.
 
-use super::{Language, MAX_BYTES, read};
+use super::{Dialect, MAX_BYTES, read};
 use denavit_symbolic::Expr;
 
-fn run(text: &str, language: Language) -> super::Code {
+fn run(text: &str, language: Dialect) -> super::Code {
     let joints: Vec<Expr> = (1..=3).map(|i| Expr::symbol(&format!("q{i}"))).collect();
     let names = |n: &str| n.strip_prefix('q')?.parse::<u8>().ok().map(|_| Expr::symbol(n));
     let code = read(text, 0..text.len(), language, &names, &joints);
@@ -104,8 +104,8 @@ fn soup_of_tokens() {
     };
     for _ in 0..30_000 {
         let text: String = (0..next(40)).map(|_| WORDS[next(WORDS.len())]).collect();
-        run(&text, Language::Python);
-        run(&text, Language::Matlab);
+        run(&text, Dialect::Python);
+        run(&text, Dialect::Matlab);
     }
 }
 
@@ -115,8 +115,8 @@ fn bytes_of_a_program_left_out() {
     for from in 0..text.len() {
         for length in 1..4 {
             let left: String = [&text[..from], text.get(from + length..).unwrap_or_default()].concat();
-            run(&left, Language::Python);
-            run(&left, Language::Matlab);
+            run(&left, Dialect::Python);
+            run(&left, Dialect::Matlab);
         }
     }
 }
@@ -194,8 +194,7 @@ fn bounds_hold() {
         "end ".repeat(MAX_BYTES / 4),
         "x = 'a' 'b'\n".repeat(MAX_BYTES / 12),
     ];
-    let all =
-        python.iter().map(|t| (t, Language::Python)).chain(matlab.iter().map(|t| (t, Language::Matlab)));
+    let all = python.iter().map(|t| (t, Dialect::Python)).chain(matlab.iter().map(|t| (t, Dialect::Matlab)));
     for (text, language) in all {
         run(text, language);
     }

@@ -1,6 +1,6 @@
 //! Programs as people write them, held against forward kinematics computed in numbers.
 
-use super::{Assigned, Cell, Code, Language, Reading, Value, read};
+use super::{Assigned, Cell, Code, Dialect, Reading, Value, read};
 use denavit_symbolic::Expr;
 use denavit_symbolic::parse::{Function, SyntaxKind};
 use std::f64::consts::PI;
@@ -18,17 +18,17 @@ pub(super) fn meaning(name: &str) -> Option<Expr> {
     index("a").or(index("d")).or(index("l")).map(|_| Expr::symbol(name))
 }
 
-pub(super) fn run(text: &str, language: Language, n: usize) -> Code {
+pub(super) fn run(text: &str, language: Dialect, n: usize) -> Code {
     let joints: Vec<Expr> = (1..=n).map(joint).collect();
     read(text, 0..text.len(), language, &meaning, &joints)
 }
 
 pub(super) fn python(text: &str, n: usize) -> Code {
-    run(text, Language::Python, n)
+    run(text, Dialect::Python, n)
 }
 
 pub(super) fn matlab(text: &str, n: usize) -> Code {
-    run(text, Language::Matlab, n)
+    run(text, Dialect::Matlab, n)
 }
 
 pub(super) fn place(name: &str) -> f64 {

@@ -1,7 +1,7 @@
 //! What is refused, and what is read beside it.
 
 use super::tests::{close, joint, matlab, meaning, named, numbers, place, python, q, run};
-use super::{Code, Language, Value, read};
+use super::{Code, Dialect, Value, read};
 
 fn refused(code: &Code) -> Vec<String> {
     code.refusals.iter().map(ToString::to_string).collect()
@@ -9,7 +9,7 @@ fn refused(code: &Code) -> Vec<String> {
 
 #[test]
 fn what_is_not_straight_is_refused_with_a_place() {
-    let check = |text: &str, language: Language, at: &str, message: &str| {
+    let check = |text: &str, language: Dialect, at: &str, message: &str| {
         let code = run(text, language, 2);
         let e = code.refusals.first().unwrap_or_else(|| panic!("{text} is read: {code:?}"));
         assert_eq!(&text[e.span.clone()], at, "{e}");
@@ -57,7 +57,7 @@ fn what_is_not_straight_is_refused_with_a_place() {
         ("x = (1 +\n", "(", "expected a value, the line ends".to_string()),
     ] {
         let at = if text == "x = (1 +\n" { "" } else { at };
-        check(text, Language::Python, at, &message);
+        check(text, Dialect::Python, at, &message);
     }
     for (text, at, message) in [
         (
@@ -78,7 +78,7 @@ fn what_is_not_straight_is_refused_with_a_place() {
         ),
         ("x = 'abc", "'abc", "the text is not closed".to_string()),
     ] {
-        check(text, Language::Matlab, at, &message);
+        check(text, Dialect::Matlab, at, &message);
     }
 }
 
@@ -95,7 +95,7 @@ fn what_needs_nothing_refused_is_still_read() {
 fn places_count_in_the_whole_text() {
     let text = "prose ```x = q1*2\n``` more";
     let span = 9..18;
-    let code = read(text, span, Language::Python, &meaning, &[joint(1)]);
+    let code = read(text, span, Dialect::Python, &meaning, &[joint(1)]);
     assert_eq!(&text[code.functions[0].assigned[0].span.clone()], "q1*2");
 }
 

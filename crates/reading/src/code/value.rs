@@ -2,7 +2,7 @@
 
 use super::scalar::{Budget, Read, Scalar, combined, refuse, refuse_hint};
 use super::tree::{Definition, Op, Span};
-use super::{Language, MAX_SIDE};
+use super::{Dialect, MAX_SIDE};
 use denavit_symbolic::Expr;
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -410,14 +410,14 @@ impl<'a> Object<'a> {
     }
 
     /// The items that a loop or an assignment to several names goes through.
-    pub fn items(&self, language: Language, span: &Span) -> Read<Vec<Object<'a>>> {
+    pub fn items(&self, language: Dialect, span: &Span) -> Read<Vec<Object<'a>>> {
         match self {
             Object::List(items) => Ok(items.to_vec()),
-            Object::Matrix(m) if language == Language::Matlab => {
+            Object::Matrix(m) if language == Dialect::Matlab => {
                 let rows: Vec<usize> = (0..m.rows).collect();
                 Ok((0..m.columns).map(|c| object(m.part(&rows, &[c]))).collect())
             }
-            Object::Scalar(_) if language == Language::Matlab => Ok(vec![self.clone()]),
+            Object::Scalar(_) if language == Dialect::Matlab => Ok(vec![self.clone()]),
             Object::Matrix(m) if m.is_flat || m.sort == Sort::SympyMatrix => {
                 Ok(m.entries.iter().cloned().map(Object::Scalar).collect())
             }

@@ -11,7 +11,7 @@ pub use crate::tree::{
 pub use text::{Mark, plain, text};
 
 use crate::figure::drawing::Drawing;
-use crate::words::{Language, Wording};
+use crate::words::{Tongue, Wording};
 use denavit_symbolic::vocabulary::Vocabulary;
 
 /// A document in no format.
@@ -20,7 +20,7 @@ pub struct Document {
     /// The title, plain words.
     pub title: String,
     /// The language of the words.
-    pub language: Language,
+    pub language: Tongue,
     /// The parts, in order.
     pub sections: Vec<Section>,
 }

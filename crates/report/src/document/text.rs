@@ -1,7 +1,7 @@
 //! A document as text of bounded width.
 
 use crate::tree::{Block, Branch, Factor, Line, Math, Piece, Proof, math};
-use crate::words::{Language, Wording};
+use crate::words::{Tongue, Wording};
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::Style;
 use denavit_symbolic::vocabulary::Vocabulary;
@@ -26,7 +26,7 @@ const NUMBER: usize = 96;
 pub fn text(
     blocks: &[Block],
     names: &Vocabulary,
-    language: Language,
+    language: Tongue,
     mark: &dyn Fn(Mark, &str) -> String,
 ) -> String {
     let writer = Writer { names, words: language.words(), mark };

@@ -1,7 +1,7 @@
 //! The Jacobian and its singularities.
 
 use crate::document::{Block, Factor, Line, Math, Proof, Sign};
-use crate::words::{Gain, Language, Loss, Wording};
+use crate::words::{Gain, Loss, Tongue, Wording};
 use denavit::description::Description;
 use denavit::forward::Proof as Forward;
 use denavit::velocity::{
@@ -18,7 +18,7 @@ pub fn velocity_vocabulary(description: &Description) -> Vocabulary {
 }
 
 /// The matrix, with its place and what it costs.
-pub fn jacobian_document(description: &Description, model: &JacobianModel, language: Language) -> Vec<Block> {
+pub fn jacobian_document(description: &Description, model: &JacobianModel, language: Tongue) -> Vec<Block> {
     let words = language.words();
     let mut blocks = vec![Block::Heading(1, Line::new(words.jacobian_title(&description.name)))];
     blocks.extend(matrix(model, words));
@@ -29,7 +29,7 @@ pub fn jacobian_document(description: &Description, model: &JacobianModel, langu
 pub fn singularities_document(
     description: &Description,
     found: &Singularities,
-    language: Language,
+    language: Tongue,
 ) -> Vec<Block> {
     let words = language.words();
     let mut blocks = jacobian_document(description, &found.jacobian, language);

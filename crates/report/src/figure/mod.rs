@@ -24,7 +24,7 @@ pub mod view;
 pub use arm::isometric;
 pub use drawing::Drawing;
 pub use naming::symbol;
-pub use options::Options;
+pub use options::FigureOptions;
 pub use place::{Bar, Layout, Symbol};
 pub use pose::Arm;
 pub use scheme::scheme;

@@ -4,7 +4,7 @@ use super::view::{Bounds, View};
 
 /// What a picture of an arm shows.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Options {
+pub struct FigureOptions {
     /// Points.
     pub width: f64,
     /// No higher than this, points.
@@ -25,10 +25,10 @@ pub struct Options {
     pub bounds: Option<Bounds>,
 }
 
-impl Options {
+impl FigureOptions {
     /// A figure of its own: everything is named.
     pub fn main() -> Self {
-        Options {
+        FigureOptions {
             width: 460.0,
             height: 400.0,
             frames: true,
@@ -43,7 +43,14 @@ impl Options {
 
     /// A small picture without words, to stand beside others.
     pub fn small(width: f64, height: f64) -> Self {
-        Options { width, height, frames: false, lengths: false, variables: false, ..Options::main() }
+        FigureOptions {
+            width,
+            height,
+            frames: false,
+            lengths: false,
+            variables: false,
+            ..FigureOptions::main()
+        }
     }
 
     /// Whether there is anything to name.
@@ -52,8 +59,8 @@ impl Options {
     }
 }
 
-impl Default for Options {
+impl Default for FigureOptions {
     fn default() -> Self {
-        Options::main()
+        FigureOptions::main()
     }
 }

@@ -2,13 +2,13 @@
 
 use super::drawing::{Drawing, Ink, Label, Segment, Shape, Stroke};
 use super::labels::{Sheet, Wish};
-use super::options::Options;
+use super::options::FigureOptions;
 use super::place::{Layout, Symbol};
 use super::pose::Arm;
 use super::slide::to_segment;
 use super::solid::{Form, Paint, Solid, Style, arc, line, paint, polygon, polyline};
 use super::view::{Bounds, Paper, View};
-use crate::words::Language;
+use crate::words::Tongue;
 use denavit::description::JointKind;
 use denavit::geometry::Vector;
 
@@ -22,7 +22,7 @@ const SMALL: f64 = 9.5;
 /// A picture in the making.
 pub struct Picture<'a> {
     arm: &'a Arm,
-    options: &'a Options,
+    options: &'a FigureOptions,
     style: Style,
     layout: Layout,
     paper: Paper,
@@ -34,7 +34,7 @@ pub struct Picture<'a> {
 
 impl<'a> Picture<'a> {
     /// The arm itself, nothing named.
-    pub fn new(arm: &'a Arm, options: &'a Options, view: View, style: Style) -> Self {
+    pub fn new(arm: &'a Arm, options: &'a FigureOptions, view: View, style: Style) -> Self {
         let layout = arm.layout();
         let bounds = options.bounds.unwrap_or_else(|| {
             let mut bounds = layout.bounds(&view);
@@ -351,7 +351,7 @@ impl<'a> Picture<'a> {
             JointKind::Prismatic => 'P',
         });
         let joints: String = joints.collect();
-        let words = Language::default().words();
+        let words = Tongue::default().words();
         let description = words.arm_picture(is_scheme, &self.arm.chain.name, &joints);
         Drawing { width: self.size[0], height: self.size[1], description, shapes: self.shapes }
     }
@@ -433,7 +433,14 @@ fn heights(shape: &mut Shape, mut change: impl FnMut(&mut f64)) {
 }
 
 /// Room for what is drawn around the arm.
-fn extend(bounds: &mut Bounds, arm: &Arm, options: &Options, layout: &Layout, view: &View, style: Style) {
+fn extend(
+    bounds: &mut Bounds,
+    arm: &Arm,
+    options: &FigureOptions,
+    layout: &Layout,
+    view: &View,
+    style: Style,
+) {
     if options.frames && style == Style::Shaded {
         for frame in &arm.skeleton.frames {
             for v in [frame.rotation.x(), frame.rotation.z()] {

@@ -4,7 +4,7 @@ use super::example::{numbers, plain};
 use super::setting::Setting;
 use crate::document::{Block, Line, Part, Section, Table};
 use crate::explain::Explanation;
-use crate::figure::{Options, isometric};
+use crate::figure::{FigureOptions, isometric};
 use crate::render::too_long;
 use crate::words::{Caption, Column, Heading, Wording};
 use denavit::description::JointKind;
@@ -57,7 +57,7 @@ pub fn lowered(blocks: Vec<Block>, words: &dyn Wording, section: &mut Section) {
 fn solutions(s: &Setting) -> Option<Section> {
     // Joints too many have the values of the example, as in the derivation.
     let given = s.inverse().as_ref().ok().map(|m| m.given.clone()).filter(|g| !g.is_empty());
-    let options = denavit::inverse::Options { given, ..Default::default() };
+    let options = denavit::inverse::InverseOptions { given, ..Default::default() };
     let mut solver = InverseKinematics::new(&s.valued, &options).ok()?;
     solver.seed = Some(s.q.clone());
     let pose = solver.robot.pose(&s.q);
@@ -147,7 +147,8 @@ fn pictures(s: &Setting, found: &[Solution]) -> Option<Part> {
     let view = arm.view();
     let arms: Vec<_> = found.iter().map(|f| arm.at(&f.q)).collect();
     let bounds = arms.iter().map(|a| a.bounds(&view)).reduce(|a, b| a.with(&b))?;
-    let options = Options { view: Some(view), bounds: Some(bounds), ..Options::small(SIZE[0], SIZE[1]) };
+    let options =
+        FigureOptions { view: Some(view), bounds: Some(bounds), ..FigureOptions::small(SIZE[0], SIZE[1]) };
     let picture =
         |(k, a): (usize, &crate::figure::Arm)| (isometric(a, &options), Line::new((k + 1).to_string()));
     Some(Part::figures(

@@ -13,14 +13,14 @@ mod table;
 mod velocity;
 mod workspace;
 
-pub use setting::{Errata, Options, Topic};
+pub use setting::{Errata, ReportOptions, Topic};
 
 use crate::document::{Document, Section};
 use denavit::description::Description;
 use setting::Setting;
 
 /// The report about a robot.
-pub fn report(description: &Description, options: &Options) -> Document {
+pub fn report(description: &Description, options: &ReportOptions) -> Document {
     let setting = Setting::new(description, options);
     let language = options.language;
     let sections = Topic::ALL.into_iter().filter(|t| options.topics.contains(t)).flat_map(|topic| {

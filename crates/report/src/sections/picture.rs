@@ -2,7 +2,7 @@
 
 use super::setting::Setting;
 use crate::document::{Line, Part, Section};
-use crate::figure::{self, Options, isometric};
+use crate::figure::{self, FigureOptions, isometric};
 use crate::words::{Caption, Heading};
 
 /// Both pictures; nothing if the arm cannot be drawn.
@@ -14,8 +14,8 @@ pub fn section(s: &Setting) -> Option<Section> {
         section.paragraph(assumed);
     }
     let caption = s.words.arm_caption(s.configuration(&s.q));
-    section.push(Part::figure(s.words, isometric(arm, &Options::main()), caption));
+    section.push(Part::figure(s.words, isometric(arm, &FigureOptions::main()), caption));
     let caption = Line::new(s.words.caption(Caption::Scheme));
-    section.push(Part::figure(s.words, figure::scheme(arm, &Options::main()), caption));
+    section.push(Part::figure(s.words, figure::scheme(arm, &FigureOptions::main()), caption));
     Some(section)
 }

@@ -3,7 +3,7 @@
 use crate::cell::{cell, decimals};
 use crate::document::Line;
 use crate::figure::Arm;
-use crate::words::{Language, Wording};
+use crate::words::{Tongue, Wording};
 use denavit::description::{Convention, Description, JointKind, Measure, Parameter};
 use denavit::forward::{ForwardModel, Outputs, Reference};
 use denavit::inverse::{InverseModel, JointSpace, Refusal};
@@ -60,9 +60,9 @@ impl Topic {
 
 /// What a report contains.
 #[derive(Clone, Debug)]
-pub struct Options<'a> {
+pub struct ReportOptions<'a> {
     /// The language of the words.
-    pub language: Language,
+    pub language: Tongue,
     /// The sections.
     pub topics: Vec<Topic>,
     /// Conventions in which the table is shown beside its own.
@@ -73,10 +73,10 @@ pub struct Options<'a> {
     pub errata: Option<Errata<'a>>,
 }
 
-impl Default for Options<'_> {
+impl Default for ReportOptions<'_> {
     fn default() -> Self {
-        Options {
-            language: Language::English,
+        ReportOptions {
+            language: Tongue::English,
             topics: Topic::ALL.to_vec(),
             conventions: vec![],
             pose: None,
@@ -99,7 +99,7 @@ pub struct Errata<'a> {
 /// The robot with everything that several sections need, derived when it is first asked for.
 pub struct Setting<'a> {
     pub description: Description,
-    pub options: &'a Options<'a>,
+    pub options: &'a ReportOptions<'a>,
     pub words: &'static dyn Wording,
     pub structure: Structure,
     /// The robot with values for all lengths, some of them chosen here.
@@ -114,7 +114,7 @@ pub struct Setting<'a> {
 }
 
 impl<'a> Setting<'a> {
-    pub fn new(description: &Description, options: &'a Options<'a>) -> Self {
+    pub fn new(description: &Description, options: &'a ReportOptions<'a>) -> Self {
         let (description, inverse) = named(description);
         let valued = description.filled();
         let arm = Arm::new(&valued).ok();
@@ -148,7 +148,7 @@ impl<'a> Setting<'a> {
 
     /// The inverse model, or how far its derivation came.
     pub fn inverse(&self) -> &Result<InverseModel, Refusal> {
-        let options = denavit::inverse::Options::default();
+        let options = denavit::inverse::InverseOptions::default();
         self.inverse.get_or_init(|| InverseModel::derive(&self.description, &options))
     }
 
@@ -212,7 +212,7 @@ fn named(description: &Description) -> (Description, OnceCell<Result<InverseMode
     if named.parameters.len() == description.parameters.len() {
         return (named, OnceCell::new());
     }
-    let options = denavit::inverse::Options::default();
+    let options = denavit::inverse::InverseOptions::default();
     let model = InverseModel::derive(&named, &options);
     if model.is_err() {
         let own = InverseModel::derive(description, &options);

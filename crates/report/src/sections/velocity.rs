@@ -4,7 +4,7 @@ use super::inverse::lowered;
 use super::setting::Setting;
 use crate::document::{Line, Math, Part, Section};
 use crate::explain::{jacobian_document, singularities_document, velocity_vocabulary};
-use crate::figure::{Options, isometric};
+use crate::figure::{FigureOptions, isometric};
 use crate::words::{Caption, Heading};
 use denavit::forward::Reference;
 use denavit::velocity::{JacobianModel, Obstacle, Place, Singularities};
@@ -53,11 +53,11 @@ fn pictures(s: &Setting, found: &Singularities) -> Option<Section> {
     }
     let bounds = shown.iter().map(|(_, a, _)| a.bounds(&view)).reduce(|a, b| a.with(&b))?;
     let pictures = shown.iter().map(|(factor, a, highlight)| {
-        let options = Options {
+        let options = FigureOptions {
             view: Some(view),
             bounds: Some(bounds),
             highlight: highlight.clone(),
-            ..Options::small(SIZE[0], SIZE[1])
+            ..FigureOptions::small(SIZE[0], SIZE[1])
         };
         (isometric(a, &options), Line::default().math(Math::equation(*factor, Expr::int(0))))
     });

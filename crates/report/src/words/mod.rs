@@ -1,7 +1,7 @@
 //! Everything that is said, in every language.
 //!
 //! A message is a method with typed arguments, one trait a topic; each language answers all of them in a folder of its own,
-//! where its genders, plurals and elisions stay. A further language is a folder, a line in [`Language::words`] and what the
+//! where its genders, plurals and elisions stay. A further language is a folder, a line in [`Tongue::words`] and what the
 //! compiler then asks for.
 
 mod check;
@@ -26,7 +26,7 @@ pub use velocity::{Gain, Loss, Velocity};
 
 /// The language of the words around formulas.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub enum Language {
+pub enum Tongue {
     /// English.
     #[default]
     English,
@@ -39,15 +39,15 @@ pub trait Wording: Terms + Geometry + Inverse + Velocity + Motion + Check + Repo
 
 impl<T: Terms + Geometry + Inverse + Velocity + Motion + Check + Report> Wording for T {}
 
-impl Language {
+impl Tongue {
     /// All languages.
-    pub const ALL: [Language; 2] = [Language::English, Language::French];
+    pub const ALL: [Tongue; 2] = [Tongue::English, Tongue::French];
 
     /// What is said in this language.
     pub fn words(self) -> &'static dyn Wording {
         match self {
-            Language::English => &English,
-            Language::French => &French,
+            Tongue::English => &English,
+            Tongue::French => &French,
         }
     }
 }

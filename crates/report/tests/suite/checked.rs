@@ -7,12 +7,12 @@ use denavit::geometry::Axis;
 use denavit::geometry::orientation::OrientationSet;
 use denavit_check::inverse::{Cause, Composed, Missing, Undecided};
 use denavit_check::{
-    About, Change, Checked, Condition, Finding, Formula, Instead, Jacobian, Meaning, Noted, Options, Remark,
-    ShortRow, SlipKind, TableCell, Unproved, Unreadable, Zeros, check,
+    About, Change, CheckOptions, Checked, Condition, Finding, Formula, Instead, Jacobian, Meaning, Noted,
+    Remark, ShortRow, SlipKind, TableCell, Unproved, Unreadable, Zeros, check,
 };
 use denavit_reading::document::Format;
 use denavit_reading::slip::Slip;
-use denavit_report::words::{Language, Wording};
+use denavit_report::words::{Tongue, Wording};
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Expr, Symbol};
 use std::rc::Rc;
@@ -31,8 +31,8 @@ const SHORT: ShortRow = ShortRow { row: 4, elements: 3, width: 4 };
 #[track_caller]
 fn expect(message: &dyn Fn(&'static dyn Wording) -> String, english: &str, french: &str) {
     both(message);
-    assert_eq!(message(Language::English.words()), english);
-    let said = message(Language::French.words()).replace('\u{a0}', " ").replace('’', "'");
+    assert_eq!(message(Tongue::English.words()), english);
+    let said = message(Tongue::French.words()).replace('\u{a0}', " ").replace('’', "'");
     assert_eq!(said, french);
 }
 
@@ -150,7 +150,7 @@ fn remarks() {
         "division by zero where D1 = 0 (q2 = a1 or a2)",
         "division par zéro pour D1 = 0 (q2 = a1 ou a2)",
     );
-    let [english, french] = Language::ALL.map(|l| l.words().remarked(&Remark::OffBy(2e9)));
+    let [english, french] = Tongue::ALL.map(|l| l.words().remarked(&Remark::OffBy(2e9)));
     assert_eq!([english.as_str(), french.as_str()], ["off by 2000000000", "écart de 2000000000"]);
 }
 
@@ -188,7 +188,7 @@ fn conditions_and_doubts() {
     }
     let values = ["px", "py"].map(String::from);
     expect(&|w| w.either(&values).unwrap_or_default(), "px or py", "px ou py");
-    assert!(Language::ALL.iter().all(|l| l.words().either(&[]).is_none()));
+    assert!(Tongue::ALL.iter().all(|l| l.words().either(&[]).is_none()));
 }
 
 #[test]
@@ -233,7 +233,7 @@ fn slips_and_changes() {
         both(&|w| w.change(&change));
     }
     let zero = Change::Vanishing(Symbol::new("D1"));
-    assert_eq!(Language::ALL.map(|l| l.words().change(&zero)), ["D1 = 0"; 2]);
+    assert_eq!(Tongue::ALL.map(|l| l.words().change(&zero)), ["D1 = 0"; 2]);
 }
 
 #[test]
@@ -253,7 +253,7 @@ fn what_is_not_read() {
         both(&|w| w.unreadable(&why));
         both(&|w| w.noted(&Noted::PassedOver(why.clone())));
         both(&|w| w.noted(&Noted::NotRead(why.clone())));
-        if Language::English.words().unreadable_hint(&why).is_some() {
+        if Tongue::English.words().unreadable_hint(&why).is_some() {
             both(&|w| w.unreadable_hint(&why).unwrap_or_default());
         }
     }
@@ -271,7 +271,7 @@ fn what_is_not_read() {
         Noted::Together(together(3)),
     ] {
         both(&|w| w.noted(&note));
-        if Language::English.words().noted_hint(&note).is_some() {
+        if Tongue::English.words().noted_hint(&note).is_some() {
             both(&|w| w.noted_hint(&note).unwrap_or_default());
         }
     }
@@ -308,8 +308,8 @@ fn documents_in_two_languages() {
     for name in ["cylindrical", "stanford", "rx90"] {
         let path = format!("{}/../../examples/documents/{name}.md", env!("CARGO_MANIFEST_DIR"));
         let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"));
-        let checked = check(&text, Format::Markdown, None, &Options::default()).expect("a table");
-        for language in Language::ALL {
+        let checked = check(&text, Format::Markdown, None, &CheckOptions::default()).expect("a table");
+        for language in Tongue::ALL {
             let said = all_said(&checked, language.words());
             assert!(said.len() >= checked.claims.len() && !said.is_empty());
             said.iter().for_each(|text| check_text(text, language, name));

@@ -2,7 +2,7 @@
 
 use denavit_report::document::{Block, Branch, Line, Math};
 use denavit_report::figure::drawing::{Anchor, Drawing, Ink, Label, Shape};
-use denavit_report::words::Language;
+use denavit_report::words::Tongue;
 use denavit_report::{Document, Figure, Part, Section, Table, render};
 use denavit_symbolic::Expr;
 use denavit_symbolic::vocabulary::Vocabulary;
@@ -37,7 +37,7 @@ fn document(words: &str) -> Document {
     section
         .push(Part::Figure(Figure { pictures: vec![(drawing(), line()), (drawing(), line())], ..figure() }));
     section.push(Part::Code(words.into()));
-    Document { title: words.into(), language: Language::English, sections: vec![section] }
+    Document { title: words.into(), language: Tongue::English, sections: vec![section] }
 }
 
 /// Words made of what means something in one of the formats.

@@ -2,10 +2,10 @@
 
 use denavit::catalogue;
 use denavit::description::Description;
-use denavit::inverse::{Branch, Choice, Goal, InverseModel, Options, Refusal};
+use denavit::inverse::{Branch, Choice, Goal, InverseModel, InverseOptions, Refusal};
 use denavit_report::document::{Math, Proof, math, text};
 use denavit_report::explain::Explanation;
-use denavit_report::words::Language;
+use denavit_report::words::Tongue;
 use denavit_symbolic::print::Style;
 use denavit_symbolic::{Expr, Node, Symbol};
 
@@ -14,12 +14,12 @@ fn robot(name: &str) -> Description {
 }
 
 fn explanation(name: &str, given: Option<Vec<usize>>) -> Explanation {
-    let model = InverseModel::derive(&robot(name), &Options { goal: Goal::Pose, given });
+    let model = InverseModel::derive(&robot(name), &InverseOptions { goal: Goal::Pose, given });
     Explanation::of(&model.unwrap_or_else(|why| panic!("{name}: {why}")))
 }
 
 fn plain(e: &Explanation) -> String {
-    text(&e.document(Language::English), &e.names(), Language::English, &|_, words| words.to_string())
+    text(&e.document(Tongue::English), &e.names(), Tongue::English, &|_, words| words.to_string())
 }
 
 /// The robots of the documents, and of each kind one.
@@ -139,7 +139,7 @@ fn formulas_give_the_solutions_of_the_solver() {
     for (name, given) in ROBOTS {
         let d = robot(name);
         let Ok(numbers) = denavit::Robot::numeric(&d) else { continue };
-        let options = Options { goal: Goal::Pose, given: given.map(|j| vec![j]) };
+        let options = InverseOptions { goal: Goal::Pose, given: given.map(|j| vec![j]) };
         let model = InverseModel::derive(&d, &options).expect("a closed form");
         let e = Explanation::of(&model);
         let variables: Vec<Symbol> = d.variables().iter().map(|v| v.symbol).collect();
@@ -221,10 +221,14 @@ fn formulas_give_the_solutions_of_the_solver() {
 /// A formula that is not true is not called proved.
 #[test]
 fn what_is_false_is_found() {
-    let model = InverseModel::derive(&robot("ur5"), &Options::default()).expect("a closed form");
+    let model = InverseModel::derive(&robot("ur5"), &InverseOptions::default()).expect("a closed form");
     let mut other = model;
     // The derivation of another robot: every equation that holds d4 is wrong for it.
-    other.chain = denavit::inverse::Chain::new(&robot("ur5e"), denavit::inverse::End::Pose).expect("a chain");
+    other.chain = denavit::inverse::derivation::NormalChain::new(
+        &robot("ur5e"),
+        denavit::inverse::derivation::End::Pose,
+    )
+    .expect("a chain");
     let row = &mut other.steps[0].rows[0];
     std::mem::swap(&mut row.a, &mut row.b);
     assert_eq!(Explanation::of(&other).proof(), Proof::Wrong);
@@ -248,7 +252,7 @@ fn ur3_as_in_the_report() {
 #[test]
 fn refusals_say_how_far_it_came() {
     let d = robot("oblique-6r");
-    let Err(Refusal::Stuck(stuck)) = InverseModel::derive(&d, &Options::default()) else {
+    let Err(Refusal::Stuck(stuck)) = InverseModel::derive(&d, &InverseOptions::default()) else {
         panic!("a closed form")
     };
     let e = Explanation::of_stuck(&d, &stuck, Goal::Pose);

@@ -3,15 +3,15 @@
 use denavit::catalogue;
 use denavit::description::{Convention, Description, read_toml};
 use denavit_report::figure::drawing::{Anchor, Drawing, Ink, Label, LabelPiece, Segment, Shape};
-use denavit_report::figure::{Arm, Bounds, Options, isometric, labels, scheme, svg, tikz, typst};
+use denavit_report::figure::{Arm, Bounds, FigureOptions, isometric, labels, scheme, svg, tikz, typst};
 
 fn description(name: &str) -> Description {
     catalogue::robot(name).expect("a robot of the catalogue")
 }
 
 fn drawings(arm: &Arm) -> [Drawing; 3] {
-    let every = Options { y_axes: true, highlight: vec![0, 1], ..Options::main() };
-    [isometric(arm, &Options::main()), scheme(arm, &Options::main()), isometric(arm, &every)]
+    let every = FigureOptions { y_axes: true, highlight: vec![0, 1], ..FigureOptions::main() };
+    [isometric(arm, &FigureOptions::main()), scheme(arm, &FigureOptions::main()), isometric(arm, &every)]
 }
 
 fn points(drawing: &Drawing) -> Vec<[f64; 2]> {
@@ -81,7 +81,7 @@ fn every_robot_has_pictures_that_can_be_read() {
 fn nothing_is_left_unnamed() {
     for name in ["puma560", "ur5e", "staubli-rx90", "franka-panda", "smart5-six-rail"] {
         let arm = Arm::new(&description(name)).expect(name);
-        let drawing = scheme(&arm, &Options::main());
+        let drawing = scheme(&arm, &FigureOptions::main());
         let written: Vec<String> = drawing
             .shapes
             .iter()
@@ -132,7 +132,8 @@ fn poses_of_one_arm_have_one_scale() {
     let poses: Vec<Arm> =
         [-1.0, 0.0, 1.0].iter().map(|q1| arm.at(&[*q1, 0.5, -1.0, 0.2, 0.7, 0.0])).collect();
     let bounds = poses.iter().fold(Bounds::empty(), |b, a| b.with(&a.bounds(&view)));
-    let options = Options { view: Some(view), bounds: Some(bounds), ..Options::small(150.0, 150.0) };
+    let options =
+        FigureOptions { view: Some(view), bounds: Some(bounds), ..FigureOptions::small(150.0, 150.0) };
     let sheets: Vec<Drawing> = poses.iter().map(|a| isometric(a, &options)).collect();
     for sheet in &sheets {
         assert_eq!([sheet.width, sheet.height], [sheets[0].width, sheets[0].height]);

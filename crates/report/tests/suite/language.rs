@@ -5,7 +5,8 @@ use denavit::description::{Description, Moved, read_toml};
 use denavit::forward::{Proof, Reference};
 use denavit::idealise::Measured;
 use denavit::inverse::{
-    Branch as Roots, Choice, Doubt, Goal, InverseModel, Label, Options, Part, Refusal, Task, Unsuitable,
+    Branch as Roots, Choice, Doubt, Goal, InverseModel, InverseOptions, Label, Part, Refusal, Task,
+    Unsuitable,
 };
 use denavit::motion::follow::{Event, EventKind};
 use denavit::motion::hand::Stretch;
@@ -18,7 +19,7 @@ use denavit_report::document::{Block, Branch, Line, Math, Piece, math};
 use denavit_report::explain::{
     Bound, Component, Consequence, Explanation, Kind, Remark, jacobian_document, singularities_document,
 };
-use denavit_report::words::{Language, Wording};
+use denavit_report::words::{Tongue, Wording};
 use denavit_symbolic::print::Style;
 use denavit_symbolic::vocabulary::Vocabulary;
 
@@ -119,17 +120,17 @@ fn tokens(text: &str) -> Vec<String> {
 }
 
 /// Panics where a text is not in its language.
-pub fn check_text(text: &str, language: Language, place: &str) {
+pub fn check_text(text: &str, language: Tongue, place: &str) {
     let foreign = match language {
-        Language::English => FRENCH,
-        Language::French => ENGLISH,
+        Tongue::English => FRENCH,
+        Tongue::French => ENGLISH,
     };
     for word in tokens(text) {
         // `d` and `s` are lengths as well as what an apostrophe leaves; in English only 's.
-        let is_name = word.chars().count() == 1 && language == Language::English;
+        let is_name = word.chars().count() == 1 && language == Tongue::English;
         assert!(is_name || !foreign.split_whitespace().any(|f| f == word), "{place}: {word} in: {text}");
     }
-    if language == Language::English {
+    if language == Tongue::English {
         assert!(!text.contains(['\u{a0}', '’']), "{place}: {text}");
         return;
     }
@@ -150,8 +151,8 @@ fn check_pair(english: &[Block], french: &[Block], name: &str, place: &str) {
     let [english, french] = [english, french].map(|blocks| Parts::of(blocks, name));
     assert_eq!(english.structure, french.structure, "{place}");
     for (e, f) in english.lines.iter().zip(&french.lines) {
-        check_text(e, Language::English, place);
-        check_text(f, Language::French, place);
+        check_text(e, Tongue::English, place);
+        check_text(f, Tongue::French, place);
         let is_sentence = tokens(e).iter().filter(|w| w.chars().count() > 1).count() >= 4;
         assert!(!is_sentence || e != f, "{place}: {e}");
     }
@@ -226,10 +227,10 @@ theta = "q6"
 
 /// The derivation, complete or not; its refusal is checked, too.
 fn explanation(description: &Description, goal: Goal, name: &str) -> Explanation {
-    match InverseModel::derive(description, &Options { goal, given: None }) {
+    match InverseModel::derive(description, &InverseOptions { goal, given: None }) {
         Ok(model) => Explanation::of(&model),
         Err(Refusal::Stuck(found)) => {
-            for language in Language::ALL {
+            for language in Tongue::ALL {
                 check_text(&language.words().stuck(&found), language, name);
             }
             Explanation::of_stuck(description, &found, goal)
@@ -241,7 +242,7 @@ fn explanation(description: &Description, goal: Goal, name: &str) -> Explanation
 /// Both documents in both languages; the French derivation.
 fn check_inverse(description: &Description, goal: Goal, name: &str) -> (Explanation, Vec<Block>) {
     let e = explanation(description, goal, name);
-    let [english, french] = [Language::English, Language::French];
+    let [english, french] = [Tongue::English, Tongue::French];
     check_pair(&e.summary(english), &e.summary(french), &description.name, name);
     let whole = e.document(french);
     check_pair(&e.document(english), &whole, &description.name, name);
@@ -284,20 +285,15 @@ fn documents_of_velocities() {
         let description = robot(name);
         let model = JacobianModel::shortest(&description, Reference::Tool);
         let document = |language| jacobian_document(&description, &model, language);
-        check_pair(&document(Language::English), &document(Language::French), &description.name, name);
+        check_pair(&document(Tongue::English), &document(Tongue::French), &description.name, name);
         match Singularities::derive(&description, Reference::Tool) {
             Ok(found) => {
                 whole += 1;
                 let document = |language| singularities_document(&description, &found, language);
-                check_pair(
-                    &document(Language::English),
-                    &document(Language::French),
-                    &description.name,
-                    name,
-                );
+                check_pair(&document(Tongue::English), &document(Tongue::French), &description.name, name);
             }
             Err(why) => {
-                for language in Language::ALL {
+                for language in Tongue::ALL {
                     check_text(&language.words().unknown_singularities(&why), language, name);
                 }
             }
@@ -321,7 +317,7 @@ fn rare_words() {
     };
     let french = "1 multiplication, 2 additions, 3 couples sinus-cosinus, 1 division, 2 racines, 1 arc tangente\u{a0}; à \
                   part\u{a0}: 2 décalages de variables, 4 opérations sur les seuls paramètres";
-    let [in_english, in_french] = Language::ALL.map(Language::words);
+    let [in_english, in_french] = Tongue::ALL.map(Tongue::words);
     assert_eq!(in_french.count(&program), french);
     assert_eq!(in_english.count(&program), program.to_string());
     assert_eq!(in_french.count(&Count::default()), "0 multiplication, 0 addition, 0 couple sinus-cosinus");
@@ -364,7 +360,7 @@ fn rare_words() {
         both(&|w| w.place(&place));
     }
     for given in [vec![9], vec![0], vec![0, 1]] {
-        let options = Options { given: Some(given), ..Options::default() };
+        let options = InverseOptions { given: Some(given), ..InverseOptions::default() };
         let why = InverseModel::derive(&robot("staubli-rx90"), &options).expect_err("too many");
         both(&|w| w.refusal(&why));
     }
@@ -373,8 +369,8 @@ fn rare_words() {
 /// Panics where a message is not in its language, or the same in two.
 #[track_caller]
 pub fn both(message: &dyn Fn(&'static dyn Wording) -> String) {
-    let said = Language::ALL.map(|language| message(language.words()));
-    for (text, language) in said.iter().zip(Language::ALL) {
+    let said = Tongue::ALL.map(|language| message(language.words()));
+    for (text, language) in said.iter().zip(Tongue::ALL) {
         assert!(!text.is_empty());
         // What stands in backquotes is of no language.
         let words: Vec<&str> = text.split('`').step_by(2).collect();
@@ -429,9 +425,9 @@ fn remarks_on_steps() {
     let point = component(&[1, 2], &[3], true, &[1, 2, 3]);
     let said = "une composante d’un point de l’axe 4 suivant les axes parallèles 2 et 3\u{a0}: indépendante des \
                 articulations 2, 3 et 4";
-    assert_eq!(Language::French.words().component(&point), said);
+    assert_eq!(Tongue::French.words().component(&point), said);
     let said = "a component along the parallel axes 2 and 3 of a point on axis 4: free of joints 2, 3 and 4";
-    assert_eq!(Language::English.words().component(&point), said);
+    assert_eq!(Tongue::English.words().component(&point), said);
     both(&|w| w.component(&component(&[0], &[], false, &[0])));
     both(&|w| w.component(&component(&[], &[4], false, &[4])));
     both(&|w| w.component(&component(&[], &[4, 5], true, &[4, 5])));
@@ -484,7 +480,7 @@ fn motions_and_axes() {
         both(&|w| w.course(&course));
     }
     let parts = Course::Hand(vec![Stretch::Line, Stretch::Arc, Stretch::Line]);
-    assert_eq!(Language::English.words().course(&parts), "2 lines, 1 arc");
+    assert_eq!(Tongue::English.words().course(&parts), "2 lines, 1 arc");
     for verdict in [Verdict::Whole, Verdict::Ends(0.25), Verdict::BeyondLimits] {
         both(&|w| w.verdict(verdict));
     }
@@ -500,7 +496,7 @@ fn motions_and_axes() {
         both(&|w| w.moved(&[moved, moved]));
     }
     both(&|w| w.moved(&[]));
-    let branch = Language::English.words().moved(&[Moved::BranchToRow(0)]);
+    let branch = Tongue::English.words().moved(&[Moved::BranchToRow(0)]);
     assert_eq!(branch, "γ2 and b2 are part of row 1");
 }
 
@@ -513,7 +509,7 @@ fn names_of_branches() {
         (label(Part::Wrist, 1), Choice::Root(3)),
     ]);
     assert_eq!(branch.to_string(), "shoulder+ elbow2− wrist3");
-    assert_eq!(Language::English.words().branch(&branch), branch.to_string());
-    assert_eq!(Language::French.words().branch(&branch), "épaule+ coude2− poignet3");
-    assert_eq!(Language::French.words().numbers(&[0, 3, 4]), "1, 4 et 5");
+    assert_eq!(Tongue::English.words().branch(&branch), branch.to_string());
+    assert_eq!(Tongue::French.words().branch(&branch), "épaule+ coude2− poignet3");
+    assert_eq!(Tongue::French.words().numbers(&[0, 3, 4]), "1, 4 et 5");
 }

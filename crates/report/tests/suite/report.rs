@@ -3,8 +3,8 @@
 use denavit::catalogue;
 use denavit::description::{Convention, Description};
 use denavit_report::document::{Block, Branch, Line, math, plain};
-use denavit_report::words::Language;
-use denavit_report::{Document, Options, Part, Topic, render, report};
+use denavit_report::words::Tongue;
+use denavit_report::{Document, Part, ReportOptions, Topic, render, report};
 use denavit_symbolic::print::Style;
 use denavit_symbolic::vocabulary::Vocabulary;
 use std::fmt::Write;
@@ -68,14 +68,15 @@ fn tree(branch: &Branch, names: &Vocabulary, depth: usize, out: &mut String) -> 
 #[test]
 fn trees_of_six_robots() {
     for (name, language) in [
-        ("staubli-rx90", Language::English),
-        ("cylindrical-wrist", Language::French),
-        ("puma560", Language::English),
-        ("ur3", Language::French),
-        ("smart5-six-rail", Language::English),
-        ("kuka-iiwa-14", Language::English),
+        ("staubli-rx90", Tongue::English),
+        ("cylindrical-wrist", Tongue::French),
+        ("puma560", Tongue::English),
+        ("ur3", Tongue::French),
+        ("smart5-six-rail", Tongue::English),
+        ("kuka-iiwa-14", Tongue::English),
     ] {
-        let options = Options { language, conventions: vec![Convention::Standard], ..Options::default() };
+        let options =
+            ReportOptions { language, conventions: vec![Convention::Standard], ..ReportOptions::default() };
         let tree = outline(&report(&description(name), &options));
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/snapshots/{name}.txt"));
         if std::env::var_os("UPDATE_SNAPSHOTS").is_some() {
@@ -112,12 +113,13 @@ fn each_robot(check: impl Fn(&str) + Sync) {
 fn every_robot_has_a_page() {
     let folder = std::env::var_os("DENAVIT_DOCUMENTS").map(PathBuf::from);
     each_robot(|name| {
-        for language in [Language::English, Language::French] {
-            let document = report(&description(name), &Options { language, ..Options::default() });
+        for language in [Tongue::English, Tongue::French] {
+            let document =
+                report(&description(name), &ReportOptions { language, ..ReportOptions::default() });
             check_page(name, &render::html(&document));
             // What is a formula in one notation is one in the others.
             assert!(!render::latex(&document).contains("NaN"), "{name}");
-            if let Some(folder) = folder.as_ref().filter(|_| language == Language::English) {
+            if let Some(folder) = folder.as_ref().filter(|_| language == Tongue::English) {
                 let file = folder.join(format!("{name}.typ"));
                 std::fs::write(file, render::typst(&document)).expect("the folder is there");
             }
@@ -152,7 +154,7 @@ fn check_page(name: &str, html: &str) {
 fn the_same_robot_gives_the_same_bytes() {
     for name in ["ur5e", "stanford"] {
         let write = || {
-            let document = report(&description(name), &Options::default());
+            let document = report(&description(name), &ReportOptions::default());
             (
                 render::html(&document),
                 render::typst(&document),
@@ -168,10 +170,11 @@ fn the_same_robot_gives_the_same_bytes() {
 fn sections_are_those_asked_for() {
     let d = description("puma560");
     for topic in Topic::ALL.into_iter().filter(|t| *t != Topic::Errata) {
-        let document = report(&d, &Options { topics: vec![topic], ..Options::default() });
+        let document = report(&d, &ReportOptions { topics: vec![topic], ..ReportOptions::default() });
         let parts: usize = document.sections.iter().map(|s| s.parts.len()).sum();
         assert!(parts > 0, "{topic:?}");
-        let others = report(&d, &Options { topics: vec![Topic::References], ..Options::default() });
+        let others =
+            report(&d, &ReportOptions { topics: vec![Topic::References], ..ReportOptions::default() });
         assert!(topic == Topic::References || outline(&document) != outline(&others), "{topic:?}");
     }
 }
@@ -224,8 +227,12 @@ fn french_is_french() {
         let mut d = description(name);
         d.source = None;
         let conventions = Convention::ALL.to_vec();
-        let options =
-            Options { language: Language::French, topics: topics.clone(), conventions, ..Options::default() };
+        let options = ReportOptions {
+            language: Tongue::French,
+            topics: topics.clone(),
+            conventions,
+            ..ReportOptions::default()
+        };
         for text in words(&report(&d, &options)) {
             let tokens = text.split(|c: char| !c.is_alphabetic());
             let english: Vec<&str> =

@@ -6,7 +6,7 @@
 
 use super::{Convention, Description, Row, Screw};
 use crate::geometry::{Axis, Rotation, Transform, Vector};
-use denavit_symbolic::{Angle, Expr, Refusal, Ring, Verdict, equal};
+use denavit_symbolic::{Angle, Equality, Expr, Refusal, Ring, equal};
 
 /// A description in another convention.
 #[derive(Clone, Debug)]
@@ -218,9 +218,9 @@ fn same_transform(a: &Transform<Expr>, b: &Transform<Expr>) -> SameChain {
             Err(Refusal::TooLarge) => return SameChain::Undecided,
         }
         match equal(difference, Expr::int(0)) {
-            Verdict::Equal { .. } => {}
-            Verdict::Different { .. } => return SameChain::Different { entry },
-            Verdict::Undecided(_) => verdict = SameChain::Undecided,
+            Equality::Equal { .. } => {}
+            Equality::Different { .. } => return SameChain::Different { entry },
+            Equality::Undecided(_) => verdict = SameChain::Undecided,
         }
     }
     verdict

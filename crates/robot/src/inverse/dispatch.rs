@@ -12,7 +12,7 @@
 use super::answer::{Answer, Doubt, Family, Obstacle, Solution};
 use super::branch::Branch;
 use super::closed::InverseSolver;
-use super::derivation::{Goal, InverseModel, NotGiven, Options, Refusal};
+use super::derivation::{Goal, InverseModel, InverseOptions, NotGiven, Refusal};
 use super::general::GeneralSolver;
 use super::newton;
 use super::numeric::NumericSolver;
@@ -130,7 +130,7 @@ impl InverseKinematics {
     ///
     /// # Errors
     /// See [`Unprepared`].
-    pub fn new(description: &Description, options: &Options) -> Result<Self, Unprepared> {
+    pub fn new(description: &Description, options: &InverseOptions) -> Result<Self, Unprepared> {
         let robot = Robot::numeric(description)?;
         let space = JointSpace::new(description, robot.reach());
         let numeric = NumericSolver::new(description, options.goal)?;

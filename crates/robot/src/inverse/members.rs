@@ -117,12 +117,12 @@ fn scaled(space: &JointSpace, direction: &[f64]) -> Vec<f64> {
 mod tests {
     use super::*;
     use crate::catalogue;
-    use crate::inverse::{Goal, Options};
+    use crate::inverse::{Goal, InverseOptions};
 
     /// Members of every family of the pose at `q`, checked: they have the pose, neighbours are near, and those that are
     /// closed come back.
     #[track_caller]
-    fn members(name: &str, options: &Options, q: &[f64]) -> Vec<(Family, Members)> {
+    fn members(name: &str, options: &InverseOptions, q: &[f64]) -> Vec<(Family, Members)> {
         let d = catalogue::robot(name).expect("it is in the catalogue");
         let inverse = InverseKinematics::new(&d, options).expect("all parameters have values");
         let pose = inverse.robot.pose(q);
@@ -151,7 +151,7 @@ mod tests {
     #[test]
     fn a_straight_wrist_turns_all_round() {
         let q = [0.3, -0.4, 0.9, 0.5, 0.0, 0.7];
-        let found = members("puma560", &Options::default(), &q);
+        let found = members("puma560", &InverseOptions::default(), &q);
         assert!(!found.is_empty());
         for (family, found) in found {
             assert!(family.is_affine && family.curve.is_empty() && found.is_closed, "{family:?}");
@@ -170,7 +170,7 @@ mod tests {
     #[test]
     fn four_parallel_axes_move_along_a_curve() {
         // Axes 2, 3, 4 and 6 of a UR5 are parallel at q5 = 0: a four-bar linkage.
-        let found = members("ur5", &Options::default(), &[0.3, -1.1, 1.4, 0.5, 0.0, 0.7]);
+        let found = members("ur5", &InverseOptions::default(), &[0.3, -1.1, 1.4, 0.5, 0.0, 0.7]);
         assert!(found.iter().any(|(f, m)| !f.is_affine && m.members.len() > 20), "{found:?}");
     }
 
@@ -178,10 +178,10 @@ mod tests {
     fn a_redundant_arm_moves_its_elbow() {
         let q = [0.2, 0.5, -0.3, -1.6, 0.4, 1.3, 0.1];
         for name in ["kuka-iiwa-7", "franka-panda"] {
-            let found = members(name, &Options::default(), &q);
+            let found = members(name, &InverseOptions::default(), &q);
             assert!(!found.is_empty() && found.iter().all(|(_, m)| m.members.len() > 20), "{name}");
         }
-        let closed = members("kuka-iiwa-7", &Options::default(), &q);
+        let closed = members("kuka-iiwa-7", &InverseOptions::default(), &q);
         assert!(closed.iter().all(|(_, m)| m.is_closed), "the elbow goes all round");
     }
 
@@ -189,7 +189,7 @@ mod tests {
     fn a_given_joint_stays() {
         // With joint 3 held the arm is one with six joints, its wrist straight at q6 = 0.
         let q = [0.2, 0.5, -0.3, -1.6, 0.4, 0.0, 0.1];
-        let options = Options { given: Some(vec![2]), ..Options::default() };
+        let options = InverseOptions { given: Some(vec![2]), ..InverseOptions::default() };
         let found = members("kuka-iiwa-7", &options, &q);
         assert!(!found.is_empty());
         assert!(found.iter().all(|(_, m)| m.members.iter().all(|x| (x[2] - q[2]).abs() < 1e-9)));

@@ -1,6 +1,6 @@
 //! Inverse kinematics: the joint variables for a pose of the hand.
 //!
-//! - [`derivation`]: closed forms. The chain is brought into a normal form ([`Chain`]); all its scalar equations are
+//! - [`derivation`]: closed forms. The chain is brought into a normal form ([`NormalChain`](derivation::NormalChain)); all its scalar equations are
 //!   formed; a search takes the cheapest equation that holds one unknown until nothing is unknown
 //!   ([`InverseModel::derive`]); the steps become a [`Solver`](denavit_program::solver::Solver).
 //! - [`closed`]: numbers from closed forms, [`InverseSolver`].
@@ -21,7 +21,7 @@ pub use crate::space::JointSpace;
 pub use answer::{Answer, Doubt, Family, Obstacle, Solution};
 pub use branch::{Branch, Choice, Label, Part};
 pub use closed::{InverseSolver, variables};
-pub use derivation::*;
+pub use derivation::{Goal, InverseModel, InverseOptions, NotGiven, Refusal, Stuck, Task, Unsuitable};
 pub use dispatch::{InverseKinematics, Nearest, Unprepared};
 pub use members::{MAX_MEMBERS, Members};
 pub use numeric::NumericSolver;

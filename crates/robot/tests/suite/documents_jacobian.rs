@@ -13,7 +13,7 @@ use denavit::geometry::{Rotation, Transform, Vector};
 use denavit::robot::Robot;
 use denavit::velocity::{Jacobian, JacobianModel, ROWS, Singularities, Viewpoint, geometric};
 use denavit_symbolic::vocabulary::Vocabulary;
-use denavit_symbolic::{Expr, Verdict, equal};
+use denavit_symbolic::{Equality, Expr, equal};
 use std::collections::{BTreeMap, BTreeSet};
 use toml::{Table, Value};
 
@@ -134,9 +134,9 @@ fn view(body: usize, at: usize, axes: usize) -> Viewpoint<Expr> {
 /// True if proved equal, false if proved different.
 fn same(a: Expr, b: Expr) -> bool {
     match equal(a, b) {
-        Verdict::Equal { .. } => true,
-        Verdict::Different { .. } => false,
-        Verdict::Undecided(why) => panic!("{why:?}"),
+        Equality::Equal { .. } => true,
+        Equality::Different { .. } => false,
+        Equality::Undecided(why) => panic!("{why:?}"),
     }
 }
 

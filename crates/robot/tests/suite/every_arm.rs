@@ -5,7 +5,7 @@ use crate::common::{Random, robot};
 use denavit::catalogue;
 use denavit::description::{Description, read_toml};
 use denavit::geometry::Transform;
-use denavit::inverse::{Answer, Criterion, Doubt, Goal, InverseKinematics, Options};
+use denavit::inverse::{Answer, Criterion, Doubt, Goal, InverseKinematics, InverseOptions};
 use denavit::robot::Robot;
 use std::f64::consts::{PI, TAU};
 use std::num::NonZero;
@@ -19,7 +19,7 @@ fn configuration(random: &mut Random, solver: &InverseKinematics) -> Vec<f64> {
 }
 
 fn solver(description: &Description) -> InverseKinematics {
-    InverseKinematics::new(description, &Options::default()).expect("a robot with numbers")
+    InverseKinematics::new(description, &InverseOptions::default()).expect("a robot with numbers")
 }
 
 /// Whether a configuration is among the solutions, or in a family.
@@ -192,7 +192,7 @@ fn the_best_solution_by_a_criterion() {
 /// Joints that are given may leave six without a closed form.
 #[test]
 fn given_joints_without_a_closed_form() {
-    let options = Options { goal: Goal::Pose, given: Some(vec![2]) };
+    let options = InverseOptions { goal: Goal::Pose, given: Some(vec![2]) };
     let solver = InverseKinematics::new(&robot("rethink-sawyer"), &options).expect("numbers");
     assert_eq!((solver.method(), solver.given.as_slice()), ("elimination", [2].as_slice()));
     let mut random = Random(9);
@@ -209,7 +209,7 @@ fn given_joints_without_a_closed_form() {
 #[should_panic(expected = "one value per given joint")]
 fn a_panic_of_a_thread_is_that_of_the_caller() {
     let d = robot("ur5");
-    let solver = InverseKinematics::new(&d, &Options::default()).expect("a solver");
+    let solver = InverseKinematics::new(&d, &InverseOptions::default()).expect("a solver");
     let poses = vec![Transform::identity(); 8];
     let _ = solver.solve_all(&poses, &[0.0], NonZero::new(2).expect("some"));
 }

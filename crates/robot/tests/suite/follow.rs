@@ -2,9 +2,9 @@
 
 use crate::common::{Random, robot};
 use denavit::geometry::{Transform, Vector};
-use denavit::inverse::{InverseKinematics, Options as Inverse};
-use denavit::motion::follow::{Event, EventKind, Followed, Follower, Options};
-use denavit::motion::hand::{Arc, ArcError, Chain, HandPath, Line, Orientation, PoseSpline};
+use denavit::inverse::{InverseKinematics, InverseOptions};
+use denavit::motion::follow::{Event, EventKind, FollowOptions, Followed, Follower};
+use denavit::motion::hand::{Arc, ArcError, HandChain, HandPath, Line, Orientation, PoseSpline};
 use denavit::motion::path::JointPath;
 use denavit::motion::{Limits, TimeOptimal, Trajectory};
 use denavit::velocity::Place;
@@ -42,10 +42,10 @@ fn a_line_through_the_wrist_singularity() {
     let mut f = follower("staubli-rx90");
     let q = [0.0, -40.0, 100.0, 0.0, 30.0, 0.0].map(f64::to_radians);
     let path = by(&f, &q, [0.1, 0.0, -0.1]);
-    let followed = f.follow(&path, &q, &Options::default());
+    let followed = f.follow(&path, &q, &FollowOptions::default());
     assert!(followed.reached >= 1.0);
     assert_eq!(followed.certified, Some(true));
-    assert!(followed.deviation <= Options::default().max_deviation);
+    assert!(followed.deviation <= FollowOptions::default().max_deviation);
     stays(&f, &path, &followed);
     let met = singular(&followed.events);
     assert_eq!(met.len(), 2);
@@ -69,7 +69,7 @@ fn a_line_beside_the_wrist_singularity() {
     let mut f = follower("staubli-rx90");
     let q = [0.0, -40.0, 100.0, 0.001, 30.0, 0.0].map(f64::to_radians);
     let path = by(&f, &q, [0.1, 0.003, -0.05]);
-    let followed = f.follow(&path, &q, &Options::default());
+    let followed = f.follow(&path, &q, &FollowOptions::default());
     assert!(followed.reached >= 1.0);
     stays(&f, &path, &followed);
     let s5 = |e: &&&Event| matches!(e.kind, EventKind::Singular { place: Some(Place::OneLine(3, 5)), .. });
@@ -84,7 +84,7 @@ fn a_line_out_of_the_workspace() {
     let mut f = follower("staubli-rx90");
     let q = [0.2, -40.0_f64.to_radians(), 2.0, 0.4, 0.9, 0.0];
     let path = by(&f, &q, [1.5, 0.2, 0.3]);
-    let followed = f.follow(&path, &q, &Options::default());
+    let followed = f.follow(&path, &q, &FollowOptions::default());
     let Some(Event { s, kind: EventKind::End { reachable, place, factor }, .. }) = followed.events.last()
     else {
         panic!("it ends: {:?}", followed.events)
@@ -94,7 +94,8 @@ fn a_line_out_of_the_workspace() {
     // The wrist's centre is the origin of frame 6, and axis 1 meets axis 2 in the origin.
     let away = path.pose(*s).translation.norm();
     assert!((away - 0.9).abs() < 1e-6, "{away}");
-    let inverse = InverseKinematics::new(&robot("staubli-rx90"), &Inverse::default()).expect("solvable");
+    let inverse =
+        InverseKinematics::new(&robot("staubli-rx90"), &InverseOptions::default()).expect("solvable");
     assert!(!inverse.solve(&path.pose(s + 1e-5), &[]).is_reachable());
     assert!(inverse.solve(&path.pose(s - 1e-5), &[]).is_reachable());
 }
@@ -108,7 +109,7 @@ fn a_limit_on_the_way_and_another_branch() {
     let mut met = 0;
     for d in [[0.3, 0.0, 0.0], [-0.3, 0.0, 0.0], [0.0, 0.0, 0.3], [0.0, 0.0, -0.3]] {
         let path = by(&f, &q, d);
-        let followed = f.follow(&path, &q, &Options::default());
+        let followed = f.follow(&path, &q, &FollowOptions::default());
         stays(&f, &path, &followed);
         for event in &followed.events {
             if let EventKind::Limit { joint, limit } = event.kind {
@@ -124,7 +125,7 @@ fn a_limit_on_the_way_and_another_branch() {
             };
             assert!((0..=500).all(|k| inside(&followed.joints.eval(f64::from(k) / 500.0).q)));
         }
-        let all = f.alternatives(&path, &Options::default());
+        let all = f.alternatives(&path, &FollowOptions::default());
         assert!(all.iter().any(|a| f.inverse.space.is_same(&a.start, &q)), "the start is among them");
     }
     assert!(met > 0, "limits {low} {high}");
@@ -136,7 +137,7 @@ fn a_line_of_a_redundant_arm() {
     let mut f = follower("kuka-iiwa-14");
     let q = [0.0, 40.0, 0.0, -80.0, 0.0, 60.0, 0.0].map(f64::to_radians);
     let path = by(&f, &q, [0.0, 0.5, 0.0]);
-    let followed = f.follow(&path, &q, &Options::default());
+    let followed = f.follow(&path, &q, &FollowOptions::default());
     assert!(followed.is_clean());
     stays(&f, &path, &followed);
 }
@@ -155,10 +156,10 @@ fn two_lines_with_a_corner() {
         ),
         orientation: Orientation::Slerp,
     };
-    let path = Chain::new(vec![Box::new(first), Box::new(second)]);
+    let path = HandChain::new(vec![Box::new(first), Box::new(second)]);
     let [corner] = path.corners()[..] else { panic!("one corner") };
     assert!((corner - 1.0 / 3.0).abs() < 1e-9);
-    let followed = f.follow(&path, &q, &Options::default());
+    let followed = f.follow(&path, &q, &FollowOptions::default());
     assert!(followed.reached >= 1.0 && followed.joints.parameters().contains(&corner));
     stays(&f, &path, &followed);
     let limits = Limits::symmetric(&[2.0; 6], &[8.0; 6]).expect("positive");

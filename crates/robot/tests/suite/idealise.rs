@@ -4,7 +4,7 @@ use crate::common::robot;
 use denavit::catalogue;
 use denavit::description::{Description, read_toml};
 use denavit::idealise::{Measured, idealised};
-use denavit::inverse::{InverseModel, Options};
+use denavit::inverse::{InverseModel, InverseOptions};
 use denavit::robot::Robot;
 
 /// The text of a robot file with some cells written otherwise.
@@ -42,7 +42,7 @@ fn rounded_right_angles() {
     assert_eq!(places, [((1, 2), Measured::Angle), ((4, 5), Measured::Angle), ((5, 6), Measured::Angle)]);
     assert!(ideal.rotation_error > 1e-6 && ideal.rotation_error < 3.0 * 3.7e-6, "{}", ideal.rotation_error);
     assert!(ideal.position_error < 1e-5, "{}", ideal.position_error);
-    InverseModel::derive(&ideal.description, &Options::default()).expect("the closed form of a UR");
+    InverseModel::derive(&ideal.description, &InverseOptions::default()).expect("the closed form of a UR");
 }
 
 /// A calibrated arm: axes a milliradian off parallel have their common normal metres away, and the table says so.
@@ -64,7 +64,7 @@ fn far_common_normals() {
     let ideal = idealised(&tilted, 1e-2).expect("numbers");
     assert!(ideal.rotation_error < 5e-3, "{}", ideal.rotation_error);
     assert!(ideal.position_error < 5e-3, "{}", ideal.position_error);
-    InverseModel::derive(&ideal.description, &Options::default()).expect("the closed form of a UR");
+    InverseModel::derive(&ideal.description, &InverseOptions::default()).expect("the closed form of a UR");
     let lengths = Robot::numeric(&ideal.description).expect("numbers").reach();
     assert!(lengths < 5.0, "{lengths}");
 }

@@ -3,7 +3,8 @@
 
 use crate::common::{Random, share};
 use denavit::geometry::{Transform, Vector};
-use denavit::inverse::{Answer, Goal, InverseModel, InverseSolver, MOST_WORK, Options, Refusal, Stuck};
+use denavit::inverse::derivation::MOST_WORK;
+use denavit::inverse::{Answer, Goal, InverseModel, InverseOptions, InverseSolver, Refusal, Stuck};
 use denavit::{Description, Robot, catalogue, description};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -35,7 +36,7 @@ fn robot(name: &str) -> Description {
 }
 
 fn model(d: &Description) -> InverseModel {
-    InverseModel::derive(d, &Options::default()).unwrap_or_else(|e| panic!("{}: {e}", d.name))
+    InverseModel::derive(d, &InverseOptions::default()).unwrap_or_else(|e| panic!("{}: {e}", d.name))
 }
 
 fn difference(a: f64, b: f64, is_angle: bool) -> f64 {
@@ -253,7 +254,10 @@ fn peers_count_the_same() {
             .iter()
             .map(|g| names.iter().position(|n| Some(n.as_str()) == g.as_str()).expect("a joint variable"))
             .collect();
-        let options = Options { given: (!given.is_empty()).then_some(given.clone()), ..Options::default() };
+        let options = InverseOptions {
+            given: (!given.is_empty()).then_some(given.clone()),
+            ..InverseOptions::default()
+        };
         let m = match InverseModel::derive(&d, &options) {
             Ok(m) => m,
             // A slide and a slide: the peers give both where one is too many.
@@ -276,7 +280,7 @@ fn peers_count_the_same() {
 #[test]
 fn no_closed_form_is_refused_with_reasons() {
     for name in REFUSED {
-        match InverseModel::derive(&robot(name), &Options::default()) {
+        match InverseModel::derive(&robot(name), &InverseOptions::default()) {
             Err(Refusal::Stuck(stuck)) => assert!(!stuck.missing.is_empty()),
             other => panic!("{name}: {other:?}"),
         }
@@ -293,7 +297,7 @@ fn long_chains_are_refused_at_once() {
     };
     let text = format!("name = \"Long\"\nconvention = \"standard\"\n{}", rows(30));
     let d = description::read_toml(&text).expect("a robot").0;
-    match InverseModel::derive(&d, &Options::default()) {
+    match InverseModel::derive(&d, &InverseOptions::default()) {
         Err(Refusal::Unsuitable(why)) => assert!(why.to_string().contains("30 joints"), "{why}"),
         other => panic!("{other:?}"),
     }
@@ -307,7 +311,7 @@ fn stuck(rows: impl Iterator<Item = [f64; 3]>) -> Stuck {
     let joints: String = rows.enumerate().map(joint).collect();
     let text = format!("name = \"Random\"\nconvention = \"standard\"\n{joints}");
     let d = description::read_toml(&text).expect("a robot").0;
-    match InverseModel::derive(&d, &Options::default()) {
+    match InverseModel::derive(&d, &InverseOptions::default()) {
         Err(Refusal::Stuck(stuck)) => *stuck,
         other => panic!("{other:?}"),
     }
@@ -330,7 +334,7 @@ fn positions_alone_are_solved() {
     for name in ["planar-2r", "articulated-3r", "scara", "spherical-rrp", "cylindrical-rpp", "cartesian-ppp"]
     {
         let d = robot(name);
-        let m = InverseModel::derive(&d, &Options { goal: Goal::Position, given: None })
+        let m = InverseModel::derive(&d, &InverseOptions { goal: Goal::Position, given: None })
             .unwrap_or_else(|e| panic!("{name}: {e}"));
         let case = Case::with(&d, &m);
         let mut random = Random(5);

@@ -3,8 +3,8 @@
 use denavit::forward::{ForwardModel, Outputs, pose_program};
 use denavit::inverse::general::GeneralSolver;
 use denavit::inverse::{
-    Answer, InverseKinematics, InverseModel, InverseSolver, JointSpace, Manifold, NumericSolver, Options,
-    RedundantSolver, SelfMotion,
+    Answer, InverseKinematics, InverseModel, InverseOptions, InverseSolver, JointSpace, Manifold,
+    NumericSolver, RedundantSolver, SelfMotion,
 };
 use denavit::velocity::RateSolver;
 use denavit::{Description, Robot, catalogue, description};
@@ -26,7 +26,7 @@ fn forward(name: &str) -> String {
 /// A solver with numbers.
 fn inverse(name: &str) -> InverseSolver {
     let d = robot(name);
-    let model = InverseModel::derive(&d, &Options::default()).expect("a closed form");
+    let model = InverseModel::derive(&d, &InverseOptions::default()).expect("a closed form");
     model.solver(&d).expect("the catalogue gives all lengths")
 }
 

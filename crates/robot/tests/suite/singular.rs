@@ -3,7 +3,7 @@
 
 use crate::common::{Random, robot, share};
 use denavit::geometry::Transform;
-use denavit::inverse::{Answer, InverseKinematics, Options};
+use denavit::inverse::{Answer, InverseKinematics, InverseOptions};
 use denavit::robot::Robot;
 use std::f64::consts::{PI, TAU};
 
@@ -152,7 +152,7 @@ fn reach_the_pose(solver: &InverseKinematics, pose: &Transform<f64>, answer: &An
 fn solver(name: &str) -> InverseKinematics {
     let mut description = robot(name);
     description.rows.iter_mut().for_each(|r| r.limits = None);
-    InverseKinematics::new(&description, &Options::default()).expect("numbers")
+    InverseKinematics::new(&description, &InverseOptions::default()).expect("numbers")
 }
 
 /// What the answer to the pose of a configuration lacks, if anything.

@@ -1,7 +1,7 @@
 //! The canonical form against numbers, and against itself: what is called equal is, at every point tried.
 
 use denavit_symbolic::readable::simplify;
-use denavit_symbolic::{Expr, Rational, Refusal, Ring, Symbol, Verdict, equal};
+use denavit_symbolic::{Equality, Expr, Rational, Refusal, Ring, Symbol, equal};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
@@ -124,9 +124,9 @@ fn the_basis_of_angles_does_not_change_the_verdict() {
         let shifted = e.substitute(|s| (&*s.name() == "q2").then(|| q("q2") - q("q1")));
         let back = shifted.substitute(|s| (&*s.name() == "q2").then(|| q("q2") + q("q1")));
         match equal(back, e) {
-            Verdict::Equal { .. } => Ok(()),
-            Verdict::Undecided(_) => Ok(()), // a division by zero, or an expansion beyond the budget
-            Verdict::Different { .. } => Err(TestCaseError::fail(format!("{back} against {e}"))),
+            Equality::Equal { .. } => Ok(()),
+            Equality::Undecided(_) => Ok(()), // a division by zero, or an expansion beyond the budget
+            Equality::Different { .. } => Err(TestCaseError::fail(format!("{back} against {e}"))),
         }
     });
 }

@@ -15,7 +15,7 @@ use denavit::velocity::{
     nearest_singularity, regular_configuration,
 };
 use denavit_emit::{Language, Precision};
-use denavit_generate::{Options, Wanted, generate};
+use denavit_generate::{PackageOptions, Wanted, generate};
 use denavit_report::Derivation;
 use denavit_report::explain::Explanation;
 use denavit_symbolic::Expr;
@@ -67,7 +67,7 @@ fn placed(d: &Description, numbers: &Robot<f64>, q: &[f64]) -> String {
 
 fn solved(d: &Description, q: &[f64]) -> Vec<(&'static str, String)> {
     use denavit_wire::inverse as wire;
-    let options = inverse::Options::default();
+    let options = inverse::InverseOptions::default();
     let solver = InverseKinematics::new(d, &options).expect("it can be solved");
     let given: Vec<f64> = solver.given.iter().map(|&j| q[j]).collect();
     let pose = solver.robot.pose(q);
@@ -182,10 +182,10 @@ fn followed(d: &Description, numbers: &Robot<f64>, q: &[f64]) -> String {
 }
 
 fn written(d: &Description) -> String {
-    let options = Options {
+    let options = PackageOptions {
         language: Language::C,
         functions: vec![Wanted::Pose, Wanted::Inverse],
-        inverse: inverse::Options::default(),
+        inverse: inverse::InverseOptions::default(),
         precision: Precision::Double,
         name: None,
         fixed: false,
@@ -200,7 +200,7 @@ pub fn judged() -> String {
     let d = catalogue::robot("staubli-rx90").expect("it is in the catalogue");
     let document = "# RX-90\n\n$P_x = C_1 (C_2 D3 - S_{23} RL4)$\n\n$P_y = S_1 (C_2 D3 + S_{23} RL4)$\n\n\
                     $P_z = S_2 D3 + C_{23} RL4 +$\n\n$\\theta_1 = \\arctan(P_y / P_x)$\n";
-    let options = denavit_check::Options::default();
+    let options = denavit_check::CheckOptions::default();
     let format = denavit_reading::document::Format::of("rx90.md", document);
     let checked = denavit_check::check(document, format, Some(&d), &options).expect("it can be read");
     text(&check::Checked::of("rx90.md", document, &checked))

@@ -2,7 +2,7 @@
 
 use super::answers::{answers, judged};
 use denavit::catalogue;
-use denavit_report::{Options, report};
+use denavit_report::{ReportOptions, report};
 use denavit_wire::parts::{Part, parts};
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -106,7 +106,7 @@ fn every_verdict_has_its_reasons() {
 #[test]
 fn a_report_is_a_list_of_parts() {
     let d = catalogue::robot("planar-2r").expect("it is in the catalogue");
-    let parts = parts(&report(&d, &Options::default()));
+    let parts = parts(&report(&d, &ReportOptions::default()));
     let text = denavit_wire::text(&parts);
     let told = value(&text);
     assert_eq!(told.as_array().map(Vec::len), Some(parts.len()));

@@ -5,7 +5,7 @@ mod tables;
 
 use crate::common::{Random, robot, share};
 use denavit::description::Severity;
-use denavit_check::{Checked, Note, Options, check};
+use denavit_check::{CheckOptions, Checked, Note, check};
 use denavit_reading::document::Format;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -51,7 +51,7 @@ fn apart<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> Option
 /// What is said of a document. All places lie in it.
 fn judged(text: &str, format: Format, named: Option<&str>) -> Result<Checked, Vec<Note>> {
     let named = named.map(robot);
-    let result = check(text, format, named.as_ref(), &Options::default());
+    let result = check(text, format, named.as_ref(), &CheckOptions::default());
     let inside = |span: &std::ops::Range<usize>| {
         assert!(text.get(span.clone()).is_some(), "{span:?} is no place in {} bytes", text.len());
     };

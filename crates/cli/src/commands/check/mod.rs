@@ -11,8 +11,8 @@ use crate::failure::Failure;
 use crate::load;
 use crate::terminal::words;
 use denavit::description::{Diagnostic, Severity, line_column, render};
-use denavit_check::{Checked, MAX_BYTES, Note, Options, check};
-use denavit_reading::code::Language;
+use denavit_check::{CheckOptions, Checked, MAX_BYTES, Note, check};
+use denavit_reading::code::Dialect;
 use denavit_reading::document::Format;
 use std::fs;
 use std::io::{self, Read, Write};
@@ -52,7 +52,7 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
         return Err(Failure::Usage(format!("--set {setting}: name the robot before the file")));
     }
     let text = contents(&name)?;
-    let options = Options {
+    let options = CheckOptions {
         table: load::table_options(&arguments.robot),
         claim: arguments.claim.clone(),
         tolerance: arguments.tolerance,
@@ -90,10 +90,10 @@ fn findings<'a>(notes: impl Iterator<Item = &'a Note>) -> Vec<Diagnostic> {
 }
 
 /// The language of a program, by its file's ending.
-fn language_of(name: &str) -> Option<Language> {
+fn language_of(name: &str) -> Option<Dialect> {
     match Path::new(name).extension()?.to_str()? {
-        "py" => Some(Language::Python),
-        "m" => Some(Language::Matlab),
+        "py" => Some(Dialect::Python),
+        "m" => Some(Dialect::Matlab),
         _ => None,
     }
 }

@@ -10,7 +10,7 @@ use crate::terminal::words;
 use denavit::description::Description;
 use denavit::forward::{Outputs, Proof, Reference};
 use denavit_report::Derivation;
-use denavit_report::words::Language;
+use denavit_report::words::Tongue;
 use denavit_wire::forward::Derived;
 use std::io::Write;
 
@@ -61,7 +61,7 @@ fn printed(derivation: &Derivation, format: Format) -> String {
         Format::Terminal => terminal::document(derivation),
         Format::Json => format!("{}\n", denavit_wire::text(&Derived::of(derivation))),
         Format::Latex | Format::Typst | Format::Html => {
-            document::written(&derivation.document(Language::English), format)
+            document::written(&derivation.document(Tongue::English), format)
         }
     }
 }

@@ -14,11 +14,13 @@ use crate::terminal::words;
 use answer::{Question, Report};
 use denavit::description::{Description, JointKind};
 use denavit::idealise::{Ideal, idealised};
-use denavit::inverse::{Criterion, Goal, InverseKinematics, InverseModel, Options, Refusal, Unprepared};
+use denavit::inverse::{
+    Criterion, Goal, InverseKinematics, InverseModel, InverseOptions, Refusal, Unprepared,
+};
 use denavit::quantity::reading;
 use denavit_report::document::Block;
 use denavit_report::explain::Explanation;
-use denavit_report::words::Language;
+use denavit_report::words::Tongue;
 use denavit_wire::derivation::Derivation;
 use denavit_wire::inverse::Refused;
 use std::io::Write;
@@ -37,8 +39,10 @@ pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
     let description = ideal.as_ref().map_or(loaded, |i| i.description.clone());
     let goal: Goal = arguments.goal.into();
     let given = given(&description, arguments.given.as_deref())?;
-    let options =
-        Options { goal, given: arguments.given.is_some().then(|| given.iter().map(|g| g.0).collect()) };
+    let options = InverseOptions {
+        goal,
+        given: arguments.given.is_some().then(|| given.iter().map(|g| g.0).collect()),
+    };
     if arguments.follow && arguments.input.is_none() {
         return Err(Failure::Usage("--follow goes with --input".into()));
     }
@@ -140,11 +144,11 @@ fn printed(arguments: &IkArguments, e: &Explanation) -> String {
     let written = |blocks: &[Block]| document::document(&title, &e.names(), blocks, format);
     match (format, arguments.explain, arguments.symbolic) {
         (Format::Json, ..) => format!("{}\n", denavit_wire::text(&Derivation::of(e))),
-        (_, true, _) => written(&e.document(Language::English)),
-        (_, _, true) => written(&e.summary(Language::English)),
+        (_, true, _) => written(&e.document(Tongue::English)),
+        (_, _, true) => written(&e.summary(Tongue::English)),
         (Format::Terminal, ..) => summary::text(e),
         // A format was asked for: the formulas.
-        (_, false, false) => written(&e.summary(Language::English)),
+        (_, false, false) => written(&e.summary(Tongue::English)),
     }
 }
 

@@ -8,7 +8,7 @@ use denavit::forward::Reference;
 use denavit::velocity::{JacobianModel, Obstacle, Singularities, Viewpoint};
 use denavit_report::document::{Block, Line, Math};
 use denavit_report::explain::{jacobian_document, singularities_document, velocity_vocabulary};
-use denavit_report::words::Language;
+use denavit_report::words::Tongue;
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::vocabulary::Vocabulary;
@@ -52,7 +52,7 @@ pub fn document(
         Ok(found) => Ok(printed(
             description,
             &found.jacobian,
-            singularities_document(description, &found, Language::English),
+            singularities_document(description, &found, Tongue::English),
             format,
         )),
         // The matrix is there all the same.
@@ -64,7 +64,7 @@ pub fn document(
                     ..Model::of(robot, &model, text)
                 }));
             }
-            let mut blocks = jacobian_document(description, &model, Language::English);
+            let mut blocks = jacobian_document(description, &model, Tongue::English);
             blocks.push(Block::Heading(2, Line::new("Singularities")));
             blocks.push(Block::Paragraph(Line::new(format!("{why}."))));
             Ok(printed(description, &model, blocks, format))
@@ -81,7 +81,7 @@ fn matrix(description: &Description, model: &JacobianModel, format: Format) -> R
     Ok(match format {
         Format::Json => json(description, model, |robot, text| Model::of(robot, model, text)),
         _ => {
-            let mut blocks = jacobian_document(description, model, Language::English);
+            let mut blocks = jacobian_document(description, model, Tongue::English);
             blocks.extend(algorithm(model));
             printed(description, model, blocks, format)
         }

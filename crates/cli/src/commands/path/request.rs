@@ -8,7 +8,7 @@ use denavit::Robot;
 use denavit::description::Description;
 use denavit::geometry::{Transform, Vector};
 use denavit::inverse::Goal;
-use denavit::motion::hand::{Arc, Chain, HandPath, Line, Orientation, PoseSpline};
+use denavit::motion::hand::{Arc, HandChain, HandPath, Line, Orientation, PoseSpline};
 use denavit::motion::plan::Wish;
 use serde_json::Value;
 use std::path::Path;
@@ -64,7 +64,7 @@ pub fn read(
         return Err(Failure::Usage("say where the path goes: --line, --arc, --joint or --via".into()));
     }
     let path: Box<dyn HandPath + Send + Sync> =
-        if parts.len() == 1 { parts.remove(0) } else { Box::new(Chain::new(parts)) };
+        if parts.len() == 1 { parts.remove(0) } else { Box::new(HandChain::new(parts)) };
     Ok(Wish::Hand { path, start })
 }
 

@@ -13,8 +13,8 @@ use crate::load;
 use denavit::description::Description;
 use denavit_check::{Checked, check};
 use denavit_reading::document::Format;
-use denavit_report::words::Language;
-use denavit_report::{Document, Errata, Options, Topic, render, report};
+use denavit_report::words::Tongue;
+use denavit_report::{Document, Errata, ReportOptions, Topic, render, report};
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -31,10 +31,10 @@ pub fn run(arguments: &ReportArguments) -> Result<(), Failure> {
     let source = checked(arguments, &description)?;
     let errata =
         source.as_ref().map(|(text, checked)| Errata { name: &arguments.robot.robot, text, checked });
-    let options = Options {
+    let options = ReportOptions {
         language: match arguments.language {
-            ReportLanguage::En => Language::English,
-            ReportLanguage::Fr => Language::French,
+            ReportLanguage::En => Tongue::English,
+            ReportLanguage::Fr => Tongue::French,
         },
         topics: topics(arguments),
         conventions: arguments.conventions.iter().map(|&c| c.into()).collect(),
@@ -92,7 +92,7 @@ fn checked(
     let text = fs::read(name).map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
     let text = String::from_utf8_lossy(&text).into_owned();
     let options =
-        denavit_check::Options { table: load::table_options(&arguments.robot), ..Default::default() };
+        denavit_check::CheckOptions { table: load::table_options(&arguments.robot), ..Default::default() };
     // What the reader of tables took is there; what cannot be read beside it is no part of the report.
     let checked = check(&text, Format::of(name, &text), Some(description), &options).ok();
     Ok(checked.map(|c| (text, c)))

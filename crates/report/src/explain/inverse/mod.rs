@@ -12,12 +12,12 @@ mod written;
 pub use crate::explained::{Bound, Case, Component, Consequence, Explained, Kind, Remark, Source, Statement};
 
 use crate::document::{Block, Branch, Factor, Math, Proof};
-use crate::words::Language;
+use crate::words::Tongue;
 use denavit::description::Description;
 use denavit::geometry::Transform;
 use denavit::inverse::Label;
 use denavit::inverse::derivation::{
-    Chain, Condition, Form, Goal, InverseModel, Motion, Norm, Split, Step, Stuck, Task, Unknown,
+    Condition, Form, Goal, InverseModel, Motion, Norm, NormalChain, Split, Step, Stuck, Task, Unknown,
     axis_unknown, equations, settled,
 };
 use denavit_symbolic::poly::Poly;
@@ -67,7 +67,7 @@ pub struct Explanation {
 /// What both kinds of outcome have in common.
 struct Facts<'a> {
     description: &'a Description,
-    chain: &'a Chain,
+    chain: &'a NormalChain,
     steps: &'a [Step],
     labels: &'a [Option<Label>],
     splits: &'a [Split],
@@ -163,17 +163,17 @@ impl Explanation {
     }
 
     /// The document.
-    pub fn document(&self, language: Language) -> Vec<Block> {
+    pub fn document(&self, language: Tongue) -> Vec<Block> {
         written::document(self, language.words())
     }
 
     /// The formulas alone, to be computed one after another.
-    pub fn summary(&self, language: Language) -> Vec<Block> {
+    pub fn summary(&self, language: Tongue) -> Vec<Block> {
         written::formulas(self, language.words())
     }
 
     /// The branches, with the number of the solution at the ends; nothing if the derivation ended early.
-    pub fn branches(&self, language: Language) -> Option<Branch> {
+    pub fn branches(&self, language: Tongue) -> Option<Branch> {
         self.solutions.map(|_| written::branches(&self.steps, &mut 0, language.words()))
     }
 }

@@ -5,7 +5,7 @@ use crate::document::Factor;
 use crate::explained::Component;
 use denavit::description::Convention;
 use denavit::geometry::Rotation;
-use denavit::inverse::derivation::{Chain, Element, Entry, Kind, Motion, Source, Split};
+use denavit::inverse::derivation::{Element, Entry, Kind, Motion, NormalChain, Source, Split};
 use denavit_symbolic::poly::Poly;
 use denavit_symbolic::{Expr, Rational};
 use std::ops::Range;
@@ -51,7 +51,7 @@ impl<'a> Matrices<'a> {
         Matrices { reading, splits, groups }
     }
 
-    fn chain(&self) -> &'a Chain {
+    fn chain(&self) -> &'a NormalChain {
         self.reading.chain
     }
 

@@ -4,7 +4,7 @@
 use super::reading::Reading;
 use crate::document::Proof;
 use denavit::random::Random;
-use denavit_symbolic::{Expr, Symbol, Verdict, equal};
+use denavit_symbolic::{Equality, Expr, Symbol, equal};
 use rustc_hash::FxHashMap;
 
 /// The forward model, to be put in for the entries of the pose.
@@ -52,9 +52,9 @@ impl Prover {
 /// Whether two formulas are equal as functions of their symbols.
 pub fn identity(left: Expr, right: Expr) -> Proof {
     match equal(left, right) {
-        Verdict::Equal { .. } => Proof::Proved,
-        Verdict::Different { .. } => Proof::Wrong,
-        Verdict::Undecided(_) => sampled(left - right),
+        Equality::Equal { .. } => Proof::Proved,
+        Equality::Different { .. } => Proof::Wrong,
+        Equality::Undecided(_) => sampled(left - right),
     }
 }
 

@@ -1,7 +1,7 @@
 //! Polynomials of a derivation as formulas that a person would write.
 
 use denavit::inverse::derivation::{
-    Chain, Difference, Kind, Known, Motion, Norm, Step, Unknown, axis_unknown, index, outermost, split,
+    Difference, Kind, Known, Motion, Norm, NormalChain, Step, Unknown, axis_unknown, index, outermost, split,
 };
 use denavit_symbolic::poly::{Atom, Monomial, Poly};
 use denavit_symbolic::{Expr, Rational};
@@ -9,7 +9,7 @@ use std::collections::VecDeque;
 
 /// How polynomials are read: when each atom becomes known, and which steps an angle is composed of.
 pub struct Reading<'a> {
-    pub chain: &'a Chain,
+    pub chain: &'a NormalChain,
     ranks: Vec<usize>,
     /// Angles that are known: between which nodes, and from which step (none for what is given).
     edges: Vec<(Difference, Option<usize>)>,
@@ -36,7 +36,7 @@ type Leg = (Difference, Option<usize>, bool);
 
 impl<'a> Reading<'a> {
     /// With the values of some joint variables given.
-    pub fn new(chain: &'a Chain, given: &[usize], steps: &[Step]) -> Self {
+    pub fn new(chain: &'a NormalChain, given: &[usize], steps: &[Step]) -> Self {
         let axes: Vec<usize> = (0..chain.axes.len())
             .filter(|&k| chain.axes[k].form.terms.iter().all(|t| given.contains(&t.0)))
             .collect();

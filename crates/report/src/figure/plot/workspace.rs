@@ -3,7 +3,7 @@
 use super::axes::{Area, MIDDLE, NUMBERS, THIN, TICK, WORDS, axes, number, stroke, text};
 use crate::figure::drawing::{Anchor, Drawing, Ink, Label, Segment, Shape};
 use crate::figure::solid::{arc, closed, polygon};
-use crate::words::Language;
+use crate::words::Tongue;
 use denavit::Robot;
 use denavit::geometry::Vector;
 use denavit::workspace::{Field, Section, Workspace, contours};
@@ -284,5 +284,5 @@ fn circle(centre: [f64; 2], r: f64) -> Vec<Segment> {
 fn described(workspace: &Workspace) -> String {
     let extremes = [workspace.extremes.first, workspace.extremes.second];
     let ranges = extremes.map(|range| range.map(|x| number(x, 3)));
-    Language::default().words().workspace_picture(&workspace.section, ranges)
+    Tongue::default().words().workspace_picture(&workspace.section, ranges)
 }

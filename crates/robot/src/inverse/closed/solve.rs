@@ -155,7 +155,7 @@ impl InverseModel {
     }
 }
 
-/// The entries of a pose that a goal gives, in the order of [`Inputs`](crate::inverse::Inputs), then the given joint variables.
+/// The entries of a pose that a goal gives, in the order of [`Inputs`](crate::inverse::derivation::Inputs), then the given joint variables.
 pub fn variables(goal: Goal, pose: &Transform<f64>, given: &[f64]) -> Vec<f64> {
     let m = pose.matrix();
     let wanted = |k: &usize| match goal {

@@ -4,7 +4,7 @@
 //! Control of Robots* (2002), ch. 4. Types 4 to 8 of the latter are types 1 to 3 behind an elimination.
 
 use super::algebra::Kind;
-use super::chain::Chain;
+use super::chain::NormalChain;
 use super::equations::{Equation, Split};
 use super::known::{Known, Samples, Unknown};
 use super::plan::{Cost, Determinant, Elimination, Form, Norm, Origin, Row, Step};
@@ -20,7 +20,7 @@ type SquaresKey = (usize, usize, bool, Vec<usize>);
 /// What the search works on.
 pub struct Problem<'a> {
     /// The normal form.
-    pub chain: &'a Chain,
+    pub chain: &'a NormalChain,
     /// Its equations, short ones first.
     pub equations: &'a [Equation],
     /// Its positions, for sums of squares.
@@ -54,7 +54,7 @@ type View = BTreeMap<(u16, u16), Poly>;
 impl<'a> Problem<'a> {
     /// A search's problem.
     pub fn new(
-        chain: &'a Chain,
+        chain: &'a NormalChain,
         equations: &'a [Equation],
         splits: &'a [Split],
         samples: &'a Samples,

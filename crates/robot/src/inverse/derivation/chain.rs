@@ -63,7 +63,7 @@ pub struct Difference {
 
 /// The normal form.
 #[derive(Debug)]
-pub struct Chain {
+pub struct NormalChain {
     /// The joint variables, in the order of the robot.
     pub variables: Vec<Symbol>,
     /// The robot's parameters that occur.
@@ -140,7 +140,7 @@ struct Screw {
     row: usize,
 }
 
-impl Chain {
+impl NormalChain {
     /// The normal form of a robot. Parameters with the value 0, and angles with a value, are taken at their values.
     ///
     /// # Errors
@@ -234,7 +234,7 @@ impl Chain {
             }
         }
         let inverse_coupling = inverse_coupling(&axes, variables.len()).ok_or(Unsuitable::Coupling)?;
-        let mut chain = Chain {
+        let mut chain = NormalChain {
             inverse_coupling,
             variables,
             parameters,

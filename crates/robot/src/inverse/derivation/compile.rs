@@ -1,7 +1,7 @@
 //! The steps of a derivation as a solver.
 
 use super::algebra::Kind;
-use super::chain::{Chain, Difference, Element, Motion};
+use super::chain::{Difference, Element, Motion, NormalChain};
 use super::equations::{Goal, Split};
 use super::known::Unknown;
 use super::naming::{names, unique};
@@ -27,7 +27,7 @@ pub struct Inputs {
 
 impl Inputs {
     /// The inputs of a chain's solver.
-    pub fn new(chain: &Chain, goal: Goal, given: &[usize]) -> Self {
+    pub fn new(chain: &NormalChain, goal: Goal, given: &[usize]) -> Self {
         let trivial = chain.base == Transform::identity() && chain.tool == Transform::identity();
         let mut taken: FxHashSet<String> =
             chain.variables.iter().chain(&chain.parameters).map(|s| s.name().to_string()).collect();
@@ -55,7 +55,7 @@ impl Inputs {
 }
 
 /// The entries of U = base⁻¹ · T · tool⁻¹ in those of T; nothing for an entry that the goal does not give.
-pub fn moved_pose(chain: &Chain, inputs: &Inputs) -> [Option<Expr>; 12] {
+pub fn moved_pose(chain: &NormalChain, inputs: &Inputs) -> [Option<Expr>; 12] {
     let entry = |row: usize, column: usize| inputs.pose[row * 4 + column].map(Expr::from);
     let zero = Expr::int(0);
     let r = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j).unwrap_or(zero)));
@@ -83,7 +83,7 @@ pub struct Compiled {
 
 /// Compiles the steps of a complete search.
 pub fn compile(
-    chain: &Chain,
+    chain: &NormalChain,
     steps: &[Step],
     splits: &[Split],
     goal: Goal,
@@ -99,7 +99,7 @@ pub fn without_residual(model: &super::model::InverseModel) -> Solver {
 }
 
 fn compile_with(
-    chain: &Chain,
+    chain: &NormalChain,
     steps: &[Step],
     splits: Option<&[Split]>,
     goal: Goal,
@@ -143,7 +143,7 @@ fn compile_with(
 }
 
 struct Builder<'a> {
-    chain: &'a Chain,
+    chain: &'a NormalChain,
     solver: SolverBuilder,
     /// Values of atoms other than sines and cosines.
     atoms: FxHashMap<Atom, Value>,

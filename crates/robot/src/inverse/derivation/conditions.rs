@@ -4,7 +4,7 @@
 //! Of all of them those are kept that are short and independent, as many as the arm lacks degrees of freedom.
 
 use super::algebra::{Algebra, Kind};
-use super::chain::{Chain, Motion};
+use super::chain::{Motion, NormalChain};
 use super::equations::{Equation, Source};
 use super::known::{Known, Samples, Unknown};
 use super::plan::Step;
@@ -49,7 +49,7 @@ pub enum Task {
 }
 
 /// What an arm serves, from the ranks of its motion: of the pose, of the position alone, of position and axis.
-pub fn task(chain: &Chain, rank: usize, of_position: usize, with_axis: usize) -> Task {
+pub fn task(chain: &NormalChain, rank: usize, of_position: usize, with_axis: usize) -> Task {
     let turning = chain.axes.iter().any(|a| a.motion != Motion::Slide);
     match rank {
         6 => Task::Pose,
@@ -64,7 +64,7 @@ pub fn task(chain: &Chain, rank: usize, of_position: usize, with_axis: usize) ->
 
 /// The independent conditions of an arm that lacks degrees of freedom, the earliest and shortest first.
 pub fn conditions(
-    chain: &Chain,
+    chain: &NormalChain,
     equations: &[Equation],
     steps: &[Step],
     given: &[usize],
@@ -157,7 +157,7 @@ enum Factor {
 impl NumericCondition {
     /// A condition with numbers for the constants of the robot.
     pub fn new(
-        chain: &Chain,
+        chain: &NormalChain,
         c: &Condition,
         text: String,
         value: impl Fn(denavit_symbolic::Symbol) -> Option<f64>,

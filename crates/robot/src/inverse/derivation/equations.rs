@@ -5,7 +5,7 @@
 //! it is known which components still hold an unknown ([`Split`]).
 
 use super::algebra::{Algebra, Column, Matrix, transposed};
-use super::chain::Chain;
+use super::chain::NormalChain;
 use denavit_symbolic::Rational;
 use denavit_symbolic::poly::{Atom, Poly};
 use rustc_hash::FxHashSet;
@@ -85,7 +85,7 @@ const PRODUCTS: usize = 1_500;
 
 /// All equations of a chain, short ones first, and the positions for sums of squares; not all of them where the work is
 /// [spent](Algebra::is_spent).
-pub fn equations(chain: &Chain, goal: Goal) -> (Vec<Equation>, Vec<Split>) {
+pub fn equations(chain: &NormalChain, goal: Goal) -> (Vec<Equation>, Vec<Split>) {
     let a = &chain.algebra;
     let n = chain.elements.len();
     let products: Vec<Vec<(Matrix, Column)>> = (0..=n).map(|u| chain.products_from(u)).collect();

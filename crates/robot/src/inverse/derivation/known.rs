@@ -4,7 +4,7 @@
 //! θ34 known for free. Two angles that differ by a known one are one unknown.
 
 use super::algebra::{Algebra, Kind};
-use super::chain::{Chain, Difference, Element, Motion};
+use super::chain::{Difference, Element, Motion, NormalChain};
 use crate::geometry::{Rotation, Transform, Vector};
 use crate::random::Random;
 use denavit_symbolic::poly::{Atom, Monomial, Poly};
@@ -30,7 +30,7 @@ pub struct Known {
 
 impl Known {
     /// Nothing but the values of some axes.
-    pub fn new(chain: &Chain, given: &[usize]) -> Self {
+    pub fn new(chain: &NormalChain, given: &[usize]) -> Self {
         let mut known = Known {
             component: chain.groups.iter().map(|&n| (0..=n).collect()).collect(),
             slides: chain.axes.iter().map(|a| a.motion != Motion::Slide).collect(),
@@ -75,7 +75,7 @@ impl Known {
     }
 
     /// The unknown angles (by representative) and displacements among some atoms, sorted.
-    pub fn unknowns(&self, chain: &Chain, atoms: &[Atom]) -> Vec<Unknown> {
+    pub fn unknowns(&self, chain: &NormalChain, atoms: &[Atom]) -> Vec<Unknown> {
         let mut found = vec![];
         for &a in atoms {
             let x = match chain.algebra.kind(a) {
@@ -128,7 +128,7 @@ impl Known {
     }
 
     /// The polynomial with its unknown angles written in those of `basis`.
-    pub(crate) fn in_basis(&self, chain: &Chain, p: &Poly, basis: &[Unknown]) -> Poly {
+    pub(crate) fn in_basis(&self, chain: &NormalChain, p: &Poly, basis: &[Unknown]) -> Poly {
         let a = &chain.algebra;
         let mut pairs: BTreeMap<usize, (Poly, Poly)> = BTreeMap::new();
         for atom in p.atoms() {
@@ -174,7 +174,7 @@ impl Known {
     }
 
     /// Cosine and sine of a difference by angles of a basis and known ones.
-    fn expanded(&self, chain: &Chain, d: Difference, basis: &[Unknown]) -> Option<(Poly, Poly)> {
+    fn expanded(&self, chain: &NormalChain, d: Difference, basis: &[Unknown]) -> Option<(Poly, Poly)> {
         let nodes = &self.component[d.group];
         let (start, goal) = (nodes[d.from], nodes[d.to]);
         // A path over at most two edges of the basis.
@@ -210,7 +210,7 @@ impl Known {
 }
 
 /// The unknown that an axis is.
-pub fn axis_unknown(chain: &Chain, k: usize) -> Unknown {
+pub fn axis_unknown(chain: &NormalChain, k: usize) -> Unknown {
     match chain.axes[k].motion {
         Motion::Slide => Unknown::Slide(k),
         Motion::Turn { group, node, .. } => Unknown::Angle(Difference { group, from: node - 1, to: node }),
@@ -239,7 +239,7 @@ const SAMPLES: usize = 8;
 
 impl Samples {
     /// Random configurations (always the same ones); a parameter without value gets a random one.
-    pub fn new(chain: &Chain, value: impl Fn(Symbol) -> Option<f64>) -> Self {
+    pub fn new(chain: &NormalChain, value: impl Fn(Symbol) -> Option<f64>) -> Self {
         let mut random = Random(0x9E37_79B9_7F4A_7C15);
         let constants: Vec<Vec<(Symbol, f64)>> = (0..SAMPLES)
             .map(|_| {
@@ -277,7 +277,7 @@ impl Samples {
     }
 
     /// The tool's pose at the first configuration with one axis moved, row-major 3×4.
-    pub fn moved(&self, chain: &Chain, axis: usize, by: f64) -> Vec<f64> {
+    pub fn moved(&self, chain: &NormalChain, axis: usize, by: f64) -> Vec<f64> {
         let (mut axes, mut atoms) = (self.axes[0].clone(), self.atoms[0].clone());
         axes[axis] += by;
         set_axes(chain, &axes, &mut atoms);
@@ -308,7 +308,7 @@ impl Samples {
 }
 
 /// Puts in the values of the axes, and of what follows from them.
-fn set_axes(chain: &Chain, axes: &[f64], atoms: &mut [f64]) {
+fn set_axes(chain: &NormalChain, axes: &[f64], atoms: &mut [f64]) {
     let mut potentials: Vec<Vec<f64>> = chain.groups.iter().map(|_| vec![0.0]).collect();
     for (axis, &x) in chain.axes.iter().zip(axes) {
         if let Motion::Turn { group, reversed, .. } = axis.motion {
@@ -337,7 +337,7 @@ fn set_axes(chain: &Chain, axes: &[f64], atoms: &mut [f64]) {
 }
 
 /// The product of the chain's elements, with these values of its axes and of its constants.
-fn pose(chain: &Chain, axes: &[f64], atoms: &[f64]) -> Transform<f64> {
+fn pose(chain: &NormalChain, axes: &[f64], atoms: &[f64]) -> Transform<f64> {
     let value = |p: &Poly| Algebra::value(p, atoms);
     chain.elements.iter().fold(Transform::identity(), |pose, element| {
         pose * match element {

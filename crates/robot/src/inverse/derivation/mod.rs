@@ -14,13 +14,13 @@ mod search;
 mod terms;
 
 pub use algebra::{Algebra, Kind, MOST_WORK};
-pub use chain::{Axis, Chain, Difference, Element, End, MAX_AXES, Motion, Unsuitable, settled};
+pub use chain::{Axis, Difference, Element, End, MAX_AXES, Motion, NormalChain, Unsuitable, settled};
 pub use compile::{Compiled, Inputs};
 pub(super) use conditions::NumericCondition;
 pub use conditions::{Condition, Task};
 pub use equations::{Entry, Goal, Source, Split, equations};
 pub use known::{Known, Samples, Unknown, axis_unknown};
-pub use model::{InverseModel, NotGiven, Options, Refusal, Stuck, Variant};
+pub use model::{InverseModel, InverseOptions, NotGiven, Refusal, Stuck, Variant};
 pub use naming::index;
 pub use plan::{Cost, Determinant, Elimination, Form, Norm, Origin, Row, Step};
 pub use terms::{outermost, split};

@@ -1,7 +1,7 @@
 //! The inverse model of a robot: the derivation, what it could not find and why, its solver.
 
 use super::candidates::Problem;
-use super::chain::{self, Chain, End, Motion, Unsuitable};
+use super::chain::{self, End, Motion, NormalChain, Unsuitable};
 use super::compile::{self, Compiled};
 use super::conditions::{self, Condition, Task};
 use super::equations::{Goal, Split, equations};
@@ -18,7 +18,7 @@ use std::fmt;
 
 /// What is asked of a derivation.
 #[derive(Clone, Debug)]
-pub struct Options {
+pub struct InverseOptions {
     /// What of the hand is given.
     pub goal: Goal,
     /// Joint variables (from 0) whose values are given; `None` lets the derivation choose as many as the arm has too
@@ -26,9 +26,9 @@ pub struct Options {
     pub given: Option<Vec<usize>>,
 }
 
-impl Default for Options {
+impl Default for InverseOptions {
     fn default() -> Self {
-        Options { goal: Goal::Pose, given: None }
+        InverseOptions { goal: Goal::Pose, given: None }
     }
 }
 
@@ -50,7 +50,7 @@ pub struct InverseModel {
     /// What a pose must meet, as many as the arm lacks degrees of freedom.
     pub conditions: Vec<Condition>,
     /// The problem's normal form.
-    pub chain: Chain,
+    pub chain: NormalChain,
     /// The steps, in order.
     pub steps: Vec<Step>,
     /// For steps whose equation does not determine its unknown everywhere, derivations that find it in another way.
@@ -91,7 +91,7 @@ pub enum Refusal {
 #[derive(Debug)]
 pub struct Stuck {
     /// The normal form.
-    pub chain: Chain,
+    pub chain: NormalChain,
     /// The steps that were found.
     pub steps: Vec<Step>,
     /// The joint variables (from 0) that were not.
@@ -198,10 +198,10 @@ impl InverseModel {
     ///
     /// # Errors
     /// See [`Refusal`].
-    pub fn derive(description: &Description, options: &Options) -> Result<Self, Refusal> {
+    pub fn derive(description: &Description, options: &InverseOptions) -> Result<Self, Refusal> {
         let settled = chain::settled(description);
         let end = if options.goal == Goal::Pose { End::Pose } else { End::Point };
-        let chain = Chain::new(&settled, end).map_err(Refusal::Unsuitable)?;
+        let chain = NormalChain::new(&settled, end).map_err(Refusal::Unsuitable)?;
         let n = chain.variables.len();
         if let Some(j) = options.given.iter().flatten().find(|&&j| j >= n) {
             return Err(Refusal::Given(NotGiven::NoSuchJoint { joint: *j, joints: n }));
@@ -292,17 +292,17 @@ impl InverseModel {
 }
 
 /// True if the product of the whole chain was not too long to be formed.
-fn is_whole(chain: &Chain, splits: &[Split]) -> bool {
+fn is_whole(chain: &NormalChain, splits: &[Split]) -> bool {
     splits.iter().any(|s| s.left == 0 && s.right == chain.elements.len())
 }
 
 /// The axes that joint variables determine.
-fn axes_of(chain: &Chain, given: &[usize]) -> Vec<usize> {
+fn axes_of(chain: &NormalChain, given: &[usize]) -> Vec<usize> {
     (0..chain.axes.len()).filter(|&k| chain.axes[k].form.terms.iter().all(|t| given.contains(&t.0))).collect()
 }
 
 /// The joint variables that are still open.
-fn missing(chain: &Chain, outcome: &Outcome, given: &[usize]) -> Vec<usize> {
+fn missing(chain: &NormalChain, outcome: &Outcome, given: &[usize]) -> Vec<usize> {
     let open = |k: usize| outcome.missing.contains(&axis_unknown(chain, k));
     (0..chain.variables.len())
         .filter(|j| !given.contains(j) && chain.inverse_coupling[*j].iter().any(|f| open(f.0)))
@@ -372,7 +372,7 @@ fn subsets(of: &[usize], size: usize) -> Vec<Vec<usize>> {
 }
 
 /// The rank of the derivative of what the goal gives, by the axes.
-fn rank(chain: &Chain, samples: &Samples, goal: Goal) -> usize {
+fn rank(chain: &NormalChain, samples: &Samples, goal: Goal) -> usize {
     const STEP: f64 = 1e-5;
     let rows: Vec<usize> = (0..12)
         .filter(|k| match goal {
@@ -408,7 +408,7 @@ fn rank(chain: &Chain, samples: &Samples, goal: Goal) -> usize {
 
 /// What people call the branches: the first turning joint's are the shoulder's, those of the last three joints the
 /// wrist's, those between the elbow's; joints of an arm that has fewer than five are an elbow's but for the first.
-fn labels(chain: &Chain, steps: &[Step]) -> Vec<Option<Label>> {
+fn labels(chain: &NormalChain, steps: &[Step]) -> Vec<Option<Label>> {
     let n = chain.axes.len();
     let turns: Vec<usize> = (0..n).filter(|&k| chain.axes[k].motion != Motion::Slide).collect();
     let ends_turning = n >= 5 && chain.axes[n - 3..].iter().all(|a| a.motion != Motion::Slide);
@@ -446,7 +446,7 @@ fn labels(chain: &Chain, steps: &[Step]) -> Vec<Option<Label>> {
         .collect()
 }
 
-impl Chain {
+impl NormalChain {
     /// An unknown as a formula in the joint variables.
     pub fn unknown_expr(&self, x: Unknown) -> Expr {
         match x {

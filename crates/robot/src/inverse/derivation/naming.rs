@@ -1,6 +1,6 @@
 //! What the results of the steps are called.
 
-use super::chain::{Chain, Motion};
+use super::chain::{Motion, NormalChain};
 use super::compile::Inputs;
 use super::known::Unknown;
 use super::plan::Step;
@@ -16,7 +16,7 @@ pub(super) fn unique(mut name: String, taken: &mut FxHashSet<String>) -> String 
 }
 
 /// Names of the results of each step: c23, s23, k23; r3.
-pub(super) fn names(chain: &Chain, steps: &[Step], inputs: &Inputs) -> Vec<Vec<Symbol>> {
+pub(super) fn names(chain: &NormalChain, steps: &[Step], inputs: &Inputs) -> Vec<Vec<Symbol>> {
     let mut taken: FxHashSet<String> = chain
         .variables
         .iter()
@@ -43,7 +43,7 @@ pub(super) fn names(chain: &Chain, steps: &[Step], inputs: &Inputs) -> Vec<Vec<S
 }
 
 /// The numbers of the axes whose angles add up to an unknown: 234.
-pub fn index(chain: &Chain, x: Unknown) -> String {
+pub fn index(chain: &NormalChain, x: Unknown) -> String {
     match x {
         Unknown::Slide(k) => (k + 1).to_string(),
         Unknown::Angle(d) => {

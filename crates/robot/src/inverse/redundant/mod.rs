@@ -26,7 +26,7 @@ pub use manifold::{Component, Manifold};
 
 use super::answer::{Doubt, Solution};
 use super::branch::Branch;
-use super::derivation::{Goal, InverseModel, Options};
+use super::derivation::{Goal, InverseModel, InverseOptions};
 use super::newton;
 use super::self_motion::Frame;
 use crate::description::Description;
@@ -132,7 +132,7 @@ impl RedundantSolver {
         {
             return Ok(Method::ArmAngle(Box::new(arm)));
         }
-        match InverseModel::derive(description, &Options { goal, given: None }) {
+        match InverseModel::derive(description, &InverseOptions { goal, given: None }) {
             Ok(model) if !model.given.is_empty() => {
                 Ok(Method::Joint(Box::new(ByJoint::new(&model, description, space)?)))
             }

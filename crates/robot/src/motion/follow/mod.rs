@@ -11,4 +11,4 @@ mod track;
 
 pub use between::HermitePath;
 pub use events::{Event, EventKind};
-pub use track::{Alternative, Followed, Follower, Options};
+pub use track::{Alternative, FollowOptions, Followed, Follower};

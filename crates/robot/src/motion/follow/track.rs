@@ -16,7 +16,7 @@ use rustc_hash::FxHashSet;
 
 /// How closely a path is followed.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Options {
+pub struct FollowOptions {
     /// How far the tool's origin may be from its path between samples, metres; and its orientation, radians by the
     /// arm's size.
     pub max_deviation: f64,
@@ -26,10 +26,10 @@ pub struct Options {
     pub shortest: f64,
 }
 
-impl Default for Options {
+impl Default for FollowOptions {
     /// A hundredth of a millimetre, steps of s between 1e-9 and 1/50.
     fn default() -> Self {
-        Options { max_deviation: 1e-5, longest: 0.02, shortest: 1e-9 }
+        FollowOptions { max_deviation: 1e-5, longest: 0.02, shortest: 1e-9 }
     }
 }
 
@@ -115,7 +115,7 @@ impl Follower {
     /// # Errors
     /// See [`Unprepared`].
     pub fn new(description: &Description) -> Result<Self, Unprepared> {
-        let inverse = InverseKinematics::new(description, &crate::inverse::Options::default())?;
+        let inverse = InverseKinematics::new(description, &crate::inverse::InverseOptions::default())?;
         let found = Singularities::derive(description, Reference::Tool).ok();
         let factor = |expr: Expr| Factor { expr, program: program(description, expr) };
         Ok(Follower {
@@ -147,16 +147,16 @@ impl Follower {
     }
 
     /// Follows a path from a configuration that has the pose of its start.
-    pub fn follow(&mut self, path: &dyn HandPath, start: &[f64], options: &Options) -> Followed {
+    pub fn follow(&mut self, path: &dyn HandPath, start: &[f64], options: &FollowOptions) -> Followed {
         let mut walk = Walk::new(self, path, start, options);
         walk.run();
         walk.finish()
     }
 
     /// What comes of each of the starts.
-    pub fn alternatives(&mut self, path: &dyn HandPath, options: &Options) -> Vec<Alternative> {
+    pub fn alternatives(&mut self, path: &dyn HandPath, options: &FollowOptions) -> Vec<Alternative> {
         let starts = self.starts(path);
-        let coarse = Options { max_deviation: f64::INFINITY, ..*options };
+        let coarse = FollowOptions { max_deviation: f64::INFINITY, ..*options };
         starts
             .into_iter()
             .map(|(start, branch)| {
@@ -278,7 +278,7 @@ fn program(description: &Description, factor: Expr) -> Program {
 struct Walk<'a> {
     follower: &'a mut Follower,
     path: &'a dyn HandPath,
-    options: Options,
+    options: FollowOptions,
     corners: Vec<f64>,
     joints: HermitePath,
     events: Vec<Event>,
@@ -300,7 +300,12 @@ struct Step {
 }
 
 impl<'a> Walk<'a> {
-    fn new(follower: &'a mut Follower, path: &'a dyn HandPath, start: &[f64], options: &Options) -> Self {
+    fn new(
+        follower: &'a mut Follower,
+        path: &'a dyn HandPath,
+        start: &[f64],
+        options: &FollowOptions,
+    ) -> Self {
         let slope = follower.slope(start, &path.twist(0.0));
         let mut corners = path.corners();
         corners.push(1.0);

@@ -58,13 +58,13 @@ pub trait HandPath {
 }
 
 /// Paths one after another, each from where the one before ends; s is shared out by their lengths.
-pub struct Chain {
+pub struct HandChain {
     parts: Vec<Box<dyn HandPath + Send + Sync>>,
     /// s at the end of each.
     ends: Vec<f64>,
 }
 
-impl Chain {
+impl HandChain {
     /// Of parts, at least one.
     pub fn new(parts: Vec<Box<dyn HandPath + Send + Sync>>) -> Self {
         // A part that turns on the spot counts by its angle, half a metre a radian.
@@ -79,11 +79,11 @@ impl Chain {
             at += s / total;
             at
         });
-        Chain { ends: ends.collect(), parts }
+        HandChain { ends: ends.collect(), parts }
     }
 }
 
-impl HandPath for Chain {
+impl HandPath for HandChain {
     fn stretches(&self) -> Vec<Stretch> {
         self.parts.iter().flat_map(|p| p.stretches()).collect()
     }

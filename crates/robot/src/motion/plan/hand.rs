@@ -5,7 +5,7 @@ use super::timed::{Still, Timed, by_quintic, fastest, over_duration};
 use super::{Course, PlanError, PlanOptions, Planned, TimingLaw};
 use crate::description::Description;
 use crate::mechanism::Robot;
-use crate::motion::follow::{Alternative, Followed, Follower, Options};
+use crate::motion::follow::{Alternative, FollowOptions, Followed, Follower};
 use crate::motion::hand::HandPath;
 use crate::motion::path::{Ends, cubic_spline_at};
 use crate::motion::{JointPath, MotionError};
@@ -20,7 +20,7 @@ pub(super) fn plan(
     limits: &Known<'_>,
     options: &PlanOptions,
 ) -> Result<Planned, PlanError> {
-    let follow = Options { max_deviation: options.max_deviation, ..Options::default() };
+    let follow = FollowOptions { max_deviation: options.max_deviation, ..FollowOptions::default() };
     let is_asked = options.alternatives || start.is_none();
     let mut alternatives = if is_asked { follower.alternatives(path, &follow) } else { vec![] };
     let start = match start {

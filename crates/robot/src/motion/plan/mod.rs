@@ -58,7 +58,7 @@ pub struct PlanOptions {
 impl Default for PlanOptions {
     /// A smooth curve at 0.25 m/s or as fast as the limits allow, within a hundredth of a millimetre.
     fn default() -> Self {
-        let max_deviation = follow::Options::default().max_deviation;
+        let max_deviation = follow::FollowOptions::default().max_deviation;
         PlanOptions {
             blend: None,
             law: None,

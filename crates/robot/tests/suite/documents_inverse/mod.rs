@@ -11,10 +11,10 @@ use crate::common::printed::{formulas, list, read, string, strings, text, values
 use denavit::catalogue;
 use denavit::description::Description;
 use denavit::geometry::Transform;
-use denavit::inverse::{Goal, InverseModel, InverseSolver, Options};
+use denavit::inverse::{Goal, InverseModel, InverseOptions, InverseSolver};
 use denavit::robot::Robot;
 use denavit_symbolic::vocabulary::Vocabulary;
-use denavit_symbolic::{Expr, Rational, Symbol, Verdict, equal};
+use denavit_symbolic::{Equality, Expr, Rational, Symbol, equal};
 use procedures::{check_procedures, run, steps};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::{PI, TAU};
@@ -82,7 +82,8 @@ impl Model {
             p.value = Some(Rational::new(24 + 7 * k, 100).into());
         }
         let goal = if arm.is_some() { Goal::Position } else { Goal::Pose };
-        let inverse = InverseModel::derive(&numbers, &Options { goal, given: None }).expect("a closed form");
+        let inverse =
+            InverseModel::derive(&numbers, &InverseOptions { goal, given: None }).expect("a closed form");
         let variables: Vec<Symbol> = description.variables().iter().map(|v| v.symbol).collect();
         let q: Vec<Expr> = variables.iter().map(|&v| v.into()).collect();
         let entries = Robot::symbolic(&description).pose(&q).matrix();
@@ -170,9 +171,9 @@ impl Model {
 /// True if proved equal, false if proved different.
 fn decided(id: &str, a: Expr, b: Expr) -> bool {
     match equal(a, b) {
-        Verdict::Equal { .. } => true,
-        Verdict::Different { .. } => false,
-        Verdict::Undecided(why) => panic!("{id}: {why:?}"),
+        Equality::Equal { .. } => true,
+        Equality::Different { .. } => false,
+        Equality::Undecided(why) => panic!("{id}: {why:?}"),
     }
 }
 
