@@ -11,7 +11,7 @@ use std::ops::{Index, Mul};
 
 /// How far a matrix that is given as a rotation may be from one, as [`Rotation::orthonormality_error`]:
 /// entries printed with six decimals pass.
-pub(crate) const RIGID_TOLERANCE: f64 = 1e-5;
+pub const RIGID_TOLERANCE: f64 = 1e-5;
 
 /// A 3×3 rotation matrix, row-major.
 #[derive(Clone, Copy, PartialEq, Debug)]

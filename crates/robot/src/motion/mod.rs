@@ -35,4 +35,4 @@ pub use timing::TimeOptimal;
 pub use trajectory::{JointState, Trajectory};
 
 /// No more samples or grid points than this are made at once.
-pub(crate) const MAX_SAMPLES: usize = 10_000_000;
+pub const MAX_SAMPLES: usize = 10_000_000;
