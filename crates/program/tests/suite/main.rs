@@ -7,5 +7,6 @@ mod kernel;
 mod pairs;
 mod roots;
 mod solver;
+mod steps;
 mod support;
 mod text;
