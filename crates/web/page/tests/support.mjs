@@ -51,18 +51,26 @@ export function scenario(name, options, body = options) {
     const { origin } = new URL(site.url);
     if (permissions.length > 0) await surroundings.grantPermissions(permissions, { origin });
     const wrong = [];
+    // How often a page was left for another, or for good: what it was still fetching then is given up.
+    let left = 0;
+    const leftBefore = new WeakMap();
     const say = (words) => expected.some((pattern) => pattern.test(words)) || wrong.push(words);
     const follow = (page) => {
       page.on("console", (m) => m.type() === "error" && say(`console: ${m.text()}`));
       page.on("pageerror", (e) => say(`error: ${e}`));
+      page.on("close", () => left++);
     };
     surroundings.on("page", follow);
+    surroundings.on("request", (r) => {
+      if (r.isNavigationRequest()) left++;
+      leftBefore.set(r, left);
+    });
     surroundings.on("request", (r) => /^(data|blob):/.test(r.url()) || new URL(r.url()).origin === origin || say(`request: ${r.url()}`));
     surroundings.on("response", (r) => r.status() >= 400 && say(`response: ${r.status()} ${r.url()}`));
     surroundings.on("requestfailed", (r) => {
-      // A worker that is ended while it fetches a part has not failed, nor a page that is left before it has its icon.
-      const isEnded = /(derive\.wasm|documents\.wasm|icon\.svg)$/.test(r.url()) && r.failure()?.errorText === "net::ERR_ABORTED";
-      if (!isEnded) say(`failed: ${r.url()} ${r.failure()?.errorText}`);
+      // A worker that is ended while it fetches a part has not failed, nor a page that is left, nor a tab before it has its icon.
+      const isLeft = leftBefore.get(r) !== left || /(derive\.wasm|documents\.wasm|icon\.svg)$/.test(r.url());
+      if (!isLeft || r.failure()?.errorText !== "net::ERR_ABORTED") say(`failed: ${r.url()} ${r.failure()?.errorText}`);
     });
     if (init) await surroundings.addInitScript(init);
     const page = await surroundings.newPage();
