@@ -1,4 +1,5 @@
-//! Generates source code for some arms and compiles it, Rust with this compiler, C with gcc and clang.
+//! Generates source code for some arms and compiles it, Rust with this compiler, C with gcc and clang. Where nothing is
+//! measured (`cargo check`), it is compiled without being optimised.
 
 use denavit::catalogue;
 use denavit_emit::{Language, Precision};
@@ -29,6 +30,11 @@ const LEVELS: [&str; 2] = ["v3", "v4"];
 /// Both compilers take 256 bits at a time where 512 are there, unless they are told otherwise.
 const WIDE_RUST: &[&str] = &["-C", "target-feature=-prefer-256-bit", "-A", "warnings"];
 
+/// What `rustc` calls a level of optimisation; of C compilers it is the flag `-O`.
+fn effort() -> &'static str {
+    if env::var("PROFILE").is_ok_and(|p| p == "release") { "3" } else { "0" }
+}
+
 fn main() {
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
     let is_x86 = env::var("CARGO_CFG_TARGET_ARCH").is_ok_and(|a| a == "x86_64");
@@ -53,7 +59,8 @@ fn rust(out: &Path, source: &Source, level: &str, target: &str) {
     let rustc = env::var_os("RUSTC").expect("cargo sets RUSTC");
     run(Command::new(rustc)
         .args(["--crate-type", "rlib", "--crate-name", &name, "--edition", "2024"])
-        .args(["--cfg", "feature=\"std\"", "-C", "opt-level=3", "-C", &format!("target-cpu={target}")])
+        .args(["--cfg", "feature=\"std\"", "-C", &format!("opt-level={}", effort())])
+        .args(["-C", &format!("target-cpu={target}")])
         .args(if level == "v4" { WIDE_RUST } else { &[] })
         .arg(folder.join("src/lib.rs"))
         .arg("-o")
@@ -65,7 +72,8 @@ fn c(out: &Path, source: &Source, compiler: &str, level: &str, target: &str) {
     let own = format!("{name}_{compiler}_{level}");
     let object = out.join(format!("{own}.o"));
     let mut command = Command::new(compiler);
-    command.args(["-std=c99", "-O3", "-fPIE", "-ffp-contract=off", &format!("-march={target}")]);
+    command.args(["-std=c99", &format!("-O{}", effort()), "-fPIE", "-ffp-contract=off"]);
+    command.arg(format!("-march={target}"));
     // The same file several times in one program: the functions of each get names of their own.
     if level == "v4" {
         command.arg("-mprefer-vector-width=512");
@@ -85,7 +93,8 @@ fn write(out: &Path, language: Language, source: &Source) -> PathBuf {
     let description = catalogue::robot(source.robot).expect("a robot of the catalogue");
     let (functions, name) = (vec![source.wanted], Some(source.name.into()));
     let inverse = Default::default();
-    let options = PackageOptions { language, functions, inverse, precision: source.precision, name, fixed: false };
+    let options =
+        PackageOptions { language, functions, inverse, precision: source.precision, name, fixed: false };
     let generated = generate(&description, &options).expect("nothing is fixed");
     let folder = out.join(format!("{}_{language:?}", source.name));
     for file in generated.files {

@@ -152,7 +152,8 @@ fn apart(a: &Joints, b: &Joints) -> f64 {
 
 /// The interpreters and machine code.
 fn evaluators(description: &Description, poses: &Rc<Vec<Rows>>) -> Result<Vec<Contestant>> {
-    let model = InverseModel::derive(description, &InverseOptions::default()).map_err(|e| anyhow::anyhow!("{e}"))?;
+    let model =
+        InverseModel::derive(description, &InverseOptions::default()).map_err(|e| anyhow::anyhow!("{e}"))?;
     let solver = model.solver(description)?;
     let function = solver.function().clone();
     let good = |leaves: &Leaves| -> Vec<Joints> {

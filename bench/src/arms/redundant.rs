@@ -22,8 +22,7 @@ pub fn measure(count: usize, random: &mut impl FnMut() -> f64) -> Result<Value> 
 
 fn arm(name: &str, count: usize, random: &mut impl FnMut() -> f64) -> Result<Value> {
     let arm = Arm::new(read(name)?)?;
-    let solver =
-        RedundantSolver::new(&arm.description, Goal::Pose).map_err(|e| anyhow!("{name}: {e}"))?;
+    let solver = RedundantSolver::new(&arm.description, Goal::Pose).map_err(|e| anyhow!("{name}: {e}"))?;
     let poses = arm.targets(count, random);
     // Solutions have angles in (−π, π]; the limits may allow a copy a turn away.
     let copy = |q: Vec<f64>| arm.space.nearest_copy(&q, &q);
