@@ -1,6 +1,6 @@
 //! Generated source code in every language, built and run on its own vectors.
 
-use crate::{command, path, program, succeed};
+use crate::{command, path, program, scratch, succeed};
 use anyhow::{Context, Result, bail};
 use std::collections::BTreeSet;
 use std::fs;
@@ -222,15 +222,24 @@ pub fn install() -> Result<()> {
     apt(&arguments)
 }
 
+/// What installs is used by one step at a time: until the file is dropped.
+fn turn(of: &str) -> Result<fs::File> {
+    let file = fs::File::create(scratch()?.join(format!("{of}.lock")))?;
+    file.lock()?;
+    Ok(file)
+}
+
 /// Debian's package manager.
 pub fn apt(arguments: &[&str]) -> Result<()> {
-    // Another step may be installing something.
+    let _turn = turn("apt")?;
+    // Somebody else may be installing something.
     let wait = ["-o", "DPkg::Lock::Timeout=600"];
     quietly(Command::new("apt-get").args(wait).args(arguments).env("DEBIAN_FRONTEND", "noninteractive"))
 }
 
 /// The Python of the project's environment, with these packages.
 pub fn python(packages: &[&str]) -> Result<PathBuf> {
+    let _turn = turn("python")?;
     let python = path(".venv/bin/python");
     let environment = || succeed(command("python3").args(["-m", "venv", ".venv"]));
     if !python.exists() && environment().is_err() {

@@ -144,6 +144,13 @@ fn target() -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| path("target"), |folder| path("").join(folder))
 }
 
+/// Where this program keeps what it needs between its steps.
+fn scratch() -> Result<PathBuf> {
+    let folder = target().join("xtask");
+    std::fs::create_dir_all(&folder)?;
+    Ok(folder)
+}
+
 /// The command line of the project, built as its tests are: with the features of all packages and what examples need, so that
 /// both take the same libraries.
 fn program() -> Result<PathBuf> {

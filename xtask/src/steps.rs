@@ -105,7 +105,5 @@ fn aside(step: &Step) -> Result<String> {
 }
 
 fn log(step: &Step) -> Result<PathBuf> {
-    let folder = crate::target().join("xtask");
-    std::fs::create_dir_all(&folder)?;
-    Ok(folder.join(format!("{}.log", step.name.replace(' ', "-"))))
+    Ok(crate::scratch()?.join(format!("{}.log", step.name.replace(' ', "-"))))
 }

@@ -28,16 +28,16 @@ const FRONT: &[Step] = &[
     step("doctests", &["step", "doctests"]),
     step("examples", &["step", "examples"]),
     step("documentation", &["step", "documentation"]),
+    step("documents", &["documents"]),
 ];
 /// What waits for installers, browsers and interpreters.
 const ASIDE: &[Step] = &[
     step("sessions", &["tidy", "--sessions"]),
     step("errata", &["errata"]),
     step("operation counts", &["counts", "--check"]),
-    step("documents", &["documents"]),
     step("page, driven", &["page"]),
-    step("languages", &["languages"]),
     step("benchmark", &["step", "benchmark"]),
+    step("languages", &["languages"]),
 ];
 /// After an edit.
 const QUICK: &[Step] = &[

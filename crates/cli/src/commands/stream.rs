@@ -107,6 +107,8 @@ struct Answered {
 /// Cuts what a reader gives into chunks.
 struct Chunks<R> {
     source: R,
+    /// Where bytes arrive.
+    arriving: Box<[u8]>,
     /// What is read and not handed out: from `start` on.
     buffer: Vec<u8>,
     start: usize,
@@ -125,7 +127,14 @@ impl Chunk {
 
 impl<R: Read> Chunks<R> {
     fn new(source: R) -> Self {
-        Chunks { source, buffer: vec![], start: 0, next_line: 1, ended: false }
+        Chunks {
+            source,
+            arriving: vec![0; READ].into(),
+            buffer: vec![],
+            start: 0,
+            next_line: 1,
+            ended: false,
+        }
     }
 
     /// The next lines: those that are there already, or the first that come.
@@ -154,15 +163,14 @@ impl<R: Read> Chunks<R> {
         self.buffer.drain(..self.start);
         self.start = 0;
         let kept = self.buffer.len();
-        self.buffer.resize(kept + READ, 0);
         let count = loop {
-            match self.source.read(&mut self.buffer[kept..]) {
+            match self.source.read(&mut self.arriving) {
                 Err(e) if e.kind() == io::ErrorKind::Interrupted => {}
                 Err(e) => return Err(e),
                 Ok(count) => break count,
             }
         };
-        self.buffer.truncate(kept + count);
+        self.buffer.extend_from_slice(&self.arriving[..count]);
         self.ended = count == 0;
         if kept > LONGEST {
             let end = memchr::memchr(b'\n', &self.buffer[kept..]).map_or(self.buffer.len(), |at| kept + at);
