@@ -24,12 +24,6 @@ mod python;
 mod records;
 mod report;
 mod scalar;
-#[cfg(test)]
-mod soup;
-#[cfg(test)]
-mod tests;
-#[cfg(test)]
-mod tests_refused;
 mod tree;
 mod value;
 

@@ -14,8 +14,6 @@ mod marks;
 mod scan;
 mod sides;
 mod statements;
-#[cfg(test)]
-mod tests;
 mod tree;
 mod words;
 

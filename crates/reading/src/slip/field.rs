@@ -185,33 +185,3 @@ pub(super) fn mixed(x: u64) -> u64 {
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     z ^ (z >> 31)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn arithmetic() {
-        let (a, b) = (whole(1_234_567_890_123), whole(987_654_321));
-        assert_eq!(plain(times(a, b)), (1_234_567_890_123_u128 * 987_654_321 % u128::from(P)) as u64);
-        assert_eq!(inverse(a).map(|i| times(a, i)), Some(R));
-        assert_eq!(root(times(a, a)).map(|r| r == a || r == negative(a)), Some(true));
-        assert_eq!(as_fraction(&[times(signed(-22), inverse(whole(7)).unwrap()); K]), Some((-22, 7)));
-        assert_eq!(as_fraction(&[1, 2, 3]), None);
-    }
-
-    #[test]
-    fn fixed_angles() {
-        assert_eq!(step(TURN / 4), (0, R));
-        assert_eq!(step(TURN / 2), (negative(R), 0));
-        let two = |x| plus(x, x);
-        assert_eq!(two(step(TURN / 6).0), R);
-        assert_eq!(root(whole(2)), Some(two(step(TURN / 8).0)));
-        assert_eq!(root(whole(3)), Some(two(step(TURN / 12).0)));
-        // cos 36° = (1 + √5)/4
-        assert_eq!(root(whole(5)), Some(minus(two(two(step(TURN / 10).0)), R)));
-        for n in [2, 3, 5, 7, 11, 13] {
-            assert!(root(whole(n)).is_some(), "√{n}");
-        }
-    }
-}

@@ -1,4 +1,5 @@
 //! Tests of readers, one program.
 
+mod code;
 mod document;
 mod slip;

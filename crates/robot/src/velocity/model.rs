@@ -38,12 +38,30 @@ impl JacobianModel {
     }
 
     fn with(description: &Description, view: Viewpoint<Expr>, shortener: &mut Shortener) -> Self {
-        let robot = Robot::symbolic(description);
-        let plain = geometric(&robot, &variables(description), &view);
-        let matrix = shortener.matrix(&plain);
-        let algorithm = traced(description, matrix.as_ref().unwrap_or(&plain));
-        let proof = proof(description, &robot, &view, &algorithm);
-        JacobianModel { view, matrix, algorithm, proof }
+        let plain = geometric(&Robot::symbolic(description), &variables(description), &view);
+        match shortener.matrix(&plain) {
+            Ok(matrix) => Self::of(description, view, matrix),
+            Err(why) => JacobianModel { matrix: Err(why), ..Self::of(description, view, plain) },
+        }
+    }
+
+    /// The model with a matrix from elsewhere, as it stands. Whether it is the Jacobian, its proof tells:
+    ///
+    /// ```
+    /// use denavit::forward::{Proof, Reference};
+    /// use denavit::velocity::{JacobianModel, Viewpoint};
+    ///
+    /// let arm = denavit::catalogue::robot("puma560").expect("it is in the catalogue");
+    /// let view = Viewpoint::of(Reference::Tool, Reference::Base);
+    /// let mut matrix = JacobianModel::derive(&arm, view).matrix.expect("it is short");
+    /// assert_eq!(JacobianModel::of(&arm, view, matrix.clone()).proof, Proof::Proved);
+    /// matrix.columns[0][1] = -matrix.columns[0][1];
+    /// assert_eq!(JacobianModel::of(&arm, view, matrix).proof, Proof::Failed);
+    /// ```
+    pub fn of(description: &Description, view: Viewpoint<Expr>, matrix: Jacobian<Expr>) -> Self {
+        let algorithm = traced(description, &matrix);
+        let proof = proof(description, &Robot::symbolic(description), &view, &algorithm);
+        JacobianModel { view, matrix: Ok(matrix), algorithm, proof }
     }
 
     /// The Jacobian of a body in the frame, and at the origin of the frame, in which it is shortest: the fewest symbols in
@@ -228,29 +246,4 @@ fn differentiated(description: &Description, x: &Transform<Expr>) -> Vec<[Vector
     let n = variables.len();
     let of = |j: usize, part: usize| Vector([0, 1, 2].map(|i| formulas[(3 * part + i) * n + j]));
     (0..n).map(|j| [0, 1, 2, 3].map(|part| of(j, part))).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::catalogue;
-
-    /// With one entry's sign turned, or two rows exchanged, the proof fails.
-    #[test]
-    fn what_is_wrong_is_not_proved() {
-        let description = catalogue::robot("staubli-rx90").expect("it is in the catalogue");
-        let robot = Robot::symbolic(&description);
-        let view = Viewpoint::of(Reference::Frame(6), Reference::Frame(3));
-        let right = JacobianModel::derive(&description, view);
-        assert_eq!(right.proof, Proof::Proved);
-        let matrix = right.matrix.unwrap();
-        let mut turned = matrix.clone();
-        turned.columns[0][2] = -turned.columns[0][2];
-        let mut exchanged = matrix;
-        exchanged.columns.iter_mut().for_each(|c| c.swap(3, 4));
-        for wrong in [turned, exchanged] {
-            let algorithm = traced(&description, &wrong);
-            assert_eq!(proof(&description, &robot, &view, &algorithm), Proof::Failed);
-        }
-    }
 }

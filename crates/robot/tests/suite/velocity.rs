@@ -33,6 +33,23 @@ fn jacobians_are_proved_to_be_derivatives() {
     }
 }
 
+/// With one entry's sign turned, or two rows exchanged, the proof fails.
+#[test]
+fn what_is_wrong_is_not_proved() {
+    let d = robot("staubli-rx90");
+    let view = Viewpoint::of(Reference::Frame(6), Reference::Frame(3));
+    let right = JacobianModel::derive(&d, view);
+    assert_eq!(right.proof, Proof::Proved);
+    let matrix = right.matrix.unwrap();
+    let mut turned = matrix.clone();
+    turned.columns[0][2] = -turned.columns[0][2];
+    let mut exchanged = matrix;
+    exchanged.columns.iter_mut().for_each(|c| c.swap(3, 4));
+    for wrong in [turned, exchanged] {
+        assert_eq!(JacobianModel::of(&d, view, wrong).proof, Proof::Failed);
+    }
+}
+
 /// The shortest Jacobian: multiplications and additions.
 #[test]
 fn shortest_jacobians() {

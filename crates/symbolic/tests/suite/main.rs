@@ -1,7 +1,10 @@
 //! Tests of formulas, one program.
 
+mod broken;
 mod canonical;
+mod equality;
 mod factor;
 mod parse;
 mod print;
+mod readable;
 mod syntax;

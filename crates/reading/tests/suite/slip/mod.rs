@@ -1,5 +1,6 @@
 //! Slips in printed formulas are found and mended: those of the documents, one of each kind, and many at random.
 
+mod points;
 mod study;
 mod subjects;
 

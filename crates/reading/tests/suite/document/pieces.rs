@@ -1,6 +1,7 @@
 //! What is found in pieces of documents, most of them from the five course sheets and reports that the checks began with.
 
-use super::*;
+use denavit_reading::document::{Fence, Format, Part, Place, Relation, formula, read, sides};
+use std::ops::Range;
 
 /// The statements, one a line: sides between `=`, cells between `|`, rows between `/`.
 fn shown(text: &str, format: Format) -> String {

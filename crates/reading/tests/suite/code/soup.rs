@@ -1,9 +1,9 @@
 //! Nothing that is handed over breaks the reader, or keeps it long.
 
-use super::{Dialect, MAX_BYTES, read};
+use denavit_reading::code::{Code, Dialect, MAX_BYTES, read};
 use denavit_symbolic::Expr;
 
-fn run(text: &str, language: Dialect) -> super::Code {
+fn run(text: &str, language: Dialect) -> Code {
     let joints: Vec<Expr> = (1..=3).map(|i| Expr::symbol(&format!("q{i}"))).collect();
     let names = |n: &str| n.strip_prefix('q')?.parse::<u8>().ok().map(|_| Expr::symbol(n));
     let code = read(text, 0..text.len(), language, &names, &joints);

@@ -1,7 +1,7 @@
 //! What is refused, and what is read beside it.
 
-use super::tests::{close, joint, matlab, meaning, named, numbers, place, python, q, run};
-use super::{Code, Dialect, Value, read};
+use super::{close, joint, matlab, meaning, named, numbers, place, python, q, run};
+use denavit_reading::code::{Code, Dialect, Value, read};
 
 fn refused(code: &Code) -> Vec<String> {
     code.refusals.iter().map(ToString::to_string).collect()

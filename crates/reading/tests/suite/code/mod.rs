@@ -1,16 +1,19 @@
 //! Programs as people write them, held against forward kinematics computed in numbers.
 
-use super::{Assigned, Cell, Code, Dialect, Reading, Value, read};
+mod refused;
+mod soup;
+
+use denavit_reading::code::{Assigned, Cell, Code, Dialect, Reading, Value, read};
 use denavit_symbolic::Expr;
 use denavit_symbolic::parse::{Function, SyntaxKind};
 use std::f64::consts::PI;
 
-pub(super) fn joint(i: usize) -> Expr {
+fn joint(i: usize) -> Expr {
     Expr::symbol(&format!("q{i}"))
 }
 
 /// Joint variables `q1`, `theta1`; lengths `a1`, `d1`, `l1`; π in words.
-pub(super) fn meaning(name: &str) -> Option<Expr> {
+fn meaning(name: &str) -> Option<Expr> {
     let index = |stem: &str| name.strip_prefix(stem)?.parse::<usize>().ok().filter(|i| (1..=6).contains(i));
     if let Some(i) = index("q").or(index("theta")).or(index("th")) {
         return Some(joint(i));
@@ -18,20 +21,20 @@ pub(super) fn meaning(name: &str) -> Option<Expr> {
     index("a").or(index("d")).or(index("l")).map(|_| Expr::symbol(name))
 }
 
-pub(super) fn run(text: &str, language: Dialect, n: usize) -> Code {
+fn run(text: &str, language: Dialect, n: usize) -> Code {
     let joints: Vec<Expr> = (1..=n).map(joint).collect();
     read(text, 0..text.len(), language, &meaning, &joints)
 }
 
-pub(super) fn python(text: &str, n: usize) -> Code {
+fn python(text: &str, n: usize) -> Code {
     run(text, Dialect::Python, n)
 }
 
-pub(super) fn matlab(text: &str, n: usize) -> Code {
+fn matlab(text: &str, n: usize) -> Code {
     run(text, Dialect::Matlab, n)
 }
 
-pub(super) fn place(name: &str) -> f64 {
+fn place(name: &str) -> f64 {
     let mixed = name.bytes().fold(0.3, |x: f64, b| (x * 3.7 + f64::from(b) * 0.77).rem_euclid(2.0));
     0.4 + mixed
 }
@@ -40,14 +43,14 @@ fn number(e: Expr) -> f64 {
     e.eval(|s| Some(place(&s.name()))).unwrap()
 }
 
-pub(super) fn cells(value: &Value) -> Vec<Vec<Cell>> {
+fn cells(value: &Value) -> Vec<Vec<Cell>> {
     match value {
         Value::Scalar(c) => vec![vec![c.clone()]],
         Value::Matrix(rows) => rows.clone(),
     }
 }
 
-pub(super) fn numbers(value: &Value) -> Vec<Vec<f64>> {
+fn numbers(value: &Value) -> Vec<Vec<f64>> {
     cells(value).iter().map(|r| r.iter().map(|c| number(c.value)).collect()).collect()
 }
 
@@ -65,12 +68,12 @@ fn step(theta: f64, d: f64, a: f64, alpha: f64) -> M4 {
     times(&z, &x)
 }
 
-pub(super) fn forward(rows: &[(f64, f64, f64, f64)]) -> M4 {
+fn forward(rows: &[(f64, f64, f64, f64)]) -> M4 {
     let steps = rows.iter().map(|&(theta, d, a, alpha)| step(theta, d, a, alpha));
     steps.reduce(|t, a| times(&t, &a)).unwrap()
 }
 
-pub(super) fn q(i: usize) -> f64 {
+fn q(i: usize) -> f64 {
     place(&format!("q{i}"))
 }
 
@@ -83,7 +86,7 @@ fn matrix(code: &Code) -> Vec<Vec<f64>> {
     numbers(&last.returned[0].value)
 }
 
-pub(super) fn close(found: &[Vec<f64>], right: &[impl AsRef<[f64]>]) {
+fn close(found: &[Vec<f64>], right: &[impl AsRef<[f64]>]) {
     assert_eq!(found.len(), right.len());
     for (f, r) in found.iter().zip(right) {
         assert_eq!(f.len(), r.as_ref().len());
@@ -110,7 +113,7 @@ fn check(code: &Code) {
     }
 }
 
-pub(super) fn named<'a>(reading: &'a Reading, name: &str) -> &'a Assigned {
+fn named<'a>(reading: &'a Reading, name: &str) -> &'a Assigned {
     let found = reading.assigned.iter().rev().find(|a| a.name == name);
     found.unwrap_or_else(|| panic!("`{name}` in {:?}", reading.assigned))
 }

@@ -1,6 +1,8 @@
 //! The reader of documents holds whatever text it is given: it does not panic, its places lie in the text, and it
 //! takes time in proportion.
 
+mod pieces;
+
 use denavit_reading::document::{Document, Format, Part, formula, read, sides};
 use std::ops::Range;
 use std::time::{Duration, Instant};
@@ -161,8 +163,8 @@ fn rounds() -> usize {
 #[test]
 fn damaged_documents_are_read() {
     let source = concat!(
-        include_str!("../../../../examples/documents/ur3.md"),
-        include_str!("../../../../examples/documents/prrrrp.md")
+        include_str!("../../../../../examples/documents/ur3.md"),
+        include_str!("../../../../../examples/documents/prrrrp.md")
     );
     let chars: Vec<char> = source.chars().collect();
     let mut random = Random(0xfeed_beef_0bad_cafe);

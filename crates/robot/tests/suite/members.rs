@@ -1,0 +1,96 @@
+//! Members of the families that a pose's solutions form: each holds the pose, and neighbours are near.
+
+use crate::common::robot;
+use denavit::Robot;
+use denavit::geometry::Transform;
+use denavit::inverse::{Family, InverseKinematics, InverseOptions, MAX_MEMBERS, Members};
+use std::f64::consts::TAU;
+
+/// A whole turn is divided into so many steps.
+const TURN: usize = 72;
+/// Twice what a solution may miss its pose by.
+const MISSED: f64 = 2e-9;
+
+/// How far two poses are apart: rotations by their entries, positions by the arm's reach.
+fn distance(a: &Transform<f64>, b: &Transform<f64>, reach: f64) -> f64 {
+    let entries = a.rotation.rows().concat().into_iter().zip(b.rotation.rows().concat());
+    let turned: f64 = entries.map(|(x, y)| (x - y).powi(2)).sum();
+    turned.sqrt().hypot((a.translation - b.translation).norm() / reach)
+}
+
+/// Members of every family of the pose at `q`, checked: they have the pose, neighbours are near, and those that are
+/// closed come back.
+#[track_caller]
+fn members(name: &str, options: &InverseOptions, q: &[f64]) -> Vec<(Family, Members)> {
+    let d = robot(name);
+    let inverse = InverseKinematics::new(&d, options).expect("all parameters have values");
+    let arm = Robot::numeric(&d).expect("all parameters have values");
+    let pose = arm.pose(q);
+    let given: Vec<f64> = inverse.given.iter().map(|&j| q[j]).collect();
+    let families = inverse.solve(&pose, &given).families;
+    let all = families.into_iter().map(|f| {
+        let found = inverse.members(&pose, &f);
+        assert!(!found.members.is_empty() && found.members.len() <= MAX_MEMBERS);
+        for member in &found.members {
+            let missed = distance(&arm.pose(member), &pose, arm.reach());
+            assert!(missed <= MISSED, "{name}: {member:?} misses the pose by {missed}");
+        }
+        for pair in found.members.windows(2) {
+            let far = pair[0].iter().zip(&pair[1]).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+            assert!(far > 0.0 && far < 0.5, "{name}: {far} from a member to the next");
+        }
+        if found.is_closed {
+            let (first, last) = (&found.members[0], &found.members[found.members.len() - 1]);
+            assert!(inverse.space.is_same(first, last));
+        }
+        (f, found)
+    });
+    all.collect()
+}
+
+#[test]
+fn a_straight_wrist_turns_all_round() {
+    let q = [0.3, -0.4, 0.9, 0.5, 0.0, 0.7];
+    let found = members("puma560", &InverseOptions::default(), &q);
+    assert!(!found.is_empty());
+    for (family, found) in found {
+        assert!(family.is_affine && family.curve.is_empty() && found.is_closed, "{family:?}");
+        assert_eq!(found.members.len(), TURN + 1);
+        let start = &found.members[0];
+        for q in &found.members {
+            // Axes 4 and 6 lie on one line: q4 + q6 stays the same, nothing else moves.
+            assert!((q[3] + q[5] - start[3] - start[5]).abs() < 1e-9);
+            assert!((0..6).all(|j| j == 3 || j == 5 || (q[j] - start[j]).abs() < 1e-9));
+        }
+        let last = &found.members[TURN];
+        assert!(((last[3] - start[3]).abs() - TAU).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn four_parallel_axes_move_along_a_curve() {
+    // Axes 2, 3, 4 and 6 of a UR5 are parallel at q5 = 0: a four-bar linkage.
+    let found = members("ur5", &InverseOptions::default(), &[0.3, -1.1, 1.4, 0.5, 0.0, 0.7]);
+    assert!(found.iter().any(|(f, m)| !f.is_affine && m.members.len() > 20), "{found:?}");
+}
+
+#[test]
+fn a_redundant_arm_moves_its_elbow() {
+    let q = [0.2, 0.5, -0.3, -1.6, 0.4, 1.3, 0.1];
+    for name in ["kuka-iiwa-7", "franka-panda"] {
+        let found = members(name, &InverseOptions::default(), &q);
+        assert!(!found.is_empty() && found.iter().all(|(_, m)| m.members.len() > 20), "{name}");
+    }
+    let closed = members("kuka-iiwa-7", &InverseOptions::default(), &q);
+    assert!(closed.iter().all(|(_, m)| m.is_closed), "the elbow goes all round");
+}
+
+#[test]
+fn a_given_joint_stays() {
+    // With joint 3 held the arm is one with six joints, its wrist straight at q6 = 0.
+    let q = [0.2, 0.5, -0.3, -1.6, 0.4, 0.0, 0.1];
+    let options = InverseOptions { given: Some(vec![2]), ..InverseOptions::default() };
+    let found = members("kuka-iiwa-7", &options, &q);
+    assert!(!found.is_empty());
+    assert!(found.iter().all(|(_, m)| m.members.iter().all(|x| (x[2] - q[2]).abs() < 1e-9)));
+}
