@@ -266,8 +266,8 @@ impl<'a> Task<'a> {
 }
 
 part! {
-    /// Does a task at a pose, lengths divided by the arm's size: the last verdict. What is no part of its own is compiled into each
-    /// function that calls this, for its instructions: there is one for each set of instructions.
+    /// Does a task at a pose, lengths divided by the arm's size: the last verdict. What is no part of its own is compiled
+    /// into each function that calls this, for its instructions: there is one for each set of instructions.
     pub(crate) fn solve<I>(
         constants: &Constants,
         task: Task<'_>,

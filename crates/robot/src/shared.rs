@@ -23,6 +23,11 @@ impl<T: Clone> Shared<T> {
         Shared { first, idle: Mutex::new(vec![]) }
     }
 
+    /// What all copies begin as.
+    pub fn first(&self) -> &T {
+        &self.first
+    }
+
     /// A copy that nobody else has.
     pub fn lend(&self) -> Lent<'_, T> {
         let idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner).pop();

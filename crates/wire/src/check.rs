@@ -242,7 +242,7 @@ impl Document<'_> {
     fn cause(&self, cause: &check::Cause) -> Cause {
         let name = |&(c, e): &(usize, usize)| {
             let claim = self.checked.claims.get(c)?;
-            Some(entry_name(claim, claim.entries.get(e)?.place))
+            Some(words().entry(&claim.name, claim.entries.get(e)?.place))
         };
         let names = |places: &[(usize, usize)]| places.iter().filter_map(name).collect();
         Cause {
@@ -356,13 +356,5 @@ impl Document<'_> {
 impl From<&check::Counterexample> for Counterexample {
     fn from(found: &check::Counterexample) -> Self {
         Counterexample { at: found.at.iter().cloned().collect(), printed: found.printed, right: found.right }
-    }
-}
-
-/// `H_6^3, row 3, column 2`
-pub fn entry_name(claim: &check::Claim, place: Option<(usize, usize)>) -> String {
-    match place {
-        Some((r, c)) => format!("{}, row {r}, column {c}", claim.name),
-        None => claim.name.clone(),
     }
 }

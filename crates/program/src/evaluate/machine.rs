@@ -50,39 +50,31 @@ impl Instructions for Portable {
     }
 }
 
+/// A set of vector instructions, and how work gets compiled for it.
 #[cfg(target_arch = "x86_64")]
-enum Avx2 {}
+macro_rules! set {
+    ($set:ident, $features:literal) => {
+        enum $set {}
 
-#[cfg(target_arch = "x86_64")]
-impl Instructions for Avx2 {
-    #[inline]
-    fn apart<W: Work, const FUSED: bool>(work: W) {
-        #[inline(never)]
-        #[target_feature(enable = "avx2,fma")]
-        fn compiled<W: Work, const FUSED: bool>(work: W) {
-            work.run::<Avx2, FUSED>();
+        impl Instructions for $set {
+            #[inline]
+            fn apart<W: Work, const FUSED: bool>(work: W) {
+                #[inline(never)]
+                #[target_feature(enable = $features)]
+                fn compiled<W: Work, const FUSED: bool>(work: W) {
+                    work.run::<$set, FUSED>();
+                }
+                // SAFETY: see [`Instructions`].
+                unsafe { compiled::<W, FUSED>(work) }
+            }
         }
-        // SAFETY: see [`Instructions`].
-        unsafe { compiled::<W, FUSED>(work) }
-    }
+    };
 }
 
 #[cfg(target_arch = "x86_64")]
-enum Avx512 {}
-
+set!(Avx2, "avx2,fma");
 #[cfg(target_arch = "x86_64")]
-impl Instructions for Avx512 {
-    #[inline]
-    fn apart<W: Work, const FUSED: bool>(work: W) {
-        #[inline(never)]
-        #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
-        fn compiled<W: Work, const FUSED: bool>(work: W) {
-            work.run::<Avx512, FUSED>();
-        }
-        // SAFETY: see [`Instructions`].
-        unsafe { compiled::<W, FUSED>(work) }
-    }
-}
+set!(Avx512, "avx512f,avx512dq,avx512vl,avx2,fma");
 
 impl Isa {
     /// The instructions that every processor of this architecture has (NEON on AArch64).

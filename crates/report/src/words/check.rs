@@ -13,6 +13,9 @@ pub trait Check {
     /// What a claim is about.
     fn about(&self, about: &About) -> String;
 
+    /// The name of a claim, and the place in it: `H_6^3, row 3, column 2`.
+    fn entry(&self, name: &str, place: Option<(usize, usize)>) -> String;
+
     /// What a matrix is by the robot.
     fn meaning(&self, meaning: &Meaning) -> String;
 

@@ -1,8 +1,9 @@
 //! Inverse kinematics: the joint variables for a pose of the hand.
 //!
-//! - [`derivation`]: closed forms. The chain is brought into a normal form ([`NormalChain`](derivation::NormalChain)); all its scalar equations are
-//!   formed; a search takes the cheapest equation that holds one unknown until nothing is unknown
-//!   ([`InverseModel::derive`]); the steps become a [`Solver`](denavit_program::solver::Solver).
+//! - [`derivation`]: closed forms. The chain is brought into a normal form
+//!   ([`NormalChain`](derivation::NormalChain)); all its scalar equations are formed; a search takes the cheapest
+//!   equation that holds one unknown until nothing is unknown ([`InverseModel::derive`]); the steps become a
+//!   [`Solver`](denavit_program::solver::Solver).
 //! - [`closed`]: numbers from closed forms, [`InverseSolver`].
 
 mod answer;

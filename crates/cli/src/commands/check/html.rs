@@ -5,7 +5,6 @@ use super::marked::{Piece, pieces};
 use super::terminal::at;
 use crate::terminal::words;
 use denavit_check::{Claim, Entry, Finding, Patch, Standing};
-use denavit_wire::check::entry_name;
 use std::fmt::Write;
 use std::ops::Range;
 
@@ -170,7 +169,7 @@ fn note(document: &Document, claim: &Claim) -> Option<String> {
     }
     let is_told = |e: &&Entry| e.finding.standing() != Standing::Equal && claim.instead.is_none();
     for entry in claim.entries.iter().filter(is_told) {
-        let name = escaped(&entry_name(claim, entry.place));
+        let name = escaped(&words().entry(&claim.name, entry.place));
         let _ = write!(out, "<p><strong><code>{name}</code></strong>: {}</p>", finding(document, entry));
     }
     claim.remarks.iter().for_each(|r| {

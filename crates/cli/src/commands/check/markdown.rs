@@ -3,7 +3,6 @@
 use super::Document;
 use crate::terminal::words;
 use denavit_check::{Claim, Finding, Standing};
-use denavit_wire::check::entry_name;
 use std::ops::Range;
 
 /// Counts, causes, and a table of what is not right.
@@ -41,7 +40,7 @@ pub fn list(document: &Document) -> String {
             continue;
         }
         for entry in &claim.entries {
-            let name = code(&entry_name(claim, entry.place));
+            let name = code(&words().entry(&claim.name, entry.place));
             let line = document.line(entry.span.start);
             let printed = code(&document.source(&entry.span));
             let (verdict, right, said) = match &entry.finding {
@@ -96,7 +95,7 @@ fn as_a_whole(claim: &Claim) -> Option<(&Range<usize>, usize)> {
 fn names(document: &Document, places: &[(usize, usize)]) -> String {
     let name = |&(c, e): &(usize, usize)| {
         let claim = document.checked.claims.get(c)?;
-        Some(code(&entry_name(claim, claim.entries.get(e)?.place)))
+        Some(code(&words().entry(&claim.name, claim.entries.get(e)?.place)))
     };
     places.iter().filter_map(name).collect::<Vec<_>>().join(", ")
 }

@@ -5,7 +5,6 @@ use super::marked::{Piece, pieces};
 use crate::terminal::{FAINT, HEADING, NAME, decimals, styled, words};
 use anstyle::{AnsiColor, Style};
 use denavit_check::{Cause, Claim, Counterexample, Entry, Finding, Patch, Slip, Standing, Wrong};
-use denavit_wire::check::entry_name;
 use std::ops::Range;
 
 const GOOD: Style = AnsiColor::Green.on_default();
@@ -51,7 +50,7 @@ fn told(document: &Document, n: usize, cause: &Cause) -> String {
         let mut names: Vec<String> = vec![];
         for &(c, e) in places {
             let Some(claim) = document.checked.claims.get(c) else { continue };
-            let name = entry_name(claim, claim.entries.get(e).and_then(|e| e.place));
+            let name = words().entry(&claim.name, claim.entries.get(e).and_then(|e| e.place));
             if !names.contains(&name) {
                 names.push(name);
             }

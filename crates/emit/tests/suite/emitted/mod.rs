@@ -1,7 +1,5 @@
 //! Small libraries with every operation, for the tests of emitted code, and a place to run it.
 
-#![allow(dead_code, reason = "each language uses its part")]
-
 use denavit_emit::{File, Language, Library, Parameter, Precision, Routine, Vector, emit};
 use denavit_program::{Graph, Program};
 use denavit_symbolic::{Expr, Symbol};

@@ -1,7 +1,5 @@
 //! Solvers to emit, and their solutions from other sources.
 
-#![allow(dead_code, reason = "each test uses its part")]
-
 pub mod mixed;
 pub mod ur5;
 

@@ -1,7 +1,5 @@
 //! Libraries to emit, folders to emit them into, and compilers to run there.
 
-#![allow(dead_code, reason = "each language uses its part")]
-
 use denavit_emit::{File, Language, Library, Parameter, Precision, Routine, Vector, emit};
 use denavit_program::{Graph, Program};
 use denavit_symbolic::{Expr, Symbol};

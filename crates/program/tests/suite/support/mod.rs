@@ -1,7 +1,5 @@
 //! Programs to test with.
 
-#![allow(dead_code, reason = "each test uses a part")]
-
 pub mod solvers;
 
 use denavit_program::{Graph, Program, Value};

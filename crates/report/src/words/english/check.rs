@@ -24,6 +24,10 @@ impl Check for English {
         .into()
     }
 
+    fn entry(&self, name: &str, place: Option<(usize, usize)>) -> String {
+        place.map_or_else(|| name.into(), |(r, c)| format!("{name}, row {r}, column {c}"))
+    }
+
     fn meaning(&self, meaning: &Meaning) -> String {
         let of = |what: &str, whose: &Meaning| format!("{what} of {}", self.meaning(whose));
         match meaning {

@@ -23,6 +23,10 @@ impl Check for French {
         })
     }
 
+    fn entry(&self, name: &str, place: Option<(usize, usize)>) -> String {
+        place.map_or_else(|| name.into(), |(r, c)| format!("{name}, ligne {r}, colonne {c}"))
+    }
+
     fn meaning(&self, meaning: &Meaning) -> String {
         let of = |what: &str, whose: &Meaning| say!("{what} {}", genitive(&self.meaning(whose)));
         match meaning {

@@ -45,8 +45,6 @@ pub struct NumericSolver {
     /// How long and how well to search.
     pub options: NumericOptions,
     memory: Shared<Memory>,
-    /// The arm's size.
-    size: f64,
     /// For each task whether it is hard.
     is_hard: Vec<bool>,
     reaches: Arc<[Reach]>,
@@ -146,7 +144,7 @@ impl NumericSolver {
         let hard =
             Problem { motion, shapes, limits, size: space.reach, tolerance, stepper: Stepper::default() };
         let memory = Shared::new(Memory { hard, wishes });
-        Ok(NumericSolver { options, memory, size: space.reach, is_hard, reaches, starts })
+        Ok(NumericSolver { options, memory, is_hard, reaches, starts })
     }
 
     /// A configuration for a pose: of all solutions the one that descents find first, from `seed` if there is one. If
@@ -204,7 +202,7 @@ impl NumericSolver {
 
     /// The arm's size, by which distances are compared with angles, metres.
     pub fn size(&self) -> f64 {
-        self.size
+        self.memory.first().hard.size
     }
 
     fn search(&self) -> Search<'_> {
