@@ -3,7 +3,7 @@
 use super::lanes::{State, Tapes, different, is_near, root};
 use super::leaves::{Leaves, Record};
 use super::{Shape, SolverFunction};
-use crate::evaluate::block::{self, Lanes};
+use crate::evaluate::block::{self, Lanes, Run};
 use crate::evaluate::machine::{Arithmetic, Instructions, Isa, Work};
 use crate::solver::CANDIDATE;
 use crate::solver::roots::{power, roots};
@@ -109,7 +109,8 @@ impl Work for Solve<'_> {
             for (i, (step, level)) in shape.steps.iter().zip(rest).enumerate() {
                 let scale = [power(size, step.degree); N];
                 root(i, step, file, &scale, &pass.k[i].0, &mut state);
-                block::run::<I, f64, FUSED, N>(level, file);
+                // A part of this one: levels are short, and a call of each would be felt.
+                Run(level, file).run::<I, FUSED>();
             }
             if !take(shape, file, pass, &state, passes.len() == 1, size, leaves) {
                 *is_clear = false;
