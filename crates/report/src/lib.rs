@@ -18,4 +18,4 @@ pub mod words;
 pub use cell::{cell, decimals};
 pub use derivation::Derivation;
 pub use document::{Document, Figure, Part, Section, Table};
-pub use sections::{Errata, ReportOptions, Topic, report};
+pub use sections::{Errata, ReportOptions, Topic, report, reports};

@@ -16,29 +16,53 @@ mod workspace;
 pub use setting::{Errata, ReportOptions, Topic};
 
 use crate::document::{Document, Section};
+use crate::words::Tongue;
 use denavit::description::Description;
 use setting::Setting;
 
 /// The report about a robot.
 pub fn report(description: &Description, options: &ReportOptions) -> Document {
-    let setting = Setting::new(description, options);
-    let language = options.language;
+    document(&Setting::new(description, options))
+}
+
+/// The same report in several languages, whichever the options name; what sections share is derived once.
+///
+/// ```
+/// use denavit_report::words::Tongue;
+/// use denavit_report::{ReportOptions, Topic, reports};
+///
+/// let arm = denavit::catalogue::robot("scara").expect("it is in the catalogue");
+/// let options = ReportOptions { topics: vec![Topic::Summary, Topic::Forward], ..ReportOptions::default() };
+/// let [english, french] = &reports(&arm, &options, &[Tongue::English, Tongue::French])[..] else { panic!() };
+/// assert_ne!(english.title, french.title);
+/// ```
+pub fn reports(description: &Description, options: &ReportOptions, languages: &[Tongue]) -> Vec<Document> {
+    let mut setting = Setting::new(description, options);
+    let document = |language: &Tongue| {
+        setting.speak(*language);
+        document(&setting)
+    };
+    languages.iter().map(document).collect()
+}
+
+fn document(setting: &Setting) -> Document {
+    let Setting { options, language, .. } = *setting;
     let sections = Topic::ALL.into_iter().filter(|t| options.topics.contains(t)).flat_map(|topic| {
         let made: Vec<Section> = match topic {
-            Topic::Summary => vec![summary::section(&setting)],
-            Topic::Figures => picture::section(&setting).into_iter().collect(),
-            Topic::Table => table::sections(&setting),
-            Topic::Links => vec![links::section(&setting)],
-            Topic::Forward => forward::sections(&setting).into(),
-            Topic::Example => example::section(&setting).into_iter().collect(),
-            Topic::Inverse => inverse::sections(&setting),
-            Topic::Velocity => velocity::sections(&setting),
-            Topic::Workspace => workspace::section(&setting).into_iter().collect(),
-            Topic::Errata => errata::section(&setting).into_iter().collect(),
-            Topic::References => vec![references::section(&setting)],
+            Topic::Summary => vec![summary::section(setting)],
+            Topic::Figures => picture::section(setting).into_iter().collect(),
+            Topic::Table => table::sections(setting),
+            Topic::Links => vec![links::section(setting)],
+            Topic::Forward => forward::sections(setting).into(),
+            Topic::Example => example::section(setting).into_iter().collect(),
+            Topic::Inverse => inverse::sections(setting),
+            Topic::Velocity => velocity::sections(setting),
+            Topic::Workspace => workspace::section(setting).into_iter().collect(),
+            Topic::Errata => errata::section(setting).into_iter().collect(),
+            Topic::References => vec![references::section(setting)],
         };
         made
     });
-    let title = language.words().title(&description.name);
+    let title = language.words().title(&setting.description.name);
     Document { title, language, sections: sections.collect() }
 }

@@ -100,6 +100,7 @@ pub struct Errata<'a> {
 pub struct Setting<'a> {
     pub description: Description,
     pub options: &'a ReportOptions<'a>,
+    pub language: Tongue,
     pub words: &'static dyn Wording,
     pub structure: Structure,
     /// The robot with values for all lengths, some of them chosen here.
@@ -127,6 +128,7 @@ impl<'a> Setting<'a> {
         let arm = arm.map(|a| if a.pose() == q { a } else { a.at(&q) });
         Setting {
             options,
+            language: options.language,
             words: options.language.words(),
             structure: Structure::of(&description),
             description,
@@ -137,6 +139,12 @@ impl<'a> Setting<'a> {
             inverse,
             singular: OnceCell::new(),
         }
+    }
+
+    /// From here on in a language.
+    pub fn speak(&mut self, language: Tongue) {
+        self.language = language;
+        self.words = language.words();
     }
 
     /// The pose of the tool in the base.

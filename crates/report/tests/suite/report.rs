@@ -4,7 +4,7 @@ use denavit::catalogue;
 use denavit::description::{Convention, Description};
 use denavit_report::document::{Block, Branch, Line, math, plain};
 use denavit_report::words::Tongue;
-use denavit_report::{Document, Part, ReportOptions, Topic, render, report};
+use denavit_report::{Document, Part, ReportOptions, Topic, render, report, reports};
 use denavit_symbolic::print::Style;
 use denavit_symbolic::vocabulary::Vocabulary;
 use std::fmt::Write;
@@ -113,13 +113,12 @@ fn each_robot(check: impl Fn(&str) + Sync) {
 fn every_robot_has_a_page() {
     let folder = std::env::var_os("DENAVIT_DOCUMENTS").map(PathBuf::from);
     each_robot(|name| {
-        for language in [Tongue::English, Tongue::French] {
-            let document =
-                report(&description(name), &ReportOptions { language, ..ReportOptions::default() });
+        let languages = [Tongue::English, Tongue::French];
+        for document in reports(&description(name), &ReportOptions::default(), &languages) {
             check_page(name, &render::html(&document));
             // What is a formula in one notation is one in the others.
             assert!(!render::latex(&document).contains("NaN"), "{name}");
-            if let Some(folder) = folder.as_ref().filter(|_| language == Tongue::English) {
+            if let Some(folder) = folder.as_ref().filter(|_| document.language == Tongue::English) {
                 let file = folder.join(format!("{name}.typ"));
                 std::fs::write(file, render::typst(&document)).expect("the folder is there");
             }
