@@ -13,7 +13,7 @@ pub fn section(s: &Setting) -> Option<Section> {
         return None;
     }
     let mut section = Section::new(s.description.vocabulary());
-    section.heading(2, Line::new(s.words.heading(Heading::Errata)));
+    section.heading(2, Line::new(s.words().heading(Heading::Errata)));
     let t = checked.tally();
     let standings = Standings {
         equal: t.equal,
@@ -22,10 +22,11 @@ pub fn section(s: &Setting) -> Option<Section> {
         undecided: t.undecided,
         unreadable: t.unreadable,
     };
-    section.paragraph(Line::new(s.words.claims(errata.name, checked.claims.len(), standings)));
+    section.paragraph(Line::new(s.words().claims(errata.name, checked.claims.len(), standings)));
     for cause in &checked.causes {
         let counts = [&cause.turns_right, &cause.turns_wrong, &cause.stays_wrong].map(Vec::len);
-        section.paragraph(Line::default().strong(s.words.change(&cause.change)).text(s.words.cause(counts)));
+        section
+            .paragraph(Line::default().strong(s.words().change(&cause.change)).text(s.words().cause(counts)));
     }
     let mut all = Listed::default();
     for claim in checked.claims.iter().filter(|c| c.standing() != Standing::Equal) {
@@ -38,11 +39,11 @@ pub fn section(s: &Setting) -> Option<Section> {
         if lines.is_empty() {
             continue;
         }
-        section.heading(3, Line::new(s.words.list(list)));
+        section.heading(3, Line::new(s.words().list(list)));
         let more = lines.len().saturating_sub(ROWS);
         section.push(Block::List(lines.into_iter().take(ROWS).collect()));
         if more > 0 {
-            section.paragraph(Line::new(s.words.more(more)));
+            section.paragraph(Line::new(s.words().more(more)));
         }
     }
     Some(section)
@@ -63,9 +64,9 @@ impl Listed {
         let printed = text.get(entry.span.clone()).unwrap_or_default();
         let printed = shortened(&printed.split_whitespace().collect::<Vec<_>>().join(" "));
         let head = Line::default().strong(shortened(&format!("{}{place}", claim.name)));
-        let head = head.text(s.words.printed(number, &printed));
-        let right = |line: Line, correct: &[String]| match s.words.either(correct) {
-            Some(formula) => line.text(s.words.right()).text(shortened(&formula)),
+        let head = head.text(s.words().printed(number, &printed));
+        let right = |line: Line, correct: &[String]| match s.words().either(correct) {
+            Some(formula) => line.text(s.words().right()).text(shortened(&formula)),
             None => line,
         };
         match &entry.finding {
@@ -73,12 +74,12 @@ impl Listed {
             Finding::Wrong(w) => {
                 let line = right(head, &w.correct);
                 self.wrong.push(match &w.slip {
-                    Some(found) => line.text(format!(" ({})", s.words.slip(&found.kind))),
+                    Some(found) => line.text(format!(" ({})", s.words().slip(&found.kind))),
                     None => line,
                 });
             }
             Finding::Conditional { condition, correct, .. } => {
-                let line = head.text(format!(" ({})", s.words.right_where(condition)));
+                let line = head.text(format!(" ({})", s.words().right_where(condition)));
                 self.conditional.push(right(line, correct));
             }
             Finding::Undecided { .. } | Finding::Unreadable(_) => self.open.push(head),

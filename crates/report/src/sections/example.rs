@@ -16,11 +16,11 @@ pub fn section(s: &Setting) -> Option<Section> {
     let steps = model.algorithm.steps();
     let names = steps.iter().fold(s.description.vocabulary(), |v, step| v.symbol(&step.name));
     let mut section = Section::new(names);
-    section.heading(2, Line::new(s.words.heading(Heading::Example)));
+    section.heading(2, Line::new(s.words().heading(Heading::Example)));
     if let Some(assumed) = s.assumed() {
         section.paragraph(assumed);
     }
-    section.paragraph(s.words.example(s.configuration(&s.q)));
+    section.paragraph(s.words().example(s.configuration(&s.q)));
 
     let variables = s.description.variables();
     let mut values: Vec<(Symbol, f64)> =
@@ -37,19 +37,19 @@ pub fn section(s: &Setting) -> Option<Section> {
     }
     section.push(Part::Table(side_by_side(
         &rows,
-        [Column::Step, Column::Value].map(|c| Line::new(s.words.column(c))),
-        Line::new(s.words.caption(Caption::Steps)),
+        [Column::Step, Column::Value].map(|c| Line::new(s.words().column(c))),
+        Line::new(s.words().caption(Caption::Steps)),
     )));
 
     let pose = robot.pose(&s.q);
-    section.paragraph(Line::new(s.words.example_pose()));
+    section.paragraph(Line::new(s.words().example_pose()));
     section.formula(numbers(&pose));
     let angles = |set: OrientationSet| -> String {
         let values = extract(&pose.rotation, set).values;
         values.iter().map(|x| format!("{}°", decimals(x.to_degrees(), 2))).collect::<Vec<_>>().join(", ")
     };
     let (rpy, zyz) = (angles(OrientationSet::Rpy), angles(OrientationSet::Euler(EulerSet::ZYZ)));
-    section.paragraph(Line::new(s.words.orientation(&rpy, &zyz)));
+    section.paragraph(Line::new(s.words().orientation(&rpy, &zyz)));
     let by_steps = |x: &str| values.iter().rev().find(|v| *v.0.name() == *x).map(|v| v.1);
     let entries = pose.matrix();
     let far = (0..3).flat_map(|r| (0..4).map(move |c| (r, c))).filter_map(|(r, c)| {
@@ -57,7 +57,7 @@ pub fn section(s: &Setting) -> Option<Section> {
         Some((by_steps(&name)? - entries[r][c]).abs())
     });
     let far = far.fold(0.0, f64::max);
-    section.paragraph(Line::new(s.words.difference(&power(far))));
+    section.paragraph(Line::new(s.words().difference(&power(far))));
     Some(section)
 }
 

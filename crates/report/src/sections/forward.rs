@@ -6,5 +6,5 @@ use crate::document::Section;
 
 /// Matrix, program, proof.
 pub fn sections(s: &Setting) -> [Section; 2] {
-    Derivation::of(&s.description, s.forward().clone()).sections(2, s.language)
+    Derivation::of(&s.description, s.forward().clone()).sections(2, s.options.language)
 }

@@ -31,10 +31,10 @@ fn derivation(s: &Setting) -> Section {
     };
     let names = explained.as_ref().map_or_else(|| s.description.vocabulary(), Explanation::names);
     let mut section = Section::new(names);
-    section.heading(2, Line::new(s.words.heading(Heading::Inverse)));
+    section.heading(2, Line::new(s.words().heading(Heading::Inverse)));
     match (explained, s.inverse()) {
-        (Some(e), _) => lowered(e.document(s.options.language), s.words, &mut section),
-        (None, Err(why)) => section.paragraph(Line::new(s.words.refused(why))),
+        (Some(e), _) => lowered(e.document(s.options.language), s.words(), &mut section),
+        (None, Err(why)) => section.paragraph(Line::new(s.words().refused(why))),
         (None, Ok(_)) => {}
     }
     section
@@ -64,8 +64,8 @@ fn solutions(s: &Setting) -> Option<Section> {
     let given: Vec<f64> = solver.given.iter().map(|&j| s.q[j]).collect();
     let answer = solver.solve(&pose, &given);
     let mut section = Section::new(s.description.vocabulary());
-    section.heading(3, Line::new(s.words.heading(Heading::Solutions)));
-    section.paragraph(s.words.pose_at(s.configuration(&s.q)));
+    section.heading(3, Line::new(s.words().heading(Heading::Solutions)));
+    section.paragraph(s.words().pose_at(s.configuration(&s.q)));
     section.formula(numbers(&pose));
     if !given.is_empty() {
         let mut line = Line::default();
@@ -74,21 +74,21 @@ fn solutions(s: &Setting) -> Option<Section> {
             line = line.text(if k > 0 { ", " } else { "" }).math(Expr::from(variables[j].symbol));
             line = line.text(format!(" = {}", s.reading(s.q[j], variables[j].kind)));
         }
-        section.paragraph(s.words.given_values(line));
+        section.paragraph(s.words().given_values(line));
     }
     let representatives = answer.families.iter().map(|f| &f.representative);
     let found: Vec<Solution> = answer.solutions.iter().chain(representatives).cloned().collect();
     let found: Vec<Solution> = found.into_iter().map(|f| turned(f, &solver.space)).collect();
     if found.is_empty() {
-        section.paragraph(Line::new(s.words.no_solution()));
+        section.paragraph(Line::new(s.words().no_solution()));
         return Some(section);
     }
     let shown = &found[..found.len().min(SHOWN)];
     section.push(table(s, shown, answer.solutions.len()));
     let (isolated, families) = (answer.solutions.len(), answer.families.len());
-    section.paragraph(Line::new(s.words.found(isolated, families, answer.is_complete())));
+    section.paragraph(Line::new(s.words().found(isolated, families, answer.is_complete())));
     if found.len() > SHOWN {
-        section.paragraph(Line::new(s.words.first_of_them(SHOWN)));
+        section.paragraph(Line::new(s.words().first_of_them(SHOWN)));
     }
     section.push(pictures(s, shown)?);
     Some(section)
@@ -118,25 +118,25 @@ fn table(s: &Setting, found: &[Solution], isolated: usize) -> Part {
     let has_branches = found.iter().any(|f| !f.branch.is_empty());
     let has_limits = found.iter().any(|f| !f.within_limits);
     if has_branches {
-        head.push(Line::new(s.words.column(Column::Branch)));
+        head.push(Line::new(s.words().column(Column::Branch)));
     }
     if has_limits {
-        head.push(Line::new(s.words.column(Column::Limits)));
+        head.push(Line::new(s.words().column(Column::Limits)));
     }
     let rows = found.iter().enumerate().map(|(k, f)| {
         let star = if k < isolated { "" } else { "*" };
         let mut cells = vec![Line::new(format!("{}{star}", k + 1))];
         cells.extend(f.q.iter().zip(&variables).map(|(x, v)| Line::new(plain(*x, v.kind))));
         if has_branches {
-            cells.push(Line::new(s.words.branch(&f.branch)));
+            cells.push(Line::new(s.words().branch(&f.branch)));
         }
         if has_limits {
-            cells.push(Line::new(s.words.within_limits(f.within_limits)));
+            cells.push(Line::new(s.words().within_limits(f.within_limits)));
         }
         cells
     });
     Part::Table(Table {
-        caption: Line::new(s.words.caption(Caption::Configurations)),
+        caption: Line::new(s.words().caption(Caption::Configurations)),
         head,
         rows: rows.collect(),
     })
@@ -152,8 +152,8 @@ fn pictures(s: &Setting, found: &[Solution]) -> Option<Part> {
     let picture =
         |(k, a): (usize, &crate::figure::Arm)| (isometric(a, &options), Line::new((k + 1).to_string()));
     Some(Part::figures(
-        s.words,
+        s.words(),
         arms.iter().enumerate().map(picture).collect(),
-        Line::new(s.words.caption(Caption::Pictures)),
+        Line::new(s.words().caption(Caption::Pictures)),
     ))
 }

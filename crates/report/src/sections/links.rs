@@ -15,8 +15,8 @@ pub fn section(s: &Setting) -> Section {
     let names =
         ["theta_j".to_string(), "alpha_j".into(), format!("{}_j", letters[0]), format!("{}_j", letters[1])];
     let mut section = Section::new(names.iter().fold(s.description.vocabulary(), |v, n| v.symbol(n)));
-    section.heading(2, Line::new(s.words.heading(Heading::Links)));
-    section.paragraph(Line::new(s.words.row_transform()));
+    section.heading(2, Line::new(s.words().heading(Heading::Links)));
+    section.paragraph(Line::new(s.words().row_transform()));
     let ([c, sn], [ca, sa]) = ([theta.cos(), theta.sin()], [alpha.cos(), alpha.sin()]);
     let (o, l) = (Expr::int(0), Expr::int(1));
     let rows = match s.description.convention {
@@ -29,7 +29,7 @@ pub fn section(s: &Setting) -> Section {
     };
     let frame = Factor::Frame { from: "j−1".into(), to: "j".into() };
     section.formula(Math::Matrix(frame, rows.iter().map(|r| r.to_vec()).collect()));
-    section.paragraph(Line::new(s.words.row_by_row()));
+    section.paragraph(Line::new(s.words().row_by_row()));
     section.push(crate::derivation::transforms(&link_transforms(&s.description)));
     section
 }

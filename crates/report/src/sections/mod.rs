@@ -39,14 +39,14 @@ pub fn report(description: &Description, options: &ReportOptions) -> Document {
 pub fn reports(description: &Description, options: &ReportOptions, languages: &[Tongue]) -> Vec<Document> {
     let mut setting = Setting::new(description, options);
     let document = |language: &Tongue| {
-        setting.speak(*language);
+        setting.options.language = *language;
         document(&setting)
     };
     languages.iter().map(document).collect()
 }
 
 fn document(setting: &Setting) -> Document {
-    let Setting { options, language, .. } = *setting;
+    let Setting { options, .. } = setting;
     let sections = Topic::ALL.into_iter().filter(|t| options.topics.contains(t)).flat_map(|topic| {
         let made: Vec<Section> = match topic {
             Topic::Summary => vec![summary::section(setting)],
@@ -63,6 +63,6 @@ fn document(setting: &Setting) -> Document {
         };
         made
     });
-    let title = language.words().title(&setting.description.name);
-    Document { title, language, sections: sections.collect() }
+    let title = setting.words().title(&setting.description.name);
+    Document { title, language: options.language, sections: sections.collect() }
 }

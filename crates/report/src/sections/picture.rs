@@ -9,13 +9,13 @@ use crate::words::{Caption, Heading};
 pub fn section(s: &Setting) -> Option<Section> {
     let arm = s.arm.as_ref()?;
     let mut section = Section::new(s.description.vocabulary());
-    section.heading(2, Line::new(s.words.heading(Heading::Arm)));
+    section.heading(2, Line::new(s.words().heading(Heading::Arm)));
     if let Some(assumed) = s.assumed() {
         section.paragraph(assumed);
     }
-    let caption = s.words.arm_caption(s.configuration(&s.q));
-    section.push(Part::figure(s.words, isometric(arm, &FigureOptions::main()), caption));
-    let caption = Line::new(s.words.caption(Caption::Scheme));
-    section.push(Part::figure(s.words, figure::scheme(arm, &FigureOptions::main()), caption));
+    let caption = s.words().arm_caption(s.configuration(&s.q));
+    section.push(Part::figure(s.words(), isometric(arm, &FigureOptions::main()), caption));
+    let caption = Line::new(s.words().caption(Caption::Scheme));
+    section.push(Part::figure(s.words(), figure::scheme(arm, &FigureOptions::main()), caption));
     Some(section)
 }

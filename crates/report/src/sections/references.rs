@@ -8,10 +8,10 @@ use denavit::description::Convention;
 /// The list.
 pub fn section(s: &Setting) -> Section {
     let mut section = Section::new(s.description.vocabulary());
-    section.heading(2, Line::new(s.words.heading(Heading::References)));
+    section.heading(2, Line::new(s.words().heading(Heading::References)));
     let mut all = vec![];
     if let Some(source) = &s.description.source {
-        all.push(Line::new(s.words.robot()).text(source.clone()));
+        all.push(Line::new(s.words().robot()).text(source.clone()));
     }
     let has = |topic: Topic| s.options.topics.contains(&topic);
     all.push(Line::new(match s.description.convention {
@@ -44,7 +44,7 @@ pub fn section(s: &Setting) -> Section {
             "T. Yoshikawa. Manipulability of robotic mechanisms. International Journal of Robotics Research 4 (1985), 3–9.",
         ));
     }
-    all.push(Line::new(s.words.made_by(env!("CARGO_PKG_VERSION"))));
+    all.push(Line::new(s.words().made_by(env!("CARGO_PKG_VERSION"))));
     section.push(Block::List(all));
     section
 }

@@ -99,9 +99,7 @@ pub struct Errata<'a> {
 /// The robot with everything that several sections need, derived when it is first asked for.
 pub struct Setting<'a> {
     pub description: Description,
-    pub options: &'a ReportOptions<'a>,
-    pub language: Tongue,
-    pub words: &'static dyn Wording,
+    pub options: ReportOptions<'a>,
     pub structure: Structure,
     /// The robot with values for all lengths, some of them chosen here.
     pub valued: Description,
@@ -115,7 +113,7 @@ pub struct Setting<'a> {
 }
 
 impl<'a> Setting<'a> {
-    pub fn new(description: &Description, options: &'a ReportOptions<'a>) -> Self {
+    pub fn new(description: &Description, options: &ReportOptions<'a>) -> Self {
         let (description, inverse) = named(description);
         let valued = description.filled();
         let arm = Arm::new(&valued).ok();
@@ -127,9 +125,7 @@ impl<'a> Setting<'a> {
         });
         let arm = arm.map(|a| if a.pose() == q { a } else { a.at(&q) });
         Setting {
-            options,
-            language: options.language,
-            words: options.language.words(),
+            options: options.clone(),
             structure: Structure::of(&description),
             description,
             valued,
@@ -141,10 +137,9 @@ impl<'a> Setting<'a> {
         }
     }
 
-    /// From here on in a language.
-    pub fn speak(&mut self, language: Tongue) {
-        self.language = language;
-        self.words = language.words();
+    /// The words of its language.
+    pub fn words(&self) -> &'static dyn Wording {
+        self.options.language.words()
     }
 
     /// The pose of the tool in the base.
@@ -177,7 +172,7 @@ impl<'a> Setting<'a> {
         let missing = self.description.parameters.iter().zip(&self.valued.parameters);
         let chosen: Vec<_> = missing.filter(|(own, _)| own.value.is_none()).map(|(_, p)| p).collect();
         (!chosen.is_empty())
-            .then(|| quantities(Line::new(self.words.assumed_lengths()), &self.valued, &chosen))
+            .then(|| quantities(Line::new(self.words().assumed_lengths()), &self.valued, &chosen))
     }
 
     /// The values of the joints in a line: `q1 = 30°, …`.

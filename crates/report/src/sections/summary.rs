@@ -13,9 +13,9 @@ const LONG: usize = 240;
 
 /// A box of labels and values.
 pub fn section(s: &Setting) -> Section {
-    let label = |glance| Line::new(s.words.glance(glance));
-    let mut rows = vec![(label(Glance::Structure), Line::new(s.words.structure(&s.structure)))];
-    rows.push((label(Glance::Convention), Line::new(s.words.convention(s.description.convention))));
+    let label = |glance| Line::new(s.words().glance(glance));
+    let mut rows = vec![(label(Glance::Structure), Line::new(s.words().structure(&s.structure)))];
+    rows.push((label(Glance::Convention), Line::new(s.words().convention(s.description.convention))));
     if let Some(source) = &s.description.source {
         rows.push((label(Glance::Source), Line::new(source.clone())));
     }
@@ -35,7 +35,7 @@ pub fn section(s: &Setting) -> Section {
 
 fn forward(s: &Setting) -> Line {
     let model = s.forward();
-    Line::new(s.words.forward_cost(&model.algorithm.count(), model.proof))
+    Line::new(s.words().forward_cost(&model.algorithm.count(), model.proof))
 }
 
 fn inverse(s: &Setting) -> Line {
@@ -43,18 +43,18 @@ fn inverse(s: &Setting) -> Line {
     Line::new(match s.inverse() {
         Ok(model) => {
             let given = model.given.iter().map(|&j| variables[j].symbol.name().to_string());
-            s.words.closed_form(model.max_solutions(), &given.collect::<Vec<_>>())
+            s.words().closed_form(model.max_solutions(), &given.collect::<Vec<_>>())
         }
         Err(why) => {
             let is_square = matches!(why, Refusal::Stuck(stuck) if stuck.surplus == 0);
-            s.words.no_closed_form(is_square && variables.len() == 6)
+            s.words().no_closed_form(is_square && variables.len() == 6)
         }
     })
 }
 
 fn singularities(s: &Setting) -> Line {
     let is_long = |e: Expr| print(e, &s.description.vocabulary(), Style::Latex).len() >= LONG;
-    s.words.factors(match s.singular() {
+    s.words().factors(match s.singular() {
         Ok(found) if found.common.is_empty() && found.is_complete => Factors::None,
         Ok(found) if found.common.is_empty() => Factors::NotShared,
         Ok(found) if found.common.iter().any(|one| is_long(one.factor)) => Factors::Long,

@@ -11,17 +11,17 @@ use denavit_symbolic::Expr;
 /// The table in its own convention, and in those that were asked for beside.
 pub fn sections(s: &Setting) -> Vec<Section> {
     let mut section = Section::new(s.description.vocabulary());
-    section.heading(2, Line::new(s.words.heading(Heading::Table)));
+    section.heading(2, Line::new(s.words().heading(Heading::Table)));
     one(s, &s.description, &mut section);
     section.push(Block::List(meanings(s)));
     let mut all = vec![section];
     for &convention in s.options.conventions.iter().filter(|c| **c != s.description.convention) {
         let other = s.description.converted(convention);
         let mut section = Section::new(other.description.vocabulary());
-        section.heading(3, Line::new(s.words.converted(convention)));
+        section.heading(3, Line::new(s.words().converted(convention)));
         one(s, &other.description, &mut section);
         let proof = denavit::description::prove_same_chain(&s.description, &other.description);
-        section.paragraph(Line::new(s.words.same_pose(proof.is_equal())));
+        section.paragraph(Line::new(s.words().same_pose(proof.is_equal())));
         all.push(section);
     }
     all
@@ -41,20 +41,20 @@ fn meanings(s: &Setting) -> Vec<Line> {
         ("alpha", true, 'x', along_x),
         (x, false, 'x', along_x),
     ];
-    let row = |(name, is_angle, axis, frame)| symbol(name).text(s.words.parameter(is_angle, axis, frame));
+    let row = |(name, is_angle, axis, frame)| symbol(name).text(s.words().parameter(is_angle, axis, frame));
     rows.map(row).to_vec()
 }
 
 fn one(s: &Setting, d: &Description, section: &mut Section) {
     let columns = d.columns();
     let has_limits = d.rows.iter().any(|r| r.limits.is_some());
-    let mut head = vec![Line::default().math(Expr::symbol("j")), Line::new(s.words.column(Heads::Joint))];
+    let mut head = vec![Line::default().math(Expr::symbol("j")), Line::new(s.words().column(Heads::Joint))];
     head.extend(columns.iter().map(|c| {
         let line = Line::default().math(Expr::symbol(c.key(d.convention)));
         if c.turns() { line } else { line.text(" (m)") }
     }));
     if has_limits {
-        head.push(Line::new(s.words.column(Heads::Limits)));
+        head.push(Line::new(s.words().column(Heads::Limits)));
     }
     let rows = (1..).zip(&d.rows).map(|(i, row)| {
         let kind = match row.variable.map(|v| v.kind) {
@@ -77,7 +77,7 @@ fn one(s: &Setting, d: &Description, section: &mut Section) {
         }
         cells
     });
-    let caption = Line::new(s.words.parameters(d.convention));
+    let caption = Line::new(s.words().parameters(d.convention));
     section.push(Part::Table(Table { caption, head, rows: rows.collect() }));
     values(s, d, section);
     let mut placed = |x: &Transform<Expr>, words: String, from: String, to: String| {
@@ -87,14 +87,14 @@ fn one(s: &Setting, d: &Description, section: &mut Section) {
             section.formula(Math::Matrix(Factor::Frame { from, to }, rows));
         }
     };
-    placed(&d.base, s.words.base_stands(), s.words.base(), "0".into());
-    placed(&d.tool, s.words.tool_stands(), d.rows.len().to_string(), s.words.tool());
+    placed(&d.base, s.words().base_stands(), s.words().base(), "0".into());
+    placed(&d.tool, s.words().tool_stands(), d.rows.len().to_string(), s.words().tool());
 }
 
 /// The values of the parameters, where they are known.
 fn values(s: &Setting, d: &Description, section: &mut Section) {
     let known: Vec<_> = d.parameters.iter().filter(|p| p.value.is_some()).collect();
     if !known.is_empty() {
-        section.paragraph(quantities(Line::new(s.words.values()), d, &known));
+        section.paragraph(quantities(Line::new(s.words().values()), d, &known));
     }
 }

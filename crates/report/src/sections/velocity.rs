@@ -15,12 +15,16 @@ const SIZE: [f64; 2] = [150.0, 150.0];
 
 /// Formulas and pictures.
 pub fn sections(s: &Setting) -> Vec<Section> {
-    let title = Line::new(s.words.heading(Heading::Velocity));
+    let title = Line::new(s.words().heading(Heading::Velocity));
     match s.singular() {
         Ok(found) => {
             let mut section = Section::new(velocity_vocabulary(&s.description));
             section.heading(2, title);
-            lowered(singularities_document(&s.description, found, s.options.language), s.words, &mut section);
+            lowered(
+                singularities_document(&s.description, found, s.options.language),
+                s.words(),
+                &mut section,
+            );
             let mut all = vec![section];
             all.extend(pictures(s, found));
             all
@@ -29,9 +33,9 @@ pub fn sections(s: &Setting) -> Vec<Section> {
             let model = JacobianModel::shortest(&s.description, Reference::Tool);
             let mut section = Section::new(velocity_vocabulary(&s.description));
             section.heading(2, title);
-            lowered(jacobian_document(&s.description, &model, s.options.language), s.words, &mut section);
+            lowered(jacobian_document(&s.description, &model, s.options.language), s.words(), &mut section);
             let is_everywhere = matches!(why, Obstacle::AlwaysSingular(_));
-            section.paragraph(Line::new(s.words.no_singularities(is_everywhere)));
+            section.paragraph(Line::new(s.words().no_singularities(is_everywhere)));
             vec![section]
         }
     }
@@ -62,7 +66,11 @@ fn pictures(s: &Setting, found: &Singularities) -> Option<Section> {
         (isometric(a, &options), Line::default().math(Math::equation(*factor, Expr::int(0))))
     });
     let mut section = Section::new(s.description.vocabulary());
-    section.push(Part::figures(s.words, pictures.collect(), Line::new(s.words.caption(Caption::Singular))));
+    section.push(Part::figures(
+        s.words(),
+        pictures.collect(),
+        Line::new(s.words().caption(Caption::Singular)),
+    ));
     Some(section)
 }
 

@@ -15,7 +15,7 @@ pub fn section(s: &Setting) -> Option<Section> {
     let (space, travels) = with_travels(s, space);
     let workspace = Workspace::new(&robot, &space).ok()?;
     let mut section = Section::new(s.description.vocabulary());
-    section.heading(2, Line::new(s.words.heading(Heading::Workspace)));
+    section.heading(2, Line::new(s.words().heading(Heading::Workspace)));
     if let Some(assumed) = s.assumed() {
         section.paragraph(assumed);
     }
@@ -24,18 +24,18 @@ pub fn section(s: &Setting) -> Option<Section> {
     let range = |x: [f64; 2]| format!("{} … {}", decimals(x[0], 3), metres(x[1]));
     let (first, second) = (range(workspace.extremes.first), range(workspace.extremes.second));
     let far = workspace.extremes.from_shoulder.filter(|_| workspace.extremes.shoulder.is_some()).map(metres);
-    let mut line = Line::new(s.words.reach((u, &first), (v, &second), far.as_deref()));
+    let mut line = Line::new(s.words().reach((u, &first), (v, &second), far.as_deref()));
     let is_free = |(limits, is_angle): (&Option<[f64; 2]>, &bool)| *is_angle && limits.is_none();
     if space.limits.iter().zip(&space.is_angle).any(is_free) {
-        line = line.text(s.words.full_turns());
+        line = line.text(s.words().full_turns());
     }
-    line = taken(s, line, &travels, s.words.assumed_travel());
-    line = taken(s, line, &workspace.held, s.words.held());
+    line = taken(s, line, &travels, s.words().assumed_travel());
+    line = taken(s, line, &workspace.held, s.words().held());
     section.paragraph(line);
     let arm = arm_line(&workspace, &robot, &s.q);
     let drawing = workspace_plot(&workspace, arm.as_deref());
-    let caption = s.words.workspace(&workspace.section, [u, v], arm.is_some());
-    section.push(Part::figure(s.words, drawing, Line::new(caption)));
+    let caption = s.words().workspace(&workspace.section, [u, v], arm.is_some());
+    section.push(Part::figure(s.words(), drawing, Line::new(caption)));
     Some(section)
 }
 

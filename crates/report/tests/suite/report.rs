@@ -166,6 +166,18 @@ fn the_same_robot_gives_the_same_bytes() {
 }
 
 #[test]
+fn reports_in_several_languages_are_those_in_each() {
+    for name in ["staubli-tx60", "abb-irb120", "kinova-gen3"] {
+        let d = description(name);
+        let options = |language| ReportOptions { language, ..ReportOptions::default() };
+        let languages = [Tongue::French, Tongue::English];
+        for (document, language) in reports(&d, &ReportOptions::default(), &languages).iter().zip(languages) {
+            assert_eq!(render::html(document), render::html(&report(&d, &options(language))), "{name}");
+        }
+    }
+}
+
+#[test]
 fn sections_are_those_asked_for() {
     let d = description("puma560");
     for topic in Topic::ALL.into_iter().filter(|t| *t != Topic::Errata) {

@@ -5,7 +5,6 @@
 //! and what the documents leave out, are held in the same way. `docs/errata-remarks.md` tells it in words.
 
 use crate::common::printed::{list, read, string, strings, text};
-#[allow(dead_code, reason = "values of inverse kinematics are not read here")]
 use denavit::catalogue;
 use denavit::description::Description;
 use denavit::forward::{Proof, Reference};

@@ -458,20 +458,3 @@ fn arms_without_closed_form_are_served_by_curves() {
         }
     }
 }
-
-/// Mean times in microseconds: `cargo test --release -p denavit --test suite redundant -- --ignored --nocapture`.
-#[test]
-#[ignore = "prints times"]
-fn times() {
-    for name in ["kuka-iiwa-7", "kuka-iiwa-14", "kuka-lwr4", "franka-panda", "kinova-gen3", "ufactory-xarm7"]
-    {
-        let d = robot(name);
-        let s = solver(&d);
-        let mut random = Random(10);
-        let poses: Vec<_> = (0..10_000).map(|_| s.robot.pose(&within(&s.space, &mut random))).collect();
-        let start = std::time::Instant::now();
-        let solved = poses.iter().filter(|p| s.within_limits(p, None).is_some()).count();
-        let mean = start.elapsed().as_secs_f64() * 1e6 / poses.len() as f64;
-        println!("{name}: {solved} of {} solved, {mean:.2} µs each", poses.len());
-    }
-}

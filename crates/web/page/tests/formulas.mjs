@@ -129,6 +129,7 @@ scenario("a long derivation is cancelled, and derived again", async (page) => {
   await openRobot(page, "oblique-6r", { panel: "formulas" });
   await choose(page, "DH table");
   await topic(page, "Singularities").click();
+  await page.getByText("Looking for the singularities").waitFor();
   // At once, not when the button has settled: the derivation may be over before.
   await page.getByRole("button", { name: "Cancel", exact: true }).dispatchEvent("click");
   await page.getByText("Not derived.").waitFor();

@@ -1,7 +1,5 @@
 //! Two solvers built by hand, with the forward direction of each as plain numbers.
 
-#![allow(dead_code, reason = "each test uses a part")]
-
 use denavit_program::solver::{Draft, Output, Root, Solver, SolverBuilder};
 use denavit_program::{Graph, Value};
 use denavit_symbolic::{Expr, Symbol};
