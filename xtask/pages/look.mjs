@@ -11,32 +11,40 @@ const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.mi
 const browser = await chromium.launch({ executablePath, args: ["--no-sandbox"] });
 const findings = [];
 
-for (const file of pages) {
-  const url = pathToFileURL(file).href;
-  for (const colorScheme of ["light", "dark"]) {
-    for (const viewport of [{ width: 1280, height: 900 }, { width: 390, height: 844 }]) {
-      const context = await browser.newContext({ colorScheme, viewport });
-      const page = await context.newPage();
-      const say = (text) => findings.push(`${file} (${colorScheme}, ${viewport.width} px): ${text}`);
-      page.on("console", (m) => m.type() === "error" && say(`console: ${m.text()}`));
-      page.on("pageerror", (e) => say(`error: ${e}`));
-      page.on("request", (r) => r.url() !== url && !r.url().startsWith("data:") && say(`request: ${r.url()}`));
-      await page.goto(url);
-      await page.evaluate(() => document.fonts.ready);
-      for (const text of await page.evaluate(inspect, viewport.width > 1000)) say(text);
-      await page.evaluate(axe);
-      const { violations } = await page.evaluate(() => axe.run({ resultTypes: ["violations"] }));
-      for (const v of violations.filter((v) => ["serious", "critical"].includes(v.impact) || v.id === "heading-order")) {
-        say(`${v.id}: ${v.help} (${v.nodes.length} times, ${v.nodes[0].html.slice(0, 160)})`);
-      }
-      await context.close();
-    }
-  }
-}
+// Each view of each page on its own, two at a time.
+const views = pages.flatMap((file) =>
+  ["light", "dark"].flatMap((colorScheme) =>
+    [{ width: 1280, height: 900 }, { width: 390, height: 844 }].map((viewport) => ({ file, colorScheme, viewport })),
+  ),
+);
+const next = views.values();
+await Promise.all([look(), look()]);
 await browser.close();
 for (const text of findings) console.error(text);
 console.log(`${pages.length} pages, light and dark, wide and narrow: ${findings.length} findings`);
 process.exit(findings.length > 0 ? 1 : 0);
+
+/** Looks at views until none is left. */
+async function look() {
+  for (const { file, colorScheme, viewport } of next) {
+    const url = pathToFileURL(file).href;
+    const context = await browser.newContext({ colorScheme, viewport });
+    const page = await context.newPage();
+    const say = (text) => findings.push(`${file} (${colorScheme}, ${viewport.width} px): ${text}`);
+    page.on("console", (m) => m.type() === "error" && say(`console: ${m.text()}`));
+    page.on("pageerror", (e) => say(`error: ${e}`));
+    page.on("request", (r) => r.url() !== url && !r.url().startsWith("data:") && say(`request: ${r.url()}`));
+    await page.goto(url);
+    await page.evaluate(() => document.fonts.ready);
+    for (const text of await page.evaluate(inspect, viewport.width > 1000)) say(text);
+    await page.evaluate(axe);
+    const { violations } = await page.evaluate(() => axe.run({ resultTypes: ["violations"] }));
+    for (const v of violations.filter((v) => ["serious", "critical"].includes(v.impact) || v.id === "heading-order")) {
+      say(`${v.id}: ${v.help} (${v.nodes.length} times, ${v.nodes[0].html.slice(0, 160)})`);
+    }
+    await context.close();
+  }
+}
 
 /** Runs in the page: sentences about what is wrong. */
 function inspect(isWide) {

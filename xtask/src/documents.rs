@@ -23,9 +23,13 @@ pub fn run() -> Result<()> {
     if folder.exists() {
         fs::remove_dir_all(&folder)?;
     }
-    latex(&folder.join("latex"))?;
-    typst(&folder.join("typst"))?;
-    pages(&folder.join("pages"))
+    // Each waits much of its time for a program that uses one core.
+    std::thread::scope(|scope| {
+        let browser = scope.spawn(|| pages(&folder.join("pages")));
+        let typeset = latex(&folder.join("latex")).and_then(|()| typst(&folder.join("typst")));
+        let looked = browser.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        typeset.and(looked)
+    })
 }
 
 fn report(robot: &str, to: &Path, extra: &[&str]) -> Result<()> {
