@@ -12,8 +12,9 @@ const TARGETS: &[(&str, &str)] = &[
     ("table", "fuzz/seeds/table"),
     ("document", "examples/documents"),
 ];
-/// The soak that is not a fuzz target: tests at their full size.
+/// The soaks that are not fuzz targets: tests at their full size, and arms at random.
 const SUITES: &str = "suites";
+const ATTACK: &str = "attack";
 /// Longest input in bytes.
 const MAX_BYTES: u32 = 4096;
 /// Seconds after which one input counts as a hang (the build is unoptimised for speed and instrumented).
@@ -26,14 +27,18 @@ const MEMORY: u32 = 2048;
 /// # Errors
 /// If a target crashes (the input is left under `fuzz/artifacts`), or the tools are not there.
 pub fn run(seconds: u32, wanted: &[&str]) -> Result<()> {
-    if let Some(unknown) = wanted.iter().find(|w| **w != SUITES && TARGETS.iter().all(|t| t.0 != **w)) {
-        let known: Vec<&str> = TARGETS.iter().map(|t| t.0).chain([SUITES]).collect();
+    let is_known = |w: &str| [SUITES, ATTACK].contains(&w) || TARGETS.iter().any(|t| t.0 == w);
+    if let Some(unknown) = wanted.iter().find(|w| !is_known(w)) {
+        let known: Vec<&str> = TARGETS.iter().map(|t| t.0).chain([SUITES, ATTACK]).collect();
         bail!("no fuzz target `{unknown}`; there are {}", known.join(", "));
     }
     if wanted.is_empty() || wanted.contains(&SUITES) {
         suites()?;
     }
-    if wanted == [SUITES] {
+    if wanted.is_empty() || wanted.contains(&ATTACK) {
+        attack()?;
+    }
+    if !wanted.is_empty() && wanted.iter().all(|w| [SUITES, ATTACK].contains(w)) {
         return Ok(());
     }
     install()?;
@@ -78,6 +83,14 @@ fn suites() -> Result<()> {
         succeed(cargo.args(tests).arg("--nocapture").env("DENAVIT_SOAK", "1"))?;
     }
     Ok(())
+}
+
+/// Arms at random with everything that a robot file allows, each at many poses: about an hour.
+fn attack() -> Result<()> {
+    println!("\n━━ {ATTACK} ━━");
+    let mut cargo = command("cargo");
+    cargo.args(["test", "--release", "-p", "denavit", "--test", "suite", "--", "attack::", "--nocapture"]);
+    succeed(cargo.env("DENAVIT_SOAK", "1"))
 }
 
 /// `cargo fuzz` of the nightly toolchain, which the instrumentation needs.

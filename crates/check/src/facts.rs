@@ -258,6 +258,14 @@ pub enum Condition {
     OwnSign,
     /// As far as it goes: solutions are left out.
     Incomplete(Option<Missing>),
+    /// As far as numbers show: the values agree at so many poses, to about this much (radians, or lengths by the arm's
+    /// size), and nothing is proved.
+    Compared {
+        /// The poses.
+        poses: usize,
+        /// How far the values are from the right ones at most of them: rounding is 1e-12 and less.
+        apart: f64,
+    },
     /// In a part of all configurations: where all formulas of one of these lists are positive, if that is known.
     Configurations(Vec<Vec<Formula>>),
     /// In a part of all orientations: where all of these are positive, if that is known.

@@ -128,6 +128,10 @@ impl Judge<'_> {
         }
         let correct = self.correct(j);
         match j.verdict {
+            Verdict::Right if !j.grounds.proved => {
+                remarks.retain(|r| !matches!(r, Remark::Compared(_)));
+                Finding::Conditional { condition: compared(j), correct, remarks }
+            }
             Verdict::Right => Finding::Equal { unless_zero: self.divisors(j) },
             Verdict::Incomplete => {
                 Finding::Conditional { condition: Condition::Incomplete(j.missing), correct, remarks }
@@ -287,6 +291,9 @@ fn of_angle(j: &Judgement, range: Expr, columns: Columns, names: &Rc<Vocabulary>
         right.iter().map(|r| entry_names(&r.to_string(), columns)).collect()
     };
     match j.verdict {
+        Verdict::Right if !j.grounds.proved => {
+            Finding::Conditional { condition: compared(j), correct: right(), remarks: vec![] }
+        }
         Verdict::Right => Finding::Equal { unless_zero: vec![in_own_names(range)] },
         Verdict::Undecided(why) => Finding::Undecided { why: Unproved::Values(why) },
         Verdict::Wrong => Finding::Wrong(Box::new(Wrong { correct: right(), ..Wrong::default() })),
@@ -294,6 +301,11 @@ fn of_angle(j: &Judgement, range: Expr, columns: Columns, names: &Rc<Vocabulary>
             Finding::Conditional { condition: orientations_of(j), correct: right(), remarks: vec![] }
         }
     }
+}
+
+/// What values agree in that are not proved.
+fn compared(j: &Judgement) -> Condition {
+    Condition::Compared { poses: j.grounds.poses + j.grounds.special, apart: j.grounds.apart }
 }
 
 /// A formula in the angles of a set, these named as the set names them.

@@ -1,10 +1,12 @@
 //! The space of the joints: which of them turn, how configurations differ, what the limits allow.
 
+use crate::geometry::Transform;
+use std::cmp::Ordering;
 use std::f64::consts::{PI, TAU};
 
 /// Solutions this near (radians, and lengths by the reach) are the same: two roots that coincide differ by as much.
 const SAME: f64 = 2e-6;
-/// What a joint may be beyond its limit, for rounding (radians or metres).
+/// What a joint may be beyond its limit, for rounding, in its unit.
 const SLACK: f64 = 1e-9;
 
 /// The space of the joint variables of a robot with numbers.
@@ -16,6 +18,42 @@ pub struct JointSpace {
     pub limits: Vec<Option<[f64; 2]>>,
     /// A length that slides are compared with: the sum of the robot's lengths, metres.
     pub reach: f64,
+    /// By what joints can be moved so that every link comes back to where it was.
+    pub turning: Periods,
+}
+
+/// By what joints can be moved so that every link comes back to where it was: a whole turn, two turns of a joint that is
+/// geared down to a half, half a turn of one that is geared up to twice its angle.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Periods {
+    /// By what each joint alone can be moved, radians; infinite for one that slides.
+    pub periods: Vec<f64>,
+    /// The range in which solutions are listed, the smallest multiple of the period that is a whole turn or more.
+    pub windows: Vec<f64>,
+    /// Further motions within the windows: all of them together with whole windows are all that there are.
+    pub copies: Vec<Vec<f64>>,
+}
+
+impl Periods {
+    /// Those of joints without gears: whole turns of those that turn.
+    pub fn whole_turns(is_angle: impl IntoIterator<Item = bool>) -> Self {
+        let periods: Vec<f64> =
+            is_angle.into_iter().map(|turns| if turns { TAU } else { f64::INFINITY }).collect();
+        Periods { windows: periods.clone(), periods, copies: vec![] }
+    }
+
+    /// Whether a whole turn of a joint brings all links back.
+    pub(crate) fn goes_round(&self, joint: usize) -> bool {
+        (TAU / self.periods[joint]).fract() == 0.0 && self.periods[joint].is_finite()
+    }
+
+    /// Those of some of the joints, the others held.
+    fn held(&self, joints: &[usize]) -> Self {
+        let of = |x: &[f64]| -> Vec<f64> { joints.iter().map(|&j| x[j]).collect() };
+        let is_still = |c: &&Vec<f64>| (0..c.len()).all(|j| c[j] == 0.0 || joints.contains(&j));
+        let copies = self.copies.iter().filter(is_still).map(|c| of(c)).collect();
+        Periods { periods: of(&self.periods), windows: of(&self.windows), copies }
+    }
 }
 
 impl JointSpace {
@@ -27,21 +65,42 @@ impl JointSpace {
             is_angle: joints.iter().map(|&j| self.is_angle[j]).collect(),
             limits: joints.iter().map(|&j| self.limits[j]).collect(),
             reach: self.reach,
+            turning: self.turning.held(&joints),
         }
     }
 
-    /// How the joints differ, angles by the shorter way.
+    /// How the joints differ, those that turn by the shorter way.
     pub fn moved(&self, from: &[f64], to: &[f64]) -> Vec<f64> {
-        let pairs = from.iter().zip(to).zip(&self.is_angle);
-        pairs.map(|((x, y), &is_angle)| if is_angle { wrapped(y - x) } else { y - x }).collect()
+        let pairs = from.iter().zip(to).zip(&self.turning.periods);
+        pairs.map(|((x, y), &period)| within(y - x, period)).collect()
     }
 
-    /// The largest difference of a joint, lengths by the reach.
+    /// What lengths are compared with: the reach, or 1 m for an arm without lengths.
+    pub fn length(&self) -> f64 {
+        if self.reach > 0.0 { self.reach } else { 1.0 }
+    }
+
+    /// What displacements of the hand are compared with at a pose.
+    pub(crate) fn size(&self, pose: &Transform<f64>) -> f64 {
+        self.length().hypot(pose.translation.norm())
+    }
+
+    /// What a joint is measured in: a radian, or the length.
+    pub fn unit(&self, joint: usize) -> f64 {
+        if self.is_angle[joint] { 1.0 } else { self.length() }
+    }
+
+    /// How the joints differ, each in its unit.
+    pub fn way(&self, from: &[f64], to: &[f64]) -> Vec<f64> {
+        let mut way = self.moved(from, to);
+        way.iter_mut().enumerate().for_each(|(j, x)| *x /= self.unit(j));
+        way
+    }
+
+    /// The largest difference of a joint, in its unit.
     pub fn distance(&self, a: &[f64], b: &[f64]) -> f64 {
-        let differences = self.moved(a, b);
-        let by =
-            |(d, &is_angle): (&f64, &bool)| if is_angle { d.abs() } else { d.abs() / self.reach.max(1e-3) };
-        differences.iter().zip(&self.is_angle).map(by).fold(0.0, f64::max)
+        let pairs = a.iter().zip(b).zip(&self.turning.periods).enumerate();
+        pairs.fold(0.0, |most, (j, ((x, y), &period))| (within(y - x, period).abs() / self.unit(j)).max(most))
     }
 
     /// True if two configurations are one, but for rounding and whole turns.
@@ -49,27 +108,54 @@ impl JointSpace {
         self.distance(a, b) <= SAME
     }
 
+    /// True if two configurations are one entry of a list: the same but for rounding and whole windows.
+    pub(crate) fn is_listed_as(&self, a: &[f64], b: &[f64]) -> bool {
+        let pairs = a.iter().zip(b).zip(&self.turning.windows).enumerate();
+        pairs.fold(true, |same, (j, ((x, y), &window))| {
+            same && within(y - x, window).abs() <= SAME * self.unit(j)
+        })
+    }
+
     /// The middle of the limits; 0 where there are none.
     pub fn middle(&self) -> Vec<f64> {
         self.limits.iter().map(|l| l.map_or(0.0, |[low, high]| f64::midpoint(low, high))).collect()
     }
 
-    /// Brings angles to (−π, π].
+    /// Brings angles to (−π, π], those of geared joints to the range in which solutions are listed.
     pub fn wrap(&self, q: &mut [f64]) {
-        for (x, _) in q.iter_mut().zip(&self.is_angle).filter(|p| *p.1) {
-            *x = wrapped(*x);
+        for (x, &window) in q.iter_mut().zip(&self.turning.windows) {
+            *x = within(*x, window);
         }
     }
 
-    /// How many whole turns joint `j` may be moved by from `x` within its limits: the fewest and the most; nothing if
-    /// the limits exclude all. A joint without limits, and one that slides, stays where it is.
+    /// The configuration and its copies in the range in which solutions are listed, in the order of their joints' values.
+    pub fn copies(&self, q: &[f64]) -> Vec<Vec<f64>> {
+        let moved = |by: &Vec<f64>| q.iter().zip(by).map(|(x, d)| x + d).collect();
+        let mut all: Vec<Vec<f64>> = self.turning.copies.iter().map(moved).collect();
+        all.push(q.to_vec());
+        all.iter_mut().for_each(|q| self.wrap(q));
+        all.sort_by(|a, b| {
+            a.iter().zip(b).map(|(x, y)| x.total_cmp(y)).find(|o| o.is_ne()).unwrap_or(Ordering::Equal)
+        });
+        all
+    }
+
+    /// How many windows (whole turns of a joint without gears) joint `j` may be moved by from `x` within its limits: the
+    /// fewest and the most; nothing if the limits exclude all. A joint without limits, and one that slides, stays where
+    /// it is.
     pub fn turns(&self, j: usize, x: f64) -> Option<[i32; 2]> {
+        self.times(j, x, self.turning.windows[j])
+    }
+
+    /// How many times a period joint `j` may be moved by from `x` within its limits.
+    fn times(&self, j: usize, x: f64, period: f64) -> Option<[i32; 2]> {
         let Some([low, high]) = self.limits[j] else { return Some([0, 0]) };
-        if !self.is_angle[j] {
-            return (low - SLACK..=high + SLACK).contains(&x).then_some([0, 0]);
+        let (low, high) = (low - SLACK * self.unit(j), high + SLACK * self.unit(j));
+        if period.is_infinite() {
+            return (low..=high).contains(&x).then_some([0, 0]);
         }
-        let fewest = ((low - SLACK - x) / TAU).ceil() as i32;
-        let most = ((high + SLACK - x) / TAU).floor() as i32;
+        let fewest = ((low - x) / period).ceil() as i32;
+        let most = ((high - x) / period).floor() as i32;
         (fewest <= most).then_some([fewest, most])
     }
 
@@ -78,29 +164,48 @@ impl JointSpace {
         (0..q.len()).all(|j| self.turns(j, q[j]).is_some())
     }
 
-    /// The copy of a configuration, joints moved by whole turns, that the limits allow and that is nearest to another;
+    /// The copy of a configuration, each joint moved by its periods, that the limits allow and that is nearest to another;
     /// a joint for which they allow none goes to the nearest copy.
     pub fn nearest_copy(&self, q: &[f64], to: &[f64]) -> Vec<f64> {
         let pairs = q.iter().zip(to).enumerate();
         pairs
             .map(|(j, (&x, &y))| {
-                if !self.is_angle[j] {
+                let period = self.turning.periods[j];
+                if period.is_infinite() {
                     return x;
                 }
-                let turns = ((y - x) / TAU).round();
-                match (self.limits[j], self.turns(j, x)) {
-                    (Some(_), Some([fewest, most])) => x + TAU * turns.clamp(fewest.into(), most.into()),
-                    _ => x + TAU * turns,
+                let times = ((y - x) / period).round();
+                match (self.limits[j], self.times(j, x, period)) {
+                    (Some(_), Some([fewest, most])) => x + period * times.clamp(fewest.into(), most.into()),
+                    _ => x + period * times,
                 }
             })
             .collect()
     }
+
+    /// Half of what a joint needs to take all its places, radians or metres.
+    pub fn half_range(&self, j: usize) -> f64 {
+        let period = self.turning.periods[j];
+        match self.is_angle[j] {
+            true if period.is_finite() => 0.5 * period,
+            true => PI,
+            false => self.length(),
+        }
+    }
+}
+
+/// A number brought to (−half a period, half a period]; itself, if the period is infinite.
+pub(crate) fn within(x: f64, period: f64) -> f64 {
+    if period.is_infinite() {
+        return x;
+    }
+    let y = x - period * (x / period).round();
+    if y <= -0.5 * period { y + period } else { y }
 }
 
 /// The angle in (−π, π].
 pub(crate) fn wrapped(x: f64) -> f64 {
-    let y = x - TAU * (x / TAU).round();
-    if y <= -PI { y + TAU } else { y }
+    within(x, TAU)
 }
 
 pub(crate) fn norm(v: &[f64]) -> f64 {

@@ -138,3 +138,21 @@ pub fn fails_at(setting: &Setting, special: &[Sample], formulas: &Formulas) -> O
     };
     special.iter().filter(determined).find(fails).map(|s| s.q.clone())
 }
+
+/// How far the printed values are from each configuration's own, the nearest of them, at half of the samples or more.
+pub fn apart(setting: &Setting, samples: &[Sample], formulas: &Formulas) -> f64 {
+    let Ok(tapes) = Tapes::new(setting, formulas) else { return f64::INFINITY };
+    let of = |s: &Sample| {
+        let here = setting.point(&s.q, &s.entries);
+        let (own, printed) = (tapes.of.values(&here), tapes.printed.values(&here));
+        let branches = printed.chunks(formulas.of.len().max(1));
+        branches.map(|b| setting.apart(formulas.of, b, &own)).fold(f64::INFINITY, f64::min)
+    };
+    median(samples.iter().map(of).collect())
+}
+
+/// The middle one of some numbers; 0 if there are none.
+pub fn median(mut all: Vec<f64>) -> f64 {
+    all.sort_by(f64::total_cmp);
+    all.get(all.len() / 2).copied().unwrap_or(0.0)
+}

@@ -68,7 +68,7 @@ pub enum Undecided {
 }
 
 /// What a verdict rests on.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Grounds {
     /// True if an identity in the joint variables proves that every configuration is among the values (where the
     /// branch's condition holds), or that the equation holds; a refutation by numbers counts as proved.
@@ -77,6 +77,9 @@ pub struct Grounds {
     pub poses: usize,
     /// Special ones beside: joints at 0, ±π/2, π.
     pub special: usize,
+    /// How far values that count as right are from the configuration's own, at half of the poses or more: rounding, or what
+    /// only looks right. Radians, lengths by the arm's size.
+    pub apart: f64,
 }
 
 /// Where a branch is right.

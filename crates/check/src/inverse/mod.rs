@@ -100,7 +100,7 @@ fn equation(arm: &mut Arm, left: Expr, right: Expr) -> Judgement {
         Err(s) => return Judgement::undecided(Undecided::UnknownSymbol(s)),
     };
     let setting = &arm.setting;
-    let mut holds = vec![];
+    let (mut holds, mut apart) = (vec![], vec![]);
     let mut defined = vec![];
     let mut counterexample = None;
     for s in &arm.any {
@@ -108,7 +108,9 @@ fn equation(arm: &mut Arm, left: Expr, right: Expr) -> Judgement {
         if !sides.iter().all(|x| x.is_finite()) {
             continue;
         }
-        let near = (sides[0] - sides[1]).abs() <= 1e-9 * (1.0 + sides[0].abs() + sides[1].abs());
+        let difference = (sides[0] - sides[1]).abs() / (1.0 + sides[0].abs() + sides[1].abs());
+        let near = difference <= 1e-9;
+        apart.push(difference);
         holds.push(near);
         defined.push(s.clone());
         if !near && counterexample.is_none() {
@@ -121,7 +123,8 @@ fn equation(arm: &mut Arm, left: Expr, right: Expr) -> Judgement {
         return Judgement::undecided(Undecided::NeverDefined);
     }
     let [l, r] = [left, right].map(|e| setting.by_table(e));
-    let mut grounds = Grounds { proved: counterexample.is_some(), poses: holds.len(), special: 0 };
+    let apart = compare::median(apart);
+    let mut grounds = Grounds { proved: counterexample.is_some(), poses: holds.len(), special: 0, apart };
     let mut faults = vec![];
     let mut place = Where::Everywhere;
     if counterexample.is_none() {
@@ -225,7 +228,8 @@ fn values(arm: &mut Arm, v: &Values, known: &[Expr]) -> Judgement {
             .or_else(|| mend::derived(arm, &of, &known))
             .or_else(|| mend::mended(&arm.setting, &arm.samples, &formulas, &places)),
     };
-    let grounds = Grounds { proved, poses: arm.samples.len(), special: arm.special.len() };
+    let apart = compare::apart(&arm.setting, &arm.samples, &formulas);
+    let grounds = Grounds { proved, poses: arm.samples.len(), special: arm.special.len(), apart };
     faults.extend(division::faults(arm, &of, &known, &branches.concat()));
     Judgement {
         verdict,

@@ -1,6 +1,6 @@
 //! Printed formulas for roll-pitch-yaw and Euler angles in the entries of a rotation matrix.
 
-use super::compare::{Comparison, Formulas, fails_at, share};
+use super::compare::{Comparison, Formulas, apart, fails_at, share};
 use super::condition;
 use super::judgement::{Fault, Grounds, Judgement, Origin, Right, Undecided, Verdict, Where};
 use super::mend;
@@ -159,7 +159,12 @@ fn judge(
         || proof::proves(setting, samples, &of, &branches, std::slice::from_ref(&in_range));
     Judgement {
         verdict,
-        grounds: Grounds { proved, poses: samples.len(), special: special.len() },
+        grounds: Grounds {
+            proved,
+            poses: samples.len(),
+            special: special.len(),
+            apart: apart(setting, samples, &formulas),
+        },
         branches: vec![place],
         missing: None,
         extra: if compared.extra(0) > 0.0 { vec![0] } else { vec![] },

@@ -111,12 +111,18 @@ impl Setting {
 
     /// Equal but for whole turns and rounding.
     pub fn near(&self, of: &[Unknown], a: &[f64], b: &[f64]) -> bool {
-        a.iter().zip(b).zip(of).all(|((x, y), u)| {
+        self.apart(of, a, b) <= SAME
+    }
+
+    /// How far values are from each other but for whole turns: the worst, radians and lengths by the arm's size.
+    pub fn apart(&self, of: &[Unknown], a: &[f64], b: &[f64]) -> f64 {
+        a.iter().zip(b).zip(of).fold(0.0, |most, ((x, y), u)| {
             let d = x - y;
-            match u.is_angle {
-                true => (d - TAU * (d / TAU).round()).abs() <= SAME,
-                false => d.abs() <= SAME * self.size.max(y.abs()).max(1.0),
-            }
+            let own = match u.is_angle {
+                true => (d - TAU * (d / TAU).round()).abs(),
+                false => d.abs() / self.size.max(y.abs()).max(1.0),
+            };
+            if own >= most || own.is_nan() { own } else { most }
         })
     }
 

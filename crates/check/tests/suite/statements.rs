@@ -201,3 +201,19 @@ fn toml_says_what_each_claim_is() {
     let all = check(text, Format::Toml, Some(&robot), &CheckOptions::default()).expect("claims");
     assert_eq!(all.tally().equal, 1, "{:?}", all.claims);
 }
+
+/// Values of joints that agree in numbers alone are not called proved, however near they are.
+#[test]
+fn what_is_not_proved_is_not_called_so() {
+    let right = "θ_12 = atan2(n_y, n_x)";
+    let almost = [
+        "θ_12 = atan2(n_y, n_x) + 1/10000000",
+        "θ_12 = atan2(n_y, n_x + 0.000001)",
+        "θ_12 = atan2(n_y*(n_x + 99999/100000), n_x*(n_x + 99999/100000))",
+    ];
+    assert_eq!(checked(PLANAR, right).tally().equal, 1);
+    for text in almost {
+        let all = checked(PLANAR, text);
+        assert_eq!((all.claims.len(), all.tally().equal), (1, 0), "{text}: {:?}", all.claims);
+    }
+}

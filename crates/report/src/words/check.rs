@@ -8,6 +8,9 @@ use denavit_check::{
 use denavit_reading::slip::Slip;
 use denavit_symbolic::Symbol;
 
+/// Values that are apart by less are apart by rounding.
+pub const ROUNDING: f64 = 1e-11;
+
 /// What is said of a document that was checked.
 pub trait Check {
     /// What a claim is about.

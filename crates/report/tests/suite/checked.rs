@@ -161,6 +161,8 @@ fn conditions_and_doubts() {
         Condition::OwnSign,
         Condition::Incomplete(None),
         Condition::Incomplete(Some(MISSING)),
+        Condition::Compared { poses: 198, apart: 1e-16 },
+        Condition::Compared { poses: 198, apart: 1e-7 },
         Condition::Configurations(vec![]),
         Condition::Orientations(vec![]),
         Condition::Orientations(vec![formula("nx")]),

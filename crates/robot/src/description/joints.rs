@@ -1,7 +1,7 @@
 //! The joints of a description as a space of numbers.
 
 use super::{Description, JointKind};
-use crate::space::JointSpace;
+use crate::space::{JointSpace, Periods};
 use denavit_symbolic::Symbol;
 
 impl JointSpace {
@@ -13,6 +13,6 @@ impl JointSpace {
             Some([low.eval(value).ok()?, high.eval(value).ok()?])
         });
         let is_angle = description.variables().iter().map(|v| v.kind == JointKind::Revolute).collect();
-        JointSpace { is_angle, limits: limits.collect(), reach }
+        JointSpace { is_angle, limits: limits.collect(), reach, turning: Periods::of(description) }
     }
 }

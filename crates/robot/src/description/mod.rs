@@ -12,6 +12,7 @@ mod named;
 mod names;
 mod order;
 mod parameters;
+mod periods;
 mod robot_file;
 mod rows;
 pub mod table;

@@ -2,6 +2,7 @@
 
 use super::branch::Branch;
 use super::self_motion::SelfMotion;
+use crate::space::JointSpace;
 
 /// All solutions of one pose.
 #[derive(Clone, PartialEq, Debug)]
@@ -26,6 +27,31 @@ impl Answer {
     /// True if all solutions are here.
     pub fn is_complete(&self) -> bool {
         self.doubt.is_none()
+    }
+
+    /// Lists the copies of what was found that joints with gears have within the range of a whole turn or more, and
+    /// puts the limits to each.
+    pub(in crate::inverse) fn spread(&mut self, space: &JointSpace) {
+        if space.turning.copies.is_empty() {
+            return;
+        }
+        let found = std::mem::take(&mut self.solutions);
+        for (s, q) in found.iter().flat_map(|s| space.copies(&s.q).into_iter().map(move |q| (s, q))) {
+            if !self.solutions.iter().any(|t| space.is_listed_as(&t.q, &q)) {
+                self.solutions.push(Solution { within_limits: space.within(&q), q, ..s.clone() });
+            }
+        }
+        let found = std::mem::take(&mut self.families);
+        for (f, q) in
+            found.iter().flat_map(|f| space.copies(&f.representative.q).into_iter().map(move |q| (f, q)))
+        {
+            let way: Vec<f64> = q.iter().zip(&f.representative.q).map(|(x, y)| x - y).collect();
+            let mut family = f.clone();
+            family.curve.iter_mut().for_each(|p| p.iter_mut().zip(&way).for_each(|(x, d)| *x += d));
+            family.representative =
+                Solution { within_limits: space.within(&q), q, ..f.representative.clone() };
+            self.families.push(family);
+        }
     }
 
     /// True if there is a solution.

@@ -244,6 +244,7 @@ impl InverseKinematics {
                 if answer.doubt.is_some() {
                     self.follow_more(pose, &mut answer);
                 }
+                answer.spread(&self.space);
                 answer
             }
             Method::Numeric => Answer { doubt: Some(Doubt::Searched), ..Answer::empty() },
@@ -253,6 +254,7 @@ impl InverseKinematics {
         answer.families.retain(|f| f.representative.residual.is_finite());
         if !answer.is_reachable() {
             self.search(pose, &mut answer);
+            answer.spread(&self.space);
         }
         answer
     }
@@ -263,7 +265,8 @@ impl InverseKinematics {
         let mut random = Random(1);
         let size = self.size(pose);
         let span = |j: usize| {
-            self.space.limits[j].unwrap_or(if self.space.is_angle[j] { [-PI, PI] } else { [0.0, size] })
+            let half = self.space.half_range(j);
+            self.space.limits[j].unwrap_or(if self.space.is_angle[j] { [-half, half] } else { [0.0, size] })
         };
         let spans: Vec<[f64; 2]> = (0..self.robot.joints).map(span).collect();
         for _ in 0..DESCENTS {
@@ -287,7 +290,7 @@ impl InverseKinematics {
     fn is_near(&self, family: &Family, q: &[f64]) -> bool {
         let mut pairs = family.curve.windows(2);
         pairs.any(|pair| {
-            let (along, to) = (self.space.moved(&pair[0], &pair[1]), self.space.moved(&pair[0], q));
+            let (along, to) = (self.space.way(&pair[0], &pair[1]), self.space.way(&pair[0], q));
             let square: f64 = along.iter().map(|x| x * x).sum();
             let part = along.iter().zip(&to).map(|(x, y)| x * y).sum::<f64>() / square.max(f64::MIN_POSITIVE);
             let off =
@@ -326,7 +329,7 @@ impl InverseKinematics {
     }
 
     pub(super) fn size(&self, pose: &Transform<f64>) -> f64 {
-        self.space.reach.hypot(pose.translation.norm()).max(f64::MIN_POSITIVE)
+        self.space.size(pose)
     }
 
     /// The configuration of an answer that is nearest to another, families included: within the limits if one is.
@@ -344,7 +347,7 @@ impl InverseKinematics {
         }
         let way = |q: &[f64]| self.space.moved(q, to);
         for family in &answer.families {
-            for q in self.starts(pose, family, |q| norm(&way(q))) {
+            for q in self.starts(pose, family, |q| norm(&self.space.way(q, to))) {
                 candidates.push(newton::slide(&self.robot, self.goal, pose, &q, (&self.given, way), size));
             }
         }

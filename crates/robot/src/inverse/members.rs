@@ -116,10 +116,15 @@ fn scaled(space: &JointSpace, direction: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::space::Periods;
 
     #[test]
     fn directions_are_scaled_to_a_turn() {
-        let space = JointSpace { is_angle: vec![true, true, false], limits: vec![None; 3], reach: 2.0 };
+        let space = {
+            let is_angle = vec![true, true, false];
+            let turning = Periods::whole_turns(is_angle.iter().copied());
+            JointSpace { is_angle, limits: vec![None; 3], reach: 2.0, turning }
+        };
         let d = scaled(&space, &[0.6, -0.6, 0.0]);
         assert!((d[0] - TAU).abs() < 1e-12 && (d[1] + TAU).abs() < 1e-12 && d[2] == 0.0);
         assert_eq!(scaled(&space, &[0.0, 0.0, -0.5]), [0.0, 0.0, -4.0]);

@@ -4,10 +4,12 @@ use super::derivation::Goal;
 use crate::geometry::{Axis, Rotation, Transform, Vector};
 use crate::mechanism::Robot;
 use crate::random::Random;
-use crate::velocity;
+use crate::velocity::{self, svd};
 
 /// Steps of a polish; two or three are usual.
 const STEPS: usize = 20;
+/// Further steps where those did not reach the pose.
+const FINE: usize = 8;
 /// How far a polish may lead: further away is another solution.
 const FAR: f64 = 0.3;
 
@@ -68,7 +70,15 @@ pub fn gap(robot: &Robot<f64>, goal: Goal, wanted: &Transform<f64>, q: &[f64]) -
     (angle, (have.translation - wanted.translation).norm())
 }
 
-/// The derivative of the error's parts by the joint variables, one column a joint; that of given joints is 0.
+/// What each joint is measured in: radians, slides in lengths of `size`.
+fn units(robot: &Robot<f64>, size: f64) -> Vec<f64> {
+    let mut units = vec![size; robot.joints];
+    robot.links.iter().flat_map(|l| &l.theta.terms).for_each(|t| units[t.0] = 1.0);
+    units
+}
+
+/// The derivative of the error's parts by the joint variables (slides in lengths of `size`), one column a joint; that of
+/// given joints is 0.
 pub(super) fn jacobian(
     robot: &Robot<f64>,
     goal: Goal,
@@ -78,9 +88,12 @@ pub(super) fn jacobian(
 ) -> Vec<[f64; 6]> {
     let hand = robot.pose(q);
     let tool = hand.rotation.z();
-    let by_size = |[x, y, z, a, b, c]: [f64; 6]| [a, b, c, x / size, y / size, z / size];
-    let mut columns: Vec<[f64; 6]> =
-        velocity::of_tool(robot, q, hand.translation).into_iter().map(by_size).collect();
+    let by_size = |([x, y, z, a, b, c], unit): ([f64; 6], f64)| {
+        let by = unit / size;
+        [a * unit, b * unit, c * unit, x * by, y * by, z * by]
+    };
+    let motions = velocity::of_tool(robot, q, hand.translation).into_iter().zip(units(robot, size));
+    let mut columns: Vec<[f64; 6]> = motions.map(by_size).collect();
     for (j, c) in columns.iter_mut().enumerate() {
         if given.contains(&j) {
             *c = [0.0; 6];
@@ -106,8 +119,33 @@ pub fn polish(
     given: &[usize],
     size: f64,
 ) -> Option<(Vec<f64>, f64)> {
-    let (at, best) = approach(robot, goal, wanted, q, given, size)?;
-    let far = q.iter().zip(&at).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+    let (mut at, mut best) = approach(robot, goal, wanted, q, given, size)?;
+    let units = units(robot, size);
+    // Where the hand hardly sees the joints move in one direction, the equations must not be squared, and a step in that
+    // direction leaves the others to be corrected.
+    let rank = q.len().min(6);
+    let stepped = |at: &[f64], rank: usize, part: f64| -> Vec<f64> {
+        let e = error(goal, wanted, &robot.pose(at), size);
+        let step = svd(jacobian(robot, goal, at, given, size)).solve(&e, rank);
+        at.iter().zip(&step).zip(&units).map(|((x, d), unit)| x + part * d * unit).collect()
+    };
+    for _ in 0..FINE {
+        if best <= 1e-14 {
+            break;
+        }
+        let nearer = [1.0, 0.5, 0.25].into_iter().find_map(|part| {
+            let mut next = stepped(&at, rank, part);
+            for _ in 0..2 {
+                next = stepped(&next, rank - 1, 1.0);
+            }
+            let moved = distance(robot, goal, wanted, &next, size);
+            (moved < 0.9 * best).then_some((next, moved))
+        });
+        let Some(nearer) = nearer else { break };
+        (at, best) = nearer;
+    }
+    let by = |((x, y), unit): ((&f64, &f64), f64)| (x - y).abs() / unit;
+    let far = q.iter().zip(&at).zip(units).map(by).fold(0.0, f64::max);
     (far <= FAR).then_some((at, best))
 }
 
@@ -120,17 +158,40 @@ pub fn approach(
     given: &[usize],
     size: f64,
 ) -> Option<(Vec<f64>, f64)> {
+    walk((robot, goal, wanted), q, given, size, (1e-12, STEPS))
+}
+
+/// The same from far away, with steps that are held back until they lead nearer (Levenberg and Marquardt).
+pub fn descend(
+    robot: &Robot<f64>,
+    goal: Goal,
+    wanted: &Transform<f64>,
+    q: &[f64],
+    given: &[usize],
+    size: f64,
+) -> Option<(Vec<f64>, f64)> {
+    walk((robot, goal, wanted), q, given, size, (1e-2, 2 * STEPS))
+}
+
+/// Newton's method with a damping to begin with and a number of steps.
+fn walk(
+    (robot, goal, wanted): (&Robot<f64>, Goal, &Transform<f64>),
+    q: &[f64],
+    given: &[usize],
+    size: f64,
+    (mut damping, steps): (f64, usize),
+) -> Option<(Vec<f64>, f64)> {
     let mut at = q.to_vec();
     let mut best = distance(robot, goal, wanted, &at, size);
-    let mut damping = 1e-12;
-    for _ in 0..STEPS {
+    let units = units(robot, size);
+    for _ in 0..steps {
         if best <= 1e-14 {
             break;
         }
         let e = error(goal, wanted, &robot.pose(&at), size);
         let columns = jacobian(robot, goal, &at, given, size);
         let step = damped(&columns, &e, damping);
-        let next: Vec<f64> = at.iter().zip(&step).map(|(x, d)| x + d).collect();
+        let next: Vec<f64> = at.iter().zip(&step).zip(&units).map(|((x, d), unit)| x + d * unit).collect();
         let moved = distance(robot, goal, wanted, &next, size);
         if moved < best {
             (at, best) = (next, moved);
@@ -147,7 +208,8 @@ pub fn approach(
 /// How many independent directions of what the goal gives the joints can move, at a configuration like any other.
 pub fn rank(robot: &Robot<f64>, goal: Goal) -> usize {
     let mut random = Random(1);
-    let size = robot.reach().max(f64::MIN_POSITIVE);
+    let reach = robot.reach();
+    let size = if reach > 0.0 { reach } else { 1.0 };
     let of = |q: &[f64]| {
         let mut columns = jacobian(robot, goal, q, &[], size);
         let square = |c: &[f64; 6]| c.iter().map(|x| x * x).sum::<f64>();
@@ -188,12 +250,14 @@ pub fn slide(
     const MOST: usize = 60;
     // Next to a singularity a family is one up to what solutions may miss.
     const MISSED: f64 = 1e-9;
-    let away = |q: &[f64]| way(q).iter().map(|x| x * x).sum::<f64>();
+    let units = units(robot, size);
+    let scaled = |q: &[f64]| way(q).iter().zip(&units).map(|(x, unit)| x / unit).collect::<Vec<f64>>();
+    let away = |q: &[f64]| scaled(q).iter().map(|x| x * x).sum::<f64>();
     let mut at = q.to_vec();
     let mut length = 1.0;
     for _ in 0..MOST {
         let columns = jacobian(robot, goal, &at, given, size);
-        let mut there = way(&at);
+        let mut there = scaled(&at);
         given.iter().for_each(|&j| there[j] = 0.0);
         let seen: [f64; 6] = std::array::from_fn(|i| columns.iter().zip(&there).map(|(c, x)| c[i] * x).sum());
         let back = damped(&columns, &seen, 1e-11);
@@ -201,7 +265,7 @@ pub fn slide(
         if step.iter().all(|x| x.abs() < 1e-10) {
             break;
         }
-        let next: Vec<f64> = at.iter().zip(&step).map(|(x, d)| x + d).collect();
+        let next: Vec<f64> = at.iter().zip(&step).zip(&units).map(|((x, d), unit)| x + d * unit).collect();
         match polish(robot, goal, wanted, &next, given, size) {
             Some((next, residual)) if residual <= MISSED && away(&next) < away(&at) => {
                 at = next;

@@ -62,7 +62,7 @@ impl Arm {
             return Err(NoWorkspace::NotFinite);
         }
         // An arm of slides alone has no length of its own.
-        let length = if reach > 1e-9 { reach } else { 1.0 };
+        let length = if reach > 0.0 { reach } else { 1.0 };
         let mut assumed = vec![];
         let range = |j: usize| match (space.limits[j], space.is_angle[j]) {
             (Some([a, b]), _) => Range { low: a.min(b), high: a.max(b), is_endless: false },

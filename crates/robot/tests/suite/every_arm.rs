@@ -1,7 +1,7 @@
 //! Every arm is solved, whatever method serves it; nothing nearly special is rounded; many poses are solved in order, the
 //! same on any number of threads.
 
-use crate::common::{Random, robot};
+use crate::common::{Random, robot, share};
 use denavit::catalogue;
 use denavit::description::{Description, read_toml};
 use denavit::geometry::Transform;
@@ -40,7 +40,7 @@ fn every_robot_is_solved() {
     for (name, description) in with_numbers() {
         let solver = solver(&description);
         let mut random = Random(1);
-        for _ in 0..20 {
+        for _ in 0..share(20, 8) {
             let q = configuration(&mut random, &solver);
             let pose = solver.robot.pose(&q);
             let given: Vec<f64> = solver.given.iter().map(|&j| q[j]).collect();
@@ -60,7 +60,7 @@ fn one_is_within_the_limits() {
     for (name, description) in with_numbers() {
         let solver = solver(&description);
         let mut random = Random(2);
-        for _ in 0..20 {
+        for _ in 0..share(20, 8) {
             let q = configuration(&mut random, &solver);
             let pose = solver.robot.pose(&q);
             let given: Vec<f64> = solver.given.iter().map(|&j| q[j]).collect();

@@ -130,7 +130,7 @@ fn special_configurations_are_found() {
         let case = Case::new(name);
         let n = case.is_angle.len();
         let total = 4_usize.pow(n as u32);
-        let step = (total / share(4096, 512)).max(1) | 1;
+        let step = (total / share(4096, 160)).max(1) | 1;
         for number in (0..total).step_by(step) {
             let mut rest = number;
             let q: Vec<f64> = (0..n)
@@ -215,7 +215,7 @@ fn the_neighbourhood_of_singularities_is_solved() {
         let case = Case::new(name);
         let mut random = Random(3);
         let mut seen = 0;
-        for _ in 0..share(100, 2) {
+        for _ in 0..share(100, 1) {
             let start = case.random(&mut random);
             for joint in (0..6).filter(|&j| case.is_angle[j]).collect::<Vec<_>>() {
                 for x in singular(&case.robot, &start, joint) {

@@ -1,5 +1,6 @@
 //! Tests of the science, one program.
 
+mod attack;
 mod common;
 mod description;
 mod description_bytes;

@@ -126,17 +126,19 @@ impl<const N: usize> State<N> {
         self.ended[i] = if ends { number } else { self.ended[i] };
     }
 
-    /// Marks lanes in which the guard vanishes, and keeps the smallest.
+    /// Marks lanes in which the guard of node `number` vanishes, and keeps the smallest up to where a branch ends.
     #[inline(always)]
-    fn guard(&mut self, guard: &[f64; N], divisor: &[f64; N], scale: &[f64; N], degree: u8) {
+    fn guard(&mut self, number: f64, guard: &[f64; N], divisor: &[f64; N], scale: &[f64; N], step: &Step) {
         for i in 0..N {
             let is_finite = is_finite(divisor[i]) & is_finite(guard[i]) & is_finite(scale[i]);
             self.mark(i, is_finite & !vanishes(guard[i], divisor[i], scale[i]));
         }
         for i in 0..N {
             // The scale of degree 0 is 1.
-            let own = if degree == 0 { guard[i].abs() } else { relative(guard[i], scale[i]) };
-            self.guard[i] = if own < self.guard[i] { own } else { self.guard[i] };
+            let own = if step.degree == 0 { guard[i].abs() } else { relative(guard[i], scale[i]) };
+            let own = if step.usual == 1.0 { own } else { own / step.usual };
+            let counts = (self.ended[i] < 0.0) | (self.ended[i] == number);
+            self.guard[i] = if counts & (own < self.guard[i]) { own } else { self.guard[i] };
         }
     }
 }
@@ -247,7 +249,7 @@ pub(super) fn root<const N: usize>(
         Root::Quartic { .. } => unreachable!("quartics have no lanes"),
     }
     let guard = step.guard.map_or(of, |r| *at(r));
-    state.guard(&guard, &of, scale, step.degree);
+    state.guard(number, &guard, &of, scale, step);
     let results = step.results.clone();
     file[results.start].0 = first;
     if step.root.is_angle() {

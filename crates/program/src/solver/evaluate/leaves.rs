@@ -50,6 +50,8 @@ pub struct Leaves {
     /// For each node how often it ended a branch, and the smallest gap.
     ends: Vec<(u32, f64)>,
     dropped: u32,
+    /// The smallest guard of those that ended or were dropped.
+    lost_guard: f64,
     met_free: u64,
 }
 
@@ -66,6 +68,7 @@ impl Leaves {
             records: Vec::with_capacity(room),
             ends: vec![(0, f64::INFINITY); nodes],
             dropped: 0,
+            lost_guard: f64::INFINITY,
             met_free: 0,
         }
     }
@@ -107,6 +110,12 @@ impl Leaves {
         self.dropped
     }
 
+    /// The smallest guard on the way of a branch that ended or was dropped, relative to sizeᵈᵉᵍʳᵉᵉ: where it is small, it
+    /// may have been rounding that ended the branch.
+    pub fn lost_guard(&self) -> f64 {
+        self.lost_guard
+    }
+
     /// The nodes at which branches ended early.
     pub fn ended(&self) -> impl Iterator<Item = Ended> {
         let ends = self.ends.iter().enumerate().filter(|(_, e)| e.0 > 0);
@@ -130,6 +139,7 @@ impl Leaves {
         self.records.clear();
         self.ends.fill((0, f64::INFINITY));
         self.dropped = 0;
+        self.lost_guard = f64::INFINITY;
         self.met_free = 0;
     }
 
@@ -137,14 +147,17 @@ impl Leaves {
         self.met_free |= 1 << node;
     }
 
-    pub(crate) fn end(&mut self, node: usize, times: u32, gap: f64) {
+    /// A branch ends at a node; `guard` is the smallest on the way there.
+    pub(crate) fn end(&mut self, node: usize, gap: f64, guard: f64) {
         let end = &mut self.ends[node];
-        end.0 += times;
+        end.0 += 1;
         end.1 = end.1.min(gap);
+        self.lost_guard = self.lost_guard.min(guard);
     }
 
-    pub(crate) fn drop_leaf(&mut self) {
+    pub(crate) fn drop_leaf(&mut self, guard: f64) {
         self.dropped += 1;
+        self.lost_guard = self.lost_guard.min(guard);
     }
 
     /// Takes a leaf over, drops it, or joins it with one that is the same.
@@ -155,7 +168,7 @@ impl Leaves {
         let is_leaf = record.residual <= CANDIDATE && self.outputs[first..].iter().all(|x| x.is_finite());
         if !is_leaf {
             self.outputs.truncate(first);
-            self.dropped += 1;
+            self.drop_leaf(record.guard);
             return;
         }
         let (known, new) = self.outputs.split_at(first);

@@ -24,7 +24,7 @@ pub struct SolverFunction {
 }
 
 /// What does not depend on parameters.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Shape {
     variables: usize,
     registers: usize,
@@ -38,18 +38,20 @@ struct Shape {
 }
 
 /// The registers of a level.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Places {
     reads: Vec<Register>,
     writes: Vec<Register>,
 }
 
 /// A node without names.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Step {
     root: Root<Register>,
     guard: Option<Register>,
     degree: u8,
+    /// How large the guard is usually, relative to sizeᵈᵉᵍʳᵉᵉ; at most 1.
+    usual: f64,
     results: Range<usize>,
 }
 
@@ -72,6 +74,7 @@ impl Solver {
                 root: node.root,
                 guard: node.guard,
                 degree: node.degree,
+                usual: 1.0,
                 results: results.start as usize..results.end as usize,
             }
         });
@@ -115,6 +118,24 @@ impl SolverFunction {
     pub fn with_parameters(&self, parameters: &[f64]) -> SolverFunction {
         let levels = self.levels.iter().map(|f| f.with_parameters(parameters)).collect();
         SolverFunction { shape: self.shape.clone(), levels }
+    }
+
+    /// The same, with guards seen beside what is usual of them: a length that is small by nature does not make every
+    /// branch look nearly undetermined. The largest guards at some sets of variables are what is usual.
+    #[must_use]
+    pub fn with_usual_guards<'a>(&self, variables: impl IntoIterator<Item = &'a [f64]>) -> SolverFunction {
+        let mut scalar = self.scalar();
+        let mut largest = vec![0.0_f64; self.shape.steps.len()];
+        for one in variables {
+            for (most, guard) in largest.iter_mut().zip(scalar.largest_guards(one)) {
+                *most = most.max(guard);
+            }
+        }
+        let mut shape = (*self.shape).clone();
+        for (step, most) in shape.steps.iter_mut().zip(largest) {
+            step.usual = if most > 0.0 { most.min(1.0) } else { 1.0 };
+        }
+        SolverFunction { shape: shape.into(), levels: self.levels.clone() }
     }
 
     /// The same on other instructions, or with routines that round the same on every machine.

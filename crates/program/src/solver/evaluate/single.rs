@@ -146,7 +146,7 @@ fn take(
                 let at = |r: u32| file[r as usize].0[lane];
                 let scale = power(size, step.degree);
                 let gap = roots(&step.root.map(at), step.guard.map(at), scale, None).gap;
-                leaves.end(i, 1, gap);
+                leaves.end(i, gap, state.guard[lane]);
             }
         } else {
             finite += residual[lane] * 0.0;
@@ -154,7 +154,7 @@ fn take(
             if is_kept[lane] {
                 finite += shape.outputs.iter().map(|&r| file[r as usize].0[lane] * 0.0).sum::<f64>();
             } else {
-                leaves.drop_leaf();
+                leaves.drop_leaf(state.guard[lane]);
             }
         }
     }

@@ -20,6 +20,8 @@ pub struct Walk {
     signs: Vec<i8>,
     leaves: Leaves,
     looseness: f64,
+    /// The largest guard of each node on the last walk.
+    largest: Vec<f64>,
 }
 
 impl Walk {
@@ -34,6 +36,7 @@ impl Walk {
             signs: vec![0; n],
             leaves: shape.leaves(),
             looseness: 1.0,
+            largest: vec![0.0; n],
             shape,
         }
     }
@@ -55,7 +58,7 @@ impl Walk {
         given: &[Option<[f64; 2]>],
         mut level: impl FnMut(usize, &mut [f64]),
     ) -> &Leaves {
-        let Walk { shape, registers, scales, found, signs, leaves, looseness } = self;
+        let Walk { shape, registers, scales, found, signs, leaves, looseness, largest } = self;
         assert_eq!(variables.len(), shape.variables, "one value per variable");
         let last = shape.steps.len();
         leaves.clear();
@@ -63,8 +66,11 @@ impl Walk {
         level(0, registers);
         let size = registers[shape.size as usize].abs();
         for (scale, step) in scales.iter_mut().zip(&shape.steps) {
-            *scale = power(size, step.degree) * *looseness;
+            // What rounding leaves does not depend on what is usual.
+            let loosened = (*looseness * step.usual).max(1.0);
+            *scale = power(size, step.degree) * loosened;
         }
+        largest.fill(0.0);
         let mut i = 0;
         let mut is_new = true;
         loop {
@@ -77,10 +83,15 @@ impl Walk {
                     let given = given.get(i).copied().flatten();
                     let all = roots(&step.root.map(at), step.guard.map(at), scales[i], given);
                     if all.count == 0 {
-                        leaves.end(i, 1, all.gap);
+                        let earlier = found[..i].iter().map(|f| f.0.guard);
+                        let guards = earlier.chain([all.guard]).zip(&shape.steps).map(|(g, s)| g / s.usual);
+                        leaves.end(i, all.gap, guards.fold(f64::INFINITY, f64::min));
                     }
                     if all.is_free {
                         leaves.meet_free(i);
+                    }
+                    if all.guard.is_finite() {
+                        largest[i] = largest[i].max(all.guard);
                     }
                     found[i] = (all, 0);
                 }
@@ -115,7 +126,7 @@ fn leaf(shape: &Shape, registers: &[f64], found: &[(Roots, usize)], signs: &[i8]
     for (i, (all, visited)) in found.iter().enumerate() {
         record.multiplicity = record.multiplicity.saturating_mul(all.multiplicities[visited - 1]);
         record.free |= u64::from(all.is_free) << i;
-        record.guard = record.guard.min(all.guard);
+        record.guard = record.guard.min(all.guard / shape.steps[i].usual);
     }
     leaves.add(shape.outputs.iter().map(at), signs, record);
 }
@@ -170,6 +181,12 @@ impl SolverScalar {
         self.solve_carefully(variables, given);
         self.walk.set_looseness(1.0);
         &self.walk.leaves
+    }
+
+    /// The largest guard of each node on any branch for one set of variables, relative to sizeᵈᵉᵍʳᵉᵉ.
+    pub(crate) fn largest_guards(&mut self, variables: &[f64]) -> Vec<f64> {
+        self.solve_carefully(variables, &[]);
+        self.walk.largest.clone()
     }
 
     /// The same, one branch after the other.

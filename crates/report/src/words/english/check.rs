@@ -2,7 +2,7 @@
 
 use super::English;
 use crate::words::Check;
-use crate::words::check::{percent, positive};
+use crate::words::check::{ROUNDING, percent, positive};
 use denavit::forward::Reference;
 use denavit_check::inverse::{Cause, Composed, Undecided};
 use denavit_check::{
@@ -128,6 +128,12 @@ impl Check for English {
             Condition::Incomplete(missing) => {
                 let gives = missing.map(|m| format!(": it gives {} of {} values", m.given, m.existing));
                 format!("as far as it goes, but solutions are left out{}", gives.unwrap_or_default())
+            }
+            Condition::Compared { poses, apart } if *apart <= ROUNDING => {
+                format!("as far as {poses} poses show; it is not proved")
+            }
+            Condition::Compared { poses, apart } => {
+                format!("to about {apart:.0e} at {poses} poses, which is more than rounding")
             }
             Condition::Configurations(any) if any.is_empty() => "in a part of all configurations".into(),
             Condition::Configurations(any) => {

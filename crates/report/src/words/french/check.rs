@@ -2,7 +2,7 @@
 
 use super::{French, counted, printed};
 use crate::words::Check;
-use crate::words::check::{percent, positive};
+use crate::words::check::{ROUNDING, percent, positive};
 use denavit::forward::Reference;
 use denavit_check::inverse::{Cause, Composed, Missing, Undecided};
 use denavit_check::{
@@ -135,6 +135,12 @@ impl Check for French {
             Condition::Incomplete(missing) => {
                 let gives = missing.map(|m| format!(" : {}", given(m))).unwrap_or_default();
                 say!("pour les solutions données, mais il en manque{gives}")
+            }
+            Condition::Compared { poses, apart } if *apart <= ROUNDING => {
+                say!("d'après {poses} poses ; ce n'est pas démontré")
+            }
+            Condition::Compared { poses, apart } => {
+                say!("à {apart:.0e} près, en {poses} poses : c'est plus qu'un arrondi")
             }
             Condition::Configurations(any) if any.is_empty() => {
                 "pour une partie des configurations seulement".into()

@@ -100,10 +100,7 @@ impl Solving<'_> {
     fn member(&self, pose: &Transform<f64>, mut s: Solution) -> Option<Solution> {
         let start = s.q.clone();
         let holds = self.improve_within(pose, &mut s, SHORT);
-        let moved = start.iter().zip(&s.q).zip(&self.space.is_angle).map(|((x, y), &is_angle)| {
-            if is_angle { wrapped(x - y).abs() } else { (x - y).abs() / self.space.reach.max(1e-3) }
-        });
-        let far = moved.fold(0.0, f64::max);
+        let far = self.space.distance(&start, &s.q);
         (holds && far <= SHORT).then_some(s)
     }
 
@@ -273,12 +270,14 @@ impl Solving<'_> {
                     .is_some_and(|d| parallel(&d, &direction));
             if is_affine {
                 // Far along, rounding weighs less.
-                let by = norm(&self.space.moved(&q, &far));
+                let by = norm(&self.space.way(&q, &far));
                 if by > 0.1 {
+                    let by = norm(&self.space.moved(&q, &far));
                     let sign = if along(&self.space.moved(&q, &far), &direction) < 0.0 { -1.0 } else { 1.0 };
                     direction = self.space.moved(&q, &far).iter().map(|d| sign * d / by).collect();
                 }
-                direction.iter_mut().filter(|d| d.abs() < 1e-6).for_each(|d| *d = 0.0);
+                let parts = direction.iter_mut().enumerate();
+                parts.filter(|(j, d)| d.abs() < 1e-6 * self.space.unit(*j)).for_each(|(_, d)| *d = 0.0);
                 let length = norm(&direction);
                 direction.iter_mut().for_each(|d| *d /= length);
             }
@@ -312,13 +311,14 @@ impl Solving<'_> {
             };
             // The neighbour on the same branch is the nearest one.
             let members = self.with_free(pose, given, &moved, signs);
-            let distance = |s: &Solution| norm(&self.space.moved(q, &s.q));
+            let distance = |s: &Solution| norm(&self.space.way(q, &s.q));
             let nearest = members.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
             if let Some(n) = nearest
                 && distance(n) < 100.0 * STEP
             {
-                let length = distance(n) * step.signum();
-                return Some(self.space.moved(q, &n.q).iter().map(|d| d / length).collect());
+                let moved = self.space.moved(q, &n.q);
+                let length = norm(&moved) * step.signum();
+                return Some(moved.iter().map(|d| d / length).collect());
             }
         }
         None
@@ -333,7 +333,7 @@ impl Solving<'_> {
     ) -> bool {
         families.iter().any(|f| {
             let members = self.members_at(pose, given, f, q);
-            members.iter().any(|m| self.space.moved(q, &m.q).iter().all(|d| d.abs() <= SHORT))
+            members.iter().any(|m| self.space.distance(q, &m.q) <= SHORT)
         })
     }
 

@@ -28,7 +28,7 @@ pub struct InverseSolver {
     /// The robot that is moved.
     pub robot: Robot<f64>,
     pub(super) goal: Goal,
-    given: Vec<usize>,
+    pub(super) given: Vec<usize>,
     pub(super) space: JointSpace,
     pub(super) nodes: Vec<NodeFacts>,
     variants: Vec<VariantSolver>,
@@ -60,7 +60,7 @@ pub(super) struct Solving<'a> {
     pub solver: &'a InverseSolver,
     pub memory: Lent<'a, Memory>,
     /// What a solution may miss the pose by.
-    tolerance: f64,
+    pub(super) tolerance: f64,
 }
 
 impl Deref for Solving<'_> {
@@ -93,6 +93,8 @@ const LOOSEST: f64 = 1e-5;
 pub(super) const NEAR: f64 = 1e-6;
 /// What guards are compared with then, by what they are compared with otherwise.
 pub(super) const LOOSE: f64 = NEAR / denavit_program::solver::GUARD;
+/// How far it may move a branch that is a solution already, but only just: between two that nearly coincide.
+const FAR: f64 = 0.05;
 /// How far Newton's method may move a member of a family that was found with loose guards.
 pub(super) const SHORT: f64 = 1e-5;
 
@@ -105,8 +107,11 @@ impl InverseModel {
     pub fn solver(&self, description: &Description) -> Result<InverseSolver, MissingValue> {
         let robot = Robot::numeric(description)?;
         let value = |s: Symbol| description.value(s);
-        let function = self.compiled.solver.compile_with(value)?;
-        let nearest = compile::without_residual(self).compile_with(value)?.scalar();
+        let usual = usual(&robot, self.goal, &self.given);
+        let usual = || usual.iter().map(Vec::as_slice);
+        let function = self.compiled.solver.compile_with(value)?.with_usual_guards(usual());
+        let nearest =
+            compile::without_residual(self).compile_with(value)?.with_usual_guards(usual()).scalar();
         let facts = |steps: &[Step], labels: &[Option<Label>]| -> Vec<NodeFacts> {
             let pairs = steps.iter().zip(labels);
             pairs
@@ -125,7 +130,8 @@ impl InverseModel {
         };
         let nodes = facts(&self.steps, &self.labels);
         let variant = |v: &Variant| VariantSolver { step: v.step, nodes: facts(&v.steps, &v.labels) };
-        let scalar = |v: &Variant| Ok(v.compiled.solver.compile_with(value)?.scalar());
+        let scalar =
+            |v: &Variant| Ok(v.compiled.solver.compile_with(value)?.with_usual_guards(usual()).scalar());
         let variants = self.variants.iter().map(variant).collect();
         let memory = Memory {
             scalar: function.scalar(),
@@ -153,6 +159,23 @@ impl InverseModel {
             nodes,
         })
     }
+}
+
+/// The inputs of a solver at some configurations like any other.
+fn usual(robot: &Robot<f64>, goal: Goal, given: &[usize]) -> Vec<Vec<f64>> {
+    const CONFIGURATIONS: usize = 8;
+    let mut random = Random(2);
+    let size = robot.reach();
+    (0..CONFIGURATIONS)
+        .map(|_| {
+            let mut q = vec![0.0; robot.joints];
+            q.iter_mut().for_each(|x| *x = size * (random.unit() - 0.5));
+            let turning = robot.links.iter().flat_map(|l| &l.theta.terms).map(|t| t.0);
+            turning.for_each(|j| q[j] = TAU * random.unit());
+            let given: Vec<f64> = given.iter().map(|&j| q[j]).collect();
+            variables(goal, &robot.pose(&q), &given)
+        })
+        .collect()
 }
 
 /// The entries of a pose that a goal gives, in the order of [`Inputs`](crate::inverse::derivation::Inputs), then the given joint variables.
@@ -187,7 +210,9 @@ impl InverseSolver {
     pub fn solve(&self, pose: &Transform<f64>, given: &[f64]) -> Answer {
         assert_eq!(given.len(), self.given.len(), "one value per given joint");
         let (pose, mut solving) = self.at(pose);
-        solving.solve(&pose, given)
+        let mut answer = solving.solve(&pose, given);
+        answer.spread(&self.space);
+        answer
     }
 
     /// The rigid pose that is meant, and what solves it.
@@ -205,7 +230,7 @@ impl Solving<'_> {
         let mut answer = Answer::empty();
         let leaves = self.memory.scalar.solve(&variables, &[]);
         let met = leaves.met_free();
-        let near = leaves.iter().any(|l| l.free == 0 && l.guard < NEAR);
+        let near = leaves.lost_guard() < NEAR || leaves.iter().any(|l| l.free == 0 && l.guard < NEAR);
         let mut found: Vec<(Solution, u64)> = vec![];
         for leaf in leaves.iter() {
             found.push((draft(&solver.nodes, &leaf), leaf.free));
@@ -231,6 +256,12 @@ impl Solving<'_> {
             if !answer.is_reachable() {
                 self.approach(pose, &variables, &starts, &mut answer);
             }
+            if met != 0 || near {
+                self.confirm(pose, &variables, given, &mut answer);
+                if answer.is_reachable() {
+                    answer.obstacle = None;
+                }
+            }
         }
         answer
     }
@@ -244,7 +275,7 @@ impl Solving<'_> {
 
     /// Polishes a leaf that is not a solution yet; false if it does not become one nearby.
     pub(super) fn improve(&self, pose: &Transform<f64>, s: &mut Solution) -> bool {
-        self.improve_within(pose, s, 100.0 * SHORT)
+        self.improve_within(pose, s, FAR)
     }
 
     /// The same; what is a solution already moves by `most` (radians, and lengths by the reach) at most.
@@ -253,7 +284,7 @@ impl Solving<'_> {
             let polished = newton::polish(&self.robot, self.goal, pose, &s.q, &self.given, self.size(pose));
             if let Some((q, residual)) = polished
                 && residual < s.residual
-                && (s.residual > self.tolerance || norm(&self.space.moved(&s.q, &q)) <= most)
+                && (s.residual > self.tolerance || norm(&self.space.way(&s.q, &q)) <= most)
             {
                 (s.q, s.residual) = (q, residual);
             }
@@ -281,8 +312,8 @@ impl Solving<'_> {
         found.into_iter().map(|(text, miss, _)| (text, miss)).collect()
     }
 
-    fn size(&self, pose: &Transform<f64>) -> f64 {
-        self.space.reach.hypot(pose.translation.norm()).max(f64::MIN_POSITIVE)
+    pub(super) fn size(&self, pose: &Transform<f64>) -> f64 {
+        self.space.size(pose)
     }
 
     /// Adds a solution, or counts it with one that is the same.
@@ -347,7 +378,7 @@ impl Solving<'_> {
             if tried.len() == STARTS {
                 return;
             }
-            if tried.iter().any(|q| norm(&self.space.moved(q, &s.q)) < 0.5 * NEARBY) {
+            if tried.iter().any(|q| norm(&self.space.way(q, &s.q)) < 0.5 * NEARBY) {
                 continue;
             }
             tried.push(s.q.clone());
@@ -378,7 +409,7 @@ impl Solving<'_> {
         let last = leaves.ended().max_by_key(|end| end.node).map(|end| end.node);
         let unknown = last.filter(|_| starts.is_empty()).map(|i| self.nodes[i].unknown.clone());
         let from: Vec<Vec<f64>> = if starts.is_empty() {
-            self.anywhere(pose, variables)
+            self.anywhere(pose, variables, STARTS)
         } else {
             starts.iter().take(STARTS).map(|s| s.q.clone()).collect()
         };
@@ -406,18 +437,15 @@ impl Solving<'_> {
     }
 
     /// Configurations all over the arm, with the joints that are given where they are.
-    fn anywhere(&self, pose: &Transform<f64>, variables: &[f64]) -> Vec<Vec<f64>> {
+    pub(super) fn anywhere(&self, pose: &Transform<f64>, variables: &[f64], count: usize) -> Vec<Vec<f64>> {
         let mut random = Random(1);
         let size = self.size(pose);
         let first = variables.len() - self.given.len();
-        (0..STARTS)
+        (0..count)
             .map(|_| {
-                let mut q: Vec<f64> = self
-                    .space
-                    .is_angle
-                    .iter()
-                    .map(|&is_angle| (random.unit() - 0.5) * if is_angle { TAU } else { 2.0 * size })
-                    .collect();
+                let range = |j: usize| if self.space.is_angle[j] { self.space.half_range(j) } else { size };
+                let value = |j: usize| (2.0 * random.unit() - 1.0) * range(j);
+                let mut q: Vec<f64> = (0..self.space.is_angle.len()).map(value).collect();
                 for (k, &j) in self.given.iter().enumerate() {
                     q[j] = variables[first + k];
                 }

@@ -487,7 +487,11 @@ impl Problem<'_> {
 }
 
 /// Factors with which two rows become those of a rotation: β·u1 = ±α·v2 and β·v1 = ∓α·u2.
-fn rotation_like(a: &super::algebra::Algebra, first: [&Poly; 2], second: [&Poly; 2]) -> Option<(Poly, Poly)> {
+pub(super) fn rotation_like(
+    a: &super::algebra::Algebra,
+    first: [&Poly; 2],
+    second: [&Poly; 2],
+) -> Option<(Poly, Poly)> {
     let [u1, v1] = first;
     let [u2, v2] = second;
     let like = |alpha: &Poly, beta: &Poly| {
@@ -549,5 +553,5 @@ fn row_terms(row: &Row) -> usize {
 /// True if all values are the same, and not 0.
 fn is_constant(values: &[f64]) -> bool {
     let first = values[0];
-    first.abs() > 1e-9 && values.iter().all(|v| (v - first).abs() <= 1e-9 * first.abs())
+    first != 0.0 && values.iter().all(|v| (v - first).abs() <= 1e-9 * first.abs())
 }

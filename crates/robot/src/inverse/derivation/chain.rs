@@ -9,6 +9,7 @@ use super::algebra::{Algebra, Column, Kind, Matrix, identity};
 use crate::description::{Description, JointKind};
 use crate::geometry::{Rotation, Transform, Vector};
 use crate::mechanism::{Affine, Lengths, Link, MovingAxes, MovingAxis, Robot, parallel};
+use crate::space::Periods;
 use denavit_symbolic::poly::Poly;
 use denavit_symbolic::{Expr, Rational, Ring, Symbol, readable};
 
@@ -86,6 +87,8 @@ pub struct NormalChain {
     pub algebra: Algebra,
     /// For each joint variable the axes it is computed from, with factors: q = Σ factor·(value of the axis − offset).
     pub inverse_coupling: Vec<Vec<(usize, Rational)>>,
+    /// For each joint variable, whether a whole turn of it brings all links back.
+    pub goes_round: Vec<bool>,
 }
 
 /// Why a robot has no normal form.
@@ -234,7 +237,9 @@ impl NormalChain {
             }
         }
         let inverse_coupling = inverse_coupling(&axes, variables.len()).ok_or(Unsuitable::Coupling)?;
+        let turning = Periods::of(description);
         let mut chain = NormalChain {
+            goes_round: (0..variables.len()).map(|j| turning.goes_round(j)).collect(),
             inverse_coupling,
             variables,
             parameters,

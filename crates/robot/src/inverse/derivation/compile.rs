@@ -6,6 +6,7 @@ use super::equations::{Goal, Split};
 use super::known::Unknown;
 use super::naming::{names, unique};
 use super::plan::{Determinant, Form, Norm, Row, Step};
+use super::sign::{Sign, determinant_sign};
 use super::terms::{outermost, split, square_root};
 use crate::geometry::{Rotation, Transform, Vector};
 use crate::inverse::branch::Label;
@@ -394,24 +395,21 @@ impl Builder<'_> {
             let d = difference([a1, b2], [a2, b1]);
             return (Root::Direction { x, y, sign: Some(d) }, Some((d, step.degree)));
         }
-        // The sign of the determinant does not change: that of rows that are (a, b) and ±(−b, a).
+        // The sign of the determinant does not change from pose to pose; that of a parameter may decide it.
         let (r1, r2) = (&step.rows[0], &step.rows[1]);
-        let negative = self.is_negative(r1, r2);
-        let (x, y) = if negative { (-x, -y) } else { (x, y) };
+        let (x, y, sign) = match determinant_sign(self.chain, r1, r2) {
+            Sign::Fixed { is_negative: true } => (-x, -y, None),
+            Sign::Fixed { is_negative: false } => (x, y, None),
+            Sign::Of { poly, is_opposite } => {
+                let v = self.poly(&poly);
+                (x, y, Some(if is_opposite { -v } else { v }))
+            }
+        };
         let guard = (determinant == Determinant::Perpendicular).then(|| {
             let sum = self.sum_of_squares(&[c1, c2]);
             (self.solver.graph.sqrt(sum), r1.degree)
         });
-        (Root::Direction { x, y, sign: None }, guard)
-    }
-
-    /// True if a1·b2 − a2·b1 is negative wherever it does not vanish.
-    fn is_negative(&self, r1: &Row, r2: &Row) -> bool {
-        let a = &self.chain.algebra;
-        let d = a.times(&r1.a, &r2.b).minus(&a.times(&r2.a, &r1.b));
-        // A value at which nothing is special decides: constants as they are, the rest drawn.
-        let values = super::known::Samples::new(self.chain, |_| None);
-        values.values(&d)[0] < 0.0
+        (Root::Direction { x, y, sign }, guard)
     }
 
     /// a² + b² − c² without cancellation, where c = D² − K and a, b, K are constants:
@@ -519,8 +517,7 @@ impl Builder<'_> {
         let name = self.chain.variables[j].name().to_string();
         if given.contains(&j) {
             let value = self.solver.graph.input(self.chain.variables[j]);
-            let is_angle = self.chain.is_angle(j);
-            return Output { name, value, is_angle };
+            return Output { name, value, is_angle: self.chain.goes_round[j] };
         }
         let factors = self.chain.inverse_coupling[j].clone();
         if !self.chain.is_angle(j) {
@@ -536,8 +533,9 @@ impl Builder<'_> {
             }
             return Output { name, value: sum, is_angle: false };
         }
-        // Whole multiples of angles are added as cosines and sines, so that the sum is in (−π, π].
-        let whole = factors.iter().all(|f| f.1.is_integer());
+        // Whole multiples of angles are added as cosines and sines, so that the sum is in (−π, π]: if a whole turn of the
+        // joint changes nothing.
+        let whole = self.chain.goes_round[j] && factors.iter().all(|f| f.1.is_integer());
         let mut angle: Option<(Value, Value)> = None;
         let mut plain = self.number(0);
         for (k, m) in factors {
@@ -568,6 +566,6 @@ impl Builder<'_> {
             Some((c, s)) => self.solver.graph.atan2(s, c),
             None => plain,
         };
-        Output { name, value, is_angle: true }
+        Output { name, value, is_angle: self.chain.goes_round[j] }
     }
 }

@@ -108,7 +108,7 @@ pub fn conditions(
         }
         let mut row: Vec<f64> = directions.iter().map(|d| samples.derivative(&c.zero, d)).collect();
         let length = norm(&row);
-        if length < 1e-9 {
+        if length <= 1e-9 * samples.size(&c.zero) {
             continue;
         }
         for b in &basis {
@@ -221,10 +221,15 @@ impl Samples {
         }
         for axis in 0..3 {
             let mut d = [0.0; 12];
-            d[axis * 4 + 3] = 1.0;
+            d[axis * 4 + 3] = self.length();
             found.push(d);
         }
         found
+    }
+
+    /// The sum of the absolute values of a polynomial's terms, at the first sample.
+    fn size(&self, p: &Poly) -> f64 {
+        Algebra::value_and_size(p, self.first()).1
     }
 
     /// The derivative of a polynomial along a change of the pose's entries, at the first sample.

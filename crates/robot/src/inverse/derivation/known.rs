@@ -232,6 +232,8 @@ pub struct Samples {
     axes: Vec<Vec<f64>>,
     /// What stands behind the pose at the first configuration.
     tool: Transform<f64>,
+    /// The longest displacement of the chain there; 1 if there is none.
+    length: f64,
 }
 
 /// How many configurations are sampled.
@@ -252,16 +254,8 @@ impl Samples {
             .collect();
         let first = |s: Symbol| constants[0].iter().find(|p| p.0 == s).map(|p| p.1);
         let tool = chain.tool.map(|e| e.eval(first).unwrap_or(f64::NAN));
-        let mut samples = Samples { atoms: vec![], axes: vec![], tool };
+        let mut samples = Samples { atoms: vec![], axes: vec![], tool, length: 0.0 };
         for parameters in &constants {
-            let axes: Vec<f64> = chain
-                .axes
-                .iter()
-                .map(|axis| match axis.motion {
-                    Motion::Turn { .. } => std::f64::consts::TAU * random.unit(),
-                    Motion::Slide => random.unit() - 0.3,
-                })
-                .collect();
             let lookup = |s: Symbol| parameters.iter().find(|p| p.0 == s).map(|p| p.1);
             let mut atoms = vec![0.0; chain.algebra.atoms()];
             for (i, atom) in atoms.iter_mut().enumerate() {
@@ -269,6 +263,17 @@ impl Samples {
                     *atom = Expr::eval(e, lookup).unwrap_or(f64::NAN);
                 }
             }
+            if samples.length == 0.0 {
+                samples.length = length(chain, &atoms);
+            }
+            let axes: Vec<f64> = chain
+                .axes
+                .iter()
+                .map(|axis| match axis.motion {
+                    Motion::Turn { .. } => std::f64::consts::TAU * random.unit(),
+                    Motion::Slide => samples.length * (random.unit() - 0.3),
+                })
+                .collect();
             set_axes(chain, &axes, &mut atoms);
             samples.atoms.push(atoms);
             samples.axes.push(axes);
@@ -285,6 +290,11 @@ impl Samples {
         let p = Vector(std::array::from_fn(|i| atoms[i * 4 + 3]));
         let pose = Transform::from_rotation_translation(Rotation::from_rows(rows), p) * self.tool;
         pose.matrix().into_iter().take(3).flatten().collect()
+    }
+
+    /// What lengths of the chain are compared with.
+    pub fn length(&self) -> f64 {
+        self.length
     }
 
     /// The values of all atoms at the first configuration.
@@ -305,6 +315,16 @@ impl Samples {
     pub fn values(&self, p: &Poly) -> Vec<f64> {
         self.atoms.iter().map(|atoms| Algebra::value(p, atoms)).collect()
     }
+}
+
+/// The longest displacement of a chain; 1 if there is none.
+fn length(chain: &NormalChain, atoms: &[f64]) -> f64 {
+    let constants = chain.elements.iter().filter_map(|e| match e {
+        Element::Constant(constant) => Some(&constant.1),
+        Element::Axis(_) => None,
+    });
+    let longest = constants.flatten().map(|p| Algebra::value(p, atoms).abs()).fold(0.0, f64::max);
+    if longest > 0.0 { longest } else { 1.0 }
 }
 
 /// Puts in the values of the axes, and of what follows from them.

@@ -11,6 +11,7 @@ mod model;
 mod naming;
 mod plan;
 mod search;
+mod sign;
 mod terms;
 
 pub use algebra::{Algebra, Kind, MOST_WORK};

@@ -383,8 +383,10 @@ fn rank(chain: &NormalChain, samples: &Samples, goal: Goal) -> usize {
         .collect();
     let mut columns: Vec<Vec<f64>> = (0..chain.axes.len())
         .map(|k| {
-            let [plus, minus] = [STEP, -STEP].map(|h| samples.moved(chain, k, h));
-            rows.iter().map(|&r| (plus[r] - minus[r]) / (2.0 * STEP)).collect()
+            let unit = if chain.axes[k].motion == Motion::Slide { samples.length() } else { 1.0 };
+            let [plus, minus] = [STEP, -STEP].map(|h| samples.moved(chain, k, h * unit));
+            let size = |r: usize| if r % 4 == 3 { samples.length() } else { 1.0 };
+            rows.iter().map(|&r| (plus[r] - minus[r]) / (2.0 * STEP * size(r))).collect()
         })
         .collect();
     // Gram–Schmidt, the longest column first.

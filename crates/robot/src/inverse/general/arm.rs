@@ -13,7 +13,7 @@ pub enum Unsuited {
     Axes(usize),
     /// A row of the table both turns and slides (counted from 1).
     TwoInOne(usize),
-    /// The joint variables do not determine the axes one to one by whole turns: a factor of a coupling is not ±1.
+    /// The places of the axes do not determine the joint variables.
     Coupled,
     /// The elimination itself refuses: its words.
     Degenerate(String),
@@ -24,7 +24,7 @@ impl fmt::Display for Unsuited {
         match self {
             Unsuited::Axes(n) => write!(f, "{n} axes move; elimination serves six"),
             Unsuited::TwoInOne(row) => write!(f, "row {row} both turns and slides"),
-            Unsuited::Coupled => f.write_str("a coupling of joints has factors other than ±1"),
+            Unsuited::Coupled => f.write_str("the places of the axes do not determine the joint variables"),
             Unsuited::Degenerate(why) => f.write_str(why),
         }
     }
@@ -63,12 +63,7 @@ impl SixAxes {
                 coupling[k][j] = factor;
             }
         }
-        let is_slide: [bool; 6] = std::array::from_fn(|k| joints[k] == Joint::Prismatic);
-        let is_one_to_one = coupling
-            .iter()
-            .enumerate()
-            .all(|(k, row)| is_slide[k] || row.iter().all(|x| *x == 0.0 || x.abs() == 1.0));
-        let inverse = inverted(coupling).filter(|_| is_one_to_one).ok_or(Unsuited::Coupled)?;
+        let inverse = inverted(coupling).ok_or(Unsuited::Coupled)?;
         let arm = Arm {
             base: rigid(&constants[0]),
             joints,

@@ -69,9 +69,10 @@ impl GeneralSolver {
             Certificate::NearDoubleRoot => Some(Doubt::DoubleRoot),
             Certificate::Undecided => Some(Doubt::Uncounted),
         };
-        let size = self.space.reach.hypot(pose.translation.norm()).max(f64::MIN_POSITIVE);
+        let size = self.space.size(pose);
         self.collect(&found.solutions, pose, size, &mut answer);
         self.families(pose, size, &mut answer);
+        answer.spread(&self.space);
         answer.solutions.sort_by(|a, b| {
             let unequal = a.q.iter().zip(&b.q).map(|(x, y)| x.total_cmp(y)).find(|o| o.is_ne());
             unequal.unwrap_or(std::cmp::Ordering::Equal)

@@ -106,7 +106,7 @@ impl NumericSolver {
         let space = JointSpace::new(description, reach);
         let slides = space.limits.iter().zip(&space.is_angle).filter(|s| !s.1);
         let size = reach + slides.filter_map(|s| s.0.map(travel)).sum::<f64>();
-        let space = JointSpace { reach: if size > 1e-9 { size } else { 1.0 }, ..space };
+        let space = JointSpace { reach: if size > 0.0 { size } else { 1.0 }, ..space };
         for preference in preferences {
             if let Preference::Posture { near, .. } = preference {
                 assert_eq!(near.len(), robot.joints, "one value per joint");
@@ -124,7 +124,7 @@ impl NumericSolver {
             chosen().map(|t| (t.frame, Shape::new(&scaled(t), space.reach))).unzip()
         };
         let ((frames, shapes), (soft_frames, soft_shapes)) = (part(true), part(false));
-        let limits = Limits::new(&robot, &space);
+        let limits = Limits::new(&space);
         let mut motion = Motion::new(description, &robot, &space, &frames)?;
         let wishes = Wishes {
             motion: Motion::new(description, &robot, &space, &soft_frames)?,

@@ -34,7 +34,7 @@ impl Criterion {
         goal: Goal,
         q: &[f64],
     ) -> f64 {
-        let frame = Frame { robot, goal, is_angle: &space.is_angle, size: space.reach.max(1e-3) };
+        let frame = Frame { robot, goal, is_angle: &space.is_angle, size: space.length() };
         self.cost((&frame, newton::rank(robot, goal)), space, q)
     }
 

@@ -13,7 +13,6 @@ use crate::inverse::newton;
 use crate::inverse::self_motion::{CurveEnd, Tracker};
 use crate::mechanism::Robot;
 use crate::space::JointSpace;
-use std::f64::consts::PI;
 
 /// Values of the joint that is held.
 const VALUES: usize = 24;
@@ -61,7 +60,7 @@ impl ByCurve {
             return None;
         }
         let q = self.somewhere(number);
-        let size = self.space.reach.hypot(pose.translation.norm());
+        let size = self.space.size(pose);
         let found = newton::approach(&self.robot, self.goal, pose, &q, &[], size);
         Some(found.filter(|f| f.1 <= SOLVED).map(|f| f.0).into_iter().collect())
     }
@@ -69,7 +68,7 @@ impl ByCurve {
     /// A configuration, within the limits where there are any; different ones all over the arm.
     fn somewhere(&self, number: usize) -> Vec<f64> {
         let value = |j: usize| {
-            let far = if self.space.is_angle[j] { PI } else { self.space.reach };
+            let far = self.space.half_range(j);
             let [low, high] = self.ranges[j].ends().unwrap_or([-far, far]);
             low + (high - low) * radical(number + 1, BASES[j % BASES.len()])
         };
@@ -79,7 +78,7 @@ impl ByCurve {
     /// One within the limits, the first that is met; with a seed, the nearest on its own curve.
     pub fn within(&self, pose: &Transform<f64>, seed: Option<&[f64]>) -> Option<Found> {
         if let Some(seed) = seed {
-            let size = self.space.reach.hypot(pose.translation.norm());
+            let size = self.space.size(pose);
             let near = newton::approach(&self.robot, self.goal, pose, seed, &[], size);
             if let Some((q, residual)) = near
                 && residual <= SOLVED
@@ -136,8 +135,8 @@ impl ByCurve {
     fn is_on(&self, curves: &[Piece], q: &[f64]) -> bool {
         let near = |members: &[Vec<f64>]| {
             members.windows(2).any(|w| {
-                let moved = self.space.moved(&w[0], q);
-                let chord: Vec<f64> = w[1].iter().zip(&w[0]).map(|(x, y)| x - y).collect();
+                let moved = self.space.way(&w[0], q);
+                let chord = self.space.way(&w[0], &w[1]);
                 let square: f64 = chord.iter().map(|x| x * x).sum();
                 let along: f64 = moved.iter().zip(&chord).map(|(x, y)| x * y).sum();
                 let part = if square > 0.0 { (along / square).clamp(0.0, 1.0) } else { 0.0 };

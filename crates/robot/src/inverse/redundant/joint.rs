@@ -99,7 +99,7 @@ impl ByJoint {
 
     /// The values that a joint is given: its limits, or all round.
     fn span(&self, joint: usize) -> [f64; 2] {
-        let far = if self.space.is_angle[joint] { PI } else { self.space.reach };
+        let far = self.space.half_range(joint);
         self.ranges[joint].ends().unwrap_or([-far, far])
     }
 
@@ -218,7 +218,7 @@ impl ByJoint {
     fn slice(&self, pose: &Transform<f64>, others: &[f64], found: &mut Vec<Piece>) {
         let mut inputs = self.inputs(pose, others);
         let parameter = self.parameter();
-        let is_angle = self.space.is_angle[parameter];
+        let is_angle = self.space.turning.goes_round(parameter);
         let [low, high] = if is_angle { [-PI, PI] } else { self.span(parameter) };
         let samples = self.samples(&mut inputs, [low, high]);
         let mut known: Vec<&Vec<i8>> = vec![];
@@ -310,7 +310,7 @@ impl ByJoint {
                 samples.insert(if found.x < samples[k].x { k } else { k + 1 }, found);
             }
         }
-        if high - low >= TAU && self.space.is_angle[self.parameter()] {
+        if high - low >= TAU && self.space.turning.goes_round(self.parameter()) {
             self.hidden_at_the_seam(inputs, &mut samples);
         }
         for _ in 0..DENSER {

@@ -1,8 +1,6 @@
 //! The limits of a joint as a distance: negative inside, positive outside.
 
-use super::wrapped;
-use crate::space::JointSpace;
-use std::f64::consts::PI;
+use crate::space::{JointSpace, within};
 
 /// What a joint may be beyond its limit, for rounding (radians or metres).
 pub(super) const SLACK: f64 = 1e-9;
@@ -11,20 +9,21 @@ pub(super) const SLACK: f64 = 1e-9;
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Range {
     pub middle: f64,
-    /// Infinite without limits, and if an angle may have any value.
+    /// Infinite without limits, and if the joint may have any place.
     pub half: f64,
-    pub is_angle: bool,
+    /// What brings the joint back; infinite for one that slides.
+    pub period: f64,
 }
 
 impl Range {
     /// That of a joint.
     pub fn of(space: &JointSpace, joint: usize) -> Self {
-        let is_angle = space.is_angle[joint];
+        let period = space.turning.periods[joint];
         match space.limits[joint] {
-            Some([low, high]) if !is_angle || high - low < 2.0 * PI => {
-                Range { middle: (low + high) / 2.0, half: (high - low) / 2.0, is_angle }
+            Some([low, high]) if high - low < period => {
+                Range { middle: (low + high) / 2.0, half: (high - low) / 2.0, period }
             }
-            _ => Range { middle: 0.0, half: f64::INFINITY, is_angle },
+            _ => Range { middle: 0.0, half: f64::INFINITY, period },
         }
     }
 
@@ -36,9 +35,7 @@ impl Range {
     /// How far a value is beyond the nearer limit; continuous all round.
     #[inline]
     pub fn excess(&self, x: f64) -> f64 {
-        let away = x - self.middle;
-        let away = if self.is_angle { wrapped(away) } else { away };
-        away.abs() - self.half
+        within(x - self.middle, self.period).abs() - self.half
     }
 
     /// The limits, if there are any.

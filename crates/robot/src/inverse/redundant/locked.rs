@@ -7,7 +7,6 @@ use crate::geometry::Transform;
 use crate::inverse::general::GeneralSolver;
 use crate::mechanism::{Link, Robot};
 use crate::space::JointSpace;
-use std::f64::consts::PI;
 
 /// Values at which the ends are compared.
 const VALUES: usize = 9;
@@ -75,7 +74,7 @@ impl Locked {
 
     /// The values that the joint is given.
     pub fn span(&self, space: &JointSpace) -> [f64; 2] {
-        let far = if space.is_angle[self.joint] { PI } else { space.reach };
+        let far = space.half_range(self.joint);
         space.limits[self.joint].unwrap_or([-far, far])
     }
 

@@ -264,14 +264,14 @@ impl RedundantSolver {
     }
 
     fn frame(&self) -> Frame<'_> {
-        let size = self.space.reach.max(1e-3);
+        let size = self.space.length();
         Frame { robot: &self.robot, goal: self.goal, is_angle: &self.space.is_angle, size }
     }
 
     /// A configuration as a solution, polished where it is not exact.
     fn solution(&self, pose: &Transform<f64>, found: Found) -> Option<Solution> {
         let Found { mut q, guard, branch } = found;
-        let size = self.space.reach.hypot(pose.translation.norm()).max(f64::MIN_POSITIVE);
+        let size = self.space.size(pose);
         let mut residual = newton::distance(&self.robot, self.goal, pose, &q, size);
         if residual > ROUGH
             && let Some((better, missed)) = newton::polish(&self.robot, self.goal, pose, &q, &[], size)

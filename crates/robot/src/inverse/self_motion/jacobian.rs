@@ -28,12 +28,7 @@ impl Frame<'_> {
 
     /// One column a joint.
     pub fn jacobian(&self, q: &[f64]) -> Vec<[f64; 6]> {
-        let mut columns = newton::jacobian(self.robot, self.goal, q, &[], self.size);
-        for (j, c) in columns.iter_mut().enumerate() {
-            let unit = self.unit(j);
-            c.iter_mut().for_each(|x| *x *= unit);
-        }
-        columns
+        newton::jacobian(self.robot, self.goal, q, &[], self.size)
     }
 
     /// The singular values at a configuration.

@@ -14,7 +14,7 @@ use super::derivation::Goal;
 use super::newton;
 use crate::geometry::Transform;
 use crate::mechanism::Robot;
-use crate::space::{JointSpace, wrapped};
+use crate::space::JointSpace;
 
 /// The longest step, radians (slides: by the size of the arm), and the shortest.
 const LONGEST: f64 = 0.08;
@@ -114,7 +114,7 @@ pub(super) fn follow_loosely(
 
 impl<'a> Tracker<'a> {
     pub fn new(robot: &'a Robot<f64>, space: &'a JointSpace, goal: Goal, pose: &'a Transform<f64>) -> Self {
-        let size = space.reach.max(1e-3);
+        let size = space.length();
         Tracker { frame: Frame { robot, goal, is_angle: &space.is_angle, size }, space, pose, missed: MISSED }
     }
 
@@ -193,8 +193,8 @@ impl<'a> Tracker<'a> {
             }
             if travelled > 2.0 * step && self.passes(&at, &next, start, step) {
                 let mut last = start.to_vec();
-                for j in (0..n).filter(|&j| self.space.is_angle[j]) {
-                    last[j] = at[j] + wrapped(start[j] - at[j]);
+                for (j, way) in self.space.moved(&at, start).into_iter().enumerate() {
+                    last[j] = at[j] + way;
                 }
                 curve.push(last);
                 return (curve, CurveEnd::Closed);

@@ -1,0 +1,101 @@
+//! Whether an answer at a singular pose has everything: descents from all over the arm lead nowhere else.
+//!
+//! Where equations leave unknowns open, or nearly so, solutions come from values that were tried. A descent knows nothing of
+//! branches; what it finds beside the answer is added, and the answer may then not be complete.
+
+use super::solve::{ROUGH, Solving};
+use crate::geometry::Transform;
+use crate::inverse::answer::{Answer, Doubt, Family, Solution};
+use crate::inverse::branch::Branch;
+use crate::inverse::newton;
+use crate::inverse::self_motion::{Frame, follow, is_self_motion};
+use crate::space::norm;
+
+/// How many descents.
+const DESCENTS: usize = 48;
+/// Solutions this near to each other (radians, and lengths by the reach) with a solution between them are one.
+const NEXT: f64 = 0.02;
+/// The smallest singular value of a regular configuration.
+const REGULAR: f64 = 1e-3;
+
+impl Solving<'_> {
+    /// Adds what descents find and the answer does not have.
+    pub(super) fn confirm(
+        &mut self,
+        pose: &Transform<f64>,
+        variables: &[f64],
+        given: &[f64],
+        answer: &mut Answer,
+    ) {
+        let size = self.size(pose);
+        for start in self.anywhere(pose, variables, DESCENTS) {
+            let found = newton::descend(&self.robot, self.goal, pose, &start, &self.given, size);
+            let Some((mut q, residual)) = found.filter(|f| f.1 <= self.tolerance) else { continue };
+            // What converges slowly lies between two roots that nearly coincide, and is none; of an arm with few joints
+            // that misses the pose a little, as it may, a regular configuration is as near as it comes.
+            if residual > ROUGH && !self.is_regular(&q) {
+                continue;
+            }
+            self.space.wrap(&mut q);
+            if self.is_known(pose, given, answer, &q) {
+                continue;
+            }
+            answer.doubt = Some(Doubt::Sampled);
+            let within_limits = self.space.within(&q);
+            let new = Solution {
+                q,
+                residual,
+                branch: Branch::default(),
+                multiplicity: 1,
+                within_limits,
+                guard: 0.0,
+            };
+            let is_curve = self.given.is_empty()
+                && is_self_motion(&self.robot, &self.space, self.goal, &new.q).is_some();
+            if is_curve {
+                let motion = follow(&self.robot, &self.space, self.goal, pose, &new.q);
+                answer.families.push(Family::followed(new, motion));
+            } else {
+                answer.solutions.push(new);
+            }
+        }
+    }
+
+    /// True if the hand sees every joint move.
+    fn is_regular(&self, q: &[f64]) -> bool {
+        let frame = Frame {
+            robot: &self.robot,
+            goal: self.goal,
+            is_angle: &self.space.is_angle,
+            size: self.space.length(),
+        };
+        frame.singular(q).values.last().is_some_and(|least| *least > REGULAR)
+    }
+
+    /// True if a configuration is a solution of the answer, or a member of one of its families.
+    fn is_known(&mut self, pose: &Transform<f64>, given: &[f64], answer: &Answer, q: &[f64]) -> bool {
+        let space = &self.solver.space;
+        let size = self.size(pose);
+        let is_between = |a: &[f64]| {
+            let middle: Vec<f64> = a.iter().zip(space.moved(a, q)).map(|(x, d)| x + d / 2.0).collect();
+            newton::distance(&self.robot, self.goal, pose, &middle, size) <= ROUGH
+        };
+        let is_one = |s: &Solution| {
+            let away = space.distance(&s.q, q);
+            away <= 1e-5 || away <= NEXT && is_between(&s.q)
+        };
+        let all = answer.solutions.iter().chain(answer.families.iter().map(|f| &f.representative));
+        if all.into_iter().any(is_one) || self.is_in_a_family(pose, given, &answer.families, q) {
+            return true;
+        }
+        // A family that was followed, or one that has further parameters: the way along it to the nearest member.
+        let way = |p: &[f64]| space.moved(p, q);
+        answer.families.iter().any(|f| {
+            let away = |p: &&Vec<f64>| norm(&space.way(p, q));
+            let nearest = f.curve.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
+            let from = nearest.unwrap_or(&f.representative.q);
+            let slid = newton::slide(&self.robot, self.goal, pose, from, (&self.given, way), size);
+            space.distance(&slid, q) <= 1e-4
+        })
+    }
+}

@@ -1,0 +1,76 @@
+//! Cases that an attack found once: the configuration that a pose was made from is among the answers.
+
+use super::judge::{Fault, judge};
+use super::poses::Asked;
+use crate::common::Random;
+use denavit::description::read_toml;
+use denavit::inverse::{InverseKinematics, InverseOptions};
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::path::Path;
+
+fn solver(name: &str) -> InverseKinematics {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/cases/{name}.toml"));
+    let text = std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let (mut description, _) = read_toml(&text).unwrap_or_else(|e| panic!("{name}: {e:?}"));
+    description.rows.iter_mut().for_each(|r| r.limits = None);
+    InverseKinematics::new(&description, &InverseOptions::default()).expect("a robot with numbers")
+}
+
+#[test]
+fn what_was_missed_once_is_found() {
+    let right = FRAC_PI_2;
+    let six = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
+    let cases: [(&str, &[f64]); 11] = [
+        // Geared joints: their own periods, all copies in the window.
+        ("co1", &[4.3, 0.5]),
+        ("co2", &[0.3, 0.5]),
+        ("co3", &[0.3, 0.2, 4.3, 0.4, 0.5, 0.6]),
+        // Named lengths with negative values.
+        ("min1", &[0.3, 0.5, 0.7]),
+        ("neg33", &six),
+        // A self-motion of an arm with three parallel axes.
+        ("four", &[-right, PI, -right, -right, -right, PI]),
+        // Five joints, a regular solution.
+        ("five", &[PI, right, 0.0, PI, 0.0]),
+        ("miss10l", &[0.0, -right, 0.0, PI, 1.0]),
+        // No lengths, and a joint more than the rank.
+        ("sph", &[0.1, 0.2, 0.3, 0.4]),
+        // The same arm in other units.
+        ("gen1e-06", &six),
+        ("gen1e+09", &six),
+    ];
+    for (name, q) in cases {
+        let solver = solver(name);
+        let asked = Asked { q: q.to_vec(), pose: solver.robot.pose(q), noise: 0.0 };
+        let answer = solver.solve(&asked.pose, &[]);
+        let fault = judge(&solver, &asked, &answer, 200, &mut Random(1));
+        assert!(matches!(fault, None | Some(Fault::Doubted)), "{name}: {fault:?} of {answer:#?}");
+    }
+}
+
+/// All copies of geared joints in a window of a whole turn or more are listed.
+#[test]
+fn copies_of_geared_joints_are_listed() {
+    for (name, q, count) in [("co1", [4.3, 0.5], 1), ("co2", [0.3, 0.5], 2)] {
+        let solver = solver(name);
+        let answer = solver.solve(&solver.robot.pose(&q), &[]);
+        assert_eq!(answer.solutions.len(), count, "{name}: {answer:#?}");
+        assert!(answer.is_complete());
+    }
+}
+
+/// A table in micrometres or in gigametres has the same answers.
+#[test]
+fn units_do_not_matter() {
+    let q = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
+    let [small, large] = ["gen1e-06", "gen1e+09"].map(|name| {
+        let solver = solver(name);
+        let answer = solver.solve(&solver.robot.pose(&q), &[]);
+        assert!(answer.is_complete(), "{name}");
+        answer.solutions.into_iter().map(|s| s.q).collect::<Vec<_>>()
+    });
+    assert_eq!(small.len(), large.len());
+    for (a, b) in small.iter().flatten().zip(large.iter().flatten()) {
+        assert!((a - b).abs() < 1e-9, "{small:?} and {large:?}");
+    }
+}

@@ -1,0 +1,105 @@
+//! A permanent attack: arms and poses at random, judged by the forward model and by brute force.
+
+mod arms;
+mod cases;
+mod judge;
+mod poses;
+
+use crate::common::{Random, share};
+use arms::Kind;
+use denavit::description::read_toml;
+use denavit::inverse::{InverseKinematics, InverseOptions};
+use denavit::symbolic::scoped;
+use judge::Fault;
+use std::collections::BTreeMap;
+
+/// Poses an arm; fewer where each answer is curves that are followed.
+const POSES: usize = 40;
+const CURVES: usize = 5;
+/// Starts of Newton's method for a pose.
+const STARTS: usize = 12;
+
+/// What an arm brought to light.
+#[derive(Default)]
+struct Found {
+    method: &'static str,
+    asked: usize,
+    faults: Vec<(Fault, String)>,
+}
+
+/// Attacks one arm.
+fn attack(seed: u64, kind: Kind) -> Found {
+    let mut random = Random(seed);
+    let text = arms::text(&mut random, kind);
+    let Ok((mut description, _)) = read_toml(&text) else { panic!("a robot file is refused:\n{text}") };
+    // The nearest of an answer is one within the limits, if one is; here it says whether a configuration is there at all.
+    description.rows.iter_mut().for_each(|r| r.limits = None);
+    let Ok(solver) = InverseKinematics::new(&description, &InverseOptions::default()) else {
+        panic!("an arm with numbers is refused:\n{text}")
+    };
+    let mut found = Found { method: solver.method(), ..Found::default() };
+    for _ in 0..if solver.method() == "self-motion" { CURVES } else { POSES } {
+        let asked = poses::asked(&mut random, &solver.robot, &solver.space);
+        let given: Vec<f64> = solver.given.iter().map(|&j| asked.q[j]).collect();
+        let answer = solver.solve(&asked.pose, &given);
+        found.asked += 1;
+        let starts = if given.is_empty() { STARTS } else { 0 };
+        if let Some(fault) = judge::judge(&solver, &asked, &answer, starts, &mut random) {
+            found.faults.push((fault, format!("{:?}", asked.q)));
+        }
+    }
+    found
+}
+
+fn variable(name: &str) -> Option<u64> {
+    std::env::var(name).ok()?.parse().ok()
+}
+
+/// Attacks `arms` arms of each kind, and prints what came of it; the lies.
+fn all(arms: usize) -> Vec<String> {
+    let first = variable("DENAVIT_ATTACK_SEED").unwrap_or(1);
+    let arms = variable("DENAVIT_ATTACK_ARMS").map_or(arms, |n| n as usize);
+    let only = std::env::var("DENAVIT_ATTACK_KIND").ok();
+    let mut lies = vec![];
+    for kind in Kind::ALL.into_iter().filter(|k| only.as_ref().is_none_or(|o| *o == format!("{k:?}"))) {
+        let mut tally: BTreeMap<(&str, Option<Fault>), usize> = BTreeMap::new();
+        for seed in (first..).take(arms) {
+            let seed = seed * 1000 + kind as u64;
+            let found = scoped(|| attack(seed, kind));
+            *tally.entry((found.method, None)).or_default() += found.asked;
+            for (fault, q) in found.faults {
+                *tally.entry((found.method, Some(fault))).or_default() += 1;
+                if fault.is_lie() {
+                    lies.push(format!("{kind:?} {seed} ({}): {fault:?} at {q}", found.method));
+                }
+            }
+        }
+        println!("{kind:?}: {arms} arms");
+        for ((method, fault), n) in tally {
+            match fault {
+                None => println!("  {method}: {n} poses"),
+                Some(fault) => println!("    {fault:?} {n}"),
+            }
+        }
+    }
+    lies
+}
+
+#[test]
+fn nothing_is_said_that_is_not_so() {
+    let lies = all(share(650, 6));
+    assert!(lies.is_empty(), "{}:\n{}", lies.len(), lies.join("\n"));
+}
+
+/// Prints an arm of the attack: `DENAVIT_ATTACK_SHOW="Square 1000"`.
+#[test]
+#[ignore = "prints an arm"]
+fn show() {
+    let asked = std::env::var("DENAVIT_ATTACK_SHOW").unwrap_or_default();
+    let mut words = asked.split_whitespace();
+    let name = words.next().unwrap_or_default();
+    let seed = words.next().and_then(|s| s.parse().ok()).unwrap_or(1000);
+    for kind in Kind::ALL.into_iter().filter(|k| format!("{k:?}") == name) {
+        println!("{}", arms::text(&mut Random(seed), kind));
+    }
+}
