@@ -49,7 +49,7 @@ cargo xtask documents            reports as LaTeX, Typst and a browser read them
 cargo xtask errata [--write]     compares docs/errata.md with what `denavit check` says of the documents; --write renews it
 cargo xtask soak [--seconds N] [TARGET...]
                                  feeds random bytes to the readers, N seconds each (60); TARGET `suites`: the tests at the size
-                                 that takes hours
+                                 that takes hours; `attack`: arms and poses at random, an hour
 cargo xtask miri                 the evaluators' conformance suite under Miri (half an hour)
 cargo xtask help                 this text
 ";

@@ -286,6 +286,10 @@ impl Mul for &Rational {
                 let [a, b, c, d] = [a, b, c, d].map(i128::from);
                 Rational::from_i128(a * c, b * d)
             }
+            (Repr::Small(1, 1), Repr::Big(_)) => o.clone(),
+            (Repr::Big(_), Repr::Small(1, 1)) => self.clone(),
+            (Repr::Small(-1, 1), Repr::Big(_)) => -o,
+            (Repr::Big(_), Repr::Small(-1, 1)) => -self,
             _ => {
                 let ((a, b), (c, d)) = (self.parts(), o.parts());
                 Rational::from_big(a * c, b * d)
@@ -316,7 +320,9 @@ impl Neg for &Rational {
         match &self.0 {
             Repr::Small(n, d) if *n != i64::MIN => Rational(Repr::Small(-n, *d)),
             Repr::Small(n, d) => Rational::from_i128(-(*n as i128), *d as i128),
-            Repr::Big(b) => Rational::from_big(-&b.0, b.1.clone()),
+            // The opposite of −2⁶³ is the one that changes its kind.
+            Repr::Big(b) if b.0.bits() <= 64 => Rational::from_big(-&b.0, b.1.clone()),
+            Repr::Big(b) => Rational(Repr::Big(Box::new((-&b.0, b.1.clone())))),
         }
     }
 }

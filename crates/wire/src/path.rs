@@ -13,10 +13,13 @@ use serde::Serialize;
 /// A path.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Path {
-    /// For a path of the hand: whether no factor of the determinant was seen to change its sign unlisted; null if that is
-    /// not known.
+    /// For a path of the hand: whether all singular configurations on the way are listed, by the signs of the determinant's
+    /// factors or by the clearance.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub certified: Option<Option<bool>>,
+    pub certified: Option<bool>,
+    /// How near the path comes to a singular configuration, where no factors tell.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clearance: Option<Clearance>,
     /// How far the hand leaves its path.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub deviation: Option<Deviation>,
@@ -41,6 +44,17 @@ pub struct Path {
     pub starts: Vec<Start>,
     /// How it was timed, in words.
     pub timing: String,
+}
+
+/// How near a path comes to a singular configuration.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Clearance {
+    /// The joint variables there.
+    pub q: Vec<f64>,
+    /// Where it is nearest, from 0 to 1.
+    pub s: f64,
+    /// The smallest singular value of the Jacobian there, lengths by the reach.
+    pub smallest: f64,
 }
 
 /// A moment of a motion.
@@ -178,6 +192,11 @@ impl Path {
         let followed = planned.followed.as_ref();
         Path {
             certified: followed.map(|f| f.certified),
+            clearance: followed.and_then(|f| f.clearance.as_ref()).map(|c| Clearance {
+                q: c.q.clone(),
+                s: c.s,
+                smallest: c.smallest,
+            }),
             deviation: followed.map(|f| Deviation { angle: f.turned, position: f.deviation }),
             duration: planned.trajectory.duration(),
             events: followed.map(|f| f.events.iter().map(|e| Event::of(d, e)).collect()),

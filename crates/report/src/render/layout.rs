@@ -131,11 +131,14 @@ pub fn named(block: &Block, names: &Vocabulary) -> Option<Named> {
         Factor::Named { letter, .. } => letter.to_lowercase(),
         _ => "t".into(),
     };
-    let wide = |e: Expr| e.as_number().is_none() && matrix_width(&[vec![e]], names) > NARROW + 1.0;
+    let wide = |e: Expr| e.as_symbol().is_none() && matrix_width(&[vec![e]], names) > NARROW + 1.0;
     let places: Vec<(usize, usize)> = (0..rows.len())
         .flat_map(|r| (0..rows[r].len()).map(move |c| (r, c)))
         .filter(|&(r, c)| wide(rows[r][c]))
         .collect();
+    if places.is_empty() {
+        return None;
+    }
     let called = |letter: &str, (r, c): (usize, usize)| match r.max(c) < 9 {
         true => format!("{letter}{}{}", r + 1, c + 1),
         false => format!("{letter}{}_{}", r + 1, c + 1),

@@ -202,12 +202,41 @@ impl Robot<Expr> {
     }
 }
 
+/// Displacements that undo each other are gathered where that makes the reach smaller by so much.
+const MUCH: f64 = 4.0;
+
 impl Robot<f64> {
-    /// The sum of the robot's lengths, metres: no point of the hand is further from the base.
+    /// A length that no point of the hand is further from the base than, slides left aside, metres: the sum of the robot's
+    /// lengths. Long displacements along nearly parallel axes that undo each other, as calibrations have them, count for
+    /// what is left of them.
     pub fn reach(&self) -> f64 {
-        let of = |l: &Link<f64>| l.before.translation.norm() + l.after.translation.norm() + l.d.offset.abs();
-        let links: f64 = self.links.iter().map(of).sum();
-        links + self.base.translation.norm() + self.tool.translation.norm()
+        let across = |l: &Link<f64>| l.before.translation.norm() + l.after.translation.norm();
+        let ends = self.base.translation.norm() + self.tool.translation.norm();
+        let across = ends + self.links.iter().map(across).sum::<f64>();
+        let plain = across + self.links.iter().map(|l| l.d.offset.abs()).sum::<f64>();
+        let gathered = across + self.gathered();
+        if gathered < plain / MUCH { gathered } else { plain }
+    }
+
+    /// A bound on what the displacements along the axes add up to: what one has in common with the next is carried there.
+    fn gathered(&self) -> f64 {
+        let (mut sum, mut carried) = (0.0, 0.0);
+        for (k, link) in self.links.iter().enumerate() {
+            carried += link.d.offset;
+            let Some(next) = self.links.get(k + 1) else { break };
+            let between = link.after.rotation * next.before.rotation;
+            let z = between.z();
+            // The part across the next axis, and that along it.
+            let rest = f64::hypot(z[0], z[1]) * carried.abs();
+            if rest + (z[2] * carried + next.d.offset).abs() < carried.abs() + next.d.offset.abs() {
+                sum += rest;
+                carried *= z[2];
+            } else {
+                sum += carried.abs();
+                carried = 0.0;
+            }
+        }
+        sum + carried.abs()
     }
 
     /// The robot with some joints held at values: `held` are their numbers (from 0) and values; the others keep their

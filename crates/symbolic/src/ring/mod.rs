@@ -202,9 +202,10 @@ impl Ring {
     pub fn times(&mut self, a: &Poly, b: &Poly) -> Result<Poly, Refusal> {
         let budget = &mut self.budget;
         self.rules.times(a, b, |_, r| {
-            // Long numbers take the square of their length.
+            // Numbers beyond machine words take memory of their own, long ones the square of their length.
             let words = r.bits() / 64;
-            *budget = budget.checked_sub(1 + words * words / 16).ok_or(Refusal::TooLarge)?;
+            let cost = if words < 2 { 1 } else { 8 + words * words / 8 };
+            *budget = budget.checked_sub(cost).ok_or(Refusal::TooLarge)?;
             Ok(())
         })
     }
@@ -235,13 +236,69 @@ impl Ring {
         if let Some(known) = self.memo.get(&e) {
             return known.clone();
         }
-        for part in Expr::postorder(&[e]) {
-            if !self.memo.contains_key(&part) {
-                let form = self.normal_node(part).map(Rc::new);
-                self.memo.insert(part, form);
-            }
+        for part in self.parts(e) {
+            let form = self.normal_node(part).map(Rc::new);
+            self.memo.insert(part, form);
         }
         self.memo[&e].clone()
+    }
+
+    /// What has to be known before an expression, each once, parts before wholes, the expression last. Of a sum its terms:
+    /// the sums of the first of them, each as long as all before, are not kept.
+    fn parts(&self, e: Expr) -> Vec<Expr> {
+        let mut seen = rustc_hash::FxHashSet::from_iter([e]);
+        let mut parts = vec![e];
+        let mut next = 0;
+        while next < parts.len() {
+            let part = parts[next];
+            let operands: Vec<Expr> = match part.node() {
+                Node::Add(..) | Node::Sub(..) => self.summands(part).into_iter().map(|s| s.0).collect(),
+                _ => part.children().collect(),
+            };
+            parts.extend(operands.into_iter().filter(|o| !self.memo.contains_key(o) && seen.insert(*o)));
+            next += 1;
+        }
+        parts.sort_unstable(); // a node is always newer than its parts
+        parts
+    }
+
+    /// The terms of a sum that was put together from the left, and whether each is subtracted.
+    fn summands(&self, e: Expr) -> Vec<(Expr, bool)> {
+        let mut found = vec![];
+        let mut at = e;
+        loop {
+            let (rest, term) = match at.node() {
+                Node::Add(a, b) if at == e || !self.memo.contains_key(&at) => (a, (b, false)),
+                Node::Sub(a, b) if at == e || !self.memo.contains_key(&at) => (a, (b, true)),
+                _ => {
+                    found.push((at, false));
+                    found.reverse();
+                    return found;
+                }
+            };
+            found.push(term);
+            at = rest;
+        }
+    }
+
+    /// The sum of the terms of a sum, neighbours first.
+    fn total(&mut self, e: Expr) -> Result<Fraction, Refusal> {
+        let mut all: Vec<Fraction> = vec![];
+        for (term, is_subtracted) in self.summands(e) {
+            let form = self.normal(term)?;
+            all.push(if is_subtracted { form.scaled(&-Rational::ONE) } else { (*form).clone() });
+        }
+        while all.len() > 1 {
+            let mut sums = Vec::with_capacity(all.len().div_ceil(2));
+            for pair in all.chunks(2) {
+                sums.push(match pair {
+                    [a, b] => self.add(a, b)?,
+                    _ => pair[0].clone(),
+                });
+            }
+            all = sums;
+        }
+        Ok(all.pop().unwrap_or_else(|| Poly::zero().into()))
     }
 
     /// The normal form of a polynomial expression; `Undefined` if it has a denominator.
@@ -259,14 +316,7 @@ impl Ring {
             Node::Pi => Poly::atom(self.atom(AtomKind::Pi, None)).into(),
             Node::Symbol(s) => Poly::atom(self.atom(AtomKind::Symbol(s), None)).into(),
             Node::Neg(a) => self.normal(a)?.scaled(&-Rational::ONE),
-            Node::Add(a, b) => {
-                let (a, b) = (self.normal(a)?, self.normal(b)?);
-                self.add(&a, &b)?
-            }
-            Node::Sub(a, b) => {
-                let (a, b) = (self.normal(a)?, self.normal(b)?.scaled(&-Rational::ONE));
-                self.add(&a, &b)?
-            }
+            Node::Add(..) | Node::Sub(..) => self.total(e)?,
             Node::Mul(a, b) => {
                 let (a, b) = (self.normal(a)?, self.normal(b)?);
                 self.multiply(&a, &b)?

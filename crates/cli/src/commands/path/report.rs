@@ -64,14 +64,24 @@ pub fn remarks(d: &Description, planned: &Planned) -> String {
         decimals(followed.turned.to_degrees(), 5),
         followed.joints.parameters().len()
     );
-    text += match followed.certified {
-        Some(true) => {
+    if let Some(nearest) = &followed.clearance {
+        text += &format!(
+            "  nearest to a singular configuration at {} %: the smallest singular value is {} (lengths by the reach)\n",
+            decimals(100.0 * nearest.s, 2),
+            decimals(nearest.smallest, 5)
+        );
+    }
+    text += match (followed.certified, followed.clearance.is_some()) {
+        (true, true) => {
+            "  nothing on the way is singular (the Jacobian's rate bounds what happens between the samples)\n"
+        }
+        (false, true) => "  a singular configuration on the way is not excluded where that value is small\n",
+        (true, false) => {
             "  no other change of sign of a factor of det J between the samples (intervals over estimated boxes of joints)\n"
         }
-        Some(false) => {
+        (false, false) => {
             "  between some samples a factor of det J comes so near to 0 that its sign is not certain\n"
         }
-        None => "  singular configurations were looked for at the samples; none between them is excluded\n",
     };
     if !planned.alternatives.is_empty() {
         text += "  starts:\n";

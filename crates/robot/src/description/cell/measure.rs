@@ -57,7 +57,7 @@ pub(super) fn mended(text: &str, decimal_comma: bool) -> String {
         text = text.replace("oldsymbol", "\\mathsf  ");
     }
     for space in ['\t', ' '] {
-        text = text.replace(&format!("{space}extsf"), "\\text ").replace(&format!("{space}ext{{"), "\\bm{");
+        text = text.replace(&format!("{space}extsf"), "\\text ").replace(&format!("{space}ext{{"), " \\bm{");
     }
     if !decimal_comma {
         return text;
@@ -215,6 +215,47 @@ impl Measures for Measure<'_> {
         match n.unsigned_abs() <= MAX_POWER && self.powers <= MAX_POWERS {
             true => Ok(()),
             false => Err(format!("a power is a whole number up to {MAX_POWER}, and a cell has few")),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::mended;
+    use crate::random::Random;
+
+    /// Whatever is repaired, every byte stays at its place: spans of the one text are spans of the other.
+    #[test]
+    fn repaired_texts_keep_their_places() {
+        const PIECES: [&str; 14] = [
+            "\t",
+            " ",
+            "ext{",
+            "extsf",
+            "oldsymbol",
+            "\u{8}",
+            "é",
+            "θ",
+            "1,5",
+            ",",
+            "}",
+            "2",
+            "boldsymbol",
+            "\\text{",
+        ];
+        let mut random = Random(1);
+        for _ in 0..20_000 {
+            let count = 1 + (random.unit() * 6.0) as usize;
+            let text: String =
+                (0..count).map(|_| PIECES[(random.unit() * PIECES.len() as f64) as usize]).collect();
+            let repaired = mended(&text, random.unit() < 0.5);
+            let kept = |c: char| ['é', 'θ', '}', '2'].contains(&c);
+            let places = |text: &str| text.char_indices().filter(|x| kept(x.1)).collect::<Vec<_>>();
+            assert_eq!(
+                (repaired.len(), places(&repaired)),
+                (text.len(), places(&text)),
+                "{text:?}: {repaired:?}"
+            );
         }
     }
 }

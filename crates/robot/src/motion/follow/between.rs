@@ -35,6 +35,20 @@ impl HermitePath {
         &self.q
     }
 
+    /// How fast each joint is at most between the samples around a parameter, by s: no cubic leaves the hull of its
+    /// control points.
+    pub(super) fn fastest(&self, s: f64) -> Vec<f64> {
+        let k = self.s.partition_point(|x| *x <= s).clamp(1, self.s.len() - 1) - 1;
+        let h = self.s[k + 1] - self.s[k];
+        (0..self.q[k].len())
+            .map(|j| {
+                let (m, n) = (self.slopes[k][1][j], self.slopes[k + 1][0][j]);
+                let middle = 3.0 * (self.q[k + 1][j] - self.q[k][j]) / h - m - n;
+                m.abs().max(n.abs()).max(middle.abs())
+            })
+            .collect()
+    }
+
     /// The value between two configurations with slopes, at u in [0, 1] of a step h.
     pub(super) fn value(h: f64, u: f64, from: (&[f64], &[f64]), to: (&[f64], &[f64])) -> Vec<f64> {
         let (a, b) = (1.0 - u, u);

@@ -6,9 +6,11 @@
 //! is possible.
 
 mod between;
+mod clearance;
 mod events;
 mod track;
 
 pub use between::HermitePath;
+pub use clearance::Clearance;
 pub use events::{Event, EventKind};
 pub use track::{Alternative, FollowOptions, Followed, Follower};

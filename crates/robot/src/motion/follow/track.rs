@@ -1,6 +1,7 @@
 //! The branch through a start, as far as it goes.
 
 use super::between::HermitePath;
+use super::clearance::Clearance;
 use super::events::{Event, EventKind};
 use crate::description::Description;
 use crate::forward::Reference;
@@ -48,8 +49,11 @@ pub struct Followed {
     pub reached: f64,
     /// Whether between all samples the determinant's factors were seen to keep their signs, but at the singular
     /// configurations that are listed: by interval arithmetic over boxes of joints, which are estimated from three
-    /// configurations each. `None` if the factors are not known, or not all there is.
-    pub certified: Option<bool>,
+    /// configurations each. Where the factors are not known, or not all there is, whether the clearance is certain.
+    pub certified: bool,
+    /// How near the path comes to a singular configuration, in numbers: where the factors are not known, or not all there
+    /// is.
+    pub clearance: Option<Clearance>,
 }
 
 impl Followed {
@@ -569,13 +573,16 @@ impl<'a> Walk<'a> {
 
     fn finish(self) -> Followed {
         let is_known = self.follower.factors.is_some() && self.follower.is_complete;
+        let measured = || Clearance::of(self.follower.robot(), self.follower.space(), &self.joints);
+        let clearance = (!is_known).then(measured);
         Followed {
             reached: if self.s >= 1.0 { 1.0 } else { self.s },
             joints: self.joints,
             events: self.events,
             deviation: self.deviation,
             turned: self.turned,
-            certified: is_known.then_some(self.certified),
+            certified: clearance.as_ref().map_or(self.certified, |c| c.is_certain),
+            clearance,
         }
     }
 }

@@ -17,6 +17,9 @@ pub struct Minor {
     pub determinant: Factored,
 }
 
+/// Terms of a determinant beyond which nobody reads its factors.
+const MOST_TERMS: usize = 1_000;
+
 /// The largest square parts of some rows whose determinants are not identically 0; none if all are. Joints that do not move
 /// the body at all are left out.
 pub fn all(matrix: &Jacobian<Expr>, allowed: &[usize], order: &[Symbol]) -> Result<Vec<Minor>, Refusal> {
@@ -37,6 +40,9 @@ pub fn all(matrix: &Jacobian<Expr>, allowed: &[usize], order: &[Symbol]) -> Resu
             let part: Vec<Vec<&Poly>> =
                 chosen.iter().map(|&r| joints.iter().map(|&j| &rows[r][j]).collect()).collect();
             let p = determinant(&mut ring, part)?;
+            if p.terms().len() > MOST_TERMS {
+                return Err(Refusal::TooLarge);
+            }
             if !p.is_zero() {
                 let determinant = factored(ring.poly_expr(&p), order)?;
                 minors.push(Minor { rows: chosen.clone(), joints, determinant });
