@@ -7,7 +7,7 @@ use super::samples::{self, Sample};
 use super::words::text;
 use denavit::description::{Description, JointKind};
 use denavit::geometry::{Rotation, Transform, Vector};
-use denavit::inverse::{Goal, InverseModel, Refusal, variables};
+use denavit::inverse::{Goal, InverseModel, JointSpace, Refusal, variables};
 use denavit::robot::Robot;
 use denavit_emit::{KnownSolution, Language, Precision, SolverRoutine, SolverVector};
 use denavit_program::solver::{SAME, SolverScalar};
@@ -110,6 +110,35 @@ impl Closed {
         })
     }
 
+    /// What joints with gears do to the results.
+    fn gears(&self) -> Vec<String> {
+        let JointSpace { is_angle, turning, .. } = JointSpace::new(&self.model.description, 0.0);
+        let names: Vec<String> = self.model.chain.variables.iter().map(|s| s.name().to_string()).collect();
+        let turns = |x: f64| {
+            let text = format!("{:.6}", x / TAU);
+            text.trim_end_matches('0').trim_end_matches('.').to_string()
+        };
+        let geared = (0..names.len()).filter(|&j| is_angle[j] && turning.periods[j] != TAU);
+        let periods: Vec<String> =
+            geared.map(|j| format!("{} every {} turns", names[j], turns(turning.periods[j]))).collect();
+        let mut lines = vec![];
+        if !periods.is_empty() {
+            lines.push(format!("Joints with gears: all links come back with {}.", periods.join(", ")));
+        }
+        if !turning.copies.is_empty() {
+            let copy =
+                |c: &Vec<f64>| format!("({})", c.iter().map(|x| turns(*x)).collect::<Vec<_>>().join(", "));
+            let copies: Vec<String> = turning.copies.iter().map(copy).collect();
+            lines.push(format!(
+                "Each result stands for {} configurations: the others follow by adding, in turns of {}, {}.",
+                copies.len() + 1,
+                names.join(", "),
+                copies.join(", ")
+            ));
+        }
+        lines
+    }
+
     /// With words and vectors.
     pub fn routine(&self) -> SolverRoutine<'_> {
         let [to, from] = &self.ends;
@@ -147,6 +176,7 @@ impl Closed {
             "The results: {}; angles in rad from -pi to pi, displacements in m. Limits are not looked at.",
             all(&self.model.chain.variables)
         ));
+        about.extend(self.gears());
         if self.model.goal == Goal::Pose && self.model.rank < 6 {
             about.push(format!(
                 "The arm moves its hand in {} directions only; other poses have no solution.",

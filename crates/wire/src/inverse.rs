@@ -44,7 +44,7 @@ pub struct Answer {
     pub schema: Schema,
     /// The isolated ones.
     pub solutions: Vec<Solution>,
-    /// `solved` or `unreachable`.
+    /// `solved`, `unreachable` or `not found`.
     pub status: &'static str,
 }
 
@@ -237,9 +237,13 @@ pub fn doubt(answer: &inverse::Answer) -> Option<String> {
     answer.doubt.map(|doubt| words().doubt(doubt))
 }
 
-/// `solved` or `unreachable`.
+/// `solved`, `unreachable` where it is certain that there is no solution, or `not found`.
 pub fn status(answer: &inverse::Answer) -> &'static str {
-    if answer.is_reachable() { "solved" } else { "unreachable" }
+    match (answer.is_reachable(), answer.is_complete()) {
+        (true, _) => "solved",
+        (false, true) => "unreachable",
+        (false, false) => "not found",
+    }
 }
 
 /// A robot that cannot be solved in formulas.

@@ -9,7 +9,7 @@ typedef enum @name@_ik_certificate {
     /* Two come together, or are about to, or miss each other by less than rounding tells; or the
        arm can move with its hand still. */
     @NAME@_IK_NEAR_DOUBLE_ROOT = 1,
-    /* There may be more. */
+    /* There may be more; or the pose is none: its rotation is off by more than a tenth. */
     @NAME@_IK_UNDECIDED = 2
 } @name@_ik_certificate;
 
@@ -24,7 +24,8 @@ typedef struct @name@_ik_solution {
     int multiplicity;
 } @name@_ik_solution;
 
-/* Fills the array of the caller; returns the number of solutions. The certificate may be NULL. */
+/* Fills the array of the caller; returns the number of solutions. The certificate may be NULL.
+   The rotation nearest to that of the pose is meant: rounded numbers will do. */
 int @name@_ik(
     const double pose[12],
     @name@_ik_solution solutions[@NAME@_IK_MAX],

@@ -58,6 +58,12 @@ impl General {
             Some(format!("elimination computes with the values of parameters: {missing}"))
         })?;
         let space = JointSpace::new(d, robot.reach());
+        let is_geared = |j: usize| space.is_angle[j] && space.turning.periods[j] != std::f64::consts::TAU;
+        if (0..variables.len()).any(is_geared) || !space.turning.copies.is_empty() {
+            return Err(Some(
+                "elimination is generated for arms without gears: a whole turn of a joint must bring all links back".into(),
+            ));
+        }
         let solver = GeneralSolver::new(&robot, &space)
             .map_err(|why| Some(format!("nor does elimination serve the arm: {why}")))?;
         let (axes, plan) = solver.parts();

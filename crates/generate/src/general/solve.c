@@ -236,6 +236,43 @@ static void ik_variables(const double axes[6], double q[6])
     }
 }
 
+/* Brings a matrix to the rotation nearest to it; 0 if it is none, not even to a tenth. */
+static int ik_nearest_rotation(double r[3][3])
+{
+    for (int step = 0; step < 4; step++) {
+        double product[3][3];
+        double next[3][3];
+        double defect = 0.0;
+        for (int i = 0; i < 3; i++) {
+            for (int j = 0; j < 3; j++) {
+                product[i][j] = (i == j ? 1.0 : 0.0)
+                    - (r[0][i] * r[0][j] + r[1][i] * r[1][j] + r[2][i] * r[2][j]);
+                defect = fabs(product[i][j]) > defect ? fabs(product[i][j]) : defect;
+                if (!(fabs(product[i][j]) <= 0.1)) {
+                    return 0;
+                }
+            }
+        }
+        if (defect <= 1e-15) {
+            break;
+        }
+        for (int i = 0; i < 3; i++) {
+            for (int j = 0; j < 3; j++) {
+                next[i][j] = r[i][j]
+                    + 0.5 * (r[i][0] * product[0][j] + r[i][1] * product[1][j] + r[i][2] * product[2][j]);
+            }
+        }
+        for (int i = 0; i < 3; i++) {
+            for (int j = 0; j < 3; j++) {
+                r[i][j] = next[i][j];
+            }
+        }
+    }
+    return r[0][0] * (r[1][1] * r[2][2] - r[1][2] * r[2][1])
+        - r[0][1] * (r[1][0] * r[2][2] - r[1][2] * r[2][0])
+        + r[0][2] * (r[1][0] * r[2][1] - r[1][1] * r[2][0]) > 0.0;
+}
+
 int @name@_ik(
     const double pose[12],
     @name@_ik_solution solutions[@NAME@_IK_MAX],
@@ -250,6 +287,12 @@ int @name@_ik(
             goal.r[i][k] = pose[4 * i + k];
         }
         goal.t[i] = pose[4 * i + 3] / ik_size;
+    }
+    if (!ik_nearest_rotation(goal.r)) {
+        if (certificate) {
+            *certificate = @NAME@_IK_UNDECIDED;
+        }
+        return 0;
     }
     work.count = 0;
     for (int k = 0; k < IK_SPLITS && last != IK_CERTIFIED; k++) {

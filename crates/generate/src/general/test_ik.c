@@ -72,5 +72,22 @@ static void test_ik(void)
             printf("ik, pose %d: its configuration is not found\n", v);
             failures++;
         }
+        /* A pose of six decimals is that of nearby configurations; what is no rotation has none. */
+        double rounded[12];
+        for (int k = 0; k < 12; k++) {
+            rounded[k] = floor(1e6 * ik_poses[v][k] + 0.5) / 1e6;
+        }
+        const int again = @name@_ik(rounded, found, &certificate);
+        for (int e = ik_first[v]; e < ik_first[v + 1]; e++) {
+            if (!(ik_nearest(found, again, ik_known[e]) <= 1e-2)) {
+                printf("ik, pose %d of six decimals: solution %d is not found\n", v, e - ik_first[v]);
+                failures++;
+            }
+        }
+        rounded[0] += 1.0;
+        if (@name@_ik(rounded, found, &certificate) != 0 || certificate != @NAME@_IK_UNDECIDED) {
+            printf("ik, pose %d: what is no rotation has solutions\n", v);
+            failures++;
+        }
     }
 }

@@ -255,3 +255,16 @@ fn french_is_french() {
         }
     }
 }
+
+/// A matrix whose entries are numbers of many digits does not fit a page, and has names once.
+#[test]
+fn matrices_of_long_numbers_are_written() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../robot/tests/cases/so101.toml");
+    let text = std::fs::read_to_string(&path).expect("a case");
+    let (description, _) = denavit::description::read_toml(&text).expect("a robot");
+    let options = ReportOptions { topics: vec![Topic::Table, Topic::Forward], ..ReportOptions::default() };
+    let document = report(&description, &options);
+    for written in [render::html(&document), render::latex(&document), render::typst(&document)] {
+        assert!(written.len() > 1_000);
+    }
+}

@@ -1,13 +1,13 @@
 //! Paths of the hand, and the joints that follow them: what is met, and how near the hand stays.
 
-use crate::common::{Random, robot};
+use crate::common::{Random, case, robot};
 use denavit::geometry::{Transform, Vector};
 use denavit::inverse::{InverseKinematics, InverseOptions};
 use denavit::motion::follow::{Event, EventKind, FollowOptions, Followed, Follower};
 use denavit::motion::hand::{Arc, ArcError, HandChain, HandPath, Line, Orientation, PoseSpline};
 use denavit::motion::path::JointPath;
 use denavit::motion::{Limits, TimeOptimal, Trajectory};
-use denavit::velocity::Place;
+use denavit::velocity::{Place, Viewpoint, Whole, geometric};
 use std::f64::consts::PI;
 
 /// A line from the pose of a configuration by a displacement.
@@ -249,4 +249,35 @@ fn splines_are_smooth() {
     }
     let here = Transform::identity();
     assert!(PoseSpline::new(vec![here]).is_none() && PoseSpline::new(vec![here, here]).is_none());
+}
+
+/// Of arms whose determinant is not to be had as a formula, the nearest singular configuration is named in numbers: nothing
+/// on the way has a smaller singular value, and what is called certain has none that is 0.
+#[test]
+fn calibrated_arms_are_followed_with_their_clearance() {
+    let mut random = Random(3);
+    let mut certain = 0;
+    for name in ["ur5cal", "g1off"] {
+        let mut f = Follower::new(&case(name)).expect("numbers");
+        for _ in 0..6 {
+            let q: Vec<f64> = (0..6).map(|_| 2.0 * PI * random.unit() - PI).collect();
+            let path = by(&f, &q, [0.05, 0.02, -0.03]);
+            let followed = f.follow(&path, &q, &FollowOptions::default());
+            let clearance = followed.clearance.as_ref().expect("no factors are known");
+            let space = &f.inverse.space;
+            let smallest = |q: &[f64]| {
+                let jacobian = geometric(&f.inverse.robot, q, &Viewpoint::tool());
+                let whole = Whole::new(&jacobian, &space.is_angle, space.length());
+                whole.singular_values.last().copied().expect("six")
+            };
+            let least = (0..=3000)
+                .map(|k| smallest(&followed.joints.eval(followed.joints.end() * f64::from(k) / 3000.0).q))
+                .fold(f64::INFINITY, f64::min);
+            assert!(clearance.smallest <= least + 1e-6, "{name}: {} and {least}", clearance.smallest);
+            assert_eq!(followed.certified, clearance.is_certain);
+            assert!(!clearance.is_certain || least > 1e-9, "{name}: {least}");
+            certain += usize::from(clearance.is_certain);
+        }
+    }
+    assert!(certain >= 6, "{certain} of 12");
 }

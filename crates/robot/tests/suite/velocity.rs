@@ -1,14 +1,14 @@
 //! Jacobians: proofs, counts, and numbers beside finite differences; velocities near singular configurations.
 
-use crate::common::{Random, numbers, robot, with_values};
+use crate::common::{Random, case, numbers, robot, with_values};
 use denavit::description::Description;
 use denavit::forward::{Proof, Reference};
 use denavit::geometry::orientation::{EulerSet, OrientationSet, extract};
 use denavit::geometry::{Axis, Transform, Vector};
 use denavit::velocity::{
-    Damping, Jacobian, JacobianModel, Place, ROWS, RateFormulas, RateSolver, Singularities, Viewpoint,
-    analytic, determinant, geometric, hessian_program, jacobian_and_pose_program, jacobian_program,
-    largest_wrench, measures, nearest_singularity, rate_program, torques,
+    Damping, Jacobian, JacobianModel, Obstacle, Place, ROWS, RateFormulas, RateSolver, Singularities,
+    Viewpoint, analytic, determinant, geometric, hessian_program, jacobian_and_pose_program,
+    jacobian_program, largest_wrench, measures, nearest_singularity, rate_program, torques,
 };
 use denavit::{Robot, catalogue};
 use denavit_program::Program;
@@ -581,5 +581,14 @@ fn the_nearest_singularity_is_no_further_than_one_joint_away() {
             // Newton's method ends a little beside the place where it starts.
             assert!(found.distance <= 1.02 * wrist + 1e-3, "{name}: {} {wrist}", found.distance);
         }
+    }
+}
+
+/// The determinant of a calibrated arm has thousands of terms: it is refused, and quickly.
+#[test]
+fn determinants_that_nobody_reads_are_refused() {
+    for name in ["ur5cal", "g1off"] {
+        let refused = Singularities::derive(&case(name), Reference::Tool).expect_err(name);
+        assert!(matches!(refused, Obstacle::TooLarge(_)), "{name}: {refused}");
     }
 }

@@ -489,17 +489,42 @@ fn fraction_parts(r: &Rational) -> (String, Option<String>) {
     (p, Some(q).filter(|q| q != "1"))
 }
 
-/// The largest number of decimals; what needs more stays a fraction.
+/// The largest number of decimals of a fraction that may come out of the algebra; what needs more stays a fraction.
 const MAX_DECIMALS: u32 = 6;
+/// The same where numerator and denominator are so large that somebody wrote decimals.
+const WRITTEN: i64 = 1_000_000;
+const MAX_WRITTEN: u32 = 30;
+
+/// The decimals of a number beyond machine words, if they end.
+fn written(r: &Rational) -> Option<String> {
+    const MOST_BITS: u64 = 160;
+    let (numerator, _) = r.digits();
+    if r.bits() > MOST_BITS || numerator.len() <= MAX_DECIMALS as usize {
+        return None;
+    }
+    let ten = Rational::from(10);
+    let mut scaled = r.clone();
+    for places in 1..=MAX_WRITTEN as usize {
+        scaled = &scaled * &ten;
+        if scaled.is_integer() {
+            let (digits, _) = scaled.digits();
+            let digits = format!("{digits:0>width$}", width = places + 1);
+            let (whole, rest) = digits.split_at(digits.len() - places);
+            return Some(format!("{whole}.{rest}"));
+        }
+    }
+    None
+}
 
 /// `0.1519`, `0.3`; not for halves and quarters, which come out of the algebra.
 fn decimal(r: &Rational) -> Option<String> {
-    let (n, d) = r.to_parts()?;
+    let Some((n, d)) = r.to_parts() else { return written(r) };
     if d <= 4 {
         return None;
     }
-    let places = (1..=MAX_DECIMALS).find(|&k| 10_i64.pow(k) % d == 0)?;
+    let most = if d > WRITTEN && n.abs() > WRITTEN { MAX_WRITTEN } else { MAX_DECIMALS };
+    let places = (1..=most).find(|&k| 10_i128.pow(k) % i128::from(d) == 0)?;
     let scale = 10_i128.pow(places);
-    let digits = i128::from(n) * (scale / i128::from(d));
+    let digits = i128::from(n).checked_mul(scale / i128::from(d))?;
     Some(format!("{}.{:0width$}", digits / scale, digits % scale, width = places as usize))
 }

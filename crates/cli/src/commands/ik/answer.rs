@@ -89,9 +89,13 @@ impl Question {
 
 /// Why there is no solution.
 pub fn obstacle(d: &Description, answer: &Answer) -> String {
+    const NOT_FOUND: &str = "no solution was found, and none is excluded";
     match &answer.obstacle {
         Some(found @ Obstacle { q, angle, distance, violated, .. }) => {
-            let why = words().obstacle(found);
+            let head = match answer.is_complete() {
+                true => format!("unreachable: {}", words().obstacle(found)),
+                false => NOT_FOUND.into(),
+            };
             let conditions: Vec<&str> = violated.iter().map(|v| v.0.as_str()).collect();
             let which = match conditions[..] {
                 [] => String::new(),
@@ -104,13 +108,14 @@ pub fn obstacle(d: &Description, answer: &Answer) -> String {
                 .map(|(v, &x)| format!("{} = {}", v.symbol.name(), reading(x, v.kind)))
                 .collect();
             format!(
-                "unreachable: {why}; nearest found, {} and {} away: {}{which}",
+                "{head}; nearest found, {} and {} away: {}{which}",
                 reading(*angle, JointKind::Revolute),
                 reading(*distance, JointKind::Prismatic),
                 at.join(", ")
             )
         }
-        None => "unreachable".into(),
+        None if answer.is_complete() => "unreachable".into(),
+        None => NOT_FOUND.into(),
     }
 }
 

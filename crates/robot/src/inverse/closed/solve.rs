@@ -94,7 +94,9 @@ pub(super) const NEAR: f64 = 1e-6;
 /// What guards are compared with then, by what they are compared with otherwise.
 pub(super) const LOOSE: f64 = NEAR / denavit_program::solver::GUARD;
 /// How far it may move a branch that is a solution already, but only just: between two that nearly coincide.
-const FAR: f64 = 0.05;
+const FAR: f64 = 0.2;
+/// A slide this many lengths of the arm away is known to fewer digits than the equations are.
+const FAR_OUT: f64 = 16.0;
 /// How far Newton's method may move a member of a family that was found with loose guards.
 pub(super) const SHORT: f64 = 1e-5;
 
@@ -260,6 +262,8 @@ impl Solving<'_> {
                 self.confirm(pose, &variables, given, &mut answer);
                 if answer.is_reachable() {
                     answer.obstacle = None;
+                } else if !self.is_excluded(pose, &answer) {
+                    answer.doubt = Some(Doubt::Sampled);
                 }
             }
         }
@@ -291,7 +295,20 @@ impl Solving<'_> {
         }
         self.space.wrap(&mut s.q);
         s.within_limits = self.space.within(&s.q);
+        let is_far = |(x, &is_angle): (&f64, &bool)| !is_angle && x.abs() > FAR_OUT * self.space.length();
+        if s.q.iter().zip(&self.space.is_angle).any(is_far) {
+            // The equations have the displacement; what is returned has its rounding.
+            s.residual = newton::distance(&self.robot, self.goal, pose, &s.q, self.size(pose));
+        }
         s.residual <= self.tolerance
+    }
+
+    /// True if no configuration can have a pose, whatever rounding did to the branches: it is beyond the reach, or violates
+    /// what all poses of the arm meet.
+    fn is_excluded(&self, pose: &Transform<f64>, answer: &Answer) -> bool {
+        let turns_only = self.space.is_angle.iter().all(|x| *x);
+        turns_only && pose.translation.norm() > self.robot.reach() * (1.0 + NEAR)
+            || answer.obstacle.as_ref().is_some_and(|o| !o.violated.is_empty())
     }
 
     /// The conditions that a pose does not meet, by joint variables that come near.

@@ -3,10 +3,10 @@
 //! Every angle has a cosine and a sine, with the rule S² → 1 − C². Angles that are sums of one another (θ2, θ23) are
 //! atoms of their own here: an equation holds whichever of them its product was formed with.
 
-use denavit_symbolic::Expr;
 use denavit_symbolic::poly::{Atom, Monomial, Poly};
 use denavit_symbolic::ring::{AtomKind, Ring};
 use denavit_symbolic::rules::{Formed, Rules};
+use denavit_symbolic::{Expr, Rational};
 use rustc_hash::FxHashMap;
 use std::cell::Cell;
 use std::convert::Infallible;
@@ -158,7 +158,14 @@ impl Algebra {
                 }
                 product = product.times(&Monomial::power(atom, n));
             }
-            terms.push((product, r.clone()));
+            let mut factor = r.clone();
+            if is_long(r) {
+                // Products of numbers with many digits would be longer and longer: they count as constants with a name.
+                let size = Expr::from(r.abs());
+                product = product.times(&Monomial::power(self.atom(Kind::Constant(size), || size), 1));
+                factor = if r.is_negative() { -Rational::ONE } else { Rational::ONE };
+            }
+            terms.push((product, factor));
         }
         for (c, s) in ring.pairs().collect::<Vec<_>>() {
             let (c, s) = (ring.atom_expr(c), ring.atom_expr(s));
@@ -170,9 +177,17 @@ impl Algebra {
     }
 }
 
+/// True for a number with more digits than somebody would work with.
+fn is_long(r: &Rational) -> bool {
+    r.to_parts().is_none_or(|(n, d)| n.unsigned_abs().max(d.unsigned_abs()) > DIGITS)
+}
+
 fn monomial_value(m: &Monomial, atoms: &[f64]) -> f64 {
     m.factors().iter().map(|&(a, n)| atoms[usize::from(a)].powi(n.into())).product()
 }
+
+/// Numerators and denominators beyond are long.
+const DIGITS: u64 = 1_000_000_000;
 
 /// A 3×3 matrix of polynomials.
 pub type Matrix = [[Poly; 3]; 3];

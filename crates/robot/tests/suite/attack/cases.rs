@@ -2,16 +2,12 @@
 
 use super::judge::{Fault, judge};
 use super::poses::Asked;
-use crate::common::Random;
-use denavit::description::read_toml;
+use crate::common::{Random, case};
 use denavit::inverse::{InverseKinematics, InverseOptions};
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::path::Path;
 
 fn solver(name: &str) -> InverseKinematics {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/cases/{name}.toml"));
-    let text = std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{name}: {e}"));
-    let (mut description, _) = read_toml(&text).unwrap_or_else(|e| panic!("{name}: {e:?}"));
+    let mut description = case(name);
     description.rows.iter_mut().for_each(|r| r.limits = None);
     InverseKinematics::new(&description, &InverseOptions::default()).expect("a robot with numbers")
 }

@@ -11,6 +11,13 @@ pub fn robot(name: &str) -> Description {
     catalogue::robot(name).unwrap_or_else(|| panic!("no robot {name}"))
 }
 
+/// A robot of `tests/cases`: what an attack or an engineer found once.
+pub fn case(name: &str) -> Description {
+    let path = format!("{}/tests/cases/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"));
+    denavit::description::read_toml(&text).unwrap_or_else(|e| panic!("{name}: {e:?}")).0
+}
+
 /// `line:column severity: message | hint` of each finding.
 pub fn shown(text: &str, findings: &[Diagnostic]) -> Vec<String> {
     findings

@@ -164,7 +164,7 @@ export interface Step {
 /** `solve`. An arm that cannot take the pose has the solutions of the nearest that it can. */
 export interface Answer {
   pose: Matrix;
-  status: "solved" | "unreachable";
+  status: "solved" | "unreachable" | "not found";
   method: "closed form" | "elimination" | "self-motion" | "descent";
   complete: boolean;
   doubt?: string;
