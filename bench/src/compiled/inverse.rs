@@ -16,7 +16,7 @@ macro_rules! generated {
         let matrices: Vec<[[f64; 4]; 3]> = poses.iter().map(as_matrix).collect();
         let answers = |pose: &[[f64; 4]; 3]| -> Vec<Joints> {
             let mut solutions = [IkSolution::NONE; IK_MAX];
-            let count = ik(pose, &parameters, &mut solutions);
+            let (count, _) = ik(pose, &parameters, &mut solutions);
             solutions[..count].iter().map(|s| s.q).collect()
         };
         let one = Contestant {

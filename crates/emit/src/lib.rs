@@ -179,6 +179,9 @@ pub struct SolverRoutine<'a> {
     pub about: Vec<String>,
     /// What it computes; its parameters are among those of the library, its variables are its own.
     pub solver: &'a Solver,
+    /// For each node how large its guard is usually
+    /// ([`SolverFunction::usual_guards`](denavit_program::solver::SolverFunction::usual_guards)).
+    pub usual: Vec<f64>,
     /// What the variables are called as a whole, such as `goal`.
     pub argument: String,
     /// The shape of the variables, row-major; the product is their number.
@@ -187,6 +190,36 @@ pub struct SolverRoutine<'a> {
     pub result: String,
     /// What the stored test holds it to.
     pub vectors: Vec<SolverVector>,
+}
+
+/// What an emitted solver says of its answer.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Certificate {
+    /// All solutions are there; without one, there is none.
+    Complete,
+    /// Somewhere an unknown is free, or nearly so: what is there solves the equations, and there may be more.
+    Singular,
+    /// The variables are no numbers, or further from what they must be than rounding brings them.
+    NotAPose,
+}
+
+impl Certificate {
+    /// All of them; the place is the number in languages that have no names for values.
+    pub const ALL: [Certificate; 3] = [Certificate::Complete, Certificate::Singular, Certificate::NotAPose];
+
+    /// Its name in words: `not a pose`.
+    pub fn words(self) -> &'static str {
+        match self {
+            Certificate::Complete => "complete",
+            Certificate::Singular => "singular",
+            Certificate::NotAPose => "not a pose",
+        }
+    }
+
+    /// Its number.
+    pub fn code(self) -> usize {
+        self as usize
+    }
 }
 
 /// What is known, and all solutions.
@@ -198,6 +231,8 @@ pub struct SolverVector {
     pub parameters: Vec<f64>,
     /// All solutions, in any order.
     pub solutions: Vec<KnownSolution>,
+    /// What the function says of them.
+    pub certificate: Certificate,
     /// What a result may be off by; angles modulo 2π.
     pub tolerance: f64,
 }

@@ -6,9 +6,10 @@ use crate::Language;
 use crate::Precision;
 use crate::compiled::{Pair, Step, WRAP};
 use crate::names::Names;
-use crate::solver::{Branching, Kind, Plan};
+use crate::solver::{Branching, Kind, Near, Plan};
 use crate::spelling::Spelling;
 use crate::wrap::Wrap;
+use denavit_program::solver::{CANDIDATE, ROUNDED};
 use denavit_symbolic::{Expr, Symbol};
 
 /// The body of a solver.
@@ -22,6 +23,8 @@ pub(crate) struct Nested<'a> {
     /// The function for sines and cosines together, if there is one.
     pub sine_cosine: Option<&'static str>,
     pub wrap: Wrap,
+    /// What is done if the variables are no pose, a line each.
+    pub refusal: Vec<String>,
     lines: Vec<String>,
     indent: usize,
     names: Names,
@@ -53,6 +56,7 @@ impl<'a> Nested<'a> {
             atan2,
             sine_cosine: None,
             wrap: WRAP,
+            refusal: vec![],
             lines: vec![],
             indent: 4,
             names: plan.names.clone(),
@@ -121,10 +125,14 @@ impl<'a> Nested<'a> {
         let mut open = 0;
         for (i, level) in plan.levels.iter().enumerate() {
             self.steps(level);
+            if i == 0 {
+                self.admission();
+            }
             let Some(node) = plan.nodes.get(i) else { break };
             let [roots, index] = ["roots", "i"].map(|word| self.names.free(&format!("{word}_{}", i + 1)));
             self.blank();
             self.node(node, &roots);
+            self.near(&node.near, &loops);
             let branches = node.root.branches();
             if branches > 1 {
                 self.open(&roots, &index, branches);
@@ -133,15 +141,23 @@ impl<'a> Nested<'a> {
             self.results(node, &roots, &index);
             loops.push(Loop { roots, index, stride: node.stride, branches });
         }
-        let found = self.found(&loops);
-        let residual = &found.residual;
+        let mut found = self.found(&loops);
         // Python takes all leaves, and looks at the residuals in the end.
+        if self.language != Language::Python {
+            if plan.residual.as_symbol().is_none() {
+                let name = self.names.free("residual");
+                self.constant(&name, &found.residual);
+                found.residual = name;
+            }
+            self.candidate(&found.residual);
+        }
+        let (residual, tolerance) = (&found.residual, self.tolerance());
         let condition = match self.language {
             Language::Python => None,
-            Language::Rust => Some(format!("if {residual} <= roots::TOLERANCE {{")),
-            Language::Matlab => Some(format!("if {residual} <= 1e-9")),
+            Language::Rust => Some(format!("if {residual} <= {tolerance} {{")),
+            Language::Matlab => Some(format!("if {residual} <= {tolerance}")),
             Language::C | Language::Cuda | Language::JavaScript => {
-                Some(format!("if ({residual} <= 1e-9) {{"))
+                Some(format!("if ({residual} <= {tolerance}) {{"))
             }
         };
         if let Some(condition) = condition {
@@ -156,6 +172,120 @@ impl<'a> Nested<'a> {
             self.close();
         }
         self.lines
+    }
+
+    /// What residuals are compared with.
+    fn tolerance(&self) -> &'static str {
+        match (self.plan.defect, self.language) {
+            (Some(_), _) => "tolerance",
+            (None, Language::Rust) => "roots::TOLERANCE",
+            (None, _) => "1e-9",
+        }
+    }
+
+    /// Looks at the variables: whether they are numbers and, where that is computed, how far from a pose.
+    fn admission(&mut self) {
+        let size = self.formula(self.plan.size);
+        let defect = self.plan.defect.map(|e| self.formula(e));
+        let (language, refusal) = (self.language, self.refusal.clone());
+        let largest = match language {
+            Language::Rust => "f64::MAX",
+            Language::JavaScript => "Number.MAX_VALUE",
+            Language::Matlab => "realmax",
+            Language::C | Language::Cuda | Language::Python => "1.7976931348623157e308",
+        };
+        let [and, times] = match language {
+            Language::Python => [" & ", " * "],
+            Language::Matlab => [" && ", "*"],
+            Language::C | Language::Cuda | Language::JavaScript | Language::Rust => [" && ", " * "],
+        };
+        let grouped = |e: String| if language == Language::Python { format!("({e})") } else { e };
+        let mut conditions: Vec<String> = vec![];
+        conditions.extend(defect.iter().map(|d| grouped(format!("{d} <= {ROUNDED:e}"))));
+        conditions.push(grouped(format!("{size} <= {largest}")));
+        let condition = conditions.join(and);
+        self.blank();
+        match language {
+            Language::Python => self.constant("is_pose", &condition),
+            Language::C | Language::Cuda | Language::JavaScript => {
+                self.line(&format!("if (!({condition})) {{"))
+            }
+            Language::Rust => self.line(&format!("if !({condition}) {{")),
+            Language::Matlab => self.line(&format!("if ~({condition})")),
+        }
+        if language != Language::Python {
+            let margin = " ".repeat(self.wrap.step);
+            refusal.iter().for_each(|l| self.line(&format!("{margin}{l}")));
+            self.line(if language == Language::Matlab { "end" } else { "}" });
+        }
+        let Some(defect) = defect else { return };
+        let is_typed = matches!(language, Language::Rust | Language::C | Language::Cuda);
+        let fourfold = format!("4{}{times}{defect}", if is_typed { ".0" } else { "" });
+        let clamped = match language {
+            Language::C | Language::Cuda => format!("fmax(1e-9, fmin({fourfold}, {ROUNDED:e}))"),
+            Language::Rust => format!("({fourfold}).clamp(roots::TOLERANCE, {ROUNDED:e})"),
+            Language::JavaScript => format!("Math.max(1e-9, Math.min({fourfold}, {ROUNDED:e}))"),
+            Language::Matlab => format!("max(1e-9, min({fourfold}, {ROUNDED:e}))"),
+            Language::Python => format!("np.clip({fourfold}, 1e-9, {ROUNDED:e})"),
+        };
+        self.constant("tolerance", &clamped);
+    }
+
+    /// Notes that the unknown of a node is free, or nearly so.
+    fn near(&mut self, near: &Near, loops: &[Loop]) {
+        let [value, size] = [near.value, near.size].map(|e| self.bounded(e));
+        let times = if self.language == Language::Matlab { "*" } else { " * " };
+        let least = match near.size.symbols().is_empty() {
+            true => format!("{:e}", near.share),
+            false => format!("{:e}{times}{size}", near.share),
+        };
+        let value = match (near.is_square, self.language) {
+            (true, _) => value,
+            (false, Language::C | Language::Cuda) => format!("fabs({})", self.formula(near.value)),
+            (false, Language::Rust) => format!("({value}).abs()"),
+            (false, Language::JavaScript) => format!("Math.abs({})", self.formula(near.value)),
+            (false, Language::Matlab) => format!("abs({})", self.formula(near.value)),
+            (false, Language::Python) => format!("np.abs({})", self.formula(near.value)),
+        };
+        let condition = format!("{value} <= {least}");
+        let mut conditions: Vec<String> = vec![];
+        if self.language == Language::Python {
+            // Branches that are not there come this far, too.
+            let there = loops.iter().filter(|l| l.branches > 1);
+            conditions.extend(there.map(|l| format!("({}.multiplicity[{}] > 0)", l.roots, l.index)));
+            conditions.push(format!("({condition})"));
+        } else {
+            conditions.push(condition);
+        }
+        self.note(&conditions.join(" & "));
+    }
+
+    /// Notes that a branch comes near a solution, and is none: one that rounding hides.
+    fn candidate(&mut self, residual: &str) {
+        let and = if self.language == Language::Rust { "&" } else { "&&" };
+        let [open, close] = if self.language == Language::Rust { ["(", ")"] } else { ["", ""] };
+        let tolerance = self.tolerance();
+        self.note(&format!(
+            "{open}{residual} > {tolerance}{close} {and} {open}{residual} <= {CANDIDATE:e}{close}"
+        ));
+    }
+
+    fn note(&mut self, condition: &str) {
+        let (head, condition) = match self.language {
+            Language::C | Language::Cuda | Language::Rust | Language::Python => {
+                ("is_near |=", condition.to_string())
+            }
+            Language::JavaScript => ("isNear ||=", condition.to_string()),
+            Language::Matlab => ("is_near = is_near ||", format!("({condition})")),
+        };
+        let head = format!("{}{head}", " ".repeat(self.indent));
+        self.lines.extend(self.wrap.statement(&head, condition.as_str(), self.end()));
+    }
+
+    /// A formula that can be a factor.
+    fn bounded(&self, e: Expr) -> String {
+        let text = self.formula(e);
+        if e.as_symbol().is_some() || e.symbols().is_empty() { text } else { format!("({text})") }
     }
 
     fn open(&mut self, roots: &str, i: &str, branches: usize) {

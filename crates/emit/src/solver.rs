@@ -4,7 +4,7 @@ use crate::compiled::{Pair, Step, Steps};
 use crate::listing::Listing;
 use crate::names::{Names, comment, sanitised};
 use crate::{Language, Library, SolverRoutine};
-use denavit_program::solver::{Register, Root};
+use denavit_program::solver::{BESIDE, Register, Root};
 use denavit_symbolic::{Expr, Node, Symbol};
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -30,6 +30,8 @@ pub(crate) struct Branching {
     pub guard: Option<Expr>,
     /// What the guard is compared with: the size to the power of the guard's dimension.
     pub scale: Expr,
+    /// What is small where the unknown is nearly free.
+    pub near: Near,
     pub results: Vec<Symbol>,
     /// What a step of this node adds to the number of the branch.
     pub stride: usize,
@@ -69,6 +71,47 @@ impl Branching {
             2 => &["+", "-"],
             _ => &["1", "2", "3", "4"],
         }
+    }
+}
+
+/// A value, and the share of a size below which it makes an answer doubtful.
+pub(crate) struct Near {
+    /// The value, in either sign unless it is a square.
+    pub value: Expr,
+    pub is_square: bool,
+    pub share: f64,
+    pub size: Expr,
+}
+
+impl Near {
+    /// The guard of a node, or the square of the natural one, beside what is usual of it.
+    fn new(root: &Root<Expr>, guard: Option<Expr>, scale: Expr, usual: f64) -> Self {
+        // Two digits say enough.
+        let share = |x: f64| format!("{x:.1e}").parse().unwrap_or(x);
+        let square = |parts: &[Expr]| parts.iter().map(|x| *x * *x).reduce(|a, b| a + b);
+        let natural = match *root {
+            Root::Ratio { denominator: d, .. } | Root::Quadratic { a: d, .. } => {
+                let value = guard.unwrap_or(d);
+                return Near { value, is_square: false, share: share(BESIDE * usual), size: scale };
+            }
+            Root::Direction { x, y, .. } | Root::Line { x, y } | Root::Length { x, y } => square(&[x, y]),
+            Root::Sincos { a, b, .. } => square(&[a, b]),
+            Root::Quartic { cc, cs, c, s, one } => square(&[cc, cs, c, s, one]),
+        };
+        match (guard, natural) {
+            (None, Some(value)) => {
+                let share = share((BESIDE * usual).powi(2));
+                Near { value, is_square: true, share, size: scale * scale }
+            }
+            (value, _) => {
+                let value = value.unwrap_or(Expr::int(0));
+                Near { value, is_square: false, share: share(BESIDE * usual), size: scale }
+            }
+        }
+    }
+
+    fn formulas(&self) -> [Expr; 2] {
+        [self.value, self.size]
     }
 }
 
@@ -128,6 +171,9 @@ pub(crate) struct Plan<'a> {
     pub leaf: Vec<Step>,
     pub outputs: Vec<Expr>,
     pub residual: Expr,
+    /// How far the variables are from what they must be, if that is known, and the size.
+    pub defect: Option<Expr>,
+    pub size: Expr,
     reads: FxHashSet<Symbol>,
 }
 
@@ -229,11 +275,14 @@ impl<'a> Plan<'a> {
                 Root::Quadratic { a, .. } => Some(a),
                 Root::Quartic { .. } => None,
             };
+            let scale = if node.degree == 0 { Expr::int(1) } else { size.powi(node.degree.into()) };
+            let usual = routine.usual.get(i).copied().unwrap_or(1.0);
             let unnamed = || format!("node {i} ({})", node.results[0].name());
             nodes.push(Branching {
                 root,
+                near: Near::new(&root, node.guard.map(of), scale, usual),
                 guard: node.guard.map(of).or(natural),
-                scale: if node.degree == 0 { Expr::int(1) } else { size.powi(node.degree.into()) },
+                scale,
                 results: node.results.clone(),
                 stride,
                 label: plain_text(&node.label.clone().unwrap_or_else(unnamed)),
@@ -253,6 +302,8 @@ impl<'a> Plan<'a> {
             leaf: vec![],
             outputs,
             residual,
+            defect: solver.defect.map(of),
+            size,
             reads: FxHashSet::default(),
         };
         plan.prune();
@@ -273,6 +324,9 @@ impl<'a> Plan<'a> {
         for i in (0..self.nodes.len()).rev() {
             let node = &self.nodes[i];
             let read = node.operands().into_iter().chain(node.guard).chain([node.scale]);
+            let read = read.chain(node.near.formulas());
+            let at_first = self.defect.into_iter().chain([self.size]).filter(|_| i == 0);
+            let read = read.chain(at_first);
             needed.extend(read.flat_map(|e| e.symbols()));
             let level = std::mem::take(&mut self.levels[i]);
             self.levels[i] = needed_of(level, &mut needed, vec![]);
@@ -311,7 +365,8 @@ impl<'a> Plan<'a> {
     /// Whether its formulas have roots of what is no constant.
     pub fn any_root(&self) -> bool {
         let nodes = self.nodes.iter().flat_map(|n| n.operands().into_iter().chain(n.guard).chain([n.scale]));
-        let all: Vec<Expr> = self.steps().flat_map(formulas).chain(nodes).chain([self.residual]).collect();
+        let ends = [self.residual, self.size].into_iter().chain(self.defect);
+        let all: Vec<Expr> = self.steps().flat_map(formulas).chain(nodes).chain(ends).collect();
         let is_root = |e: &Expr| matches!(e.node(), Node::Sqrt(_)) && !e.symbols().is_empty();
         Expr::postorder(&all).iter().any(is_root)
     }
@@ -334,10 +389,11 @@ impl<'a> Plan<'a> {
         let mut lines = self.routine.about.clone();
         lines.push(String::new());
         lines.push(format!(
-            "At most {}. Each has a residual (at most 1e-9), a multiplicity (branches that come together, \
+            "At most {}. Each has a residual (at most 1e-9{}), a multiplicity (branches that come together, \
              within 2e-7), the number of its branch, and a bit for each unknown that is free there, of whose family \
              it is one member:",
-            if self.max() == 1 { "1 solution".into() } else { format!("{} solutions", self.max()) }
+            if self.max() == 1 { "1 solution".into() } else { format!("{} solutions", self.max()) },
+            if self.defect.is_some() { ", or what rounding of the rotation leaves" } else { "" },
         ));
         for (i, (node, own)) in self.nodes.iter().zip(&self.routine.solver.nodes).enumerate() {
             let results = &node.results[..1 + usize::from(node.root.is_angle())];
@@ -348,6 +404,18 @@ impl<'a> Plan<'a> {
                 None => format!("  bit {i}: {of}"),
             });
         }
+        lines.push(String::new());
+        lines.push(
+            "With them comes a certificate. Complete: these are all; where there is none, the arm does not reach. Singular: \
+             an unknown is free somewhere, or nearly so; what is there solves the equations, and there may be more."
+                .into(),
+        );
+        lines.push(match self.defect {
+            Some(_) => "Not a pose: the rotation is off by more than 1e-5 from all rotations, or something is no number; by \
+                 less, the nearest rotation is meant."
+                .into(),
+            None => "Not a pose: something is no number.".into(),
+        });
         lines
     }
 

@@ -9,8 +9,8 @@ use denavit::description::{Description, JointKind};
 use denavit::geometry::{Rotation, Transform, Vector};
 use denavit::inverse::{Goal, InverseModel, JointSpace, Refusal, variables};
 use denavit::robot::Robot;
-use denavit_emit::{KnownSolution, Language, Precision, SolverRoutine, SolverVector};
-use denavit_program::solver::{SAME, SolverScalar};
+use denavit_emit::{Certificate, KnownSolution, Language, Precision, SolverRoutine, SolverVector};
+use denavit_program::solver::{BESIDE, SAME, Solver, SolverScalar};
 use denavit_program::{Extended, Program};
 use denavit_symbolic::{Expr, Symbol};
 use std::f64::consts::TAU;
@@ -45,6 +45,9 @@ impl Inverse {
 /// An inverse function.
 pub(super) struct Closed {
     model: InverseModel,
+    /// Takes rounded rotations, too.
+    solver: Solver,
+    usual: Vec<f64>,
     ends: [String; 2],
     facts: Inverse,
     vectors: Vec<SolverVector>,
@@ -68,7 +71,10 @@ impl Closed {
             .collect();
         let is_single = options.precision == Precision::Single
             && matches!(options.language, Language::C | Language::Cuda);
-        let vectors = Tester::new(d, &model, &assumed, is_single).vectors(d);
+        let solver = model.rounding_solver();
+        let mut tester = Tester::new(d, &model, &solver, &assumed, is_single);
+        let vectors = tester.vectors(d);
+        let usual = tester.usual;
         let facts = Inverse {
             by_elimination: false,
             max_solutions: model.max_solutions(),
@@ -78,7 +84,7 @@ impl Closed {
             assumed,
             vectors: vectors.len(),
         };
-        Ok(Closed { model, ends: ends(d), facts, vectors })
+        Ok(Closed { model, solver, usual, ends: ends(d), facts, vectors })
     }
 
     /// What is known of it.
@@ -94,7 +100,7 @@ impl Closed {
         };
         let mut lines = vec![format!(
             "ik: closed form, at most {}{branches}. The code puts each into the forward model, and returns how far \
-             it is from the pose.",
+             it is from the pose. A certificate says whether these are all.",
             self.facts.at_most()
         )];
         lines.extend(self.condition());
@@ -191,7 +197,8 @@ impl Closed {
         SolverRoutine {
             name: "ik".into(),
             about,
-            solver: &self.model.compiled.solver,
+            solver: &self.solver,
+            usual: self.usual.clone(),
             argument: argument.into(),
             shape,
             result: "q".into(),
@@ -204,6 +211,8 @@ impl Closed {
 struct Tester<'a> {
     model: &'a InverseModel,
     solver: SolverScalar,
+    usual: Vec<f64>,
+    has_rotation: bool,
     is_angle: Vec<bool>,
     /// The plain product of the link transforms, rows 1 to 3.
     product: Program,
@@ -218,11 +227,20 @@ const CLEAN: f64 = 1e-11;
 const NUDGES: [f64; 8] = [2e-16, -2e-16, 4e-16, -4e-16, 8e-16, -8e-16, 1.2e-15, -1.2e-15];
 /// How much more than that is allowed.
 const FACTOR: f64 = 64.0;
+/// How many poses are rounded, and by how much more than they the solutions may differ.
+const ROUNDED: usize = 3;
+const MAGNIFIED: f64 = 1e3;
 /// The largest tolerance of a vector.
 const LOOSEST: f64 = 1e-5;
 
 impl<'a> Tester<'a> {
-    fn new(d: &Description, model: &'a InverseModel, assumed: &[(Symbol, Expr)], is_single: bool) -> Self {
+    fn new(
+        d: &Description,
+        model: &'a InverseModel,
+        solver: &Solver,
+        assumed: &[(Symbol, Expr)],
+        is_single: bool,
+    ) -> Self {
         let values = samples::parameters(d);
         let parameters: Vec<f64> =
             values.iter().map(|&x| if is_single { f64::from(x as f32) } else { x }).collect();
@@ -232,54 +250,82 @@ impl<'a> Tester<'a> {
         let exact: Vec<(Symbol, f64)> =
             both.map(|(&s, (&x, &rounded))| (s, if is_assumed(s) { x } else { rounded })).collect();
         let value = |s: &Symbol| exact.iter().find(|e| e.0 == *s).map_or(0.0, |e| e.1);
-        let own: Vec<f64> = model.compiled.solver.parameters.iter().map(value).collect();
+        let own: Vec<f64> = solver.parameters.iter().map(value).collect();
+        let function = solver.compile(&own);
         let q: Vec<Symbol> = d.variables().iter().map(|v| v.symbol).collect();
         let of: Vec<Expr> = q.iter().map(|s| (*s).into()).collect();
         let rows = Robot::symbolic(d).pose(&of).matrix();
         let product: Vec<Expr> = rows.into_iter().take(3).flatten().collect();
-        Tester {
-            solver: model.compiled.solver.compile(&own).scalar(),
+        let mut tester = Tester {
+            solver: function.scalar(),
+            usual: vec![],
+            has_rotation: solver.defect.is_some(),
             is_angle: d.variables().iter().map(|v| v.kind == JointKind::Revolute).collect(),
             product: traced(&q, &symbols, &product),
             model,
             exact,
             parameters,
-        }
+        };
+        let some: Vec<Vec<f64>> =
+            samples::few(d).iter().map(|s| tester.goal(&tester.pose(&s.variables), &s.variables)).collect();
+        let function = function.with_usual_guards(some.iter().map(Vec::as_slice));
+        (tester.solver, tester.usual) = (function.scalar(), function.usual_guards());
+        tester
     }
 
-    /// Zero, quarter turns, random configurations, random ones with a joint at zero, and a pose out of reach.
+    /// Zero, quarter turns, random configurations, random ones with a joint at zero, rounded poses, a pose out of reach, and
+    /// a matrix that is no rotation.
     fn vectors(&mut self, d: &Description) -> Vec<SolverVector> {
         let mut all = samples::few(d);
+        let last = all.len().saturating_sub(ROUNDED);
         let far: Option<SolverVector> = all.last().and_then(|s| self.unreachable(s));
+        let none: Option<SolverVector> = all.last().and_then(|s| self.no_pose(s));
+        let rounded: Vec<SolverVector> = all[last..].iter().filter_map(|s| self.rounded(s)).collect();
         all.extend(samples::special(d));
         let mut found: Vec<SolverVector> = all.iter().filter_map(|s| self.vector(s)).collect();
-        found.extend(far);
+        found.extend(rounded.into_iter().chain(far).chain(none));
         found
     }
 
     /// The pose of a configuration, and all solutions; nothing if rounding decides how many there are.
     fn vector(&mut self, sample: &Sample) -> Option<SolverVector> {
+        let variables = self.goal(&self.pose(&sample.variables), &sample.variables);
+        self.vector_at(sample, variables, 0.0)
+    }
+
+    /// The same of the pose in six decimals; nothing if the goal has no rotation.
+    fn rounded(&mut self, sample: &Sample) -> Option<SolverVector> {
+        const DECIMALS: f64 = 1e6;
+        self.has_rotation.then_some(())?;
         let q = &sample.variables;
-        let variables = self.goal(&self.pose(q), q);
-        let known = self.solutions(&variables)?;
+        let pose: Vec<f64> = self.pose(q).iter().map(|x| (x * DECIMALS).round() / DECIMALS).collect();
+        self.vector_at(sample, self.goal(&pose, q), 1.0 / DECIMALS)
+    }
+
+    /// The same of variables that are off by `off` from those of the configuration.
+    fn vector_at(&mut self, sample: &Sample, variables: Vec<f64>, off: f64) -> Option<SolverVector> {
+        let q = &sample.variables;
+        let (known, certificate) = self.solutions(&variables)?;
         let mut moved = 0.0_f64;
         for (k, nudge) in NUDGES.into_iter().enumerate() {
             let signs = |i: usize| if (i * (2 * k + 3) + k).is_multiple_of(3) { -nudge } else { nudge };
             let by = |(i, x): (usize, &f64)| x + signs(i) * if x.abs() > 1.0 { x.abs() } else { 1.0 };
             let nudged: Vec<f64> = variables.iter().enumerate().map(by).collect();
-            let others = self.solutions(&nudged)?;
-            moved = moved.max(self.apart(&known, &others)?);
+            let (others, same) = self.solutions(&nudged)?;
+            moved = moved.max(self.apart(&known, &others).filter(|_| same == certificate)?);
         }
         let size = sample.reach.max(1.0);
         let tolerance = 1e-12 * size + FACTOR * moved;
-        let is_known = |s: &KnownSolution| self.distance(&s.results, q) <= tolerance.max(SAME);
+        let is_known =
+            |s: &KnownSolution| self.distance(&s.results, q) <= tolerance.max(SAME).max(MAGNIFIED * off);
         let holds = known.iter().any(|s| s.free != 0 || is_known(s))
-            && known.iter().all(|s| self.reaches(&variables, &s.results, size));
+            && known.iter().all(|s| self.reaches(&variables, &s.results, size.max(1e11 * off)));
         let is_clear = tolerance <= LOOSEST && self.are_apart(&known, tolerance);
         (holds && is_clear).then(|| SolverVector {
             variables,
             parameters: self.parameters.clone(),
             solutions: known,
+            certificate,
             tolerance,
         })
     }
@@ -290,9 +336,23 @@ impl<'a> Tester<'a> {
         let mut pose = self.pose(q);
         pose[3] += 8.0 * sample.reach + 8.0;
         let variables = self.goal(&pose, q);
-        let solutions = self.solutions(&variables)?;
+        let (solutions, certificate) = self.solutions(&variables)?;
         let parameters = self.parameters.clone();
-        solutions.is_empty().then_some(SolverVector { variables, parameters, solutions, tolerance: 1e-9 })
+        let vector = SolverVector { variables, parameters, solutions, certificate, tolerance: 1e-9 };
+        vector.solutions.is_empty().then_some(vector)
+    }
+
+    /// A pose whose rotation is stretched by a thousandth.
+    fn no_pose(&self, sample: &Sample) -> Option<SolverVector> {
+        self.has_rotation.then_some(())?;
+        let pose: Vec<f64> = self.pose(&sample.variables).iter().map(|x| 1.001 * x).collect();
+        Some(SolverVector {
+            variables: self.goal(&pose, &sample.variables),
+            parameters: self.parameters.clone(),
+            solutions: vec![],
+            certificate: Certificate::NotAPose,
+            tolerance: 1e-9,
+        })
     }
 
     /// Rows 1 to 3 of the pose, rounded from extended precision.
@@ -315,9 +375,13 @@ impl<'a> Tester<'a> {
         variables(self.model.goal, &pose, &given)
     }
 
-    /// All solutions; nothing if some are not clean.
-    fn solutions(&mut self, variables: &[f64]) -> Option<Vec<KnownSolution>> {
-        let leaves = self.solver.solve(variables, &[]);
+    /// All solutions, and whether there may be more; nothing if some are not clean.
+    fn solutions(&mut self, variables: &[f64]) -> Option<(Vec<KnownSolution>, Certificate)> {
+        let leaves = self.solver.solve_carefully(variables, &[]);
+        let is_near = leaves.met_free() != 0
+            || leaves.lost_guard() < BESIDE
+            || leaves.iter().any(|l| l.free != 0 || l.guard < BESIDE);
+        let certificate = if is_near { Certificate::Singular } else { Certificate::Complete };
         let known = |leaf: denavit_program::solver::Leaf| {
             (leaf.residual <= CLEAN).then(|| KnownSolution {
                 results: leaf.outputs.to_vec(),
@@ -325,7 +389,8 @@ impl<'a> Tester<'a> {
                 free: leaf.free as u32,
             })
         };
-        leaves.iter().map(known).collect()
+        let known: Option<Vec<KnownSolution>> = leaves.iter().map(known).collect();
+        Some((known?, certificate))
     }
 
     /// How far the solutions of a pose are from the same ones of another; nothing if they are others.

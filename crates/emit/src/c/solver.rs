@@ -4,7 +4,7 @@ use super::{RESERVED, Source, WIDTH, block_comment, test};
 use crate::compiled::{Body, WRAP, lines};
 use crate::nested::{Leaf, Nested, element, part, routines};
 use crate::solver::Plan;
-use crate::{Language, Library, Precision};
+use crate::{Certificate, Language, Library, Precision};
 use denavit_program::Count;
 use std::fmt::Write;
 
@@ -32,6 +32,9 @@ pub(crate) const WORDS: &[&str] = &[
     "quartic_roots",
     "polynomial",
     "root_between",
+    "certificate",
+    "tolerance",
+    "is_near",
 ];
 
 /// What names in solvers are not.
@@ -47,7 +50,7 @@ impl Source<'_> {
         let words = format!("The labels of the branches of {name}_{f}, by their number.");
         format!(
             "\n{}\n/* {words} */\nextern const char *const {name}_{f}_branches[{macro_name}];\n\n\
-             /* Fills the array of the caller; returns the number of solutions. */\n{};\n",
+             /* Fills the array of the caller; returns the number of solutions. The certificate may be NULL. */\n{};\n",
             structure(plan, name, &macro_name),
             self.solver_signature(plan, "")
         )
@@ -64,7 +67,10 @@ impl Source<'_> {
         let argument = &plan.argument;
         signature(
             &format!("{prefix}int {name}_{f}("),
-            &format!("const double {argument}[{n}]{parameters}, {name}_{f}_solution solutions[{max}])"),
+            &format!(
+                "const double {argument}[{n}]{parameters}, {name}_{f}_solution solutions[{max}], \
+                 {name}_{f}_certificate *certificate)"
+            ),
         )
     }
 
@@ -101,13 +107,22 @@ impl Source<'_> {
             out.line(&format!("const double {} = {}[{k}];", plan.names.of(symbol), plan.argument));
         }
         out.line("int count = 0;");
+        out.line("int is_near = 0;");
         out.blank();
         let atan2 = if is_double { "any_atan2" } else { "atan2" };
         let mut nested = Nested::new(plan, Language::C, "", atan2);
         nested.sine_cosine = is_double.then_some("sine_cosine");
+        let [complete, singular, not_a_pose] = constants(plan, &self.name);
+        nested.refusal =
+            ["if (certificate) {", &format!("    *certificate = {not_a_pose};"), "}", "return 0;"]
+                .map(String::from)
+                .to_vec();
         let prefix = format!("{}_{}", self.name, plan.name);
         let body = nested.body(|leaf, indent| stored(leaf, indent, &prefix, &format!("keep_{}", plan.name)));
         out.text.push_str(&lines(&body));
+        out.line("if (certificate) {");
+        out.statement("    *certificate =", &format!("is_near ? {singular} : {complete}"));
+        out.line("}");
         out.line("return count;");
         out.text + "}\n"
     }
@@ -140,12 +155,25 @@ pub(crate) fn structure(plan: &Plan, name: &str, macro_name: &str) -> String {
     let words = block_comment(words.iter().map(String::as_str));
     format!(
         "{words}#define {macro_name} {}\n\ntypedef struct {name}_{f}_solution {{\n    double {}[{}];\n    \
-         double residual;\n    int multiplicity;\n    int branch;\n    unsigned free;\n}} {name}_{f}_solution;\n",
+         double residual;\n    int multiplicity;\n    int branch;\n    unsigned free;\n}} {name}_{f}_solution;\n\n\
+         typedef enum {name}_{f}_certificate {{\n{}\n}} {name}_{f}_certificate;\n",
         plan.max(),
         plan.result,
         plan.outputs.len().max(1),
+        constants(plan, name)
+            .iter()
+            .enumerate()
+            .map(|(k, c)| format!("    {c} = {k}"))
+            .collect::<Vec<_>>()
+            .join(",\n"),
         f = plan.name,
     )
+}
+
+/// The values of the certificate.
+pub(crate) fn constants(plan: &Plan, name: &str) -> [String; 3] {
+    let prefix = format!("{}_{}", name.to_uppercase(), plan.name.to_uppercase());
+    Certificate::ALL.map(|c| format!("{prefix}_{}", c.words().replace(' ', "_").to_uppercase()))
 }
 
 /// What the programs between roots cost, each taken once.
@@ -215,6 +243,8 @@ pub(crate) fn tables(plan: &Plan, library: &Library) -> String {
     list(&format!("int {f}_first[{upper}_VECTORS + 1]"), ends.iter().map(usize::to_string).collect());
     let multiplicities = all.iter().map(|s| s.multiplicity.to_string()).collect();
     list(&format!("int {f}_multiplicity[{upper}_KNOWN]"), multiplicities);
+    let certificates = vectors.iter().map(|v| v.certificate.code().to_string()).collect();
+    list(&format!("int {f}_certificates[{upper}_VECTORS]"), certificates);
     list(&format!("unsigned {f}_free[{upper}_KNOWN]"), all.iter().map(|s| s.free.to_string()).collect());
     text
 }

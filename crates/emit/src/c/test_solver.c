@@ -6,7 +6,13 @@ static void test_@f@(void)
     for (int v = 0; v < @F@_VECTORS; v++) {
 @parameters@
         @name@_@f@_solution found[@MAX@];
-        const int count = @name@_@f@(@f@_variables[v], @address@found);
+        @name@_@f@_certificate certificate;
+        const int count = @name@_@f@(@f@_variables[v], @address@found, &certificate);
+        if ((int)certificate != @f@_certificates[v]) {
+            printf("@f@, configuration %d: certificate %d, ", v, (int)certificate);
+            printf("expected %d\n", @f@_certificates[v]);
+            failures++;
+        }
         if (count != @f@_first[v + 1] - @f@_first[v]) {
             printf("@f@, configuration %d: %d solutions, ", v, count);
             printf("expected %d\n", @f@_first[v + 1] - @f@_first[v]);

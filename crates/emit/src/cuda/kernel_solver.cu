@@ -8,10 +8,12 @@
         variables[j] = @argument@[j * count + i];
     }
     @name@_@f@_solution found[@MAX@];
-    const int number = @name@_@f@(variables, @given@found);
+    @name@_@f@_certificate certificate;
+    const int number = @name@_@f@(variables, @given@found, certificate);
     solutions[i] = number;
+    solutions[count + i] = certificate;
     for (int s = 0; s < number; s++) {
-        double *place = solutions + (1 + @w@ * s) * count + i;
+        double *place = solutions + (2 + @w@ * s) * count + i;
         for (int k = 0; k < @m@; k++) {
             place[k * count] = found[s].@result@[k];
         }

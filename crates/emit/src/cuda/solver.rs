@@ -2,7 +2,7 @@
 
 use super::{Source, test::list};
 use crate::c;
-use crate::c::solver::{ROOTS, filled, keep, signature, stored, structure, tables};
+use crate::c::solver::{ROOTS, constants, filled, keep, signature, stored, structure, tables};
 use crate::compiled::{Body, WIDTH, lines};
 use crate::nested::{Nested, routines};
 use crate::solver::Plan;
@@ -52,8 +52,10 @@ impl Source<'_> {
         let parameters =
             if read.is_empty() { String::new() } else { format!("const {name}_parameters &parameters, ") };
         let n = plan.routine.solver.variables.len().max(1);
-        let arguments =
-            format!("const double {}[{n}], {parameters}{name}_{f}_solution solutions[{max}])", plan.argument);
+        let arguments = format!(
+            "const double {}[{n}], {parameters}{name}_{f}_solution solutions[{max}], {name}_{f}_certificate &certificate)",
+            plan.argument
+        );
         let head = signature(&format!("__device__ inline int {name}_{f}("), &arguments);
         let _ = write!(text, "\n/* Fills the array of the caller; returns the number of solutions. */\n");
         let mut out = Body { text: format!("{text}{head}\n{{\n"), indent: 4 };
@@ -68,13 +70,17 @@ impl Source<'_> {
             out.line(&format!("const double {} = {}[{k}];", plan.names.of(symbol), plan.argument));
         }
         out.line("int count = 0;");
+        out.line("int is_near = 0;");
         out.blank();
         let prefix = format!("{name}_");
         let mut nested = Nested::new(plan, Language::Cuda, &prefix, "atan2");
         nested.sine_cosine = Some("sincos");
+        let [complete, singular, not_a_pose] = constants(plan, name);
+        nested.refusal = vec![format!("certificate = {not_a_pose};"), "return 0;".into()];
         let (whole, keep) = (format!("{name}_{f}"), format!("{name}_keep_{f}"));
         let body = nested.body(|leaf, indent| stored(leaf, indent, &whole, &keep));
         out.text.push_str(&lines(&body));
+        out.statement("certificate =", &format!("is_near ? {singular} : {complete}"));
         out.line("return count;");
         out.text + "}\n"
     }
@@ -90,9 +96,9 @@ impl Source<'_> {
             plan.argument
         );
         let words = c::block_comment([
-            "Always in double precision. Place i of the results holds the number of solutions of row i; the",
-            &format!("first solution stands at places count + i, 2 count + i, ...: {m} results, residual,"),
-            &format!("multiplicity, branch, free; the next one {} rows later.", m + 4),
+            "Always in double precision. Place i of the results holds the number of solutions of row i, place",
+            "count + i its certificate; the first solution stands at places 2 count + i, 3 count + i, ...:",
+            &format!("{m} results, residual, multiplicity, branch, free; the next one {} rows later.", m + 4),
         ]);
         let head = signature(&format!("extern \"C\" __global__ void {name}_{f}_kernel("), &arguments);
         let body = include_str!("kernel_solver.cu")

@@ -16,15 +16,16 @@ static void test_@f@()
             const unsigned blocks = (unsigned)((count + 255) / 256);
             @name@_@f@_kernel<<<blocks, 256>>>(count, in, @argument@out);
         };
-        const size_t width = 1 + @MAX@ * (@m@ + 4);
+        const size_t width = 2 + @MAX@ * (@m@ + 4);
         const std::vector<double> values = run(given, width * count, launch);
         for (size_t i = 0; i < count; i += @F@_VECTORS) {
             const int number = (int)values[i];
             bool is_right = number == @f@_first[v + 1] - @f@_first[v];
+            is_right = is_right && (int)values[count + i] == @f@_certificates[v];
             for (int e = @f@_first[v]; e < @f@_first[v + 1]; e++) {
                 double nearest = HUGE_VAL;
                 for (int s = 0; s < number; s++) {
-                    const double *place = &values[(size_t)(1 + (@m@ + 4) * s) * count + i];
+                    const double *place = &values[(size_t)(2 + (@m@ + 4) * s) * count + i];
                     double apart = 0.0;
                     for (int k = 0; k < @m@; k++) {
                         double difference = place[(size_t)k * count] - @f@_known[e][k];

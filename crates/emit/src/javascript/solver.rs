@@ -3,13 +3,13 @@
 use super::{Module, WRAP, call, documentation, required_parameters, untagged};
 use crate::nested::{Nested, part, routines};
 use crate::solver::{Kind, Plan};
-use crate::{Language, Parameter};
+use crate::{Certificate, Language, Parameter};
 
 const ROOTS: &str = include_str!("roots.js");
 /// Words that emitted solvers use.
 pub(super) const WORDS: &str = "\
 roots solutions found vanishes freeRoot GUARD CLAMP ratioRoots directionRoots lineRoots lengthRoots \
-sincosRoots quadraticRoots quarticRoots polynomial rootBetween Infinity";
+sincosRoots quadraticRoots quarticRoots polynomial rootBetween Infinity isNear tolerance certificate Number";
 
 impl Module<'_> {
     /// The functions and the routines that they call.
@@ -58,6 +58,10 @@ impl Module<'_> {
             "@property {number} free the unknowns that are free, a bit each".into(),
         ]));
         lines.push(String::new());
+        let certificate = certificate_type(plan);
+        let words: Vec<String> = Certificate::ALL.iter().map(|c| format!("\"{}\"", c.words())).collect();
+        lines.push(format!("/** @typedef {{{}}} {certificate} */", words.join(" | ")));
+        lines.push(String::new());
         lines.push(format!("/** The labels of the branches of `{f}`, by their number. */"));
         lines.push(format!("export const {} = Object.freeze([", self.labels(plan)));
         lines.extend(plan.labels().iter().map(|label| format!("  \"{label}\",")));
@@ -86,7 +90,7 @@ impl Module<'_> {
                 about.push(format!("@param {{{}}} [parameters] values of the symbols", self.given()))
             }
         }
-        about.push(format!("@returns {{{kind}[]}}"));
+        about.push(format!("@returns {{{kind}[] & {{ certificate: {certificate} }}}}"));
         about.push(format!("@throws {{RangeError}} if `{argument}` has another length"));
         about.push("@throws {TypeError} if an argument is of another type".into());
         lines.extend(documentation(&about));
@@ -116,8 +120,10 @@ impl Module<'_> {
         }
         lines.push(format!("  /** @type {{{kind}[]}} */"));
         lines.push("  const solutions = [];".into());
+        lines.push("  let isNear = false;".into());
         lines.push(String::new());
         let mut nested = Nested::new(plan, Language::JavaScript, "", "Math.atan2");
+        nested.refusal = returned(&certificate, &format!("\"{}\"", Certificate::NotAPose.words()));
         nested.wrap = WRAP;
         lines.extend(nested.body_at(2, |leaf, indent| {
             let mut lines = vec![format!("{keep}(solutions, {{")];
@@ -147,7 +153,10 @@ impl Module<'_> {
             lines.push("});".into());
             lines
         }));
-        lines.extend(["  return solutions;".to_string(), "}".into()]);
+        let words = [Certificate::Singular, Certificate::Complete].map(|c| format!("\"{}\"", c.words()));
+        let verdict = format!("isNear ? {}", words.join(" : "));
+        lines.extend(returned(&certificate, &verdict).into_iter().map(|line| format!("  {line}")));
+        lines.push("}".into());
         lines
     }
 
@@ -190,6 +199,7 @@ impl Module<'_> {
                 lines.push("      },".into());
             }
             lines.push("    ],".into());
+            lines.push(format!("    certificate: \"{}\",", v.certificate.words()));
             lines.push(format!("    tolerance: {},", self.numbers(&[v.tolerance])[0]));
             lines.push("  },".into());
         }
@@ -200,9 +210,10 @@ impl Module<'_> {
             "
 test(\"{f} finds all solutions\", () => {{
   const isAngle = [{}];
-  for (const {{ given, {}known, tolerance }} of {f}Cases) {{
+  for (const {{ given, {}known, certificate, tolerance }} of {f}Cases) {{
     const found = {f}(given{});
     assert.equal(found.length, known.length);
+    assert.equal(found.certificate, certificate);
     for (const {{ results, multiplicity, free }} of known) {{
       const distances = found
         .filter((s) => s.multiplicity === multiplicity && s.free === free && s.residual <= 1e-9)
@@ -228,4 +239,19 @@ test(\"{f} finds all solutions\", () => {{
         lines.extend(text.lines().map(str::to_string));
         lines
     }
+}
+
+/// The type of the certificate.
+fn certificate_type(plan: &Plan) -> String {
+    let f = &plan.name;
+    format!("{}{}Certificate", f[..1].to_uppercase(), &f[1..])
+}
+
+/// The statements that return the solutions with a certificate.
+fn returned(kind: &str, verdict: &str) -> Vec<String> {
+    vec![
+        format!("/** @type {{{kind}}} */"),
+        format!("const certificate = {verdict};"),
+        "return Object.assign(solutions, { certificate });".into(),
+    ]
 }

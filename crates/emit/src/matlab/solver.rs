@@ -4,13 +4,14 @@ use super::{Module, WRAP};
 use crate::nested::{Nested, part, routines};
 use crate::solver::{Kind, Plan};
 use crate::wrap::{Wrap, comments};
-use crate::{Language, Parameter};
+use crate::{Certificate, Language, Parameter};
 
 const ROOTS: &str = include_str!("roots.m");
 /// Words that emitted solvers use.
 pub(super) const WORDS: &str = "\
 solutions found keep roots_of vanishes free_root double_root ratio_roots direction_roots line_roots \
-length_roots sincos_roots quadratic_roots quartic_roots root_between info numel Inf";
+length_roots sincos_roots quadratic_roots quartic_roots root_between info numel Inf is_near tolerance \
+refused realmax";
 
 impl Module<'_> {
     /// The parameters that a solver reads.
@@ -41,7 +42,8 @@ impl Module<'_> {
             String::new(),
             format!("[{output}, INFO] = {upper}({upper_argument}): {upper_argument} is {shape}; a solution a row of {output}."),
             "INFO has a row a solution in each field: residual, multiplicity, branch, free; and INFO.labels".into(),
-            "what the branches are called: label k is that of branch k - 1.".into(),
+            "what the branches are called: label k is that of branch k - 1. INFO.certificate is 'complete',".into(),
+            "'singular' or 'not a pose'.".into(),
         ]);
         if !parameters.is_empty() {
             about.push(format!(
@@ -84,9 +86,18 @@ impl Module<'_> {
         );
         lines.push("solutions = struct('results', {}, 'residual', {}, 'multiplicity', {}, ...".into());
         lines.push("    'branch', {}, 'free', {});".into());
+        lines.push("is_near = false;".into());
+        lines.push(format!("{result} = zeros(0, {});", plan.outputs.len()));
+        lines.push("info = struct('residual', zeros(0, 1), 'multiplicity', zeros(0, 1), ...".into());
+        lines.push("    'branch', zeros(0, 1), 'free', zeros(0, 1));".into());
+        lines.push("info.labels = { ...".into());
+        lines.extend(plan.labels().iter().map(|label| format!("    '{label}', ...")));
+        lines.push("};".to_string());
         lines.push(String::new());
         let mut nested = Nested::new(plan, Language::Matlab, "", "atan2");
         nested.wrap = WRAP;
+        nested.refusal =
+            vec![format!("info.certificate = '{}';", Certificate::NotAPose.words()), "return;".into()];
         lines.extend(nested.body_at(0, |leaf, indent| {
             let room = Wrap { width: WRAP.width - indent - 4, ..WRAP };
             let mut lines = vec!["found = struct( ...".to_string()];
@@ -115,9 +126,10 @@ impl Module<'_> {
         for field in ["residual", "multiplicity", "branch", "free"] {
             lines.push(format!("info.{field} = [solutions.{field}].';"));
         }
-        lines.push("info.labels = { ...".into());
-        lines.extend(plan.labels().iter().map(|label| format!("    '{label}', ...")));
-        lines.extend(["};".to_string(), "end".into()]);
+        lines.push(format!("info.certificate = '{}';", Certificate::Complete.words()));
+        lines.push("if is_near".into());
+        lines.push(format!("    info.certificate = '{}';", Certificate::Singular.words()));
+        lines.extend(["end".to_string(), "end".into()]);
         let mut text = routines(ROOTS, std::slice::from_ref(plan));
         let any = |kinds: &[Kind]| plan.nodes.iter().any(|n| kinds.contains(&n.kind()));
         if plan.nodes.iter().any(|n| n.kind() != Kind::Length) {
@@ -166,6 +178,11 @@ impl Module<'_> {
         ] {
             lines.extend(self.matrix(name, &[list]));
         }
+        let certificates: Vec<String> =
+            vectors.iter().map(|v| format!("    '{}', ...", v.certificate.words())).collect();
+        lines.push("certificates = { ...".into());
+        lines.extend(certificates);
+        lines.push("};".into());
         let angles: Vec<&str> =
             plan.routine.solver.angles.iter().map(|a| if *a { "1" } else { "0" }).collect();
         lines.push(format!("is_angle = logical([{}]);", angles.join(", ")));
@@ -190,6 +207,9 @@ impl Module<'_> {
         let text = r"    expected = find(owners == k);
     if size(results, 1) ~= numel(expected)
         error('NAME:test', '%d solutions, expected %d.', size(results, 1), numel(expected));
+    end
+    if ~strcmp(info.certificate, certificates{k})
+        error('NAME:test', 'FUNCTION: configuration %d is called %s.', k, info.certificate);
     end
     for e = expected
         apart = results - repmat(known(e, :), size(results, 1), 1);

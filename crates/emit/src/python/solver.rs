@@ -7,7 +7,8 @@ use crate::{Language, Parameter};
 
 const ROOTS: &str = include_str!("roots.py.txt");
 /// Words that emitted solvers use.
-pub(super) const WORDS: &str = "NamedTuple results residuals multiplicities frees shape leaf is_angle kind";
+pub(super) const WORDS: &str = "NamedTuple results residuals multiplicities frees shape leaf is_angle kind is_pose \
+is_near tolerance";
 
 /// The name of the class of solutions, and of the labels.
 pub(super) fn class(plan: &Plan) -> String {
@@ -58,6 +59,10 @@ impl Module<'_> {
             ("branch", format!("The numbers of their branches, whose labels are in `{}`.", labels(plan))),
             ("free", "The unknowns that are free, a bit each.".into()),
             ("count", "How many solutions there are, shape (...).".into()),
+            (
+                "certificate",
+                "0: these are all. 1: the pose is singular, or nearly so; there may be more. 2: it is no pose.".into(),
+            ),
         ] {
             lines.push(format!("    {field}: np.ndarray"));
             lines.extend(documentation(&[what], 4));
@@ -134,6 +139,7 @@ impl Module<'_> {
         lines.push(format!("    residuals = np.empty(shape + ({most},))"));
         lines.push(format!("    multiplicities = np.zeros(shape + ({most},), dtype=int)"));
         lines.push(format!("    frees = np.zeros(shape + ({most},), dtype=int)"));
+        lines.push("    is_near = np.zeros(shape, dtype=bool)".into());
         lines.push(String::new());
         lines.push(
             "    with np.errstate(all=\"ignore\"):  # what no root stands behind may be anything".into(),
@@ -163,7 +169,11 @@ impl Module<'_> {
             plan.routine.solver.angles.iter().map(|a| if *a { "True" } else { "False" }).collect();
         lines.extend(WRAP.statement("        is_angle =", &format!("np.array([{}])", angles.join(", ")), ""));
         lines.push(format!("        return {kind}("));
-        lines.push("            *_collected(results, residuals, multiplicities, frees, is_angle)".into());
+        let tolerance = if plan.defect.is_some() { "tolerance" } else { "1e-9" };
+        lines.push("            *_collected(".into());
+        lines.push("                (results, residuals, multiplicities, frees),".into());
+        lines.push(format!("                (is_angle, {tolerance}, is_pose, is_near),"));
+        lines.push("            )".into());
         lines.push("        )".into());
         lines
     }
@@ -185,6 +195,10 @@ impl Module<'_> {
             lines.extend(vectors.iter().flat_map(|v| self.arguments(&v.parameters)));
             lines.push("    ]".into());
         }
+        let certificates: Vec<String> = vectors.iter().map(|v| v.certificate.code().to_string()).collect();
+        lines.push("    certificates = [".into());
+        lines.extend(WRAP.list(&certificates, 8));
+        lines.push("    ]".into());
         lines.push("    known = [".into());
         for v in vectors {
             lines.push("        [".into());
@@ -211,6 +225,7 @@ impl Module<'_> {
             "
     def check(self, found, k):
         self.assertEqual(found.count, len(self.known[k]))
+        self.assertEqual(found.certificate, self.certificates[k])
         for results, multiplicity, free in self.known[k]:
             apart = found.{} - np.array(results)
             turns = np.round(apart / (2 * np.pi))

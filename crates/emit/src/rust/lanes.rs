@@ -5,6 +5,7 @@ use crate::names::Names;
 use crate::solver::{Branching, Kind, Plan, defined, formulas};
 use crate::spelling::Spelling;
 use crate::{Language, Precision};
+use denavit_program::solver::CANDIDATE;
 use denavit_symbolic::{Expr, Symbol};
 
 /// What is computed in one pass, once the signs up to here are chosen.
@@ -116,10 +117,35 @@ impl Lanes<'_> {
         if let Some(sign) = sign {
             self.out.line(&format!("let {} = sign_{};", self.names.of(*sign), i + 1));
         }
+        let near = &node.near;
+        let [value, size] = [near.value, near.size].map(|e| format!("({})", self.formula(e)));
+        let value = if near.is_square { value } else { format!("{value}.abs()") };
+        let least = match near.size.symbols().is_empty() {
+            true => format!("{:e}", near.share),
+            false => format!("{:e} * {size}", near.share),
+        };
+        self.out.statement("let is_rare =", &format!("is_rare | ({value} <= {least})"));
         self.rare("is_rare & (missing == 0.0)");
         if is_there {
             self.out.line("let missing = missing + roots::missing(is_there);");
         }
+    }
+
+    /// Leaves variables that are not numbers, or not a pose as precise as numbers are, to the careful function.
+    pub fn unusual(&mut self) {
+        // A residual of 1e-9 is what is asked of a pose that is off by a quarter of that.
+        let size = self.formula(self.plan.size);
+        let size = format!("({size} <= f64::MAX)");
+        let usual = match self.plan.defect.map(|e| self.formula(e)) {
+            Some(defect) => format!("!(({defect} <= 2.5e-10) & {size})"),
+            None => format!("!{size}"),
+        };
+        self.rare(&usual);
+    }
+
+    /// Leaves what comes near a solution, and is none, to the careful function.
+    pub fn candidate(&mut self, residual: &str) {
+        self.rare(&format!("({residual} > roots::TOLERANCE) & ({residual} <= {CANDIDATE:e})"));
     }
 
     pub fn steps(&mut self, steps: &[Step], is_near: bool) {

@@ -68,6 +68,8 @@ pub(super) const WORDS: &[&str] = &[
     "absent_4",
     "x",
     "f64",
+    "is_near",
+    "certificate",
 ];
 /// As many branches as go side by side.
 const WIDE: usize = 8;
@@ -132,6 +134,7 @@ impl Source<'_> {
              multiplicity: 0,\n        branch: 0,\n        free: 0,\n    }};\n}}\n",
             labels.concat()
         );
+        text.push_str(&certificate(plan));
         let about: Vec<String> = plan.about().iter().map(|line| doc(line)).collect();
         let about = lines(&comments(about.iter().map(String::as_str), "/// ", WIDTH));
         let _ = write!(text, "\n{about}");
@@ -222,13 +225,16 @@ impl Source<'_> {
     /// Root by root.
     fn careful(&self, plan: &Plan, head: &str) -> String {
         let (kind, f) = (camel(&plan.name), &plan.name);
-        let mut out = Body { text: signature(head, &self.arguments(plan), ") -> usize {"), indent: 4 };
+        let result = format!(") -> (usize, {kind}Certificate) {{");
+        let mut out = Body { text: signature(head, &self.arguments(plan), &result), indent: 4 };
         self.open(plan, &mut out);
         self.take(plan, &mut out);
         out.line("let mut count = 0;");
+        out.line("let mut is_near = false;");
         out.blank();
         let mut nested = Nested::new(plan, Language::Rust, "roots::", "atan2");
         nested.sine_cosine = Some("sin_cos");
+        nested.refusal = vec![format!("return (0, {kind}Certificate::NotAPose);")];
         let body = nested.body(|leaf, indent| {
             let mut lines = vec![format!("let found = {kind}Solution {{")];
             let list = |values: &[String]| format!("[{}]", values.join(", "));
@@ -244,7 +250,11 @@ impl Source<'_> {
             lines
         });
         out.text.push_str(&lines(&body));
-        out.line("count");
+        out.blank();
+        out.line("if is_near {");
+        out.line(&format!("    return (count, {kind}Certificate::Singular);"));
+        out.line("}");
+        out.line(&format!("(count, {kind}Certificate::Complete)"));
         out.text + "}\n"
     }
 
@@ -254,7 +264,8 @@ impl Source<'_> {
         let lanes = plan.max().div_ceil(WIDE) * WIDE;
         let m = plan.outputs.len();
         let head = format!("pub fn {f}(");
-        let mut out = Body { text: signature(&head, &self.arguments(plan), ") -> usize {"), indent: 4 };
+        let result = format!(") -> (usize, {kind}Certificate) {{");
+        let mut out = Body { text: signature(&head, &self.arguments(plan), &result), indent: 4 };
         for (i, node) in plan.nodes.iter().enumerate().filter(|(_, n)| n.root.branches() > 1) {
             let sign = |lane: usize| {
                 if (lane / node.stride).is_multiple_of(2) { "1.0".into() } else { "-1.0".into() }
@@ -275,6 +286,7 @@ impl Source<'_> {
             writer.out.line("let missing = 0.0;");
         }
         writer.stage(&stages[0], false);
+        writer.unusual();
         writer.out.line(&format!("for i in 0..{lanes} {{"));
         writer.out.indent += 4;
         for (i, node) in plan.nodes.iter().enumerate().filter(|(_, n)| n.root.branches() > 1) {
@@ -287,6 +299,7 @@ impl Source<'_> {
         }
         let residual = writer.formula(plan.residual);
         writer.out.statement("residuals[i] =", &format!("{residual} + missing"));
+        writer.candidate("residuals[i]");
         for (k, e) in plan.outputs.iter().enumerate() {
             let formula = writer.formula(*e);
             writer.out.statement(&format!("{}[{k}][i] =", plan.result), &formula);
@@ -311,7 +324,7 @@ impl Source<'_> {
         out.line("        count += 1;");
         out.line("    }");
         out.line("}");
-        out.line("count");
+        out.line(&format!("(count, {kind}Certificate::Complete)"));
         out.text + "}\n"
     }
 
@@ -328,10 +341,12 @@ impl Source<'_> {
              pub {result}: [[[f64; {upper}_LANES]; {m}]; {upper}_MAX],\n    /// How far the equations are from holding.\n    \
              pub residual: [[f64; {upper}_LANES]; {upper}_MAX],\n    /// How many branches come together.\n    \
              pub multiplicity: [[u8; {upper}_LANES]; {upper}_MAX],\n    /// The unknowns that are free, a bit each.\n    \
-             pub free: [[u32; {upper}_LANES]; {upper}_MAX],\n}}\n\nimpl {kind}Block {{\n    /// No solutions.\n    \
+             pub free: [[u32; {upper}_LANES]; {upper}_MAX],\n    /// What is said of each row.\n    \
+             pub certificate: [{kind}Certificate; {upper}_LANES],\n}}\n\nimpl {kind}Block {{\n    /// No solutions.\n    \
              pub const NONE: Self = Self {{\n        {result}: [[[f64::NAN; {upper}_LANES]; {m}]; {upper}_MAX],\n        \
              residual: [[f64::INFINITY; {upper}_LANES]; {upper}_MAX],\n        multiplicity: [[0; {upper}_LANES]; {upper}_MAX],\n        \
-             free: [[0; {upper}_LANES]; {upper}_MAX],\n    }};\n}}\n\n/// [`{f}`] of a block of rows.\n"
+             free: [[0; {upper}_LANES]; {upper}_MAX],\n        certificate: [{kind}Certificate::Complete; {upper}_LANES],\n    \
+             }};\n}}\n\n/// [`{f}`] of a block of rows.\n"
         );
         let argument = self.argument_name(plan);
         let arguments =
@@ -364,7 +379,8 @@ impl Source<'_> {
         let _ = write!(
             text,
             "    let mut found = [{kind}Solution::NONE; {upper}_MAX];\n    \
-             let count = {careful}(&{value}{given}, &mut found);\n    \
+             let (count, certificate) = {careful}(&{value}{given}, &mut found);\n    \
+             solutions.certificate[i] = certificate;\n    \
              for b in 0..{upper}_MAX {{\n        solutions.residual[b][i] = f64::INFINITY;\n        \
              solutions.multiplicity[b][i] = 0;\n        solutions.free[b][i] = 0;\n        \
              solutions.{result}[b].iter_mut().for_each(|row| row[i] = f64::NAN);\n    }}\n    \
@@ -440,11 +456,14 @@ impl Source<'_> {
             writer.out.line(&format!("for i in 0..{upper}_LANES {{"));
             writer.out.indent += 4;
             let here: Vec<Symbol> = stage.parts.iter().flat_map(Part::reads).collect();
-            let at_end: Vec<Symbol> = if s == last {
+            let mut at_end: Vec<Symbol> = if s == last {
                 plan.outputs.iter().chain([&plan.residual]).flat_map(|e| e.symbols()).collect()
             } else {
                 vec![]
             };
+            if s == 0 {
+                at_end.extend(plan.defect.iter().chain([&plan.size]).flat_map(|e| e.symbols()));
+            }
             let reads = |x: &Symbol| here.contains(x) || at_end.contains(x);
             for (k, symbol) in plan.variables() {
                 if reads(&symbol) {
@@ -463,6 +482,9 @@ impl Source<'_> {
                 writer.out.line(&format!("let missing = {from};"));
             }
             writer.stage(stage, true);
+            if s == 0 {
+                writer.unusual();
+            }
             for x in &keep {
                 writer.out.line(&format!("{}[i] = {};", array(x), plan.names.of(*x)));
             }
@@ -473,6 +495,7 @@ impl Source<'_> {
             if s == last {
                 let residual = writer.formula(plan.residual);
                 writer.out.statement("residuals[i] =", &format!("{residual} + missing"));
+                writer.candidate("residuals[i]");
                 for (k, e) in plan.outputs.iter().enumerate() {
                     let formula = writer.formula(*e);
                     writer.out.statement(&format!("rows[{k}][i] ="), &formula);
@@ -493,6 +516,7 @@ impl Source<'_> {
             writer.out.line("}");
         }
         let mut out = writer.out;
+        out.line(&format!("solutions.certificate = [{}Certificate::Complete; {upper}_LANES];", camel(f)));
         out.line("for (i, rare) in rare.iter().enumerate() {");
         out.line("    if *rare != 0.0 {");
         out.line(&format!("        {call}"));
@@ -500,6 +524,19 @@ impl Source<'_> {
         out.line("}");
         out.text + "}\n"
     }
+}
+
+/// What is said of an answer.
+fn certificate(plan: &Plan) -> String {
+    let (f, kind) = (&plan.name, camel(&plan.name));
+    format!(
+        "\n/// What [`{f}`] says of its answer.\n#[derive(Clone, Copy, PartialEq, Eq, Debug)]\npub enum {kind}Certificate {{\n    \
+         /// All solutions are there; without one, there is none.\n    Complete,\n    \
+         /// Somewhere an unknown is free, or nearly so: what is there solves the equations, and there may be more.\n    \
+         Singular,\n    \
+         /// The variables are no numbers, or further from what they must be than rounding brings them.\n    \
+         NotAPose,\n}}\n"
+    )
 }
 
 /// `field`, or `field: value`.

@@ -29,6 +29,7 @@ impl Source<'_> {
         for p in &solved {
             let (f, kind, upper) = (&p.name, camel(&p.name), p.name.to_uppercase());
             used.extend([f.clone(), format!("{f}_block"), format!("{kind}Block"), format!("{kind}Solution")]);
+            used.push(format!("{kind}Certificate"));
             used.extend(["BRANCHES", "LANES", "MAX"].map(|word| format!("{upper}_{word}")));
         }
         let whole = format!("use {}::{{{}}};", self.name, used.join(", "));
@@ -144,6 +145,15 @@ impl Source<'_> {
         let tolerances: Vec<f64> = vectors.iter().map(|v| v.tolerance).collect();
         let list = lines(&WRAP.list(&numbers(&tolerances), 4));
         let _ = write!(text, "];\n\nconst {upper}_TOLERANCE: [f64; {}] = [\n{list}];\n", vectors.len());
+        let certificates: Vec<String> =
+            vectors.iter().map(|v| format!("{}Certificate::{:?}", camel(f), v.certificate)).collect();
+        let list = lines(&WRAP.list(&certificates, 4));
+        let _ = write!(
+            text,
+            "\nconst {upper}_CERTIFICATE: [{}Certificate; {}] = [\n{list}];\n",
+            camel(f),
+            vectors.len()
+        );
         let given = match has_parameters {
             true => format!("        let parameters = parameters({upper}_PARAMETERS[v]);\n"),
             false => String::new(),

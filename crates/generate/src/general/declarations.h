@@ -9,8 +9,10 @@ typedef enum @name@_ik_certificate {
     /* Two come together, or are about to, or miss each other by less than rounding tells; or the
        arm can move with its hand still. */
     @NAME@_IK_NEAR_DOUBLE_ROOT = 1,
-    /* There may be more; or the pose is none: its rotation is off by more than a tenth. */
-    @NAME@_IK_UNDECIDED = 2
+    /* There may be more. */
+    @NAME@_IK_UNDECIDED = 2,
+    /* The rotation is off by more than a tenth, or something is no number. */
+    @NAME@_IK_NOT_A_POSE = 3
 } @name@_ik_certificate;
 
 typedef struct @name@_ik_solution {

@@ -282,15 +282,17 @@ int @name@_ik(
     ik_rigid goal;
     int last = IK_UNCERTAIN;
     int is_isolated = 1;
+    int is_number = 1;
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 3; k++) {
             goal.r[i][k] = pose[4 * i + k];
         }
         goal.t[i] = pose[4 * i + 3] / ik_size;
+        is_number = is_number && fabs(goal.t[i]) < HUGE_VAL;
     }
-    if (!ik_nearest_rotation(goal.r)) {
+    if (!is_number || !ik_nearest_rotation(goal.r)) {
         if (certificate) {
-            *certificate = @NAME@_IK_UNDECIDED;
+            *certificate = @NAME@_IK_NOT_A_POSE;
         }
         return 0;
     }

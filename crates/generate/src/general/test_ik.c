@@ -85,7 +85,7 @@ static void test_ik(void)
             }
         }
         rounded[0] += 1.0;
-        if (@name@_ik(rounded, found, &certificate) != 0 || certificate != @NAME@_IK_UNDECIDED) {
+        if (@name@_ik(rounded, found, &certificate) != 0 || certificate != @NAME@_IK_NOT_A_POSE) {
             printf("ik, pose %d: what is no rotation has solutions\n", v);
             failures++;
         }

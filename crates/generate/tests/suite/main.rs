@@ -1,5 +1,6 @@
 //! Tests of generated packages, one program.
 
+mod certificate;
 mod general;
 mod library;
 

@@ -220,6 +220,11 @@ impl Graph {
         result
     }
 
+    /// What a symbol stands for in all formulas that are traced from now on, in place of the input.
+    pub fn bind(&mut self, s: Symbol, v: Value) {
+        self.traced.insert(s.into(), v);
+    }
+
     /// The value of a formula, its parts shared with all that was traced before.
     pub fn trace(&mut self, e: Expr) -> Value {
         if let Some(&v) = self.traced.get(&e) {

@@ -31,6 +31,7 @@ pub struct SolverBuilder {
     variables: usize,
     nodes: Vec<Draft>,
     names: FxHashMap<u32, String>,
+    defect: Option<Value>,
 }
 
 /// A result of a solver under construction.
@@ -49,7 +50,19 @@ impl SolverBuilder {
     pub fn new(variables: &[Symbol], parameters: &[Symbol], results: &[Symbol]) -> Self {
         let all: Vec<Symbol> = variables.iter().chain(results).copied().collect();
         let graph = Graph::new(&all, parameters);
-        SolverBuilder { graph, variables: variables.len(), nodes: vec![], names: FxHashMap::default() }
+        SolverBuilder {
+            graph,
+            variables: variables.len(),
+            nodes: vec![],
+            names: FxHashMap::default(),
+            defect: None,
+        }
+    }
+
+    /// Says how far the variables are from what they must be ([`Solver::defect`]): a number that is known at level 0.
+    pub fn defect(&mut self, v: Value) {
+        self.name(v, "defect");
+        self.defect = Some(v);
     }
 
     /// Traces a formula.
@@ -85,7 +98,7 @@ impl SolverBuilder {
     /// # Panics
     /// If a node reads a result of itself or of a later node.
     pub fn finish(self, outputs: &[Output], residual: Value, size: Value) -> Solver {
-        let SolverBuilder { graph, variables, nodes, names } = self;
+        let SolverBuilder { graph, variables, nodes, names, defect } = self;
         let last = nodes.len();
         let inputs = graph.variables()[..variables].to_vec();
 
@@ -107,6 +120,7 @@ impl SolverBuilder {
         wanted[last].extend(outputs.iter().map(|o| o.value));
         wanted[last].push(residual);
         wanted[0].push(size);
+        wanted[0].extend(defect);
 
         let level = levels(&graph, &wanted, &register);
         for (i, values) in wanted.iter().enumerate() {
@@ -207,7 +221,9 @@ impl SolverBuilder {
                 label: node.label.clone(),
             });
         }
-        let size_place = *places[0].last().expect("the size is wanted at level 0");
+        let mut early = places[0].iter().rev().copied();
+        let defect_place = defect.and_then(|_| early.next());
+        let size_place = early.next().expect("the size is wanted at level 0");
         let ends = &places[last];
         Solver {
             variables: inputs,
@@ -216,6 +232,7 @@ impl SolverBuilder {
             angles: outputs.iter().map(|o| o.is_angle).collect(),
             residual: ends[outputs.len()],
             size: size_place,
+            defect: defect_place,
             levels: built,
             nodes: compiled,
             registers: registers as usize,

@@ -175,6 +175,9 @@ pub struct Solver {
     pub residual: Register,
     /// Where the size that guards are compared with comes to be; known at level 0.
     pub size: Register,
+    /// Where it comes to be how far the variables are from what they must be (entries of a rotation), if that is computed;
+    /// known at level 0. What is solved then is the nearest that can be.
+    pub defect: Option<Register>,
     /// How many registers there are.
     pub registers: usize,
 }
@@ -187,6 +190,14 @@ pub const CLAMP: f64 = 1e-6;
 pub const TOLERANCE: f64 = 1e-9;
 /// A branch with a residual up to this is kept, for the caller to improve; with a larger one it is dropped.
 pub const CANDIDATE: f64 = 1e-4;
+/// A guard below this, beside what is usual of it, may be one that vanishes at a solution which is known to the square root
+/// of rounding only.
+pub const NEAR: f64 = 1e-6;
+/// A guard below this, beside what is usual of it, magnifies the error of such a solution until what follows means little:
+/// where there is one, whether all solutions were found is to be confirmed.
+pub const BESIDE: f64 = 1e-4;
+/// The largest defect of the variables that is taken for rounding.
+pub const ROUNDED: f64 = 1e-5;
 /// Two branches are the same solution if all results differ by at most this (angles modulo 2π).
 pub const SAME: f64 = 2e-7;
 

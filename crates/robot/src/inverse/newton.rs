@@ -211,29 +211,41 @@ pub fn rank(robot: &Robot<f64>, goal: Goal) -> usize {
     let reach = robot.reach();
     let size = if reach > 0.0 { reach } else { 1.0 };
     let of = |q: &[f64]| {
-        let mut columns = jacobian(robot, goal, q, &[], size);
-        let square = |c: &[f64; 6]| c.iter().map(|x| x * x).sum::<f64>();
-        let scale = columns.iter().map(square).fold(0.0, f64::max);
-        let mut rank = 0;
-        while let Some(k) =
-            (0..columns.len()).max_by(|&a, &b| square(&columns[a]).total_cmp(&square(&columns[b])))
-        {
-            let pivot = columns.swap_remove(k);
-            if square(&pivot) <= 1e-14 * scale {
-                break;
-            }
-            rank += 1;
-            for c in &mut columns {
-                let along: f64 = c.iter().zip(&pivot).map(|(x, y)| x * y).sum::<f64>() / square(&pivot);
-                c.iter_mut().zip(&pivot).for_each(|(x, y)| *x -= along * y);
-            }
-        }
-        rank
+        let pivots = pivots(jacobian(robot, goal, q, &[], size));
+        let least = 1e-7 * pivots.first().copied().unwrap_or(0.0);
+        pivots.iter().take_while(|p| **p > least).count()
     };
     (0..5)
         .map(|_| of(&(0..robot.joints).map(|_| 6.0 * random.unit() - 3.0).collect::<Vec<_>>()))
         .max()
         .unwrap_or(0)
+}
+
+/// The lengths of columns, the longest first, each without its part along those before it: roughly the singular values.
+fn pivots(mut columns: Vec<[f64; 6]>) -> Vec<f64> {
+    let square = |c: &[f64; 6]| c.iter().map(|x| x * x).sum::<f64>();
+    let mut found = vec![];
+    while let Some(k) =
+        (0..columns.len()).max_by(|&a, &b| square(&columns[a]).total_cmp(&square(&columns[b])))
+    {
+        let pivot = columns.swap_remove(k);
+        let length = square(&pivot);
+        found.push(length.sqrt());
+        for c in columns.iter_mut().filter(|_| length > 0.0) {
+            let along: f64 = c.iter().zip(&pivot).map(|(x, y)| x * y).sum::<f64>() / length;
+            c.iter_mut().zip(&pivot).for_each(|(x, y)| *x -= along * y);
+        }
+    }
+    found
+}
+
+/// How much of the motion of joints the hand sees at least: the smallest singular value, roughly, of the joints that are not
+/// given, of as many as there can be.
+pub fn least_seen(robot: &Robot<f64>, goal: Goal, q: &[f64], given: &[usize], size: f64) -> f64 {
+    let mut columns = jacobian(robot, goal, q, given, size).into_iter().enumerate().collect::<Vec<_>>();
+    columns.retain(|(j, _)| !given.contains(j));
+    let pivots = pivots(columns.into_iter().map(|c| c.1).collect());
+    pivots.get(..pivots.len().min(6)).and_then(<[f64]>::last).copied().unwrap_or(f64::INFINITY)
 }
 
 /// Moves along the solutions of a pose from one of them to where they are nearest to a configuration: each step is the

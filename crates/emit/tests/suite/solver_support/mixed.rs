@@ -1,6 +1,7 @@
 //! Equations without meaning, one for each kind of root that the six angles do not have.
 
-use denavit_emit::{KnownSolution, SolverVector};
+use super::certificate;
+use denavit_emit::{Certificate, KnownSolution, SolverVector};
 use denavit_program::solver::{Draft, Output, Root, Solver, SolverBuilder};
 use denavit_symbolic::{Expr, Symbol};
 use std::f64::consts::PI;
@@ -117,11 +118,10 @@ pub fn vectors(has_quartic: bool) -> Vec<SolverVector> {
         ],
     ]
     .into_iter()
-    .map(|x: [f64; 9]| SolverVector {
-        variables: x.to_vec(),
-        parameters: vec![],
-        solutions: solutions(has_quartic, x),
-        tolerance: 1e-10,
+    .map(|x: [f64; 9]| {
+        let solutions = solutions(has_quartic, x);
+        let (variables, certificate) = (x.to_vec(), certificate(&solutions));
+        SolverVector { variables, parameters: vec![], solutions, certificate, tolerance: 1e-10 }
     })
     .collect::<Vec<_>>();
     if !has_quartic {
@@ -135,6 +135,7 @@ pub fn vectors(has_quartic: bool) -> Vec<SolverVector> {
         variables: vec![1.0, 0.0, -2.0, 0.0, 1.0, 1.0, -2.0, 0.0, 0.0],
         parameters: vec![],
         solutions: vec![known(up, 0.0), known(up, PI), known(down, 0.0), known(down, PI)],
+        certificate: Certificate::Singular,
         tolerance: 1e-6,
     });
     list

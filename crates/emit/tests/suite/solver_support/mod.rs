@@ -4,7 +4,7 @@ pub mod mixed;
 pub mod ur5;
 
 use denavit_emit::{
-    KnownSolution, Library, Parameter, Precision, Routine, SolverRoutine, SolverVector, Vector,
+    Certificate, KnownSolution, Library, Parameter, Precision, Routine, SolverRoutine, SolverVector, Vector,
 };
 use denavit_program::solver::Solver;
 use denavit_program::{Graph, Program};
@@ -43,6 +43,7 @@ impl Sample {
                 name: self.function.into(),
                 about: vec!["All solutions.".into(), self.words.into()],
                 solver: &self.solver,
+                usual: vec![],
                 argument: self.argument.into(),
                 shape: self.shape.clone(),
                 result: self.result.into(),
@@ -86,6 +87,11 @@ fn known((results, multiplicity, free): (Vec<f64>, u32, u32)) -> KnownSolution {
     KnownSolution { results, multiplicity, free }
 }
 
+/// What is to be said of solutions: where an unknown is free, there may be more.
+pub fn certificate(solutions: &[KnownSolution]) -> Certificate {
+    if solutions.iter().any(|s| s.free != 0) { Certificate::Singular } else { Certificate::Complete }
+}
+
 /// Configurations of six angles: in general position, with two and no solutions, elbow and wrist straight.
 fn ur5_vectors(parameters: &[f64]) -> Vec<SolverVector> {
     let configurations: [([f64; 6], f64); 6] = [
@@ -96,11 +102,10 @@ fn ur5_vectors(parameters: &[f64]) -> Vec<SolverVector> {
         ([0.5, -1.0, 1.2, -0.2, 0.0, 0.0], 1e-8),
         ([0.1, 0.2, 2.9, -1.0, 1e-4, 1.0], 1e-7),
     ];
-    let vector = |variables: Vec<f64>, tolerance| SolverVector {
-        solutions: ur5::inverse(ur5::LENGTHS, &variables).into_iter().map(known).collect(),
-        variables,
-        parameters: parameters.to_vec(),
-        tolerance,
+    let vector = |variables: Vec<f64>, tolerance| {
+        let solutions: Vec<_> = ur5::inverse(ur5::LENGTHS, &variables).into_iter().map(known).collect();
+        let parameters = parameters.to_vec();
+        SolverVector { certificate: certificate(&solutions), solutions, variables, parameters, tolerance }
     };
     let mut list: Vec<SolverVector> =
         configurations.iter().map(|(q, t)| vector(ur5::forward(ur5::LENGTHS, q), *t)).collect();

@@ -138,6 +138,11 @@ impl SolverFunction {
         SolverFunction { shape: shape.into(), levels: self.levels.clone() }
     }
 
+    /// For each node how large its guard is usually, relative to sizeᵈᵉᵍʳᵉᵉ; at most 1.
+    pub fn usual_guards(&self) -> Vec<f64> {
+        self.shape.steps.iter().map(|s| s.usual).collect()
+    }
+
     /// The same on other instructions, or with routines that round the same on every machine.
     #[must_use]
     pub fn on(&self, isa: Isa, arithmetic: Arithmetic) -> SolverFunction {

@@ -10,11 +10,20 @@ use crate::inverse::branch::Branch;
 use crate::inverse::newton;
 use crate::inverse::self_motion::{Frame, follow, is_self_motion};
 use crate::space::norm;
+use crate::velocity::svd;
+use denavit_program::solver::TOLERANCE;
 
 /// How many descents.
 const DESCENTS: usize = 48;
+/// A larger residual than this is left where Newton's method does not find a root.
+const BLURRED: f64 = 1e-11;
+/// How many solutions are left along the motion that the hand hardly sees, and how far (radians, and lengths by the reach).
+const ALONG: usize = 8;
+const STEPS: [f64; 5] = [0.02, 0.2, 0.8, 1.6, 3.0];
 /// Solutions this near to each other (radians, and lengths by the reach) with a solution between them are one.
 const NEXT: f64 = 0.02;
+/// Configurations that are further from all solutions than this (radians, and lengths by the reach) are none of them.
+const AROUND: f64 = 0.1;
 /// The smallest singular value of a regular configuration.
 const REGULAR: f64 = 1e-3;
 
@@ -28,19 +37,24 @@ impl Solving<'_> {
         answer: &mut Answer,
     ) {
         let size = self.size(pose);
-        for start in self.anywhere(pose, variables, DESCENTS) {
+        let mut starts = self.along(&answer.solutions);
+        starts.extend(self.anywhere(pose, variables, DESCENTS));
+        for start in starts {
             let found = newton::descend(&self.robot, self.goal, pose, &start, &self.given, size);
             let Some((mut q, residual)) = found.filter(|f| f.1 <= self.tolerance) else { continue };
-            // What converges slowly lies between two roots that nearly coincide, and is none; of an arm with few joints
-            // that misses the pose a little, as it may, a regular configuration is as near as it comes.
-            if residual > ROUGH && !self.is_regular(&q) {
-                continue;
-            }
+            // What converges slowly lies between two roots that nearly coincide, and is none, or beside one that no number
+            // is near enough to; of an arm with few joints that misses the pose a little, as it may, a regular configuration
+            // is as near as it comes.
+            let is_slow = residual > ROUGH && !self.is_regular(&q);
             self.space.wrap(&mut q);
-            if self.is_known(pose, given, answer, &q) {
+            let is_beside = |s: &Solution| self.space.distance(&s.q, &q) <= AROUND;
+            if is_slow && answer.solutions.iter().any(is_beside) || self.is_known(pose, given, answer, &q) {
                 continue;
             }
             answer.doubt = Some(Doubt::Sampled);
+            if is_slow {
+                continue;
+            }
             let within_limits = self.space.within(&q);
             let new = Solution {
                 q,
@@ -59,6 +73,32 @@ impl Solving<'_> {
                 answer.solutions.push(new);
             }
         }
+    }
+
+    /// True if a solution is known to few digits only, where others may be as near to solving the pose.
+    pub(super) fn is_blurred(&self, s: &Solution) -> bool {
+        s.residual > BLURRED && self.tolerance <= TOLERANCE && self.is_beside(&s.q)
+    }
+
+    /// Configurations along the motion that the hand hardly sees, from solutions where there is one.
+    fn along(&self, solutions: &[Solution]) -> Vec<Vec<f64>> {
+        let size = self.space.length();
+        let mut starts = vec![];
+        for s in solutions.iter().filter(|s| s.residual > ROUGH || self.is_beside(&s.q)).take(ALONG) {
+            let columns = newton::jacobian(&self.robot, self.goal, &s.q, &self.given, size);
+            let free: Vec<usize> = (0..s.q.len()).filter(|j| !self.given.contains(j)).collect();
+            let svd = svd(free.iter().map(|&j| columns[j]).collect());
+            let Some(hidden) = svd.vectors.get(free.len().min(6) - 1) else { continue };
+            starts.push(s.q.clone());
+            for step in STEPS.iter().flat_map(|x| [*x, -x]) {
+                let mut q = s.q.clone();
+                for (&j, v) in free.iter().zip(hidden) {
+                    q[j] += step * v * self.space.unit(j);
+                }
+                starts.push(q);
+            }
+        }
+        starts
     }
 
     /// True if the hand sees every joint move.

@@ -15,7 +15,8 @@ use crate::mechanism::{MissingValue, Robot};
 use crate::random::Random;
 use crate::shared::{Lent, Shared};
 use crate::space::{JointSpace, norm};
-use denavit_program::solver::{Leaf, SolverFunction, SolverScalar, TOLERANCE};
+pub(super) use denavit_program::solver::NEAR;
+use denavit_program::solver::{BESIDE, Leaf, ROUNDED, Solver, SolverFunction, SolverScalar, TOLERANCE};
 use denavit_symbolic::{Expr, Symbol};
 use std::f64::consts::TAU;
 use std::ops::Deref;
@@ -30,6 +31,8 @@ pub struct InverseSolver {
     pub(super) goal: Goal,
     pub(super) given: Vec<usize>,
     pub(super) space: JointSpace,
+    /// How much of the motion of its joints the hand sees at least, at a configuration like any other; at most 1.
+    seen: f64,
     pub(super) nodes: Vec<NodeFacts>,
     variants: Vec<VariantSolver>,
     conditions: Vec<NumericCondition>,
@@ -87,10 +90,6 @@ pub(super) const ROUGH: f64 = 1e-13;
 /// Branches that Newton's method starts from, and how far they may be from the pose.
 const STARTS: usize = 24;
 const NEARBY: f64 = 0.3;
-/// The largest tolerance that a pose with a rounded rotation gets.
-const LOOSEST: f64 = 1e-5;
-/// A guard below this may be one that vanishes at a solution which is known to the square root of rounding only.
-pub(super) const NEAR: f64 = 1e-6;
 /// What guards are compared with then, by what they are compared with otherwise.
 pub(super) const LOOSE: f64 = NEAR / denavit_program::solver::GUARD;
 /// How far it may move a branch that is a solution already, but only just: between two that nearly coincide.
@@ -101,6 +100,11 @@ const FAR_OUT: f64 = 16.0;
 pub(super) const SHORT: f64 = 1e-5;
 
 impl InverseModel {
+    /// The solver for code that gets poses as they come: a rotation that is rounded stands for the one nearest to it.
+    pub fn rounding_solver(&self) -> Solver {
+        compile::rounding(self)
+    }
+
     /// The solver for the numbers of a robot: those of the description that the model was derived from, or others with
     /// the same zeros and angles.
     ///
@@ -109,7 +113,11 @@ impl InverseModel {
     pub fn solver(&self, description: &Description) -> Result<InverseSolver, MissingValue> {
         let robot = Robot::numeric(description)?;
         let value = |s: Symbol| description.value(s);
-        let usual = usual(&robot, self.goal, &self.given);
+        let anywhere = somewhere(&robot);
+        let size = robot.reach().max(f64::MIN_POSITIVE);
+        let seen = |q: &Vec<f64>| newton::least_seen(&robot, self.goal, q, &self.given, size);
+        let seen = anywhere.iter().map(seen).fold(0.0, f64::max).min(1.0);
+        let usual = inputs(&robot, self.goal, &self.given, &anywhere);
         let usual = || usual.iter().map(Vec::as_slice);
         let function = self.compiled.solver.compile_with(value)?.with_usual_guards(usual());
         let nearest =
@@ -155,6 +163,7 @@ impl InverseModel {
             tool: self.chain.tool.map(number),
             function,
             robot,
+            seen,
             goal: self.goal,
             given: self.given.clone(),
             space,
@@ -163,8 +172,8 @@ impl InverseModel {
     }
 }
 
-/// The inputs of a solver at some configurations like any other.
-fn usual(robot: &Robot<f64>, goal: Goal, given: &[usize]) -> Vec<Vec<f64>> {
+/// Some configurations like any other.
+fn somewhere(robot: &Robot<f64>) -> Vec<Vec<f64>> {
     const CONFIGURATIONS: usize = 8;
     let mut random = Random(2);
     let size = robot.reach();
@@ -174,10 +183,18 @@ fn usual(robot: &Robot<f64>, goal: Goal, given: &[usize]) -> Vec<Vec<f64>> {
             q.iter_mut().for_each(|x| *x = size * (random.unit() - 0.5));
             let turning = robot.links.iter().flat_map(|l| &l.theta.terms).map(|t| t.0);
             turning.for_each(|j| q[j] = TAU * random.unit());
-            let given: Vec<f64> = given.iter().map(|&j| q[j]).collect();
-            variables(goal, &robot.pose(&q), &given)
+            q
         })
         .collect()
+}
+
+/// The inputs of a solver at configurations.
+fn inputs(robot: &Robot<f64>, goal: Goal, given: &[usize], all: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let one = |q: &Vec<f64>| {
+        let given: Vec<f64> = given.iter().map(|&j| q[j]).collect();
+        variables(goal, &robot.pose(q), &given)
+    };
+    all.iter().map(one).collect()
 }
 
 /// The entries of a pose that a goal gives, in the order of [`Inputs`](crate::inverse::derivation::Inputs), then the given joint variables.
@@ -220,7 +237,7 @@ impl InverseSolver {
     /// The rigid pose that is meant, and what solves it.
     pub(super) fn at(&self, pose: &Transform<f64>) -> (Transform<f64>, Solving<'_>) {
         let (pose, defect) = newton::nearest_rigid(pose);
-        let tolerance = (4.0 * defect).clamp(TOLERANCE, LOOSEST);
+        let tolerance = (4.0 * defect).clamp(TOLERANCE, ROUNDED);
         (pose, Solving { solver: self, memory: self.memory.lend(), tolerance })
     }
 }
@@ -232,7 +249,7 @@ impl Solving<'_> {
         let mut answer = Answer::empty();
         let leaves = self.memory.scalar.solve(&variables, &[]);
         let met = leaves.met_free();
-        let near = leaves.lost_guard() < NEAR || leaves.iter().any(|l| l.free == 0 && l.guard < NEAR);
+        let near = leaves.lost_guard() < BESIDE || leaves.iter().any(|l| l.free == 0 && l.guard < BESIDE);
         let mut found: Vec<(Solution, u64)> = vec![];
         for leaf in leaves.iter() {
             found.push((draft(&solver.nodes, &leaf), leaf.free));
@@ -242,6 +259,9 @@ impl Solving<'_> {
                 self.add(&mut answer.solutions, s);
             }
         }
+        // What Newton's method does not bring all the way lies beside a root that it does not find.
+        let is_rough = |s: &Solution| s.residual > ROUGH && self.tolerance <= TOLERANCE;
+        let near = near || answer.solutions.iter().any(|s| is_rough(s) || self.is_beside(&s.q));
         if met != 0 || near || !answer.is_reachable() {
             // Where roots coincide they are known to the square root of a rounding error only, and so are the guards
             // of what follows.
@@ -260,6 +280,9 @@ impl Solving<'_> {
             }
             if met != 0 || near {
                 self.confirm(pose, &variables, given, &mut answer);
+                if answer.solutions.iter().any(|s| self.is_blurred(s)) {
+                    answer.doubt = Some(Doubt::Sampled);
+                }
                 if answer.is_reachable() {
                     answer.obstacle = None;
                 } else if !self.is_excluded(pose, &answer) {
@@ -268,6 +291,12 @@ impl Solving<'_> {
             }
         }
         answer
+    }
+
+    /// True if the hand hardly sees some motion of the joints: other solutions may be near, or far along that motion.
+    pub(super) fn is_beside(&self, q: &[f64]) -> bool {
+        let size = self.space.length();
+        newton::least_seen(&self.robot, self.goal, q, &self.given, size) < BESIDE * self.seen
     }
 
     /// The unknown of a node at a configuration: cosine and sine, or the displacement.

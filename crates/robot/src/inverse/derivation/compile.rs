@@ -91,18 +91,36 @@ pub fn compile(
     given: &[usize],
     labels: &[Option<Label>],
 ) -> Compiled {
-    compile_with(chain, steps, Some(splits), goal, given, labels)
+    let options = Options { splits: Some(splits), is_rounding: false };
+    compile_with(chain, steps, &options, goal, given, labels)
 }
 
 /// The solver of a model that keeps every branch: its residual is 0.
 pub fn without_residual(model: &super::model::InverseModel) -> Solver {
-    compile_with(&model.chain, &model.steps, None, model.goal, &model.given, &model.labels).solver
+    with(model, &Options { splits: None, is_rounding: false })
+}
+
+/// The solver of a model that takes rounded rotations for those that are nearest to them.
+pub fn rounding(model: &super::model::InverseModel) -> Solver {
+    with(model, &Options { splits: Some(&model.splits), is_rounding: true })
+}
+
+fn with(model: &super::model::InverseModel, options: &Options) -> Solver {
+    compile_with(&model.chain, &model.steps, options, model.goal, &model.given, &model.labels).solver
+}
+
+/// What is computed beside the steps.
+struct Options<'a> {
+    /// Where the residual is looked for; without, it is 0.
+    splits: Option<&'a [Split]>,
+    /// Whether rotations may be rounded.
+    is_rounding: bool,
 }
 
 fn compile_with(
     chain: &NormalChain,
     steps: &[Step],
-    splits: Option<&[Split]>,
+    options: &Options,
     goal: Goal,
     given: &[usize],
     labels: &[Option<Label>],
@@ -119,6 +137,9 @@ fn compile_with(
         pairs: FxHashMap::default(),
         polys: FxHashMap::default(),
     };
+    if options.is_rounding {
+        builder.nearest(&inputs);
+    }
     let moved = moved_pose(chain, &inputs);
     for (k, e) in moved.iter().enumerate() {
         if let Some(e) = e {
@@ -135,7 +156,7 @@ fn compile_with(
         let label = labels.get(i).copied().flatten();
         builder.step(i, step, &names[i], label);
     }
-    let residual = match splits {
+    let residual = match options.splits {
         Some(splits) => builder.residual(splits, goal, size),
         None => builder.number(0),
     };
@@ -157,6 +178,56 @@ struct Builder<'a> {
 }
 
 impl Builder<'_> {
+    /// Puts the nearest rotation in place of a rounded one, up to the square of what it is off by: R(3 − RᵀR)/2, or of the
+    /// columns that are given. The defect is |RᵀR − 1|.
+    fn nearest(&mut self, inputs: &Inputs) {
+        let columns: Vec<[Value; 3]> = (0..3)
+            .filter_map(|j| {
+                let symbols: Option<Vec<Symbol>> = (0..3).map(|i| inputs.pose[4 * i + j]).collect();
+                let values = symbols?.into_iter().map(|s| self.solver.graph.input(s)).collect::<Vec<_>>();
+                values.try_into().ok()
+            })
+            .collect();
+        let given: Vec<usize> = (0..3).filter(|j| inputs.pose[*j].is_some()).collect();
+        if columns.is_empty() {
+            return;
+        }
+        let g = &mut self.solver.graph;
+        let one = g.number(&Rational::ONE);
+        let half = g.number(&Rational::new(1, 2));
+        let n = columns.len();
+        let mut misses = vec![vec![one; n]; n];
+        let mut squares = vec![];
+        for a in 0..n {
+            for b in a..n {
+                let products: Vec<Value> = (0..3).map(|i| g.mul(columns[a][i], columns[b][i])).collect();
+                let sum = g.add(products[0], products[1]);
+                let sum = g.add(sum, products[2]);
+                let miss = if a == b { g.sub(one, sum) } else { -sum };
+                (misses[a][b], misses[b][a]) = (miss, miss);
+                squares.push(miss);
+            }
+        }
+        for (b, &j) in given.iter().enumerate() {
+            for i in 0..3 {
+                let g = &mut self.solver.graph;
+                let mut way = g.mul(columns[0][i], misses[0][b]);
+                for a in 1..n {
+                    let more = g.mul(columns[a][i], misses[a][b]);
+                    way = g.add(way, more);
+                }
+                let way = g.mul(half, way);
+                let entry = g.add(columns[b][i], way);
+                let symbol = inputs.pose[4 * i + j].expect("the column is given");
+                g.bind(symbol, entry);
+                self.solver.name(entry, &format!("r{}{}", i + 1, j + 1));
+            }
+        }
+        let sum = self.sum_of_squares(&squares);
+        let defect = self.solver.graph.sqrt(sum);
+        self.solver.defect(defect);
+    }
+
     /// The value of a given axis.
     fn give(&mut self, k: usize) {
         let value = self.chain.axes[k].value;

@@ -1,6 +1,7 @@
 //! Six joints without a closed form: all solutions by elimination, and what happens at singular poses.
 
 mod arm;
+mod confirm;
 mod solve;
 
 pub use arm::SixAxes;

@@ -25,15 +25,15 @@ pub struct GeneralSolver {
 }
 
 /// A solution may miss the pose by this (see [`Solution::residual`]).
-const TOLERANCE: f64 = 1e-9;
+pub(super) const TOLERANCE: f64 = 1e-9;
 /// A smallest singular value below this may belong to a self-motion.
-const SINGULAR: f64 = 1e-5;
+pub(super) const SINGULAR: f64 = 1e-5;
 /// Members of a curve are not further apart (radians, lengths by the reach).
 const NEXT: f64 = 0.2;
 /// A configuration this near to a curve is on it.
 const SAME: f64 = 1e-5;
 /// A residual above this is more than rounding.
-const ROUGH: f64 = 1e-12;
+pub(super) const ROUGH: f64 = 1e-12;
 
 impl GeneralSolver {
     /// For a robot with six axes; measures which eliminations suit it (up to a fifth of a second).
@@ -72,6 +72,7 @@ impl GeneralSolver {
         let size = self.space.size(pose);
         self.collect(&found.solutions, pose, size, &mut answer);
         self.families(pose, size, &mut answer);
+        self.confirm(pose, size, &mut answer);
         answer.spread(&self.space);
         answer.solutions.sort_by(|a, b| {
             let unequal = a.q.iter().zip(&b.q).map(|(x, y)| x.total_cmp(y)).find(|o| o.is_ne());
@@ -102,6 +103,7 @@ impl GeneralSolver {
                 continue;
             }
             self.space.wrap(&mut q);
+            residual = miss(&q);
             // Two that have a solution between them are one.
             let between = |a: &[f64]| -> Vec<f64> {
                 a.iter().zip(self.space.moved(a, &q)).map(|(x, d)| x + d / 2.0).collect()
@@ -140,7 +142,7 @@ impl GeneralSolver {
     }
 
     /// True if a configuration lies on a curve of members.
-    fn is_on(&self, pose: &Transform<f64>, size: f64, curve: &[Vec<f64>], q: &[f64]) -> bool {
+    pub(super) fn is_on(&self, pose: &Transform<f64>, size: f64, curve: &[Vec<f64>], q: &[f64]) -> bool {
         let away = |p: &Vec<f64>| self.space.distance(p, q);
         let Some(nearest) = curve.iter().min_by(|a, b| away(a).total_cmp(&away(b))) else { return false };
         let way = |p: &[f64]| self.space.moved(p, q);

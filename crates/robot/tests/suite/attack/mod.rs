@@ -8,7 +8,7 @@ mod poses;
 use crate::common::{Random, share};
 use arms::Kind;
 use denavit::description::read_toml;
-use denavit::inverse::{InverseKinematics, InverseOptions};
+use denavit::inverse::{Answer, InverseKinematics, InverseOptions};
 use denavit::symbolic::scoped;
 use judge::Fault;
 use std::collections::BTreeMap;
@@ -45,6 +45,9 @@ fn attack(seed: u64, kind: Kind) -> Found {
         found.asked += 1;
         let starts = if given.is_empty() { STARTS } else { 0 };
         if let Some(fault) = judge::judge(&solver, &asked, &answer, starts, &mut random) {
+            if fault.is_lie() && std::env::var_os("DENAVIT_ATTACK_SHOW").is_some() {
+                shown(&solver, fault, &asked, &answer);
+            }
             found.faults.push((fault, format!("{:?}", asked.q)));
         }
     }
@@ -91,7 +94,24 @@ fn nothing_is_said_that_is_not_so() {
     assert!(lies.is_empty(), "{}:\n{}", lies.len(), lies.join("\n"));
 }
 
-/// Prints an arm of the attack: `DENAVIT_ATTACK_SHOW="Square 1000"`.
+/// Prints a lie.
+fn shown(solver: &InverseKinematics, fault: Fault, asked: &poses::Asked, answer: &Answer) {
+    let least = |q: &[f64]| judge::least_pivot(&solver.robot, q, &solver.space.is_angle);
+    println!("{fault:?} at {:?}, singular value {:.1e}, noise {:.1e}", asked.q, least(&asked.q), asked.noise);
+    for s in &answer.solutions {
+        let missed = judge::miss(&solver.robot, &asked.pose, &s.q);
+        let (times, seen) = (s.multiplicity, least(&s.q));
+        println!(
+            "  {times} × {:?} residual {:.1e}, really {missed:.1e}, guard {:.1e}, singular value {seen:.1e}",
+            s.q, s.residual, s.guard
+        );
+    }
+    for f in &answer.families {
+        println!("  family of {:?}", f.representative.q);
+    }
+}
+
+/// Prints an arm of the attack, and what is said of it that is not so: `DENAVIT_ATTACK_SHOW="Square 1000"`.
 #[test]
 #[ignore = "prints an arm"]
 fn show() {
@@ -101,5 +121,6 @@ fn show() {
     let seed = words.next().and_then(|s| s.parse().ok()).unwrap_or(1000);
     for kind in Kind::ALL.into_iter().filter(|k| format!("{k:?}") == name) {
         println!("{}", arms::text(&mut Random(seed), kind));
+        scoped(|| attack(seed, kind));
     }
 }

@@ -13,7 +13,7 @@ pub fn robot(name: &str) -> Description {
 
 /// A robot of `tests/cases`: what an attack or an engineer found once.
 pub fn case(name: &str) -> Description {
-    let path = format!("{}/tests/cases/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let path = format!("{}/../robot/tests/cases/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"));
     denavit::description::read_toml(&text).unwrap_or_else(|e| panic!("{name}: {e:?}")).0
 }
