@@ -122,17 +122,9 @@ impl Poly {
 
     /// From terms in any order, repeated ones added up.
     pub fn from_terms(terms: impl IntoIterator<Item = (Monomial, Rational)>) -> Self {
-        let mut sum = FxHashMap::default();
-        for (m, r) in terms {
-            accumulate(&mut sum, m, r);
-        }
-        Self::from_map(sum)
-    }
-
-    pub(crate) fn from_map(sum: FxHashMap<Monomial, Rational>) -> Self {
-        let mut terms: Vec<_> = sum.into_iter().filter(|t| !t.1.is_zero()).collect();
-        terms.sort_unstable_by(|a, b| a.0.cmp(&b.0));
-        Poly(terms)
+        let mut sum = Sum::default();
+        terms.into_iter().for_each(|(m, r)| sum.add(m, r));
+        sum.finish()
     }
 
     /// The terms, sorted by monomial.
@@ -229,15 +221,55 @@ impl Poly {
     }
 }
 
-/// Adds `r·m` to a sum.
-pub(crate) fn accumulate(sum: &mut FxHashMap<Monomial, Rational>, m: Monomial, r: Rational) {
-    match sum.entry(m) {
-        std::collections::hash_map::Entry::Occupied(mut e) => {
-            let total = e.get() + &r;
-            e.insert(total);
+/// A sum of terms under way: a list while it is short, a table by monomial beyond.
+#[derive(Debug, Default)]
+pub(crate) struct Sum {
+    short: Vec<(Monomial, Rational)>,
+    table: FxHashMap<Monomial, Rational>,
+}
+
+/// The longest list: sorting it takes less time than a table.
+const SHORT: usize = 48;
+
+impl Sum {
+    /// Adds `r·m`.
+    pub fn add(&mut self, m: Monomial, r: Rational) {
+        if self.short.len() < SHORT && self.table.is_empty() {
+            self.short.push((m, r));
+            return;
         }
-        std::collections::hash_map::Entry::Vacant(e) => {
-            e.insert(r);
+        if self.table.is_empty() {
+            self.table.reserve(2 * SHORT);
         }
+        for (m, r) in self.short.drain(..).chain([(m, r)]) {
+            match self.table.entry(m) {
+                std::collections::hash_map::Entry::Occupied(mut e) => {
+                    let total = e.get() + &r;
+                    e.insert(total);
+                }
+                std::collections::hash_map::Entry::Vacant(e) => {
+                    e.insert(r);
+                }
+            }
+        }
+    }
+
+    /// The polynomial.
+    pub fn finish(self) -> Poly {
+        let Sum { mut short, table } = self;
+        let is_short = table.is_empty();
+        short.extend(table);
+        short.sort_unstable_by(|a, b| a.0.cmp(&b.0));
+        if is_short {
+            short.dedup_by(|next, sum| {
+                let is_like = next.0 == sum.0;
+                if is_like {
+                    sum.1 = &sum.1 + &next.1;
+                }
+                is_like
+            });
+        }
+        short.retain(|t| !t.1.is_zero());
+        Poly(short)
     }
 }

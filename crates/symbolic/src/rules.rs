@@ -2,9 +2,8 @@
 //!
 //! S² → 1 − C² and √2² → 2 are such rules. What the atoms stand for, and what a product may cost, is the caller's.
 
-use crate::poly::{Atom, Monomial, Poly, accumulate};
+use crate::poly::{Atom, Monomial, Poly, Sum};
 use crate::rational::Rational;
-use rustc_hash::FxHashMap;
 
 /// The rules of numbered atoms.
 ///
@@ -65,7 +64,7 @@ impl Rules {
         b: &Poly,
         mut pay: impl FnMut(Formed, &Rational) -> Result<(), E>,
     ) -> Result<Poly, E> {
-        let mut sum = FxHashMap::default();
+        let mut sum = Sum::default();
         let mut pending: Vec<(Formed, Monomial, Rational)> = vec![];
         for (m, r) in a.terms() {
             for (n, t) in b.terms() {
@@ -73,7 +72,7 @@ impl Rules {
                 while let Some((formed, m, r)) = pending.pop() {
                     pay(formed, &r)?;
                     match m.factors().iter().find_map(|&(atom, e)| Some((atom, e, self.of_power(atom, e)?))) {
-                        None => accumulate(&mut sum, m, r),
+                        None => sum.add(m, r),
                         Some((atom, exponent, square)) => {
                             let rest = m.without(atom).times(&Monomial::power(atom, exponent - 2));
                             let replaced =
@@ -84,7 +83,7 @@ impl Rules {
                 }
             }
         }
-        Ok(Poly::from_map(sum))
+        Ok(sum.finish())
     }
 
     /// The rule that applies to a power of an atom.

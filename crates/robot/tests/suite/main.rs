@@ -24,5 +24,6 @@ mod numeric;
 mod redundant;
 mod scope;
 mod singular;
+mod track;
 mod velocity;
 mod workspace;

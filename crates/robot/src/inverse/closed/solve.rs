@@ -101,6 +101,17 @@ const FAR_OUT: f64 = 16.0;
 pub(super) const SHORT: f64 = 1e-5;
 
 impl InverseModel {
+    /// The compiled steps with the numbers of a robot.
+    pub(in crate::inverse) fn function(
+        &self,
+        description: &Description,
+        robot: &Robot<f64>,
+    ) -> Result<SolverFunction, MissingValue> {
+        let usual = usual(robot, self.goal, &self.given);
+        let compiled = self.compiled.solver.compile_with(|s| description.value(s))?;
+        Ok(compiled.with_usual_guards(usual.iter().map(Vec::as_slice)))
+    }
+
     /// The solver for the numbers of a robot: those of the description that the model was derived from, or others with
     /// the same zeros and angles.
     ///
@@ -111,7 +122,7 @@ impl InverseModel {
         let value = |s: Symbol| description.value(s);
         let usual = usual(&robot, self.goal, &self.given);
         let usual = || usual.iter().map(Vec::as_slice);
-        let function = self.compiled.solver.compile_with(value)?.with_usual_guards(usual());
+        let function = self.function(description, &robot)?;
         let nearest =
             compile::without_residual(self).compile_with(value)?.with_usual_guards(usual()).scalar();
         let facts = |steps: &[Step], labels: &[Option<Label>]| -> Vec<NodeFacts> {

@@ -62,6 +62,11 @@ impl Known {
         }
     }
 
+    /// The axes that are not known.
+    pub fn open(&self, chain: &NormalChain) -> Vec<Unknown> {
+        (0..chain.axes.len()).map(|k| axis_unknown(chain, k)).filter(|&x| !self.knows(x)).collect()
+    }
+
     /// True if every axis is known.
     pub fn everything(&self) -> bool {
         self.slides.iter().all(|&x| x) && self.component.iter().all(|c| c.iter().all(|&n| n == 0))
