@@ -79,6 +79,12 @@ impl Monomial {
         Monomial(self.0.iter().copied().filter(|f| f.0 != atom).collect())
     }
 
+    /// The powers of the atoms for which a test holds, and the others.
+    pub fn parted(&self, test: impl Fn(Atom) -> bool) -> (Monomial, Monomial) {
+        let (first, second) = self.0.iter().copied().partition(|f| test(f.0));
+        (Monomial(first), Monomial(second))
+    }
+
     /// The largest monomial that divides both.
     pub fn gcd(&self, o: &Monomial) -> Monomial {
         Monomial(self.0.iter().map(|&(x, e)| (x, e.min(o.exponent(x)))).filter(|f| f.1 > 0).collect())
@@ -192,10 +198,19 @@ impl Poly {
 
     /// The atoms that occur, sorted.
     pub fn atoms(&self) -> Vec<Atom> {
-        let mut found: Vec<Atom> = self.0.iter().flat_map(|t| t.0.factors().iter().map(|f| f.0)).collect();
-        found.sort_unstable();
-        found.dedup();
-        found
+        let mut occurs: SmallVec<[u64; 4]> = SmallVec::new();
+        for &(atom, _) in self.0.iter().flat_map(|t| t.0.factors()) {
+            let word = usize::from(atom / 64);
+            if occurs.len() <= word {
+                occurs.resize(word + 1, 0);
+            }
+            occurs[word] |= 1 << (atom % 64);
+        }
+        let of_word = |(word, bits): (usize, &u64)| {
+            let bits = *bits;
+            (0..64).filter(move |k| bits >> k & 1 == 1).map(move |k| (64 * word + k) as Atom)
+        };
+        occurs.iter().enumerate().flat_map(of_word).collect()
     }
 
     /// A plain sum of products, atoms being these formulas.
@@ -211,6 +226,13 @@ impl Poly {
         let mut terms = self.0.iter().map(|t| &t.0);
         let first = terms.next().cloned().unwrap_or_default();
         terms.fold(first, |g, m| g.gcd(m))
+    }
+
+    /// The terms with an atom, divided by it, and the others: `atom·inside + rest`.
+    pub fn split(&self, atom: Atom) -> (Poly, Poly) {
+        let (inside, rest): (Vec<_>, Vec<_>) =
+            self.0.iter().cloned().partition(|(m, _)| m.exponent(atom) > 0);
+        (Poly(inside).over(&Monomial::power(atom, 1)), Poly(rest))
     }
 
     /// `self / m`, for a monomial that divides every term.

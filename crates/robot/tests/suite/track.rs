@@ -2,6 +2,7 @@
 
 use crate::common::{Random, case, robot, share};
 use denavit::Description;
+use denavit::geometry::{Transform, Vector};
 use denavit::inverse::{Course, InverseKinematics, InverseOptions, JointSpace, Tracked};
 use std::f64::consts::PI;
 
@@ -46,13 +47,7 @@ fn track(d: &Description, solver: &InverseKinematics, random: &mut Random) -> us
     jumps
 }
 
-fn judge(
-    d: &Description,
-    solver: &InverseKinematics,
-    pose: &denavit::geometry::Transform<f64>,
-    last: &[f64],
-    found: &Tracked,
-) {
+fn judge(d: &Description, solver: &InverseKinematics, pose: &Transform<f64>, last: &[f64], found: &Tracked) {
     let have = solver.robot.pose(&found.q);
     let rows = have.matrix().into_iter().flatten().zip(pose.matrix().into_iter().flatten());
     let miss = rows.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
@@ -124,8 +119,9 @@ fn far_poses_are_jumps_and_poses_out_of_reach_are_none() {
     let [from, to] = [(); 2].map(|()| inside(&solver.space, &mut random));
     let far = solver.track(&solver.robot.pose(&to), &from).expect("it is reachable");
     assert_eq!(far.course, Course::Jumped, "{far:?}");
-    let mut pose = solver.robot.pose(&from);
-    pose.translation[0] += 10.0;
+    let here = solver.robot.pose(&from);
+    let away = here.translation + Vector([10.0, 0.0, 0.0]);
+    let pose = Transform::from_rotation_translation(here.rotation, away);
     assert_eq!(solver.track(&pose, &from), None);
 }
 
