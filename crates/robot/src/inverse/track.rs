@@ -16,9 +16,9 @@ use crate::geometry::Transform;
 /// Where a configuration came from that follows another.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Course {
-    /// From the last one, without a gap.
+    /// Within the limits, and no joint moves by more than half a radian, or half the reach.
     Followed,
-    /// There is none within the limits nearby, or none was found: it is the nearest of all that are known.
+    /// Within the limits, but further away: the nearest of all that are known.
     Jumped,
     /// There is none within the limits, as far as is known: the nearest of all leaves them.
     BeyondLimits,
@@ -114,8 +114,13 @@ impl InverseKinematics {
         let given: Vec<f64> = self.given.iter().map(|&j| previous[j]).collect();
         let answer = self.solve(pose, &given);
         let Nearest { q, within_limits, .. } = self.nearest(pose, &answer, previous)?;
-        let course = if within_limits { Course::Jumped } else { Course::BeyondLimits };
-        Some(self.tracked(pose, q, previous, course))
+        let mut tracked = self.tracked(pose, q, previous, Course::Jumped);
+        tracked.course = match within_limits {
+            false => Course::BeyondLimits,
+            true if tracked.distance <= NEARBY => Course::Followed,
+            true => Course::Jumped,
+        };
+        Some(tracked)
     }
 
     fn tracked(&self, pose: &Transform<f64>, q: Vec<f64>, previous: &[f64], course: Course) -> Tracked {

@@ -66,7 +66,8 @@ fn judge(d: &Description, solver: &InverseKinematics, pose: &Transform<f64>, las
             j + 1
         );
     }
-    let moved = found.q.iter().zip(last).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+    let change = |j: usize| (found.q[j] - last[j]).abs() / solver.space.unit(j);
+    let moved = (0..last.len()).map(change).fold(0.0, f64::max);
     assert!((moved - found.distance).abs() <= 1e-12, "{}: {moved} and {found:?}", d.name);
     let is_near = found.course == Course::Followed;
     assert!(!is_near || moved <= 0.5, "{}: a gap of {moved}: {found:?}", d.name);
