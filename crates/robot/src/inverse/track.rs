@@ -76,13 +76,13 @@ impl InverseKinematics {
 
     /// By Newton's method from the previous configuration.
     fn followed(&self, pose: &Transform<f64>, previous: &[f64]) -> Option<Tracked> {
-        if (0..previous.len()).any(|j| self.clamped(j, previous[j]) != previous[j]) {
-            return None;
-        }
         let size = self.size(pose);
         let units: Vec<f64> =
             (0..previous.len()).map(|j| if self.space.is_angle[j] { 1.0 } else { size }).collect();
-        let mut q = previous.to_vec();
+        let mut q: Vec<f64> = (0..previous.len()).map(|j| self.clamped(j, previous[j])).collect();
+        if (0..q.len()).any(|j| (q[j] - previous[j]).abs() > NEARBY * units[j]) {
+            return None;
+        }
         for _ in 0..STEPS {
             let e = newton::error(self.goal, pose, &self.robot.pose(&q), size);
             let columns = newton::jacobian(&self.robot, self.goal, &q, &self.given, size);

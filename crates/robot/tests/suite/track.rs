@@ -6,8 +6,8 @@ use denavit::geometry::{Transform, Vector};
 use denavit::inverse::{Course, InverseKinematics, InverseOptions, JointSpace, Tracked};
 use std::f64::consts::PI;
 
-/// Steps of a path; no joint of the configurations that it is made of moves by more than a 400th of 2π a step.
-const STEPS: usize = 400;
+/// Steps of a path; no joint of the configurations that it is made of moves by more than a 200th of 2π a step.
+const STEPS: usize = 200;
 
 fn solver(d: &Description) -> InverseKinematics {
     InverseKinematics::new(d, &InverseOptions::default()).unwrap_or_else(|e| panic!("{}: {e}", d.name))
@@ -81,7 +81,7 @@ fn arms_with_seven_joints_follow_random_paths_within_their_limits() {
     let (mut steps, mut jumps) = (0, 0);
     for d in &arms {
         let solver = solver(d);
-        for _ in 0..share(40, 3) {
+        for _ in 0..share(40, 1) {
             jumps += track(d, &solver, &mut random);
             steps += STEPS;
         }
