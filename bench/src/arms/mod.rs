@@ -29,7 +29,11 @@ pub fn run(is_quick: bool, mut random: impl FnMut() -> f64) -> Result<()> {
     let general = general::measure(poses, &mut random)?;
     let redundant = redundant::measure(poses, &mut random)?;
     let numeric = numeric::measure(poses, &mut random)?;
-    println!("{}", json!({"poses": poses, "general": general, "redundant": redundant, "numeric": numeric}));
+    let following = redundant::following(&mut random)?;
+    println!(
+        "{}",
+        json!({"poses": poses, "general": general, "redundant": redundant, "numeric": numeric, "following": following})
+    );
     Ok(())
 }
 

@@ -26,7 +26,7 @@ use std::iter::{Peekable, Zip};
 use std::ops::RangeFrom;
 
 /// The largest text that is read, in bytes.
-const MAX_BYTES: usize = 1 << 24;
+pub(crate) const MAX_BYTES: usize = 1 << 24;
 /// The longest numerator or denominator, in digits.
 const MAX_DIGITS: usize = 4000;
 
@@ -103,14 +103,7 @@ impl Program {
         if !reader.errors.is_empty() {
             return Err(reader.errors);
         }
-        // Symbols stay as long as their store, so that they are made only for a text that is right.
-        let symbols = |names: &[String]| names.iter().map(|n| Symbol::new(n)).collect();
-        let [variables, parameters] = [symbols(&reader.variables), symbols(&reader.parameters)];
-        let ops = reader.ops.into_iter().map(|line| match line {
-            Line::Done(op) => op,
-            Line::Input(name) => Op::Input(Symbol::new(&name)),
-        });
-        Ok(Program::from_parts(variables, parameters, ops, reader.results, reader.names))
+        Ok(reader.finish())
     }
 }
 
@@ -124,7 +117,16 @@ fn is_number(label: &str) -> bool {
 }
 
 /// A name, in quotes if need be.
-struct Name<'a>(&'a str);
+pub(crate) struct Name<'a>(pub &'a str);
+
+/// A text in quotes.
+pub(crate) struct Quoted<'a>(pub &'a str);
+
+impl fmt::Display for Quoted<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        quoted(self.0, f)
+    }
+}
 
 impl fmt::Display for Name<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -163,7 +165,7 @@ impl fmt::Display for Operand<'_> {
 }
 
 #[derive(Clone, PartialEq, Debug)]
-enum Token {
+pub(crate) enum Token {
     /// A keyword, a name, or digits.
     Word(String),
     /// A name in quotes.
@@ -176,7 +178,7 @@ enum Token {
 }
 
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
-enum Label {
+pub(crate) enum Label {
     Name(String),
     Number(String),
 }
@@ -188,35 +190,49 @@ enum Line {
 }
 
 #[derive(Default)]
-struct Reader {
-    variables: Vec<String>,
-    parameters: Vec<String>,
+pub(crate) struct Reader {
+    pub variables: Vec<String>,
+    pub parameters: Vec<String>,
     inputs: FxHashSet<String>,
     ops: Vec<Line>,
     names: Vec<Option<String>>,
     labels: FxHashMap<Label, u32>,
-    results: Vec<(String, Value)>,
+    pub results: Vec<(String, Value)>,
     result_names: FxHashSet<String>,
-    errors: Vec<TextError>,
+    pub errors: Vec<TextError>,
 }
 
 /// The tokens of a line that are not read yet, each with its column; `end` is the column behind them.
-struct Rest<'a> {
+pub(crate) struct Rest<'a> {
     line: usize,
     tokens: std::slice::Iter<'a, (usize, Token)>,
     end: usize,
 }
 
-impl Rest<'_> {
-    fn column(&self) -> usize {
+impl<'a> Rest<'a> {
+    pub fn new(line: usize, tokens: &'a [(usize, Token)], end: usize) -> Self {
+        Rest { line, tokens: tokens.iter(), end }
+    }
+
+    /// The number of the line.
+    pub fn number(&self) -> usize {
+        self.line
+    }
+
+    /// The column behind the line.
+    pub fn end(&self) -> usize {
+        self.end
+    }
+
+    pub fn column(&self) -> usize {
         self.tokens.as_slice().first().map_or(self.end, |t| t.0)
     }
 
-    fn next(&mut self) -> Option<&Token> {
+    pub fn next(&mut self) -> Option<&Token> {
         self.tokens.next().map(|t| &t.1)
     }
 
-    fn take(&mut self, token: &Token) -> bool {
+    pub fn take(&mut self, token: &Token) -> bool {
         let found = self.tokens.as_slice().first().is_some_and(|t| t.1 == *token);
         if found {
             self.tokens.next();
@@ -224,11 +240,11 @@ impl Rest<'_> {
         found
     }
 
-    fn error(&self, column: usize, message: impl Into<String>) -> TextError {
+    pub fn error(&self, column: usize, message: impl Into<String>) -> TextError {
         TextError { line: self.line, column, message: message.into() }
     }
 
-    fn name(&mut self, what: &str) -> Result<(usize, String), TextError> {
+    pub fn name(&mut self, what: &str) -> Result<(usize, String), TextError> {
         let column = self.column();
         match self.next() {
             Some(Token::Word(name) | Token::Quoted(name)) => Ok((column, name.clone())),
@@ -236,7 +252,7 @@ impl Rest<'_> {
         }
     }
 
-    fn digits(&mut self) -> Result<Rational, TextError> {
+    pub fn digits(&mut self) -> Result<Rational, TextError> {
         let column = self.column();
         match self.next() {
             Some(Token::Word(word)) if is_number(word) => match word.len() {
@@ -252,12 +268,12 @@ impl Rest<'_> {
         }
     }
 
-    fn equals(&mut self) -> Result<(), TextError> {
+    pub fn equals(&mut self) -> Result<(), TextError> {
         let column = self.column();
         if self.take(&Token::Equals) { Ok(()) } else { Err(self.error(column, "expected `=`")) }
     }
 
-    fn finished(&self) -> Result<(), TextError> {
+    pub fn finished(&self) -> Result<(), TextError> {
         match self.tokens.as_slice().first() {
             None => Ok(()),
             Some((column, _)) => Err(self.error(*column, "nothing more is expected in this line")),
@@ -266,7 +282,20 @@ impl Rest<'_> {
 }
 
 impl Reader {
-    fn line(&mut self, number: usize, text: &str) {
+    /// The program that was read, where there are no errors.
+    pub fn finish(self) -> Program {
+        // Symbols stay as long as their store, so that they are made only for a text that is right.
+        let symbols = |names: &[String]| names.iter().map(|n| Symbol::new(n)).collect();
+        let [variables, parameters] = [symbols(&self.variables), symbols(&self.parameters)];
+        let ops = self.ops.into_iter().map(|line| match line {
+            Line::Done(op) => op,
+            Line::Input(name) => Op::Input(Symbol::new(&name)),
+        });
+        Program::from_parts(variables, parameters, ops, self.results, self.names)
+    }
+
+    /// Reads a line.
+    pub fn line(&mut self, number: usize, text: &str) {
         let (tokens, end) = match tokens(number, text) {
             Ok(found) => found,
             Err(error) => {
@@ -278,7 +307,7 @@ impl Reader {
                 return;
             }
         };
-        let mut rest = Rest { line: number, tokens: tokens.iter(), end };
+        let mut rest = Rest::new(number, &tokens, end);
         let outcome = match rest.next() {
             None => return,
             Some(Token::Label(label)) => self.operation(label.clone(), tokens[0].0, &mut rest),
@@ -400,7 +429,7 @@ impl Reader {
 }
 
 /// The tokens of a line, each with its column, and the column behind the last character.
-fn tokens(line: usize, text: &str) -> Result<(Vec<(usize, Token)>, usize), TextError> {
+pub(crate) fn tokens(line: usize, text: &str) -> Result<(Vec<(usize, Token)>, usize), TextError> {
     let mut found = vec![];
     let mut chars: Chars = (1..).zip(text.chars()).peekable();
     let end = text.chars().count() + 1;

@@ -79,6 +79,12 @@ impl Monomial {
         Monomial(self.0.iter().copied().filter(|f| f.0 != atom).collect())
     }
 
+    /// The powers of the atoms for which a test holds, and the others.
+    pub fn parted(&self, test: impl Fn(Atom) -> bool) -> (Monomial, Monomial) {
+        let (first, second) = self.0.iter().copied().partition(|f| test(f.0));
+        (Monomial(first), Monomial(second))
+    }
+
     /// The largest monomial that divides both.
     pub fn gcd(&self, o: &Monomial) -> Monomial {
         Monomial(self.0.iter().map(|&(x, e)| (x, e.min(o.exponent(x)))).filter(|f| f.1 > 0).collect())
@@ -122,17 +128,9 @@ impl Poly {
 
     /// From terms in any order, repeated ones added up.
     pub fn from_terms(terms: impl IntoIterator<Item = (Monomial, Rational)>) -> Self {
-        let mut sum = FxHashMap::default();
-        for (m, r) in terms {
-            accumulate(&mut sum, m, r);
-        }
-        Self::from_map(sum)
-    }
-
-    pub(crate) fn from_map(sum: FxHashMap<Monomial, Rational>) -> Self {
-        let mut terms: Vec<_> = sum.into_iter().filter(|t| !t.1.is_zero()).collect();
-        terms.sort_unstable_by(|a, b| a.0.cmp(&b.0));
-        Poly(terms)
+        let mut sum = Sum::default();
+        terms.into_iter().for_each(|(m, r)| sum.add(m, r));
+        sum.finish()
     }
 
     /// The terms, sorted by monomial.
@@ -200,10 +198,19 @@ impl Poly {
 
     /// The atoms that occur, sorted.
     pub fn atoms(&self) -> Vec<Atom> {
-        let mut found: Vec<Atom> = self.0.iter().flat_map(|t| t.0.factors().iter().map(|f| f.0)).collect();
-        found.sort_unstable();
-        found.dedup();
-        found
+        let mut occurs: SmallVec<[u64; 4]> = SmallVec::new();
+        for &(atom, _) in self.0.iter().flat_map(|t| t.0.factors()) {
+            let word = usize::from(atom / 64);
+            if occurs.len() <= word {
+                occurs.resize(word + 1, 0);
+            }
+            occurs[word] |= 1 << (atom % 64);
+        }
+        let of_word = |(word, bits): (usize, &u64)| {
+            let bits = *bits;
+            (0..64).filter(move |k| bits >> k & 1 == 1).map(move |k| (64 * word + k) as Atom)
+        };
+        occurs.iter().enumerate().flat_map(of_word).collect()
     }
 
     /// A plain sum of products, atoms being these formulas.
@@ -221,6 +228,13 @@ impl Poly {
         terms.fold(first, |g, m| g.gcd(m))
     }
 
+    /// The terms with an atom, divided by it, and the others: `atom·inside + rest`.
+    pub fn split(&self, atom: Atom) -> (Poly, Poly) {
+        let (inside, rest): (Vec<_>, Vec<_>) =
+            self.0.iter().cloned().partition(|(m, _)| m.exponent(atom) > 0);
+        (Poly(inside).over(&Monomial::power(atom, 1)), Poly(rest))
+    }
+
     /// `self / m`, for a monomial that divides every term.
     pub fn over(&self, m: &Monomial) -> Poly {
         let mut terms: Vec<_> = self.0.iter().map(|(x, r)| (x.over(m), r.clone())).collect();
@@ -229,15 +243,55 @@ impl Poly {
     }
 }
 
-/// Adds `r·m` to a sum.
-pub(crate) fn accumulate(sum: &mut FxHashMap<Monomial, Rational>, m: Monomial, r: Rational) {
-    match sum.entry(m) {
-        std::collections::hash_map::Entry::Occupied(mut e) => {
-            let total = e.get() + &r;
-            e.insert(total);
+/// A sum of terms under way: a list while it is short, a table by monomial beyond.
+#[derive(Debug, Default)]
+pub(crate) struct Sum {
+    short: Vec<(Monomial, Rational)>,
+    table: FxHashMap<Monomial, Rational>,
+}
+
+/// The longest list: sorting it takes less time than a table.
+const SHORT: usize = 48;
+
+impl Sum {
+    /// Adds `r·m`.
+    pub fn add(&mut self, m: Monomial, r: Rational) {
+        if self.short.len() < SHORT && self.table.is_empty() {
+            self.short.push((m, r));
+            return;
         }
-        std::collections::hash_map::Entry::Vacant(e) => {
-            e.insert(r);
+        if self.table.is_empty() {
+            self.table.reserve(2 * SHORT);
         }
+        for (m, r) in self.short.drain(..).chain([(m, r)]) {
+            match self.table.entry(m) {
+                std::collections::hash_map::Entry::Occupied(mut e) => {
+                    let total = e.get() + &r;
+                    e.insert(total);
+                }
+                std::collections::hash_map::Entry::Vacant(e) => {
+                    e.insert(r);
+                }
+            }
+        }
+    }
+
+    /// The polynomial.
+    pub fn finish(self) -> Poly {
+        let Sum { mut short, table } = self;
+        let is_short = table.is_empty();
+        short.extend(table);
+        short.sort_unstable_by(|a, b| a.0.cmp(&b.0));
+        if is_short {
+            short.dedup_by(|next, sum| {
+                let is_like = next.0 == sum.0;
+                if is_like {
+                    sum.1 = &sum.1 + &next.1;
+                }
+                is_like
+            });
+        }
+        short.retain(|t| !t.1.is_zero());
+        Poly(short)
     }
 }

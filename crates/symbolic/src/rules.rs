@@ -2,9 +2,8 @@
 //!
 //! S² → 1 − C² and √2² → 2 are such rules. What the atoms stand for, and what a product may cost, is the caller's.
 
-use crate::poly::{Atom, Monomial, Poly, accumulate};
+use crate::poly::{Atom, Monomial, Poly, Sum};
 use crate::rational::Rational;
-use rustc_hash::FxHashMap;
 
 /// The rules of numbered atoms.
 ///
@@ -23,6 +22,13 @@ use rustc_hash::FxHashMap;
 #[derive(Clone, Debug, Default)]
 pub struct Rules {
     squares: Vec<Option<Poly>>,
+}
+
+/// A product under way: what is done, and what the rules apply to yet.
+#[derive(Default)]
+struct UnderWay {
+    sum: Sum,
+    pending: Vec<(Formed, Monomial, Rational)>,
 }
 
 /// How a term came to be.
@@ -65,26 +71,59 @@ impl Rules {
         b: &Poly,
         mut pay: impl FnMut(Formed, &Rational) -> Result<(), E>,
     ) -> Result<Poly, E> {
-        let mut sum = FxHashMap::default();
-        let mut pending: Vec<(Formed, Monomial, Rational)> = vec![];
+        let mut under_way = UnderWay::default();
         for (m, r) in a.terms() {
             for (n, t) in b.terms() {
-                pending.push((Formed::Product, m.times(n), r * t));
-                while let Some((formed, m, r)) = pending.pop() {
-                    pay(formed, &r)?;
-                    match m.factors().iter().find_map(|&(atom, e)| Some((atom, e, self.of_power(atom, e)?))) {
-                        None => accumulate(&mut sum, m, r),
-                        Some((atom, exponent, square)) => {
-                            let rest = m.without(atom).times(&Monomial::power(atom, exponent - 2));
-                            let replaced =
-                                |(n, t): &(Monomial, Rational)| (Formed::Replacement, rest.times(n), &r * t);
-                            pending.extend(square.terms().iter().map(replaced));
-                        }
-                    }
-                }
+                self.add(&mut under_way, m.times(n), r * t, &mut pay)?;
             }
         }
-        Ok(Poly::from_map(sum))
+        Ok(under_way.sum.finish())
+    }
+
+    /// The square in normal form; two equal products are formed, and paid for, once.
+    ///
+    /// # Errors
+    /// The first refusal.
+    pub fn square_of<E>(
+        &self,
+        a: &Poly,
+        mut pay: impl FnMut(Formed, &Rational) -> Result<(), E>,
+    ) -> Result<Poly, E> {
+        let mut under_way = UnderWay::default();
+        let two = Rational::from(2);
+        for (i, (m, r)) in a.terms().iter().enumerate() {
+            self.add(&mut under_way, m.times(m), r * r, &mut pay)?;
+            let twice = &two * r;
+            for (n, t) in &a.terms()[i + 1..] {
+                self.add(&mut under_way, m.times(n), &twice * t, &mut pay)?;
+            }
+        }
+        Ok(under_way.sum.finish())
+    }
+
+    /// Adds a product of two terms, by the rules.
+    fn add<E>(
+        &self,
+        UnderWay { sum, pending }: &mut UnderWay,
+        m: Monomial,
+        r: Rational,
+        pay: &mut impl FnMut(Formed, &Rational) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let mut next = Some((Formed::Product, m, r));
+        while let Some((formed, m, r)) = next {
+            pay(formed, &r)?;
+            match m.factors().iter().find_map(|&(atom, e)| Some((atom, e, self.of_power(atom, e)?))) {
+                None => sum.add(m, r),
+                Some((atom, exponent, square)) => {
+                    let rest = m.without(atom).times(&Monomial::power(atom, exponent - 2));
+                    let replaced =
+                        |(n, t): &(Monomial, Rational)| (Formed::Replacement, rest.times(n), &r * t);
+                    pending.extend(square.terms().iter().map(replaced));
+                }
+            }
+            next = pending.pop();
+        }
+        Ok(())
     }
 
     /// The rule that applies to a power of an atom.

@@ -18,6 +18,7 @@ pub fn run(is_quick: bool) -> Result<String> {
     let mut text = INTRODUCTION.replace("@poses@", &poses.to_string());
     text += &general(&measured["general"])?;
     text += &redundant(&measured["redundant"])?;
+    text += &following(&measured["following"])?;
     text += &numeric(&measured["numeric"])?;
     println!("{text}");
     Ok(text)
@@ -48,6 +49,13 @@ const REDUNDANT: &str = "\
 One configuration within the limits, for poses of configurations within the limits, without a start. All must be solved.\n\n\
 | | parameter | solved | mean µs | median µs | p99 µs | limit of the mean |\n\
 |---|---|---:|---:|---:|---:|---:|\n";
+
+const FOLLOWING: &str = "\
+\nPoses of paths between configurations within the limits, one after the other: the configuration within the limits that is\n\
+nearest to the last one. Jumps: poses without one nearby. Of all: times as long takes what has all arcs of the self-motion\n\
+computed and the nearest of their members chosen, in the same run.\n\n\
+| | poses | jumps | largest error | mean µs | median µs | p99 µs | of all | limit of the mean |\n\
+|---|---:|---:|---:|---:|---:|---:|---:|---:|\n";
 
 const NUMERIC: &str = "\
 \n### Descent\n\n\
@@ -103,6 +111,24 @@ fn redundant(measured: &Value) -> Result<String> {
             arm["parameter"].as_str().unwrap_or_default(),
             all(&arm["solved"]),
             times(arm),
+            limit(arm, "mean", 0),
+        );
+    }
+    Ok(text)
+}
+
+fn following(measured: &Value) -> Result<String> {
+    let mut text = FOLLOWING.to_string();
+    for arm in measured.as_array().context("a list of arms")? {
+        let _ = writeln!(
+            text,
+            "| {} | {} | {} | {:.0e} | {} | {:.0} | {} |",
+            title(arm)?,
+            arm["poses"],
+            arm["jumps"],
+            number(&arm["worst"]),
+            times(arm),
+            number(&arm["ratio"]),
             limit(arm, "mean", 0),
         );
     }

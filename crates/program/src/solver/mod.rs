@@ -8,6 +8,7 @@ mod build;
 mod evaluate;
 mod quartic;
 mod roots;
+mod text;
 
 pub use build::{Level, Output, Register, SolverBuilder};
 pub use evaluate::{Ended, Leaf, Leaves, Solutions, SolverBatch, SolverFunction, SolverScalar, Walk};

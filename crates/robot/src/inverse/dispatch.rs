@@ -12,7 +12,7 @@
 use super::answer::{Answer, Doubt, Family, Obstacle, Solution};
 use super::branch::Branch;
 use super::closed::InverseSolver;
-use super::derivation::{Goal, InverseModel, InverseOptions, NotGiven, Refusal};
+use super::derivation::{Extent, Goal, InverseModel, InverseOptions, NotGiven, Refusal};
 use super::general::GeneralSolver;
 use super::newton;
 use super::numeric::NumericSolver;
@@ -164,7 +164,7 @@ impl InverseKinematics {
             return Ok(this);
         }
         let asked = options.given.clone().unwrap_or_default();
-        let closed = match InverseModel::derive(description, options) {
+        let closed = match InverseModel::derive_for(description, options, Extent::Solver) {
             Ok(model) => {
                 this.given.clone_from(&model.given);
                 Some(Box::new(model.solver(description)?))

@@ -17,6 +17,7 @@ pub(crate) mod newton;
 pub mod numeric;
 pub mod redundant;
 pub mod self_motion;
+mod track;
 
 pub use crate::space::JointSpace;
 pub use answer::{Answer, Doubt, Family, Obstacle, Solution};
@@ -28,3 +29,4 @@ pub use members::{MAX_MEMBERS, Members};
 pub use numeric::NumericSolver;
 pub use redundant::{Component, Criterion, Manifold, NotSolved, RedundantSolver};
 pub use self_motion::{CurveEnd, SelfMotion};
+pub use track::{Course, Tracked};

@@ -15,7 +15,7 @@ const FAR: f64 = 0.3;
 
 /// The error of a pose as rotation vector and displacement by `size`, both in the base; zeros where the goal gives
 /// nothing.
-fn error(goal: Goal, wanted: &Transform<f64>, have: &Transform<f64>, size: f64) -> [f64; 6] {
+pub(super) fn error(goal: Goal, wanted: &Transform<f64>, have: &Transform<f64>, size: f64) -> [f64; 6] {
     let turn = rotation_error(goal, wanted, have);
     let d = wanted.translation - have.translation;
     [turn[0], turn[1], turn[2], d[0] / size, d[1] / size, d[2] / size]

@@ -24,5 +24,7 @@ mod numeric;
 mod redundant;
 mod scope;
 mod singular;
+mod solver_text;
+mod track;
 mod velocity;
 mod workspace;

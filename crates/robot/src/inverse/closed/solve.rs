@@ -105,6 +105,17 @@ impl InverseModel {
         compile::rounding(self)
     }
 
+    /// The compiled steps with the numbers of a robot.
+    pub(in crate::inverse) fn function(
+        &self,
+        description: &Description,
+        robot: &Robot<f64>,
+    ) -> Result<SolverFunction, MissingValue> {
+        let usual = inputs(robot, self.goal, &self.given, &somewhere(robot));
+        let compiled = self.compiled.solver.compile_with(|s| description.value(s))?;
+        Ok(compiled.with_usual_guards(usual.iter().map(Vec::as_slice)))
+    }
+
     /// The solver for the numbers of a robot: those of the description that the model was derived from, or others with
     /// the same zeros and angles.
     ///
@@ -119,7 +130,7 @@ impl InverseModel {
         let seen = anywhere.iter().map(seen).fold(0.0, f64::max).min(1.0);
         let usual = inputs(&robot, self.goal, &self.given, &anywhere);
         let usual = || usual.iter().map(Vec::as_slice);
-        let function = self.compiled.solver.compile_with(value)?.with_usual_guards(usual());
+        let function = self.function(description, &robot)?;
         let nearest =
             compile::without_residual(self).compile_with(value)?.with_usual_guards(usual()).scalar();
         let facts = |steps: &[Step], labels: &[Option<Label>]| -> Vec<NodeFacts> {

@@ -109,19 +109,17 @@ impl Algebra {
             return a.scaled(&r);
         }
         let mut work = self.work.get();
-        let Ok(product) = self.rules.times(a, b, |formed, r| {
-            if formed == Formed::Product {
-                work += if r.to_parts().is_some() { 1 } else { 1 + LONG };
-            }
-            Ok::<(), Infallible>(())
-        });
+        let Ok(product) = self.rules.times(a, b, |formed, r| counted(&mut work, formed, r));
         self.work.set(work);
         product
     }
 
     /// The square.
     pub fn square(&self, a: &Poly) -> Poly {
-        self.times(a, a)
+        let mut work = self.work.get();
+        let Ok(square) = self.rules.square_of(a, |formed, r| counted(&mut work, formed, r));
+        self.work.set(work);
+        square
     }
 
     /// The value, atoms having these values.
@@ -175,6 +173,14 @@ impl Algebra {
         }
         Poly::from_terms(terms)
     }
+}
+
+/// Counts a product of two terms.
+fn counted(work: &mut u64, formed: Formed, r: &Rational) -> Result<(), Infallible> {
+    if formed == Formed::Product {
+        *work += if r.to_parts().is_some() { 1 } else { 1 + LONG };
+    }
+    Ok(())
 }
 
 /// True for a number with more digits than somebody would work with.

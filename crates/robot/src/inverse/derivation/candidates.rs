@@ -6,7 +6,7 @@
 use super::algebra::Kind;
 use super::chain::NormalChain;
 use super::equations::{Equation, Split};
-use super::known::{Known, Samples, Unknown};
+use super::known::{Known, Samples, Unknown, Ways, rewritten};
 use super::plan::{Cost, Determinant, Elimination, Form, Norm, Origin, Row, Step};
 use denavit_symbolic::Rational;
 use denavit_symbolic::poly::{Atom, Monomial, Poly};
@@ -29,6 +29,10 @@ pub struct Problem<'a> {
     pub samples: &'a Samples,
     /// Sums of squares that were multiplied out.
     squares: RefCell<FxHashMap<SquaresKey, Poly>>,
+    /// Squares of what is open of components of a position.
+    squared: RefCell<FxHashMap<Poly, Poly>>,
+    /// Polynomials in the basis of their unknowns, by the ways to the angles that were replaced.
+    rewritten: RefCell<FxHashMap<(Poly, Ways), Poly>>,
 }
 
 /// Equations of one unknown that are compared in pairs.
@@ -59,7 +63,15 @@ impl<'a> Problem<'a> {
         splits: &'a [Split],
         samples: &'a Samples,
     ) -> Self {
-        Problem { chain, equations, splits, samples, squares: RefCell::default() }
+        Problem {
+            chain,
+            equations,
+            splits,
+            samples,
+            squares: RefCell::default(),
+            squared: RefCell::default(),
+            rewritten: RefCell::default(),
+        }
     }
 }
 
@@ -94,11 +106,8 @@ impl Problem<'_> {
                 continue;
             }
             let origin = Origin::Entry(e.source);
-            let zero = if unknowns.len() == 1 {
-                known.in_basis(self.chain, &e.zero, &unknowns)
-            } else {
-                e.zero.clone()
-            };
+            let zero =
+                if unknowns.len() == 1 { self.in_basis(known, &e.zero, &unknowns) } else { e.zero.clone() };
             found.push(Seen { unknowns, zero: zero.into(), degree: e.degree, origin });
         }
         for s in self.splits.iter().take_while(|_| !self.chain.algebra.is_spent()) {
@@ -155,7 +164,7 @@ impl Problem<'_> {
                 // What is known on the side of the chain goes over before it is squared.
                 let parts: Vec<(Poly, Poly)> = chain.iter().map(|c| self.known_part(known, c)).collect();
                 let open: Vec<&Poly> = parts.iter().map(|p| &p.1).collect();
-                let square = |sum: Poly, p: &&Poly| sum.plus(&a.square(p));
+                let square = |sum: Poly, p: &&Poly| sum.plus(&self.squared(p));
                 Norm {
                     plus: open.iter().fold(Poly::zero(), square).scaled(&-Rational::ONE),
                     squares: pose.iter().zip(&parts).map(|(p, (k, _))| p.minus(k)).collect(),
@@ -174,7 +183,7 @@ impl Problem<'_> {
             basis.extend(known.third(&unknowns));
             for i in 0..basis.len() {
                 for j in i + 1..basis.len() {
-                    let p = known.in_basis(self.chain, &zero.plus, &[basis[i], basis[j]]);
+                    let p = self.in_basis(known, &zero.plus, &[basis[i], basis[j]]);
                     let left = unknowns_of(&p);
                     if left.len() < unknowns.len() {
                         (zero.plus, unknowns) = (p, left);
@@ -186,10 +195,36 @@ impl Problem<'_> {
             return None;
         }
         if unknowns.len() == 1 {
-            zero.plus = known.in_basis(self.chain, &zero.plus, &unknowns);
+            zero.plus = self.in_basis(known, &zero.plus, &unknowns);
         }
         let origin = Origin::Squares { left: split.left, right: split.right, components };
         Some(Seen { unknowns, zero, degree: 2, origin })
+    }
+
+    /// The polynomial with its unknown angles written in those of a basis.
+    fn in_basis(&self, known: &Known, p: &Poly, basis: &[Unknown]) -> Poly {
+        let ways = known.ways(self.chain, p, basis);
+        if ways.is_empty() {
+            return p.clone();
+        }
+        let key = (p.clone(), ways);
+        if let Some(found) = self.rewritten.borrow().get(&key) {
+            return found.clone();
+        }
+        let found = rewritten(self.chain, p, &key.1);
+        self.rewritten.borrow_mut().insert(key, found.clone());
+        found
+    }
+
+    /// The square, which is asked for again from the next state on.
+    fn squared(&self, p: &Poly) -> Poly {
+        let mut known = self.squared.borrow_mut();
+        if let Some(square) = known.get(p) {
+            return square.clone();
+        }
+        let square = self.chain.algebra.square(p);
+        known.insert(p.clone(), square.clone());
+        square
     }
 
     /// The terms of a polynomial that are known, and the others.
@@ -401,7 +436,7 @@ impl Problem<'_> {
                 .take(PAIRS)
                 .filter_map(|s| {
                     let zero = self.expanded(&s.zero)?;
-                    Some((self.view(&known.in_basis(self.chain, &zero, &[x, y]), y), s))
+                    Some((self.view(&self.in_basis(known, &zero, &[x, y]), y), s))
                 })
                 .filter(|(view, _)| {
                     let degree = view.keys().map(|k| k.0 + k.1).max().unwrap_or(0);

@@ -62,6 +62,11 @@ impl Known {
         }
     }
 
+    /// The axes that are not known.
+    pub fn open(&self, chain: &NormalChain) -> Vec<Unknown> {
+        (0..chain.axes.len()).map(|k| axis_unknown(chain, k)).filter(|&x| !self.knows(x)).collect()
+    }
+
     /// True if every axis is known.
     pub fn everything(&self) -> bool {
         self.slides.iter().all(|&x| x) && self.component.iter().all(|c| c.iter().all(|&n| n == 0))
@@ -127,54 +132,27 @@ impl Known {
         Some(Unknown::Angle(Difference { group: a.group, from: p.min(q), to: p.max(q) }))
     }
 
-    /// The polynomial with its unknown angles written in those of `basis`.
-    pub(crate) fn in_basis(&self, chain: &NormalChain, p: &Poly, basis: &[Unknown]) -> Poly {
-        let a = &chain.algebra;
-        let mut pairs: BTreeMap<usize, (Poly, Poly)> = BTreeMap::new();
+    /// The unknown angles of a polynomial that `basis` does not have, each with the way to it over angles of the basis.
+    pub(crate) fn ways(&self, chain: &NormalChain, p: &Poly, basis: &[Unknown]) -> Ways {
+        let mut found: Ways = vec![];
         for atom in p.atoms() {
-            if let Kind::Cos(n) | Kind::Sin(n) = a.kind(atom) {
+            if let Kind::Cos(n) | Kind::Sin(n) = chain.algebra.kind(atom) {
                 let d = chain.differences[n];
                 let x = Unknown::Angle(d);
-                if !self.knows(x) && !basis.contains(&x) && !pairs.contains_key(&n) {
-                    let Some(pair) = self.expanded(chain, d, basis) else { continue };
-                    pairs.insert(n, pair);
+                if !self.knows(x)
+                    && !basis.contains(&x)
+                    && found.iter().all(|w| w.0 != n)
+                    && let Some(way) = self.way(d, basis)
+                {
+                    found.push((n, way));
                 }
             }
         }
-        if pairs.is_empty() {
-            return p.clone();
-        }
-        let mut sum: Vec<Poly> = vec![];
-        let mut kept: Vec<(Monomial, Rational)> = vec![];
-        for (m, r) in p.terms() {
-            let mut rest = Monomial::one();
-            let mut product: Option<Poly> = None;
-            for &(atom, n) in m.factors() {
-                let replaced = match a.kind(atom) {
-                    Kind::Cos(k) => pairs.get(&k).map(|x| &x.0),
-                    Kind::Sin(k) => pairs.get(&k).map(|x| &x.1),
-                    _ => None,
-                };
-                match replaced {
-                    None => rest = rest.times(&Monomial::power(atom, n)),
-                    Some(x) => {
-                        for _ in 0..n {
-                            product = Some(product.map_or_else(|| x.clone(), |y| a.times(&y, x)));
-                        }
-                    }
-                }
-            }
-            match product {
-                None => kept.push((rest, r.clone())),
-                Some(x) => sum.push(a.times(&x, &Poly::term(rest, r.clone()))),
-            }
-        }
-        let terms = sum.iter().flat_map(|p| p.terms().iter().cloned()).chain(kept);
-        Poly::from_terms(terms)
+        found
     }
 
-    /// Cosine and sine of a difference by angles of a basis and known ones.
-    fn expanded(&self, chain: &NormalChain, d: Difference, basis: &[Unknown]) -> Option<(Poly, Poly)> {
+    /// A difference over at most two angles of a basis.
+    fn way(&self, d: Difference, basis: &[Unknown]) -> Option<Vec<(usize, usize)>> {
         let nodes = &self.component[d.group];
         let (start, goal) = (nodes[d.from], nodes[d.to]);
         // A path over at most two edges of the basis.
@@ -198,15 +176,52 @@ impl Known {
                 }
             }
         }
-        let mut at = d.from;
-        let mut sum = (Poly::one(), Poly::zero());
-        for (p, q) in path? {
-            sum = add_angles(&chain.algebra, &sum, &chain.pair(d.group, at, p));
-            sum = add_angles(&chain.algebra, &sum, &chain.pair(d.group, p, q));
-            at = q;
-        }
-        Some(add_angles(&chain.algebra, &sum, &chain.pair(d.group, at, d.to)))
+        path
     }
+}
+
+/// Differences of potentials by number, each as a way over other differences.
+pub(crate) type Ways = Vec<(usize, Vec<(usize, usize)>)>;
+
+/// The polynomial with these angles written over the ways to them.
+pub(crate) fn rewritten(chain: &NormalChain, p: &Poly, ways: &Ways) -> Poly {
+    let a = &chain.algebra;
+    let pairs: BTreeMap<usize, (Poly, Poly)> =
+        ways.iter().map(|(n, way)| (*n, expanded(chain, chain.differences[*n], way))).collect();
+    let of = |atom: Atom| match a.kind(atom) {
+        Kind::Cos(k) => pairs.get(&k).map(|x| &x.0),
+        Kind::Sin(k) => pairs.get(&k).map(|x| &x.1),
+        _ => None,
+    };
+    // Terms by what of them is replaced: each such product is formed once.
+    let mut parts: BTreeMap<Monomial, Vec<(Monomial, Rational)>> = BTreeMap::new();
+    for (m, r) in p.terms() {
+        let (replaced, rest) = m.parted(|atom| of(atom).is_some());
+        parts.entry(replaced).or_default().push((rest, r.clone()));
+    }
+    let mut terms: Vec<(Monomial, Rational)> = vec![];
+    for (replaced, rest) in parts {
+        if replaced.is_one() {
+            terms.extend(rest);
+            continue;
+        }
+        let factors = replaced.factors().iter().flat_map(|&(atom, n)| (0..n).filter_map(move |_| of(atom)));
+        let product = factors.fold(Poly::one(), |product, x| a.times(&product, x));
+        terms.extend(a.times(&product, &Poly::from_terms(rest)).terms().iter().cloned());
+    }
+    Poly::from_terms(terms)
+}
+
+/// Cosine and sine of a difference by angles on a way to it and known ones.
+fn expanded(chain: &NormalChain, d: Difference, way: &[(usize, usize)]) -> (Poly, Poly) {
+    let mut at = d.from;
+    let mut sum = (Poly::one(), Poly::zero());
+    for &(p, q) in way {
+        sum = add_angles(&chain.algebra, &sum, &chain.pair(d.group, at, p));
+        sum = add_angles(&chain.algebra, &sum, &chain.pair(d.group, p, q));
+        at = q;
+    }
+    add_angles(&chain.algebra, &sum, &chain.pair(d.group, at, d.to))
 }
 
 /// The unknown that an axis is.

@@ -5,8 +5,9 @@ use super::chain::{self, End, Motion, NormalChain, Unsuitable};
 use super::compile::{self, Compiled};
 use super::conditions::{self, Condition, Task};
 use super::equations::{Goal, Split, equations};
-use super::known::{Samples, Unknown, axis_unknown};
+use super::known::{Known, Samples, Unknown, axis_unknown};
 use super::plan::{Form, Step};
+use super::screen::Screen;
 use super::search::{self, Outcome};
 use crate::description::Description;
 use crate::inverse::branch::{Label, Part};
@@ -188,6 +189,17 @@ impl Stuck {
     }
 }
 
+/// How much of a model is derived.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(in crate::inverse) enum Extent {
+    /// Everything that can be said of it; of one that is refused, what was found.
+    Whole,
+    /// What solves poses; a derivation that cannot end is refused before it begins.
+    Solver,
+    /// The steps and their solver alone.
+    Steps,
+}
+
 /// Sets of joints that are tried as given.
 const TRIALS: usize = 40;
 /// Branches of a derivation that is accepted at once.
@@ -199,6 +211,15 @@ impl InverseModel {
     /// # Errors
     /// See [`Refusal`].
     pub fn derive(description: &Description, options: &InverseOptions) -> Result<Self, Refusal> {
+        InverseModel::derive_for(description, options, Extent::Whole)
+    }
+
+    /// The same for a purpose.
+    pub(in crate::inverse) fn derive_for(
+        description: &Description,
+        options: &InverseOptions,
+        extent: Extent,
+    ) -> Result<Self, Refusal> {
         let settled = chain::settled(description);
         let end = if options.goal == Goal::Pose { End::Pose } else { End::Point };
         let chain = NormalChain::new(&settled, end).map_err(Refusal::Unsuitable)?;
@@ -206,10 +227,7 @@ impl InverseModel {
         if let Some(j) = options.given.iter().flatten().find(|&&j| j >= n) {
             return Err(Refusal::Given(NotGiven::NoSuchJoint { joint: *j, joints: n }));
         }
-        let (found, splits) = equations(&chain, options.goal);
-        let value = |s: Symbol| settled.value(s);
-        let samples = Samples::new(&chain, value);
-        let problem = Problem::new(&chain, &found, &splits, &samples);
+        let samples = Samples::new(&chain, |s: Symbol| settled.value(s));
         let rank = rank(&chain, &samples, options.goal);
         let surplus = n - rank.min(n);
 
@@ -222,20 +240,18 @@ impl InverseModel {
                 _ => NotGiven::TooMany { given: asked.len(), surplus },
             }));
         }
-        let (given, outcome) = choose(&problem, &asked, surplus);
+        let screen = (options.goal == Goal::Pose).then(|| Screen::new(&chain, &samples));
+        if extent != Extent::Whole && !may_end(&chain, screen.as_ref(), &asked, surplus) {
+            let outcome =
+                Outcome { steps: vec![], missing: Known::new(&chain, &axes_of(&chain, &asked)).open(&chain) };
+            return Err(stuck(chain, outcome, asked, surplus, false));
+        }
+        let (found, splits) = equations(&chain, options.goal);
+        let problem = Problem::new(&chain, &found, &splits, &samples);
+        let (given, outcome) = choose(&problem, screen.as_ref(), &asked, surplus);
         if !outcome.is_complete() || !is_whole(&chain, &splits) {
-            let missing = missing(&chain, &outcome, &given);
-            let (steps, work) = (outcome.steps, chain.algebra.work());
             let is_spent = chain.algebra.is_spent() || !is_whole(&chain, &splits);
-            return Err(Refusal::Stuck(Box::new(Stuck {
-                chain,
-                steps,
-                missing,
-                surplus,
-                given,
-                work,
-                is_spent,
-            })));
+            return Err(stuck(chain, outcome, given, surplus, is_spent));
         }
         let labels = labels(&chain, &outcome.steps);
         let [of_position, with_axis] =
@@ -244,7 +260,7 @@ impl InverseModel {
         let lacking = if options.goal == Goal::Pose { 6 - rank } else { 0 };
         let axes = axes_of(&chain, &given);
         let conditions = conditions::conditions(&chain, &found, &outcome.steps, &axes, &samples, lacking);
-        let others = if rank < 6 || !given.is_empty() {
+        let others = if extent != Extent::Steps && (rank < 6 || !given.is_empty()) {
             search::variants(&problem, &axes, &outcome.steps)
         } else {
             vec![]
@@ -291,6 +307,26 @@ impl InverseModel {
     }
 }
 
+/// A refusal.
+fn stuck(chain: NormalChain, outcome: Outcome, given: Vec<usize>, surplus: usize, is_spent: bool) -> Refusal {
+    let missing = missing(&chain, &outcome, &given);
+    let (steps, work) = (outcome.steps, chain.algebra.work());
+    Refusal::Stuck(Box::new(Stuck { chain, steps, missing, surplus, given, work, is_spent }))
+}
+
+/// False if no search can end, with the joints that are given or with as many more as the arm has too many.
+fn may_end(chain: &NormalChain, screen: Option<&Screen>, asked: &[usize], surplus: usize) -> bool {
+    let Some(screen) = screen else { return true };
+    let open: Vec<usize> = (0..chain.variables.len()).filter(|j| !asked.contains(j)).collect();
+    let may_end = |more: &Vec<usize>| {
+        let given: Vec<usize> = asked.iter().chain(more).copied().collect();
+        screen.may_end(&axes_of(chain, &given))
+    };
+    // Of more sets than are tried only the first are listed.
+    let sets = subsets(&open, surplus - asked.len());
+    sets.len() > TRIALS || sets.iter().any(may_end)
+}
+
 /// True if the product of the whole chain was not too long to be formed.
 fn is_whole(chain: &NormalChain, splits: &[Split]) -> bool {
     splits.iter().any(|s| s.left == 0 && s.right == chain.elements.len())
@@ -314,7 +350,12 @@ type Price = (usize, bool, u32, usize);
 
 /// Searches with the given joints, and as many more as the arm has too many: those with which the search ends with the
 /// fewest branches.
-fn choose(problem: &Problem, asked: &[usize], surplus: usize) -> (Vec<usize>, Outcome) {
+fn choose(
+    problem: &Problem,
+    screen: Option<&Screen>,
+    asked: &[usize],
+    surplus: usize,
+) -> (Vec<usize>, Outcome) {
     let chain = problem.chain;
     let first = search::search(problem, &axes_of(chain, asked));
     let more = surplus - asked.len();
@@ -334,7 +375,11 @@ fn choose(problem: &Problem, asked: &[usize], surplus: usize) -> (Vec<usize>, Ou
         }
         let mut given: Vec<usize> = asked.iter().chain(&set).copied().collect();
         given.sort_unstable();
-        let outcome = search::search(problem, &axes_of(chain, &given));
+        let axes = axes_of(chain, &given);
+        if screen.is_some_and(|s| !s.may_end(&axes)) {
+            continue;
+        }
+        let outcome = search::search(problem, &axes);
         if !outcome.is_complete() {
             continue;
         }

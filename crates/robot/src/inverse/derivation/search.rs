@@ -1,7 +1,7 @@
 //! The order in which unknowns are found: always the cheapest step that is possible.
 
 use super::candidates::Problem;
-use super::known::{Known, Unknown, axis_unknown};
+use super::known::{Known, Unknown};
 use super::plan::{Form, Step};
 use denavit_symbolic::Rational;
 use denavit_symbolic::poly::Poly;
@@ -49,9 +49,7 @@ fn search_on(problem: &Problem, given: &[usize], mut steps: Vec<Step>) -> Outcom
         known.learn(best.unknown);
         steps.push(best);
     }
-    let missing: Vec<Unknown> =
-        (0..chain.axes.len()).map(|k| axis_unknown(chain, k)).filter(|&x| !known.knows(x)).collect();
-    Outcome { steps, missing }
+    Outcome { steps, missing: known.open(chain) }
 }
 
 /// Derivations that find the unknown of a step in another way, for the places where the step's own equation does not

@@ -6,22 +6,13 @@ use denavit_symbolic::poly::{Atom, Monomial, Poly};
 
 /// The atom that became known last, of those the first.
 pub fn outermost(p: &Poly, rank: impl Fn(Atom) -> usize) -> Option<Atom> {
-    p.atoms().into_iter().max_by_key(|&a| (rank(a), std::cmp::Reverse(a)))
+    let atoms = p.terms().iter().flat_map(|t| t.0.factors().iter().map(|f| f.0));
+    atoms.max_by_key(|&a| (rank(a), std::cmp::Reverse(a)))
 }
 
 /// p = atom·inside + rest.
 pub fn split(p: &Poly, atom: Atom) -> (Poly, Poly) {
-    let (mut inside, mut rest) = (vec![], vec![]);
-    for (m, r) in p.terms() {
-        match m.exponent(atom) {
-            0 => rest.push((m.clone(), r.clone())),
-            n => {
-                let lower = m.without(atom).times(&Monomial::power(atom, n - 1));
-                inside.push((lower, r.clone()));
-            }
-        }
-    }
-    (Poly::from_terms(inside), Poly::from_terms(rest))
+    p.split(atom)
 }
 
 /// The polynomial whose square this is, if there is one.

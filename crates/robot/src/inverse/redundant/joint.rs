@@ -11,7 +11,7 @@ use crate::geometry::Transform;
 use crate::inverse::branch::{self, Label};
 use crate::inverse::closed::variables;
 use crate::inverse::derivation::{Goal, InverseModel};
-use crate::mechanism::MissingValue;
+use crate::mechanism::{MissingValue, Robot};
 use crate::shared::Shared;
 use crate::space::JointSpace;
 use denavit_program::solver::{Leaf, SolverScalar};
@@ -77,13 +77,14 @@ impl ByJoint {
     pub fn new(
         model: &InverseModel,
         description: &Description,
+        robot: &Robot<f64>,
         space: &JointSpace,
     ) -> Result<Self, MissingValue> {
-        let solver = model.solver(description)?;
+        let function = model.function(description, robot)?;
         let given = model.given.clone();
         let name = given.last().map(|&j| description.variables()[j].symbol.name().to_string());
         Ok(ByJoint {
-            scalar: Shared::new(solver.function().scalar()),
+            scalar: Shared::new(function.scalar()),
             goal: model.goal,
             name: name.unwrap_or_default(),
             labels: model.labels.clone(),

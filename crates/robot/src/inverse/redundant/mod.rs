@@ -26,7 +26,7 @@ pub use manifold::{Component, Manifold};
 
 use super::answer::{Doubt, Solution};
 use super::branch::Branch;
-use super::derivation::{Goal, InverseModel, InverseOptions};
+use super::derivation::{Extent, Goal, InverseModel, InverseOptions};
 use super::newton;
 use super::self_motion::Frame;
 use crate::description::Description;
@@ -132,9 +132,9 @@ impl RedundantSolver {
         {
             return Ok(Method::ArmAngle(Box::new(arm)));
         }
-        match InverseModel::derive(description, &InverseOptions { goal, given: None }) {
+        match InverseModel::derive_for(description, &InverseOptions { goal, given: None }, Extent::Steps) {
             Ok(model) if !model.given.is_empty() => {
-                Ok(Method::Joint(Box::new(ByJoint::new(&model, description, space)?)))
+                Ok(Method::Joint(Box::new(ByJoint::new(&model, description, robot, space)?)))
             }
             _ if surplus == 1 => Ok(Method::Curve(Box::new(ByCurve::new(robot, goal, space)))),
             _ => Err(NotSolved::NoClosedForm(surplus)),
