@@ -328,7 +328,7 @@ impl InverseKinematics {
         answer.obstacle = Some(Obstacle { unknown: None, q: outcome.q, angle, distance, violated: vec![] });
     }
 
-    pub(super) fn size(&self, pose: &Transform<f64>) -> f64 {
+    pub(crate) fn size(&self, pose: &Transform<f64>) -> f64 {
         self.space.size(pose)
     }
 

@@ -24,5 +24,6 @@ mod numeric;
 mod redundant;
 mod scope;
 mod singular;
+mod singular_motion;
 mod velocity;
 mod workspace;
