@@ -200,7 +200,7 @@ pub fn list(text: &str) -> Vec<&str> {
 }
 
 /// The text without brackets around it that belong together.
-fn unbracketed(text: &str) -> &str {
+pub fn unbracketed(text: &str) -> &str {
     let mut depth = 0;
     let closes = text.char_indices().find_map(|(at, c)| {
         match c {

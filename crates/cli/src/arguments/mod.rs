@@ -171,6 +171,9 @@ pub struct IkArguments {
     /// What of the tool is to be met
     #[arg(long, value_enum, default_value_t = GoalName::Pose)]
     pub goal: GoalName,
+    /// The position alone is to be met, the same as --goal position
+    #[arg(long, conflicts_with = "goal")]
+    pub position: bool,
     /// Give the solution nearest to these joint variables as well, moved by whole turns; solutions within the limits come
     /// first, however far
     #[arg(long, value_name = "Q", allow_hyphen_values = true)]
@@ -204,6 +207,13 @@ pub struct IkArguments {
     /// Print JSON
     #[arg(long, conflicts_with = "format")]
     pub json: bool,
+}
+
+impl IkArguments {
+    /// What of the tool is to be met.
+    pub fn goal(&self) -> Goal {
+        if self.position { Goal::Position } else { self.goal.into() }
+    }
 }
 
 /// `check`

@@ -191,6 +191,8 @@ pub struct Report<'a> {
     pub at: Option<&'a [f64]>,
     /// How far the nearest of all solutions, members of families included, is from that configuration.
     pub away: Option<f64>,
+    /// The family that it is a member of, if it is of one.
+    pub member: Option<usize>,
     /// The solution nearest to what was asked for.
     pub nearest: Option<&'a Nearest>,
 }
@@ -267,7 +269,10 @@ impl Report<'_> {
             return String::new();
         }
         match away <= SAME {
-            true => "\n  -q is a member of a family\n".into(),
+            true => match self.member {
+                Some(k) => format!("\n  -q is a member of family {}\n", k + 1),
+                None => "\n  -q is a member of a family\n".into(),
+            },
             false => format!(
                 "\n  -q is {} from the nearest of these: so close are solutions to each other where the arm is nearly singular\n",
                 reading(away, JointKind::Revolute)
@@ -364,7 +369,11 @@ impl Report<'_> {
             }
         );
         let free = f.free.join(", ");
+        let is_length = f.free == ["s"];
         let mut of = format!("free: {free}");
+        if is_length {
+            of += ", the length along the curve in radians (slides by the arm's size)";
+        }
         let shown = |x: f64| match self.description.variables().iter().find(|v| *v.symbol.name() == *free) {
             Some(v) => reading(x, v.kind),
             None if free == "s" => number(x, 1e-9),
@@ -378,8 +387,14 @@ impl Report<'_> {
             let stretches: Vec<String> = f.feasible.iter().map(stretch).collect();
             of += &format!("; within the limits {}", stretches.join(", "));
         }
+        let of_joint = self.description.variables().iter().position(|v| *v.symbol.name() == *free);
+        if let (Some(j), true) = (of_joint, f.feasible.is_empty())
+            && let Some([low, high]) = self.question.space.limits[j]
+        {
+            of += &format!("; its limits are {} and {}", shown(low), shown(high));
+        }
         if f.dimension > 1 {
-            of += &format!("; {} parameters", f.dimension);
+            of += &format!("; {} parameters, all of them together in one family", f.dimension);
         }
         text += &format!("  {}\n", styled(&of, FAINT));
         text + &self.table(std::iter::once(&f.representative))

@@ -16,7 +16,7 @@ use denavit::Robot;
 use denavit::description::{Description, JointKind};
 use denavit::idealise::{Ideal, idealised};
 use denavit::inverse::{
-    Criterion, Goal, InverseKinematics, InverseModel, InverseOptions, Refusal, Unprepared,
+    Criterion, Goal, InverseKinematics, InverseModel, InverseOptions, Refusal, Task, Unprepared,
 };
 use denavit::quantity::reading;
 use denavit_report::document::Block;
@@ -38,7 +38,7 @@ pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
         None => None,
     };
     let description = ideal.as_ref().map_or_else(|| loaded.clone(), |i| i.description.clone());
-    let goal: Goal = arguments.goal.into();
+    let goal = arguments.goal();
     let given = given(&description, arguments.given.as_deref())?;
     let options = InverseOptions {
         goal,
@@ -54,7 +54,7 @@ pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
             Err(refusal) => return Err(refused(arguments, &description, &refusal)?),
         };
         write!(anstream::stdout(), "{}", printed(arguments, &Explanation::of(&model)))?;
-        return Ok(());
+        return also_by_position(arguments, &description, &options, model.task);
     }
     let mut solver =
         InverseKinematics::new(&description, &options).map_err(|why| unprepared(&description, name, &why))?;
@@ -99,16 +99,47 @@ pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
             left_out: found.left_out,
             at: at.as_deref(),
             away: at.as_deref().and_then(|q| solver.nearest(&pose, answer, q)).map(|n| n.distance),
+            member: at.as_deref().and_then(|q| solver.family_of(&pose, answer, q)),
             nearest: found.best.as_ref(),
         }
         .text()
     };
     write!(anstream::stdout(), "{text}")?;
+    if goal == Goal::Pose && solver.serves_positions() {
+        note(BY_POSITION);
+    }
     if found.excluded() {
         return Err(Failure::No("there are solutions, and the limits exclude all of them".into()));
     }
     if answer.is_reachable() { Ok(()) } else { Err(Failure::No(answer::obstacle(&description, answer))) }
 }
+
+/// The position problem beside the pose problem, for an arm that serves positions: its formulas in a summary, else a hint.
+fn also_by_position(
+    arguments: &IkArguments,
+    description: &Description,
+    options: &InverseOptions,
+    task: Task,
+) -> Result<(), Failure> {
+    if options.goal != Goal::Pose || task != Task::Position {
+        return Ok(());
+    }
+    let is_summary =
+        !(arguments.json || arguments.explain || arguments.symbolic) && arguments.format == Format::Terminal;
+    let of_position = InverseOptions { goal: Goal::Position, ..options.clone() };
+    match InverseModel::derive(description, &of_position) {
+        Ok(model) if is_summary => {
+            let text = summary::text(&Explanation::of(&model));
+            writeln!(anstream::stdout(), "\nThe position alone (`--position`):\n\n{}", text.trim_end())?;
+        }
+        _ => note(BY_POSITION),
+    }
+    Ok(())
+}
+
+/// Said of an arm that serves positions.
+const BY_POSITION: &str =
+    "note: this arm has the freedoms of a position, not of a pose: `--position` asks for that alone";
 
 /// The robot cannot be solved as it is given.
 pub fn unprepared(description: &Description, name: &str, why: &Unprepared) -> Failure {
@@ -170,7 +201,7 @@ fn refused(
     match stuck {
         None if arguments.json => writeln!(out, "{}", denavit_wire::text(&Refused::of(description, &why)))?,
         Some(stuck) => {
-            let explanation = Explanation::of_stuck(description, stuck, arguments.goal.into());
+            let explanation = Explanation::of_stuck(description, stuck, arguments.goal());
             write!(out, "{}", printed(arguments, &explanation))?;
         }
         None => {}
