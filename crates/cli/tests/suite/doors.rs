@@ -111,14 +111,14 @@ fn copies_within_the_limits_are_listed() {
 /// With --limits nothing is outside of them, and what was left out is counted.
 #[test]
 fn only_what_the_limits_allow() {
-    let pose = json(&["ik", "staubli-rx90", "-q", "0.1,0.2,0.3,0.4,0.5,0.6"], 0);
+    let pose = json(&["ik", "abb-irb120", "-q", "0.1,0.2,0.3,0.4,0.5,0.6"], 0);
     let all = pose["solutions"].as_array().expect("a list");
     let within = all.iter().filter(|s| s["within_limits"] == true).count();
-    let answer = json(&["ik", "staubli-rx90", "-q", "0.1,0.2,0.3,0.4,0.5,0.6", "--limits"], 0);
+    let answer = json(&["ik", "abb-irb120", "-q", "0.1,0.2,0.3,0.4,0.5,0.6", "--limits"], 0);
     let some = answer["solutions"].as_array().expect("a list");
     assert_eq!((some.len(), answer["left_out"].as_u64()), (within, Some((all.len() - within) as u64)));
     assert!(within < all.len() && some.iter().all(|s| s["within_limits"] == true));
-    let (_, out, _) = run(&["ik", "staubli-rx90", "-q", "0.1,0.2,0.3,0.4,0.5,0.6", "--limits"], "");
+    let (_, out, _) = run(&["ik", "abb-irb120", "-q", "0.1,0.2,0.3,0.4,0.5,0.6", "--limits"], "");
     assert!(
         out.contains("outside the limits and left out") && !out.contains("outside the limits\n"),
         "{out}"

@@ -241,8 +241,11 @@ impl Report<'_> {
             text += &self.family(k, f);
         }
         if let Some(n) = self.left_out {
-            let what = if n == 1 { "is outside the limits and" } else { "are outside the limits and" };
-            text += &format!("\n  {n} {what} left out\n");
+            text += &match n {
+                0 => "\n  none is outside the limits\n".to_string(),
+                1 => "\n  1 is outside the limits and left out\n".to_string(),
+                n => format!("\n  {n} are outside the limits and left out\n"),
+            };
         }
         if let Some(nearest) = self.nearest {
             let at: Vec<String> =

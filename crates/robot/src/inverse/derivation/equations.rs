@@ -172,14 +172,16 @@ pub fn equations(chain: &NormalChain, goal: Goal) -> (Vec<Equation>, Vec<Split>)
             });
         }
     }
-    put_constants(&mut found);
+    // Of equations that become one, the shortest stays.
+    found.sort_by_key(|e| (e.zero.terms().len(), e.source));
+    put_constants(&mut found, &mut splits);
     found.sort_by_key(|e| (e.zero.terms().len(), e.source));
     (found, splits)
 }
 
 /// Entries of the rotation that the arm holds at a number are put into the other equations: az = −1 of an arm whose hand
 /// always points down.
-fn put_constants(found: &mut Vec<Equation>) {
+fn put_constants(found: &mut Vec<Equation>, splits: &mut [Split]) {
     let constants: Vec<(Atom, Rational, Source)> = found.iter().filter_map(constant).collect();
     if constants.is_empty() {
         return;
@@ -192,6 +194,10 @@ fn put_constants(found: &mut Vec<Equation>) {
             })
         }))
     };
+    for split in splits {
+        let entries = split.pose.iter_mut().chain(split.pose_rotation.iter_mut().flatten());
+        entries.flatten().for_each(|p| *p = put(p));
+    }
     let mut seen: FxHashSet<Poly> = FxHashSet::default();
     found.retain_mut(|e| {
         if !constants.iter().any(|c| c.2 == e.source) {
