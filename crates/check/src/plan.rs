@@ -86,7 +86,7 @@ impl Plan {
             for ((name, value), is_set) in options.set.iter().zip(&mut is_set) {
                 match d.set(name, value) {
                     Ok(()) => *is_set = true,
-                    Err(NotSet::Unknown(_)) => {}
+                    Err(NotSet::Unknown { .. }) => {}
                     Err(why) => refused.push(unset(name, why)),
                 }
             }
@@ -181,7 +181,7 @@ impl Plan {
         for ((name, _), _) in options.set.iter().zip(&is_set).filter(|s| !s.1) {
             let known = plan.subjects.iter().flat_map(|s| &s.description.parameters);
             let known: BTreeSet<String> = known.map(|p| p.symbol.name().to_string()).collect();
-            let why = NotSet::Unknown(known.into_iter().collect());
+            let why = NotSet::Unknown { name: name.clone(), known: known.into_iter().collect() };
             refused.push(unset(name, why));
         }
         if !refused.is_empty() {

@@ -264,8 +264,11 @@ fn what_is_not_read() {
         Noted::TooLong { bytes: 9_000_000, most: 8_000_000 },
         Noted::NoRobot,
         Noted::ReadAs(Convention::Khalil),
-        Noted::NotSet("a9".into(), NotSet::Unknown(vec![])),
-        Noted::NotSet("a9".into(), NotSet::Unknown(vec!["a1".into(), "a2".into()])),
+        Noted::NotSet("a9".into(), NotSet::Unknown { name: "a9".into(), known: vec![] }),
+        Noted::NotSet(
+            "a9".into(),
+            NotSet::Unknown { name: "a9".into(), known: vec!["a1".into(), "a2".into()] },
+        ),
         Noted::UnknownRobot("nobody".into()),
         Noted::NoSuchTable,
         Noted::UnknownConvention("foo".into()),

@@ -55,8 +55,13 @@ pub fn read_value(text: &str, measure: Measure) -> Result<Expr, Vec<Diagnostic>>
 /// Why a parameter has not been given a value.
 #[derive(Clone, PartialEq, Debug)]
 pub enum NotSet {
-    /// There is no such parameter; these are there.
-    Unknown(Vec<String>),
+    /// There is no parameter of this name.
+    Unknown {
+        /// The name.
+        name: String,
+        /// Those that are there.
+        known: Vec<String>,
+    },
     /// The text is no value.
     Value(Vec<Diagnostic>),
 }
@@ -64,8 +69,12 @@ pub enum NotSet {
 impl fmt::Display for NotSet {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            NotSet::Unknown(known) if known.is_empty() => write!(f, "no such parameter; there are none"),
-            NotSet::Unknown(known) => write!(f, "no such parameter; they are {}", known.join(", ")),
+            NotSet::Unknown { name, known } if known.is_empty() => {
+                write!(f, "no parameter `{name}`; there are none")
+            }
+            NotSet::Unknown { name, known } => {
+                write!(f, "no parameter `{name}`; they are {}", known.join(", "))
+            }
             NotSet::Value(findings) => {
                 let sentence = |d: &Diagnostic| match &d.hint {
                     Some(hint) => format!("{} ({hint})", d.message),
@@ -89,7 +98,7 @@ impl Description {
         let measure = self.measure(symbol);
         let known = || self.parameters.iter().map(|p| p.symbol.name().to_string()).collect();
         let Some(at) = self.parameters.iter().position(|p| p.symbol == symbol) else {
-            return Err(NotSet::Unknown(known()));
+            return Err(NotSet::Unknown { name: name.trim().into(), known: known() });
         };
         self.parameters[at].value = Some(read_value(value.trim(), measure).map_err(NotSet::Value)?);
         Ok(())

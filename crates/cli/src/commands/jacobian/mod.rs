@@ -168,7 +168,7 @@ fn numbers(text: &str, option: &str, n: usize) -> Result<Vec<f64>, Failure> {
 }
 
 fn parts(text: &str) -> Vec<&str> {
-    load::list(text)
+    load::list(text).into_iter().flat_map(str::split_whitespace).collect()
 }
 
 /// Six components, `-` where any will do.

@@ -292,7 +292,7 @@ impl Check for French {
             Noted::ReadAs(convention) => {
                 say!("les tableaux sont lus dans la convention {convention} : le texte le dit")
             }
-            Noted::NotSet(name, NotSet::Unknown(known)) => match &known[..] {
+            Noted::NotSet(_, NotSet::Unknown { name, known }) => match &known[..] {
                 [] => say!("`{name}` reçoit une valeur : il n'y a aucun paramètre"),
                 known => {
                     say!("`{name}` reçoit une valeur : paramètre inconnu, il y a {}", known.join(", "))

@@ -4,7 +4,7 @@ use super::candidates::Problem;
 use super::chain::{self, End, Motion, NormalChain, Unsuitable};
 use super::compile::{self, Compiled};
 use super::conditions::{self, Condition, Task};
-use super::equations::{Goal, Split, equations};
+use super::equations::{Goal, Split, as_in, equations};
 use super::known::{Samples, Unknown, axis_unknown};
 use super::plan::{Form, Step};
 use super::search::{self, Outcome};
@@ -206,7 +206,8 @@ impl InverseModel {
         if let Some(j) = options.given.iter().flatten().find(|&&j| j >= n) {
             return Err(Refusal::Given(NotGiven::NoSuchJoint { joint: *j, joints: n }));
         }
-        let (found, splits) = equations(&chain, options.goal);
+        let (found, whole) = equations(&chain, options.goal);
+        let splits = as_in(&found, &whole);
         let value = |s: Symbol| settled.value(s);
         let samples = Samples::new(&chain, value);
         let problem = Problem::new(&chain, &found, &splits, &samples);
@@ -253,11 +254,11 @@ impl InverseModel {
             .into_iter()
             .map(|(step, steps)| {
                 let labels = self::labels(&chain, &steps);
-                let compiled = compile::compile(&chain, &steps, &splits, options.goal, &given, &labels);
+                let compiled = compile::compile(&chain, &steps, &whole, options.goal, &given, &labels);
                 Variant { step, steps, labels, compiled }
             })
             .collect();
-        let compiled = compile::compile(&chain, &outcome.steps, &splits, options.goal, &given, &labels);
+        let compiled = compile::compile(&chain, &outcome.steps, &whole, options.goal, &given, &labels);
         Ok(InverseModel {
             goal: options.goal,
             given_by_choice: given.len() > asked.len(),
