@@ -1,7 +1,7 @@
 //! What is said of documents that were checked: every fact in words of its own in each language.
 
 use crate::language::{both, check_text};
-use denavit::description::Convention;
+use denavit::description::{Convention, NotSet};
 use denavit::forward::Reference;
 use denavit::geometry::Axis;
 use denavit::geometry::orientation::OrientationSet;

@@ -1,7 +1,7 @@
 //! Documents in two languages: of the same structure, with the same formulas, each in its own words.
 
 use denavit::catalogue;
-use denavit::description::{Description, Moved, read_toml};
+use denavit::description::{Description, JointKind, Moved, read_toml};
 use denavit::forward::{Proof, Reference};
 use denavit::idealise::Measured;
 use denavit::inverse::{
