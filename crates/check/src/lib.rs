@@ -53,6 +53,8 @@ pub(crate) const MAX_FORMULAS: usize = 20_000;
 pub struct CheckOptions {
     /// How the tables of the document are read.
     pub table: TableOptions,
+    /// Values of parameters of the document's tables: names with the text of a value.
+    pub set: Vec<(String, String)>,
     /// What the left side of the first statement means, `T06`.
     pub claim: Option<String>,
     /// How far a numeric answer may be off, in its own unit.

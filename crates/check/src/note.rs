@@ -2,7 +2,7 @@
 
 use super::facts::ShortRow;
 use super::inverse::Composed;
-use denavit::description::{Convention, Diagnostic, Severity};
+use denavit::description::{Convention, Diagnostic, NotSet, Severity};
 use denavit_symbolic::parse::ParseError;
 use std::ops::Range;
 
@@ -45,6 +45,8 @@ pub enum Noted {
     ReadAs(Convention),
     /// A directive names a robot that is not in the catalogue.
     UnknownRobot(String),
+    /// A parameter that is to have a value does not get it.
+    NotSet(String, NotSet),
     /// A directive names a table that is not there.
     NoSuchTable,
     /// A directive names a convention that is none.

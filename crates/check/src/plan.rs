@@ -10,7 +10,7 @@ use super::walk::{Assertion, Defined, Walk};
 use denavit::catalogue;
 use denavit::description::table::{PrintedTable, tables};
 use denavit::description::{
-    Convention, Description, Diagnostic, JointKind, Parameter, TableKind, line_column,
+    Convention, Description, Diagnostic, JointKind, NotSet, Parameter, Severity, TableKind, line_column,
 };
 use denavit::geometry::Transform;
 use denavit_reading::code::Dialect;
@@ -75,7 +75,22 @@ impl Plan {
     ) -> Result<Self, Vec<Note>> {
         let mentioned = mentioned(text);
         let named = |d: &Description| Subject::new(d.clone()).map(|s| with_names(s, &mentioned));
-        let from_table = |d: &Description, table: &PrintedTable| {
+        let mut is_set = vec![false; options.set.len()];
+        let mut refused: Vec<Note> = vec![];
+        let unset = |name: &str, why| {
+            let what = Noted::NotSet(name.into(), why);
+            Note { severity: Severity::Error, span: 0..0, what }
+        };
+        let mut from_table = |d: &Description, table: &PrintedTable| {
+            let mut d = d.clone();
+            for ((name, value), is_set) in options.set.iter().zip(&mut is_set) {
+                match d.set(name, value) {
+                    Ok(()) => *is_set = true,
+                    Err(NotSet::Unknown { .. }) => {}
+                    Err(why) => refused.push(unset(name, why)),
+                }
+            }
+            let d = &d;
             let convention = [d.convention.length_x(), d.convention.length_z()];
             let letters = [0, 1].map(|k| table.letters[k].unwrap_or(convention[k]).to_string());
             let subject = Subject::printed(d.clone(), letters, table.variables.clone(), table.previous)?;
@@ -162,6 +177,15 @@ impl Plan {
                 },
             };
             plan.push(at, found);
+        }
+        for ((name, _), _) in options.set.iter().zip(&is_set).filter(|s| !s.1) {
+            let known = plan.subjects.iter().flat_map(|s| &s.description.parameters);
+            let known: BTreeSet<String> = known.map(|p| p.symbol.name().to_string()).collect();
+            let why = NotSet::Unknown { name: name.clone(), known: known.into_iter().collect() };
+            refused.push(unset(name, why));
+        }
+        if !refused.is_empty() {
+            return Err(refused);
         }
         if plan.subjects.is_empty() {
             if !failed.is_empty() {

@@ -2,15 +2,18 @@
 
 use crate::arguments::{AngleUnit, LengthUnit, RobotArguments};
 use crate::failure::Failure;
+use crate::terminal::{decimals, note};
 use denavit::catalogue;
 use denavit::description::{
     Description, Diagnostic, MAX_BYTES, Measure, Severity, TableKind, TableOptions, read_table, read_toml,
     read_value, write_toml,
 };
-use denavit_symbolic::{Expr, Symbol};
+use denavit_symbolic::Expr;
+use std::f64::consts::TAU;
 use std::fs::File;
-use std::io::{self, Read, Write};
+use std::io::{self, Read};
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Reads the robot that the arguments name; what is worth saying about it goes to standard error.
 ///
@@ -46,7 +49,8 @@ pub fn robot_file(arguments: &RobotArguments) -> Result<(Description, String), F
             return Err(Failure::Usage(format!("--set gives {name} two values")));
         }
         seen.push(name);
-        set(&mut description, setting)?;
+        let (name, value) = name_and_value(setting)?;
+        description.set(&name, &value).map_err(|why| Failure::Usage(format!("--set {setting}: {why}")))?;
     }
     let text = text.filter(|_| arguments.set.is_empty()).unwrap_or_else(|| write_toml(&description));
     Ok((description, text))
@@ -130,7 +134,7 @@ fn read(name: &str, text: &str, outcome: Reading) -> Result<Description, Failure
         |findings: &[Diagnostic]| findings.iter().map(|d| coloured(d, name, text)).collect::<String>();
     match outcome {
         Ok((description, findings)) => {
-            write!(anstream::stderr(), "{}", render(&findings))?;
+            note(render(&findings).trim_end());
             Ok(description)
         }
         Err(findings) => Err(Failure::Input(render(&findings))),
@@ -169,27 +173,62 @@ fn similar(candidate: &str, text: &str) -> bool {
     candidate.contains(&text) || (found + 1 >= text.len() && text.len() + 3 >= candidate.len())
 }
 
-/// `NAME=VALUE`.
-fn set(description: &mut Description, setting: &str) -> Result<(), Failure> {
-    let (name, value) = setting
-        .split_once('=')
-        .ok_or_else(|| Failure::Usage(format!("--set {setting}: write NAME=VALUE, as in D3=450mm")))?;
-    let symbol = Symbol::new(name.trim());
-    let value = value_of(value, description.measure(symbol))
-        .map_err(|why| Failure::Usage(format!("--set {setting}: {why}")))?;
-    let names: Vec<String> = description.parameters.iter().map(|p| p.symbol.name().to_string()).collect();
-    match description.parameters.iter_mut().find(|p| p.symbol == symbol) {
-        Some(parameter) => parameter.value = Some(value),
-        None => {
-            let known = if names.is_empty() {
-                "it has none".into()
-            } else {
-                format!("they are {}", names.join(", "))
-            };
-            return Err(Failure::Usage(format!("--set {setting}: no parameter `{}`; {known}", name.trim())));
+/// The two sides of `NAME=VALUE`.
+///
+/// # Errors
+/// If there is no equals sign.
+pub fn name_and_value(setting: &str) -> Result<(String, String), Failure> {
+    let sides = setting.split_once('=').map(|(name, value)| (name.trim().into(), value.trim().into()));
+    sides.ok_or_else(|| Failure::Usage(format!("--set {setting}: write NAME=VALUE, as in D3=450mm")))
+}
+
+/// The values of a list: between commas or semicolons that stand in no bracket, or between blanks if there are none; brackets
+/// around all of it are taken off.
+pub fn list(text: &str) -> Vec<&str> {
+    let text = unbracketed(text.trim());
+    let mut depth = 0;
+    let is_between = |c: char| {
+        match c {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth -= 1,
+            _ => {}
         }
+        depth == 0 && matches!(c, ',' | ';')
+    };
+    let parts: Vec<&str> = text.split(is_between).map(str::trim).collect();
+    if parts.len() > 1 { parts } else { text.split_whitespace().collect() }
+}
+
+/// The text without brackets around it that belong together.
+pub fn unbracketed(text: &str) -> &str {
+    let mut depth = 0;
+    let closes = text.char_indices().find_map(|(at, c)| {
+        match c {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth -= 1,
+            _ => {}
+        }
+        (depth == 0).then_some(at)
+    });
+    let inner = text.strip_prefix(['(', '[']).and_then(|rest| rest.strip_suffix([')', ']']));
+    match inner {
+        Some(inner) if closes == Some(text.len() - 1) => unbracketed(inner.trim()),
+        _ => text,
     }
-    Ok(())
+}
+
+/// Says once that an angle without unit is one in radians, where it is more than a turn.
+pub fn note_of_radians(text: &str, name: &str, x: f64) {
+    static SAID: AtomicBool = AtomicBool::new(false);
+    // An exponent is no unit.
+    let has_unit = text.contains(|c: char| c.is_alphabetic() && !matches!(c, 'e' | 'E') || c == '°');
+    if has_unit || x.abs() <= TAU {
+        return;
+    }
+    if !SAID.swap(true, Ordering::Relaxed) {
+        let turns = decimals(x / TAU, 2);
+        note(&format!("note: {name} = {text} is in radians, {turns} turns: for degrees write `{text}deg`"));
+    }
 }
 
 /// A constant with or without unit.

@@ -12,6 +12,9 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
+    if arguments.quiet {
+        terminal::be_quiet();
+    }
     let done = match arguments.command {
         Command::Robots(a) => commands::robots::run(&a),
         Command::Show(a) => commands::show::run(&a),

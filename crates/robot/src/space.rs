@@ -147,6 +147,38 @@ impl JointSpace {
         self.times(j, x, self.turning.windows[j])
     }
 
+    /// How many configurations the limits allow of those that are whole windows away from one, itself among them.
+    pub fn copies_within(&self, q: &[f64]) -> u64 {
+        let of = |(j, &x)| self.turns(j, x).map_or(0, |[fewest, most]| u64::from(most.abs_diff(fewest)) + 1);
+        q.iter().enumerate().map(of).fold(1, u64::saturating_mul)
+    }
+
+    /// These configurations, the nearest first (the one with the fewest windows in all), at most so many.
+    pub fn listed_copies(&self, q: &[f64], most: usize) -> Vec<Vec<f64>> {
+        let Some(turns) = q.iter().enumerate().map(|(j, &x)| self.turns(j, x)).collect::<Option<Vec<_>>>()
+        else {
+            return vec![];
+        };
+        // Windows by joint and, before the list grows too long, the fewest in all: sorted after each joint.
+        let mut all: Vec<(i64, Vec<f64>)> = vec![(0, vec![])];
+        for (j, &[fewest, highest]) in turns.iter().enumerate() {
+            let (x, window) = (q[j], self.turning.windows[j]);
+            let by = |k: i64| if k == 0 { x } else { x + k as f64 * window };
+            // What is so far from the nearest is not listed anyhow.
+            let (fewest, highest) = (i64::from(fewest), i64::from(highest));
+            let span = i64::try_from(most).unwrap_or(i64::from(i32::MAX));
+            let ks = fewest.max(highest.min(0) - span)..=highest.min(fewest.max(0) + span);
+            let longer = |(sum, q): &(i64, Vec<f64>)| -> Vec<(i64, Vec<f64>)> {
+                let with = |k: i64| (sum + k.abs(), q.iter().copied().chain([by(k)]).collect());
+                ks.clone().map(with).collect()
+            };
+            all = all.iter().flat_map(longer).collect();
+            all.sort_by_key(|a| a.0);
+            all.truncate(most);
+        }
+        all.into_iter().map(|a| a.1).collect()
+    }
+
     /// How many times a period joint `j` may be moved by from `x` within its limits.
     fn times(&self, j: usize, x: f64, period: f64) -> Option<[i32; 2]> {
         let Some([low, high]) = self.limits[j] else { return Some([0, 0]) };

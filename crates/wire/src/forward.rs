@@ -4,11 +4,13 @@ use crate::pose::{Matrix, Orientation};
 use crate::program::Step;
 use crate::robot::{Formulas, Joint};
 use crate::{Schema, words};
+use denavit::geometry::orientation::OrientationSet;
 use denavit_report::Derivation;
 use denavit_report::words::Terms as _;
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::Style;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// The tool in the base at a configuration.
 #[derive(Clone, PartialEq, Debug, Serialize)]
@@ -50,10 +52,29 @@ pub struct Derived {
     pub joints: Vec<Joint>,
     /// Row by row, frame k in frame k − 1.
     pub links: Vec<Formulas>,
+    /// The orientation as angles, where a set was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub orientation: Option<Angles>,
     /// The robot's name.
     pub robot: String,
     /// The version.
     pub schema: Schema,
+}
+
+/// An orientation as formulas of angles, where it is not singular.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Angles {
+    /// The formulas by name.
+    pub angles: BTreeMap<&'static str, String>,
+    /// The set: `rpy`, `zyz`.
+    pub set: String,
+}
+
+impl Angles {
+    /// Formulas printed by `text`.
+    pub fn of(set: OrientationSet, all: &[(&'static str, Expr)], text: impl Fn(Expr) -> String) -> Self {
+        Angles { angles: all.iter().map(|(name, e)| (*name, text(*e))).collect(), set: set.to_string() }
+    }
 }
 
 /// A frame in another, as formulas.
@@ -127,6 +148,7 @@ impl Derived {
             },
             joints: d.description.variables().iter().map(Joint::from).collect(),
             links: d.links.iter().map(rows).collect(),
+            orientation: None,
             robot: d.description.name.clone(),
             schema: Schema,
         }

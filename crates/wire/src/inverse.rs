@@ -2,12 +2,16 @@
 
 use crate::pose::Matrix;
 use crate::{Schema, words};
-use denavit::description::Description;
+use denavit::description::{Description, JointKind};
 use denavit::idealise::{Ideal, Snap};
 use denavit::inverse::{self, JointSpace};
-use denavit_report::words::{Geometry as _, Inverse as _};
+use denavit::motion::follow;
+use denavit_report::words::{Geometry as _, Inverse as _, Motion as _};
 use serde::Serialize;
 use std::collections::BTreeMap;
+
+/// The most configurations that are listed of one solution.
+pub const MOST_COPIES: usize = 1000;
 
 /// All that was found for a pose.
 #[derive(Clone, PartialEq, Debug, Serialize)]
@@ -28,6 +32,12 @@ pub struct Answer {
     /// What was taken as special.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub idealised: Option<Idealised>,
+    /// Where the pose before was followed and this one is not reached by going on: what changes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub jump: Option<Jump>,
+    /// Solutions and families that the limits exclude and that were left out, where that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub left_out: Option<usize>,
     /// `closed form`, `elimination`, `self-motion` or `descent`.
     pub method: &'static str,
     /// The solution nearest to what was asked for.
@@ -53,6 +63,13 @@ pub struct Answer {
 pub struct Solution {
     /// `shoulder+ elbow−`.
     pub branch: String,
+    /// The configurations within the limits that it stands for, each joint moved by whole turns; of one pose, and no more of a
+    /// solution than [`MOST_COPIES`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub copies: Option<Vec<Vec<f64>>>,
+    /// How many these are, listed or not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub copies_count: Option<u64>,
     /// How many branches coincide here.
     pub multiplicity: u32,
     /// The joint variables, angles in (−π, π].
@@ -71,12 +88,21 @@ impl Solution {
     pub fn of(s: &inverse::Solution, space: &JointSpace) -> Self {
         Solution {
             branch: s.branch.to_string(),
+            copies: None,
+            copies_count: None,
             multiplicity: s.multiplicity,
             q: s.q.clone(),
             residual: s.residual,
             turns: s.q.iter().enumerate().map(|(j, &x)| space.turns(j, x)).collect(),
             within_limits: s.within_limits,
         }
+    }
+
+    /// The same with its copies within the limits.
+    #[must_use]
+    pub fn with_copies(self, space: &JointSpace) -> Self {
+        let (count, copies) = (space.copies_within(&self.q), space.listed_copies(&self.q, MOST_COPIES));
+        Solution { copies: Some(copies), copies_count: Some(count), ..self }
     }
 }
 
@@ -156,6 +182,38 @@ impl Nearest {
     /// The nearest, with its distance.
     pub fn of(found: &inverse::Nearest) -> Self {
         Nearest { distance: Some(found.distance), ..Self::best(found) }
+    }
+}
+
+/// That the joints do not go on from the solution of the pose before.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Jump {
+    /// By how much that joint moves, radians or metres.
+    pub by: f64,
+    /// The joint that moves farthest from where it would go on to.
+    pub joint: String,
+    /// Whether it is the same branch, joints gone back by whole turns.
+    pub same_branch: bool,
+    /// What happens and why, in words.
+    pub text: String,
+    /// `limit`: a joint would pass it; `end`: the branch ends on the way; `nearer`: this solution is nearer.
+    pub why: &'static str,
+}
+
+impl Jump {
+    /// A jump of joints with these names.
+    pub fn of(jump: &follow::Jump, joints: &[(String, JointKind)]) -> Self {
+        Jump {
+            by: jump.by,
+            joint: joints[jump.joint].0.clone(),
+            same_branch: jump.same_branch,
+            text: words().jump(jump, joints),
+            why: match jump.why {
+                follow::Cause::Limit { .. } => "limit",
+                follow::Cause::End(_) => "end",
+                follow::Cause::Nearer => "nearer",
+            },
+        }
     }
 }
 

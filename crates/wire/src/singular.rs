@@ -4,7 +4,7 @@ use crate::jacobian::frame;
 use crate::program::{Named, Operations, Step};
 use crate::{Schema, words};
 use denavit::symbolic::factor::Zero;
-use denavit::velocity::{self, JacobianModel, Minor, ROWS, RateFormulas};
+use denavit::velocity::{self, JacobianModel, Minor, ROWS, RateFormulas, Still};
 use denavit_report::words::{Terms as _, Velocity as _};
 use denavit_symbolic::Expr;
 use serde::Serialize;
@@ -92,19 +92,26 @@ impl Zeros {
 /// What happens at a singular configuration.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Example {
-    /// Motions of the joints that leave the body where it is.
+    /// Motions of the joints that leave what is asked for where it is.
     pub free: Vec<Vec<f64>>,
     /// Twists that cannot be had.
     pub lost: Vec<[f64; 6]>,
     /// The joint variables.
     pub q: Vec<f64>,
+    /// What stands still where the joints move so: `body`, or `point`.
+    pub still: &'static str,
     /// How the axes lie.
     pub why: String,
 }
 
 impl From<&velocity::Example> for Example {
     fn from(e: &velocity::Example) -> Self {
-        Example { free: e.free.clone(), lost: e.lost.clone(), q: e.q.clone(), why: words().place(&e.place) }
+        let still = match e.still {
+            Still::Body => "body",
+            Still::Point => "point",
+        };
+        let (free, lost, q) = (e.free.clone(), e.lost.clone(), e.q.clone());
+        Example { free, lost, q, still, why: words().place(&e.place) }
     }
 }
 

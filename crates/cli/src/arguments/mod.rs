@@ -22,6 +22,9 @@ pub use view::ViewArguments;
 #[derive(Parser)]
 #[command(name = "denavit", version, max_term_width = 110)]
 pub struct Arguments {
+    /// Leave notes and warnings on standard error away; errors stay
+    #[arg(long, global = true)]
+    pub quiet: bool,
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
@@ -131,11 +134,11 @@ pub struct FkArguments {
     /// Frames to give as well: `all`, or the number of one
     #[arg(long, value_name = "all|N")]
     pub frames: Option<String>,
-    /// The orientation too as: quaternion, axis-angle, rpy, or an Euler set such as zyz
+    /// The orientation too as: quaternion, axis-angle, rpy, or an Euler set such as zyz (with --symbolic rpy and Euler sets)
     #[arg(long, value_name = "SET")]
     pub orientation: Option<String>,
     /// Print the formulas instead of numbers
-    #[arg(long, conflicts_with_all = ["q", "input", "frames", "orientation"])]
+    #[arg(long, conflicts_with_all = ["q", "input", "frames"])]
     pub symbolic: bool,
     /// Print JSON
     #[arg(long)]
@@ -168,6 +171,9 @@ pub struct IkArguments {
     /// What of the tool is to be met
     #[arg(long, value_enum, default_value_t = GoalName::Pose)]
     pub goal: GoalName,
+    /// The position alone is to be met, the same as --goal position
+    #[arg(long, conflicts_with = "goal")]
+    pub position: bool,
     /// Give the solution nearest to these joint variables as well, moved by whole turns; solutions within the limits come
     /// first, however far
     #[arg(long, value_name = "Q", allow_hyphen_values = true)]
@@ -175,10 +181,14 @@ pub struct IkArguments {
     /// Give the best solution by a criterion as well
     #[arg(long, value_name = "CRITERION", value_enum, conflicts_with_all = ["near", "follow"])]
     pub best: Option<CriterionName>,
+    /// Only what the joint limits allow, moved there by whole turns; says how many solutions were left out
+    #[arg(long)]
+    pub limits: bool,
     /// One solution of each pose, within the limits if one is, near to --near: quick for arms with many
     #[arg(long)]
     pub one: bool,
-    /// With --input: each pose takes the solution nearest to that of the line before (the first to --near, or to 0)
+    /// With --input: each pose takes the solution nearest to that of the line before (the first to --near, or to 0); says where
+    /// that is another branch, or a joint goes back by a turn
     #[arg(long)]
     pub follow: bool,
     /// Take axes that are nearly parallel, perpendicular or meeting as exactly so, up to TOL (0 to 0.1; radians, and lengths by the
@@ -197,6 +207,13 @@ pub struct IkArguments {
     /// Print JSON
     #[arg(long, conflicts_with = "format")]
     pub json: bool,
+}
+
+impl IkArguments {
+    /// What of the tool is to be met.
+    pub fn goal(&self) -> Goal {
+        if self.position { Goal::Position } else { self.goal.into() }
+    }
 }
 
 /// `check`

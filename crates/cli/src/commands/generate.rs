@@ -3,7 +3,7 @@
 use crate::arguments::GenerateArguments;
 use crate::failure::Failure;
 use crate::load;
-use crate::terminal::{FAINT, HEADING, NAME, styled};
+use crate::terminal::{FAINT, HEADING, NAME, note, styled};
 use denavit::description::Description;
 use denavit::forward::Proof;
 use denavit::inverse;
@@ -58,12 +58,12 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
         if generated.files.is_empty() {
             return Err(Failure::Unsupported(format!("ik: {why}")));
         }
-        writeln!(anstream::stderr(), "warning: no ik: {why}")?;
+        note(&format!("warning: no ik: {why}"));
     }
     write(&generated, &arguments.output, arguments.force)?;
     for (wanted, _, proof) in &generated.functions {
         if *proof != Proof::Proved {
-            writeln!(anstream::stderr(), "warning: {wanted} is {}", wanted.claim(*proof))?;
+            note(&format!("warning: {wanted} is {}", wanted.claim(*proof)));
         }
     }
     let mut out = anstream::stdout();

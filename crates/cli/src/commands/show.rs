@@ -5,7 +5,7 @@ use crate::commands::fk::{configuration, without_values};
 use crate::commands::report::put;
 use crate::failure::Failure;
 use crate::load;
-use crate::terminal::{Align, FAINT, HEADING, NAME, styled, table, words};
+use crate::terminal::{Align, FAINT, HEADING, NAME, note, styled, table, words};
 use denavit::description::{Description, JointKind, Measure, write_toml};
 use denavit::geometry::Transform;
 use denavit::structure::{Relation, Structure};
@@ -26,7 +26,7 @@ pub fn run(arguments: &ShowArguments) -> Result<(), Failure> {
     let mut description = load::robot(&arguments.robot)?;
     if let Some(to) = arguments.to {
         let conversion = description.converted(to.into());
-        writeln!(anstream::stderr(), "note: {}", words().moved(&conversion.moved))?;
+        note(&format!("note: {}", words().moved(&conversion.moved)));
         description = conversion.description;
     }
     let mut out = anstream::stdout();

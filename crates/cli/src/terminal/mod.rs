@@ -3,7 +3,10 @@
 pub use denavit_report::decimals;
 
 use anstyle::{AnsiColor, Style};
+use denavit::geometry::Transform;
 use denavit_report::words::{Tongue, Wording};
+use std::io::Write;
+use std::sync::atomic::{AtomicBool, Ordering};
 use unicode_width::UnicodeWidthStr;
 
 /// Headings.
@@ -12,6 +15,27 @@ pub const HEADING: Style = Style::new().bold();
 pub const FAINT: Style = Style::new().dimmed();
 /// Names of results.
 pub const NAME: Style = AnsiColor::Cyan.on_default();
+
+static IS_QUIET: AtomicBool = AtomicBool::new(false);
+
+/// From here on notes and warnings are left away.
+pub fn be_quiet() {
+    IS_QUIET.store(true, Ordering::Relaxed);
+}
+
+/// A note or a warning on standard error, unless it is to be quiet.
+pub fn note(text: &str) {
+    if !IS_QUIET.load(Ordering::Relaxed) && !text.is_empty() {
+        // There is nobody to tell that nobody listens.
+        let _ = writeln!(anstream::stderr(), "{}", text.trim_end());
+    }
+}
+
+/// What rounding leaves of a length in these poses where it is 0.
+pub fn noise<'a>(poses: impl IntoIterator<Item = &'a Transform<f64>>) -> f64 {
+    let all = poses.into_iter().flat_map(|x| x.translation.0);
+    1e-14 * all.fold(1.0, |largest: f64, x| largest.max(x.abs()))
+}
 
 /// The words of a terminal.
 pub fn words() -> &'static dyn Wording {

@@ -3,6 +3,7 @@
 mod check;
 mod command_line;
 mod common;
+mod doors;
 mod generate;
 mod ik;
 mod motion;

@@ -19,6 +19,7 @@
 //! output q1 = 7 angle                # a result's register; whether it is equal modulo 2π
 //! residual 8
 //! size 9
+//! defect 10                          # if it is computed
 //! ```
 //!
 //! Registers are numbered: first the variables, then the results of the nodes in order; all others are written by a level,
@@ -123,7 +124,8 @@ impl fmt::Display for Solver {
             writeln!(f, "output {} = {register}{kind}", Name(name))?;
         }
         line(f, "residual", [self.residual])?;
-        line(f, "size", [self.size])
+        line(f, "size", [self.size])?;
+        self.defect.map_or(Ok(()), |r| line(f, "defect", [r]))
     }
 }
 
@@ -205,6 +207,7 @@ struct Draft {
     outputs: Vec<(String, Place, bool)>,
     residual: Option<Place>,
     size: Option<Place>,
+    defect: Option<Place>,
 }
 
 impl Draft {
@@ -264,6 +267,7 @@ impl Draft {
             }
             "residual" if self.levels.len() > self.nodes.len() => self.residual = Some(register(&mut rest)?),
             "size" if self.levels.len() > self.nodes.len() => self.size = Some(register(&mut rest)?),
+            "defect" if self.levels.len() > self.nodes.len() => self.defect = Some(register(&mut rest)?),
             _ => return Err(rest.error(column, format!("`{word}` is not expected here"))),
         }
         rest.finished()
@@ -315,7 +319,7 @@ impl Draft {
                 }
             }
             if i == 0 {
-                self.size.iter().try_for_each(|place| is_known(&known, place))?;
+                self.size.iter().chain(&self.defect).try_for_each(|place| is_known(&known, place))?;
             }
             let Some(node) = self.nodes.get(i) else { continue };
             node.operands.iter().chain(&node.guard).try_for_each(|place| is_known(&known, place))?;
@@ -365,6 +369,7 @@ impl Draft {
             outputs: self.outputs.into_iter().map(|(name, place, _)| (name, place.register)).collect(),
             residual: self.residual?.register,
             size: self.size?.register,
+            defect: self.defect.map(|place| place.register),
             registers: total,
             levels: self.levels.into_iter().map(level).collect(),
             nodes,

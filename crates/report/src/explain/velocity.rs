@@ -38,7 +38,7 @@ pub fn singularities_document(
     blocks.extend(determinants(found, words));
     blocks.push(Block::Heading(2, Line::new(words.singularities_title())));
     if found.common.is_empty() {
-        blocks.push(paragraph(words.no_singularity(found.is_complete)));
+        blocks.push(paragraph(words.no_singularity(found.is_complete, found.minors.len() > 1)));
     }
     for (k, s) in found.common.iter().enumerate() {
         blocks.push(Block::Heading(3, Line::new(format!("{}. ", k + 1)).math(vanishing(s.factor))));
@@ -101,8 +101,9 @@ fn determinants(found: &Singularities, words: &dyn Wording) -> Vec<Block> {
     if let [whole] = &found.minors[..] {
         return vec![formula(whole)];
     }
-    let of_joints = |m: &Minor| m.rows.len() == 6;
-    let mut blocks = vec![paragraph(words.several_determinants(found.minors.first().is_some_and(of_joints)))];
+    let of_joints = |m: &Minor| m.rows.len() == found.rows.len();
+    let has_surplus = found.minors.first().is_some_and(of_joints);
+    let mut blocks = vec![paragraph(words.several_determinants(has_surplus, found.rows.len()))];
     for m in &found.minors {
         let rows: Vec<&str> = m.rows.iter().map(|&r| ROWS[r]).collect();
         blocks.push(paragraph(match of_joints(m) {
@@ -126,6 +127,9 @@ fn remarks(view: &Viewpoint<Expr>, s: &Singularity, words: &dyn Wording) -> Vec<
         return lines;
     };
     lines.push(Line::default().strong(words.place(&example.place)));
+    if example.place == Place::Differs {
+        return lines;
+    }
     lines.extend(loss(view, example).map(|loss| Line::new(words.lost(loss))));
     lines.extend(gain(example).map(|gain| Line::new(words.gained(&gain))));
     lines
@@ -149,6 +153,6 @@ fn gain(example: &Example) -> Option<Gain> {
     let moving: Vec<usize> = (0..free.len()).filter(|&j| free[j] != 0.0).collect();
     Some(match (&example.place, &moving[..]) {
         (Place::OneLine(..), &[i, j]) => Gain::Turns { joints: [i, j], is_same: free[i] * free[j] >= 0.0 },
-        _ => Gain::Moves(moving),
+        _ => Gain::Moves(moving, example.still),
     })
 }

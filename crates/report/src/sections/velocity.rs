@@ -78,10 +78,11 @@ fn pictures(s: &Setting, found: &Singularities) -> Option<Section> {
 fn axes(place: &Place) -> Vec<usize> {
     match place {
         Place::OneLine(a, b) => vec![*a, *b],
-        Place::OnePlane(all) | Place::Parallel(all) | Place::SelfMotion(all) => all.clone(),
+        Place::OnePlane(all) | Place::Parallel(all) | Place::SelfMotion { joints: all, .. } => all.clone(),
+        Place::PointOnAxis(axis) => vec![*axis],
         Place::CentreOnAxis { axis, .. } => vec![*axis],
-        Place::CentreInPlane { axes, .. } => axes.to_vec(),
+        Place::CentreInPlane { axes, .. } | Place::PointInPlane { axes, .. } => axes.to_vec(),
         Place::Line { meets, .. } => meets.clone(),
-        Place::Lost => vec![],
+        Place::Lost | Place::Differs => vec![],
     }
 }

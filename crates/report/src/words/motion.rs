@@ -1,7 +1,8 @@
 //! What is said of motions.
 
 use denavit::description::Description;
-use denavit::motion::follow::Event;
+use denavit::description::JointKind;
+use denavit::motion::follow::{Event, Jump};
 use denavit::motion::plan::{Course, Timing, Verdict};
 
 /// What is said of motions.
@@ -17,6 +18,9 @@ pub trait Motion {
 
     /// What happens on the way; the path is the subject, or a joint.
     fn event(&self, event: &Event, description: &Description) -> String;
+
+    /// That a configuration does not go on from the one before; of joints with these names.
+    fn jump(&self, jump: &Jump, joints: &[(String, JointKind)]) -> String;
 
     /// Whether a path is followed to its end within the limits.
     fn verdict(&self, verdict: Verdict) -> String;

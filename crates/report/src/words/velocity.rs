@@ -2,7 +2,7 @@
 
 use crate::tree::{Line, Math};
 use denavit::forward::{Proof, Reference};
-use denavit::velocity::{Obstacle, Place};
+use denavit::velocity::{Obstacle, Place, Still};
 use denavit_program::Count;
 use denavit_symbolic::Refusal;
 
@@ -31,8 +31,8 @@ pub enum Gain {
         /// Whether they turn in the same direction.
         is_same: bool,
     },
-    /// Joints move at first with the body at rest.
-    Moves(Vec<usize>),
+    /// Joints move at first with the body, or its point, at rest.
+    Moves(Vec<usize>, Still),
 }
 
 /// What is said of Jacobians and singularities.
@@ -55,8 +55,8 @@ pub trait Velocity {
     /// The heading of determinants.
     fn determinant_title(&self) -> String;
 
-    /// Why there are several determinants: the arm has more joints than directions, or fewer.
-    fn several_determinants(&self, has_surplus: bool) -> String;
+    /// Why there are several determinants: the arm has more joints than directions, of which so many are asked for, or fewer.
+    fn several_determinants(&self, has_surplus: bool, directions: usize) -> String;
 
     /// Before the determinant with some joints (from 0).
     fn minor_of_joints(&self, joints: &[usize]) -> String;
@@ -67,8 +67,8 @@ pub trait Velocity {
     /// The heading of singularities.
     fn singularities_title(&self) -> String;
 
-    /// That there are no singularities, or none that all determinants share.
-    fn no_singularity(&self, is_complete: bool) -> String;
+    /// That there are no singularities, by one determinant or by several, or none that all determinants share.
+    fn no_singularity(&self, is_complete: bool, several: bool) -> String;
 
     /// That all determinants may be 0 at once besides.
     fn besides(&self) -> String;

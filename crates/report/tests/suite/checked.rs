@@ -1,7 +1,7 @@
 //! What is said of documents that were checked: every fact in words of its own in each language.
 
 use crate::language::{both, check_text};
-use denavit::description::Convention;
+use denavit::description::{Convention, NotSet};
 use denavit::forward::Reference;
 use denavit::geometry::Axis;
 use denavit::geometry::orientation::OrientationSet;
@@ -264,6 +264,11 @@ fn what_is_not_read() {
         Noted::TooLong { bytes: 9_000_000, most: 8_000_000 },
         Noted::NoRobot,
         Noted::ReadAs(Convention::Khalil),
+        Noted::NotSet("a9".into(), NotSet::Unknown { name: "a9".into(), known: vec![] }),
+        Noted::NotSet(
+            "a9".into(),
+            NotSet::Unknown { name: "a9".into(), known: vec!["a1".into(), "a2".into()] },
+        ),
         Noted::UnknownRobot("nobody".into()),
         Noted::NoSuchTable,
         Noted::UnknownConvention("foo".into()),

@@ -1,19 +1,19 @@
 //! Documents in two languages: of the same structure, with the same formulas, each in its own words.
 
 use denavit::catalogue;
-use denavit::description::{Description, Moved, read_toml};
+use denavit::description::{Description, JointKind, Moved, read_toml};
 use denavit::forward::{Proof, Reference};
 use denavit::idealise::Measured;
 use denavit::inverse::{
     Branch as Roots, Choice, Doubt, Goal, InverseModel, InverseOptions, Label, Part, Refusal, Task,
     Unsuitable,
 };
-use denavit::motion::follow::{Event, EventKind};
+use denavit::motion::follow::{Cause, Event, EventKind, Jump};
 use denavit::motion::hand::Stretch;
 use denavit::motion::plan::{Course, Timing, TimingLaw, Verdict};
 use denavit::motion::profile::Law;
 use denavit::structure::{NearlySpecial, Relation, Special};
-use denavit::velocity::{JacobianModel, Obstacle, Place, Singularities};
+use denavit::velocity::{JacobianModel, Obstacle, Place, Singularities, Still};
 use denavit_program::Count;
 use denavit_report::document::{Block, Branch, Line, Math, Piece, math};
 use denavit_report::explain::{
@@ -353,8 +353,11 @@ fn rare_words() {
         Place::CentreInPlane { wrist: vec![3, 4, 5], axes: [1, 2], parallel: true },
         Place::Line { meets: vec![0], parallel: vec![1] },
         Place::Line { meets: vec![0, 3], parallel: vec![1, 2] },
-        Place::SelfMotion(vec![2]),
-        Place::SelfMotion(vec![2, 4]),
+        Place::PointOnAxis(0),
+        Place::PointInPlane { axes: [1, 2], parallel: true },
+        Place::SelfMotion { joints: vec![2], still: Still::Body },
+        Place::SelfMotion { joints: vec![2, 4], still: Still::Point },
+        Place::Differs,
         Place::Lost,
     ] {
         both(&|w| w.place(&place));
@@ -453,6 +456,12 @@ fn motions_and_axes() {
         for at in [0.0, 0.5] {
             let event = Event { s: at, q: vec![0.0; 6], kind: kind.clone() };
             both(&|w| w.event(&event, &ur5));
+        }
+    }
+    let joints = ["q1", "q2"].map(|name| (name.to_string(), JointKind::Revolute));
+    for why in [Cause::Limit { joint: 1, limit: 6.0 }, Cause::End(0.25), Cause::Nearer] {
+        for same_branch in [false, true] {
+            both(&|w| w.jump(&Jump { joint: 0, by: 3.1, same_branch, why }, &joints));
         }
     }
     let laws = [

@@ -26,7 +26,7 @@ pub use order::{Cell, Screw, Screws};
 pub use parameters::MissingValue;
 pub use robot_file::{MAX_BYTES, MAX_ROWS, read_toml, write_toml};
 pub use table::{TableKind, TableOptions, read_table};
-pub use value::{Measure, read_value};
+pub use value::{Measure, NotSet, read_value};
 
 use denavit_symbolic::{Expr, Symbol};
 use std::fmt;
@@ -169,6 +169,14 @@ impl Description {
     }
 }
 
+/// Decimals that people type.
+const TYPED: usize = 4;
+
+/// How many decimals the shortest text of a number has.
+fn decimals(x: f64) -> usize {
+    format!("{x}").split_once('.').map_or(0, |(_, behind)| behind.len())
+}
+
 /// Reports a number without unit that is improbable in SI: 90 rad, 151.9 m.
 fn suspicious_number(x: f64, span: &Range<usize>, quantity: Quantity, hint: &str, out: &mut Diagnostics) {
     let (what, unit) = match quantity {
@@ -176,10 +184,11 @@ fn suspicious_number(x: f64, span: &Range<usize>, quantity: Quantity, hint: &str
         Quantity::Length if x.abs() > 20.0 => (format!("{x} m is a long way for a robot"), "mm"),
         _ => return,
     };
-    let hint = if hint.is_empty() {
-        format!("a number without unit is SI; write `{x} {unit}` if that is meant")
-    } else {
-        hint.into()
+    let hint = match hint {
+        // A number that a program printed means what it says.
+        "" if decimals(x) > TYPED => "a number without unit is SI".to_string(),
+        "" => format!("a number without unit is SI; write `{x} {unit}` if that is meant"),
+        other => other.into(),
     };
     out.warning(span.clone(), what).hint(hint);
 }

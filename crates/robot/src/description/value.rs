@@ -5,6 +5,7 @@ use super::diagnostic::{Diagnostic, Diagnostics};
 use super::units::Quantity;
 use super::{Description, JointKind};
 use denavit_symbolic::{Expr, Symbol};
+use std::fmt;
 
 /// What a value measures.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -51,7 +52,58 @@ pub fn read_value(text: &str, measure: Measure) -> Result<Expr, Vec<Diagnostic>>
     }
 }
 
+/// Why a parameter has not been given a value.
+#[derive(Clone, PartialEq, Debug)]
+pub enum NotSet {
+    /// There is no parameter of this name.
+    Unknown {
+        /// The name.
+        name: String,
+        /// Those that are there.
+        known: Vec<String>,
+    },
+    /// The text is no value.
+    Value(Vec<Diagnostic>),
+}
+
+impl fmt::Display for NotSet {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NotSet::Unknown { name, known } if known.is_empty() => {
+                write!(f, "no parameter `{name}`; there are none")
+            }
+            NotSet::Unknown { name, known } => {
+                write!(f, "no parameter `{name}`; they are {}", known.join(", "))
+            }
+            NotSet::Value(findings) => {
+                let sentence = |d: &Diagnostic| match &d.hint {
+                    Some(hint) => format!("{} ({hint})", d.message),
+                    None => d.message.clone(),
+                };
+                write!(f, "{}", findings.iter().map(sentence).collect::<Vec<_>>().join("; "))
+            }
+        }
+    }
+}
+
+impl std::error::Error for NotSet {}
+
 impl Description {
+    /// Gives a parameter a value: a constant with or without unit, as in a robot file.
+    ///
+    /// # Errors
+    /// If there is no such parameter, or the text is no value.
+    pub fn set(&mut self, name: &str, value: &str) -> Result<(), NotSet> {
+        let symbol = Symbol::new(name.trim());
+        let measure = self.measure(symbol);
+        let known = || self.parameters.iter().map(|p| p.symbol.name().to_string()).collect();
+        let Some(at) = self.parameters.iter().position(|p| p.symbol == symbol) else {
+            return Err(NotSet::Unknown { name: name.trim().into(), known: known() });
+        };
+        self.parameters[at].value = Some(read_value(value.trim(), measure).map_err(NotSet::Value)?);
+        Ok(())
+    }
+
     /// What a parameter measures: an angle if some row turns by it, else a length.
     pub fn measure(&self, parameter: Symbol) -> Measure {
         let turns = self.rows.iter().flat_map(|r| [r.theta, r.alpha, r.gamma]);

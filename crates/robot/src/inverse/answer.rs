@@ -54,6 +54,28 @@ impl Answer {
         }
     }
 
+    /// Leaves out what the limits exclude, and how much that is: solutions of which they allow no copy, families of which
+    /// they allow no member that is known. What is left stands where the limits allow it, next to where it was.
+    pub fn leave_out(&mut self, space: &JointSpace) -> usize {
+        let before = self.solutions.len() + self.families.len();
+        self.solutions.retain(|s| s.within_limits);
+        // Of a family that was not followed nothing else is known.
+        let is_excluded = |f: &Family| {
+            !f.representative.within_limits
+                && !f.curve.is_empty()
+                && f.feasible.is_empty()
+                && !f.curve.iter().any(|q| space.within(q))
+        };
+        self.families.retain(|f| !is_excluded(f));
+        let families = self.families.iter_mut().map(|f| &mut f.representative);
+        for s in families.chain(&mut self.solutions).filter(|s| s.within_limits) {
+            if let Some(copy) = space.listed_copies(&s.q, 1).pop() {
+                s.q = copy;
+            }
+        }
+        before - self.solutions.len() - self.families.len()
+    }
+
     /// True if there is a solution.
     pub fn is_reachable(&self) -> bool {
         !self.solutions.is_empty() || !self.families.is_empty()

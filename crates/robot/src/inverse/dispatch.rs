@@ -14,6 +14,7 @@ use super::branch::Branch;
 use super::closed::InverseSolver;
 use super::derivation::{Extent, Goal, InverseModel, InverseOptions, NotGiven, Refusal};
 use super::general::GeneralSolver;
+use super::lines;
 use super::newton;
 use super::numeric::NumericSolver;
 use super::redundant::{Criterion, RedundantSolver};
@@ -44,6 +45,7 @@ pub struct InverseKinematics {
     pub nearly: Vec<NearlySpecial>,
     /// Where descents start, if they are needed.
     pub seed: Option<Vec<f64>>,
+    names: Vec<String>,
     method: Method,
     numeric: NumericSolver,
     /// The same where limits do not count.
@@ -147,6 +149,7 @@ impl InverseKinematics {
             given: vec![],
             nearly,
             seed: None,
+            names: description.variables().iter().map(|v| v.symbol.name().to_string()).collect(),
             method: Method::Numeric,
             numeric,
             unlimited,
@@ -202,6 +205,11 @@ impl InverseKinematics {
         }
     }
 
+    /// Whether the arm has three freedoms, and with them the tool goes anywhere: positions, not poses, are what it serves.
+    pub fn serves_positions(&self) -> bool {
+        self.robot.joints == 3 && newton::rank(&self.robot, Goal::Position) == 3
+    }
+
     /// All solutions of a pose of the tool in the base; `given` holds a value for each joint of [`given`](Self::given).
     ///
     /// # Panics
@@ -209,6 +217,12 @@ impl InverseKinematics {
     ///
     /// A pose is taken to be as precise as its rotation is orthonormal: the nearest rotation is meant.
     pub fn solve(&self, pose: &Transform<f64>, given: &[f64]) -> Answer {
+        let mut answer = self.found(pose, given);
+        answer.families.iter_mut().for_each(|f| lines::describe(f, &self.space, &self.names));
+        answer
+    }
+
+    fn found(&self, pose: &Transform<f64>, given: &[f64]) -> Answer {
         assert_eq!(given.len(), self.given.len(), "one value per given joint");
         let as_given = pose;
         let pose = &newton::nearest_rigid(pose).0;
@@ -240,8 +254,8 @@ impl InverseKinematics {
                 }
             }
             Method::Redundant(solver) => {
-                let mut answer = solver.manifold(pose).answer();
-                if answer.doubt.is_some() {
+                let mut answer = solver.manifold(pose).answer(&solver.free());
+                if answer.doubt.is_some() && solver.surplus == 1 {
                     self.follow_more(pose, &mut answer);
                 }
                 answer.spread(&self.space);
@@ -328,7 +342,7 @@ impl InverseKinematics {
         answer.obstacle = Some(Obstacle { unknown: None, q: outcome.q, angle, distance, violated: vec![] });
     }
 
-    pub(super) fn size(&self, pose: &Transform<f64>) -> f64 {
+    pub(crate) fn size(&self, pose: &Transform<f64>) -> f64 {
         self.space.size(pose)
     }
 
@@ -355,6 +369,34 @@ impl InverseKinematics {
         candidates.iter().map(|q| Nearest::of(&self.space, q, to)).min_by(|a, b| {
             let (a, b) = (rank(a), rank(b));
             a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+        })
+    }
+
+    /// Which family of an answer a configuration is a member of.
+    pub fn family_of(&self, pose: &Transform<f64>, answer: &Answer, q: &[f64]) -> Option<usize> {
+        answer.families.iter().position(|family| {
+            if self.is_near(family, q) {
+                return true;
+            }
+            // A curve that was followed holds all there is.
+            if family.dimension == 1 && !family.curve.is_empty() {
+                return false;
+            }
+            let is_member = |found: &[f64]| self.space.distance(found, q) <= MEMBER;
+            let way = |p: &[f64]| self.space.moved(p, q);
+            let slid = |p: Vec<f64>| {
+                newton::slide(&self.robot, self.goal, pose, &p, (&self.given, way), self.size(pose))
+            };
+            let given: Vec<f64> = self.given.iter().map(|&j| family.representative.q[j]).collect();
+            let by_formula = match &self.method {
+                Method::Closed(solver) => solver.members_at(pose, &given, family, q),
+                _ => vec![],
+            };
+            by_formula.iter().any(|s| is_member(&s.q))
+                || self
+                    .starts(pose, family, |p| norm(&self.space.way(p, q)))
+                    .into_iter()
+                    .any(|p| is_member(&slid(p)))
         })
     }
 
@@ -464,6 +506,8 @@ impl InverseKinematics {
 
 /// Members of a family with several parameters from which the way to another configuration is tried.
 const ANYWHERE: usize = 16;
+/// A configuration this near to a member of a family is one.
+const MEMBER: f64 = 1e-6;
 /// Descents that look for self-motions.
 const DESCENTS: usize = 64;
 /// What a solution that was searched for may miss the pose by.

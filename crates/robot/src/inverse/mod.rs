@@ -12,6 +12,7 @@ pub mod closed;
 pub mod derivation;
 mod dispatch;
 pub mod general;
+mod lines;
 mod members;
 pub(crate) mod newton;
 pub mod numeric;

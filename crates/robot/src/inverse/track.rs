@@ -71,7 +71,7 @@ impl InverseKinematics {
     pub fn track(&self, pose: &Transform<f64>, previous: &[f64]) -> Option<Tracked> {
         assert_eq!(previous.len(), self.robot.joints, "one entry per joint");
         let pose = &newton::nearest_rigid(pose).0;
-        self.followed(pose, previous).or_else(|| self.found(pose, previous))
+        self.followed(pose, previous).or_else(|| self.searched(pose, previous))
     }
 
     /// By Newton's method from the previous configuration.
@@ -110,7 +110,7 @@ impl InverseKinematics {
     }
 
     /// The nearest of all.
-    fn found(&self, pose: &Transform<f64>, previous: &[f64]) -> Option<Tracked> {
+    fn searched(&self, pose: &Transform<f64>, previous: &[f64]) -> Option<Tracked> {
         let given: Vec<f64> = self.given.iter().map(|&j| previous[j]).collect();
         let answer = self.solve(pose, &given);
         let Nearest { q, within_limits, .. } = self.nearest(pose, &answer, previous)?;

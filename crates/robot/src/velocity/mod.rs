@@ -26,7 +26,7 @@ pub use model::JacobianModel;
 pub use program::{jacobian_and_pose_program, jacobian_program};
 pub use regular::regular_configuration;
 pub use singular::{
-    Example, MAX_JOINTS, Minor, Obstacle, Place, Singularities, Singularity, singular_configuration,
+    Example, MAX_JOINTS, Minor, Obstacle, Place, Singularities, Singularity, Still, singular_configuration,
 };
 pub use solve::{Damping, JointRates, RateSolver};
 pub use svd::{Svd, svd};

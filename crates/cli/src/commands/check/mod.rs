@@ -9,7 +9,7 @@ mod terminal;
 use crate::arguments::CheckArguments;
 use crate::failure::Failure;
 use crate::load;
-use crate::terminal::words;
+use crate::terminal::{note, words};
 use denavit::description::{Diagnostic, Severity, line_column, render};
 use denavit_check::{CheckOptions, Checked, MAX_BYTES, Note, check};
 use denavit_reading::code::Dialect;
@@ -48,12 +48,15 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
         Some(file) => (Some(load::robot(&arguments.robot)?), file.to_string_lossy().into_owned()),
         None => (None, arguments.robot.robot.clone()),
     };
-    if let (None, Some(setting)) = (&robot, arguments.robot.set.first()) {
-        return Err(Failure::Usage(format!("--set {setting}: name the robot before the file")));
-    }
+    // A robot that is named has its values; the document's tables get theirs as they are read.
+    let set = match &robot {
+        Some(_) => vec![],
+        None => arguments.robot.set.iter().map(|s| load::name_and_value(s)).collect::<Result<_, _>>()?,
+    };
     let text = contents(&name)?;
     let options = CheckOptions {
         table: load::table_options(&arguments.robot),
+        set,
         claim: arguments.claim.clone(),
         tolerance: arguments.tolerance,
         language: language_of(&name),
@@ -63,7 +66,7 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
         .map_err(|notes| Failure::Input(render(&findings(notes.iter()), &name, &text)))?;
     let document = Document { name: &name, text: &text, checked: &checked };
     let worth = checked.notes.iter().filter(|n| arguments.all || n.severity != Severity::Note);
-    write!(anstream::stderr(), "{}", render(&findings(worth), &name, &text))?;
+    note(&render(&findings(worth), &name, &text));
     let mut out = anstream::stdout();
     if let Some(file) = &arguments.html {
         fs::write(file, html::page(&document))

@@ -9,9 +9,13 @@ use crate::load;
 use crate::terminal::words;
 use denavit::description::Description;
 use denavit::forward::{Outputs, Proof, Reference};
+use denavit::geometry::Rotation;
+use denavit::geometry::orientation::{OrientationSet, extraction_formulas};
 use denavit_report::Derivation;
 use denavit_report::words::Tongue;
-use denavit_wire::forward::Derived;
+use denavit_symbolic::Expr;
+use denavit_symbolic::print::Style;
+use denavit_wire::forward::{Angles, Derived};
 use std::io::Write;
 
 /// Derives a robot's formulas.
@@ -29,17 +33,45 @@ pub fn run(arguments: &DeriveArguments) -> Result<(), Failure> {
     verdict(&derivation)
 }
 
-/// The simplified pose of the tool alone, for `fk --symbolic`.
+/// The simplified pose of the tool alone, with its orientation as angles where a set is asked for, for `fk --symbolic`.
 ///
 /// # Errors
 /// As [`run`].
-pub fn matrix_only(robot: &RobotArguments, format: Format) -> Result<(), Failure> {
+pub fn matrix_only(
+    robot: &RobotArguments,
+    orientation: Option<OrientationSet>,
+    format: Format,
+) -> Result<(), Failure> {
     let description = load::robot(robot)?;
     let derivation = Derivation::new(&description, Reference::Base, Reference::Tool, Outputs::ALL);
-    let text =
-        if format == Format::Json { printed(&derivation, format) } else { terminal::forward(&derivation) };
+    let angles = orientation.map(|set| angles(&derivation, set)).transpose()?;
+    let text = match format {
+        Format::Json => {
+            let text = |e| derivation.text(e, Style::Ascii);
+            let angles = angles.map(|(set, all)| Angles::of(set, &all, text));
+            format!("{}\n", denavit_wire::text(&Derived { orientation: angles, ..Derived::of(&derivation) }))
+        }
+        _ => {
+            let shown = |(set, all): (OrientationSet, Formulas)| terminal::angles(&derivation, set, &all);
+            terminal::forward(&derivation) + &angles.map(shown).unwrap_or_default()
+        }
+    };
     write!(anstream::stdout(), "{text}")?;
     verdict(&derivation)
+}
+
+/// The formulas of a set of angles by their names.
+type Formulas = Vec<(&'static str, Expr)>;
+
+/// The tool's orientation as formulas in the joints.
+fn angles(derivation: &Derivation, set: OrientationSet) -> Result<(OrientationSet, Formulas), Failure> {
+    // What is not expanded has no entries to take angles of.
+    let Ok(rows) = &derivation.model.matrix else { return Ok((set, vec![])) };
+    let rotation = Rotation::from_rows([0, 1, 2].map(|r| [rows[r][0], rows[r][1], rows[r][2]]));
+    let formulas = extraction_formulas(&rotation, set).ok_or_else(|| {
+        Failure::Unsupported(format!("{set} as formulas; rpy and Euler sets such as zyz have them"))
+    })?;
+    Ok((set, formulas))
 }
 
 /// A frame by name or number.

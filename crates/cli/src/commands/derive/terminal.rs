@@ -2,6 +2,7 @@
 
 use crate::commands::show::{dh_table, title};
 use crate::terminal::{Align, FAINT, HEADING, NAME, lowered, matrix, matrix_width, raised, styled, words};
+use denavit::geometry::orientation::OrientationSet;
 use denavit_program::COUNTING_RULE;
 use denavit_report::Derivation;
 use denavit_symbolic::Expr;
@@ -44,6 +45,18 @@ fn named_matrix(d: &Derivation, label: &str, rows: &[[Expr; 4]; 4]) -> String {
         }
     }
     text
+}
+
+/// The orientation as angles.
+pub fn angles(d: &Derivation, set: OrientationSet, all: &[(&'static str, Expr)]) -> String {
+    if all.is_empty() {
+        return String::new();
+    }
+    let mut text = format!("\n{}\n\n", styled(&format!("Orientation as {set}"), HEADING));
+    for (name, value) in all {
+        let _ = writeln!(text, "  {} = {}", styled(name, NAME), d.text(*value, Style::Unicode));
+    }
+    text + &format!("  {}\n", styled("where the middle angle does not make it singular", FAINT))
 }
 
 /// The simplified model.

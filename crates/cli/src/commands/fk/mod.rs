@@ -7,7 +7,7 @@ use crate::arguments::{FkArguments, Format};
 use crate::commands::derive;
 use crate::failure::Failure;
 use crate::load;
-use crate::terminal::{Align, HEADING, NAME, lowered, matrix, number, raised, styled};
+use crate::terminal::{Align, HEADING, NAME, lowered, matrix, noise, note, number, raised, styled};
 use answer::Answers;
 pub use answer::strict;
 use denavit::Robot;
@@ -27,7 +27,7 @@ use std::io::Write;
 pub fn run(arguments: &FkArguments) -> Result<(), Failure> {
     if arguments.symbolic {
         let format = if arguments.json { Format::Json } else { Format::Terminal };
-        return derive::matrix_only(&arguments.robot, format);
+        return derive::matrix_only(&arguments.robot, orientation(arguments)?, format);
     }
     let description = load::robot(&arguments.robot)?;
     let request = Request::new(&description, arguments)?;
@@ -37,7 +37,7 @@ pub fn run(arguments: &FkArguments) -> Result<(), Failure> {
         (Some(path), _) => stream::run(Answers::new(&description, &request), path),
         (None, Some(text)) => {
             let q = configuration(&description, text)?;
-            warn_of_limits(&description, &q)?;
+            warn_of_limits(&description, &q);
             let mut out = anstream::stdout();
             if arguments.json {
                 let answers = Answers::new(&description, &request);
@@ -89,10 +89,14 @@ impl Request {
                 }
             },
         };
-        let set = arguments.orientation.as_deref().map(str::parse::<OrientationSet>).transpose();
-        let orientation = set.map_err(|e| Failure::Usage(format!("--orientation: {e}")))?;
-        Ok(Request { frames, orientation })
+        Ok(Request { frames, orientation: orientation(arguments)? })
     }
+}
+
+/// The set of angles that is asked for.
+fn orientation(arguments: &FkArguments) -> Result<Option<OrientationSet>, Failure> {
+    let set = arguments.orientation.as_deref().map(str::parse::<OrientationSet>).transpose();
+    set.map_err(|e| Failure::Usage(format!("--orientation: {e}")))
 }
 
 fn pose_names(d: &Description) -> String {
@@ -109,12 +113,7 @@ pub fn configuration(d: &Description, text: &str) -> Result<Vec<f64>, Failure> {
     if let Some((_, q)) = d.poses.iter().find(|p| p.0 == text.trim()) {
         return q.iter().map(|e| value(*e).map_err(bad)).collect();
     }
-    let text = text.trim().trim_start_matches(['[', '(']).trim_end_matches([']', ')']);
-    let parts: Vec<&str> = if text.contains([',', ';']) {
-        text.split([',', ';']).map(str::trim).collect()
-    } else {
-        text.split_whitespace().collect()
-    };
+    let parts = load::list(text);
     if parts.len() != variables.len() {
         return Err(bad(format!(
             "{} given, the robot has {} ({}){}",
@@ -125,9 +124,16 @@ pub fn configuration(d: &Description, text: &str) -> Result<Vec<f64>, Failure> {
         )));
     }
     let (mut q, mut errors) = (vec![], vec![]);
-    for (part, variable) in parts.iter().zip(variables) {
+    for (part, (variable, limits)) in parts.iter().zip(limits(d)) {
         match load::value_of(part, variable.kind.into()).and_then(value) {
-            Ok(x) => q.push(x),
+            Ok(x) => {
+                // A joint that turns so far may be there.
+                let is_allowed = limits.is_some_and(|[low, high]| (low..=high).contains(&x));
+                if variable.kind == JointKind::Revolute && !is_allowed {
+                    load::note_of_radians(part, &variable.symbol.name(), x);
+                }
+                q.push(x);
+            }
             Err(why) => errors.push(format!("{}: {why}", variable.symbol.name())),
         }
     }
@@ -150,23 +156,16 @@ pub fn limits(d: &Description) -> Vec<(Variable, Option<[f64; 2]>)> {
     d.rows.iter().filter_map(|r| Some((r.variable?, r.limits.and_then(numeric)))).collect()
 }
 
-fn warn_of_limits(d: &Description, q: &[f64]) -> Result<(), Failure> {
+fn warn_of_limits(d: &Description, q: &[f64]) {
     for ((variable, limits), &x) in limits(d).into_iter().zip(q) {
         if let Some([low, high]) = limits
             && !(low..=high).contains(&x)
         {
             let shown = |x: f64| reading(x, variable.kind);
-            writeln!(
-                anstream::stderr(),
-                "warning: {} = {} is outside its limits {} … {}",
-                variable.symbol.name(),
-                shown(x),
-                shown(low),
-                shown(high)
-            )?;
+            let (name, x, low, high) = (variable.symbol.name(), shown(x), shown(low), shown(high));
+            note(&format!("warning: {name} = {x} is outside its limits {low} … {high}"));
         }
     }
-    Ok(())
 }
 
 /// The answer for reading.
@@ -183,9 +182,9 @@ fn report(d: &Description, request: &Request, q: &[f64]) -> String {
     let frames: Vec<Transform<f64>> =
         answer::transforms(answer::function(d, &poses).scalar().eval(q)).collect();
     let pose = frames[last + 1];
-    let size = frames.iter().map(|x| x.translation.norm()).fold(1.0, f64::max);
+    let rounding = noise(&frames);
     let show = |label: &str, x: &Transform<f64>| {
-        let noise = |column: usize| if column == 3 { 1e-14 * size } else { 1e-14 };
+        let noise = |column: usize| if column == 3 { rounding } else { 1e-14 };
         let row = |row: &[f64; 4]| row.iter().enumerate().map(|(c, &e)| number(e, noise(c))).collect();
         let entries: Vec<Vec<String>> = x.matrix().iter().map(row).collect();
         matrix(&format!("{label} = "), &entries, Align::Right)

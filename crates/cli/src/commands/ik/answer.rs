@@ -1,13 +1,14 @@
 //! The solutions of a pose, as a table and as JSON.
 
 use crate::commands::fk::plural;
-use crate::terminal::{Align, FAINT, HEADING, NAME, matrix, number, styled, table, words};
-use denavit::description::{Description, JointKind};
+use crate::terminal::{Align, FAINT, HEADING, NAME, matrix, noise, number, styled, table, words};
+use denavit::description::{Description, JointKind, Variable};
 use denavit::geometry::Transform;
 use denavit::idealise::Ideal;
 use denavit::inverse::{
     Answer, Criterion, Family, InverseKinematics, JointSpace, Nearest, Obstacle, Solution,
 };
+use denavit::motion::follow::Jump;
 use denavit::quantity::reading;
 use denavit_wire::Schema;
 use denavit_wire::inverse::{self as wire, Idealised};
@@ -20,13 +21,37 @@ pub struct Question {
     pub given: Vec<f64>,
     /// The best solution by this is wanted as well.
     pub criterion: Option<Criterion>,
-    /// One solution is wanted.
-    pub one: bool,
+    /// What is wanted of the solutions.
+    pub wanted: Wanted,
     robot: String,
     method: &'static str,
     names: Vec<(String, f64)>,
     space: JointSpace,
+    joints: Vec<(String, JointKind)>,
     ideal: Option<Idealised>,
+}
+
+/// What is wanted of the solutions.
+#[derive(Clone, Copy)]
+pub struct Wanted {
+    /// One is enough.
+    pub one: bool,
+    /// Only what the limits allow.
+    pub within_limits: bool,
+    /// Their copies within the limits as well.
+    pub copies: bool,
+}
+
+/// What was found.
+pub struct Found {
+    /// The answer.
+    pub answer: Answer,
+    /// The solution that is best by the criterion, if there is one.
+    pub best: Option<Nearest>,
+    /// How many solutions and families the limits exclude, where these were left out.
+    pub left_out: Option<usize>,
+    /// That the best does not go on from the one of the pose before.
+    pub jump: Option<Jump>,
 }
 
 impl Question {
@@ -35,7 +60,7 @@ impl Question {
         description: &Description,
         solver: &InverseKinematics,
         given: Vec<f64>,
-        (criterion, one): (Option<Criterion>, bool),
+        (criterion, wanted): (Option<Criterion>, Wanted),
         ideal: Option<&Ideal>,
     ) -> Self {
         let variables = description.variables();
@@ -43,18 +68,27 @@ impl Question {
         let names = solver.given.iter().map(name).zip(given.iter().copied()).collect();
         let ideal = ideal.map(Idealised::from);
         let (robot, method, space) = (description.name.clone(), solver.method(), solver.space.clone());
-        Question { given, criterion, one, robot, method, names, space, ideal }
+        let joint = |v: &Variable| (v.symbol.name().to_string(), v.kind);
+        let joints = variables.iter().map(joint).collect();
+        Question { given, criterion, wanted, robot, method, names, space, joints, ideal }
     }
 
     /// The answer, and the solution that is best by the criterion, if there is one.
-    pub fn ask(&self, solver: &InverseKinematics, pose: &Transform<f64>) -> (Answer, Option<Nearest>) {
-        let answer = match (&self.criterion, self.one) {
+    pub fn ask(&self, solver: &InverseKinematics, pose: &Transform<f64>) -> Found {
+        let mut answer = match (&self.criterion, self.wanted.one) {
             (Some(Criterion::Nearest(to)), true) => solver.one(pose, &self.given, Some(to)),
             (_, true) => solver.one(pose, &self.given, None),
             _ => solver.solve(pose, &self.given),
         };
         let best = self.criterion.as_ref().and_then(|c| solver.best(pose, &answer, c));
-        (answer, best)
+        let left_out = self.wanted.within_limits.then(|| answer.leave_out(&self.space));
+        let best = best.filter(|b| b.within_limits || !self.wanted.within_limits);
+        Found { answer, best, left_out, jump: None }
+    }
+
+    /// What a jump is in words.
+    pub fn jump(&self, jump: &Jump) -> String {
+        words().jump(jump, &self.joints)
     }
 
     /// What the best solution is called.
@@ -66,7 +100,12 @@ impl Question {
     }
 
     /// The answer.
-    pub fn wire(&self, pose: &Transform<f64>, answer: &Answer, nearest: Option<&Nearest>) -> wire::Answer {
+    pub fn wire(&self, pose: &Transform<f64>, found: &Found) -> wire::Answer {
+        let (answer, nearest) = (&found.answer, found.best.as_ref());
+        let solution = |s: &Solution| {
+            let one = wire::Solution::of(s, &self.space);
+            if self.lists_copies() { one.with_copies(&self.space) } else { one }
+        };
         let is_near = matches!(self.criterion, Some(Criterion::Nearest(_)));
         wire::Answer {
             best: nearest.filter(|_| !is_near).map(wire::Nearest::best),
@@ -75,15 +114,32 @@ impl Question {
             families: answer.families.iter().map(|f| wire::Family::of(f, &self.space)).collect(),
             given: self.names.iter().cloned().collect(),
             idealised: self.ideal.clone(),
+            jump: found.jump.as_ref().map(|j| wire::Jump::of(j, &self.joints)),
+            left_out: found.left_out,
             method: self.method,
             nearest: nearest.filter(|_| is_near).map(wire::Nearest::of),
             obstacle: answer.obstacle.as_ref().map(wire::Obstacle::from),
             pose: pose.matrix(),
             robot: self.robot.clone(),
             schema: Schema,
-            solutions: answer.solutions.iter().map(|s| wire::Solution::of(s, &self.space)).collect(),
-            status: wire::status(answer),
+            solutions: answer.solutions.iter().map(solution).collect(),
+            status: match found.excluded() {
+                true => "outside the limits",
+                false => wire::status(answer),
+            },
         }
+    }
+
+    /// Whether there can be copies: of one pose, of an arm with limits.
+    fn lists_copies(&self) -> bool {
+        self.wanted.copies && self.space.limits.iter().any(Option::is_some)
+    }
+}
+
+impl Found {
+    /// Whether there are solutions, and the limits exclude them all.
+    pub fn excluded(&self) -> bool {
+        !self.answer.is_reachable() && self.left_out.is_some_and(|n| n > 0)
     }
 }
 
@@ -129,10 +185,14 @@ pub struct Report<'a> {
     pub pose: &'a Transform<f64>,
     /// Its solutions.
     pub answer: &'a Answer,
+    /// How many were left out, if any were to be.
+    pub left_out: Option<usize>,
     /// The configuration that the pose was taken from.
     pub at: Option<&'a [f64]>,
     /// How far the nearest of all solutions, members of families included, is from that configuration.
     pub away: Option<f64>,
+    /// The family that it is a member of, if it is of one.
+    pub member: Option<usize>,
     /// The solution nearest to what was asked for.
     pub nearest: Option<&'a Nearest>,
 }
@@ -141,6 +201,8 @@ pub struct Report<'a> {
 const SAME: f64 = 1e-6;
 /// Solutions this far apart do not nearly coincide.
 const FAR: f64 = 0.1;
+/// Copies that are shown.
+const COPIES: usize = 8;
 
 impl Report<'_> {
     /// Pose, solutions, families.
@@ -158,7 +220,7 @@ impl Report<'_> {
             ),
         };
         let mut text = format!("{}: {count} for\n\n", styled(&d.name, HEADING));
-        let noise = 1e-14 * self.pose.translation.norm().max(1.0);
+        let noise = noise([self.pose]);
         let rows: Vec<Vec<String>> =
             self.pose.matrix().iter().map(|r| r.iter().map(|&x| number(x, noise)).collect()).collect();
         text += &matrix("T = ", &rows, Align::Right);
@@ -174,8 +236,16 @@ impl Report<'_> {
             text.push('\n');
             text += &self.table(answer.solutions.iter());
         }
+        text += &self.copies();
         for (k, f) in answer.families.iter().enumerate() {
             text += &self.family(k, f);
+        }
+        if let Some(n) = self.left_out {
+            text += &match n {
+                0 => "\n  none is outside the limits\n".to_string(),
+                1 => "\n  1 is outside the limits and left out\n".to_string(),
+                n => format!("\n  {n} are outside the limits and left out\n"),
+            };
         }
         if let Some(nearest) = self.nearest {
             let at: Vec<String> =
@@ -202,12 +272,49 @@ impl Report<'_> {
             return String::new();
         }
         match away <= SAME {
-            true => "\n  -q is a member of a family\n".into(),
+            true => match self.member {
+                Some(k) => format!("\n  -q is a member of family {}\n", k + 1),
+                None => "\n  -q is a member of a family\n".into(),
+            },
             false => format!(
                 "\n  -q is {} from the nearest of these: so close are solutions to each other where the arm is nearly singular\n",
                 reading(away, JointKind::Revolute)
             ),
         }
+    }
+
+    /// Copies of the solutions within the limits, whole turns away: some of them, and how many there are.
+    fn copies(&self) -> String {
+        if !self.question.lists_copies() {
+            return String::new();
+        }
+        let (space, variables) = (&self.question.space, self.description.variables());
+        let mut rows: Vec<Vec<String>> = vec![];
+        let mut count = 0_u64;
+        for (k, s) in self.answer.solutions.iter().enumerate() {
+            let is_itself = |q: &[f64]| q == s.q;
+            let all = space.listed_copies(&s.q, COPIES + 1);
+            let is_listed = all.iter().any(|q| is_itself(q));
+            count = count.saturating_add(space.copies_within(&s.q) - u64::from(is_listed));
+            for q in all.iter().filter(|q| !is_itself(q)).take(COPIES - rows.len().min(COPIES)) {
+                let values = variables.iter().zip(q).map(|(v, &x)| reading(x, v.kind));
+                rows.push(std::iter::once(format!("{}", k + 1)).chain(values).collect());
+            }
+        }
+        if rows.is_empty() {
+            return String::new();
+        }
+        let names: Vec<String> = variables.iter().map(|v| v.symbol.name().to_string()).collect();
+        let header: Vec<&str> = std::iter::once("of").chain(names.iter().map(String::as_str)).collect();
+        let rest = count.saturating_sub(rows.len() as u64);
+        let more = match rest {
+            0 => String::new(),
+            n => format!("  and {n} more, which --json lists (up to {} of each)\n", wire::MOST_COPIES),
+        };
+        format!(
+            "\n  the same whole turns away, within the limits: {count}\n{}{more}",
+            table(&header, &vec![Align::Right; header.len()], &rows)
+        )
     }
 
     fn table<'s>(&self, solutions: impl Iterator<Item = &'s Solution>) -> String {
@@ -265,7 +372,11 @@ impl Report<'_> {
             }
         );
         let free = f.free.join(", ");
+        let is_length = f.free == ["s"];
         let mut of = format!("free: {free}");
+        if is_length {
+            of += ", the length along the curve in radians (slides by the arm's size)";
+        }
         let shown = |x: f64| match self.description.variables().iter().find(|v| *v.symbol.name() == *free) {
             Some(v) => reading(x, v.kind),
             None if free == "s" => number(x, 1e-9),
@@ -279,8 +390,14 @@ impl Report<'_> {
             let stretches: Vec<String> = f.feasible.iter().map(stretch).collect();
             of += &format!("; within the limits {}", stretches.join(", "));
         }
+        let of_joint = self.description.variables().iter().position(|v| *v.symbol.name() == *free);
+        if let (Some(j), true) = (of_joint, f.feasible.is_empty())
+            && let Some([low, high]) = self.question.space.limits[j]
+        {
+            of += &format!("; its limits are {} and {}", shown(low), shown(high));
+        }
         if f.dimension > 1 {
-            of += &format!("; {} parameters", f.dimension);
+            of += &format!("; {} parameters, all of them together in one family", f.dimension);
         }
         text += &format!("  {}\n", styled(&of, FAINT));
         text + &self.table(std::iter::once(&f.representative))

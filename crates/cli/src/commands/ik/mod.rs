@@ -10,12 +10,13 @@ use crate::commands::document;
 use crate::commands::fk::{configuration, without_values};
 use crate::failure::Failure;
 use crate::load;
-use crate::terminal::words;
-use answer::{Question, Report};
+use crate::terminal::{note, words};
+use answer::{Question, Report, Wanted};
+use denavit::Robot;
 use denavit::description::{Description, JointKind};
 use denavit::idealise::{Ideal, idealised};
 use denavit::inverse::{
-    Criterion, Goal, InverseKinematics, InverseModel, InverseOptions, Refusal, Unprepared,
+    Criterion, Goal, InverseKinematics, InverseModel, InverseOptions, Refusal, Task, Unprepared,
 };
 use denavit::quantity::reading;
 use denavit_report::document::Block;
@@ -36,8 +37,8 @@ pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
         Some(tolerance) => Some(ideal(&loaded, name, tolerance)?),
         None => None,
     };
-    let description = ideal.as_ref().map_or(loaded, |i| i.description.clone());
-    let goal: Goal = arguments.goal.into();
+    let description = ideal.as_ref().map_or_else(|| loaded.clone(), |i| i.description.clone());
+    let goal = arguments.goal();
     let given = given(&description, arguments.given.as_deref())?;
     let options = InverseOptions {
         goal,
@@ -53,16 +54,12 @@ pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
             Err(refusal) => return Err(refused(arguments, &description, &refusal)?),
         };
         write!(anstream::stdout(), "{}", printed(arguments, &Explanation::of(&model)))?;
-        return Ok(());
+        return also_by_position(arguments, &description, &options, model.task);
     }
     let mut solver =
         InverseKinematics::new(&description, &options).map_err(|why| unprepared(&description, name, &why))?;
     for near in &solver.nearly {
-        writeln!(
-            anstream::stderr(),
-            "note: {}; solved as it stands, `--idealise` takes it so",
-            words().nearly(near)
-        )?;
+        note(&format!("note: {}; solved as it stands, `--idealise` takes it so", words().nearly(near)));
     }
     let at = arguments.q.as_deref().map(|text| configuration(&description, text)).transpose()?;
     let read = |text: &str| configuration(&description, text);
@@ -73,34 +70,76 @@ pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
     solver.seed = near.clone().or_else(|| at.clone());
     let near = near.or_else(|| arguments.follow.then(|| vec![0.0; solver.robot.joints]));
     let criterion = near.map(Criterion::Nearest).or_else(|| arguments.best.map(Criterion::from));
+    let wanted = Wanted {
+        one: arguments.one,
+        within_limits: arguments.limits,
+        copies: arguments.input.is_none() && !arguments.one,
+    };
     let values = values(&description, &solver.given, &given, at.as_deref())?;
-    let question = Question::new(&description, &solver, values, (criterion, arguments.one), ideal.as_ref());
+    let question = Question::new(&description, &solver, values, (criterion, wanted), ideal.as_ref());
     if let Some(path) = &arguments.input {
         return stream::run(&solver, &question, path, arguments.follow);
     }
     let pose = match (&at, &arguments.pose) {
-        (Some(q), _) => solver.robot.pose(q),
+        // The arm as it is reaches that pose, an idealised one next to it.
+        (Some(q), _) => Robot::numeric(&loaded).map_err(|why| without_values(&loaded, name, &why))?.pose(q),
         (None, Some(text)) => pose::read(text, &arguments.orientation, goal)?,
         (None, None) => return Ok(()),
     };
-    let (answer, nearest) = question.ask(&solver, &pose);
+    let found = question.ask(&solver, &pose);
+    let answer = &found.answer;
     let text = if arguments.json {
-        format!("{}\n", denavit_wire::text(&question.wire(&pose, &answer, nearest.as_ref())))
+        format!("{}\n", denavit_wire::text(&question.wire(&pose, &found)))
     } else {
         Report {
             question: &question,
             description: &description,
             pose: &pose,
-            answer: &answer,
+            answer,
+            left_out: found.left_out,
             at: at.as_deref(),
-            away: at.as_deref().and_then(|q| solver.nearest(&pose, &answer, q)).map(|n| n.distance),
-            nearest: nearest.as_ref(),
+            away: at.as_deref().and_then(|q| solver.nearest(&pose, answer, q)).map(|n| n.distance),
+            member: at.as_deref().and_then(|q| solver.family_of(&pose, answer, q)),
+            nearest: found.best.as_ref(),
         }
         .text()
     };
     write!(anstream::stdout(), "{text}")?;
-    if answer.is_reachable() { Ok(()) } else { Err(Failure::No(answer::obstacle(&description, &answer))) }
+    if goal == Goal::Pose && solver.serves_positions() {
+        note(BY_POSITION);
+    }
+    if found.excluded() {
+        return Err(Failure::No("there are solutions, and the limits exclude all of them".into()));
+    }
+    if answer.is_reachable() { Ok(()) } else { Err(Failure::No(answer::obstacle(&description, answer))) }
 }
+
+/// The position problem beside the pose problem, for an arm that serves positions: its formulas in a summary, else a hint.
+fn also_by_position(
+    arguments: &IkArguments,
+    description: &Description,
+    options: &InverseOptions,
+    task: Task,
+) -> Result<(), Failure> {
+    if options.goal != Goal::Pose || task != Task::Position {
+        return Ok(());
+    }
+    let is_summary =
+        !(arguments.json || arguments.explain || arguments.symbolic) && arguments.format == Format::Terminal;
+    let of_position = InverseOptions { goal: Goal::Position, ..options.clone() };
+    match InverseModel::derive(description, &of_position) {
+        Ok(model) if is_summary => {
+            let text = summary::text(&Explanation::of(&model));
+            writeln!(anstream::stdout(), "\nThe position alone (`--position`):\n\n{}", text.trim_end())?;
+        }
+        _ => note(BY_POSITION),
+    }
+    Ok(())
+}
+
+/// Said of an arm that serves positions.
+const BY_POSITION: &str =
+    "note: this arm has the freedoms of a position, not of a pose: `--position` asks for that alone";
 
 /// The robot cannot be solved as it is given.
 pub fn unprepared(description: &Description, name: &str, why: &Unprepared) -> Failure {
@@ -117,24 +156,18 @@ fn ideal(description: &Description, name: &str, tolerance: f64) -> Result<Ideal,
     }
     let ideal =
         idealised(description, tolerance).map_err(|missing| without_values(description, name, &missing))?;
-    let mut err = anstream::stderr();
     for snap in &ideal.snaps {
         let kind = if snap.what.is_angle() { JointKind::Revolute } else { JointKind::Prismatic };
         let (from, to) = (reading(snap.from, kind), reading(snap.to, kind));
-        writeln!(
-            err,
-            "note: {} of axes {} and {}: {from} taken as {to}",
-            words().measured(snap.what),
-            snap.axes.0,
-            snap.axes.1
-        )?;
+        let (what, (first, second)) = (words().measured(snap.what), snap.axes);
+        note(&format!("note: {what} of axes {first} and {second}: {from} taken as {to}"));
     }
     if ideal.snaps.is_empty() {
-        writeln!(err, "note: nothing is nearly special up to {tolerance}")?;
+        note(&format!("note: nothing is nearly special up to {tolerance}"));
         return Ok(ideal);
     }
     let (turn, shift) = (ideal.rotation_error, ideal.position_error);
-    writeln!(err, "note: the hand is off by up to {turn:.1e} rad and {shift:.1e} m for that")?;
+    note(&format!("note: the hand is off by up to {turn:.1e} rad and {shift:.1e} m for that"));
     Ok(ideal)
 }
 
@@ -168,7 +201,7 @@ fn refused(
     match stuck {
         None if arguments.json => writeln!(out, "{}", denavit_wire::text(&Refused::of(description, &why)))?,
         Some(stuck) => {
-            let explanation = Explanation::of_stuck(description, stuck, arguments.goal.into());
+            let explanation = Explanation::of_stuck(description, stuck, arguments.goal());
             write!(out, "{}", printed(arguments, &explanation))?;
         }
         None => {}
@@ -230,11 +263,10 @@ fn values(
                     variable.symbol.name(),
                     if variable.kind == JointKind::Revolute { "30deg" } else { "0.2" },
                 );
-                writeln!(
-                    anstream::stderr(),
-                    "note: {name} is one joint too many; taken as {}, `--given {name}={unit}` chooses",
-                    reading(x, variable.kind)
-                )?;
+                let taken = reading(x, variable.kind);
+                note(&format!(
+                    "note: {name} is one joint too many; taken as {taken}, `--given {name}={unit}` chooses"
+                ));
                 x
             }
         };

@@ -21,7 +21,7 @@ pub fn read(text: &str, orientation: &str, goal: Goal) -> Result<Transform<f64>,
     {
         return matrix(&value).map_err(bad);
     }
-    let plain = text.trim_start_matches(['[', '(']).trim_end_matches([']', ')']);
+    let plain = load::unbracketed(text);
     let parts: Vec<&str> = plain.split([',', ';', ' ', '\n', '\t']).filter(|p| !p.is_empty()).collect();
     if matches!(parts.len(), 12 | 16) {
         let numbers: Result<Vec<f64>, Failure> =
@@ -29,15 +29,15 @@ pub fn read(text: &str, orientation: &str, goal: Goal) -> Result<Transform<f64>,
         return rigid(&numbers?).map_err(bad);
     }
     // Values may hold blanks: `0.4, 0, 0.3, 90 deg, 0, 0`.
-    let parts: Vec<&str> =
-        if plain.contains([',', ';']) { plain.split([',', ';']).map(str::trim).collect() } else { parts };
+    let parts = load::list(plain);
     let set: OrientationSet =
         orientation.parse().map_err(|e| Failure::Usage(format!("--orientation: {e}")))?;
     let wanted = 3 + set.names().len();
     let position_only = parts.len() == 3 && goal == Goal::Position;
     if parts.len() != wanted && !position_only {
+        let hint = if parts.len() == 3 { "; x, y, z alone go with --position" } else { "" };
         return Err(bad(format!(
-            "{} values; a pose is x, y, z, {} or a 4×4 matrix",
+            "{} values; a pose is x, y, z, {} or a 4×4 matrix{hint}",
             parts.len(),
             set.names().join(", ")
         )));
@@ -48,7 +48,11 @@ pub fn read(text: &str, orientation: &str, goal: Goal) -> Result<Transform<f64>,
             || set == OrientationSet::AxisAngle && k < 6;
         // A number without unit is one of either kind.
         let measure = if k < 3 || direction { Measure::Length } else { Measure::Angle };
-        values.push(number(part, measure).map_err(bad)?);
+        let value = number(part, measure).map_err(bad)?;
+        if measure == Measure::Angle {
+            load::note_of_radians(part, set.names()[k - 3], value);
+        }
+        values.push(value);
     }
     let turned = if position_only {
         Rotation::identity()

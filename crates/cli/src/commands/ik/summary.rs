@@ -44,7 +44,9 @@ pub fn text(e: &Explanation) -> String {
         .collect();
     let header = ["", "unknown", "values", "branch", "type", "from"];
     let align = [Align::Right, Align::Left, Align::Right, Align::Left, Align::Left, Align::Left];
-    text += &table(&header, &align, &rows);
+    if !rows.is_empty() {
+        text += &table(&header, &align, &rows);
+    }
     for s in &e.joints {
         text += &format!("     {}\n", formula(&s.math));
     }
@@ -74,6 +76,10 @@ pub fn text(e: &Explanation) -> String {
     for s in &e.leftovers {
         text += &format!("  the pose must meet {}\n", formula(&s.math));
     }
+    if e.steps.is_empty() {
+        return text + &format!("  {}\n", styled("--pose and -q solve in numbers", FAINT));
+    }
+    let which = if e.solutions.is_some() { "all formulas" } else { "the formulas above are" };
     let hint = "--explain shows every step, --symbolic the formulas, --pose and -q solve";
-    text + &format!("  {}\n", styled(&format!("all formulas {}; {hint}", words().proof(e.proof())), FAINT))
+    text + &format!("  {}\n", styled(&format!("{which} {}; {hint}", words().proof(e.proof())), FAINT))
 }

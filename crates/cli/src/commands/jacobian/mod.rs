@@ -168,8 +168,7 @@ fn numbers(text: &str, option: &str, n: usize) -> Result<Vec<f64>, Failure> {
 }
 
 fn parts(text: &str) -> Vec<&str> {
-    let text = text.trim().trim_start_matches('[').trim_end_matches(']');
-    text.split(|c: char| c == ',' || c == ';' || c.is_whitespace()).filter(|p| !p.is_empty()).collect()
+    load::list(text).into_iter().flat_map(str::split_whitespace).collect()
 }
 
 /// Six components, `-` where any will do.
@@ -193,11 +192,7 @@ fn twist(text: &str) -> Result<([f64; 6], [bool; 6]), Failure> {
 /// Joint velocities: radians or metres a second, degrees and millimetres where a value says so.
 fn joint_rates(description: &Description, text: &str, option: &str) -> Result<Vec<f64>, Failure> {
     let variables = description.variables();
-    let separated: Vec<&str> = if text.contains([',', ';']) {
-        text.split([',', ';']).map(str::trim).collect()
-    } else {
-        text.split_whitespace().collect()
-    };
+    let separated = load::list(text);
     if separated.len() != variables.len() {
         let found = plural(separated.len(), "value");
         return Err(Failure::Usage(format!("{option}: {found} given, one a joint: {}", variables.len())));

@@ -2,7 +2,9 @@
 
 use crate::arguments::Format;
 use crate::commands::document;
+use crate::commands::fk::plural;
 use crate::failure::Failure;
+use crate::terminal::note;
 use denavit::description::Description;
 use denavit::forward::Reference;
 use denavit::velocity::{JacobianModel, Obstacle, Singularities, Viewpoint};
@@ -49,12 +51,21 @@ pub fn document(
         Ok(found) if format == Format::Json => Ok(json(description, &found.jacobian, |robot, text| {
             Model::with_singularities(robot, &found, text)
         })),
-        Ok(found) => Ok(printed(
-            description,
-            &found.jacobian,
-            singularities_document(description, &found, Tongue::English),
-            format,
-        )),
+        Ok(found) => {
+            let n = description.variables().len();
+            if found.rows.len() > n {
+                note(&format!(
+                    "note: {} cannot give the body all six directions; `--position` looks at its point alone",
+                    plural(n, "joint")
+                ));
+            }
+            Ok(printed(
+                description,
+                &found.jacobian,
+                singularities_document(description, &found, Tongue::English),
+                format,
+            ))
+        }
         // The matrix is there all the same.
         Err(why @ Obstacle::AlwaysSingular(_)) => {
             let model = JacobianModel::shortest(description, body);

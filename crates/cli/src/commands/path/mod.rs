@@ -11,6 +11,7 @@ use crate::arguments::{PathArguments, PathFormat};
 use crate::commands::fk::without_values;
 use crate::failure::Failure;
 use crate::load;
+use crate::terminal::note;
 use denavit::Robot;
 use denavit_wire::path::Path;
 use samples::Sampled;
@@ -46,7 +47,7 @@ pub fn run(arguments: &PathArguments) -> Result<(), Failure> {
     }
     write!(anstream::stdout(), "{text}")?;
     if matches!(format, PathFormat::Csv | PathFormat::Ndjson) {
-        write!(anstream::stderr(), "{}", report::remarks(&description, &planned))?;
+        note(&report::remarks(&description, &planned));
     }
     motion::verdict(&planned)
 }

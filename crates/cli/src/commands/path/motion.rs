@@ -32,6 +32,9 @@ pub fn plan(
         PlanError::Unprepared(why) => unprepared(description, &arguments.robot.robot, why),
         PlanError::Limits(_) => Failure::Usage(why.to_string()),
         PlanError::NeededForJerk => Failure::Usage(format!("--jerk: {why}")),
+        PlanError::LawJumps(_) => Failure::Usage(format!(
+            "--law: {why}; `--law jerk-limited` and `--law quintic` keep --jerk, or leave it away"
+        )),
         PlanError::NeededForLaw => Failure::Usage(format!("--law: {why}")),
         PlanError::TooFast { asked, .. } | PlanError::TooShort { asked, .. } => {
             Failure::No(format!("--duration {asked}: {why}"))

@@ -17,7 +17,7 @@ use denavit::description::Description;
 use denavit::geometry::Transform;
 use denavit::inverse::Label;
 use denavit::inverse::derivation::{
-    Condition, Form, Goal, InverseModel, Motion, Norm, NormalChain, Split, Step, Stuck, Task, Unknown,
+    Condition, Form, Goal, InverseModel, Motion, Norm, NormalChain, Split, Step, Stuck, Task, Unknown, as_in,
     axis_unknown, equations, settled,
 };
 use denavit_symbolic::poly::Poly;
@@ -101,7 +101,8 @@ impl Explanation {
     pub fn of_stuck(description: &Description, stuck: &Stuck, goal: Goal) -> Self {
         let settled = settled(description);
         stuck.chain.algebra.restart();
-        let (_, splits) = equations(&stuck.chain, goal);
+        let (found, splits) = equations(&stuck.chain, goal);
+        let splits = as_in(&found, &splits);
         let labels = vec![None; stuck.steps.len()];
         let facts = Facts {
             description: &settled,

@@ -4,7 +4,9 @@ use super::Explanation;
 use crate::document::{Block, Branch, Factor, Line, Math};
 use crate::explained::{Explained, Statement};
 use crate::words::{Coefficients, Given, Wording};
+use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::readable::literals;
+use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Expr, Symbol};
 
 /// Solutions beyond which the tree is not drawn.
@@ -116,7 +118,12 @@ fn setting(e: &Explanation, words: &dyn Wording, blocks: &mut Vec<Block>) {
     let mut line = words.columns_of_pose(columns);
     let names = e.names();
     if let Some(&q) = variables.iter().find(|q| names.number_of(**q).is_some()) {
-        let sum = e.steps.iter().find_map(|s| s.meaning).or_else(|| e.sum());
+        // A cosine that is written out needs no words.
+        let is_short = |sum: &Expr| {
+            let [short, full] = [&names, &Vocabulary::new()].map(|n| print(sum.cos(), n, Style::Ascii));
+            short != full
+        };
+        let sum = e.steps.iter().filter_map(|s| s.meaning).chain(e.sum()).find(is_short);
         line.0.extend(words.short_names(q.into(), sum).0);
     }
     blocks.push(Block::Paragraph(line));

@@ -275,6 +275,7 @@ impl Check for English {
                 "there is no robot: no table of Denavit-Hartenberg parameters stands in the document".into()
             }
             Noted::ReadAs(convention) => format!("tables are read as {convention}: the text says so"),
+            Noted::NotSet(name, why) => format!("value of `{name}`: {why}"),
             Noted::UnknownRobot(name) => format!("no robot `{name}` in the catalogue"),
             Noted::NoSuchTable => "there is no such table".into(),
             Noted::UnknownConvention(name) => format!("unknown convention `{name}`"),
@@ -298,6 +299,7 @@ impl Check for English {
             Noted::Document(_)
             | Noted::TooLong { .. }
             | Noted::ReadAs(_)
+            | Noted::NotSet(..)
             | Noted::UnknownRobot(_)
             | Noted::NoSuchTable
             | Noted::Together(_) => return None,

@@ -2,8 +2,8 @@
 
 use super::{English, counted};
 use crate::words::{Motion, Velocity};
-use denavit::description::Description;
-use denavit::motion::follow::{Event, EventKind};
+use denavit::description::{Description, JointKind};
+use denavit::motion::follow::{Cause, Event, EventKind, Jump};
 use denavit::motion::hand::Stretch;
 use denavit::motion::plan::{Course, Timing, TimingLaw, Verdict};
 use denavit::motion::profile::Law;
@@ -108,6 +108,24 @@ impl Motion for English {
                 format!("the branch ends; the hand can go on with another{}", why(factor, place))
             }
         }
+    }
+
+    fn jump(&self, jump: &Jump, joints: &[(String, JointKind)]) -> String {
+        let (name, kind) = &joints[jump.joint];
+        let by = reading(jump.by, *kind);
+        let what = match jump.same_branch {
+            true => format!("{name} goes back by whole turns, {by} from the pose before"),
+            false => format!("another branch than at the pose before, {name} moves by {by}"),
+        };
+        let why = match jump.why {
+            Cause::Limit { joint, limit } => {
+                let (name, kind) = &joints[joint];
+                format!("going on, {name} would pass its limit {}", reading(limit, *kind))
+            }
+            Cause::End(s) => format!("the branch ends after {} % of the way", decimals(100.0 * s, 2)),
+            Cause::Nearer => "this solution is nearer than the one that goes on".into(),
+        };
+        format!("{what}: {why}")
     }
 
     fn verdict(&self, verdict: Verdict) -> String {

@@ -4,7 +4,7 @@ use super::English;
 use crate::tree::{Line, Math};
 use crate::words::{Gain, Loss, Terms, Velocity};
 use denavit::forward::{Proof, Reference};
-use denavit::velocity::{Obstacle, Place};
+use denavit::velocity::{Obstacle, Place, Still};
 use denavit_program::Count;
 use denavit_symbolic::Refusal;
 
@@ -41,18 +41,17 @@ impl Velocity for English {
         "Determinant".into()
     }
 
-    fn several_determinants(&self, has_surplus: bool) -> String {
+    fn several_determinants(&self, has_surplus: bool, directions: usize) -> String {
+        let number = if directions == 3 { "three" } else { "six" };
         match has_surplus {
-            true => {
-                "There are more joints than directions: the arm is singular where the determinants with all choices of six \
-                 joints are 0."
-            }
-            false => {
-                "There are fewer joints than directions: the arm is singular where the determinants of all choices of rows \
-                 are 0. Those that are 0 everywhere are left out."
-            }
+            true => format!(
+                "There are more joints than directions: the arm is singular where the determinants with all choices of \
+                 {number} joints are 0."
+            ),
+            false => "There are fewer joints than directions: the arm is singular where the determinants of all choices of \
+                      rows are 0. Those that are 0 everywhere are left out."
+                .into(),
         }
-        .into()
     }
 
     fn minor_of_joints(&self, joints: &[usize]) -> String {
@@ -67,10 +66,11 @@ impl Velocity for English {
         "Singularities".into()
     }
 
-    fn no_singularity(&self, is_complete: bool) -> String {
-        match is_complete {
-            true => "There are none: a determinant is never 0.",
-            false => "No factor that depends on the joints is shared by all of the determinants.",
+    fn no_singularity(&self, is_complete: bool, several: bool) -> String {
+        match (is_complete, several) {
+            (true, false) => "There are none: the determinant is never 0.",
+            (true, true) => "There are none: the determinants are never all 0 at once.",
+            (false, _) => "No factor that depends on the joints is shared by all of the determinants.",
         }
         .into()
     }
@@ -114,12 +114,19 @@ impl Velocity for English {
                     axes => format!("{text} and is parallel to axes {}", numbers(axes)),
                 }
             }
-            Place::SelfMotion(joints) => match &joints[..] {
-                [j] => format!("joint {} moves nothing", j + 1),
+            Place::PointOnAxis(axis) => format!("the point lies on axis {}", axis + 1),
+            Place::PointInPlane { axes, parallel } => {
+                let bent = if *parallel { ": stretched or folded" } else { "" };
+                format!("the point lies in one plane with axes {}{bent}", numbers(axes))
+            }
+            Place::SelfMotion { joints, still } => match &joints[..] {
+                [j] => format!("joint {} does not move the {}", j + 1, still_thing(*still)),
                 joints => {
-                    format!("joints {} can move together while the body stands still", numbers(joints))
+                    let (joints, thing) = (numbers(joints), still_thing(*still));
+                    format!("joints {joints} can move together while the {thing} stands still")
                 }
             },
+            Place::Differs => "how the axes lie differs from place to place".into(),
             Place::Lost => "the joints that there are have one direction less".into(),
         }
     }
@@ -145,10 +152,10 @@ impl Velocity for English {
                 let (i, j) = (i + 1, j + 1);
                 format!("gained: joints {i} and {j} turn {way} while the body stands still")
             }
-            Gain::Moves(joints) => {
+            Gain::Moves(joints, still) => {
                 let (all, several) = (plain(joints), joints.len() != 1);
                 let (joints, moves) = if several { ("joints", "move") } else { ("joint", "moves") };
-                format!("gained: {joints} {all} {moves} at first with the body at rest")
+                format!("gained: {joints} {all} {moves} at first with the {} at rest", still_thing(*still))
             }
         }
     }
@@ -174,6 +181,14 @@ impl Velocity for English {
 
     fn unknown_singularities(&self, why: &Obstacle) -> String {
         why.to_string()
+    }
+}
+
+/// What stands still.
+fn still_thing(still: Still) -> &'static str {
+    match still {
+        Still::Body => "body",
+        Still::Point => "point",
     }
 }
 

@@ -3,6 +3,7 @@
 use super::{French, counted, printed};
 use crate::words::Check;
 use crate::words::check::{ROUNDING, percent, positive};
+use denavit::description::NotSet;
 use denavit::forward::Reference;
 use denavit_check::inverse::{Cause, Composed, Missing, Undecided};
 use denavit_check::{
@@ -291,6 +292,13 @@ impl Check for French {
             Noted::ReadAs(convention) => {
                 say!("les tableaux sont lus dans la convention {convention} : le texte le dit")
             }
+            Noted::NotSet(_, NotSet::Unknown { name, known }) => match &known[..] {
+                [] => say!("`{name}` reçoit une valeur : il n'y a aucun paramètre"),
+                known => {
+                    say!("`{name}` reçoit une valeur : paramètre inconnu, il y a {}", known.join(", "))
+                }
+            },
+            Noted::NotSet(name, NotSet::Value(_)) => say!("`{name}` reçoit une valeur illisible"),
             Noted::UnknownRobot(name) => format!("aucun robot `{name}` dans le catalogue"),
             Noted::NoSuchTable => say!("ce tableau n'existe pas"),
             Noted::UnknownConvention(name) => format!("convention inconnue `{name}`"),
@@ -314,6 +322,7 @@ impl Check for French {
             Noted::Document(_)
             | Noted::TooLong { .. }
             | Noted::ReadAs(_)
+            | Noted::NotSet(..)
             | Noted::UnknownRobot(_)
             | Noted::NoSuchTable
             | Noted::Together(_) => return None,

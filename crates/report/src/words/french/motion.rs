@@ -2,8 +2,8 @@
 
 use super::{French, counted};
 use crate::words::{Motion, Velocity};
-use denavit::description::Description;
-use denavit::motion::follow::{Event, EventKind};
+use denavit::description::{Description, JointKind};
+use denavit::motion::follow::{Cause, Event, EventKind, Jump};
 use denavit::motion::hand::Stretch;
 use denavit::motion::plan::{Course, Timing, TimingLaw, Verdict};
 use denavit::motion::profile::Law;
@@ -118,6 +118,26 @@ impl Motion for French {
                 why(factor, place)
             ),
         }
+    }
+
+    fn jump(&self, jump: &Jump, joints: &[(String, JointKind)]) -> String {
+        let (name, kind) = &joints[jump.joint];
+        let by = reading(jump.by, *kind);
+        let what = match jump.same_branch {
+            true => say!("{name} revient de tours entiers, de {by} depuis la pose précédente"),
+            false => say!("une autre branche qu'à la pose précédente, {name} varie de {by}"),
+        };
+        let why = match jump.why {
+            Cause::Limit { joint, limit } => {
+                let (name, kind) = &joints[joint];
+                say!("en continuant, {name} passerait sa limite {}", reading(limit, *kind))
+            }
+            Cause::End(s) => {
+                say!("la branche s'arrête après {} % du chemin", decimals(100.0 * s, 2))
+            }
+            Cause::Nearer => say!("cette solution est plus proche que celle qui continue"),
+        };
+        say!("{what} : {why}")
     }
 
     fn verdict(&self, verdict: Verdict) -> String {

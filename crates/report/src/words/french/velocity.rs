@@ -4,7 +4,7 @@ use super::{French, printed};
 use crate::tree::{Line, Math};
 use crate::words::{Gain, Loss, Terms, Velocity};
 use denavit::forward::{Proof, Reference};
-use denavit::velocity::{MAX_JOINTS, Obstacle, Place};
+use denavit::velocity::{MAX_JOINTS, Obstacle, Place, Still};
 use denavit_program::Count;
 use denavit_symbolic::Refusal;
 
@@ -44,17 +44,18 @@ impl Velocity for French {
         "Déterminant".into()
     }
 
-    fn several_determinants(&self, has_surplus: bool) -> String {
-        printed(match has_surplus {
-            true => {
+    fn several_determinants(&self, has_surplus: bool, directions: usize) -> String {
+        let number = if directions == 3 { "trois" } else { "six" };
+        match has_surplus {
+            true => say!(
                 "Il y a plus d'articulations que de directions : le bras est singulier là où les déterminants de tous les \
-                 choix de six articulations sont nuls."
-            }
-            false => {
+                 choix de {number} articulations sont nuls."
+            ),
+            false => say!(
                 "Il y a moins d'articulations que de directions : le bras est singulier là où les déterminants de tous les \
                  choix de lignes sont nuls. Ceux qui sont nuls partout sont omis."
-            }
-        })
+            ),
+        }
     }
 
     fn minor_of_joints(&self, joints: &[usize]) -> String {
@@ -69,10 +70,11 @@ impl Velocity for French {
         "Singularités".into()
     }
 
-    fn no_singularity(&self, is_complete: bool) -> String {
-        printed(match is_complete {
-            true => "Il n'y en a pas : un déterminant ne s'annule jamais.",
-            false => "Aucun facteur dépendant des articulations n'est commun à tous les déterminants.",
+    fn no_singularity(&self, is_complete: bool, several: bool) -> String {
+        printed(match (is_complete, several) {
+            (true, false) => "Il n'y en a pas : le déterminant ne s'annule jamais.",
+            (true, true) => "Il n'y en a pas : les déterminants ne s'annulent jamais tous à la fois.",
+            (false, _) => "Aucun facteur dépendant des articulations n'est commun à tous les déterminants.",
         })
     }
 
@@ -122,13 +124,20 @@ impl Velocity for French {
                 };
                 say!("une droite rencontre {met}{along}")
             }
-            Place::SelfMotion(joints) => match &joints[..] {
-                [j] => say!("l'articulation {} ne fait rien bouger", j + 1),
+            Place::PointOnAxis(axis) => format!("le point est sur l'axe {}", axis + 1),
+            Place::PointInPlane { axes, parallel } => {
+                let bent = if *parallel { " : bras tendu ou replié" } else { "" };
+                say!("le point est dans le plan des axes {}{bent}", numbers(axes))
+            }
+            Place::SelfMotion { joints, still } => match &joints[..] {
+                [j] => say!("l'articulation {} ne fait pas bouger {}", j + 1, still_thing(*still)),
                 joints => format!(
-                    "les articulations {} peuvent se mouvoir ensemble, le corps restant immobile",
-                    numbers(joints)
+                    "les articulations {} peuvent se mouvoir ensemble, {} restant immobile",
+                    numbers(joints),
+                    still_thing(*still)
                 ),
             },
+            Place::Differs => say!("la position des axes diffère d'un endroit à l'autre"),
             Place::Lost => "les articulations présentes ont une direction de moins".into(),
         }
     }
@@ -154,13 +163,13 @@ impl Velocity for French {
                 let (i, j) = (i + 1, j + 1);
                 say!("gagné : les articulations {i} et {j} tournent {way}, le corps restant immobile")
             }
-            Gain::Moves(joints) => {
+            Gain::Moves(joints, still) => {
                 let all = plain(joints);
                 let who = match joints.len() {
                     1 => format!("l'articulation {all} bouge"),
                     _ => format!("les articulations {all} bougent"),
                 };
-                say!("gagné : au premier ordre, {who}, le corps restant immobile")
+                say!("gagné : au premier ordre, {who}, {} restant immobile", still_thing(*still))
             }
         }
     }
@@ -196,6 +205,14 @@ impl Velocity for French {
                 say!("toutes les configurations sont singulières : le rang vaut au plus {rank}")
             }
         }
+    }
+}
+
+/// What stands still.
+fn still_thing(still: Still) -> &'static str {
+    match still {
+        Still::Body => "le corps",
+        Still::Point => "le point",
     }
 }
 

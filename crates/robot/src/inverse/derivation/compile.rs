@@ -2,7 +2,7 @@
 
 use super::algebra::Kind;
 use super::chain::{Difference, Element, Motion, NormalChain};
-use super::equations::{Goal, Split};
+use super::equations::{Goal, Split, equations};
 use super::known::Unknown;
 use super::naming::{names, unique};
 use super::plan::{Determinant, Form, Norm, Row, Step};
@@ -102,7 +102,8 @@ pub fn without_residual(model: &super::model::InverseModel) -> Solver {
 
 /// The solver of a model that takes rounded rotations for those that are nearest to them.
 pub fn rounding(model: &super::model::InverseModel) -> Solver {
-    with(model, &Options { splits: Some(&model.splits), is_rounding: true })
+    let (_, whole) = equations(&model.chain, model.goal);
+    with(model, &Options { splits: Some(&whole), is_rounding: true })
 }
 
 fn with(model: &super::model::InverseModel, options: &Options) -> Solver {

@@ -5,11 +5,11 @@
 
 use super::algebra::{Algebra, Kind};
 use super::chain::{Motion, NormalChain};
-use super::equations::{Equation, Source};
+use super::equations::{Equation, Source, constant};
 use super::known::{Known, Samples, Unknown};
 use super::plan::Step;
-use denavit_symbolic::Expr;
 use denavit_symbolic::poly::{Atom, Monomial, Poly};
+use denavit_symbolic::{Expr, Rational};
 use rustc_hash::FxHashSet;
 
 /// A condition on the pose, in its entries and in what the steps before it find.
@@ -62,7 +62,8 @@ pub fn task(chain: &NormalChain, rank: usize, of_position: usize, with_axis: usi
     }
 }
 
-/// The independent conditions of an arm that lacks degrees of freedom, the earliest and shortest first.
+/// The independent conditions of an arm that lacks degrees of freedom, the earliest and shortest first; then entries that
+/// are 1 or −1 always.
 pub fn conditions(
     chain: &NormalChain,
     equations: &[Equation],
@@ -102,13 +103,20 @@ pub fn conditions(
     let directions = samples.pose_directions();
     let mut chosen: Vec<Condition> = vec![];
     let mut basis: Vec<Vec<f64>> = vec![];
+    // An entry that is ±1 is so at its largest or smallest, where it has no gradient: it says which of two signs.
+    let mut signs: Vec<Condition> = vec![];
     for c in candidates {
-        if chosen.len() == lacking {
-            break;
-        }
+        let is_full = chosen.len() == lacking;
         let mut row: Vec<f64> = directions.iter().map(|d| samples.derivative(&c.zero, d)).collect();
         let length = norm(&row);
         if length <= 1e-9 * samples.size(&c.zero) {
+            let gives = equations.iter().find(|e| e.source == c.source).and_then(constant);
+            if gives.is_some_and(|(_, x, _)| x.abs() == Rational::ONE) {
+                signs.push(c);
+            }
+            continue;
+        }
+        if is_full {
             continue;
         }
         for b in &basis {
@@ -122,6 +130,7 @@ pub fn conditions(
             chosen.push(c);
         }
     }
+    chosen.extend(signs);
     chosen
 }
 

@@ -7,7 +7,7 @@
 use super::algebra::{Algebra, Column, Matrix, transposed};
 use super::chain::NormalChain;
 use denavit_symbolic::Rational;
-use denavit_symbolic::poly::{Atom, Poly};
+use denavit_symbolic::poly::{Atom, Monomial, Poly};
 use rustc_hash::FxHashSet;
 
 /// What of the hand is given.
@@ -172,8 +172,72 @@ pub fn equations(chain: &NormalChain, goal: Goal) -> (Vec<Equation>, Vec<Split>)
             });
         }
     }
+    // Of equations that become one, the shortest stays.
+    found.sort_by_key(|e| (e.zero.terms().len(), e.source));
+    put_constants(&mut found);
     found.sort_by_key(|e| (e.zero.terms().len(), e.source));
     (found, splits)
+}
+
+/// Entries of the rotation that the arm holds at a number, each with the equation that says so.
+type Constants = Vec<(Atom, Rational, Source)>;
+
+/// A polynomial with these entries put in.
+fn with_entries(p: &Poly, constants: &Constants) -> Poly {
+    Poly::from_terms(p.terms().iter().map(|(m, r)| {
+        constants.iter().fold((m.clone(), r.clone()), |(m, r), (atom, x, _)| {
+            let power = (0..m.exponent(*atom)).fold(r, |r, _| &r * x);
+            (m.without(*atom), power)
+        })
+    }))
+}
+
+/// Entries of the rotation that the arm holds at a number are put into the other equations: az = −1 of an arm whose hand
+/// always points down.
+fn put_constants(found: &mut Vec<Equation>) {
+    let constants: Constants = found.iter().filter_map(constant).collect();
+    if constants.is_empty() {
+        return;
+    }
+    let mut seen: FxHashSet<Poly> = FxHashSet::default();
+    found.retain_mut(|e| {
+        if !constants.iter().any(|c| c.2 == e.source) {
+            (e.pose, e.chain) = (with_entries(&e.pose, &constants), with_entries(&e.chain, &constants));
+            e.zero = e.pose.minus(&e.chain);
+            e.atoms = e.zero.atoms();
+        }
+        let Some((_, first)) = e.zero.terms().first() else { return false };
+        seen.insert(e.zero.scaled(&first.recip().unwrap_or(Rational::ONE)))
+    });
+}
+
+/// Both sides at the cuts as the equations have them, with the entries that the arm holds at a number put in. What a
+/// pose misses an equation by is measured by the sides as they were: a pose may have another number there.
+pub fn as_in(found: &[Equation], splits: &[Split]) -> Vec<Split> {
+    let constants: Constants = found.iter().filter_map(constant).collect();
+    let mut splits = splits.to_vec();
+    if constants.is_empty() {
+        return splits;
+    }
+    for split in &mut splits {
+        let entries = split.pose.iter_mut().chain(split.pose_rotation.iter_mut().flatten());
+        entries.flatten().for_each(|p| *p = with_entries(p, &constants));
+    }
+    splits
+}
+
+/// The entry of the rotation that an equation gives as a number.
+pub(super) fn constant(e: &Equation) -> Option<(Atom, Rational, Source)> {
+    let [atom] = e.atoms[..] else { return None };
+    let is_entry = usize::from(atom) < 12 && atom % 4 != 3;
+    let is_linear = e.zero.terms().iter().all(|(m, _)| m.is_one() || *m == Monomial::power(atom, 1));
+    if e.degree != 0 || !is_entry || !is_linear {
+        return None;
+    }
+    let of = |part: &Monomial| e.zero.terms().iter().find(|t| t.0 == *part).map(|t| t.1.clone());
+    // a·U + b = 0
+    let (a, b) = (of(&Monomial::power(atom, 1))?, of(&Monomial::one()).unwrap_or(Rational::ZERO));
+    Some((atom, -(&b * &a.recip()?), e.source))
 }
 
 fn flat((x, y): (Option<Poly>, &Option<Poly>)) -> Option<(Option<Poly>, &Poly)> {

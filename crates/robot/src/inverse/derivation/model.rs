@@ -4,7 +4,7 @@ use super::candidates::Problem;
 use super::chain::{self, End, Motion, NormalChain, Unsuitable};
 use super::compile::{self, Compiled};
 use super::conditions::{self, Condition, Task};
-use super::equations::{Goal, Split, equations};
+use super::equations::{Goal, Split, as_in, equations};
 use super::known::{Known, Samples, Unknown, axis_unknown};
 use super::plan::{Form, Step};
 use super::screen::Screen;
@@ -246,7 +246,8 @@ impl InverseModel {
                 Outcome { steps: vec![], missing: Known::new(&chain, &axes_of(&chain, &asked)).open(&chain) };
             return Err(stuck(chain, outcome, asked, surplus, false));
         }
-        let (found, splits) = equations(&chain, options.goal);
+        let (found, whole) = equations(&chain, options.goal);
+        let splits = as_in(&found, &whole);
         let problem = Problem::new(&chain, &found, &splits, &samples);
         let (given, outcome) = choose(&problem, screen.as_ref(), &asked, surplus);
         if !outcome.is_complete() || !is_whole(&chain, &splits) {
@@ -269,11 +270,11 @@ impl InverseModel {
             .into_iter()
             .map(|(step, steps)| {
                 let labels = self::labels(&chain, &steps);
-                let compiled = compile::compile(&chain, &steps, &splits, options.goal, &given, &labels);
+                let compiled = compile::compile(&chain, &steps, &whole, options.goal, &given, &labels);
                 Variant { step, steps, labels, compiled }
             })
             .collect();
-        let compiled = compile::compile(&chain, &outcome.steps, &splits, options.goal, &given, &labels);
+        let compiled = compile::compile(&chain, &outcome.steps, &whole, options.goal, &given, &labels);
         Ok(InverseModel {
             goal: options.goal,
             given_by_choice: given.len() > asked.len(),

@@ -45,6 +45,8 @@ pub(super) struct ByJoint {
     pub given: Vec<usize>,
     /// The name of the parameter.
     pub name: String,
+    /// The names of all joints that are given.
+    pub names: Vec<String>,
     labels: Vec<Option<Label>>,
     space: JointSpace,
     ranges: Vec<Range>,
@@ -82,11 +84,13 @@ impl ByJoint {
     ) -> Result<Self, MissingValue> {
         let function = model.function(description, robot)?;
         let given = model.given.clone();
-        let name = given.last().map(|&j| description.variables()[j].symbol.name().to_string());
+        let variables = description.variables();
+        let names: Vec<String> = given.iter().map(|&j| variables[j].symbol.name().to_string()).collect();
         Ok(ByJoint {
             scalar: Shared::new(function.scalar()),
             goal: model.goal,
-            name: name.unwrap_or_default(),
+            name: names.last().cloned().unwrap_or_default(),
+            names,
             labels: model.labels.clone(),
             ranges: Range::all(space),
             space: space.clone(),

@@ -80,9 +80,21 @@ impl Manifold {
         self.components.iter().any(|c| !c.feasible.is_empty())
     }
 
-    /// The curves as families of solutions.
-    pub fn answer(self) -> Answer {
+    /// The curves as families of solutions. Where configurations have several parameters, `free` by name, the curves are samples
+    /// of them: one family with one of the curves stands for all.
+    pub fn answer(mut self, free: &[String]) -> Answer {
         let dimension = self.dimension;
+        if dimension > 1 {
+            let longest = |c: &Component| c.feasible.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
+            let best =
+                self.components.iter().enumerate().max_by(|a, b| longest(a.1).total_cmp(&longest(b.1)));
+            let family = best.map(|(k, _)| k).map(|k| self.components.swap_remove(k)).map(|c| Family {
+                dimension,
+                curve: c.curve,
+                ..Family::new(c.representative, free.to_vec(), c.direction)
+            });
+            return Answer { doubt: self.doubt, families: family.into_iter().collect(), ..Answer::empty() };
+        }
         let family = |c: Component| Family {
             dimension,
             interval: Some(c.domain),

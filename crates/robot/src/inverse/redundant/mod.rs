@@ -141,6 +141,14 @@ impl RedundantSolver {
         }
     }
 
+    /// The names of all parameters that configurations of a pose have.
+    pub fn free(&self) -> Vec<String> {
+        match &self.method {
+            Method::Joint(by) => by.names.clone(),
+            Method::ArmAngle(_) | Method::Curve(_) => vec![self.parameter().to_string()],
+        }
+    }
+
     /// The parameter of the components: `ψ`, the name of a joint variable, or `s`.
     pub fn parameter(&self) -> &str {
         match &self.method {

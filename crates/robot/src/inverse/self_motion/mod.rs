@@ -30,6 +30,9 @@ const STEPS: usize = 4000;
 /// A curve whose direction stays within this is a straight line.
 const STRAIGHT: f64 = 1e-7;
 
+/// What a straight line may miss the pose by far from where it was followed.
+const ON_LINE: f64 = 1e-9;
+
 /// How a self-motion ends.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum CurveEnd {
@@ -155,14 +158,50 @@ impl<'a> Tracker<'a> {
         let (forward, end) = self.run(&start, &tangent);
         if end == CurveEnd::Closed {
             let is_affine = self.is_straight(&forward);
-            return SelfMotion { curve: forward, ends: [end; 2], direction, is_affine };
+            return self.whole_line(SelfMotion { curve: forward, ends: [end; 2], direction, is_affine });
         }
         let back: Vec<f64> = tangent.iter().map(|x| -x).collect();
         let (mut curve, first) = self.run(&start, &back);
         curve.reverse();
         curve.extend(forward.into_iter().skip(1));
         let is_affine = self.is_straight(&curve);
-        SelfMotion { curve, ends: [first, end], direction, is_affine }
+        self.whole_line(SelfMotion { curve, ends: [first, end], direction, is_affine })
+    }
+
+    /// The pose is an analytic function along a line: where it is constant on a part, it is constant on all of the line, past
+    /// the points where other curves meet it, once round.
+    fn whole_line(&self, motion: SelfMotion) -> SelfMotion {
+        let d = &motion.direction;
+        let periods = &self.space.turning.periods;
+        let moving: Vec<usize> = (0..d.len()).filter(|&j| d[j].abs() > STRAIGHT).collect();
+        let turns_alone = moving.iter().all(|&j| periods[j].is_finite());
+        let lead = moving.iter().copied().max_by(|&a, &b| d[a].abs().total_cmp(&d[b].abs()));
+        let (Some(lead), true, false) = (lead, motion.is_affine && turns_alone, motion.is_closed()) else {
+            return motion;
+        };
+        // All joints are back where they were after some turns of the one that moves most.
+        let is_back = |k: &f64| {
+            moving.iter().all(|&j| {
+                let turns = k * periods[lead] * d[j] / (d[lead] * periods[j]);
+                (turns - turns.round()).abs() < 1e-6
+            })
+        };
+        let Some(length) = [1.0, 2.0, 3.0, 4.0, 6.0].iter().find(|k| is_back(k)).map(|k| k * periods[lead])
+        else {
+            return motion;
+        };
+        let start = &motion.curve[0];
+        let parts = (length / LONGEST).ceil();
+        let at =
+            |k: f64| (0..d.len()).map(|j| start[j] + k / parts * length * d[j] / d[lead].abs()).collect();
+        let curve: Vec<Vec<f64>> = (0..=parts as usize).map(|k| at(k as f64)).collect();
+        let Frame { robot, goal, size, .. } = self.frame;
+        let misses =
+            |q: &Vec<f64>| newton::distance(robot, goal, self.pose, q, size) > self.missed.max(ON_LINE);
+        if curve.iter().any(misses) {
+            return motion;
+        }
+        SelfMotion { curve, ends: [CurveEnd::Closed; 2], ..motion }
     }
 
     /// The curve in one direction.

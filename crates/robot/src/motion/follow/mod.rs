@@ -8,9 +8,11 @@
 mod between;
 mod clearance;
 mod events;
+mod jump;
 mod track;
 
 pub use between::HermitePath;
 pub use clearance::Clearance;
 pub use events::{Event, EventKind};
+pub use jump::{Cause, Jump};
 pub use track::{Alternative, FollowOptions, Followed, Follower};

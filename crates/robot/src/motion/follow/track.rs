@@ -9,7 +9,7 @@ use crate::inverse::{Branch, Goal, InverseKinematics, JointSpace, Unprepared, ne
 use crate::mechanism::Robot;
 use crate::motion::hand::HandPath;
 use crate::velocity::{
-    Damping, Place, RateSolver, Singularities, Viewpoint, Whole, geometric, nearest_singularity,
+    Damping, Place, RateSolver, Singularities, Still, Viewpoint, Whole, geometric, nearest_singularity,
 };
 use denavit_program::{Graph, Interval, Program};
 use denavit_symbolic::{Expr, Symbol};
@@ -265,7 +265,7 @@ impl Follower {
             nearest_singularity(self.robot(), &view, is_angle, size, q).filter(|n| n.distance < 0.05)?;
         let jacobian = geometric(self.robot(), &exact.q, &view);
         let whole = Whole::new(&jacobian, is_angle, size);
-        Some(Place::of(self.robot(), Reference::Tool, &exact.q, &whole.free))
+        Some(Place::of(self.robot(), (Reference::Tool, Still::Body), &exact.q, &whole.free))
     }
 }
 

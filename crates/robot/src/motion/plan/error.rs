@@ -3,6 +3,7 @@
 use crate::description::JointKind;
 use crate::inverse::Unprepared;
 use crate::motion::MotionError;
+use crate::motion::profile::Law;
 use crate::quantity::{decimals, rate};
 use std::fmt;
 
@@ -17,6 +18,8 @@ pub enum PlanError {
     NeededForJerk,
     /// A time law is asked for, which needs velocities and accelerations of all joints.
     NeededForLaw,
+    /// The law's acceleration jumps, which no jerk limit allows.
+    LawJumps(Law),
     /// There is no such path, or no timing of it.
     Motion(MotionError),
     /// No configuration has the pose at the start.
@@ -63,6 +66,10 @@ impl fmt::Display for PlanError {
             Self::Limits(why) | Self::Motion(why) => write!(f, "{why}"),
             Self::NeededForJerk | Self::NeededForLaw => {
                 write!(f, "velocities and accelerations of all joints are needed too")
+            }
+            Self::LawJumps(law) => {
+                let law = if *law == Law::Cubic { "cubic" } else { "trapezoidal" };
+                write!(f, "the acceleration of the {law} law jumps, and no jerk limit holds there")
             }
             Self::OutOfReach => write!(f, "the start of the path is out of reach"),
             Self::OutsideLimits { joint } => write!(f, "a way-point has {joint} outside of its limits"),

@@ -38,6 +38,9 @@ pub(super) fn plan(
 fn between([a, b]: [&[f64]; 2], limits: &Limits, law: Option<Law>) -> Result<Timed, PlanError> {
     let has_jerk = limits.jerk().is_some();
     let law = law.unwrap_or(if has_jerk { Law::DoubleS } else { Law::Trapezoidal });
+    if has_jerk && matches!(law, Law::Cubic | Law::Trapezoidal) {
+        return Err(PlanError::LawJumps(law));
+    }
     if law == Law::DoubleS && has_jerk {
         let found = move_within_limits(&JointState::at_rest(a), &JointState::at_rest(b), limits)?;
         return Ok((Box::new(found), TimingLaw::Fastest.into()));

@@ -3,9 +3,10 @@
 mod minors;
 mod place;
 mod sample;
+mod together;
 
 pub use minors::Minor;
-pub use place::Place;
+pub use place::{Place, Still};
 pub use sample::singular_configuration;
 
 use super::geometric::{Jacobian, Viewpoint, geometric};
@@ -20,6 +21,7 @@ use crate::space::JointSpace;
 use denavit_symbolic::factor::{Factored, Zero, zeros};
 use denavit_symbolic::{Expr, Refusal};
 use std::fmt;
+use together::{Known, never_all_zero};
 
 /// Joints beyond which minors are not expanded.
 pub const MAX_JOINTS: usize = 8;
@@ -56,12 +58,15 @@ impl std::error::Error for Obstacle {}
 pub struct Singularities {
     /// The Jacobian where it is shortest; its determinant is the same in every frame and at every point.
     pub jacobian: JacobianModel,
+    /// The rows that count, from 0: all six, or those of the position.
+    pub rows: Vec<usize>,
     /// The largest square parts that are not identically 0. With six joints the determinant itself; with fewer, of some
     /// rows; with more, of some joints. The arm is singular where all of them are 0.
     pub minors: Vec<Minor>,
     /// The factors that all minors share, each a singularity of its own.
     pub common: Vec<Singularity>,
-    /// Whether the factors have no common zeros beside: a single minor, or nothing left of one.
+    /// Whether it is proved that the minors have no common zeros beside: there is a single one, nothing is left of one, or what
+    /// is left of all is never 0 at once (lengths that are named and have no value are taken to be other than 0).
     pub is_complete: bool,
     /// The joint velocities for a twist as formulas, where they are short.
     pub rates: Option<RateFormulas>,
@@ -86,13 +91,38 @@ pub struct Singularity {
 pub struct Example {
     /// The configuration.
     pub q: Vec<f64>,
-    /// A motion of the joints that leaves the body where it is, the largest component 1 or −1 (radians, metres).
+    /// A motion of the joints that leaves at rest what is asked for, the largest component 1 or −1 (radians, metres).
     pub free: Vec<Vec<f64>>,
+    /// What is at rest then.
+    pub still: Still,
     /// Twists that cannot be had, in the frame and at the point of the Jacobian: whatever the joints do, the sum of
     /// products with the twist's components is 0.
     pub lost: Vec<[f64; 6]>,
     /// How the axes lie that makes it singular.
     pub place: Place,
+}
+
+impl Example {
+    /// Whether the same happens at another: the same joints move, the same stands still, the same kind of twist is lost.
+    fn is_like(&self, other: &Self) -> bool {
+        let moving = |e: &Self| -> Vec<Vec<bool>> {
+            e.free.iter().map(|f| f.iter().map(|x| *x != 0.0).collect()).collect()
+        };
+        // Along or about one axis, or else linear, angular or both.
+        let kinds = |e: &Self| -> Vec<(bool, bool, Option<usize>)> {
+            let kind = |w: &[f64; 6]| {
+                let parts: Vec<usize> = (0..6).filter(|&k| w[k] != 0.0).collect();
+                let one = if let [k] = parts[..] { Some(k) } else { None };
+                (parts.iter().any(|&k| k < 3), parts.iter().any(|&k| k >= 3), one)
+            };
+            e.lost.iter().map(kind).collect()
+        };
+        let is_one = self.free.len() == 1;
+        self.free.len() == other.free.len()
+            && self.still == other.still
+            && self.place == other.place
+            && (!is_one || moving(self) == moving(other) && kinds(self) == kinds(other))
+    }
 }
 
 impl Singularities {
@@ -128,28 +158,49 @@ impl Singularities {
             .filter_map(|&(f, n)| Some((f, n.min(minors.iter().map(|m| power(&m.determinant, f)).min()?))))
             .filter(|&(f, n)| n > 0 && varies(description, f))
             .collect();
-        let left = |m: &Minor| {
-            m.determinant.factors.iter().any(|&(f, n)| {
-                let own = shared.iter().find(|s| s.0 == f).map_or(0, |s| s.1);
-                n > own && varies(description, f)
-            })
+        let left = |m: &Minor| -> Vec<Expr> {
+            let own = |f: Expr| shared.iter().find(|s| s.0 == f).map_or(0, |s| s.1);
+            let factors = m.determinant.factors.iter();
+            factors.filter(|&&(f, n)| n > own(f) && varies(description, f)).map(|f| f.0).collect()
         };
-        let is_complete = minors.iter().any(|m| !left(m));
+        let products: Vec<Vec<Expr>> = minors.iter().map(left).collect();
+        let is_complete = products.iter().any(Vec::is_empty) || {
+            let variables = description.variables().iter().map(|v| v.symbol).collect();
+            let known = Known { variables, values: description.known_values() };
+            // A length in front of one may be 0 with the values of the robot: that one says nothing.
+            let vanishes = |f: Expr| !varies(description, f) && known.may_vanish(f);
+            let counts = |m: &Minor| !m.determinant.factors.iter().any(|f| vanishes(f.0));
+            let sure: Vec<Vec<Expr>> =
+                minors.iter().zip(products).filter(|(m, _)| counts(m)).map(|m| m.1).collect();
+            never_all_zero(&sure, &known)
+        };
         let finder = sample::Finder::new(description);
         let all: Vec<Expr> = shared.iter().map(|s| s.0).collect();
         let common = shared
             .iter()
             .map(|&(factor, power)| {
-                let example = finder
-                    .find(factor, &all, None)
-                    .map(|(robot, q)| example(description, &robot, &jacobian.view, rows, q));
+                let at = |near: Option<&[f64]>| {
+                    let (robot, q) = finder.find(factor, &all, near)?;
+                    Some(example(description, &robot, &jacobian.view, rows, q))
+                };
+                let example = at(None).map(|found| {
+                    let others = finder.starts(OTHERS);
+                    let is_so = others.iter().filter_map(|q| at(Some(q))).all(|other| found.is_like(&other));
+                    Example { place: if is_so { found.place } else { Place::Differs }, ..found }
+                });
                 Singularity { factor, power, zeros: zeros(factor), example }
             })
             .collect();
         let rates = RateFormulas::derive(description, &jacobian).map_err(Obstacle::TooLarge)?;
-        Ok(Singularities { jacobian, minors, common, is_complete, rates })
+        Ok(Singularities { jacobian, rows: rows.to_vec(), minors, common, is_complete, rates })
     }
 }
+
+/// Configurations at which what happens at one is looked at again.
+const OTHERS: usize = 3;
+
+/// A body turns that is faster than this where the fastest joint has 1 rad/s.
+const TURNS: f64 = 1e-6;
 
 /// Whether there are few enough joints.
 fn bounded(description: &Description) -> Result<(), Obstacle> {
@@ -179,7 +230,8 @@ fn example(
     let length = if space.reach > 0.0 { space.reach } else { 1.0 };
     // The Jacobian is taken at an origin.
     let view = Viewpoint { axes: view.axes, body: view.body, at: view.at, offset: Vector::zero() };
-    let mut jacobian = geometric(robot, &q, &view);
+    let whole_body = geometric(robot, &q, &view);
+    let mut jacobian = whole_body.clone();
     for column in &mut jacobian.columns {
         (0..6).filter(|r| !rows.contains(r)).for_each(|r| column[r] = 0.0);
     }
@@ -202,8 +254,10 @@ fn example(
         let n = normal((0..6).map(|k| if k < 3 { w[k] / length } else { w[k] }).collect());
         std::array::from_fn(|k| n[k])
     });
-    let place = Place::of(robot, view.body, &q, &free);
-    Example { lost: lost.collect(), q, free, place }
+    let turns = |v: &Vec<f64>| whole_body.twist(v)[3..].iter().any(|w| w.abs() > TURNS);
+    let still = if free.iter().any(turns) { Still::Point } else { Still::Body };
+    let place = Place::of(robot, (view.body, still), &q, &free);
+    Example { lost: lost.collect(), q, free, still, place }
 }
 
 /// The largest component made 1, rounding errors made 0.

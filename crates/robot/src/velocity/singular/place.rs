@@ -40,10 +40,35 @@ pub enum Place {
         /// The axes that it is parallel to.
         parallel: Vec<usize>,
     },
-    /// These joints can move while the body stands still.
-    SelfMotion(Vec<usize>),
+    /// The point of the body, an origin, lies on the axis of a joint.
+    PointOnAxis(usize),
+    /// The point of the body lies in one plane with the axes of two joints.
+    PointInPlane {
+        /// The joints.
+        axes: [usize; 2],
+        /// Whether their axes are parallel: then the arm is stretched or folded.
+        parallel: bool,
+    },
+    /// These joints can move.
+    SelfMotion {
+        /// The joints.
+        joints: Vec<usize>,
+        /// What stands still meanwhile.
+        still: Still,
+    },
+    /// This is not the same everywhere on the singularity.
+    Differs,
     /// No joint is free: directions are lost because the arm has less than six.
     Lost,
+}
+
+/// What stands still though joints move.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Still {
+    /// The body.
+    Body,
+    /// One point of the body, which turns about it.
+    Point,
 }
 
 /// Axes nearer than this, by the arm's size, meet.
@@ -58,20 +83,38 @@ struct Axis {
 }
 
 impl Place {
-    /// From the motions of the joints that leave the body where it is.
-    pub fn of(robot: &Robot<f64>, body: Reference, q: &[f64], free: &[Vec<f64>]) -> Self {
+    /// From the motions of the joints that leave the body where it is, or its origin.
+    pub fn of(robot: &Robot<f64>, (body, still): (Reference, Still), q: &[f64], free: &[Vec<f64>]) -> Self {
         let [free] = free else {
             return match free.first() {
                 None => Place::Lost,
-                Some(_) => Place::SelfMotion(moving(&free.concat(), q.len())),
+                Some(_) => Place::SelfMotion { joints: moving(&free.concat(), q.len()), still },
             };
         };
         let support = moving(free, q.len());
-        let Some(axes) = axes(robot, q) else { return Place::SelfMotion(support) };
         let size = robot.reach().max(1e-9);
-        Self::recognised(&axes, &support, size)
-            .or_else(|| line(robot, body, q, &axes, size))
-            .unwrap_or(Place::SelfMotion(support))
+        let found = axes(robot, q).and_then(|axes| match still {
+            Still::Body => {
+                Self::recognised(&axes, &support, size).or_else(|| line(robot, body, q, &axes, size))
+            }
+            Still::Point => Self::of_point(origin(robot, body, q)?, &axes, &support, size),
+        });
+        found.unwrap_or(Place::SelfMotion { joints: support, still })
+    }
+
+    /// Where a point that stands still lies though the joints of the support turn.
+    fn of_point(p: Vector<f64>, axes: &[Axis], support: &[usize], size: f64) -> Option<Self> {
+        if !support.iter().all(|&j| axes[j].turns) {
+            return None;
+        }
+        match *support {
+            [j] if distance(p, &axes[j]) < TOUCH * size => Some(Place::PointOnAxis(j)),
+            [i, j] if in_plane(p, &axes[i], &axes[j], size) => {
+                let parallel = axes[i].z.cross(axes[j].z).norm() < TOUCH;
+                Some(Place::PointInPlane { axes: [i, j], parallel })
+            }
+            _ => None,
+        }
     }
 
     fn recognised(axes: &[Axis], support: &[usize], size: f64) -> Option<Self> {
@@ -129,6 +172,15 @@ fn line(robot: &Robot<f64>, body: Reference, q: &[f64], axes: &[Axis], size: f64
         if is_parallel { parallel.push(j) } else { meets.push(j) }
     }
     Some(Place::Line { meets, parallel })
+}
+
+/// The origin of a body.
+fn origin(robot: &Robot<f64>, body: Reference, q: &[f64]) -> Option<Vector<f64>> {
+    match body {
+        Reference::Tool => Some(robot.pose(q).translation),
+        Reference::Base => None,
+        Reference::Frame(n) => Some(robot.frames(q).get(n)?.translation),
+    }
 }
 
 /// Which joints move.

@@ -59,6 +59,12 @@ impl Finder {
         None
     }
 
+    /// Configurations to start from.
+    pub fn starts(&self, count: usize) -> Vec<Vec<f64>> {
+        let mut random = Random(17);
+        (0..count).map(|_| self.variables.iter().map(|_| 6.0 * random.unit() - 3.0).collect()).collect()
+    }
+
     fn value(&self, e: Expr, q: &[f64]) -> f64 {
         let joint = |s: Symbol| self.variables.iter().position(|&v| v == s).map(|j| q[j]);
         let parameter = |s: Symbol| self.values.iter().find(|v| v.0 == s).map(|v| v.1);

@@ -1,6 +1,6 @@
 //! A permanent attack: arms and poses at random, judged by the forward model and by brute force.
 
-mod arms;
+pub mod arms;
 mod cases;
 mod judge;
 mod poses;
