@@ -289,6 +289,9 @@ pub struct JacobianArguments {
     /// Print the matrix where it is shortest, its determinant in factors, and what happens at each singularity
     #[arg(long, conflicts_with_all = ["q", "input", "symbolic"])]
     pub explain: bool,
+    /// Write a certificate of what is proved: JSON for `check_certificate.py` (docs/certificates.md), or Coq if FILE ends in .v
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["q", "input"])]
+    pub certificate: Option<PathBuf>,
     /// With --explain: singularities of the position alone, as of a planar arm
     #[arg(long, requires = "explain")]
     pub position: bool,
@@ -333,6 +336,9 @@ pub struct DeriveArguments {
     /// Parts for the algorithm to compute: x, y, z (columns), orientation, position; separated by commas
     #[arg(long, value_name = "PARTS", default_value = "all")]
     pub only: String,
+    /// Write a certificate of what is proved: JSON for `check_certificate.py` (docs/certificates.md), or Coq if FILE ends in .v
+    #[arg(long, value_name = "FILE")]
+    pub certificate: Option<PathBuf>,
     /// How to print it
     #[arg(long, value_enum, default_value_t = Format::Terminal)]
     pub format: Format,
