@@ -110,10 +110,15 @@ class Checker:
         if set(rest) == {pi} and 12 * rest[pi] in EXACT:
             s, c = turn(*map(self.polynomial, EXACT[12 * rest[pi]]))
         elif rest:
-            tried = [(plus(rest, form, -k), plus(ZERO, x, k), y) for form, x, y in self.angles for k in (1, -1)]
+            ones = [(plus(ZERO, form, k), (plus(ZERO, x, k), y)) for form, x, y in self.angles for k in (1, -1)]
+            tried = [[one] for one in ones if set(one[0]) <= {0, pi}]
+            tried = [(reduce(lambda off, one: plus(off, one[0], -1), t, rest), t) for t in
+                     tried + [one + other for one in tried for other in tried]]
             fits = [t for t in tried if set(t[0]) <= {pi} and Fraction(2 * t[0].get(pi, 0)).denominator == 1]
             need(fits, "a sine of an angle that is not declared")
-            quarters, (s, c) = quarters + 2 * fits[0][0].get(pi, 0), turn(*fits[0][1:])
+            for _, pair in fits[0][1]:
+                s, c = turn(*pair)
+            quarters += 2 * fits[0][0].get(pi, 0)
         for _ in range(int(quarters) % 4):
             s, c = c, plus(ZERO, s, -1)
         return s, c

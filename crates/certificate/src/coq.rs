@@ -58,6 +58,7 @@ struct Writer<'a> {
     out: String,
     frames: FxHashMap<(usize, usize, usize), [[Item; 4]; 3]>,
     proved: FxHashMap<(View, Vec<usize>, Vec<usize>), Item>,
+    entries: FxHashMap<(View, usize, usize), Item>,
     defined: FxHashMap<Symbol, Item>,
 }
 
@@ -70,6 +71,7 @@ impl Certificate {
             out: String::new(),
             frames: FxHashMap::default(),
             proved: FxHashMap::default(),
+            entries: FxHashMap::default(),
             defined: FxHashMap::default(),
         };
         let mut missing = vec![];
@@ -228,6 +230,9 @@ impl Writer<'_> {
 
     /// An entry of a Jacobian: the sum of θ' z × (p − o) + d' z, or of θ' z.
     fn jacobian(&mut self, view: &View, row: usize, joint: usize) -> Result<Item, Obstacle> {
+        if let Some(known) = self.entries.get(&(view.clone(), row, joint)) {
+            return Ok(known.clone());
+        }
         let arm = self.certificate.arm.as_ref().map_err(|why| *why)?;
         let (axes, at, body) = (arm.index(view.axes), arm.index(view.at), arm.index(view.body));
         let (moved, before, q) = (arm.moved.clone(), arm.before, arm.joints[joint]);
@@ -262,7 +267,9 @@ impl Writer<'_> {
             }
             terms.push((slide, vec![x[k][2].clone()], Poly::one()));
         }
-        self.define(&format!("j{}_{}_defined", row + 1, joint + 1), terms)
+        let entry = self.define(&format!("j{}_{}_defined", row + 1, joint + 1), terms)?;
+        self.entries.insert((view.clone(), row, joint), entry.clone());
+        Ok(entry)
     }
 
     fn left(&mut self, quantity: &Quantity, hint: &str) -> Result<Item, Obstacle> {
@@ -337,11 +344,11 @@ impl Writer<'_> {
             self.out += &format!("  apply Rminus_diag_uniq. transitivity ({sum}).\n");
             self.out += &format!("  - {unfolded}{rewritten} field.\n  -{facts} ring.\nQed.\n");
         }
-        self.keep(claim, &left, value, &name)
+        self.keep(claim, &left, value, (&name, &rewritten))
     }
 
     /// Minors are made of what is proved of entries and smaller minors.
-    fn keep(&mut self, claim: &Claim, left: &Item, value: Poly, lemma: &str) -> Result<(), Obstacle> {
+    fn keep(&mut self, claim: &Claim, left: &Item, value: Poly, (lemma, rewritten): (&str, &str)) -> Result<(), Obstacle> {
         let key = match &claim.left {
             Quantity::Jacobian { view, row, joint } => (view.clone(), vec![*row], vec![*joint]),
             Quantity::Minor { view, rows, joints, .. } if rows.len() > 1 => {
@@ -349,26 +356,20 @@ impl Writer<'_> {
             }
             _ => return Ok(()),
         };
+        if self.proved.contains_key(&key) {
+            return Ok(());
+        }
         let item = match &left.name {
-            Some(of) if value.as_constant().is_none() => {
-                let field = &mut self.certificate.field;
-                let name = field.names.new_name(&format!("{lemma}_value"));
-                let polynomial = polynomial(field, &value, &Coq);
-                self.out += &format!("Definition {name} : R := {of}.\n");
-                self.out += &format!("Lemma {name}_is : {name} = {polynomial}.\n");
-                self.out += &format!("Proof. unfold {name}; rewrite {lemma}; field. Qed.\n");
-                Item { name: Some(name), value }
-            }
+            None => Item { name: None, value },
             Some(of) => {
                 let field = &mut self.certificate.field;
                 let name = field.names.new_name(&format!("{lemma}_value"));
                 let polynomial = polynomial(field, &value, &Coq);
                 self.out += &format!("Definition {name} : R := {of}.\n");
                 self.out += &format!("Lemma {name}_is : {name} = {polynomial}.\n");
-                self.out += &format!("Proof. exact {lemma}. Qed.\n");
+                self.out += &format!("Proof. unfold {name}; rewrite {lemma};{rewritten} field. Qed.\n");
                 Item { name: Some(name), value }
             }
-            None => Item { name: None, value },
         };
         self.proved.insert(key, item);
         Ok(())

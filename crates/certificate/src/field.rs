@@ -311,29 +311,40 @@ impl Field {
                 self.turned(&pair, &exact)?
             };
         } else if rest != Angle::default() {
-            let (s, c, more) = self.constant_pair(&rest);
+            let (pairs, more) = self.constant_pairs(&rest);
             quarters = &quarters + &more;
-            pair = self.turned(&pair, &(s, c))?;
+            for part in &pairs {
+                pair = self.turned(&pair, part)?;
+            }
         }
         let quarters = quarters.to_integer().ok_or(Obstacle::TooLarge)?.rem_euclid(4);
         Ok((0..quarters).fold(pair, |(s, c), _| (c, Poly::zero().minus(&s))))
     }
 
-    /// Sine and cosine of an angle that differs from a constant one by quarter turns, and how many.
-    fn constant_pair(&mut self, rest: &Angle) -> (Poly, Poly, Rational) {
-        for base in &self.bases {
-            for sign in [Rational::ONE, -Rational::ONE] {
-                let off = &rest.turns - &(&base.angle.turns * &sign);
-                let quarters = &off * &Rational::from(2);
-                let fits = base.angle.is_constant() && rest.radians == &base.angle.radians * &sign;
-                if fits && quarters.is_integer() {
-                    return (Poly::atom(base.sin).scaled(&sign), Poly::atom(base.cos), quarters);
-                }
+    /// Sines and cosines of one or two constant angles from whose sum an angle differs by quarter turns, and how many.
+    fn constant_pairs(&mut self, rest: &Angle) -> (Vec<(Poly, Poly)>, Rational) {
+        let signed: Vec<(Angle, (Poly, Poly))> = self
+            .bases
+            .iter()
+            .filter(|b| b.angle.is_constant())
+            .flat_map(|b| [Rational::ONE, -Rational::ONE].map(|sign| (b, sign)))
+            .map(|(b, sign)| {
+                (b.angle.scaled(&sign), (Poly::atom(b.sin).scaled(&sign), Poly::atom(b.cos)))
+            })
+            .collect();
+        let ones = signed.iter().map(|one| vec![one]);
+        let twos = signed.iter().flat_map(|one| signed.iter().map(move |other| vec![one, other]));
+        for parts in ones.chain(twos) {
+            let turns = parts.iter().fold(rest.turns.clone(), |sum, p| &sum - &p.0.turns);
+            let radians = parts.iter().fold(rest.radians.clone(), |sum, p| &sum - &p.0.radians);
+            let quarters = &turns * &Rational::from(2);
+            if radians.is_zero() && quarters.is_integer() {
+                return (parts.into_iter().map(|p| p.1.clone()).collect(), quarters);
             }
         }
         let number = 1 + self.bases.iter().filter(|b| b.angle.is_constant()).count();
         let (s, c) = self.base(rest.clone(), &format!("a{number}"));
-        (s, c, Rational::ZERO)
+        (vec![(s, c)], Rational::ZERO)
     }
 
     fn pair_of(&mut self, symbol: Symbol, part: i64) -> (Poly, Poly) {

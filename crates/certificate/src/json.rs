@@ -12,7 +12,7 @@ use serde_json::{Map, Value, json};
 impl Certificate {
     /// The certificate as text, for the checker.
     pub fn to_json(&mut self) -> String {
-        let claims: Vec<Value> = (0..self.claims.len()).map(|i| self.claim_json(i)).collect();
+        let claims: Vec<String> = (0..self.claims.len()).map(|i| self.claim_json(i)).collect();
         let definitions: Vec<Value> = (0..self.definitions.len())
             .map(|i| {
                 let (name, quantity) = self.definitions[i].clone();
@@ -69,7 +69,7 @@ impl Certificate {
         Value::Object(cells.map(|(c, e)| (key(c).into(), json!(text(&mut self.field, e, &Python)))).collect())
     }
 
-    fn claim_json(&mut self, i: usize) -> Value {
+    fn claim_json(&mut self, i: usize) -> String {
         let claim = self.claims[i].clone();
         let field = &mut self.field;
         let cofactors: Map<String, Value> = claim
@@ -77,17 +77,14 @@ impl Certificate {
             .iter()
             .map(|(atom, p)| (field.atoms[usize::from(*atom)].clone(), terms(field, p)))
             .collect();
-        json!({
-            "name": claim.name,
-            "left": quantity_json(field, &claim.left),
-            "right": quantity_json(field, &claim.right),
-            "cofactors": cofactors,
-        })
+        let [left, right] = [&claim.left, &claim.right].map(|side| quantity_json(field, side));
+        let (name, cofactors) = (json!(claim.name), json!(cofactors));
+        format!(r#"{{"name": {name}, "left": {left}, "right": {right}, "cofactors": {cofactors}}}"#)
     }
 }
 
-fn lines(values: &[Value]) -> String {
-    let lines: Vec<String> = values.iter().map(Value::to_string).collect();
+fn lines(values: &[impl ToString]) -> String {
+    let lines: Vec<String> = values.iter().map(ToString::to_string).collect();
     if lines.is_empty() { "[]".into() } else { format!("[\n  {}]", lines.join(",\n  ")) }
 }
 

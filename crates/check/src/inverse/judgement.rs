@@ -33,6 +33,8 @@ pub struct Judgement {
     pub counterexample: Option<Counterexample>,
     /// What would be right.
     pub right: Option<Right>,
+    /// The identities that prove it: of an angle the sine of the difference to the joint's own, but for a factor, which is 0.
+    pub identities: Vec<[Expr; 2]>,
 }
 
 /// The verdict in a word.
@@ -242,6 +244,7 @@ impl Judgement {
             faults: vec![],
             counterexample: None,
             right: None,
+            identities: vec![],
         }
     }
 }

@@ -191,6 +191,9 @@ pub struct IkArguments {
     /// Print the formulas alone
     #[arg(long, conflicts_with_all = ["pose", "q", "input", "explain"])]
     pub symbolic: bool,
+    /// Write a certificate of what is proved: JSON for `check_certificate.py` (docs/certificates.md), or Coq if FILE ends in .v
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["pose", "q", "input"])]
+    pub certificate: Option<PathBuf>,
     /// How to print --explain and --symbolic
     #[arg(long, value_enum, default_value_t = Format::Terminal, conflicts_with_all = ["pose", "q", "input"])]
     pub format: Format,
@@ -225,6 +228,9 @@ pub struct CheckArguments {
     /// List the claims that are right, too
     #[arg(short, long)]
     pub all: bool,
+    /// Write a certificate of what is proved: JSON for `check_certificate.py` (docs/certificates.md), or Coq if FILE ends in .v
+    #[arg(long, value_name = "FILE")]
+    pub certificate: Option<PathBuf>,
     /// Write the document with its slips marked
     #[arg(long, value_name = "FILE")]
     pub html: Option<PathBuf>,

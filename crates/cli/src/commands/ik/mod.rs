@@ -6,7 +6,7 @@ mod stream;
 mod summary;
 
 use crate::arguments::{Format, IkArguments};
-use crate::commands::document;
+use crate::commands::{certificate, document};
 use crate::commands::fk::{configuration, without_values};
 use crate::failure::Failure;
 use crate::load;
@@ -53,7 +53,10 @@ pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
             Err(refusal) => return Err(refused(arguments, &description, &refusal)?),
         };
         write!(anstream::stdout(), "{}", printed(arguments, &Explanation::of(&model)))?;
-        return Ok(());
+        return match &arguments.certificate {
+            Some(file) => certificate::write(file, denavit_certificate::inverse(&model)),
+            None => Ok(()),
+        };
     }
     let mut solver =
         InverseKinematics::new(&description, &options).map_err(|why| unprepared(&description, name, &why))?;
