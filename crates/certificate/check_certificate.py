@@ -83,8 +83,8 @@ class Checker:
         return self.values[name][0]
 
     def polynomial(self, text):
-        value, by = self.value(ast.parse(text, mode="eval").body)
-        need(by == ONE, f"{text} has a denominator")
+        value, by = self.value(ast.parse(text, mode="eval").body if isinstance(text, str) else text)
+        need(by == ONE, "a denominator where there must be none")
         return value
 
     def screw(self, row, cells):  # rotation about and translation along x or z
@@ -142,7 +142,7 @@ class Checker:
                 need(self.reduced(by), "a denominator is 0")
                 return (times(a, {0: Fraction(1) / by[0]}), ONE) if set(by) == {0} else (a, by)
             case ast.Call(func=ast.Name(id="sin" | "cos" as name), args=[angle]):
-                return self.sine(self.value(angle)[0])[name == "cos"], ONE
+                return self.sine(self.polynomial(angle))[name == "cos"], ONE
             case ast.Call(func=ast.Name(id="sqrt"), args=[x]):
                 found = [r for r in self.roots if (self.squares[r], ONE) == self.value(x)]
                 need(found, "a root that is not declared")
@@ -161,7 +161,7 @@ class Checker:
         if isinstance(q, str):
             return self.value(ast.parse(q, mode="eval").body)
         (kind, about), = q.items()
-        return (self.between(*about[:2])[about[2] - 1][about[3] - 1] if kind == "frame" else
+        return (self.between(*about[:2])[range(1, 4).index(about[2])][range(1, 5).index(about[3])] if kind == "frame" else
                 {"terms": self.terms, "jacobian": self.jacobian, "minor": self.minor}[kind](*about)), ONE
 
     def terms(self, *terms):  # of a polynomial: a coefficient, then names and exponents
@@ -180,6 +180,7 @@ class Checker:
 
     def jacobian(self, view, row, joint):  # Σ θ' z × (p − o) + d' z, then Σ θ' z, over the rows before the body
         (body, axes, at, offset), total, q = view, ZERO, self.unit[self.joints[joint - 1]]
+        need(0 < row < 7 and 0 < joint, "there is no such entry")
         p = product(self.between(axes, at), [[ONE, ZERO, ZERO, self.polynomial(x)] for x in offset])
         for i, cells in enumerate(self.rows[:len(self.rows) if body == "tool" else body]):
             forms = [self.polynomial(cells[cell]) for cell in ("theta", "d")]

@@ -62,9 +62,7 @@ pub fn order(convention: Convention) -> &'static [[Cell; 2]] {
     match convention {
         Convention::Standard => &[[Cell::Theta, Cell::D], [Cell::A, Cell::Alpha]],
         Convention::Craig => &[[Cell::Alpha, Cell::A], [Cell::Theta, Cell::D]],
-        Convention::Khalil => {
-            &[[Cell::Gamma, Cell::B], [Cell::Alpha, Cell::A], [Cell::Theta, Cell::D]]
-        }
+        Convention::Khalil => &[[Cell::Gamma, Cell::B], [Cell::Alpha, Cell::A], [Cell::Theta, Cell::D]],
     }
 }
 

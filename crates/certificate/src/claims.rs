@@ -157,8 +157,7 @@ impl Certificate {
                         continue;
                     }
                     let others: Vec<usize> = joints.iter().copied().filter(|&j| j != joint).collect();
-                    let smaller =
-                        if rest.is_empty() { Poly::one() } else { known(rest.clone(), others)? };
+                    let smaller = if rest.is_empty() { Poly::one() } else { known(rest.clone(), others)? };
                     let sign = Rational::from(if (at + k) % 2 == 0 { 1 } else { -1 });
                     total = total.plus(&field.times(&entry, &smaller)?.scaled(&sign));
                 }
@@ -248,12 +247,8 @@ impl Certificate {
             let is_known = self.proved.contains_key(&(view.clone(), rest.clone(), others.clone()));
             if rest.len() > 1 && !is_known && !entry(self, along, joint)?.is_zero() {
                 let along = self.smaller(view, &rest, &others)?;
-                let left = Quantity::Minor {
-                    view: view.clone(),
-                    rows: rest.clone(),
-                    joints: others.clone(),
-                    along,
-                };
+                let left =
+                    Quantity::Minor { view: view.clone(), rows: rest.clone(), joints: others.clone(), along };
                 let value = self.value(&left)?;
                 let (cofactors, right) = self.field.reduced(&value.num)?;
                 self.spend(cofactors.iter().map(|c| &c.1).chain([&right]))?;

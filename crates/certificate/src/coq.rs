@@ -76,10 +76,13 @@ impl Certificate {
         };
         let mut missing = vec![];
         for (name, quantity) in definitions {
-            if let Quantity::Formula(e) = quantity
-                && let Ok(item) = writer.formula(&name.name(), e)
-            {
-                writer.defined.insert(name, item);
+            let item = match &quantity {
+                Quantity::Formula(e) => writer.formula(&name.name(), *e),
+                _ => writer.left(&quantity, "").map(|item| writer.renamed(name, &item)),
+            };
+            match item {
+                Ok(item) => drop(writer.defined.insert(name, item)),
+                Err(why) => missing.push((name.name().to_string(), why)),
             }
         }
         for claim in claims {
@@ -97,7 +100,7 @@ impl Certificate {
         let field = &mut self.field;
         let mut out = format!(
             "(* {}: claims proved from its table; written by denavit, explained in docs/certificates.md. *)\n",
-            self.description.name.replace("(*", "").replace("*)", "")
+            self.description.name.replace(['(', ')', '*', '"'], " ")
         );
         out += "From Coq Require Import Reals.\nOpen Scope R_scope.\n\nSection Certificate.\n";
         out += &format!("Variables {} : R.\n", field.atoms.join(" "));
@@ -166,11 +169,30 @@ impl Writer<'_> {
         let polynomial = polynomial(field, &value, &Coq);
         // A step of a program is called what it is called there.
         let symbol = Symbol::new(hint);
-        let name = if field.knows(symbol) { field.names.of(symbol) } else { field.names.new_name(hint) };
+        let name = if field.knows(symbol) {
+            field.names.of(symbol)
+        } else {
+            field.names.new_name(&format!("{hint}_left"))
+        };
         self.out += &format!("Definition {name} : R := {by}.\n");
         self.out += &format!("Lemma {name}_is : {name} = {polynomial}.\n");
         self.out += &format!("Proof. unfold {name};{rewritten} field. Qed.\n");
         Ok(Item { name: Some(name), value })
+    }
+
+    /// Gives a quantity the name of a symbol.
+    fn renamed(&mut self, symbol: Symbol, item: &Item) -> Item {
+        let field = &mut self.certificate.field;
+        let name = field.names.of(symbol);
+        let value = polynomial(field, &item.value, &Coq);
+        let (by, rewritten) = match &item.name {
+            Some(of) => (of.clone(), format!(" rewrite {of}_is;")),
+            None => (value.clone(), String::new()),
+        };
+        self.out += &format!("Definition {name} : R := {by}.\n");
+        self.out += &format!("Lemma {name}_is : {name} = {value}.\n");
+        self.out += &format!("Proof. unfold {name};{rewritten} field. Qed.\n");
+        Item { name: Some(name), value: item.value.clone() }
     }
 
     /// A formula, and the rewriting of the names in it.
@@ -218,9 +240,8 @@ impl Writer<'_> {
                 for k in 0..3 {
                     x[i][k] = forth[k][i].clone();
                 }
-                let of = |k: usize| {
-                    (-Rational::ONE, vec![forth[k][i].clone(), forth[k][3].clone()], Poly::one())
-                };
+                let of =
+                    |k: usize| (-Rational::ONE, vec![forth[k][i].clone(), forth[k][3].clone()], Poly::one());
                 x[i][3] = self.define(&name(i, 3), (0..3).map(of).collect())?;
             }
         }
@@ -243,7 +264,8 @@ impl Writer<'_> {
         for (i, cells) in moved.iter().enumerate().take(body.saturating_sub(1)) {
             let field = &mut self.certificate.field;
             let atom = field.symbol(q).num;
-            let [turn, slide] = [field.polynomial(cells[0])?, field.polynomial(cells[1])?].map(|p| factor(&p, &atom));
+            let [turn, slide] =
+                [field.polynomial(cells[0])?, field.polynomial(cells[1])?].map(|p| factor(&p, &atom));
             if turn.is_zero() && slide.is_zero() {
                 continue;
             }
@@ -348,7 +370,13 @@ impl Writer<'_> {
     }
 
     /// Minors are made of what is proved of entries and smaller minors.
-    fn keep(&mut self, claim: &Claim, left: &Item, value: Poly, (lemma, rewritten): (&str, &str)) -> Result<(), Obstacle> {
+    fn keep(
+        &mut self,
+        claim: &Claim,
+        left: &Item,
+        value: Poly,
+        (lemma, rewritten): (&str, &str),
+    ) -> Result<(), Obstacle> {
         let key = match &claim.left {
             Quantity::Jacobian { view, row, joint } => (view.clone(), vec![*row], vec![*joint]),
             Quantity::Minor { view, rows, joints, .. } if rows.len() > 1 => {

@@ -118,7 +118,8 @@ impl Table {
         let view = Viewpoint::of(j.body, j.axes);
         let entry = *geometric(&self.robot, &self.q, &view).columns.get(c - 1)?.get(row)?;
         let frame = |f: Reference| Frame::from(f);
-        let view = View { body: frame(j.body), axes: frame(j.axes), at: frame(j.body), offset: [Expr::int(0); 3] };
+        let view =
+            View { body: frame(j.body), axes: frame(j.axes), at: frame(j.body), offset: [Expr::int(0); 3] };
         (entry == e).then_some(Quantity::Jacobian { view, row, joint: c - 1 })
     }
 

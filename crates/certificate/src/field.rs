@@ -21,6 +21,8 @@ pub enum Obstacle {
     Function,
     /// A denominator is 0.
     Undefined,
+    /// It has a denominator where there must be none.
+    Denominator,
     /// It rests on comparison in numbers, not on a proof.
     Compared,
 }
@@ -32,6 +34,7 @@ impl fmt::Display for Obstacle {
             Obstacle::NoIdentity => "it does not follow from c² + s² = 1 and the squares of its roots",
             Obstacle::Function => "it holds a function that certificates do not know",
             Obstacle::Undefined => "a denominator is 0",
+            Obstacle::Denominator => "it has a denominator, and so is not for Coq",
             Obstacle::Compared => "it was compared, not proved",
         })
     }
@@ -180,7 +183,7 @@ impl Field {
     /// See [`Obstacle`].
     pub fn polynomial(&mut self, e: Expr) -> Result<Poly, Obstacle> {
         let value = self.value(e)?;
-        if value.den == Poly::one() { Ok(value.num) } else { Err(Obstacle::Function) }
+        if value.den == Poly::one() { Ok(value.num) } else { Err(Obstacle::Denominator) }
     }
 
     fn known(&self, e: Expr) -> Result<Value, Obstacle> {
@@ -212,8 +215,7 @@ impl Field {
                 if i64::from(exponent) > MULTIPLE {
                     return Err(Obstacle::TooLarge);
                 }
-                let power =
-                    Value { num: self.power(&a.num, exponent)?, den: self.power(&a.den, exponent)? };
+                let power = Value { num: self.power(&a.num, exponent)?, den: self.power(&a.den, exponent)? };
                 if n < 0 { self.quotient(&Poly::one().into(), &power) } else { Ok(power) }
             }
             Node::Sqrt(a) => self.root(a).map(Value::from),
@@ -328,9 +330,7 @@ impl Field {
             .iter()
             .filter(|b| b.angle.is_constant())
             .flat_map(|b| [Rational::ONE, -Rational::ONE].map(|sign| (b, sign)))
-            .map(|(b, sign)| {
-                (b.angle.scaled(&sign), (Poly::atom(b.sin).scaled(&sign), Poly::atom(b.cos)))
-            })
+            .map(|(b, sign)| (b.angle.scaled(&sign), (Poly::atom(b.sin).scaled(&sign), Poly::atom(b.cos))))
             .collect();
         let ones = signed.iter().map(|one| vec![one]);
         let twos = signed.iter().flat_map(|one| signed.iter().map(move |other| vec![one, other]));

@@ -7,7 +7,7 @@ use crate::arm::Frame;
 use crate::claims::{Certificate, Quantity};
 use denavit::geometry::{Rotation, Transform, Vector};
 use denavit::inverse::InverseModel;
-use denavit::inverse::derivation::{Form, NormalChain, Norm, Step};
+use denavit::inverse::derivation::{Form, Norm, NormalChain, Step};
 use denavit_symbolic::poly::Poly;
 use denavit_symbolic::{Expr, Symbol};
 
@@ -96,37 +96,43 @@ fn of_step(chain: &NormalChain, step: &Step) -> Vec<[Expr; 2]> {
     }
 }
 
-/// That the formulas of a type solve every equation of that type, whatever its factors are.
+/// That the formulas of a type solve every equation of that type, whatever its factors are; multiplied by denominators.
 fn solution(form: &Form) -> Vec<(String, [Expr; 2])> {
     let [a, b, c] = ["a", "b", "c"].map(|letter| Expr::symbol(&format!("any_{letter}")));
     let [d, e, f] = ["d", "e", "f"].map(|letter| Expr::symbol(&format!("any_{letter}")));
-    let (zero, one) = (Expr::int(0), Expr::int(1));
+    let zero = Expr::int(0);
     let squares = a.powi(2) + b.powi(2);
     let claims = match form {
-        Form::Ratio { .. } => vec![("ratio", a * (b / a), b)],
+        Form::Ratio { .. } => vec![],
         // a·C + b·S = c,   d·C + e·S = f
         Form::Pair { .. } => {
             let determinant = a * e - b * d;
-            let (cos, sin) = ((c * e - b * f) / determinant, (a * f - c * d) / determinant);
-            vec![("pair 1", a * cos + b * sin, c), ("pair 2", d * cos + e * sin, f)]
+            let (cos, sin) = (c * e - b * f, a * f - c * d);
+            vec![
+                ("pair 1", a * cos + b * sin, c * determinant),
+                ("pair 2", d * cos + e * sin, f * determinant),
+            ]
         }
         // tan = −a/b
         Form::Line => {
             let length = squares.sqrt();
-            let (cos, sin) = (b / length, -a / length);
-            vec![("line", a * cos + b * sin, zero), ("line, of length 1", cos.powi(2) + sin.powi(2), one)]
+            let (cos, sin) = (b, -a);
+            vec![
+                ("line", a * cos + b * sin, zero),
+                ("line, of length 1", cos.powi(2) + sin.powi(2), length.powi(2)),
+            ]
         }
         Form::Sincos => {
             let root = (squares - c.powi(2)).sqrt();
-            let (cos, sin) = ((a * c - b * root) / squares, (b * c + a * root) / squares);
+            let (cos, sin) = (a * c - b * root, b * c + a * root);
             vec![
-                ("sine and cosine", a * cos + b * sin, c),
-                ("sine and cosine, of length 1", cos.powi(2) + sin.powi(2), one),
+                ("sine and cosine", a * cos + b * sin, c * squares),
+                ("sine and cosine, of length 1", cos.powi(2) + sin.powi(2), squares.powi(2)),
             ]
         }
         Form::Quadratic { .. } => {
-            let r = (-b + (b.powi(2) - a * c).sqrt()) / a;
-            vec![("quadratic", a * r.powi(2) + Expr::int(2) * b * r + c, zero)]
+            let r = (b.powi(2) - a * c).sqrt() - b;
+            vec![("quadratic", r.powi(2) + Expr::int(2) * b * r + a * c, zero)]
         }
         Form::Quartic(_) => vec![],
     };

@@ -14,11 +14,11 @@ pub struct Names {
 
 /// Words that mean something to a reader of certificates.
 const RESERVED: &[&str] = &[
-    "pi", "sin", "cos", "sqrt", "and", "as", "assert", "async", "await", "break", "class", "continue", "def", "del",
-    "elif", "else", "except", "finally", "for", "from", "global", "if", "import", "in", "is", "lambda", "nonlocal",
-    "not", "or", "pass", "raise", "return", "try", "while", "with", "yield", "at", "cofix", "end", "exists",
-    "exists2", "fix", "forall", "fun", "let", "match", "mod", "Prop", "Set", "SProp", "Type", "then", "using",
-    "where", "by", "R", "IZR", "Lemma", "PI", "link", "mul", "inv",
+    "pi", "sin", "cos", "sqrt", "and", "as", "assert", "async", "await", "break", "class", "continue", "def",
+    "del", "elif", "else", "except", "finally", "for", "from", "global", "if", "import", "in", "is",
+    "lambda", "nonlocal", "not", "or", "pass", "raise", "return", "try", "while", "with", "yield", "at",
+    "cofix", "end", "exists", "exists2", "fix", "forall", "fun", "let", "match", "mod", "Prop", "Set",
+    "SProp", "Type", "then", "using", "where", "by", "R", "IZR", "Lemma", "PI", "link", "mul", "inv",
 ];
 
 impl Default for Names {

@@ -151,9 +151,12 @@ impl<'a> Judge<'a> {
 
     fn entry(&mut self, piece: &Piece, subject: usize) -> Entry {
         match piece {
-            Piece::Unreadable { place, span, errors } => {
-                Entry { place: *place, span: span.clone(), finding: Finding::Unreadable(errors.clone()), identities: vec![] }
-            }
+            Piece::Unreadable { place, span, errors } => Entry {
+                place: *place,
+                span: span.clone(),
+                finding: Finding::Unreadable(errors.clone()),
+                identities: vec![],
+            },
             Piece::Number { place, span, answer } => Entry {
                 place: *place,
                 span: span.clone(),

@@ -118,7 +118,7 @@ pub struct Entry {
     /// The verdict.
     pub finding: Finding,
     /// The equalities that it rests on, each proved for all configurations: what is printed, and what the robot makes of it; of
-    /// a joint's value the sine of its difference to the joint, but for a factor.
+    /// a joint's value, that the sine of its difference to the joint, times a length, is 0.
     pub identities: Vec<[Expr; 2]>,
 }
 

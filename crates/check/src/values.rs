@@ -280,7 +280,10 @@ fn orientations(
                 Some(o) => of_angle(&o.angles[k].1, o.range, columns, names),
             };
             let identities = judged.iter().flat_map(|o| o.angles[k].1.identities.clone()).collect();
-            found.push((*at, claim(assertion, Entry { place: None, span: span.clone(), finding, identities })));
+            found.push((
+                *at,
+                claim(assertion, Entry { place: None, span: span.clone(), finding, identities }),
+            ));
         }
     }
     found

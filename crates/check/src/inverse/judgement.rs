@@ -33,7 +33,7 @@ pub struct Judgement {
     pub counterexample: Option<Counterexample>,
     /// What would be right.
     pub right: Option<Right>,
-    /// The identities that prove it: of an angle the sine of the difference to the joint's own, but for a factor, which is 0.
+    /// The identities that prove it: of an angle, that the sine of its difference to the joint's own, times a length, is 0.
     pub identities: Vec<[Expr; 2]>,
 }
 

@@ -272,14 +272,8 @@ impl Walk<'_> {
         for (r, row) in wanted.0.iter().enumerate() {
             for (c, wanted) in row.iter().enumerate() {
                 let (Some(value), &Some(wanted)) = (value.entry(r, c), wanted) else { continue };
-                let pair = |place| Pair {
-                    place,
-                    span: span.clone(),
-                    printed: None,
-                    value,
-                    wanted,
-                    also: vec![],
-                };
+                let pair =
+                    |place| Pair { place, span: span.clone(), printed: None, value, wanted, also: vec![] };
                 if equal(value, wanted).is_equal() {
                     also.push([value, wanted]);
                     same = Some(pair(None));

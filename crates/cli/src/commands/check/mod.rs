@@ -86,7 +86,15 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     } else {
         write!(out, "{}", terminal::report(&document, arguments.all))?;
     }
-    verdict(&document).and(certified)
+    match (verdict(&document), certified) {
+        (Ok(()), certified) => certified,
+        (Err(why), certified) => {
+            if let Err(Failure::GaveUp(missing)) = certified {
+                writeln!(anstream::stderr(), "note: {missing}")?;
+            }
+            Err(why)
+        }
+    }
 }
 
 /// Writes a certificate for each robot of the document that something equal is said of: into `FILE`, then into `FILE-2` and so on.

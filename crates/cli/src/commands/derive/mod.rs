@@ -26,13 +26,13 @@ pub fn run(arguments: &DeriveArguments) -> Result<(), Failure> {
     let derivation = Derivation::new(&description, from, to, outputs);
     let format = if arguments.json { Format::Json } else { arguments.format };
     write!(anstream::stdout(), "{}", printed(&derivation, format))?;
-    verdict(&derivation)?;
-    match &arguments.certificate {
+    let certified = match &arguments.certificate {
         Some(file) => {
             certificate::write(file, denavit_certificate::forward(&description, &derivation.model, outputs))
         }
         None => Ok(()),
-    }
+    };
+    verdict(&derivation).and(certified)
 }
 
 /// The simplified pose of the tool alone, for `fk --symbolic`.

@@ -6,8 +6,8 @@ mod stream;
 mod summary;
 
 use crate::arguments::{Format, IkArguments};
-use crate::commands::{certificate, document};
 use crate::commands::fk::{configuration, without_values};
+use crate::commands::{certificate, document};
 use crate::failure::Failure;
 use crate::load;
 use crate::terminal::words;
