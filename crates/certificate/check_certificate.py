@@ -8,6 +8,7 @@ polynomial in parameters, sines, cosines and roots, and a claim `left = right` h
 sum of its cofactors times the c² + s² − 1 and r² − radicand. Exit codes: 0 all claims hold, 1 one does not, 3 no certificate.
 """
 import ast
+import itertools
 import json
 import sys
 from fractions import Fraction
@@ -110,15 +111,14 @@ class Checker:
         if set(rest) == {pi} and 12 * rest[pi] in EXACT:
             s, c = turn(*map(self.polynomial, EXACT[12 * rest[pi]]))
         elif rest:
-            ones = [(plus(ZERO, form, k), (plus(ZERO, x, k), y)) for form, x, y in self.angles for k in (1, -1)]
-            tried = [[one] for one in ones if set(one[0]) <= {0, pi}]
-            tried = [(reduce(lambda off, one: plus(off, one[0], -1), t, rest), t) for t in
-                     tried + [one + other for one in tried for other in tried]]
-            fits = [t for t in tried if set(t[0]) <= {pi} and Fraction(2 * t[0].get(pi, 0)).denominator == 1]
+            ones = [(form, plus(ZERO, x, k), y, k) for form, x, y in self.angles for k in (1, -1) if set(form) <= {0, pi}]
+            sums = (t for n in (1, 2, 3) for t in itertools.product(ones, repeat=n))
+            off = ((reduce(lambda p, one: plus(p, one[0], -one[3]), t, rest), t) for t in sums)
+            fits = next((f for f in off if set(f[0]) <= {pi} and Fraction(2 * f[0].get(pi, 0)).denominator == 1), None)
             need(fits, "a sine of an angle that is not declared")
-            for _, pair in fits[0][1]:
-                s, c = turn(*pair)
-            quarters += 2 * fits[0][0].get(pi, 0)
+            for _, sine, cosine, _ in fits[1]:
+                s, c = turn(sine, cosine)
+            quarters += 2 * fits[0].get(pi, 0)
         for _ in range(int(quarters) % 4):
             s, c = c, plus(ZERO, s, -1)
         return s, c
@@ -174,8 +174,7 @@ class Checker:
         a, b = ({"base": -1, "tool": len(self.rows) + 1}[x] if isinstance(x, str) else x for x in (a, b))
         need(-1 <= min(a, b) and max(a, b) <= len(self.rows) + 1, "there is no such frame")
         x = [[ONE if i == k else ZERO for k in range(4)] for i in R3]
-        for screw in [screw for link in self.links[min(a, b) + 1:max(a, b) + 1] for screw in link]:
-            x = product(x, screw)
+        x = reduce(product, [screw for link in self.links[min(a, b) + 1:max(a, b) + 1] for screw in link], x)
         return x if a <= b else inverse(x)
 
     def jacobian(self, view, row, joint):  # Σ θ' z × (p − o) + d' z, then Σ θ' z, over the rows before the body
@@ -185,9 +184,7 @@ class Checker:
         for i, cells in enumerate(self.rows[:len(self.rows) if body == "tool" else body]):
             forms = [self.polynomial(cells[cell]) for cell in ("theta", "d")]
             need(all(m == q or m >> (q.bit_length() - 1) & MOST == 0 for f in forms for m in f), "a cell is not linear")
-            x = self.between(axes, i)
-            for screw in self.links[i + 1][:self.before]:
-                x = product(x, screw)
+            x = reduce(product, self.links[i + 1][:self.before], self.between(axes, i))
             (a, b, c), lever = [x[n % 3][2] for n in (row, row + 1, row - 1)], lambda n: plus(p[n % 3][3], x[n % 3][3], -1)
             twist = plus(times(a, lever(row + 1)), times(b, lever(row)), -1) if row < 4 else c
             total = plus(plus(total, twist, forms[0].get(q, 0)), c if row < 4 else ZERO, forms[1].get(q, 0))

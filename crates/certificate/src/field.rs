@@ -93,11 +93,12 @@ pub struct Field {
     /// By what each symbol is divided in the angle whose sine is an atom.
     parts: FxHashMap<Symbol, i64>,
     memo: FxHashMap<Expr, Result<Value, Obstacle>>,
-    work: u64,
+    /// What is left for all claims, and for the present one.
+    work: [u64; 2],
 }
 
-/// Products of terms for one certificate.
-const WORK: u64 = 30_000_000;
+/// Products of terms for one certificate, and for one claim: seconds. Products of long numbers count more.
+const WORK: [u64; 2] = [16_000_000, 4_000_000];
 /// Terms of a polynomial.
 pub const MOST_TERMS: usize = 40_000;
 /// The largest multiple of an angle and the largest exponent.
@@ -153,10 +154,21 @@ impl Field {
     /// # Errors
     /// If it is too large.
     pub fn times(&mut self, a: &Poly, b: &Poly) -> Result<Poly, Obstacle> {
-        let products = (a.terms().len() as u64).saturating_mul(b.terms().len() as u64);
-        self.work = self.work.checked_sub(products).ok_or(Obstacle::TooLarge)?;
-        let Ok(product) = Rules::default().times(a, b, |_, _| Ok::<(), std::convert::Infallible>(()));
+        let work = &mut self.work;
+        let product = Rules::default().times(a, b, |_, r| {
+            let words = r.bits() / 64;
+            let cost = if words < 2 { 1 } else { 8 + words * words };
+            for left in work.iter_mut() {
+                *left = left.checked_sub(cost).ok_or(Obstacle::TooLarge)?;
+            }
+            Ok(())
+        })?;
         if product.terms().len() > MOST_TERMS { Err(Obstacle::TooLarge) } else { Ok(product) }
+    }
+
+    /// Another claim begins.
+    pub fn next(&mut self) {
+        self.work[1] = WORK[1];
     }
 
     fn power(&mut self, p: &Poly, n: u32) -> Result<Poly, Obstacle> {
@@ -323,7 +335,7 @@ impl Field {
         Ok((0..quarters).fold(pair, |(s, c), _| (c, Poly::zero().minus(&s))))
     }
 
-    /// Sines and cosines of one or two constant angles from whose sum an angle differs by quarter turns, and how many.
+    /// Sines and cosines of up to three constant angles from whose sum an angle differs by quarter turns, and how many.
     fn constant_pairs(&mut self, rest: &Angle) -> (Vec<(Poly, Poly)>, Rational) {
         let signed: Vec<(Angle, (Poly, Poly))> = self
             .bases
@@ -332,9 +344,10 @@ impl Field {
             .flat_map(|b| [Rational::ONE, -Rational::ONE].map(|sign| (b, sign)))
             .map(|(b, sign)| (b.angle.scaled(&sign), (Poly::atom(b.sin).scaled(&sign), Poly::atom(b.cos))))
             .collect();
-        let ones = signed.iter().map(|one| vec![one]);
-        let twos = signed.iter().flat_map(|one| signed.iter().map(move |other| vec![one, other]));
-        for parts in ones.chain(twos) {
+        let ones = || signed.iter();
+        let twos = || ones().flat_map(|a| ones().map(move |b| vec![a, b]));
+        let threes = twos().flat_map(|ab| ones().map(move |c| vec![ab[0], ab[1], c]));
+        for parts in ones().map(|a| vec![a]).chain(twos()).chain(threes) {
             let turns = parts.iter().fold(rest.turns.clone(), |sum, p| &sum - &p.0.turns);
             let radians = parts.iter().fold(rest.radians.clone(), |sum, p| &sum - &p.0.radians);
             let quarters = &turns * &Rational::from(2);
