@@ -235,8 +235,8 @@ fn product(field: &mut Field, a: &Matrix, b: &Matrix) -> Result<Matrix, Obstacle
     for (i, row) in a.iter().enumerate() {
         for k in 0..4 {
             let mut sum = if k == 3 { row[3].clone() } else { Poly::zero() };
-            for n in 0..3 {
-                sum = sum.plus(&field.times(&row[n], &b[n][k])?);
+            for (p, other) in row.iter().zip(b) {
+                sum = sum.plus(&field.times(p, &other[k])?);
             }
             x[i][k] = sum;
         }

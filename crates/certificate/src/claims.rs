@@ -125,7 +125,7 @@ impl Certificate {
     /// # Errors
     /// Why it cannot.
     pub fn define(&mut self, name: Symbol, quantity: Quantity) -> Result<(), Obstacle> {
-        self.field.next();
+        self.field.begin_claim();
         let value = self.value(&quantity)?;
         if self.field.knows(name) {
             return Err(Obstacle::Function);
@@ -173,7 +173,7 @@ impl Certificate {
     /// Claims that two quantities are equal; what cannot be proved is noted as missing.
     pub fn claim(&mut self, name: impl Into<String>, left: Quantity, right: Quantity) {
         let name = name.into();
-        self.field.next();
+        self.field.begin_claim();
         match self.proof(&left, &right) {
             Ok((cofactors, right_value)) => {
                 self.keep(&left, right_value);
@@ -246,7 +246,7 @@ impl Certificate {
             }
         }
         let along = best.ok_or(Obstacle::Undefined)?.1;
-        self.field.next();
+        self.field.begin_claim();
         let rest: Vec<usize> = rows.iter().copied().filter(|&r| r != along).collect();
         for &joint in joints {
             let others: Vec<usize> = joints.iter().copied().filter(|&j| j != joint).collect();

@@ -236,13 +236,13 @@ impl Writer<'_> {
             }
         } else if b < a {
             let forth = self.frame(b, a, 0)?;
-            for i in 0..3 {
-                for k in 0..3 {
-                    x[i][k] = forth[k][i].clone();
+            for (i, row) in x.iter_mut().enumerate() {
+                for (entry, turned) in row.iter_mut().zip(&forth) {
+                    *entry = turned[i].clone();
                 }
                 let of =
                     |k: usize| (-Rational::ONE, vec![forth[k][i].clone(), forth[k][3].clone()], Poly::one());
-                x[i][3] = self.define(&name(i, 3), (0..3).map(of).collect())?;
+                row[3] = self.define(&name(i, 3), (0..3).map(of).collect())?;
             }
         }
         self.frames.insert((a, b, screws), x.clone());

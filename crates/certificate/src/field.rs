@@ -101,6 +101,8 @@ pub struct Field {
 const WORK: [u64; 2] = [16_000_000, 4_000_000];
 /// Terms of a polynomial.
 pub const MOST_TERMS: usize = 40_000;
+/// Sums of constant angles that are tried for another one.
+const MOST_SUMS: usize = 20_000;
 /// The largest multiple of an angle and the largest exponent.
 const MULTIPLE: i64 = 64;
 
@@ -167,7 +169,7 @@ impl Field {
     }
 
     /// Another claim begins.
-    pub fn next(&mut self) {
+    pub fn begin_claim(&mut self) {
         self.work[1] = WORK[1];
     }
 
@@ -344,10 +346,10 @@ impl Field {
             .flat_map(|b| [Rational::ONE, -Rational::ONE].map(|sign| (b, sign)))
             .map(|(b, sign)| (b.angle.scaled(&sign), (Poly::atom(b.sin).scaled(&sign), Poly::atom(b.cos))))
             .collect();
-        let ones = || signed.iter();
-        let twos = || ones().flat_map(|a| ones().map(move |b| vec![a, b]));
-        let threes = twos().flat_map(|ab| ones().map(move |c| vec![ab[0], ab[1], c]));
-        for parts in ones().map(|a| vec![a]).chain(twos()).chain(threes) {
+        let n = signed.len();
+        let sums = (1..=3_u32).filter(|&count| n.pow(count) <= MOST_SUMS);
+        for (count, code) in sums.flat_map(|count| (0..n.pow(count)).map(move |code| (count, code))) {
+            let parts: Vec<_> = (0..count).rev().map(|k| &signed[code / n.pow(k) % n]).collect();
             let turns = parts.iter().fold(rest.turns.clone(), |sum, p| &sum - &p.0.turns);
             let radians = parts.iter().fold(rest.radians.clone(), |sum, p| &sum - &p.0.radians);
             let quarters = &turns * &Rational::from(2);
