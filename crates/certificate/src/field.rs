@@ -98,7 +98,7 @@ pub struct Field {
 }
 
 /// Products of terms for one certificate, and for one claim: seconds. Products of long numbers count more.
-const WORK: [u64; 2] = [16_000_000, 4_000_000];
+const WORK: [u64; 2] = [8_000_000, 4_000_000];
 /// Terms of a polynomial.
 pub const MOST_TERMS: usize = 40_000;
 /// Sums of constant angles that are tried for another one.
@@ -159,7 +159,7 @@ impl Field {
         let work = &mut self.work;
         let product = Rules::default().times(a, b, |_, r| {
             let words = r.bits() / 64;
-            let cost = if words < 2 { 1 } else { 8 + words * words };
+            let cost = if words < 2 { 1 } else { 16 + 2 * words * words };
             for left in work.iter_mut() {
                 *left = left.checked_sub(cost).ok_or(Obstacle::TooLarge)?;
             }
