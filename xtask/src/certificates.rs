@@ -1,5 +1,6 @@
 //! Certificates of everything that the project proves, held by the checker of its own; some by Coq.
 
+use crate::errata::{DOCUMENTS, FOLDER};
 use crate::languages::{apt, quietly};
 use crate::{command, path, program, robots, starts};
 use anyhow::{Result, bail};
@@ -15,8 +16,6 @@ const FOR_COQ: &[(&str, &str)] = &[
     ("jacobian", "puma560"),
     ("ik", "scara"),
 ];
-/// Documents whose proved claims are certified.
-const DOCUMENTS: &str = "examples/documents";
 const CHECKER: &str = "crates/certificate/check_certificate.py";
 
 /// Writes all certificates and has them checked; installs Coq if it is not there.
@@ -34,10 +33,9 @@ pub fn run() -> Result<()> {
             write(verb, &robot, &folder.join(format!("{robot}-{verb}.json")))?;
         }
     }
-    for entry in fs::read_dir(path(DOCUMENTS))? {
-        let file = entry?.path();
-        let Some(stem) = file.file_stem().and_then(|s| s.to_str()) else { continue };
-        write("check", &file.to_string_lossy(), &folder.join(format!("document-{stem}.json")))?;
+    for document in DOCUMENTS {
+        let file = folder.join(format!("document-{document}.json"));
+        write("check", &format!("{FOLDER}/{document}.md"), &file)?;
     }
     let files: Vec<PathBuf> = fs::read_dir(&folder)?.map(|e| Ok(e?.path())).collect::<Result<_>>()?;
     quietly(command("python3").arg(path(CHECKER)).args(&files))?;
