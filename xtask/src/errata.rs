@@ -6,9 +6,10 @@ use std::fmt::Write;
 use std::fs;
 
 const PAGE: &str = "docs/errata.md";
-const FOLDER: &str = "examples/documents";
+/// Where the documents are.
+pub const FOLDER: &str = "examples/documents";
 /// In the order in which the project met them.
-const DOCUMENTS: &[&str] = &["transforms", "rx90", "stanford", "prrrrp", "ur3", "cylindrical", "smart5"];
+pub const DOCUMENTS: &[&str] = &["transforms", "rx90", "stanford", "prrrrp", "ur3", "cylindrical", "smart5"];
 
 /// Compares the page, or writes it.
 ///

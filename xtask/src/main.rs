@@ -1,6 +1,7 @@
 //! Everything a contributor runs: `cargo xtask help`.
 
 mod bench;
+mod certificates;
 mod counts;
 mod documents;
 mod errata;
@@ -27,8 +28,8 @@ Everything a contributor runs.
 cargo xtask test                 all that a change must pass; steps that wait for others run side by side
 cargo xtask test --quick         after an edit: format, rules, and tests and lints of the crates that differ from the last
                                  commit and of those that use them, without the tests that run other languages' compilers
-cargo xtask test --full          before a release: all of the above, the page within its limits of size, Miri, soak and
-                                 benchmarks; hours
+cargo xtask test --full          before a release: all of the above, the page within its limits of size,
+                                 certificates, Miri, soak and benchmarks; hours
 cargo xtask tidy [--rules | --sessions]
                                  the rules of the project that a program can check: those of its files, and that the
                                  program prints what its pages show
@@ -45,6 +46,7 @@ cargo xtask counts [--check]     writes docs/operation-counts.md; --check fails 
 cargo xtask web [--debug]        builds the page of `denavit view`, which the next build of denavit takes in; fails if it is
                                  above its limits of size; --debug is quick, and limits nothing
 cargo xtask page                 drives the page, as it is built, in a browser
+cargo xtask certificates         certificates of the whole catalogue and of the documents, held by their checker; six by Coq
 cargo xtask documents            reports as LaTeX, Typst and a browser read them
 cargo xtask errata [--write]     compares docs/errata.md with what `denavit check` says of the documents; --write renews it
 cargo xtask soak [--seconds N] [TARGET...]
@@ -87,6 +89,7 @@ fn dispatch(arguments: &[String]) -> Result<()> {
         ["web"] => web::run(false),
         ["web", "--debug"] => web::run(true),
         ["page"] => web::drive(),
+        ["certificates"] => certificates::run(),
         ["documents"] => documents::run(),
         ["errata"] => errata::run(false),
         ["errata", "--write"] => errata::run(true),

@@ -50,6 +50,7 @@ const QUICK: &[Step] = &[
 const FULL: &[Step] = &[
     step("limits of size", &["web"]),
     step("page in full", &["page"]),
+    step("certificates", &["certificates"]),
     step("miri", &["miri"]),
     step("soak", &["soak"]),
     step("bench", &["bench"]),

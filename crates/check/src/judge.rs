@@ -5,7 +5,7 @@ use super::formula::Formula;
 use super::inverse::Composed;
 use super::lexis::Columns;
 use super::numbers;
-use super::outcome::{Claim, Counterexample, Entry, Finding, Patch, Slip, Wrong};
+use super::outcome::{Claim, Counterexample, Entry, Finding, Patch, Slip, Standing, Wrong};
 use super::plan::{Plan, Walked};
 use super::subject::Subject;
 use super::values;
@@ -151,16 +151,26 @@ impl<'a> Judge<'a> {
 
     fn entry(&mut self, piece: &Piece, subject: usize) -> Entry {
         match piece {
-            Piece::Unreadable { place, span, errors } => {
-                Entry { place: *place, span: span.clone(), finding: Finding::Unreadable(errors.clone()) }
-            }
+            Piece::Unreadable { place, span, errors } => Entry {
+                place: *place,
+                span: span.clone(),
+                finding: Finding::Unreadable(errors.clone()),
+                identities: vec![],
+            },
             Piece::Number { place, span, answer } => Entry {
                 place: *place,
                 span: span.clone(),
                 finding: numbers::judge(answer, &self.plan.subjects[subject], self.tolerance),
+                identities: vec![],
             },
             Piece::Pair(pair) => {
-                Entry { place: pair.place, span: pair.span.clone(), finding: self.finding(pair, subject) }
+                let finding = self.finding(pair, subject);
+                let mut identities = vec![];
+                if finding.standing() == Standing::Equal {
+                    identities.push([pair.value, pair.wanted]);
+                    identities.extend(pair.also.iter().filter(|i| **i != [pair.value, pair.wanted]));
+                }
+                Entry { place: pair.place, span: pair.span.clone(), finding, identities }
             }
         }
     }

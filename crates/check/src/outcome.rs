@@ -4,7 +4,7 @@ use super::facts::{About, Change, Condition, Instead, Remark, SlipKind, Unproved
 use super::formula::Formula;
 use super::note::{Note, Unread};
 use denavit::description::Description;
-use denavit_symbolic::Symbol;
+use denavit_symbolic::{Expr, Symbol};
 use std::ops::Range;
 
 /// A document, held against a robot.
@@ -117,6 +117,9 @@ pub struct Entry {
     pub span: Range<usize>,
     /// The verdict.
     pub finding: Finding,
+    /// The equalities that it rests on, each proved for all configurations: what is printed, and what the robot makes of it; of
+    /// a joint's value, that the sine of its difference to the joint, times a length, is 0.
+    pub identities: Vec<[Expr; 2]>,
 }
 
 /// The verdict on a formula, with its reasons.

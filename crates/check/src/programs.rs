@@ -179,7 +179,7 @@ impl Program<'_> {
             }),
         };
         let printed = cell.syntax.clone().filter(|_| self.text.get(cell.span.clone()).is_some());
-        Piece::Pair(Pair { place, span: cell.span.clone(), printed, value: cell.value, wanted })
+        Piece::Pair(Pair { place, span: cell.span.clone(), printed, value: cell.value, wanted, also: vec![] })
     }
 
     fn assertion(

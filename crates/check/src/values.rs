@@ -97,7 +97,8 @@ impl Judge<'_> {
             let place =
                 sides.first().map_or(assertion.span.clone(), |s| s.0.start..sides[sides.len() - 1].0.end);
             let finding = self.finding(&judgement, sides);
-            let entry = Entry { place: None, span: place, finding };
+            let identities = judgement.identities.clone();
+            let entry = Entry { place: None, span: place, finding, identities };
             claims.push((*at, claim(assertion, entry)));
             if !known.contains(&values.of[0]) {
                 known.push(values.of[0]);
@@ -278,7 +279,11 @@ fn orientations(
                 None => Finding::Undecided { why: Unproved::NotOfSet },
                 Some(o) => of_angle(&o.angles[k].1, o.range, columns, names),
             };
-            found.push((*at, claim(assertion, Entry { place: None, span: span.clone(), finding })));
+            let identities = judged.iter().flat_map(|o| o.angles[k].1.identities.clone()).collect();
+            found.push((
+                *at,
+                claim(assertion, Entry { place: None, span: span.clone(), finding, identities }),
+            ));
         }
     }
     found

@@ -13,6 +13,7 @@ const EMIT: &str = "denavit-emit";
 const ELIMINATION: &str = "denavit-elimination";
 const ROBOT: &str = "denavit";
 const CHECK: &str = "denavit-check";
+const CERTIFICATE: &str = "denavit-certificate";
 const GENERATE: &str = "denavit-generate";
 const REPORT: &str = "denavit-report";
 const WIRE: &str = "denavit-wire";
@@ -20,7 +21,7 @@ const JIT: &str = "denavit-jit";
 
 /// What a crate builds on, whatever it is for: none is a door, none is left of another without being named.
 const BELOW_DOORS: &[&str] =
-    &[SYMBOLIC, READING, PROGRAM, EMIT, ELIMINATION, ROBOT, CHECK, GENERATE, REPORT, WIRE];
+    &[SYMBOLIC, READING, PROGRAM, EMIT, ELIMINATION, ROBOT, CHECK, CERTIFICATE, GENERATE, REPORT, WIRE];
 
 /// Folders and packages, and the project's packages that each may use; tests may use more.
 const ALLOWED: &[(&str, &str, &[&str])] = &[
@@ -32,6 +33,7 @@ const ALLOWED: &[(&str, &str, &[&str])] = &[
     ("crates/jit", JIT, &[SYMBOLIC, PROGRAM]),
     ("crates/robot", ROBOT, &[SYMBOLIC, PROGRAM, ELIMINATION]),
     ("crates/check", CHECK, &[SYMBOLIC, READING, PROGRAM, ROBOT]),
+    ("crates/certificate", CERTIFICATE, &[SYMBOLIC, PROGRAM, ROBOT, CHECK]),
     ("crates/generate", GENERATE, &[SYMBOLIC, PROGRAM, EMIT, ELIMINATION, ROBOT]),
     ("crates/report", REPORT, &[SYMBOLIC, READING, PROGRAM, ROBOT, CHECK]),
     ("crates/wire", WIRE, &[SYMBOLIC, READING, PROGRAM, EMIT, ROBOT, CHECK, GENERATE, REPORT]),

@@ -35,6 +35,7 @@ const SCIENCE: &[&str] = &[
     "crates/emit/src/",
     "crates/robot/src/",
     "crates/check/src/",
+    "crates/certificate/src/",
     "crates/generate/src/",
     "crates/report/src/",
     "crates/wire/src/",

@@ -33,6 +33,8 @@ pub struct Judgement {
     pub counterexample: Option<Counterexample>,
     /// What would be right.
     pub right: Option<Right>,
+    /// The identities that prove it: of an angle, that the sine of its difference to the joint's own, times a length, is 0.
+    pub identities: Vec<[Expr; 2]>,
 }
 
 /// The verdict in a word.
@@ -242,6 +244,7 @@ impl Judgement {
             faults: vec![],
             counterexample: None,
             right: None,
+            identities: vec![],
         }
     }
 }

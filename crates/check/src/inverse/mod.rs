@@ -150,7 +150,9 @@ fn equation(arm: &mut Arm, left: Expr, right: Expr) -> Judgement {
         Where::If(_) | Where::Partly(_) => Verdict::Conditional,
     };
     faults.extend(division::faults(arm, &[], &[], &[left, right]));
+    let identities = if verdict == Verdict::Right && grounds.proved { vec![[l, r]] } else { vec![] };
     Judgement {
+        identities,
         verdict,
         grounds,
         branches: vec![place],
@@ -214,13 +216,13 @@ fn values(arm: &mut Arm, v: &Values, known: &[Expr]) -> Judgement {
     if verdict == Verdict::Right {
         faults.extend(compare::fails_at(&arm.setting, &arm.special, &formulas).map(Fault::FailsAt));
     }
-    let proved = match verdict {
-        Verdict::Wrong => true,
+    let proof = match verdict {
         Verdict::Right | Verdict::Conditional => {
-            proof::proves(&arm.setting, &arm.samples, &of, branches, &places_to_prove(verdict, &places))
+            proof::proof(&arm.setting, &arm.samples, &of, branches, &places_to_prove(verdict, &places))
         }
-        Verdict::Incomplete | Verdict::Undecided(_) => false,
+        Verdict::Wrong | Verdict::Incomplete | Verdict::Undecided(_) => None,
     };
+    let proved = verdict == Verdict::Wrong || proof.is_some();
     let right = match verdict {
         Verdict::Right | Verdict::Undecided(_) => None,
         _ => mend::mended(&arm.setting, &arm.samples, &formulas, &[])
@@ -232,6 +234,7 @@ fn values(arm: &mut Arm, v: &Values, known: &[Expr]) -> Judgement {
     let grounds = Grounds { proved, poses: arm.samples.len(), special: arm.special.len(), apart };
     faults.extend(division::faults(arm, &of, &known, &branches.concat()));
     Judgement {
+        identities: proof.unwrap_or_default(),
         verdict,
         grounds,
         branches: places,

@@ -155,9 +155,13 @@ fn judge(
         Where::If(all) => Where::If(all.iter().copied().chain([range_by(samples, setting, range)]).collect()),
         other => other.clone(),
     };
-    let proved = verdict == Verdict::Wrong
-        || proof::proves(setting, samples, &of, &branches, std::slice::from_ref(&in_range));
+    let proof = match verdict {
+        Verdict::Wrong => None,
+        _ => proof::proof(setting, samples, &of, &branches, std::slice::from_ref(&in_range)),
+    };
+    let proved = verdict == Verdict::Wrong || proof.is_some();
     Judgement {
+        identities: proof.unwrap_or_default(),
         verdict,
         grounds: Grounds {
             proved,

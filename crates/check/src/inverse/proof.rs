@@ -29,15 +29,15 @@ struct Roots {
     is_spent: bool,
 }
 
-/// True if it is proved that the values of every configuration are among the printed ones, for each branch where its
-/// condition holds.
-pub fn proves(
+/// The identities that prove that the values of every configuration are among the printed ones, for each branch where its
+/// condition holds; nothing if that is not proved.
+pub fn proof(
     setting: &Setting,
     samples: &[Sample],
     of: &[Unknown],
     branches: &[Vec<Expr>],
     places: &[Where],
-) -> bool {
+) -> Option<Vec<[Expr; 2]>> {
     let mut roots = Roots::default();
     let values: Vec<Option<Vec<Expr>>> = branches
         .iter()
@@ -48,7 +48,7 @@ pub fn proves(
         })
         .collect();
     if roots.is_spent || roots.signs.len() > SIGNS {
-        return false;
+        return None;
     }
     let conditions: Vec<Vec<Expr>> = places
         .iter()
@@ -60,7 +60,8 @@ pub fn proves(
     let conditional: Vec<&Vec<Expr>> =
         (0..places.len()).filter(|&k| values[k].is_some()).map(|k| &conditions[k]).collect();
     let is_mixed = conditional.windows(2).any(|c| c[0] != c[1]);
-    (0..1_usize << roots.signs.len()).all(|mask| {
+    let mut identities = vec![];
+    for mask in 0..1_usize << roots.signs.len() {
         let sign = |k: usize| Expr::int(if mask >> k & 1 == 1 { -1 } else { 1 });
         let chosen =
             |e: Expr| e.substitute(|s| roots.signs.iter().position(|(eps, _)| *eps == s.into()).map(sign));
@@ -68,21 +69,25 @@ pub fn proves(
             roots.signs.iter().enumerate().map(|(k, (_, s))| sign(k) * chosen(*s)).collect();
         let contradicts = |c: &Expr| positive.iter().any(|&p| roots.is_positive(-(chosen(*c) * p)));
         if conditional.iter().all(|all| all.iter().any(contradicts)) {
-            return true;
+            continue;
         }
         let order = likely(setting, samples, of, branches, &roots, mask);
-        let is_proved = |k: usize| {
-            let Some(values) = &values[k] else { return false };
+        let proof = |k: usize| -> Option<Vec<[Expr; 2]>> {
+            let values = values[k].as_ref()?;
             let mut positive = positive.clone();
             positive.extend(conditions[k].iter().map(|&e| chosen(e)));
-            of.iter().zip(values).all(|(u, &v)| roots.is_value(u, chosen(v), &positive))
+            of.iter().zip(values).map(|(u, &v)| roots.value_is(u, chosen(v), &positive)).collect()
         };
         if is_mixed {
             // Under different conditions each branch must be right under its own.
-            return (0..branches.len()).filter(|&k| values[k].is_some()).all(is_proved);
+            for k in (0..branches.len()).filter(|&k| values[k].is_some()) {
+                identities.extend(proof(k)?);
+            }
+            continue;
         }
-        order.into_iter().take(2).any(is_proved)
-    })
+        identities.extend(order.into_iter().take(2).find_map(proof)?);
+    }
+    Some(identities)
 }
 
 /// The branches, those first that are right at a sample with these signs.
@@ -182,16 +187,19 @@ impl Roots {
         (!self.is_spent).then_some((num, den))
     }
 
-    /// True if a value is proved to be the unknown, where `positive` are.
-    fn is_value(&self, of: &Unknown, value: Expr, positive: &[Expr]) -> bool {
+    /// The identity that proves that a value is the unknown, where `positive` are: both are equal, or Z·e^{−iθ} is real and positive.
+    fn value_is(&self, of: &Unknown, value: Expr, positive: &[Expr]) -> Option<[Expr; 2]> {
         if !of.is_angle {
-            return equal(value, of.formula).is_equal();
+            return equal(value, of.formula).is_equal().then_some([value, of.formula]);
         }
-        let Some(([re, im], squares)) = direction(value - of.formula) else { return false };
-        if !equal(im, Expr::int(0)).is_equal() {
-            return false;
-        }
-        if std::iter::once(&Expr::int(1)).chain(&squares).any(|&x| equal(re, x).is_equal()) {
+        let ([re, im], squares) = direction(value - of.formula)?;
+        let zero = Expr::int(0);
+        (equal(im, zero).is_equal() && self.is_direction(re, &squares, positive)).then_some([im, zero])
+    }
+
+    /// True if a real number is proved to be positive, where `positive` are.
+    fn is_direction(&self, re: Expr, squares: &[Expr], positive: &[Expr]) -> bool {
+        if std::iter::once(&Expr::int(1)).chain(squares).any(|&x| equal(re, x).is_equal()) {
             return true;
         }
         // The product with some of what is positive must be a square times something positive.

@@ -231,6 +231,7 @@ impl Walk<'_> {
                                 printed: Some(syntax.clone()),
                                 value: syntax.value(),
                                 wanted,
+                                also: vec![],
                             }));
                         }
                     }
@@ -267,12 +268,14 @@ impl Walk<'_> {
             (Some((4, 4)), Some((3, 3))) => &value.rotation_part(),
             _ => value,
         };
-        let (mut same, mut different) = (None, vec![]);
+        let (mut same, mut different, mut also) = (None, vec![], vec![]);
         for (r, row) in wanted.0.iter().enumerate() {
             for (c, wanted) in row.iter().enumerate() {
                 let (Some(value), &Some(wanted)) = (value.entry(r, c), wanted) else { continue };
-                let pair = |place| Pair { place, span: span.clone(), printed: None, value, wanted };
+                let pair =
+                    |place| Pair { place, span: span.clone(), printed: None, value, wanted, also: vec![] };
                 if equal(value, wanted).is_equal() {
+                    also.push([value, wanted]);
                     same = Some(pair(None));
                 } else {
                     different.push(pair(Some((r + 1, c + 1))));
@@ -285,7 +288,7 @@ impl Walk<'_> {
             out.remarks.push(Remark::OthersDiffer(places));
         }
         out.pieces.extend(different.into_iter().take(1).map(Piece::Pair));
-        out.pieces.extend(same.filter(|_| is_right).map(Piece::Pair));
+        out.pieces.extend(same.filter(|_| is_right).map(|pair| Piece::Pair(Pair { also, ..pair })));
         is_right
     }
 }

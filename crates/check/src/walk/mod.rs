@@ -36,6 +36,8 @@ pub(super) struct Pair {
     pub value: Expr,
     /// What the robot makes of it.
     pub wanted: Expr,
+    /// Further equalities that the piece stands for, proved already.
+    pub also: Vec<[Expr; 2]>,
 }
 
 /// A part of a claim.

@@ -170,6 +170,7 @@ impl Walk<'_> {
                     printed: Some(syntax.clone()),
                     value: syntax.value(),
                     wanted,
+                    also: vec![],
                 })),
                 Scalar::Lone(_) if i == 0 => {}
                 Scalar::Lone(name) => {

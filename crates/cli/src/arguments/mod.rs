@@ -201,6 +201,9 @@ pub struct IkArguments {
     /// Print the formulas alone
     #[arg(long, conflicts_with_all = ["pose", "q", "input", "explain"])]
     pub symbolic: bool,
+    /// Write a certificate of what is proved: JSON for `check_certificate.py` (docs/certificates.md), or Coq if FILE ends in .v
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["pose", "q", "input"])]
+    pub certificate: Option<PathBuf>,
     /// How to print --explain and --symbolic
     #[arg(long, value_enum, default_value_t = Format::Terminal, conflicts_with_all = ["pose", "q", "input"])]
     pub format: Format,
@@ -242,6 +245,9 @@ pub struct CheckArguments {
     /// List the claims that are right, too
     #[arg(short, long)]
     pub all: bool,
+    /// Write a certificate of what is proved: JSON for `check_certificate.py` (docs/certificates.md), or Coq if FILE ends in .v
+    #[arg(long, value_name = "FILE")]
+    pub certificate: Option<PathBuf>,
     /// Write the document with its slips marked
     #[arg(long, value_name = "FILE")]
     pub html: Option<PathBuf>,
@@ -306,6 +312,9 @@ pub struct JacobianArguments {
     /// Print the matrix where it is shortest, its determinant in factors, and what happens at each singularity
     #[arg(long, conflicts_with_all = ["q", "input", "symbolic"])]
     pub explain: bool,
+    /// Write a certificate of what is proved: JSON for `check_certificate.py` (docs/certificates.md), or Coq if FILE ends in .v
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["q", "input"])]
+    pub certificate: Option<PathBuf>,
     /// With --explain: singularities of the position alone, as of a planar arm
     #[arg(long, requires = "explain")]
     pub position: bool,
@@ -350,6 +359,9 @@ pub struct DeriveArguments {
     /// Parts for the algorithm to compute: x, y, z (columns), orientation, position; separated by commas
     #[arg(long, value_name = "PARTS", default_value = "all")]
     pub only: String,
+    /// Write a certificate of what is proved: JSON for `check_certificate.py` (docs/certificates.md), or Coq if FILE ends in .v
+    #[arg(long, value_name = "FILE")]
+    pub certificate: Option<PathBuf>,
     /// How to print it
     #[arg(long, value_enum, default_value_t = Format::Terminal)]
     pub format: Format,

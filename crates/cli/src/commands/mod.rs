@@ -1,5 +1,6 @@
 //! One file a verb; `stream` is what the verbs with `--input` share.
 
+mod certificate;
 pub mod check;
 pub mod derive;
 pub mod document;

@@ -1,5 +1,6 @@
 //! Tests of the command line, one program.
 
+mod certificate;
 mod check;
 mod command_line;
 mod common;

@@ -7,6 +7,7 @@ mod rubric;
 mod terminal;
 
 use crate::arguments::CheckArguments;
+use crate::commands::certificate;
 use crate::failure::Failure;
 use crate::load;
 use crate::terminal::{note, words};
@@ -67,6 +68,10 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     let document = Document { name: &name, text: &text, checked: &checked };
     let worth = checked.notes.iter().filter(|n| arguments.all || n.severity != Severity::Note);
     note(&render(&findings(worth), &name, &text));
+    let certified = match &arguments.certificate {
+        Some(file) => certified(file, &document),
+        None => Ok(()),
+    };
     let mut out = anstream::stdout();
     if let Some(file) = &arguments.html {
         fs::write(file, html::page(&document))
@@ -84,7 +89,32 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     } else {
         write!(out, "{}", terminal::report(&document, arguments.all))?;
     }
-    verdict(&document)
+    match (verdict(&document), certified) {
+        (Ok(()), certified) => certified,
+        (Err(why), certified) => {
+            if let Err(Failure::GaveUp(missing)) = certified {
+                writeln!(anstream::stderr(), "note: {missing}")?;
+            }
+            Err(why)
+        }
+    }
+}
+
+/// Writes a certificate for each robot of the document that something equal is said of: into `FILE`, then into `FILE-2` and so on.
+fn certified(file: &Path, document: &Document) -> Result<(), Failure> {
+    let certificates: Vec<_> = (0..document.checked.robots.len())
+        .filter_map(|k| denavit_certificate::document(document.checked, k, &|at| document.line(at)))
+        .collect();
+    if certificates.is_empty() {
+        return Err(Failure::GaveUp("no certificate: nothing in the document is proved".into()));
+    }
+    for (k, certificate) in certificates.into_iter().enumerate() {
+        let (stem, ending) = (file.file_stem().unwrap_or_default(), file.extension().unwrap_or_default());
+        let name = format!("{}-{}.{}", stem.to_string_lossy(), k + 1, ending.to_string_lossy());
+        let file = if k == 0 { file.to_path_buf() } else { file.with_file_name(name) };
+        certificate::write(&file, certificate)?;
+    }
+    Ok(())
 }
 
 /// Notes in words.

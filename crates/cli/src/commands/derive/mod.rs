@@ -3,7 +3,7 @@
 mod terminal;
 
 use crate::arguments::{DeriveArguments, Format, RobotArguments};
-use crate::commands::document;
+use crate::commands::{certificate, document};
 use crate::failure::Failure;
 use crate::load;
 use crate::terminal::words;
@@ -30,7 +30,13 @@ pub fn run(arguments: &DeriveArguments) -> Result<(), Failure> {
     let derivation = Derivation::new(&description, from, to, outputs);
     let format = if arguments.json { Format::Json } else { arguments.format };
     write!(anstream::stdout(), "{}", printed(&derivation, format))?;
-    verdict(&derivation)
+    let certified = match &arguments.certificate {
+        Some(file) => {
+            certificate::write(file, denavit_certificate::forward(&description, &derivation.model, outputs))
+        }
+        None => Ok(()),
+    };
+    verdict(&derivation).and(certified)
 }
 
 /// The simplified pose of the tool alone, with its orientation as angles where a set is asked for, for `fk --symbolic`.

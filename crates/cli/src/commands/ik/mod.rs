@@ -6,8 +6,8 @@ mod stream;
 mod summary;
 
 use crate::arguments::{Format, IkArguments};
-use crate::commands::document;
 use crate::commands::fk::{configuration, without_values};
+use crate::commands::{certificate, document};
 use crate::failure::Failure;
 use crate::load;
 use crate::terminal::{note, words};
@@ -54,7 +54,11 @@ pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
             Err(refusal) => return Err(refused(arguments, &description, &refusal)?),
         };
         write!(anstream::stdout(), "{}", printed(arguments, &Explanation::of(&model)))?;
-        return also_by_position(arguments, &description, &options, model.task);
+        also_by_position(arguments, &description, &options, model.task)?;
+        return match &arguments.certificate {
+            Some(file) => certificate::write(file, denavit_certificate::inverse(&model)),
+            None => Ok(()),
+        };
     }
     let mut solver =
         InverseKinematics::new(&description, &options).map_err(|why| unprepared(&description, name, &why))?;

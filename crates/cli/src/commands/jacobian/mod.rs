@@ -38,9 +38,13 @@ pub fn run(arguments: &JacobianArguments) -> Result<(), Failure> {
             (true, false) => symbolic::What::Singularities,
             (true, true) => symbolic::What::PositionSingularities,
         };
-        let text = symbolic::document(&description, body, what, format)?;
+        let file = arguments.certificate.as_deref();
+        let (text, certified) = symbolic::document(&description, body, what, format, file)?;
         write!(anstream::stdout(), "{text}")?;
-        return Ok(());
+        return certified;
+    }
+    if arguments.certificate.is_some() {
+        return Err(Failure::Usage("--certificate goes with --symbolic or --explain".into()));
     }
     let view = match arguments.frame.as_str() {
         "shortest" => JacobianModel::shortest(&description, body(&description, arguments)?).view,

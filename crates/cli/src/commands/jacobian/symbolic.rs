@@ -1,13 +1,13 @@
 //! Formulas: the Jacobian, its algorithm, the singularities.
 
 use crate::arguments::Format;
-use crate::commands::document;
 use crate::commands::fk::plural;
+use crate::commands::{certificate, document};
 use crate::failure::Failure;
 use crate::terminal::note;
 use denavit::description::Description;
 use denavit::forward::Reference;
-use denavit::velocity::{JacobianModel, Obstacle, Singularities, Viewpoint};
+use denavit::velocity::{JacobianModel, Minor, Obstacle, Singularities, Viewpoint};
 use denavit_report::document::{Block, Line, Math};
 use denavit_report::explain::{jacobian_document, singularities_document, velocity_vocabulary};
 use denavit_report::words::Tongue;
@@ -15,6 +15,7 @@ use denavit_symbolic::Expr;
 use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_wire::singular::Model;
+use std::path::Path;
 
 /// What is asked for.
 pub enum What {
@@ -26,7 +27,7 @@ pub enum What {
     PositionSingularities,
 }
 
-/// The document in a format.
+/// The document in a format, and how writing the certificate ended, if one is asked for.
 ///
 /// # Errors
 /// If a formula is too large.
@@ -35,7 +36,12 @@ pub fn document(
     body: Reference,
     what: What,
     format: Format,
-) -> Result<String, Failure> {
+    file: Option<&Path>,
+) -> Result<(String, Result<(), Failure>), Failure> {
+    let certify = |model: &JacobianModel, minors: &[Minor]| match file {
+        Some(file) => certificate::write(file, denavit_certificate::jacobian(description, model, minors)),
+        None => Ok(()),
+    };
     let found = match what {
         What::Singularities => Singularities::derive(description, body),
         What::PositionSingularities => Singularities::of_position(description, body),
@@ -44,41 +50,44 @@ pub fn document(
                 Some(view) => JacobianModel::derive(description, view),
                 None => JacobianModel::shortest(description, body),
             };
-            return matrix(description, &model, format);
+            return Ok((matrix(description, &model, format)?, certify(&model, &[])));
         }
     };
     match found {
-        Ok(found) if format == Format::Json => Ok(json(description, &found.jacobian, |robot, text| {
-            Model::with_singularities(robot, &found, text)
-        })),
         Ok(found) => {
             let n = description.variables().len();
-            if found.rows.len() > n {
+            if format != Format::Json && found.rows.len() > n {
                 note(&format!(
                     "note: {} cannot give the body all six directions; `--position` looks at its point alone",
                     plural(n, "joint")
                 ));
             }
-            Ok(printed(
-                description,
-                &found.jacobian,
-                singularities_document(description, &found, Tongue::English),
-                format,
-            ))
+            let text = if format == Format::Json {
+                let of = |robot: &str, text: &dyn Fn(Expr) -> String| {
+                    Model::with_singularities(robot, &found, text)
+                };
+                json(description, &found.jacobian, of)
+            } else {
+                let blocks = singularities_document(description, &found, Tongue::English);
+                printed(description, &found.jacobian, blocks, format)
+            };
+            Ok((text, certify(&found.jacobian, &found.minors)))
         }
         // The matrix is there all the same.
         Err(why @ Obstacle::AlwaysSingular(_)) => {
             let model = JacobianModel::shortest(description, body);
+            let certified = certify(&model, &[]);
             if format == Format::Json {
-                return Ok(json(description, &model, |robot, text| Model {
+                let text = json(description, &model, |robot, text| Model {
                     always_singular: Some(why.to_string()),
                     ..Model::of(robot, &model, text)
-                }));
+                });
+                return Ok((text, certified));
             }
             let mut blocks = jacobian_document(description, &model, Tongue::English);
             blocks.push(Block::Heading(2, Line::new("Singularities")));
             blocks.push(Block::Paragraph(Line::new(format!("{why}."))));
-            Ok(printed(description, &model, blocks, format))
+            Ok((printed(description, &model, blocks, format), certified))
         }
         Err(why) => Err(Failure::GaveUp(why.to_string())),
     }
