@@ -213,10 +213,7 @@ struct Draft {
 impl Draft {
     fn line(&mut self, number: usize, text: &str) -> Result<(), TextError> {
         let in_level = self.levels.len() > self.nodes.len() && self.outputs.is_empty();
-        let (found, end) = match tokens(number, text) {
-            Ok(found) => found,
-            Err(error) => return Err(error),
-        };
+        let (found, end) = tokens(number, text)?;
         let mut rest = Rest::new(number, &found, end);
         let Some((column, word)) = found.first().map(|(column, token)| match token {
             Token::Word(word) => (*column, word.as_str()),

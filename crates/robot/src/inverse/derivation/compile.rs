@@ -6,6 +6,7 @@ use super::equations::{Goal, Split, equations};
 use super::known::Unknown;
 use super::naming::{names, unique};
 use super::plan::{Determinant, Form, Norm, Row, Step};
+use super::rounding;
 use super::sign::{Sign, determinant_sign};
 use super::terms::{outermost, split, square_root};
 use crate::geometry::{Rotation, Transform, Vector};
@@ -139,7 +140,7 @@ fn compile_with(
         polys: FxHashMap::default(),
     };
     if options.is_rounding {
-        builder.nearest(&inputs);
+        rounding::nearest(&mut builder.solver, &inputs);
     }
     let moved = moved_pose(chain, &inputs);
     for (k, e) in moved.iter().enumerate() {
@@ -179,56 +180,6 @@ struct Builder<'a> {
 }
 
 impl Builder<'_> {
-    /// Puts the nearest rotation in place of a rounded one, up to the square of what it is off by: R(3 − RᵀR)/2, or of the
-    /// columns that are given. The defect is |RᵀR − 1|.
-    fn nearest(&mut self, inputs: &Inputs) {
-        let columns: Vec<[Value; 3]> = (0..3)
-            .filter_map(|j| {
-                let symbols: Option<Vec<Symbol>> = (0..3).map(|i| inputs.pose[4 * i + j]).collect();
-                let values = symbols?.into_iter().map(|s| self.solver.graph.input(s)).collect::<Vec<_>>();
-                values.try_into().ok()
-            })
-            .collect();
-        let given: Vec<usize> = (0..3).filter(|j| inputs.pose[*j].is_some()).collect();
-        if columns.is_empty() {
-            return;
-        }
-        let g = &mut self.solver.graph;
-        let one = g.number(&Rational::ONE);
-        let half = g.number(&Rational::new(1, 2));
-        let n = columns.len();
-        let mut misses = vec![vec![one; n]; n];
-        let mut squares = vec![];
-        for a in 0..n {
-            for b in a..n {
-                let products: Vec<Value> = (0..3).map(|i| g.mul(columns[a][i], columns[b][i])).collect();
-                let sum = g.add(products[0], products[1]);
-                let sum = g.add(sum, products[2]);
-                let miss = if a == b { g.sub(one, sum) } else { -sum };
-                (misses[a][b], misses[b][a]) = (miss, miss);
-                squares.push(miss);
-            }
-        }
-        for (b, &j) in given.iter().enumerate() {
-            for i in 0..3 {
-                let g = &mut self.solver.graph;
-                let mut way = g.mul(columns[0][i], misses[0][b]);
-                for a in 1..n {
-                    let more = g.mul(columns[a][i], misses[a][b]);
-                    way = g.add(way, more);
-                }
-                let way = g.mul(half, way);
-                let entry = g.add(columns[b][i], way);
-                let symbol = inputs.pose[4 * i + j].expect("the column is given");
-                g.bind(symbol, entry);
-                self.solver.name(entry, &format!("r{}{}", i + 1, j + 1));
-            }
-        }
-        let sum = self.sum_of_squares(&squares);
-        let defect = self.solver.graph.sqrt(sum);
-        self.solver.defect(defect);
-    }
-
     /// The value of a given axis.
     fn give(&mut self, k: usize) {
         let value = self.chain.axes[k].value;

@@ -10,6 +10,7 @@ mod known;
 mod model;
 mod naming;
 mod plan;
+mod rounding;
 mod screen;
 mod search;
 mod sign;

@@ -128,7 +128,9 @@ impl Screen {
                 let left = beyond(&known, forms);
                 match left.len() {
                     1 => known.extend(left),
-                    2 => match pairs.iter().find(|p| left.iter().all(|f| beyond(p, &[f.clone()]).is_empty()))
+                    2 => match pairs
+                        .iter()
+                        .find(|p| left.iter().all(|f| beyond(p, std::slice::from_ref(f)).is_empty()))
                     {
                         Some(_) => known.extend(left),
                         None => pairs.push(left),
