@@ -95,7 +95,7 @@ impl Known {
     pub fn may_vanish(&self, constant: Expr) -> bool {
         let value = |s: Symbol| self.values.iter().find(|v| v.0 == s).map(|v| v.1);
         match constant.eval(value) {
-            Ok(x) => !(x.abs() > ZERO),
+            Ok(x) => x.is_nan() || x.abs() <= ZERO,
             Err(_) => constant.as_symbol().is_none(),
         }
     }
