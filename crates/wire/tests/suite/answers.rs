@@ -84,6 +84,8 @@ fn solved(d: &Description, q: &[f64]) -> Vec<(&'static str, String)> {
         families: answer.families.iter().map(|f| wire::Family::of(f, &solver.space)).collect(),
         given: given.iter().map(|x| ("q1".to_string(), *x)).collect(),
         idealised: Some(wire::Idealised::from(&ideal)),
+        jump: None,
+        left_out: None,
         method: solver.method(),
         nearest: Some(wire::Nearest::of(&nearest)),
         obstacle: answer.obstacle.as_ref().map(wire::Obstacle::from),

@@ -124,7 +124,7 @@ impl Velocity for French {
                 };
                 say!("une droite rencontre {met}{along}")
             }
-            Place::PointOnAxis(axis) => format!("le point est sur l'axe {}", axis + 1),
+            Place::PointOnAxis(axis) => say!("le point est sur l'axe {}", axis + 1),
             Place::PointInPlane { axes, parallel } => {
                 let bent = if *parallel { " : bras tendu ou replié" } else { "" };
                 say!("le point est dans le plan des axes {}{bent}", numbers(axes))
