@@ -296,7 +296,7 @@ impl Solving<'_> {
                 }
                 if answer.is_reachable() {
                     answer.obstacle = None;
-                } else if !self.is_excluded(pose, &answer) {
+                } else if !self.is_excluded(pose) {
                     answer.doubt = Some(Doubt::Sampled);
                 }
             }
@@ -343,25 +343,37 @@ impl Solving<'_> {
         s.residual <= self.tolerance
     }
 
-    /// True if no configuration can have a pose, whatever rounding did to the branches: it is beyond the reach, or violates
-    /// what all poses of the arm meet.
-    fn is_excluded(&self, pose: &Transform<f64>, answer: &Answer) -> bool {
+    /// True if no configuration can have a pose, whatever rounding did to the branches: it is beyond the reach, or misses
+    /// what all poses of the arm meet whatever the joints.
+    fn is_excluded(&self, pose: &Transform<f64>) -> bool {
         let turns_only = self.space.is_angle.iter().all(|x| *x);
+        let entries = self.behind_ends(pose);
+        let misses =
+            |c: &NumericCondition| self.relative(c, c.miss(&entries, &[]), pose) > 16.0 * self.tolerance;
         turns_only && pose.translation.norm() > self.robot.reach() * (1.0 + NEAR)
-            || answer.obstacle.as_ref().is_some_and(|o| !o.violated.is_empty())
+            || self.conditions.iter().filter(|c| c.is_of_pose()).any(misses)
+    }
+
+    /// The entries of a pose without what stands before the first axis and behind the last one.
+    fn behind_ends(&self, pose: &Transform<f64>) -> [f64; 12] {
+        let m = (self.base.inverse() * *pose * self.tool.inverse()).matrix();
+        std::array::from_fn(|k| m[k / 4][k % 4])
+    }
+
+    /// What a condition is missed by, lengths by the size.
+    fn relative(&self, c: &NumericCondition, miss: f64, pose: &Transform<f64>) -> f64 {
+        if c.degree > 0 { miss.abs() / self.size(pose) } else { miss.abs() }
     }
 
     /// The conditions that a pose does not meet, by joint variables that come near.
     fn violated(&self, pose: &Transform<f64>, q: &[f64]) -> Vec<(String, f64)> {
-        let moved = self.base.inverse() * *pose * self.tool.inverse();
-        let m = moved.matrix();
-        let entries: [f64; 12] = std::array::from_fn(|k| m[k / 4][k % 4]);
+        let entries = self.behind_ends(pose);
         let mut found: Vec<(String, f64, f64)> = self
             .conditions
             .iter()
             .map(|c| {
                 let miss = c.miss(&entries, q);
-                (c.text.clone(), miss, if c.degree > 0 { miss.abs() / self.size(pose) } else { miss.abs() })
+                (c.text.clone(), miss, self.relative(c, miss, pose))
             })
             .filter(|c| c.2 > self.tolerance)
             .collect();

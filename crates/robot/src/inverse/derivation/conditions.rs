@@ -197,6 +197,12 @@ impl NumericCondition {
         NumericCondition { text, degree: c.degree, terms }
     }
 
+    /// True if no joint variable stands in it: a pose that misses it is out of the question.
+    pub fn is_of_pose(&self) -> bool {
+        let factors = || self.terms.iter().flat_map(|t| &t.1);
+        factors().all(|f| matches!(f.0, Factor::Pose(_) | Factor::Constant(_)))
+    }
+
     /// By how much a pose (behind base and tool, 3×4 row-major) with these joint variables misses it.
     pub fn miss(&self, pose: &[f64; 12], q: &[f64]) -> f64 {
         let sum = |offset: &f64, terms: &[(usize, f64)]| -> f64 {
