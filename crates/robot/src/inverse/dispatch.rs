@@ -360,7 +360,12 @@ impl InverseKinematics {
             }
         }
         let way = |q: &[f64]| self.space.moved(q, to);
-        for family in &answer.families {
+        // Of a family with several parameters all curves that sample it.
+        let curves = match &self.method {
+            Method::Redundant(solver) if solver.surplus > 1 => Some(solver.manifold(pose).curves()),
+            _ => None,
+        };
+        for family in curves.as_ref().unwrap_or(&answer.families) {
             for q in self.starts(pose, family, |q| norm(&self.space.way(q, to))) {
                 candidates.push(newton::slide(&self.robot, self.goal, pose, &q, (&self.given, way), size));
             }
@@ -378,8 +383,12 @@ impl InverseKinematics {
             if self.is_near(family, q) {
                 return true;
             }
+            if family.dimension > 1 {
+                let nearest = self.nearest(pose, answer, q);
+                return nearest.is_some_and(|n| self.space.distance(&n.q, q) <= MEMBER);
+            }
             // A curve that was followed holds all there is.
-            if family.dimension == 1 && !family.curve.is_empty() {
+            if !family.curve.is_empty() {
                 return false;
             }
             let is_member = |found: &[f64]| self.space.distance(found, q) <= MEMBER;

@@ -95,6 +95,13 @@ impl Manifold {
             });
             return Answer { doubt: self.doubt, families: family.into_iter().collect(), ..Answer::empty() };
         }
+        let doubt = self.doubt;
+        Answer { doubt, families: self.curves(), ..Answer::empty() }
+    }
+
+    /// Each curve as a family of its own.
+    pub(in crate::inverse) fn curves(self) -> Vec<Family> {
+        let dimension = self.dimension;
         let family = |c: Component| Family {
             dimension,
             interval: Some(c.domain),
@@ -102,8 +109,7 @@ impl Manifold {
             curve: c.curve,
             ..Family::new(c.representative, vec![c.parameter], c.direction)
         };
-        let families = self.components.into_iter().map(family).collect();
-        Answer { doubt: self.doubt, families, ..Answer::empty() }
+        self.components.into_iter().map(family).collect()
     }
 }
 
