@@ -248,16 +248,18 @@ impl<'a> Nested<'a> {
             (false, Language::Python) => format!("np.abs({})", self.formula(near.value)),
         };
         let condition = format!("{value} <= {least}");
-        let mut conditions: Vec<String> = vec![];
-        if self.language == Language::Python {
-            // Branches that are not there come this far, too.
-            let there = loops.iter().filter(|l| l.branches > 1);
-            conditions.extend(there.map(|l| format!("({}.multiplicity[{}] > 0)", l.roots, l.index)));
-            conditions.push(format!("({condition})"));
-        } else {
-            conditions.push(condition);
+        if self.language != Language::Python {
+            return self.note(&condition);
         }
-        self.note(&conditions.join(" & "));
+        // Branches that are not there come this far, too.
+        self.constant("nearly_free", &condition);
+        for l in loops.iter().filter(|l| l.branches > 1) {
+            self.constant(
+                "nearly_free",
+                &format!("nearly_free & ({}.multiplicity[{}] > 0)", l.roots, l.index),
+            );
+        }
+        self.note("nearly_free");
     }
 
     /// Notes that a branch comes near a solution, and is none: one that rounding hides.

@@ -7,7 +7,8 @@ static void test_@f@(void)
 @parameters@
         @name@_@f@_solution found[@MAX@];
         @name@_@f@_certificate certificate;
-        const int count = @name@_@f@(@f@_variables[v], @address@found, &certificate);
+        const int count =
+            @name@_@f@(@f@_variables[v], @address@found, &certificate);
         if ((int)certificate != @f@_certificates[v]) {
             printf("@f@, configuration %d: certificate %d, ", v, (int)certificate);
             printf("expected %d\n", @f@_certificates[v]);

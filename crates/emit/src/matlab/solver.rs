@@ -209,7 +209,7 @@ impl Module<'_> {
         error('NAME:test', '%d solutions, expected %d.', size(results, 1), numel(expected));
     end
     if ~strcmp(info.certificate, certificates{k})
-        error('NAME:test', 'FUNCTION: configuration %d is called %s.', k, info.certificate);
+        error('NAME:test', 'FUNCTION: configuration %d is %s.', k, info.certificate);
     end
     for e = expected
         apart = results - repmat(known(e, :), size(results, 1), 1);

@@ -8,7 +8,7 @@ use crate::{Language, Parameter};
 const ROOTS: &str = include_str!("roots.py.txt");
 /// Words that emitted solvers use.
 pub(super) const WORDS: &str = "NamedTuple results residuals multiplicities frees shape leaf is_angle kind is_pose \
-is_near tolerance";
+is_near nearly_free tolerance";
 
 /// The name of the class of solutions, and of the labels.
 pub(super) fn class(plan: &Plan) -> String {

@@ -145,7 +145,9 @@ impl Lanes<'_> {
 
     /// Leaves what comes near a solution, and is none, to the careful function.
     pub fn candidate(&mut self, residual: &str) {
-        self.rare(&format!("({residual} > roots::TOLERANCE) & ({residual} <= {CANDIDATE:e})"));
+        let between = format!("({residual} > roots::TOLERANCE) & ({residual} <= {CANDIDATE:e})");
+        self.out.statement("let is_candidate =", &between);
+        self.rare("is_candidate");
     }
 
     pub fn steps(&mut self, steps: &[Step], is_near: bool) {

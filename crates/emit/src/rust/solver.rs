@@ -68,6 +68,7 @@ pub(super) const WORDS: &[&str] = &[
     "absent_4",
     "x",
     "f64",
+    "is_candidate",
     "is_near",
     "certificate",
 ];
@@ -379,7 +380,8 @@ impl Source<'_> {
         let _ = write!(
             text,
             "    let mut found = [{kind}Solution::NONE; {upper}_MAX];\n    \
-             let (count, certificate) = {careful}(&{value}{given}, &mut found);\n    \
+             let row = {value};\n    \
+             let (count, certificate) = {careful}(&row{given}, &mut found);\n    \
              solutions.certificate[i] = certificate;\n    \
              for b in 0..{upper}_MAX {{\n        solutions.residual[b][i] = f64::INFINITY;\n        \
              solutions.multiplicity[b][i] = 0;\n        solutions.free[b][i] = 0;\n        \
@@ -532,9 +534,11 @@ fn certificate(plan: &Plan) -> String {
     format!(
         "\n/// What [`{f}`] says of its answer.\n#[derive(Clone, Copy, PartialEq, Eq, Debug)]\npub enum {kind}Certificate {{\n    \
          /// All solutions are there; without one, there is none.\n    Complete,\n    \
-         /// Somewhere an unknown is free, or nearly so: what is there solves the equations, and there may be more.\n    \
+         /// Somewhere an unknown is free, or nearly so: what is there solves the equations,\n    \
+         /// and there may be more.\n    \
          Singular,\n    \
-         /// The variables are no numbers, or further from what they must be than rounding brings them.\n    \
+         /// The variables are no numbers, or further from what they must be than rounding\n    \
+         /// brings them.\n    \
          NotAPose,\n}}\n"
     )
 }

@@ -101,7 +101,7 @@ fn cuda_finds_all_solutions_thread_by_thread() {
         let name = files[1].path.strip_suffix(".cu").expect("kernels").to_string();
         let solver = &library.solvers[0];
         let (rows, n, m) = (&solver.vectors, solver.solver.variables.len(), solver.solver.outputs.len());
-        let (count, width) = (rows.len(), 1 + solver.solver.max_solutions() * (m + 4));
+        let (count, width) = (rows.len(), 2 + solver.solver.max_solutions() * (m + 4));
         let mut signatures = files[1].text.lines().filter(|l| l.starts_with("extern \"C\""));
         let signature = signatures.next_back().expect("a kernel");
         let function = signature.split("void ").nth(1).and_then(|s| s.split('(').next()).expect("a name");
@@ -125,6 +125,7 @@ fn cuda_finds_all_solutions_thread_by_thread() {
         let values: Vec<f64> = printed.split_whitespace().map(|w| w.parse().expect("a number")).collect();
         for (v, values) in rows.iter().zip(values.chunks(width)) {
             assert_eq!(values[0] as usize, v.solutions.len());
+            assert_eq!(values[1] as usize, v.certificate.code(), "{name}");
             for known in &v.solutions {
                 let is_it = |found: &[f64]| {
                     let near = |(k, a): (usize, &f64)| {
@@ -139,7 +140,7 @@ fn cuda_finds_all_solutions_thread_by_thread() {
                         && found[m + 1] == f64::from(known.multiplicity)
                         && found[m + 3] == f64::from(known.free)
                 };
-                assert!(values[1..].chunks(m + 4).take(values[0] as usize).any(is_it), "{name}: {known:?}");
+                assert!(values[2..].chunks(m + 4).take(values[0] as usize).any(is_it), "{name}: {known:?}");
             }
         }
     }
