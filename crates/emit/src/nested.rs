@@ -132,7 +132,9 @@ impl<'a> Nested<'a> {
             let [roots, index] = ["roots", "i"].map(|word| self.names.free(&format!("{word}_{}", i + 1)));
             self.blank();
             self.node(node, &roots);
-            self.near(&node.near, &loops);
+            if let Some(near) = &node.near {
+                self.near(near, &loops);
+            }
             let branches = node.root.branches();
             if branches > 1 {
                 self.open(&roots, &index, branches);
@@ -235,14 +237,14 @@ impl<'a> Nested<'a> {
     fn near(&mut self, near: &Near, loops: &[Loop]) {
         let [value, size] = [near.value, near.size].map(|e| self.bounded(e));
         let times = if self.language == Language::Matlab { "*" } else { " * " };
-        let least = match near.size.symbols().is_empty() {
-            true => format!("{:e}", near.share),
-            false => format!("{:e}{times}{size}", near.share),
+        let least = match near.least() {
+            Some(least) => format!("{least:e}"),
+            None => format!("{:e}{times}{size}", near.share),
         };
         let value = match (near.is_square, self.language) {
             (true, _) => value,
             (false, Language::C | Language::Cuda) => format!("fabs({})", self.formula(near.value)),
-            (false, Language::Rust) => format!("({value}).abs()"),
+            (false, Language::Rust) => format!("f64::abs({})", self.formula(near.value)),
             (false, Language::JavaScript) => format!("Math.abs({})", self.formula(near.value)),
             (false, Language::Matlab) => format!("abs({})", self.formula(near.value)),
             (false, Language::Python) => format!("np.abs({})", self.formula(near.value)),

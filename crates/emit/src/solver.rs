@@ -30,8 +30,8 @@ pub(crate) struct Branching {
     pub guard: Option<Expr>,
     /// What the guard is compared with: the size to the power of the guard's dimension.
     pub scale: Expr,
-    /// What is small where the unknown is nearly free.
-    pub near: Near,
+    /// What is small where the unknown is nearly free, unless that is nowhere.
+    pub near: Option<Near>,
     pub results: Vec<Symbol>,
     /// What a step of this node adds to the number of the branch.
     pub stride: usize,
@@ -86,8 +86,7 @@ pub(crate) struct Near {
 impl Near {
     /// The guard of a node, or the square of the natural one, beside what is usual of it.
     fn new(root: &Root<Expr>, guard: Option<Expr>, scale: Expr, usual: f64) -> Self {
-        // Two digits say enough.
-        let share = |x: f64| format!("{x:.1e}").parse().unwrap_or(x);
+        let share = two_digits;
         let square = |parts: &[Expr]| parts.iter().map(|x| *x * *x).reduce(|a, b| a + b);
         let natural = match *root {
             Root::Ratio { denominator: d, .. } | Root::Quadratic { a: d, .. } => {
@@ -110,9 +109,26 @@ impl Near {
         }
     }
 
+    /// Nothing, if numbers already say that it is large.
+    fn unless_never(self) -> Option<Self> {
+        let value = self.value.eval(|_| None).ok();
+        let never = value.zip(self.least()).is_some_and(|(value, least)| value.abs() > least);
+        (!never).then_some(self)
+    }
+
+    /// The share of the size, if numbers say it.
+    pub fn least(&self) -> Option<f64> {
+        self.size.eval(|_| None).ok().map(|size| two_digits(self.share * size))
+    }
+
     fn formulas(&self) -> [Expr; 2] {
         [self.value, self.size]
     }
+}
+
+/// They say enough of what is small.
+fn two_digits(x: f64) -> f64 {
+    format!("{x:.1e}").parse().unwrap_or(x)
 }
 
 /// The kinds of roots.
@@ -280,7 +296,7 @@ impl<'a> Plan<'a> {
             let unnamed = || format!("node {i} ({})", node.results[0].name());
             nodes.push(Branching {
                 root,
-                near: Near::new(&root, node.guard.map(of), scale, usual),
+                near: Near::new(&root, node.guard.map(of), scale, usual).unless_never(),
                 guard: node.guard.map(of).or(natural),
                 scale,
                 results: node.results.clone(),
@@ -324,7 +340,7 @@ impl<'a> Plan<'a> {
         for i in (0..self.nodes.len()).rev() {
             let node = &self.nodes[i];
             let read = node.operands().into_iter().chain(node.guard).chain([node.scale]);
-            let read = read.chain(node.near.formulas());
+            let read = read.chain(node.near.iter().flat_map(Near::formulas));
             let at_first = self.defect.into_iter().chain([self.size]).filter(|_| i == 0);
             let read = read.chain(at_first);
             needed.extend(read.flat_map(|e| e.symbols()));

@@ -117,14 +117,15 @@ impl Lanes<'_> {
         if let Some(sign) = sign {
             self.out.line(&format!("let {} = sign_{};", self.names.of(*sign), i + 1));
         }
-        let near = &node.near;
-        let [value, size] = [near.value, near.size].map(|e| format!("({})", self.formula(e)));
-        let value = if near.is_square { value } else { format!("{value}.abs()") };
-        let least = match near.size.symbols().is_empty() {
-            true => format!("{:e}", near.share),
-            false => format!("{:e} * {size}", near.share),
-        };
-        self.out.statement("let is_rare =", &format!("is_rare | ({value} <= {least})"));
+        if let Some(near) = &node.near {
+            let [value, size] = [near.value, near.size].map(|e| self.formula(e));
+            let value = if near.is_square { format!("({value})") } else { format!("f64::abs({value})") };
+            let least = match near.least() {
+                Some(least) => format!("{least:e}"),
+                None => format!("{:e} * ({size})", near.share),
+            };
+            self.out.statement("let is_rare =", &format!("is_rare | ({value} <= {least})"));
+        }
         self.rare("is_rare & (missing == 0.0)");
         if is_there {
             self.out.line("let missing = missing + roots::missing(is_there);");
