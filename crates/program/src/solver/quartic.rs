@@ -98,8 +98,12 @@ pub(crate) fn quartic([cc, cs, c, s, one]: [f64; 5], found: &mut Roots) {
         let height = points[i].1.abs();
         gap = gap.min(height);
         let is_lowest = height < points[behind].1.abs() && height <= points[before].1.abs();
-        if is_positive(before) == side && side == is_positive(behind) && is_lowest && height <= CLAMP {
-            add(points[i].0, 2);
+        if is_positive(before) == side && side == is_positive(behind) && is_lowest {
+            if height <= CLAMP {
+                add(points[i].0, 2);
+            } else {
+                found.missed = found.missed.min(height);
+            }
         }
     }
     zeros[..count].sort_unstable_by(|a, b| a.0.total_cmp(&b.0));

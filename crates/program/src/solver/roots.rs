@@ -37,6 +37,8 @@ pub struct Roots {
     /// How far the equation is from having a root, without dimension: |c|/√N − 1 for [`Root::Sincos`], −D/(b² + |ac|)
     /// for [`Root::Quadratic`], the smallest |f| by the sum of coefficients for [`Root::Quartic`]. 0 if there is one.
     pub gap: f64,
+    /// How far it is from having two roots more, in the same measure: for [`Root::Quartic`].
+    pub missed: f64,
 }
 
 impl Roots {
@@ -48,6 +50,7 @@ impl Roots {
         is_free: false,
         guard: f64::INFINITY,
         gap: f64::INFINITY,
+        missed: f64::INFINITY,
     };
 
     pub(crate) fn push(&mut self, value: [f64; 2], sign: i8, multiplicity: u32) {

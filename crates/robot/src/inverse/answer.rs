@@ -29,6 +29,12 @@ impl Answer {
         self.doubt.is_none()
     }
 
+    /// Judges the joints as they are returned: wrapped, moved along a family, as a copy.
+    pub(in crate::inverse) fn judge(&mut self, miss: impl Fn(&[f64]) -> f64) {
+        let families = self.families.iter_mut().map(|f| &mut f.representative);
+        families.chain(&mut self.solutions).for_each(|s| s.residual = miss(&s.q));
+    }
+
     /// Lists the copies of what was found that joints with gears have within the range of a whole turn or more, and
     /// puts the limits to each.
     pub(in crate::inverse) fn spread(&mut self, space: &JointSpace) {

@@ -263,6 +263,8 @@ impl InverseKinematics {
             }
             Method::Numeric => Answer { doubt: Some(Doubt::Searched), ..Answer::empty() },
         };
+        let size = self.size(pose);
+        answer.judge(|q| newton::distance(&self.robot, self.goal, pose, q, size));
         // Numbers so large that nothing follows from them.
         answer.solutions.retain(|s| s.residual.is_finite());
         answer.families.retain(|f| f.representative.residual.is_finite());

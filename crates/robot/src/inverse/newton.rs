@@ -4,6 +4,7 @@ use super::derivation::Goal;
 use crate::geometry::{Axis, Rotation, Transform, Vector};
 use crate::mechanism::Robot;
 use crate::random::Random;
+use crate::space::JointSpace;
 use crate::velocity::{self, svd};
 
 /// Steps of a polish; two or three are usual.
@@ -48,6 +49,32 @@ pub fn distance(robot: &Robot<f64>, goal: Goal, wanted: &Transform<f64>, q: &[f6
         columns.iter().map(|&c| square(have.rotation.column(c) - wanted.rotation.column(c))).sum();
     let shift = square(have.translation - wanted.translation) / (size * size);
     (turned + shift).sqrt()
+}
+
+/// How far configurations are left along the motion that the hand hardly sees (radians, and lengths by the reach).
+const ALONG: [f64; 5] = [0.02, 0.2, 0.8, 1.6, 3.0];
+
+/// A configuration, and others along the motion of its joints that the hand sees least, in both directions; joints in
+/// `given` stay.
+pub fn along_hidden(
+    robot: &Robot<f64>,
+    goal: Goal,
+    q: &[f64],
+    given: &[usize],
+    space: &JointSpace,
+) -> Vec<Vec<f64>> {
+    let columns = jacobian(robot, goal, q, given, space.length());
+    let free: Vec<usize> = (0..q.len()).filter(|j| !given.contains(j)).collect();
+    let svd = svd(free.iter().map(|&j| columns[j]).collect());
+    let Some(hidden) = free.len().min(6).checked_sub(1).and_then(|last| svd.vectors.get(last)) else {
+        return vec![];
+    };
+    let moved = |step: f64| {
+        let mut q = q.to_vec();
+        free.iter().zip(hidden).for_each(|(&j, v)| q[j] += step * v * space.unit(j));
+        q
+    };
+    [0.0].into_iter().chain(ALONG.iter().flat_map(|x| [*x, -x])).map(moved).collect()
 }
 
 /// The angle and the displacement between the hand and a pose, radians and metres.

@@ -110,8 +110,9 @@ impl Leaves {
         self.dropped
     }
 
-    /// The smallest guard on the way of a branch that ended or was dropped, relative to sizeᵈᵉᵍʳᵉᵉ: where it is small, it
-    /// may have been rounding that ended the branch.
+    /// The smallest guard on the way of a branch that ended or was dropped, relative to sizeᵈᵉᵍʳᵉᵉ, or the root of the gap at
+    /// which it ended (how far from one another two roots would be that just meet): where it is small, it may have been
+    /// rounding that ended the branch.
     pub fn lost_guard(&self) -> f64 {
         self.lost_guard
     }
@@ -153,6 +154,12 @@ impl Leaves {
         end.0 += 1;
         end.1 = end.1.min(gap);
         self.lost_guard = self.lost_guard.min(guard);
+        self.miss(gap);
+    }
+
+    /// Two roots are not there by no more than this.
+    pub(crate) fn miss(&mut self, gap: f64) {
+        self.lost_guard = self.lost_guard.min(gap.max(0.0).sqrt());
     }
 
     pub(crate) fn drop_leaf(&mut self, guard: f64) {

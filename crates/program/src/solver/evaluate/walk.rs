@@ -87,6 +87,7 @@ impl Walk {
                         let guards = earlier.chain([all.guard]).zip(&shape.steps).map(|(g, s)| g / s.usual);
                         leaves.end(i, all.gap, guards.fold(f64::INFINITY, f64::min));
                     }
+                    leaves.miss(all.missed);
                     if all.is_free {
                         leaves.meet_free(i);
                     }

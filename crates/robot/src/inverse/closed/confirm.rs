@@ -10,16 +10,14 @@ use crate::inverse::branch::Branch;
 use crate::inverse::newton;
 use crate::inverse::self_motion::{Frame, follow, is_self_motion};
 use crate::space::norm;
-use crate::velocity::svd;
 use denavit_program::solver::TOLERANCE;
 
 /// How many descents.
 const DESCENTS: usize = 48;
 /// A larger residual than this is left where Newton's method does not find a root.
 const BLURRED: f64 = 1e-11;
-/// How many solutions are left along the motion that the hand hardly sees, and how far (radians, and lengths by the reach).
+/// How many solutions are left along the motion that the hand hardly sees.
 const ALONG: usize = 8;
-const STEPS: [f64; 5] = [0.02, 0.2, 0.8, 1.6, 3.0];
 /// Solutions this near to each other (radians, and lengths by the reach) with a solution between them are one.
 const NEXT: f64 = 0.02;
 /// Configurations that are further from all solutions than this (radians, and lengths by the reach) are none of them.
@@ -82,21 +80,9 @@ impl Solving<'_> {
 
     /// Configurations along the motion that the hand hardly sees, from solutions where there is one.
     fn along(&self, solutions: &[Solution]) -> Vec<Vec<f64>> {
-        let size = self.space.length();
         let mut starts = vec![];
         for s in solutions.iter().filter(|s| s.residual > ROUGH || self.is_beside(&s.q)).take(ALONG) {
-            let columns = newton::jacobian(&self.robot, self.goal, &s.q, &self.given, size);
-            let free: Vec<usize> = (0..s.q.len()).filter(|j| !self.given.contains(j)).collect();
-            let svd = svd(free.iter().map(|&j| columns[j]).collect());
-            let Some(hidden) = svd.vectors.get(free.len().min(6) - 1) else { continue };
-            starts.push(s.q.clone());
-            for step in STEPS.iter().flat_map(|x| [*x, -x]) {
-                let mut q = s.q.clone();
-                for (&j, v) in free.iter().zip(hidden) {
-                    q[j] += step * v * self.space.unit(j);
-                }
-                starts.push(q);
-            }
+            starts.extend(newton::along_hidden(&self.robot, self.goal, &s.q, &self.given, &self.space));
         }
         starts
     }

@@ -242,6 +242,8 @@ impl InverseSolver {
         let (pose, mut solving) = self.at(pose);
         let mut answer = solving.solve(&pose, given);
         answer.spread(&self.space);
+        let size = solving.size(&pose);
+        answer.judge(|q| newton::distance(&self.robot, self.goal, &pose, q, size));
         answer
     }
 
@@ -289,14 +291,15 @@ impl Solving<'_> {
             if !answer.is_reachable() {
                 self.approach(pose, &variables, &starts, &mut answer);
             }
-            if met != 0 || near {
+            let is_lost = !answer.is_reachable() && !self.is_excluded(pose);
+            if met != 0 || near || is_lost {
                 self.confirm(pose, &variables, given, &mut answer);
                 if answer.solutions.iter().any(|s| self.is_blurred(s)) {
                     answer.doubt = Some(Doubt::Sampled);
                 }
                 if answer.is_reachable() {
                     answer.obstacle = None;
-                } else if !self.is_excluded(pose) {
+                } else if (met != 0 || near) && is_lost {
                     answer.doubt = Some(Doubt::Sampled);
                 }
             }

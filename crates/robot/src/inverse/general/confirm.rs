@@ -14,6 +14,10 @@ use crate::random::Random;
 
 /// How many descents.
 const DESCENTS: usize = 48;
+/// Beside solutions with a smallest singular value below this, others may nearly coincide; how many of them are left along
+/// the motion that the hand hardly sees.
+const BESIDE: f64 = 3e-4;
+const ALONG: usize = 8;
 /// A turn this near to a quarter turn is one.
 const ALIKE: f64 = 1e-6;
 /// A configuration further from all solutions than this is none of them: one that a descent reaches, and one near which it
@@ -28,8 +32,12 @@ impl GeneralSolver {
             return;
         }
         let mut random = Random(1);
-        for _ in 0..DESCENTS {
-            let start = self.anywhere(&mut random, size);
+        let beside = answer.solutions.iter().filter(|s| s.guard < BESIDE).take(ALONG);
+        let mut starts: Vec<Vec<f64>> = beside
+            .flat_map(|s| newton::along_hidden(&self.robot, Goal::Pose, &s.q, &[], &self.space))
+            .collect();
+        starts.extend((0..DESCENTS).map(|_| self.anywhere(&mut random, size)));
+        for start in starts {
             let found = newton::descend(&self.robot, Goal::Pose, pose, &start, &[], size);
             let Some((mut q, residual)) = found.filter(|f| f.1 <= TOLERANCE) else { continue };
             let guard = newton::least_seen(&self.robot, Goal::Pose, &q, &[], size);
@@ -61,7 +69,7 @@ impl GeneralSolver {
     fn is_special(&self, answer: &Answer) -> bool {
         let is_square = |s: &Solution| {
             let mut angles = s.q.iter().zip(&self.space.is_angle).filter(|(_, is_angle)| **is_angle);
-            s.guard < SINGULAR || angles.any(|(x, _)| (2.0 * x).sin().abs() < ALIKE)
+            s.guard < BESIDE || angles.any(|(x, _)| (2.0 * x).sin().abs() < ALIKE)
         };
         !answer.families.is_empty() || answer.solutions.iter().any(is_square)
     }

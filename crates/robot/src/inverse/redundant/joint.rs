@@ -25,6 +25,9 @@ const TRIES: usize = 128;
 /// Values all round, before they become denser, and how often they may.
 const VALUES: usize = 96;
 const DENSER: usize = 14;
+/// Values in all, and parts of a branch: beyond these a branch comes and goes with rounding.
+const MOST: usize = 3000;
+const PARTS: usize = 24;
 /// Neighbours further apart than this have a value between them.
 const APART: f64 = 0.3;
 /// How often the place where a gap is least is closed in on; with a double root there, which may be two that are not
@@ -245,6 +248,11 @@ impl ByJoint {
             let last = samples.len() - 1;
             let goes_round = is_angle && runs.len() > 1 && runs[0][0] == 0 && runs[runs.len() - 1][1] == last;
             let tail = if goes_round { runs.pop() } else { None };
+            if runs.len() > PARTS {
+                runs.sort_by_key(|[a, b]| a.abs_diff(*b));
+                runs.drain(..runs.len() - PARTS);
+                runs.sort_unstable();
+            }
             for (number, [a, b]) in runs.into_iter().enumerate() {
                 let point = |k: usize, turn: f64| {
                     let q = samples[k].on(signs)?;
@@ -321,8 +329,10 @@ impl ByJoint {
         for _ in 0..DENSER {
             let mut denser: Vec<Sample> = vec![];
             let mut grew = false;
-            for s in samples {
+            let count = samples.len();
+            for (k, s) in samples.into_iter().enumerate() {
                 if let Some(last) = denser.last()
+                    && denser.len() + count - k < MOST
                     && self.is_rough(last, &s)
                 {
                     let middle = (last.x + s.x) / 2.0;

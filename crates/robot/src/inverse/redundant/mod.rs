@@ -49,6 +49,8 @@ const FINE: f64 = 0.1;
 /// Parts of a sampled curve at first, and how often each may be halved.
 const PARTS: usize = 48;
 const HALVINGS: usize = 14;
+/// Members that a curve is known by are not many more: where there would be, rounding moves it.
+const MOST: usize = 3000;
 
 /// Finds the configurations of poses for a redundant robot with numbers.
 #[derive(Clone, Debug)]
@@ -333,9 +335,9 @@ impl RedundantSolver {
     fn sampled(&self, pose: &Transform<f64>, piece: &Piece) -> Vec<Vec<f64>> {
         let [low, high] = piece.domain;
         let mut found: Vec<Vec<f64>> = vec![];
-        let mut push = |space: &JointSpace, mut q: Vec<f64>| {
+        let push = |found: &mut Vec<Vec<f64>>, mut q: Vec<f64>| {
             if let Some(last) = found.last() {
-                let moved = space.moved(last, &q);
+                let moved = self.space.moved(last, &q);
                 q = last.iter().zip(moved).map(|(x, d)| x + d).collect();
             }
             found.push(q);
@@ -349,6 +351,7 @@ impl RedundantSolver {
             while let Some((y, p, halvings)) = ahead.pop() {
                 if let Some((before, from)) = &left
                     && halvings < HALVINGS
+                    && found.len() < MOST
                     && self.space.distance(from, &p) > FINE
                 {
                     let middle = (before + y) / 2.0;
@@ -358,7 +361,7 @@ impl RedundantSolver {
                         continue;
                     }
                 }
-                push(&self.space, p.clone());
+                push(&mut found, p.clone());
                 left = Some((y, p));
             }
         }

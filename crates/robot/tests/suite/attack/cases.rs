@@ -37,7 +37,7 @@ fn what_was_missed_once_is_found() {
     ];
     for (name, q) in cases {
         let solver = solver(name);
-        let asked = Asked { q: q.to_vec(), pose: solver.robot.pose(q), noise: 0.0 };
+        let asked = Asked { q: q.to_vec(), pose: solver.robot.pose(q), noise: 0.0, class: "a case" };
         let answer = solver.solve(&asked.pose, &[]);
         let fault = judge(&solver, &asked, &answer, 200, &mut Random(1));
         assert!(matches!(fault, None | Some(Fault::Doubted)), "{name}: {fault:?} of {answer:#?}");

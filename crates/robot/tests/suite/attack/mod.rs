@@ -23,8 +23,10 @@ const STARTS: usize = 12;
 #[derive(Default)]
 struct Found {
     method: &'static str,
-    asked: usize,
-    faults: Vec<(Fault, String)>,
+    /// How many poses of each class.
+    asked: BTreeMap<&'static str, usize>,
+    /// What was wrong, for a pose of which class, made from which configuration.
+    faults: Vec<(Fault, &'static str, String)>,
 }
 
 /// Attacks one arm.
@@ -38,17 +40,21 @@ fn attack(seed: u64, kind: Kind) -> Found {
         panic!("an arm with numbers is refused:\n{text}")
     };
     let mut found = Found { method: solver.method(), ..Found::default() };
+    let is_shown = std::env::var_os("DENAVIT_ATTACK_SHOW").is_some();
     for _ in 0..if solver.method() == "self-motion" { CURVES } else { POSES } {
         let asked = poses::asked(&mut random, &solver.robot, &solver.space);
         let given: Vec<f64> = solver.given.iter().map(|&j| asked.q[j]).collect();
+        if is_shown {
+            eprintln!("asked {:?}", asked.q);
+        }
         let answer = solver.solve(&asked.pose, &given);
-        found.asked += 1;
+        *found.asked.entry(asked.class).or_default() += 1;
         let starts = if given.is_empty() { STARTS } else { 0 };
         if let Some(fault) = judge::judge(&solver, &asked, &answer, starts, &mut random) {
-            if fault.is_lie() && std::env::var_os("DENAVIT_ATTACK_SHOW").is_some() {
+            if fault.is_lie() && is_shown {
                 shown(&solver, fault, &asked, &answer);
             }
-            found.faults.push((fault, format!("{:?}", asked.q)));
+            found.faults.push((fault, asked.class, format!("{:?}", asked.q)));
         }
     }
     found
@@ -65,22 +71,24 @@ fn all(arms: usize) -> Vec<String> {
     let only = std::env::var("DENAVIT_ATTACK_KIND").ok();
     let mut lies = vec![];
     for kind in Kind::ALL.into_iter().filter(|k| only.as_ref().is_none_or(|o| *o == format!("{k:?}"))) {
-        let mut tally: BTreeMap<(&str, Option<Fault>), usize> = BTreeMap::new();
+        let mut tally: BTreeMap<(&str, &str, Option<Fault>), usize> = BTreeMap::new();
         for seed in (first..).take(arms) {
             let seed = seed * 1000 + kind as u64;
             let found = scoped(|| attack(seed, kind));
-            *tally.entry((found.method, None)).or_default() += found.asked;
-            for (fault, q) in found.faults {
-                *tally.entry((found.method, Some(fault))).or_default() += 1;
+            for (class, n) in found.asked {
+                *tally.entry((found.method, class, None)).or_default() += n;
+            }
+            for (fault, class, q) in found.faults {
+                *tally.entry((found.method, class, Some(fault))).or_default() += 1;
                 if fault.is_lie() {
                     lies.push(format!("{kind:?} {seed} ({}): {fault:?} at {q}", found.method));
                 }
             }
         }
         println!("{kind:?}: {arms} arms");
-        for ((method, fault), n) in tally {
+        for ((method, class, fault), n) in tally {
             match fault {
-                None => println!("  {method}: {n} poses"),
+                None => println!("  {method}: {n} poses {class}"),
                 Some(fault) => println!("    {fault:?} {n}"),
             }
         }

@@ -14,6 +14,8 @@ pub struct Asked {
     pub pose: Transform<f64>,
     /// What the pose was changed by, at most.
     pub noise: f64,
+    /// What was asked for: a configuration like any other, one at quarter turns, or one beside it.
+    pub class: &'static str,
 }
 
 /// A configuration, and its pose.
@@ -22,6 +24,11 @@ pub fn asked(random: &mut Random, robot: &Robot<f64>, space: &JointSpace) -> Ask
     let special = one_of(random, &[0.0, 0.0, 0.0, 0.4, 0.8, 1.0]);
     let off =
         if special > 0.0 { one_of(random, &[0.0, 0.0, 0.0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3]) } else { 0.0 };
+    let class = match (special > 0.0, off > 0.0) {
+        (false, _) => "regular",
+        (true, false) => "at quarter turns",
+        (true, true) => "beside",
+    };
     let q: Vec<f64> = space
         .is_angle
         .iter()
@@ -44,5 +51,5 @@ pub fn asked(random: &mut Random, robot: &Robot<f64>, space: &JointSpace) -> Ask
         let rows = pose.rotation.rows().map(|row| row.map(|x| x + noise * (2.0 * random.unit() - 1.0)));
         pose = Transform::from_rotation_translation(Rotation::from_rows(rows), pose.translation);
     }
-    Asked { q, pose, noise }
+    Asked { q, pose, noise, class }
 }
