@@ -14,6 +14,10 @@ use denavit_program::solver::TOLERANCE;
 
 /// How many descents.
 const DESCENTS: usize = 48;
+/// A descent that misses by no more than this is on its way to a solution, if there is one.
+const VALLEY: f64 = 1e-6;
+/// How many branches are left for a solution nearby.
+const BRANCHES: usize = 16;
 /// A larger residual than this is left where Newton's method does not find a root.
 const BLURRED: f64 = 1e-11;
 /// How many solutions are left along the motion that the hand hardly sees.
@@ -26,26 +30,36 @@ const AROUND: f64 = 0.1;
 const REGULAR: f64 = 1e-3;
 
 impl Solving<'_> {
-    /// Adds what descents find and the answer does not have.
+    /// Adds what descents find and the answer does not have; `branches` are all that there are, however far from the pose.
     pub(super) fn confirm(
         &mut self,
         pose: &Transform<f64>,
-        variables: &[f64],
-        given: &[f64],
+        (variables, given): (&[f64], &[f64]),
+        branches: &[Solution],
         answer: &mut Answer,
     ) {
         let size = self.size(pose);
         let mut starts = self.along(&answer.solutions);
+        starts.extend(branches.iter().take(BRANCHES).map(|s| s.q.clone()));
         starts.extend(self.anywhere(pose, variables, DESCENTS));
         for start in starts {
             let found = newton::descend(&self.robot, self.goal, pose, &start, &self.given, size);
-            let Some((mut q, residual)) = found.filter(|f| f.1 <= self.tolerance) else { continue };
+            let Some((mut q, residual)) = found.filter(|f| f.1 <= VALLEY.max(self.tolerance)) else {
+                continue;
+            };
             // What converges slowly lies between two roots that nearly coincide, and is none, or beside one that no number
             // is near enough to; of an arm with few joints that misses the pose a little, as it may, a regular configuration
             // is as near as it comes.
             let is_slow = residual > ROUGH && !self.is_regular(&q);
             self.space.wrap(&mut q);
             let is_beside = |s: &Solution| self.space.distance(&s.q, &q) <= AROUND;
+            if residual > self.tolerance {
+                // In a valley in which the hand hardly moves there may be solutions that no descent comes to.
+                if is_slow && answer.is_reachable() && !answer.solutions.iter().any(is_beside) {
+                    answer.doubt = Some(Doubt::Sampled);
+                }
+                continue;
+            }
             if is_slow && answer.solutions.iter().any(is_beside) || self.is_known(pose, given, answer, &q) {
                 continue;
             }

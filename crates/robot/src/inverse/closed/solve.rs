@@ -85,6 +85,8 @@ pub(super) struct NodeFacts {
     pub label: Option<Label>,
 }
 
+/// Rounding leaves no more than this where formulas are well determined.
+const GROWN: f64 = 1e-11;
 /// A residual above this is more than rounding, and Newton's method lowers it.
 pub(super) const ROUGH: f64 = 1e-13;
 /// Branches that Newton's method starts from, and how far they may be from the pose.
@@ -264,6 +266,8 @@ impl Solving<'_> {
         let met = leaves.met_free();
         let near = leaves.lost_guard() < BESIDE || leaves.iter().any(|l| l.free == 0 && l.guard < BESIDE);
         let mut found: Vec<(Solution, u64)> = vec![];
+        // Where rounding grows, it may hide other solutions.
+        let near = near || self.tolerance <= TOLERANCE && leaves.iter().any(|l| l.residual > GROWN);
         for leaf in leaves.iter() {
             found.push((draft(&solver.nodes, &leaf), leaf.free));
         }
@@ -293,7 +297,7 @@ impl Solving<'_> {
             }
             let is_lost = !answer.is_reachable() && !self.is_excluded(pose);
             if met != 0 || near || is_lost {
-                self.confirm(pose, &variables, given, &mut answer);
+                self.confirm(pose, (&variables, given), &starts, &mut answer);
                 if answer.solutions.iter().any(|s| self.is_blurred(s)) {
                     answer.doubt = Some(Doubt::Sampled);
                 }
