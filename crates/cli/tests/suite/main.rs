@@ -1,5 +1,6 @@
 //! Tests of the command line, one program.
 
+mod bounded;
 mod certificate;
 mod check;
 mod command_line;

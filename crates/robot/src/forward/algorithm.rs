@@ -6,8 +6,9 @@
 //! candidates share one value-numbered graph, and what an output reaches in it is what it costs.
 
 use crate::forward::chain::{Chain, Item};
+use crate::geometry::{Axis, Rotation};
 use denavit_program::{Graph, Program, Stage, Value, Walk};
-use denavit_symbolic::{Angle, Expr, Refusal, Symbol};
+use denavit_symbolic::{Angle, Expr, Refusal, Symbol, equal};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::fmt;
 use std::str::FromStr;
@@ -113,6 +114,8 @@ struct Search<'a> {
     chain: &'a Chain,
     variables: &'a [Symbol],
     factors: Vec<[Vector3; 3]>,
+    /// Whether all factors are rotations exactly, and not up to the rounding of a matrix as somebody wrote it.
+    are_rotations: bool,
     /// Direction of item i carried to a frame before its own.
     carried: FxHashMap<(usize, usize), Vector3>,
     /// F₁…Fₖ.
@@ -157,6 +160,15 @@ pub(super) fn shortest(
     search.program(&orientation, &placement, outputs, taken)
 }
 
+/// True if the third column of a factor is the cross product of the others: a matrix of decimals has it up to rounding.
+fn is_rotation(factor: &Rotation<Expr>) -> bool {
+    let [x, y, z] = Axis::ALL.map(|axis| factor.column(axis));
+    let constant = |e: &Expr| e.symbols().is_empty();
+    let entries = factor.rows().into_iter().flatten().collect::<Vec<_>>();
+    let cross = x.cross(y);
+    !entries.iter().all(constant) || (0..3).all(|i| equal(cross[i], z[i]).is_equal())
+}
+
 impl<'a> Search<'a> {
     fn new(mut graph: Graph, chain: &'a Chain, variables: &'a [Symbol]) -> Self {
         let factors: Vec<[Vector3; 3]> =
@@ -167,6 +179,7 @@ impl<'a> Search<'a> {
             chain,
             variables,
             factors,
+            are_rotations: chain.factors.iter().all(is_rotation),
             carried: FxHashMap::default(),
             prefixes: vec![unit],
             tails: vec![],
@@ -215,7 +228,7 @@ impl<'a> Search<'a> {
     /// Ways to compute the orientation, cheapest first; the one with y = z × x and no split wins ties.
     fn orientations(&mut self, wanted: [bool; 3]) -> Vec<Orientation> {
         let m = self.factors.len();
-        let direct_sets: Vec<[bool; 3]> = if wanted == [true; 3] {
+        let direct_sets: Vec<[bool; 3]> = if wanted == [true; 3] && self.are_rotations {
             vec![[true, false, true], [true, true, false], [false, true, true], [true; 3]]
         } else {
             vec![wanted]

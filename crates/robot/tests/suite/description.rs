@@ -2,7 +2,9 @@
 
 use crate::common::{robot, shown};
 use denavit::catalogue;
-use denavit::description::{Convention, Moved, SameChain, prove_same_chain, read_toml, render, write_toml};
+use denavit::description::{
+    Convention, Measure, Moved, SameChain, prove_same_chain, read_toml, read_value, render, write_toml,
+};
 use denavit_symbolic::{Expr, Rational, equal};
 
 /// All findings of a robot file begin as expected, in this order.
@@ -248,6 +250,15 @@ fn cells_are_exact() {
         assert!(equal(found, expected).is_equal(), "{key} = {cell}");
     }
     assert_eq!(value("alpha", "\"90 deg\"").cos(), Expr::int(0), "cos(π/2) is 0, not 6e-17");
+}
+
+#[test]
+fn values_have_exponents_and_units() {
+    let value = |text: &str, measure| read_value(text, measure).map(|e| e.eval(|_| None).expect("a number"));
+    assert_eq!(value("-7.5e-13rad", Measure::Angle), Ok(-7.5e-13));
+    assert_eq!(value("2e-3 mm", Measure::Length), Ok(2e-6));
+    assert_eq!(value("1E+2mm", Measure::Length), Ok(0.1));
+    assert!(value("1erad", Measure::Angle).is_err());
 }
 
 #[test]

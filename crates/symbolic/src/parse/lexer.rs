@@ -246,7 +246,9 @@ impl Lexer<'_> {
         let sign = end + 1 + usize::from(matches!(self.char(end + 1), Some('+' | '-')));
         let after = self.after_digits(sign);
         let word: String = (end..after).filter_map(|i| self.char(i)).collect();
-        let is_number = after > sign && !self.char(after).is_some_and(char::is_alphabetic);
+        // `1e-3rad` where the grammar finds units, but not where `2e-3x` is a difference.
+        let has_unit = || self.whole_words && self.names.known(&word[..1]).is_none();
+        let is_number = after > sign && (!self.char(after).is_some_and(char::is_alphabetic) || has_unit());
         if is_number && self.names.known(&word).is_none() { after } else { end }
     }
 

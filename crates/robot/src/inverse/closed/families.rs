@@ -27,6 +27,8 @@ pub(super) fn round(unknowns: usize) -> usize {
     }
 }
 
+/// Stretches of a free unknown that are nearer to each other are one (radians, and lengths by the reach).
+const BETWEEN: f64 = 1e-4;
 /// How much smaller steps may become.
 const FINEST: usize = 100;
 
@@ -44,7 +46,9 @@ impl InverseSolver {
             *x = if self.nodes[*i].is_angle { [value.cos(), value.sin()] } else { [value, 0.0] };
         }
         let (pose, mut solving) = self.at(pose);
-        solving.with_free(&pose, given, &at, &family.signs)
+        let mut members = solving.with_free(&pose, given, &at, &family.signs);
+        members.retain(|s| self.is_on_stretch(family, &s.q));
+        members
     }
 
     /// The members of a family with its free unknowns as they are at a configuration: those among them show whether the
@@ -59,6 +63,22 @@ impl InverseSolver {
         let (pose, mut solving) = self.at(pose);
         solving.members_at(&pose, given, family, q)
     }
+
+    /// True if a family may have members with its free unknown as it is at a configuration: the same branches may have
+    /// further families on other stretches of it.
+    fn is_on_stretch(&self, family: &Family, q: &[f64]) -> bool {
+        let (&[(i, _)], Some([low, high])) = (&family.at[..], family.interval) else { return true };
+        let x = self.value_at(i, q);
+        if self.nodes[i].is_angle {
+            let from_low = (x[1].atan2(x[0]) - low).rem_euclid(TAU);
+            from_low <= high - low + BETWEEN || from_low >= TAU - BETWEEN
+        } else {
+            // What was sampled ends there, not the family.
+            let reach = self.space.reach;
+            let slack = BETWEEN * reach;
+            (low <= -reach || x[0] >= low - slack) && (high >= reach || x[0] <= high + slack)
+        }
+    }
 }
 
 impl Solving<'_> {
@@ -69,6 +89,9 @@ impl Solving<'_> {
         family: &Family,
         q: &[f64],
     ) -> Vec<Solution> {
+        if !self.is_on_stretch(family, q) {
+            return vec![];
+        }
         // Within the family further unknowns may be free at single places.
         let at: Vec<(usize, [f64; 2])> = (0..self.nodes.len()).map(|i| (i, self.value_at(i, q))).collect();
         self.with_free(pose, given, &at, &family.signs)

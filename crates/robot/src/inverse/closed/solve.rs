@@ -249,6 +249,13 @@ impl InverseSolver {
         answer
     }
 
+    /// The unknown of a node at a configuration: cosine and sine, or the displacement.
+    pub(super) fn value_at(&self, node: usize, q: &[f64]) -> [f64; 2] {
+        let facts = &self.nodes[node];
+        let x: f64 = facts.offset + facts.terms.iter().map(|&(j, k)| k * q[j]).sum::<f64>();
+        if facts.is_angle { [x.cos(), x.sin()] } else { [x, 0.0] }
+    }
+
     /// The rigid pose that is meant, and what solves it.
     pub(super) fn at(&self, pose: &Transform<f64>) -> (Transform<f64>, Solving<'_>) {
         let (pose, defect) = newton::nearest_rigid(pose);
@@ -315,13 +322,6 @@ impl Solving<'_> {
     pub(super) fn is_beside(&self, q: &[f64]) -> bool {
         let size = self.space.length();
         newton::least_seen(&self.robot, self.goal, q, &self.given, size) < BESIDE * self.seen
-    }
-
-    /// The unknown of a node at a configuration: cosine and sine, or the displacement.
-    pub(super) fn value_at(&self, node: usize, q: &[f64]) -> [f64; 2] {
-        let facts = &self.nodes[node];
-        let x: f64 = facts.offset + facts.terms.iter().map(|&(j, k)| k * q[j]).sum::<f64>();
-        if facts.is_angle { [x.cos(), x.sin()] } else { [x, 0.0] }
     }
 
     /// Polishes a leaf that is not a solution yet; false if it does not become one nearby.
