@@ -110,7 +110,7 @@ pub struct Nearest {
 
 impl Nearest {
     /// The copy of a configuration that is nearest to another.
-    fn of(space: &JointSpace, q: &[f64], to: &[f64]) -> Self {
+    pub fn of(space: &JointSpace, q: &[f64], to: &[f64]) -> Self {
         let within_limits = space.within(q);
         let copy = space.nearest_copy(q, to);
         // What the limits do not allow anyhow goes to the nearest copy of all.
@@ -477,7 +477,10 @@ impl InverseKinematics {
     /// If there is not one value per given joint.
     pub fn one(&self, pose: &Transform<f64>, given: &[f64], seed: Option<&[f64]>) -> Answer {
         let mut answer = match &self.method {
-            Method::Redundant(solver) => match solver.within_limits(pose, seed) {
+            Method::Redundant(solver) => match seed
+                .and_then(|from| self.next(pose, from))
+                .or_else(|| solver.within_limits(pose, seed))
+            {
                 Some(s) => Answer { solutions: vec![s], ..Answer::empty() },
                 None => self.solve(pose, given),
             },

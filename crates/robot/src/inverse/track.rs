@@ -9,6 +9,8 @@
 //! A joint that d takes beyond a limit stays at the limit, and the others make up for it. What does not lead to a solution
 //! nearby is left to the full solution.
 
+use super::answer::Solution;
+use super::branch::Branch;
 use super::dispatch::{InverseKinematics, Nearest};
 use super::newton;
 use crate::geometry::Transform;
@@ -72,6 +74,14 @@ impl InverseKinematics {
         assert_eq!(previous.len(), self.robot.joints, "one entry per joint");
         let pose = &newton::nearest_rigid(pose).0;
         self.followed(pose, previous).or_else(|| self.searched(pose, previous))
+    }
+
+    /// The solution next to a configuration, within the limits, if a few steps of Newton's method lead to one.
+    pub(super) fn next(&self, pose: &Transform<f64>, from: &[f64]) -> Option<Solution> {
+        let Tracked { mut q, residual, guard, .. } = self.followed(&newton::nearest_rigid(pose).0, from)?;
+        self.space.wrap(&mut q);
+        let branch = Branch::default();
+        Some(Solution { q, residual, branch, multiplicity: 1, within_limits: true, guard })
     }
 
     /// By Newton's method from the previous configuration.
