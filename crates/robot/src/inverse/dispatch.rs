@@ -9,8 +9,7 @@
 //!
 //! Nothing is rounded to a special arm here: see [`idealised`](crate::idealise::idealised).
 
-use super::answer::{Answer, Doubt, Family, Obstacle, Solution};
-use super::branch::Branch;
+use super::answer::{Answer, Doubt, Family, Solution};
 use super::closed::InverseSolver;
 use super::derivation::{Extent, Goal, InverseModel, InverseOptions, NotGiven, Refusal};
 use super::general::GeneralSolver;
@@ -18,7 +17,7 @@ use super::lines;
 use super::newton;
 use super::numeric::NumericSolver;
 use super::redundant::{Criterion, RedundantSolver};
-use super::self_motion::{follow, follow_loosely};
+use super::self_motion::follow_loosely;
 use crate::description::Description;
 use crate::geometry::Transform;
 use crate::mechanism::{MissingValue, Robot};
@@ -47,9 +46,9 @@ pub struct InverseKinematics {
     pub seed: Option<Vec<f64>>,
     names: Vec<String>,
     method: Method,
-    numeric: NumericSolver,
+    pub(super) numeric: NumericSolver,
     /// The same where limits do not count.
-    unlimited: NumericSolver,
+    pub(super) unlimited: NumericSolver,
 }
 
 /// How the solutions are found.
@@ -269,41 +268,19 @@ impl InverseKinematics {
         answer.solutions.retain(|s| s.residual.is_finite());
         answer.families.retain(|f| f.representative.residual.is_finite());
         if !answer.is_reachable() {
-            self.search(pose, &mut answer);
+            if given.is_empty() {
+                self.search(pose, &mut answer);
+            }
+            if answer.is_reachable() || !given.is_empty() {
+                self.search_on(pose, given, &mut answer);
+            }
             answer.spread(&self.space);
         }
         answer
     }
 
-    /// Self-motions that a parameter's samples miss, because it stays the same along them or nearly so: found by descent
-    /// from configurations all over, and followed.
-    fn follow_more(&self, pose: &Transform<f64>, answer: &mut Answer) {
-        let mut random = Random(1);
-        let size = self.size(pose);
-        let span = |j: usize| {
-            let half = self.space.half_range(j);
-            self.space.limits[j].unwrap_or(if self.space.is_angle[j] { [-half, half] } else { [0.0, size] })
-        };
-        let spans: Vec<[f64; 2]> = (0..self.robot.joints).map(span).collect();
-        for _ in 0..DESCENTS {
-            let seed: Vec<f64> = spans.iter().map(|[low, high]| low + random.unit() * (high - low)).collect();
-            let outcome = self.numeric.solve(pose, Some(&seed));
-            let residual = newton::distance(&self.robot, self.goal, pose, &outcome.q, size);
-            let mut q = outcome.q;
-            self.space.wrap(&mut q);
-            if residual > TOLERANCE || answer.families.iter().any(|f| self.is_near(f, &q)) {
-                continue;
-            }
-            let motion = follow(&self.robot, &self.space, self.goal, pose, &q);
-            let within_limits = self.space.within(&q);
-            let (branch, guard) = (Branch::default(), 0.0);
-            let found = Solution { q, residual, branch, multiplicity: 1, within_limits, guard };
-            answer.families.push(Family::followed(found, motion));
-        }
-    }
-
     /// True if a configuration lies between members of a family that are next to each other.
-    fn is_near(&self, family: &Family, q: &[f64]) -> bool {
+    pub(super) fn is_near(&self, family: &Family, q: &[f64]) -> bool {
         let mut pairs = family.curve.windows(2);
         pairs.any(|pair| {
             let (along, to) = (self.space.way(&pair[0], &pair[1]), self.space.way(&pair[0], q));
@@ -314,34 +291,6 @@ impl InverseKinematics {
             // A chord leaves the curve by an eighth of its bend.
             off <= 0.1 * square.sqrt() + 1e-6
         })
-    }
-
-    /// By descent: a solution, or the nearest configuration.
-    fn search(&self, pose: &Transform<f64>, answer: &mut Answer) {
-        let size = self.size(pose);
-        let miss = |q: &[f64]| newton::distance(&self.robot, self.goal, pose, q, size);
-        let mut outcome = self.numeric.solve(pose, self.seed.as_deref());
-        if miss(&outcome.q) > TOLERANCE && outcome.beyond_reach.is_none() {
-            let unlimited = self.unlimited.solve(pose, self.seed.as_deref());
-            outcome =
-                if miss(&unlimited.q) <= TOLERANCE { unlimited } else { self.numeric.nearest(pose, None) };
-        }
-        let residual = miss(&outcome.q);
-        if residual <= TOLERANCE {
-            let mut q = outcome.q;
-            self.space.wrap(&mut q);
-            let within_limits = self.space.within(&q);
-            let (branch, guard) = (Branch::default(), 0.0);
-            answer.doubt = Some(Doubt::Searched);
-            answer.solutions.push(Solution { q, residual, branch, multiplicity: 1, within_limits, guard });
-            return;
-        }
-        if outcome.beyond_reach.is_some() {
-            // That there is none is proved.
-            answer.doubt = None;
-        }
-        let (angle, distance) = newton::gap(&self.robot, self.goal, pose, &outcome.q);
-        answer.obstacle = Some(Obstacle { unknown: None, q: outcome.q, angle, distance, violated: vec![] });
     }
 
     pub(crate) fn size(&self, pose: &Transform<f64>) -> f64 {
@@ -477,13 +426,18 @@ impl InverseKinematics {
     /// If there is not one value per given joint.
     pub fn one(&self, pose: &Transform<f64>, given: &[f64], seed: Option<&[f64]>) -> Answer {
         let mut answer = match &self.method {
-            Method::Redundant(solver) => match seed
-                .and_then(|from| self.next(pose, from))
-                .or_else(|| solver.within_limits(pose, seed))
-            {
-                Some(s) => Answer { solutions: vec![s], ..Answer::empty() },
-                None => self.solve(pose, given),
-            },
+            Method::Redundant(solver) => {
+                match seed.and_then(|from| self.next(pose, from)).or_else(|| solver.within_limits(pose, seed))
+                {
+                    Some(s) => Answer { solutions: vec![s], ..Answer::empty() },
+                    None => self.solve(pose, given),
+                }
+            }
+            Method::Numeric if given.is_empty() => {
+                let mut answer = Answer { doubt: Some(Doubt::Searched), ..Answer::empty() };
+                self.search(&newton::nearest_rigid(pose).0, &mut answer);
+                answer
+            }
             _ => self.solve(pose, given),
         };
         let away = |s: &Solution| seed.map_or(0.0, |to| self.space.distance(&s.q, to));
@@ -522,8 +476,6 @@ impl InverseKinematics {
 const ANYWHERE: usize = 16;
 /// A configuration this near to a member of a family is one.
 const MEMBER: f64 = 1e-6;
-/// Descents that look for self-motions.
-const DESCENTS: usize = 64;
 /// What a solution that was searched for may miss the pose by.
 pub(super) const TOLERANCE: f64 = 1e-9;
 

@@ -17,6 +17,7 @@ mod members;
 pub(crate) mod newton;
 pub mod numeric;
 pub mod redundant;
+mod search;
 pub mod self_motion;
 mod track;
 

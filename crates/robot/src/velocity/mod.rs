@@ -29,5 +29,6 @@ pub use singular::{
     Example, MAX_JOINTS, Minor, Obstacle, Place, Singularities, Singularity, Still, singular_configuration,
 };
 pub use solve::{Damping, JointRates, RateSolver};
+pub(crate) use svd::dot;
 pub use svd::{Svd, svd};
 pub use wrench::{Wrench, largest_wrench, torques};

@@ -33,12 +33,13 @@ pub fn svd(mut columns: Vec<[f64; 6]>) -> Svd {
     let n = columns.len();
     let mut v: Vec<Vec<f64>> =
         (0..n).map(|i| (0..n).map(|j| f64::from(u8::from(i == j))).collect()).collect();
-    let total: f64 = columns.iter().map(|c| dot(c, c)).sum();
+    let mut squares: Vec<f64> = columns.iter().map(|c| dot(c, c)).collect();
+    let total: f64 = squares.iter().sum();
     for _ in 0..30 {
         let mut is_done = true;
         for i in 0..n {
             for j in i + 1..n {
-                let (a, b) = (dot(&columns[i], &columns[i]), dot(&columns[j], &columns[j]));
+                let (a, b) = (squares[i], squares[j]);
                 let c = dot(&columns[i], &columns[j]);
                 // A column of rounding errors has no direction.
                 if c * c <= 1e-31 * a * b || a.min(b) <= 1e-31 * total {
@@ -46,13 +47,15 @@ pub fn svd(mut columns: Vec<[f64; 6]>) -> Svd {
                 }
                 is_done = false;
                 let zeta = (b - a) / (2.0 * c);
-                let t = zeta.signum() / (zeta.abs() + zeta.hypot(1.0));
-                let (cos, sin) = (1.0 / t.hypot(1.0), t / t.hypot(1.0));
+                let t = zeta.signum() / (zeta.abs() + (1.0 + zeta * zeta).sqrt());
+                let cos = 1.0 / (1.0 + t * t).sqrt();
+                let sin = cos * t;
                 let (ci, cj) = (columns[i], columns[j]);
                 for k in 0..6 {
                     columns[i][k] = cos * ci[k] - sin * cj[k];
                     columns[j][k] = sin * ci[k] + cos * cj[k];
                 }
+                (squares[i], squares[j]) = (dot(&columns[i], &columns[i]), dot(&columns[j], &columns[j]));
                 let (left, right) = v.split_at_mut(j);
                 for (x, y) in left[i].iter_mut().zip(&mut right[0]) {
                     (*x, *y) = (cos * *x - sin * *y, sin * *x + cos * *y);

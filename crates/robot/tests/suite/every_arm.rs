@@ -213,3 +213,53 @@ fn a_panic_of_a_thread_is_that_of_the_caller() {
     let poses = vec![Transform::identity(); 8];
     let _ = solver.solve_all(&poses, &[0.0], NonZero::new(2).expect("some"));
 }
+
+/// An arm that no closed form and no elimination serves: descents find its solutions, and joints that are given stay.
+#[test]
+fn descents_find_all_solutions() {
+    let wrist = include_str!("../cases/irb5400.toml");
+    let (description, _) = read_toml(wrist).expect("a robot file");
+    let solver = solver(&description);
+    assert_eq!(solver.method(), "descent");
+    let mut random = Random(3);
+    let mut most = 0;
+    for _ in 0..share(100, 20) {
+        let q = configuration(&mut random, &solver);
+        let pose = solver.robot.pose(&q);
+        let answer = solver.solve(&pose, &[]);
+        assert!(holds(&solver, &pose, &answer, &q), "{q:?} is not among {answer:#?}");
+        assert_eq!(answer.doubt, Some(Doubt::Searched));
+        // From any of them the same are found.
+        for s in &answer.solutions {
+            let again = solver.solve(&solver.robot.pose(&s.q), &[]);
+            assert_eq!(again.solutions.len(), answer.solutions.len(), "{q:?}");
+        }
+        most = most.max(answer.solutions.len());
+    }
+    assert_eq!(most, 8);
+}
+
+#[test]
+fn joints_that_are_given_stay() {
+    let rows: String = [37, -52, 71, 20, -64, 83, 41, -33]
+        .iter()
+        .enumerate()
+        .map(|(i, alpha)| {
+            let (theta, a, d) = (i + 1, 0.3 - 0.03 * i as f64, 0.1 + 0.02 * i as f64);
+            format!("[[joints]]\ntheta = \"q{theta}\"\nalpha = \"{alpha} deg\"\na = {a}\nd = {d}\n")
+        })
+        .collect();
+    let (description, _) =
+        read_toml(&format!("name = \"skew\"\nconvention = \"standard\"\n{rows}")).expect("a robot file");
+    for given in [vec![2], vec![0, 5]] {
+        let options = InverseOptions { given: Some(given.clone()), ..InverseOptions::default() };
+        let solver = InverseKinematics::new(&description, &options).expect("a robot with numbers");
+        let q: Vec<f64> = (0..8).map(|j| 0.4 - 0.23 * j as f64).collect();
+        let values: Vec<f64> = given.iter().map(|&j| q[j]).collect();
+        let answer = solver.solve(&solver.robot.pose(&q), &values);
+        assert!(answer.is_reachable(), "{given:?}");
+        for s in &answer.solutions {
+            assert!(given.iter().all(|&j| (s.q[j] - q[j]).abs() < 1e-12), "{given:?}: {:?}", s.q);
+        }
+    }
+}

@@ -5,7 +5,7 @@ const RANK: f64 = 1e-14;
 
 /// x with A x = b, by Cholesky's factors; `a` holds the lower triangle. Directions without a pivot stay 0.
 #[inline]
-pub(super) fn solve6(a: &mut [[f64; 6]; 6], b: &[f64; 6]) -> [f64; 6] {
+pub(in crate::inverse) fn solve6(a: &mut [[f64; 6]; 6], b: &[f64; 6]) -> [f64; 6] {
     let mut inverse = [0.0; 6];
     let mut x = *b;
     for k in 0..6 {

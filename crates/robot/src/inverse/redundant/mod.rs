@@ -39,6 +39,7 @@ use joint::ByJoint;
 use limits::{Range, SLACK, excess};
 use manifold::{Chart, Found, Piece};
 use std::fmt;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// A residual above this is more than rounding, and Newton's method lowers it.
 const ROUGH: f64 = 1e-13;
@@ -65,6 +66,7 @@ pub struct RedundantSolver {
     pub surplus: usize,
     ranges: Vec<Range>,
     method: Method,
+    kept: Kept,
 }
 
 #[derive(Clone, Debug)]
@@ -72,6 +74,28 @@ enum Method {
     ArmAngle(Box<ArmAngle>),
     Joint(Box<ByJoint>),
     Curve(Box<ByCurve>),
+}
+
+/// The pieces of the pose that was asked about last: all solutions of a pose, and then the best of them, are asked for.
+#[derive(Debug, Default)]
+struct Kept(Mutex<Option<(Transform<f64>, Arc<Vec<Piece>>)>>);
+
+impl Kept {
+    fn of(&self, pose: &Transform<f64>, pieces: impl FnOnce() -> Vec<Piece>) -> Arc<Vec<Piece>> {
+        let lock = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, kept)) = lock().as_ref().filter(|k| k.0 == *pose) {
+            return kept.clone();
+        }
+        let pieces = Arc::new(pieces());
+        *lock() = Some((*pose, pieces.clone()));
+        pieces
+    }
+}
+
+impl Clone for Kept {
+    fn clone(&self) -> Self {
+        Kept::default()
+    }
 }
 
 /// Why there is no solver for a robot.
@@ -119,7 +143,7 @@ impl RedundantSolver {
         }
         let method = Self::method_for(description, goal, &robot, &space, surplus)?;
         let ranges = Range::all(&space);
-        Ok(RedundantSolver { robot, space, goal, surplus, ranges, method })
+        Ok(RedundantSolver { robot, space, goal, surplus, ranges, method, kept: Kept::default() })
     }
 
     fn method_for(
@@ -178,7 +202,7 @@ impl RedundantSolver {
     pub fn manifold(&self, pose: &Transform<f64>) -> Manifold {
         let pose = &newton::nearest_rigid(pose).0;
         let pieces = self.pieces(pose);
-        let components = pieces.into_iter().filter_map(|piece| self.component(pose, piece)).collect();
+        let components = pieces.iter().filter_map(|piece| self.component(pose, piece.clone())).collect();
         Manifold { components, dimension: self.surplus, doubt: self.doubt() }
     }
 
@@ -194,7 +218,7 @@ impl RedundantSolver {
     pub fn best(&self, pose: &Transform<f64>, criterion: &Criterion) -> Option<Solution> {
         let pose = &newton::nearest_rigid(pose).0;
         let mut best: Option<(f64, Vec<f64>, Branch)> = None;
-        for piece in self.pieces(pose) {
+        for piece in self.pieces(pose).iter() {
             for interval in &piece.feasible {
                 let found = criterion::least(*interval, |x| {
                     let q = self.configuration(pose, &piece.chart, x)?;
@@ -230,9 +254,7 @@ impl RedundantSolver {
             (None, Method::Joint(_)) => {}
             (None, _) => return None,
         }
-        let mut pieces = self.pieces(pose);
-        pieces.retain(|p| !p.feasible.is_empty());
-        for piece in &pieces {
+        for piece in self.pieces(pose).iter().filter(|p| !p.feasible.is_empty()) {
             let ends = piece.feasible.iter().flatten().copied();
             for x in std::iter::once(piece.middle()).chain(ends) {
                 if let Some(q) = self.configuration(pose, &piece.chart, x)
@@ -254,12 +276,12 @@ impl RedundantSolver {
         }
     }
 
-    fn pieces(&self, pose: &Transform<f64>) -> Vec<Piece> {
-        match &self.method {
+    fn pieces(&self, pose: &Transform<f64>) -> Arc<Vec<Piece>> {
+        self.kept.of(pose, || match &self.method {
             Method::ArmAngle(arm) => arm.pieces(pose),
             Method::Joint(by) => by.pieces(pose),
             Method::Curve(by) => by.pieces(pose),
-        }
+        })
     }
 
     fn configuration(&self, pose: &Transform<f64>, chart: &Chart, x: f64) -> Option<Vec<f64>> {

@@ -6,8 +6,9 @@
 use crate::geometry::{Transform, Vector};
 use crate::inverse::derivation::Goal;
 use crate::inverse::newton;
+use crate::inverse::numeric::solve6;
 use crate::mechanism::Robot;
-use crate::velocity::{Svd, svd};
+use crate::velocity::{Svd, dot, svd};
 
 /// What a configuration is measured with.
 #[derive(Clone, Copy, Debug)]
@@ -34,6 +35,22 @@ impl Frame<'_> {
     /// The singular values at a configuration.
     pub fn singular(&self, q: &[f64]) -> Svd {
         svd(self.jacobian(q))
+    }
+
+    /// The least change of the joints, in their units, that takes an error away to first order, of the first `rank` singular
+    /// directions.
+    pub fn step(&self, q: &[f64], error: &[f64; 6], rank: usize) -> Vec<f64> {
+        if rank < 6 {
+            return self.singular(q).solve(error, rank);
+        }
+        // Jᵀ(J Jᵀ)⁻¹e: what is missed by an arm near a singularity is left to the next step.
+        let columns = self.jacobian(q);
+        let mut square = [[0.0; 6]; 6];
+        for c in &columns {
+            (0..6).for_each(|i| (0..=i).for_each(|k| square[i][k] += c[i] * c[k]));
+        }
+        let x = solve6(&mut square, error);
+        columns.iter().map(|c| dot(c, &x)).collect()
     }
 
     /// The error of a pose as rotation vector and displacement by the length, both in the base.

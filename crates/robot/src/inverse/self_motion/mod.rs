@@ -21,6 +21,8 @@ const LONGEST: f64 = 0.08;
 const SHORTEST: f64 = 1e-5;
 /// How much the direction may turn within a step, radians.
 const BEND: f64 = 0.2;
+/// What rounding leaves of a miss.
+const ROUNDING: f64 = 2e-15;
 /// What the pose may be missed by.
 const MISSED: f64 = 1e-12;
 /// A second singular value below this: the null space has two dimensions.
@@ -134,10 +136,10 @@ impl<'a> Tracker<'a> {
         let mut at = q.to_vec();
         let mut best = newton::distance(robot, goal, self.pose, &at, size);
         for _ in 0..12 {
-            if best <= 1e-15 {
+            if best <= ROUNDING {
                 break;
             }
-            let step = self.frame.singular(&at).solve(&self.frame.error(self.pose, &at), rank);
+            let step = self.frame.step(&at, &self.frame.error(self.pose, &at), rank);
             let next: Vec<f64> = (0..at.len()).map(|j| at[j] + step[j] * self.frame.unit(j)).collect();
             let missed = newton::distance(robot, goal, self.pose, &next, size);
             if missed.is_nan() || missed >= best {
@@ -155,13 +157,14 @@ impl<'a> Tracker<'a> {
         let singular = self.frame.singular(&start);
         let tangent = singular.vectors.last().cloned().unwrap_or_default();
         let direction = self.in_joints(&tangent);
-        let (forward, end) = self.run(&start, &tangent);
+        let second = if n > 1 { singular.values[n - 2] } else { 1.0 };
+        let (forward, end) = self.run(&start, &tangent, second);
         if end == CurveEnd::Closed {
             let is_affine = self.is_straight(&forward);
             return self.whole_line(SelfMotion { curve: forward, ends: [end; 2], direction, is_affine });
         }
         let back: Vec<f64> = tangent.iter().map(|x| -x).collect();
-        let (mut curve, first) = self.run(&start, &back);
+        let (mut curve, first) = self.run(&start, &back, second);
         curve.reverse();
         curve.extend(forward.into_iter().skip(1));
         let is_affine = self.is_straight(&curve);
@@ -204,22 +207,20 @@ impl<'a> Tracker<'a> {
         SelfMotion { curve, ends: [CurveEnd::Closed; 2], ..motion }
     }
 
-    /// The curve in one direction.
-    fn run(&self, start: &[f64], tangent: &[f64]) -> (Vec<Vec<f64>>, CurveEnd) {
+    /// The curve in one direction; `second` is the smallest singular value at its start but one.
+    fn run(&self, start: &[f64], tangent: &[f64], mut second: f64) -> (Vec<Vec<f64>>, CurveEnd) {
         let n = start.len();
         let mut curve = vec![start.to_vec()];
         let (mut at, mut along) = (start.to_vec(), tangent.to_vec());
         let mut step = LONGEST / 4.0;
         let mut travelled = 0.0;
         for _ in 0..STEPS {
-            let singular = self.frame.singular(&at);
-            let second = if n > 1 { singular.values[n - 2] } else { 1.0 };
             if second <= SINGULAR {
                 return (curve, CurveEnd::Singular);
             }
             // Toward a point where curves meet, the steps become shorter.
             step = step.min(LONGEST).min(2.0 * second).max(SHORTEST);
-            let (next, turned) = loop {
+            let (next, turned, width) = loop {
                 match self.stepped(&at, &along, step) {
                     Some(found) => break found,
                     None if step <= SHORTEST => return (curve, CurveEnd::Lost),
@@ -241,17 +242,19 @@ impl<'a> Tracker<'a> {
             travelled += step;
             step *= 1.5;
             curve.push(next.clone());
-            (at, along) = (next, turned);
+            (at, along, second) = (next, turned, width);
         }
         (curve, CurveEnd::Long)
     }
 
-    /// A step along the curve, and the direction there.
-    fn stepped(&self, at: &[f64], along: &[f64], step: f64) -> Option<(Vec<f64>, Vec<f64>)> {
+    /// A step along the curve, the direction there, and the smallest singular value but one.
+    fn stepped(&self, at: &[f64], along: &[f64], step: f64) -> Option<(Vec<f64>, Vec<f64>, f64)> {
         let n = at.len();
         let predicted = continuum::stepped(&self.frame, at, along, step);
         let (next, missed) = self.corrected(&predicted, n - 1);
-        let mut turned = self.frame.singular(&next).vectors.pop()?;
+        let mut singular = self.frame.singular(&next);
+        let mut turned = singular.vectors.pop()?;
+        let second = if n > 1 { singular.values[n - 2] } else { 1.0 };
         let cosine: f64 = turned.iter().zip(along).map(|(x, y)| x * y).sum();
         if cosine < 0.0 {
             turned.iter_mut().for_each(|x| *x = -*x);
@@ -261,7 +264,7 @@ impl<'a> Tracker<'a> {
         let largest = moved.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         let good =
             missed <= self.missed && cosine.abs() >= BEND.cos() && ahead > 0.5 * step && largest <= 0.1;
-        good.then_some((next, turned))
+        good.then_some((next, turned, second))
     }
 
     /// The way between two configurations in the units of the frame, without whole turns.
