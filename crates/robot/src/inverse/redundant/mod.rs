@@ -78,7 +78,10 @@ enum Method {
 
 /// The pieces of the pose that was asked about last: all solutions of a pose, and then the best of them, are asked for.
 #[derive(Debug, Default)]
-struct Kept(Mutex<Option<(Transform<f64>, Arc<Vec<Piece>>)>>);
+struct Kept(Mutex<Option<OfPose>>);
+
+/// A pose, and its pieces.
+type OfPose = (Transform<f64>, Arc<Vec<Piece>>);
 
 impl Kept {
     fn of(&self, pose: &Transform<f64>, pieces: impl FnOnce() -> Vec<Piece>) -> Arc<Vec<Piece>> {
