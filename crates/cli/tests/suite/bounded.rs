@@ -7,7 +7,7 @@ use std::process::Command;
 
 /// Of address space, in kB: 2 GB, and what is mapped without being used.
 const MEMORY: u32 = 2_600_000;
-/// CPU seconds after which a verb hangs; in a release build all take less than 20, and none a third of that.
+/// CPU seconds after which a verb hangs; in a release build all take less than 20.
 const SECONDS: u32 = 120;
 
 /// A verb on an arm of `crates/robot/tests/cases`.

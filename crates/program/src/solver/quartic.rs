@@ -110,6 +110,9 @@ pub(crate) fn quartic([cc, cs, c, s, one]: [f64; 5], found: &mut Roots) {
     for (k, &(angle, multiplicity)) in zeros[..count].iter().enumerate() {
         let (s, c) = kernel::sin_cos::<false>(angle);
         found.push([c, s], k as i8 + 1, multiplicity);
+        if multiplicity == 1 {
+            found.magnified[k] = 1.0 / slope.at(angle).abs();
+        }
     }
     if count == 0 {
         found.gap = gap;

@@ -30,11 +30,13 @@ pub struct Roots {
     pub signs: [i8; 4],
     /// How often each counts.
     pub multiplicities: [u32; 4],
+    /// What a relative error of the coefficients is magnified by at each: without bound where roots coincide.
+    pub magnified: [f64; 4],
     /// True if the equation does not determine the unknown.
     pub is_free: bool,
     /// The guard, relative to sizeᵈᵉᵍʳᵉᵉ.
     pub guard: f64,
-    /// How far the equation is from having a root, without dimension: |c|/√N − 1 for [`Root::Sincos`], −D/(b² + |ac|)
+    /// How far the equation is from having a root, without dimension: |c|/√N − 1 for [`Root::Sincos`], −D/(b² + |ac| + a²·size²)
     /// for [`Root::Quadratic`], the smallest |f| by the sum of coefficients for [`Root::Quartic`]. 0 if there is one.
     pub gap: f64,
     /// How far it is from having two roots more, in the same measure: for [`Root::Quartic`].
@@ -47,6 +49,7 @@ impl Roots {
         values: [[0.0; 2]; 4],
         signs: [0; 4],
         multiplicities: [1; 4],
+        magnified: [1.0; 4],
         is_free: false,
         guard: f64::INFINITY,
         gap: f64::INFINITY,
@@ -57,6 +60,7 @@ impl Roots {
         self.values[self.count] = value;
         self.signs[self.count] = sign;
         self.multiplicities[self.count] = multiplicity;
+        self.magnified[self.count] = if multiplicity > 1 { f64::INFINITY } else { 1.0 };
         self.count += 1;
         self.gap = 0.0;
     }
@@ -93,6 +97,17 @@ pub(crate) fn quadratic([a, b, c]: [f64; 3], discriminant: f64, k: f64) -> f64 {
     if k == own { q / a } else { c / q }
 }
 
+/// A relative error of the roots of an equation whose coefficients have another: magnified, but no more than where roots
+/// coincide, which are as many as the equation has.
+pub(crate) fn magnified<T>(root: &Root<T>, error: f64, by: f64) -> f64 {
+    let most = match root {
+        Root::Sincos { .. } | Root::Quadratic { .. } => error.sqrt(),
+        Root::Quartic { .. } => error.sqrt().sqrt(),
+        _ => 1.0,
+    };
+    (error * by).min(most)
+}
+
 /// What a root divides by: its guard, if it has no other.
 #[inline(always)]
 pub(crate) fn divisor(root: &Root<f64>) -> f64 {
@@ -121,9 +136,14 @@ pub(crate) fn relative(guard: f64, scale: f64) -> f64 {
 
 /// The roots of an equation.
 ///
-/// `guard` is the value of [`Node::guard`](super::Node::guard) where the node has one; `scale` is sizeᵈᵉᵍʳᵉᵉ;
-/// `given` is the value that the unknown takes if it is free: cosine and sine, or the value and anything.
-pub fn roots(root: &Root<f64>, guard: Option<f64>, scale: f64, given: Option<[f64; 2]>) -> Roots {
+/// `guard` is the value of [`Node::guard`](super::Node::guard) where the node has one; `scale` is sizeᵈᵉᵍʳᵉᵉ and `size` that
+/// of the lengths; `given` is the value that the unknown takes if it is free: cosine and sine, or the value and anything.
+pub fn roots(
+    root: &Root<f64>,
+    guard: Option<f64>,
+    (scale, size): (f64, f64),
+    given: Option<[f64; 2]>,
+) -> Roots {
     let mut found = Roots::NONE;
     let divisor = divisor(root);
     let guard = guard.unwrap_or(divisor);
@@ -165,6 +185,7 @@ pub fn roots(root: &Root<f64>, guard: Option<f64>, scale: f64, given: Option<[f6
             if d > 0.0 {
                 found.push(sincos([a, b, c], d, 1.0), 1, 1);
                 found.push(sincos([a, b, c], d, -1.0), -1, 1);
+                found.magnified[..2].fill((n / d).sqrt());
             } else if d < -CLAMP * (n + c * c) {
                 found.gap = c.abs() / divisor - 1.0;
             } else {
@@ -181,11 +202,14 @@ pub fn roots(root: &Root<f64>, guard: Option<f64>, scale: f64, given: Option<[f6
         Root::Quadratic { a, b, c } => {
             let d = b * b - a * c;
             let terms = b * b + (a * c).abs();
+            // Of roots near 0, what rounding leaves is seen beside the lengths.
+            let lengths = terms + a * a * size * size;
             if d > 0.0 {
                 found.push([quadratic([a, b, c], d, 1.0), 0.0], 1, 1);
                 found.push([quadratic([a, b, c], d, -1.0), 0.0], -1, 1);
+                found.magnified[..2].fill((lengths / d).sqrt());
             } else if d < -CLAMP * terms {
-                found.gap = -d / terms;
+                found.gap = -d / lengths;
             } else {
                 found.push([-b / a, 0.0], 1, 2);
             }

@@ -6,7 +6,7 @@
 //! candidates share one value-numbered graph, and what an output reaches in it is what it costs.
 
 use crate::forward::chain::{Chain, Item};
-use crate::geometry::{Axis, Rotation};
+use crate::geometry::{Axis, Rotation, Vector};
 use denavit_program::{Graph, Program, Stage, Value, Walk};
 use denavit_symbolic::{Angle, Expr, Refusal, Symbol, equal};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -160,13 +160,16 @@ pub(super) fn shortest(
     search.program(&orientation, &placement, outputs, taken)
 }
 
-/// True if the third column of a factor is the cross product of the others: a matrix of decimals has it up to rounding.
+/// True if each column of a factor is the cross product of the other two: a matrix of decimals has it up to rounding.
 fn is_rotation(factor: &Rotation<Expr>) -> bool {
     let [x, y, z] = Axis::ALL.map(|axis| factor.column(axis));
     let constant = |e: &Expr| e.symbols().is_empty();
     let entries = factor.rows().into_iter().flatten().collect::<Vec<_>>();
-    let cross = x.cross(y);
-    !entries.iter().all(constant) || (0..3).all(|i| equal(cross[i], z[i]).is_equal())
+    let is_cross = |a: Vector<Expr>, b: Vector<Expr>, c: Vector<Expr>| {
+        let cross = a.cross(b);
+        (0..3).all(|i| equal(cross[i], c[i]).is_equal())
+    };
+    !entries.iter().all(constant) || is_cross(x, y, z) && is_cross(y, z, x) && is_cross(z, x, y)
 }
 
 impl<'a> Search<'a> {

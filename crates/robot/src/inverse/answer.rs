@@ -35,6 +35,14 @@ impl Answer {
         families.chain(&mut self.solutions).for_each(|s| s.residual = miss(&s.q));
     }
 
+    /// Adds what a descent found: the curve through it, if the arm can move there with its hand still, or a solution.
+    pub(in crate::inverse) fn add(&mut self, new: Solution, motion: Option<SelfMotion>) {
+        match motion {
+            Some(motion) => self.families.push(Family::followed(new, motion)),
+            None => self.solutions.push(new),
+        }
+    }
+
     /// Lists the copies of what was found that joints with gears have within the range of a whole turn or more, and
     /// puts the limits to each.
     pub(in crate::inverse) fn spread(&mut self, space: &JointSpace) {
@@ -121,6 +129,13 @@ pub struct Solution {
     pub guard: f64,
 }
 
+impl Solution {
+    /// A configuration that was found without a formula, beside which nothing is known.
+    pub(in crate::inverse) fn found(q: Vec<f64>, residual: f64, within_limits: bool) -> Self {
+        Solution { q, residual, branch: Branch::default(), multiplicity: 1, within_limits, guard: 0.0 }
+    }
+}
+
 /// Solutions in which some joints can move together with the hand still.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Family {
@@ -146,6 +161,8 @@ pub struct Family {
     pub(in crate::inverse) at: Vec<(usize, [f64; 2])>,
     /// The signs of the nodes of the solver.
     pub(in crate::inverse) signs: Vec<i8>,
+    /// For one free node, the values of it that belong to this family: the same signs may have others on other stretches.
+    pub(in crate::inverse) stretch: Option<[f64; 2]>,
 }
 
 impl Family {
@@ -162,6 +179,7 @@ impl Family {
             curve: vec![],
             at: vec![],
             signs: vec![],
+            stretch: None,
         }
     }
 

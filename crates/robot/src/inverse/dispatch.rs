@@ -5,7 +5,7 @@
 //! | a closed form is derived | [`InverseSolver`] |
 //! | six joints without one, or nearly special | [`GeneralSolver`], the closed form beside it |
 //! | more joints than the hand can use | [`RedundantSolver`] |
-//! | anything else | [`NumericSolver`] |
+//! | anything else | descents of [`NumericSolver`] from all over |
 //!
 //! Nothing is rounded to a special arm here: see [`idealised`](crate::idealise::idealised).
 
@@ -109,7 +109,7 @@ pub struct Nearest {
 
 impl Nearest {
     /// The copy of a configuration that is nearest to another.
-    pub fn of(space: &JointSpace, q: &[f64], to: &[f64]) -> Self {
+    fn of(space: &JointSpace, q: &[f64], to: &[f64]) -> Self {
         let within_limits = space.within(q);
         let copy = space.nearest_copy(q, to);
         // What the limits do not allow anyhow goes to the nearest copy of all.
@@ -270,11 +270,14 @@ impl InverseKinematics {
         if !answer.is_reachable() {
             if given.is_empty() {
                 self.search(pose, &mut answer);
-            }
-            if answer.is_reachable() || !given.is_empty() {
-                self.search_on(pose, given, &mut answer);
+                if answer.is_reachable() {
+                    self.search_more(pose, given, &mut answer);
+                }
+            } else {
+                self.search_held(pose, given, &mut answer);
             }
             answer.spread(&self.space);
+            answer.judge(|q| newton::distance(&self.robot, self.goal, pose, q, size));
         }
         answer
     }
@@ -299,6 +302,10 @@ impl InverseKinematics {
 
     /// The configuration of an answer that is nearest to another, families included: within the limits if one is.
     pub fn nearest(&self, pose: &Transform<f64>, answer: &Answer, to: &[f64]) -> Option<Nearest> {
+        if let (Some(Doubt::OneAsked), [s]) = (answer.doubt, &answer.solutions[..]) {
+            // The one that there is.
+            return Some(Nearest::of(&self.space, &s.q, to));
+        }
         let size = self.size(pose);
         let mut candidates: Vec<Vec<f64>> = answer.solutions.iter().map(|s| s.q.clone()).collect();
         if let Method::Redundant(solver) = &self.method {
@@ -436,6 +443,7 @@ impl InverseKinematics {
             Method::Numeric if given.is_empty() => {
                 let mut answer = Answer { doubt: Some(Doubt::Searched), ..Answer::empty() };
                 self.search(&newton::nearest_rigid(pose).0, &mut answer);
+                answer.spread(&self.space);
                 answer
             }
             _ => self.solve(pose, given),
@@ -450,6 +458,8 @@ impl InverseKinematics {
         if answer.is_reachable() {
             answer.doubt = Some(Doubt::OneAsked);
         }
+        let (pose, size) = (&newton::nearest_rigid(pose).0, self.size(pose));
+        answer.judge(|q| newton::distance(&self.robot, self.goal, pose, q, size));
         answer
     }
 

@@ -1,10 +1,9 @@
 //! Solutions by descent, for arms that no other method serves, and what other methods may leave aside.
 
-use super::answer::{Answer, Doubt, Family, Obstacle, Solution};
-use super::branch::Branch;
+use super::answer::{Answer, Doubt, Obstacle, Solution};
 use super::dispatch::{InverseKinematics, TOLERANCE};
 use super::newton;
-use super::self_motion::{follow, is_self_motion};
+use super::self_motion::{follow, self_motion};
 use crate::geometry::Transform;
 use crate::random::Random;
 
@@ -16,6 +15,7 @@ const MOST_DESCENTS: usize = 640;
 const ROUGH: f64 = 1e-13;
 /// Solutions this near to what it found then are what it was on the way to (radians, and lengths by the reach).
 const BESIDE: f64 = 0.1;
+
 impl InverseKinematics {
     /// By descent: a solution, or the nearest configuration.
     pub(super) fn search(&self, pose: &Transform<f64>, answer: &mut Answer) {
@@ -32,26 +32,50 @@ impl InverseKinematics {
             let mut q = outcome.q;
             self.space.wrap(&mut q);
             let within_limits = self.space.within(&q);
-            let (branch, guard) = (Branch::default(), 0.0);
             answer.doubt = Some(Doubt::Searched);
-            answer.solutions.push(Solution { q, residual, branch, multiplicity: 1, within_limits, guard });
+            answer.solutions.push(Solution::found(q, residual, within_limits));
             return;
         }
         if outcome.beyond_reach.is_some() {
             // That there is none is proved.
             answer.doubt = None;
         }
-        let (angle, distance) = newton::gap(&self.robot, self.goal, pose, &outcome.q);
-        answer.obstacle = Some(Obstacle { unknown: None, q: outcome.q, angle, distance, violated: vec![] });
+        answer.obstacle = Some(self.obstacle(pose, outcome.q));
+    }
+
+    /// Further solutions as [`search_more`](Self::search_more) finds them; the nearest configuration that the joints that
+    /// are given allow, if there are none.
+    pub(super) fn search_held(&self, pose: &Transform<f64>, given: &[f64], answer: &mut Answer) {
+        let nearest = self.search_more(pose, given, answer);
+        if answer.is_reachable() {
+            return;
+        }
+        if self.numeric.solve(pose, None).beyond_reach.is_some() {
+            // No value of the joints reaches it.
+            answer.doubt = None;
+        }
+        answer.obstacle = nearest.map(|q| self.obstacle(pose, q));
+    }
+
+    fn obstacle(&self, pose: &Transform<f64>, q: Vec<f64>) -> Obstacle {
+        let (angle, distance) = newton::gap(&self.robot, self.goal, pose, &q);
+        Obstacle { unknown: None, q, angle, distance, violated: vec![] }
     }
 
     /// Further solutions by descents from configurations all over, the joints that are given at their values, until many one
-    /// after the other find no other; one is enough where solutions are curves or more.
-    pub(super) fn search_on(&self, pose: &Transform<f64>, given: &[f64], answer: &mut Answer) {
+    /// after the other find no other; one is enough where solutions are curves or more. Answers the
+    /// nearest configuration that any of the others came to.
+    pub(super) fn search_more(
+        &self,
+        pose: &Transform<f64>,
+        given: &[f64],
+        answer: &mut Answer,
+    ) -> Option<Vec<f64>> {
         let size = self.size(pose);
         let is_isolated = self.robot.joints - given.len() <= newton::rank(&self.robot, self.goal);
         let mut random = Random(1);
         let (mut tried, mut in_vain) = (0, 0);
+        let mut nearest: Option<(Vec<f64>, f64)> = None;
         while tried < MOST_DESCENTS && in_vain < DESCENTS && (is_isolated || !answer.is_reachable()) {
             (tried, in_vain) = (tried + 1, in_vain + 1);
             let half = |j: usize| if self.space.is_angle[j] { self.space.half_range(j) } else { size };
@@ -59,8 +83,14 @@ impl InverseKinematics {
                 (0..self.robot.joints).map(|j| (2.0 * random.unit() - 1.0) * half(j)).collect();
             self.given.iter().zip(given).for_each(|(&j, x)| start[j] = *x);
             let found = newton::descend(&self.robot, self.goal, pose, &start, &self.given, size);
-            let Some((mut q, residual)) = found.filter(|f| f.1 <= TOLERANCE) else { continue };
+            let Some((mut q, residual)) = found else { continue };
             self.space.wrap(&mut q);
+            if residual > TOLERANCE {
+                if nearest.as_ref().is_none_or(|n| residual < n.1) {
+                    nearest = Some((q, residual));
+                }
+                continue;
+            }
             // What converges slowly lies beside a solution where roots coincide, or is one of those.
             let near = if residual <= ROUGH { 0.0 } else { BESIDE };
             let is_known =
@@ -70,18 +100,15 @@ impl InverseKinematics {
             }
             in_vain = 0;
             let within_limits = self.space.within(&q);
-            let (branch, guard) = (Branch::default(), 0.0);
-            let new = Solution { q, residual, branch, multiplicity: 1, within_limits, guard };
-            let is_curve = is_isolated
-                && given.is_empty()
-                && is_self_motion(&self.robot, &self.space, self.goal, &new.q).is_some();
-            if is_curve {
-                let motion = follow(&self.robot, &self.space, self.goal, pose, &new.q);
-                answer.families.push(Family::followed(new, motion));
+            let motion = if is_isolated && given.is_empty() {
+                self_motion(&self.robot, &self.space, self.goal, pose, &q)
             } else {
-                answer.solutions.push(new);
-            }
+                None
+            };
+            answer.doubt = Some(Doubt::Searched);
+            answer.add(Solution::found(q, residual, within_limits), motion);
         }
+        nearest.map(|n| n.0)
     }
 
     /// Self-motions that a parameter's samples miss, because it stays the same along them or nearly so: found by descent
@@ -105,9 +132,7 @@ impl InverseKinematics {
             }
             let motion = follow(&self.robot, &self.space, self.goal, pose, &q);
             let within_limits = self.space.within(&q);
-            let (branch, guard) = (Branch::default(), 0.0);
-            let found = Solution { q, residual, branch, multiplicity: 1, within_limits, guard };
-            answer.families.push(Family::followed(found, motion));
+            answer.add(Solution::found(q, residual, within_limits), Some(motion));
         }
     }
 }

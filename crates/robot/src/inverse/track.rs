@@ -10,9 +10,9 @@
 //! nearby is left to the full solution.
 
 use super::answer::Solution;
-use super::branch::Branch;
 use super::dispatch::{InverseKinematics, Nearest};
 use super::newton;
+use super::numeric::add_product;
 use crate::geometry::Transform;
 
 /// Where a configuration came from that follows another.
@@ -80,8 +80,7 @@ impl InverseKinematics {
     pub(super) fn next(&self, pose: &Transform<f64>, from: &[f64]) -> Option<Solution> {
         let Tracked { mut q, residual, guard, .. } = self.followed(&newton::nearest_rigid(pose).0, from)?;
         self.space.wrap(&mut q);
-        let branch = Branch::default();
-        Some(Solution { q, residual, branch, multiplicity: 1, within_limits: true, guard })
+        Some(Solution { guard, ..Solution::found(q, residual, true) })
     }
 
     /// By Newton's method from the previous configuration.
@@ -210,15 +209,6 @@ impl InverseKinematics {
         let norm: f64 = (0..6).flat_map(|k| solved(&factor, unit(k))).map(|x| x * x).sum();
         let guard = norm.sqrt().sqrt().recip();
         if guard.is_finite() { guard } else { 0.0 }
-    }
-}
-
-/// M + c cᵀ, its lower half.
-fn add_product(square: &mut Square, c: &[f64; 6]) {
-    for i in 0..6 {
-        for k in 0..=i {
-            square[i][k] += c[i] * c[k];
-        }
     }
 }
 

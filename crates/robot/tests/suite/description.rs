@@ -216,7 +216,7 @@ fn all_errors_come_at_once() {
 fn cells_are_exact() {
     let value = |key: &str, cell: &str| {
         let text = format!(
-            "convention = \"standard\"\n[parameters]\na1 = \"\"\na_1 = {{}}\n[[joints]]\ntheta = \"q1\"\n[[joints]]\n{key} = {cell}\n"
+            "convention = \"standard\"\n[parameters]\na1 = \"\"\na_1 = {{}}\ne1a = {{}}\n[[joints]]\ntheta = \"q1\"\n[[joints]]\n{key} = {cell}\n"
         );
         let row =
             read_toml(&text).unwrap_or_else(|e| panic!("{}", render(&e, "cell", &text))).0.rows[1].clone();
@@ -234,6 +234,8 @@ fn cells_are_exact() {
         ("a", "1_000e-3", number(1, 1)),
         ("a", "\"1e-3\"", number(1, 1000)),
         ("a", "\".5e-3\"", number(1, 2000)),
+        ("a", "\"2e1a\"", number(2, 1) * Expr::symbol("e1a")),
+        ("a", "\"2e1mm\"", number(1, 50)),
         ("a", "\"a1*tan(45 deg)\"", a1),
         ("a", "\"\\\\frac{a_1}{2}\"", Expr::symbol("a_1") / Expr::int(2)),
         ("alpha", "\"90 deg\"", pi * number(1, 2)),

@@ -42,12 +42,15 @@ pub(super) struct Token {
     pub span: Range<usize>,
 }
 
+/// The length of the unit that a text begins with.
+pub(super) type UnitAt<'a> = dyn Fn(&str) -> Option<usize> + 'a;
+
 /// The tokens of `marks`, and whether they are all there: a word without meaning leaves a stand-in, other errors a gap.
 pub(super) fn tokens(
     text: &str,
     marks: &[Mark],
     vocabulary: &Vocabulary,
-    whole_words: bool,
+    whole_words: Option<&UnitAt<'_>>,
     errors: &mut Vec<ParseError>,
 ) -> (Vec<Token>, bool) {
     let names = Names::new(vocabulary);
@@ -104,8 +107,8 @@ pub(super) struct Lexer<'a> {
     pub marks: &'a [Mark],
     pub at: usize,
     pub names: Names<'a>,
-    /// Words are not cut.
-    pub whole_words: bool,
+    /// Words are not cut, and this finds units.
+    pub whole_words: Option<&'a UnitAt<'a>>,
     pub tokens: Vec<Token>,
     pub is_whole: bool,
     pub errors: &'a mut Vec<ParseError>,
@@ -204,7 +207,7 @@ impl Lexer<'_> {
             ')' | ']' | '}' => self.push(Kind::Close(c), 1),
             ',' => self.push(Kind::Comma, 1),
             '=' => self.push(Kind::Equals, 1),
-            _ if self.whole_words && (c.is_alphabetic() || c == '_') => self.whole_word(),
+            _ if self.whole_words.is_some() && (c.is_alphabetic() || c == '_') => self.whole_word(),
             _ if c.is_alphabetic() => self.word(),
             _ => {
                 let span = self.marks[self.at].span.clone();
@@ -246,10 +249,18 @@ impl Lexer<'_> {
         let sign = end + 1 + usize::from(matches!(self.char(end + 1), Some('+' | '-')));
         let after = self.after_digits(sign);
         let word: String = (end..after).filter_map(|i| self.char(i)).collect();
-        // `1e-3rad` where the grammar finds units, but not where `2e-3x` is a difference.
-        let has_unit = || self.whole_words && self.names.known(&word[..1]).is_none();
+        // `1e-3rad`, but neither `2e-3x` nor `2e1a`.
+        let has_unit = || {
+            let word = self.word_at(after);
+            self.whole_words.and_then(|unit_at| unit_at(&word)) == Some(word.len())
+        };
         let is_number = after > sign && (!self.char(after).is_some_and(char::is_alphabetic) || has_unit());
         if is_number && self.names.known(&word).is_none() { after } else { end }
+    }
+
+    /// The letters and digits at `start`.
+    fn word_at(&self, start: usize) -> String {
+        (start..).map_while(|i| self.char(i).filter(|c| c.is_alphanumeric() || *c == '_')).collect()
     }
 
     fn number(&mut self) {
@@ -257,7 +268,7 @@ impl Lexer<'_> {
         let mut end = self.after_digits(start);
         if self.char(end) == Some('.') && self.is_digit(end + 1) {
             end = self.after_digits(end + 1);
-        } else if self.whole_words && self.char(end) == Some('.') {
+        } else if self.whole_words.is_some() && self.char(end) == Some('.') {
             end += 1;
         }
         end = self.after_power_of_ten(end);
@@ -274,12 +285,11 @@ impl Lexer<'_> {
 
     /// `deg` or `rad` behind a number.
     fn unit(&mut self) {
-        if self.whole_words {
+        if self.whole_words.is_some() {
             return; // `2 deg/s`: the grammar finds units
         }
         let start = self.after_space(self.at);
-        let letters = (start..).map_while(|i| self.char(i).filter(|c| c.is_alphanumeric() || *c == '_'));
-        let word: String = letters.take(4).collect();
+        let word = self.word_at(start);
         let kind = match word.as_str() {
             "deg" => Kind::Degree,
             "rad" => Kind::Radian,

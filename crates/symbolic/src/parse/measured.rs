@@ -79,7 +79,8 @@ pub trait Measures {
 pub fn parse_measured(text: &str, measures: &mut dyn Measures) -> Result<Expr, Vec<ParseError>> {
     let vocabulary = Vocabulary::new();
     let (marks, mut errors) = normalise::normalise(checked(text)?);
-    let (tokens, is_whole) = lexer::tokens(text, &marks, &vocabulary, true, &mut errors);
+    let (tokens, is_whole) =
+        lexer::tokens(text, &marks, &vocabulary, Some(&|word| measures.unit_at(word)), &mut errors);
     if !is_whole || !errors.is_empty() {
         return finish(None, errors);
     }
@@ -99,7 +100,7 @@ pub fn parse_measured(text: &str, measures: &mut dyn Measures) -> Result<Expr, V
 pub fn whole_word(text: &str) -> Option<String> {
     let (marks, mut errors) = normalise::normalise(checked(text).ok()?);
     let vocabulary = Vocabulary::new();
-    let (tokens, is_whole) = lexer::tokens(text, &marks, &vocabulary, true, &mut errors);
+    let (tokens, is_whole) = lexer::tokens(text, &marks, &vocabulary, Some(&|_| None), &mut errors);
     let kinds: Vec<&Kind> = tokens.iter().map(|t| &t.kind).collect();
     match kinds.as_slice() {
         [Kind::Word(word)] if is_whole && errors.is_empty() => Some(word.clone()),

@@ -122,7 +122,7 @@ pub fn parse_angle(text: &str, vocabulary: &Vocabulary) -> Result<Expr, Vec<Pars
 
 fn read(text: &str, vocabulary: &Vocabulary, is_angle: bool) -> Result<Expr, Vec<ParseError>> {
     let (marks, mut errors) = normalise::normalise(checked(text)?);
-    let (tokens, is_whole) = lexer::tokens(text, &marks, vocabulary, false, &mut errors);
+    let (tokens, is_whole) = lexer::tokens(text, &marks, vocabulary, None, &mut errors);
     let (value, structure) = grammar::formula(text, &tokens, vocabulary, None, is_angle);
     errors.extend(structure.into_iter().filter(|_| is_whole));
     finish(value, errors)
@@ -146,7 +146,7 @@ fn read(text: &str, vocabulary: &Vocabulary, is_angle: bool) -> Result<Expr, Vec
 /// As [`parse`], of every formula that the signs give.
 pub fn parse_syntax(text: &str, vocabulary: &Vocabulary) -> Result<Syntax, Vec<ParseError>> {
     let (marks, mut errors) = normalise::normalise(checked(text)?);
-    let (tokens, is_whole) = lexer::tokens(text, &marks, vocabulary, false, &mut errors);
+    let (tokens, is_whole) = lexer::tokens(text, &marks, vocabulary, None, &mut errors);
     let (read, structure) = grammar::syntax(text, &tokens, vocabulary);
     errors.extend(structure.into_iter().filter(|_| is_whole));
     let (_, syntax) = finish(read, errors)?;
@@ -179,7 +179,7 @@ pub fn parse_definition(text: &str, vocabulary: &Vocabulary) -> Result<Definitio
         return Err(errors);
     };
     let name = lexer::defined_name(text, &marks[..equals], vocabulary);
-    let (tokens, is_whole) = lexer::tokens(text, &marks[equals + 1..], vocabulary, false, &mut errors);
+    let (tokens, is_whole) = lexer::tokens(text, &marks[equals + 1..], vocabulary, None, &mut errors);
     let (value, structure) = grammar::formula(text, &tokens, vocabulary, None, false);
     errors.extend(structure.into_iter().filter(|_| is_whole));
     match name {

@@ -80,11 +80,7 @@ impl Question {
             (_, true) => solver.one(pose, &self.given, None),
             _ => solver.solve(pose, &self.given),
         };
-        let best = match (&self.criterion, self.wanted.one, &answer.solutions[..]) {
-            // The one that there is.
-            (Some(Criterion::Nearest(to)), true, [s]) => Some(Nearest::of(&self.space, &s.q, to)),
-            (criterion, ..) => criterion.as_ref().and_then(|c| solver.best(pose, &answer, c)),
-        };
+        let best = self.criterion.as_ref().and_then(|c| solver.best(pose, &answer, c));
         let left_out = self.wanted.within_limits.then(|| answer.leave_out(&self.space));
         let best = best.filter(|b| b.within_limits || !self.wanted.within_limits);
         Found { answer, best, left_out, jump: None }

@@ -145,7 +145,7 @@ fn take(
                 let step = &shape.steps[i];
                 let at = |r: u32| file[r as usize].0[lane];
                 let scale = power(size, step.degree);
-                let gap = roots(&step.root.map(at), step.guard.map(at), scale, None).gap;
+                let gap = roots(&step.root.map(at), step.guard.map(at), (scale, size), None).gap;
                 leaves.end(i, gap, state.guard[lane]);
             }
         } else {

@@ -4,8 +4,12 @@ use super::leaves::{Leaves, Record};
 use super::single::Single;
 use super::{Shape, SolverFunction, lanes};
 use crate::evaluate::Scalar;
-use crate::solver::roots::{Roots, power, roots};
+use crate::solver::roots::{Roots, magnified, power, roots};
+use crate::solver::{BESIDE, CANDIDATE};
 use std::sync::Arc;
+
+/// What a branch misses by as many times the error of its roots, it may miss for rounding alone.
+const GROWTH: f64 = 64.0;
 
 /// A way through all branches, for levels that are computed by anybody. It allocates nothing after it is made.
 #[derive(Clone, Debug)]
@@ -17,6 +21,8 @@ pub struct Walk {
     scales: Vec<f64>,
     /// The roots of each node on the way, and how many of them have been visited.
     found: Vec<(Roots, usize)>,
+    /// The relative errors of these, as far as rounding makes them.
+    errors: Vec<f64>,
     signs: Vec<i8>,
     leaves: Leaves,
     looseness: f64,
@@ -33,6 +39,7 @@ impl Walk {
             registers: vec![0.0; shape.registers],
             scales: vec![1.0; n],
             found: vec![(Roots::NONE, 0); n],
+            errors: vec![0.0; n],
             signs: vec![0; n],
             leaves: shape.leaves(),
             looseness: 1.0,
@@ -58,7 +65,7 @@ impl Walk {
         given: &[Option<[f64; 2]>],
         mut level: impl FnMut(usize, &mut [f64]),
     ) -> &Leaves {
-        let Walk { shape, registers, scales, found, signs, leaves, looseness, largest } = self;
+        let Walk { shape, registers, scales, found, errors, signs, leaves, looseness, largest } = self;
         assert_eq!(variables.len(), shape.variables, "one value per variable");
         let last = shape.steps.len();
         leaves.clear();
@@ -75,19 +82,22 @@ impl Walk {
         let mut is_new = true;
         loop {
             if i == last {
-                leaf(shape, registers, found, signs, leaves);
+                let error = errors.last().copied().unwrap_or_default();
+                leaf(shape, registers, found, error, signs, leaves);
             } else {
                 let step = &shape.steps[i];
+                let error = if i == 0 { f64::EPSILON } else { errors[i - 1] };
                 if is_new {
                     let at = |r: u32| registers[r as usize];
                     let given = given.get(i).copied().flatten();
-                    let all = roots(&step.root.map(at), step.guard.map(at), scales[i], given);
+                    let all = roots(&step.root.map(at), step.guard.map(at), (scales[i], size), given);
                     if all.count == 0 {
                         let earlier = found[..i].iter().map(|f| f.0.guard);
                         let guards = earlier.chain([all.guard]).zip(&shape.steps).map(|(g, s)| g / s.usual);
-                        leaves.end(i, all.gap, guards.fold(f64::INFINITY, f64::min));
+                        let guard = guards.fold(f64::INFINITY, f64::min);
+                        leaves.end(i, all.gap, if all.gap <= GROWTH * error { 0.0 } else { guard });
                     }
-                    leaves.miss(all.missed);
+                    leaves.miss(if all.missed <= GROWTH * error { 0.0 } else { all.missed });
                     if all.is_free {
                         leaves.meet_free(i);
                     }
@@ -100,6 +110,10 @@ impl Walk {
                 if *visited < all.count {
                     let k = *visited;
                     *visited += 1;
+                    // A smaller guard is said by itself.
+                    let by = all.magnified[k] / all.guard.max(BESIDE * step.usual).min(1.0);
+                    // What is free is given exactly.
+                    errors[i] = if all.is_free { error } else { magnified(&step.root, error, by) };
                     signs[i] = all.signs[k];
                     let [first, second] = all.values[k];
                     let results = [first, if step.root.is_angle() { second } else { f64::from(signs[i]) }];
@@ -121,13 +135,23 @@ impl Walk {
     }
 }
 
-fn leaf(shape: &Shape, registers: &[f64], found: &[(Roots, usize)], signs: &[i8], leaves: &mut Leaves) {
+fn leaf(
+    shape: &Shape,
+    registers: &[f64],
+    found: &[(Roots, usize)],
+    error: f64,
+    signs: &[i8],
+    leaves: &mut Leaves,
+) {
     let at = |r: &u32| registers[*r as usize];
     let mut record = Record { residual: at(&shape.residual), multiplicity: 1, free: 0, guard: f64::INFINITY };
     for (i, (all, visited)) in found.iter().enumerate() {
         record.multiplicity = record.multiplicity.saturating_mul(all.multiplicities[visited - 1]);
         record.free |= u64::from(all.is_free) << i;
         record.guard = record.guard.min(all.guard / shape.steps[i].usual);
+    }
+    if record.residual > CANDIDATE && record.residual <= GROWTH * error {
+        record.guard = 0.0;
     }
     leaves.add(shape.outputs.iter().map(at), signs, record);
 }

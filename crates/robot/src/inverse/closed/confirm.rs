@@ -5,10 +5,9 @@
 
 use super::solve::{ROUGH, Solving};
 use crate::geometry::Transform;
-use crate::inverse::answer::{Answer, Doubt, Family, Solution};
-use crate::inverse::branch::Branch;
+use crate::inverse::answer::{Answer, Doubt, Solution};
 use crate::inverse::newton;
-use crate::inverse::self_motion::{Frame, follow, is_self_motion};
+use crate::inverse::self_motion::{Frame, self_motion};
 use crate::space::norm;
 use denavit_program::solver::TOLERANCE;
 
@@ -64,26 +63,17 @@ impl Solving<'_> {
                 continue;
             }
             answer.doubt = Some(Doubt::Sampled);
-            if is_slow {
+            // Within rounding of the pose, with no solution near, it stands for those that are there.
+            if is_slow && residual > BLURRED {
                 continue;
             }
             let within_limits = self.space.within(&q);
-            let new = Solution {
-                q,
-                residual,
-                branch: Branch::default(),
-                multiplicity: 1,
-                within_limits,
-                guard: 0.0,
-            };
-            let is_curve = self.given.is_empty()
-                && is_self_motion(&self.robot, &self.space, self.goal, &new.q).is_some();
-            if is_curve {
-                let motion = follow(&self.robot, &self.space, self.goal, pose, &new.q);
-                answer.families.push(Family::followed(new, motion));
+            let motion = if self.given.is_empty() && !is_slow {
+                self_motion(&self.robot, &self.space, self.goal, pose, &q)
             } else {
-                answer.solutions.push(new);
-            }
+                None
+            };
+            answer.add(Solution::found(q, residual, within_limits), motion);
         }
     }
 

@@ -67,7 +67,7 @@ impl InverseSolver {
     /// True if a family may have members with its free unknown as it is at a configuration: the same branches may have
     /// further families on other stretches of it.
     fn is_on_stretch(&self, family: &Family, q: &[f64]) -> bool {
-        let (&[(i, _)], Some([low, high])) = (&family.at[..], family.interval) else { return true };
+        let (&[(i, _)], Some([low, high])) = (&family.at[..], family.stretch) else { return true };
         let x = self.value_at(i, q);
         if self.nodes[i].is_angle {
             let from_low = (x[1].atan2(x[0]) - low).rem_euclid(TAU);
@@ -307,7 +307,7 @@ impl Solving<'_> {
             let unknowns = at.iter().map(|&(i, _)| self.nodes[i].unknown.clone()).collect();
             let interval = (free.len() == 1).then(|| self.interval(pose, given, (free[0], steps), &group));
             let family = Family::new(representative, unknowns, direction);
-            answer.families.push(Family { is_affine, interval, at, signs, ..family });
+            answer.families.push(Family { is_affine, interval, at, signs, stretch: interval, ..family });
         }
     }
 

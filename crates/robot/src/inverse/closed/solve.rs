@@ -494,14 +494,7 @@ impl Solving<'_> {
             .filter_map(|q| newton::approach(&self.robot, self.goal, pose, q, &self.given, size))
             .min_by(|a, b| a.1.total_cmp(&b.1));
         let Some((q, residual)) = near else { return };
-        let mut s = Solution {
-            q,
-            residual,
-            branch: Branch::default(),
-            multiplicity: 1,
-            within_limits: true,
-            guard: 0.0,
-        };
+        let mut s = Solution::found(q, residual, true);
         if self.improve(pose, &mut s) {
             answer.doubt = Some(Doubt::Sampled);
             answer.solutions.push(s);

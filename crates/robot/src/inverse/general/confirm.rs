@@ -7,7 +7,6 @@
 use super::solve::{GeneralSolver, ROUGH, SINGULAR, TOLERANCE};
 use crate::geometry::Transform;
 use crate::inverse::answer::{Answer, Doubt, Solution};
-use crate::inverse::branch::Branch;
 use crate::inverse::derivation::Goal;
 use crate::inverse::newton;
 use crate::random::Random;
@@ -52,15 +51,7 @@ impl GeneralSolver {
             if !is_slow {
                 self.space.wrap(&mut q);
                 let within_limits = self.space.within(&q);
-                let branch = Branch::default();
-                answer.solutions.push(Solution {
-                    q,
-                    residual,
-                    branch,
-                    multiplicity: 1,
-                    within_limits,
-                    guard,
-                });
+                answer.solutions.push(Solution { guard, ..Solution::found(q, residual, within_limits) });
             }
         }
     }

@@ -3,6 +3,16 @@
 /// A pivot below this part of its diagonal entry is none: what it would determine stays 0.
 const RANK: f64 = 1e-14;
 
+/// Adds c cᵀ to the lower triangle of a symmetric matrix.
+#[inline]
+pub(in crate::inverse) fn add_product(square: &mut [[f64; 6]; 6], c: &[f64; 6]) {
+    for i in 0..6 {
+        for k in 0..=i {
+            square[i][k] += c[i] * c[k];
+        }
+    }
+}
+
 /// x with A x = b, by Cholesky's factors; `a` holds the lower triangle. Directions without a pivot stay 0.
 #[inline]
 pub(in crate::inverse) fn solve6(a: &mut [[f64; 6]; 6], b: &[f64; 6]) -> [f64; 6] {

@@ -20,7 +20,7 @@ mod solver;
 mod step;
 mod task;
 
-pub(in crate::inverse) use linear::solve6;
+pub(in crate::inverse) use linear::{add_product, solve6};
 pub use outcome::{NumericOptions, Outcome, Status};
 pub use solver::NumericSolver;
 pub use task::{Axes, Frame, Level, Preference, Residual, Task, TaskKind};

@@ -318,12 +318,13 @@ impl RedundantSolver {
             return None;
         }
         self.space.wrap(&mut q);
+        let residual = newton::distance(&self.robot, self.goal, pose, &q, size);
         let guard = guard.unwrap_or_else(|| {
             let values = self.frame().singular(&q).values;
             values.get(self.rank().wrapping_sub(1)).copied().unwrap_or(0.0)
         });
         let within_limits = excess(&self.ranges, &q) <= SLACK;
-        Some(Solution { q, residual, branch, multiplicity: 1, within_limits, guard })
+        Some(Solution { branch, guard, ..Solution::found(q, residual, within_limits) })
     }
 
     fn rank(&self) -> usize {

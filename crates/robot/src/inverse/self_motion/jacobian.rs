@@ -3,10 +3,10 @@
 //! Rows: the rotation (radians) and the displacement by a length, in the base; those that a goal does not give are 0.
 //! Columns: the joints, slides by the same length, so that all entries are without dimension.
 
-use crate::geometry::{Transform, Vector};
+use crate::geometry::Transform;
 use crate::inverse::derivation::Goal;
 use crate::inverse::newton;
-use crate::inverse::numeric::solve6;
+use crate::inverse::numeric::{add_product, solve6};
 use crate::mechanism::Robot;
 use crate::velocity::{Svd, dot, svd};
 
@@ -46,23 +46,13 @@ impl Frame<'_> {
         // Jᵀ(J Jᵀ)⁻¹e: what is missed by an arm near a singularity is left to the next step.
         let columns = self.jacobian(q);
         let mut square = [[0.0; 6]; 6];
-        for c in &columns {
-            (0..6).for_each(|i| (0..=i).for_each(|k| square[i][k] += c[i] * c[k]));
-        }
+        columns.iter().for_each(|c| add_product(&mut square, c));
         let x = solve6(&mut square, error);
         columns.iter().map(|c| dot(c, &x)).collect()
     }
 
     /// The error of a pose as rotation vector and displacement by the length, both in the base.
     pub fn error(&self, wanted: &Transform<f64>, q: &[f64]) -> [f64; 6] {
-        let have = self.robot.pose(q);
-        let (a, b) = (&have.rotation, &wanted.rotation);
-        let turn = match self.goal {
-            Goal::Position => Vector([0.0; 3]),
-            Goal::PositionAndAxis => a.z().cross(b.z()),
-            Goal::Pose => (a.x().cross(b.x()) + a.y().cross(b.y()) + a.z().cross(b.z())).scale(0.5),
-        };
-        let d = (wanted.translation - have.translation).scale(1.0 / self.size);
-        [turn[0], turn[1], turn[2], d[0], d[1], d[2]]
+        newton::error(self.goal, wanted, &self.robot.pose(q), self.size)
     }
 }

@@ -107,7 +107,19 @@ pub fn is_self_motion(robot: &Robot<f64>, space: &JointSpace, goal: Goal, q: &[f
     Some(tracker.in_joints(&direction))
 }
 
-/// The same for members that miss the pose by up to `missed`: next to a singularity, what is a curve there is nearly one.
+/// The self-motion through a configuration that has this pose; nothing if solutions are isolated there.
+pub(super) fn self_motion(
+    robot: &Robot<f64>,
+    space: &JointSpace,
+    goal: Goal,
+    pose: &Transform<f64>,
+    q: &[f64],
+) -> Option<SelfMotion> {
+    is_self_motion(robot, space, goal, q)?;
+    Some(follow(robot, space, goal, pose, q))
+}
+
+/// The same as [`follow`] for members that miss the pose by up to `missed`: next to a singularity, what is a curve there is nearly one.
 pub(super) fn follow_loosely(
     (robot, space, goal): (&Robot<f64>, &JointSpace, Goal),
     pose: &Transform<f64>,
