@@ -94,6 +94,9 @@ pub(super) fn is_flat(skeleton: &Skeleton) -> bool {
     skeleton.joints.iter().all(parallel)
 }
 
+/// Poses that are tried, times the pairs of links that are held against each other in each: more than twenty joints need.
+const WORK: usize = 8_000_000;
+
 /// A pose within the limits in which links do not cover each other: the best of some starts, each joint moved in turn.
 fn pleasant(chain: &Chain) -> Vec<f64> {
     let count = chain.kinds.len();
@@ -139,13 +142,16 @@ fn pleasant(chain: &Chain) -> Vec<f64> {
     for step in [1.0, -1.0] {
         starts.push((0..count).map(|j| nearest(j, zero[j] + step * PI / 3.0 * (j % 3) as f64)).collect());
     }
+    // What an arm with very many joints leaves untried is left as it stands.
+    let mut left = WORK / (count * count).max(1);
     let mut best = (f64::NEG_INFINITY, zero.clone());
     for mut q in starts {
         let mut value = beauty(chain, &q, &zero);
         for _sweep in 0..3 {
             let before = value;
             for j in 0..count {
-                for &x in &choices[j] {
+                for &x in choices[j].iter().take(left) {
+                    left -= 1;
                     let old = std::mem::replace(&mut q[j], x);
                     let new = beauty(chain, &q, &zero);
                     if new > value + 1e-9 { value = new } else { q[j] = old }

@@ -1,7 +1,7 @@
 //! How well a body can move: singular values, condition, manipulability, the nearest singular configuration.
 
 use super::geometric::{Jacobian, Viewpoint, geometric};
-use super::svd::{Svd, dot, svd};
+use super::svd::{Svd, dot, singular_values, svd};
 use crate::mechanism::Robot;
 
 /// What one block of rows can do: the linear one in metres a radian, or the angular one without unit.
@@ -85,8 +85,7 @@ impl Whole {
 }
 
 fn block(columns: Vec<[f64; 6]>) -> Block {
-    let values = svd(columns).values;
-    let singular_values: Vec<f64> = values.into_iter().take(3).collect();
+    let singular_values: Vec<f64> = singular_values(columns).into_iter().take(3).collect();
     let largest = singular_values.first().copied().unwrap_or(0.0);
     let is_full = !singular_values.is_empty() && singular_values.iter().all(|&v| v > RANK * largest);
     Block {
@@ -174,7 +173,8 @@ pub fn nearest_singularity(
 ) -> Option<NearestSingularity> {
     let descended = |from: &[f64]| descend(robot, view, is_angle, length, from, q);
     let mut best = descended(q);
-    for start in alone(robot, view, is_angle, length, q) {
+    let starts = alone(robot, view, is_angle, length, q);
+    for start in starts.into_iter().take((WORK / q.len().max(1)).max(1)) {
         let found = descended(&start);
         let distance = |n: &Option<NearestSingularity>| n.as_ref().map_or(f64::INFINITY, |n| n.distance);
         if distance(&found) < distance(&best) {
@@ -184,10 +184,13 @@ pub fn nearest_singularity(
     best
 }
 
+/// Starts times joints: a step from each takes a Jacobian for each joint.
+const WORK: usize = 512;
 /// Steps of a joint that is moved alone, up to half a turn or the arm's length either way.
 const ALONE: i32 = 32;
 
-/// For each joint and direction, the first place where the smallest singular value has a minimum.
+/// For each joint and direction, the first place where the smallest singular value has a minimum; the nearest first, where
+/// there are too many to start from all.
 fn alone(
     robot: &Robot<f64>,
     view: &Viewpoint<f64>,
@@ -196,8 +199,8 @@ fn alone(
     q: &[f64],
 ) -> Vec<Vec<f64>> {
     let smallest = |q: &[f64]| {
-        let whole = Whole::new(&geometric(robot, q, view), is_angle, length);
-        whole.singular_values.last().copied().unwrap_or(0.0)
+        let values = singular_values(scaled(&geometric(robot, q, view), is_angle, length));
+        values.get(q.len().min(6).wrapping_sub(1)).copied().unwrap_or(0.0)
     };
     let here = smallest(q);
     let mut found = vec![];
@@ -213,14 +216,17 @@ fn alone(
             for k in 1..=ALONE {
                 let next = smallest(&at(k));
                 if value < before && value < next && value < 0.5 * here {
-                    found.push(at(k - 1));
+                    found.push((k, at(k - 1)));
                     break;
                 }
                 (before, value) = (value, next);
             }
         }
     }
-    found
+    if found.len() * q.len() > WORK {
+        found.sort_by_key(|f| f.0);
+    }
+    found.into_iter().map(|f| f.1).collect()
 }
 
 /// Newton's method from a configuration; the distance is from `q`.

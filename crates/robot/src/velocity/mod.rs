@@ -30,5 +30,5 @@ pub use singular::{
 };
 pub use solve::{Damping, JointRates, RateSolver};
 pub(crate) use svd::dot;
-pub use svd::{Svd, svd};
+pub use svd::{Svd, singular_values, svd};
 pub use wrench::{Wrench, largest_wrench, torques};

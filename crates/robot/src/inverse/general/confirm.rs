@@ -15,7 +15,7 @@ use crate::random::Random;
 const DESCENTS: usize = 48;
 /// Beside solutions with a smallest singular value below this, others may nearly coincide; how many of them are left along
 /// the motion that the hand hardly sees.
-const BESIDE: f64 = 3e-4;
+const BESIDE: f64 = 1e-3;
 const ALONG: usize = 8;
 /// A turn this near to a quarter turn is one.
 const ALIKE: f64 = 1e-6;
