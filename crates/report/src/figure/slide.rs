@@ -8,6 +8,9 @@ use denavit::geometry::Vector;
 /// Places that are tried on each axis.
 const STEPS: usize = 20;
 
+/// Arms with more joints are gone through once, from one start.
+const MANY: usize = 40;
+
 /// Places of the symbols along their axes, from the feet, that suit several poses; the first counts most.
 pub fn slides(chain: &Chain, poses: &[Skeleton]) -> Vec<f64> {
     let Some(main) = poses.first() else { return vec![] };
@@ -33,7 +36,7 @@ pub fn slides(chain: &Chain, poses: &[Skeleton]) -> Vec<f64> {
     narrow.sort_by_key(|k| room(k) <= 0.0);
     let starts = [(&by_room, &best), (&from_hand, &best), (&by_room, &out), (&narrow, &out)];
     let mut chosen: Option<(f64, Vec<f64>)> = None;
-    for (order, start) in starts {
+    for (order, start) in starts.into_iter().take(if count > MANY { 1 } else { starts.len() }) {
         let slides = arm.descend(order, start.clone());
         let cost: f64 = (0..count).map(|k| arm.cost(&slides, k, slides[k])).sum();
         if chosen.as_ref().is_none_or(|c| cost < c.0 - 1e-6 * chain.size) {
@@ -56,7 +59,7 @@ struct Axes<'a> {
 impl Axes<'_> {
     /// Each symbol in turn goes where it is least in the way.
     fn descend(&self, order: &[usize], mut slides: Vec<f64>) -> Vec<f64> {
-        for _sweep in 0..3 {
+        for _sweep in 0..if slides.len() > MANY { 1 } else { 3 } {
             for &k in order {
                 let (range, best) = self.ranges[k];
                 let beyond = 3.0 * (self.sizes[k].0 + self.sizes[k].1);
