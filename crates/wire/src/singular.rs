@@ -42,11 +42,17 @@ pub struct Model {
     pub rows: [&'static str; 6],
     /// The version.
     pub schema: Schema,
+    /// Where the determinant is not expanded, configurations that were found in numbers, one of each kind.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub singular_configurations: Option<Vec<Example>>,
     /// What the determinants have in common.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub singularities: Option<Vec<Singularity>>,
     /// A program for the matrix.
     pub steps: Vec<Step>,
+    /// Why the determinant is not expanded.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unexpanded: Option<String>,
 }
 
 /// A square part of the Jacobian.
@@ -155,8 +161,27 @@ impl Model {
             robot: robot.into(),
             rows: ROWS,
             schema: Schema,
+            singular_configurations: None,
             singularities: None,
             steps: model.algorithm.steps().iter().map(|s| Step::of(s, text)).collect(),
+            unexpanded: None,
+        }
+    }
+
+    /// The matrix with what was found in numbers, where the singularities are not had as formulas.
+    pub fn without_singularities(
+        robot: &str,
+        model: &JacobianModel,
+        why: &velocity::Obstacle,
+        found: &[velocity::Example],
+        text: impl Fn(Expr) -> String + Copy,
+    ) -> Self {
+        let is_everywhere = matches!(why, velocity::Obstacle::AlwaysSingular(_));
+        Model {
+            always_singular: is_everywhere.then(|| why.to_string()),
+            singular_configurations: (!is_everywhere).then(|| found.iter().map(Example::from).collect()),
+            unexpanded: (!is_everywhere).then(|| why.to_string()),
+            ..Self::of(robot, model, text)
         }
     }
 

@@ -9,4 +9,6 @@ mod velocity;
 pub use inverse::{
     Bound, Case, Component, Consequence, Explained, Explanation, Kind, Remark, Source, Statement,
 };
-pub use velocity::{jacobian_document, singularities_document, velocity_vocabulary};
+pub use velocity::{
+    found_singularities_document, jacobian_document, singularities_document, velocity_vocabulary,
+};

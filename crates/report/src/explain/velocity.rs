@@ -2,13 +2,14 @@
 
 use crate::document::{Block, Factor, Line, Math, Proof, Sign};
 use crate::words::{Gain, Loss, Tongue, Wording};
-use denavit::description::Description;
+use denavit::description::{Description, Variable};
 use denavit::forward::Proof as Forward;
+use denavit::quantity::reading;
 use denavit::velocity::{
-    Example, JacobianModel, Minor, Place, REST, ROWS, Singularities, Singularity, Viewpoint,
+    Example, JacobianModel, Minor, Obstacle, Place, REST, ROWS, Singularities, Singularity, Viewpoint,
 };
-use denavit_symbolic::Expr;
 use denavit_symbolic::vocabulary::Vocabulary;
+use denavit_symbolic::{Expr, Rational};
 
 /// The robot's names and those of velocities: `dq1`, `vx`, and where a point is apart.
 pub fn velocity_vocabulary(description: &Description) -> Vocabulary {
@@ -49,6 +50,56 @@ pub fn singularities_document(
     }
     blocks.extend(rates(found, words));
     blocks
+}
+
+/// The matrix, why the singularities are not had as formulas, and those that were found in numbers.
+pub fn found_singularities_document(
+    description: &Description,
+    model: &JacobianModel,
+    why: &Obstacle,
+    found: &[Example],
+    language: Tongue,
+) -> Vec<Block> {
+    let words = language.words();
+    let mut blocks = jacobian_document(description, model, language);
+    blocks.push(Block::Heading(2, Line::new(words.singularities_title())));
+    blocks.push(paragraph(sentence(&words.unknown_singularities(why))));
+    if !matches!(why, Obstacle::AlwaysSingular(_)) {
+        blocks.push(paragraph(words.found_singularities(found.len())));
+    }
+    for (k, example) in found.iter().enumerate() {
+        let mut place = Line::new(format!("{}. ", k + 1));
+        for (j, (v, x)) in description.variables().iter().zip(&example.q).enumerate() {
+            place = place.text(if j > 0 { ", " } else { "" }).math(Expr::from(v.symbol));
+            place = place.text(format!(" = {}", reading(*x, v.kind)));
+        }
+        blocks.push(Block::Heading(3, place));
+        let mut lines = happens(&model.view, example, words);
+        if let [free] = &example.free[..] {
+            lines.push(words.motion(rates_of(description, free)));
+        }
+        blocks.push(Block::List(lines));
+    }
+    blocks
+}
+
+/// Velocities of joints, rounded to what is worth reading.
+fn rates_of(description: &Description, free: &[f64]) -> Vec<Math> {
+    let rate = |(v, x): (&Variable, &f64)| {
+        let name = Expr::symbol(&format!("d{}", v.symbol.name()));
+        Math::equation(name, Expr::from(Rational::new((x * ROUNDED).round() as i64, ROUNDED as i64)))
+    };
+    description.variables().iter().zip(free).map(rate).collect()
+}
+
+/// Parts of the fastest joint's velocity that are told.
+const ROUNDED: f64 = 1e4;
+
+/// A capital before, a full stop behind.
+fn sentence(words: &str) -> String {
+    let mut letters = words.chars();
+    let first = letters.next().map(|c| c.to_uppercase().to_string()).unwrap_or_default();
+    format!("{first}{}.", letters.as_str())
 }
 
 fn paragraph(words: String) -> Block {
@@ -126,12 +177,17 @@ fn remarks(view: &Viewpoint<Expr>, s: &Singularity, words: &dyn Wording) -> Vec<
         lines.push(Line::new(words.no_example()));
         return lines;
     };
-    lines.push(Line::default().strong(words.place(&example.place)));
-    if example.place == Place::Differs {
-        return lines;
+    lines.extend(happens(view, example, words));
+    lines
+}
+
+/// How the axes lie, what is lost, what comes free.
+fn happens(view: &Viewpoint<Expr>, example: &Example, words: &dyn Wording) -> Vec<Line> {
+    let mut lines = vec![Line::default().strong(words.place(&example.place))];
+    if example.place != Place::Differs {
+        lines.extend(loss(view, example).map(|loss| Line::new(words.lost(loss))));
+        lines.extend(gain(example).map(|gain| Line::new(words.gained(&gain))));
     }
-    lines.extend(loss(view, example).map(|loss| Line::new(words.lost(loss))));
-    lines.extend(gain(example).map(|gain| Line::new(words.gained(&gain))));
     lines
 }
 

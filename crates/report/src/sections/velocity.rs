@@ -3,11 +3,11 @@
 use super::inverse::lowered;
 use super::setting::Setting;
 use crate::document::{Line, Math, Part, Section};
-use crate::explain::{jacobian_document, singularities_document, velocity_vocabulary};
+use crate::explain::{found_singularities_document, singularities_document, velocity_vocabulary};
 use crate::figure::{FigureOptions, isometric};
 use crate::words::{Caption, Heading};
 use denavit::forward::Reference;
-use denavit::velocity::{JacobianModel, Obstacle, Place, Singularities};
+use denavit::velocity::{JacobianModel, Obstacle, Place, Singularities, singular_configurations};
 use denavit_symbolic::Expr;
 
 /// The size of a picture, points.
@@ -33,9 +33,16 @@ pub fn sections(s: &Setting) -> Vec<Section> {
             let model = JacobianModel::shortest(&s.description, Reference::Tool);
             let mut section = Section::new(velocity_vocabulary(&s.description));
             section.heading(2, title);
-            lowered(jacobian_document(&s.description, &model, s.options.language), s.words(), &mut section);
-            let is_everywhere = matches!(why, Obstacle::AlwaysSingular(_));
-            section.paragraph(Line::new(s.words().no_singularities(is_everywhere)));
+            let found = match why {
+                Obstacle::AlwaysSingular(_) => vec![],
+                _ => singular_configurations(&s.description, &model.view, &[0, 1, 2, 3, 4, 5]),
+            };
+            let language = s.options.language;
+            lowered(
+                found_singularities_document(&s.description, &model, why, &found, language),
+                s.words(),
+                &mut section,
+            );
             vec![section]
         }
     }

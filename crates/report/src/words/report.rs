@@ -286,9 +286,6 @@ pub trait Report {
     /// Whether a solution is within the limits.
     fn within_limits(&self, is_within: bool) -> String;
 
-    /// Why there are no singularities as formulas: the arm is singular everywhere, or the determinant is too large.
-    fn no_singularities(&self, is_everywhere: bool) -> String;
-
     /// How far the tool point comes along two coordinates, and from the shoulder.
     fn reach(&self, first: (&str, &str), second: (&str, &str), from_shoulder: Option<&str>) -> String;
 

@@ -99,4 +99,10 @@ pub trait Velocity {
 
     /// Why the singularities are not known as formulas.
     fn unknown_singularities(&self, why: &Obstacle) -> String;
+
+    /// Before so many singular configurations that were found in numbers.
+    fn found_singularities(&self, count: usize) -> String;
+
+    /// Velocities of the joints that leave the body, or its point, at rest.
+    fn motion(&self, all: Vec<Math>) -> Line;
 }

@@ -9,6 +9,7 @@ mod geometric;
 mod inverse;
 mod measures;
 mod model;
+mod nearest;
 mod program;
 mod regular;
 mod singular;
@@ -21,12 +22,14 @@ pub use derivatives::{hessian_program, rate_program};
 pub(crate) use geometric::of_tool;
 pub use geometric::{Jacobian, ROWS, Viewpoint, geometric};
 pub use inverse::{REST, RateFormulas};
-pub use measures::{Block, Measures, NearestSingularity, RANK, Whole, measures, nearest_singularity};
+pub use measures::{Block, Measures, RANK, Whole, measures};
 pub use model::JacobianModel;
+pub use nearest::{NearestSingularity, nearest_singularity};
 pub use program::{jacobian_and_pose_program, jacobian_program};
 pub use regular::regular_configuration;
 pub use singular::{
     Example, MAX_JOINTS, Minor, Obstacle, Place, Singularities, Singularity, Still, singular_configuration,
+    singular_configurations,
 };
 pub use solve::{Damping, JointRates, RateSolver};
 pub(crate) use svd::dot;

@@ -12,7 +12,7 @@ use denavit::motion::hand::{HandPath, Line, Orientation};
 use denavit::motion::plan::{KnownLimits, PlanOptions, Planned, Wish};
 use denavit::velocity::{
     Damping, JacobianModel, RateSolver, Singularities, Viewpoint, analytic, geometric, measures,
-    nearest_singularity, regular_configuration,
+    nearest_singularity, regular_configuration, singular_configurations,
 };
 use denavit_emit::{Language, Precision};
 use denavit_generate::{PackageOptions, Wanted, generate};
@@ -151,10 +151,11 @@ fn moving(d: &Description, numbers: &Robot<f64>, q: &[f64]) -> Vec<(&'static str
     let print = |e: Expr| print(e, &names, Style::Ascii);
     let formulas = match Singularities::derive(d, Reference::Tool) {
         Ok(found) => singular::Model::with_singularities(&d.name, &found, print),
-        Err(why) => singular::Model {
-            always_singular: Some(why.to_string()),
-            ..singular::Model::of(&d.name, &JacobianModel::shortest(d, Reference::Tool), print)
-        },
+        Err(why) => {
+            let model = JacobianModel::shortest(d, Reference::Tool);
+            let found = singular_configurations(d, &model.view, &[0, 1, 2, 3, 4, 5]);
+            singular::Model::without_singularities(&d.name, &model, &why, &found, print)
+        }
     };
     vec![
         ("jacobian", text(&answer)),

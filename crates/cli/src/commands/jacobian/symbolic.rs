@@ -7,9 +7,11 @@ use crate::failure::Failure;
 use crate::terminal::note;
 use denavit::description::Description;
 use denavit::forward::Reference;
-use denavit::velocity::{JacobianModel, Minor, Obstacle, Singularities, Viewpoint};
+use denavit::velocity::{JacobianModel, Minor, Obstacle, Singularities, Viewpoint, singular_configurations};
 use denavit_report::document::{Block, Line, Math};
-use denavit_report::explain::{jacobian_document, singularities_document, velocity_vocabulary};
+use denavit_report::explain::{
+    found_singularities_document, jacobian_document, singularities_document, velocity_vocabulary,
+};
 use denavit_report::words::Tongue;
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::{Style, print};
@@ -27,7 +29,7 @@ pub enum What {
     PositionSingularities,
 }
 
-/// The document in a format, and how writing the certificate ended, if one is asked for.
+/// The document in a format, and how the command ends: what is not in it, or a certificate that is not written.
 ///
 /// # Errors
 /// If a formula is too large.
@@ -73,23 +75,33 @@ pub fn document(
             };
             Ok((text, certify(&found.jacobian, &found.minors)))
         }
-        // The matrix is there all the same.
-        Err(why @ Obstacle::AlwaysSingular(_)) => {
-            let model = JacobianModel::shortest(description, body);
+        // The matrix is there all the same, and numbers.
+        Err(why) => {
+            let model = match what {
+                What::PositionSingularities => JacobianModel::shortest_at_origin(description, body),
+                _ => JacobianModel::shortest(description, body),
+            };
+            let rows: &[usize] = match what {
+                What::PositionSingularities => &[0, 1, 2],
+                _ => &[0, 1, 2, 3, 4, 5],
+            };
+            let is_everywhere = matches!(why, Obstacle::AlwaysSingular(_));
+            let found = match is_everywhere {
+                true => vec![],
+                false => singular_configurations(description, &model.view, rows),
+            };
             let certified = certify(&model, &[]);
-            if format == Format::Json {
-                let text = json(description, &model, |robot, text| Model {
-                    always_singular: Some(why.to_string()),
-                    ..Model::of(robot, &model, text)
-                });
-                return Ok((text, certified));
-            }
-            let mut blocks = jacobian_document(description, &model, Tongue::English);
-            blocks.push(Block::Heading(2, Line::new("Singularities")));
-            blocks.push(Block::Paragraph(Line::new(format!("{why}."))));
-            Ok((printed(description, &model, blocks, format), certified))
+            let text = if format == Format::Json {
+                json(description, &model, |robot, text| {
+                    Model::without_singularities(robot, &model, &why, &found, text)
+                })
+            } else {
+                let blocks = found_singularities_document(description, &model, &why, &found, Tongue::English);
+                printed(description, &model, blocks, format)
+            };
+            let ended = if is_everywhere { Ok(()) } else { Err(Failure::GaveUp(why.to_string())) };
+            Ok((text, certified.and(ended)))
         }
-        Err(why) => Err(Failure::GaveUp(why.to_string())),
     }
 }
 

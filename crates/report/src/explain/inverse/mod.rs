@@ -17,8 +17,8 @@ use denavit::description::Description;
 use denavit::geometry::Transform;
 use denavit::inverse::Label;
 use denavit::inverse::derivation::{
-    Condition, Form, Goal, InverseModel, Motion, Norm, NormalChain, Split, Step, Stuck, Task, Unknown, as_in,
-    axis_unknown, equations, settled,
+    Condition, Equations, Form, Goal, InverseModel, Length, Motion, Norm, NormalChain, Split, Step, Stuck,
+    Task, Unknown, axis_unknown, equations, settled,
 };
 use denavit_symbolic::poly::Poly;
 use denavit_symbolic::vocabulary::Vocabulary;
@@ -101,8 +101,7 @@ impl Explanation {
     pub fn of_stuck(description: &Description, stuck: &Stuck, goal: Goal) -> Self {
         let settled = settled(description);
         stuck.chain.algebra.restart();
-        let (found, splits) = equations(&stuck.chain, goal);
-        let splits = as_in(&found, &splits);
+        let Equations { splits, .. } = equations(&stuck.chain, goal, Length::Any);
         let labels = vec![None; stuck.steps.len()];
         let facts = Facts {
             description: &settled,

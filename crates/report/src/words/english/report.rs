@@ -365,14 +365,6 @@ impl Report for English {
         if is_within { "within" } else { "beyond" }.into()
     }
 
-    fn no_singularities(&self, is_everywhere: bool) -> String {
-        match is_everywhere {
-            true => "The arm has fewer than six directions everywhere: all minors of its size vanish.",
-            false => "The determinant is too large to be expanded.",
-        }
-        .into()
-    }
-
     fn reach(&self, first: (&str, &str), second: (&str, &str), from_shoulder: Option<&str>) -> String {
         let ((u, x), (v, y)) = (first, second);
         let far = from_shoulder.map(|d| format!("; its largest distance from the shoulder is {d}"));

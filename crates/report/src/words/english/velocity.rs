@@ -182,6 +182,21 @@ impl Velocity for English {
     fn unknown_singularities(&self, why: &Obstacle) -> String {
         why.to_string()
     }
+
+    fn motion(&self, all: Vec<Math>) -> Line {
+        Line::new("in the ratio ").list(all)
+    }
+
+    fn found_singularities(&self, count: usize) -> String {
+        match count {
+            0 => "Descents of the smallest singular value found no singular configuration.",
+            _ => {
+                "In numbers, descents of the smallest singular value led to these singular configurations, one of each \
+                 kind that was found. There are others beside each of them, and there may be other kinds."
+            }
+        }
+        .into()
+    }
 }
 
 /// What stands still.

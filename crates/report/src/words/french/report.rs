@@ -371,15 +371,6 @@ impl Report for French {
         if is_within { "respectées" } else { "dépassées" }.into()
     }
 
-    fn no_singularities(&self, is_everywhere: bool) -> String {
-        printed(match is_everywhere {
-            true => {
-                "Le bras a partout moins de six degrés de liberté : tous les mineurs de cette taille sont nuls."
-            }
-            false => "Le déterminant est trop grand pour être développé.",
-        })
-    }
-
     fn reach(&self, first: (&str, &str), second: (&str, &str), from_shoulder: Option<&str>) -> String {
         let ((u, x), (v, y)) = (first, second);
         let far = from_shoulder.map(|d| format!(" ; sa plus grande distance à l'épaule est {d}"));

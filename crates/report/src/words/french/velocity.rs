@@ -206,6 +206,22 @@ impl Velocity for French {
             }
         }
     }
+
+    fn motion(&self, all: Vec<Math>) -> Line {
+        Line::new("dans le rapport ").list(all)
+    }
+
+    fn found_singularities(&self, count: usize) -> String {
+        match count {
+            0 => say!(
+                "Aucune descente de la plus petite valeur singulière n'a trouvé de configuration singulière."
+            ),
+            _ => say!(
+                "En nombres, des descentes de la plus petite valeur singulière ont mené à ces configurations singulières, \
+                 une de chaque sorte trouvée. Il y en a d'autres près de chacune, et il peut y en avoir d'autres sortes."
+            ),
+        }
+    }
 }
 
 /// What stands still.

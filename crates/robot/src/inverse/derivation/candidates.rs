@@ -5,7 +5,7 @@
 
 use super::algebra::Kind;
 use super::chain::NormalChain;
-use super::equations::{Equation, Split};
+use super::equations::{Equations, Split};
 use super::known::{Known, Samples, Unknown, Ways, rewritten};
 use super::plan::{Cost, Determinant, Elimination, Form, Norm, Origin, Row, Step};
 use denavit_symbolic::Rational;
@@ -21,10 +21,8 @@ type SquaresKey = (usize, usize, bool, Vec<usize>);
 pub struct Problem<'a> {
     /// The normal form.
     pub chain: &'a NormalChain,
-    /// Its equations, short ones first.
-    pub equations: &'a [Equation],
-    /// Its positions, for sums of squares.
-    pub splits: &'a [Split],
+    /// Its equations, and its positions for sums of squares.
+    pub sides: &'a Equations,
     /// Values of all atoms at random configurations.
     pub samples: &'a Samples,
     /// Sums of squares that were multiplied out.
@@ -57,16 +55,10 @@ type View = BTreeMap<(u16, u16), Poly>;
 
 impl<'a> Problem<'a> {
     /// A search's problem.
-    pub fn new(
-        chain: &'a NormalChain,
-        equations: &'a [Equation],
-        splits: &'a [Split],
-        samples: &'a Samples,
-    ) -> Self {
+    pub fn new(chain: &'a NormalChain, sides: &'a Equations, samples: &'a Samples) -> Self {
         Problem {
             chain,
-            equations,
-            splits,
+            sides,
             samples,
             squares: RefCell::default(),
             squared: RefCell::default(),
@@ -100,7 +92,7 @@ impl Problem<'_> {
     /// The equations with one or two independent unknowns, in the basis of their unknowns.
     fn seen(&self, known: &Known) -> Vec<Seen> {
         let mut found = vec![];
-        for e in self.equations {
+        for e in &self.sides.found {
             let unknowns = known.unknowns(self.chain, &e.atoms);
             if unknowns.is_empty() || unknowns.len() > 3 || known.rank(&unknowns) > 2 {
                 continue;
@@ -110,7 +102,7 @@ impl Problem<'_> {
                 if unknowns.len() == 1 { self.in_basis(known, &e.zero, &unknowns) } else { e.zero.clone() };
             found.push(Seen { unknowns, zero: zero.into(), degree: e.degree, origin });
         }
-        for s in self.splits.iter().take_while(|_| !self.chain.algebra.is_spent()) {
+        for s in self.sides.splits.iter().take_while(|_| !self.chain.algebra.is_spent()) {
             found.extend(self.squares(known, s));
         }
         found.sort_by_key(|s| s.zero.plus.terms().len() + s.zero.squares.len());

@@ -2,7 +2,7 @@
 
 use super::algebra::Kind;
 use super::chain::{Difference, Element, Motion, NormalChain};
-use super::equations::{Goal, Split, equations};
+use super::equations::{Equations, Goal, Length, Split, equations};
 use super::known::Unknown;
 use super::naming::{names, unique};
 use super::plan::{Determinant, Form, Norm, Row, Step};
@@ -103,7 +103,7 @@ pub fn without_residual(model: &super::model::InverseModel) -> Solver {
 
 /// The solver of a model that takes rounded rotations for those that are nearest to them.
 pub fn rounding(model: &super::model::InverseModel) -> Solver {
-    let (_, whole) = equations(&model.chain, model.goal);
+    let Equations { whole, .. } = equations(&model.chain, model.goal, Length::Short);
     with(model, &Options { splits: Some(&whole), is_rounding: true })
 }
 

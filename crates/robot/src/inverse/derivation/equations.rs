@@ -4,11 +4,12 @@
 //! rotation, three of the position, three of the position of the inverse. Sums of squares of positions are formed when
 //! it is known which components still hold an unknown ([`Split`]).
 
-use super::algebra::{Algebra, Column, Matrix, transposed};
+use super::algebra::{Column, Matrix, transposed};
 use super::chain::NormalChain;
 use denavit_symbolic::Rational;
 use denavit_symbolic::poly::{Atom, Monomial, Poly};
 use rustc_hash::FxHashSet;
+use std::cell::Cell;
 
 /// What of the hand is given.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -80,13 +81,52 @@ pub struct Split {
 
 /// Terms of one side of an equation that is kept.
 const TERMS: usize = 160;
-/// Products of terms that an entry may take.
-const PRODUCTS: usize = 1_500;
 
-/// All equations of a chain, short ones first, and the positions for sums of squares; not all of them where the work is
-/// [spent](Algebra::is_spent).
-pub fn equations(chain: &NormalChain, goal: Goal) -> (Vec<Equation>, Vec<Split>) {
+/// How long equations may become.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Length {
+    /// Those from which a search nearly always ends.
+    Short,
+    /// All that is worth looking at.
+    Any,
+}
+
+impl Length {
+    /// Products of terms that an entry may take.
+    fn products(self) -> usize {
+        match self {
+            Length::Short => 400,
+            Length::Any => 4_500,
+        }
+    }
+}
+
+/// The equations of a chain.
+#[derive(Debug)]
+pub struct Equations {
+    /// Those of single entries, short ones first.
+    pub found: Vec<Equation>,
+    /// Both sides at each two cuts, as they are.
+    pub whole: Vec<Split>,
+    /// The same with the entries that the arm holds at a number put in.
+    pub splits: Vec<Split>,
+    /// Whether some were too long, or the work was [spent](super::algebra::Algebra::is_spent).
+    pub is_cut: bool,
+}
+
+/// The equations of a chain up to a length.
+pub fn equations(chain: &NormalChain, goal: Goal, length: Length) -> Equations {
     let a = &chain.algebra;
+    let is_cut = Cell::new(false);
+    let dot = |pairs: &mut dyn Iterator<Item = (Option<Poly>, &Poly)>| {
+        let factors = factors(pairs)?;
+        let products: usize = factors.iter().map(|(x, y)| x.terms().len() * y.terms().len()).sum();
+        if products > length.products() || a.is_spent() {
+            is_cut.set(true);
+            return None;
+        }
+        Some(factors.iter().fold(Poly::zero(), |sum, (x, y)| sum.plus(&a.times(x, y))))
+    };
     let n = chain.elements.len();
     let products: Vec<Vec<(Matrix, Column)>> = (0..=n).map(|u| chain.products_from(u)).collect();
     let u = |i: usize, j: usize| Some(Poly::atom((i * 4 + j) as Atom));
@@ -105,14 +145,14 @@ pub fn equations(chain: &NormalChain, goal: Goal) -> (Vec<Equation>, Vec<Split>)
         let rotation: [[Option<Poly>; 3]; 3] = std::array::from_fn(|i| {
             std::array::from_fn(|j| {
                 if goal == Goal::Pose {
-                    dot(a, (0..3).map(|k| (u(i, k), &back[k][j])))
+                    dot(&mut (0..3).map(|k| (u(i, k), &back[k][j])))
                 } else {
                     known(j).then(|| u(i, j)).flatten()
                 }
             })
         });
         let position: [Option<Poly>; 3] = std::array::from_fn(|i| {
-            let shift = dot(a, (0..3).map(|k| (rotation[i][k].clone(), &p_right[k])))?;
+            let shift = dot(&mut (0..3).map(|k| (rotation[i][k].clone(), &p_right[k])))?;
             Some(u(i, 3)?.minus(&shift))
         });
         for left in 0..=v {
@@ -124,7 +164,7 @@ pub fn equations(chain: &NormalChain, goal: Goal) -> (Vec<Equation>, Vec<Split>)
             let moved: [Option<Poly>; 3] =
                 std::array::from_fn(|i| Some(position[i].as_ref()?.minus(&p_left[i])));
             let entry_of = |column: &dyn Fn(usize) -> Option<Poly>, i: usize| {
-                dot(a, (0..3).map(|k| (column(k), &r_left[k][i])))
+                dot(&mut (0..3).map(|k| (column(k), &r_left[k][i])))
             };
             let mut push = |entry: Entry, pose: Option<Poly>, chain_side: &Poly, degree: u8| {
                 let Some(pose) = pose else { return };
@@ -153,10 +193,10 @@ pub fn equations(chain: &NormalChain, goal: Goal) -> (Vec<Equation>, Vec<Split>)
             }
             for i in 0..3 {
                 // middle⁻¹'s position: −Rᵀp on both sides
-                let pose = dot(a, (0..3).map(|k| (rotation[k][i].clone(), &moved[k])).filter_map(flat));
+                let pose = dot(&mut (0..3).map(|k| (rotation[k][i].clone(), &moved[k])).filter_map(flat));
                 let pose = pose.map(|p| p.scaled(&-Rational::ONE));
                 let complete = (0..3).all(|k| rotation[k][i].is_some() && moved[k].is_some());
-                let sum = dot(a, (0..3).map(|k| (Some(r_middle[k][i].clone()), &p_middle[k])));
+                let sum = dot(&mut (0..3).map(|k| (Some(r_middle[k][i].clone()), &p_middle[k])));
                 let chain_side = sum.map(|p| p.scaled(&-Rational::ONE));
                 if let Some(chain_side) = chain_side.filter(|_| complete) {
                     push(Entry::Inverse(i), pose, &chain_side, 1);
@@ -176,7 +216,8 @@ pub fn equations(chain: &NormalChain, goal: Goal) -> (Vec<Equation>, Vec<Split>)
     found.sort_by_key(|e| (e.zero.terms().len(), e.source));
     put_constants(&mut found);
     found.sort_by_key(|e| (e.zero.terms().len(), e.source));
-    (found, splits)
+    let whole = splits;
+    Equations { splits: as_in(&found, &whole), found, whole, is_cut: is_cut.get() }
 }
 
 /// Entries of the rotation that the arm holds at a number, each with the equation that says so.
@@ -213,7 +254,7 @@ fn put_constants(found: &mut Vec<Equation>) {
 
 /// Both sides at the cuts as the equations have them, with the entries that the arm holds at a number put in. What a
 /// pose misses an equation by is measured by the sides as they were: a pose may have another number there.
-pub fn as_in(found: &[Equation], splits: &[Split]) -> Vec<Split> {
+fn as_in(found: &[Equation], splits: &[Split]) -> Vec<Split> {
     let constants: Constants = found.iter().filter_map(constant).collect();
     let mut splits = splits.to_vec();
     if constants.is_empty() {
@@ -244,18 +285,7 @@ fn flat((x, y): (Option<Poly>, &Option<Poly>)) -> Option<(Option<Poly>, &Poly)> 
     y.as_ref().map(|y| (x, y))
 }
 
-/// Σ x·y, or nothing if a factor is missing, it takes too many products, or the work is spent.
-fn dot<'a>(a: &Algebra, pairs: impl Iterator<Item = (Option<Poly>, &'a Poly)>) -> Option<Poly> {
-    let mut sum = Poly::zero();
-    for (x, y) in pairs {
-        if y.is_zero() {
-            continue;
-        }
-        let x = x?;
-        if x.terms().len() * y.terms().len() > PRODUCTS || a.is_spent() {
-            return None;
-        }
-        sum = sum.plus(&a.times(&x, y));
-    }
-    Some(sum)
+/// The factors of the products that are not 0, or nothing if one is missing.
+fn factors<'a>(pairs: &mut dyn Iterator<Item = (Option<Poly>, &'a Poly)>) -> Option<Vec<(Poly, &'a Poly)>> {
+    pairs.filter(|(_, y)| !y.is_zero()).map(|(x, y)| Some((x?, y))).collect()
 }

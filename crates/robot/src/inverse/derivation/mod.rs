@@ -21,7 +21,7 @@ pub use chain::{Axis, Difference, Element, End, MAX_AXES, Motion, NormalChain, U
 pub use compile::{Compiled, Inputs};
 pub(super) use conditions::NumericCondition;
 pub use conditions::{Condition, Task};
-pub use equations::{Entry, Goal, Source, Split, as_in, equations};
+pub use equations::{Entry, Equations, Goal, Length, Source, Split, equations};
 pub use known::{Known, Samples, Unknown, axis_unknown};
 pub(super) use model::Extent;
 pub use model::{InverseModel, InverseOptions, NotGiven, Refusal, Stuck, Variant};

@@ -4,7 +4,7 @@ use super::candidates::Problem;
 use super::chain::{self, End, Motion, NormalChain, Unsuitable};
 use super::compile::{self, Compiled};
 use super::conditions::{self, Condition, Task};
-use super::equations::{Goal, Split, as_in, equations};
+use super::equations::{Goal, Length, Split, equations};
 use super::known::{Known, Samples, Unknown, axis_unknown};
 use super::plan::{Form, Step};
 use super::screen::Screen;
@@ -246,12 +246,21 @@ impl InverseModel {
                 Outcome { steps: vec![], missing: Known::new(&chain, &axes_of(&chain, &asked)).open(&chain) };
             return Err(stuck(chain, outcome, asked, surplus, false));
         }
-        let (found, whole) = equations(&chain, options.goal);
-        let splits = as_in(&found, &whole);
-        let problem = Problem::new(&chain, &found, &splits, &samples);
-        let (given, outcome) = choose(&problem, screen.as_ref(), &asked, surplus);
-        if !outcome.is_complete() || !is_whole(&chain, &splits) {
-            let is_spent = chain.algebra.is_spent() || !is_whole(&chain, &splits);
+        let searched = |problem: &Problem| choose(problem, screen.as_ref(), &asked, surplus);
+        let short = equations(&chain, options.goal, Length::Short);
+        let mut problem = Problem::new(&chain, &short, &samples);
+        let (mut given, mut outcome) = searched(&problem);
+        let long;
+        // Elimination and descents solve poses where none of the short ones ends the search.
+        let is_tried = extent == Extent::Whole && short.is_cut && !chain.algebra.is_spent();
+        if !outcome.is_complete() && is_tried {
+            long = equations(&chain, options.goal, Length::Any);
+            problem = Problem::new(&chain, &long, &samples);
+            (given, outcome) = searched(&problem);
+        }
+        let sides = problem.sides;
+        if !outcome.is_complete() || !is_whole(&chain, &sides.splits) {
+            let is_spent = chain.algebra.is_spent() || !is_whole(&chain, &sides.splits);
             return Err(stuck(chain, outcome, given, surplus, is_spent));
         }
         let labels = labels(&chain, &outcome.steps);
@@ -260,7 +269,8 @@ impl InverseModel {
         let task = conditions::task(&chain, rank, of_position, with_axis);
         let lacking = if options.goal == Goal::Pose { 6 - rank } else { 0 };
         let axes = axes_of(&chain, &given);
-        let conditions = conditions::conditions(&chain, &found, &outcome.steps, &axes, &samples, lacking);
+        let conditions =
+            conditions::conditions(&chain, &sides.found, &outcome.steps, &axes, &samples, lacking);
         let others = if extent != Extent::Steps && (rank < 6 || !given.is_empty()) {
             search::variants(&problem, &axes, &outcome.steps)
         } else {
@@ -270,11 +280,11 @@ impl InverseModel {
             .into_iter()
             .map(|(step, steps)| {
                 let labels = self::labels(&chain, &steps);
-                let compiled = compile::compile(&chain, &steps, &whole, options.goal, &given, &labels);
+                let compiled = compile::compile(&chain, &steps, &sides.whole, options.goal, &given, &labels);
                 Variant { step, steps, labels, compiled }
             })
             .collect();
-        let compiled = compile::compile(&chain, &outcome.steps, &whole, options.goal, &given, &labels);
+        let compiled = compile::compile(&chain, &outcome.steps, &sides.whole, options.goal, &given, &labels);
         Ok(InverseModel {
             goal: options.goal,
             given_by_choice: given.len() > asked.len(),
@@ -285,7 +295,7 @@ impl InverseModel {
             steps: outcome.steps,
             variants,
             labels,
-            splits,
+            splits: sides.splits.clone(),
             compiled,
             chain,
             description: settled,

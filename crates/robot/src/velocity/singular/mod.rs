@@ -1,10 +1,12 @@
 //! Singular configurations as formulas: where the Jacobian loses rank, what is lost there, what comes free.
 
+mod found;
 mod minors;
 mod place;
 mod sample;
 mod together;
 
+pub use found::singular_configurations;
 pub use minors::Minor;
 pub use place::{Place, Still};
 pub use sample::singular_configuration;
