@@ -307,32 +307,51 @@ impl InverseKinematics {
             return Some(Nearest::of(&self.space, &s.q, to));
         }
         let size = self.size(pose);
-        let mut candidates: Vec<Vec<f64>> = answer.solutions.iter().map(|s| s.q.clone()).collect();
-        if let Method::Redundant(solver) = &self.method {
-            candidates.extend(solver.best(pose, &Criterion::Nearest(to.to_vec())).map(|s| s.q));
+        let mut best: Option<Nearest> = None;
+        // Whether nothing can be nearer.
+        let mut offer = |q: &[f64]| {
+            let found = Nearest::of(&self.space, q, to);
+            let rank = |n: &Nearest| (n.within_limits, -n.distance);
+            let is_there = found.within_limits && found.distance <= THERE;
+            if best.as_ref().is_none_or(|b| rank(&found) > rank(b)) {
+                best = Some(found);
+            }
+            is_there
+        };
+        let mut is_there = answer.solutions.iter().any(|s| offer(&s.q));
+        if let Method::Redundant(solver) = &self.method
+            && !is_there
+        {
+            let found = solver.best(pose, &Criterion::Nearest(to.to_vec()));
+            is_there = found.is_some_and(|s| offer(&s.q));
         }
         if let Method::Closed(solver) = &self.method {
             for family in &answer.families {
                 let given: Vec<f64> = self.given.iter().map(|&j| family.representative.q[j]).collect();
-                candidates.extend(solver.members_at(pose, &given, family, to).into_iter().map(|s| s.q));
+                is_there =
+                    is_there || solver.members_at(pose, &given, family, to).iter().any(|s| offer(&s.q));
             }
         }
         let way = |q: &[f64]| self.space.moved(q, to);
         // Of a family with several parameters all curves that sample it.
         let curves = match &self.method {
-            Method::Redundant(solver) if solver.surplus > 1 => Some(solver.manifold(pose).curves()),
+            Method::Redundant(solver) if solver.surplus > 1 && !is_there => {
+                Some(solver.manifold(pose).curves())
+            }
             _ => None,
         };
         for family in curves.as_ref().unwrap_or(&answer.families) {
-            for q in self.starts(pose, family, |q| norm(&self.space.way(q, to))) {
-                candidates.push(newton::slide(&self.robot, self.goal, pose, &q, (&self.given, way), size));
+            if is_there {
+                break;
             }
+            let away = |q: &[f64]| norm(&self.space.way(q, to));
+            let mut starts = self.starts(pose, family, away);
+            starts.sort_by(|a, b| away(a).total_cmp(&away(b)));
+            let slid =
+                |q: &Vec<f64>| newton::slide(&self.robot, self.goal, pose, q, (&self.given, way), size);
+            is_there = starts.iter().any(|q| offer(&slid(q)));
         }
-        let rank = |n: &Nearest| (!n.within_limits, n.distance);
-        candidates.iter().map(|q| Nearest::of(&self.space, q, to)).min_by(|a, b| {
-            let (a, b) = (rank(a), rank(b));
-            a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
-        })
+        best
     }
 
     /// Which family of an answer a configuration is a member of.
@@ -484,6 +503,8 @@ impl InverseKinematics {
 
 /// Members of a family with several parameters from which the way to another configuration is tried.
 const ANYWHERE: usize = 16;
+/// A configuration this near to another is there.
+const THERE: f64 = 1e-9;
 /// A configuration this near to a member of a family is one.
 const MEMBER: f64 = 1e-6;
 /// What a solution that was searched for may miss the pose by.

@@ -178,6 +178,7 @@ pub fn obstacle(d: &Description, answer: &Answer) -> String {
 /// The answer for reading.
 pub struct Report<'a> {
     /// What was asked.
+    pub solver: &'a InverseKinematics,
     pub question: &'a Question,
     /// The robot.
     pub description: &'a Description,
@@ -189,10 +190,6 @@ pub struct Report<'a> {
     pub left_out: Option<usize>,
     /// The configuration that the pose was taken from.
     pub at: Option<&'a [f64]>,
-    /// How far the nearest of all solutions, members of families included, is from that configuration.
-    pub away: Option<f64>,
-    /// The family that it is a member of, if it is of one.
-    pub member: Option<usize>,
     /// The solution nearest to what was asked for.
     pub nearest: Option<&'a Nearest>,
 }
@@ -262,17 +259,19 @@ impl Report<'_> {
 
     /// Where the configuration that the pose was taken from is, if it is none of the rows.
     fn unmarked(&self) -> String {
-        let (Some(at), Some(away)) = (self.at, self.away) else { return String::new() };
+        let Some(at) = self.at else { return String::new() };
         let representatives = self.answer.families.iter().map(|f| &f.representative);
         if self.answer.solutions.iter().chain(representatives).any(|s| self.same(at, &s.q)) {
             return String::new();
         }
+        let Some(nearest) = self.solver.nearest(self.pose, self.answer, at) else { return String::new() };
+        let away = nearest.distance;
         // Outside of the limits its copies are far away.
         if away > FAR {
             return String::new();
         }
         match away <= SAME {
-            true => match self.member {
+            true => match self.solver.family_of(self.pose, self.answer, at) {
                 Some(k) => format!("\n  -q is a member of family {}\n", k + 1),
                 None => "\n  -q is a member of a family\n".into(),
             },

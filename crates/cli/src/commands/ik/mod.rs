@@ -96,14 +96,13 @@ pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
         format!("{}\n", denavit_wire::text(&question.wire(&pose, &found)))
     } else {
         Report {
+            solver: &solver,
             question: &question,
             description: &description,
             pose: &pose,
             answer,
             left_out: found.left_out,
             at: at.as_deref(),
-            away: at.as_deref().and_then(|q| solver.nearest(&pose, answer, q)).map(|n| n.distance),
-            member: at.as_deref().and_then(|q| solver.family_of(&pose, answer, q)),
             nearest: found.best.as_ref(),
         }
         .text()

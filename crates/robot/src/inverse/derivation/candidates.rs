@@ -12,7 +12,7 @@ use denavit_symbolic::Rational;
 use denavit_symbolic::poly::{Atom, Monomial, Poly};
 use rustc_hash::FxHashMap;
 use std::cell::RefCell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Cuts, whether on the side of the pose, components.
 type SquaresKey = (usize, usize, bool, Vec<usize>);
@@ -50,6 +50,12 @@ struct Seen {
     origin: Origin,
 }
 
+impl Seen {
+    fn terms(&self) -> usize {
+        self.zero.plus.terms().len() + self.zero.squares.len()
+    }
+}
+
 /// A polynomial by powers of an unknown: (cosine, sine), or (displacement, 0).
 type View = BTreeMap<(u16, u16), Poly>;
 
@@ -70,27 +76,39 @@ impl<'a> Problem<'a> {
 impl Problem<'_> {
     /// All steps that can be taken, in no order.
     pub fn candidates(&self, known: &Known) -> Vec<Step> {
-        let seen = self.seen(known);
-        let mut steps = vec![];
-        let mut unknowns: Vec<Unknown> =
-            seen.iter().filter(|s| s.unknowns.len() == 1).map(|s| s.unknowns[0]).collect();
-        unknowns.sort_unstable();
-        unknowns.dedup();
-        for &x in &unknowns {
-            let of: Vec<&Seen> = seen.iter().filter(|s| s.unknowns == [x]).collect();
-            match x {
-                Unknown::Angle(_) => self.angle_steps(x, &of, false, &mut steps),
-                Unknown::Slide(_) => self.slide_steps(x, &of, false, &mut steps),
-            }
+        let mut seen = self.entries(known);
+        let steps = self.in_one_unknown(&seen);
+        // Nothing behind a sum of squares or an elimination is cheaper.
+        if steps.iter().any(|s| s.cost.roots == 1 && !s.cost.spurious && s.cost.condition == 0) {
+            return steps;
         }
+        let splits = self.sides.splits.iter().take_while(|_| !self.chain.algebra.is_spent());
+        seen.extend(splits.filter_map(|s| self.squares(known, s)));
+        seen.sort_by_key(Seen::terms);
+        let mut steps = self.in_one_unknown(&seen);
         if steps.iter().all(|s| s.cost.roots > 2) {
             self.eliminations(known, &seen, &mut steps);
         }
         steps
     }
 
-    /// The equations with one or two independent unknowns, in the basis of their unknowns.
-    fn seen(&self, known: &Known) -> Vec<Seen> {
+    /// The steps from equations with one unknown.
+    fn in_one_unknown(&self, seen: &[Seen]) -> Vec<Step> {
+        let mut steps = vec![];
+        let single = |s: &Seen| if let [x] = s.unknowns[..] { Some(x) } else { None };
+        let unknowns: BTreeSet<Unknown> = seen.iter().filter_map(single).collect();
+        for x in unknowns {
+            let of: Vec<&Seen> = seen.iter().filter(|s| s.unknowns == [x]).collect();
+            match x {
+                Unknown::Angle(_) => self.angle_steps(x, &of, false, &mut steps),
+                Unknown::Slide(_) => self.slide_steps(x, &of, false, &mut steps),
+            }
+        }
+        steps
+    }
+
+    /// The equations of entries with one or two independent unknowns, in the basis of their unknowns, short ones first.
+    fn entries(&self, known: &Known) -> Vec<Seen> {
         let mut found = vec![];
         for e in &self.sides.found {
             let unknowns = known.unknowns(self.chain, &e.atoms);
@@ -102,10 +120,7 @@ impl Problem<'_> {
                 if unknowns.len() == 1 { self.in_basis(known, &e.zero, &unknowns) } else { e.zero.clone() };
             found.push(Seen { unknowns, zero: zero.into(), degree: e.degree, origin });
         }
-        for s in self.sides.splits.iter().take_while(|_| !self.chain.algebra.is_spent()) {
-            found.extend(self.squares(known, s));
-        }
-        found.sort_by_key(|s| s.zero.plus.terms().len() + s.zero.squares.len());
+        found.sort_by_key(Seen::terms);
         found
     }
 
