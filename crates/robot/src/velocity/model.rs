@@ -93,7 +93,8 @@ impl JacobianModel {
                 let axes = Reference::Frame(axes);
                 let view = Viewpoint { axes, body, at, offset: Vector::zero() };
                 let bound = best.as_ref().map_or(u64::MAX, |b| b.0);
-                if best.is_some() && shortener.written > ENOUGH {
+                let enough = if best.is_some() { ENOUGH } else { PATIENCE };
+                if shortener.written > enough {
                     break;
                 }
                 if let Some(length) = shortener.length(&geometric(&robot, &q, &view), bound) {
@@ -108,6 +109,8 @@ impl JacobianModel {
 
 /// Symbols written after which no more viewpoints are tried.
 const ENOUGH: u64 = 4_000;
+/// The same where none was short enough yet.
+const PATIENCE: u64 = 10_000;
 /// What an entry counts that is too long to be written.
 const REFUSED: u64 = 500;
 
@@ -157,6 +160,9 @@ impl Shortener {
     fn length(&mut self, plain: &Jacobian<Expr>, bound: u64) -> Option<u64> {
         let mut entries: Vec<Expr> = plain.columns.iter().flatten().copied().collect();
         entries.retain(|e| e.as_number().is_none());
+        if entries.iter().any(|e| matches!(self.known.get(e), Some(Err(_)))) {
+            return None;
+        }
         entries.sort_by_cached_key(|&e| readable::literals(e));
         let mut length = 0;
         for e in entries {

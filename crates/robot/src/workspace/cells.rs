@@ -69,6 +69,8 @@ pub(super) struct Cells {
 const ACROSS: f64 = 120.0;
 /// Configurations sampled.
 const SAMPLES: usize = 12_000;
+/// Joints of an arm with very many.
+const MANY: f64 = 24.0;
 /// Samples that each extreme is climbed to from.
 const STARTS: usize = 6;
 /// Walks to a neighbouring cell.
@@ -79,8 +81,11 @@ pub(super) fn find(arm: &mut Arm) -> (Cells, Extremes) {
     let joints = arm.ranges.len();
     let mut q = arm.middle();
     let mut sequence = Sequence::new(joints);
-    let mut samples = vec![0.0; SAMPLES * joints];
-    let mut seen: Vec<Seen> = Vec::with_capacity(SAMPLES);
+    // A walk takes as many steps as there are joints: with very many of them fewer cells and samples are looked at.
+    let part = (MANY / joints.max(1) as f64).min(1.0);
+    let (count, across) = ((SAMPLES as f64 * part) as usize, (ACROSS * part.sqrt()).round());
+    let mut samples = vec![0.0; count * joints];
+    let mut seen: Vec<Seen> = Vec::with_capacity(count);
     for sample in samples.chunks_exact_mut(joints.max(1)) {
         sequence.next(&arm.ranges, &mut q);
         sample.copy_from_slice(&q);
@@ -89,7 +94,7 @@ pub(super) fn find(arm: &mut Arm) -> (Cells, Extremes) {
         seen.push(Seen { place, far, measure: arm.measure() });
     }
     let (extremes, seeds) = extremes(arm, &samples, &seen);
-    let mut cells = Cells::new(grid(&arm.section, &extremes), joints);
+    let mut cells = Cells::new(grid(&arm.section, &extremes, across), joints);
     for (sample, seen) in samples.chunks_exact(joints.max(1)).zip(&seen) {
         cells.offer(seen.place, seen.measure, sample);
     }
@@ -155,10 +160,10 @@ fn extremes(arm: &mut Arm, samples: &[f64], seen: &[Seen]) -> (Extremes, Vec<Vec
 }
 
 /// Cells from extreme to extreme, and one or two more; none beyond the axis.
-fn grid(section: &Section, extremes: &Extremes) -> Grid {
+fn grid(section: &Section, extremes: &Extremes, across: f64) -> Grid {
     let sides = [extremes.first, extremes.second].map(|[low, high]| (high - low).max(0.0));
-    let side = (sides[0].max(sides[1]) / ACROSS).max(1e-9);
-    let count = |wide: f64| (wide / side - 1e-6).ceil().clamp(1.0, ACROSS) as usize + 3;
+    let side = (sides[0].max(sides[1]) / across).max(1e-9);
+    let count = |wide: f64| (wide / side - 1e-6).ceil().clamp(1.0, across) as usize + 3;
     let mut grid = Grid {
         // Half a cell off, so that rounding at an extreme does not reach another cell.
         origin: [extremes.first[0] - 1.5 * side, extremes.second[0] - 1.5 * side],

@@ -12,7 +12,7 @@ use denavit_symbolic::Expr;
 
 /// Descents, and joints that move in all of them together.
 const STARTS: usize = 48;
-const MOVED: usize = 960;
+const MOVED: usize = 480;
 /// Configurations that are listed.
 const LISTED: usize = 6;
 /// Of the motion of the joint that moves the most, radians or metres.
