@@ -85,12 +85,16 @@ fn suites() -> Result<()> {
     Ok(())
 }
 
-/// Arms at random with everything that a robot file allows, each at many poses: about an hour.
+/// Arms at random with everything that a robot file allows, each at many poses, and the code that is generated for some:
+/// more than an hour.
 fn attack() -> Result<()> {
     println!("\n━━ {ATTACK} ━━");
-    let mut cargo = command("cargo");
-    cargo.args(["test", "--release", "-p", "denavit", "--test", "suite", "--", "attack::", "--nocapture"]);
-    succeed(cargo.env("DENAVIT_SOAK", "1"))
+    for package in ["denavit-generate", "denavit"] {
+        let mut cargo = command("cargo");
+        cargo.args(["test", "--release", "-p", package, "--test", "suite", "--", "attack::", "--nocapture"]);
+        succeed(cargo.env("DENAVIT_SOAK", "1"))?;
+    }
+    Ok(())
 }
 
 /// `cargo fuzz` of the nightly toolchain, which the instrumentation needs.

@@ -213,14 +213,12 @@ static int ik_shift(const ik_null *null, int stride, double factor, double sum[I
     double top[IK_SHARED][12], bottom[IK_SHARED][12];
     double system[IK_SHARED][2 * IK_SHARED];
     for (int j = 0; j < count; j++) {
-        int k = 0;
-        for (int i = 0; i < IK_MONOMIALS; i++) {
-            if (i / stride % 4 < 3) {
-                const double a = null->basis[j][i];
-                const double b = null->basis[j][i + stride];
-                top[j][k] = turn[0] * a + turn[1] * b;
-                bottom[j][k++] = turn[0] * b - turn[1] * a;
-            }
+        for (int k = 0; k < 12; k++) {
+            const int i = stride == 1 ? k / 3 * 4 + k % 3 : k;
+            const double a = null->basis[j][i];
+            const double b = null->basis[j][stride == 1 ? i + 1 : i + 4];
+            top[j][k] = turn[0] * a + turn[1] * b;
+            bottom[j][k] = turn[0] * b - turn[1] * a;
         }
     }
     for (int i = 0; i < count; i++) {

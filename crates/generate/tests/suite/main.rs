@@ -1,5 +1,6 @@
 //! Tests of generated packages, one program.
 
+mod attack;
 mod certificate;
 mod general;
 mod library;
