@@ -3,7 +3,6 @@
 use super::facts::{Condition, Remark, SlipKind, Unproved};
 use super::formula::Formula;
 use super::inverse::Composed;
-use super::lexis::Columns;
 use super::numbers;
 use super::outcome::{Claim, Counterexample, Entry, Finding, Patch, Slip, Standing, Wrong};
 use super::plan::{Plan, Walked};
@@ -33,7 +32,7 @@ pub(super) fn judge(
 ) -> (Vec<Claim>, Vec<(Range<usize>, Composed)>) {
     let mut judge = Judge { tolerance, ..Judge::new(text, plan, walked) };
     let mut claims: Vec<Claim> = walked.assertions.iter().map(|a| judge.claim(a)).collect();
-    let (values, notes) = values::judge(plan, walked, Columns::of(text));
+    let (values, notes) = values::judge(plan, walked, plan.habits.columns);
     for (at, claim) in values {
         claims[at] = claim;
     }
@@ -199,6 +198,11 @@ impl<'a> Judge<'a> {
     /// A formula with ±: one of the signs is right at each configuration, or none.
     fn with_signs(&self, printed: &Syntax, pair: &Pair) -> Finding {
         let values: Vec<Expr> = printed.variants().iter().map(Syntax::value).collect();
+        // One of the values is right in each configuration if the product of all differences vanishes.
+        let product = values.iter().fold(Expr::int(1), |p, &v| p * (pair.wanted - v));
+        if values.len() <= 4 && equal(product, Expr::int(0)).is_equal() {
+            return Finding::Equal { unless_zero: vec![] };
+        }
         let is_one = values.iter().any(|&v| equal(v, pair.wanted).is_equal());
         if is_one {
             return Finding::Conditional { condition: Condition::OneSign, correct: vec![], remarks: vec![] };

@@ -1,11 +1,14 @@
 //! What the names of a document mean at a place of it: the robot's quantities, and what was defined further up.
 
+use super::custom;
 use super::facts::Meaning;
+use super::jacobians;
 use super::matrix::Matrix;
 use super::names::{Name, Token, tokens};
 use super::subject::{Subject, elementary};
 use denavit::geometry::orientation::OrientationSet;
-use denavit_reading::document::formula;
+use denavit::geometry::{Rotation, Transform, Vector};
+use denavit_reading::document::{Document, Part, Side, formula};
 use denavit_symbolic::parse::{ParseError, Syntax, parse_syntax};
 use denavit_symbolic::readable::literals;
 use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
@@ -13,6 +16,7 @@ use denavit_symbolic::{Expr, Node, Symbol};
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
+use std::rc::Rc;
 
 /// No more names are kept.
 const MAX_NAMES: usize = 2_000;
@@ -54,13 +58,90 @@ pub(super) struct Lexis {
     pub names: Vocabulary,
     /// Entries of the pose are symbols.
     pub inverse: Vocabulary,
-    columns: Columns,
+    pub habits: Rc<Habits>,
+    /// What the names of the whole document are looked for in.
+    text: Rc<str>,
     /// Names that the robot gives their meaning, not the document.
     right: BTreeSet<String>,
+    /// Those that have it by custom only.
+    by_custom: BTreeSet<String>,
     matrices: BTreeMap<String, (Matrix, Option<Meaning>)>,
     scalars: Vec<(String, Expr)>,
     /// Frames named by letters are anywhere.
     pub anywhere: Cell<bool>,
+}
+
+/// The entries of the pose as symbols.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Places(pub Columns);
+
+impl Places {
+    /// The symbol of an entry, row and column from 0.
+    pub fn symbol(&self, row: usize, column: usize) -> Symbol {
+        pose_symbol(self.0, row, column)
+    }
+
+    /// The pose with its entries as symbols.
+    pub fn pose(&self) -> Transform<Expr> {
+        let entry = |r: usize, c: usize| Expr::from(self.symbol(r, c));
+        let rows = [0, 1, 2].map(|r| [0, 1, 2].map(|c| entry(r, c)));
+        let position = Vector([0, 1, 2].map(|r| entry(r, 3)));
+        Transform::from_rotation_translation(Rotation::from_rows(rows), position)
+    }
+}
+
+/// What a document means by names that may mean several things.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Habits {
+    /// The letters of the pose's columns.
+    pub columns: Columns,
+    /// A number behind `T` is that of a link, not of a frame in the base.
+    pub links: bool,
+    /// The left index is the frame, the right one that in which it is seen.
+    pub exchanged: bool,
+    /// `atan2` has the cosine first.
+    pub cosine_first: bool,
+    /// Names that are helpers, not entries of the pose.
+    pub helpers: BTreeSet<String>,
+    /// Names of matrices that the document defines as products, `T_2 = A_4 A_5`.
+    pub products: BTreeSet<String>,
+}
+
+impl Habits {
+    /// The first readings.
+    pub fn of(text: &str) -> Self {
+        Habits {
+            columns: Columns::of(text),
+            links: false,
+            exchanged: false,
+            cosine_first: false,
+            helpers: BTreeSet::new(),
+            products: BTreeSet::new(),
+        }
+    }
+
+    /// Takes the names that a document defines as products for its own.
+    pub fn with_products(mut self, text: &str, document: &Document) -> Self {
+        for statement in &document.statements {
+            let names = |side: &Side| match &side.parts[..] {
+                [Part::Text(span)] => tokens(text, span, &|_| false).unwrap_or_default(),
+                _ => vec![],
+            };
+            let Some((first, rest)) = statement.sides.split_first() else { continue };
+            let [Token::Name(name)] = &names(first)[..] else { continue };
+            let is_single =
+                name.base == "T" && name.left.is_empty() && name.sup.is_empty() && name.sub.len() == 1;
+            let is_product = |side: &Side| {
+                let found = names(side);
+                let is_other = |t: &Token| matches!(t, Token::Name(n) if n.base != "T" || n.sub != name.sub);
+                found.len() > 1 && found.iter().all(is_other)
+            };
+            if is_single && rest.iter().any(is_product) {
+                self.products.insert(name.key());
+            }
+        }
+        self
+    }
 }
 
 /// The symbol of an entry of the pose in inverse formulas, row and column from 0.
@@ -70,13 +151,16 @@ pub(super) fn pose_symbol(columns: Columns, row: usize, column: usize) -> Symbol
 
 impl Lexis {
     /// The names of a robot in a document whose pose has these columns.
-    pub fn new(subject: &Subject, columns: Columns) -> Self {
+    pub fn new(subject: &Subject, habits: &Rc<Habits>, text: &Rc<str>) -> Self {
         let names = subject.vocabulary().degrees(true);
+        let columns = habits.columns;
         let mut lexis = Lexis {
             inverse: names.clone(),
             names,
-            columns,
+            habits: Rc::clone(habits),
+            text: Rc::clone(text),
             right: BTreeSet::new(),
+            by_custom: BTreeSet::new(),
             matrices: BTreeMap::new(),
             scalars: vec![],
             anywhere: Cell::new(false),
@@ -85,12 +169,11 @@ impl Lexis {
             return lexis;
         }
         let pose = subject.pose().matrix();
+        lexis.by_custom.extend(AXES.iter().flat_map(|a| [a.to_string(), a.to_uppercase()]));
+        lexis.by_custom.retain(|name| lexis.names.lookup(name).is_none());
         for (r, axis) in AXES.iter().enumerate() {
             for name in [axis.to_string(), axis.to_uppercase()] {
-                if lexis.inverse.lookup(&name).is_none() {
-                    let symbol = pose_symbol(columns, r, 3);
-                    lexis.inverse = std::mem::take(&mut lexis.inverse).alias(&name, symbol.into());
-                }
+                lexis.declare(&name, pose[r][3], pose_symbol(columns, r, 3).into());
             }
         }
         for (r, axis) in AXES.iter().enumerate() {
@@ -110,12 +193,17 @@ impl Lexis {
                 }
             }
         }
+        for custom in custom::names(subject, text, &Places(columns)) {
+            if lexis.declare(&custom.name, custom.meaning, custom.inverse) {
+                lexis.by_custom.insert(plain_name(&custom.name));
+            }
+        }
         lexis
     }
 
     /// The names of another robot, with what the document has defined so far.
     pub fn of(&self, subject: &Subject) -> Self {
-        let mut lexis = Lexis::new(subject, self.columns);
+        let mut lexis = Lexis::new(subject, &self.habits, &self.text);
         for (name, meaning) in &self.scalars {
             if lexis.names.lookup(name).is_none() {
                 lexis.define(name, *meaning);
@@ -124,13 +212,28 @@ impl Lexis {
         lexis
     }
 
-    /// A name that the robot gives its meaning, unless the name is taken.
-    fn declare(&mut self, name: &str, meaning: Expr, in_inverse: Expr) {
-        if self.names.lookup(name).is_none() {
+    /// The same names about a robot whose pose is another.
+    pub fn posed(&self, subject: &Subject) -> Self {
+        let mut lexis = self.of(subject);
+        lexis.matrices = self.matrices.clone();
+        lexis
+    }
+
+    /// A name that the robot gives its meaning, unless the name is taken, or a helper by the habits of the document.
+    fn declare(&mut self, name: &str, meaning: Expr, in_inverse: Expr) -> bool {
+        let is_free = self.names.lookup(name).is_none() && !self.habits.helpers.contains(&plain_name(name));
+        if is_free {
             self.names = std::mem::take(&mut self.names).alias(name, meaning);
             self.inverse = std::mem::take(&mut self.inverse).alias(name, in_inverse);
             self.right.insert(plain_name(name));
         }
+        is_free
+    }
+
+    /// True for a name whose meaning is one by custom only.
+    pub fn is_by_custom(&self, name: &str) -> bool {
+        let plain = custom::plain(name);
+        self.by_custom.contains(&plain) && self.right.contains(&plain)
     }
 
     /// A name that the document gives its meaning. What is no formula that a person would print is given none:
@@ -179,6 +282,11 @@ impl Lexis {
         places.fold(self.inverse.clone(), |names, (r, c)| names.symbol(&self.pose_symbol(r, c).name()))
     }
 
+    /// The matrix that the document gives a name.
+    pub fn defined(&self, name: &Name) -> Option<&Matrix> {
+        self.matrices.get(&name.key()).map(|m| &m.0)
+    }
+
     /// True if the document has defined this matrix.
     pub fn has_defined(&self, name: &Name) -> bool {
         self.matrices.contains_key(&name.key())
@@ -191,7 +299,7 @@ impl Lexis {
 
     /// The symbol of an entry of the pose.
     pub fn pose_symbol(&self, row: usize, column: usize) -> Symbol {
-        pose_symbol(self.columns, row, column)
+        pose_symbol(self.habits.columns, row, column)
     }
 
     /// True if the robot, not the document, says what a name means.
@@ -226,14 +334,22 @@ impl Lexis {
     /// What a matrix's name means, powers included, and what that is if it is known from the robot.
     pub fn matrix(&self, subject: &Subject, name: &Name) -> Option<(Matrix, Option<Meaning>)> {
         let anywhere = self.anywhere.get();
-        let is_free = || crate::subject::frames(name).is_some_and(|(i, j)| i.is_letter() && j.is_letter());
+        let is_free = || {
+            crate::subject::frames(name, &self.habits).is_some_and(|(i, j)| i.is_letter() && j.is_letter())
+        };
         let known = self.matrices.get(&name.key()).filter(|_| !(anywhere && is_free()));
         let found = match known {
             Some(found) => found.clone(),
             None => {
                 let value = |argument: &str| self.argument(argument);
-                match elementary(name, &value).or_else(|| subject.meaning(name, anywhere)) {
+                let by_robot = || subject.meaning(name, anywhere, &self.habits);
+                let is_own = self.habits.products.contains(&name.key());
+                match elementary(name, &value).or_else(|| by_robot().filter(|_| !is_own)) {
                     Some((matrix, about)) => (matrix, Some(about)),
+                    None if name.base == "J" && (name.is_inverse || name.is_transposed) => {
+                        let part = jacobians::told(name).part;
+                        (subject.square_jacobian(part)?, None)
+                    }
                     None => (self.matrices.get(&name.backwards()?.key())?.0.inverse()?, None),
                 }
             }

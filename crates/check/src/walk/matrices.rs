@@ -2,6 +2,7 @@
 
 use super::{Assertion, Cell, Cells, Definition, MAX_ELEMENTS, Piece, Reference, Scalar, Walk};
 use crate::facts::{About, Meaning};
+use crate::jacobians::told_of_jacobian;
 use crate::matrix::Matrix;
 use crate::names::{Name, Token, tokens};
 use crate::note::{Unread, Unreadable};
@@ -17,7 +18,7 @@ impl Walk<'_> {
     pub(super) fn is_product(&self, span: &Range<usize>) -> bool {
         let before = self.lexis.anywhere.replace(true);
         let side = Side { span: span.clone(), parts: vec![Part::Text(span.clone())] };
-        let is_product = product(self.text, &side, &self.lexis, self.subject, &|_| None).is_ok();
+        let is_product = product(self.text, &side, &self.lexis, &self.subject, &|_| None).is_ok();
         self.lexis.anywhere.set(before);
         is_product
     }
@@ -45,7 +46,9 @@ impl Walk<'_> {
                 | "·"
                 | "bullet"
                 | "times"
-        ) || matches!(is_dots, "x" | "X" | "×") && !is_column && self.lexis.names.lookup("x").is_none()
+        ) || matches!(is_dots, "x" | "X" | "×")
+            && !is_column
+            && (self.lexis.is_by_custom("x") || self.lexis.names.lookup("x").is_none())
         {
             return Cell::LeftOut;
         }
@@ -146,7 +149,10 @@ impl Walk<'_> {
         self.cells.borrow_mut().clear();
         for definition in definitions {
             match definition {
-                Definition::Matrix(name, matrix, about) => self.lexis.define_matrix(&name, matrix, about),
+                Definition::Matrix(name, matrix, about) => {
+                    self.named.push((statement.span.clone(), name.key()));
+                    self.lexis.define_matrix(&name, matrix, about);
+                }
                 Definition::Entry(name, value) => self.lexis.define_right(&name, value, value),
                 Definition::Cell(name, value) => self.lexis.define(&name, value),
             }
@@ -208,11 +214,11 @@ impl Walk<'_> {
                 self.define_cells(grid, &mut definitions);
             }
         }
-        let subject = self.subject;
+        let subject = Rc::clone(&self.subject);
         let read: Vec<Result<Product<'_>, NotMatrices>> = statement
             .sides
             .iter()
-            .map(|side| product(self.text, side, &self.lexis, subject, &|grid| self.printed(grid)))
+            .map(|side| product(self.text, side, &self.lexis, &subject, &|grid| self.printed(grid)))
             .collect();
         if !read.iter().any(|r| r.is_ok()) {
             self.skipped.push((statement.span.clone(), Unreadable::NeitherFormulaNorProduct));
@@ -222,7 +228,9 @@ impl Walk<'_> {
             return definitions;
         }
         let told = claim.and_then(|words| self.told_matrix(words.split(' ').next().unwrap_or(words)));
-        let named = read.iter().enumerate().find_map(|(i, r)| match r {
+        let is_jacobian = self.jacobian_of(&read, statement).is_some();
+        let tells_jacobian = |i: usize| is_jacobian && self.tells_jacobian(&statement.sides[i]);
+        let named = read.iter().enumerate().filter(|(i, _)| !tells_jacobian(*i)).find_map(|(i, r)| match r {
             Ok(Product { value: Some(matrix), about: Some(about), .. }) => {
                 Some((i, Reference { matrix: matrix.clone(), about: Some(about.clone()) }))
             }
@@ -237,6 +245,10 @@ impl Walk<'_> {
         let jacobian = || self.jacobian_of(&read, statement);
         let (at, reference) = match (told, named) {
             (Some(reference), _) => (usize::MAX, Some(reference)),
+            // A column of velocities is a matrix times rates.
+            (None, Some((_, Reference { about: Some(Meaning::Hand), .. }))) if is_jacobian => {
+                (usize::MAX, jacobian())
+            }
             (None, Some((i, reference))) => (i, Some(reference)),
             (None, None) => match jacobian() {
                 Some(reference) => (usize::MAX, Some(reference)),
@@ -259,6 +271,7 @@ impl Walk<'_> {
                     let span = &statement.sides[i].span;
                     match r {
                         Ok(_) if self.redefined(statement, i) => {}
+                        Ok(_) if tells_jacobian(i) => {}
                         Ok(product) => match &product.factors.as_deref() {
                             Some([Factor::Grid(grid)]) if self.is_velocity(grid) => {}
                             Some([Factor::Grid(grid)]) if self.is_names(grid) => names.push(grid),
@@ -316,8 +329,13 @@ impl Walk<'_> {
             })
         });
         for (side, r) in statement.sides.iter().zip(&read) {
-            if let (Err(NotMatrices::Unknown(name)), Some((matrix, about))) = (r, &defined)
-                && self.is_lone(side, name)
+            let anew = (tells_jacobian(0) && r.is_ok()).then(|| self.lone(side)).flatten().map(Box::new);
+            let unknown = match r {
+                Err(NotMatrices::Unknown(name)) => Some(name.clone()),
+                _ => anew,
+            };
+            if let (Some(name), Some((matrix, about))) = (unknown, &defined)
+                && self.is_lone(side, &name)
             {
                 definitions.push(Definition::Matrix(name.as_ref().clone(), matrix.clone(), about.clone()));
             }
@@ -348,7 +366,7 @@ impl Walk<'_> {
         i == 0
             && name.is_some_and(|n| {
                 self.lexis.has_defined(&n)
-                    && self.lexis.matrix(self.subject, &n).is_some_and(|m| m.1.is_none())
+                    && self.lexis.matrix(&self.subject, &n).is_some_and(|m| m.1.is_none())
             })
     }
 
@@ -356,6 +374,19 @@ impl Walk<'_> {
     pub(super) fn is_velocity(&self, grid: &Grid) -> bool {
         let mut spans = grid.rows.iter().flatten().map(|s| self.source(s));
         grid.rows.iter().all(|r| r.len() == 1) && spans.any(|s| s.contains(r"\dot") || s.contains('\u{307}'))
+    }
+
+    /// The one name that a side is.
+    fn lone(&self, side: &Side) -> Option<Name> {
+        match &side.parts[..] {
+            [Part::Text(span)] => self.lexis.lone_name(self.text, span),
+            _ => None,
+        }
+    }
+
+    /// True for a side that only names a Jacobian.
+    fn tells_jacobian(&self, side: &Side) -> bool {
+        self.lone(side).is_some_and(|name| told_of_jacobian(&name).is_some())
     }
 
     pub(super) fn is_lone(&self, side: &Side, name: &Name) -> bool {

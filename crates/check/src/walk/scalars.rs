@@ -2,12 +2,14 @@
 
 use super::{Assertion, Defined, Pair, Piece, Reference, Scalar, Spoken, Walk};
 use crate::facts::About;
+use crate::jacobians::Part;
 use crate::lexis::set_in;
+use crate::matrix::Matrix;
 use crate::names::Name;
 use crate::note::{Unread, Unreadable};
-use denavit::description::read_value;
+use denavit::forward::Reference as Frame;
 use denavit::geometry::orientation::OrientationSet;
-use denavit_reading::document::Statement;
+use denavit_reading::document::{Place, Statement};
 use denavit_symbolic::parse::{Function, Syntax, SyntaxKind};
 use denavit_symbolic::vocabulary::plain_name;
 use denavit_symbolic::{Angle, Expr, Node};
@@ -19,12 +21,12 @@ impl Walk<'_> {
             Ok(syntax) => return Scalar::Formula(span.clone(), syntax),
             Err(errors) => errors,
         };
-        let plain: String = self.source(span).chars().filter(|c| c.is_alphanumeric() || *c == '|').collect();
-        let is_determinant = matches!(
-            plain.as_str(),
-            "detJ" | "|J|" | "leftJright" | "detJq" | "detleftJright" | "left|Jright|"
-        );
-        if is_determinant && let Some(value) = self.subject.determinant() {
+        if let Some(value) = self.determinant(span) {
+            let kind = SyntaxKind::Name(value);
+            return Scalar::Formula(span.clone(), Syntax { kind, span: 0..span.len() });
+        }
+        // Numbers with units: `0.433 m`.
+        if let Some(value) = self.constant(self.source(span)) {
             let kind = SyntaxKind::Name(value);
             return Scalar::Formula(span.clone(), Syntax { kind, span: 0..span.len() });
         }
@@ -44,22 +46,22 @@ impl Walk<'_> {
 
     /// What `x`, `Y`, `x_x` or `z_y` mean by custom, where the document gives no other meaning.
     pub(super) fn conventional(&self, name: &Name) -> Option<Expr> {
-        if name.base == "det" && name.sub.is_empty() {
-            return self.subject.determinant();
-        }
-        if self.subject.last() == 0 {
+        if self.subject.last() == 0
+            || self.lexis.habits.helpers.contains(&format!("{}{}", name.base, name.sub))
+        {
             return None;
         }
         let digits: Vec<u32> = name.sub.chars().filter_map(|c| c.to_digit(10)).collect();
         if let ("J", [r, c]) = (name.base.as_str(), &digits[..]) {
-            let (_, j) = self.subject.jacobians(6).into_iter().next()?;
-            return j.entry((*r as usize).checked_sub(1)?, (*c as usize).checked_sub(1)?);
+            let j = self.subject.geometric_rows(Frame::Tool, Frame::Frame(0));
+            return j.get((*r as usize).checked_sub(1)?)?.get((*c as usize).checked_sub(1)?).copied();
         }
         let axis = |c: &str| ["x", "y", "z"].iter().position(|a| *a == c.to_lowercase());
         let plain = format!("{}{}", name.base, name.sub);
         let pose = self.subject.pose();
         match (axis(&name.base), name.sub.as_str()) {
-            (Some(r), "" | "p" | "P") => Some(pose.translation.0[r]),
+            (Some(r), "p" | "P") => Some(pose.translation.0[r]),
+            (Some(_), "") => None,
             (Some(c), sub) => Some(pose.rotation.rows()[axis(sub)?][c]),
             (None, _) => {
                 let mut letters = plain.chars();
@@ -69,12 +71,27 @@ impl Walk<'_> {
         }
     }
 
+    /// True if a side defines a name: one without meaning, or a second spelling of a joint whose own formula it would stand in.
+    fn defines(&self, span: &Range<usize>, side: &Scalar, formula: &Syntax) -> bool {
+        match side {
+            Scalar::Lone(_) => true,
+            Scalar::Formula(_, left) => {
+                let joint = left.value().as_symbol().filter(|s| self.subject.joints().contains(&(*s).into()));
+                let is_letter = self.source(span).starts_with('t') && !self.source(span).starts_with("th");
+                joint.is_some_and(|j| {
+                    is_letter && formula.value() != left.value() && formula.value().symbols().contains(&j)
+                })
+            }
+            Scalar::Broken(..) => false,
+        }
+    }
+
     /// Reads a statement as one between scalars; false if it is none.
     pub(super) fn scalars(&mut self, statement: &Statement, claim: Option<&str>) -> bool {
         let spans: Vec<Range<usize>> = statement.sides.iter().map(|s| s.span.clone()).collect();
         let read: Vec<Scalar> = spans.iter().map(|s| self.scalar(s)).collect();
         let is_matrix = |s: &Scalar| match s {
-            Scalar::Lone(name) => self.lexis.matrix(self.subject, name).is_some(),
+            Scalar::Lone(name) => self.lexis.matrix(&self.subject, name).is_some(),
             Scalar::Broken(span, _) => self.is_product(span),
             Scalar::Formula(..) => false,
         };
@@ -84,7 +101,16 @@ impl Walk<'_> {
                 return false;
             }
         }
-        if self.configuration(&spans, &read) {
+        let is_case = self.is_case(statement);
+        if is_case && self.case(statement, &read) {
+            return true;
+        }
+        if !is_case && self.configuration(&spans, &read) {
+            self.taken.push(statement.span.clone());
+            return true;
+        }
+        if self.is_condition(statement, &read) {
+            self.taken.push(statement.span.clone());
             return true;
         }
         if let Some(spoken) = self.values(&spans, &read).or_else(|| self.angle(statement, &read)) {
@@ -101,14 +127,19 @@ impl Walk<'_> {
         // A name that the document defines here.
         let is_definition = told.is_none()
             && match &read[..] {
-                [Scalar::Lone(name), Scalar::Formula(span, syntax), ..] => {
-                    let name = plain_name(&format!("{}{}", name.base, name.sub));
+                [first, Scalar::Formula(span, syntax), ..] if self.defines(&spans[0], first, syntax) => {
+                    let name = match first {
+                        Scalar::Lone(name) => plain_name(&format!("{}{}", name.base, name.sub)),
+                        _ => plain_name(self.source(&spans[0])),
+                    };
                     let inverse = self.lexis.inverse_formula(self.text, span);
                     let inverse = inverse.map_or(syntax.value(), |s| s.value());
                     self.lexis.define(&name, syntax.value());
                     self.lexis.define_inverse(&name, inverse);
                     self.defined.push(Defined {
                         name,
+                        statement: statement.span.clone(),
+                        shown: self.claim_name(statement),
                         span: span.clone(),
                         printed: syntax.clone(),
                         value: syntax.value(),
@@ -118,6 +149,9 @@ impl Walk<'_> {
                 }
                 _ => false,
             };
+        if is_definition && matches!(read.first(), Some(Scalar::Formula(..))) {
+            return true;
+        }
         let formulas = || {
             read.iter().enumerate().filter_map(|(i, s)| match s {
                 Scalar::Formula(span, syntax) => Some((i, span, syntax)),
@@ -154,7 +188,7 @@ impl Walk<'_> {
                 Scalar::Formula(span, syntax)
                     if syntax.value().symbols().is_empty()
                         && !wanted.symbols().is_empty()
-                        && self.at.is_complete(self.subject) =>
+                        && self.at.knows(wanted, &self.subject) =>
                 {
                     pieces.extend(self.number(None, span, syntax.value(), wanted));
                 }
@@ -201,6 +235,46 @@ impl Walk<'_> {
         true
     }
 
+    /// A joint's value in a sentence that tells a case: a singular configuration, if the sentence says so.
+    fn case(&mut self, statement: &Statement, read: &[Scalar]) -> bool {
+        let [Scalar::Formula(_, left), Scalar::Formula(span, right)] = read else { return false };
+        let (of, value) = (left.value(), right.value());
+        let joints = self.subject.joints();
+        if !of.as_symbol().is_some_and(|s| joints.contains(&s.into())) || !value.symbols().is_empty() {
+            return false;
+        }
+        let said = statement.prose.clone().and_then(|p| self.text.get(p)).unwrap_or_default().to_lowercase();
+        let determinant = self.subject.determinant(Part::Any).filter(|_| is_singular(&said));
+        match determinant {
+            Some(determinant) => {
+                let there = determinant.substitute(|s| (Some(s) == of.as_symbol()).then_some(value));
+                let mut assertion = self.assertion(statement, About::Singularity);
+                assertion.pieces = vec![Piece::Pair(Pair {
+                    place: None,
+                    span: span.clone(),
+                    printed: None,
+                    value: there,
+                    wanted: Expr::int(0),
+                    also: vec![],
+                })];
+                self.assertions.push(assertion);
+            }
+            None => self.taken.push(statement.span.clone()),
+        }
+        true
+    }
+
+    /// True for an equation to be solved in a sentence: `det J = 0`, `s_5 = 0`.
+    fn is_condition(&self, statement: &Statement, read: &[Scalar]) -> bool {
+        let [Scalar::Formula(span, left), Scalar::Formula(_, right)] = read else { return false };
+        let is_constant = right.value().symbols().is_empty() && !is_measured(right.value());
+        let is_entry = self.is_right_name(span) && self.lexis.lone_name(self.text, span).is_some();
+        statement.place == Place::Inline
+            && is_constant
+            && !left.value().symbols().is_empty()
+            && (!is_entry || !denavit_symbolic::equal(left.value(), right.value()).is_equal())
+    }
+
     /// Keeps what is printed for the sine or cosine of a joint: `c_3 = D`, `s_3 = ±√(1 − D²)`.
     fn record_sine(&mut self, spans: &[Range<usize>], read: &[Scalar]) {
         let ([_, right], [Scalar::Formula(_, left), _]) = (spans, read) else { return };
@@ -215,75 +289,6 @@ impl Walk<'_> {
         if !values.iter().any(|v| v.symbols().iter().any(|s| sine.symbols().contains(s))) {
             self.sines.push((sine, values));
         }
-    }
-
-    /// Reads the values that a line of prose gives: `with a1 = 1 and θ1 = 30°`.
-    pub(super) fn told_in(&mut self, prose: &Range<usize>) {
-        let Some(line) = self.text.get(prose.clone()).filter(|l| l.len() < 500) else { return };
-        let joined = line.replace('$', " ");
-        let parts: Vec<&str> = joined.split('=').collect();
-        for pair in parts.windows(2) {
-            let name = pair[0].trim().rsplit([' ', ',', ';', '(']).next().unwrap_or_default();
-            let value = pair[1].trim_start();
-            let value = value.split([',', ';', ')']).next().unwrap_or_default();
-            let value = value.split(" and ").next().unwrap_or_default().trim().trim_end_matches([':', '.']);
-            // `0.8 we get`: the number alone.
-            let number = value.split(' ').next().unwrap_or_default();
-            if name.is_empty() || !self.assign(name, value) {
-                self.assign(name, number);
-            }
-        }
-    }
-
-    /// Gives a joint or a length a value; false if that is not what is written.
-    fn assign(&mut self, name: &str, value: &str) -> bool {
-        let Some(symbol) = self.lexis.names.lookup(name).and_then(|e| e.as_symbol()) else { return false };
-        let d = &self.subject.description;
-        if let Some(joint) = d.variables().iter().position(|v| v.symbol == symbol) {
-            let Ok(read) = crate::lexis::read(value, &(0..value.len()), &self.lexis.names) else {
-                return false;
-            };
-            let constant = read.value();
-            if constant.symbols().is_empty() {
-                self.at.set(joint, constant);
-                return true;
-            }
-            return false;
-        }
-        let Ok(constant) = read_value(value, d.measure(symbol)) else { return false };
-        self.at.give(symbol, constant);
-        true
-    }
-
-    /// Reads `θ_1 = 30°` or `a_1 = 500 mm` as a part of a configuration.
-    fn configuration(&mut self, spans: &[Range<usize>], read: &[Scalar]) -> bool {
-        if let ([name, value], [Scalar::Formula(_, left), right]) = (spans, read)
-            && let SyntaxKind::Name(e) = left.kind
-            && let Some(symbol) = e.as_symbol()
-            && self.subject.description.parameter(symbol).is_some()
-        {
-            let is_constant = match right {
-                Scalar::Formula(_, s) => s.value().symbols().is_empty(),
-                Scalar::Broken(..) => true,
-                Scalar::Lone(_) => false,
-            };
-            let (name, value) = (self.source(name), self.source(value));
-            if is_constant && self.assign(name, value) {
-                return true;
-            }
-        }
-        let [Scalar::Formula(_, left), Scalar::Formula(_, right)] = read else { return false };
-        let value = right.value();
-        let joint = match left.kind {
-            SyntaxKind::Name(e) => {
-                let variables = self.subject.description.variables();
-                e.as_symbol().and_then(|s| variables.iter().position(|v| v.symbol == s))
-            }
-            _ => None,
-        };
-        let Some(joint) = joint.filter(|_| value.symbols().is_empty()) else { return false };
-        self.at.set(joint, value);
-        true
     }
 
     /// True for a name that the robot gives its meaning.
@@ -307,12 +312,15 @@ impl Walk<'_> {
     pub(super) fn values(&self, spans: &[Range<usize>], read: &[Scalar]) -> Option<Spoken> {
         let (first, rest) = spans.split_first()?;
         let Some(Scalar::Formula(_, left)) = read.first() else { return None };
-        let SyntaxKind::Name(of) = left.kind else { return None };
+        let is_name = matches!(left.kind, SyntaxKind::Name(_) | SyntaxKind::Sum(_));
+        let of = Some(left.value()).filter(|_| is_name)?;
         let variables = self.subject.description.variables();
         let angle = Angle::of(of);
         let is_joint = |e: &Expr| e.as_symbol().is_some_and(|s| variables.iter().any(|v| v.symbol == s));
-        let is_sum = !angle.terms.is_empty() && angle.terms.iter().all(|(e, k)| is_joint(e) && k.is_one());
-        if !is_sum || self.is_right_name(first) || rest.is_empty() {
+        let is_unit = |k: &denavit_symbolic::Rational| k.is_one() || (-k).is_one();
+        let is_sum = !angle.terms.is_empty() && angle.terms.iter().all(|(e, k)| is_joint(e) && is_unit(k));
+        let is_right = self.is_right_name(first) && !self.lexis.is_by_custom(self.source(first));
+        if !is_sum || is_right || rest.is_empty() {
             return None;
         }
         let mut sides = vec![];
@@ -322,7 +330,9 @@ impl Walk<'_> {
         let is_value = |syntax: &Syntax, span: &Range<usize>| {
             has_inverse_function(syntax) || self.speaks_of_pose(span) || syntax.sign_choices() > 0
         };
-        if !sides.iter().any(|(span, syntax)| is_value(syntax, span)) {
+        let is_number = |syntax: &Syntax| syntax.value().symbols().is_empty();
+        if !sides.iter().any(|(span, syntax)| is_value(syntax, span)) || sides.iter().all(|s| is_number(&s.1))
+        {
             return None;
         }
         // What was printed for the joint's own sine and cosine stands for them.
@@ -394,16 +404,36 @@ impl Walk<'_> {
         reference.matrix.entry(r.checked_sub(1)?, c.checked_sub(1)?)
     }
 
+    /// The determinant that a name says: `\det J_v`, `|J|`.
+    fn determinant(&self, span: &Range<usize>) -> Option<Expr> {
+        let source = self.source(span);
+        let bare = ["\\operatorname{det}", "\\mathrm{det}", "\\det", "\\left", "\\right", "det"]
+            .iter()
+            .fold(source.to_string(), |s, w| s.replace(w, " "));
+        if bare == source && !(source.starts_with('|') && source.ends_with('|') && source.len() > 2) {
+            return None;
+        }
+        let inner = bare.replace(['|', '(', ')'], " ");
+        let inner = inner.trim();
+        let name = self.lexis.lone_name(inner, &(0..inner.len()))?;
+        let told = crate::jacobians::told_of_jacobian(&name)?;
+        let printed = self.lexis.defined(&name).filter(|m| m.shape().is_some_and(|(r, c)| r == c));
+        printed.and_then(Matrix::determinant).or_else(|| self.subject.determinant(told.part))
+    }
+
     pub(super) fn told_matrix(&self, words: &str) -> Option<Reference> {
         let name = self.lexis.lone_name(words, &(0..words.len()))?;
-        let (matrix, about) = self.lexis.matrix(self.subject, &name)?;
+        let (matrix, about) = self.lexis.matrix(&self.subject, &name)?;
         Some(Reference { matrix, about: Some(about?) })
     }
 }
 
 /// True for a number that somebody computed: neither 0 nor ±1.
-pub(super) fn is_measured(e: Expr) -> bool {
-    e.as_number().is_some_and(|r| !r.is_zero() && !r.is_one() && !(-&r).is_one())
+pub(crate) fn is_measured(e: Expr) -> bool {
+    match e.as_number() {
+        Some(r) => !r.is_zero() && !r.is_one() && !(-&r).is_one(),
+        None => e.symbols().is_empty(),
+    }
 }
 
 /// The value of a formula with other values for some sines.
@@ -446,6 +476,13 @@ fn has_entry(walk: &Walk<'_>, span: &Range<usize>) -> bool {
     let Ok(syntax) = walk.lexis.inverse_formula(walk.text, span) else { return false };
     let symbols = syntax.value().symbols();
     (0..3).any(|r| (0..3).any(|c| symbols.contains(&walk.lexis.pose_symbol(r, c))))
+}
+
+/// True if a sentence says that the arm is singular somewhere.
+fn is_singular(said: &str) -> bool {
+    let denials =
+        ["not singul", "nicht singul", "non singul", "no singul", "nonsingul", "pas singul", "unless"];
+    said.contains("singul") && !denials.iter().any(|d| said.contains(d))
 }
 
 /// True if an arctangent or the like occurs.
