@@ -1,7 +1,7 @@
 //! Names that custom gives a meaning beside the entries of the pose: velocities and rates, torques and forces, the wrist centre,
 //! entries of frames in each other, the direction of a planar arm, and the letters that a text uses for the hand's place.
 
-use super::lexis::Places;
+use super::habits::Places;
 use super::subject::Subject;
 use denavit::description::JointKind;
 use denavit::geometry::{Transform, Vector};

@@ -6,7 +6,6 @@ use super::matrix::Matrix;
 use super::names::Name;
 use super::subject::Subject;
 use denavit::forward::Reference;
-use denavit::geometry::Transform;
 use denavit_reading::slip::{Points, Value};
 use denavit_symbolic::readable::simplify;
 use denavit_symbolic::{Expr, Node};
@@ -243,25 +242,4 @@ pub(super) fn told(name: &Name) -> Told {
     let frame = (!letters.is_empty()).then(|| number(&sub)).flatten();
     let axes = number(&name.left).or_else(|| number(&name.sup));
     Told { part, frame, axes }
-}
-
-/// The cross products and axes of the joints by frames as an author has them: row by row, linear first.
-pub(super) fn of_frames(
-    frames: &[Transform<Expr>],
-    hand: &Transform<Expr>,
-    is_revolute: &[bool],
-) -> Vec<Vec<Expr>> {
-    let mut rows = vec![vec![]; 6];
-    for (x, is_revolute) in frames.iter().zip(is_revolute) {
-        let axis = x.rotation.z();
-        let (linear, angular) = match is_revolute {
-            true => (axis.cross(hand.translation - x.translation), axis),
-            false => (axis, denavit::geometry::Vector([Expr::int(0); 3])),
-        };
-        for r in 0..3 {
-            rows[r].push(linear.0[r]);
-            rows[3 + r].push(angular.0[r]);
-        }
-    }
-    rows
 }

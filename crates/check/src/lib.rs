@@ -12,6 +12,7 @@ mod custom;
 mod definitions;
 mod facts;
 mod formula;
+mod habits;
 pub mod inverse;
 mod jacobians;
 mod judge;

@@ -2,8 +2,9 @@
 
 use super::CheckOptions;
 use super::convention;
+use super::habits::Habits;
+use super::lexis::Lexis;
 use super::lexis::set_in;
-use super::lexis::{Habits, Lexis};
 use super::note::{Note, Noted, Notes, Unread, Unreadable};
 use super::programs;
 use super::subject::Subject;

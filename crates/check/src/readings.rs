@@ -4,7 +4,7 @@
 
 use super::CheckOptions;
 use super::facts::{About, Meaning, Sense};
-use super::lexis::{Columns, Habits, Places};
+use super::habits::{Columns, Habits, Places};
 use super::numbers;
 use super::outcome::Finding;
 use super::plan::{Plan, Walked};

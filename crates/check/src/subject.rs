@@ -1,8 +1,7 @@
 //! What formulas are about: a robot, its frames, and what people call its quantities.
 
 use super::facts::Meaning;
-use super::jacobians::of_frames;
-use super::lexis::Habits;
+use super::habits::Habits;
 use super::matrix::Matrix;
 use super::names::{Index, Name, index, pair};
 use denavit::description::{Convention, Description, JointKind, Screw};
@@ -382,4 +381,21 @@ pub(super) fn elementary(name: &Name, value: &dyn Fn(&str) -> Option<Expr>) -> O
         "Trans" | "trans" => Some((Matrix::of(&along(about, value)), Meaning::TranslationAlong(about))),
         _ => None,
     }
+}
+
+/// The cross products and axes of the joints by frames as an author has them: row by row, linear first.
+fn of_frames(frames: &[Transform<Expr>], hand: &Transform<Expr>, is_revolute: &[bool]) -> Vec<Vec<Expr>> {
+    let mut rows = vec![vec![]; 6];
+    for (x, is_revolute) in frames.iter().zip(is_revolute) {
+        let axis = x.rotation.z();
+        let (linear, angular) = match is_revolute {
+            true => (axis.cross(hand.translation - x.translation), axis),
+            false => (axis, Vector([Expr::int(0); 3])),
+        };
+        for r in 0..3 {
+            rows[r].push(linear.0[r]);
+            rows[3 + r].push(angular.0[r]);
+        }
+    }
+    rows
 }

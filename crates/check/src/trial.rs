@@ -2,7 +2,7 @@
 //!
 //! This refutes quickly and proves nothing; readings and slips are chosen by it, and judged as all else is.
 
-use super::lexis::Places;
+use super::habits::Places;
 use super::subject::Subject;
 use denavit::description::JointKind;
 use denavit::random::Random;

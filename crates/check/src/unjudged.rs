@@ -140,7 +140,8 @@ fn mentions(source: &str, name: &str) -> bool {
                 true => behind.is_some_and(|c| c.is_ascii_digit()),
                 false => is_letter(behind) || behind.is_some_and(|c| c.is_ascii_digit()),
             };
-            !cut && !(is_letter(before) && name.chars().count() == 1)
+            let is_part = is_letter(before) && name.chars().count() == 1;
+            !(cut || is_part)
         })
 }
 

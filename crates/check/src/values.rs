@@ -3,8 +3,8 @@
 
 use super::facts::{Condition, Remark, Unproved, Zeros};
 use super::formula::Formula;
+use super::habits::{Columns, pose_symbol};
 use super::inverse::{Composed, Fault, Inverse, Judgement, Values, Verdict, Where, orientation};
-use super::lexis::{Columns, pose_symbol};
 use super::outcome::{Claim, Counterexample, Entry, Finding, Wrong};
 use super::plan::{Plan, Walked};
 use super::subject::Subject;

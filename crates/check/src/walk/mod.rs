@@ -9,7 +9,8 @@ mod told;
 pub(super) use scalars::is_measured;
 
 use super::facts::{About, Meaning, Remark};
-use super::lexis::{Habits, Lexis, read};
+use super::habits::Habits;
+use super::lexis::{Lexis, read};
 use super::matrix::Matrix;
 use super::names::Name;
 use super::note::{Unread, Unreadable};
