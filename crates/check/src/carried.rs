@@ -4,9 +4,11 @@
 //! follows from it.
 
 use super::CheckOptions;
+use super::facts::{About, Meaning, Unproved};
 use super::numbers;
 use super::outcome::{Claim, Finding, Standing};
 use super::plan::{Plan, Walked};
+use super::subject::Subject;
 use super::walk::Piece;
 use denavit_reading::document::Document;
 use denavit_reading::slip::Points;
@@ -45,6 +47,52 @@ pub(super) fn carry(
         for set in sets {
             let author = plan.with_authors(set).walk(text, document, options);
             follow(plan, walked, &author, claims, by);
+        }
+    }
+}
+
+/// Frames that are wrong for the robot that is given, but right by the document's own table, are not decided: frames may be
+/// chosen.
+pub(super) fn by_own_table(
+    text: &str,
+    document: &Document,
+    plan: &Plan,
+    own: &Subject,
+    options: &CheckOptions,
+    walked: &Walked,
+    claims: &mut [Claim],
+) {
+    let speaks_of_frames = |about: &About| {
+        matches!(
+            about,
+            About::Matrix(
+                Meaning::Frame { .. } | Meaning::Rotation(_) | Meaning::Origin(_) | Meaning::AxisZ(_)
+            )
+        )
+    };
+    let is_meant = |c: &Claim| c.standing() == Standing::Wrong && speaks_of_frames(&c.about);
+    if !claims.iter().any(is_meant) {
+        return;
+    }
+    let other = plan.with(&|_| Some(own.clone())).walk(text, document, options);
+    if other.assertions.len() != walked.assertions.len() {
+        return;
+    }
+    for (claim, assertion) in claims.iter_mut().zip(&other.assertions) {
+        let is_right = |piece: &Piece| match piece {
+            Piece::Pair(pair) => equal(pair.value, pair.wanted).is_equal(),
+            Piece::Number { answer, .. } => {
+                matches!(numbers::judge(answer, own, None), Finding::Equal { .. })
+            }
+            Piece::Unreadable { .. } => false,
+        };
+        if is_meant(claim) && assertion.pieces.iter().all(is_right) {
+            claim.instead = None;
+            for entry in &mut claim.entries {
+                if entry.finding.standing() == Standing::Wrong {
+                    entry.finding = Finding::Undecided { why: Unproved::OwnTable };
+                }
+            }
         }
     }
 }

@@ -2,6 +2,7 @@
 //! entries of frames in each other, the direction of a planar arm, and the letters that a text uses for the hand's place.
 
 use super::habits::Places;
+use super::matrix::Matrix;
 use super::subject::Subject;
 use denavit::description::JointKind;
 use denavit::geometry::{Transform, Vector};
@@ -115,6 +116,15 @@ fn rates(subject: &Subject, plain: &str, add: &mut Add<'_>) {
         }
         add(&format!("ω{axis}"), angular, angular);
     }
+}
+
+/// The torques of all joints, below one another.
+pub(super) fn torque_column(subject: &Subject, text: &str) -> Option<Matrix> {
+    let mut found: Vec<(String, Expr)> = vec![];
+    torques(subject, &plain(text), &mut |name, meaning, _| found.push((name.to_string(), meaning)));
+    let of = |k: usize| found.iter().find(|(name, _)| *name == format!("τ{k}")).map(|f| vec![Some(f.1)]);
+    let column: Vec<Vec<Option<Expr>>> = (1..=subject.joints().len()).map_while(of).collect();
+    (!column.is_empty() && column.len() == subject.joints().len()).then_some(Matrix(column))
 }
 
 /// Torques of the joints for a force at the hand, in those of its components that are mentioned.
@@ -248,7 +258,7 @@ fn direction(subject: &Subject, plain: &str, places: &Places, add: &mut Add<'_>)
 }
 
 /// The letters for the hand's place that sentences tell: `the tip is at (q_x, q_y)`.
-fn hand_letters(text: &str) -> Vec<Vec<String>> {
+pub(super) fn hand_letters(text: &str) -> Vec<Vec<String>> {
     const HANDS: [&str; 22] = [
         "end effector",
         "end-effector",

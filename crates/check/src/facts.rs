@@ -80,6 +80,8 @@ pub enum Meaning {
     Translation,
     /// A Jacobian.
     Jacobian(Jacobian),
+    /// The torques of the joints for a load on the hand.
+    Torques,
 }
 
 /// Which Jacobian a matrix is.
@@ -302,6 +304,8 @@ pub enum Unproved {
     NoLength,
     /// Neither proved equal nor found different.
     NotFound,
+    /// It is right by the document's own table, which is not that of the robot.
+    OwnTable,
     /// The names are those of no angles of the set.
     NotOfSet,
     /// What the judge of values says.
@@ -313,6 +317,8 @@ pub enum Unproved {
 pub enum SlipKind {
     /// A change of the formula.
     Formula(Slip),
+    /// The arguments of `atan2` are exchanged.
+    Arguments,
     /// It stands in another entry's place (row and column from 1), and that one in its place.
     ExchangedWith(usize, usize),
     /// The entry of another place.
@@ -324,6 +330,7 @@ impl SlipKind {
     pub fn id(&self) -> &'static str {
         match self {
             SlipKind::Formula(slip) => slip.id(),
+            SlipKind::Arguments => "arguments",
             SlipKind::ExchangedWith(..) => "transposed",
             SlipKind::OtherEntry => "entry",
         }

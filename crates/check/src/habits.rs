@@ -7,6 +7,40 @@ use denavit_symbolic::vocabulary::plain_name;
 use denavit_symbolic::{Expr, Symbol};
 use std::collections::BTreeSet;
 
+/// Values with each choice of the signs that a document names: ε = ±1.
+pub(super) fn with_named_signs(values: Vec<Expr>) -> Vec<Expr> {
+    let mut all = values;
+    for name in SIGNS {
+        let sign = Expr::symbol(&format!("sign {name}"));
+        if all.iter().any(|e| e.symbols().contains(&sign.as_symbol().unwrap_or(Symbol::new(name))))
+            && all.len() <= 16
+        {
+            let chosen = |n: i64| {
+                move |e: &Expr| e.substitute(|s| (Some(s) == sign.as_symbol()).then(|| Expr::int(n)))
+            };
+            all = all.iter().map(chosen(1)).chain(all.iter().map(chosen(-1))).collect();
+        }
+    }
+    all
+}
+
+/// The names of signs that a text has: `ε = ±1`.
+pub(super) fn named_signs(plain: &str) -> Vec<(&'static str, Expr)> {
+    let is_sign = |name: &&&str| {
+        let spelled = match **name {
+            "ε" => "varepsilon",
+            "σ" => "sigma",
+            other => other,
+        };
+        [format!("{name}=±1"), format!("{name}=pm1"), format!("{spelled}=pm1"), format!("{spelled}=±1")]
+            .iter()
+            .any(|s| plain.contains(s.as_str()))
+    };
+    SIGNS.iter().filter(is_sign).map(|n| (*n, Expr::symbol(&format!("sign {n}")))).collect()
+}
+
+/// Names of signs.
+const SIGNS: [&str; 5] = ["ε", "σ", "k", "e", "s"];
 /// The axes of coordinates.
 const AXES: [&str; 3] = ["x", "y", "z"];
 

@@ -2,7 +2,7 @@
 
 use super::custom;
 use super::facts::Meaning;
-use super::habits::{Habits, Places, pose_symbol};
+use super::habits::{Habits, Places, named_signs, pose_symbol};
 use super::jacobians;
 use super::matrix::Matrix;
 use super::names::{Name, Token, tokens};
@@ -91,6 +91,16 @@ impl Lexis {
                 }
             }
         }
+        for (name, sign) in named_signs(&custom::plain(text).replace('$', "")) {
+            if lexis.names.lookup(name).is_none() {
+                lexis.names = std::mem::take(&mut lexis.names).alias(name, sign);
+                lexis.inverse = std::mem::take(&mut lexis.inverse).alias(name, sign);
+            }
+        }
+        if let Some(torques) = custom::torque_column(subject, text) {
+            let name = Name { base: "τ".into(), ..Name::default() };
+            lexis.matrices.insert(name.key(), (torques, Some(Meaning::Torques)));
+        }
         for custom in custom::names(subject, text, &Places(columns)) {
             if lexis.declare(&custom.name, custom.meaning, custom.inverse) {
                 lexis.by_custom.insert(plain_name(&custom.name));
@@ -126,6 +136,12 @@ impl Lexis {
             self.right.insert(plain_name(name));
         }
         is_free
+    }
+
+    /// True for a name that the document has defined by a formula.
+    pub fn is_helper(&self, name: &str) -> bool {
+        let plain = plain_name(name);
+        !self.right.contains(&plain) && self.scalars.iter().any(|(n, _)| plain_name(n) == plain)
     }
 
     /// True for a name whose meaning is one by custom only.

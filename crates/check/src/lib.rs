@@ -10,6 +10,7 @@ mod causes;
 mod convention;
 mod custom;
 mod definitions;
+mod edits;
 mod facts;
 mod formula;
 mod habits;
@@ -87,6 +88,8 @@ pub fn check(
         notes.error(0..0, Noted::TooLong { bytes: text.len(), most: MAX_BYTES });
         return Err(notes.found());
     }
+    let respelled = numbers::decimal_points(text);
+    let text = respelled.as_deref().unwrap_or(text);
     let document = match options.language {
         Some(_) => Document::default(),
         None => document::read(text, format),
@@ -119,6 +122,9 @@ pub fn check(
         causes = causes::causes(text, &document, &plan, options, &walked, &mut claims);
     }
     carried::carry(text, &document, &plan, options, &walked, &mut claims);
+    if let Some(own) = plan.own_table.clone() {
+        carried::by_own_table(text, &document, &plan, &own, options, &walked, &mut claims);
+    }
     let unjudged = unjudged::listed(text, &document, &walked, &mut claims, options);
     let mut checked = Checked {
         claims,

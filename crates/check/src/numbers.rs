@@ -90,6 +90,41 @@ impl Configuration {
     }
 }
 
+/// A text that writes a half as `0,5` with points instead, byte for byte; nothing for other texts.
+pub(super) fn decimal_points(text: &str) -> Option<String> {
+    let bytes = text.as_bytes();
+    let is_digit = |k: usize| bytes.get(k).is_some_and(u8::is_ascii_digit);
+    let mut commas = vec![];
+    for (k, b) in bytes.iter().enumerate() {
+        if k == 0 || !is_digit(k - 1) || !is_digit(k + 1) {
+            continue;
+        }
+        match b {
+            b'.' => return None,
+            b',' => {
+                let start = (0..k).rev().take_while(|&i| is_digit(i)).last().unwrap_or(k);
+                let end = (k + 1..bytes.len()).take_while(|&i| is_digit(i)).last().unwrap_or(k);
+                let before = start.checked_sub(1).and_then(|i| bytes.get(i));
+                // `T_{0,6}`, `r(1,2)`, `1,2,3`
+                let is_index =
+                    matches!(before, Some(b'{' | b'_' | b',')) || bytes.get(end + 1) == Some(&b',');
+                let is_pair = before == Some(&b'(') && bytes.get(end + 1) == Some(&b')');
+                if is_index || is_pair {
+                    return None;
+                }
+                commas.push(k);
+            }
+            _ => {}
+        }
+    }
+    if commas.len() < 3 {
+        return None;
+    }
+    let mut bytes = text.as_bytes().to_vec();
+    commas.into_iter().for_each(|k| bytes[k] = b'.');
+    String::from_utf8(bytes).ok()
+}
+
 /// A number and the factor of the unit behind it, to metres, radians and seconds; nothing where there is no unit.
 pub(super) fn unit_behind(text: &str) -> Option<(&str, Expr)> {
     let degree = Expr::pi() / Expr::int(180);

@@ -29,6 +29,8 @@ pub(super) struct Plan {
     pub subjects: Vec<Rc<Subject>>,
     /// What the document means by names that may mean several things.
     pub habits: Rc<Habits>,
+    /// The document's own table, where another robot is given.
+    pub own_table: Option<Rc<Subject>>,
     /// Where claims stand that are taken as the author prints them.
     authors: BTreeSet<usize>,
     /// Place in the text and number of the robot, in the order of the text.
@@ -107,12 +109,16 @@ impl Plan {
             let letters = [0, 1].map(|k| table.letters[k].unwrap_or(convention[k]).to_string());
             let subject = Subject::printed(d.clone(), letters, table.variables.clone(), table.previous)?;
             let mut subject = with_names(subject, &mentioned);
+            // Rows 4 to 6 alone are those joints.
+            let is_alone = subject.description.rows.len() < table.first;
+            subject.first = if is_alone { table.first - 1 } else { 0 };
             subject.line = Some(line_column(text, table.span.start).0);
             Some(subject)
         };
         let habits = Rc::new(Habits::of(text).with_products(text, document));
         let authors = BTreeSet::new();
-        let mut plan = Plan { subjects: vec![], habits, authors, turns: vec![], has_robot: true };
+        let turns = vec![];
+        let mut plan = Plan { subjects: vec![], habits, own_table: None, authors, turns, has_robot: true };
         if let Some(robot) = robot {
             plan.push(0, named(robot));
         }
@@ -124,6 +130,10 @@ impl Plan {
             directives(document).map(|d| (d.span.start, Event::Directive(d))).collect();
         if robot.is_none() {
             events.extend(printed.iter().map(|t| (t.span.end, Event::Table(t))));
+        }
+        if robot.is_some() {
+            let first = printed.iter().find_map(|t| Some((t, t.robot.as_ref().ok()?)));
+            plan.own_table = first.and_then(|(t, (d, _))| from_table(d, t)).map(Rc::new);
         }
         events.sort_by_key(|e| e.0);
         let mut failed: Vec<Diagnostic> = vec![];
@@ -227,7 +237,8 @@ impl Plan {
         let changed = |s: &Rc<Subject>| change(s).map_or_else(|| Rc::clone(s), Rc::new);
         let subjects = self.subjects.iter().map(changed).collect();
         let (habits, turns) = (Rc::clone(&self.habits), self.turns.clone());
-        Plan { subjects, habits, authors: self.authors.clone(), turns, has_robot: self.has_robot }
+        let (own_table, authors) = (self.own_table.clone(), self.authors.clone());
+        Plan { subjects, habits, own_table, authors, turns, has_robot: self.has_robot }
     }
 
     /// The same document, claims at these places taken as the author prints them.

@@ -4,7 +4,7 @@
 
 use super::CheckOptions;
 use super::facts::{About, Meaning, Sense};
-use super::habits::{Columns, Habits, Places};
+use super::habits::{Columns, Habits, Places, with_named_signs};
 use super::numbers;
 use super::outcome::Finding;
 use super::plan::{Plan, Walked};
@@ -13,6 +13,7 @@ use super::walk::{Assertion, Piece, Spoken};
 use denavit_reading::document::Document;
 use denavit_reading::slip::Points;
 use denavit_symbolic::vocabulary::plain_name;
+use denavit_symbolic::{Expr, equal};
 use std::collections::BTreeSet;
 
 /// The most formulas of a document whose readings are weighed.
@@ -49,7 +50,8 @@ pub(super) fn weighed(
             break;
         }
         let mut best: Option<(usize, Plan, Walked, Score, Sense)> = None;
-        for (habits, sense, margin) in candidates(&plan.habits, &walked, &score) {
+        let tells_hand = !super::custom::hand_letters(text).is_empty();
+        for (habits, sense, margin) in candidates(&plan.habits, &walked, &score, tells_hand) {
             let other = plan.with_habits(habits);
             let there = other.walk(text, document, options);
             let own = trials.score(&other, &there);
@@ -69,7 +71,12 @@ pub(super) fn weighed(
 }
 
 /// Other habits that may explain what is wrong, how they are said, and how many more statements must be right.
-fn candidates(habits: &Habits, walked: &Walked, score: &Score) -> Vec<(Habits, Sense, usize)> {
+fn candidates(
+    habits: &Habits,
+    walked: &Walked,
+    score: &Score,
+    tells_hand: bool,
+) -> Vec<(Habits, Sense, usize)> {
     let wrong: Vec<&Assertion> =
         score.wrong.iter().filter_map(|&at| walked.assertions.iter().find(|a| a.span.start == at)).collect();
     let mut found = vec![];
@@ -95,6 +102,7 @@ fn candidates(habits: &Habits, walked: &Walked, score: &Score) -> Vec<(Habits, S
         .filter(|a| matches!(a.about, About::Entry | About::Equation) && a.spoken.is_none())
         .map(|a| plain_name(&super::custom::plain(&a.name)))
         .filter(|n| n.chars().count() <= 6 && n.chars().all(char::is_alphanumeric))
+        .filter(|n| may_be_helper(n, tells_hand))
         .collect();
     let families: BTreeSet<String> = names.iter().map(|n| family(n)).collect();
     let mut sets: Vec<BTreeSet<String>> =
@@ -105,6 +113,18 @@ fn candidates(habits: &Habits, walked: &Walked, score: &Score) -> Vec<(Habits, S
         found.push((Habits { helpers, ..habits.clone() }, Sense::Helper, 1));
     }
     found
+}
+
+/// True for a name that custom alone makes an entry of the pose; those of the position where the text gives the hand other
+/// letters.
+fn may_be_helper(name: &str, tells_hand: bool) -> bool {
+    let chars: Vec<char> = name.chars().collect();
+    match chars[..] {
+        ['r' | 't' | 'R' | 'T', a, b] if a.is_ascii_digit() && b.is_ascii_digit() => false,
+        ['n' | 'o' | 's' | 'a', 'x' | 'y' | 'z'] => false,
+        ['p' | 'P', 'x' | 'y' | 'z'] => tells_hand,
+        _ => true,
+    }
 }
 
 /// A name without the letter of its axis.
@@ -165,6 +185,15 @@ impl Trials {
                         }
                         _ => vec![pair.value],
                     };
+                    let variants = with_named_signs(variants);
+                    // A root has no value at a random point: the product of the differences has.
+                    if variants.len() > 1 {
+                        let product = variants.iter().fold(Expr::int(1), |p, &v| p * (pair.wanted - v));
+                        if variants.len() <= 4 && equal(product, Expr::int(0)).is_equal() {
+                            is_any = true;
+                            continue;
+                        }
+                    }
                     let values: Vec<_> = variants.into_iter().map(|v| self.points.value(v)).collect();
                     if wanted.is_none() || values.iter().all(Option::is_none) {
                         continue;

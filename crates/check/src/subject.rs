@@ -9,7 +9,7 @@ use denavit::forward::Reference;
 use denavit::geometry::{Axis, Rotation, Transform, Vector};
 use denavit::robot::Robot;
 use denavit::velocity::{Viewpoint, geometric};
-use denavit_symbolic::vocabulary::Vocabulary;
+use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
 use denavit_symbolic::{Expr, Symbol};
 use std::collections::BTreeMap;
 
@@ -25,6 +25,8 @@ pub(super) struct Subject {
     pub variables: Vec<Option<String>>,
     /// The index of lengths along x and of α is that of the row before.
     pub previous: bool,
+    /// The number of the frame before the first row, where the rows are not numbered from 1.
+    pub first: usize,
     /// What a document prints in place of what the robot gives.
     printed: Printed,
     robot: Robot<Expr>,
@@ -69,7 +71,7 @@ impl Subject {
         let robot = Robot::symbolic(&description);
         let q = description.variables().iter().map(|v| v.symbol.into()).collect();
         let printed = Printed::default();
-        Some(Subject { description, line: None, letters, variables, previous, printed, robot, q })
+        Some(Subject { description, line: None, letters, variables, previous, first: 0, printed, robot, q })
     }
 
     /// The same with another table.
@@ -208,9 +210,13 @@ impl Subject {
         for (variable, printed) in variables.iter().zip(&self.variables) {
             if let Some(printed) = printed {
                 names = declare(names, printed, variable.symbol.into());
+                if let Some(number) = plain_name(printed).strip_prefix("theta") {
+                    names = declare(names, &format!("θ{number}"), variable.symbol.into());
+                }
             }
         }
-        for (i, row) in (1..).zip(&d.rows) {
+        let first = i32::try_from(self.first).unwrap_or(0);
+        for (i, row) in (first + 1..).zip(&d.rows) {
             let k = i - i32::from(self.previous);
             for (letter, cell, i) in [(&self.letters[0], row.a, k), (&self.letters[1], row.d, i)] {
                 let cell = match row.variable {
@@ -228,7 +234,7 @@ impl Subject {
             };
             names = declare(names, &format!("θ{i}"), theta);
         }
-        let angles: Vec<(usize, Symbol)> = (1..)
+        let angles: Vec<(usize, Symbol)> = (self.first + 1..)
             .zip(&variables)
             .filter(|(i, v)| *i <= 9 && v.kind == JointKind::Revolute)
             .map(|(i, v)| (i, v.symbol))
@@ -238,7 +244,9 @@ impl Subject {
             for (number, symbol) in &angles[start + 1..] {
                 digits.push_str(&number.to_string());
                 sum = sum + (*symbol).into();
-                names = declare(names, &format!("θ{digits}"), sum);
+                for letter in ["θ", "th", "q"] {
+                    names = declare(names, &format!("{letter}{digits}"), sum);
+                }
             }
         }
         for index in ["i", "j", "n"] {
@@ -268,10 +276,20 @@ impl Subject {
     pub fn meaning(&self, name: &Name, anywhere: bool, habits: &Habits) -> Option<(Matrix, Meaning)> {
         let (from, to) = frames(name, habits)?;
         let place = |i: &Index| match i {
-            Index::Number(k) => Some(Some(*k)),
+            Index::Number(k) => k.checked_sub(self.first).map(Some),
             Index::End => Some(None),
             Index::Letter('n', 0) => Some(Some(self.last())),
             Index::Letter(..) => None,
+        };
+        // Letters for the base and the hand: `T_{BE}`, `T_{sb}`, `T_e^b`.
+        let is_base = |i: &Index| matches!(i, Index::Letter('s' | 'S' | 'b' | 'B' | 'w' | 'W', 0));
+        let is_hand = |i: &Index| matches!(i, Index::End | Index::Letter('b' | 't' | 'T', 0));
+        let is_space = matches!(from, Index::Letter('s' | 'S', 0));
+        let hand = matches!(to, Index::End) || is_hand(&to) && (is_space || !is_base(&to));
+        let (from, to) = match () {
+            () if is_base(&from) && hand && from != to => (Index::Number(self.first), Index::End),
+            () if is_base(&to) && from == Index::End => (Index::End, Index::Number(self.first)),
+            () => (from, to),
         };
         let (transform, frame) = match (&from, &to) {
             (Index::Letter(i, a), Index::Letter(j, b)) if i == j && (b - a).abs() == 1 && *b.max(a) == 0 => {
@@ -291,7 +309,9 @@ impl Subject {
             "T" | "A" | "H" | "M" => (Matrix::of(&transform), frame),
             "R" => (Matrix::of_rotation(&transform.rotation), Meaning::Rotation(frame.into())),
             "Z" | "z" => (Matrix::column(&transform.rotation.z()), Meaning::AxisZ(frame.into())),
-            "P" | "p" | "O" | "Ω" => (Matrix::column(&transform.translation), Meaning::Origin(frame.into())),
+            "P" | "p" | "O" | "Ω" | "o" => {
+                (Matrix::column(&transform.translation), Meaning::Origin(frame.into()))
+            }
             _ => return None,
         })
     }
@@ -322,7 +342,7 @@ pub(super) fn frames(name: &Name, habits: &Habits) -> Option<(Index, Index)> {
 /// The indices of a name: that of the frame in which it is seen first.
 fn indices(name: &Name, habits: &Habits) -> Option<(Index, Index)> {
     let base = Index::Number(0);
-    let is_vector = matches!(name.base.as_str(), "Z" | "z" | "O" | "Ω" | "P" | "p");
+    let is_vector = matches!(name.base.as_str(), "Z" | "z" | "O" | "Ω" | "P" | "p" | "o");
     if !is_vector && !matches!(name.base.as_str(), "T" | "A" | "H" | "M" | "R") {
         return None;
     }

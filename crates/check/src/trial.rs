@@ -56,6 +56,12 @@ impl Trial {
         Trial { points, angles: turning.map(|v| v.symbol).collect() }
     }
 
+    /// For each configuration whether the own value is among the printed ones.
+    pub fn own(&self, of: Expr, branches: &[Expr]) -> Vec<bool> {
+        let each = self.points.iter().map(|p| Trial { points: vec![p.clone()], angles: self.angles.clone() });
+        each.map(|trial| trial.shares(of, branches)[0] > 0.0).collect()
+    }
+
     /// The shares of configurations at which the own value is among the printed ones, and at which there are any.
     pub fn shares(&self, of: Expr, branches: &[Expr]) -> [f64; 2] {
         let is_angle = of.symbols().iter().all(|s| self.angles.contains(s));

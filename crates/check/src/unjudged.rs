@@ -130,6 +130,10 @@ fn helpers(text: &str, walked: &Walked, claims: &[Claim]) -> Vec<Claim> {
 
 /// True if a formula uses a name.
 fn mentions(source: &str, name: &str) -> bool {
+    mentions_in(source, name) || source.split_whitespace().any(|word| mentions_in(word, name))
+}
+
+fn mentions_in(source: &str, name: &str) -> bool {
     let (plain, name) = (super::custom::plain(source), super::custom::plain(name));
     let ends_in_digit = name.ends_with(|c: char| c.is_ascii_digit());
     let is_letter = |c: Option<char>| c.is_some_and(char::is_alphabetic);

@@ -2,7 +2,7 @@
 
 use super::{Assertion, Cell, Cells, Definition, MAX_ELEMENTS, Piece, Reference, Scalar, Walk};
 use crate::facts::{About, Meaning};
-use crate::jacobians::told_of_jacobian;
+use crate::jacobians::{Part as Rows, told_of_jacobian};
 use crate::matrix::Matrix;
 use crate::names::{Name, Token, tokens};
 use crate::note::{Unread, Unreadable};
@@ -179,13 +179,45 @@ impl Walk<'_> {
             .collect();
         let joints = self.subject.description.variables().len();
         let Some(values) = values.filter(|v| v.len() == joints) else { return false };
+        let plain = crate::custom::plain(self.source(name));
+        let is_rates = matches!(plain.as_str(), "dotq" | "dotθ" | "qdot" | "θdot" | "q\u{307}" | "θ\u{307}");
+        if is_rates && self.velocity_given().is_none() {
+            let rates = self.subject.rates();
+            for (rate, value) in rates.iter().filter_map(|e| e.as_symbol()).zip(values) {
+                self.at.give(rate, value);
+            }
+            self.taken.push(statement.span.clone());
+            return true;
+        }
         if !self.lexis.lone_name(self.text, name).is_some_and(|n| is_q(&n)) {
             return false;
         }
+        self.taken.push(statement.span.clone());
         for (joint, value) in values.into_iter().enumerate() {
             self.at.set(joint, value);
         }
         true
+    }
+
+    /// The velocity of the hand that the document gives as numbers: `v = (0.1, 0, 0)`.
+    fn velocity_given(&self) -> Option<Matrix> {
+        let name = Name { base: "v".into(), ..Name::default() };
+        let v = self.lexis.defined(&name)?;
+        let is_number = |e: &Option<Expr>| e.is_some_and(|e| e.symbols().is_empty());
+        (v.shape()? == (self.subject.joints().len(), 1) && v.0.iter().flatten().all(is_number))
+            .then(|| v.clone())
+    }
+
+    /// The joint rates that a velocity takes, where a statement is about them: `\dot q = J^{-1} v`.
+    fn rates_of(&self, statement: &Statement) -> Option<Reference> {
+        let [Part::Text(name)] = &statement.sides.first()?.parts[..] else { return None };
+        let plain = crate::custom::plain(self.source(name));
+        if !matches!(plain.as_str(), "dotq" | "dotθ" | "qdot" | "θdot" | "q\u{307}" | "θ\u{307}") {
+            return None;
+        }
+        let jacobian = self.subject.square_jacobian(Rows::Any)?;
+        let matrix = jacobian.inverse()?.times(&self.velocity_given()?)?;
+        Some(Reference { matrix, about: None })
     }
 
     /// The elementary transforms that a statement names, `Rot(x, θ)`.
@@ -252,7 +284,7 @@ impl Walk<'_> {
             (None, Some((i, reference))) => (i, Some(reference)),
             (None, None) => match jacobian() {
                 Some(reference) => (usize::MAX, Some(reference)),
-                None => (usize::MAX, None),
+                None => (usize::MAX, self.rates_of(statement)),
             },
         };
         let about = reference.as_ref().and_then(|r| r.about.clone()).map_or(About::Matrices, About::Matrix);
@@ -291,8 +323,9 @@ impl Walk<'_> {
             }
             None => {
                 // Nothing is known: what is printed later should be what is printed first.
+                let is_old = |i: usize| i == 0 && read.len() > 1 && self.redefined(statement, 0);
                 let first = read.iter().enumerate().find_map(|(i, r)| match r {
-                    Ok(Product { value: Some(matrix), .. }) => Some((i, matrix.clone())),
+                    Ok(Product { value: Some(matrix), .. }) if !is_old(i) => Some((i, matrix.clone())),
                     _ => None,
                 });
                 if let Some((i, matrix)) = first {

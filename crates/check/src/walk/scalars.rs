@@ -2,8 +2,9 @@
 
 use super::{Assertion, Defined, Pair, Piece, Reference, Scalar, Spoken, Walk};
 use crate::facts::About;
+use crate::habits::with_named_signs;
 use crate::jacobians::Part;
-use crate::lexis::set_in;
+use crate::lexis::{read, set_in};
 use crate::matrix::Matrix;
 use crate::names::Name;
 use crate::note::{Unread, Unreadable};
@@ -11,7 +12,7 @@ use denavit::forward::Reference as Frame;
 use denavit::geometry::orientation::OrientationSet;
 use denavit_reading::document::{Place, Statement};
 use denavit_symbolic::parse::{Function, Syntax, SyntaxKind};
-use denavit_symbolic::vocabulary::plain_name;
+use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
 use denavit_symbolic::{Angle, Expr, Node};
 use std::ops::Range;
 
@@ -77,6 +78,10 @@ impl Walk<'_> {
             Scalar::Lone(_) => true,
             Scalar::Formula(_, left) => {
                 let joint = left.value().as_symbol().filter(|s| self.subject.joints().contains(&(*s).into()));
+                // A helper may be defined anew: what it was before is not what it should be.
+                if matches!(left.kind, SyntaxKind::Name(_)) && self.lexis.is_helper(self.source(span)) {
+                    return !denavit_symbolic::equal(left.value(), formula.value()).is_equal();
+                }
                 let is_letter = self.source(span).starts_with('t') && !self.source(span).starts_with("th");
                 joint.is_some_and(|j| {
                     is_letter && formula.value() != left.value() && formula.value().symbols().contains(&j)
@@ -109,7 +114,7 @@ impl Walk<'_> {
             self.taken.push(statement.span.clone());
             return true;
         }
-        if self.is_condition(statement, &read) {
+        if self.is_condition(statement, &read) || self.is_goal(statement, &read) {
             self.taken.push(statement.span.clone());
             return true;
         }
@@ -146,6 +151,27 @@ impl Walk<'_> {
                         subject: self.number,
                     });
                     true
+                }
+                [Scalar::Broken(left, _), Scalar::Formula(span, syntax)] => {
+                    let inverse =
+                        self.lexis.inverse_formula(self.text, span).map_or(syntax.value(), |s| s.value());
+                    match (self.implied(left, syntax.value()), self.implied(left, inverse)) {
+                        (Some((name, value)), Some((_, inverse))) => {
+                            self.lexis.define(&name, value);
+                            self.lexis.define_inverse(&name, inverse);
+                            self.defined.push(Defined {
+                                name,
+                                statement: statement.span.clone(),
+                                shown: self.claim_name(statement),
+                                span: span.clone(),
+                                printed: syntax.clone(),
+                                value: syntax.value(),
+                                subject: self.number,
+                            });
+                            return true;
+                        }
+                        _ => false,
+                    }
                 }
                 _ => false,
             };
@@ -248,16 +274,27 @@ impl Walk<'_> {
         match determinant {
             Some(determinant) => {
                 let there = determinant.substitute(|s| (Some(s) == of.as_symbol()).then_some(value));
-                let mut assertion = self.assertion(statement, About::Singularity);
-                assertion.pieces = vec![Piece::Pair(Pair {
+                let piece = Piece::Pair(Pair {
                     place: None,
                     span: span.clone(),
                     printed: None,
                     value: there,
                     wanted: Expr::int(0),
                     also: vec![],
-                })];
-                self.assertions.push(assertion);
+                });
+                // The configurations of a sentence are one claim.
+                let last = self.assertions.last_mut().filter(|a| a.about == About::Singularity);
+                match last.filter(|a| statement.span.start.saturating_sub(a.span.end) < 120) {
+                    Some(assertion) => {
+                        assertion.span.end = statement.span.end;
+                        assertion.pieces.push(piece);
+                    }
+                    None => {
+                        let mut assertion = self.assertion(statement, About::Singularity);
+                        assertion.pieces = vec![piece];
+                        self.assertions.push(assertion);
+                    }
+                }
             }
             None => self.taken.push(statement.span.clone()),
         }
@@ -273,6 +310,44 @@ impl Walk<'_> {
             && is_constant
             && !left.value().symbols().is_empty()
             && (!is_entry || !denavit_symbolic::equal(left.value(), right.value()).is_equal())
+    }
+
+    /// True for an entry of the pose that a sentence gives a value in which no joint occurs: `with px = 0.6, pz = d1`.
+    fn is_goal(&self, statement: &Statement, read: &[Scalar]) -> bool {
+        let [Scalar::Formula(span, left), Scalar::Formula(_, right)] = read else { return false };
+        let joints = self.subject.joints();
+        let moves = |e: Expr| e.symbols().iter().any(|s| joints.contains(&(*s).into()));
+        statement.place == Place::Inline
+            && self.is_right_name(span)
+            && moves(left.value())
+            && !moves(right.value())
+            && (right.value().symbols().is_empty() || !self.lexis.is_by_custom(self.source(span)))
+            && !self.speaks_of_pose(&statement.sides[1].span)
+            && !(right.value().symbols().is_empty() && self.at.knows(left.value(), &self.subject))
+    }
+
+    /// What a name is whose function a side is: `cos ε = …`, `r² = …`; with the value that the name has then.
+    fn implied(&self, span: &Range<usize>, value: Expr) -> Option<(String, Expr)> {
+        let open = Vocabulary::new().open(true);
+        let syntax = read(self.text, span, &open).ok()?;
+        let mut inner = &syntax;
+        while let SyntaxKind::Bracket(next) = &inner.kind {
+            inner = next;
+        }
+        let whole = inner.value();
+        let [symbol] = whole.symbols()[..] else { return None };
+        let name = symbol.name().to_string();
+        if self.lexis.names.lookup(&name).is_some() {
+            return None;
+        }
+        let e = Expr::from(symbol);
+        let value = match () {
+            () if whole == e.cos() => Function::Arccos.of(&[value]),
+            () if whole == e.sin() => Function::Arcsin.of(&[value]),
+            () if whole == e.powi(2) => value.sqrt(),
+            () => return None,
+        };
+        Some((name, value))
     }
 
     /// Keeps what is printed for the sine or cosine of a joint: `c_3 = D`, `s_3 = ±√(1 − D²)`.
@@ -354,6 +429,7 @@ impl Walk<'_> {
                 }
             }
         }
+        let branches = with_named_signs(branches);
         Some(Spoken::Joint { of, sides, branches })
     }
 
@@ -443,7 +519,10 @@ pub(super) fn replaced(syntax: &Syntax, by: &[(Expr, Expr)], depth: usize) -> Ex
     }
     let inner = |s: &Syntax| replaced(s, by, depth + 1);
     match &syntax.kind {
-        SyntaxKind::Name(e) => by.iter().find(|b| b.0 == *e).map_or(*e, |b| b.1),
+        SyntaxKind::Name(e) => {
+            let mut change = |old: Expr, new: Expr| by.iter().find(|b| b.0 == old).map_or(new, |b| b.1);
+            crate::inverse::rebuilt(*e, &mut change)
+        }
         SyntaxKind::Number(_) => syntax.value(),
         SyntaxKind::Sum(terms) => {
             terms.iter().fold(Expr::int(0), |sum, (sign, term)| match sign.is_minus() {

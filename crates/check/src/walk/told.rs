@@ -58,6 +58,7 @@ impl Walk<'_> {
             return;
         }
         let joined = line.replace('$', " ").replace("\\left", "     ").replace("\\right", "      ");
+        let joined = joined.replace("\\,", "  ").replace("\\;", "  ");
         self.told_lists(&joined);
         self.told_tuples(&joined, prose.start);
         let parts: Vec<&str> = joined.split('=').collect();
@@ -108,6 +109,8 @@ impl Walk<'_> {
             let before = line[..at].trim_end();
             let name = before.rsplit([' ', ',', ';', ':']).next().unwrap_or_default();
             let plain = crate::custom::plain(&name.replace(['(', ')', '*'], ""));
+            let is_dotted = before[..before.len() - name.len()].trim_end().ends_with("\\dot");
+            let plain = if is_dotted { format!("dot{plain}") } else { plain };
             let plain =
                 plain.trim_start_matches("mathbf").trim_start_matches("boldsymbol").trim_start_matches("vec");
             let is_joints = matches!(plain, "q" | "θ" | "Θ" | "ϑ" | "Q");

@@ -58,6 +58,7 @@ fn what_claims_are_about() {
         Meaning::RotationAbout(Axis::Z),
         Meaning::TranslationAlong(Axis::X),
         Meaning::Translation,
+        Meaning::Torques,
         jacobian(Reference::Tool, Reference::Frame(0), false, 6),
         jacobian(last, Reference::Tool, false, 4),
     ] {

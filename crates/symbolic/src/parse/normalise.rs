@@ -253,6 +253,7 @@ impl Normaliser<'_> {
             // The rate of a name is a name: `\dot{q}_1` is `dotq1`.
             self.push(' ', start..start);
             "dot".chars().for_each(|c| self.push(c, span.clone()));
+            self.at += self.text[self.at..].len() - self.text[self.at..].trim_start().len();
             self.wrapper();
         } else if !IGNORED.contains(&name) {
             self.errors.push(ParseError::new(span, format!("unknown command `\\{name}`")));

@@ -55,6 +55,7 @@ impl Check for English {
             Meaning::RotationAbout(axis) => format!("the rotation about {axis}"),
             Meaning::TranslationAlong(axis) => format!("the translation along {axis}"),
             Meaning::Translation => "a translation".into(),
+            Meaning::Torques => "the torques of the joints".into(),
             Meaning::Jacobian(jacobian) => matrix_of_velocities(jacobian),
         }
     }
@@ -186,6 +187,9 @@ impl Check for English {
         match why {
             Unproved::NoLength => "a length has no value: state it before, `a1 = 0.5 m`",
             Unproved::NotFound => "neither proved equal nor different anywhere that was tried",
+            Unproved::OwnTable => {
+                "right by the table of the document, which was not held against that of the robot"
+            }
             Unproved::NotOfSet => "these are no angles of that set",
             Unproved::Values(why) => return self.undecided(why),
         }
@@ -209,6 +213,7 @@ impl Check for English {
     fn slip(&self, kind: &SlipKind) -> String {
         match kind {
             SlipKind::Formula(slip) => self.formula_slip(slip),
+            SlipKind::Arguments => "the arguments of atan2 exchanged".into(),
             SlipKind::ExchangedWith(r, c) => format!("exchanged with row {r}, column {c}"),
             SlipKind::OtherEntry => "another entry".into(),
         }

@@ -55,6 +55,7 @@ impl Check for French {
             Meaning::RotationAbout(axis) => format!("la rotation autour de {axis}"),
             Meaning::TranslationAlong(axis) => format!("la translation suivant {axis}"),
             Meaning::Translation => "une translation".into(),
+            Meaning::Torques => say!("les couples des articulations"),
             Meaning::Jacobian(jacobian) => matrix_of_velocities(jacobian),
         }
     }
@@ -197,6 +198,9 @@ impl Check for French {
         printed(match why {
             Unproved::NoLength => "une longueur n'a pas de valeur : la donner auparavant, `a1 = 0.5 m`",
             Unproved::NotFound => "ni égalité démontrée, ni différence trouvée en aucun des essais",
+            Unproved::OwnTable => {
+                "juste selon le tableau du document, qui n'a pas été comparé à celui du robot"
+            }
             Unproved::NotOfSet => "ce ne sont pas des angles de ce triplet",
             Unproved::Values(why) => return self.undecided(why),
         })
@@ -219,6 +223,7 @@ impl Check for French {
     fn slip(&self, kind: &SlipKind) -> String {
         match kind {
             SlipKind::Formula(slip) => self.formula_slip(slip),
+            SlipKind::Arguments => printed("les arguments de atan2 échangés"),
             SlipKind::ExchangedWith(r, c) => say!("échangé avec l'élément de la ligne {r}, colonne {c}"),
             SlipKind::OtherEntry => say!("l'élément d'une autre place"),
         }
