@@ -206,7 +206,6 @@ impl Reader<'_> {
             }
             if !matches!(kind, Kind::Operator | Kind::Relation(_) | Kind::Open(_) | Kind::Quad | Kind::Amp)
                 && depth == 0
-                || matches!(kind, Kind::Close(_)) && depth == 0
             {
                 last = Some(k);
             }
