@@ -114,7 +114,7 @@ impl Table {
     /// The entry of a Jacobian that a formula is, for a claim about one.
     fn jacobian(&self, claim: &Claim, place: Option<(usize, usize)>, e: Expr) -> Option<Quantity> {
         let (About::Matrix(Meaning::Jacobian(j)), (r, c)) = (&claim.about, place?) else { return None };
-        let row = if j.is_angular_first { (r + 2) % 6 } else { r - 1 };
+        let row = usize::from(*j.order.get(r - 1)?);
         let view = Viewpoint::of(j.body, j.axes);
         let entry = *geometric(&self.robot, &self.q, &view).columns.get(c - 1)?.get(row)?;
         let frame = |f: Reference| Frame::from(f);

@@ -11,6 +11,7 @@ use denavit::description::{Convention, Description, Row};
 use denavit_reading::document::Document;
 use denavit_reading::slip::Points;
 use denavit_symbolic::{Expr, equal};
+use std::rc::Rc;
 
 /// A change of the table.
 struct Hypothesis {
@@ -64,7 +65,7 @@ pub(super) fn causes(
     let mut found: Vec<(i64, Cause, Plan)> = vec![];
     for hypothesis in hypotheses(plan).into_iter().take(MAX_WORK / all.max(1)) {
         let changed = plan.with(&|s: &Subject| {
-            let is_meant = std::ptr::eq(s, &raw const plan.subjects[hypothesis.robot]);
+            let is_meant = std::ptr::eq(s, Rc::as_ptr(&plan.subjects[hypothesis.robot]));
             let same = same_row(s, &plan.subjects[hypothesis.robot]);
             (is_meant || same).then(|| s.with((hypothesis.changed)(&s.description)))
         });
@@ -86,6 +87,10 @@ pub(super) fn causes(
             }
             for (e, (before, after)) in a.pieces.iter().zip(&b.pieces).enumerate() {
                 let (Piece::Pair(before), Piece::Pair(after)) = (before, after) else { continue };
+                // Which sign is meant is not known here.
+                if before.printed.as_ref().is_some_and(|s| s.sign_choices() > 0) {
+                    continue;
+                }
                 let was = standing.get(c).and_then(|s| s.get(e)).copied().unwrap_or(false);
                 if before.wanted == after.wanted && before.value == after.value {
                     if !was && is_wrong(c, e) {

@@ -20,6 +20,10 @@ pub enum About {
     Entry,
     /// Formulas that are said to be equal.
     Equation,
+    /// A name that what is proved uses.
+    Helper,
+    /// A configuration at which the arm is said to be singular.
+    Singularity,
     /// Values of a joint.
     Joint,
     /// An angle of an orientation.
@@ -76,6 +80,8 @@ pub enum Meaning {
     Translation,
     /// A Jacobian.
     Jacobian(Jacobian),
+    /// The torques of the joints for a load on the hand.
+    Torques,
 }
 
 /// Which Jacobian a matrix is.
@@ -89,6 +95,8 @@ pub struct Jacobian {
     pub is_angular_first: bool,
     /// How many rows there are.
     pub rows: usize,
+    /// Which rows of the full one they are, linear ones from 0, angular ones from 3; those behind `rows` do not count.
+    pub order: [u8; 6],
 }
 
 impl Meaning {
@@ -191,6 +199,8 @@ pub enum Remark {
     Sampled,
     /// Compared with all solutions at so many poses.
     Compared(usize),
+    /// It is read in a sense that is not the first one: the rest of the document supports it.
+    ReadAs(Sense),
     /// A function or a root loses a sign.
     SignLost {
         /// Which of several values (from 0).
@@ -227,6 +237,21 @@ pub enum Remark {
     FailsAt(Vec<f64>),
     /// The left side minus the right one.
     Residual(Formula),
+}
+
+/// A meaning of a name that is not the first one.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Sense {
+    /// A number behind `T` is that of a link, not of a frame in the base.
+    LinkAlone,
+    /// The left index is the frame, the right one that in which it is seen.
+    IndicesExchanged,
+    /// The name is a helper, not an entry of the pose.
+    Helper,
+    /// `atan2` has the cosine first.
+    CosineFirst,
+    /// The columns of the pose are s, n, a, P.
+    ColumnsSnap,
 }
 
 /// A printed row with fewer elements than others.
@@ -279,6 +304,8 @@ pub enum Unproved {
     NoLength,
     /// Neither proved equal nor found different.
     NotFound,
+    /// It is right by the document's own table, which is not that of the robot.
+    OwnTable,
     /// The names are those of no angles of the set.
     NotOfSet,
     /// What the judge of values says.
@@ -290,6 +317,8 @@ pub enum Unproved {
 pub enum SlipKind {
     /// A change of the formula.
     Formula(Slip),
+    /// The arguments of `atan2` are exchanged.
+    Arguments,
     /// It stands in another entry's place (row and column from 1), and that one in its place.
     ExchangedWith(usize, usize),
     /// The entry of another place.
@@ -301,6 +330,7 @@ impl SlipKind {
     pub fn id(&self) -> &'static str {
         match self {
             SlipKind::Formula(slip) => slip.id(),
+            SlipKind::Arguments => "arguments",
             SlipKind::ExchangedWith(..) => "transposed",
             SlipKind::OtherEntry => "entry",
         }

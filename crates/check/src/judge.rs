@@ -2,8 +2,8 @@
 
 use super::facts::{Condition, Remark, SlipKind, Unproved};
 use super::formula::Formula;
+use super::habits::with_named_signs;
 use super::inverse::Composed;
-use super::lexis::Columns;
 use super::numbers;
 use super::outcome::{Claim, Counterexample, Entry, Finding, Patch, Slip, Standing, Wrong};
 use super::plan::{Plan, Walked};
@@ -33,7 +33,7 @@ pub(super) fn judge(
 ) -> (Vec<Claim>, Vec<(Range<usize>, Composed)>) {
     let mut judge = Judge { tolerance, ..Judge::new(text, plan, walked) };
     let mut claims: Vec<Claim> = walked.assertions.iter().map(|a| judge.claim(a)).collect();
-    let (values, notes) = values::judge(plan, walked, Columns::of(text));
+    let (values, notes) = values::judge(text, plan, walked, plan.habits.columns);
     for (at, claim) in values {
         claims[at] = claim;
     }
@@ -177,7 +177,7 @@ impl<'a> Judge<'a> {
 
     fn finding(&mut self, pair: &Pair, subject: usize) -> Finding {
         if let Some(printed) = &pair.printed
-            && printed.sign_choices() > 0
+            && (printed.sign_choices() > 0 || with_named_signs(vec![pair.value]).len() > 1)
         {
             return self.with_signs(printed, pair);
         }
@@ -198,7 +198,12 @@ impl<'a> Judge<'a> {
 
     /// A formula with ±: one of the signs is right at each configuration, or none.
     fn with_signs(&self, printed: &Syntax, pair: &Pair) -> Finding {
-        let values: Vec<Expr> = printed.variants().iter().map(Syntax::value).collect();
+        let values: Vec<Expr> = with_named_signs(printed.variants().iter().map(Syntax::value).collect());
+        // One of the values is right in each configuration if the product of all differences vanishes.
+        let product = values.iter().fold(Expr::int(1), |p, &v| p * (pair.wanted - v));
+        if values.len() <= 4 && equal(product, Expr::int(0)).is_equal() {
+            return Finding::Equal { unless_zero: vec![] };
+        }
         let is_one = values.iter().any(|&v| equal(v, pair.wanted).is_equal());
         if is_one {
             return Finding::Conditional { condition: Condition::OneSign, correct: vec![], remarks: vec![] };

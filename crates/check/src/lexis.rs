@@ -1,6 +1,9 @@
 //! What the names of a document mean at a place of it: the robot's quantities, and what was defined further up.
 
+use super::custom;
 use super::facts::Meaning;
+use super::habits::{Habits, Places, named_signs, pose_symbol};
+use super::jacobians;
 use super::matrix::Matrix;
 use super::names::{Name, Token, tokens};
 use super::subject::{Subject, elementary};
@@ -13,6 +16,7 @@ use denavit_symbolic::{Expr, Node, Symbol};
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
+use std::rc::Rc;
 
 /// No more names are kept.
 const MAX_NAMES: usize = 2_000;
@@ -23,30 +27,6 @@ const MAX_NUMBER_BITS: u64 = 4_096;
 /// The axes of coordinates.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// The letters of a pose's columns.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Columns {
-    /// n, o, a, p
-    Noap,
-    /// s, n, a, P
-    Snap,
-}
-
-impl Columns {
-    fn letters(self) -> [&'static str; 4] {
-        match self {
-            Columns::Noap => ["n", "o", "a", "p"],
-            Columns::Snap => ["s", "n", "a", "p"],
-        }
-    }
-
-    /// Those that a text uses.
-    pub fn of(text: &str) -> Self {
-        let plain: String = plain_name(text);
-        if plain.contains("ox") || !plain.contains("sx") { Columns::Noap } else { Columns::Snap }
-    }
-}
-
 /// Names and their meanings.
 #[derive(Clone)]
 pub(super) struct Lexis {
@@ -54,29 +34,31 @@ pub(super) struct Lexis {
     pub names: Vocabulary,
     /// Entries of the pose are symbols.
     pub inverse: Vocabulary,
-    columns: Columns,
+    pub habits: Rc<Habits>,
+    /// What the names of the whole document are looked for in.
+    text: Rc<str>,
     /// Names that the robot gives their meaning, not the document.
     right: BTreeSet<String>,
+    /// Those that have it by custom only.
+    by_custom: BTreeSet<String>,
     matrices: BTreeMap<String, (Matrix, Option<Meaning>)>,
     scalars: Vec<(String, Expr)>,
     /// Frames named by letters are anywhere.
     pub anywhere: Cell<bool>,
 }
 
-/// The symbol of an entry of the pose in inverse formulas, row and column from 0.
-pub(super) fn pose_symbol(columns: Columns, row: usize, column: usize) -> Symbol {
-    Symbol::new(&format!("{}{}", columns.letters()[column], AXES[row]))
-}
-
 impl Lexis {
     /// The names of a robot in a document whose pose has these columns.
-    pub fn new(subject: &Subject, columns: Columns) -> Self {
+    pub fn new(subject: &Subject, habits: &Rc<Habits>, text: &Rc<str>) -> Self {
         let names = subject.vocabulary().degrees(true);
+        let columns = habits.columns;
         let mut lexis = Lexis {
             inverse: names.clone(),
             names,
-            columns,
+            habits: Rc::clone(habits),
+            text: Rc::clone(text),
             right: BTreeSet::new(),
+            by_custom: BTreeSet::new(),
             matrices: BTreeMap::new(),
             scalars: vec![],
             anywhere: Cell::new(false),
@@ -85,12 +67,11 @@ impl Lexis {
             return lexis;
         }
         let pose = subject.pose().matrix();
+        lexis.by_custom.extend(AXES.iter().flat_map(|a| [a.to_string(), a.to_uppercase()]));
+        lexis.by_custom.retain(|name| lexis.names.lookup(name).is_none());
         for (r, axis) in AXES.iter().enumerate() {
             for name in [axis.to_string(), axis.to_uppercase()] {
-                if lexis.inverse.lookup(&name).is_none() {
-                    let symbol = pose_symbol(columns, r, 3);
-                    lexis.inverse = std::mem::take(&mut lexis.inverse).alias(&name, symbol.into());
-                }
+                lexis.declare(&name, pose[r][3], pose_symbol(columns, r, 3).into());
             }
         }
         for (r, axis) in AXES.iter().enumerate() {
@@ -110,12 +91,27 @@ impl Lexis {
                 }
             }
         }
+        for (name, sign) in named_signs(&custom::plain(text).replace('$', "")) {
+            if lexis.names.lookup(name).is_none() {
+                lexis.names = std::mem::take(&mut lexis.names).alias(name, sign);
+                lexis.inverse = std::mem::take(&mut lexis.inverse).alias(name, sign);
+            }
+        }
+        if let Some(torques) = custom::torque_column(subject, text) {
+            let name = Name { base: "τ".into(), ..Name::default() };
+            lexis.matrices.insert(name.key(), (torques, Some(Meaning::Torques)));
+        }
+        for custom in custom::names(subject, text, &Places(columns)) {
+            if lexis.declare(&custom.name, custom.meaning, custom.inverse) {
+                lexis.by_custom.insert(plain_name(&custom.name));
+            }
+        }
         lexis
     }
 
     /// The names of another robot, with what the document has defined so far.
     pub fn of(&self, subject: &Subject) -> Self {
-        let mut lexis = Lexis::new(subject, self.columns);
+        let mut lexis = Lexis::new(subject, &self.habits, &self.text);
         for (name, meaning) in &self.scalars {
             if lexis.names.lookup(name).is_none() {
                 lexis.define(name, *meaning);
@@ -124,13 +120,34 @@ impl Lexis {
         lexis
     }
 
-    /// A name that the robot gives its meaning, unless the name is taken.
-    fn declare(&mut self, name: &str, meaning: Expr, in_inverse: Expr) {
-        if self.names.lookup(name).is_none() {
+    /// The same names about a robot whose pose is another.
+    pub fn posed(&self, subject: &Subject) -> Self {
+        let mut lexis = self.of(subject);
+        lexis.matrices = self.matrices.clone();
+        lexis
+    }
+
+    /// A name that the robot gives its meaning, unless the name is taken, or a helper by the habits of the document.
+    fn declare(&mut self, name: &str, meaning: Expr, in_inverse: Expr) -> bool {
+        let is_free = self.names.lookup(name).is_none() && !self.habits.helpers.contains(&plain_name(name));
+        if is_free {
             self.names = std::mem::take(&mut self.names).alias(name, meaning);
             self.inverse = std::mem::take(&mut self.inverse).alias(name, in_inverse);
             self.right.insert(plain_name(name));
         }
+        is_free
+    }
+
+    /// True for a name that the document has defined by a formula.
+    pub fn is_helper(&self, name: &str) -> bool {
+        let plain = plain_name(name);
+        !self.right.contains(&plain) && self.scalars.iter().any(|(n, _)| plain_name(n) == plain)
+    }
+
+    /// True for a name whose meaning is one by custom only.
+    pub fn is_by_custom(&self, name: &str) -> bool {
+        let plain = custom::plain(name);
+        self.by_custom.contains(&plain) && self.right.contains(&plain)
     }
 
     /// A name that the document gives its meaning. What is no formula that a person would print is given none:
@@ -179,6 +196,11 @@ impl Lexis {
         places.fold(self.inverse.clone(), |names, (r, c)| names.symbol(&self.pose_symbol(r, c).name()))
     }
 
+    /// The matrix that the document gives a name.
+    pub fn defined(&self, name: &Name) -> Option<&Matrix> {
+        self.matrices.get(&name.key()).map(|m| &m.0)
+    }
+
     /// True if the document has defined this matrix.
     pub fn has_defined(&self, name: &Name) -> bool {
         self.matrices.contains_key(&name.key())
@@ -191,7 +213,7 @@ impl Lexis {
 
     /// The symbol of an entry of the pose.
     pub fn pose_symbol(&self, row: usize, column: usize) -> Symbol {
-        pose_symbol(self.columns, row, column)
+        pose_symbol(self.habits.columns, row, column)
     }
 
     /// True if the robot, not the document, says what a name means.
@@ -226,14 +248,22 @@ impl Lexis {
     /// What a matrix's name means, powers included, and what that is if it is known from the robot.
     pub fn matrix(&self, subject: &Subject, name: &Name) -> Option<(Matrix, Option<Meaning>)> {
         let anywhere = self.anywhere.get();
-        let is_free = || crate::subject::frames(name).is_some_and(|(i, j)| i.is_letter() && j.is_letter());
+        let is_free = || {
+            crate::subject::frames(name, &self.habits).is_some_and(|(i, j)| i.is_letter() && j.is_letter())
+        };
         let known = self.matrices.get(&name.key()).filter(|_| !(anywhere && is_free()));
         let found = match known {
             Some(found) => found.clone(),
             None => {
                 let value = |argument: &str| self.argument(argument);
-                match elementary(name, &value).or_else(|| subject.meaning(name, anywhere)) {
+                let by_robot = || subject.meaning(name, anywhere, &self.habits);
+                let is_own = self.habits.products.contains(&name.key());
+                match elementary(name, &value).or_else(|| by_robot().filter(|_| !is_own)) {
                     Some((matrix, about)) => (matrix, Some(about)),
+                    None if name.base == "J" && (name.is_inverse || name.is_transposed) => {
+                        let part = jacobians::told(name).part;
+                        (subject.square_jacobian(part)?, None)
+                    }
                     None => (self.matrices.get(&name.backwards()?.key())?.0.inverse()?, None),
                 }
             }

@@ -5,11 +5,17 @@
 //! (`judge`). For what is wrong, the smallest change that mends it is looked for, first of the robot's table (`causes`),
 //! then of the formula (`denavit_reading::slip`).
 
+mod carried;
 mod causes;
+mod convention;
+mod custom;
 mod definitions;
+mod edits;
 mod facts;
 mod formula;
+mod habits;
 pub mod inverse;
+mod jacobians;
 mod judge;
 mod lexis;
 mod matrix;
@@ -20,20 +26,24 @@ mod outcome;
 mod plan;
 mod product;
 mod programs;
+mod readings;
 mod subject;
+mod trial;
+mod unjudged;
 mod values;
 mod walk;
 mod whole;
 
 pub use facts::{
-    About, Change, Condition, Instead, Jacobian, Meaning, Remark, ShortRow, SlipKind, TableCell, Unproved,
-    Zeros,
+    About, Change, Condition, Instead, Jacobian, Meaning, Remark, Sense, ShortRow, SlipKind, TableCell,
+    Unproved, Zeros,
 };
 pub use formula::Formula;
 pub use note::{Note, Noted, Unread, Unreadable};
 pub use numbers::decimal;
 pub use outcome::{
-    Cause, Checked, Claim, Counterexample, Entry, Finding, Patch, Slip, Standing, Tally, Wrong,
+    Cause, Checked, Claim, Counterexample, Entry, Finding, Patch, Skipped, Slip, Standing, Tally, Unjudged,
+    Wrong,
 };
 
 use denavit::description::{Description, TableOptions};
@@ -78,17 +88,23 @@ pub fn check(
         notes.error(0..0, Noted::TooLong { bytes: text.len(), most: MAX_BYTES });
         return Err(notes.found());
     }
+    let respelled = numbers::decimal_points(text);
+    let text = respelled.as_deref().unwrap_or(text);
     let document = match options.language {
         Some(_) => Document::default(),
         None => document::read(text, format),
     };
     let plan = Plan::of(text, format, &document, robot, options, &mut notes)?;
+    let (plan, senses) = readings::weighed(text, &document, plan, options);
+    for sense in senses {
+        notes.note(0..0, Noted::Reading(sense));
+    }
     let walked = plan.walk(text, &document, options);
     if !plan.has_robot && walked.assertions.is_empty() {
         notes.error(0..0, Noted::NoRobot);
         return Err(notes.found());
     }
-    for (span, error) in &walked.skipped {
+    for (span, error) in walked.skipped.iter().filter(|s| s.1 == Unreadable::Alias) {
         notes.note(span.clone(), Noted::PassedOver(error.clone()));
     }
     for error in &walked.refused {
@@ -105,10 +121,18 @@ pub fn check(
     if causes.is_empty() {
         causes = causes::causes(text, &document, &plan, options, &walked, &mut claims);
     }
-    Ok(Checked {
+    carried::carry(text, &document, &plan, options, &walked, &mut claims);
+    if let Some(own) = plan.own_table.clone() {
+        carried::by_own_table(text, &document, &plan, &own, options, &walked, &mut claims);
+    }
+    let unjudged = unjudged::listed(text, &document, &walked, &mut claims, options);
+    let mut checked = Checked {
         claims,
         causes,
+        unjudged,
         notes: notes.sorted(),
         robots: plan.subjects.iter().map(|s| s.description.clone()).collect(),
-    })
+    };
+    checked.sort();
+    Ok(checked)
 }

@@ -1,6 +1,7 @@
 //! Matrices of formulas, some entries of which may be left out.
 
 use denavit::geometry::{Rotation, Transform, Vector};
+use denavit_reading::slip::Points;
 use denavit_symbolic::Expr;
 
 /// A matrix by rows. Rows of a printed one may differ in length; an entry that is left out is `None`.
@@ -81,8 +82,57 @@ impl Matrix {
         Some(Matrix::column(&vector(self)?.cross(vector(o)?)))
     }
 
-    /// The inverse of a rotation or a homogeneous matrix, as such.
+    /// All entries divided by a factor.
+    pub fn divided_by(&self, factor: Expr) -> Self {
+        Matrix(self.0.iter().map(|r| r.iter().map(|e| e.map(|e| e / factor)).collect()).collect())
+    }
+
+    /// The inverse: of a rotation or a rigid motion as such, of another small matrix by its cofactors.
     pub fn inverse(&self) -> Option<Self> {
+        let (rows, columns) = self.shape()?;
+        if rows != columns || rows > 4 {
+            return None;
+        }
+        if rows >= 3 && self.is_rigid() {
+            return self.rigid_inverse();
+        }
+        let determinant = self.determinant()?;
+        if determinant.is_zero() {
+            return None;
+        }
+        let minor = |r: usize, c: usize| {
+            let kept = self.0.iter().enumerate().filter(|x| x.0 != r).map(|(_, row)| {
+                row.iter().enumerate().filter(|x| x.0 != c).map(|x| *x.1).collect::<Vec<Option<Expr>>>()
+            });
+            let rest: Vec<Vec<Option<Expr>>> = kept.collect();
+            if rest.is_empty() { Some(Expr::int(1)) } else { Matrix(rest).determinant() }
+        };
+        let mut inverse = vec![vec![None; rows]; rows];
+        for (r, row) in inverse.iter_mut().enumerate() {
+            for (c, entry) in row.iter_mut().enumerate() {
+                let cofactor = minor(c, r)?;
+                *entry = Some(if (r + c) % 2 == 0 { cofactor } else { -cofactor } / determinant);
+            }
+        }
+        Some(Matrix(inverse))
+    }
+
+    /// True if the first three rows and columns are a rotation, and a fourth row says nothing; entries left out count as right.
+    fn is_rigid(&self) -> bool {
+        let mut points = Points::new(17);
+        let mut is =
+            |e: Option<Expr>, n: i64| e.is_none_or(|e| points.value(e) == points.value(Expr::int(n)));
+        let rows = || (0..3).flat_map(|i| (i..3).map(move |j| (i, j)));
+        let dot = |i: usize, j: usize| {
+            (0..3).try_fold(Expr::int(0), |sum, k| Some(sum + self.entry(i, k)? * self.entry(j, k)?))
+        };
+        let turns = rows().all(|(i, j)| is(dot(i, j), i64::from(i == j)));
+        let last = self.0.len() == 3 || (0..4).all(|c| is(self.entry(3, c), i64::from(c == 3)));
+        turns && last
+    }
+
+    /// The inverse of a rotation or a homogeneous matrix, as such.
+    fn rigid_inverse(&self) -> Option<Self> {
         let at = |r: usize, c: usize| self.entry(r, c);
         let rotation = || {
             let mut rows = [[Expr::int(0); 3]; 3];

@@ -1,6 +1,6 @@
 //! What is worth saying of a document beside its verdicts, and why parts of it are not read.
 
-use super::facts::ShortRow;
+use super::facts::{Sense, ShortRow};
 use super::inverse::Composed;
 use denavit::description::{Convention, Diagnostic, NotSet, Severity};
 use denavit_symbolic::parse::ParseError;
@@ -43,6 +43,8 @@ pub enum Noted {
     NoRobot,
     /// The tables are read in the convention that the text names.
     ReadAs(Convention),
+    /// Names are read in a sense that is not the first one: the document supports it.
+    Reading(Sense),
     /// A directive names a robot that is not in the catalogue.
     UnknownRobot(String),
     /// A parameter that is to have a value does not get it.

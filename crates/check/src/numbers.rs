@@ -31,6 +31,8 @@ pub(super) struct Answer {
     pub half: f64,
     pub wanted: Expr,
     pub at: Configuration,
+    /// What is printed, where it is exact.
+    pub constant: Option<Expr>,
 }
 
 impl Configuration {
@@ -53,10 +55,12 @@ impl Configuration {
         }
     }
 
-    /// True if all joints of a robot have values.
-    pub fn is_complete(&self, subject: &Subject) -> bool {
-        let joints = subject.description.variables().len();
-        self.values.len() >= joints && self.values[..joints].iter().all(Option::is_some)
+    /// True if all joints that a formula speaks of have values.
+    pub fn knows(&self, e: Expr, subject: &Subject) -> bool {
+        let variables = subject.description.variables();
+        let symbols = e.symbols();
+        let has = |k: usize| self.values.get(k).is_some_and(Option::is_some);
+        (0..variables.len()).filter(|&k| symbols.contains(&variables[k].symbol)).all(has)
     }
 
     /// The value of a formula, lengths by the robot's file.
@@ -86,8 +90,94 @@ impl Configuration {
     }
 }
 
+/// A text that writes a half as `0,5` with points instead, byte for byte; nothing for other texts.
+pub(super) fn decimal_points(text: &str) -> Option<String> {
+    let bytes = text.as_bytes();
+    let is_digit = |k: usize| bytes.get(k).is_some_and(u8::is_ascii_digit);
+    let mut commas = vec![];
+    for (k, b) in bytes.iter().enumerate() {
+        if k == 0 || !is_digit(k - 1) || !is_digit(k + 1) {
+            continue;
+        }
+        match b {
+            b'.' => return None,
+            b',' => {
+                let start = (0..k).rev().take_while(|&i| is_digit(i)).last().unwrap_or(k);
+                let end = (k + 1..bytes.len()).take_while(|&i| is_digit(i)).last().unwrap_or(k);
+                let before = start.checked_sub(1).and_then(|i| bytes.get(i));
+                // `T_{0,6}`, `r(1,2)`, `1,2,3`
+                let is_index =
+                    matches!(before, Some(b'{' | b'_' | b',')) || bytes.get(end + 1) == Some(&b',');
+                let is_pair = before == Some(&b'(') && bytes.get(end + 1) == Some(&b')');
+                if is_index || is_pair {
+                    return None;
+                }
+                commas.push(k);
+            }
+            _ => {}
+        }
+    }
+    if commas.len() < 3 {
+        return None;
+    }
+    let mut bytes = text.as_bytes().to_vec();
+    commas.into_iter().for_each(|k| bytes[k] = b'.');
+    String::from_utf8(bytes).ok()
+}
+
+/// A number and the factor of the unit behind it, to metres, radians and seconds; nothing where there is no unit.
+pub(super) fn unit_behind(text: &str) -> Option<(&str, Expr)> {
+    let degree = Expr::pi() / Expr::int(180);
+    let part = |n: i64| Expr::int(1) / Expr::int(n);
+    let units: [(&str, Expr); 24] = [
+        ("rad/s", Expr::int(1)),
+        ("deg/s", degree),
+        ("°/s", degree),
+        ("mm/s", part(1000)),
+        ("cm/s", part(100)),
+        ("m/s", Expr::int(1)),
+        ("N*m", Expr::int(1)),
+        ("N·m", Expr::int(1)),
+        ("N m", Expr::int(1)),
+        ("Nm", Expr::int(1)),
+        ("N", Expr::int(1)),
+        ("rad", Expr::int(1)),
+        ("grad", degree),
+        ("grados", degree),
+        ("degrees", degree),
+        ("degree", degree),
+        ("degrés", degree),
+        ("Grad", degree),
+        ("deg", degree),
+        ("°", degree),
+        ("mm", part(1000)),
+        ("cm", part(100)),
+        ("metres", Expr::int(1)),
+        ("m", Expr::int(1)),
+    ];
+    let plain = text.trim().trim_end_matches(['.', ',', ' ', '$', '}']);
+    for (unit, factor) in units {
+        let Some(before) = plain.strip_suffix(unit) else { continue };
+        let before = ["\\mathrm{", "\\text{", "\\,", "\\;", "~", "\\ "]
+            .iter()
+            .fold(before.trim_end(), |b, look| b.strip_suffix(look).unwrap_or(b).trim_end());
+        let is_number = before.ends_with(|c: char| c.is_ascii_digit() || matches!(c, '.' | ')' | 'π'));
+        if is_number && before.starts_with(|c: char| !c.is_alphabetic()) {
+            return Some((before, factor));
+        }
+    }
+    None
+}
+
 /// Half a unit of the last digit of a printed number: 0.005 for `-0.71`.
 pub(super) fn half_unit(text: &str) -> f64 {
+    let is_part = |c: char| c.is_ascii_digit() || c == '.';
+    let literals: Vec<&str> =
+        text.split(|c: char| !is_part(c)).filter(|w| w.contains('.') && w.len() > 1).collect();
+    if literals.len() > 1 {
+        // A formula of rounded numbers.
+        return 2.0 * literals.into_iter().map(half_unit).fold(0.0, f64::max);
+    }
     let digits = text.trim().trim_matches(|c: char| !c.is_ascii_digit() && c != '.');
     let (mantissa, power) = match digits.split_once(['e', 'E']) {
         Some((m, p)) => (m, p.parse::<i32>().unwrap_or(0)),
@@ -126,6 +216,11 @@ pub(super) fn judge(answer: &Answer, subject: &Subject, tolerance: Option<f64>) 
         (None, None) => Remark::OffBy((answer.printed - right).abs()),
     });
     Finding::Wrong(Box::new(wrong))
+}
+
+/// True if a number is what follows from other rounded numbers.
+pub(super) fn is_near(answer: &Answer, subject: &Subject) -> bool {
+    matches!(judge(answer, subject, Some(answer.half * 6.0 + 1e-12)), Finding::Equal { .. })
 }
 
 /// A number with at most six digits behind the point.

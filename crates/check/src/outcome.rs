@@ -2,7 +2,7 @@
 
 use super::facts::{About, Change, Condition, Instead, Remark, SlipKind, Unproved};
 use super::formula::Formula;
-use super::note::{Note, Unread};
+use super::note::{Note, Unread, Unreadable};
 use denavit::description::Description;
 use denavit_symbolic::{Expr, Symbol};
 use std::ops::Range;
@@ -14,7 +14,9 @@ pub struct Checked {
     pub claims: Vec<Claim>,
     /// Single changes that would turn several claims right.
     pub causes: Vec<Cause>,
-    /// What else is worth saying: statements that were passed over, tables and directives with errors.
+    /// What looks like a formula and was not judged, in the order of the text.
+    pub unjudged: Vec<Unjudged>,
+    /// What else is worth saying: tables and directives with errors.
     pub notes: Vec<Note>,
     /// The robots that the claims are about.
     pub robots: Vec<Description>,
@@ -29,21 +31,71 @@ pub struct Tally {
     pub wrong: usize,
     /// Equal where a condition holds.
     pub conditional: usize,
+    /// Right but for a wrong one before.
+    pub carried: usize,
     /// Neither proved nor refuted.
     pub undecided: usize,
     /// Not read.
     pub unreadable: usize,
+    /// Lines that look like formulas and were not judged.
+    pub unjudged: usize,
+}
+
+/// A line that looks like a formula and was not judged.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unjudged {
+    /// Where it stands.
+    pub span: Range<usize>,
+    /// Why.
+    pub why: Skipped,
+}
+
+/// Why a formula was not judged.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Skipped {
+    /// It could not be read.
+    Unreadable(Unreadable),
+    /// It defines a name that nothing uses that was found right.
+    Unused(String),
+    /// It is read, but says nothing that is known of the robot.
+    SaysNothing,
+    /// It stands among words, and nothing shows where it begins and ends.
+    AmongWords,
+    /// A program gives it, but nothing says what it is.
+    OfProgram(String),
+    /// The document has more formulas than are judged.
+    TooMany,
 }
 
 impl Checked {
+    /// Puts the claims into the order of the text.
+    pub(super) fn sort(&mut self) {
+        let mut order: Vec<usize> = (0..self.claims.len()).collect();
+        order.sort_by_key(|&k| (self.claims[k].span.start, k));
+        let mut place = vec![0; order.len()];
+        order.iter().enumerate().for_each(|(new, &old)| place[old] = new);
+        let mut claims: Vec<Option<Claim>> = std::mem::take(&mut self.claims).into_iter().map(Some).collect();
+        self.claims = order.iter().filter_map(|&k| claims[k].take()).collect();
+        for entry in self.claims.iter_mut().flat_map(|c| &mut c.entries) {
+            if let Finding::Carried { by, .. } = &mut entry.finding {
+                *by = place.get(*by).copied().unwrap_or(*by);
+            }
+        }
+        for cause in &mut self.causes {
+            let all = [&mut cause.turns_right, &mut cause.turns_wrong, &mut cause.stays_wrong];
+            all.into_iter().flatten().for_each(|at| at.0 = place.get(at.0).copied().unwrap_or(at.0));
+        }
+    }
+
     /// The number of claims of each kind.
     pub fn tally(&self) -> Tally {
-        let mut tally = Tally::default();
+        let mut tally = Tally { unjudged: self.unjudged.len(), ..Tally::default() };
         for claim in &self.claims {
             match claim.standing() {
                 Standing::Equal => tally.equal += 1,
                 Standing::Wrong => tally.wrong += 1,
                 Standing::Conditional => tally.conditional += 1,
+                Standing::Carried => tally.carried += 1,
                 Standing::Undecided => tally.undecided += 1,
                 Standing::Unreadable => tally.unreadable += 1,
             }
@@ -78,6 +130,8 @@ pub enum Standing {
     Equal,
     /// Proved equal, or found so in every sample, where a condition holds.
     Conditional,
+    /// Refuted, but it follows correctly from what is wrong before it.
+    Carried,
     /// Refuted.
     Wrong,
     /// Neither proved nor refuted.
@@ -92,6 +146,7 @@ impl Standing {
         match self {
             Standing::Equal => "equal",
             Standing::Conditional => "conditional",
+            Standing::Carried => "carried",
             Standing::Wrong => "wrong",
             Standing::Undecided => "undecided",
             Standing::Unreadable => "unreadable",
@@ -103,7 +158,13 @@ impl Claim {
     /// The verdict on all of it: wrong if one entry is, else unreadable if one is, and so on.
     pub fn standing(&self) -> Standing {
         let has = |s| self.entries.iter().any(|e| e.finding.standing() == s);
-        let order = [Standing::Wrong, Standing::Unreadable, Standing::Undecided, Standing::Conditional];
+        let order = [
+            Standing::Wrong,
+            Standing::Carried,
+            Standing::Unreadable,
+            Standing::Undecided,
+            Standing::Conditional,
+        ];
         order.into_iter().find(|&s| has(s)).unwrap_or(Standing::Equal)
     }
 }
@@ -141,6 +202,13 @@ pub enum Finding {
     },
     /// Refuted.
     Wrong(Box<Wrong>),
+    /// Refuted, but right given what another claim of the document says that is wrong.
+    Carried {
+        /// That claim: a number in [`Checked::claims`].
+        by: usize,
+        /// The right formula, as in [`Wrong::correct`].
+        correct: Vec<String>,
+    },
     /// Neither proved nor refuted.
     Undecided {
         /// Why.
@@ -157,6 +225,7 @@ impl Finding {
             Finding::Equal { .. } => Standing::Equal,
             Finding::Conditional { .. } => Standing::Conditional,
             Finding::Wrong(_) => Standing::Wrong,
+            Finding::Carried { .. } => Standing::Carried,
             Finding::Undecided { .. } => Standing::Undecided,
             Finding::Unreadable(_) => Standing::Unreadable,
         }

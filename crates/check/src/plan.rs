@@ -1,8 +1,10 @@
 //! Which robot each part of a document is about: tables and directives in their order.
 
 use super::CheckOptions;
+use super::convention;
+use super::habits::Habits;
+use super::lexis::Lexis;
 use super::lexis::set_in;
-use super::lexis::{Columns, Lexis};
 use super::note::{Note, Noted, Notes, Unread, Unreadable};
 use super::programs;
 use super::subject::Subject;
@@ -24,7 +26,13 @@ use std::rc::Rc;
 
 /// The robots of a document, and from where on each holds.
 pub(super) struct Plan {
-    pub subjects: Vec<Subject>,
+    pub subjects: Vec<Rc<Subject>>,
+    /// What the document means by names that may mean several things.
+    pub habits: Rc<Habits>,
+    /// The document's own table, where another robot is given.
+    pub own_table: Option<Rc<Subject>>,
+    /// Where claims stand that are taken as the author prints them.
+    authors: BTreeSet<usize>,
     /// Place in the text and number of the robot, in the order of the text.
     turns: Vec<(usize, usize)>,
     /// False where neither a robot was given nor a table stands in the document.
@@ -35,6 +43,12 @@ pub(super) struct Plan {
 pub(super) struct Walked {
     pub assertions: Vec<Assertion>,
     pub skipped: Vec<(Range<usize>, Unreadable)>,
+    /// What states a configuration or a case, and claims nothing.
+    pub taken: Vec<Range<usize>>,
+    /// What the document tells not to judge.
+    pub ignored: Vec<Range<usize>>,
+    /// Names that the document gives matrices: the statement and the name as printed.
+    pub named: Vec<(Range<usize>, String)>,
     /// Names that the document defines by formulas.
     pub defined: Vec<Defined>,
     /// What of programs could not be read.
@@ -95,10 +109,16 @@ impl Plan {
             let letters = [0, 1].map(|k| table.letters[k].unwrap_or(convention[k]).to_string());
             let subject = Subject::printed(d.clone(), letters, table.variables.clone(), table.previous)?;
             let mut subject = with_names(subject, &mentioned);
+            // Rows 4 to 6 alone are those joints.
+            let is_alone = subject.description.rows.len() < table.first;
+            subject.first = if is_alone { table.first - 1 } else { 0 };
             subject.line = Some(line_column(text, table.span.start).0);
             Some(subject)
         };
-        let mut plan = Plan { subjects: vec![], turns: vec![], has_robot: true };
+        let habits = Rc::new(Habits::of(text).with_products(text, document));
+        let authors = BTreeSet::new();
+        let turns = vec![];
+        let mut plan = Plan { subjects: vec![], habits, own_table: None, authors, turns, has_robot: true };
         if let Some(robot) = robot {
             plan.push(0, named(robot));
         }
@@ -110,6 +130,10 @@ impl Plan {
             directives(document).map(|d| (d.span.start, Event::Directive(d))).collect();
         if robot.is_none() {
             events.extend(printed.iter().map(|t| (t.span.end, Event::Table(t))));
+        }
+        if robot.is_some() {
+            let first = printed.iter().find_map(|t| Some((t, t.robot.as_ref().ok()?)));
+            plan.own_table = first.and_then(|(t, (d, _))| from_table(d, t)).map(Rc::new);
         }
         events.sort_by_key(|e| e.0);
         let mut failed: Vec<Diagnostic> = vec![];
@@ -203,21 +227,35 @@ impl Plan {
         if let Some(subject) = subject {
             // What stands before the first table is about it, too.
             let at = if self.subjects.is_empty() { 0 } else { at };
-            self.subjects.push(subject);
+            self.subjects.push(Rc::new(subject));
             self.turns.push((at, self.subjects.len() - 1));
         }
     }
 
     /// The same document about other robots.
     pub fn with(&self, change: &dyn Fn(&Subject) -> Option<Subject>) -> Self {
-        let subjects = self.subjects.iter().map(|s| change(s).unwrap_or_else(|| s.clone())).collect();
-        Plan { subjects, turns: self.turns.clone(), has_robot: self.has_robot }
+        let changed = |s: &Rc<Subject>| change(s).map_or_else(|| Rc::clone(s), Rc::new);
+        let subjects = self.subjects.iter().map(changed).collect();
+        let (habits, turns) = (Rc::clone(&self.habits), self.turns.clone());
+        let (own_table, authors) = (self.own_table.clone(), self.authors.clone());
+        Plan { subjects, habits, own_table, authors, turns, has_robot: self.has_robot }
+    }
+
+    /// The same document, claims at these places taken as the author prints them.
+    pub fn with_authors(&self, authors: BTreeSet<usize>) -> Self {
+        Plan { authors, ..self.with(&|_| None) }
+    }
+
+    /// The same document with names in other senses.
+    pub fn with_habits(&self, habits: Habits) -> Self {
+        Plan { habits: Rc::new(habits), ..self.with(&|_| None) }
     }
 
     /// Reads the statements.
     pub fn walk(&self, text: &str, document: &Document, options: &CheckOptions) -> Walked {
         let (mut names, mut inverse_names) = (vec![], vec![]);
-        let mut walk = Walk::new(text, &self.subjects[0]);
+        let mut walk = Walk::new(text, &self.subjects[0], &self.habits);
+        let mut ignored = vec![];
         let mut turns = self.turns.iter().skip(1).peekable();
         let mut is_off = false;
         let mut told = options.claim.as_deref();
@@ -247,8 +285,14 @@ impl Plan {
                     _ => {}
                 }
             }
-            if !is_off && !is_skipped && walk.count() < super::MAX_FORMULAS {
+            if is_off || is_skipped {
+                ignored.push(statement.span.clone());
+            } else if walk.count() < super::MAX_FORMULAS {
+                let first = walk.assertions.len();
                 walk.statement(statement, claim);
+                if !self.authors.is_empty() {
+                    walk.believe(&self.authors, first);
+                }
             }
         }
         names.push(Rc::new(walk.lexis.names.clone()));
@@ -257,14 +301,30 @@ impl Plan {
         for (span, language) in programs(text, document, options) {
             let number = self.turns.iter().rev().find(|t| t.0 <= span.start).map_or(0, |t| t.1);
             let subject = &self.subjects[number];
-            let lexis = Lexis::new(subject, Columns::of(text));
+            let lexis = Lexis::new(subject, &self.habits, &Rc::from(text));
             let (found, errors) = programs::assertions(text, &span, language, subject, &lexis, number);
             assertions.extend(found);
             refused.extend(errors);
         }
         assertions.sort_by_key(|a| a.span.start);
-        Walked { assertions, skipped: walk.skipped, defined: walk.defined, refused, names, inverse_names }
+        Walked {
+            assertions,
+            skipped: walk.skipped,
+            taken: walk.taken,
+            ignored,
+            named: walk.named,
+            defined: walk.defined,
+            refused,
+            names,
+            inverse_names,
+        }
     }
+}
+
+/// True for a line that says how tables are read: `convention: craig`, `lengths: mm`.
+pub(super) fn is_setting(line: &str) -> bool {
+    let lower = line.to_lowercase();
+    ["convention:", "columns:", "angles:", "lengths:", "name:"].iter().any(|k| lower.starts_with(k))
 }
 
 enum Event<'a> {
@@ -277,36 +337,10 @@ fn said(text: &str, notes: &mut Notes) -> Option<Convention> {
     if text.lines().any(|l| l.trim_start().to_lowercase().starts_with("convention:")) {
         return None;
     }
-    let lower = text.to_ascii_lowercase();
-    let find = |words: &[&str]| words.iter().filter_map(|w| Some((lower.find(w)?, w.len()))).min();
-    let found = [
-        (
-            Convention::Standard,
-            find(&[
-                "standard dh",
-                "standard denavit",
-                "standard (distal",
-                "standard convention",
-                "classical dh",
-                "distal convention",
-            ]),
-        ),
-        (
-            Convention::Craig,
-            find(&[
-                "craig's convention",
-                "craig convention",
-                "modified dh",
-                "modified denavit",
-                "proximal convention",
-            ]),
-        ),
-        (Convention::Khalil, find(&["khalil"])),
-    ];
-    let mut named = found.iter().filter_map(|(c, at)| Some((*c, (*at)?)));
-    let (convention, (at, length)) = named.next().filter(|_| named.next().is_none())?;
-    notes.note(at..at + length, Noted::ReadAs(convention));
-    Some(convention)
+    let found = convention::named(text);
+    let [(convention, place)] = &found[..] else { return None };
+    notes.note(place.clone(), Noted::ReadAs(*convention));
+    Some(*convention)
 }
 
 /// A robot without links, for what holds of any.

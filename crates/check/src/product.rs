@@ -7,6 +7,7 @@ use super::names::{Name, Token, tokens};
 use super::subject::Subject;
 use denavit_reading::document::{Fence, Grid, Part, Side};
 use denavit_symbolic::Expr;
+use std::ops::Range;
 
 /// A factor of a product.
 #[derive(Clone, Debug)]
@@ -17,6 +18,8 @@ pub(super) enum Factor<'a> {
     Named(Matrix, Option<Meaning>),
     /// A part in brackets.
     Worked,
+    /// A number before a matrix.
+    Scalar(Expr),
 }
 
 /// A side of an equation between matrices.
@@ -33,6 +36,7 @@ pub(super) struct Product<'a> {
 enum Piece<'a> {
     Grid(&'a Grid),
     Token(Token),
+    Scalar(Expr),
 }
 
 /// Why a side is no product of matrices.
@@ -58,8 +62,13 @@ pub(super) fn product<'a>(
             Part::Matrix(grid) => pieces.push(Piece::Grid(grid)),
             Part::Text(span) => {
                 let known = |word: &str| lexis.has_matrix(word);
-                let found = tokens(text, span, &known).ok_or(NotMatrices::Other)?;
-                pieces.extend(found.into_iter().map(Piece::Token));
+                let is_factor = pieces.is_empty() && side.parts.len() > 1;
+                let scalar = || factor(text, span, lexis).filter(|_| is_factor);
+                match (tokens(text, span, &known), scalar()) {
+                    (_, Some(value)) => pieces.push(Piece::Scalar(value)),
+                    (Some(found), None) => pieces.extend(found.into_iter().map(Piece::Token)),
+                    (None, None) => return Err(NotMatrices::Other),
+                }
             }
         }
     }
@@ -69,6 +78,17 @@ pub(super) fn product<'a>(
     let mut reader = Reader { pieces, at: 0, lexis, subject, value, depth: 0 };
     let found = reader.sum()?;
     if reader.at < reader.pieces.len() { Err(NotMatrices::Other) } else { Ok(found) }
+}
+
+/// A formula before a matrix, the sign of the product behind it left aside.
+fn factor(text: &str, span: &Range<usize>, lexis: &Lexis) -> Option<Expr> {
+    let source = text.get(span.clone())?;
+    let mut bare = source.trim_end();
+    for sign in ["\\cdot", "\\times", "*", "·", "\\,", "\\;", "."] {
+        bare = bare.strip_suffix(sign).unwrap_or(bare).trim_end();
+    }
+    let value = lexis.formula(text, &(span.start..span.start + bare.len())).ok()?;
+    (value.sign_choices() == 0).then(|| value.value())
 }
 
 struct Reader<'a, 'b> {
@@ -121,6 +141,11 @@ impl<'a> Reader<'a, '_> {
                     let value =
                         if grid.fence == Fence::Bars { self.determinant(grid) } else { (self.value)(grid) };
                     Some((Factor::Grid(grid), value))
+                }
+                Some(&Piece::Scalar(value)) => {
+                    self.at += 1;
+                    abouts = None;
+                    Some((Factor::Scalar(value), Some(Matrix(vec![vec![Some(value)]]))))
                 }
                 Some(Piece::Token(Token::Name(name))) => {
                     let name = name.clone();

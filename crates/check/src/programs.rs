@@ -2,11 +2,12 @@
 //! what a function returns.
 
 use super::facts::{About, Meaning};
+use super::jacobians::Told;
 use super::lexis::Lexis;
 use super::matrix::Matrix;
 use super::note::{Unread, Unreadable};
 use super::subject::Subject;
-use super::walk::{Assertion, Pair, Piece};
+use super::walk::{Assertion, Pair, Piece, is_measured};
 use denavit::forward::Reference;
 use denavit_reading::code::{Assigned, Cell, Code, Dialect, Reading, Value, read};
 use denavit_symbolic::vocabulary::Vocabulary;
@@ -24,7 +25,7 @@ pub(super) fn assertions(
     number: usize,
 ) -> (Vec<Assertion>, Vec<Unread>) {
     let joints: Vec<Expr> = subject.description.variables().iter().map(|v| v.symbol.into()).collect();
-    let meaning = |name: &str| lexis.names.lookup(name);
+    let meaning = |name: &str| lexis.names.lookup(name).filter(|_| !lexis.is_by_custom(name));
     let Code { functions, refusals } = read(text, span.clone(), language, &meaning, &joints);
     let mut refusals: Vec<Unread> = refusals.into_iter().map(Unread::from).collect();
     let mut found = vec![];
@@ -107,6 +108,8 @@ impl Program<'_> {
     /// A variable whose name has a meaning.
     fn named(&self, name: &str, shown: &str, span: &Range<usize>, value: &Value) -> Option<Assertion> {
         match value {
+            // A name for another one says nothing.
+            Value::Scalar(cell) if cell.value.as_symbol().is_some() => None,
             Value::Scalar(cell) => {
                 let axis = ["x", "y", "z"].iter().position(|a| *a == name.to_lowercase());
                 let wanted = match axis.filter(|_| self.lexis.names.lookup(name).is_none()) {
@@ -144,7 +147,7 @@ impl Program<'_> {
         let (matrix, about) = match (rows.len(), columns) {
             (n, m) if is_jacobian && m == joints && n <= 6 => {
                 let values = Matrix(rows.iter().map(|r| r.iter().map(|c| Some(c.value)).collect()).collect());
-                let (matrix, jacobian) = super::walk::nearest_jacobian(self.subject, &values)?;
+                let (matrix, jacobian) = self.subject.nearest_jacobian(&values, &Told::default())?;
                 (matrix, Meaning::Jacobian(jacobian))
             }
             (4, 4) => (Matrix::of(&pose), hand),
@@ -169,6 +172,12 @@ impl Program<'_> {
 
     /// A computed value against the right one; lengths that the program has as numbers are numbers in both.
     fn piece(&self, place: Option<(usize, usize)>, cell: &Cell, wanted: Expr) -> Piece {
+        let joints = self.subject.joints();
+        let moves = wanted.symbols().iter().any(|s| joints.contains(&(*s).into()));
+        if moves && cell.value.symbols().is_empty() && is_measured(cell.value) {
+            let errors = vec![Unread::new(cell.span.clone(), Unreadable::NoConfiguration)];
+            return Piece::Unreadable { place, span: cell.span.clone(), errors };
+        }
         let d = &self.subject.description;
         let uses = |e: Expr| e.symbols().iter().any(|s| d.parameter(*s).is_some());
         let wanted = match uses(cell.value) {

@@ -1,6 +1,7 @@
 //! What formulas are about: a robot, its frames, and what people call its quantities.
 
-use super::facts::{Jacobian, Meaning};
+use super::facts::Meaning;
+use super::habits::Habits;
 use super::matrix::Matrix;
 use super::names::{Index, Name, index, pair};
 use denavit::description::{Convention, Description, JointKind, Screw};
@@ -8,9 +9,9 @@ use denavit::forward::Reference;
 use denavit::geometry::{Axis, Rotation, Transform, Vector};
 use denavit::robot::Robot;
 use denavit::velocity::{Viewpoint, geometric};
-use denavit_symbolic::readable::simplify;
-use denavit_symbolic::vocabulary::Vocabulary;
+use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
 use denavit_symbolic::{Expr, Symbol};
+use std::collections::BTreeMap;
 
 /// A robot as formulas name it.
 #[derive(Clone, Debug)]
@@ -24,8 +25,21 @@ pub(super) struct Subject {
     pub variables: Vec<Option<String>>,
     /// The index of lengths along x and of α is that of the row before.
     pub previous: bool,
+    /// The number of the frame before the first row, where the rows are not numbered from 1.
+    pub first: usize,
+    /// What a document prints in place of what the robot gives.
+    printed: Printed,
     robot: Robot<Expr>,
     q: Vec<Expr>,
+}
+
+/// Frames and entries of the pose as an author has them.
+#[derive(Clone, Debug, Default)]
+struct Printed {
+    /// The second in the first.
+    frames: BTreeMap<(usize, usize), Transform<Expr>>,
+    /// Entries of the pose, row and column from 0.
+    entries: BTreeMap<(usize, usize), Expr>,
 }
 
 /// The most rows of a table whose formulas are checked.
@@ -56,7 +70,8 @@ impl Subject {
         }
         let robot = Robot::symbolic(&description);
         let q = description.variables().iter().map(|v| v.symbol.into()).collect();
-        Some(Subject { description, line: None, letters, variables, previous, robot, q })
+        let printed = Printed::default();
+        Some(Subject { description, line: None, letters, variables, previous, first: 0, printed, robot, q })
     }
 
     /// The same with another table.
@@ -88,10 +103,7 @@ impl Subject {
         if i > n || j > n {
             return None;
         }
-        let between = |i: usize, j: usize| {
-            let links = self.robot.links[i..j].iter();
-            links.fold(Transform::identity(), |x, link| x * link.transform(&self.q))
-        };
+        let between = |i: usize, j: usize| self.between(i, j);
         let mut x = if i <= j { between(i, j) } else { between(j, i).inverse() };
         if from.is_none() {
             x = self.robot.tool.inverse() * x;
@@ -102,50 +114,87 @@ impl Subject {
         Some(x)
     }
 
-    /// The tool in frame 0.
-    pub fn pose(&self) -> Transform<Expr> {
-        self.transform(Some(0), None).unwrap_or_else(Transform::identity)
-    }
-
-    /// The determinant of the Jacobian: of all rows for six joints, of the linear ones for three, of vx and vy for two.
-    pub fn determinant(&self) -> Option<Expr> {
-        let joints = self.q.len();
-        let rows = match joints {
-            6 | 3 | 2 => joints,
-            _ => return None,
-        };
-        // Along which axes it is written does not matter for square blocks that turn together; the middle is short.
-        let axes = if rows == 2 { 0 } else { self.last().div_ceil(2) };
-        let view = Viewpoint::of(Reference::Frame(self.last()), Reference::Frame(axes));
-        let j = geometric(&self.robot, &self.q, &view).rows();
-        let entry = |e: Expr| simplify(e, &e.symbols()).map_or(e, |s| s.expr);
-        Matrix((0..rows).map(|r| j[r].iter().map(|&e| Some(entry(e))).collect()).collect()).determinant()
-    }
-
-    /// Jacobians that people print: of the tool or the last frame, along the axes of frame 0 or their own, linear
-    /// rows first or last, with all rows or the linear ones.
-    pub fn jacobians(&self, rows: usize) -> Vec<(Jacobian, Matrix)> {
-        let n = self.last();
-        let mut found = vec![];
-        let axes = (0..=n).map(Reference::Frame).chain([Reference::Tool]);
-        let axes: Vec<Reference> = axes.collect();
-        for body in [Reference::Tool, Reference::Frame(n)] {
-            for &along in &axes {
-                let j = geometric(&self.robot, &self.q, &Viewpoint::of(body, along)).rows();
-                let jacobian = Jacobian { body, axes: along, is_angular_first: false, rows };
-                let part = |order: [usize; 6]| {
-                    Matrix(
-                        order.iter().take(rows).map(|&r| j[r].iter().map(|&e| Some(e)).collect()).collect(),
-                    )
-                };
-                found.push((jacobian, part([0, 1, 2, 3, 4, 5])));
-                if rows == 6 {
-                    let turned = Jacobian { is_angular_first: true, ..jacobian };
-                    found.push((turned, part([3, 4, 5, 0, 1, 2])));
+    /// Frame `j` in a frame `i` before it, by what an author prints where that is known.
+    fn between(&self, i: usize, j: usize) -> Transform<Expr> {
+        let mut x = Transform::identity();
+        let mut k = i;
+        while k < j {
+            let printed = self.printed.frames.range((k, k + 1)..=(k, j)).next_back();
+            match printed {
+                Some(((_, to), frame)) => {
+                    x = x * *frame;
+                    k = *to;
+                }
+                None => {
+                    x = x * self.robot.links[k].transform(&self.q);
+                    k += 1;
                 }
             }
         }
-        found
+        x
+    }
+
+    /// The joint variables.
+    pub fn joints(&self) -> &[Expr] {
+        &self.q
+    }
+
+    /// True if an author's own frames or entries stand for those of the robot.
+    pub fn is_printed(&self) -> bool {
+        !self.printed.frames.is_empty() || !self.printed.entries.is_empty()
+    }
+
+    /// The same with a frame in another as an author has it.
+    pub fn with_frame(&self, from: usize, to: usize, frame: Transform<Expr>) -> Self {
+        let mut subject = self.clone();
+        subject.printed.frames.insert((from, to), frame);
+        subject
+    }
+
+    /// The same with an entry of the pose as an author has it.
+    pub fn with_entry(&self, row: usize, column: usize, value: Expr) -> Self {
+        let mut subject = self.clone();
+        subject.printed.entries.insert((row, column), value);
+        subject
+    }
+
+    /// The tool in frame 0.
+    pub fn pose(&self) -> Transform<Expr> {
+        let pose = self.transform(Some(0), None).unwrap_or_else(Transform::identity);
+        if self.printed.entries.is_empty() {
+            return pose;
+        }
+        let (mut rows, mut position) = (pose.rotation.rows(), pose.translation);
+        for (&(r, c), &value) in &self.printed.entries {
+            match c {
+                0..3 => rows[r][c] = value,
+                _ => position.0[r] = value,
+            }
+        }
+        Transform::from_rotation_translation(Rotation::from_rows(rows), position)
+    }
+
+    /// The rows of the geometric Jacobian, linear first.
+    pub fn geometric_rows(&self, body: Reference, along: Reference) -> Vec<Vec<Expr>> {
+        if !self.is_printed() {
+            let rows = geometric(&self.robot, &self.q, &Viewpoint::of(body, along)).rows();
+            return rows.iter().map(|row| row.to_vec()).collect();
+        }
+        // By the frames as the author has them.
+        let is_first = self.description.convention.begins_with_joint();
+        let moving = (0..).zip(&self.description.rows).filter_map(|(k, row)| Some((k, row.variable?)));
+        let frames: Vec<(Transform<Expr>, bool)> = moving
+            .filter_map(|(k, v)| {
+                let frame = self.transform(Some(0), Some(if is_first { k } else { k + 1 }))?;
+                Some((frame, v.kind == JointKind::Revolute))
+            })
+            .collect();
+        let (frames, is_revolute): (Vec<_>, Vec<_>) = frames.into_iter().unzip();
+        let hand = match body {
+            Reference::Frame(k) if k < self.last() => self.transform(Some(0), Some(k)),
+            _ => Some(self.pose()),
+        };
+        of_frames(&frames, &hand.unwrap_or_else(Transform::identity), &is_revolute)
     }
 
     /// The names of the robot's quantities: parameters, joint variables, the table's own names for them, cells of
@@ -161,9 +210,13 @@ impl Subject {
         for (variable, printed) in variables.iter().zip(&self.variables) {
             if let Some(printed) = printed {
                 names = declare(names, printed, variable.symbol.into());
+                if let Some(number) = plain_name(printed).strip_prefix("theta") {
+                    names = declare(names, &format!("θ{number}"), variable.symbol.into());
+                }
             }
         }
-        for (i, row) in (1..).zip(&d.rows) {
+        let first = i32::try_from(self.first).unwrap_or(0);
+        for (i, row) in (first + 1..).zip(&d.rows) {
             let k = i - i32::from(self.previous);
             for (letter, cell, i) in [(&self.letters[0], row.a, k), (&self.letters[1], row.d, i)] {
                 let cell = match row.variable {
@@ -181,7 +234,7 @@ impl Subject {
             };
             names = declare(names, &format!("θ{i}"), theta);
         }
-        let angles: Vec<(usize, Symbol)> = (1..)
+        let angles: Vec<(usize, Symbol)> = (self.first + 1..)
             .zip(&variables)
             .filter(|(i, v)| *i <= 9 && v.kind == JointKind::Revolute)
             .map(|(i, v)| (i, v.symbol))
@@ -191,7 +244,9 @@ impl Subject {
             for (number, symbol) in &angles[start + 1..] {
                 digits.push_str(&number.to_string());
                 sum = sum + (*symbol).into();
-                names = declare(names, &format!("θ{digits}"), sum);
+                for letter in ["θ", "th", "q"] {
+                    names = declare(names, &format!("{letter}{digits}"), sum);
+                }
             }
         }
         for index in ["i", "j", "n"] {
@@ -218,13 +273,23 @@ impl Subject {
 
     /// What a matrix's name means, and what that is.
     /// Frames named by letters, `{}^iT_j`, are somewhere if `anywhere`, and have no meaning otherwise.
-    pub fn meaning(&self, name: &Name, anywhere: bool) -> Option<(Matrix, Meaning)> {
-        let (from, to) = frames(name)?;
+    pub fn meaning(&self, name: &Name, anywhere: bool, habits: &Habits) -> Option<(Matrix, Meaning)> {
+        let (from, to) = frames(name, habits)?;
         let place = |i: &Index| match i {
-            Index::Number(k) => Some(Some(*k)),
+            Index::Number(k) => k.checked_sub(self.first).map(Some),
             Index::End => Some(None),
             Index::Letter('n', 0) => Some(Some(self.last())),
             Index::Letter(..) => None,
+        };
+        // Letters for the base and the hand: `T_{BE}`, `T_{sb}`, `T_e^b`.
+        let is_base = |i: &Index| matches!(i, Index::Letter('s' | 'S' | 'b' | 'B' | 'w' | 'W', 0));
+        let is_hand = |i: &Index| matches!(i, Index::End | Index::Letter('b' | 't' | 'T', 0));
+        let is_space = matches!(from, Index::Letter('s' | 'S', 0));
+        let hand = matches!(to, Index::End) || is_hand(&to) && (is_space || !is_base(&to));
+        let (from, to) = match () {
+            () if is_base(&from) && hand && from != to => (Index::Number(self.first), Index::End),
+            () if is_base(&to) && from == Index::End => (Index::End, Index::Number(self.first)),
+            () => (from, to),
         };
         let (transform, frame) = match (&from, &to) {
             (Index::Letter(i, a), Index::Letter(j, b)) if i == j && (b - a).abs() == 1 && *b.max(a) == 0 => {
@@ -244,7 +309,9 @@ impl Subject {
             "T" | "A" | "H" | "M" => (Matrix::of(&transform), frame),
             "R" => (Matrix::of_rotation(&transform.rotation), Meaning::Rotation(frame.into())),
             "Z" | "z" => (Matrix::column(&transform.rotation.z()), Meaning::AxisZ(frame.into())),
-            "P" | "p" | "O" | "Ω" => (Matrix::column(&transform.translation), Meaning::Origin(frame.into())),
+            "P" | "p" | "O" | "Ω" | "o" => {
+                (Matrix::column(&transform.translation), Meaning::Origin(frame.into()))
+            }
             _ => return None,
         })
     }
@@ -266,9 +333,16 @@ fn frame(number: Option<usize>) -> Reference {
 }
 
 /// From which frame to which a name leads.
-pub(super) fn frames(name: &Name) -> Option<(Index, Index)> {
+pub(super) fn frames(name: &Name, habits: &Habits) -> Option<(Index, Index)> {
+    let (from, to) = indices(name, habits)?;
+    let is_pair = !matches!((name.left.as_str(), name.sup.as_str()), ("", "")) || pair(&name.sub).is_some();
+    Some(if habits.exchanged && is_pair { (to, from) } else { (from, to) })
+}
+
+/// The indices of a name: that of the frame in which it is seen first.
+fn indices(name: &Name, habits: &Habits) -> Option<(Index, Index)> {
     let base = Index::Number(0);
-    let is_vector = matches!(name.base.as_str(), "Z" | "z" | "O" | "Ω" | "P" | "p");
+    let is_vector = matches!(name.base.as_str(), "Z" | "z" | "O" | "Ω" | "P" | "p" | "o");
     if !is_vector && !matches!(name.base.as_str(), "T" | "A" | "H" | "M" | "R") {
         return None;
     }
@@ -280,6 +354,7 @@ pub(super) fn frames(name: &Name) -> Option<(Index, Index)> {
             _ => {
                 let to = index(sub)?;
                 let from = match (&to, name.base.as_str()) {
+                    (Index::Number(k), "T") if habits.links => Index::Number(k.checked_sub(1)?),
                     (Index::Number(k), "A" | "H" | "M") => Index::Number(k.checked_sub(1)?),
                     (Index::Letter(j, k), "A" | "H" | "M" | "T") => Index::Letter(*j, k - 1),
                     (Index::End, "A" | "H" | "M") => return None,
@@ -326,4 +401,21 @@ pub(super) fn elementary(name: &Name, value: &dyn Fn(&str) -> Option<Expr>) -> O
         "Trans" | "trans" => Some((Matrix::of(&along(about, value)), Meaning::TranslationAlong(about))),
         _ => None,
     }
+}
+
+/// The cross products and axes of the joints by frames as an author has them: row by row, linear first.
+fn of_frames(frames: &[Transform<Expr>], hand: &Transform<Expr>, is_revolute: &[bool]) -> Vec<Vec<Expr>> {
+    let mut rows = vec![vec![]; 6];
+    for (x, is_revolute) in frames.iter().zip(is_revolute) {
+        let axis = x.rotation.z();
+        let (linear, angular) = match is_revolute {
+            true => (axis.cross(hand.translation - x.translation), axis),
+            false => (axis, Vector([Expr::int(0); 3])),
+        };
+        for r in 0..3 {
+            rows[r].push(linear.0[r]);
+            rows[3 + r].push(angular.0[r]);
+        }
+    }
+    rows
 }

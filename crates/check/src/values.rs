@@ -1,13 +1,17 @@
 //! Printed values of joint variables and of orientation angles: from statements to the judges, and from their answers to
 //! verdicts.
 
+use super::edits::{Kind, edited, edits};
+use super::facts::SlipKind;
 use super::facts::{Condition, Remark, Unproved, Zeros};
 use super::formula::Formula;
+use super::habits::{Columns, Places, pose_symbol};
 use super::inverse::{Composed, Fault, Inverse, Judgement, Values, Verdict, Where, orientation};
-use super::lexis::{Columns, pose_symbol};
-use super::outcome::{Claim, Counterexample, Entry, Finding, Wrong};
+use super::lexis::read;
+use super::outcome::{Claim, Counterexample, Entry, Finding, Patch, Slip, Standing, Wrong};
 use super::plan::{Plan, Walked};
 use super::subject::Subject;
+use super::trial::Trial;
 use super::walk::{Assertion, Spoken};
 use denavit::inverse::Goal;
 use denavit_symbolic::factor::Zero;
@@ -25,10 +29,17 @@ pub(super) type Together = (Range<usize>, Composed);
 
 /// A formula of more literals is not shown.
 const MAX_SHOWN: u64 = 200;
+/// A change is looked at if it gives the own value at such a share of the configurations.
+const LEAST_SHARE: f64 = 0.2;
 
 /// The claims about values of joints and angles, each with its place among all assertions; what the formulas of all
 /// joints yield together.
-pub(super) fn judge(plan: &Plan, walked: &Walked, columns: Columns) -> (Vec<(usize, Claim)>, Vec<Together>) {
+pub(super) fn judge(
+    text: &str,
+    plan: &Plan,
+    walked: &Walked,
+    columns: Columns,
+) -> (Vec<(usize, Claim)>, Vec<Together>) {
     let mut claims = vec![];
     let mut notes = vec![];
     for (number, subject) in plan.subjects.iter().enumerate() {
@@ -43,7 +54,8 @@ pub(super) fn judge(plan: &Plan, walked: &Walked, columns: Columns) -> (Vec<(usi
         let joints: Vec<_> = of.iter().filter(|s| matches!(s.2, Spoken::Joint { .. })).copied().collect();
         let angles: Vec<_> = of.iter().filter(|s| matches!(s.2, Spoken::Angle { .. })).copied().collect();
         if !joints.is_empty() {
-            let judge = Judge { subject, names: walked.inverse_names_of(number), columns };
+            let trial = Trial::new(subject, &Places(columns));
+            let judge = Judge { text, subject, names: walked.inverse_names_of(number), columns, trial };
             judge.joints(&joints, &mut claims, &mut notes);
         }
         claims.extend(orientations(&angles, columns, walked.inverse_names_of(number)));
@@ -53,6 +65,8 @@ pub(super) fn judge(plan: &Plan, walked: &Walked, columns: Columns) -> (Vec<(usi
 }
 
 struct Judge<'a> {
+    text: &'a str,
+    trial: Trial,
     subject: &'a Subject,
     names: &'a Rc<Vocabulary>,
     columns: Columns,
@@ -85,24 +99,52 @@ impl Judge<'_> {
         };
         let goal = if (0..3).any(speaks_of) { Goal::Pose } else { Goal::Position };
         let mut inverse = Inverse::new(&self.subject.description, pose, goal);
-        let mut known: Vec<Expr> = vec![];
-        // A second formula for a joint takes as known what the first one did.
-        let mut before: Vec<(Expr, Vec<Expr>)> = vec![];
-        for ((at, assertion, spoken), values) in statements.iter().zip(&all) {
+        let needs = needs(&all);
+        for (k, ((at, assertion, spoken), values)) in statements.iter().zip(&all).enumerate() {
             let Spoken::Joint { sides, .. } = spoken else { continue };
-            let first = before.iter().find(|b| b.0 == values.of[0]).map(|b| b.1.clone());
-            let taken = first.unwrap_or_else(|| known.clone());
-            before.push((values.of[0], taken.clone()));
-            let judgement = inverse.values(values, &taken);
+            // What is found before, in print or because it is needed; not what itself needs this.
+            let own = values.of[0];
+            let mut taken: Vec<Expr> = needs[k].clone();
+            for (j, before) in all[..k].iter().enumerate() {
+                if before.of[0] != own && !needs[j].contains(&own) && !taken.contains(&before.of[0]) {
+                    taken.push(before.of[0]);
+                }
+            }
+            let mut judgement = inverse.values(values, &taken);
+            let is_open = |j: &Judgement| !matches!(j.verdict, Verdict::Right);
+            if is_open(&judgement) && taken != needs[k] {
+                let other = inverse.values(values, &needs[k]);
+                if other.verdict == Verdict::Right {
+                    judgement = other;
+                }
+            }
+            // Values that stand in several statements are alternatives.
+            let same: Vec<&Values> = all.iter().filter(|v| v.of == values.of).collect();
+            if is_open(&judgement) && same.len() > 1 {
+                let branches = same.iter().flat_map(|v| v.branches.clone()).collect();
+                let union = Values { of: values.of.clone(), branches, of_first_rows: None };
+                let together = inverse.values(&union, &needs[k]);
+                // With those of a joint before it they belong together, the first to the first.
+                let pairs_up = self.pairs_up(&all[..k], &same);
+                if together.verdict == Verdict::Right && pairs_up {
+                    judgement = together;
+                } else if together.verdict == Verdict::Right {
+                    judgement = Judgement { verdict: Verdict::Wrong, ..judgement };
+                }
+            }
             let place =
                 sides.first().map_or(assertion.span.clone(), |s| s.0.start..sides[sides.len() - 1].0.end);
-            let finding = self.finding(&judgement, sides);
+            let mut finding = self.finding(&judgement, sides);
             let identities = judgement.identities.clone();
+            if let (Standing::Wrong, [(span, syntax)]) = (finding.standing(), &sides[..])
+                && let Finding::Wrong(wrong) = &mut finding
+                && let Some(slip) = self.slip(&mut inverse, own, span, syntax, &taken)
+            {
+                wrong.correct = vec![slip.formula.clone()];
+                wrong.slip = Some(slip);
+            }
             let entry = Entry { place: None, span: place, finding, identities };
             claims.push((*at, claim(assertion, entry)));
-            if !known.contains(&values.of[0]) {
-                known.push(values.of[0]);
-            }
         }
         // What the last formula for each joint yields together.
         let mut last: Vec<Values> = vec![];
@@ -120,6 +162,59 @@ impl Judge<'_> {
 
     fn shown(&self, e: Expr) -> Option<Formula> {
         shown(e, self.names)
+    }
+
+    /// True if values in several statements belong to those of a joint before that has as many statements, one by one.
+    fn pairs_up(&self, before: &[Values], same: &[&Values]) -> bool {
+        let own = |v: &Values| self.trial.own(v.of[0], &v.branches.concat());
+        let others: Vec<&Values> = before.iter().filter(|v| v.of != same[0].of).collect();
+        let partner = others
+            .iter()
+            .map(|v| &v.of)
+            .find(|of| others.iter().filter(|v| v.of == **of).count() == same.len());
+        let Some(partner) = partner else { return true };
+        let partners = others.iter().filter(|v| v.of == *partner);
+        let pairs: Vec<(Vec<bool>, Vec<bool>)> = partners.zip(same).map(|(a, b)| (own(a), own(b))).collect();
+        let count = pairs.first().map_or(0, |p| p.0.len());
+        (0..count).all(|k| pairs.iter().all(|(a, b)| !a[k] || b[k]))
+    }
+
+    /// The single change of the text that makes a value right.
+    fn slip(
+        &self,
+        inverse: &mut Inverse<'_>,
+        of: Expr,
+        span: &Range<usize>,
+        syntax: &Syntax,
+        known: &[Expr],
+    ) -> Option<Slip> {
+        let source = self.text.get(span.clone())?;
+        for edit in edits(source, syntax) {
+            let Some(formula) = edited(source, &edit) else { continue };
+            let Ok(changed) = read(&formula, &(0..formula.len()), self.names) else { continue };
+            let branches: Vec<Expr> = changed.variants().iter().map(Syntax::value).collect();
+            if self.trial.shares(of, &branches)[0] < LEAST_SHARE {
+                continue;
+            }
+            let values = Values {
+                of: vec![of],
+                branches: branches.into_iter().map(|b| vec![b]).collect(),
+                of_first_rows: None,
+            };
+            if matches!(inverse.values(&values, known).verdict, Verdict::Wrong | Verdict::Undecided(_)) {
+                continue;
+            }
+            let moved = |p: &Patch| Patch {
+                span: p.span.start + span.start..p.span.end + span.start,
+                now: p.now.clone(),
+            };
+            let kind = match edit.kind {
+                Kind::Arguments => SlipKind::Arguments,
+                Kind::Slip(slip) => SlipKind::Formula(slip),
+            };
+            return Some(Slip { kind, patches: edit.patches.iter().map(moved).collect(), formula });
+        }
+        None
     }
 
     fn finding(&self, j: &Judgement, sides: &[(Range<usize>, Syntax)]) -> Finding {
@@ -215,6 +310,45 @@ impl Judge<'_> {
         let at = variables.iter().zip(&c.q).map(|(v, &x)| (v.symbol.name().to_string(), x)).collect();
         Some(Counterexample { at, printed: *c.printed.first()?.first()?, right: *c.right.first()?.first()? })
     }
+}
+
+/// What each formula needs of the joints, directly and through the formulas for those.
+fn needs(all: &[Values]) -> Vec<Vec<Expr>> {
+    let of: Vec<Expr> = all.iter().map(|v| v.of[0]).collect();
+    let speaks = |values: &Values, e: Expr| {
+        let own = e.symbols();
+        values.branches.iter().flatten().any(|b| own.iter().all(|s| b.symbols().contains(s)))
+    };
+    let mut needs: Vec<Vec<Expr>> = all
+        .iter()
+        .map(|v| {
+            let mut found: Vec<Expr> = vec![];
+            for &e in of.iter().filter(|e| **e != v.of[0] && speaks(v, **e)) {
+                if !found.contains(&e) {
+                    found.push(e);
+                }
+            }
+            found
+        })
+        .collect();
+    // As often as there are formulas: no chain is longer.
+    for _ in 0..all.len().min(12) {
+        let before = needs.clone();
+        for (k, own) in needs.iter_mut().enumerate() {
+            for e in before[k].clone() {
+                let further = of.iter().zip(&before).filter(|(o, _)| **o == e).flat_map(|(_, n)| n.clone());
+                for f in further.collect::<Vec<Expr>>() {
+                    if f != of[k] && !own.contains(&f) {
+                        own.push(f);
+                    }
+                }
+            }
+        }
+        if before == needs {
+            break;
+        }
+    }
+    needs
 }
 
 fn claim(assertion: &Assertion, entry: Entry) -> Claim {

@@ -25,17 +25,34 @@ pub struct Checked {
     pub schema: Schema,
     /// How many claims there are of each verdict.
     pub tally: Tally,
+    /// What looks like a formula and was not judged.
+    pub unjudged: Vec<Unjudged>,
+}
+
+/// A line that looks like a formula and was not judged.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Unjudged {
+    /// Where it stands.
+    pub at: Place,
+    /// It, blanks run together.
+    pub text: String,
+    /// Why, in words.
+    pub why: String,
 }
 
 /// How many claims there are of each verdict.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
 pub struct Tally {
+    /// Right but for a wrong one before.
+    pub carried: usize,
     /// Equal where a condition holds.
     pub conditional: usize,
     /// Proved equal.
     pub equal: usize,
     /// Neither proved nor refuted.
     pub undecided: usize,
+    /// Lines that look like formulas and were not judged.
+    pub unjudged: usize,
     /// Not read.
     pub unreadable: usize,
     /// Refuted.
@@ -78,7 +95,7 @@ pub struct Claim {
     pub robot: usize,
     /// The slip of the first entry that decides the verdict.
     pub slip: Option<Slip>,
-    /// `equal`, `wrong`, `conditional`, `undecided` or `unreadable`.
+    /// `equal`, `wrong`, `conditional`, `carried`, `undecided` or `unreadable`.
     pub verdict: &'static str,
 }
 
@@ -87,13 +104,16 @@ pub struct Claim {
 pub struct Entry {
     /// Where it stands.
     pub at: Place,
+    /// Carried: the claim that it follows from, a number in the list, from 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub by: Option<usize>,
     /// The column, in a matrix.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub column: Option<usize>,
     /// Conditional: on what, in words.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub condition: Option<String>,
-    /// Conditional or wrong: what is right, null if that is not known.
+    /// Conditional, carried or wrong: what is right, null if that is not known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub correct: Option<Option<String>>,
     /// Wrong: where printed and right differ, null if no place was found.
@@ -128,9 +148,9 @@ pub struct Entry {
     /// Equal: what must not be 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unless_zero: Option<Vec<String>>,
-    /// `equal`, `wrong`, `conditional`, `undecided` or `unreadable`.
+    /// `equal`, `wrong`, `conditional`, `carried`, `undecided` or `unreadable`.
     pub verdict: &'static str,
-    /// Undecided: why.
+    /// Undecided or carried: why.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub why: Option<String>,
 }
@@ -202,14 +222,15 @@ impl Checked {
             robots: checked.robots.iter().map(|r| r.name.clone()).collect(),
             schema: Schema,
             tally: Tally::from(checked.tally()),
+            unjudged: checked.unjudged.iter().map(|u| document.unjudged(u)).collect(),
         }
     }
 }
 
 impl From<check::Tally> for Tally {
     fn from(tally: check::Tally) -> Self {
-        let check::Tally { equal, wrong, conditional, undecided, unreadable } = tally;
-        Tally { conditional, equal, undecided, unreadable, wrong }
+        let check::Tally { equal, wrong, conditional, carried, undecided, unreadable, unjudged } = tally;
+        Tally { carried, conditional, equal, undecided, unjudged, unreadable, wrong }
     }
 }
 
@@ -237,6 +258,11 @@ impl Document<'_> {
     fn source(&self, span: &Range<usize>) -> String {
         let source = self.text.get(span.clone()).unwrap_or_default();
         source.split_whitespace().collect::<Vec<_>>().join(" ")
+    }
+
+    fn unjudged(&self, found: &check::Unjudged) -> Unjudged {
+        let (at, text) = (self.place(&found.span), self.source(&found.span));
+        Unjudged { at, text, why: words().skipped(&found.why) }
     }
 
     fn cause(&self, cause: &check::Cause) -> Cause {
@@ -287,6 +313,11 @@ impl Document<'_> {
                 remarks: Some(remarks(all)),
                 ..plain
             },
+            check::Finding::Carried { by, correct } => {
+                let cause = self.checked.claims.get(*by);
+                let why = cause.map(|c| words().carried(&c.name, self.place(&c.span).line));
+                Entry { by: Some(*by), correct: Some(words().either(correct)), why, ..plain }
+            }
             check::Finding::Undecided { why } => Entry { why: Some(words().unproved(*why)), ..plain },
             check::Finding::Unreadable(all) => {
                 Entry { errors: Some(all.iter().map(|d| self.unread(d)).collect()), ..plain }
@@ -299,6 +330,7 @@ impl Document<'_> {
     fn plain(&self, entry: &check::Entry) -> Entry {
         Entry {
             at: self.place(&entry.span),
+            by: None,
             column: entry.place.map(|p| p.1),
             condition: None,
             correct: None,

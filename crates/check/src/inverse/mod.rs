@@ -28,6 +28,7 @@ pub use judgement::{
     Cause, Composed, Counterexample, Fault, Grounds, Judgement, Missing, Origin, Right, Undecided, Values,
     Verdict, Where,
 };
+pub(super) use mend::rebuilt;
 pub use orientation::{Orientation, orientation};
 
 use arm::Arm;

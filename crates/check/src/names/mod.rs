@@ -209,7 +209,8 @@ impl Reader<'_> {
     }
 
     fn name(&mut self) -> Option<Name> {
-        let mut name = Name { left: self.left()?, ..Name::default() };
+        let (left, before) = self.left()?;
+        let mut name = Name { left, ..Name::default() };
         self.skip();
         let start = self.at;
         let has_brace = self.peek() == Some('{');
@@ -227,19 +228,32 @@ impl Reader<'_> {
             self.base(&mut name)?;
         }
         self.scripts(&mut name)?;
+        if name.sub.is_empty() {
+            name.sub = before;
+        } else if !before.is_empty() {
+            return None;
+        }
         name.span = self.place(start)..self.place(self.at);
         Some(name)
     }
 
-    /// The superscript before a name: `{}^0T`, `^{j-1}T`, `⁰T`, `0T`, `\prescript{0}{}{T}`.
-    fn left(&mut self) -> Option<String> {
-        let mut left = String::new();
+    /// The superscript and the subscript before a name: `{}^0T`, `^{j-1}T`, `⁰T`, `0T`, `{}^0_1T`, `{}_1^0T`.
+    fn left(&mut self) -> Option<(String, String)> {
+        let (mut left, mut below) = (String::new(), String::new());
         loop {
             self.skip();
             match self.peek() {
                 Some('^') => {
                     self.at += 1;
                     left.push_str(&self.group()?);
+                }
+                Some('_') => {
+                    self.at += 1;
+                    below.push_str(&self.group()?);
+                }
+                Some(c) if !left.is_empty() && subscript(c).is_some() => {
+                    below.extend(subscript(c));
+                    self.at += 1;
                 }
                 Some(c) if superscript(c).is_some() => {
                     left.extend(superscript(c));
@@ -255,7 +269,7 @@ impl Reader<'_> {
                     self.at += digits.len();
                     left = digits;
                 }
-                _ => return Some(left),
+                _ => return Some((left, below)),
             }
         }
     }

@@ -1,12 +1,13 @@
 //! A printed matrix, or a product of printed matrices, against the matrix that it should be.
 
+use super::scalars::is_measured;
 use super::{Assertion, Cell, Pair, Piece, Reference, Walk};
-use crate::facts::{Jacobian, Meaning, Remark, ShortRow};
+use crate::facts::{Meaning, Remark, ShortRow};
+use crate::jacobians::told_of_jacobian;
 use crate::matrix::Matrix;
 use crate::note::{Unread, Unreadable};
 use crate::numbers::{Answer, half_unit};
 use crate::product::{Factor, NotMatrices, Product};
-use crate::subject::Subject;
 use denavit::geometry::Transform;
 use denavit_reading::document::{Fence, Grid, Part, Side, Statement};
 use denavit_reading::slip::Points;
@@ -21,19 +22,17 @@ impl Walk<'_> {
         read: &[Result<Product<'_>, NotMatrices>],
         statement: &Statement,
     ) -> Option<Reference> {
-        let is_j = |side: &Side| match &side.parts[..] {
-            [Part::Text(span)] => {
-                let name = self.lexis.lone_name(self.text, span);
-                name.is_some_and(|n| n.base == "J" || n.base == "Jacobian")
-            }
-            _ => false,
+        let told_by = |side: &Side| match &side.parts[..] {
+            [Part::Text(span)] => told_of_jacobian(&self.lexis.lone_name(self.text, span)?),
+            _ => None,
         };
         let is_rates = |grid: &Grid| {
             let mut spans = grid.rows.iter().flatten();
             let is_rate = |s: &str| s.contains("\\dot") || s.contains('̇') || s.ends_with('\'');
             spans.clone().count() > 0 && spans.all(|s| is_rate(self.source(s)))
         };
-        let is_told = statement.sides.iter().any(is_j);
+        let told = statement.sides.iter().find_map(told_by);
+        let is_told = told.is_some();
         let grid = read.iter().find_map(|r| match r.as_ref().ok()?.factors.as_deref()? {
             [Factor::Grid(grid)] if is_told => Some(*grid),
             [Factor::Grid(grid), Factor::Grid(rates)] if is_rates(rates) => Some(*grid),
@@ -57,7 +56,7 @@ impl Walk<'_> {
         if columns != joints || !(2..=6).contains(&rows) {
             return None;
         }
-        let (matrix, jacobian) = nearest_jacobian(self.subject, &printed)?;
+        let (matrix, jacobian) = self.subject.nearest_jacobian(&printed, &told.unwrap_or_default())?;
         Some(Reference { matrix, about: Some(Meaning::Jacobian(jacobian)) })
     }
 
@@ -75,6 +74,10 @@ impl Walk<'_> {
             Some([Factor::Grid(grid)]) if grid.fence != Fence::Bars => {
                 out.whole = Some(reference.matrix.clone());
                 self.compare_grid(grid, &reference.matrix, out);
+            }
+            Some([Factor::Scalar(factor), Factor::Grid(grid)]) if grid.fence != Fence::Bars => {
+                out.whole = Some(reference.matrix.clone());
+                self.compare_grid(grid, &reference.matrix.divided_by(*factor), out);
             }
             Some([Factor::Grid(grid), Factor::Grid(rates)])
                 if reference.about.as_ref().is_some_and(Meaning::begins_with_jacobian)
@@ -182,8 +185,10 @@ impl Walk<'_> {
             out.remarks.push(Remark::ManyRows { printed: cells.len(), wanted: wanted.0.len() });
         }
         let depends = wanted.0.iter().flatten().flatten().any(|e| !e.symbols().is_empty());
-        let is_numeric =
-            depends && self.at.is_complete(self.subject) && cells.iter().flatten().all(is_number);
+        let all_numbers = depends && cells.iter().flatten().all(is_number);
+        let knows = |e: &Expr| self.at.knows(*e, &self.subject);
+        let is_numeric = all_numbers && wanted.0.iter().flatten().flatten().all(knows);
+        let is_open = all_numbers && !is_numeric;
         for (r, row) in cells.iter().enumerate() {
             if row.len() < width {
                 let short = ShortRow { row: r + 1, elements: row.len(), width };
@@ -225,6 +230,11 @@ impl Walk<'_> {
                                 out.pieces.extend(self.number(place, span, syntax.value(), wanted));
                                 continue;
                             }
+                            if is_open && is_measured(syntax.value()) && !wanted.symbols().is_empty() {
+                                let errors = vec![Unread::new(span.clone(), Unreadable::NoConfiguration)];
+                                out.pieces.push(Piece::Unreadable { place, span: span.clone(), errors });
+                                continue;
+                            }
                             out.pieces.push(Piece::Pair(Pair {
                                 place,
                                 span: span.clone(),
@@ -248,9 +258,10 @@ impl Walk<'_> {
         printed: Expr,
         wanted: Expr,
     ) -> Option<Piece> {
+        let constant = Some(printed);
         let printed = printed.eval(|_| None).ok()?;
         let half = half_unit(self.source(span));
-        let answer = Answer { printed, half, wanted, at: self.at.clone() };
+        let answer = Answer { printed, half, wanted, at: self.at.clone(), constant };
         Some(Piece::Number { place, span: span.clone(), answer })
     }
 
@@ -304,26 +315,4 @@ fn is_too_long(value: Option<&Matrix>) -> bool {
 fn too_long(span: &Range<usize>) -> Piece {
     let errors = vec![Unread::new(span.clone(), Unreadable::LongProduct)];
     Piece::Unreadable { place: None, span: span.clone(), errors }
-}
-
-/// Of the Jacobians that people print, the one that agrees with a matrix in most entries.
-pub(crate) fn nearest_jacobian(subject: &Subject, printed: &Matrix) -> Option<(Matrix, Jacobian)> {
-    let (rows, _) = printed.shape()?;
-    let mut points = Points::new(7);
-    let mut same = |m: &Matrix| {
-        let entries = m.0.iter().flatten().zip(printed.0.iter().flatten());
-        let agree = entries.filter(|(a, b)| match (a, b) {
-            (Some(a), Some(b)) => points.value(*a).is_some_and(|x| Some(x) == points.value(*b)),
-            _ => false,
-        });
-        agree.count()
-    };
-    let mut best: Option<(usize, Jacobian, Matrix)> = None;
-    for (about, matrix) in subject.jacobians(rows) {
-        let count = same(&matrix);
-        if best.as_ref().is_none_or(|b| count > b.0) {
-            best = Some((count, about, matrix));
-        }
-    }
-    best.map(|(_, about, matrix)| (matrix, about))
 }

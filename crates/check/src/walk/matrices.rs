@@ -2,6 +2,7 @@
 
 use super::{Assertion, Cell, Cells, Definition, MAX_ELEMENTS, Piece, Reference, Scalar, Walk};
 use crate::facts::{About, Meaning};
+use crate::jacobians::{Part as Rows, told_of_jacobian};
 use crate::matrix::Matrix;
 use crate::names::{Name, Token, tokens};
 use crate::note::{Unread, Unreadable};
@@ -17,7 +18,7 @@ impl Walk<'_> {
     pub(super) fn is_product(&self, span: &Range<usize>) -> bool {
         let before = self.lexis.anywhere.replace(true);
         let side = Side { span: span.clone(), parts: vec![Part::Text(span.clone())] };
-        let is_product = product(self.text, &side, &self.lexis, self.subject, &|_| None).is_ok();
+        let is_product = product(self.text, &side, &self.lexis, &self.subject, &|_| None).is_ok();
         self.lexis.anywhere.set(before);
         is_product
     }
@@ -45,7 +46,9 @@ impl Walk<'_> {
                 | "·"
                 | "bullet"
                 | "times"
-        ) || matches!(is_dots, "x" | "X" | "×") && !is_column && self.lexis.names.lookup("x").is_none()
+        ) || matches!(is_dots, "x" | "X" | "×")
+            && !is_column
+            && (self.lexis.is_by_custom("x") || self.lexis.names.lookup("x").is_none())
         {
             return Cell::LeftOut;
         }
@@ -146,7 +149,10 @@ impl Walk<'_> {
         self.cells.borrow_mut().clear();
         for definition in definitions {
             match definition {
-                Definition::Matrix(name, matrix, about) => self.lexis.define_matrix(&name, matrix, about),
+                Definition::Matrix(name, matrix, about) => {
+                    self.named.push((statement.span.clone(), name.key()));
+                    self.lexis.define_matrix(&name, matrix, about);
+                }
                 Definition::Entry(name, value) => self.lexis.define_right(&name, value, value),
                 Definition::Cell(name, value) => self.lexis.define(&name, value),
             }
@@ -173,13 +179,45 @@ impl Walk<'_> {
             .collect();
         let joints = self.subject.description.variables().len();
         let Some(values) = values.filter(|v| v.len() == joints) else { return false };
+        let plain = crate::custom::plain(self.source(name));
+        let is_rates = matches!(plain.as_str(), "dotq" | "dotθ" | "qdot" | "θdot" | "q\u{307}" | "θ\u{307}");
+        if is_rates && self.velocity_given().is_none() {
+            let rates = self.subject.rates();
+            for (rate, value) in rates.iter().filter_map(|e| e.as_symbol()).zip(values) {
+                self.at.give(rate, value);
+            }
+            self.taken.push(statement.span.clone());
+            return true;
+        }
         if !self.lexis.lone_name(self.text, name).is_some_and(|n| is_q(&n)) {
             return false;
         }
+        self.taken.push(statement.span.clone());
         for (joint, value) in values.into_iter().enumerate() {
             self.at.set(joint, value);
         }
         true
+    }
+
+    /// The velocity of the hand that the document gives as numbers: `v = (0.1, 0, 0)`.
+    fn velocity_given(&self) -> Option<Matrix> {
+        let name = Name { base: "v".into(), ..Name::default() };
+        let v = self.lexis.defined(&name)?;
+        let is_number = |e: &Option<Expr>| e.is_some_and(|e| e.symbols().is_empty());
+        (v.shape()? == (self.subject.joints().len(), 1) && v.0.iter().flatten().all(is_number))
+            .then(|| v.clone())
+    }
+
+    /// The joint rates that a velocity takes, where a statement is about them: `\dot q = J^{-1} v`.
+    fn rates_of(&self, statement: &Statement) -> Option<Reference> {
+        let [Part::Text(name)] = &statement.sides.first()?.parts[..] else { return None };
+        let plain = crate::custom::plain(self.source(name));
+        if !matches!(plain.as_str(), "dotq" | "dotθ" | "qdot" | "θdot" | "q\u{307}" | "θ\u{307}") {
+            return None;
+        }
+        let jacobian = self.subject.square_jacobian(Rows::Any)?;
+        let matrix = jacobian.inverse()?.times(&self.velocity_given()?)?;
+        Some(Reference { matrix, about: None })
     }
 
     /// The elementary transforms that a statement names, `Rot(x, θ)`.
@@ -208,11 +246,11 @@ impl Walk<'_> {
                 self.define_cells(grid, &mut definitions);
             }
         }
-        let subject = self.subject;
+        let subject = Rc::clone(&self.subject);
         let read: Vec<Result<Product<'_>, NotMatrices>> = statement
             .sides
             .iter()
-            .map(|side| product(self.text, side, &self.lexis, subject, &|grid| self.printed(grid)))
+            .map(|side| product(self.text, side, &self.lexis, &subject, &|grid| self.printed(grid)))
             .collect();
         if !read.iter().any(|r| r.is_ok()) {
             self.skipped.push((statement.span.clone(), Unreadable::NeitherFormulaNorProduct));
@@ -222,7 +260,9 @@ impl Walk<'_> {
             return definitions;
         }
         let told = claim.and_then(|words| self.told_matrix(words.split(' ').next().unwrap_or(words)));
-        let named = read.iter().enumerate().find_map(|(i, r)| match r {
+        let is_jacobian = self.jacobian_of(&read, statement).is_some();
+        let tells_jacobian = |i: usize| is_jacobian && self.tells_jacobian(&statement.sides[i]);
+        let named = read.iter().enumerate().filter(|(i, _)| !tells_jacobian(*i)).find_map(|(i, r)| match r {
             Ok(Product { value: Some(matrix), about: Some(about), .. }) => {
                 Some((i, Reference { matrix: matrix.clone(), about: Some(about.clone()) }))
             }
@@ -237,10 +277,14 @@ impl Walk<'_> {
         let jacobian = || self.jacobian_of(&read, statement);
         let (at, reference) = match (told, named) {
             (Some(reference), _) => (usize::MAX, Some(reference)),
+            // A column of velocities is a matrix times rates.
+            (None, Some((_, Reference { about: Some(Meaning::Hand), .. }))) if is_jacobian => {
+                (usize::MAX, jacobian())
+            }
             (None, Some((i, reference))) => (i, Some(reference)),
             (None, None) => match jacobian() {
                 Some(reference) => (usize::MAX, Some(reference)),
-                None => (usize::MAX, None),
+                None => (usize::MAX, self.rates_of(statement)),
             },
         };
         let about = reference.as_ref().and_then(|r| r.about.clone()).map_or(About::Matrices, About::Matrix);
@@ -259,6 +303,7 @@ impl Walk<'_> {
                     let span = &statement.sides[i].span;
                     match r {
                         Ok(_) if self.redefined(statement, i) => {}
+                        Ok(_) if tells_jacobian(i) => {}
                         Ok(product) => match &product.factors.as_deref() {
                             Some([Factor::Grid(grid)]) if self.is_velocity(grid) => {}
                             Some([Factor::Grid(grid)]) if self.is_names(grid) => names.push(grid),
@@ -278,8 +323,9 @@ impl Walk<'_> {
             }
             None => {
                 // Nothing is known: what is printed later should be what is printed first.
+                let is_old = |i: usize| i == 0 && read.len() > 1 && self.redefined(statement, 0);
                 let first = read.iter().enumerate().find_map(|(i, r)| match r {
-                    Ok(Product { value: Some(matrix), .. }) => Some((i, matrix.clone())),
+                    Ok(Product { value: Some(matrix), .. }) if !is_old(i) => Some((i, matrix.clone())),
                     _ => None,
                 });
                 if let Some((i, matrix)) = first {
@@ -316,8 +362,13 @@ impl Walk<'_> {
             })
         });
         for (side, r) in statement.sides.iter().zip(&read) {
-            if let (Err(NotMatrices::Unknown(name)), Some((matrix, about))) = (r, &defined)
-                && self.is_lone(side, name)
+            let anew = (tells_jacobian(0) && r.is_ok()).then(|| self.lone(side)).flatten().map(Box::new);
+            let unknown = match r {
+                Err(NotMatrices::Unknown(name)) => Some(name.clone()),
+                _ => anew,
+            };
+            if let (Some(name), Some((matrix, about))) = (unknown, &defined)
+                && self.is_lone(side, &name)
             {
                 definitions.push(Definition::Matrix(name.as_ref().clone(), matrix.clone(), about.clone()));
             }
@@ -348,7 +399,7 @@ impl Walk<'_> {
         i == 0
             && name.is_some_and(|n| {
                 self.lexis.has_defined(&n)
-                    && self.lexis.matrix(self.subject, &n).is_some_and(|m| m.1.is_none())
+                    && self.lexis.matrix(&self.subject, &n).is_some_and(|m| m.1.is_none())
             })
     }
 
@@ -356,6 +407,19 @@ impl Walk<'_> {
     pub(super) fn is_velocity(&self, grid: &Grid) -> bool {
         let mut spans = grid.rows.iter().flatten().map(|s| self.source(s));
         grid.rows.iter().all(|r| r.len() == 1) && spans.any(|s| s.contains(r"\dot") || s.contains('\u{307}'))
+    }
+
+    /// The one name that a side is.
+    fn lone(&self, side: &Side) -> Option<Name> {
+        match &side.parts[..] {
+            [Part::Text(span)] => self.lexis.lone_name(self.text, span),
+            _ => None,
+        }
+    }
+
+    /// True for a side that only names a Jacobian.
+    fn tells_jacobian(&self, side: &Side) -> bool {
+        self.lone(side).is_some_and(|name| told_of_jacobian(&name).is_some())
     }
 
     pub(super) fn is_lone(&self, side: &Side, name: &Name) -> bool {

@@ -1,20 +1,23 @@
 //! From the statements of a document to pairs of formulas: what is printed, and what the robot makes of it.
 
+mod author;
 mod compare;
 mod matrices;
 mod scalars;
+mod told;
 
-pub(super) use compare::nearest_jacobian;
+pub(super) use scalars::is_measured;
 
 use super::facts::{About, Meaning, Remark};
-use super::lexis::{Columns, Lexis, read};
+use super::habits::Habits;
+use super::lexis::{Lexis, read};
 use super::matrix::Matrix;
 use super::names::Name;
 use super::note::{Unread, Unreadable};
 use super::numbers::{Answer, Configuration};
 use super::subject::Subject;
 use denavit::geometry::orientation::OrientationSet;
-use denavit_reading::document::{Part, Statement};
+use denavit_reading::document::{Part, Place, Statement};
 use denavit_symbolic::Expr;
 use denavit_symbolic::parse::{Syntax, whole_word};
 use denavit_symbolic::vocabulary::Vocabulary;
@@ -92,6 +95,9 @@ pub(super) enum Spoken {
 #[derive(Clone, Debug)]
 pub(super) struct Defined {
     pub name: String,
+    /// The whole statement, and its left side as printed.
+    pub statement: Range<usize>,
+    pub shown: String,
     /// Where the formula stands.
     pub span: Range<usize>,
     pub printed: Syntax,
@@ -107,7 +113,7 @@ const MAX_ELEMENTS: usize = 4_096;
 pub(super) struct Walk<'a> {
     text: &'a str,
     pub lexis: Lexis,
-    pub subject: &'a Subject,
+    pub subject: Rc<Subject>,
     number: usize,
     pub assertions: Vec<Assertion>,
     /// Names that the document defines by formulas.
@@ -120,8 +126,13 @@ pub(super) struct Walk<'a> {
     pub angles: Option<OrientationSet>,
     /// Statements that say nothing of the robot and could not be read.
     pub skipped: Vec<(Range<usize>, Unreadable)>,
-    /// The prose that was looked at last.
+    /// What states a configuration or a case, and claims nothing.
+    pub taken: Vec<Range<usize>>,
+    /// Names that the document gives matrices: the statement and the name as printed.
+    pub named: Vec<(Range<usize>, String)>,
+    /// The prose and the heading that were looked at last.
     last_prose: Range<usize>,
+    last_heading: Range<usize>,
     /// The cells of the matrices of the present statement.
     cells: RefCell<FxHashMap<usize, Rc<Cells>>>,
 }
@@ -165,17 +176,20 @@ struct Reference {
 
 impl<'a> Walk<'a> {
     /// Begins with a robot.
-    pub fn new(text: &'a str, subject: &'a Subject) -> Self {
-        let lexis = Lexis::new(subject, Columns::of(text));
+    pub fn new(text: &'a str, subject: &Rc<Subject>, habits: &Rc<Habits>) -> Self {
+        let lexis = Lexis::new(subject, habits, &Rc::from(text));
         Walk {
             text,
             lexis,
-            subject,
+            subject: Rc::clone(subject),
             number: 0,
             assertions: vec![],
             defined: vec![],
             sines: vec![],
+            taken: vec![],
+            named: vec![],
             last_prose: 0..0,
+            last_heading: 0..0,
             at: Configuration::default(),
             angles: None,
             skipped: vec![],
@@ -184,10 +198,10 @@ impl<'a> Walk<'a> {
     }
 
     /// Goes on with another robot of the document.
-    pub fn turn_to(&mut self, subject: &'a Subject, number: usize) {
+    pub fn turn_to(&mut self, subject: &Rc<Subject>, number: usize) {
         if number != self.number {
             self.lexis = self.lexis.of(subject);
-            (self.subject, self.number) = (subject, number);
+            (self.subject, self.number) = (Rc::clone(subject), number);
         }
     }
 
@@ -211,6 +225,12 @@ impl<'a> Walk<'a> {
 
     /// Reads a statement; `claim` says what its left side means, where that is told.
     pub fn statement(&mut self, statement: &Statement, claim: Option<&str>) {
+        if let Some(heading) = &statement.heading
+            && *heading != self.last_heading
+        {
+            self.last_heading = heading.clone();
+            self.told_in(heading);
+        }
         if let Some(prose) = &statement.prose
             && *prose != self.last_prose
         {
@@ -223,6 +243,15 @@ impl<'a> Walk<'a> {
             return;
         }
         self.matrices(statement, claim);
+    }
+
+    /// True for a statement that stands in a sentence that tells a case.
+    fn is_case(&self, statement: &Statement) -> bool {
+        let prose = statement.prose.clone().filter(|p| {
+            let between = self.text.get(p.end.min(statement.span.start)..statement.span.start);
+            statement.place == Place::Inline && between.is_some_and(|b| b.len() < 200 && !b.contains("\n\n"))
+        });
+        prose.and_then(|p| self.text.get(p)).is_some_and(told::is_case)
     }
 
     fn source(&self, span: &Range<usize>) -> &'a str {

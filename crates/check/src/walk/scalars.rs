@@ -2,14 +2,17 @@
 
 use super::{Assertion, Defined, Pair, Piece, Reference, Scalar, Spoken, Walk};
 use crate::facts::About;
-use crate::lexis::set_in;
+use crate::habits::with_named_signs;
+use crate::jacobians::Part;
+use crate::lexis::{read, set_in};
+use crate::matrix::Matrix;
 use crate::names::Name;
 use crate::note::{Unread, Unreadable};
-use denavit::description::read_value;
+use denavit::forward::Reference as Frame;
 use denavit::geometry::orientation::OrientationSet;
-use denavit_reading::document::Statement;
+use denavit_reading::document::{Place, Statement};
 use denavit_symbolic::parse::{Function, Syntax, SyntaxKind};
-use denavit_symbolic::vocabulary::plain_name;
+use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
 use denavit_symbolic::{Angle, Expr, Node};
 use std::ops::Range;
 
@@ -19,12 +22,12 @@ impl Walk<'_> {
             Ok(syntax) => return Scalar::Formula(span.clone(), syntax),
             Err(errors) => errors,
         };
-        let plain: String = self.source(span).chars().filter(|c| c.is_alphanumeric() || *c == '|').collect();
-        let is_determinant = matches!(
-            plain.as_str(),
-            "detJ" | "|J|" | "leftJright" | "detJq" | "detleftJright" | "left|Jright|"
-        );
-        if is_determinant && let Some(value) = self.subject.determinant() {
+        if let Some(value) = self.determinant(span) {
+            let kind = SyntaxKind::Name(value);
+            return Scalar::Formula(span.clone(), Syntax { kind, span: 0..span.len() });
+        }
+        // Numbers with units: `0.433 m`.
+        if let Some(value) = self.constant(self.source(span)) {
             let kind = SyntaxKind::Name(value);
             return Scalar::Formula(span.clone(), Syntax { kind, span: 0..span.len() });
         }
@@ -44,22 +47,22 @@ impl Walk<'_> {
 
     /// What `x`, `Y`, `x_x` or `z_y` mean by custom, where the document gives no other meaning.
     pub(super) fn conventional(&self, name: &Name) -> Option<Expr> {
-        if name.base == "det" && name.sub.is_empty() {
-            return self.subject.determinant();
-        }
-        if self.subject.last() == 0 {
+        if self.subject.last() == 0
+            || self.lexis.habits.helpers.contains(&format!("{}{}", name.base, name.sub))
+        {
             return None;
         }
         let digits: Vec<u32> = name.sub.chars().filter_map(|c| c.to_digit(10)).collect();
         if let ("J", [r, c]) = (name.base.as_str(), &digits[..]) {
-            let (_, j) = self.subject.jacobians(6).into_iter().next()?;
-            return j.entry((*r as usize).checked_sub(1)?, (*c as usize).checked_sub(1)?);
+            let j = self.subject.geometric_rows(Frame::Tool, Frame::Frame(0));
+            return j.get((*r as usize).checked_sub(1)?)?.get((*c as usize).checked_sub(1)?).copied();
         }
         let axis = |c: &str| ["x", "y", "z"].iter().position(|a| *a == c.to_lowercase());
         let plain = format!("{}{}", name.base, name.sub);
         let pose = self.subject.pose();
         match (axis(&name.base), name.sub.as_str()) {
-            (Some(r), "" | "p" | "P") => Some(pose.translation.0[r]),
+            (Some(r), "p" | "P") => Some(pose.translation.0[r]),
+            (Some(_), "") => None,
             (Some(c), sub) => Some(pose.rotation.rows()[axis(sub)?][c]),
             (None, _) => {
                 let mut letters = plain.chars();
@@ -69,12 +72,31 @@ impl Walk<'_> {
         }
     }
 
+    /// True if a side defines a name: one without meaning, or a second spelling of a joint whose own formula it would stand in.
+    fn defines(&self, span: &Range<usize>, side: &Scalar, formula: &Syntax) -> bool {
+        match side {
+            Scalar::Lone(_) => true,
+            Scalar::Formula(_, left) => {
+                let joint = left.value().as_symbol().filter(|s| self.subject.joints().contains(&(*s).into()));
+                // A helper may be defined anew: what it was before is not what it should be.
+                if matches!(left.kind, SyntaxKind::Name(_)) && self.lexis.is_helper(self.source(span)) {
+                    return !denavit_symbolic::equal(left.value(), formula.value()).is_equal();
+                }
+                let is_letter = self.source(span).starts_with('t') && !self.source(span).starts_with("th");
+                joint.is_some_and(|j| {
+                    is_letter && formula.value() != left.value() && formula.value().symbols().contains(&j)
+                })
+            }
+            Scalar::Broken(..) => false,
+        }
+    }
+
     /// Reads a statement as one between scalars; false if it is none.
     pub(super) fn scalars(&mut self, statement: &Statement, claim: Option<&str>) -> bool {
         let spans: Vec<Range<usize>> = statement.sides.iter().map(|s| s.span.clone()).collect();
         let read: Vec<Scalar> = spans.iter().map(|s| self.scalar(s)).collect();
         let is_matrix = |s: &Scalar| match s {
-            Scalar::Lone(name) => self.lexis.matrix(self.subject, name).is_some(),
+            Scalar::Lone(name) => self.lexis.matrix(&self.subject, name).is_some(),
             Scalar::Broken(span, _) => self.is_product(span),
             Scalar::Formula(..) => false,
         };
@@ -84,7 +106,16 @@ impl Walk<'_> {
                 return false;
             }
         }
-        if self.configuration(&spans, &read) {
+        let is_case = self.is_case(statement);
+        if is_case && self.case(statement, &read) {
+            return true;
+        }
+        if !is_case && self.configuration(&spans, &read) {
+            self.taken.push(statement.span.clone());
+            return true;
+        }
+        if self.is_condition(statement, &read) || self.is_goal(statement, &read) {
+            self.taken.push(statement.span.clone());
             return true;
         }
         if let Some(spoken) = self.values(&spans, &read).or_else(|| self.angle(statement, &read)) {
@@ -101,14 +132,19 @@ impl Walk<'_> {
         // A name that the document defines here.
         let is_definition = told.is_none()
             && match &read[..] {
-                [Scalar::Lone(name), Scalar::Formula(span, syntax), ..] => {
-                    let name = plain_name(&format!("{}{}", name.base, name.sub));
+                [first, Scalar::Formula(span, syntax), ..] if self.defines(&spans[0], first, syntax) => {
+                    let name = match first {
+                        Scalar::Lone(name) => plain_name(&format!("{}{}", name.base, name.sub)),
+                        _ => plain_name(self.source(&spans[0])),
+                    };
                     let inverse = self.lexis.inverse_formula(self.text, span);
                     let inverse = inverse.map_or(syntax.value(), |s| s.value());
                     self.lexis.define(&name, syntax.value());
                     self.lexis.define_inverse(&name, inverse);
                     self.defined.push(Defined {
                         name,
+                        statement: statement.span.clone(),
+                        shown: self.claim_name(statement),
                         span: span.clone(),
                         printed: syntax.clone(),
                         value: syntax.value(),
@@ -116,8 +152,32 @@ impl Walk<'_> {
                     });
                     true
                 }
+                [Scalar::Broken(left, _), Scalar::Formula(span, syntax)] => {
+                    let inverse =
+                        self.lexis.inverse_formula(self.text, span).map_or(syntax.value(), |s| s.value());
+                    match (self.implied(left, syntax.value()), self.implied(left, inverse)) {
+                        (Some((name, value)), Some((_, inverse))) => {
+                            self.lexis.define(&name, value);
+                            self.lexis.define_inverse(&name, inverse);
+                            self.defined.push(Defined {
+                                name,
+                                statement: statement.span.clone(),
+                                shown: self.claim_name(statement),
+                                span: span.clone(),
+                                printed: syntax.clone(),
+                                value: syntax.value(),
+                                subject: self.number,
+                            });
+                            return true;
+                        }
+                        _ => false,
+                    }
+                }
                 _ => false,
             };
+        if is_definition && matches!(read.first(), Some(Scalar::Formula(..))) {
+            return true;
+        }
         let formulas = || {
             read.iter().enumerate().filter_map(|(i, s)| match s {
                 Scalar::Formula(span, syntax) => Some((i, span, syntax)),
@@ -154,7 +214,7 @@ impl Walk<'_> {
                 Scalar::Formula(span, syntax)
                     if syntax.value().symbols().is_empty()
                         && !wanted.symbols().is_empty()
-                        && self.at.is_complete(self.subject) =>
+                        && self.at.knows(wanted, &self.subject) =>
                 {
                     pieces.extend(self.number(None, span, syntax.value(), wanted));
                 }
@@ -201,6 +261,95 @@ impl Walk<'_> {
         true
     }
 
+    /// A joint's value in a sentence that tells a case: a singular configuration, if the sentence says so.
+    fn case(&mut self, statement: &Statement, read: &[Scalar]) -> bool {
+        let [Scalar::Formula(_, left), Scalar::Formula(span, right)] = read else { return false };
+        let (of, value) = (left.value(), right.value());
+        let joints = self.subject.joints();
+        if !of.as_symbol().is_some_and(|s| joints.contains(&s.into())) || !value.symbols().is_empty() {
+            return false;
+        }
+        let said = statement.prose.clone().and_then(|p| self.text.get(p)).unwrap_or_default().to_lowercase();
+        let determinant = self.subject.determinant(Part::Any).filter(|_| is_singular(&said));
+        match determinant {
+            Some(determinant) => {
+                let there = determinant.substitute(|s| (Some(s) == of.as_symbol()).then_some(value));
+                let piece = Piece::Pair(Pair {
+                    place: None,
+                    span: span.clone(),
+                    printed: None,
+                    value: there,
+                    wanted: Expr::int(0),
+                    also: vec![],
+                });
+                // The configurations of a sentence are one claim.
+                let last = self.assertions.last_mut().filter(|a| a.about == About::Singularity);
+                match last.filter(|a| statement.span.start.saturating_sub(a.span.end) < 120) {
+                    Some(assertion) => {
+                        assertion.span.end = statement.span.end;
+                        assertion.pieces.push(piece);
+                    }
+                    None => {
+                        let mut assertion = self.assertion(statement, About::Singularity);
+                        assertion.pieces = vec![piece];
+                        self.assertions.push(assertion);
+                    }
+                }
+            }
+            None => self.taken.push(statement.span.clone()),
+        }
+        true
+    }
+
+    /// True for an equation to be solved in a sentence: `det J = 0`, `s_5 = 0`.
+    fn is_condition(&self, statement: &Statement, read: &[Scalar]) -> bool {
+        let [Scalar::Formula(span, left), Scalar::Formula(_, right)] = read else { return false };
+        let is_constant = right.value().symbols().is_empty() && !is_measured(right.value());
+        let is_entry = self.is_right_name(span) && self.lexis.lone_name(self.text, span).is_some();
+        statement.place == Place::Inline
+            && is_constant
+            && !left.value().symbols().is_empty()
+            && (!is_entry || !denavit_symbolic::equal(left.value(), right.value()).is_equal())
+    }
+
+    /// True for an entry of the pose that a sentence gives a value in which no joint occurs: `with px = 0.6, pz = d1`.
+    fn is_goal(&self, statement: &Statement, read: &[Scalar]) -> bool {
+        let [Scalar::Formula(span, left), Scalar::Formula(_, right)] = read else { return false };
+        let joints = self.subject.joints();
+        let moves = |e: Expr| e.symbols().iter().any(|s| joints.contains(&(*s).into()));
+        statement.place == Place::Inline
+            && self.is_right_name(span)
+            && moves(left.value())
+            && !moves(right.value())
+            && (right.value().symbols().is_empty() || !self.lexis.is_by_custom(self.source(span)))
+            && !self.speaks_of_pose(&statement.sides[1].span)
+            && !(right.value().symbols().is_empty() && self.at.knows(left.value(), &self.subject))
+    }
+
+    /// What a name is whose function a side is: `cos ε = …`, `r² = …`; with the value that the name has then.
+    fn implied(&self, span: &Range<usize>, value: Expr) -> Option<(String, Expr)> {
+        let open = Vocabulary::new().open(true);
+        let syntax = read(self.text, span, &open).ok()?;
+        let mut inner = &syntax;
+        while let SyntaxKind::Bracket(next) = &inner.kind {
+            inner = next;
+        }
+        let whole = inner.value();
+        let [symbol] = whole.symbols()[..] else { return None };
+        let name = symbol.name().to_string();
+        if self.lexis.names.lookup(&name).is_some() {
+            return None;
+        }
+        let e = Expr::from(symbol);
+        let value = match () {
+            () if whole == e.cos() => Function::Arccos.of(&[value]),
+            () if whole == e.sin() => Function::Arcsin.of(&[value]),
+            () if whole == e.powi(2) => value.sqrt(),
+            () => return None,
+        };
+        Some((name, value))
+    }
+
     /// Keeps what is printed for the sine or cosine of a joint: `c_3 = D`, `s_3 = ±√(1 − D²)`.
     fn record_sine(&mut self, spans: &[Range<usize>], read: &[Scalar]) {
         let ([_, right], [Scalar::Formula(_, left), _]) = (spans, read) else { return };
@@ -215,75 +364,6 @@ impl Walk<'_> {
         if !values.iter().any(|v| v.symbols().iter().any(|s| sine.symbols().contains(s))) {
             self.sines.push((sine, values));
         }
-    }
-
-    /// Reads the values that a line of prose gives: `with a1 = 1 and θ1 = 30°`.
-    pub(super) fn told_in(&mut self, prose: &Range<usize>) {
-        let Some(line) = self.text.get(prose.clone()).filter(|l| l.len() < 500) else { return };
-        let joined = line.replace('$', " ");
-        let parts: Vec<&str> = joined.split('=').collect();
-        for pair in parts.windows(2) {
-            let name = pair[0].trim().rsplit([' ', ',', ';', '(']).next().unwrap_or_default();
-            let value = pair[1].trim_start();
-            let value = value.split([',', ';', ')']).next().unwrap_or_default();
-            let value = value.split(" and ").next().unwrap_or_default().trim().trim_end_matches([':', '.']);
-            // `0.8 we get`: the number alone.
-            let number = value.split(' ').next().unwrap_or_default();
-            if name.is_empty() || !self.assign(name, value) {
-                self.assign(name, number);
-            }
-        }
-    }
-
-    /// Gives a joint or a length a value; false if that is not what is written.
-    fn assign(&mut self, name: &str, value: &str) -> bool {
-        let Some(symbol) = self.lexis.names.lookup(name).and_then(|e| e.as_symbol()) else { return false };
-        let d = &self.subject.description;
-        if let Some(joint) = d.variables().iter().position(|v| v.symbol == symbol) {
-            let Ok(read) = crate::lexis::read(value, &(0..value.len()), &self.lexis.names) else {
-                return false;
-            };
-            let constant = read.value();
-            if constant.symbols().is_empty() {
-                self.at.set(joint, constant);
-                return true;
-            }
-            return false;
-        }
-        let Ok(constant) = read_value(value, d.measure(symbol)) else { return false };
-        self.at.give(symbol, constant);
-        true
-    }
-
-    /// Reads `θ_1 = 30°` or `a_1 = 500 mm` as a part of a configuration.
-    fn configuration(&mut self, spans: &[Range<usize>], read: &[Scalar]) -> bool {
-        if let ([name, value], [Scalar::Formula(_, left), right]) = (spans, read)
-            && let SyntaxKind::Name(e) = left.kind
-            && let Some(symbol) = e.as_symbol()
-            && self.subject.description.parameter(symbol).is_some()
-        {
-            let is_constant = match right {
-                Scalar::Formula(_, s) => s.value().symbols().is_empty(),
-                Scalar::Broken(..) => true,
-                Scalar::Lone(_) => false,
-            };
-            let (name, value) = (self.source(name), self.source(value));
-            if is_constant && self.assign(name, value) {
-                return true;
-            }
-        }
-        let [Scalar::Formula(_, left), Scalar::Formula(_, right)] = read else { return false };
-        let value = right.value();
-        let joint = match left.kind {
-            SyntaxKind::Name(e) => {
-                let variables = self.subject.description.variables();
-                e.as_symbol().and_then(|s| variables.iter().position(|v| v.symbol == s))
-            }
-            _ => None,
-        };
-        let Some(joint) = joint.filter(|_| value.symbols().is_empty()) else { return false };
-        self.at.set(joint, value);
-        true
     }
 
     /// True for a name that the robot gives its meaning.
@@ -307,12 +387,15 @@ impl Walk<'_> {
     pub(super) fn values(&self, spans: &[Range<usize>], read: &[Scalar]) -> Option<Spoken> {
         let (first, rest) = spans.split_first()?;
         let Some(Scalar::Formula(_, left)) = read.first() else { return None };
-        let SyntaxKind::Name(of) = left.kind else { return None };
+        let is_name = matches!(left.kind, SyntaxKind::Name(_) | SyntaxKind::Sum(_));
+        let of = Some(left.value()).filter(|_| is_name)?;
         let variables = self.subject.description.variables();
         let angle = Angle::of(of);
         let is_joint = |e: &Expr| e.as_symbol().is_some_and(|s| variables.iter().any(|v| v.symbol == s));
-        let is_sum = !angle.terms.is_empty() && angle.terms.iter().all(|(e, k)| is_joint(e) && k.is_one());
-        if !is_sum || self.is_right_name(first) || rest.is_empty() {
+        let is_unit = |k: &denavit_symbolic::Rational| k.is_one() || (-k).is_one();
+        let is_sum = !angle.terms.is_empty() && angle.terms.iter().all(|(e, k)| is_joint(e) && is_unit(k));
+        let is_right = self.is_right_name(first) && !self.lexis.is_by_custom(self.source(first));
+        if !is_sum || is_right || rest.is_empty() {
             return None;
         }
         let mut sides = vec![];
@@ -322,7 +405,9 @@ impl Walk<'_> {
         let is_value = |syntax: &Syntax, span: &Range<usize>| {
             has_inverse_function(syntax) || self.speaks_of_pose(span) || syntax.sign_choices() > 0
         };
-        if !sides.iter().any(|(span, syntax)| is_value(syntax, span)) {
+        let is_number = |syntax: &Syntax| syntax.value().symbols().is_empty();
+        if !sides.iter().any(|(span, syntax)| is_value(syntax, span)) || sides.iter().all(|s| is_number(&s.1))
+        {
             return None;
         }
         // What was printed for the joint's own sine and cosine stands for them.
@@ -344,6 +429,7 @@ impl Walk<'_> {
                 }
             }
         }
+        let branches = with_named_signs(branches);
         Some(Spoken::Joint { of, sides, branches })
     }
 
@@ -394,16 +480,36 @@ impl Walk<'_> {
         reference.matrix.entry(r.checked_sub(1)?, c.checked_sub(1)?)
     }
 
+    /// The determinant that a name says: `\det J_v`, `|J|`.
+    fn determinant(&self, span: &Range<usize>) -> Option<Expr> {
+        let source = self.source(span);
+        let bare = ["\\operatorname{det}", "\\mathrm{det}", "\\det", "\\left", "\\right", "det"]
+            .iter()
+            .fold(source.to_string(), |s, w| s.replace(w, " "));
+        if bare == source && !(source.starts_with('|') && source.ends_with('|') && source.len() > 2) {
+            return None;
+        }
+        let inner = bare.replace(['|', '(', ')'], " ");
+        let inner = inner.trim();
+        let name = self.lexis.lone_name(inner, &(0..inner.len()))?;
+        let told = crate::jacobians::told_of_jacobian(&name)?;
+        let printed = self.lexis.defined(&name).filter(|m| m.shape().is_some_and(|(r, c)| r == c));
+        printed.and_then(Matrix::determinant).or_else(|| self.subject.determinant(told.part))
+    }
+
     pub(super) fn told_matrix(&self, words: &str) -> Option<Reference> {
         let name = self.lexis.lone_name(words, &(0..words.len()))?;
-        let (matrix, about) = self.lexis.matrix(self.subject, &name)?;
+        let (matrix, about) = self.lexis.matrix(&self.subject, &name)?;
         Some(Reference { matrix, about: Some(about?) })
     }
 }
 
 /// True for a number that somebody computed: neither 0 nor ±1.
-pub(super) fn is_measured(e: Expr) -> bool {
-    e.as_number().is_some_and(|r| !r.is_zero() && !r.is_one() && !(-&r).is_one())
+pub(crate) fn is_measured(e: Expr) -> bool {
+    match e.as_number() {
+        Some(r) => !r.is_zero() && !r.is_one() && !(-&r).is_one(),
+        None => e.symbols().is_empty(),
+    }
 }
 
 /// The value of a formula with other values for some sines.
@@ -413,7 +519,10 @@ pub(super) fn replaced(syntax: &Syntax, by: &[(Expr, Expr)], depth: usize) -> Ex
     }
     let inner = |s: &Syntax| replaced(s, by, depth + 1);
     match &syntax.kind {
-        SyntaxKind::Name(e) => by.iter().find(|b| b.0 == *e).map_or(*e, |b| b.1),
+        SyntaxKind::Name(e) => {
+            let mut change = |old: Expr, new: Expr| by.iter().find(|b| b.0 == old).map_or(new, |b| b.1);
+            crate::inverse::rebuilt(*e, &mut change)
+        }
         SyntaxKind::Number(_) => syntax.value(),
         SyntaxKind::Sum(terms) => {
             terms.iter().fold(Expr::int(0), |sum, (sign, term)| match sign.is_minus() {
@@ -446,6 +555,13 @@ fn has_entry(walk: &Walk<'_>, span: &Range<usize>) -> bool {
     let Ok(syntax) = walk.lexis.inverse_formula(walk.text, span) else { return false };
     let symbols = syntax.value().symbols();
     (0..3).any(|r| (0..3).any(|c| symbols.contains(&walk.lexis.pose_symbol(r, c))))
+}
+
+/// True if a sentence says that the arm is singular somewhere.
+fn is_singular(said: &str) -> bool {
+    let denials =
+        ["not singul", "nicht singul", "non singul", "no singul", "nonsingul", "pas singul", "unless"];
+    said.contains("singul") && !denials.iter().any(|d| said.contains(d))
 }
 
 /// True if an arctangent or the like occurs.

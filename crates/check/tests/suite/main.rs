@@ -4,6 +4,7 @@ mod documents;
 mod hostile;
 mod inverse;
 mod mutations;
+mod readings;
 mod statements;
 
 #[path = "../../../robot/tests/suite/common/mod.rs"]

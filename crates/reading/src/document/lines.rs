@@ -60,6 +60,13 @@ pub(super) fn lead(text: &str, line: &Range<usize>) -> Lead {
 
 /// `3.`, `3)`, `(3)`, `(a)`, `b)` and a blank behind it.
 fn number(rest: &str) -> Option<(Range<usize>, usize)> {
+    // `**4)** det J = …`
+    if let Some(bold) = rest.strip_prefix("**")
+        && let Some(end) = bold.find("**").filter(|end| *end < 8)
+    {
+        let (label, bytes) = number(&format!("{} x", &bold[..end]))?;
+        return (bytes == end).then_some((label.start + 2..label.end + 2, end + 4));
+    }
     let open = usize::from(rest.starts_with('('));
     let inner = rest.get(open..)?;
     let digits = inner.bytes().take_while(|b| b.is_ascii_digit() || *b == b'.').count();

@@ -11,6 +11,7 @@ mod keyed;
 mod lexer;
 mod lines;
 mod marks;
+mod prose;
 mod scan;
 mod sides;
 mod statements;

@@ -3,7 +3,7 @@
 use super::lexer::{Kind, lex};
 use super::lines::{Lead, goes_on, is_foreign, is_rule, lead, line, trimmed};
 use super::statements::{Manner, Reader};
-use super::{CodeBlock, Format, MAX_FORMULA, Place, cut, drawn, words};
+use super::{CodeBlock, Format, MAX_FORMULA, Place, cut, drawn, prose, words};
 use std::ops::Range;
 
 /// The most lines that one formula without marks may have.
@@ -311,6 +311,12 @@ impl<'t> Scanner<'_, 't> {
         }
         if has_letters(text, &span) {
             self.reader.prose = Some(trimmed(text, &span));
+            if self.style.bare && !is_foreign(cut(text, &span)) {
+                let manner = self.manner(Place::Inline);
+                for formula in prose::formulas(text, &(lead.rest.min(span.end)..span.end)) {
+                    self.reader.region(formula, manner);
+                }
+            }
             // `t22:` alone labels what follows.
             let alone = cut(text, &(lead.rest.min(span.end)..span.end)).trim().is_empty();
             self.reader.label = lead.label.filter(|_| alone);

@@ -343,6 +343,17 @@ impl Builder<'_> {
                 continue;
             }
             let Some(node) = nodes.get_mut(i) else { continue };
+            if let NodeKind::Group { bracket: Bracket::Round | Bracket::Left('('), inner, close, .. } =
+                &node.kind
+                && inner.iter().any(|n| n.is(Kind::Comma))
+                && i > 0
+                && let Some(row) = grid::single_row(self.text, inner, *close)
+            {
+                // `p = (a, b, c)`: a column.
+                let column = row.into_iter().map(|cell| vec![cell]).collect();
+                node.kind = NodeKind::Grid(Box::new(Grid::new(node.span.clone(), Fence::Round, column)));
+                continue;
+            }
             if let NodeKind::Group { bracket: Bracket::Square | Bracket::Left('['), inner, close, .. } =
                 &node.kind
                 && let Some(row) = grid::single_row(self.text, inner, *close)

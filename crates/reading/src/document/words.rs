@@ -60,14 +60,14 @@ pub(super) fn is_condition(text: &str) -> bool {
 
 /// The functions, which take what follows them.
 pub(super) fn is_function(word: &str) -> bool {
-    const FUNCTIONS: [&str; 19] = [
-        "sin", "cos", "tan", "cot", "sec", "csc", "asin", "acos", "atan", "atan2", "arcsin", "arccos",
-        "arctan", "arctan2", "sqrt", "exp", "abs", "sign", "mod",
+    const FUNCTIONS: [&str; 23] = [
+        "sen", "tg", "arcsen", "arctg", "sin", "cos", "tan", "cot", "sec", "csc", "asin", "acos", "atan",
+        "atan2", "arcsin", "arccos", "arctan", "arctan2", "sqrt", "exp", "abs", "sign", "mod",
     ];
     FUNCTIONS.contains(&word.trim_start_matches('\\').to_ascii_lowercase().as_str())
 }
 
-fn is_greek(word: &str) -> bool {
+pub(super) fn is_greek(word: &str) -> bool {
     const GREEK: [&str; 26] = [
         "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda",
         "mu", "nu", "xi", "omicron", "pi", "rho", "sigma", "tau", "upsilon", "phi", "chi", "psi", "omega",
@@ -77,7 +77,7 @@ fn is_greek(word: &str) -> bool {
 }
 
 /// Short words that no formula has.
-fn is_filler(word: &str) -> bool {
+pub(super) fn is_filler(word: &str) -> bool {
     const FILLERS: [&str; 44] = [
         "is", "in", "of", "to", "if", "for", "the", "and", "with", "are", "at", "on", "we", "or", "as", "by",
         "be", "an", "so", "it", "si", "et", "de", "la", "le", "les", "des", "du", "est", "en", "un", "une",

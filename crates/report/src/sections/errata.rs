@@ -1,6 +1,6 @@
 //! What is wrong in the document that the robot comes from.
 
-use super::setting::Setting;
+use super::setting::{Errata, Setting};
 use crate::document::{Block, Line, Section};
 use crate::words::{Heading, List, Standings};
 use denavit_check::{Claim, Entry, Finding, Standing};
@@ -9,7 +9,7 @@ use denavit_check::{Claim, Entry, Finding, Standing};
 pub fn section(s: &Setting) -> Option<Section> {
     let errata = s.options.errata?;
     let checked = errata.checked;
-    if checked.claims.is_empty() {
+    if checked.claims.is_empty() && checked.unjudged.is_empty() {
         return None;
     }
     let mut section = Section::new(s.description.vocabulary());
@@ -20,7 +20,9 @@ pub fn section(s: &Setting) -> Option<Section> {
         wrong: t.wrong,
         conditional: t.conditional,
         undecided: t.undecided,
+        carried: t.carried,
         unreadable: t.unreadable,
+        unjudged: t.unjudged,
     };
     section.paragraph(Line::new(s.words().claims(errata.name, checked.claims.len(), standings)));
     for cause in &checked.causes {
@@ -31,10 +33,22 @@ pub fn section(s: &Setting) -> Option<Section> {
     let mut all = Listed::default();
     for claim in checked.claims.iter().filter(|c| c.standing() != Standing::Equal) {
         for entry in &claim.entries {
-            all.add(s, errata.text, claim, entry);
+            all.add(s, &errata, claim, entry);
         }
     }
-    let lists = [(List::Wrong, all.wrong), (List::Conditional, all.conditional), (List::Open, all.open)];
+    let line = |at: usize| errata.text.get(..at).map_or(0, |t| t.matches('\n').count()) + 1;
+    for found in &checked.unjudged {
+        let printed = errata.text.get(found.span.clone()).unwrap_or_default();
+        let printed = shortened(&printed.split_whitespace().collect::<Vec<_>>().join(" "));
+        let head = s.words().printed(line(found.span.start), &printed);
+        all.unjudged.push(Line::new(head).text(format!(" ({})", s.words().skipped(&found.why))));
+    }
+    let lists = [
+        (List::Wrong, all.wrong),
+        (List::Conditional, all.conditional),
+        (List::Open, all.open),
+        (List::Unjudged, all.unjudged),
+    ];
     for (list, lines) in lists {
         if lines.is_empty() {
             continue;
@@ -55,10 +69,12 @@ struct Listed {
     wrong: Vec<Line>,
     conditional: Vec<Line>,
     open: Vec<Line>,
+    unjudged: Vec<Line>,
 }
 
 impl Listed {
-    fn add(&mut self, s: &Setting, text: &str, claim: &Claim, entry: &Entry) {
+    fn add(&mut self, s: &Setting, errata: &Errata, claim: &Claim, entry: &Entry) {
+        let text = errata.text;
         let place = entry.place.map(|(r, c)| format!(" [{r}, {c}]")).unwrap_or_default();
         let number = text.get(..entry.span.start).map_or(0, |t| t.matches('\n').count()) + 1;
         let printed = text.get(entry.span.clone()).unwrap_or_default();
@@ -81,6 +97,12 @@ impl Listed {
             Finding::Conditional { condition, correct, .. } => {
                 let line = head.text(format!(" ({})", s.words().right_where(condition)));
                 self.conditional.push(right(line, correct));
+            }
+            Finding::Carried { by, correct } => {
+                let Some(cause) = errata.checked.claims.get(*by) else { return };
+                let line = text.get(..cause.span.start).map_or(0, |t| t.matches('\n').count()) + 1;
+                let carried = s.words().carried(&cause.name, line);
+                self.wrong.push(right(head, correct).text(format!(" ({carried})")));
             }
             Finding::Undecided { .. } | Finding::Unreadable(_) => self.open.push(head),
         }

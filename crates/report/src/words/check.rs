@@ -3,7 +3,8 @@
 use denavit::description::{Diagnostic, Severity};
 use denavit_check::inverse::Undecided;
 use denavit_check::{
-    About, Change, Condition, Instead, Meaning, Note, Noted, Remark, SlipKind, Unproved, Unread, Unreadable,
+    About, Change, Condition, Instead, Jacobian, Meaning, Note, Noted, Remark, Sense, Skipped, SlipKind,
+    Unproved, Unread, Unreadable,
 };
 use denavit_reading::slip::Slip;
 use denavit_symbolic::Symbol;
@@ -27,6 +28,15 @@ pub trait Check {
 
     /// What else is to be said of a claim or of a formula.
     fn remarked(&self, remark: &Remark) -> String;
+
+    /// A meaning of a name that is not the first one.
+    fn sense(&self, sense: Sense) -> String;
+
+    /// Why a line that looks like a formula was not judged.
+    fn skipped(&self, why: &Skipped) -> String;
+
+    /// That a formula follows correctly from a wrong one, which stands in a line.
+    fn carried(&self, cause: &str, line: usize) -> String;
 
     /// Where a formula is right; the word *right* stands before it.
     fn right_where(&self, condition: &Condition) -> String;
@@ -77,6 +87,18 @@ pub trait Check {
         let (message, hint) = (self.unreadable(&unread.why), self.unreadable_hint(&unread.why));
         Diagnostic { severity: Severity::Error, span: unread.span.clone(), message, hint }
     }
+}
+
+/// The rows of a Jacobian, where they are not those in their usual order: `vx, vy, ωz`.
+pub(super) fn rows_of(jacobian: &Jacobian) -> Option<String> {
+    const ROWS: [&str; 6] = ["vx", "vy", "vz", "ωx", "ωy", "ωz"];
+    let order = jacobian.order.get(..jacobian.rows)?;
+    let is_usual = match jacobian.rows {
+        6 => true,
+        rows => (0..rows).all(|r| usize::from(order[r]) == r),
+    };
+    let names = order.iter().filter_map(|&k| ROWS.get(usize::from(k)).copied());
+    (!is_usual).then(|| names.collect::<Vec<_>>().join(", "))
 }
 
 /// A share as a percentage: `25`.

@@ -92,10 +92,14 @@ pub struct Standings {
     pub wrong: usize,
     /// Equal where a condition holds.
     pub conditional: usize,
+    /// Right but for a wrong one before.
+    pub carried: usize,
     /// Neither proved nor refuted.
     pub undecided: usize,
     /// Not read.
     pub unreadable: usize,
+    /// Lines that look like formulas and were not judged.
+    pub unjudged: usize,
 }
 
 /// A list of errata.
@@ -107,6 +111,8 @@ pub enum List {
     Conditional,
     /// What is not decided or not read.
     Open,
+    /// What looks like a formula and was not judged.
+    Unjudged,
 }
 
 /// The singularities in a summary.

@@ -8,7 +8,7 @@ use denavit::geometry::orientation::OrientationSet;
 use denavit_check::inverse::{Cause, Composed, Missing, Undecided};
 use denavit_check::{
     About, Change, CheckOptions, Checked, Condition, Finding, Formula, Instead, Jacobian, Meaning, Noted,
-    Remark, ShortRow, SlipKind, TableCell, Unproved, Unreadable, Zeros, check,
+    Remark, Sense, ShortRow, Skipped, SlipKind, TableCell, Unproved, Unreadable, Zeros, check,
 };
 use denavit_reading::document::Format;
 use denavit_reading::slip::Slip;
@@ -40,7 +40,8 @@ fn expect(message: &dyn Fn(&'static dyn Wording) -> String, english: &str, frenc
 fn what_claims_are_about() {
     let frame = || Box::new(FRAME());
     let jacobian = |body, axes, is_angular_first, rows| {
-        Meaning::Jacobian(Jacobian { body, axes, is_angular_first, rows })
+        let order = if is_angular_first { [3, 4, 5, 0, 1, 2] } else { [0, 1, 2, 3, 4, 5] };
+        Meaning::Jacobian(Jacobian { body, axes, is_angular_first, rows, order })
     };
     let last = Reference::Frame(6);
     for meaning in [
@@ -57,12 +58,27 @@ fn what_claims_are_about() {
         Meaning::RotationAbout(Axis::Z),
         Meaning::TranslationAlong(Axis::X),
         Meaning::Translation,
+        Meaning::Torques,
         jacobian(Reference::Tool, Reference::Frame(0), false, 6),
         jacobian(last, Reference::Tool, false, 4),
     ] {
         both(&|w| w.meaning(&meaning));
     }
+    let scara = Jacobian {
+        body: Reference::Tool,
+        axes: Reference::Frame(0),
+        is_angular_first: false,
+        rows: 4,
+        order: [0, 1, 2, 5, 3, 4],
+    };
+    expect(
+        &|w| w.meaning(&Meaning::Jacobian(scara)),
+        "the Jacobian of the hand, rows vx, vy, vz, ωz",
+        "la jacobienne de l'organe terminal, lignes vx, vy, vz, ωz",
+    );
     for about in [
+        About::Helper,
+        About::Singularity,
         About::Matrices,
         About::Entry,
         About::Equation,
@@ -259,6 +275,25 @@ fn what_is_not_read() {
             both(&|w| w.unreadable_hint(&why).unwrap_or_default());
         }
     }
+    for why in [
+        Skipped::Unused("K".into()),
+        Skipped::SaysNothing,
+        Skipped::AmongWords,
+        Skipped::OfProgram("fk".into()),
+        Skipped::TooMany,
+    ] {
+        both(&|w| w.skipped(&why));
+    }
+    for sense in
+        [Sense::LinkAlone, Sense::IndicesExchanged, Sense::Helper, Sense::CosineFirst, Sense::ColumnsSnap]
+    {
+        both(&|w| w.sense(sense));
+    }
+    expect(
+        &|w| w.carried("A_2", 7),
+        "follows from `A_2` in line 7, which is wrong",
+        "découle de `A_2`, ligne 7, qui est faux",
+    );
     let together = |spurious| Composed { poses: 120, existing: 480, yielded: 240, spurious, open: vec![] };
     for note in [
         Noted::TooLong { bytes: 9_000_000, most: 8_000_000 },
@@ -295,6 +330,7 @@ fn all_said(checked: &Checked, words: &dyn Wording) -> Vec<String> {
             match &entry.finding {
                 Finding::Equal { .. } | Finding::Unreadable(_) => {}
                 Finding::Undecided { why } => said.push(words.unproved(*why)),
+                Finding::Carried { by, .. } => said.push(words.carried(&checked.claims[*by].name, 1)),
                 Finding::Conditional { condition, remarks, .. } => {
                     said.push(words.right_where(condition));
                     said.extend(remarks.iter().map(|r| words.remarked(r)));

@@ -36,6 +36,8 @@ pub(super) const FUNCTIONS: &[(&str, Function)] = &[
     ("S", Function::Sin),
     ("c", Function::Cos),
     ("s", Function::Sin),
+    ("sen", Function::Sin),
+    ("tg", Function::Tan),
     ("sqrt", Function::Sqrt),
     ("atan2", Function::Atan2),
     ("Atan2", Function::Atan2),
@@ -47,6 +49,8 @@ pub(super) const FUNCTIONS: &[(&str, Function)] = &[
     ("asin", Function::Arcsin),
     ("acos", Function::Arccos),
     ("atan", Function::Arctan),
+    ("arcsen", Function::Arcsin),
+    ("arctg", Function::Arctan),
 ];
 
 /// True if the word is the name of a function, other than one letter.

@@ -191,7 +191,10 @@ impl Lexer<'_> {
             ' ' => self.at += 1,
             '0'..='9' => self.number(),
             '.' => self.point(),
-            '+' => self.push(Kind::Plus, 1),
+            '+' => match self.plus_minus() {
+                Some(length) => self.push(Kind::PlusMinus, length),
+                None => self.push(Kind::Plus, 1),
+            },
             '-' => self.push(Kind::Minus, 1),
             '±' => self.push(Kind::PlusMinus, 1),
             '∓' => self.push(Kind::MinusPlus, 1),
@@ -222,6 +225,21 @@ impl Lexer<'_> {
                 self.gap(e);
                 self.at += 1;
             }
+        }
+    }
+
+    /// The length of `+/-`, or of `+-` before a root or an arc cosine: a sign of two values as keyboards have it.
+    fn plus_minus(&self) -> Option<usize> {
+        match (self.char(self.at + 1), self.char(self.at + 2)) {
+            (Some('/'), Some('-')) => Some(3),
+            (Some('-'), Some(_)) => {
+                let next = self.after_space(self.at + 2);
+                let word = self.word_at(next);
+                let is_root = self.char(next) == Some('√')
+                    || matches!(word.as_str(), "sqrt" | "acos" | "arccos" | "arcos");
+                is_root.then_some(2)
+            }
+            _ => None,
         }
     }
 

@@ -54,11 +54,14 @@ const COMMANDS: &[(&str, char)] = &[
     ("qquad", ' '),
     ("pm", '±'),
     ("mp", '∓'),
+    ("ell", 'l'),
 ];
 
 /// LaTeX commands for a word of several letters.
-const WORDS: &[&str] =
-    &["cos", "sin", "tan", "arccos", "arcsin", "arctan", "acos", "asin", "atan", "deg", "rad", "mm", "cm"];
+const WORDS: &[&str] = &[
+    "cos", "sin", "tan", "tg", "arccos", "arcsin", "arctan", "arctg", "acos", "asin", "atan", "deg", "rad",
+    "mm", "cm",
+];
 
 /// LaTeX commands that only change the looks, with an argument in braces, and without one.
 const WRAPPERS: &[&str] = &[
@@ -173,6 +176,7 @@ impl Normaliser<'_> {
                 Some(true) => {}
                 _ => self.push(c, span),
             },
+            '\u{307}' => self.dotted(),
             '\u{ad}'
             | '\u{200b}'..='\u{200f}'
             | '\u{202a}'..='\u{202e}'
@@ -244,12 +248,13 @@ impl Normaliser<'_> {
             self.marks.push(Mark { glyph: Glyph::Fraction, span });
         } else if WRAPPERS.contains(&name) {
             self.push(' ', span);
-            let rest = &self.text[self.at..];
-            let blank = rest.len() - rest.trim_start().len();
-            if rest[blank..].starts_with('{') {
-                self.at += blank + 1;
-                self.is_wrapper.push(true);
-            }
+            self.wrapper();
+        } else if name == "dot" {
+            // The rate of a name is a name: `\dot{q}_1` is `dotq1`.
+            self.push(' ', start..start);
+            "dot".chars().for_each(|c| self.push(c, span.clone()));
+            self.at += self.text[self.at..].len() - self.text[self.at..].trim_start().len();
+            self.wrapper();
         } else if !IGNORED.contains(&name) {
             self.errors.push(ParseError::new(span, format!("unknown command `\\{name}`")));
         } else if matches!(name, "left" | "right") {
@@ -259,6 +264,23 @@ impl Normaliser<'_> {
                 self.at = self.text.len() - behind.len();
             }
         }
+    }
+
+    /// Goes into the braces of a command whose braces are not part of the formula.
+    fn wrapper(&mut self) {
+        let rest = &self.text[self.at..];
+        let blank = rest.len() - rest.trim_start().len();
+        if rest[blank..].starts_with('{') {
+            self.at += blank + 1;
+            self.is_wrapper.push(true);
+        }
+    }
+
+    /// `q̇`: the dot stands behind its letter.
+    fn dotted(&mut self) {
+        let Some(letter) = self.marks.pop_if(|m| m.char().is_some_and(char::is_alphabetic)) else { return };
+        "dot".chars().for_each(|c| self.push(c, letter.span.clone()));
+        self.marks.push(letter);
     }
 
     fn quoted(&mut self) {
@@ -294,6 +316,7 @@ fn plain(c: char) -> char {
         '，' => ',',
         'º' | '˚' => '°',
         'µ' => 'μ',
+        'ℓ' => 'l',
         'ϑ' => 'θ',
         '\u{2126}' => 'Ω',
         '~' | '$' => ' ',

@@ -269,11 +269,12 @@ pub(super) fn spelled(letters: &[Letter]) -> String {
     letters.iter().map(|l| l.c).collect()
 }
 
-/// True if the letters end in `sin`, `cos` or `tan`.
+/// True if the letters end in `sin`, `cos` or `tan`, or in `sen`.
 pub(super) fn ends_in_full_name(letters: &[Letter]) -> bool {
     match letters {
         [.., a, b, c] => {
-            let is_name = matches!([a.c, b.c, c.c], ['s', 'i', 'n'] | ['c', 'o', 's'] | ['t', 'a', 'n']);
+            let is_name =
+                matches!([a.c, b.c, c.c], ['s', 'i' | 'e', 'n'] | ['c', 'o', 's'] | ['t', 'a', 'n']);
             is_name && !(a.glued || b.glued || c.glued)
         }
         _ => false,

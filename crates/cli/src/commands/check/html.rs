@@ -47,8 +47,10 @@ pub fn page(document: &Document) -> String {
         (tally.equal, "equal", "proved equal"),
         (tally.wrong, "wrong", "wrong"),
         (tally.conditional, "other", "right under a condition"),
+        (tally.carried, "other", "carried from an earlier error"),
         (tally.undecided, "other", "not decided"),
         (tally.unreadable, "other", "not readable"),
+        (tally.unjudged, "other", "not judged"),
     ] {
         if count > 0 {
             let _ = writeln!(out, "<li><mark class=\"{class}\">{count} {word}</mark></li>");
@@ -104,6 +106,13 @@ fn body(document: &Document) -> String {
                 .map_or(text.len(), |n| claim.span.end + n + 1);
             notes.push((end, note));
         }
+    }
+    for found in &document.checked.unjudged {
+        let why = escaped(&words().skipped(&found.why));
+        marks.push(Marked { span: found.span.clone(), class: "other", patches: vec![] });
+        let end = found.span.end.min(text.len());
+        let end = text[end..].find('\n').map_or(text.len(), |n| end + n + 1);
+        notes.push((end, format!("<aside class=\"other\"><p>not judged: {why}</p></aside>\n")));
     }
     marks.sort_by_key(|m| (m.span.start, m.span.end));
     notes.sort_by_key(|n| n.0);
@@ -182,6 +191,12 @@ fn finding(document: &Document, entry: &Entry) -> String {
     let code = |text: &str| format!("<code>{}</code>", escaped(text));
     match &entry.finding {
         Finding::Equal { .. } => "proved equal".into(),
+        Finding::Carried { by, correct } => {
+            let cause = document.checked.claims.get(*by);
+            let said = cause.map(|c| words().carried(&c.name, document.line(c.span.start)));
+            let right = words().either(correct).map_or(String::new(), |c| format!("; right is {}", code(&c)));
+            escaped(&said.unwrap_or_default()) + &right
+        }
         Finding::Undecided { why } => escaped(&words().unproved(*why)),
         Finding::Unreadable(errors) => {
             let first = errors.first();

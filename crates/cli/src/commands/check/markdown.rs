@@ -10,13 +10,16 @@ pub fn list(document: &Document) -> String {
     let checked = document.checked;
     let t = checked.tally();
     let mut out = format!(
-        "{} claims: {} proved, {} wrong, {} right under a condition, {} undecided, {} unreadable.\n",
+        "{} claims: {} proved, {} wrong, {} right under a condition, {} carried, {} undecided, {} unreadable; {} lines not \
+         judged.\n",
         checked.claims.len(),
         t.equal,
         t.wrong,
         t.conditional,
+        t.carried,
         t.undecided,
-        t.unreadable
+        t.unreadable,
+        t.unjudged
     );
     for (n, cause) in (1..).zip(&checked.causes) {
         out += &format!("\n**Cause {n}: {}.**", escaped(&words().change(&cause.change)));
@@ -62,6 +65,11 @@ pub fn list(document: &Document) -> String {
                     let said: Vec<String> = said.map(|r| escaped(&r)).collect();
                     ("conditional", right(correct), said.join("; "))
                 }
+                Finding::Carried { by, correct } => {
+                    let cause = document.checked.claims.get(*by);
+                    let said = cause.map(|c| words().carried(&c.name, document.line(c.span.start)));
+                    ("carried", right(correct), escaped(&said.unwrap_or_default()))
+                }
                 Finding::Undecided { why } => ("undecided", String::new(), escaped(&words().unproved(*why))),
                 Finding::Unreadable(errors) => {
                     let why =
@@ -79,6 +87,15 @@ pub fn list(document: &Document) -> String {
     if !rows.is_empty() {
         out += "\n| claim | line | verdict | printed | right | the slip |\n|---|--:|---|---|---|---|\n";
         out += &rows.concat();
+    }
+    let unjudged = checked.unjudged.iter().map(|u| {
+        let (line, text) = (document.line(u.span.start), code(&document.source(&u.span)));
+        format!("| {line} | {text} | {} |\n", escaped(&words().skipped(&u.why)))
+    });
+    let unjudged: String = unjudged.collect();
+    if !unjudged.is_empty() {
+        out += "\n| line | not judged | why |\n|--:|---|---|\n";
+        out += &unjudged;
     }
     out
 }

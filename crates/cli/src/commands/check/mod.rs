@@ -153,6 +153,16 @@ fn verdict(document: &Document) -> Result<(), Failure> {
         let count = tally.unreadable + tally.undecided;
         return Err(Failure::Input(plural(count, "claim is not decided", "claims are not decided")));
     }
+    if tally.carried > 0 {
+        return Err(Failure::No(plural(
+            tally.carried,
+            "claim follows from an earlier error",
+            "claims follow from earlier errors",
+        )));
+    }
+    if tally.unjudged > 0 && !document.checked.claims.is_empty() {
+        return Err(Failure::Input(plural(tally.unjudged, "line is not judged", "lines are not judged")));
+    }
     if document.checked.claims.is_empty() {
         let hint = "a claim is an equation such as `P_x = …`, `T06 = […]` or `θ1 = atan2(…)`; say what a left side means \
              with --claim, or with a comment `check: claim T06` before it";

@@ -25,6 +25,7 @@ pub fn report(document: &Document, all: bool) -> String {
             out += &shown(document, claim);
         }
     }
+    out += &unjudged(document);
     let names: Vec<&str> = checked.robots.iter().map(|r| r.name.as_str()).collect();
     let mut robots = names.clone();
     robots.dedup();
@@ -32,6 +33,7 @@ pub fn report(document: &Document, all: bool) -> String {
     for (count, word, style) in [
         (tally.wrong, "wrong", BAD),
         (tally.conditional, "right under a condition", DOUBT),
+        (tally.carried, "carried from an earlier error", DOUBT),
         (tally.undecided, "not decided", DOUBT),
         (tally.unreadable, "not readable", DOUBT),
     ] {
@@ -39,10 +41,29 @@ pub fn report(document: &Document, all: bool) -> String {
             parts.push(format!("{} {word}", styled(&count.to_string(), style)));
         }
     }
+    if tally.unjudged > 0 {
+        let plural = if tally.unjudged == 1 { "line" } else { "lines" };
+        parts.push(format!("{} {plural} not judged", styled(&tally.unjudged.to_string(), DOUBT)));
+    }
     let count = checked.claims.len();
     let plural = if count == 1 { "claim" } else { "claims" };
     let about = robots.first().map_or(String::new(), |r| format!(" about {r}"));
     out + &format!("{}: {count} {plural}{about}: {}\n", styled(document.name, HEADING), parts.join(", "))
+}
+
+/// What looks like a formula and was not judged, line by line.
+fn unjudged(document: &Document) -> String {
+    let all = &document.checked.unjudged;
+    if all.is_empty() {
+        return String::new();
+    }
+    let mut out = format!("{}\n", styled("not judged:", HEADING));
+    for found in all {
+        let text: String = document.source(&found.span).chars().take(100).collect();
+        let why = words().skipped(&found.why);
+        out += &format!("  line {}: {}  {}\n", document.line(found.span.start), text, styled(&why, FAINT));
+    }
+    out + "\n"
 }
 
 fn told(document: &Document, n: usize, cause: &Cause) -> String {
@@ -96,6 +117,7 @@ fn shown(document: &Document, claim: &Claim) -> String {
         Standing::Equal => "proved equal",
         Standing::Wrong => "wrong",
         Standing::Conditional => "right under a condition",
+        Standing::Carried => "carried from an earlier error",
         Standing::Undecided => "not decided",
         Standing::Unreadable => "cannot be read",
     };
@@ -126,6 +148,16 @@ fn finding(document: &Document, entry: &Entry) -> String {
         Finding::Equal { unless_zero } => {
             let factors: Vec<String> = unless_zero.iter().map(ToString::to_string).collect();
             format!("    {place}where {} is not 0\n", factors.join(", "))
+        }
+        Finding::Carried { by, correct } => {
+            let Some(cause) = document.checked.claims.get(*by) else { return String::new() };
+            let carried = words().carried(&cause.name, document.line(cause.span.start));
+            let right = words().either(correct).map(|c| format!("    right       {}\n", styled(&c, GOOD)));
+            format!(
+                "    {place}{}\n    {carried}\n{}",
+                document.source(&entry.span),
+                right.unwrap_or_default()
+            )
         }
         Finding::Undecided { why } => format!("    {place}{}\n", words().unproved(*why)),
         Finding::Unreadable(findings) => findings

@@ -2,12 +2,12 @@
 
 use super::English;
 use crate::words::Check;
-use crate::words::check::{ROUNDING, percent, positive};
+use crate::words::check::{ROUNDING, percent, positive, rows_of};
 use denavit::forward::Reference;
 use denavit_check::inverse::{Cause, Composed, Undecided};
 use denavit_check::{
-    About, Change, Condition, Formula, Instead, Jacobian, Meaning, Noted, Remark, ShortRow, SlipKind,
-    TableCell, Unproved, Unreadable, Zeros, decimal,
+    About, Change, Condition, Formula, Instead, Jacobian, Meaning, Noted, Remark, Sense, ShortRow, Skipped,
+    SlipKind, TableCell, Unproved, Unreadable, Zeros, decimal,
 };
 use denavit_reading::slip::Slip;
 
@@ -18,6 +18,8 @@ impl Check for English {
             About::Matrices => "an equation between matrices",
             About::Entry => "an entry",
             About::Equation => "an equation",
+            About::Helper => "a helper of what is proved",
+            About::Singularity => "a singular configuration",
             About::Joint => "values of a joint",
             About::Angle(set) => return format!("an angle of the set {set}"),
         }
@@ -53,6 +55,7 @@ impl Check for English {
             Meaning::RotationAbout(axis) => format!("the rotation about {axis}"),
             Meaning::TranslationAlong(axis) => format!("the translation along {axis}"),
             Meaning::Translation => "a translation".into(),
+            Meaning::Torques => "the torques of the joints".into(),
             Meaning::Jacobian(jacobian) => matrix_of_velocities(jacobian),
         }
     }
@@ -96,6 +99,7 @@ impl Check for English {
             Remark::OffBy(x) => format!("off by {}", decimal(*x)),
             Remark::Sampled => "found so in samples, not proved".into(),
             Remark::Compared(poses) => format!("by comparison with all solutions at {poses} poses"),
+            Remark::ReadAs(sense) => self.sense(*sense),
             Remark::SignLost { value, by, right_where } => {
                 let place = match &right_where[..] {
                     [] => String::new(),
@@ -119,6 +123,36 @@ impl Check for English {
             Remark::FailsAt(q) => format!("wrong at q = {q:.4?}, though the joint is determined there"),
             Remark::Residual(e) => format!("left minus right is {e}"),
         }
+    }
+
+    fn sense(&self, sense: Sense) -> String {
+        match sense {
+            Sense::LinkAlone => "read as the transform of a link alone, not as a frame in the base",
+            Sense::IndicesExchanged => {
+                "read with the frame on the left and the one in which it is seen on the right"
+            }
+            Sense::Helper => "read as a helper of the document, not as an entry of the pose",
+            Sense::CosineFirst => "read with the cosine as the first argument of atan2",
+            Sense::ColumnsSnap => "read with s, n, a, P as the columns of the pose",
+        }
+        .into()
+    }
+
+    fn skipped(&self, why: &Skipped) -> String {
+        match why {
+            Skipped::Unreadable(why) => self.unreadable(why),
+            Skipped::Unused(name) => format!("defines `{name}`, which nothing that is proved uses"),
+            Skipped::SaysNothing => "says nothing that is known of the robot".into(),
+            Skipped::AmongWords => {
+                "stands among words: nothing shows where the formula begins and ends".into()
+            }
+            Skipped::OfProgram(name) => format!("nothing says what `{name}` is"),
+            Skipped::TooMany => "the document has more formulas than are judged".into(),
+        }
+    }
+
+    fn carried(&self, cause: &str, line: usize) -> String {
+        format!("follows from `{cause}` in line {line}, which is wrong")
     }
 
     fn right_where(&self, condition: &Condition) -> String {
@@ -153,6 +187,9 @@ impl Check for English {
         match why {
             Unproved::NoLength => "a length has no value: state it before, `a1 = 0.5 m`",
             Unproved::NotFound => "neither proved equal nor different anywhere that was tried",
+            Unproved::OwnTable => {
+                "right by the table of the document, which was not held against that of the robot"
+            }
             Unproved::NotOfSet => "these are no angles of that set",
             Unproved::Values(why) => return self.undecided(why),
         }
@@ -176,6 +213,7 @@ impl Check for English {
     fn slip(&self, kind: &SlipKind) -> String {
         match kind {
             SlipKind::Formula(slip) => self.formula_slip(slip),
+            SlipKind::Arguments => "the arguments of atan2 exchanged".into(),
             SlipKind::ExchangedWith(r, c) => format!("exchanged with row {r}, column {c}"),
             SlipKind::OtherEntry => "another entry".into(),
         }
@@ -276,6 +314,7 @@ impl Check for English {
             }
             Noted::ReadAs(convention) => format!("tables are read as {convention}: the text says so"),
             Noted::NotSet(name, why) => format!("value of `{name}`: {why}"),
+            Noted::Reading(sense) => self.sense(*sense),
             Noted::UnknownRobot(name) => format!("no robot `{name}` in the catalogue"),
             Noted::NoSuchTable => "there is no such table".into(),
             Noted::UnknownConvention(name) => format!("unknown convention `{name}`"),
@@ -299,6 +338,7 @@ impl Check for English {
             Noted::Document(_)
             | Noted::TooLong { .. }
             | Noted::ReadAs(_)
+            | Noted::Reading(_)
             | Noted::NotSet(..)
             | Noted::UnknownRobot(_)
             | Noted::NoSuchTable
@@ -327,10 +367,7 @@ fn matrix_of_velocities(jacobian: &Jacobian) -> String {
         Reference::Base | Reference::Tool => " along its own axes".into(),
     };
     let first = if jacobian.is_angular_first { ", angular rows first" } else { "" };
-    let part = match jacobian.rows {
-        2 | 3 | 6 => String::new(),
-        rows => format!(", {rows} rows of 6"),
-    };
+    let part = rows_of(jacobian).map_or(String::new(), |rows| format!(", rows {rows}"));
     format!("the Jacobian of {body}{axes}{first}{part}")
 }
 

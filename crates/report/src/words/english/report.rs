@@ -410,11 +410,17 @@ impl Report for English {
             (s.equal, "proved"),
             (s.wrong, "wrong"),
             (s.conditional, "right under a condition"),
+            (s.carried, "carried from an earlier error"),
             (s.undecided, "undecided"),
             (s.unreadable, "unreadable"),
         ];
         let parts = all.into_iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{n} {what}"));
-        format!("{name} claims {claims} formulas: {}.", self.listed(&parts.collect::<Vec<_>>()))
+        let unjudged = match s.unjudged {
+            0 => String::new(),
+            1 => " One more line was not judged.".into(),
+            n => format!(" {n} more lines were not judged."),
+        };
+        format!("{name} claims {claims} formulas: {}.{unjudged}", self.listed(&parts.collect::<Vec<_>>()))
     }
 
     fn cause(&self, [right, wrong, still]: [usize; 3]) -> String {
@@ -426,6 +432,7 @@ impl Report for English {
             List::Wrong => "Wrong",
             List::Conditional => "Right under a condition",
             List::Open => "Not decided or not readable",
+            List::Unjudged => "Not judged",
         }
         .into()
     }

@@ -2,13 +2,13 @@
 
 use super::{French, counted, printed};
 use crate::words::Check;
-use crate::words::check::{ROUNDING, percent, positive};
+use crate::words::check::{ROUNDING, percent, positive, rows_of};
 use denavit::description::NotSet;
 use denavit::forward::Reference;
 use denavit_check::inverse::{Cause, Composed, Missing, Undecided};
 use denavit_check::{
-    About, Change, Condition, Formula, Instead, Jacobian, Meaning, Noted, Remark, ShortRow, SlipKind,
-    TableCell, Unproved, Unreadable, Zeros, decimal,
+    About, Change, Condition, Formula, Instead, Jacobian, Meaning, Noted, Remark, Sense, ShortRow, Skipped,
+    SlipKind, TableCell, Unproved, Unreadable, Zeros, decimal,
 };
 use denavit_reading::slip::Slip;
 
@@ -19,6 +19,8 @@ impl Check for French {
             About::Matrices => "une équation entre matrices",
             About::Entry => "un élément",
             About::Equation => "une équation",
+            About::Helper => "une grandeur auxiliaire de ce qui est démontré",
+            About::Singularity => "une configuration singulière",
             About::Joint => "les valeurs d'une articulation",
             About::Angle(set) => return format!("un angle du triplet {set}"),
         })
@@ -53,6 +55,7 @@ impl Check for French {
             Meaning::RotationAbout(axis) => format!("la rotation autour de {axis}"),
             Meaning::TranslationAlong(axis) => format!("la translation suivant {axis}"),
             Meaning::Translation => "une translation".into(),
+            Meaning::Torques => say!("les couples des articulations"),
             Meaning::Jacobian(jacobian) => matrix_of_velocities(jacobian),
         }
     }
@@ -104,6 +107,7 @@ impl Check for French {
             Remark::Compared(poses) => {
                 format!("par comparaison avec toutes les solutions en {}", counted(*poses, "pose", "poses"))
             }
+            Remark::ReadAs(sense) => self.sense(*sense),
             Remark::SignLost { value, by, right_where } => {
                 let which = value.map(|k| format!("valeur {} : ", k + 1)).unwrap_or_default();
                 let place = match &right_where[..] {
@@ -127,6 +131,35 @@ impl Check for French {
             }
             Remark::Residual(e) => say!("premier membre moins second membre : ") + &e.to_string(),
         }
+    }
+
+    fn sense(&self, sense: Sense) -> String {
+        printed(match sense {
+            Sense::LinkAlone => {
+                "lu comme la matrice de passage d'un seul corps, non comme un repère dans la base"
+            }
+            Sense::IndicesExchanged => "lu avec le repère à gauche et celui où il est vu à droite",
+            Sense::Helper => {
+                "lu comme une grandeur auxiliaire du document, non comme un élément de la situation"
+            }
+            Sense::CosineFirst => "lu avec le cosinus comme premier argument de atan2",
+            Sense::ColumnsSnap => "lu avec s, n, a, P comme colonnes de la situation",
+        })
+    }
+
+    fn skipped(&self, why: &Skipped) -> String {
+        match why {
+            Skipped::Unreadable(why) => self.unreadable(why),
+            Skipped::Unused(name) => say!("définit `{name}`, dont rien de démontré ne se sert"),
+            Skipped::SaysNothing => printed("ne dit rien de connu sur le robot"),
+            Skipped::AmongWords => printed("parmi des mots : rien ne montre où la formule commence et finit"),
+            Skipped::OfProgram(name) => say!("rien ne dit ce qu'est `{name}`"),
+            Skipped::TooMany => printed("le document contient plus de formules qu'on n'en vérifie"),
+        }
+    }
+
+    fn carried(&self, cause: &str, line: usize) -> String {
+        say!("découle de `{cause}`, ligne {line}, qui est faux")
     }
 
     fn right_where(&self, condition: &Condition) -> String {
@@ -165,6 +198,9 @@ impl Check for French {
         printed(match why {
             Unproved::NoLength => "une longueur n'a pas de valeur : la donner auparavant, `a1 = 0.5 m`",
             Unproved::NotFound => "ni égalité démontrée, ni différence trouvée en aucun des essais",
+            Unproved::OwnTable => {
+                "juste selon le tableau du document, qui n'a pas été comparé à celui du robot"
+            }
             Unproved::NotOfSet => "ce ne sont pas des angles de ce triplet",
             Unproved::Values(why) => return self.undecided(why),
         })
@@ -187,6 +223,7 @@ impl Check for French {
     fn slip(&self, kind: &SlipKind) -> String {
         match kind {
             SlipKind::Formula(slip) => self.formula_slip(slip),
+            SlipKind::Arguments => printed("les arguments de atan2 échangés"),
             SlipKind::ExchangedWith(r, c) => say!("échangé avec l'élément de la ligne {r}, colonne {c}"),
             SlipKind::OtherEntry => say!("l'élément d'une autre place"),
         }
@@ -299,6 +336,7 @@ impl Check for French {
                 }
             },
             Noted::NotSet(name, NotSet::Value(_)) => say!("`{name}` reçoit une valeur illisible"),
+            Noted::Reading(sense) => self.sense(*sense),
             Noted::UnknownRobot(name) => format!("aucun robot `{name}` dans le catalogue"),
             Noted::NoSuchTable => say!("ce tableau n'existe pas"),
             Noted::UnknownConvention(name) => format!("convention inconnue `{name}`"),
@@ -322,6 +360,7 @@ impl Check for French {
             Noted::Document(_)
             | Noted::TooLong { .. }
             | Noted::ReadAs(_)
+            | Noted::Reading(_)
             | Noted::NotSet(..)
             | Noted::UnknownRobot(_)
             | Noted::NoSuchTable
@@ -359,10 +398,7 @@ fn matrix_of_velocities(jacobian: &Jacobian) -> String {
         Reference::Base | Reference::Tool => " suivant ses propres axes".into(),
     };
     let first = if jacobian.is_angular_first { ", lignes de la vitesse angulaire d'abord" } else { "" };
-    let part = match jacobian.rows {
-        2 | 3 | 6 => String::new(),
-        rows => format!(", {rows} lignes sur 6"),
-    };
+    let part = rows_of(jacobian).map_or(String::new(), |rows| format!(", lignes {rows}"));
     say!("la jacobienne de {body}{axes}{first}{part}")
 }
 

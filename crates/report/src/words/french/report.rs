@@ -417,12 +417,17 @@ impl Report for French {
             (s.equal, ["démontrée", "démontrées"]),
             (s.wrong, ["fausse", "fausses"]),
             (s.conditional, ["juste sous condition", "justes sous condition"]),
+            (s.carried, ["due à une erreur précédente", "dues à une erreur précédente"]),
             (s.undecided, ["indécise", "indécises"]),
             (s.unreadable, ["illisible", "illisibles"]),
         ];
         let parts = all.into_iter().filter(|(n, _)| *n > 0).map(|(n, [one, many])| counted(n, one, many));
         let parts = self.listed(&parts.collect::<Vec<_>>());
-        say!("{name} énonce {claims} formules : {parts}.")
+        let unjudged = match s.unjudged {
+            0 => String::new(),
+            n => say!(" Non jugé : {}.", counted(n, "autre ligne", "autres lignes")),
+        };
+        say!("{name} énonce {claims} formules : {parts}.{unjudged}")
     }
 
     fn cause(&self, [right, wrong, still]: [usize; 3]) -> String {
@@ -434,6 +439,7 @@ impl Report for French {
             List::Wrong => "Faux",
             List::Conditional => "Juste sous condition",
             List::Open => "Indécis ou illisible",
+            List::Unjudged => "Non jugé",
         }
         .into()
     }

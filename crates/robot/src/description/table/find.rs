@@ -1,5 +1,6 @@
 //! Where a text has something with rows and columns.
 
+use super::columns::{Role, column};
 use super::{TableKind, latex, lines};
 use std::ops::Range;
 
@@ -35,6 +36,8 @@ pub(super) enum Separator {
     Pipe,
     /// Tab, comma or semicolon.
     Field(char),
+    /// Blanks: columns that are set below one another.
+    Blank,
     /// `&`, with `\\` behind each row.
     Latex,
 }
@@ -49,6 +52,15 @@ pub(super) fn grids(text: &str, kind: TableKind) -> Vec<Grid> {
             let mut grids = blocks(text, Separator::Pipe, false);
             grids.extend(blocks(text, Separator::Field('\t'), false));
             grids.extend(latex::grids(text));
+            // Among other text, commas and blanks make a table only below a line of its letters.
+            for separator in [Separator::Field(';'), Separator::Field(','), Separator::Blank] {
+                let below = headed(text, separator);
+                let is_free = |g: &Grid, all: &[Grid]| {
+                    !all.iter().any(|o| o.span.start < g.span.end && g.span.start < o.span.end)
+                };
+                let free: Vec<Grid> = below.into_iter().filter(|g| is_free(g, &grids)).collect();
+                grids.extend(free);
+            }
             grids
         }
         TableKind::Csv => {
@@ -110,6 +122,94 @@ fn blocks(text: &str, separator: Separator, loose: bool) -> Vec<Grid> {
         }
     }
     grids
+}
+
+/// The lines below each line whose cells are the letters of a table, as far as they have as many cells and begin with a
+/// number or a name with one.
+fn headed(text: &str, separator: Separator) -> Vec<Grid> {
+    let split = |span: &Range<usize>, width: Option<usize>| match separator {
+        Separator::Field(delimiter) => split_fields(text, span.clone(), delimiter),
+        _ => split_blanks(text, span.clone(), width),
+    };
+    let mut grids: Vec<Grid> = vec![];
+    let mut open = false;
+    for span in lines(text) {
+        let line = text[span.clone()].trim();
+        if line.len() > 500 {
+            open = false;
+            continue;
+        }
+        let grid = grids.last_mut().filter(|_| open);
+        if let Some(grid) = grid {
+            if line.len() > 2 && line.chars().all(|c| matches!(c, '-' | '=' | ' ' | '+' | '_' | '─')) {
+                continue;
+            }
+            let width = grid.rows.first().map_or(0, Vec::len);
+            let cells = split(&span, Some(width));
+            let is_row = cells.len() == width && !line.contains('=') && is_numbered(&cells[0].text);
+            if is_row {
+                grid.span.end = span.end;
+                grid.rows.push(cells);
+                continue;
+            }
+        }
+        open = is_header(line, &split(&span, None), separator);
+        if open {
+            grids.push(Grid { rows: vec![split(&span, None)], span, separator, ruled: true });
+        }
+    }
+    grids.retain(|g| g.rows.len() > 1);
+    grids
+}
+
+/// True for a line of nothing but heads of columns.
+fn is_header(line: &str, cells: &[GridCell], separator: Separator) -> bool {
+    let roles: Vec<Role> = cells.iter().map(|c| column(&c.text).role).collect();
+    let letters = roles.iter().filter(|r| r.is_letter()).count();
+    let others = roles.iter().filter(|r| **r == Role::Other).count();
+    letters >= 3
+        && others == 0
+        && roles.iter().any(|r| matches!(r, Role::Alpha | Role::Theta))
+        && !line.contains('=')
+        && (separator != Separator::Blank || !line.contains(['|', '&', '\t']))
+}
+
+/// `3`, `Link 3`, `J3`
+fn is_numbered(cell: &str) -> bool {
+    let name = cell.trim_end_matches(|c: char| c.is_ascii_digit());
+    name.len() < cell.len() && name.chars().all(|c| c.is_alphabetic() || matches!(c, ' ' | '_' | '.' | '#'))
+}
+
+/// The cells of a line with blanks between them: two or more, or single ones where these make the told number of cells.
+fn split_blanks(text: &str, span: Range<usize>, width: Option<usize>) -> Vec<GridCell> {
+    let pieces = |least: usize| {
+        let line = &text[span.clone()];
+        let mut cells: Vec<GridCell> = vec![];
+        let mut start: Option<usize> = None;
+        let mut blanks = 0;
+        for (i, c) in line.char_indices() {
+            if c.is_whitespace() {
+                blanks += 1;
+                continue;
+            }
+            if let Some(from) = start.filter(|_| blanks >= least) {
+                cells.push(GridCell::of(text, span.start + from..span.start + i));
+                start = None;
+            }
+            start = start.or(Some(i));
+            blanks = 0;
+        }
+        if let Some(from) = start {
+            cells.push(GridCell::of(text, span.start + from..span.end));
+        }
+        cells
+    };
+    let (wide, narrow) = (pieces(2), pieces(1));
+    match width {
+        Some(width) if wide.len() != width && narrow.len() == width => narrow,
+        None if wide.iter().filter(|c| column(&c.text).role.is_letter()).count() < 3 => narrow,
+        _ => wide,
+    }
 }
 
 /// Whether a line below the rows of a grid is one of them, be it too short or too long.

@@ -94,7 +94,8 @@ fn joint(row: &ReadRow, z: &str, starred: bool, above: &[Joint], out: &mut Diagn
     if let Some(joint) = own_angle() {
         return Some(joint);
     }
-    let name = own_symbol(&row.z, row.number, &["d", "r", "q"])?;
+    // Some count all joint variables as θ.
+    let name = own_symbol(&row.z, row.number, &["d", "r", "q", "theta"])?;
     let (number, span) = (row.number, row.z.cell.span.clone());
     out.note(span, format!("row {number} is prismatic: `{name}` in {z}, and no variable in theta")).hint(
         "if that is a constant, give it another name, or add a column σ (0 revolute, 1 prismatic, 2 fixed)",

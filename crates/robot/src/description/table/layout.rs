@@ -152,10 +152,16 @@ impl Layout {
     }
 }
 
-/// The number at the end of a text: `3`, `Link 3`, `$J_{3}$`.
+/// The number at the end of a text: `3`, `Link 3`, `$J_{3}$`; not that of a formula.
 fn number_in(text: &str) -> Option<usize> {
     let text = text.trim_end_matches(['$', '*', ' ', '}', '.', ')']);
     let digits = text.len() - text.trim_end_matches(|c: char| c.is_ascii_digit()).len();
+    let before = &text[..text.len() - digits];
+    if before.contains(|c: char| matches!(c, '+' | '−' | '=') || c.is_ascii_digit())
+        || before.trim_start().starts_with('-')
+    {
+        return None;
+    }
     text[text.len() - digits..].parse().ok().filter(|n| *n <= 10_000)
 }
 

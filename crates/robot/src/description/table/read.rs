@@ -159,6 +159,22 @@ struct Tables<'a> {
     options: &'a TableOptions,
 }
 
+/// True for tables that write a half as `0,5`.
+fn has_decimal_commas(layouts: &[&Layout]) -> bool {
+    let is_number = |text: &str, mark: char| {
+        let parts: Vec<&str> = text.trim().trim_start_matches(['-', '−', '$']).split(mark).collect();
+        let digits = |s: &str| s.chars().take_while(char::is_ascii_digit).count();
+        matches!(parts[..], [whole, rest] if digits(whole) == whole.len() && !whole.is_empty() && digits(rest) > 0)
+    };
+    let any =
+        |mark: char| layouts.iter().flat_map(|l| l.rows.iter().flatten()).any(|c| is_number(&c.text, mark));
+    match layouts[0].separator {
+        Separator::Field(';') => true,
+        Separator::Field(',') => false,
+        _ => any(',') && !any('.'),
+    }
+}
+
 /// The description under a convention.
 fn read_as(letters: &Letters, tables: &Tables, out: &mut Diagnostics) -> Reading {
     let &Tables { text, layouts, columns: told_columns, lines, around, options } = tables;
@@ -175,7 +191,7 @@ fn read_as(letters: &Letters, tables: &Tables, out: &mut Diagnostics) -> Reading
             Some(millimetres) => unit_named(if millimetres { "mm" } else { "m" }),
             None => told("lengths", Quantity::Length, lines, at, out),
         },
-        decimal_comma: layouts[0].separator == Separator::Field(';'),
+        decimal_comma: has_decimal_commas(layouts),
     };
     let all = |units: &BareUnits, out: &mut Diagnostics| -> Vec<ReadRow> {
         let mut found: Vec<ReadRow> = vec![];

@@ -13,10 +13,11 @@ const VERDICTS: Record<Verdict, { words: string; counted: string; path: string }
   equal: { words: "proved equal", counted: "proved", path: "M3.5 9.5 7.3 13.2 14.5 5.5" },
   wrong: { words: "wrong", counted: "wrong", path: "M4.5 4.5l9 9M13.5 4.5l-9 9" },
   conditional: { words: "right under a condition", counted: "right under a condition", path: "M3 9c2-4 4-4 6 0s4 4 6 0" },
+  carried: { words: "carried from an earlier error", counted: "carried", path: "M3 5h7v7M10 12l-2.5-2.5M10 12l2.5-2.5" },
   undecided: { words: "not decided", counted: "not decided", path: "M6 6.5a3 3 0 1 1 4.2 2.8c-.8.4-1.2.9-1.2 1.9M9 14v.1" },
   unreadable: { words: "cannot be read", counted: "not readable", path: "M9 4v6.5M9 13.8v.1" },
 };
-const ORDER: Verdict[] = ["wrong", "conditional", "undecided", "unreadable", "equal"];
+const ORDER: Verdict[] = ["wrong", "carried", "conditional", "undecided", "unreadable", "equal"];
 
 interface Context {
   text: string;
@@ -37,7 +38,9 @@ export function tallyWords(checked: Checked): string {
   const count = checked.claims.length;
   if (count === 0) return "No claim about the robot was found in this text.";
   const parts = ORDER.filter((verdict) => checked.tally[verdict] > 0).map((verdict) => `${checked.tally[verdict]} ${VERDICTS[verdict].counted}`);
-  return `${count} ${count === 1 ? "claim" : "claims"}: ${parts.join(", ")}.`;
+  const open = checked.tally.unjudged;
+  const rest = open === 0 ? "" : ` ${open} ${open === 1 ? "line" : "lines"} not judged.`;
+  return `${count} ${count === 1 ? "claim" : "claims"}: ${parts.join(", ")}.${rest}`;
 }
 
 export function Claims({ checked, context, chosen }: { checked: Checked; context: Context; chosen: number | null }) {
@@ -55,6 +58,23 @@ export function Claims({ checked, context, chosen }: { checked: Checked; context
           <ClaimItem key={k} claim={claim} index={k} context={context} isChosen={k === chosen} />
         ))}
       </ul>
+      {checked.unjudged.length > 0 && (
+        <details class="section" open>
+          <summary>
+            Not judged <span class="fine">{checked.unjudged.length}</span>
+          </summary>
+          <ul class="check-notes">
+            {checked.unjudged.map((line, k) => (
+              <li key={k} class="warning">
+                <PlaceButton place={line.at} context={context} />
+                <span>
+                  <code>{line.text}</code> <span class="quiet">{line.why}</span>
+                </span>
+              </li>
+            ))}
+          </ul>
+        </details>
+      )}
       {checked.notes.length > 0 && (
         <details class="section" open={checked.claims.length === 0}>
           <summary>

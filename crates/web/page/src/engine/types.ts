@@ -328,13 +328,15 @@ export interface PathEvent {
 
 /** `check`; the claims are those of `denavit check --json`. */
 export interface Checked {
-  tally: Record<Verdict, number>;
+  tally: Record<Verdict | "unjudged", number>;
   causes: { change: string; turns_right: string[] }[];
   claims: Claim[];
   notes: (Finding & { at: Place })[];
+  /** What looks like a formula and was not judged. */
+  unjudged: { at: Place; text: string; why: string }[];
 }
 
-export type Verdict = "equal" | "wrong" | "conditional" | "undecided" | "unreadable";
+export type Verdict = "equal" | "wrong" | "conditional" | "carried" | "undecided" | "unreadable";
 /** Bytes are those of the UTF-8 text; characters those of a JavaScript string. */
 export interface Place {
   line: number;

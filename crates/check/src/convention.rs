@@ -1,0 +1,233 @@
+//! The convention that a document's words name, in the phrases of courses and books and in their languages.
+
+use denavit::description::Convention;
+use std::ops::Range;
+
+/// Words that name a convention by themselves.
+const OWN: &[(&str, Convention)] = &[
+    ("khalil", Convention::Khalil),
+    ("kleinfinger", Convention::Khalil),
+    ("craig", Convention::Craig),
+    ("sciavicco", Convention::Standard),
+    ("siciliano", Convention::Standard),
+    ("spong", Convention::Standard),
+    ("paul's convention", Convention::Standard),
+];
+
+/// Words that name a convention beside one of [`SUBJECTS`].
+const BESIDE: &[(&str, Convention)] = &[
+    ("standard", Convention::Standard),
+    ("estándar", Convention::Standard),
+    ("estandar", Convention::Standard),
+    ("standaard", Convention::Standard),
+    ("padrão", Convention::Standard),
+    ("classic", Convention::Standard),
+    ("clásic", Convention::Standard),
+    ("clasic", Convention::Standard),
+    ("classique", Convention::Standard),
+    ("klassisch", Convention::Standard),
+    ("original dh", Convention::Standard),
+    ("distal", Convention::Standard),
+    ("标准", Convention::Standard),
+    ("modified", Convention::Craig),
+    ("modifi", Convention::Craig),
+    ("modifiziert", Convention::Craig),
+    ("modificad", Convention::Craig),
+    ("modificat", Convention::Craig),
+    ("gewijzigd", Convention::Craig),
+    ("proximal", Convention::Craig),
+    ("改进", Convention::Craig),
+];
+
+/// What such words are said of.
+const SUBJECTS: &[&str] = &[
+    "dh",
+    "d-h",
+    "d–h",
+    "d--h",
+    "denavit",
+    "convention",
+    "convenio",
+    "convenci",
+    "convenzion",
+    "konvention",
+    "notation",
+    "paramet",
+    "parámet",
+    "paramèt",
+    "assignment",
+    "asignaci",
+    "tabl",
+    "tabelle",
+    "tafel",
+    "frames",
+    "repère",
+];
+
+/// So far from each other such words stand in one phrase, in bytes.
+const NEAR: usize = 48;
+
+/// Products of elementary motions, by the letters of axes and what is done.
+const ORDERS: &[(&[&str], Convention)] = &[
+    (&["rz", "tz", "tx", "rx"], Convention::Standard),
+    (&["rotz", "transz", "transx", "rotx"], Convention::Standard),
+    (&["rx", "tx", "rz", "tz"], Convention::Craig),
+    (&["rotx", "transx", "rotz", "transz"], Convention::Craig),
+];
+
+/// The conventions that a text names, each where it first does.
+pub(super) fn named(text: &str) -> Vec<(Convention, Range<usize>)> {
+    // As many bytes as the text has, so that places agree.
+    let lower = text.to_ascii_lowercase();
+    let mut found: Vec<(Convention, Range<usize>)> = vec![];
+    let mut add = |convention: Convention, at: Range<usize>| {
+        match found.iter_mut().find(|f| f.0 == convention) {
+            Some(first) if first.1.start <= at.start => {}
+            Some(first) => first.1 = at,
+            None => found.push((convention, at)),
+        };
+    };
+    for (word, convention) in OWN {
+        for (at, _) in lower.match_indices(word).take(20) {
+            add(*convention, at..at + word.len());
+        }
+    }
+    for (word, convention) in BESIDE {
+        for (at, _) in lower.match_indices(word).take(50) {
+            let end = at + word.len();
+            if begins_word(&lower, at) && has_subject(&lower, at, end) {
+                add(*convention, at..end);
+            }
+        }
+    }
+    for (parts, convention) in ORDERS {
+        if let Some(at) = sequence(&lower, parts) {
+            add(*convention, at);
+        }
+    }
+    if let Some(found) = told_in_motions(&lower) {
+        add(found.0, found.1);
+    }
+    // Craig's order with the letters of Khalil's table is Khalil's.
+    let has = |c: Convention| found.iter().any(|f| f.0 == c);
+    if has(Convention::Khalil) && !has(Convention::Standard) {
+        found.retain(|f| f.0 == Convention::Khalil);
+    }
+    found.sort_by_key(|f| f.1.start);
+    found
+}
+
+/// True if no letter stands before a place.
+fn begins_word(text: &str, at: usize) -> bool {
+    !text[..at].chars().next_back().is_some_and(|c| c.is_alphanumeric())
+}
+
+/// True if what a convention is said of stands near a word, with no end of a paragraph between.
+fn has_subject(text: &str, start: usize, end: usize) -> bool {
+    let floor = |mut i: usize| {
+        while !text.is_char_boundary(i) {
+            i -= 1;
+        }
+        i
+    };
+    let from = floor(start.saturating_sub(NEAR));
+    let to = floor((end + NEAR).min(text.len()));
+    let before = text[from..start].rsplit("\n\n").next().unwrap_or_default();
+    let behind = text[end..to].split("\n\n").next().unwrap_or_default();
+    let names =
+        |part: &str| SUBJECTS.iter().any(|s| part.match_indices(s).any(|(at, _)| begins_word(part, at)));
+    names(before) || names(behind)
+}
+
+/// Where parts of words follow one another with nothing but signs, blanks and arguments between.
+fn sequence(text: &str, parts: &[&str]) -> Option<Range<usize>> {
+    let plain: Vec<(usize, char)> =
+        text.char_indices().filter(|(_, c)| !matches!(c, '_' | '{' | '}' | '\\' | '$' | ',')).collect();
+    // Arguments in brackets are left out: `Rz(θ) Tz(d)`.
+    let mut depth = 0_usize;
+    let mut kept: Vec<(usize, char)> = vec![];
+    for (k, (at, c)) in plain.iter().enumerate() {
+        let is_behind_name = k.checked_sub(1).is_some_and(|k| plain[k].1.is_alphanumeric());
+        match c {
+            '(' | '[' if depth > 0 || is_behind_name => depth += 1,
+            ')' | ']' => depth = depth.saturating_sub(1),
+            _ if depth == 0 && c.is_alphabetic() => kept.push((*at, *c)),
+            '\n' => {
+                kept.push((*at, '\n'));
+                depth = 0;
+            }
+            _ => {}
+        }
+    }
+    let line: String = kept.iter().map(|c| c.1).collect();
+    let joined = parts.concat();
+    let at = line.find(&joined)?;
+    let first = line[..at].chars().count();
+    let start = kept.get(first)?.0;
+    let end = kept.get(first + joined.chars().count() - 1)?.0 + 1;
+    Some(start..end)
+}
+
+/// A sentence that tells the motions of a link one after another: `rotates by θ about z, moves d along z, then a along x, then
+/// twists by α`.
+fn told_in_motions(text: &str) -> Option<(Convention, Range<usize>)> {
+    const TURNS: [&str; 7] = ["rotat", "turn", "dreht", "drehung", "tourn", "gira", "ruota"];
+    for (at, word) in TURNS.iter().flat_map(|w| text.match_indices(w).take(20)) {
+        let mut end = (at + 220).min(text.len());
+        while !text.is_char_boundary(end) {
+            end -= 1;
+        }
+        let sentence = text[at + word.len()..end].split(['.', ')', ';']).next().unwrap_or_default();
+        let plain: String = sentence.chars().filter(|c| !matches!(c, '\\' | '$' | '{' | '}')).collect();
+        let plain = plain.replace("theta", "θ").replace("alpha", "α");
+        let letter = |c: &char| {
+            let mut places = plain.char_indices().filter(|(i, x)| {
+                let alone = |y: Option<char>| y.is_none_or(|y| !y.is_alphabetic());
+                x == c
+                    && alone(plain[..*i].chars().next_back())
+                    && alone(plain[i + c.len_utf8()..].chars().next())
+            });
+            places.next().map(|p| p.0)
+        };
+        let [theta, d, a, alpha] = ['θ', 'd', 'a', 'α'].map(|c| letter(&c));
+        let (Some(theta), Some(d), Some(a), Some(alpha)) = (theta, d, a, alpha) else { continue };
+        let place = at..at + word.len();
+        if theta.max(d) < a.min(alpha) {
+            return Some((Convention::Standard, place));
+        }
+        if alpha.max(a) < theta.min(d) {
+            return Some((Convention::Craig, place));
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::named;
+    use denavit::description::Convention::{Craig, Khalil, Standard};
+
+    #[test]
+    fn conventions_in_the_words_of_courses() {
+        for (text, expected) in [
+            ("DH parameters (standard)", vec![Standard]),
+            ("Standard-DH-Tabelle, Längen in m", vec![Standard]),
+            ("Se usa el convenio estándar de Denavit–Hartenberg:", vec![Standard]),
+            ("we use the classic (distal) assignment", vec![Standard]),
+            ("DH parameters, modified (Craig)", vec![Craig]),
+            ("parameters after Craig", vec![Craig]),
+            ("Modifizierte DH-Parameter", vec![Craig]),
+            ("paramètres de Khalil et Kleinfinger", vec![Khalil]),
+            ("My DH table (i.e. Rz Tz Tx Rx):", vec![Standard]),
+            (r"$A_i = Rot_z(\theta_i) Trans_z(d_i) Trans_x(a_i) Rot_x(\alpha_i)$", vec![Standard]),
+            (
+                r"each $A_i$ rotates by $\theta_i$ about $z$, moves $d$ along z, then $a$ along x, then twists by $\alpha$",
+                vec![Standard],
+            ),
+            ("the standard solution of a quadratic equation", vec![]),
+            ("The mass is modified by the user.", vec![]),
+        ] {
+            assert_eq!(named(text).iter().map(|f| f.0).collect::<Vec<_>>(), expected, "{text}");
+        }
+    }
+}

@@ -1,0 +1,350 @@
+//! Names that custom gives a meaning beside the entries of the pose: velocities and rates, torques and forces, the wrist centre,
+//! entries of frames in each other, the direction of a planar arm, and the letters that a text uses for the hand's place.
+
+use super::habits::Places;
+use super::matrix::Matrix;
+use super::subject::Subject;
+use denavit::description::JointKind;
+use denavit::geometry::{Transform, Vector};
+use denavit_reading::slip::Points;
+use denavit_symbolic::vocabulary::plain_name;
+use denavit_symbolic::{Expr, greek};
+use std::collections::BTreeSet;
+
+/// A name with its meaning.
+#[derive(Clone, Debug)]
+pub(super) struct Custom {
+    pub name: String,
+    pub meaning: Expr,
+    /// The same with the entries of the pose as symbols.
+    pub inverse: Expr,
+}
+
+/// The axes of coordinates.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// The names of a text: letters, each with the digits and letters behind it, marks of subscripts left aside.
+pub(super) fn plain(text: &str) -> String {
+    let mut plain = plain_name(text);
+    for name in ["vartheta", "varphi", "theta", "omega", "phi", "tau"] {
+        if plain.contains(name) {
+            let letter = greek::letter(name).unwrap_or('φ');
+            plain = plain.replace(name, letter.encode_utf8(&mut [0; 4]));
+        }
+    }
+    plain
+}
+
+/// The customary names that a text mentions.
+pub(super) fn names(subject: &Subject, text: &str, places: &Places) -> Vec<Custom> {
+    if subject.last() == 0 {
+        return vec![];
+    }
+    let plain = plain(text);
+    let mut found = vec![];
+    let mut add = |name: &str, meaning: Expr, inverse: Expr| {
+        found.push(Custom { name: name.to_string(), meaning, inverse });
+    };
+    rates(subject, &plain, &mut add);
+    torques(subject, &plain, &mut add);
+    wrist(subject, &plain, places, &mut add);
+    frames(subject, &plain, places, &mut add);
+    direction(subject, &plain, places, &mut add);
+    for letters in hand_letters(text) {
+        for (r, name) in letters.iter().enumerate() {
+            add(name, subject.pose().translation.0[r], places.symbol(r, 3).into());
+        }
+    }
+    found
+}
+
+type Add<'a> = dyn FnMut(&str, Expr, Expr) + 'a;
+
+/// Joint rates, and the velocity of the hand in them.
+fn rates(subject: &Subject, plain: &str, add: &mut Add<'_>) {
+    let is_moving = plain.contains("dot")
+        || plain.contains('\u{307}')
+        || ["vx", "vy", "vz", "Vx", "Vy", "ωx", "ωz"].iter().any(|n| plain.contains(n));
+    if !is_moving {
+        return;
+    }
+    let names = subject.vocabulary();
+    for (v, rate) in subject.description.variables().iter().zip(subject.rates()) {
+        let number = v.symbol.name().trim_start_matches('q').to_string();
+        let mut spellings = vec![v.symbol.name().to_string()];
+        let letters: &[&str] = match v.kind {
+            JointKind::Revolute => &["θ", "t", "th", "theta", "q"],
+            JointKind::Prismatic => &["d", "r", "q", "l"],
+        };
+        for letter in letters {
+            let name = format!("{letter}{number}");
+            if names.lookup(&name).is_some_and(|e| e.as_symbol() == Some(v.symbol)) {
+                spellings.push(name);
+            }
+        }
+        spellings.extend(
+            subject
+                .variables
+                .iter()
+                .flatten()
+                .filter(|p| names.lookup(p).is_some_and(|e| e.as_symbol() == Some(v.symbol)))
+                .cloned(),
+        );
+        spellings.sort();
+        spellings.dedup();
+        for name in spellings {
+            for spelled in [format!("dot{name}"), format!("{name}dot"), format!("d{name}")] {
+                add(&spelled, rate, rate);
+            }
+        }
+    }
+    let velocity = subject.velocity();
+    for (r, axis) in AXES.iter().enumerate() {
+        let (linear, angular) = (velocity[r], velocity[3 + r]);
+        let upper = axis.to_uppercase();
+        for name in [
+            format!("v{axis}"),
+            format!("V{axis}"),
+            format!("dot{axis}"),
+            format!("{axis}dot"),
+            format!("dot{upper}"),
+            format!("{upper}dot"),
+            format!("dotp{axis}"),
+            format!("p{axis}dot"),
+        ] {
+            add(&name, linear, linear);
+        }
+        add(&format!("ω{axis}"), angular, angular);
+    }
+}
+
+/// The torques of all joints, below one another.
+pub(super) fn torque_column(subject: &Subject, text: &str) -> Option<Matrix> {
+    let mut found: Vec<(String, Expr)> = vec![];
+    torques(subject, &plain(text), &mut |name, meaning, _| found.push((name.to_string(), meaning)));
+    let of = |k: usize| found.iter().find(|(name, _)| *name == format!("τ{k}")).map(|f| vec![Some(f.1)]);
+    let column: Vec<Vec<Option<Expr>>> = (1..=subject.joints().len()).map_while(of).collect();
+    (!column.is_empty() && column.len() == subject.joints().len()).then_some(Matrix(column))
+}
+
+/// Torques of the joints for a force at the hand, in those of its components that are mentioned.
+fn torques(subject: &Subject, plain: &str, add: &mut Add<'_>) {
+    let letters: Vec<&str> = ["τ", "Γ"].into_iter().filter(|t| plain.contains(t)).collect();
+    if letters.is_empty() {
+        return;
+    }
+    let mut load = [Expr::int(0); 6];
+    for (first, forces) in [(0, ["F", "f"]), (3, ["M", "m"])] {
+        for (r, axis) in AXES.iter().enumerate() {
+            if let Some(letter) = forces.iter().find(|f| plain.contains(&format!("{f}{axis}"))) {
+                let name = format!("{letter}{axis}");
+                let symbol = Expr::symbol(&name);
+                load[first + r] = symbol;
+                add(&name, symbol, symbol);
+            }
+        }
+    }
+    if load[..3].iter().all(|e| e.is_zero()) {
+        return;
+    }
+    for (k, torque) in (1..).zip(subject.torques(&load)) {
+        for letter in &letters {
+            add(&format!("{letter}{k}"), torque, torque);
+        }
+    }
+}
+
+/// The point in which the last three axes meet.
+fn wrist(subject: &Subject, plain: &str, places: &Places, add: &mut Add<'_>) {
+    let Some(centre) = subject.wrist_centre() else { return };
+    let n = subject.last();
+    let Some(base) = subject.transform(Some(0), Some(n)) else { return };
+    let point = base.act_on_point(centre);
+    let Some(tool) = subject.transform(None, Some(n)) else { return };
+    let inverse = places.pose().act_on_point(tool.act_on_point(centre));
+    for (r, axis) in AXES.iter().enumerate() {
+        let spelled = |a: &str| {
+            [
+                format!("{a}c"),
+                format!("{a}w"),
+                format!("p{a}c"),
+                format!("p{a}w"),
+                format!("pc{a}"),
+                format!("pw{a}"),
+                format!("pW{a}"),
+                format!("oc{a}"),
+                format!("P{a}w"),
+                format!("Pw{a}"),
+                format!("w{a}"),
+            ]
+        };
+        for name in spelled(axis).into_iter().filter(|name| plain.contains(name.as_str())) {
+            add(&name, point.0[r], inverse.0[r]);
+        }
+    }
+}
+
+/// Entries of a frame in another: `p_{14x}` is the x of its origin, `x_{34y}` the y of its axis x.
+fn frames(subject: &Subject, plain: &str, places: &Places, add: &mut Add<'_>) {
+    let chars: Vec<char> = plain.chars().collect();
+    let mut seen = BTreeSet::new();
+    for w in chars.windows(4) {
+        let [letter, i, j, axis] = w else { continue };
+        let (Some(i), Some(j)) = (i.to_digit(10), j.to_digit(10)) else { continue };
+        let Some(r) = ['x', 'y', 'z'].iter().position(|a| a == axis) else { continue };
+        let column = match letter {
+            'x' => 0,
+            'y' => 1,
+            'z' => 2,
+            'p' | 'P' | 'o' | 'O' => 3,
+            _ => continue,
+        };
+        let name: String = w.iter().collect();
+        if !seen.insert(name.clone()) || seen.len() > 200 {
+            continue;
+        }
+        let (i, j) = (i as usize, j as usize);
+        if let (Some(x), Some(y)) = (subject.transform(Some(i), Some(j)), seen_through(subject, places, i, j))
+        {
+            add(&name, x.matrix()[r][column], y.matrix()[r][column]);
+        }
+    }
+}
+
+/// A frame in another by the hand's pose as symbols and the joints outside of both.
+pub(super) fn seen_through(
+    subject: &Subject,
+    places: &Places,
+    i: usize,
+    j: usize,
+) -> Option<Transform<Expr>> {
+    let before = subject.transform(Some(0), Some(i))?.inverse();
+    let behind = subject.transform(None, Some(j))?;
+    Some(before * places.pose() * behind)
+}
+
+/// The direction of the hand of an arm whose hand stays upright: φ.
+fn direction(subject: &Subject, plain: &str, places: &Places, add: &mut Add<'_>) {
+    let spelled: Vec<&str> = ["φ", "ϕ"].into_iter().filter(|p| plain.contains(p)).collect();
+    if spelled.is_empty() {
+        return;
+    }
+    let pose = subject.pose();
+    let mut points = Points::new(3);
+    let (one, zero) = (points.value(Expr::int(1)), points.value(Expr::int(0)));
+    let up = points.value(pose.rotation.rows()[2][2].powi(2));
+    if up != one {
+        return;
+    }
+    let mut sum = Expr::int(0);
+    let j = subject.geometric_rows(denavit::forward::Reference::Tool, denavit::forward::Reference::Frame(0));
+    for (k, &q) in subject.joints().iter().enumerate() {
+        let turn = points.value(j[5][k]);
+        sum = match () {
+            () if turn == one => sum + q,
+            () if turn == points.value(Expr::int(-1)) => sum - q,
+            () if turn == zero => sum,
+            () => return,
+        };
+    }
+    let [n, _, _] = pose.rotation.rows();
+    let second = pose.rotation.rows()[1];
+    let agrees =
+        points.value(n[0]) == points.value(sum.cos()) && points.value(second[0]) == points.value(sum.sin());
+    if agrees {
+        let inverse = Expr::from(places.symbol(1, 0)).atan2(places.symbol(0, 0).into());
+        spelled.iter().for_each(|name| add(name, sum, inverse));
+    }
+}
+
+/// The letters for the hand's place that sentences tell: `the tip is at (q_x, q_y)`.
+pub(super) fn hand_letters(text: &str) -> Vec<Vec<String>> {
+    const HANDS: [&str; 22] = [
+        "end effector",
+        "end-effector",
+        "effector",
+        " hand ",
+        "tip ",
+        "gripper",
+        "tool",
+        "tcp",
+        "spitze",
+        "greifer",
+        "hand ",
+        "endeffektor",
+        "organe terminal",
+        "outil",
+        "efector",
+        "pinza",
+        "mano",
+        "punta",
+        "garra",
+        "extremo",
+        "flange",
+        "position",
+    ];
+    let lower = text.to_ascii_lowercase();
+    let mut found: Vec<Vec<String>> = vec![];
+    for (at, word) in HANDS.iter().flat_map(|w| lower.match_indices(w).take(10)) {
+        let rest = &text[at + word.len()..];
+        let sentence = rest.split(['\n', ';', ':']).next().unwrap_or_default();
+        let sentence = sentence.split(". ").next().unwrap_or_default();
+        let Some(open) = sentence.find('(').filter(|o| *o < 40) else { continue };
+        if sentence[..open].contains('=') {
+            continue;
+        }
+        let Some(close) = sentence[open..].find(')') else { continue };
+        let inner = &sentence[open + 1..open + close];
+        let names: Vec<String> = inner.split(',').map(|n| plain_name(&n.replace(['$', '*'], ""))).collect();
+        let is_name = |n: &String| {
+            n.chars().next().is_some_and(char::is_alphabetic)
+                && n.chars().count() <= 4
+                && n.chars().all(char::is_alphanumeric)
+        };
+        let ends = |n: &String, a: &str| n.to_lowercase().ends_with(a);
+        let by_axes = names.iter().zip(AXES).all(|(n, a)| ends(n, a));
+        if (2..=3).contains(&names.len()) && names.iter().all(is_name) && by_axes && !found.contains(&names) {
+            found.push(names);
+        }
+    }
+    found
+}
+
+impl Subject {
+    /// The point in which the last three axes meet, in the last frame, where it is fixed there and they turn.
+    pub(super) fn wrist_centre(&self) -> Option<Vector<Expr>> {
+        let n = self.last();
+        let rows = &self.description.rows;
+        let is_turning =
+            |k: usize| rows.get(k).and_then(|r| r.variable).is_some_and(|v| v.kind == JointKind::Revolute);
+        if n < 4 || !(n - 3..n).all(is_turning) {
+            return None;
+        }
+        // Of the origins, the one that none of the last three joints moves.
+        for k in (0..n).rev() {
+            let here = self.transform(Some(n), Some(k))?.translation;
+            let still = self.transform(Some(n - 3), Some(k))?.translation;
+            let moves = |p: &Vector<Expr>, joints: &[Expr]| {
+                p.0.iter().any(|e| {
+                    let symbols = e.symbols();
+                    joints.iter().filter_map(|q| q.as_symbol()).any(|s| symbols.contains(&s))
+                        && points_differ(*e, joints)
+                })
+            };
+            let last = &self.joints()[self.joints().len().checked_sub(3)?..];
+            if !moves(&here, last) && !moves(&still, last) {
+                return Some(here);
+            }
+        }
+        None
+    }
+}
+
+/// True if a formula depends on joints, not only in print.
+fn points_differ(e: Expr, joints: &[Expr]) -> bool {
+    let mut points = Points::new(13);
+    let moved = e.substitute(|s| {
+        joints.iter().any(|q| q.as_symbol() == Some(s)).then(|| Expr::symbol(&format!("{} moved", s.name())))
+    });
+    points.value(e) != points.value(moved)
+}

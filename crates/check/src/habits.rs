@@ -1,0 +1,147 @@
+//! How a document writes a pose, and what it means by names that may mean several things.
+
+use super::names::{Token, tokens};
+use denavit::geometry::{Rotation, Transform, Vector};
+use denavit_reading::document::{Document, Part, Side};
+use denavit_symbolic::vocabulary::plain_name;
+use denavit_symbolic::{Expr, Symbol};
+use std::collections::BTreeSet;
+
+/// Values with each choice of the signs that a document names: ε = ±1.
+pub(super) fn with_named_signs(values: Vec<Expr>) -> Vec<Expr> {
+    let mut all = values;
+    for name in SIGNS {
+        let sign = Expr::symbol(&format!("sign {name}"));
+        if all.iter().any(|e| e.symbols().contains(&sign.as_symbol().unwrap_or(Symbol::new(name))))
+            && all.len() <= 16
+        {
+            let chosen = |n: i64| {
+                move |e: &Expr| e.substitute(|s| (Some(s) == sign.as_symbol()).then(|| Expr::int(n)))
+            };
+            all = all.iter().map(chosen(1)).chain(all.iter().map(chosen(-1))).collect();
+        }
+    }
+    all
+}
+
+/// The names of signs that a text has: `ε = ±1`.
+pub(super) fn named_signs(plain: &str) -> Vec<(&'static str, Expr)> {
+    let is_sign = |name: &&&str| {
+        let spelled = match **name {
+            "ε" => "varepsilon",
+            "σ" => "sigma",
+            other => other,
+        };
+        [format!("{name}=±1"), format!("{name}=pm1"), format!("{spelled}=pm1"), format!("{spelled}=±1")]
+            .iter()
+            .any(|s| plain.contains(s.as_str()))
+    };
+    SIGNS.iter().filter(is_sign).map(|n| (*n, Expr::symbol(&format!("sign {n}")))).collect()
+}
+
+/// Names of signs.
+const SIGNS: [&str; 5] = ["ε", "σ", "k", "e", "s"];
+/// The axes of coordinates.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// The letters of a pose's columns.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Columns {
+    /// n, o, a, p
+    Noap,
+    /// s, n, a, P
+    Snap,
+}
+
+impl Columns {
+    pub fn letters(self) -> [&'static str; 4] {
+        match self {
+            Columns::Noap => ["n", "o", "a", "p"],
+            Columns::Snap => ["s", "n", "a", "p"],
+        }
+    }
+
+    /// Those that a text uses.
+    pub fn of(text: &str) -> Self {
+        let plain: String = plain_name(text);
+        if plain.contains("ox") || !plain.contains("sx") { Columns::Noap } else { Columns::Snap }
+    }
+}
+
+/// The symbol of an entry of the pose in inverse formulas, row and column from 0.
+pub(super) fn pose_symbol(columns: Columns, row: usize, column: usize) -> Symbol {
+    Symbol::new(&format!("{}{}", columns.letters()[column], AXES[row]))
+}
+
+/// The entries of the pose as symbols.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Places(pub Columns);
+
+impl Places {
+    /// The symbol of an entry, row and column from 0.
+    pub fn symbol(&self, row: usize, column: usize) -> Symbol {
+        pose_symbol(self.0, row, column)
+    }
+
+    /// The pose with its entries as symbols.
+    pub fn pose(&self) -> Transform<Expr> {
+        let entry = |r: usize, c: usize| Expr::from(self.symbol(r, c));
+        let rows = [0, 1, 2].map(|r| [0, 1, 2].map(|c| entry(r, c)));
+        let position = Vector([0, 1, 2].map(|r| entry(r, 3)));
+        Transform::from_rotation_translation(Rotation::from_rows(rows), position)
+    }
+}
+
+/// What a document means by names that may mean several things.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Habits {
+    /// The letters of the pose's columns.
+    pub columns: Columns,
+    /// A number behind `T` is that of a link, not of a frame in the base.
+    pub links: bool,
+    /// The left index is the frame, the right one that in which it is seen.
+    pub exchanged: bool,
+    /// `atan2` has the cosine first.
+    pub cosine_first: bool,
+    /// Names that are helpers, not entries of the pose.
+    pub helpers: BTreeSet<String>,
+    /// Names of matrices that the document defines as products, `T_2 = A_4 A_5`.
+    pub products: BTreeSet<String>,
+}
+
+impl Habits {
+    /// The first readings.
+    pub fn of(text: &str) -> Self {
+        Habits {
+            columns: Columns::of(text),
+            links: false,
+            exchanged: false,
+            cosine_first: false,
+            helpers: BTreeSet::new(),
+            products: BTreeSet::new(),
+        }
+    }
+
+    /// Takes the names that a document defines as products for its own.
+    pub fn with_products(mut self, text: &str, document: &Document) -> Self {
+        for statement in &document.statements {
+            let names = |side: &Side| match &side.parts[..] {
+                [Part::Text(span)] => tokens(text, span, &|_| false).unwrap_or_default(),
+                _ => vec![],
+            };
+            let Some((first, rest)) = statement.sides.split_first() else { continue };
+            let [Token::Name(name)] = &names(first)[..] else { continue };
+            let is_single =
+                name.base == "T" && name.left.is_empty() && name.sup.is_empty() && name.sub.len() == 1;
+            let is_product = |side: &Side| {
+                let found = names(side);
+                let is_other = |t: &Token| matches!(t, Token::Name(n) if n.base != "T" || n.sub != name.sub);
+                found.len() > 1 && found.iter().all(is_other)
+            };
+            if is_single && rest.iter().any(is_product) {
+                self.products.insert(name.key());
+            }
+        }
+        self
+    }
+}

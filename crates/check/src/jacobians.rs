@@ -1,0 +1,245 @@
+//! Jacobians that people print: which rows, of which point, along whose axes; their determinants, and the velocities and torques
+//! that follow of them.
+
+use super::facts::Jacobian;
+use super::matrix::Matrix;
+use super::names::Name;
+use super::subject::Subject;
+use denavit::forward::Reference;
+use denavit_reading::slip::{Points, Value};
+use denavit_symbolic::readable::simplify;
+use denavit_symbolic::{Expr, Node};
+use rustc_hash::FxHashMap;
+
+/// Which rows the name of a Jacobian tells.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub(super) enum Part {
+    /// Any.
+    #[default]
+    Any,
+    /// `J_v`, `J_P`
+    Linear,
+    /// `J_ω`, `J_O`
+    Angular,
+}
+
+/// What the name of a Jacobian tells.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub(super) struct Told {
+    pub part: Part,
+    /// Of the origin of this frame.
+    pub frame: Option<usize>,
+    /// Along the axes of this frame.
+    pub axes: Option<usize>,
+}
+
+/// The rows of a full Jacobian, as they may be named: linear first, angular first.
+const FULL: [[u8; 6]; 2] = [[0, 1, 2, 3, 4, 5], [3, 4, 5, 0, 1, 2]];
+
+impl Subject {
+    /// Of the Jacobians that people print, the one that agrees with a matrix in most entries, its rows in any order.
+    pub fn nearest_jacobian(&self, printed: &Matrix, told: &Told) -> Option<(Matrix, Jacobian)> {
+        let (rows, columns) = printed.shape()?;
+        if rows > 6 || columns != self.joints().len() {
+            return None;
+        }
+        let mut points = Points::new(7);
+        let mut value = |e: &Option<Expr>| e.and_then(|e| points.value(e));
+        let wanted: Vec<Vec<Option<Value>>> =
+            printed.0.iter().map(|row| row.iter().map(&mut value).collect()).collect();
+        let mut best: Option<(usize, Jacobian, Matrix)> = None;
+        for (body, axes, full) in self.views(told) {
+            let own: Vec<Vec<Option<Value>>> =
+                full.iter().map(|row| row.iter().map(|&e| points.value(e)).collect()).collect();
+            // What is not 0 tells more.
+            let zero = points.value(Expr::int(0));
+            let agreement = |r: usize, k: usize| -> usize {
+                let pairs = wanted[r].iter().zip(&own[k]).filter(|(a, b)| a.is_some() && a == b);
+                pairs.map(|(a, _)| if *a == zero { 1 } else { 3 }).sum()
+            };
+            for order in orders(rows, told.part, &agreement) {
+                let total: usize = (0..rows).map(|r| agreement(r, usize::from(order[r]))).sum();
+                if best.as_ref().is_none_or(|b| total > b.0) {
+                    let is_angular_first = rows > 3 && order[0] == 3;
+                    let jacobian = Jacobian { body, axes, is_angular_first, rows, order };
+                    let row = |k: &u8| full[usize::from(*k)].iter().map(|&e| Some(e)).collect();
+                    best = Some((total, jacobian, Matrix(order[..rows].iter().map(row).collect())));
+                }
+            }
+        }
+        best.map(|(_, about, matrix)| (matrix, about))
+    }
+
+    /// Full Jacobians of the points and along the axes that a name may mean, the usual ones first.
+    fn views(&self, told: &Told) -> Vec<(Reference, Reference, Vec<Vec<Expr>>)> {
+        let n = self.last();
+        let bodies = match told.frame {
+            Some(k) if k < n => vec![Reference::Frame(k)],
+            _ => vec![Reference::Tool, Reference::Frame(n)],
+        };
+        let axes: Vec<Reference> = match told.axes {
+            Some(k) if k <= n => vec![Reference::Frame(k)],
+            _ => (0..=n).map(Reference::Frame).chain([Reference::Tool]).collect(),
+        };
+        let views = bodies.iter().flat_map(|&body| axes.iter().map(move |&along| (body, along)));
+        let mut found: Vec<_> =
+            views.map(|(body, along)| (body, along, self.geometric_rows(body, along))).collect();
+        if self.is_printed() {
+            found.extend(self.differentiated().map(|j| (Reference::Tool, Reference::Frame(0), j)));
+        }
+        found
+    }
+
+    /// The rows of a square Jacobian that the arm has by nature: all that do not vanish, or the linear or the angular ones.
+    fn task(&self, part: Part) -> Option<Vec<usize>> {
+        let n = self.joints().len();
+        let j = self.geometric_rows(Reference::Tool, Reference::Frame(0));
+        let mut points = Points::new(7);
+        let zero = points.value(Expr::int(0));
+        let moving: Vec<usize> = (0..6).filter(|&r| j[r].iter().any(|&e| points.value(e) != zero)).collect();
+        let among = |rows: std::ops::Range<usize>| -> Vec<usize> {
+            moving.iter().copied().filter(|r| rows.contains(r)).collect()
+        };
+        let candidates = match part {
+            Part::Any => vec![moving.clone(), among(0..3), among(3..6)],
+            Part::Linear => vec![among(0..3)],
+            Part::Angular => vec![among(3..6)],
+        };
+        candidates.into_iter().find(|rows| rows.len() == n)
+    }
+
+    /// The square Jacobian that the arm has by nature, along the axes of frame 0.
+    pub fn square_jacobian(&self, part: Part) -> Option<Matrix> {
+        let j = self.geometric_rows(Reference::Tool, Reference::Frame(0));
+        let rows = self.task(part)?;
+        Some(Matrix(rows.iter().map(|&r| j[r].iter().map(|&e| Some(e)).collect()).collect()))
+    }
+
+    /// The determinant of the Jacobian that the arm has by nature.
+    pub fn determinant(&self, part: Part) -> Option<Expr> {
+        let rows = self.task(part)?;
+        // Along which axes it is written does not matter for blocks that turn together; the middle is short.
+        let is_whole = |block: [usize; 3]| {
+            let count = block.iter().filter(|r| rows.contains(r)).count();
+            count == 0 || count == 3
+        };
+        let turns = is_whole([0, 1, 2]) && is_whole([3, 4, 5]) && !self.is_printed();
+        let axes = if turns { self.last().div_ceil(2) } else { 0 };
+        let body = if turns && rows.len() == 6 { Reference::Frame(self.last()) } else { Reference::Tool };
+        let j = self.geometric_rows(body, Reference::Frame(axes));
+        let entry = |e: Expr| simplify(e, &e.symbols()).map_or(e, |s| s.expr);
+        Matrix(rows.iter().map(|&r| j[r].iter().map(|&e| Some(entry(e))).collect()).collect()).determinant()
+    }
+
+    /// The symbols of the joints' rates.
+    pub fn rates(&self) -> Vec<Expr> {
+        let variables = self.description.variables();
+        variables.iter().map(|v| Expr::symbol(&format!("rate of {}", v.symbol.name()))).collect()
+    }
+
+    /// The linear and angular velocity of the hand along the axes of frame 0, in the joints' rates.
+    pub fn velocity(&self) -> Vec<Expr> {
+        let (j, rates) = (self.geometric_rows(Reference::Tool, Reference::Frame(0)), self.rates());
+        let row = |row: &Vec<Expr>| row.iter().zip(&rates).fold(Expr::int(0), |sum, (&e, &r)| sum + e * r);
+        j.iter().map(row).collect()
+    }
+
+    /// The torques and forces of the joints that a load on the hand takes: force and moment along the axes of frame 0.
+    pub fn torques(&self, load: &[Expr; 6]) -> Vec<Expr> {
+        let j = self.geometric_rows(Reference::Tool, Reference::Frame(0));
+        let of = |k: usize| (0..6).fold(Expr::int(0), |sum, r| sum + j[r][k] * load[r]);
+        (0..self.joints().len()).map(of).collect()
+    }
+
+    /// The linear rows by the derivatives of the hand's position, the angular ones as they are, where the author's own pose
+    /// stands for the arm's.
+    fn differentiated(&self) -> Option<Vec<Vec<Expr>>> {
+        let position = self.pose().translation.0;
+        let mut j = self.geometric_rows(Reference::Tool, Reference::Frame(0));
+        for (r, &p) in position.iter().enumerate() {
+            for (k, &q) in self.joints().iter().enumerate() {
+                j[r][k] = derivative(p, q)?;
+            }
+        }
+        Some(j)
+    }
+}
+
+/// The orders of rows in which a Jacobian of so many rows may be printed.
+fn orders(rows: usize, part: Part, agreement: &dyn Fn(usize, usize) -> usize) -> Vec<[u8; 6]> {
+    let mut found: Vec<[u8; 6]> = match part {
+        Part::Any if rows == 6 => FULL.to_vec(),
+        Part::Any => vec![FULL[0]],
+        Part::Linear => vec![FULL[0]],
+        Part::Angular => vec![FULL[1]],
+    };
+    if rows < 6 {
+        found.extend(matched(rows, part, agreement));
+    }
+    found
+}
+
+/// Each printed row beside the row of the full Jacobian that it agrees with most, none twice.
+fn matched(rows: usize, part: Part, agreement: &dyn Fn(usize, usize) -> usize) -> Option<[u8; 6]> {
+    let allowed = match part {
+        Part::Any => 0..6,
+        Part::Linear => 0..3,
+        Part::Angular => 3..6,
+    };
+    let mut pairs: Vec<(usize, usize, usize)> =
+        (0..rows).flat_map(|r| allowed.clone().map(move |k| (agreement(r, k), r, k))).collect();
+    pairs.sort_by(|a, b| b.0.cmp(&a.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
+    let mut order = [u8::MAX; 6];
+    for (_, r, k) in pairs {
+        if order[r] == u8::MAX && !order.contains(&(k as u8)) {
+            order[r] = k as u8;
+        }
+    }
+    let mut rest = (0..6).filter(|k| !order.contains(k)).collect::<Vec<u8>>().into_iter();
+    order.iter_mut().filter(|k| **k == u8::MAX).for_each(|k| *k = rest.next().unwrap_or(0));
+    Some(order)
+}
+
+/// The derivative of a formula by a symbol; nothing where it is no polynomial of sines and cosines.
+fn derivative(e: Expr, by: Expr) -> Option<Expr> {
+    let zero = Expr::int(0);
+    let mut known: FxHashMap<Expr, Expr> = FxHashMap::default();
+    for part in Expr::postorder(&[e]) {
+        let of = |a: &Expr| known.get(a).copied();
+        let found = match part.node() {
+            Node::Number(_) | Node::Pi => zero,
+            Node::Symbol(_) => Expr::int(i64::from(part == by)),
+            Node::Neg(a) => -of(&a)?,
+            Node::Add(a, b) => of(&a)? + of(&b)?,
+            Node::Sub(a, b) => of(&a)? - of(&b)?,
+            Node::Mul(a, b) => of(&a)? * b + a * of(&b)?,
+            Node::Div(a, b) => (of(&a)? * b - a * of(&b)?) / b.powi(2),
+            Node::Pow(a, n) => Expr::int(i64::from(n)) * a.powi(n - 1) * of(&a)?,
+            Node::Sin(a) => a.cos() * of(&a)?,
+            Node::Cos(a) => -a.sin() * of(&a)?,
+            Node::Sqrt(_) | Node::Atan2(..) => return None,
+        };
+        known.insert(part, found);
+    }
+    known.get(&e).copied()
+}
+
+/// What the name of a Jacobian tells; nothing for other names.
+pub(super) fn told_of_jacobian(name: &Name) -> Option<Told> {
+    matches!(name.base.as_str(), "J" | "Jacobian").then(|| told(name))
+}
+
+/// What the indices of a Jacobian tell.
+pub(super) fn told(name: &Name) -> Told {
+    let sub = name.sub.to_lowercase();
+    let letters: String = sub.chars().filter(|c| c.is_alphabetic()).collect();
+    let part = match letters.as_str() {
+        "v" | "p" | "l" | "lin" | "t" => Part::Linear,
+        "ω" | "w" | "o" | "a" | "ang" | "omega" | "r" => Part::Angular,
+        _ => Part::Any,
+    };
+    let number = |text: &str| text.chars().filter(char::is_ascii_digit).collect::<String>().parse().ok();
+    let frame = (!letters.is_empty()).then(|| number(&sub)).flatten();
+    let axes = number(&name.left).or_else(|| number(&name.sup));
+    Told { part, frame, axes }
+}

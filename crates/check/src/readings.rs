@@ -1,0 +1,217 @@
+//! What a document means by names that may mean several things: the reading that most of its statements support.
+//!
+//! Statements are held against the robot at random points only; the winner is judged by proof afterwards.
+
+use super::CheckOptions;
+use super::facts::{About, Meaning, Sense};
+use super::habits::{Columns, Habits, Places, with_named_signs};
+use super::numbers;
+use super::outcome::Finding;
+use super::plan::{Plan, Walked};
+use super::trial::Trial;
+use super::walk::{Assertion, Piece, Spoken};
+use denavit_reading::document::Document;
+use denavit_reading::slip::Points;
+use denavit_symbolic::vocabulary::plain_name;
+use denavit_symbolic::{Expr, equal};
+use std::collections::BTreeSet;
+
+/// The most formulas of a document whose readings are weighed.
+const MAX_FORMULAS: usize = 3_000;
+/// Rounds in which one more habit is taken on.
+const ROUNDS: usize = 4;
+/// So many more right statements make a habit that is not the first.
+const MARGIN: usize = 2;
+
+/// How many statements are right and wrong, and which are wrong.
+struct Score {
+    right: usize,
+    wrong: BTreeSet<usize>,
+}
+
+/// The plan with the readings that the document supports, and what is said of them.
+pub(super) fn weighed(
+    text: &str,
+    document: &Document,
+    plan: Plan,
+    options: &CheckOptions,
+) -> (Plan, Vec<Sense>) {
+    let mut plan = plan;
+    let mut senses = vec![];
+    let mut walked = plan.walk(text, document, options);
+    let count: usize = walked.assertions.iter().map(|a| a.pieces.len()).sum();
+    if count > MAX_FORMULAS {
+        return (plan, senses);
+    }
+    let mut trials = Trials::new(&plan);
+    let mut score = trials.score(&plan, &walked);
+    for _ in 0..ROUNDS {
+        if score.wrong.is_empty() {
+            break;
+        }
+        let mut best: Option<(usize, Plan, Walked, Score, Sense)> = None;
+        let tells_hand = !super::custom::hand_letters(text).is_empty();
+        for (habits, sense, margin) in candidates(&plan.habits, &walked, &score, tells_hand) {
+            let other = plan.with_habits(habits);
+            let there = other.walk(text, document, options);
+            let own = trials.score(&other, &there);
+            let gain = own.right.saturating_sub(score.right);
+            let is_better = gain >= margin
+                && own.wrong.len() < score.wrong.len()
+                && best.as_ref().is_none_or(|b| gain > b.0);
+            if is_better {
+                best = Some((gain, other, there, own, sense));
+            }
+        }
+        let Some((_, other, there, own, sense)) = best else { break };
+        senses.push(sense);
+        (plan, walked, score) = (other, there, own);
+    }
+    (plan, senses)
+}
+
+/// Other habits that may explain what is wrong, how they are said, and how many more statements must be right.
+fn candidates(
+    habits: &Habits,
+    walked: &Walked,
+    score: &Score,
+    tells_hand: bool,
+) -> Vec<(Habits, Sense, usize)> {
+    let wrong: Vec<&Assertion> =
+        score.wrong.iter().filter_map(|&at| walked.assertions.iter().find(|a| a.span.start == at)).collect();
+    let mut found = vec![];
+    let speaks_of_frames = |a: &&Assertion| {
+        matches!(&a.about, About::Matrix(m) if !matches!(m, Meaning::Jacobian(_))) || a.about == About::Entry
+    };
+    if wrong.iter().any(speaks_of_frames) {
+        if !habits.links {
+            found.push((Habits { links: true, ..habits.clone() }, Sense::LinkAlone, MARGIN));
+        }
+        if !habits.exchanged {
+            found.push((Habits { exchanged: true, ..habits.clone() }, Sense::IndicesExchanged, MARGIN));
+        }
+        if habits.columns == Columns::Noap {
+            found.push((Habits { columns: Columns::Snap, ..habits.clone() }, Sense::ColumnsSnap, MARGIN));
+        }
+    }
+    if !habits.cosine_first && wrong.iter().any(|a| a.spoken.is_some()) {
+        found.push((Habits { cosine_first: true, ..habits.clone() }, Sense::CosineFirst, MARGIN));
+    }
+    let names: BTreeSet<String> = wrong
+        .iter()
+        .filter(|a| matches!(a.about, About::Entry | About::Equation) && a.spoken.is_none())
+        .map(|a| plain_name(&super::custom::plain(&a.name)))
+        .filter(|n| n.chars().count() <= 6 && n.chars().all(char::is_alphanumeric))
+        .filter(|n| may_be_helper(n, tells_hand))
+        .collect();
+    let families: BTreeSet<String> = names.iter().map(|n| family(n)).collect();
+    let mut sets: Vec<BTreeSet<String>> =
+        families.iter().map(|f| names.iter().filter(|n| family(n) == *f).cloned().collect()).collect();
+    sets.push(names);
+    for set in sets.into_iter().filter(|s| !s.is_empty() && !s.is_subset(&habits.helpers)) {
+        let helpers = habits.helpers.union(&set).cloned().collect();
+        found.push((Habits { helpers, ..habits.clone() }, Sense::Helper, 1));
+    }
+    found
+}
+
+/// True for a name that custom alone makes an entry of the pose; those of the position where the text gives the hand other
+/// letters.
+fn may_be_helper(name: &str, tells_hand: bool) -> bool {
+    let chars: Vec<char> = name.chars().collect();
+    match chars[..] {
+        ['r' | 't' | 'R' | 'T', a, b] if a.is_ascii_digit() && b.is_ascii_digit() => false,
+        ['n' | 'o' | 's' | 'a', 'x' | 'y' | 'z'] => false,
+        ['p' | 'P', 'x' | 'y' | 'z'] => tells_hand,
+        _ => true,
+    }
+}
+
+/// A name without the letter of its axis.
+fn family(name: &str) -> String {
+    match name.chars().count() {
+        1 if name.chars().all(char::is_uppercase) => "XYZ".into(),
+        1 => "xyz".into(),
+        _ => name.trim_end_matches(['x', 'y', 'z']).into(),
+    }
+}
+
+/// Random points and configurations for each robot.
+struct Trials {
+    points: Points,
+    by_subject: Vec<[Option<Trial>; 2]>,
+}
+
+impl Trials {
+    fn new(plan: &Plan) -> Self {
+        Trials { points: Points::new(23), by_subject: plan.subjects.iter().map(|_| [None, None]).collect() }
+    }
+
+    fn score(&mut self, plan: &Plan, walked: &Walked) -> Score {
+        let mut score = Score { right: 0, wrong: BTreeSet::new() };
+        for assertion in &walked.assertions {
+            match self.is_right(plan, assertion) {
+                Some(true) => score.right += 1,
+                Some(false) => {
+                    score.wrong.insert(assertion.span.start);
+                }
+                None => {}
+            }
+        }
+        score
+    }
+
+    fn is_right(&mut self, plan: &Plan, assertion: &Assertion) -> Option<bool> {
+        let subject = &plan.subjects[assertion.subject];
+        match &assertion.spoken {
+            Some(Spoken::Joint { of, branches, .. }) => {
+                let columns = plan.habits.columns;
+                let slot = &mut self.by_subject[assertion.subject][usize::from(columns == Columns::Snap)];
+                let trial = slot.get_or_insert_with(|| Trial::new(subject, &Places(columns)));
+                let [own, any] = trial.shares(*of, branches);
+                return (any > 0.0).then_some(own > 0.0);
+            }
+            Some(Spoken::Angle { .. }) => return None,
+            None => {}
+        }
+        let mut is_any = false;
+        for piece in &assertion.pieces {
+            let is_right = match piece {
+                Piece::Pair(pair) => {
+                    let wanted = self.points.value(pair.wanted);
+                    let variants = match &pair.printed {
+                        Some(syntax) if syntax.sign_choices() > 0 => {
+                            syntax.variants().iter().map(|s| s.value()).collect()
+                        }
+                        _ => vec![pair.value],
+                    };
+                    let variants = with_named_signs(variants);
+                    // A root has no value at a random point: the product of the differences has.
+                    if variants.len() > 1 {
+                        let product = variants.iter().fold(Expr::int(1), |p, &v| p * (pair.wanted - v));
+                        if variants.len() <= 4 && equal(product, Expr::int(0)).is_equal() {
+                            is_any = true;
+                            continue;
+                        }
+                    }
+                    let values: Vec<_> = variants.into_iter().map(|v| self.points.value(v)).collect();
+                    if wanted.is_none() || values.iter().all(Option::is_none) {
+                        continue;
+                    }
+                    values.contains(&wanted)
+                }
+                Piece::Number { answer, .. } => match numbers::judge(answer, subject, None) {
+                    Finding::Equal { .. } => true,
+                    Finding::Wrong(_) => false,
+                    _ => continue,
+                },
+                Piece::Unreadable { .. } => continue,
+            };
+            if !is_right {
+                return Some(false);
+            }
+            is_any = true;
+        }
+        is_any.then_some(true)
+    }
+}

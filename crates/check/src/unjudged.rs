@@ -1,0 +1,187 @@
+//! What of a document was not judged, so that nothing is passed over in silence; and the helpers that what is proved uses.
+
+use super::CheckOptions;
+use super::facts::About;
+use super::note::Unreadable;
+use super::outcome::{Claim, Entry, Finding, Skipped, Standing, Unjudged};
+use super::plan::Walked;
+use super::walk::Defined;
+use denavit_reading::document::{Document, Statement};
+use denavit_symbolic::vocabulary::plain_name;
+use std::ops::Range;
+
+/// No more lines are listed.
+const MAX_LISTED: usize = 1_000;
+/// The longest line that is looked at.
+const LONGEST: usize = 2_000;
+
+/// Lists what looks like a formula and was not judged; helpers that proved formulas use become claims of their own.
+pub(super) fn listed(
+    text: &str,
+    document: &Document,
+    walked: &Walked,
+    claims: &mut Vec<Claim>,
+    options: &CheckOptions,
+) -> Vec<Unjudged> {
+    let judged: Vec<Range<usize>> = claims.iter().map(|c| c.span.clone()).collect();
+    claims.extend(helpers(text, walked, claims));
+    let covered: Vec<Range<usize>> = claims.iter().map(|c| c.span.clone()).collect();
+    let mut found: Vec<Unjudged> = vec![];
+    let touches = |all: &[Range<usize>], span: &Range<usize>| {
+        all.iter().any(|s| s.start < span.end && span.start < s.end)
+    };
+    for statement in &document.statements {
+        let span = &statement.span;
+        let is_quiet = [&covered, &walked.taken, &walked.ignored].into_iter().any(|all| touches(all, span));
+        if is_quiet || is_named(text, walked, span, claims) {
+            continue;
+        }
+        found.push(Unjudged { span: span.clone(), why: why(walked, statement) });
+    }
+    for error in &walked.refused {
+        if !touches(&judged, &error.span) {
+            found.push(Unjudged { span: error.span.clone(), why: Skipped::Unreadable(error.why.clone()) });
+        }
+    }
+    if options.language.is_none() {
+        let read: Vec<Range<usize>> = document
+            .statements
+            .iter()
+            .map(|s| s.span.clone())
+            .chain(document.code.iter().map(|c| c.span.clone()))
+            .chain(document.directives.iter().map(|d| d.span.clone()))
+            .chain(document.statements.iter().flat_map(|s| &s.directives).map(|d| d.span.clone()))
+            .chain(walked.taken.iter().cloned())
+            .collect();
+        for line in lines(text) {
+            let shown = text.get(line.clone()).unwrap_or_default();
+            if looks_like_formula(shown) && !touches(&read, &line) && !touches(&covered, &line) {
+                found.push(Unjudged { span: trimmed(text, line), why: Skipped::AmongWords });
+            }
+        }
+    }
+    found.sort_by_key(|u| (u.span.start, u.span.end));
+    found.dedup_by(|a, b| a.span == b.span);
+    found.truncate(MAX_LISTED);
+    found
+}
+
+/// Why a statement was not judged.
+fn why(walked: &Walked, statement: &Statement) -> Skipped {
+    let span = &statement.span;
+    let within = |other: &Range<usize>| other.start < span.end && span.start < other.end;
+    if let Some(defined) = walked.defined.iter().find(|d| within(&d.statement)) {
+        return Skipped::Unused(defined.shown.clone());
+    }
+    if let Some((_, name)) = walked.named.iter().find(|n| within(&n.0)) {
+        return Skipped::Unused(name.clone());
+    }
+    match walked.skipped.iter().find(|s| within(&s.0)) {
+        Some((_, Unreadable::NeitherFormulaNorProduct)) | None => Skipped::SaysNothing,
+        Some((_, why)) => Skipped::Unreadable(why.clone()),
+    }
+}
+
+/// True for a statement that names a matrix which a claim further down uses.
+fn is_named(text: &str, walked: &Walked, span: &Range<usize>, claims: &[Claim]) -> bool {
+    let names = walked.named.iter().filter(|n| n.0 == *span);
+    names.into_iter().any(|(_, name)| {
+        let later = claims.iter().filter(|c| c.span.start >= span.end);
+        later.into_iter().any(|c| mentions(text.get(c.span.clone()).unwrap_or_default(), name))
+    })
+}
+
+/// A claim for each helper that something right uses, directly or through another helper.
+fn helpers(text: &str, walked: &Walked, claims: &[Claim]) -> Vec<Claim> {
+    let is_right = |c: &&Claim| matches!(c.standing(), Standing::Equal | Standing::Conditional);
+    let mut users: Vec<Range<usize>> = claims.iter().filter(is_right).map(|c| c.span.clone()).collect();
+    let own =
+        |d: &Defined| claims.iter().any(|c| c.span.start < d.statement.end && d.statement.start < c.span.end);
+    let mut found: Vec<Claim> = vec![];
+    // What is used last is defined last.
+    for (k, defined) in walked.defined.iter().enumerate().rev() {
+        if own(defined) {
+            continue;
+        }
+        let end = walked.defined[k + 1..].iter().find(|d| d.name == defined.name).map(|d| d.span.start);
+        let is_used = users.iter().any(|u| {
+            u.start >= defined.span.start
+                && end.is_none_or(|e| u.start < e)
+                && *u != defined.statement
+                && mentions(text.get(u.clone()).unwrap_or_default(), &defined.name)
+        });
+        if is_used {
+            users.push(defined.statement.clone());
+            let finding = Finding::Equal { unless_zero: vec![] };
+            let entry = Entry { place: None, span: defined.span.clone(), finding, identities: vec![] };
+            found.push(Claim {
+                span: defined.statement.clone(),
+                name: defined.shown.clone(),
+                about: About::Helper,
+                entries: vec![entry],
+                instead: None,
+                remarks: vec![],
+                robot: defined.subject,
+            });
+        }
+    }
+    found
+}
+
+/// True if a formula uses a name.
+fn mentions(source: &str, name: &str) -> bool {
+    mentions_in(source, name) || source.split_whitespace().any(|word| mentions_in(word, name))
+}
+
+fn mentions_in(source: &str, name: &str) -> bool {
+    let (plain, name) = (super::custom::plain(source), super::custom::plain(name));
+    let ends_in_digit = name.ends_with(|c: char| c.is_ascii_digit());
+    let is_letter = |c: Option<char>| c.is_some_and(char::is_alphabetic);
+    !name.is_empty()
+        && plain.match_indices(&name).any(|(i, _)| {
+            let (before, behind) = (plain[..i].chars().next_back(), plain[i + name.len()..].chars().next());
+            let cut = match ends_in_digit {
+                true => behind.is_some_and(|c| c.is_ascii_digit()),
+                false => is_letter(behind) || behind.is_some_and(|c| c.is_ascii_digit()),
+            };
+            let is_part = is_letter(before) && name.chars().count() == 1;
+            !(cut || is_part)
+        })
+}
+
+/// True for a line with something like a formula on both sides of an equals sign.
+fn looks_like_formula(line: &str) -> bool {
+    let shown = line.trim();
+    let foreign = shown.len() > LONGEST
+        || shown.starts_with(['|', '<', '%', '#', '>'])
+        || shown.starts_with("\\usepackage")
+        || shown.starts_with("\\newcommand")
+        || shown.starts_with("\\includegraphics")
+        || shown.starts_with("\\documentclass")
+        || shown.contains("://")
+        || shown.contains("check:")
+        || super::plan::is_setting(shown);
+    if foreign {
+        return false;
+    }
+    let is_side = |s: &str| s.chars().any(char::is_alphanumeric);
+    let mut sides = shown.split(['=', '≈', '≡']);
+    let left = sides.next().unwrap_or_default();
+    let is_rule = shown.chars().all(|c| matches!(c, '=' | '-' | '+' | '|' | ' '));
+    !is_rule && is_side(left) && sides.any(is_side) && !plain_name(shown).is_empty()
+}
+
+fn lines(text: &str) -> impl Iterator<Item = Range<usize>> {
+    let mut start = 0;
+    text.split_inclusive('\n').map(move |line| {
+        let span = start..start + line.len();
+        start += line.len();
+        span
+    })
+}
+
+fn trimmed(text: &str, span: Range<usize>) -> Range<usize> {
+    let shown = text.get(span.clone()).unwrap_or_default();
+    let start = span.start + (shown.len() - shown.trim_start().len());
+    start..start + shown.trim().len()
+}

@@ -1,0 +1,300 @@
+//! What a document states: configurations, lengths, rates, in formulas and in sentences.
+
+use super::{Scalar, Walk};
+use crate::lexis::read;
+use denavit::description::read_value;
+use denavit_symbolic::parse::SyntaxKind;
+use denavit_symbolic::vocabulary::plain_name;
+use denavit_symbolic::{Expr, Symbol};
+use std::ops::Range;
+
+/// Sentences of more bytes state nothing.
+const LONGEST: usize = 1_000;
+/// Words between a value and the next name.
+const JOINTS: [&str; 8] = [" and ", " und ", " et ", " y ", " e ", " en ", " with ", " mit "];
+/// Words before a list of lengths, of joint values, of joint rates.
+const LENGTHS: [&str; 8] = [
+    "lengths",
+    "längen",
+    "longueurs",
+    "longitudes",
+    "lunghezze",
+    "link length",
+    "gliedlängen",
+    "comprimentos",
+];
+const VALUES: [&str; 6] = [
+    "joint angles",
+    "joint values",
+    "gelenkwinkel",
+    "angles articulaires",
+    "ángulos articulares",
+    "configuration",
+];
+const RATES: [&str; 8] = [
+    "joint rates",
+    "joint velocities",
+    "joint speeds",
+    "gelenkgeschwindigkeiten",
+    "vitesses articulaires",
+    "velocidades articulares",
+    "velocità di giunto",
+    "rates of the joints",
+];
+
+/// What a list of values is for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum List {
+    Joints,
+    Rates,
+    Lengths,
+}
+
+impl Walk<'_> {
+    /// Reads the values that a line of prose gives: `with a1 = 1 and θ1 = 30°`, `q = (30°, 45°)`, `lengths 0.5, 0.4`.
+    pub(super) fn told_in(&mut self, prose: &Range<usize>) {
+        let Some(line) = self.text.get(prose.clone()).filter(|l| l.len() < LONGEST) else { return };
+        if is_case(line) {
+            return;
+        }
+        let joined = line.replace('$', " ").replace("\\left", "     ").replace("\\right", "      ");
+        let joined = joined.replace("\\,", "  ").replace("\\;", "  ");
+        self.told_lists(&joined);
+        self.told_tuples(&joined, prose.start);
+        let parts: Vec<&str> = joined.split('=').collect();
+        let mut names: Vec<&str> = vec![];
+        let mut at = 0;
+        for pair in parts.windows(2) {
+            let start = at + pair[0].rfind([' ', ',', ';', '(']).map_or(0, |i| i + 1);
+            at += pair[0].len() + 1;
+            let name = pair[0].trim().rsplit([' ', ',', ';', '(']).next().unwrap_or_default();
+            let rest = pair[1].trim_start();
+            let value = rest.split([',', ';', ')']).next().unwrap_or_default();
+            let value =
+                JOINTS.iter().filter_map(|j| value.split_once(j)).map(|v| v.0).min_by_key(|v| v.len());
+            let value = value.unwrap_or(rest.split([',', ';', ')']).next().unwrap_or_default());
+            let value = value.trim().trim_end_matches([':', '.', '?', '!']);
+            if name.is_empty() {
+                names.clear();
+                continue;
+            }
+            names.push(name);
+            // `0.8 we get`: the number alone, or it with its unit.
+            let words: Vec<&str> = value.split(' ').filter(|w| !w.is_empty()).collect();
+            let short = words.iter().take(2).copied().collect::<Vec<&str>>().join(" ");
+            let first = words.first().copied().unwrap_or_default();
+            let tried = [value, short.as_str(), first.trim_end_matches([':', '.'])];
+            let mut is_given = false;
+            for name in &names {
+                is_given |= tried.iter().any(|v| self.assign(name, v));
+            }
+            if is_given {
+                let end = prose.start + (at + pair[1].len() - rest.len() + value.len()).min(line.len());
+                self.taken.push(prose.start + start.min(line.len())..end);
+                names.clear();
+            } else if plain_name(value) != value.replace(['_', '{', '}', '\\', ' '], "") || !is_name(value) {
+                names.clear();
+            }
+        }
+    }
+
+    /// `q = (30°, 45°, 0.1 m)`, `(θ1, θ2) = (…)`.
+    fn told_tuples(&mut self, line: &str, start: usize) {
+        for (at, _) in line.match_indices('=') {
+            let behind = &line[at + 1..];
+            let open = behind.trim_start();
+            let Some(inner) = open.strip_prefix(['(', '[']) else { continue };
+            let Some(close) = inner.find([')', ']']) else { continue };
+            let values: Vec<&str> = inner[..close].split([',', ';']).map(str::trim).collect();
+            let before = line[..at].trim_end();
+            let name = before.rsplit([' ', ',', ';', ':']).next().unwrap_or_default();
+            let plain = crate::custom::plain(&name.replace(['(', ')', '*'], ""));
+            let is_dotted = before[..before.len() - name.len()].trim_end().ends_with("\\dot");
+            let plain = if is_dotted { format!("dot{plain}") } else { plain };
+            let plain =
+                plain.trim_start_matches("mathbf").trim_start_matches("boldsymbol").trim_start_matches("vec");
+            let is_joints = matches!(plain, "q" | "θ" | "Θ" | "ϑ" | "Q");
+            let is_rates = matches!(plain, "dotq" | "dotθ" | "qdot" | "dotmathbfq" | "thetadot" | "dq")
+                || matches!(plain, "q\u{307}" | "θ\u{307}");
+            let listed = before.ends_with(')') && self.is_list_of_joints(before);
+            let list = match () {
+                () if is_joints || listed => List::Joints,
+                () if is_rates => List::Rates,
+                () => continue,
+            };
+            if self.assign_list(list, &values) {
+                let from = start + at - name.len();
+                let length = at + 1 + (behind.len() - open.len()) + 1 + close;
+                self.taken.push(from.min(start + at)..start + length);
+            }
+        }
+    }
+
+    /// True for `(q1, q2, q3)` at the end of a text: all joints in their order.
+    fn is_list_of_joints(&self, text: &str) -> bool {
+        let Some(open) = text.rfind('(') else { return false };
+        let names = text[open + 1..text.len() - 1].split(',');
+        let found: Vec<Option<Expr>> = names.map(|n| self.lexis.names.lookup(n.trim())).collect();
+        let joints = self.subject.joints();
+        found.len() == joints.len() && found.iter().zip(joints).all(|(f, q)| *f == Some(*q))
+    }
+
+    /// `lengths 1.0, 0.8, 0.4`
+    fn told_lists(&mut self, line: &str) {
+        let lower = line.to_lowercase();
+        if lower.len() != line.len() {
+            return;
+        }
+        let all = [(List::Lengths, &LENGTHS[..]), (List::Joints, &VALUES[..]), (List::Rates, &RATES[..])];
+        for (list, words) in all {
+            for word in words {
+                let Some(at) = lower.find(word) else { continue };
+                let rest = line[at + word.len()..].trim_start_matches([':', ' ', '=', '(']);
+                let joined = JOINTS.iter().fold(rest.to_string(), |r, j| r.replace(j, ", "));
+                let mut values: Vec<&str> = vec![];
+                for value in joined.split(',').map(str::trim) {
+                    let number = value.trim_end_matches(['.', ')', ':', ';']);
+                    if !number.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '-' | '−' | '.')) {
+                        break;
+                    }
+                    values.push(number);
+                }
+                // What follows the last number is no part of it.
+                let last = values.pop().map(|v| v.split(' ').take(2).collect::<Vec<_>>().join(" "));
+                let mut owned: Vec<String> = values.iter().map(ToString::to_string).collect();
+                owned.extend(last);
+                for take in [2, 1] {
+                    if let Some(last) = owned.last_mut() {
+                        *last = last.split(' ').take(take).collect::<Vec<_>>().join(" ");
+                    }
+                    let values: Vec<&str> = owned.iter().map(String::as_str).collect();
+                    if self.assign_list(list, &values) {
+                        break;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Gives values in the order of the joints, or of the lengths; false if there are not as many.
+    fn assign_list(&mut self, list: List, values: &[&str]) -> bool {
+        let d = &self.subject.description;
+        let symbols: Vec<Symbol> = match list {
+            List::Joints => d.variables().iter().map(|v| v.symbol).collect(),
+            List::Rates => self.subject.rates().iter().filter_map(|e| e.as_symbol()).collect(),
+            List::Lengths => d.parameters.iter().map(|p| p.symbol).collect(),
+        };
+        if symbols.len() != values.len() || symbols.is_empty() {
+            return false;
+        }
+        let read: Option<Vec<Expr>> = values
+            .iter()
+            .zip(&symbols)
+            .map(|(v, s)| match list {
+                List::Lengths => read_value(v, d.measure(*s)).ok(),
+                List::Joints | List::Rates => self.constant(v),
+            })
+            .collect();
+        let Some(read) = read else { return false };
+        for (k, value) in read.into_iter().enumerate() {
+            match list {
+                List::Joints => self.at.set(k, value),
+                List::Rates | List::Lengths => self.at.give(symbols[k], value),
+            }
+        }
+        true
+    }
+
+    /// A number with its unit: `30°`, `0.1 m`, `0.5 rad/s`.
+    pub(super) fn constant(&self, text: &str) -> Option<Expr> {
+        let text = text.trim().trim_end_matches('.');
+        let (number, factor) = match crate::numbers::unit_behind(text) {
+            Some((number, factor)) => (number, factor),
+            None => (text, Expr::int(1)),
+        };
+        let value = read(number, &(0..number.len()), &self.lexis.names).ok()?.value();
+        value.symbols().is_empty().then(|| value * factor)
+    }
+
+    /// Gives a joint or a length a value; false if that is not what is written.
+    fn assign(&mut self, name: &str, value: &str) -> bool {
+        let name = name.trim_matches(['*', '`']);
+        let Some(symbol) = self.lexis.names.lookup(name).and_then(|e| e.as_symbol()) else { return false };
+        let d = &self.subject.description;
+        if let Some(joint) = d.variables().iter().position(|v| v.symbol == symbol) {
+            return match self.constant(value) {
+                Some(constant) => {
+                    self.at.set(joint, constant);
+                    true
+                }
+                None => false,
+            };
+        }
+        if d.parameter(symbol).is_none() {
+            return false;
+        }
+        let Ok(constant) = read_value(value, d.measure(symbol)) else { return false };
+        self.at.give(symbol, constant);
+        true
+    }
+
+    /// Reads `θ_1 = 30°` or `a_1 = 500 mm` as a part of a configuration.
+    pub(super) fn configuration(&mut self, spans: &[Range<usize>], read: &[Scalar]) -> bool {
+        let values: Vec<(&Range<usize>, Option<Symbol>)> = spans
+            .iter()
+            .zip(read)
+            .map(|(span, s)| match s {
+                Scalar::Formula(_, syntax) => match syntax.kind {
+                    SyntaxKind::Name(e) => (span, e.as_symbol()),
+                    _ => (span, None),
+                },
+                _ => (span, None),
+            })
+            .collect();
+        let Some(((value, None), names)) = values.split_last() else { return false };
+        if names.is_empty() || names.iter().any(|n| n.1.is_none()) {
+            return false;
+        }
+        let is_constant = match read.last() {
+            Some(Scalar::Formula(_, s)) => s.value().symbols().is_empty(),
+            Some(Scalar::Broken(..)) => true,
+            _ => false,
+        };
+        let value = self.source(value);
+        let names: Vec<&str> = names.iter().map(|n| self.source(n.0)).collect();
+        is_constant && names.iter().all(|name| self.assign(name, value))
+    }
+}
+
+/// True for a text that tells a case, not a configuration.
+pub(super) fn is_case(line: &str) -> bool {
+    const CASES: [&str; 16] = [
+        "if ",
+        "when ",
+        "unless",
+        "singul",
+        "falls ",
+        "wenn ",
+        "sofern",
+        "lorsque",
+        "cuando",
+        "quando ",
+        "whenever",
+        "vanish",
+        "degenerate",
+        "would ",
+        "should give",
+        "s'annule",
+    ];
+    let lower = line.to_lowercase();
+    CASES.iter().any(|c| {
+        lower
+            .match_indices(c)
+            .any(|(i, _)| !lower[..i].chars().next_back().is_some_and(char::is_alphanumeric))
+    })
+}
+
+fn is_name(text: &str) -> bool {
+    let text = text.trim();
+    text.starts_with(|c: char| c.is_alphabetic() || c == '\\') && !text.contains(' ')
+}

@@ -1,0 +1,129 @@
+//! What names mean in a document, what is carried forward, and what is said of what was not judged.
+
+use denavit_check::{CheckOptions, Checked, Finding, Skipped, SlipKind, Standing, check};
+use denavit_reading::document::Format;
+
+const PLANAR: &str = "DH parameters (standard)\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | θ1 | 0 | a1 | 0 |\n\
+                      | 2 | θ2 | 0 | a2 | 0 |\n\n";
+const THREE: &str = "convention: standard\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | θ1 | 0 | a1 | 0 |\n\
+                     | 2 | θ2 | 0 | a2 | 0 |\n| 3 | θ3 | 0 | a3 | 0 |\n\n";
+const SCARA: &str = "Standard-DH-Tabelle\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | θ1 | 0 | a1 | 0 |\n\
+                     | 2 | θ2 | 0 | a2 | 180° |\n| 3 | 0 | d3 | 0 | 0 |\n| 4 | θ4 | 0 | 0 | 0 |\n\n";
+
+fn checked(table: &str, text: &str) -> Checked {
+    let document = format!("{table}{text}\n");
+    check(&document, Format::Markdown, None, &CheckOptions::default())
+        .unwrap_or_else(|e| panic!("{text}: {e:?}"))
+}
+
+/// The name and verdict of each claim.
+#[track_caller]
+fn is(table: &str, text: &str, expected: &[(&str, Standing)]) {
+    let all = checked(table, text);
+    let said: Vec<(&str, Standing)> = all.claims.iter().map(|c| (c.name.as_str(), c.standing())).collect();
+    assert_eq!(said, expected, "{text}");
+}
+
+#[test]
+fn an_error_is_carried_forward() {
+    let document = "$$A_1 = \\begin{bmatrix} c_1 & -s_1 & 0 & a_1 c_1 \\\\ s_1 & c_1 & 0 & a_1 c_1 \\\\ 0 & 0 & 1 & 0 \\\\ 0 & 0 & 0 & 1 \\end{bmatrix}$$\n\n\
+         $$T_{02} = \\begin{bmatrix} c_{12} & -s_{12} & 0 & a_1 c_1 + a_2 c_{12} \\\\ s_{12} & c_{12} & 0 & a_1 c_1 + a_2 s_{12} \\\\ 0 & 0 & 1 & 0 \\\\ 0 & 0 & 0 & 1 \\end{bmatrix}$$\n\n\
+         $$p_y = a_1 c_1 + a_2 s_{12}$$\n\n$$p_x = a_1 c_1 + a_2 s_{12}$$";
+    is(
+        PLANAR,
+        document,
+        &[
+            ("A_1", Standing::Wrong),
+            ("T_{02}", Standing::Carried),
+            ("p_y", Standing::Carried),
+            ("p_x", Standing::Wrong),
+        ],
+    );
+    let all = checked(PLANAR, document);
+    let cause = all.claims[2].entries.iter().find_map(|e| match &e.finding {
+        Finding::Carried { by, .. } => Some(*by),
+        _ => None,
+    });
+    assert_eq!(cause, Some(0));
+}
+
+#[test]
+fn what_is_not_judged_is_listed() {
+    let all = checked(PLANAR, "x = a1 C1 + a2 C12\n\nmu = 3 zeta + 4\n\nthe load is F = m g here");
+    assert_eq!(all.tally().equal, 1);
+    assert_eq!(all.unjudged.len(), 2, "{:?}", all.unjudged);
+    // A helper that nothing uses says nothing; one that is used is right where it is used.
+    let all = checked(PLANAR, "B = a1 + 2 a2");
+    assert!(matches!(all.unjudged[..], [ref u] if matches!(u.why, Skipped::Unused(_))), "{:?}", all.unjudged);
+    is(PLANAR, "k = a1 + a2 C2\n\nx = k C1 - a2 S2 S1", &[("k", Standing::Equal), ("x", Standing::Equal)]);
+}
+
+#[test]
+fn the_document_says_what_its_names_mean() {
+    // Links, not frames in the base.
+    let link = |k: usize| {
+        format!(
+            "$$T_{k} = \\begin{{bmatrix}} c_{k} & -s_{k} & 0 & a_{k} c_{k} \\\\ s_{k} & c_{k} & 0 & a_{k} s_{k} \\\\ 0 & 0 & 1 & 0 \\\\ 0 & 0 & 0 & 1 \\end{{bmatrix}}$$\n\n"
+        )
+    };
+    is(
+        THREE,
+        &(link(1) + &link(2) + &link(3)),
+        &[("T_1", Standing::Equal), ("T_2", Standing::Equal), ("T_3", Standing::Equal)],
+    );
+    // X and Y as the wrist of a planar arm.
+    let wrist = "X = px - a3 cos(θ1+θ2+θ3)\n\nY = py - a3 sin(θ1+θ2+θ3)\n\n\
+                 cos θ2 = (X² + Y² - a1² - a2²)/(2 a1 a2)";
+    is(THREE, wrist, &[("X", Standing::Equal), ("Y", Standing::Equal), ("cos θ2", Standing::Equal)]);
+}
+
+#[test]
+fn jacobians_of_tasks() {
+    let j = "$$J = \\begin{bmatrix} -a_1 s_1 - a_2 s_{12} & -a_2 s_{12} & 0 & 0 \\\\ a_1 c_1 + a_2 c_{12} & a_2 c_{12} & 0 & 0 \\\\ 0 & 0 & -1 & 0 \\\\ 1 & 1 & 0 & -1 \\end{bmatrix}$$";
+    is(SCARA, j, &[("J", Standing::Equal)]);
+    is(SCARA, &j.replace("0 & 0 & -1 & 0", "0 & 0 & 1 & 0"), &[("J", Standing::Wrong)]);
+    is(THREE, "$$\\det J = a_1 a_2 \\sin\\theta_2$$", &[("\\det J", Standing::Equal)]);
+    let inverse = "$$J^{-1} = \\frac{1}{a_1 a_2 s_2} \\begin{bmatrix} a_2 c_{12} & a_2 s_{12} \\\\ -a_1 c_1 - a_2 c_{12} & -a_1 s_1 - a_2 s_{12} \\end{bmatrix}$$";
+    is(PLANAR, inverse, &[("J^{-1}", Standing::Equal)]);
+    // The transpose is no inverse.
+    let transposed = "$$J^{-1} = \\begin{bmatrix} -a_1 s_1 - a_2 s_{12} & a_1 c_1 + a_2 c_{12} \\\\ -a_2 s_{12} & a_2 c_{12} \\end{bmatrix}$$";
+    is(PLANAR, transposed, &[("J^{-1}", Standing::Wrong)]);
+}
+
+#[test]
+fn velocities_torques_and_singular_configurations() {
+    is(
+        PLANAR,
+        "$$\\dot x = -a_1 s_1 \\dot\\theta_1 - a_2 s_{12} (\\dot\\theta_1 + \\dot\\theta_2)$$",
+        &[("\\dot x", Standing::Equal)],
+    );
+    is(
+        PLANAR,
+        "tau2 = -a2 s12 Fx + a2 c12 Fy\n\ntau1 = a1 s1 Fx",
+        &[("tau2", Standing::Equal), ("tau1", Standing::Wrong)],
+    );
+    is(PLANAR, "The arm is singular for $\\theta_2 = 0$.", &[("\\theta_2", Standing::Equal)]);
+    is(PLANAR, "The arm is singular if θ2 = 90°.", &[("θ2", Standing::Wrong)]);
+}
+
+#[test]
+fn numbers_in_sentences() {
+    let text = "Für a1 = 0,5 m, a2 = 0,3 m, q1 = 30° und q2 = 60° ist x = 0,433 m und y = 0,650 m.";
+    is(PLANAR, text, &[("x", Standing::Equal), ("y", Standing::Wrong)]);
+}
+
+#[test]
+fn exchanged_arguments_are_named() {
+    let all = checked(SCARA, "θ1 = atan2(px, py) - atan2(a2 sin θ2, a1 + a2 cos θ2)");
+    let Finding::Wrong(wrong) = &all.claims[0].entries[0].finding else { panic!("{:?}", all.claims) };
+    let slip = wrong.slip.as_ref().expect("a slip");
+    assert_eq!(slip.kind, SlipKind::Arguments);
+    assert_eq!(slip.formula, "atan2(py, px) - atan2(a2 sin θ2, a1 + a2 cos θ2)");
+}
+
+#[test]
+fn tables_set_with_blanks() {
+    let text = "standard convention\n\n  link   theta   d    a    alpha\n   1     t1     0    a1   0\n   2     t2     0    a2   0\n\n\
+                px = a1 C1 + a2 C12";
+    is("", text, &[("px", Standing::Equal)]);
+}
