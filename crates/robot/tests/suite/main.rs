@@ -24,6 +24,7 @@ mod numeric;
 mod redundant;
 mod scope;
 mod singular;
+mod singular_found;
 mod singular_motion;
 mod solver_text;
 mod track;
