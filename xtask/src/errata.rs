@@ -39,8 +39,8 @@ fn page() -> Result<String> {
         let (counts, list) = list.split_once('\n').context("counts")?;
         let cells: Vec<&str> =
             counts.split(|c: char| !c.is_ascii_digit()).filter(|n| !n.is_empty()).collect();
-        if cells.len() != 6 {
-            bail!("{file}: six counts, not `{counts}`");
+        if cells.len() != 8 {
+            bail!("{file}: eight counts, not `{counts}`");
         }
         let _ = writeln!(rows, "| [{title}](#{}) | {} |", anchor(title), cells.join(" | "));
         let _ = write!(lists, "\n## {title}\n\n{source} [Transcription](../{file}).\n{list}");
@@ -55,8 +55,8 @@ fn page() -> Result<String> {
          samples. Line is the line of the transcription. What is not wrong or right under a condition is proved, and\n\
          not listed. Where a slip comes from, what is odd in print and what the documents leave out:\n\
          [remarks](errata-remarks.md).\n\n\
-         | document | claims | proved | wrong | right under a condition | undecided | unreadable |\n\
-         |---|--:|--:|--:|--:|--:|--:|\n{rows}{lists}"
+         | document | claims | proved | wrong | right under a condition | carried | undecided | unreadable | lines not judged |\n\
+         |---|--:|--:|--:|--:|--:|--:|--:|--:|\n{rows}{lists}"
     ))
 }
 
