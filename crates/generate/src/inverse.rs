@@ -118,7 +118,7 @@ impl Closed {
 
     /// What joints with gears do to the results.
     fn gears(&self) -> Vec<String> {
-        let JointSpace { is_angle, turning, .. } = JointSpace::new(&self.model.description, 0.0);
+        let JointSpace { is_angle, turning, .. } = JointSpace::without_lengths(&self.model.description);
         let names: Vec<String> = self.model.chain.variables.iter().map(|s| s.name().to_string()).collect();
         let turns = |x: f64| {
             let text = format!("{:.6}", x / TAU);

@@ -233,7 +233,7 @@ fn transform(x: &Transform<f64>) -> Transform<Expr> {
 
 /// The largest differences of the two arms' hands, radians and metres.
 fn difference(a: &Robot<f64>, b: &Robot<f64>, description: &Description) -> (f64, f64) {
-    let space = JointSpace::new(description, a.reach());
+    let space = JointSpace::new(description, a);
     let kinds: Vec<JointKind> = description.variables().iter().map(|v| v.kind).collect();
     let mut random = Random(1);
     let mut largest = (0.0_f64, 0.0_f64);

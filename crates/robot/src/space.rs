@@ -1,11 +1,13 @@
 //! The space of the joints: which of them turn, how configurations differ, what the limits allow.
 
-use crate::geometry::Transform;
+use crate::geometry::{Transform, Vector};
 use std::cmp::Ordering;
 use std::f64::consts::{PI, TAU};
 
 /// Solutions this near (radians, and lengths by the reach) are the same: two roots that coincide differ by as much.
 const SAME: f64 = 2e-6;
+/// Beside a displacement this part of it is what numbers of double precision still tell well.
+const DIGITS: f64 = 1e-5;
 /// What a joint may be beyond its limit, for rounding, in its unit.
 const SLACK: f64 = 1e-9;
 
@@ -18,6 +20,9 @@ pub struct JointSpace {
     pub limits: Vec<Option<[f64; 2]>>,
     /// A length that slides are compared with: the sum of the robot's lengths, metres.
     pub reach: f64,
+    /// Where the robot stands in the base, metres: the origin, or far from it (see
+    /// [`Robot::foot`](crate::mechanism::Robot::foot)).
+    pub foot: Vector<f64>,
     /// By what joints can be moved so that every link comes back to where it was.
     pub turning: Periods,
 }
@@ -32,6 +37,8 @@ pub struct Periods {
     pub windows: Vec<f64>,
     /// Further motions within the windows: all of them together with whole windows are all that there are.
     pub copies: Vec<Vec<f64>>,
+    /// Whether that is so; copies too many to be listed are left out.
+    pub all_copies: bool,
 }
 
 impl Periods {
@@ -39,7 +46,7 @@ impl Periods {
     pub fn whole_turns(is_angle: impl IntoIterator<Item = bool>) -> Self {
         let periods: Vec<f64> =
             is_angle.into_iter().map(|turns| if turns { TAU } else { f64::INFINITY }).collect();
-        Periods { windows: periods.clone(), periods, copies: vec![] }
+        Periods { windows: periods.clone(), periods, copies: vec![], all_copies: true }
     }
 
     /// Whether a whole turn of a joint brings all links back.
@@ -52,7 +59,12 @@ impl Periods {
         let of = |x: &[f64]| -> Vec<f64> { joints.iter().map(|&j| x[j]).collect() };
         let is_still = |c: &&Vec<f64>| (0..c.len()).all(|j| c[j] == 0.0 || joints.contains(&j));
         let copies = self.copies.iter().filter(is_still).map(|c| of(c)).collect();
-        Periods { periods: of(&self.periods), windows: of(&self.windows), copies }
+        Periods {
+            periods: of(&self.periods),
+            windows: of(&self.windows),
+            copies,
+            all_copies: self.all_copies,
+        }
     }
 }
 
@@ -65,6 +77,7 @@ impl JointSpace {
             is_angle: joints.iter().map(|&j| self.is_angle[j]).collect(),
             limits: joints.iter().map(|&j| self.limits[j]).collect(),
             reach: self.reach,
+            foot: self.foot,
             turning: self.turning.held(&joints),
         }
     }
@@ -82,7 +95,17 @@ impl JointSpace {
 
     /// What displacements of the hand are compared with at a pose.
     pub(crate) fn size(&self, pose: &Transform<f64>) -> f64 {
-        self.length().hypot(pose.translation.norm())
+        self.length().hypot(self.away(pose)).hypot(DIGITS * self.foot.norm())
+    }
+
+    /// How far the hand is from where the robot stands, metres.
+    pub(crate) fn away(&self, pose: &Transform<f64>) -> f64 {
+        (pose.translation - self.foot).norm()
+    }
+
+    /// True if the robot stands so far from the origin that a pose has too few digits for what lies close together.
+    pub(crate) fn is_remote(&self) -> bool {
+        self.length() < DIGITS * self.foot.norm()
     }
 
     /// What a joint is measured in: a radian, or the length.
@@ -109,7 +132,7 @@ impl JointSpace {
     }
 
     /// True if two configurations are one entry of a list: the same but for rounding and whole windows.
-    pub(crate) fn is_listed_as(&self, a: &[f64], b: &[f64]) -> bool {
+    pub fn is_listed_as(&self, a: &[f64], b: &[f64]) -> bool {
         let pairs = a.iter().zip(b).zip(&self.turning.windows).enumerate();
         pairs.fold(true, |same, (j, ((x, y), &window))| {
             same && within(y - x, window).abs() <= SAME * self.unit(j)
@@ -189,6 +212,15 @@ impl JointSpace {
         let fewest = ((low - x) / period).ceil() as i32;
         let most = ((high - x) / period).floor() as i32;
         (fewest <= most).then_some([fewest, most])
+    }
+
+    /// True if the limits allow a configuration itself.
+    pub fn is_inside(&self, q: &[f64]) -> bool {
+        let slack = |j: usize| SLACK * self.unit(j);
+        let allows = |(j, &x): (usize, &f64)| {
+            self.limits[j].is_none_or(|[low, high]| (low - slack(j)..=high + slack(j)).contains(&x))
+        };
+        q.iter().enumerate().all(allows)
     }
 
     /// True if the limits allow a configuration, or a copy of it whole turns away.

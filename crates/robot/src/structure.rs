@@ -204,8 +204,7 @@ fn nearly_special(
     relations: &[Relation],
 ) -> Vec<NearlySpecial> {
     let number = |e: Expr| e.eval(|s| description.value(s)).unwrap_or(f64::NAN);
-    let sizes = between.iter().map(|x| x.translation.map(number).norm()).filter(|x| x.is_finite());
-    let reach: f64 = sizes.sum();
+    let reach = Robot::numeric(description).map_or(f64::NAN, |robot| robot.reach());
     let mut found = vec![];
     for (k, (x, relation)) in between.iter().zip(relations).enumerate() {
         let (z, p) = (x.rotation.z().map(number), x.translation.map(number));

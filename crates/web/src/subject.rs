@@ -47,7 +47,7 @@ impl Subject {
         }
         let valued = description.filled();
         let robot = Robot::numeric(&valued).map_err(|why| why.to_string())?;
-        let space = JointSpace::new(&valued, robot.reach());
+        let space = JointSpace::new(&valued, &robot);
         let arm = Arm::new(&valued).map_err(|why| why.to_string())?;
         Ok(Subject {
             description,

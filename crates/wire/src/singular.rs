@@ -168,18 +168,21 @@ impl Model {
         }
     }
 
-    /// The matrix with what was found in numbers, where the singularities are not had as formulas.
+    /// The matrix with what was found in numbers (nothing if it was not looked for), where the singularities are not had
+    /// as formulas.
     pub fn without_singularities(
         robot: &str,
         model: &JacobianModel,
         why: &velocity::Obstacle,
-        found: &[velocity::Example],
+        found: Option<&[velocity::Example]>,
         text: impl Fn(Expr) -> String + Copy,
     ) -> Self {
         let is_everywhere = matches!(why, velocity::Obstacle::AlwaysSingular(_));
         Model {
             always_singular: is_everywhere.then(|| why.to_string()),
-            singular_configurations: (!is_everywhere).then(|| found.iter().map(Example::from).collect()),
+            singular_configurations: found
+                .filter(|_| !is_everywhere)
+                .map(|found| found.iter().map(Example::from).collect()),
             unexpanded: (!is_everywhere).then(|| why.to_string()),
             ..Self::of(robot, model, text)
         }

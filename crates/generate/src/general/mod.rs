@@ -57,7 +57,7 @@ impl General {
         let robot = Robot::numeric(d).map_err(|missing| {
             Some(format!("elimination computes with the values of parameters: {missing}"))
         })?;
-        let space = JointSpace::new(d, robot.reach());
+        let space = JointSpace::new(d, &robot);
         let is_geared = |j: usize| space.is_angle[j] && space.turning.periods[j] != std::f64::consts::TAU;
         if (0..variables.len()).any(is_geared) || !space.turning.copies.is_empty() {
             return Err(Some(

@@ -87,7 +87,7 @@ impl Arm {
             .output()
             .expect("there is a compiler");
         assert!(built.status.success(), "{name}: {}", String::from_utf8_lossy(&built.stderr));
-        let space = JointSpace::new(d, robot.reach());
+        let space = JointSpace::new(d, &robot);
         Arm { robot, space, program, folder }
     }
 

@@ -85,7 +85,7 @@ struct Aligned {
 /// is certain of all solutions, none of them nearly double.
 fn aligned(d: &Description, count: usize) -> Vec<Aligned> {
     let robot = Robot::numeric(d).expect("all values are known");
-    let space = JointSpace::new(d, robot.reach());
+    let space = JointSpace::new(d, &robot);
     let solver = GeneralSolver::new(&robot, &space).expect("it has six axes");
     let mut random = Random(53);
     let mut angle = || 6.0 * random.unit() - 3.0;

@@ -5,6 +5,7 @@ use crate::words::{Gain, Loss, Tongue, Wording};
 use denavit::description::{Description, Variable};
 use denavit::forward::Proof as Forward;
 use denavit::quantity::reading;
+use denavit::robot::MissingValue;
 use denavit::velocity::{
     Example, JacobianModel, Minor, Obstacle, Place, REST, ROWS, Singularities, Singularity, Viewpoint,
 };
@@ -52,12 +53,13 @@ pub fn singularities_document(
     blocks
 }
 
-/// The matrix, why the singularities are not had as formulas, and those that were found in numbers.
+/// The matrix, why the singularities are not had as formulas, and those that were found in numbers, or which values are
+/// missing for that.
 pub fn found_singularities_document(
     description: &Description,
     model: &JacobianModel,
     why: &Obstacle,
-    found: &[Example],
+    found: Result<&[Example], &MissingValue>,
     language: Tongue,
 ) -> Vec<Block> {
     let words = language.words();
@@ -65,9 +67,14 @@ pub fn found_singularities_document(
     blocks.push(Block::Heading(2, Line::new(words.singularities_title())));
     blocks.push(paragraph(sentence(&words.unknown_singularities(why))));
     if !matches!(why, Obstacle::AlwaysSingular(_)) {
-        blocks.push(paragraph(words.found_singularities(found.len())));
+        let missing =
+            |m: &MissingValue| m.parameters.iter().map(|name| Math::Expr(Expr::symbol(name))).collect();
+        blocks.push(match found {
+            Ok(found) => paragraph(words.found_singularities(found.len())),
+            Err(why) => Block::Paragraph(words.values_missing(missing(why))),
+        });
     }
-    for (k, example) in found.iter().enumerate() {
+    for (k, example) in found.unwrap_or_default().iter().enumerate() {
         let mut place = Line::new(format!("{}. ", k + 1));
         for (j, (v, x)) in description.variables().iter().zip(&example.q).enumerate() {
             place = place.text(if j > 0 { ", " } else { "" }).math(Expr::from(v.symbol));

@@ -163,7 +163,7 @@ impl<'a> Setting<'a> {
     /// The robot in numbers.
     pub fn robot(&self) -> Option<(Robot<f64>, JointSpace)> {
         let robot = Robot::numeric(&self.valued).ok()?;
-        let space = JointSpace::new(&self.valued, robot.reach());
+        let space = JointSpace::new(&self.valued, &robot);
         Some((robot, space))
     }
 

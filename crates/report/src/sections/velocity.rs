@@ -34,12 +34,12 @@ pub fn sections(s: &Setting) -> Vec<Section> {
             let mut section = Section::new(velocity_vocabulary(&s.description));
             section.heading(2, title);
             let found = match why {
-                Obstacle::AlwaysSingular(_) => vec![],
+                Obstacle::AlwaysSingular(_) => Ok(vec![]),
                 _ => singular_configurations(&s.description, &model.view, &[0, 1, 2, 3, 4, 5]),
             };
             let language = s.options.language;
             lowered(
-                found_singularities_document(&s.description, &model, why, &found, language),
+                found_singularities_document(&s.description, &model, why, found.as_deref(), language),
                 s.words(),
                 &mut section,
             );

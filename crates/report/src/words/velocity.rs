@@ -102,6 +102,8 @@ pub trait Velocity {
 
     /// Before so many singular configurations that were found in numbers.
     fn found_singularities(&self, count: usize) -> String;
+    /// Why nothing was looked for in numbers: these parameters have no value.
+    fn values_missing(&self, parameters: Vec<Math>) -> Line;
 
     /// Velocities of the joints that leave the body, or its point, at rest.
     fn motion(&self, all: Vec<Math>) -> Line;

@@ -434,7 +434,8 @@ fn remarks_on_steps() {
     both(&|w| w.component(&component(&[0], &[], false, &[0])));
     both(&|w| w.component(&component(&[], &[4], false, &[4])));
     both(&|w| w.component(&component(&[], &[4, 5], true, &[4, 5])));
-    for doubt in [Doubt::Sampled, Doubt::DoubleRoot, Doubt::Uncounted, Doubt::Searched, Doubt::OneAsked] {
+    let doubts = [Doubt::Sampled, Doubt::DoubleRoot, Doubt::Uncounted, Doubt::Searched, Doubt::OneAsked];
+    for doubt in doubts.into_iter().chain([Doubt::Copies, Doubt::Digits]) {
         both(&|w| w.doubt(doubt));
     }
 }

@@ -9,7 +9,7 @@ use denavit_report::figure::plot::{Curve, Panel, arm_line, curves, workspace_plo
 fn arm(name: &str) -> (Robot<f64>, Workspace) {
     let description = catalogue::robot(name).expect("a robot of the catalogue");
     let robot = Robot::numeric(&description).expect("all parameters have values");
-    let space = JointSpace::new(&description, robot.reach());
+    let space = JointSpace::new(&description, &robot);
     let workspace = Workspace::new(&robot, &space).expect("a workspace");
     (robot, workspace)
 }

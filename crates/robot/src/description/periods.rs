@@ -59,12 +59,13 @@ fn lattice(rows: &[Vec<Rational>], joints: &[usize], whole: &Periods) -> Periods
         .map(|&j| (0..n).map(|i| if i == j { periods[j].clone() } else { Rational::ZERO }).collect())
         .collect();
     generators.extend(inverse(rows, &joints));
-    let copies = reached(&generators, rows, &joints, &windows)
-        .or_else(|| {
-            windows.clone_from(&periods);
-            reached(&generators, rows, &joints, &windows)
-        })
-        .unwrap_or_default();
+    let copies = reached(&generators, rows, &joints, &windows);
+    found.all_copies = copies.is_some();
+    let copies = copies.or_else(|| {
+        windows.clone_from(&periods);
+        reached(&generators, rows, &joints, &windows)
+    });
+    let copies = copies.unwrap_or_default();
     for &j in &joints {
         found.windows[j] = TAU * windows[j].to_f64();
     }
@@ -181,6 +182,14 @@ mod tests {
         // q3 by half a turn; q4 by one and a half turns with q5 by half a turn back, and so on.
         assert_eq!(p.copies.len(), 3);
         assert!(of(&["q1", "q1 + q2", "q3 - q1"]).copies.is_empty());
+    }
+
+    #[test]
+    fn too_many_copies_are_not_listed() {
+        let p = of(&["300*q1", "q2"]);
+        assert!(!p.all_copies && p.copies.is_empty());
+        assert!((p.windows[0] - TAU / 300.0).abs() < 1e-15 && p.windows[1] == TAU);
+        assert!(of(&["2*q1", "3*q2"]).all_copies);
     }
 
     #[test]

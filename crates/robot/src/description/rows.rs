@@ -8,7 +8,7 @@ use super::cell::variable_number;
 use super::diagnostic::{Diagnostics, nearest};
 use super::{Convention, JointKind, Row, Variable};
 use denavit_symbolic::{Angle, Expr, Symbol};
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 /// A cell that was read, and where.
 #[derive(Clone, Debug)]
@@ -147,6 +147,9 @@ fn follows(row: &Cells, out: &mut Diagnostics) {
     }
 }
 
+/// The factors that joint variables can have, signs aside.
+const FACTORS: RangeInclusive<f64> = 1e-9..=1e9;
+
 /// Every joint variable stands in a sum, with a number other than 0 as its factor.
 fn check_linear(row: &Cells, z: &str, report: bool, out: &mut Diagnostics) {
     for (cell, name) in [(&row.theta, "theta"), (&row.d, z)] {
@@ -162,13 +165,26 @@ fn check_linear(row: &Cells, z: &str, report: bool, out: &mut Diagnostics) {
             .flat_map(|t| t.0.symbols())
             .filter(|s| variable_number(&s.name()).is_some())
             .collect();
+        let factors = Angle::of(cell.expr).terms;
         for (q, span) in variables {
             let symbol = Symbol::new(&format!("q{q}"));
             if nonlinear.contains(&symbol) {
                 out.error(span, format!("`{name}` is not linear in `q{q}`"))
-                    .hint(format!("a joint variable may have a number as its factor and an offset: `{name} = \"2*q{q} + 90 deg\"`"));
+                    .hint(format!("a joint variable may have a rational number as its factor and an offset: `{name} = \"2*q{q} + 90 deg\"`"));
             } else if !summands.contains(&symbol) {
                 out.error(span, format!("`q{q}` cancels in `{name}`"));
+            } else if let Some((_, k)) = factors.iter().find(|t| t.0.as_symbol() == Some(symbol))
+                && !FACTORS.contains(&k.to_f64().abs())
+            {
+                out.error(
+                    span,
+                    format!(
+                        "the factor of `q{q}` is out of the range {:e} to {:e}",
+                        FACTORS.start(),
+                        FACTORS.end()
+                    ),
+                )
+                .hint("gears are ratios: `theta = \"100*q1\"`");
             }
         }
     }

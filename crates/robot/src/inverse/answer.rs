@@ -43,9 +43,21 @@ impl Answer {
         }
     }
 
+    /// Says what a list leaves in doubt whatever the method: that copies are missing, that a pose lacks digits.
+    pub(in crate::inverse) fn doubt_numbers(&mut self, space: &JointSpace, all_copies: bool) {
+        let doubt = match all_copies {
+            _ if space.is_remote() => Some(Doubt::Digits),
+            false if self.is_reachable() => Some(Doubt::Copies),
+            _ => None,
+        };
+        self.doubt = self.doubt.or(doubt);
+    }
+
     /// Lists the copies of what was found that joints with gears have within the range of a whole turn or more, and
-    /// puts the limits to each.
+    /// puts the limits to each; says of copies that are not listed, and of digits that a pose lacks, that they leave a
+    /// doubt.
     pub(in crate::inverse) fn spread(&mut self, space: &JointSpace) {
+        self.doubt_numbers(space, space.turning.all_copies);
         if space.turning.copies.is_empty() {
             return;
         }
@@ -83,9 +95,11 @@ impl Answer {
         self.families.retain(|f| !is_excluded(f));
         let families = self.families.iter_mut().map(|f| &mut f.representative);
         for s in families.chain(&mut self.solutions).filter(|s| s.within_limits) {
-            if let Some(copy) = space.listed_copies(&s.q, 1).pop() {
-                s.q = copy;
-            }
+            s.q = match space.listed_copies(&s.q, 1).pop() {
+                Some(copy) => copy,
+                // What is not listed with all its copies.
+                None => space.nearest_copy(&s.q, &s.q),
+            };
         }
         before - self.solutions.len() - self.families.len()
     }
@@ -109,6 +123,10 @@ pub enum Doubt {
     Searched,
     /// One solution was asked for.
     OneAsked,
+    /// Gears repeat each configuration more often within a turn than is listed.
+    Copies,
+    /// The robot stands so far from the origin that a pose has too few digits.
+    Digits,
 }
 
 /// An isolated solution.

@@ -28,6 +28,7 @@ use crate::structure::{NearlySpecial, Structure};
 use std::f64::consts::{PI, TAU};
 use std::fmt;
 use std::num::NonZero;
+use std::ops::RangeInclusive;
 
 /// Inverse kinematics of a robot with numbers, by whatever method serves it.
 #[derive(Clone, Debug)]
@@ -77,6 +78,8 @@ pub enum Unprepared {
     Missing(MissingValue),
     /// Values are given for joints that the arm does not have, or for too many.
     Given(NotGiven),
+    /// The arm's lengths add up to so much, metres: powers of it are no numbers of double precision.
+    Lengths(f64),
 }
 
 impl fmt::Display for Unprepared {
@@ -84,6 +87,12 @@ impl fmt::Display for Unprepared {
         match self {
             Unprepared::Missing(why) => write!(f, "{why}"),
             Unprepared::Given(why) => write!(f, "{why}"),
+            Unprepared::Lengths(reach) => write!(
+                f,
+                "the arm's lengths add up to {reach:e} m; computed is with {:e} to {:e} m",
+                LENGTHS.start(),
+                LENGTHS.end()
+            ),
         }
     }
 }
@@ -95,6 +104,9 @@ impl From<MissingValue> for Unprepared {
         Unprepared::Missing(missing)
     }
 }
+
+/// What the lengths of an arm may add up to, metres, if it has any: eighth powers of them are computed.
+const LENGTHS: RangeInclusive<f64> = 1e-30..=1e30;
 
 /// A solution that one asked for in particular.
 #[derive(Clone, PartialEq, Debug)]
@@ -133,7 +145,10 @@ impl InverseKinematics {
     /// See [`Unprepared`].
     pub fn new(description: &Description, options: &InverseOptions) -> Result<Self, Unprepared> {
         let robot = Robot::numeric(description)?;
-        let space = JointSpace::new(description, robot.reach());
+        let space = JointSpace::new(description, &robot);
+        if !(space.reach == 0.0 || LENGTHS.contains(&space.reach)) {
+            return Err(Unprepared::Lengths(space.reach));
+        }
         let numeric = NumericSolver::new(description, options.goal)?;
         let mut free = description.clone();
         free.rows.iter_mut().for_each(|r| r.limits = None);
@@ -257,7 +272,9 @@ impl InverseKinematics {
                 if answer.doubt.is_some() && solver.surplus == 1 {
                     self.follow_more(pose, &mut answer);
                 }
-                answer.spread(&self.space);
+                // What the limits allow of a curve they allow of it or of its copies, which are not listed.
+                let turning = &self.space.turning;
+                answer.doubt_numbers(&self.space, turning.all_copies && turning.copies.is_empty());
                 answer
             }
             Method::Numeric => Answer { doubt: Some(Doubt::Searched), ..Answer::empty() },
@@ -476,6 +493,17 @@ impl InverseKinematics {
         answer.solutions = all.into_iter().min_by(better).into_iter().collect();
         if answer.is_reachable() {
             answer.doubt = Some(Doubt::OneAsked);
+        }
+        // The copy that the limits allow.
+        let is_outside = |s: &&mut Solution| s.within_limits && !self.space.is_inside(&s.q);
+        for s in answer.solutions.iter_mut().filter(is_outside) {
+            s.q = match seed {
+                Some(to) => self.space.nearest_copy(&s.q, to),
+                None => match self.space.listed_copies(&s.q, 1).pop() {
+                    Some(copy) => copy,
+                    None => self.space.nearest_copy(&s.q, &s.q),
+                },
+            };
         }
         let (pose, size) = (&newton::nearest_rigid(pose).0, self.size(pose));
         answer.judge(|q| newton::distance(&self.robot, self.goal, pose, q, size));

@@ -116,6 +116,7 @@ fn scaled(space: &JointSpace, direction: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Vector;
     use crate::space::Periods;
 
     #[test]
@@ -123,7 +124,7 @@ mod tests {
         let space = {
             let is_angle = vec![true, true, false];
             let turning = Periods::whole_turns(is_angle.iter().copied());
-            JointSpace { is_angle, limits: vec![None; 3], reach: 2.0, turning }
+            JointSpace { is_angle, limits: vec![None; 3], reach: 2.0, foot: Vector([0.0; 3]), turning }
         };
         let d = scaled(&space, &[0.6, -0.6, 0.0]);
         assert!((d[0] - TAU).abs() < 1e-12 && (d[1] + TAU).abs() < 1e-12 && d[2] == 0.0);

@@ -206,16 +206,45 @@ impl Robot<Expr> {
 const MUCH: f64 = 4.0;
 
 impl Robot<f64> {
-    /// A length that no point of the hand is further from the base than, slides left aside, metres: the sum of the robot's
-    /// lengths. Long displacements along nearly parallel axes that undo each other, as calibrations have them, count for
-    /// what is left of them.
+    /// A length that no point of the hand is further from the [foot](Self::foot) than, slides left aside, metres: the sum
+    /// of the robot's lengths. Long displacements along nearly parallel axes that undo each other, as calibrations have
+    /// them, count for what is left of them.
     pub fn reach(&self) -> f64 {
+        self.stand().1
+    }
+
+    /// Where the robot stands, in the base: the origin; of a robot that stands further away than it is long the point of
+    /// its first axis that everything in front of it leads to.
+    pub fn foot(&self) -> Vector<f64> {
+        self.stand().0
+    }
+
+    /// The foot, and the reach from there.
+    fn stand(&self) -> (Vector<f64>, f64) {
         let across = |l: &Link<f64>| l.before.translation.norm() + l.after.translation.norm();
         let ends = self.base.translation.norm() + self.tool.translation.norm();
         let across = ends + self.links.iter().map(across).sum::<f64>();
         let plain = across + self.links.iter().map(|l| l.d.offset.abs()).sum::<f64>();
         let gathered = across + self.gathered();
-        if gathered < plain / MUCH { gathered } else { plain }
+        let reach = if gathered < plain / MUCH { gathered } else { plain };
+        let in_front = self.links.first().map_or(0.0, |l| l.before.translation.norm() + l.d.offset.abs());
+        // Not from the sum: the rest would be what rounding leaves of it.
+        let own = |l: &Link<f64>| l.after.translation.norm();
+        let rest = self.tool.translation.norm()
+            + self.links.first().map_or(0.0, own)
+            + self
+                .links
+                .iter()
+                .skip(1)
+                .map(|l| l.before.translation.norm() + own(l) + l.d.offset.abs())
+                .sum::<f64>();
+        let foot = self.base.translation.norm() + in_front;
+        if rest > 0.0 && foot > MUCH * rest && rest < reach {
+            let along = Transform::translation_z(self.links[0].d.offset);
+            ((self.base * self.links[0].before * along).translation, rest)
+        } else {
+            (Vector([0.0; 3]), reach)
+        }
     }
 
     /// A bound on what the displacements along the axes add up to: what one has in common with the next is carried there.

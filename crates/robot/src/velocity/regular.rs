@@ -16,7 +16,7 @@ const TURNS: [[i32; 5]; 4] =
 /// joint), or one beside it, within the limits. The one that is shown if a parameter of the robot has no value.
 pub fn regular_configuration(description: &Description, shown: Vec<f64>) -> Vec<f64> {
     let Ok(robot) = Robot::numeric(description) else { return shown };
-    let space = JointSpace::new(description, robot.reach());
+    let space = JointSpace::new(description, &robot);
     let length = robot.reach().max(1e-9);
     let turned = |turns: &[i32; 5]| -> Vec<f64> {
         let turn = |(j, x): (usize, &f64)| match space.is_angle[j] {

@@ -125,7 +125,7 @@ fn a_limit_on_the_way_and_another_branch() {
             };
             assert!((0..=500).all(|k| inside(&followed.joints.eval(f64::from(k) / 500.0).q)));
         }
-        let all = f.alternatives(&path, &FollowOptions::default());
+        let all = f.alternatives(&path, None, &FollowOptions::default());
         assert!(all.iter().any(|a| f.inverse.space.is_same(&a.start, &q)), "the start is among them");
     }
     assert!(met > 0, "limits {low} {high}");

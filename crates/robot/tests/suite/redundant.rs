@@ -378,7 +378,7 @@ fn curves_close_and_agree_with_closed_forms() {
 
 fn space_of(d: &Description) -> (Robot<f64>, JointSpace) {
     let robot = Robot::numeric(d).expect("all parameters have values");
-    let space = JointSpace::new(d, robot.reach());
+    let space = JointSpace::new(d, &robot);
     (robot, space)
 }
 

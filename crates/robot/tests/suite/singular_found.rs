@@ -13,7 +13,7 @@ fn singular_configurations_are_found_in_numbers() {
         let numeric = Robot::numeric(&d).expect("an arm with numbers");
         let view = Viewpoint::tool();
         let asked: Vec<usize> = rows.clone().collect();
-        let found = singular_configurations(&d, &view, &asked);
+        let found = singular_configurations(&d, &view, &asked).expect("numbers");
         assert!(!found.is_empty(), "{name} {rows:?}");
         let at = Viewpoint::of(view.body, view.axes);
         for one in found {

@@ -23,7 +23,7 @@ impl Case {
             next += 7;
         }
         let robot = Robot::numeric(&description).expect("all parameters have values");
-        let space = JointSpace::new(&description, robot.reach());
+        let space = JointSpace::new(&description, &robot);
         Case { robot, space }
     }
 

@@ -113,7 +113,7 @@ fn has_slide(d: &Description) -> bool {
 fn moving(d: &Description, numbers: &Robot<f64>, q: &[f64]) -> Vec<(&'static str, String)> {
     let view = Viewpoint::tool();
     let j = geometric(numbers, q, &view);
-    let space = inverse::JointSpace::new(d, numbers.reach());
+    let space = inverse::JointSpace::new(d, &numbers);
     let found = measures(&j, &space.is_angle, space.reach);
     let set = extract(&numbers.pose(q).rotation, OrientationSet::Quaternion);
     let rates = RateSolver::new(&space.is_angle, space.reach).solve(&j, &[0.1; 6], &[]);
@@ -154,7 +154,7 @@ fn moving(d: &Description, numbers: &Robot<f64>, q: &[f64]) -> Vec<(&'static str
         Err(why) => {
             let model = JacobianModel::shortest(d, Reference::Tool);
             let found = singular_configurations(d, &model.view, &[0, 1, 2, 3, 4, 5]);
-            singular::Model::without_singularities(&d.name, &model, &why, &found, print)
+            singular::Model::without_singularities(&d.name, &model, &why, found.as_deref().ok(), print)
         }
     };
     vec![

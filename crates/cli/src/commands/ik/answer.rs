@@ -12,7 +12,6 @@ use denavit::motion::follow::Jump;
 use denavit::quantity::reading;
 use denavit_wire::Schema;
 use denavit_wire::inverse::{self as wire, Idealised};
-use std::f64::consts::TAU;
 
 /// What does not change from pose to pose.
 #[derive(Clone)]
@@ -261,7 +260,13 @@ impl Report<'_> {
     fn unmarked(&self) -> String {
         let Some(at) = self.at else { return String::new() };
         let representatives = self.answer.families.iter().map(|f| &f.representative);
-        if self.answer.solutions.iter().chain(representatives).any(|s| self.same(at, &s.q)) {
+        if self
+            .answer
+            .solutions
+            .iter()
+            .chain(representatives)
+            .any(|s| self.question.space.is_listed_as(at, &s.q))
+        {
             return String::new();
         }
         let Some(nearest) = self.solver.nearest(self.pose, self.answer, at) else { return String::new() };
@@ -269,6 +274,9 @@ impl Report<'_> {
         // Outside of the limits its copies are far away.
         if away > FAR {
             return String::new();
+        }
+        if let Some(k) = self.answer.solutions.iter().position(|s| self.question.space.is_same(at, &s.q)) {
+            return format!("\n  -q is solution {} moved by periods of its joints\n", k + 1);
         }
         match away <= SAME {
             true => match self.solver.family_of(self.pose, self.answer, at) {
@@ -338,7 +346,7 @@ impl Report<'_> {
                 if !s.within_limits {
                     notes.push("outside the limits".into());
                 }
-                if self.at.is_some_and(|q| self.same(q, &s.q)) {
+                if self.at.is_some_and(|q| self.question.space.is_listed_as(q, &s.q)) {
                     notes.push("← -q".into());
                 }
                 row.push(notes.join(", "));
@@ -346,17 +354,6 @@ impl Report<'_> {
             })
             .collect();
         table(&header, &align, &rows)
-    }
-
-    fn same(&self, a: &[f64], b: &[f64]) -> bool {
-        let variables = self.description.variables();
-        a.iter().zip(b).zip(variables).all(|((x, y), v)| {
-            let off = (x - y).abs();
-            match v.kind {
-                JointKind::Revolute => (off % TAU).min(TAU - off % TAU) < SAME,
-                JointKind::Prismatic => off < SAME,
-            }
-        })
     }
 
     fn family(&self, k: usize, f: &Family) -> String {

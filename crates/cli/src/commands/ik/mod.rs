@@ -148,6 +148,7 @@ const BY_POSITION: &str =
 pub fn unprepared(description: &Description, name: &str, why: &Unprepared) -> Failure {
     match why {
         Unprepared::Missing(missing) => without_values(description, name, missing),
+        Unprepared::Lengths(_) => Failure::Usage(format!("{name}: {why}")),
         Unprepared::Given(why) => Failure::Usage(format!("--given: {why}")),
     }
 }

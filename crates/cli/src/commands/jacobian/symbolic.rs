@@ -87,16 +87,22 @@ pub fn document(
             };
             let is_everywhere = matches!(why, Obstacle::AlwaysSingular(_));
             let found = match is_everywhere {
-                true => vec![],
+                true => Ok(vec![]),
                 false => singular_configurations(description, &model.view, rows),
             };
             let certified = certify(&model, &[]);
             let text = if format == Format::Json {
                 json(description, &model, |robot, text| {
-                    Model::without_singularities(robot, &model, &why, &found, text)
+                    Model::without_singularities(robot, &model, &why, found.as_deref().ok(), text)
                 })
             } else {
-                let blocks = found_singularities_document(description, &model, &why, &found, Tongue::English);
+                let blocks = found_singularities_document(
+                    description,
+                    &model,
+                    &why,
+                    found.as_deref(),
+                    Tongue::English,
+                );
                 printed(description, &model, blocks, format)
             };
             let ended = if is_everywhere { Ok(()) } else { Err(Failure::GaveUp(why.to_string())) };

@@ -350,6 +350,8 @@ impl Inverse for English {
             Doubt::Uncounted => "the roots could not be counted",
             Doubt::Searched => "searched for from several starts",
             Doubt::OneAsked => "one was asked for",
+            Doubt::Copies => "gears repeat each configuration more often within a turn than is listed",
+            Doubt::Digits => "the robot stands so far from the origin that the pose has too few digits",
         }
         .into()
     }

@@ -187,6 +187,14 @@ impl Velocity for English {
         Line::new("in the ratio ").list(all)
     }
 
+    fn values_missing(&self, parameters: Vec<Math>) -> Line {
+        let has = if parameters.len() == 1 { " has" } else { " have" };
+        Line::default()
+            .list(parameters)
+            .text(has)
+            .text(" no value: singular configurations were not looked for in numbers.")
+    }
+
     fn found_singularities(&self, count: usize) -> String {
         match count {
             0 => "Descents of the smallest singular value found no singular configuration.",

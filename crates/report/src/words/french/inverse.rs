@@ -398,6 +398,10 @@ impl Inverse for French {
             Doubt::Uncounted => "les racines n'ont pas pu être comptées",
             Doubt::Searched => "solutions cherchées à partir de plusieurs configurations initiales",
             Doubt::OneAsked => "une seule solution était demandée",
+            Doubt::Copies => {
+                "les réducteurs répètent chaque configuration plus souvent par tour que la liste ne le montre"
+            }
+            Doubt::Digits => "le robot est si loin de l’origine que la pose a trop peu de chiffres",
         })
     }
 

@@ -211,6 +211,14 @@ impl Velocity for French {
         Line::new("dans le rapport ").list(all)
     }
 
+    fn values_missing(&self, parameters: Vec<Math>) -> Line {
+        let has = if parameters.len() == 1 { " n’a" } else { " n’ont" };
+        Line::default()
+            .list(parameters)
+            .text(has)
+            .text(" pas de valeur\u{a0}: les configurations singulières n’ont pas été cherchées en nombres.")
+    }
+
     fn found_singularities(&self, count: usize) -> String {
         match count {
             0 => say!(

@@ -161,7 +161,7 @@ impl InverseModel {
             nearest,
             variants: self.variants.iter().map(scalar).collect::<Result<_, MissingValue>>()?,
         };
-        let space = JointSpace::new(description, robot.reach());
+        let space = JointSpace::new(description, &robot);
         let conditions = self
             .conditions
             .iter()
@@ -246,6 +246,13 @@ impl InverseSolver {
         answer.spread(&self.space);
         let size = solving.size(&pose);
         answer.judge(|q| newton::distance(&self.robot, self.goal, &pose, q, size));
+        // Where rounding is large, what looks like a family need not be one.
+        let found = answer.families.len();
+        let tolerance = 16.0 * solving.tolerance;
+        answer.families.retain(|f| f.representative.residual <= tolerance);
+        if answer.families.len() < found {
+            answer.doubt = answer.doubt.or(Some(Doubt::Sampled));
+        }
         answer
     }
 
@@ -357,7 +364,7 @@ impl Solving<'_> {
         let entries = self.behind_ends(pose);
         let misses =
             |c: &NumericCondition| self.relative(c, c.miss(&entries, &[]), pose) > 16.0 * self.tolerance;
-        turns_only && pose.translation.norm() > self.robot.reach() * (1.0 + NEAR)
+        turns_only && self.space.away(pose) > self.space.reach + NEAR * self.size(pose)
             || self.conditions.iter().filter(|c| c.is_of_pose()).any(misses)
     }
 

@@ -323,7 +323,7 @@ impl Builder<'_> {
         sum
     }
 
-    /// √(squared lengths of the chain's constants + squared distance of the hand).
+    /// √(squared lengths of the chain's constants and tool + squared distance of the hand from the first axis's origin).
     fn size(&mut self, goal: Goal) -> Value {
         let mut lengths: Vec<Value> = vec![];
         for e in &self.chain.elements {
@@ -331,9 +331,7 @@ impl Builder<'_> {
                 lengths.extend(constant.1.iter().map(|x| self.poly(x)));
             }
         }
-        for x in [&self.chain.base, &self.chain.tool] {
-            lengths.extend(x.translation.0.map(|e| self.solver.trace(e)));
-        }
+        lengths.extend(self.chain.tool.translation.0.map(|e| self.solver.trace(e)));
         debug_assert!(goal == Goal::Pose || self.chain.tool == Transform::identity());
         lengths.extend([3, 7, 11].map(|k| self.atoms[&k]));
         let sum = self.sum_of_squares(&lengths);

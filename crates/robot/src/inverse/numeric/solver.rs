@@ -103,7 +103,7 @@ impl NumericSolver {
         let robot = Robot::numeric(description)?;
         let reach = robot.reach();
         let travel = |[l, h]: [f64; 2]| if (h - l).is_finite() { (h - l).max(0.0) } else { 0.0 };
-        let space = JointSpace::new(description, reach);
+        let space = JointSpace::new(description, &robot);
         let slides = space.limits.iter().zip(&space.is_angle).filter(|s| !s.1);
         let size = reach + slides.filter_map(|s| s.0.map(travel)).sum::<f64>();
         let space = JointSpace { reach: if size > 0.0 { size } else { 1.0 }, ..space };

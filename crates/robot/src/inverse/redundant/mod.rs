@@ -139,7 +139,7 @@ impl RedundantSolver {
     /// See [`NotSolved`].
     pub fn new(description: &Description, goal: Goal) -> Result<Self, NotSolved> {
         let robot = Robot::numeric(description)?;
-        let space = JointSpace::new(description, robot.reach());
+        let space = JointSpace::new(description, &robot);
         let surplus = robot.joints.saturating_sub(newton::rank(&robot, goal));
         if surplus == 0 {
             return Err(NotSolved::NotRedundant);

@@ -139,13 +139,20 @@ impl Follower {
     }
 
     /// The configurations in which the path can start, those within the limits first: all solutions, of a family its
-    /// representative, moved by whole turns to be within the limits or near to their middle.
-    pub fn starts(&mut self, path: &dyn HandPath) -> Vec<(Vec<f64>, Branch)> {
+    /// representative, moved by whole turns to be within the limits and near to `to`, or to their middle.
+    pub fn starts(&mut self, path: &dyn HandPath, to: Option<&[f64]>) -> Vec<(Vec<f64>, Branch)> {
         let answer = self.inverse.solve(&path.pose(0.0), &[]);
         let all = answer.solutions.iter().chain(answer.families.iter().map(|f| &f.representative));
-        let middle = self.space().middle();
-        let mut starts: Vec<(Vec<f64>, Branch)> =
-            all.map(|s| (self.space().nearest_copy(&s.q, &middle), s.branch.clone())).collect();
+        let to = to.map_or_else(|| self.space().middle(), <[f64]>::to_vec);
+        let mut starts: Vec<(Vec<f64>, Branch)> = vec![];
+        for s in all {
+            let q = self.space().nearest_copy(&s.q, &to);
+            // Copies of one, as joints with gears have them, can be brought to one place.
+            let is_known = |t: &(Vec<f64>, Branch)| self.space().is_same(&t.0, &q);
+            if !starts.iter().any(is_known) {
+                starts.push((q, s.branch.clone()));
+            }
+        }
         starts.sort_by_key(|s| self.outside(&s.0).is_some());
         starts
     }
@@ -157,9 +164,14 @@ impl Follower {
         walk.finish()
     }
 
-    /// What comes of each of the starts.
-    pub fn alternatives(&mut self, path: &dyn HandPath, options: &FollowOptions) -> Vec<Alternative> {
-        let starts = self.starts(path);
+    /// What comes of each of the [`starts`](Self::starts).
+    pub fn alternatives(
+        &mut self,
+        path: &dyn HandPath,
+        to: Option<&[f64]>,
+        options: &FollowOptions,
+    ) -> Vec<Alternative> {
+        let starts = self.starts(path, to);
         let coarse = FollowOptions { max_deviation: f64::INFINITY, ..*options };
         starts
             .into_iter()

@@ -22,14 +22,15 @@ pub(super) fn plan(
 ) -> Result<Planned, PlanError> {
     let follow = FollowOptions { max_deviation: options.max_deviation, ..FollowOptions::default() };
     let is_asked = options.alternatives || start.is_none();
-    let mut alternatives = if is_asked { follower.alternatives(path, &follow) } else { vec![] };
+    let mut alternatives =
+        if is_asked { follower.alternatives(path, start.as_deref(), &follow) } else { vec![] };
     let start = match start {
         Some(q) => q,
         None => best(&alternatives).ok_or(PlanError::OutOfReach)?.start.clone(),
     };
     let mut followed = follower.follow(path, &start, &follow);
     if !followed.is_clean() && alternatives.is_empty() {
-        alternatives = follower.alternatives(path, &follow);
+        alternatives = follower.alternatives(path, Some(&start), &follow);
     }
     let (trajectory, timing): Timed = if followed.reached <= 0.0 {
         (Box::new(Still(start)), TimingLaw::Still.into())

@@ -61,7 +61,7 @@ fn through(points: &[Vec<f64>], blend: Option<f64>) -> Result<PiecewisePath, Mot
 
 /// The first joint that is outside of its limits in a way-point.
 fn outside(description: &Description, points: &[Vec<f64>]) -> Option<usize> {
-    let space = JointSpace::new(description, 1.0);
+    let space = JointSpace::without_lengths(description);
     (0..space.limits.len()).find(|&j| {
         let out = |x: f64| space.limits[j].is_some_and(|[low, high]| x < low - 1e-9 || x > high + 1e-9);
         points.iter().any(|p| out(p[j]))

@@ -8,6 +8,7 @@ use crate::random::Random;
 use crate::space::JointSpace;
 use crate::velocity::geometric::Viewpoint;
 use crate::velocity::nearest::Slope;
+use denavit_program::MissingValue;
 use denavit_symbolic::Expr;
 
 /// Descents, and joints that move in all of them together.
@@ -20,14 +21,17 @@ const MUCH: f64 = 0.1;
 
 /// Singular configurations that descents from configurations all over lead to, with what happens there: one of each kind
 /// that is found, the commonest first, six at most. They are examples, and there are others beside each of them. With
-/// `rows` [0, 1, 2] those of the position, with all six those of the body; none if a parameter has no value.
+/// `rows` [0, 1, 2] those of the position, with all six those of the body.
+///
+/// # Errors
+/// If a parameter has no value.
 pub fn singular_configurations(
     description: &Description,
     view: &Viewpoint<Expr>,
     rows: &[usize],
-) -> Vec<Example> {
-    let Ok(robot) = Robot::numeric(description) else { return vec![] };
-    let space = JointSpace::new(description, robot.reach());
+) -> Result<Vec<Example>, MissingValue> {
+    let robot = Robot::numeric(description)?;
+    let space = JointSpace::new(description, &robot);
     let (is_angle, length) = (&space.is_angle[..], space.length());
     // Where the rank drops does not depend on the point of the body: it is taken at an origin.
     let at_origin = Viewpoint { axes: view.axes, body: view.body, at: view.at, offset: Vector::zero() };
@@ -52,7 +56,7 @@ pub fn singular_configurations(
         }
     }
     found.sort_by_key(|(_, times)| std::cmp::Reverse(*times));
-    found.into_iter().map(|f| f.0).take(LISTED).collect()
+    Ok(found.into_iter().map(|f| f.0).take(LISTED).collect())
 }
 
 /// The joints that move by much where one does that moves the most.

@@ -104,6 +104,9 @@ impl Writer<'_> {
             2 if geared => format!("{q}/2"),
             3 if geared => format!("2*{q}"),
             4 if geared => format!("3*{q}"),
+            5 if geared && chance(self.random, 0.2) => {
+                one_of(self.random, &["30*q", "q/30", "100*q"]).replace('q', &q)
+            }
             5 if geared => format!("2*{q}/3"),
             6 if geared && j > 1 && !slides => format!("{q} + q{}", j - 1),
             _ => q,
@@ -128,7 +131,7 @@ pub fn text(random: &mut Random, kind: Kind) -> String {
     let convention = one_of(random, &["standard", "craig", "khalil"]);
     // The keys of a row: the length along z, the length along x.
     let [along, across] = if convention == "khalil" { ["r", "d"] } else { ["d", "a"] };
-    let unit = if chance(random, 0.15) { one_of(random, &[1e-6, 1e-3, 1e3, 1e6]) } else { 1.0 };
+    let unit = if chance(random, 0.15) { one_of(random, &[1e-12, 1e-6, 1e-3, 1e3, 1e6, 1e12]) } else { 1.0 };
     let parallel = (random.unit() * 3.0) as usize + 1;
     // In the standard convention a row's twist stands behind its joint.
     let shift = usize::from(convention == "standard");
@@ -172,7 +175,10 @@ pub fn text(random: &mut Random, kind: Kind) -> String {
     let mut ends = String::new();
     for end in ["base", "tool"] {
         if chance(w.random, 0.2) {
-            let xyz: Vec<f64> = (0..3).map(|_| unit * (w.random.unit() - 0.5)).collect();
+            // Some stand far away, as in the coordinates of a hall or of a map.
+            let is_far = end == "base" && chance(w.random, 0.2);
+            let far = if is_far { one_of(w.random, &[1e2, 1e4, 1e6, 1e8]) } else { 1.0 };
+            let xyz: Vec<f64> = (0..3).map(|_| far * unit * (w.random.unit() - 0.5)).collect();
             let rpy = one_of(w.random, &["[0, 0, 0]", "[0, \"90 deg\", 0]", "[0.3, -0.2, 1]"]);
             let _ = writeln!(ends, "[{end}]\nxyz = {xyz:?}\nrpy = {rpy}");
         }

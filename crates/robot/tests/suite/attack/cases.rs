@@ -3,7 +3,8 @@
 use super::judge::{Fault, judge};
 use super::poses::Asked;
 use crate::common::{Random, case};
-use denavit::inverse::{InverseKinematics, InverseOptions};
+use denavit::description::read_toml;
+use denavit::inverse::{Doubt, InverseKinematics, InverseOptions};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 fn solver(name: &str) -> InverseKinematics {
@@ -94,6 +95,79 @@ fn copies_of_geared_joints_are_listed() {
         let answer = solver.solve(&solver.robot.pose(&q), &[]);
         assert_eq!(answer.solutions.len(), count, "{name}: {answer:#?}");
         assert!(answer.is_complete());
+    }
+}
+
+/// Gears that repeat a configuration more often than is listed leave a doubt, and so do copies of curves; what is asked to
+/// be within the limits is.
+#[test]
+fn what_gears_leave_out_is_doubted() {
+    let rows = |angles: [&str; 3]| {
+        let row = |(theta, a): (&str, f64)| format!("[[joints]]\ntheta = \"{theta}\"\na = {a}\n");
+        let first = row((angles[0], 0.3)) + "limits = [\"300 deg\", \"400 deg\"]\n";
+        format!(
+            "name = \"x\"\nconvention = \"craig\"\n{first}{}{}",
+            row((angles[1], 0.2)),
+            row((angles[2], 0.1))
+        )
+    };
+    let of = |file: &str, q: &[f64]| {
+        let d = read_toml(file).expect("a robot").0;
+        let solver = InverseKinematics::new(&d, &InverseOptions::default()).expect("a solver");
+        let pose = solver.robot.pose(q);
+        (solver.solve(&pose, &[]), solver.one(&pose, &[], None), solver)
+    };
+    let (all, one, solver) = of(&rows(["300*q1", "q2", "q3"]), &[5.5, 0.4, 0.7]);
+    assert_eq!(all.doubt, Some(Doubt::Copies));
+    assert!(one.solutions[0].within_limits && solver.space.is_inside(&one.solutions[0].q), "{one:?}");
+    let (all, one, solver) = of(&rows(["2*q1", "q2", "q3/2"]), &[5.5, 0.4, 0.7]);
+    assert!(all.is_complete() && all.solutions.len() == 4, "{all:?}");
+    assert!(one.solutions[0].within_limits && solver.space.is_inside(&one.solutions[0].q), "{one:?}");
+    // A joint to spare: each curve holds its own sample.
+    let four = rows(["2*q1", "q2", "q3"]) + "[[joints]]\ntheta = \"q4\"\na = 0.05\n";
+    let (all, ..) = of(&four, &[0.1, 0.2, 0.3, 0.4]);
+    assert!(!all.is_complete() && !all.families.is_empty());
+    for family in &all.families {
+        let [low, high] = family.interval.expect("an interval");
+        assert_eq!(family.free, ["q1"]);
+        assert!((low..=high).contains(&family.representative.q[0]), "{family:?}");
+    }
+}
+
+/// An arm far from the origin has the answers that it has at the origin, and says what it does not know; lengths that are
+/// no numbers any more are refused.
+#[test]
+fn far_from_the_origin() {
+    let arm = |height: f64, length: f64| {
+        let row = |theta: &str, d: f64, a: f64, alpha: &str| {
+            let (d, a) = (d * length, a * length);
+            format!("[[joints]]\ntheta = \"{theta}\"\nd = {d:?}\na = {a:?}\nalpha = \"{alpha}\"\n")
+        };
+        let rows = row("q1", height, 0.0, "pi/2")
+            + &row("q2", 0.0, 0.5, "0")
+            + &row("q2 + q3", 0.0, 0.0, "pi/2")
+            + &row("q4/2", -0.3, 0.0, "-pi/2")
+            + &row("-q5", 0.0, 0.0, "pi/2")
+            + &row("q6 - q5", 0.0, 0.0, "0");
+        read_toml(&format!("name = \"x\"\nconvention = \"standard\"\n{rows}")).expect("a robot").0
+    };
+    let solver = |d| InverseKinematics::new(&d, &InverseOptions::default());
+    let q = [0.3, 0.4, 0.5, 0.6, 0.7, 0.8];
+    for (height, is_complete) in [(0.4, true), (1e3, true), (1e6, false), (1e9, false)] {
+        let solver = solver(arm(height, 1.0)).expect("a solver");
+        let answer = solver.solve(&solver.robot.pose(&q), &[]);
+        assert_eq!((answer.solutions.len(), answer.families.len()), (8, 0), "{height}");
+        assert_eq!(answer.is_complete(), is_complete, "{height}");
+        assert!(answer.solutions.iter().any(|s| solver.space.distance(&s.q, &q) < 1e-15 * height + 1e-9));
+    }
+    for (length, is_computed) in [(1e-20, true), (1e20, true), (1e-50, false), (1e150, false), (1e200, false)]
+    {
+        let made = solver(arm(0.4, length));
+        assert_eq!(made.is_ok(), is_computed, "{length}");
+        if let Ok(solver) = made {
+            let answer = solver.solve(&solver.robot.pose(&q), &[]);
+            assert!(answer.is_complete() && answer.solutions.len() == 8, "{length}: {answer:?}");
+        }
     }
 }
 

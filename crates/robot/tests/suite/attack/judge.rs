@@ -49,7 +49,7 @@ fn length(robot: &Robot<f64>) -> f64 {
 }
 
 fn size(robot: &Robot<f64>, pose: &Transform<f64>) -> f64 {
-    length(robot).hypot(pose.translation.norm())
+    length(robot).hypot((pose.translation - robot.foot()).norm())
 }
 
 /// How far the hand is from a pose, lengths by the size.
@@ -181,6 +181,16 @@ pub fn holds(
                 || solver.nearest(pose, answer, q).is_some_and(|n| same(&n.q)))
 }
 
+/// Whether a row of a list is this configuration, whole windows aside.
+fn is_row(solver: &InverseKinematics, row: &[f64], q: &[f64]) -> bool {
+    let space = &solver.space;
+    (0..q.len()).all(|j| {
+        let (way, window) = (row[j] - q[j], space.turning.windows[j]);
+        let rest = if window.is_finite() { way - window * (way / window).round() } else { way };
+        rest.abs() <= SAME * space.unit(j)
+    })
+}
+
 /// What is wrong with the answer to a pose.
 pub fn judge(
     solver: &InverseKinematics,
@@ -191,10 +201,12 @@ pub fn judge(
 ) -> Option<Fault> {
     let (robot, pose, q) = (&solver.robot, &asked.pose, &asked.q);
     let is_angle = &solver.space.is_angle;
-    // A slide far beyond the arm has its rounding.
+    // A slide far beyond the arm has its rounding, and so has an arm far from the origin.
+    let remote = 64.0 * f64::EPSILON * robot.foot().norm() / size(robot, pose);
     let rounding = |s: &[f64]| {
         let slides = s.iter().zip(is_angle).filter(|(_, is_angle)| !**is_angle);
-        64.0 * f64::EPSILON * slides.map(|(x, _)| x.abs()).fold(0.0, f64::max) / size(robot, pose)
+        let far = slides.map(|(x, _)| x.abs()).fold(0.0, f64::max);
+        remote + 64.0 * f64::EPSILON * far / size(robot, pose)
     };
     for s in answer.solutions.iter().chain(answer.families.iter().map(|f| &f.representative)) {
         let missed = miss(robot, pose, &s.q);
@@ -215,6 +227,13 @@ pub fn judge(
         return Some(if answer.is_complete() { Fault::Missing } else { Fault::Overlooked });
     }
     if answer.is_complete() {
+        // Copies of joints with gears are rows of their own.
+        if least > 1e-4
+            && answer.families.is_empty()
+            && !answer.solutions.iter().any(|s| is_row(solver, &s.q, q))
+        {
+            return Some(Fault::Missing);
+        }
         for _ in 0..starts {
             let start: Vec<f64> =
                 is_angle
