@@ -298,7 +298,9 @@ impl<'a> Tester<'a> {
         const DECIMALS: f64 = 1e6;
         self.has_rotation.then_some(())?;
         let q = &sample.variables;
-        let pose: Vec<f64> = self.pose(q).iter().map(|x| (x * DECIMALS).round() / DECIMALS).collect();
+        let units = std::iter::repeat([1.0, 1.0, 1.0, samples::unit(sample.reach)]).flatten();
+        let round = |(x, unit): (&f64, f64)| (x / unit * DECIMALS).round() / DECIMALS * unit;
+        let pose: Vec<f64> = self.pose(q).iter().zip(units).map(round).collect();
         self.vector_at(sample, self.goal(&pose, q), 1.0 / DECIMALS)
     }
 
@@ -307,9 +309,10 @@ impl<'a> Tester<'a> {
         let q = &sample.variables;
         let (known, certificate) = self.solutions(&variables)?;
         let mut moved = 0.0_f64;
+        let units = self.units(samples::unit(sample.reach));
         for (k, nudge) in NUDGES.into_iter().enumerate() {
             let signs = |i: usize| if (i * (2 * k + 3) + k).is_multiple_of(3) { -nudge } else { nudge };
-            let by = |(i, x): (usize, &f64)| x + signs(i) * if x.abs() > 1.0 { x.abs() } else { 1.0 };
+            let by = |(i, x): (usize, &f64)| x + signs(i) * x.abs().max(units[i]);
             let nudged: Vec<f64> = variables.iter().enumerate().map(by).collect();
             let (others, same) = self.solutions(&nudged)?;
             moved = moved.max(self.apart(&known, &others).filter(|_| same == certificate)?);
@@ -373,6 +376,14 @@ impl<'a> Tester<'a> {
         let pose = Transform::from_rotation_translation(Rotation::from_rows(r), p);
         let given: Vec<f64> = self.model.given.iter().map(|&j| q[j]).collect();
         variables(self.model.goal, &pose, &given)
+    }
+
+    /// What the solver's inputs are measured in: 1, or the unit of lengths.
+    fn units(&self, unit: f64) -> Vec<f64> {
+        let pose: Vec<f64> = (0..12).map(|k| if k % 4 == 3 { unit } else { 1.0 }).collect();
+        let joints: Vec<f64> =
+            self.is_angle.iter().map(|is_angle| if *is_angle { 1.0 } else { unit }).collect();
+        self.goal(&pose, &joints)
     }
 
     /// All solutions, and whether there may be more; nothing if some are not clean.

@@ -186,5 +186,6 @@ fn test(general: &General) -> String {
         .replace("@given@", &table(&given))
         .replace("@first@", &first)
         .replace("@has_given@", &has_given)
+        .replace("@unit@", &format!("{:?}", general.unit))
         .replace("@angles@", &angles.join(", "))
 }

@@ -30,6 +30,8 @@ pub(super) struct General {
     /// What C prints.
     tables: Option<Tables>,
     is_angle: [bool; 6],
+    /// What lengths are rounded beside, metres.
+    unit: f64,
     /// What the function is about, without comment signs.
     about: Vec<String>,
     facts: Inverse,
@@ -83,7 +85,8 @@ impl General {
             }
         }
         let is_angle = std::array::from_fn(|j| variables[j].kind == JointKind::Revolute);
-        let vectors = Tester { robot, space, solver: &solver }.vectors(d);
+        let unit = samples::unit(space.reach);
+        let vectors = Tester { robot, space, unit, solver: &solver }.vectors(d);
         let assumed = d.parameters.iter().filter_map(|p| Some((p.symbol, p.value?)));
         let facts = Inverse {
             by_elimination: true,
@@ -95,7 +98,7 @@ impl General {
             vectors: vectors.len(),
         };
         let about = about(d, &facts.assumed);
-        Ok(General { language: options.language, axes, plan, tables, is_angle, about, facts, vectors })
+        Ok(General { language: options.language, axes, plan, tables, is_angle, unit, about, facts, vectors })
     }
 
     /// What is known of it.
@@ -155,6 +158,7 @@ fn about(d: &Description, assumed: &[(Symbol, Expr)]) -> Vec<String> {
 struct Tester<'a> {
     robot: Robot<f64>,
     space: JointSpace,
+    unit: f64,
     solver: &'a GeneralSolver,
 }
 
@@ -185,7 +189,7 @@ impl Tester<'_> {
         for nudge in NUDGES {
             let mut near = pose;
             for (i, row) in near.rotation.rows().iter().enumerate() {
-                near.translation.0[i] += nudge * (1.0 + row[i].abs());
+                near.translation.0[i] += nudge * self.unit * (1.0 + row[i].abs());
             }
             if self.solutions(&near)?.len() != solutions.len() {
                 return None;

@@ -47,6 +47,7 @@ fn function(general: &General) -> String {
         .replace("@ranking@", &ranking(&general.plan.ranking()))
         .replace("@offsets@", &format!("{:?}", general.axes.offsets))
         .replace("@inverse@\n", &rows(&general.axes.inverse))
+        .replace("@unit@", &format!("{:?}", general.unit))
         .replace("@angles@", &format!("{:?}", general.is_angle))
 }
 

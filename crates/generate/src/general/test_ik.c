@@ -75,7 +75,8 @@ static void test_ik(void)
         /* A pose of six decimals is that of nearby configurations; what is no rotation has none. */
         double rounded[12];
         for (int k = 0; k < 12; k++) {
-            rounded[k] = floor(1e6 * ik_poses[v][k] + 0.5) / 1e6;
+            const double unit = k % 4 == 3 ? @unit@ : 1.0;
+            rounded[k] = floor(1e6 * ik_poses[v][k] / unit + 0.5) / 1e6 * unit;
         }
         const int again = @name@_ik(rounded, found, &certificate);
         for (int e = ik_first[v]; e < ik_first[v + 1]; e++) {

@@ -336,6 +336,7 @@ impl InverseKinematics {
             is_there
         };
         let mut is_there = answer.solutions.iter().any(|s| offer(&s.q));
+        is_there = is_there || self.is_member(pose, answer, to) && offer(to);
         if let Method::Redundant(solver) = &self.method
             && !is_there
         {
@@ -371,10 +372,19 @@ impl InverseKinematics {
         best
     }
 
+    /// Whether a configuration with the pose is seen to be a member of a family of a redundant arm.
+    fn is_member(&self, pose: &Transform<f64>, answer: &Answer, q: &[f64]) -> bool {
+        let Method::Redundant(solver) = &self.method else { return false };
+        // One family with several parameters stands for all configurations that have the pose.
+        let stands_for_all = solver.surplus > 1 && !answer.families.is_empty();
+        newton::distance(&self.robot, self.goal, pose, q, self.size(pose)) <= TOLERANCE
+            && (stands_for_all || answer.families.iter().any(|f| self.is_near(f, q)))
+    }
+
     /// Which family of an answer a configuration is a member of.
     pub fn family_of(&self, pose: &Transform<f64>, answer: &Answer, q: &[f64]) -> Option<usize> {
         answer.families.iter().position(|family| {
-            if self.is_near(family, q) {
+            if self.is_near(family, q) || family.dimension > 1 && self.is_member(pose, answer, q) {
                 return true;
             }
             if family.dimension > 1 {

@@ -54,7 +54,8 @@ fn attack(seed: u64, kind: Kind) -> Found {
             if fault.is_lie() && is_shown {
                 shown(&solver, fault, &asked, &answer);
             }
-            found.faults.push((fault, asked.class, format!("{:?}", asked.q)));
+            let why = answer.doubt.map_or(String::new(), |doubt| format!(" ({doubt:?})"));
+            found.faults.push((fault, asked.class, format!("{:?}{why}", asked.q)));
         }
     }
     found
