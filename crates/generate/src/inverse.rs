@@ -337,7 +337,7 @@ impl<'a> Tester<'a> {
     fn unreachable(&mut self, sample: &Sample) -> Option<SolverVector> {
         let q = &sample.variables;
         let mut pose = self.pose(q);
-        pose[3] += 8.0 * sample.reach + 8.0;
+        pose[3] += 8.0 * sample.reach + 8.0 * samples::unit(sample.reach);
         let variables = self.goal(&pose, q);
         let (solutions, certificate) = self.solutions(&variables)?;
         let parameters = self.parameters.clone();

@@ -37,7 +37,7 @@ impl Sample {
     }
 }
 
-/// What lengths of an arm are rounded beside, metres: 1, or a power of ten for an arm in micrometres or kilometres.
+/// What lengths of an arm are compared with, metres: 1, or a power of ten for an arm in micrometres or kilometres.
 pub(super) fn unit(reach: f64) -> f64 {
     if reach == 0.0 || (0.03..30.0).contains(&reach) { 1.0 } else { 10_f64.powf(reach.log10().round()) }
 }

@@ -54,6 +54,11 @@ impl Periods {
         (TAU / self.periods[joint]).fract() == 0.0 && self.periods[joint].is_finite()
     }
 
+    /// Leaves out copies for which one of these joints would have to move.
+    pub(crate) fn keep(&mut self, joints: &[usize]) {
+        self.copies.retain(|c| joints.iter().all(|&j| c[j] == 0.0));
+    }
+
     /// Those of some of the joints, the others held.
     fn held(&self, joints: &[usize]) -> Self {
         let of = |x: &[f64]| -> Vec<f64> { joints.iter().map(|&j| x[j]).collect() };

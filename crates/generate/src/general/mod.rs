@@ -30,7 +30,7 @@ pub(super) struct General {
     /// What C prints.
     tables: Option<Tables>,
     is_angle: [bool; 6],
-    /// What lengths are rounded beside, metres.
+    /// What lengths are compared with, metres.
     unit: f64,
     /// What the function is about, without comment signs.
     about: Vec<String>,
@@ -203,7 +203,7 @@ impl Tester<'_> {
     /// A pose far outside, if it is certain to have no solution.
     fn unreachable(&mut self, sample: &Sample) -> Option<Vector> {
         let mut pose = self.robot.pose(&sample.variables);
-        pose.translation.0[0] += 8.0 * sample.reach + 8.0;
+        pose.translation.0[0] += 8.0 * sample.reach + 8.0 * self.unit;
         let solutions = self.solutions(&pose)?;
         solutions.is_empty().then(|| Vector { pose: rows(&pose), configuration: None, solutions })
     }

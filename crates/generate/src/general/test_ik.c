@@ -23,6 +23,9 @@ static const int ik_has_given[IK_VECTORS] = {
 @has_given@
 };
 
+/* What lengths are compared with, m. */
+static const double ik_unit = @unit@;
+
 /* How far the nearest of the solutions is. */
 static double ik_nearest(const @name@_ik_solution *found, int count, const double *known)
 {
@@ -35,6 +38,8 @@ static double ik_nearest(const @name@_ik_solution *found, int count, const doubl
             double difference = found[j].q[k] - known[k];
             if (is_angle[k]) {
                 difference -= turn * floor(difference / turn + 0.5);
+            } else {
+                difference /= ik_unit;
             }
             apart = fmax(apart, fabs(difference));
         }
@@ -75,7 +80,7 @@ static void test_ik(void)
         /* A pose of six decimals is that of nearby configurations; what is no rotation has none. */
         double rounded[12];
         for (int k = 0; k < 12; k++) {
-            const double unit = k % 4 == 3 ? @unit@ : 1.0;
+            const double unit = k % 4 == 3 ? ik_unit : 1.0;
             rounded[k] = floor(1e6 * ik_poses[v][k] / unit + 0.5) / 1e6 * unit;
         }
         const int again = @name@_ik(rounded, found, &certificate);

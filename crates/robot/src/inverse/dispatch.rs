@@ -194,6 +194,7 @@ impl InverseKinematics {
             }
         };
         let six = of_pose && this.robot.joints - this.given.len() == 6;
+        this.space.turning.keep(&this.given);
         this.method = match closed {
             Some(solver) if this.nearly.is_empty() || !six || !this.given.is_empty() => {
                 Method::Closed(solver)

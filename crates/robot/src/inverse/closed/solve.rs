@@ -161,7 +161,8 @@ impl InverseModel {
             nearest,
             variants: self.variants.iter().map(scalar).collect::<Result<_, MissingValue>>()?,
         };
-        let space = JointSpace::new(description, &robot);
+        let mut space = JointSpace::new(description, &robot);
+        space.turning.keep(&self.given);
         let conditions = self
             .conditions
             .iter()

@@ -270,6 +270,12 @@ impl NormalChain {
         self.inverse_coupling[variable].iter().any(|f| self.axes[f.0].motion != Motion::Slide)
     }
 
+    /// The axes that joint variables (from 0) determine.
+    pub fn axes_of(&self, given: &[usize]) -> Vec<usize> {
+        let is_determined = |&k: &usize| self.axes[k].form.terms.iter().all(|t| given.contains(&t.0));
+        (0..self.axes.len()).filter(is_determined).collect()
+    }
+
     /// The number of a difference.
     pub fn number(&self, d: Difference) -> usize {
         self.differences.iter().position(|&x| x == d).expect("every difference has a number")

@@ -150,7 +150,7 @@ fn compile_with(
             builder.ranks[k] = 1;
         }
     }
-    for &k in given {
+    for k in chain.axes_of(given) {
         builder.give(k);
     }
     let size = builder.size(goal);

@@ -243,7 +243,7 @@ impl InverseModel {
         let screen = (options.goal == Goal::Pose).then(|| Screen::new(&chain, &samples));
         if extent != Extent::Whole && !may_end(&chain, screen.as_ref(), &asked, surplus) {
             let outcome =
-                Outcome { steps: vec![], missing: Known::new(&chain, &axes_of(&chain, &asked)).open(&chain) };
+                Outcome { steps: vec![], missing: Known::new(&chain, &chain.axes_of(&asked)).open(&chain) };
             return Err(stuck(chain, outcome, asked, surplus, false));
         }
         let searched = |problem: &Problem| choose(problem, screen.as_ref(), &asked, surplus);
@@ -268,7 +268,7 @@ impl InverseModel {
             [Goal::Position, Goal::PositionAndAxis].map(|goal| self::rank(&chain, &samples, goal));
         let task = conditions::task(&chain, rank, of_position, with_axis);
         let lacking = if options.goal == Goal::Pose { 6 - rank } else { 0 };
-        let axes = axes_of(&chain, &given);
+        let axes = chain.axes_of(&given);
         let conditions =
             conditions::conditions(&chain, &sides.found, &outcome.steps, &axes, &samples, lacking);
         let others = if extent != Extent::Steps && (rank < 6 || !given.is_empty()) {
@@ -331,7 +331,7 @@ fn may_end(chain: &NormalChain, screen: Option<&Screen>, asked: &[usize], surplu
     let open: Vec<usize> = (0..chain.variables.len()).filter(|j| !asked.contains(j)).collect();
     let may_end = |more: &Vec<usize>| {
         let given: Vec<usize> = asked.iter().chain(more).copied().collect();
-        screen.may_end(&axes_of(chain, &given))
+        are_axes(chain, &given) && screen.may_end(&chain.axes_of(&given))
     };
     // Of more sets than are tried only the first are listed.
     let sets = subsets(&open, surplus - asked.len());
@@ -343,9 +343,9 @@ fn is_whole(chain: &NormalChain, splits: &[Split]) -> bool {
     splits.iter().any(|s| s.left == 0 && s.right == chain.elements.len())
 }
 
-/// The axes that joint variables determine.
-fn axes_of(chain: &NormalChain, given: &[usize]) -> Vec<usize> {
-    (0..chain.axes.len()).filter(|&k| chain.axes[k].form.terms.iter().all(|t| given.contains(&t.0))).collect()
+/// Whether joint variables determine as many axes: of coupled joints, some tell how axes move together, which no step asks.
+fn are_axes(chain: &NormalChain, given: &[usize]) -> bool {
+    chain.axes_of(given).len() == given.len()
 }
 
 /// The joint variables that are still open.
@@ -368,7 +368,10 @@ fn choose(
     surplus: usize,
 ) -> (Vec<usize>, Outcome) {
     let chain = problem.chain;
-    let first = search::search(problem, &axes_of(chain, asked));
+    let first = match are_axes(chain, asked) {
+        true => search::search(problem, &chain.axes_of(asked)),
+        false => Outcome { steps: vec![], missing: Known::new(chain, &chain.axes_of(asked)).open(chain) },
+    };
     let more = surplus - asked.len();
     if first.is_complete() || more == 0 {
         return (asked.to_vec(), first);
@@ -386,8 +389,8 @@ fn choose(
         }
         let mut given: Vec<usize> = asked.iter().chain(&set).copied().collect();
         given.sort_unstable();
-        let axes = axes_of(chain, &given);
-        if screen.is_some_and(|s| !s.may_end(&axes)) {
+        let axes = chain.axes_of(&given);
+        if !are_axes(chain, &given) || screen.is_some_and(|s| !s.may_end(&axes)) {
             continue;
         }
         let outcome = search::search(problem, &axes);

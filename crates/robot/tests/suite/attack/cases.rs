@@ -134,6 +134,35 @@ fn what_gears_leave_out_is_doubted() {
     }
 }
 
+/// Of coupled joints only such are given as determine axes.
+#[test]
+fn coupled_joints_to_spare() {
+    let row = |alpha: &str, d: f64, theta: &str, r: &str| {
+        format!("[[joints]]\nalpha = \"{alpha}\"\nd = {d}\ntheta = \"{theta}\"\nr = \"{r}\"\n")
+    };
+    let rows = row("-90 deg", -0.3, "0", "q1")
+        + &row("180 deg", 0.15, "2*q2", "0")
+        + &row("180 deg", 0.4, "q3 + q2", "0")
+        + &row("0", 0.2, "q4 + q3", "0.15")
+        + &row("180 deg", 0.1, "q5", "0")
+        + &row("90 deg", 0.15, "2*q6", "0.2");
+    let d = read_toml(&format!("name = \"x\"\nconvention = \"khalil\"\n{rows}")).expect("a robot").0;
+    for given in [None, Some(vec![2]), Some(vec![1]), Some(vec![4])] {
+        let options = InverseOptions { given: given.clone(), ..InverseOptions::default() };
+        let solver = InverseKinematics::new(&d, &options).expect("an arm with numbers");
+        let q = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
+        let pose = solver.robot.pose(&q);
+        let values: Vec<f64> = solver.given.iter().map(|&j| q[j]).collect();
+        let answer = solver.solve(&pose, &values);
+        let found = solver.nearest(&pose, &answer, &q);
+        assert!(found.is_some_and(|n| n.distance < 1e-6), "{given:?}: {answer:?}");
+        for s in answer.solutions.iter().chain(answer.families.iter().map(|f| &f.representative)) {
+            assert!(solver.given.iter().zip(&values).all(|(&j, x)| (s.q[j] - x).abs() < 1e-9), "{s:?}");
+            assert!(super::judge::miss(&solver.robot, &pose, &s.q) < 1e-8, "{s:?}");
+        }
+    }
+}
+
 /// An arm far from the origin has the answers that it has at the origin, and says what it does not know; lengths that are
 /// no numbers any more are refused.
 #[test]

@@ -36,9 +36,8 @@ fn attack(seed: u64, kind: Kind) -> Found {
     let Ok((mut description, _)) = read_toml(&text) else { panic!("a robot file is refused:\n{text}") };
     // The nearest of an answer is one within the limits, if one is; here it says whether a configuration is there at all.
     description.rows.iter_mut().for_each(|r| r.limits = None);
-    let Ok(solver) = InverseKinematics::new(&description, &InverseOptions::default()) else {
-        panic!("an arm with numbers is refused:\n{text}")
-    };
+    let solver = InverseKinematics::new(&description, &InverseOptions::default())
+        .unwrap_or_else(|why| panic!("an arm with numbers is refused, {why}:\n{text}"));
     let mut found = Found { method: solver.method(), ..Found::default() };
     let is_shown = std::env::var_os("DENAVIT_ATTACK_SHOW").is_some();
     for _ in 0..if solver.method() == "self-motion" { CURVES } else { POSES } {
