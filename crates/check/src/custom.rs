@@ -8,7 +8,7 @@ use denavit::description::JointKind;
 use denavit::geometry::{Transform, Vector};
 use denavit_reading::slip::Points;
 use denavit_symbolic::vocabulary::plain_name;
-use denavit_symbolic::{Expr, greek};
+use denavit_symbolic::{Expr, equal, greek};
 use std::collections::BTreeSet;
 
 /// A name with its meaning.
@@ -232,8 +232,8 @@ fn direction(subject: &Subject, plain: &str, places: &Places, add: &mut Add<'_>)
     let pose = subject.pose();
     let mut points = Points::new(3);
     let (one, zero) = (points.value(Expr::int(1)), points.value(Expr::int(0)));
-    let up = points.value(pose.rotation.rows()[2][2].powi(2));
-    if up != one {
+    let up = pose.rotation.rows()[2][2].powi(2);
+    if points.value(up) != one || !equal(up, Expr::int(1)).is_equal() {
         return;
     }
     let mut sum = Expr::int(0);
@@ -249,8 +249,9 @@ fn direction(subject: &Subject, plain: &str, places: &Places, add: &mut Add<'_>)
     }
     let [n, _, _] = pose.rotation.rows();
     let second = pose.rotation.rows()[1];
-    let agrees =
-        points.value(n[0]) == points.value(sum.cos()) && points.value(second[0]) == points.value(sum.sin());
+    let agrees = [(n[0], sum.cos()), (second[0], sum.sin())]
+        .into_iter()
+        .all(|(a, b)| points.value(a) == points.value(b) && equal(a, b).is_equal());
     if agrees {
         let inverse = Expr::from(places.symbol(1, 0)).atan2(places.symbol(0, 0).into());
         spelled.iter().for_each(|name| add(name, sum, inverse));

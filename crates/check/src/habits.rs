@@ -1,27 +1,29 @@
 //! How a document writes a pose, and what it means by names that may mean several things.
 
+use super::inverse::rebuilt;
 use super::names::{Token, tokens};
 use denavit::geometry::{Rotation, Transform, Vector};
 use denavit_reading::document::{Document, Part, Side};
+use denavit_symbolic::parse::{Function, Syntax, SyntaxKind};
 use denavit_symbolic::vocabulary::plain_name;
-use denavit_symbolic::{Expr, Symbol};
+use denavit_symbolic::{Expr, Node, Symbol};
 use std::collections::BTreeSet;
 
 /// Values with each choice of the signs that a document names: ε = ±1.
 pub(super) fn with_named_signs(values: Vec<Expr>) -> Vec<Expr> {
-    let mut all = values;
-    for name in SIGNS {
-        let sign = Expr::symbol(&format!("sign {name}"));
-        if all.iter().any(|e| e.symbols().contains(&sign.as_symbol().unwrap_or(Symbol::new(name))))
-            && all.len() <= 16
-        {
-            let chosen = |n: i64| {
-                move |e: &Expr| e.substitute(|s| (Some(s) == sign.as_symbol()).then(|| Expr::int(n)))
-            };
-            all = all.iter().map(chosen(1)).chain(all.iter().map(chosen(-1))).collect();
+    SIGNS.iter().map(|name| sign(name)).fold(values, |all, sign| {
+        let is_used = all.iter().any(|e| e.symbols().contains(&sign));
+        if !is_used || all.len() > MAX_SIGNED {
+            return all;
         }
-    }
-    all
+        let chosen = |n: i64| move |e: &Expr| e.substitute(|s| (s == sign).then(|| Expr::int(n)));
+        all.iter().map(chosen(1)).chain(all.iter().map(chosen(-1))).collect()
+    })
+}
+
+/// What stands for a sign that has a name.
+fn sign(name: &str) -> Symbol {
+    Symbol::new(&format!("sign {name}"))
 }
 
 /// The names of signs that a text has: `ε = ±1`.
@@ -36,9 +38,11 @@ pub(super) fn named_signs(plain: &str) -> Vec<(&'static str, Expr)> {
             .iter()
             .any(|s| plain.contains(s.as_str()))
     };
-    SIGNS.iter().filter(is_sign).map(|n| (*n, Expr::symbol(&format!("sign {n}")))).collect()
+    SIGNS.iter().filter(is_sign).map(|n| (*n, sign(n).into())).collect()
 }
 
+/// So many values are given each choice of one more sign.
+const MAX_SIGNED: usize = 16;
 /// Names of signs.
 const SIGNS: [&str; 5] = ["ε", "σ", "k", "e", "s"];
 /// The axes of coordinates.
@@ -122,6 +126,20 @@ impl Habits {
         }
     }
 
+    /// A formula with the arguments of `atan2` in the order that is read: the sine first.
+    pub fn ordered(&self, syntax: Syntax) -> Syntax {
+        if self.cosine_first { exchanged(syntax) } else { syntax }
+    }
+
+    /// A formula as the document would print it.
+    pub fn printed(&self, e: Expr) -> Expr {
+        let exchange = |was: Expr, now: Expr| match (was.node(), now.node()) {
+            (Node::Atan2(..), Node::Atan2(y, x)) => x.atan2(y),
+            _ => now,
+        };
+        if self.cosine_first { rebuilt(e, &mut { exchange }) } else { e }
+    }
+
     /// Takes the names that a document defines as products for its own.
     pub fn with_products(mut self, text: &str, document: &Document) -> Self {
         for statement in &document.statements {
@@ -144,4 +162,28 @@ impl Habits {
         }
         self
     }
+}
+
+/// A formula with the arguments of each `atan2` exchanged.
+fn exchanged(syntax: Syntax) -> Syntax {
+    let Syntax { kind, span } = syntax;
+    let boxed = |s: Box<Syntax>| Box::new(exchanged(*s));
+    let kind = match kind {
+        SyntaxKind::Call(Function::Atan2, arguments) => {
+            SyntaxKind::Call(Function::Atan2, arguments.into_iter().rev().map(exchanged).collect())
+        }
+        SyntaxKind::Call(f, arguments) => SyntaxKind::Call(f, arguments.into_iter().map(exchanged).collect()),
+        SyntaxKind::Sum(terms) => {
+            SyntaxKind::Sum(terms.into_iter().map(|(sign, s)| (sign, exchanged(s))).collect())
+        }
+        SyntaxKind::Product(factors) => {
+            SyntaxKind::Product(factors.into_iter().map(|(over, s)| (over, exchanged(s))).collect())
+        }
+        SyntaxKind::Fraction(a, b) => SyntaxKind::Fraction(boxed(a), boxed(b)),
+        SyntaxKind::Power(a, n) => SyntaxKind::Power(boxed(a), n),
+        SyntaxKind::Root(a) => SyntaxKind::Root(boxed(a)),
+        SyntaxKind::Bracket(a) => SyntaxKind::Bracket(boxed(a)),
+        SyntaxKind::Name(_) | SyntaxKind::Number(_) => kind,
+    };
+    Syntax { kind, span }
 }

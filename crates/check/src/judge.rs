@@ -33,7 +33,7 @@ pub(super) fn judge(
 ) -> (Vec<Claim>, Vec<(Range<usize>, Composed)>) {
     let mut judge = Judge { tolerance, ..Judge::new(text, plan, walked) };
     let mut claims: Vec<Claim> = walked.assertions.iter().map(|a| judge.claim(a)).collect();
-    let (values, notes) = values::judge(text, plan, walked, plan.habits.columns);
+    let (values, notes) = values::judge(text, plan, walked);
     for (at, claim) in values {
         claims[at] = claim;
     }

@@ -226,7 +226,7 @@ impl Lexis {
     /// # Errors
     /// What is wrong with it, places in the whole text.
     pub fn formula(&self, text: &str, span: &Range<usize>) -> Result<Syntax, Vec<ParseError>> {
-        read(text, span, &self.names)
+        read(text, span, &self.names).map(|s| self.habits.ordered(s))
     }
 
     /// Reads a formula in which the entries of the pose are symbols.
@@ -234,7 +234,7 @@ impl Lexis {
     /// # Errors
     /// As [`Lexis::formula`].
     pub fn inverse_formula(&self, text: &str, span: &Range<usize>) -> Result<Syntax, Vec<ParseError>> {
-        read(text, span, &self.inverse)
+        read(text, span, &self.inverse).map(|s| self.habits.ordered(s))
     }
 
     /// The one name that a text is, without powers.

@@ -208,6 +208,7 @@ impl Program<'_> {
             subject: self.number,
             whole,
             names: Some(Rc::clone(&self.names)),
+            reference: None,
             spoken: None,
         }
     }

@@ -8,7 +8,7 @@ use super::habits::{Columns, Habits, Places, with_named_signs};
 use super::numbers;
 use super::outcome::Finding;
 use super::plan::{Plan, Walked};
-use super::trial::Trial;
+use super::trial::{self, Trial};
 use super::walk::{Assertion, Piece, Spoken};
 use denavit_reading::document::Document;
 use denavit_reading::slip::Points;
@@ -171,7 +171,9 @@ impl Trials {
                 let [own, any] = trial.shares(*of, branches);
                 return (any > 0.0).then_some(own > 0.0);
             }
-            Some(Spoken::Angle { .. }) => return None,
+            Some(Spoken::Angle { set, name, value: (_, syntax) }) => {
+                return trial::is_angle(*set, name, syntax.value(), &Places(plan.habits.columns));
+            }
             None => {}
         }
         let mut is_any = false;

@@ -5,6 +5,7 @@
 use super::habits::Places;
 use super::subject::Subject;
 use denavit::description::JointKind;
+use denavit::geometry::orientation::{OrientationSet, extract, rotation};
 use denavit::random::Random;
 use denavit_symbolic::{Expr, Symbol};
 use rustc_hash::FxHashMap;
@@ -79,4 +80,34 @@ impl Trial {
         }
         [own, any].map(|n| n as f64 / self.points.len().max(1) as f64)
     }
+}
+
+/// Whether a printed value for an angle of an orientation is one of the two that the angle has, at some orientation;
+/// nothing where it has no value.
+pub(super) fn is_angle(set: OrientationSet, name: &str, value: Expr, places: &Places) -> Option<bool> {
+    let k = set.names().iter().position(|n| *n == name)?;
+    let mut random = Random(13);
+    let mut is_any = false;
+    for _ in 0..TRIALS {
+        let angles = [(); 3].map(|()| (2.0 * random.unit() - 1.0) * PI);
+        let turned = rotation(set, &angles).ok()?;
+        let usual = extract(&turned, set);
+        let other = usual.other_solution();
+        let rows = turned.rows();
+        let entry = |s: Symbol| {
+            let all = (0..3).flat_map(|r| (0..3).map(move |c| (r, c)));
+            all.into_iter().find(|&(r, c)| places.symbol(r, c) == s).map(|(r, c)| rows[r][c])
+        };
+        let Ok(x) = value.eval(entry) else { continue };
+        if !x.is_finite() {
+            continue;
+        }
+        is_any = true;
+        let right = [Some(usual.values.clone()), other.map(|o| o.values)];
+        let apart = |y: f64| ((x - y) - TAU * ((x - y) / TAU).round()).abs();
+        if right.into_iter().flatten().any(|r| r.get(k).is_some_and(|&y| apart(y) < NEAR)) {
+            return Some(true);
+        }
+    }
+    is_any.then_some(false)
 }

@@ -5,9 +5,11 @@ use super::facts::About;
 use super::note::Unreadable;
 use super::outcome::{Claim, Entry, Finding, Skipped, Standing, Unjudged};
 use super::plan::Walked;
-use super::walk::Defined;
+use super::walk::{Assertion, Defined, Pair, Piece, Spoken};
 use denavit_reading::document::{Document, Statement};
+use denavit_symbolic::parse::{Syntax, SyntaxKind};
 use denavit_symbolic::vocabulary::plain_name;
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// No more lines are listed.
@@ -91,10 +93,54 @@ fn is_named(text: &str, walked: &Walked, span: &Range<usize>, claims: &[Claim]) 
     })
 }
 
-/// A claim for each helper that something right uses, directly or through another helper.
+/// The names that a formula, or several, are written in.
+struct User {
+    span: Range<usize>,
+    names: BTreeSet<String>,
+    /// A product of printed matrices, of which only the text is known.
+    is_worked_out: bool,
+}
+
+impl User {
+    /// What stands in a statement.
+    fn of(text: &str, assertion: &Assertion) -> Self {
+        let mut user = User { span: assertion.span.clone(), names: BTreeSet::new(), is_worked_out: false };
+        for piece in &assertion.pieces {
+            match piece {
+                Piece::Pair(Pair { printed: Some(syntax), span, .. }) => user.add(text, span, syntax),
+                Piece::Pair(Pair { printed: None, .. }) => user.is_worked_out = true,
+                Piece::Number { .. } | Piece::Unreadable { .. } => {}
+            }
+        }
+        match &assertion.spoken {
+            Some(Spoken::Joint { sides, .. }) => sides.iter().for_each(|(span, s)| user.add(text, span, s)),
+            Some(Spoken::Angle { value: (span, syntax), .. }) => user.add(text, span, syntax),
+            None => {}
+        }
+        if let Some((span, syntax)) = &assertion.reference {
+            user.add(text, span, syntax);
+        }
+        user
+    }
+
+    fn add(&mut self, text: &str, span: &Range<usize>, syntax: &Syntax) {
+        if let SyntaxKind::Name(_) = syntax.kind {
+            let shown = text.get(span.start + syntax.span.start..span.start + syntax.span.end);
+            self.names.extend(shown.map(super::custom::plain));
+        }
+        syntax.children().into_iter().for_each(|part| self.add(text, span, part));
+    }
+
+    fn uses(&self, text: &str, name: &str) -> bool {
+        self.names.contains(&super::custom::plain(name))
+            || self.is_worked_out && mentions(text.get(self.span.clone()).unwrap_or_default(), name)
+    }
+}
+
+/// A claim for each helper that something proved uses, directly or through another helper.
 fn helpers(text: &str, walked: &Walked, claims: &[Claim]) -> Vec<Claim> {
-    let is_right = |c: &&Claim| matches!(c.standing(), Standing::Equal | Standing::Conditional);
-    let mut users: Vec<Range<usize>> = claims.iter().filter(is_right).map(|c| c.span.clone()).collect();
+    let proved = claims.iter().zip(&walked.assertions).filter(|(c, _)| c.standing() == Standing::Equal);
+    let mut users: Vec<User> = proved.map(|(_, a)| User::of(text, a)).collect();
     let own =
         |d: &Defined| claims.iter().any(|c| c.span.start < d.statement.end && d.statement.start < c.span.end);
     let mut found: Vec<Claim> = vec![];
@@ -105,13 +151,16 @@ fn helpers(text: &str, walked: &Walked, claims: &[Claim]) -> Vec<Claim> {
         }
         let end = walked.defined[k + 1..].iter().find(|d| d.name == defined.name).map(|d| d.span.start);
         let is_used = users.iter().any(|u| {
-            u.start >= defined.span.start
-                && end.is_none_or(|e| u.start < e)
-                && *u != defined.statement
-                && mentions(text.get(u.clone()).unwrap_or_default(), &defined.name)
+            u.span.start >= defined.span.start
+                && end.is_none_or(|e| u.span.start < e)
+                && u.span != defined.statement
+                && u.uses(text, &defined.name)
         });
         if is_used {
-            users.push(defined.statement.clone());
+            let mut user =
+                User { span: defined.statement.clone(), names: BTreeSet::new(), is_worked_out: false };
+            user.add(text, &defined.span, &defined.printed);
+            users.push(user);
             let finding = Finding::Equal { unless_zero: vec![] };
             let entry = Entry { place: None, span: defined.span.clone(), finding, identities: vec![] };
             found.push(Claim {

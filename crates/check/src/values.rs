@@ -5,7 +5,7 @@ use super::edits::{Kind, edited, edits};
 use super::facts::SlipKind;
 use super::facts::{Condition, Remark, Unproved, Zeros};
 use super::formula::Formula;
-use super::habits::{Columns, Places, pose_symbol};
+use super::habits::{Columns, Habits, Places, pose_symbol};
 use super::inverse::{Composed, Fault, Inverse, Judgement, Values, Verdict, Where, orientation};
 use super::lexis::read;
 use super::outcome::{Claim, Counterexample, Entry, Finding, Patch, Slip, Standing, Wrong};
@@ -34,12 +34,9 @@ const LEAST_SHARE: f64 = 0.2;
 
 /// The claims about values of joints and angles, each with its place among all assertions; what the formulas of all
 /// joints yield together.
-pub(super) fn judge(
-    text: &str,
-    plan: &Plan,
-    walked: &Walked,
-    columns: Columns,
-) -> (Vec<(usize, Claim)>, Vec<Together>) {
+pub(super) fn judge(text: &str, plan: &Plan, walked: &Walked) -> (Vec<(usize, Claim)>, Vec<Together>) {
+    let habits = &plan.habits;
+    let columns = habits.columns;
     let mut claims = vec![];
     let mut notes = vec![];
     for (number, subject) in plan.subjects.iter().enumerate() {
@@ -55,10 +52,10 @@ pub(super) fn judge(
         let angles: Vec<_> = of.iter().filter(|s| matches!(s.2, Spoken::Angle { .. })).copied().collect();
         if !joints.is_empty() {
             let trial = Trial::new(subject, &Places(columns));
-            let judge = Judge { text, subject, names: walked.inverse_names_of(number), columns, trial };
+            let judge = Judge { text, subject, names: walked.inverse_names_of(number), habits, trial };
             judge.joints(&joints, &mut claims, &mut notes);
         }
-        claims.extend(orientations(&angles, columns, walked.inverse_names_of(number)));
+        claims.extend(orientations(&angles, habits, walked.inverse_names_of(number)));
     }
     claims.sort_by_key(|c| c.0);
     (claims, notes)
@@ -69,7 +66,7 @@ struct Judge<'a> {
     trial: Trial,
     subject: &'a Subject,
     names: &'a Rc<Vocabulary>,
-    columns: Columns,
+    habits: &'a Habits,
 }
 
 type Statement<'a> = (usize, &'a Assertion, &'a Spoken);
@@ -81,7 +78,7 @@ impl Judge<'_> {
         claims: &mut Vec<(usize, Claim)>,
         notes: &mut Vec<Together>,
     ) {
-        let pose = [0, 1, 2].map(|r| [0, 1, 2, 3].map(|c| pose_symbol(self.columns, r, c)));
+        let pose = [0, 1, 2].map(|r| [0, 1, 2, 3].map(|c| pose_symbol(self.habits.columns, r, c)));
         let mut all: Vec<Values> = vec![];
         let mut spans: Option<Range<usize>> = None;
         for (_, assertion, spoken) in statements {
@@ -192,6 +189,7 @@ impl Judge<'_> {
         for edit in edits(source, syntax) {
             let Some(formula) = edited(source, &edit) else { continue };
             let Ok(changed) = read(&formula, &(0..formula.len()), self.names) else { continue };
+            let changed = self.habits.ordered(changed);
             let branches: Vec<Expr> = changed.variants().iter().map(Syntax::value).collect();
             if self.trial.shares(of, &branches)[0] < LEAST_SHARE {
                 continue;
@@ -249,7 +247,7 @@ impl Judge<'_> {
     /// The values that are right, if all of them can be shown.
     fn correct(&self, j: &Judgement) -> Vec<String> {
         let branches = j.right.iter().flat_map(|r| &r.branches);
-        let shown = branches.map(|b| Some(self.shown(*b.first()?)?.to_string()));
+        let shown = branches.map(|b| Some(self.shown(self.habits.printed(*b.first()?))?.to_string()));
         let mut all = shown.collect::<Option<Vec<String>>>().unwrap_or_default();
         all.dedup();
         all
@@ -378,9 +376,10 @@ fn shown(e: Expr, names: &Rc<Vocabulary>) -> Option<Formula> {
 /// Formulas for the angles of an orientation, those of one set together.
 fn orientations(
     statements: &[Statement<'_>],
-    columns: Columns,
+    habits: &Habits,
     names: &Rc<Vocabulary>,
 ) -> Vec<(usize, Claim)> {
+    let columns = habits.columns;
     let entries = [0, 1, 2].map(|r| [0, 1, 2].map(|c| pose_symbol(columns, r, c)));
     let mut found = vec![];
     let mut rest = statements;
@@ -411,7 +410,7 @@ fn orientations(
             let Spoken::Angle { value: (span, _), .. } = spoken else { continue };
             let finding = match &judged {
                 None => Finding::Undecided { why: Unproved::NotOfSet },
-                Some(o) => of_angle(&o.angles[k].1, o.range, columns, names),
+                Some(o) => of_angle(&o.angles[k].1, o.range, habits, names),
             };
             let identities = judged.iter().flat_map(|o| o.angles[k].1.identities.clone()).collect();
             found.push((
@@ -424,10 +423,11 @@ fn orientations(
 }
 
 /// The verdict on an angle in its range.
-fn of_angle(j: &Judgement, range: Expr, columns: Columns, names: &Rc<Vocabulary>) -> Finding {
+fn of_angle(j: &Judgement, range: Expr, habits: &Habits, names: &Rc<Vocabulary>) -> Finding {
     let right = || -> Vec<String> {
-        let right = j.right.as_ref().and_then(|r| shown(*r.branches.first()?.first()?, names));
-        right.iter().map(|r| entry_names(&r.to_string(), columns)).collect()
+        let right =
+            j.right.as_ref().and_then(|r| shown(habits.printed(*r.branches.first()?.first()?), names));
+        right.iter().map(|r| entry_names(&r.to_string(), habits.columns)).collect()
     };
     match j.verdict {
         Verdict::Right if !j.grounds.proved => {

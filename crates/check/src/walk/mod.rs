@@ -78,6 +78,8 @@ pub(super) struct Assertion {
     pub names: Option<Rc<Vocabulary>>,
     /// What a single printed matrix should be.
     pub whole: Option<Matrix>,
+    /// The side of an equation that the others are held against, as printed.
+    pub reference: Option<(Range<usize>, Syntax)>,
     /// Values for joints and angles are judged in their own way.
     pub spoken: Option<Spoken>,
 }
@@ -274,6 +276,7 @@ impl<'a> Walk<'a> {
             subject: self.number,
             whole: None,
             names: None,
+            reference: None,
             spoken: None,
         }
     }

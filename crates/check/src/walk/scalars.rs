@@ -137,37 +137,15 @@ impl Walk<'_> {
                         Scalar::Lone(name) => plain_name(&format!("{}{}", name.base, name.sub)),
                         _ => plain_name(self.source(&spans[0])),
                     };
-                    let inverse = self.lexis.inverse_formula(self.text, span);
-                    let inverse = inverse.map_or(syntax.value(), |s| s.value());
-                    self.lexis.define(&name, syntax.value());
-                    self.lexis.define_inverse(&name, inverse);
-                    self.defined.push(Defined {
-                        name,
-                        statement: statement.span.clone(),
-                        shown: self.claim_name(statement),
-                        span: span.clone(),
-                        printed: syntax.clone(),
-                        value: syntax.value(),
-                        subject: self.number,
-                    });
+                    let inverse = self.inverse_value(span, syntax);
+                    self.defined_here(statement, name, [syntax.value(), inverse], span, syntax);
                     true
                 }
                 [Scalar::Broken(left, _), Scalar::Formula(span, syntax)] => {
-                    let inverse =
-                        self.lexis.inverse_formula(self.text, span).map_or(syntax.value(), |s| s.value());
+                    let inverse = self.inverse_value(span, syntax);
                     match (self.implied(left, syntax.value()), self.implied(left, inverse)) {
                         (Some((name, value)), Some((_, inverse))) => {
-                            self.lexis.define(&name, value);
-                            self.lexis.define_inverse(&name, inverse);
-                            self.defined.push(Defined {
-                                name,
-                                statement: statement.span.clone(),
-                                shown: self.claim_name(statement),
-                                span: span.clone(),
-                                printed: syntax.clone(),
-                                value: syntax.value(),
-                                subject: self.number,
-                            });
+                            self.defined_here(statement, name, [value, inverse], span, syntax);
                             return true;
                         }
                         _ => false,
@@ -257,8 +235,36 @@ impl Walk<'_> {
         };
         let mut assertion = self.assertion(statement, about);
         assertion.pieces = pieces;
+        assertion.reference = formulas().find(|f| f.0 == at).map(|(_, span, s)| (span.clone(), s.clone()));
         self.assertions.push(assertion);
         true
+    }
+
+    /// The value of a formula, the entries of the pose as symbols.
+    fn inverse_value(&self, span: &Range<usize>, syntax: &Syntax) -> Expr {
+        self.lexis.inverse_formula(self.text, span).map_or(syntax.value(), |s| s.value())
+    }
+
+    /// Keeps a name that a statement defines, with its value, and that with the entries of the pose as symbols.
+    fn defined_here(
+        &mut self,
+        statement: &Statement,
+        name: String,
+        [value, inverse]: [Expr; 2],
+        span: &Range<usize>,
+        syntax: &Syntax,
+    ) {
+        self.lexis.define(&name, value);
+        self.lexis.define_inverse(&name, inverse);
+        self.defined.push(Defined {
+            name,
+            statement: statement.span.clone(),
+            shown: self.claim_name(statement),
+            span: span.clone(),
+            printed: syntax.clone(),
+            value: syntax.value(),
+            subject: self.number,
+        });
     }
 
     /// A joint's value in a sentence that tells a case: a singular configuration, if the sentence says so.

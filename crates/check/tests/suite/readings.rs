@@ -1,6 +1,6 @@
 //! What names mean in a document, what is carried forward, and what is said of what was not judged.
 
-use denavit_check::{CheckOptions, Checked, Finding, Skipped, SlipKind, Standing, check};
+use denavit_check::{CheckOptions, Checked, Finding, Noted, Sense, Skipped, SlipKind, Standing, check};
 use denavit_reading::document::Format;
 
 const PLANAR: &str = "DH parameters (standard)\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | θ1 | 0 | a1 | 0 |\n\
@@ -56,6 +56,35 @@ fn what_is_not_judged_is_listed() {
     let all = checked(PLANAR, "B = a1 + 2 a2");
     assert!(matches!(all.unjudged[..], [ref u] if matches!(u.why, Skipped::Unused(_))), "{:?}", all.unjudged);
     is(PLANAR, "k = a1 + a2 C2\n\nx = k C1 - a2 S2 S1", &[("k", Standing::Equal), ("x", Standing::Equal)]);
+}
+
+#[test]
+fn only_what_is_proved_vouches_for_a_helper() {
+    // Without the other elbow, θ2 is right under a condition: D stays open.
+    let text = "D = (px² + py² - a1² - a2²)/(2 a1 a2)\n\nθ2 = arccos(D)";
+    let all = checked(PLANAR, text);
+    assert_eq!(all.tally().conditional, 1, "{:?}", all.claims);
+    assert!(matches!(all.unjudged[..], [ref u] if matches!(u.why, Skipped::Unused(_))), "{:?}", all.unjudged);
+    // `k` stands in the text of the equation, but in no formula of it.
+    let all = checked(PLANAR, "k = a1 + 3 a2\n\nkx: px = a1 C1 + a2 C12");
+    assert!(!all.claims.iter().any(|c| c.name == "k"), "{:?}", all.claims);
+}
+
+#[test]
+fn the_document_tells_the_order_of_atan2() {
+    let right = "θ2 = atan2(c, s)\n\nθ1 = atan2(px, py) - atan2(a1 + a2 c, a2 s)";
+    let helpers = "c = (px² + py² - a1² - a2²)/(2 a1 a2)\n\ns = ±sqrt(1 - c²)\n\n";
+    let said = |text: &str| {
+        let all = checked(PLANAR, &format!("{helpers}{text}"));
+        let joints = all.claims.iter().filter(|c| c.name.starts_with('θ')).map(|c| c.standing());
+        let is_told = all.notes.iter().any(|n| n.what == Noted::Reading(Sense::CosineFirst));
+        (joints.collect::<Vec<Standing>>(), is_told)
+    };
+    let (joints, is_told) = said(right);
+    assert!(is_told && !joints.contains(&Standing::Wrong), "{joints:?}");
+    // One formula alone does not turn the order: it is called what it is.
+    let (joints, is_told) = said("θ2 = atan2(s, c)\n\nθ1 = atan2(px, py) - atan2(a2 s, a1 + a2 c)");
+    assert!(!is_told && joints[1] == Standing::Wrong, "{joints:?}");
 }
 
 #[test]

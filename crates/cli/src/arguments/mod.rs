@@ -223,8 +223,9 @@ impl IkArguments {
 ///
 /// Reads single equations, matrices, products, chains of definitions, Jacobians, inverse formulas and numeric answers in
 /// Markdown, LaTeX, plain text or TOML, and straight-line code in Python or MATLAB. With one argument, the robot is the
-/// Denavit-Hartenberg table that stands in the document. Exit codes: 0 all is right, 1 something is wrong, 3 something
-/// cannot be read (and nothing is wrong).
+/// Denavit-Hartenberg table that stands in the document. Exit codes: 0 all is right, 1 something is wrong, follows from
+/// what is wrong, or is right under a condition only, 3 something could not be read or decided, or was not judged (and
+/// nothing is wrong).
 #[derive(Args)]
 pub struct CheckArguments {
     /// The robot; may be left out where the document holds its table

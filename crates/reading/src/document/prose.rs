@@ -136,20 +136,7 @@ impl Reader<'_> {
 
     /// The token that opens what `at` closes.
     fn opening(&self, at: usize, bracket: Bracket, floor: usize) -> Option<usize> {
-        let mut depth = 0_usize;
-        for k in (floor..=at).rev() {
-            match self.kind(k)? {
-                Kind::Close(b) if b == bracket => depth += 1,
-                Kind::Open(b) if b == bracket => {
-                    depth -= 1;
-                    if depth == 0 {
-                        return Some(k);
-                    }
-                }
-                _ => {}
-            }
-        }
-        None
+        self.partner((floor..=at).rev(), bracket)
     }
 
     /// The last token of what follows the relation at `at`, further relations of a chain included.
@@ -215,17 +202,20 @@ impl Reader<'_> {
     }
 
     fn closing(&self, at: usize, bracket: Bracket) -> Option<usize> {
-        let mut depth = 0_usize;
-        for k in at..self.tokens.len() {
-            match self.tokens[k].kind {
+        self.partner(at..self.tokens.len(), bracket)
+    }
+
+    /// The first token of a walk at which the bracket that it begins with is balanced.
+    fn partner(&self, walk: impl Iterator<Item = usize>, bracket: Bracket) -> Option<usize> {
+        let mut depth = 0_isize;
+        for k in walk {
+            match self.kind(k)? {
                 Kind::Open(b) if b == bracket => depth += 1,
-                Kind::Close(b) if b == bracket => {
-                    depth -= 1;
-                    if depth == 0 {
-                        return Some(k);
-                    }
-                }
-                _ => {}
+                Kind::Close(b) if b == bracket => depth -= 1,
+                _ => continue,
+            }
+            if depth == 0 {
+                return Some(k);
             }
         }
         None

@@ -204,6 +204,11 @@ fn conditions_and_doubts() {
     ] {
         both(&|w| w.unproved(why));
     }
+    expect(
+        &|w| w.unproved(Unproved::OwnTable),
+        "right by the table of the document, which was not held against that of the robot",
+        "juste selon le tableau du document, qui n'a pas été comparé à celui du robot",
+    );
     let values = ["px", "py"].map(String::from);
     expect(&|w| w.either(&values).unwrap_or_default(), "px or py", "px ou py");
     assert!(Tongue::ALL.iter().all(|l| l.words().either(&[]).is_none()));
@@ -230,6 +235,11 @@ fn slips_and_changes() {
         both(&|w| w.formula_slip(&slip));
     }
     both(&|w| w.slip(&SlipKind::ExchangedWith(2, 1)));
+    expect(
+        &|w| w.slip(&SlipKind::Arguments),
+        "the arguments of atan2 exchanged",
+        "les arguments de atan2 échangés",
+    );
     both(&|w| w.slip(&SlipKind::OtherEntry));
     let several = |all: &[Slip]| SlipKind::Formula(Slip::Several(all.to_vec()));
     expect(&|w| w.slip(&several(&[Slip::Sign, Slip::Sign])), "a sign, 2 times", "un signe, 2 fois");
