@@ -35,10 +35,10 @@ cargo xtask tidy [--rules | --sessions]
                                  program prints what its pages show
 cargo xtask index                the index of files, by what each says of itself
 cargo xtask surface              public items that nobody uses, by their names
-cargo xtask bench [--write | --quick] [evaluation] [inverse] [arms] [derivation] [report]
+cargo xtask bench [--write | --quick] [evaluation] [inverse] [arms] [answers] [derivation] [report]
                                  speed of evaluators and generated code beside peers, forward and inverse, and of
-                                 inverse kinematics without a closed form; CPU time of deriving every robot of the
-                                 catalogue, beside SymPy's, and of writing its report; --write renews docs/performance.md, --quick takes fewer
+                                 inverse kinematics without a closed form; CPU time from start to a first answer, of
+                                 deriving every robot of the catalogue, beside SymPy's, and of writing its report; --write renews docs/performance.md, --quick takes fewer
                                  poses (arms); fails if a figure is above its limit
 cargo xtask languages            builds and runs generated source code in every language
 cargo xtask counts [--check]     writes docs/operation-counts.md; --check fails if it is not up to date,

@@ -1,5 +1,6 @@
 //! Benchmarks, and the page that keeps their results.
 
+mod answers;
 mod arms;
 mod closed_form;
 mod derivation;
@@ -23,6 +24,7 @@ const PARTS: &[Part] = &[
     ("evaluation", "Evaluation", |_| evaluation::run()),
     ("inverse", "Inverse kinematics", |_| inverse::run()),
     ("arms", "Every arm", arms::run),
+    ("answers", "First answers", |_| answers::run()),
     ("derivation", "Derivation", |_| derivation::run()),
     ("report", "Reports", |_| report::run()),
 ];

@@ -228,12 +228,23 @@ static @p@roots
     int multiplicity[4];
     int count = 0;
     for (int degree = 1; degree <= 4; degree++) {
-        double next[6] = {-bound};
-        int is_next[6] = {0};
+        double next[6] = {-bound}, height[6] = {0.0};
+        int is_next[6] = {0}, is_below[6] = {0};
+        for (int k = 0; k <= degree; k++) {
+            height[k] = @p@polynomial(p[degree], degree, ends[k]);
+            is_below[k] = height[k] < 0.0;
+        }
+        const double rounding = 3.6e-15 * sum;
+        for (int k = 1; degree == 4 && k < 4; k++) {
+            /* An extremum at the height of rounding is on the side of its neighbours. */
+            const double u = 1.0 + ends[k] * ends[k];
+            if (is_root[k] && fabs(height[k] * lead) <= rounding * u * u
+                && is_below[k - 1] == is_below[k + 1]) {
+                is_below[k] = is_below[k - 1];
+            }
+        }
         for (int k = 0; k < degree; k++) {
-            const double low = @p@polynomial(p[degree], degree, ends[k]);
-            const double high = @p@polynomial(p[degree], degree, ends[k + 1]);
-            is_next[k + 1] = (low < 0.0) != (high < 0.0);
+            is_next[k + 1] = is_below[k] != is_below[k + 1];
             next[k + 1] = is_next[k + 1]
                               ? @p@root_between(p[degree], degree, ends[k], ends[k + 1])
                               : ends[k + 1];
@@ -243,7 +254,8 @@ static @p@roots
                 /* An extremum, with no change of sign on either side. */
                 const double u = 1.0 + ends[k] * ends[k];
                 const double bend = @p@polynomial(p[2], 2, ends[k]);
-                if (fabs(low * lead) <= @P@CLAMP * sum * u * u && low * bend >= 0.0) {
+                const int touches = is_below[k] ? bend <= 0.0 : bend >= 0.0;
+                if (fabs(height[k] * lead) <= @P@CLAMP * sum * u * u && touches) {
                     times = 2;
                     place = ends[k];
                 }

@@ -278,15 +278,25 @@ function quarticRoots(cc, cs, c, s, one, guard, scale) {
     const last = own === p[3];
     const next = [-bound];
     const isNext = [false];
+    const heights = ends.map((t) => polynomial(own, t));
+    const isBelow = heights.map((height) => height < 0);
+    for (let k = 1; last && k < 4; k++) {
+      // An extremum at the height of rounding is on the side of its neighbours.
+      const u = 1 + ends[k] * ends[k];
+      const isRounding = isRoot[k] && Math.abs(heights[k] * lead) <= 3.6e-15 * sum * u * u;
+      if (isRounding && isBelow[k - 1] === isBelow[k + 1]) {
+        isBelow[k] = isBelow[k - 1];
+      }
+    }
     for (let k = 0; k + 1 < ends.length; k++) {
-      const low = polynomial(own, ends[k]);
-      const changes = low < 0 !== polynomial(own, ends[k + 1]) < 0;
+      const changes = isBelow[k] !== isBelow[k + 1];
       const place = changes ? rootBetween(own, ends[k], ends[k + 1]) : ends[k + 1];
       // An extremum, with no change of sign on either side.
       const isExtremum = last && isRoot[k] && !isNext[k] && !changes;
       const u = 1 + ends[k] * ends[k];
-      const isNear = Math.abs(low * lead) <= CLAMP * sum * u * u;
-      if (isExtremum && isNear && low * polynomial(p[1], ends[k]) >= 0) {
+      const isNear = Math.abs(heights[k] * lead) <= CLAMP * sum * u * u;
+      const bend = polynomial(p[1], ends[k]);
+      if (isExtremum && isNear && (isBelow[k] ? bend <= 0 : bend >= 0)) {
         found.push({ t: ends[k], times: 2, x: 0, y: 0, order: 0 });
       } else if (last && changes) {
         found.push({ t: place, times: 1, x: 0, y: 0, order: 0 });

@@ -184,17 +184,27 @@ for degree = 1:4
     own = all_p{degree};
     next = -bound;
     is_next = false;
+    heights = polyval(own, ends);
+    is_below = heights < 0;
+    for k = find(is_root(1:degree) & degree == 4)
+        % An extremum at the height of rounding is on the side of its neighbours.
+        is_rounding = abs(heights(k)*lead) <= 3.6e-15*sum(sizes)*(1 + ends(k)^2)^2;
+        if is_rounding && is_below(k - 1) == is_below(k + 1)
+            is_below(k) = is_below(k - 1);
+        end
+    end
     for k = 1:degree
-        low = polyval(own, ends(k));
-        changes = (low < 0) ~= (polyval(own, ends(k + 1)) < 0);
+        changes = is_below(k) ~= is_below(k + 1);
         place = ends(k + 1);
         if changes
             place = root_between(own, ends(k), ends(k + 1));
         end
         % An extremum, with no change of sign on either side.
         is_extremum = degree == 4 && is_root(k) && ~is_next(k) && ~changes;
-        is_near = abs(low*lead) <= 1e-6*sum(sizes)*(1 + ends(k)^2)^2;
-        if is_extremum && is_near && low*polyval(all_p{2}, ends(k)) >= 0
+        is_near = abs(heights(k)*lead) <= 1e-6*sum(sizes)*(1 + ends(k)^2)^2;
+        bend = polyval(all_p{2}, ends(k));
+        touches = (is_below(k) && bend <= 0) || (~is_below(k) && bend >= 0);
+        if is_extremum && is_near && touches
             t(end + 1) = ends(k);
             times(end + 1) = 2;
         elseif degree == 4 && changes

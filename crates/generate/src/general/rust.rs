@@ -47,7 +47,6 @@ fn function(general: &General) -> String {
         .replace("@ranking@", &ranking(&general.plan.ranking()))
         .replace("@offsets@", &format!("{:?}", general.axes.offsets))
         .replace("@inverse@\n", &rows(&general.axes.inverse))
-        .replace("@unit@", &format!("{:?}", general.unit))
         .replace("@angles@", &format!("{:?}", general.is_angle))
 }
 
@@ -92,5 +91,6 @@ fn test(general: &General) -> String {
         .replace("@poses@", &poses)
         .replace("@known@", &known)
         .replace("@given@", &given)
+        .replace("@unit@", &format!("{:?}", general.unit))
         .replace("@angles@", &format!("{:?}", general.is_angle))
 }

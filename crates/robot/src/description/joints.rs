@@ -2,17 +2,11 @@
 
 use super::{Description, JointKind};
 use crate::geometry::Vector;
-use crate::mechanism::Robot;
 use crate::space::{JointSpace, Periods};
 use denavit_symbolic::Symbol;
 
 impl JointSpace {
-    /// That of a description with its numbers; limits without value are none.
-    pub fn new(description: &Description, robot: &Robot<f64>) -> Self {
-        JointSpace { reach: robot.reach(), foot: robot.foot(), ..Self::without_lengths(description) }
-    }
-
-    /// Joints, limits and periods of a description.
+    /// Joints, limits and periods of a description, without lengths; limits without value are none.
     pub fn without_lengths(description: &Description) -> Self {
         let value = |s: Symbol| description.value(s);
         let limits = description.rows.iter().filter(|r| r.variable.is_some()).map(|r| {

@@ -6,6 +6,7 @@
 
 pub mod axes;
 pub(crate) mod elements;
+mod extent;
 mod merged;
 pub(crate) mod parallel;
 pub mod robot;

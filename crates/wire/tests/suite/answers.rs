@@ -113,7 +113,7 @@ fn has_slide(d: &Description) -> bool {
 fn moving(d: &Description, numbers: &Robot<f64>, q: &[f64]) -> Vec<(&'static str, String)> {
     let view = Viewpoint::tool();
     let j = geometric(numbers, q, &view);
-    let space = inverse::JointSpace::new(d, &numbers);
+    let space = inverse::JointSpace::new(d, numbers);
     let found = measures(&j, &space.is_angle, space.reach);
     let set = extract(&numbers.pose(q).rotation, OrientationSet::Quaternion);
     let rates = RateSolver::new(&space.is_angle, space.reach).solve(&j, &[0.1; 6], &[]);

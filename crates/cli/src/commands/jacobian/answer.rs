@@ -62,7 +62,7 @@ impl<'a> Answer<'a> {
         q: &[f64],
         questions: Questions,
     ) -> Self {
-        let space = JointSpace::new(description, &robot);
+        let space = JointSpace::new(description, robot);
         let numeric = evaluated(description, &view);
         let jacobian = geometric(robot, q, &numeric);
         let length = size(&space);

@@ -41,7 +41,7 @@ impl Sampled {
         planned: &Planned,
         dt: Option<f64>,
     ) -> Result<Self, Failure> {
-        let space = JointSpace::new(description, &robot);
+        let space = JointSpace::new(description, robot);
         let size = if space.reach > 0.0 { space.reach } else { 1.0 };
         let duration = planned.trajectory.duration();
         let dt = dt.unwrap_or_else(|| if duration > 0.0 { (duration / USUAL).max(0.001) } else { 0.01 });

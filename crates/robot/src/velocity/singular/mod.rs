@@ -228,7 +228,7 @@ fn example(
     rows: &[usize],
     q: Vec<f64>,
 ) -> Example {
-    let space = JointSpace::new(description, &robot);
+    let space = JointSpace::new(description, robot);
     let length = if space.reach > 0.0 { space.reach } else { 1.0 };
     // The Jacobian is taken at an origin.
     let view = Viewpoint { axes: view.axes, body: view.body, at: view.at, offset: Vector::zero() };
