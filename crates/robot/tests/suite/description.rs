@@ -91,7 +91,7 @@ fn rows_say_what_is_wrong_with_them() {
         ("alpha = \"q1\"", vec!["3:10 error: the joint variable `q1` in `alpha`"]),
         (
             "theta = \"q1^2\"",
-            vec!["3:10 error: `theta` is not linear in `q1` | a joint variable may have a number"],
+            vec!["3:10 error: `theta` is not linear in `q1` | a joint variable may have a rational number"],
         ),
         ("theta = \"sin(q1)\"", vec!["3:14 error: `theta` is not linear in `q1`"]),
         ("theta = \"2*q1 - q1 - q1\"", vec!["3:12 error: `q1` cancels in `theta`"]),
