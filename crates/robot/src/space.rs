@@ -1,6 +1,7 @@
 //! The space of the joints: which of them turn, how configurations differ, what the limits allow.
 
 use crate::geometry::{Transform, Vector};
+use crate::random::Random;
 use std::cmp::Ordering;
 use std::f64::consts::{PI, TAU};
 
@@ -250,6 +251,12 @@ impl JointSpace {
                 }
             })
             .collect()
+    }
+
+    /// A configuration anywhere, with slides up to `size` either way, metres.
+    pub(crate) fn anywhere(&self, random: &mut Random, size: f64) -> Vec<f64> {
+        let half = |j: usize| if self.is_angle[j] { self.half_range(j) } else { size };
+        (0..self.is_angle.len()).map(|j| (2.0 * random.unit() - 1.0) * half(j)).collect()
     }
 
     /// Half of what a joint needs to take all its places, radians or metres.

@@ -9,6 +9,7 @@
 //! This crate knows formulas, not where they come from.
 
 pub mod ball;
+mod divisor;
 pub mod equality;
 pub mod expr;
 pub mod factor;

@@ -1,5 +1,6 @@
 //! Exact rational numbers: two machine words while they fit, arbitrary precision behind; never wraps.
 
+use super::divisor::{gcd, gcd_of_long};
 use num_bigint::{BigInt, Sign};
 use num_integer::Integer;
 use num_traits::{One, Signed, ToPrimitive, Zero};
@@ -59,7 +60,7 @@ impl Rational {
 
     fn from_big(n: BigInt, d: BigInt) -> Self {
         // Dividing out 1 takes the square of the length.
-        let g = if d.is_one() { BigInt::one() } else { n.gcd(&d) };
+        let g = if d.is_one() { BigInt::one() } else { gcd_of_long(n.magnitude(), d.magnitude()).into() };
         let (n, d) = if d.is_negative() { (-n / &g, -d / &g) } else { (n / &g, d / &g) };
         match (n.to_i64(), d.to_i64()) {
             (Some(n), Some(d)) => Rational(Repr::Small(n, d)),
@@ -235,17 +236,6 @@ impl Rational {
         let scaled = (q as f64) * 2f64.powi(-(shift / 2) as i32) * 2f64.powi(-(shift - shift / 2) as i32);
         if negative { -scaled } else { scaled }
     }
-}
-
-fn gcd(mut a: u128, mut b: u128) -> u128 {
-    // Machine words are the rule; 128-bit remainders are slow.
-    while b != 0 {
-        if a <= u64::MAX.into() && b <= u64::MAX.into() {
-            return u128::from((a as u64).gcd(&(b as u64)));
-        }
-        (a, b) = (b, a % b);
-    }
-    a
 }
 
 impl Default for Rational {

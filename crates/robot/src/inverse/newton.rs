@@ -11,6 +11,8 @@ use crate::velocity::{self, svd};
 const STEPS: usize = 20;
 /// Further steps where those did not reach the pose.
 const FINE: usize = 8;
+/// So many configurations tell what is usual.
+const LOOKS: usize = 15;
 /// How far a polish may lead: further away is another solution.
 const FAR: f64 = 0.3;
 
@@ -273,6 +275,16 @@ pub fn least_seen(robot: &Robot<f64>, goal: Goal, q: &[f64], given: &[usize], si
     columns.retain(|(j, _)| !given.contains(j));
     let pivots = pivots(columns.into_iter().map(|c| c.1).collect());
     pivots.get(..pivots.len().min(6)).and_then(<[f64]>::last).copied().unwrap_or(f64::INFINITY)
+}
+
+/// The median of [`least_seen`] over configurations from all over the arm.
+pub fn usually_seen(robot: &Robot<f64>, goal: Goal, space: &JointSpace) -> f64 {
+    let mut random = Random(1);
+    let size = space.length();
+    let mut seen =
+        [(); LOOKS].map(|()| least_seen(robot, goal, &space.anywhere(&mut random, size), &[], size));
+    seen.sort_by(f64::total_cmp);
+    seen[LOOKS / 2]
 }
 
 /// Moves along the solutions of a pose from one of them to where they are nearest to a configuration: each step is the

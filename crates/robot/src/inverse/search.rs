@@ -78,9 +78,7 @@ impl InverseKinematics {
         let mut nearest: Option<(Vec<f64>, f64)> = None;
         while tried < MOST_DESCENTS && in_vain < DESCENTS && (is_isolated || !answer.is_reachable()) {
             (tried, in_vain) = (tried + 1, in_vain + 1);
-            let half = |j: usize| if self.space.is_angle[j] { self.space.half_range(j) } else { size };
-            let mut start: Vec<f64> =
-                (0..self.robot.joints).map(|j| (2.0 * random.unit() - 1.0) * half(j)).collect();
+            let mut start = self.space.anywhere(&mut random, size);
             self.given.iter().zip(given).for_each(|(&j, x)| start[j] = *x);
             let found = newton::descend(&self.robot, self.goal, pose, &start, &self.given, size);
             let Some((mut q, residual)) = found else { continue };

@@ -520,9 +520,7 @@ impl Solving<'_> {
         let first = variables.len() - self.given.len();
         (0..count)
             .map(|_| {
-                let range = |j: usize| if self.space.is_angle[j] { self.space.half_range(j) } else { size };
-                let value = |j: usize| (2.0 * random.unit() - 1.0) * range(j);
-                let mut q: Vec<f64> = (0..self.space.is_angle.len()).map(value).collect();
+                let mut q = self.space.anywhere(&mut random, size);
                 for (k, &j) in self.given.iter().enumerate() {
                     q[j] = variables[first + k];
                 }

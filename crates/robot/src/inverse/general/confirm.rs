@@ -27,7 +27,7 @@ const AROUND: f64 = 0.1;
 impl GeneralSolver {
     /// Adds what descents find and a complete answer does not have, and takes back that it is complete.
     pub(super) fn confirm(&self, pose: &Transform<f64>, size: f64, answer: &mut Answer) {
-        if !answer.is_complete() || !self.is_special(answer) {
+        if !answer.is_complete() || !(self.is_faint() || self.is_special(answer)) {
             return;
         }
         let mut random = Random(1);
@@ -35,7 +35,7 @@ impl GeneralSolver {
         let mut starts: Vec<Vec<f64>> = beside
             .flat_map(|s| newton::along_hidden(&self.robot, Goal::Pose, &s.q, &[], &self.space))
             .collect();
-        starts.extend((0..DESCENTS).map(|_| self.anywhere(&mut random, size)));
+        starts.extend((0..DESCENTS).map(|_| self.space.anywhere(&mut random, size)));
         for start in starts {
             let found = newton::descend(&self.robot, Goal::Pose, pose, &start, &[], size);
             let Some((mut q, residual)) = found.filter(|f| f.1 <= TOLERANCE) else { continue };
@@ -54,6 +54,16 @@ impl GeneralSolver {
                 answer.solutions.push(Solution { guard, ..Solution::found(q, residual, within_limits) });
             }
         }
+        // Descents of such an arm crawl, and may all stop before a configuration that is missing.
+        if self.is_faint() {
+            answer.doubt = Some(Doubt::Sampled);
+        }
+    }
+
+    /// Whether configurations are as hard to see everywhere as they are [beside](BESIDE) singular ones: of six axes that
+    /// are nearly parallel, for one.
+    fn is_faint(&self) -> bool {
+        self.seen < BESIDE
     }
 
     /// True if a joint of a solution stands at a quarter turn, or the hand hardly sees some motion of the joints.
@@ -63,11 +73,5 @@ impl GeneralSolver {
             s.guard < BESIDE || angles.any(|(x, _)| (2.0 * x).sin().abs() < ALIKE)
         };
         !answer.families.is_empty() || answer.solutions.iter().any(is_square)
-    }
-
-    /// A configuration anywhere.
-    fn anywhere(&self, random: &mut Random, size: f64) -> Vec<f64> {
-        let range = |j: usize| if self.space.is_angle[j] { self.space.half_range(j) } else { size };
-        (0..self.space.is_angle.len()).map(|j| (2.0 * random.unit() - 1.0) * range(j)).collect()
     }
 }

@@ -22,6 +22,8 @@ pub struct GeneralSolver {
     axes: SixAxes,
     plan: Plan,
     found: Shared<elimination::Answer>,
+    /// How much of the motion of the joints the hand sees at least, in most configurations.
+    pub(super) seen: f64,
 }
 
 /// A solution may miss the pose by this (see [`Solution::residual`]).
@@ -44,7 +46,8 @@ impl GeneralSolver {
         let axes = SixAxes::new(robot)?;
         let plan = Plan::new(&axes.arm).map_err(|e| Unsuited::Degenerate(e.to_string()))?;
         let found = Shared::new(elimination::Answer::default());
-        Ok(GeneralSolver { robot: robot.clone(), space: space.clone(), axes, plan, found })
+        let seen = newton::usually_seen(robot, Goal::Pose, space);
+        Ok(GeneralSolver { robot: robot.clone(), space: space.clone(), axes, plan, found, seen })
     }
 
     /// The arm, and how it is solved.

@@ -54,7 +54,7 @@ fn fault(name: &str, q: &[f64]) -> Option<Fault> {
 #[test]
 fn what_rounding_takes_away_leaves_a_doubt() {
     let right = FRAC_PI_2;
-    let cases: [(&str, &[f64]); 5] = [
+    let cases: [(&str, &[f64]); 6] = [
         // Beside a fourfold root: what follows is known to a few digits only, and one of its roots is lost in rounding.
         (
             "fourfold",
@@ -64,6 +64,8 @@ fn what_rounding_takes_away_leaves_a_doubt() {
         ("reach0", &[0.7853981624970426, -2.300000004117141, 6.4e-10, -0.785398164302577, -3.1e-11, 6.6e-10]),
         // Elimination beside a singular pose: a smallest singular value of 4e-4.
         ("beside", &[3.78e-16, 8.7e-16, right, -2e-16, -4.3e-16, 9.5e-16]),
+        // Elimination of an arm with six axes that are nearly parallel: descents crawl everywhere.
+        ("faint", &[-2.5676949628443184, right, PI, 0.0, right, 0.0]),
         // A micrometre that everything is divided by.
         ("tiny", &[right, -right, 1.742053175496288, 0.6746042711961113, right, -right]),
         (
