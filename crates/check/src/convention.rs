@@ -75,6 +75,15 @@ const ORDERS: &[(&[&str], Convention)] = &[
     (&["rotx", "transx", "rotz", "transz"], Convention::Craig),
 ];
 
+/// The convention that a text names in its words, and where, if it names one only and has no line for it.
+pub(super) fn said(text: &str) -> Option<(Convention, Range<usize>)> {
+    if text.lines().any(|l| l.trim_start().to_lowercase().starts_with("convention:")) {
+        return None;
+    }
+    let [found] = <[_; 1]>::try_from(named(text)).ok()?;
+    Some(found)
+}
+
 /// The conventions that a text names, each where it first does.
 pub(super) fn named(text: &str) -> Vec<(Convention, Range<usize>)> {
     // As many bytes as the text has, so that places agree.
@@ -105,8 +114,8 @@ pub(super) fn named(text: &str) -> Vec<(Convention, Range<usize>)> {
             add(*convention, at);
         }
     }
-    if let Some(found) = told_in_motions(&lower) {
-        add(found.0, found.1);
+    for (convention, at) in told_in_motions(&lower).into_iter().chain(as_a_product(&lower)) {
+        add(convention, at);
     }
     // Craig's order with the letters of Khalil's table is Khalil's.
     let has = |c: Convention| found.iter().any(|f| f.0 == c);
@@ -202,6 +211,56 @@ fn told_in_motions(text: &str) -> Option<(Convention, Range<usize>)> {
     None
 }
 
+/// A product of motions with their axes as arguments: `Rot(z, θ) × Trans(0, 0, d) × Trans(a, 0, 0) × Rot(x, α)`.
+fn as_a_product(text: &str) -> Option<(Convention, Range<usize>)> {
+    let mut run: Vec<([char; 2], Range<usize>)> = vec![];
+    for (open, _) in text.match_indices('(') {
+        let before = text[..open].trim_end_matches(['}', ' ', '\\', '{']);
+        let before = before.strip_suffix("left").map_or(before, |b| b.trim_end_matches(['}', ' ', '\\']));
+        let name = before.rsplit(|c: char| !c.is_ascii_alphabetic()).next().unwrap_or_default();
+        let Some(close) = text[open..].find([')', '\n']).map(|n| open + n) else { break };
+        let Some(motion) = motion(name, &text[open + 1..close]) else { continue };
+        let start = before.len() - name.len();
+        // Between two of a product stand signs and commands for signs only.
+        let follows = run.last().is_some_and(|(_, last)| {
+            let between = text.get(last.end + 1..start).unwrap_or("+");
+            let words = between.split(|c: char| !c.is_ascii_alphabetic()).filter(|w| !w.is_empty());
+            !between.contains(['+', '=', ';']) && words.into_iter().all(|w| SIGNS.contains(&w))
+        });
+        if !follows {
+            run.clear();
+        }
+        run.push((motion, start..close));
+        let Some([a, b, c, d]) = run.last_chunk() else { continue };
+        // Turning about an axis and moving along it may be exchanged.
+        let pair = |a: &[char; 2], b: &[char; 2]| (a[0] != b[0] && a[1] == b[1]).then_some(a[1]);
+        let place = a.1.start..d.1.end + 1;
+        match (pair(&a.0, &b.0), pair(&c.0, &d.0)) {
+            (Some('z'), Some('x')) => return Some((Convention::Standard, place)),
+            (Some('x'), Some('z')) => return Some((Convention::Craig, place)),
+            _ => {}
+        }
+    }
+    None
+}
+
+/// Commands that may stand between the factors of a product.
+const SIGNS: [&str; 11] =
+    ["times", "cdot", "ast", "text", "mathrm", "mathbf", "operatorname", "quad", "right", "bf", "rm"];
+
+/// What a motion does, `r` or `t`, and along which axis.
+fn motion(name: &str, arguments: &str) -> Option<[char; 2]> {
+    let all: Vec<&str> = arguments.split(',').map(|a| a.trim().trim_matches(['\\', '{', '}', ' '])).collect();
+    let axis = |a: &str| ["x", "z"].contains(&a).then(|| a.chars().next()).flatten();
+    match (name, &all[..]) {
+        ("rot" | "r", [first, second]) => Some(['r', axis(first).or(axis(second))?]),
+        ("trans" | "t" | "d" | "transl", [first, second]) => Some(['t', axis(first).or(axis(second))?]),
+        ("trans" | "t" | "d" | "transl", ["0", "0", _]) => Some(['t', 'z']),
+        ("trans" | "t" | "d" | "transl", [_, "0", "0"]) => Some(['t', 'x']),
+        _ => None,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::named;
@@ -224,6 +283,12 @@ mod tests {
                 r"each $A_i$ rotates by $\theta_i$ about $z$, moves $d$ along z, then $a$ along x, then twists by $\alpha$",
                 vec![Standard],
             ),
+            (
+                r"$A_n = \text{Rot}(z,\theta_n) \times \text{Trans}(0,0,d_n) \times \text{Trans}(a_n,0,0) \times \text{Rot}(x,\alpha_n)$",
+                vec![Standard],
+            ),
+            ("T = Trans(a, x) · Rot(x, α) · Rot(z, θ) · Trans(z, d)", vec![Craig]),
+            ("R(z, θ) + T(z, d), T(x, a) R(x, α)", vec![]),
             ("the standard solution of a quadratic equation", vec![]),
             ("The mass is modified by the user.", vec![]),
         ] {

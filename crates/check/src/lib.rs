@@ -28,6 +28,7 @@ mod product;
 mod programs;
 mod readings;
 mod subject;
+mod supported;
 mod trial;
 mod unjudged;
 mod values;
@@ -94,6 +95,14 @@ pub fn check(
         Some(_) => Document::default(),
         None => document::read(text, format),
     };
+    let supported =
+        if robot.is_none() { supported::by_statements(text, format, &document, options) } else { None };
+    let mut options = options.clone();
+    if let Some(s) = supported {
+        notes.warning(s.head, Noted::Supported { convention: s.convention, right: s.right, rival: s.rival });
+        options.table.convention = Some(s.convention);
+    }
+    let options = &options;
     let plan = Plan::of(text, format, &document, robot, options, &mut notes)?;
     let (plan, senses) = readings::weighed(text, &document, plan, options);
     for sense in senses {

@@ -43,6 +43,15 @@ pub enum Noted {
     NoRobot,
     /// The tables are read in the convention that the text names.
     ReadAs(Convention),
+    /// The text does not say the convention of its tables; it is the one in which its own statements are right.
+    Supported {
+        /// Which.
+        convention: Convention,
+        /// How many statements are right so.
+        right: usize,
+        /// How many at most in another convention.
+        rival: usize,
+    },
     /// Names are read in a sense that is not the first one: the document supports it.
     Reading(Sense),
     /// A directive names a robot that is not in the catalogue.

@@ -122,9 +122,12 @@ impl Plan {
         if let Some(robot) = robot {
             plan.push(0, named(robot));
         }
-        let kind = if format == Format::Latex { TableKind::Latex } else { TableKind::Markdown };
+        let kind = kind_of_tables(format);
         let mut reading = options.table.clone();
-        reading.convention = reading.convention.or_else(|| said(text, notes));
+        if let (None, Some((convention, place))) = (reading.convention, convention::said(text)) {
+            notes.note(place, Noted::ReadAs(convention));
+            reading.convention = Some(convention);
+        }
         let printed = if format == Format::Toml { vec![] } else { tables(text, kind, &reading) };
         let mut events: Vec<(usize, Event)> =
             directives(document).map(|d| (d.span.start, Event::Directive(d))).collect();
@@ -321,6 +324,11 @@ impl Plan {
     }
 }
 
+/// How tables are set in a document.
+pub(super) fn kind_of_tables(format: Format) -> TableKind {
+    if format == Format::Latex { TableKind::Latex } else { TableKind::Markdown }
+}
+
 /// True for a line that says how tables are read: `convention: craig`, `lengths: mm`.
 pub(super) fn is_setting(line: &str) -> bool {
     let lower = line.to_lowercase();
@@ -330,17 +338,6 @@ pub(super) fn is_setting(line: &str) -> bool {
 enum Event<'a> {
     Table(&'a PrintedTable),
     Directive(&'a Directive),
-}
-
-/// The convention that a text names in its words, if it names one only and has no line for it.
-fn said(text: &str, notes: &mut Notes) -> Option<Convention> {
-    if text.lines().any(|l| l.trim_start().to_lowercase().starts_with("convention:")) {
-        return None;
-    }
-    let found = convention::named(text);
-    let [(convention, place)] = &found[..] else { return None };
-    notes.note(place.clone(), Noted::ReadAs(*convention));
-    Some(*convention)
 }
 
 /// A robot without links, for what holds of any.

@@ -70,6 +70,14 @@ pub(super) fn weighed(
     (plan, senses)
 }
 
+/// How many statements of a document are right and how many wrong of its robots, with the readings that it supports.
+pub(super) fn support(text: &str, document: &Document, plan: Plan, options: &CheckOptions) -> [usize; 2] {
+    let (plan, _) = weighed(text, document, plan, options);
+    let walked = plan.walk(text, document, options);
+    let score = Trials::new(&plan).score(&plan, &walked);
+    [score.right, score.wrong.len()]
+}
+
 /// Other habits that may explain what is wrong, how they are said, and how many more statements must be right.
 fn candidates(
     habits: &Habits,

@@ -1,5 +1,6 @@
 //! What names mean in a document, what is carried forward, and what is said of what was not judged.
 
+use denavit::description::Convention;
 use denavit_check::{CheckOptions, Checked, Finding, Noted, Sense, Skipped, SlipKind, Standing, check};
 use denavit_reading::document::Format;
 
@@ -155,4 +156,28 @@ fn tables_set_with_blanks() {
     let text = "standard convention\n\n  link   theta   d    a    alpha\n   1     t1     0    a1   0\n   2     t2     0    a2   0\n\n\
                 px = a1 C1 + a2 C12";
     is("", text, &[("px", Standing::Equal)]);
+}
+
+#[test]
+fn statements_tell_the_convention() {
+    const TABLE: &str = "| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | θ1 | d1 | 0 | 90° |\n| 2 | θ2 | 0 | a2 | 0 |\n\
+        | 3 | θ3 | 0 | a3 | 0 |\n\n";
+    let told = |text: &str| {
+        let options = CheckOptions::default();
+        let all = check(&format!("{TABLE}{text}"), Format::Markdown, None, &options).ok()?;
+        let counts = all.notes.iter().find_map(|n| match n.what {
+            Noted::Supported { convention, right, rival } => Some((convention, right, rival)),
+            _ => None,
+        });
+        Some((counts, all.tally().equal))
+    };
+    let standard = "px = C1 (a2 C2 + a3 C23)\n\npy = S1 (a2 C2 + a3 C23)\n\npz = d1 + a2 S2 + a3 S23";
+    assert_eq!(told(standard), Some((Some((Convention::Standard, 3, 0)), 3)));
+    // The first twist is before the first joint there: the arm moves in a vertical plane.
+    let craig = "px = a2 C1 + a3 C12\n\npy = -d1\n\npz = a2 S1 + a3 S12";
+    assert_eq!(told(craig), Some((Some((Convention::Craig, 3, 0)), 3)));
+    // One slip changes nothing; what fits in none is not guessed.
+    assert_eq!(told(&craig.replace("C12", "S12")), Some((Some((Convention::Craig, 2, 0)), 2)));
+    assert_eq!(told("px = 2 a3 C1\n\npy = 0"), None);
+    assert_eq!(told("The arm is blue."), None);
 }

@@ -313,6 +313,9 @@ impl Check for English {
                 "there is no robot: no table of Denavit-Hartenberg parameters stands in the document".into()
             }
             Noted::ReadAs(convention) => format!("tables are read as {convention}: the text says so"),
+            Noted::Supported { convention, right, rival } => format!(
+                "tables are read as {convention}: of the statements of the text {right} hold so, {rival} in another convention"
+            ),
             Noted::NotSet(name, why) => format!("value of `{name}`: {why}"),
             Noted::Reading(sense) => self.sense(*sense),
             Noted::UnknownRobot(name) => format!("no robot `{name}` in the catalogue"),
@@ -338,6 +341,7 @@ impl Check for English {
             Noted::Document(_)
             | Noted::TooLong { .. }
             | Noted::ReadAs(_)
+            | Noted::Supported { .. }
             | Noted::Reading(_)
             | Noted::NotSet(..)
             | Noted::UnknownRobot(_)

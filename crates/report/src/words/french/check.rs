@@ -329,6 +329,9 @@ impl Check for French {
             Noted::ReadAs(convention) => {
                 say!("les tableaux sont lus dans la convention {convention} : le texte le dit")
             }
+            Noted::Supported { convention, right, rival } => say!(
+                "les tableaux sont lus dans la convention {convention} : {right} énoncés du texte sont justes ainsi, {rival} dans une autre"
+            ),
             Noted::NotSet(_, NotSet::Unknown { name, known }) => match &known[..] {
                 [] => say!("`{name}` reçoit une valeur : il n'y a aucun paramètre"),
                 known => {
@@ -360,6 +363,7 @@ impl Check for French {
             Noted::Document(_)
             | Noted::TooLong { .. }
             | Noted::ReadAs(_)
+            | Noted::Supported { .. }
             | Noted::Reading(_)
             | Noted::NotSet(..)
             | Noted::UnknownRobot(_)

@@ -1,0 +1,59 @@
+//! The convention of tables of which the document does not say it: the one in which its own statements are right.
+
+use super::note::Notes;
+use super::plan::{Plan, kind_of_tables};
+use super::{CheckOptions, convention, readings};
+use denavit::description::Convention;
+use denavit::description::table::tables;
+use denavit_reading::document::{Document, Format};
+use std::ops::Range;
+
+/// What the statements of a document say of its tables.
+pub(super) struct Supported {
+    pub convention: Convention,
+    /// How many of its statements are right in that convention.
+    pub right: usize,
+    /// How many at most in another.
+    pub rival: usize,
+    /// The head of the first table that does not say it.
+    pub head: Range<usize>,
+}
+
+/// The convention in which more statements are right and fewer wrong than in any other; nothing where tables or words say
+/// it.
+pub(super) fn by_statements(
+    text: &str,
+    format: Format,
+    document: &Document,
+    options: &CheckOptions,
+) -> Option<Supported> {
+    if options.table.convention.is_some() || format == Format::Toml || convention::said(text).is_some() {
+        return None;
+    }
+    let kind = kind_of_tables(format);
+    let unsaid = tables(text, kind, &options.table).into_iter().find(|t| t.robot.is_err())?;
+    let mut scores: Vec<(Convention, [usize; 2])> = vec![];
+    for convention in Convention::ALL {
+        let mut there = options.clone();
+        there.table.convention = Some(convention);
+        let printed = tables(text, kind, &there.table);
+        // What is amiss with the table is something else, or the letters are not those of the convention.
+        if !printed.iter().any(|t| t.span == unsaid.span && t.robot.is_ok()) {
+            continue;
+        }
+        let Ok(plan) = Plan::of(text, format, document, None, &there, &mut Notes::default()) else {
+            continue;
+        };
+        scores.push((convention, readings::support(text, document, plan, &there)));
+    }
+    scores.sort_by_key(|s| std::cmp::Reverse(s.1[0]));
+    let &(convention, [right, wrong]) = scores.first()?;
+    let rivals = &scores[1..];
+    let is_best = rivals.iter().all(|&(_, [other, wrong_there])| right > other && wrong < wrong_there);
+    if !is_best {
+        return None;
+    }
+    let end = text[unsaid.span.start..].find('\n').map_or(unsaid.span.end, |n| unsaid.span.start + n);
+    let rival = rivals.iter().map(|s| s.1[0]).max().unwrap_or(0);
+    Some(Supported { convention, right, rival, head: unsaid.span.start..end })
+}
