@@ -18,6 +18,7 @@ pub mod inverse;
 mod jacobians;
 mod judge;
 mod lexis;
+pub mod marking;
 mod matrix;
 mod names;
 mod note;

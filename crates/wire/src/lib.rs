@@ -8,6 +8,7 @@
 
 pub mod catalogue;
 pub mod check;
+pub mod class;
 pub mod code;
 pub mod derivation;
 pub mod finding;

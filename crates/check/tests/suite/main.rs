@@ -3,6 +3,7 @@
 mod documents;
 mod hostile;
 mod inverse;
+mod marking;
 mod mutations;
 mod readings;
 mod statements;

@@ -228,11 +228,12 @@ impl IkArguments {
 /// nothing is wrong).
 #[derive(Args)]
 pub struct CheckArguments {
-    /// The robot; may be left out where the document holds its table
+    /// The robot, or a task: a rubric that names its robot; may be left out where the document holds its table
     #[command(flatten)]
     pub robot: RobotArguments,
-    /// The document (.md, .tex, .txt, .toml, .py, .m)
-    pub file: Option<PathBuf>,
+    /// The document (.md, .tex, .txt, .toml, .py, .m); several, or a folder, are those of a class
+    #[arg(value_name = "FILE")]
+    pub files: Vec<PathBuf>,
     /// What the left side of the first statement means: `T06`, `A3`, `R03`, `"T06 3,4"` for an entry
     #[arg(long, value_name = "NAME")]
     pub claim: Option<String>,
@@ -249,9 +250,12 @@ pub struct CheckArguments {
     /// Write a certificate of what is proved: JSON for `check_certificate.py` (docs/certificates.md), or Coq if FILE ends in .v
     #[arg(long, value_name = "FILE")]
     pub certificate: Option<PathBuf>,
-    /// Write the document with its slips marked
+    /// Write the document with its slips marked; of a class, all of them below the table of points
     #[arg(long, value_name = "FILE")]
     pub html: Option<PathBuf>,
+    /// Write the table of a class for a spreadsheet
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
     /// Print the list as Markdown
     #[arg(long, conflicts_with = "json")]
     pub markdown: bool,

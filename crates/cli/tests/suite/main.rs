@@ -3,6 +3,7 @@
 mod bounded;
 mod certificate;
 mod check;
+mod class;
 mod command_line;
 mod common;
 mod doors;

@@ -8,7 +8,7 @@ use denavit_check::{Claim, Entry, Finding, Patch, Standing};
 use std::fmt::Write;
 use std::ops::Range;
 
-const STYLE: &str = "
+pub const STYLE: &str = "
 :root { color-scheme: light dark; --good: #1a7f37; --bad: #c4262e; --doubt: #9a6700; --line: #8884; --card: #8881; }
 @media (prefers-color-scheme: dark) { :root { --good: #4ac26b; --bad: #ff7b72; --doubt: #d4a72c; } }
 body { max-width: 72rem; margin: 2rem auto; padding: 0 1rem; font: 16px/1.5 system-ui, sans-serif; }
@@ -88,7 +88,7 @@ fn class(standing: Standing) -> &'static str {
 }
 
 /// The text with marks, and a note below the line in which a claim ends.
-fn body(document: &Document) -> String {
+pub fn body(document: &Document) -> String {
     let text = document.text;
     let mut marks: Vec<Marked> = vec![];
     let mut notes: Vec<(usize, String)> = vec![];
@@ -241,7 +241,7 @@ fn finding(document: &Document, entry: &Entry) -> String {
     }
 }
 
-fn escaped(text: &str) -> String {
+pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

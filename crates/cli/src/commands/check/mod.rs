@@ -1,9 +1,12 @@
 //! `denavit check`: formulas that somebody printed, held against the robot.
 
+mod class;
+mod class_page;
 mod html;
 mod markdown;
 mod marked;
 mod rubric;
+mod sheet;
 mod terminal;
 
 use crate::arguments::CheckArguments;
@@ -15,9 +18,10 @@ use denavit::description::{Diagnostic, Severity, line_column, render};
 use denavit_check::{CheckOptions, Checked, MAX_BYTES, Note, check};
 use denavit_reading::code::Dialect;
 use denavit_reading::document::Format;
+use rubric::Task;
 use std::fs;
 use std::io::{self, Read, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A document with what was found in it.
 struct Document<'a> {
@@ -40,14 +44,79 @@ impl Document<'_> {
     }
 }
 
-/// Checks a document.
+/// Checks a document, or several of a class.
 ///
 /// # Errors
 /// 1 if something in it is wrong, 3 if something cannot be read; and where there is no such robot or file.
-pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
-    let (robot, name) = match &arguments.file {
-        Some(file) => (Some(load::robot(&arguments.robot)?), file.to_string_lossy().into_owned()),
-        None => (None, arguments.robot.robot.clone()),
+pub fn run(mut arguments: CheckArguments) -> Result<(), Failure> {
+    let task = task(&mut arguments)?;
+    let files = listed(&arguments.files)?;
+    match (&files[..], &arguments.files[..]) {
+        ([] | [_], [] | [_]) if arguments.csv.is_none() && !arguments.files.iter().any(|f| f.is_dir()) => {
+            one(&arguments, task.as_ref())
+        }
+        _ => class::run(&arguments, task, &files),
+    }
+}
+
+/// The rubric: that of `--rubric`, or a task in the robot's place, which names its robot.
+fn task(arguments: &mut CheckArguments) -> Result<Option<Task>, Failure> {
+    let read = |file: &Path| {
+        let name = file.to_string_lossy();
+        let text = fs::read_to_string(file).map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
+        rubric::read(&name, &text)
+    };
+    let first = PathBuf::from(&arguments.robot.robot);
+    let is_task = first.extension().is_some_and(|e| e == "toml")
+        && fs::read_to_string(&first).is_ok_and(|t| t.lines().any(|l| l.trim() == "[[items]]"));
+    if !is_task {
+        return arguments.rubric.as_deref().map(read).transpose();
+    }
+    if arguments.rubric.is_some() {
+        return Err(Failure::Usage("the task has a rubric of its own; leave out --rubric".into()));
+    }
+    let task = read(&first)?;
+    // A path is one beside the task.
+    arguments.robot.robot = match &task.robot {
+        Some(file) if file.contains(['.', '/']) => {
+            first.parent().unwrap_or(Path::new("")).join(file).to_string_lossy().into_owned()
+        }
+        Some(name) => name.clone(),
+        None => {
+            let hint = "a task names its robot: `robot = \"puma560\"`, or a file beside it";
+            return Err(Failure::Input(format!("error: {}: no robot\n  = hint: {hint}", first.display())));
+        }
+    };
+    if arguments.files.is_empty() {
+        return Err(Failure::Usage("name the documents to be marked, or their folder".into()));
+    }
+    Ok(Some(task))
+}
+
+/// The documents, folders replaced by the files in them.
+fn listed(named: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
+    let mut files = vec![];
+    for path in named {
+        if !path.is_dir() {
+            files.push(path.clone());
+            continue;
+        }
+        let failed = |e: io::Error| Failure::Input(format!("error: {}: {e}", path.display()));
+        let entries = fs::read_dir(path).map_err(failed)?.collect::<Result<Vec<_>, _>>().map_err(failed)?;
+        let mut there: Vec<PathBuf> = entries.into_iter().map(|e| e.path()).collect();
+        let is_hidden = |f: &Path| f.file_name().is_some_and(|n| n.to_string_lossy().starts_with('.'));
+        there.retain(|f| f.is_file() && !is_hidden(f));
+        there.sort();
+        files.extend(there);
+    }
+    Ok(files)
+}
+
+/// Checks one document.
+fn one(arguments: &CheckArguments, task: Option<&Task>) -> Result<(), Failure> {
+    let (robot, name) = match &arguments.files[..] {
+        [file, ..] => (Some(load::robot(&arguments.robot)?), file.to_string_lossy().into_owned()),
+        [] => (None, arguments.robot.robot.clone()),
     };
     // A robot that is named has its values; the document's tables get theirs as they are read.
     let set = match &robot {
@@ -77,10 +146,8 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
         fs::write(file, html::page(&document))
             .map_err(|e| Failure::Input(format!("error: {}: {e}", file.display())))?;
     }
-    if let Some(file) = &arguments.rubric {
-        let name = file.to_string_lossy();
-        let rubric = fs::read_to_string(file).map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
-        write!(out, "{}", rubric::sheet(&document, &name, &rubric)?)?;
+    if let Some(task) = task {
+        write!(out, "{}", sheet::report(&document, &task.rubric))?;
     } else if arguments.json {
         let found = denavit_wire::check::Checked::of(&name, &text, &checked);
         writeln!(out, "{}", denavit_wire::text(&found))?;
@@ -184,5 +251,20 @@ fn contents(name: &str) -> Result<String, Failure> {
         fs::File::open(Path::new(name)).and_then(|f| f.take(limit).read_to_end(&mut bytes))
     };
     read.map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
-    Ok(String::from_utf8_lossy(&bytes).into_owned())
+    decoded(&bytes).ok_or_else(|| Failure::Input(format!("error: {name}: this is not a text")))
+}
+
+/// The text of bytes: UTF-8, or UTF-16 where they begin with its mark; nothing of what is no text, a PDF for one.
+fn decoded(bytes: &[u8]) -> Option<String> {
+    let units = |big: bool| {
+        let unit = |c: &[u8]| if big { [c[0], c[1]] } else { [c[1], c[0]] };
+        let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|c| u16::from_be_bytes(unit(c))).collect();
+        Some(String::from_utf16_lossy(&units))
+    };
+    match bytes {
+        [0xff, 0xfe, ..] => units(false),
+        [0xfe, 0xff, ..] => units(true),
+        _ if bytes.contains(&0) || bytes.starts_with(b"%PDF") => None,
+        _ => Some(String::from_utf8_lossy(bytes).into_owned()),
+    }
 }

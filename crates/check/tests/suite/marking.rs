@@ -1,0 +1,57 @@
+//! Points by a rubric.
+
+use denavit_check::marking::{Item, Mark, Rubric};
+use denavit_check::{CheckOptions, check};
+use denavit_reading::document::Format;
+
+const TABLE: &str = "convention: standard\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | θ1 | 0 | a1 | 0 |\n\
+                     | 2 | θ2 | 0 | a2 | 0 |\n\n";
+
+/// What a document earns for one item of 12 points.
+fn mark(text: &str, claims: &[&str], whole: bool) -> Mark {
+    let text = format!("{TABLE}{text}");
+    let checked = check(&text, Format::Markdown, None, &CheckOptions::default()).expect("a table");
+    let claims = claims.iter().map(|c| (*c).to_string()).collect();
+    let items = vec![Item { name: "item".into(), claims, points: 12.0, whole }];
+    let rubric = Rubric { title: None, conditional: 0.5, carried: 0.75, items };
+    rubric.mark(&text, &checked).marks.remove(0)
+}
+
+fn points(text: &str, claims: &[&str], whole: bool) -> [f64; 2] {
+    let mark = mark(text, claims, whole);
+    [mark.points, mark.open]
+}
+
+#[test]
+fn what_is_not_judged_is_marked_by_hand() {
+    // Neither right nor wrong: half of the points are open.
+    assert_eq!(points("x = a1 C1 + a2 C12\n\ny = a1 S1 + zeta S12", &["x", "y"], false), [6.0, 6.0]);
+    assert_eq!(points("x = a1 C1 + a2 C12\n\ny = a1 S1 + zeta S12", &["x", "y"], true), [0.0, 12.0]);
+    // All or nothing: with one that is wrong nothing is open.
+    assert_eq!(points("x = a1 C1 + a2 C2\n\ny = a1 S1 + zeta S12", &["x", "y"], true), [0.0, 0.0]);
+    // A line that is passed over.
+    let text = "x = a1 C1 + a2 C12\n\n$\\theta_2 = \\text{as in the lecture}$";
+    let found = mark(text, &["θ2"], false);
+    assert_eq!((found.points, found.open, found.by_hand.len()), (0.0, 12.0, 1), "{found:?}");
+    assert_eq!(points(text, &["θ1"], false), [0.0, 0.0]);
+}
+
+#[test]
+fn zeros_and_ones_earn_nothing() {
+    let right = "T_02 = [C12, -S12, 0, a1 C1 + a2 C12; S12, C12, 0, a1 S1 + a2 S12; 0, 0, 1, 0; 0, 0, 0, 1]";
+    let slip = right.replace("-S12", "S12");
+    let found = mark(&slip, &["T02"], false);
+    assert_eq!((found.points, found.right), (10.0, [5, 6]));
+    // One that is wrong does count.
+    let zero = right.replace("0, 0, 1, 0;", "0, 1, 0, 0;");
+    assert_eq!(mark(&zero, &["T02"], false).right, [6, 8]);
+    // Where there is nothing else, they are the answer.
+    assert_eq!(points("R_11 = [1, 0, 0; 0, 1, 0; 0, 0, 1]", &["R11"], false), [12.0, 0.0]);
+}
+
+#[test]
+fn carried_errors_earn_their_share() {
+    let text = "x = a1 C1 + a2 C2\n\ny = a1 S1 + a2 S12\n\nJ = [-a1 S1, -a2 S2; a1 C1 + a2 C12, a2 C12]";
+    let found = mark(text, &["J"], false);
+    assert_eq!((found.right, found.points), ([2, 4], 10.5), "{found:?}");
+}
