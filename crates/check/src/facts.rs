@@ -244,6 +244,8 @@ pub enum Remark {
 pub enum Sense {
     /// A number behind `T` is that of a link, not of a frame in the base.
     LinkAlone,
+    /// The document's own transforms of links, whose product is the robot's.
+    OwnLinks,
     /// The left index is the frame, the right one that in which it is seen.
     IndicesExchanged,
     /// The name is a helper, not an entry of the pose.

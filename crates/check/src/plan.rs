@@ -1,5 +1,6 @@
 //! Which robot each part of a document is about: tables and directives in their order.
 
+use super::order;
 use super::CheckOptions;
 use super::convention;
 use super::habits::Habits;
@@ -259,7 +260,8 @@ impl Plan {
         let mut turns = self.turns.iter().skip(1).peekable();
         let mut is_off = false;
         let mut told = options.claim.as_deref();
-        for statement in &document.statements {
+        let mut is_read = vec![false; document.statements.len()];
+        for (at, statement) in document.statements.iter().enumerate() {
             while let Some(&(_, number)) = turns.next_if(|t| t.0 <= statement.span.start) {
                 names.push(Rc::new(walk.lexis.names.clone()));
                 inverse_names.push(Rc::new(walk.lexis.inverse_names()));
@@ -287,8 +289,17 @@ impl Plan {
             }
             if is_off || is_skipped {
                 ignored.push(statement.span.clone());
-            } else if walk.count() < super::MAX_FORMULAS {
+            } else if walk.count() < super::MAX_FORMULAS && !is_read[at] {
                 let first = walk.assertions.len();
+                let limit = turns.peek().map_or(text.len(), |t| t.0);
+                for k in order::before(text, &document.statements, at, &self.habits) {
+                    let other = &document.statements[k];
+                    let is_plain = other.directives.is_empty() && other.span.end <= limit;
+                    if is_plain && !is_read[k] && walk.may_define(other) {
+                        walk.ahead_of(statement, other);
+                        is_read[k] = true;
+                    }
+                }
                 walk.statement(statement, claim);
                 if !self.authors.is_empty() {
                     walk.believe(&self.authors, first);

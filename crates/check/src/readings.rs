@@ -7,9 +7,13 @@ use super::facts::{About, Meaning, Sense};
 use super::habits::{Columns, Habits, Places, with_named_signs};
 use super::numbers;
 use super::outcome::Finding;
+use super::matrix::Matrix;
+use super::names::{Name, Token, tokens};
+use super::order;
 use super::plan::{Plan, Walked};
 use super::trial::{self, Trial};
 use super::walk::{Assertion, Piece, Spoken};
+use denavit::forward::Reference;
 use denavit_reading::document::Document;
 use denavit_reading::slip::Points;
 use denavit_symbolic::vocabulary::plain_name;
@@ -26,6 +30,7 @@ const MARGIN: usize = 2;
 /// How many statements are right and wrong, and which are wrong.
 struct Score {
     right: usize,
+    right_at: BTreeSet<usize>,
     wrong: BTreeSet<usize>,
 }
 
@@ -56,7 +61,11 @@ pub(super) fn weighed(
             let there = other.walk(text, document, options);
             let own = trials.score(&other, &there);
             let gain = own.right.saturating_sub(score.right);
+            // Links that are the document's own must yield something of the robot that else is wrong.
+            let is_borne_out = sense != Sense::OwnLinks
+                || own.right_at.intersection(&score.wrong).any(|at| speaks_of_pose(text, document, &other, *at));
             let is_better = gain >= margin
+                && is_borne_out
                 && own.wrong.len() < score.wrong.len()
                 && best.as_ref().is_none_or(|b| gain > b.0);
             if is_better {
@@ -94,6 +103,11 @@ fn candidates(
             found.push((Habits { columns: Columns::Snap, ..habits.clone() }, Sense::ColumnsSnap, MARGIN));
         }
     }
+    let own: BTreeSet<String> = walked.assertions.iter().filter_map(|a| own_link(a)).collect();
+    if wrong.iter().any(|a| own_link(a).is_some()) && !own.is_subset(&habits.products) {
+        let products = habits.products.union(&own).cloned().collect();
+        found.push((Habits { products, ..habits.clone() }, Sense::OwnLinks, 0));
+    }
     if !habits.cosine_first && wrong.iter().any(|a| a.spoken.is_some()) {
         found.push((Habits { cosine_first: true, ..habits.clone() }, Sense::CosineFirst, MARGIN));
     }
@@ -113,6 +127,30 @@ fn candidates(
         found.push((Habits { helpers, ..habits.clone() }, Sense::Helper, 1));
     }
     found
+}
+
+/// True for a statement in which the robot's pose stands beside the matrices of the document.
+fn speaks_of_pose(text: &str, document: &Document, plan: &Plan, at: usize) -> bool {
+    let is_pose = |name: &Name| {
+        let is_own = plan.habits.products.contains(&name.key());
+        let mut meanings = plan.subjects.iter().map(|s| (s, s.meaning(name, false, &plan.habits)));
+        !is_own && meanings.any(|(s, m)| m.is_some_and(|m| m.0 == Matrix::of(&s.pose())))
+    };
+    let statement = document.statements.iter().find(|s| s.span.start == at);
+    statement.is_some_and(|s| s.sides.iter().flat_map(|side| order::names(text, side)).any(|n| is_pose(&n)))
+}
+
+/// The name of the matrix that a statement gives a link of its own: `A_2 = Rot(z, q_2) Trans(x, a_2)`.
+fn own_link(assertion: &Assertion) -> Option<String> {
+    let About::Matrix(Meaning::Frame { of: Reference::Frame(j), seen_from: Reference::Frame(i) }) = assertion.about
+    else {
+        return None;
+    };
+    let found = tokens(&assertion.name, &(0..assertion.name.len()), &|_| false)?;
+    match &found[..] {
+        [Token::Name(name)] if i + 1 == j && name.base != "T" => Some(name.key()),
+        _ => None,
+    }
 }
 
 /// True for a name that custom alone makes an entry of the pose; those of the position where the text gives the hand other
@@ -148,10 +186,13 @@ impl Trials {
     }
 
     fn score(&mut self, plan: &Plan, walked: &Walked) -> Score {
-        let mut score = Score { right: 0, wrong: BTreeSet::new() };
+        let mut score = Score { right: 0, right_at: BTreeSet::new(), wrong: BTreeSet::new() };
         for assertion in &walked.assertions {
             match self.is_right(plan, assertion) {
-                Some(true) => score.right += 1,
+                Some(true) => {
+                    score.right += 1;
+                    score.right_at.insert(assertion.span.start);
+                }
                 Some(false) => {
                     score.wrong.insert(assertion.span.start);
                 }

@@ -149,9 +149,9 @@ fn helpers(text: &str, walked: &Walked, claims: &[Claim]) -> Vec<Claim> {
         if own(defined) {
             continue;
         }
-        let end = walked.defined[k + 1..].iter().find(|d| d.name == defined.name).map(|d| d.span.start);
+        let end = walked.defined[k + 1..].iter().find(|d| d.name == defined.name).map(|d| d.from);
         let is_used = users.iter().any(|u| {
-            u.span.start >= defined.span.start
+            u.span.start >= defined.from
                 && end.is_none_or(|e| u.span.start < e)
                 && u.span != defined.statement
                 && u.uses(text, &defined.name)

@@ -8,7 +8,7 @@ use crate::names::{Name, Token, tokens};
 use crate::note::{Unread, Unreadable};
 use crate::product::{Factor, NotMatrices, Product, product};
 use denavit_reading::document::{Fence, Grid, Part, Side, Statement, sides};
-use denavit_symbolic::Expr;
+use denavit_symbolic::{Expr, Symbol};
 use denavit_symbolic::parse::{Syntax, SyntaxKind};
 use std::ops::Range;
 use std::rc::Rc;
@@ -153,7 +153,8 @@ impl Walk<'_> {
                     self.named.push((statement.span.clone(), name.key()));
                     self.lexis.define_matrix(&name, matrix, about);
                 }
-                Definition::Entry(name, value) => self.lexis.define_right(&name, value, value),
+                Definition::Entry(name, value, posed) => self.lexis.define_right(&name, value, posed),
+                Definition::Posed(name, matrix) => self.lexis.define_posed(&name, matrix),
                 Definition::Cell(name, value) => self.lexis.define(&name, value),
             }
         }
@@ -259,6 +260,10 @@ impl Walk<'_> {
         if self.whole_configuration(statement) {
             return definitions;
         }
+        if let Some(columns) = self.columns(statement) {
+            return columns;
+        }
+        definitions.extend(self.posed(statement));
         let told = claim.and_then(|words| self.told_matrix(words.split(' ').next().unwrap_or(words)));
         let is_jacobian = self.jacobian_of(&read, statement).is_some();
         let tells_jacobian = |i: usize| is_jacobian && self.tells_jacobian(&statement.sides[i]);
@@ -378,7 +383,8 @@ impl Walk<'_> {
                 for (r, row) in self.cells(grid).iter().enumerate() {
                     for (c, cell) in row.iter().enumerate() {
                         if let (Cell::Lone(name), Some(value)) = (cell, reference.matrix.entry(r, c)) {
-                            definitions.push(Definition::Entry(format!("{}{}", name.base, name.sub), value));
+                            let name = format!("{}{}", name.base, name.sub);
+                            definitions.push(Definition::Entry(name, value, value));
                         }
                     }
                 }
@@ -390,6 +396,50 @@ impl Walk<'_> {
             self.assertions.push(assertion);
         }
         definitions
+    }
+
+    /// What a side that is a lone name is in the entries of the pose, and in no joint: `U = X·T·Y`.
+    fn posed(&self, statement: &Statement) -> Option<Definition> {
+        let [left, rest @ ..] = &statement.sides[..] else { return None };
+        let name = self.lone(left)?;
+        let joints = self.subject.joints();
+        let is_free = |e: Expr| !e.symbols().iter().any(|s| joints.contains(&(*s).into()));
+        self.lexis.is_posed.set(true);
+        let read = |side| product(self.text, side, &self.lexis, &self.subject, &|grid| self.printed(grid));
+        let value = rest.iter().find_map(|side| {
+            let value = read(side).ok()?.value.filter(|m| m.0.iter().flatten().flatten().all(|e| is_free(*e)))?;
+            (value.shape() == Some((4, 4)) && self.is_of_pose(&value)).then_some(value)
+        });
+        self.lexis.is_posed.set(false);
+        Some(Definition::Posed(name, value?))
+    }
+
+    /// True for a matrix in which entries of the pose occur.
+    fn is_of_pose(&self, matrix: &Matrix) -> bool {
+        let symbols: Vec<Symbol> =
+            (0..3).flat_map(|r| (0..4).map(move |c| (r, c))).map(|(r, c)| self.lexis.pose_symbol(r, c)).collect();
+        matrix.0.iter().flatten().flatten().any(|e| e.symbols().iter().any(|s| symbols.contains(s)))
+    }
+
+    /// The entries of the pose that name the columns of another matrix: `U = [n o a p]` behind `U = X·T·Y`.
+    fn columns(&self, statement: &Statement) -> Option<Vec<Definition>> {
+        let [left, right] = &statement.sides[..] else { return None };
+        let [Part::Matrix(grid)] = &right.parts[..] else { return None };
+        let name = self.lone(left)?;
+        let posed = self.lexis.posed_matrix(&name)?;
+        let (matrix, _) = self.lexis.matrix(&self.subject, &name)?;
+        if !self.is_names(grid) {
+            return None;
+        }
+        let mut found = vec![];
+        for (r, row) in grid.rows.iter().enumerate().take(3) {
+            for (c, span) in row.iter().enumerate() {
+                let name = self.lexis.lone_name(self.text, span)?;
+                let name = format!("{}{}", name.base, name.sub);
+                found.push(Definition::Entry(name, matrix.entry(r, c)?, posed.entry(r, c)?));
+            }
+        }
+        Some(found)
     }
 
     /// The number of a side that only names what the document has defined before, and is defined anew.

@@ -106,6 +106,8 @@ pub(super) struct Defined {
     pub value: Expr,
     /// Which of the robots is spoken of.
     pub subject: usize,
+    /// The place from which on the name has this meaning.
+    pub from: usize,
 }
 
 /// The most elements of a matrix that are read.
@@ -132,6 +134,8 @@ pub(super) struct Walk<'a> {
     pub taken: Vec<Range<usize>>,
     /// Names that the document gives matrices: the statement and the name as printed.
     pub named: Vec<(Range<usize>, String)>,
+    /// The statement before which another one is read.
+    reader: Option<usize>,
     /// The prose and the heading that were looked at last.
     last_prose: Range<usize>,
     last_heading: Range<usize>,
@@ -163,8 +167,10 @@ enum Scalar {
 /// A name that a statement defines.
 enum Definition {
     Matrix(Name, Matrix, Option<Meaning>),
-    /// An entry of a matrix that the robot gives.
-    Entry(String, Expr),
+    /// An entry of a matrix that the robot gives, and what it is in the entries of the pose.
+    Entry(String, Expr, Expr),
+    /// A matrix in the entries of the pose.
+    Posed(Name, Matrix),
     /// The value of a cell.
     Cell(String, Expr),
 }
@@ -190,6 +196,7 @@ impl<'a> Walk<'a> {
             sines: vec![],
             taken: vec![],
             named: vec![],
+            reader: None,
             last_prose: 0..0,
             last_heading: 0..0,
             at: Configuration::default(),
@@ -245,6 +252,23 @@ impl<'a> Walk<'a> {
             return;
         }
         self.matrices(statement, claim);
+    }
+
+    /// True for a statement that gives a name without meaning, or a helper, its meaning.
+    pub fn may_define(&self, statement: &Statement) -> bool {
+        let [left, _, ..] = &statement.sides[..] else { return false };
+        let [Part::Text(span)] = &left.parts[..] else { return false };
+        let name = self.lexis.lone_name(self.text, span);
+        let is_own = name.as_ref().is_some_and(|n| self.lexis.habits.products.contains(&n.key()));
+        let is_free = name.is_some() && self.lexis.formula(self.text, span).is_err();
+        is_own || self.lexis.is_helper(self.source(span)) || is_free && !self.is_right_name(span)
+    }
+
+    /// Reads a statement that gives a name its meaning before the one that uses it.
+    pub fn ahead_of(&mut self, user: &Statement, definition: &Statement) {
+        self.reader = Some(user.span.start);
+        self.statement(definition, None);
+        self.reader = None;
     }
 
     /// True for a statement that stands in a sentence that tells a case.

@@ -264,6 +264,7 @@ impl Walk<'_> {
             printed: syntax.clone(),
             value: syntax.value(),
             subject: self.number,
+            from: self.reader.unwrap_or(statement.span.start),
         });
     }
 

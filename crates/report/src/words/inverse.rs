@@ -42,10 +42,7 @@ pub trait Inverse {
     /// What is given, what is sought, and that the chain follows.
     fn given(&self, given: Given) -> Line;
 
-    /// The columns of the matrix U.
-    fn columns_of_pose(&self, columns: [[Expr; 3]; 4]) -> Line;
-
-    /// What the short names of the cosine and sine of `q` are, and of the cosine of a sum; behind another sentence.
+    /// What the short names of the cosine and sine of `q` are, and of the cosine of a sum.
     fn short_names(&self, q: Expr, sum: Option<Expr>) -> Line;
 
     /// The title of a step that finds `unknown`.

@@ -128,6 +128,7 @@ impl Check for English {
     fn sense(&self, sense: Sense) -> String {
         match sense {
             Sense::LinkAlone => "read as the transform of a link alone, not as a frame in the base",
+            Sense::OwnLinks => "read as the document defines them: only their product is the robot's",
             Sense::IndicesExchanged => {
                 "read with the frame on the left and the one in which it is seen on the right"
             }

@@ -52,12 +52,6 @@ impl Inverse for English {
         })
     }
 
-    fn columns_of_pose(&self, columns: [[Expr; 3]; 4]) -> Line {
-        let [n, o, a, p] = columns.map(|c| c.map(Math::from));
-        let line = Line::new("U has the columns (").list(n).text("), (").list(o).text("), (").list(a);
-        line.text(") and (").list(p).text(") (the position). ")
-    }
-
     fn short_names(&self, q: Expr, sum: Option<Expr>) -> Line {
         let line = Line::default().math(q.cos()).text(" and ").math(q.sin());
         let line = line.text(" are cosine and sine of ").math(q);

@@ -138,6 +138,7 @@ impl Check for French {
             Sense::LinkAlone => {
                 "lu comme la matrice de passage d'un seul corps, non comme un repère dans la base"
             }
+            Sense::OwnLinks => "lu comme le document les définit : seul leur produit est celui du robot",
             Sense::IndicesExchanged => "lu avec le repère à gauche et celui où il est vu à droite",
             Sense::Helper => {
                 "lu comme une grandeur auxiliaire du document, non comme un élément de la situation"

@@ -54,12 +54,6 @@ impl Inverse for French {
         }))
     }
 
-    fn columns_of_pose(&self, columns: [[Expr; 3]; 4]) -> Line {
-        let [n, o, a, p] = columns.map(|c| c.map(Math::from));
-        let line = Line::new("U a pour colonnes (").list(n).text("), (").list(o).text("), (").list(a);
-        line.text(") et (").list(p).text(") (la position). ")
-    }
-
     fn short_names(&self, q: Expr, sum: Option<Expr>) -> Line {
         let line = Line::default().math(q.cos()).text(" et ").math(q.sin());
         let line = line.text(" sont le cosinus et le sinus de ").math(q);
