@@ -120,6 +120,8 @@ pub(super) struct Habits {
     pub exchanged: bool,
     /// `atan2` has the cosine first.
     pub cosine_first: bool,
+    /// Velocities are those of the Jacobian that was printed last: of its point, along its axes.
+    pub velocities_of_jacobian: bool,
     /// Names that are helpers, not entries of the pose.
     pub helpers: BTreeSet<String>,
     /// Names of matrices that the document defines as products, `T_2 = A_4 A_5`.
@@ -134,6 +136,7 @@ impl Habits {
             links: false,
             exchanged: false,
             cosine_first: false,
+            velocities_of_jacobian: false,
             helpers: BTreeSet::new(),
             products: BTreeSet::new(),
         }

@@ -5,6 +5,8 @@
 use super::habits::Habits;
 use super::names::{Name, Token, tokens};
 use denavit_reading::document::{Part, Side, Statement};
+use denavit_symbolic::vocabulary::plain_name;
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// Words between a formula and the names that it uses.
@@ -15,6 +17,8 @@ const LINKS: [&str; 13] = [
 const JOINTS: [&str; 6] = ["and", "und", "et", "y", "e", "sowie"];
 /// So many statements are looked at ahead.
 const AHEAD: usize = 16;
+/// The most cells of a matrix whose names are looked for.
+const MAX_CELLS: usize = 64;
 /// No more bytes stand between two statements of a run.
 const LONGEST_GAP: usize = 240;
 
@@ -32,6 +36,7 @@ enum Gap {
 /// define a matrix that is the document's own.
 pub(super) fn before(text: &str, statements: &[Statement], at: usize, habits: &Habits) -> Vec<usize> {
     let mut found = own_matrices(text, statements, at, habits);
+    found.extend(entries(text, statements, at));
     let gap = |k: usize| {
         let (a, b) = (statements.get(k)?, statements.get(k + 1)?);
         between(text, &(a.span.end..b.span.start))
@@ -65,6 +70,33 @@ fn own_matrices(text: &str, statements: &[Statement], at: usize, habits: &Habits
         _ => false,
     };
     (at + 1..statements.len().min(at + AHEAD)).filter(|&k| defines(&statements[k])).collect()
+}
+
+/// The statements further down that define the names in the cells of a printed matrix: `J = [j_11 …]`, `j_11 = …`.
+fn entries(text: &str, statements: &[Statement], at: usize) -> Vec<usize> {
+    let grids = statements[at].sides.iter().flat_map(|s| &s.parts).filter_map(|p| match p {
+        Part::Matrix(grid) => Some(grid),
+        Part::Text(_) => None,
+    });
+    let cells = grids.flat_map(|g| g.rows.iter().flatten()).filter_map(|span| entry_name(text.get(span.clone())?));
+    let mut wanted: BTreeSet<String> = cells.take(MAX_CELLS).collect();
+    if wanted.is_empty() {
+        return vec![];
+    }
+    // The first definition of each.
+    let mut defines = |s: &Statement| {
+        let [Side { span, .. }, _, ..] = &s.sides[..] else { return false };
+        text.get(span.clone()).and_then(entry_name).is_some_and(|name| wanted.remove(&name))
+    };
+    (at + 1..statements.len().min(at + 1 + MAX_CELLS)).filter(|&k| defines(&statements[k])).collect()
+}
+
+/// The name of an entry with its place, `j_{11}`.
+fn entry_name(text: &str) -> Option<String> {
+    let plain = plain_name(text.trim_matches(['&', '$', ' ']));
+    let letters = plain.trim_end_matches(|c: char| c.is_ascii_digit());
+    let fits = plain.len() - letters.len() >= 2 && letters.chars().count() == 1;
+    (fits && letters.chars().all(char::is_alphabetic)).then_some(plain)
 }
 
 /// The names of matrices in a side that is nothing else.

@@ -111,6 +111,17 @@ fn candidates(
     if !habits.cosine_first && wrong.iter().any(|a| a.spoken.is_some()) {
         found.push((Habits { cosine_first: true, ..habits.clone() }, Sense::CosineFirst, MARGIN));
     }
+    let is_rate = |a: &&Assertion| {
+        let is_of = |e: Expr| e.symbols().iter().any(|s| s.name().starts_with("rate of "));
+        a.pieces.iter().any(|p| matches!(p, Piece::Pair(pair) if is_of(pair.wanted) || is_of(pair.value)))
+    };
+    if !habits.velocities_of_jacobian && wrong.iter().any(is_rate) {
+        found.push((
+            Habits { velocities_of_jacobian: true, ..habits.clone() },
+            Sense::VelocitiesOfJacobian,
+            MARGIN,
+        ));
+    }
     let names: BTreeSet<String> = wrong
         .iter()
         .filter(|a| matches!(a.about, About::Entry | About::Equation) && a.spoken.is_none())

@@ -174,6 +174,12 @@ impl Subject {
         Transform::from_rotation_translation(Rotation::from_rows(rows), position)
     }
 
+    /// The rows of the geometric Jacobian of the hand's point at the origin of a frame, linear first.
+    pub fn geometric_rows_at(&self, at: Reference, along: Reference) -> Vec<Vec<Expr>> {
+        let view = Viewpoint { at, ..Viewpoint::of(Reference::Tool, along) };
+        geometric(&self.robot, &self.q, &view).rows().iter().map(|row| row.to_vec()).collect()
+    }
+
     /// The rows of the geometric Jacobian, linear first.
     pub fn geometric_rows(&self, body: Reference, along: Reference) -> Vec<Vec<Expr>> {
         if !self.is_printed() {

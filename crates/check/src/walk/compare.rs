@@ -3,7 +3,7 @@
 use super::scalars::is_measured;
 use super::{Assertion, Cell, Pair, Piece, Reference, Walk};
 use crate::facts::{Meaning, Remark, ShortRow};
-use crate::jacobians::told_of_jacobian;
+use crate::jacobians::{Told, frames_told, told_of_jacobian};
 use crate::matrix::Matrix;
 use crate::note::{Unread, Unreadable};
 use crate::numbers::{Answer, half_unit};
@@ -56,7 +56,9 @@ impl Walk<'_> {
         if columns != joints || !(2..=6).contains(&rows) {
             return None;
         }
-        let (matrix, jacobian) = self.subject.nearest_jacobian(&printed, &told.unwrap_or_default())?;
+        let points = frames_told(self.paragraph_before(statement));
+        let told = Told { points, ..told.unwrap_or_default() };
+        let (matrix, jacobian) = self.subject.nearest_jacobian(&printed, &told)?;
         Some(Reference { matrix, about: Some(Meaning::Jacobian(jacobian)) })
     }
 

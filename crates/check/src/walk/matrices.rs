@@ -1,12 +1,13 @@
 //! Equations between matrices: what is known of a side, what is compared, what is defined.
 
 use super::{Assertion, Cell, Cells, Definition, MAX_ELEMENTS, Piece, Reference, Scalar, Walk};
-use crate::facts::{About, Meaning};
+use crate::facts::{About, Jacobian, Meaning};
 use crate::jacobians::{Part as Rows, told_of_jacobian};
 use crate::matrix::Matrix;
 use crate::names::{Name, Token, tokens};
 use crate::note::{Unread, Unreadable};
 use crate::product::{Factor, NotMatrices, Product, product};
+use denavit::forward::Reference as Frame;
 use denavit_reading::document::{Fence, Grid, Part, Side, Statement, sides};
 use denavit_symbolic::{Expr, Symbol};
 use denavit_symbolic::parse::{Syntax, SyntaxKind};
@@ -292,6 +293,12 @@ impl Walk<'_> {
                 None => (usize::MAX, self.rates_of(statement)),
             },
         };
+        if let Some(Reference { matrix, about: Some(Meaning::Jacobian(jacobian)) }) = &reference {
+            if self.lexis.habits.velocities_of_jacobian {
+                definitions.extend(self.velocities(jacobian));
+            }
+            definitions.extend(self.entries(statement, matrix));
+        }
         let about = reference.as_ref().and_then(|r| r.about.clone()).map_or(About::Matrices, About::Matrix);
         let mut assertion = self.assertion(statement, about);
         let mut names: Vec<&Grid> = vec![];
@@ -396,6 +403,37 @@ impl Walk<'_> {
             self.assertions.push(assertion);
         }
         definitions
+    }
+
+    /// The names of the entries of a Jacobian that a statement prints: `j_{11}`.
+    fn entries(&self, statement: &Statement, matrix: &Matrix) -> Vec<Definition> {
+        let is_bare = statement.sides.first().and_then(|s| self.lone(s)).is_some_and(|n| n.is_bare());
+        let mut found = vec![];
+        for (r, row) in matrix.0.iter().enumerate().filter(|_| is_bare) {
+            for (c, value) in row.iter().enumerate() {
+                let name = format!("j{}{}", r + 1, c + 1);
+                if let Some(value) = value.filter(|_| self.lexis.names.lookup(&name).is_none()) {
+                    found.push(Definition::Entry(name, value, value));
+                }
+            }
+        }
+        found
+    }
+
+    /// The components of the velocity that a Jacobian gives, under their names.
+    fn velocities(&self, jacobian: &Jacobian) -> Vec<Definition> {
+        const NAMES: [&[&str]; 6] = [&["vx"], &["vy"], &["vz"], &["wx", "ωx"], &["wy", "ωy"], &["wz", "ωz"]];
+        let rows = match jacobian.at {
+            Some(k) => self.subject.geometric_rows_at(Frame::Frame(k), jacobian.axes),
+            None => self.subject.geometric_rows(jacobian.body, jacobian.axes),
+        };
+        let rates = self.subject.rates();
+        let of = |row: &Vec<Expr>| row.iter().zip(&rates).fold(Expr::int(0), |sum, (&e, &rate)| sum + e * rate);
+        let values = rows.iter().map(of).zip(NAMES);
+        let entry = |(value, names): (Expr, &'static [&'static str])| {
+            names.iter().map(move |name| Definition::Entry((*name).to_string(), value, value))
+        };
+        values.flat_map(entry).collect()
     }
 
     /// What a side that is a lone name is in the entries of the pose, and in no joint: `U = X·T·Y`.

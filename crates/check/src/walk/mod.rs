@@ -1,6 +1,7 @@
 //! From the statements of a document to pairs of formulas: what is printed, and what the robot makes of it.
 
 mod author;
+mod cases;
 mod compare;
 mod matrices;
 mod scalars;
@@ -110,6 +111,8 @@ pub(super) struct Defined {
     pub from: usize,
 }
 
+/// So many bytes may stand between a paragraph and what it is about.
+const MAX_DISTANCE: usize = 120;
 /// The most elements of a matrix that are read.
 const MAX_ELEMENTS: usize = 4_096;
 
@@ -282,6 +285,19 @@ impl<'a> Walk<'a> {
 
     fn source(&self, span: &Range<usize>) -> &'a str {
         self.text.get(span.clone()).unwrap_or_default().trim()
+    }
+
+    /// The paragraph that ends before a statement.
+    fn paragraph_before(&self, statement: &Statement) -> &'a str {
+        let text: &'a str = self.text;
+        let Some(prose) = statement.prose.clone().filter(|p| p.end <= statement.span.start) else { return "" };
+        if statement.span.start - prose.end > MAX_DISTANCE {
+            return "";
+        }
+        let before = text.get(..prose.end).unwrap_or_default();
+        let lines = before.rsplit('\n').take_while(|l| !l.trim().is_empty()).take(8);
+        let length: usize = lines.map(|l| l.len() + 1).sum();
+        before.get(before.len().saturating_sub(length)..).unwrap_or_default()
     }
 
     fn claim_name(&self, statement: &Statement) -> String {
