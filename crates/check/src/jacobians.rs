@@ -84,7 +84,10 @@ impl Subject {
         };
         let axes: Vec<Reference> = match told.axes {
             Some(k) if k <= n => vec![Reference::Frame(k)],
-            _ => (0..=n).map(Reference::Frame).chain([Reference::Tool]).collect(),
+            _ => {
+                let ground = Some(self.ground()).filter(|g| *g == Reference::Base);
+                ground.into_iter().chain((0..=n).map(Reference::Frame)).chain([Reference::Tool]).collect()
+            }
         };
         let views = bodies.iter().flat_map(|&body| axes.iter().map(move |&along| (body, along)));
         let mut found: Vec<_> =
@@ -104,7 +107,7 @@ impl Subject {
     /// The rows of a square Jacobian that the arm has by nature: all that do not vanish, or the linear or the angular ones.
     fn task(&self, part: Part) -> Option<Vec<usize>> {
         let n = self.joints().len();
-        let j = self.geometric_rows(Reference::Tool, Reference::Frame(0));
+        let j = self.geometric_rows(Reference::Tool, self.ground());
         let mut points = Points::new(7);
         let zero = points.value(Expr::int(0));
         let moving: Vec<usize> = (0..6).filter(|&r| j[r].iter().any(|&e| points.value(e) != zero)).collect();
@@ -121,7 +124,7 @@ impl Subject {
 
     /// The square Jacobian that the arm has by nature, along the axes of frame 0.
     pub fn square_jacobian(&self, part: Part) -> Option<Matrix> {
-        let j = self.geometric_rows(Reference::Tool, Reference::Frame(0));
+        let j = self.geometric_rows(Reference::Tool, self.ground());
         let rows = self.task(part)?;
         Some(Matrix(rows.iter().map(|&r| j[r].iter().map(|&e| Some(e)).collect()).collect()))
     }
@@ -150,14 +153,14 @@ impl Subject {
 
     /// The linear and angular velocity of the hand along the axes of frame 0, in the joints' rates.
     pub fn velocity(&self) -> Vec<Expr> {
-        let (j, rates) = (self.geometric_rows(Reference::Tool, Reference::Frame(0)), self.rates());
+        let (j, rates) = (self.geometric_rows(Reference::Tool, self.ground()), self.rates());
         let row = |row: &Vec<Expr>| row.iter().zip(&rates).fold(Expr::int(0), |sum, (&e, &r)| sum + e * r);
         j.iter().map(row).collect()
     }
 
     /// The torques and forces of the joints that a load on the hand takes: force and moment along the axes of frame 0.
     pub fn torques(&self, load: &[Expr; 6]) -> Vec<Expr> {
-        let j = self.geometric_rows(Reference::Tool, Reference::Frame(0));
+        let j = self.geometric_rows(Reference::Tool, self.ground());
         let of = |k: usize| (0..6).fold(Expr::int(0), |sum, r| sum + j[r][k] * load[r]);
         (0..self.joints().len()).map(of).collect()
     }
@@ -166,7 +169,7 @@ impl Subject {
     /// stands for the arm's.
     fn differentiated(&self) -> Option<Vec<Vec<Expr>>> {
         let position = self.pose().translation.0;
-        let mut j = self.geometric_rows(Reference::Tool, Reference::Frame(0));
+        let mut j = self.geometric_rows(Reference::Tool, self.ground());
         for (r, &p) in position.iter().enumerate() {
             for (k, &q) in self.joints().iter().enumerate() {
                 j[r][k] = derivative(p, q)?;

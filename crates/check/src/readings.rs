@@ -14,7 +14,7 @@ use super::plan::{Plan, Walked};
 use super::trial::{self, Trial};
 use super::walk::{Assertion, Piece, Spoken};
 use denavit::forward::Reference;
-use denavit_reading::document::Document;
+use denavit_reading::document::{Document, Statement};
 use denavit_reading::slip::Points;
 use denavit_symbolic::vocabulary::plain_name;
 use denavit_symbolic::{Expr, equal};
@@ -63,7 +63,7 @@ pub(super) fn weighed(
             let gain = own.right.saturating_sub(score.right);
             // Links that are the document's own must yield something of the robot that else is wrong.
             let is_borne_out = sense != Sense::OwnLinks
-                || own.right_at.intersection(&score.wrong).any(|at| speaks_of_pose(text, document, &other, *at));
+                || own.right_at.iter().any(|at| is_own_chain(text, document, &other, &walked, &score, *at));
             let is_better = gain >= margin
                 && is_borne_out
                 && own.wrong.len() < score.wrong.len()
@@ -103,7 +103,7 @@ fn candidates(
             found.push((Habits { columns: Columns::Snap, ..habits.clone() }, Sense::ColumnsSnap, MARGIN));
         }
     }
-    let own: BTreeSet<String> = walked.assertions.iter().filter_map(|a| own_link(a)).collect();
+    let own: BTreeSet<String> = walked.assertions.iter().filter_map(own_link).collect();
     if wrong.iter().any(|a| own_link(a).is_some()) && !own.is_subset(&habits.products) {
         let products = habits.products.union(&own).cloned().collect();
         found.push((Habits { products, ..habits.clone() }, Sense::OwnLinks, 0));
@@ -140,15 +140,27 @@ fn candidates(
     found
 }
 
-/// True for a statement in which the robot's pose stands beside the matrices of the document.
-fn speaks_of_pose(text: &str, document: &Document, plan: &Plan, at: usize) -> bool {
+/// True for a statement that holds the product of all links that are wrong by themselves against the robot's pose, by
+/// names that it uses or that these stand for: `U = A_1 A_2`, `U = T`.
+fn is_own_chain(text: &str, document: &Document, plan: &Plan, first: &Walked, score: &Score, at: usize) -> bool {
     let is_pose = |name: &Name| {
         let is_own = plan.habits.products.contains(&name.key());
         let mut meanings = plan.subjects.iter().map(|s| (s, s.meaning(name, false, &plan.habits)));
         !is_own && meanings.any(|(s, m)| m.is_some_and(|m| m.0 == Matrix::of(&s.pose())))
     };
-    let statement = document.statements.iter().find(|s| s.span.start == at);
-    statement.is_some_and(|s| s.sides.iter().flat_map(|side| order::names(text, side)).any(|n| is_pose(&n)))
+    let names = |s: &Statement| s.sides.iter().flat_map(|side| order::names(text, side)).collect::<Vec<Name>>();
+    let Some(statement) = document.statements.iter().find(|s| s.span.start == at) else { return false };
+    let mut all = names(statement);
+    let own: BTreeSet<String> = all.iter().map(Name::key).collect();
+    for other in &document.statements {
+        let left = other.sides.first().map(|side| order::names(text, side)).unwrap_or_default();
+        if matches!(&left[..], [name] if own.contains(&name.key())) {
+            all.extend(names(other));
+        }
+    }
+    let wrong = first.assertions.iter().filter(|a| score.wrong.contains(&a.span.start));
+    let mut wrong = wrong.filter_map(own_link);
+    wrong.all(|key| all.iter().any(|n| n.key() == key)) && all.iter().any(is_pose)
 }
 
 /// The name of the matrix that a statement gives a link of its own: `A_2 = Rot(z, q_2) Trans(x, a_2)`.

@@ -441,8 +441,28 @@ impl Walk<'_> {
         // Rows that vanish are left out.
         let moves = |row: &&Vec<Option<Expr>>| row.iter().any(|e| e.is_none_or(|e| !e.is_zero()));
         let printed = self.lexis.defined(&name).map(|m| Matrix(m.0.iter().filter(moves).cloned().collect()));
-        let printed = printed.filter(|m| m.shape().is_some_and(|(r, c)| r == c));
+        let is_square = |m: &Matrix| m.shape().is_some_and(|(r, c)| r == c);
+        if let (Some(whole), Some(false)) = (self.lexis.defined(&name), printed.as_ref().map(is_square)) {
+            return self.told_minor(whole).filter(is_square)?.determinant();
+        }
         printed.and_then(|m| m.determinant()).or_else(|| self.subject.determinant(told.part))
+    }
+
+    /// The rows or columns of a full Jacobian that the words before name: `rows vx, vy, wz`, `joints 1, 2 and 3`.
+    fn told_minor(&self, whole: &Matrix) -> Option<Matrix> {
+        const ROWS: [[&str; 2]; 6] =
+            [["vx", "vx"], ["vy", "vy"], ["vz", "vz"], ["wx", "ωx"], ["wy", "ωy"], ["wz", "ωz"]];
+        let words: Vec<String> = self.source(&self.last_prose).split([' ', ',', ':', ';', '$']).map(plain_name).collect();
+        let (rows, columns) = whole.shape()?;
+        let is_row = |r: &usize| ROWS.get(*r).is_some_and(|names| words.iter().any(|w| names.contains(&&**w)));
+        let told: Vec<usize> = (0..rows).filter(is_row).collect();
+        let numbers: Vec<usize> = words.iter().filter_map(|w| w.parse().ok()).collect();
+        let is_told = |c: &usize| told.is_empty() && numbers.contains(&(c + 1));
+        let joints: Vec<usize> = (0..columns).filter(is_told).collect();
+        let moves = |r: &usize| whole.0[*r].iter().any(|e| e.is_none_or(|e| !e.is_zero()));
+        let rows: Vec<usize> = if told.is_empty() { (0..rows).filter(moves).collect() } else { told };
+        let columns = if joints.is_empty() { (0..columns).collect() } else { joints };
+        Some(Matrix(rows.iter().map(|&r| columns.iter().map(|&c| whole.entry(r, c)).collect()).collect()))
     }
 
     pub(super) fn told_matrix(&self, words: &str) -> Option<Reference> {

@@ -154,7 +154,9 @@ fn explained(number: usize, s: &Explained, words: &dyn Wording, blocks: &mut Vec
 fn equation(s: &Explained, words: &dyn Wording, blocks: &mut Vec<Block>) {
     let is_squared = s.sources.iter().any(|o| o.squared);
     let length = |c: &Statement| c.math.exprs().into_iter().map(literals).sum::<u64>();
-    let said = |coefficients| Block::Paragraph(words.equation(s.kind, is_squared, &s.form, &coefficients));
+    // Letters that are given no meaning are not shown.
+    let form = if s.coefficients.is_empty() { &[][..] } else { &s.form };
+    let said = |coefficients| Block::Paragraph(words.equation(s.kind, is_squared, form, &coefficients));
     if s.coefficients.iter().map(length).sum::<u64>() > INLINE {
         blocks.push(said(Coefficients::Below));
         blocks.extend(s.coefficients.iter().map(block));

@@ -364,9 +364,9 @@ fn matrix_of_velocities(jacobian: &Jacobian) -> String {
         Reference::Base | Reference::Frame(_) => "the origin of the last frame",
     };
     let axes = match jacobian.axes {
-        Reference::Frame(0) => String::new(),
+        Reference::Base | Reference::Frame(0) => String::new(),
         Reference::Frame(k) => format!(" along the axes of frame {k}"),
-        Reference::Base | Reference::Tool => " along its own axes".into(),
+        Reference::Tool => " along its own axes".into(),
     };
     let at = jacobian.at.map_or(String::new(), |k| format!(" at the origin of frame {k}"));
     let first = if jacobian.is_angular_first { ", angular rows first" } else { "" };

@@ -46,10 +46,11 @@ impl Inverse for English {
                 " (joints too many: any values are allowed, and the derivation is shortest with these)"
             }
         });
-        line.text("; sought ").list(given.sought).text(". ").text(match given.is_whole {
-            true => "With U = T the chain is",
-            false => "What is constant at both ends is taken to the side of the pose; what is left is",
-        })
+        let line = line.text("; sought ").list(given.sought).text(". ");
+        match given.is_whole {
+            true => line.text("With ").math(Given::whole()).text(" the chain is"),
+            false => line.text("What is constant at both ends is taken to the side of the pose; what is left is"),
+        }
     }
 
     fn short_names(&self, q: Expr, sum: Option<Expr>) -> Line {

@@ -397,9 +397,9 @@ fn matrix_of_velocities(jacobian: &Jacobian) -> String {
         Reference::Base | Reference::Frame(_) => "l'origine du dernier repère",
     };
     let axes = match jacobian.axes {
-        Reference::Frame(0) => String::new(),
+        Reference::Base | Reference::Frame(0) => String::new(),
         Reference::Frame(k) => format!(" suivant les axes du repère {k}"),
-        Reference::Base | Reference::Tool => " suivant ses propres axes".into(),
+        Reference::Tool => " suivant ses propres axes".into(),
     };
     let at = jacobian.at.map_or(String::new(), |k| format!(" à l'origine du repère {k}"));
     let first = if jacobian.is_angular_first { ", lignes de la vitesse angulaire d'abord" } else { "" };
