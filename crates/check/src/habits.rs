@@ -44,7 +44,8 @@ pub(super) fn named_signs(plain: &str) -> Vec<(String, Expr)> {
 /// The name of a sign at the end of a text: a letter that is customary for signs, with its number.
 fn sign_before(text: &str) -> Option<String> {
     let stem = text.trim_end_matches(|c: char| c.is_ascii_digit());
-    let letter = SPELLED.iter().find(|s| stem.ends_with(s.0)).map(|s| s.1).or_else(|| stem.chars().next_back());
+    let letter =
+        SPELLED.iter().find(|s| stem.ends_with(s.0)).map(|s| s.1).or_else(|| stem.chars().next_back());
     let letter = letter.filter(|c| SIGNS.contains(c))?;
     Some(format!("{letter}{}", &text[stem.len()..]))
 }

@@ -97,7 +97,7 @@ impl Lexis {
                 }
             }
         }
-        for (name, sign) in named_signs(&custom::plain(text).replace('$', "")) {
+        for (name, sign) in named_signs(&custom::plain(text).replace(['$', '\u{200b}'], "")) {
             if lexis.names.lookup(&name).is_none() {
                 lexis.names = std::mem::take(&mut lexis.names).alias(&name, sign);
                 lexis.inverse = std::mem::take(&mut lexis.inverse).alias(&name, sign);

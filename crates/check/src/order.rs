@@ -78,7 +78,8 @@ fn entries(text: &str, statements: &[Statement], at: usize) -> Vec<usize> {
         Part::Matrix(grid) => Some(grid),
         Part::Text(_) => None,
     });
-    let cells = grids.flat_map(|g| g.rows.iter().flatten()).filter_map(|span| entry_name(text.get(span.clone())?));
+    let cells =
+        grids.flat_map(|g| g.rows.iter().flatten()).filter_map(|span| entry_name(text.get(span.clone())?));
     let mut wanted: BTreeSet<String> = cells.take(MAX_CELLS).collect();
     if wanted.is_empty() {
         return vec![];
@@ -129,7 +130,8 @@ fn words(source: &str) -> Vec<String> {
     while let Some(c) = rest.chars().next() {
         if let Some(behind) = rest.strip_prefix('\\') {
             let behind = behind.trim_start_matches(|c: char| c.is_ascii_alphabetic() || c == '*');
-            let inner = behind.strip_prefix('{').and_then(|b| b.split_once('}')).filter(|(a, _)| !a.contains(' '));
+            let inner =
+                behind.strip_prefix('{').and_then(|b| b.split_once('}')).filter(|(a, _)| !a.contains(' '));
             rest = inner.map_or(behind, |(_, after)| after);
             continue;
         }
@@ -150,7 +152,10 @@ mod tests {
     fn what_joins_two_formulas() {
         for (text, joins) in [
             (" with ", true),
-            (" \\quad\\checkmark \\tag{3}\n\\end{equation*}\n\n\\noindent where\n\n\\begin{equation*}\n", true),
+            (
+                " \\quad\\checkmark \\tag{3}\n\\end{equation*}\n\n\\noindent where\n\n\\begin{equation*}\n",
+                true,
+            ),
             (", and ", false),
             (" with the length ", false),
         ] {

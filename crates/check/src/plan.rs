@@ -1,12 +1,12 @@
 //! Which robot each part of a document is about: tables and directives in their order.
 
-use super::order;
 use super::CheckOptions;
 use super::convention;
 use super::habits::Habits;
 use super::lexis::Lexis;
 use super::lexis::set_in;
 use super::note::{Note, Noted, Notes, Unread, Unreadable};
+use super::order;
 use super::programs;
 use super::subject::Subject;
 use super::walk::{Assertion, Defined, Walk};

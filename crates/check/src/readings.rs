@@ -5,11 +5,11 @@
 use super::CheckOptions;
 use super::facts::{About, Meaning, Sense};
 use super::habits::{Columns, Habits, Places, with_named_signs};
-use super::numbers;
-use super::outcome::Finding;
 use super::matrix::Matrix;
 use super::names::{Name, Token, tokens};
+use super::numbers;
 use super::order;
+use super::outcome::Finding;
 use super::plan::{Plan, Walked};
 use super::trial::{self, Trial};
 use super::walk::{Assertion, Piece, Spoken};
@@ -142,13 +142,21 @@ fn candidates(
 
 /// True for a statement that holds the product of all links that are wrong by themselves against the robot's pose, by
 /// names that it uses or that these stand for: `U = A_1 A_2`, `U = T`.
-fn is_own_chain(text: &str, document: &Document, plan: &Plan, first: &Walked, score: &Score, at: usize) -> bool {
+fn is_own_chain(
+    text: &str,
+    document: &Document,
+    plan: &Plan,
+    first: &Walked,
+    score: &Score,
+    at: usize,
+) -> bool {
     let is_pose = |name: &Name| {
         let is_own = plan.habits.products.contains(&name.key());
         let mut meanings = plan.subjects.iter().map(|s| (s, s.meaning(name, false, &plan.habits)));
         !is_own && meanings.any(|(s, m)| m.is_some_and(|m| m.0 == Matrix::of(&s.pose())))
     };
-    let names = |s: &Statement| s.sides.iter().flat_map(|side| order::names(text, side)).collect::<Vec<Name>>();
+    let names =
+        |s: &Statement| s.sides.iter().flat_map(|side| order::names(text, side)).collect::<Vec<Name>>();
     let Some(statement) = document.statements.iter().find(|s| s.span.start == at) else { return false };
     let mut all = names(statement);
     let own: BTreeSet<String> = all.iter().map(Name::key).collect();
@@ -165,7 +173,8 @@ fn is_own_chain(text: &str, document: &Document, plan: &Plan, first: &Walked, sc
 
 /// The name of the matrix that a statement gives a link of its own: `A_2 = Rot(z, q_2) Trans(x, a_2)`.
 fn own_link(assertion: &Assertion) -> Option<String> {
-    let About::Matrix(Meaning::Frame { of: Reference::Frame(j), seen_from: Reference::Frame(i) }) = assertion.about
+    let About::Matrix(Meaning::Frame { of: Reference::Frame(j), seen_from: Reference::Frame(i) }) =
+        assertion.about
     else {
         return None;
     };

@@ -1,7 +1,7 @@
 //! Equations that claim nothing of the robot: cases, conditions, places, goals.
 
-use super::{Pair, Piece, Scalar, Walk};
 use super::scalars::is_measured;
+use super::{Pair, Piece, Scalar, Walk};
 use crate::facts::About;
 use crate::jacobians::Part;
 use denavit_reading::document::{Place, Statement};
@@ -55,7 +55,8 @@ impl Walk<'_> {
     pub(super) fn is_place(&self, statement: &Statement, read: &[Scalar]) -> bool {
         const WHERE: [&str; 8] = ["where", "at", "wo", "bei", "où", "donde", "dove", "onde"];
         let [Scalar::Formula(_, left), Scalar::Formula(span, _)] = read else { return false };
-        let is_joint = matches!(left.kind, SyntaxKind::Name(_)) && self.subject.joints().contains(&left.value());
+        let is_joint =
+            matches!(left.kind, SyntaxKind::Name(_)) && self.subject.joints().contains(&left.value());
         if !is_joint || statement.place != Place::Inline || self.speaks_of_pose(span) {
             return false;
         }

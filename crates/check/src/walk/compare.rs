@@ -191,6 +191,10 @@ impl Walk<'_> {
         let knows = |e: &Expr| self.at.knows(*e, &self.subject);
         let is_numeric = all_numbers && wanted.0.iter().flatten().flatten().all(knows);
         let is_open = all_numbers && !is_numeric;
+        // Beside numbers that somebody computed 0 and 1 are such numbers, too.
+        let is_computed =
+            |cell: &Cell| matches!(cell, Cell::Formulas(f) if f.iter().any(|f| is_measured(f.1.value())));
+        let is_worked_out = is_open && cells.iter().flatten().any(is_computed);
         for (r, row) in cells.iter().enumerate() {
             if row.len() < width {
                 let short = ShortRow { row: r + 1, elements: row.len(), width };
@@ -230,6 +234,9 @@ impl Walk<'_> {
                         for (span, syntax) in formulas {
                             if is_numeric {
                                 out.pieces.extend(self.number(place, span, syntax.value(), wanted));
+                                continue;
+                            }
+                            if is_worked_out && !is_measured(syntax.value()) && !wanted.symbols().is_empty() {
                                 continue;
                             }
                             if is_open && is_measured(syntax.value()) && !wanted.symbols().is_empty() {

@@ -9,8 +9,8 @@ use crate::note::{Unread, Unreadable};
 use crate::product::{Factor, NotMatrices, Product, product};
 use denavit::forward::Reference as Frame;
 use denavit_reading::document::{Fence, Grid, Part, Side, Statement, sides};
-use denavit_symbolic::{Expr, Symbol};
 use denavit_symbolic::parse::{Syntax, SyntaxKind};
+use denavit_symbolic::{Expr, Symbol};
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -428,7 +428,8 @@ impl Walk<'_> {
             None => self.subject.geometric_rows(jacobian.body, jacobian.axes),
         };
         let rates = self.subject.rates();
-        let of = |row: &Vec<Expr>| row.iter().zip(&rates).fold(Expr::int(0), |sum, (&e, &rate)| sum + e * rate);
+        let of =
+            |row: &Vec<Expr>| row.iter().zip(&rates).fold(Expr::int(0), |sum, (&e, &rate)| sum + e * rate);
         let values = rows.iter().map(of).zip(NAMES);
         let entry = |(value, names): (Expr, &'static [&'static str])| {
             names.iter().map(move |name| Definition::Entry((*name).to_string(), value, value))
@@ -445,7 +446,8 @@ impl Walk<'_> {
         self.lexis.is_posed.set(true);
         let read = |side| product(self.text, side, &self.lexis, &self.subject, &|grid| self.printed(grid));
         let value = rest.iter().find_map(|side| {
-            let value = read(side).ok()?.value.filter(|m| m.0.iter().flatten().flatten().all(|e| is_free(*e)))?;
+            let value =
+                read(side).ok()?.value.filter(|m| m.0.iter().flatten().flatten().all(|e| is_free(*e)))?;
             (value.shape() == Some((4, 4)) && self.is_of_pose(&value)).then_some(value)
         });
         self.lexis.is_posed.set(false);
@@ -454,8 +456,10 @@ impl Walk<'_> {
 
     /// True for a matrix in which entries of the pose occur.
     fn is_of_pose(&self, matrix: &Matrix) -> bool {
-        let symbols: Vec<Symbol> =
-            (0..3).flat_map(|r| (0..4).map(move |c| (r, c))).map(|(r, c)| self.lexis.pose_symbol(r, c)).collect();
+        let symbols: Vec<Symbol> = (0..3)
+            .flat_map(|r| (0..4).map(move |c| (r, c)))
+            .map(|(r, c)| self.lexis.pose_symbol(r, c))
+            .collect();
         matrix.0.iter().flatten().flatten().any(|e| e.symbols().iter().any(|s| symbols.contains(s)))
     }
 

@@ -142,6 +142,8 @@ pub(super) struct Walk<'a> {
     /// The prose and the heading that were looked at last.
     last_prose: Range<usize>,
     last_heading: Range<usize>,
+    /// Where the statements so far end.
+    last_end: usize,
     /// The cells of the matrices of the present statement.
     cells: RefCell<FxHashMap<usize, Rc<Cells>>>,
 }
@@ -202,6 +204,7 @@ impl<'a> Walk<'a> {
             reader: None,
             last_prose: 0..0,
             last_heading: 0..0,
+            last_end: 0,
             at: Configuration::default(),
             angles: None,
             skipped: vec![],
@@ -243,6 +246,9 @@ impl<'a> Walk<'a> {
             self.last_heading = heading.clone();
             self.told_in(heading);
         }
+        let before = self.last_end.min(statement.span.start)..statement.span.start;
+        self.last_end = self.last_end.max(statement.span.end);
+        self.told_between(&before, statement.prose.as_ref());
         if let Some(prose) = &statement.prose
             && *prose != self.last_prose
         {
@@ -290,7 +296,9 @@ impl<'a> Walk<'a> {
     /// The paragraph that ends before a statement.
     fn paragraph_before(&self, statement: &Statement) -> &'a str {
         let text: &'a str = self.text;
-        let Some(prose) = statement.prose.clone().filter(|p| p.end <= statement.span.start) else { return "" };
+        let Some(prose) = statement.prose.clone().filter(|p| p.end <= statement.span.start) else {
+            return "";
+        };
         if statement.span.start - prose.end > MAX_DISTANCE {
             return "";
         }

@@ -452,9 +452,11 @@ impl Walk<'_> {
     fn told_minor(&self, whole: &Matrix) -> Option<Matrix> {
         const ROWS: [[&str; 2]; 6] =
             [["vx", "vx"], ["vy", "vy"], ["vz", "vz"], ["wx", "ωx"], ["wy", "ωy"], ["wz", "ωz"]];
-        let words: Vec<String> = self.source(&self.last_prose).split([' ', ',', ':', ';', '$']).map(plain_name).collect();
+        let words: Vec<String> =
+            self.source(&self.last_prose).split([' ', ',', ':', ';', '$']).map(plain_name).collect();
         let (rows, columns) = whole.shape()?;
-        let is_row = |r: &usize| ROWS.get(*r).is_some_and(|names| words.iter().any(|w| names.contains(&&**w)));
+        let is_row =
+            |r: &usize| ROWS.get(*r).is_some_and(|names| words.iter().any(|w| names.contains(&&**w)));
         let told: Vec<usize> = (0..rows).filter(is_row).collect();
         let numbers: Vec<usize> = words.iter().filter_map(|w| w.parse().ok()).collect();
         let is_told = |c: &usize| told.is_empty() && numbers.contains(&(c + 1));

@@ -480,9 +480,7 @@ fn trim<'n>(text: &str, nodes: &'n [Node]) -> &'n [Node] {
             Some(Kind::Amp | Kind::Quad | Kind::Comma | Kind::Semicolon | Kind::Row | Kind::Arrow)
         )
     };
-    let stop = |n: &Node| {
-        idle(n) || n.is(Kind::Colon) || (n.is(Kind::Operator) && cut(text, &n.span) == ".")
-    };
+    let stop = |n: &Node| idle(n) || n.is(Kind::Colon) || (n.is(Kind::Operator) && cut(text, &n.span) == ".");
     let Some(first) = nodes.iter().position(|n| !idle(n)) else { return &[] };
     let last = nodes.iter().rposition(|n| !stop(n)).unwrap_or(first);
     nodes.get(first..=last.max(first)).unwrap_or(&[])

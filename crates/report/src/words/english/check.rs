@@ -129,7 +129,9 @@ impl Check for English {
         match sense {
             Sense::LinkAlone => "read as the transform of a link alone, not as a frame in the base",
             Sense::OwnLinks => "read as the document defines them: only their product is the robot's",
-            Sense::VelocitiesOfJacobian => "velocities read as those of the Jacobian: its point, along its axes",
+            Sense::VelocitiesOfJacobian => {
+                "velocities read as those of the Jacobian: its point, along its axes"
+            }
             Sense::IndicesExchanged => {
                 "read with the frame on the left and the one in which it is seen on the right"
             }

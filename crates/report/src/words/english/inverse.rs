@@ -49,7 +49,9 @@ impl Inverse for English {
         let line = line.text("; sought ").list(given.sought).text(". ");
         match given.is_whole {
             true => line.text("With ").math(Given::whole()).text(" the chain is"),
-            false => line.text("What is constant at both ends is taken to the side of the pose; what is left is"),
+            false => {
+                line.text("What is constant at both ends is taken to the side of the pose; what is left is")
+            }
         }
     }
 
