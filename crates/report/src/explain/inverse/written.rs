@@ -155,7 +155,9 @@ fn equation(s: &Explained, words: &dyn Wording, blocks: &mut Vec<Block>) {
     let is_squared = s.sources.iter().any(|o| o.squared);
     let length = |c: &Statement| c.math.exprs().into_iter().map(literals).sum::<u64>();
     // Letters that are given no meaning are not shown.
-    let form = if s.coefficients.is_empty() { &[][..] } else { &s.form };
+    let is_letter = |x: &Symbol| matches!(&*x.name(), "A" | "B" | "C" | "D" | "E" | "F");
+    let has_letters = s.form.iter().flat_map(Math::exprs).any(|e| e.symbols().iter().any(is_letter));
+    let form = if s.coefficients.is_empty() && has_letters { &[][..] } else { &s.form };
     let said = |coefficients| Block::Paragraph(words.equation(s.kind, is_squared, form, &coefficients));
     if s.coefficients.iter().map(length).sum::<u64>() > INLINE {
         blocks.push(said(Coefficients::Below));
