@@ -74,6 +74,11 @@ fn own_matrices(text: &str, statements: &[Statement], at: usize, habits: &Habits
 
 /// The statements further down that define the names in the cells of a printed matrix: `J = [j_11 …]`, `j_11 = …`.
 fn entries(text: &str, statements: &[Statement], at: usize) -> Vec<usize> {
+    // Other matrices are known by their names, and give those of their entries a meaning.
+    let is_jacobian = |side: &Side| matches!(&names(text, side)[..], [name] if name.base == "J");
+    if !statements[at].sides.iter().any(is_jacobian) {
+        return vec![];
+    }
     let grids = statements[at].sides.iter().flat_map(|s| &s.parts).filter_map(|p| match p {
         Part::Matrix(grid) => Some(grid),
         Part::Text(_) => None,
