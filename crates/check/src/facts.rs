@@ -89,6 +89,8 @@ pub enum Meaning {
 pub struct Jacobian {
     /// The point that moves: the hand, or the origin of the last frame.
     pub body: Reference,
+    /// The frame at whose origin that point is, where that is not the body's own.
+    pub at: Option<usize>,
     /// Along whose axes: frame 0 is the usual one, the tool stands for the hand's own.
     pub axes: Reference,
     /// Whether the angular rows stand first.
@@ -244,6 +246,10 @@ pub enum Remark {
 pub enum Sense {
     /// A number behind `T` is that of a link, not of a frame in the base.
     LinkAlone,
+    /// The document's own transforms of links, whose product is the robot's.
+    OwnLinks,
+    /// Velocities are those of the printed Jacobian's point, along its axes.
+    VelocitiesOfJacobian,
     /// The left index is the frame, the right one that in which it is seen.
     IndicesExchanged,
     /// The name is a helper, not an entry of the pose.

@@ -11,7 +11,11 @@ use std::collections::BTreeSet;
 
 /// Values with each choice of the signs that a document names: ε = ±1.
 pub(super) fn with_named_signs(values: Vec<Expr>) -> Vec<Expr> {
-    SIGNS.iter().map(|name| sign(name)).fold(values, |all, sign| {
+    let is_sign = |s: &Symbol| s.name().strip_prefix(SIGN).is_some_and(|n| !n.contains(' '));
+    let mut signs: Vec<Symbol> = values.iter().flat_map(|e| e.symbols()).filter(is_sign).collect();
+    signs.sort_by_key(|s| s.name().to_string());
+    signs.dedup();
+    signs.into_iter().fold(values, |all, sign| {
         let is_used = all.iter().any(|e| e.symbols().contains(&sign));
         if !is_used || all.len() > MAX_SIGNED {
             return all;
@@ -21,30 +25,40 @@ pub(super) fn with_named_signs(values: Vec<Expr>) -> Vec<Expr> {
     })
 }
 
-/// What stands for a sign that has a name.
-fn sign(name: &str) -> Symbol {
-    Symbol::new(&format!("sign {name}"))
+/// The names of signs that a text has, `ε = ±1`, `κ_2 = \pm 1`, each with what stands for it.
+pub(super) fn named_signs(plain: &str) -> Vec<(String, Expr)> {
+    let mut found: Vec<(String, Expr)> = vec![];
+    for said in ["=±1", "=pm1"] {
+        for (at, _) in plain.match_indices(said) {
+            let goes_on = plain[at + said.len()..].starts_with(|c: char| c.is_ascii_digit() || c == '.');
+            let Some(name) = sign_before(&plain[..at]).filter(|_| !goes_on) else { continue };
+            if found.iter().all(|f| f.0 != name) {
+                let sign = Expr::symbol(&format!("{SIGN}{name}"));
+                found.push((name, sign));
+            }
+        }
+    }
+    found
 }
 
-/// The names of signs that a text has: `ε = ±1`.
-pub(super) fn named_signs(plain: &str) -> Vec<(&'static str, Expr)> {
-    let is_sign = |name: &&&str| {
-        let spelled = match **name {
-            "ε" => "varepsilon",
-            "σ" => "sigma",
-            other => other,
-        };
-        [format!("{name}=±1"), format!("{name}=pm1"), format!("{spelled}=pm1"), format!("{spelled}=±1")]
-            .iter()
-            .any(|s| plain.contains(s.as_str()))
-    };
-    SIGNS.iter().filter(is_sign).map(|n| (*n, sign(n).into())).collect()
+/// The name of a sign at the end of a text: a letter that is customary for signs, with its number.
+fn sign_before(text: &str) -> Option<String> {
+    let stem = text.trim_end_matches(|c: char| c.is_ascii_digit());
+    let letter =
+        SPELLED.iter().find(|s| stem.ends_with(s.0)).map(|s| s.1).or_else(|| stem.chars().next_back());
+    let letter = letter.filter(|c| SIGNS.contains(c))?;
+    Some(format!("{letter}{}", &text[stem.len()..]))
 }
 
+/// What the symbol of a sign begins with.
+const SIGN: &str = "sign ";
 /// So many values are given each choice of one more sign.
 const MAX_SIGNED: usize = 16;
-/// Names of signs.
-const SIGNS: [&str; 5] = ["ε", "σ", "k", "e", "s"];
+/// Letters for signs.
+const SIGNS: [char; 8] = ['ε', 'σ', 'κ', 'δ', 'λ', 'k', 'e', 's'];
+/// Those of them that LaTeX spells.
+const SPELLED: [(&str, char); 5] =
+    [("epsilon", 'ε'), ("sigma", 'σ'), ("kappa", 'κ'), ("delta", 'δ'), ("lambda", 'λ')];
 /// The axes of coordinates.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -107,6 +121,8 @@ pub(super) struct Habits {
     pub exchanged: bool,
     /// `atan2` has the cosine first.
     pub cosine_first: bool,
+    /// Velocities are those of the Jacobian that was printed last: of its point, along its axes.
+    pub velocities_of_jacobian: bool,
     /// Names that are helpers, not entries of the pose.
     pub helpers: BTreeSet<String>,
     /// Names of matrices that the document defines as products, `T_2 = A_4 A_5`.
@@ -121,6 +137,7 @@ impl Habits {
             links: false,
             exchanged: false,
             cosine_first: false,
+            velocities_of_jacobian: false,
             helpers: BTreeSet::new(),
             products: BTreeSet::new(),
         }

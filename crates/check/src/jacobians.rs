@@ -31,10 +31,15 @@ pub(super) struct Told {
     pub frame: Option<usize>,
     /// Along the axes of this frame.
     pub axes: Option<usize>,
+    /// The words before it speak of these frames: the point of the hand may be at the origin of one.
+    pub points: Vec<usize>,
 }
 
 /// The rows of a full Jacobian, as they may be named: linear first, angular first.
 const FULL: [[u8; 6]; 2] = [[0, 1, 2, 3, 4, 5], [3, 4, 5, 0, 1, 2]];
+
+/// A body, the frame at whose origin its point is, the axes, and the full Jacobian.
+type View = (Reference, Option<usize>, Reference, Vec<Vec<Expr>>);
 
 impl Subject {
     /// Of the Jacobians that people print, the one that agrees with a matrix in most entries, its rows in any order.
@@ -48,7 +53,7 @@ impl Subject {
         let wanted: Vec<Vec<Option<Value>>> =
             printed.0.iter().map(|row| row.iter().map(&mut value).collect()).collect();
         let mut best: Option<(usize, Jacobian, Matrix)> = None;
-        for (body, axes, full) in self.views(told) {
+        for (body, at, axes, full) in self.views(told) {
             let own: Vec<Vec<Option<Value>>> =
                 full.iter().map(|row| row.iter().map(|&e| points.value(e)).collect()).collect();
             // What is not 0 tells more.
@@ -61,7 +66,7 @@ impl Subject {
                 let total: usize = (0..rows).map(|r| agreement(r, usize::from(order[r]))).sum();
                 if best.as_ref().is_none_or(|b| total > b.0) {
                     let is_angular_first = rows > 3 && order[0] == 3;
-                    let jacobian = Jacobian { body, axes, is_angular_first, rows, order };
+                    let jacobian = Jacobian { body, at, axes, is_angular_first, rows, order };
                     let row = |k: &u8| full[usize::from(*k)].iter().map(|&e| Some(e)).collect();
                     best = Some((total, jacobian, Matrix(order[..rows].iter().map(row).collect())));
                 }
@@ -71,7 +76,7 @@ impl Subject {
     }
 
     /// Full Jacobians of the points and along the axes that a name may mean, the usual ones first.
-    fn views(&self, told: &Told) -> Vec<(Reference, Reference, Vec<Vec<Expr>>)> {
+    fn views(&self, told: &Told) -> Vec<View> {
         let n = self.last();
         let bodies = match told.frame {
             Some(k) if k < n => vec![Reference::Frame(k)],
@@ -79,13 +84,22 @@ impl Subject {
         };
         let axes: Vec<Reference> = match told.axes {
             Some(k) if k <= n => vec![Reference::Frame(k)],
-            _ => (0..=n).map(Reference::Frame).chain([Reference::Tool]).collect(),
+            _ => {
+                let ground = Some(self.ground()).filter(|g| *g == Reference::Base);
+                ground.into_iter().chain((0..=n).map(Reference::Frame)).chain([Reference::Tool]).collect()
+            }
         };
         let views = bodies.iter().flat_map(|&body| axes.iter().map(move |&along| (body, along)));
         let mut found: Vec<_> =
-            views.map(|(body, along)| (body, along, self.geometric_rows(body, along))).collect();
+            views.map(|(body, along)| (body, None, along, self.geometric_rows(body, along))).collect();
         if self.is_printed() {
-            found.extend(self.differentiated().map(|j| (Reference::Tool, Reference::Frame(0), j)));
+            found.extend(self.differentiated().map(|j| (Reference::Tool, None, Reference::Frame(0), j)));
+            return found;
+        }
+        for &k in told.points.iter().filter(|k| **k < n) {
+            found.extend(axes.iter().map(|&along| {
+                (Reference::Tool, Some(k), along, self.geometric_rows_at(Reference::Frame(k), along))
+            }));
         }
         found
     }
@@ -93,7 +107,7 @@ impl Subject {
     /// The rows of a square Jacobian that the arm has by nature: all that do not vanish, or the linear or the angular ones.
     fn task(&self, part: Part) -> Option<Vec<usize>> {
         let n = self.joints().len();
-        let j = self.geometric_rows(Reference::Tool, Reference::Frame(0));
+        let j = self.geometric_rows(Reference::Tool, self.ground());
         let mut points = Points::new(7);
         let zero = points.value(Expr::int(0));
         let moving: Vec<usize> = (0..6).filter(|&r| j[r].iter().any(|&e| points.value(e) != zero)).collect();
@@ -110,7 +124,7 @@ impl Subject {
 
     /// The square Jacobian that the arm has by nature, along the axes of frame 0.
     pub fn square_jacobian(&self, part: Part) -> Option<Matrix> {
-        let j = self.geometric_rows(Reference::Tool, Reference::Frame(0));
+        let j = self.geometric_rows(Reference::Tool, self.ground());
         let rows = self.task(part)?;
         Some(Matrix(rows.iter().map(|&r| j[r].iter().map(|&e| Some(e)).collect()).collect()))
     }
@@ -139,14 +153,14 @@ impl Subject {
 
     /// The linear and angular velocity of the hand along the axes of frame 0, in the joints' rates.
     pub fn velocity(&self) -> Vec<Expr> {
-        let (j, rates) = (self.geometric_rows(Reference::Tool, Reference::Frame(0)), self.rates());
+        let (j, rates) = (self.geometric_rows(Reference::Tool, self.ground()), self.rates());
         let row = |row: &Vec<Expr>| row.iter().zip(&rates).fold(Expr::int(0), |sum, (&e, &r)| sum + e * r);
         j.iter().map(row).collect()
     }
 
     /// The torques and forces of the joints that a load on the hand takes: force and moment along the axes of frame 0.
     pub fn torques(&self, load: &[Expr; 6]) -> Vec<Expr> {
-        let j = self.geometric_rows(Reference::Tool, Reference::Frame(0));
+        let j = self.geometric_rows(Reference::Tool, self.ground());
         let of = |k: usize| (0..6).fold(Expr::int(0), |sum, r| sum + j[r][k] * load[r]);
         (0..self.joints().len()).map(of).collect()
     }
@@ -155,7 +169,7 @@ impl Subject {
     /// stands for the arm's.
     fn differentiated(&self) -> Option<Vec<Vec<Expr>>> {
         let position = self.pose().translation.0;
-        let mut j = self.geometric_rows(Reference::Tool, Reference::Frame(0));
+        let mut j = self.geometric_rows(Reference::Tool, self.ground());
         for (r, &p) in position.iter().enumerate() {
             for (k, &q) in self.joints().iter().enumerate() {
                 j[r][k] = derivative(p, q)?;
@@ -229,6 +243,18 @@ pub(super) fn told_of_jacobian(name: &Name) -> Option<Told> {
     matches!(name.base.as_str(), "J" | "Jacobian").then(|| told(name))
 }
 
+/// The numbers of frames that words speak of: `the origin of frame 5`, `O_4`.
+pub(super) fn frames_told(words: &str) -> Vec<usize> {
+    const FRAMES: [&str; 9] =
+        ["frame", "origin", "repère", "system", "koordinatensystem", "sistema", "marco", "terna", "o"];
+    let plain = words.replace(['_', '{', '}', '$', '\\'], "");
+    let words: Vec<&str> = plain.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).collect();
+    let number = |w: &str| w.parse::<usize>().ok().filter(|_| w.len() <= 2);
+    let named = words.windows(2).filter(|w| FRAMES.contains(&w[0].to_lowercase().as_str()));
+    let origins = words.iter().filter_map(|w| number(w.strip_prefix(['O', 'o'])?));
+    named.filter_map(|w| number(w[1])).chain(origins).collect()
+}
+
 /// What the indices of a Jacobian tell.
 pub(super) fn told(name: &Name) -> Told {
     let sub = name.sub.to_lowercase();
@@ -241,5 +267,5 @@ pub(super) fn told(name: &Name) -> Told {
     let number = |text: &str| text.chars().filter(char::is_ascii_digit).collect::<String>().parse().ok();
     let frame = (!letters.is_empty()).then(|| number(&sub)).flatten();
     let axes = number(&name.left).or_else(|| number(&name.sup));
-    Told { part, frame, axes }
+    Told { part, frame, axes, points: vec![] }
 }

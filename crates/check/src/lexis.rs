@@ -43,8 +43,12 @@ pub(super) struct Lexis {
     by_custom: BTreeSet<String>,
     matrices: BTreeMap<String, (Matrix, Option<Meaning>)>,
     scalars: Vec<(String, Expr)>,
+    /// Matrices of the document in the entries of the pose as symbols.
+    posed: BTreeMap<String, Matrix>,
     /// Frames named by letters are anywhere.
     pub anywhere: Cell<bool>,
+    /// The pose is one of symbols.
+    pub is_posed: Cell<bool>,
 }
 
 impl Lexis {
@@ -61,7 +65,9 @@ impl Lexis {
             by_custom: BTreeSet::new(),
             matrices: BTreeMap::new(),
             scalars: vec![],
+            posed: BTreeMap::new(),
             anywhere: Cell::new(false),
+            is_posed: Cell::new(false),
         };
         if subject.last() == 0 {
             return lexis;
@@ -91,10 +97,10 @@ impl Lexis {
                 }
             }
         }
-        for (name, sign) in named_signs(&custom::plain(text).replace('$', "")) {
-            if lexis.names.lookup(name).is_none() {
-                lexis.names = std::mem::take(&mut lexis.names).alias(name, sign);
-                lexis.inverse = std::mem::take(&mut lexis.inverse).alias(name, sign);
+        for (name, sign) in named_signs(&custom::plain(text).replace(['$', '\u{200b}'], "")) {
+            if lexis.names.lookup(&name).is_none() {
+                lexis.names = std::mem::take(&mut lexis.names).alias(&name, sign);
+                lexis.inverse = std::mem::take(&mut lexis.inverse).alias(&name, sign);
             }
         }
         if let Some(torques) = custom::torque_column(subject, text) {
@@ -190,6 +196,18 @@ impl Lexis {
         }
     }
 
+    /// What a matrix of the document is in the entries of the pose.
+    pub fn define_posed(&mut self, name: &Name, value: Matrix) {
+        if self.posed.len() < MAX_NAMES {
+            self.posed.insert(name.key(), value);
+        }
+    }
+
+    /// What a matrix of the document is in the entries of the pose, if that is known.
+    pub fn posed_matrix(&self, name: &Name) -> Option<&Matrix> {
+        self.posed.get(&name.key())
+    }
+
     /// The names in which inverse formulas are printed.
     pub fn inverse_names(&self) -> Vocabulary {
         let places = (0..3).flat_map(|r| (0..4).map(move |c| (r, c)));
@@ -252,7 +270,9 @@ impl Lexis {
             crate::subject::frames(name, &self.habits).is_some_and(|(i, j)| i.is_letter() && j.is_letter())
         };
         let known = self.matrices.get(&name.key()).filter(|_| !(anywhere && is_free()));
+        let posed = self.posed.get(&name.key()).filter(|_| self.is_posed.get());
         let found = match known {
+            _ if posed.is_some() => (posed?.clone(), None),
             Some(found) => found.clone(),
             None => {
                 let value = |argument: &str| self.argument(argument);
@@ -269,6 +289,9 @@ impl Lexis {
             }
         };
         let mut matrix = found.0;
+        if self.is_posed.get() && matrix == Matrix::of(&subject.pose()) {
+            matrix = Matrix::of(&Places(self.habits.columns).pose());
+        }
         if name.is_inverse {
             matrix = matrix.inverse()?;
         }

@@ -23,6 +23,7 @@ mod matrix;
 mod names;
 mod note;
 mod numbers;
+mod order;
 mod outcome;
 mod plan;
 mod product;

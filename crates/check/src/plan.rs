@@ -6,6 +6,7 @@ use super::habits::Habits;
 use super::lexis::Lexis;
 use super::lexis::set_in;
 use super::note::{Note, Noted, Notes, Unread, Unreadable};
+use super::order;
 use super::programs;
 use super::subject::Subject;
 use super::walk::{Assertion, Defined, Walk};
@@ -262,7 +263,8 @@ impl Plan {
         let mut turns = self.turns.iter().skip(1).peekable();
         let mut is_off = false;
         let mut told = options.claim.as_deref();
-        for statement in &document.statements {
+        let mut is_read = vec![false; document.statements.len()];
+        for (at, statement) in document.statements.iter().enumerate() {
             while let Some(&(_, number)) = turns.next_if(|t| t.0 <= statement.span.start) {
                 names.push(Rc::new(walk.lexis.names.clone()));
                 inverse_names.push(Rc::new(walk.lexis.inverse_names()));
@@ -290,8 +292,17 @@ impl Plan {
             }
             if is_off || is_skipped {
                 ignored.push(statement.span.clone());
-            } else if walk.count() < super::MAX_FORMULAS {
+            } else if walk.count() < super::MAX_FORMULAS && !is_read[at] {
                 let first = walk.assertions.len();
+                let limit = turns.peek().map_or(text.len(), |t| t.0);
+                for k in order::before(text, &document.statements, at, &self.habits) {
+                    let other = &document.statements[k];
+                    let is_plain = other.directives.is_empty() && other.span.end <= limit;
+                    if is_plain && !is_read[k] && walk.may_define(other) {
+                        walk.ahead_of(statement, other);
+                        is_read[k] = true;
+                    }
+                }
                 walk.statement(statement, claim);
                 if !self.authors.is_empty() {
                     walk.believe(&self.authors, first);

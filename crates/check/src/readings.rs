@@ -5,12 +5,16 @@
 use super::CheckOptions;
 use super::facts::{About, Meaning, Sense};
 use super::habits::{Columns, Habits, Places, with_named_signs};
+use super::matrix::Matrix;
+use super::names::{Name, Token, tokens};
 use super::numbers;
+use super::order;
 use super::outcome::Finding;
 use super::plan::{Plan, Walked};
 use super::trial::{self, Trial};
 use super::walk::{Assertion, Piece, Spoken};
-use denavit_reading::document::Document;
+use denavit::forward::Reference;
+use denavit_reading::document::{Document, Statement};
 use denavit_reading::slip::Points;
 use denavit_symbolic::vocabulary::plain_name;
 use denavit_symbolic::{Expr, equal};
@@ -26,6 +30,7 @@ const MARGIN: usize = 2;
 /// How many statements are right and wrong, and which are wrong.
 struct Score {
     right: usize,
+    right_at: BTreeSet<usize>,
     wrong: BTreeSet<usize>,
 }
 
@@ -56,7 +61,11 @@ pub(super) fn weighed(
             let there = other.walk(text, document, options);
             let own = trials.score(&other, &there);
             let gain = own.right.saturating_sub(score.right);
+            // Links that are the document's own must yield something of the robot that else is wrong.
+            let is_borne_out = sense != Sense::OwnLinks
+                || own.right_at.iter().any(|at| is_own_chain(text, document, &other, &walked, &score, *at));
             let is_better = gain >= margin
+                && is_borne_out
                 && own.wrong.len() < score.wrong.len()
                 && best.as_ref().is_none_or(|b| gain > b.0);
             if is_better {
@@ -102,8 +111,24 @@ fn candidates(
             found.push((Habits { columns: Columns::Snap, ..habits.clone() }, Sense::ColumnsSnap, MARGIN));
         }
     }
+    let own: BTreeSet<String> = walked.assertions.iter().filter_map(own_link).collect();
+    if wrong.iter().any(|a| own_link(a).is_some()) && !own.is_subset(&habits.products) {
+        let products = habits.products.union(&own).cloned().collect();
+        found.push((Habits { products, ..habits.clone() }, Sense::OwnLinks, 0));
+    }
     if !habits.cosine_first && wrong.iter().any(|a| a.spoken.is_some()) {
         found.push((Habits { cosine_first: true, ..habits.clone() }, Sense::CosineFirst, MARGIN));
+    }
+    let is_rate = |a: &&Assertion| {
+        let is_of = |e: Expr| e.symbols().iter().any(|s| s.name().starts_with("rate of "));
+        a.pieces.iter().any(|p| matches!(p, Piece::Pair(pair) if is_of(pair.wanted) || is_of(pair.value)))
+    };
+    if !habits.velocities_of_jacobian && wrong.iter().any(is_rate) {
+        found.push((
+            Habits { velocities_of_jacobian: true, ..habits.clone() },
+            Sense::VelocitiesOfJacobian,
+            MARGIN,
+        ));
     }
     let names: BTreeSet<String> = wrong
         .iter()
@@ -121,6 +146,51 @@ fn candidates(
         found.push((Habits { helpers, ..habits.clone() }, Sense::Helper, 1));
     }
     found
+}
+
+/// True for a statement that holds the product of all links that are wrong by themselves against the robot's pose, by
+/// names that it uses or that these stand for: `U = A_1 A_2`, `U = T`.
+fn is_own_chain(
+    text: &str,
+    document: &Document,
+    plan: &Plan,
+    first: &Walked,
+    score: &Score,
+    at: usize,
+) -> bool {
+    let is_pose = |name: &Name| {
+        let is_own = plan.habits.products.contains(&name.key());
+        let mut meanings = plan.subjects.iter().map(|s| (s, s.meaning(name, false, &plan.habits)));
+        !is_own && meanings.any(|(s, m)| m.is_some_and(|m| m.0 == Matrix::of(&s.pose())))
+    };
+    let names =
+        |s: &Statement| s.sides.iter().flat_map(|side| order::names(text, side)).collect::<Vec<Name>>();
+    let Some(statement) = document.statements.iter().find(|s| s.span.start == at) else { return false };
+    let mut all = names(statement);
+    let own: BTreeSet<String> = all.iter().map(Name::key).collect();
+    for other in &document.statements {
+        let left = other.sides.first().map(|side| order::names(text, side)).unwrap_or_default();
+        if matches!(&left[..], [name] if own.contains(&name.key())) {
+            all.extend(names(other));
+        }
+    }
+    let wrong = first.assertions.iter().filter(|a| score.wrong.contains(&a.span.start));
+    let mut wrong = wrong.filter_map(own_link);
+    wrong.all(|key| all.iter().any(|n| n.key() == key)) && all.iter().any(is_pose)
+}
+
+/// The name of the matrix that a statement gives a link of its own: `A_2 = Rot(z, q_2) Trans(x, a_2)`.
+fn own_link(assertion: &Assertion) -> Option<String> {
+    let About::Matrix(Meaning::Frame { of: Reference::Frame(j), seen_from: Reference::Frame(i) }) =
+        assertion.about
+    else {
+        return None;
+    };
+    let found = tokens(&assertion.name, &(0..assertion.name.len()), &|_| false)?;
+    match &found[..] {
+        [Token::Name(name)] if i + 1 == j && name.base != "T" => Some(name.key()),
+        _ => None,
+    }
 }
 
 /// True for a name that custom alone makes an entry of the pose; those of the position where the text gives the hand other
@@ -156,10 +226,13 @@ impl Trials {
     }
 
     fn score(&mut self, plan: &Plan, walked: &Walked) -> Score {
-        let mut score = Score { right: 0, wrong: BTreeSet::new() };
+        let mut score = Score { right: 0, right_at: BTreeSet::new(), wrong: BTreeSet::new() };
         for assertion in &walked.assertions {
             match self.is_right(plan, assertion) {
-                Some(true) => score.right += 1,
+                Some(true) => {
+                    score.right += 1;
+                    score.right_at.insert(assertion.span.start);
+                }
                 Some(false) => {
                     score.wrong.insert(assertion.span.start);
                 }

@@ -158,9 +158,15 @@ impl Subject {
         subject
     }
 
-    /// The tool in frame 0.
+    /// The base, or frame 0 where that is the same.
+    pub fn ground(&self) -> Reference {
+        if self.robot.base == Transform::identity() { Reference::Frame(0) } else { Reference::Base }
+    }
+
+    /// The tool in the base, which frame 0 is where the robot says nothing else.
     pub fn pose(&self) -> Transform<Expr> {
         let pose = self.transform(Some(0), None).unwrap_or_else(Transform::identity);
+        let pose = self.robot.base * pose;
         if self.printed.entries.is_empty() {
             return pose;
         }
@@ -172,6 +178,12 @@ impl Subject {
             }
         }
         Transform::from_rotation_translation(Rotation::from_rows(rows), position)
+    }
+
+    /// The rows of the geometric Jacobian of the hand's point at the origin of a frame, linear first.
+    pub fn geometric_rows_at(&self, at: Reference, along: Reference) -> Vec<Vec<Expr>> {
+        let view = Viewpoint { at, ..Viewpoint::of(Reference::Tool, along) };
+        geometric(&self.robot, &self.q, &view).rows().iter().map(|row| row.to_vec()).collect()
     }
 
     /// The rows of the geometric Jacobian, linear first.
@@ -302,7 +314,10 @@ impl Subject {
             }
             _ => {
                 let (i, j) = (place(&from)?, place(&to)?);
-                (self.transform(i, j)?, Meaning::Frame { of: frame(j), seen_from: frame(i) })
+                let is_hand = [&name.left, &name.sub, &name.sup].iter().all(|s| s.is_empty());
+                let found = self.transform(i, j)?;
+                let found = if is_hand { self.robot.base * found } else { found };
+                (found, Meaning::Frame { of: frame(j), seen_from: frame(i) })
             }
         };
         Some(match name.base.as_str() {

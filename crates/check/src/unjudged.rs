@@ -55,8 +55,14 @@ pub(super) fn listed(
             .chain(document.statements.iter().flat_map(|s| &s.directives).map(|d| d.span.clone()))
             .chain(walked.taken.iter().cloned())
             .collect();
+        let mut is_drawing = false;
         for line in lines(text) {
             let shown = text.get(line.clone()).unwrap_or_default();
+            is_drawing |= shown.contains("\\begin{tikzpicture}");
+            if is_drawing {
+                is_drawing = !shown.contains("\\end{tikzpicture}");
+                continue;
+            }
             if looks_like_formula(shown) && !touches(&read, &line) && !touches(&covered, &line) {
                 found.push(Unjudged { span: trimmed(text, line), why: Skipped::AmongWords });
             }
@@ -149,9 +155,9 @@ fn helpers(text: &str, walked: &Walked, claims: &[Claim]) -> Vec<Claim> {
         if own(defined) {
             continue;
         }
-        let end = walked.defined[k + 1..].iter().find(|d| d.name == defined.name).map(|d| d.span.start);
+        let end = walked.defined[k + 1..].iter().find(|d| d.name == defined.name).map(|d| d.from);
         let is_used = users.iter().any(|u| {
-            u.span.start >= defined.span.start
+            u.span.start >= defined.from
                 && end.is_none_or(|e| u.span.start < e)
                 && u.span != defined.statement
                 && u.uses(text, &defined.name)

@@ -3,7 +3,7 @@
 use super::scalars::is_measured;
 use super::{Assertion, Cell, Pair, Piece, Reference, Walk};
 use crate::facts::{Meaning, Remark, ShortRow};
-use crate::jacobians::told_of_jacobian;
+use crate::jacobians::{Told, frames_told, told_of_jacobian};
 use crate::matrix::Matrix;
 use crate::note::{Unread, Unreadable};
 use crate::numbers::{Answer, half_unit};
@@ -56,7 +56,9 @@ impl Walk<'_> {
         if columns != joints || !(2..=6).contains(&rows) {
             return None;
         }
-        let (matrix, jacobian) = self.subject.nearest_jacobian(&printed, &told.unwrap_or_default())?;
+        let points = frames_told(self.paragraph_before(statement));
+        let told = Told { points, ..told.unwrap_or_default() };
+        let (matrix, jacobian) = self.subject.nearest_jacobian(&printed, &told)?;
         Some(Reference { matrix, about: Some(Meaning::Jacobian(jacobian)) })
     }
 
@@ -189,6 +191,10 @@ impl Walk<'_> {
         let knows = |e: &Expr| self.at.knows(*e, &self.subject);
         let is_numeric = all_numbers && wanted.0.iter().flatten().flatten().all(knows);
         let is_open = all_numbers && !is_numeric;
+        // Beside numbers that somebody computed 0 and 1 are such numbers, too.
+        let is_computed =
+            |cell: &Cell| matches!(cell, Cell::Formulas(f) if f.iter().any(|f| is_measured(f.1.value())));
+        let is_worked_out = is_open && cells.iter().flatten().any(is_computed);
         for (r, row) in cells.iter().enumerate() {
             if row.len() < width {
                 let short = ShortRow { row: r + 1, elements: row.len(), width };
@@ -228,6 +234,9 @@ impl Walk<'_> {
                         for (span, syntax) in formulas {
                             if is_numeric {
                                 out.pieces.extend(self.number(place, span, syntax.value(), wanted));
+                                continue;
+                            }
+                            if is_worked_out && !is_measured(syntax.value()) && !wanted.symbols().is_empty() {
                                 continue;
                             }
                             if is_open && is_measured(syntax.value()) && !wanted.symbols().is_empty() {

@@ -1,15 +1,16 @@
 //! Equations between matrices: what is known of a side, what is compared, what is defined.
 
 use super::{Assertion, Cell, Cells, Definition, MAX_ELEMENTS, Piece, Reference, Scalar, Walk};
-use crate::facts::{About, Meaning};
+use crate::facts::{About, Jacobian, Meaning};
 use crate::jacobians::{Part as Rows, told_of_jacobian};
 use crate::matrix::Matrix;
 use crate::names::{Name, Token, tokens};
 use crate::note::{Unread, Unreadable};
 use crate::product::{Factor, NotMatrices, Product, product};
+use denavit::forward::Reference as Frame;
 use denavit_reading::document::{Fence, Grid, Part, Side, Statement, sides};
-use denavit_symbolic::Expr;
 use denavit_symbolic::parse::{Syntax, SyntaxKind};
+use denavit_symbolic::{Expr, Symbol};
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -153,7 +154,8 @@ impl Walk<'_> {
                     self.named.push((statement.span.clone(), name.key()));
                     self.lexis.define_matrix(&name, matrix, about);
                 }
-                Definition::Entry(name, value) => self.lexis.define_right(&name, value, value),
+                Definition::Entry(name, value, posed) => self.lexis.define_right(&name, value, posed),
+                Definition::Posed(name, matrix) => self.lexis.define_posed(&name, matrix),
                 Definition::Cell(name, value) => self.lexis.define(&name, value),
             }
         }
@@ -259,6 +261,10 @@ impl Walk<'_> {
         if self.whole_configuration(statement) {
             return definitions;
         }
+        if let Some(columns) = self.columns(statement) {
+            return columns;
+        }
+        definitions.extend(self.posed(statement));
         let told = claim.and_then(|words| self.told_matrix(words.split(' ').next().unwrap_or(words)));
         let is_jacobian = self.jacobian_of(&read, statement).is_some();
         let tells_jacobian = |i: usize| is_jacobian && self.tells_jacobian(&statement.sides[i]);
@@ -287,6 +293,12 @@ impl Walk<'_> {
                 None => (usize::MAX, self.rates_of(statement)),
             },
         };
+        if let Some(Reference { matrix, about: Some(Meaning::Jacobian(jacobian)) }) = &reference {
+            if self.lexis.habits.velocities_of_jacobian {
+                definitions.extend(self.velocities(jacobian));
+            }
+            definitions.extend(self.entries(statement, matrix));
+        }
         let about = reference.as_ref().and_then(|r| r.about.clone()).map_or(About::Matrices, About::Matrix);
         let mut assertion = self.assertion(statement, about);
         let mut names: Vec<&Grid> = vec![];
@@ -378,7 +390,8 @@ impl Walk<'_> {
                 for (r, row) in self.cells(grid).iter().enumerate() {
                     for (c, cell) in row.iter().enumerate() {
                         if let (Cell::Lone(name), Some(value)) = (cell, reference.matrix.entry(r, c)) {
-                            definitions.push(Definition::Entry(format!("{}{}", name.base, name.sub), value));
+                            let name = format!("{}{}", name.base, name.sub);
+                            definitions.push(Definition::Entry(name, value, value));
                         }
                     }
                 }
@@ -390,6 +403,85 @@ impl Walk<'_> {
             self.assertions.push(assertion);
         }
         definitions
+    }
+
+    /// The names of the entries of a Jacobian that a statement prints: `j_{11}`.
+    fn entries(&self, statement: &Statement, matrix: &Matrix) -> Vec<Definition> {
+        let is_bare = statement.sides.first().and_then(|s| self.lone(s)).is_some_and(|n| n.is_bare());
+        let mut found = vec![];
+        for (r, row) in matrix.0.iter().enumerate().filter(|_| is_bare) {
+            for (c, value) in row.iter().enumerate() {
+                let name = format!("j{}{}", r + 1, c + 1);
+                if let Some(value) = value.filter(|_| self.lexis.names.lookup(&name).is_none()) {
+                    found.push(Definition::Entry(name, value, value));
+                }
+            }
+        }
+        found
+    }
+
+    /// The components of the velocity that a Jacobian gives, under their names.
+    fn velocities(&self, jacobian: &Jacobian) -> Vec<Definition> {
+        const NAMES: [&[&str]; 6] = [&["vx"], &["vy"], &["vz"], &["wx", "ωx"], &["wy", "ωy"], &["wz", "ωz"]];
+        let rows = match jacobian.at {
+            Some(k) => self.subject.geometric_rows_at(Frame::Frame(k), jacobian.axes),
+            None => self.subject.geometric_rows(jacobian.body, jacobian.axes),
+        };
+        let rates = self.subject.rates();
+        let of =
+            |row: &Vec<Expr>| row.iter().zip(&rates).fold(Expr::int(0), |sum, (&e, &rate)| sum + e * rate);
+        let values = rows.iter().map(of).zip(NAMES);
+        let entry = |(value, names): (Expr, &'static [&'static str])| {
+            names.iter().map(move |name| Definition::Entry((*name).to_string(), value, value))
+        };
+        values.flat_map(entry).collect()
+    }
+
+    /// What a side that is a lone name is in the entries of the pose, and in no joint: `U = X·T·Y`.
+    fn posed(&self, statement: &Statement) -> Option<Definition> {
+        let [left, rest @ ..] = &statement.sides[..] else { return None };
+        let name = self.lone(left)?;
+        let joints = self.subject.joints();
+        let is_free = |e: Expr| !e.symbols().iter().any(|s| joints.contains(&(*s).into()));
+        self.lexis.is_posed.set(true);
+        let read = |side| product(self.text, side, &self.lexis, &self.subject, &|grid| self.printed(grid));
+        let value = rest.iter().find_map(|side| {
+            let value =
+                read(side).ok()?.value.filter(|m| m.0.iter().flatten().flatten().all(|e| is_free(*e)))?;
+            (value.shape() == Some((4, 4)) && self.is_of_pose(&value)).then_some(value)
+        });
+        self.lexis.is_posed.set(false);
+        Some(Definition::Posed(name, value?))
+    }
+
+    /// True for a matrix in which entries of the pose occur.
+    fn is_of_pose(&self, matrix: &Matrix) -> bool {
+        let symbols: Vec<Symbol> = (0..3)
+            .flat_map(|r| (0..4).map(move |c| (r, c)))
+            .map(|(r, c)| self.lexis.pose_symbol(r, c))
+            .collect();
+        matrix.0.iter().flatten().flatten().any(|e| e.symbols().iter().any(|s| symbols.contains(s)))
+    }
+
+    /// The entries of the pose that name the columns of another matrix: `U = [n o a p]` behind `U = X·T·Y`.
+    fn columns(&self, statement: &Statement) -> Option<Vec<Definition>> {
+        let [left, right] = &statement.sides[..] else { return None };
+        let [Part::Matrix(grid)] = &right.parts[..] else { return None };
+        let name = self.lone(left)?;
+        let posed = self.lexis.posed_matrix(&name)?;
+        let (matrix, _) = self.lexis.matrix(&self.subject, &name)?;
+        if !self.is_names(grid) {
+            return None;
+        }
+        let mut found = vec![];
+        for (r, row) in grid.rows.iter().enumerate().take(3) {
+            for (c, span) in row.iter().enumerate() {
+                let name = self.lexis.lone_name(self.text, span)?;
+                let name = format!("{}{}", name.base, name.sub);
+                found.push(Definition::Entry(name, matrix.entry(r, c)?, posed.entry(r, c)?));
+            }
+        }
+        Some(found)
     }
 
     /// The number of a side that only names what the document has defined before, and is defined anew.

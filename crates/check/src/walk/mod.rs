@@ -1,6 +1,7 @@
 //! From the statements of a document to pairs of formulas: what is printed, and what the robot makes of it.
 
 mod author;
+mod cases;
 mod compare;
 mod matrices;
 mod scalars;
@@ -106,8 +107,12 @@ pub(super) struct Defined {
     pub value: Expr,
     /// Which of the robots is spoken of.
     pub subject: usize,
+    /// The place from which on the name has this meaning.
+    pub from: usize,
 }
 
+/// So many bytes may stand between a paragraph and what it is about.
+const MAX_DISTANCE: usize = 120;
 /// The most elements of a matrix that are read.
 const MAX_ELEMENTS: usize = 4_096;
 
@@ -132,9 +137,13 @@ pub(super) struct Walk<'a> {
     pub taken: Vec<Range<usize>>,
     /// Names that the document gives matrices: the statement and the name as printed.
     pub named: Vec<(Range<usize>, String)>,
+    /// The statement before which another one is read.
+    reader: Option<usize>,
     /// The prose and the heading that were looked at last.
     last_prose: Range<usize>,
     last_heading: Range<usize>,
+    /// Where the statements so far end.
+    last_end: usize,
     /// The cells of the matrices of the present statement.
     cells: RefCell<FxHashMap<usize, Rc<Cells>>>,
 }
@@ -163,8 +172,10 @@ enum Scalar {
 /// A name that a statement defines.
 enum Definition {
     Matrix(Name, Matrix, Option<Meaning>),
-    /// An entry of a matrix that the robot gives.
-    Entry(String, Expr),
+    /// An entry of a matrix that the robot gives, and what it is in the entries of the pose.
+    Entry(String, Expr, Expr),
+    /// A matrix in the entries of the pose.
+    Posed(Name, Matrix),
     /// The value of a cell.
     Cell(String, Expr),
 }
@@ -190,8 +201,10 @@ impl<'a> Walk<'a> {
             sines: vec![],
             taken: vec![],
             named: vec![],
+            reader: None,
             last_prose: 0..0,
             last_heading: 0..0,
+            last_end: 0,
             at: Configuration::default(),
             angles: None,
             skipped: vec![],
@@ -233,6 +246,9 @@ impl<'a> Walk<'a> {
             self.last_heading = heading.clone();
             self.told_in(heading);
         }
+        let before = self.last_end.min(statement.span.start)..statement.span.start;
+        self.last_end = self.last_end.max(statement.span.end);
+        self.told_between(&before, statement.prose.as_ref());
         if let Some(prose) = &statement.prose
             && *prose != self.last_prose
         {
@@ -247,6 +263,23 @@ impl<'a> Walk<'a> {
         self.matrices(statement, claim);
     }
 
+    /// True for a statement that gives a name without meaning, or a helper, its meaning.
+    pub fn may_define(&self, statement: &Statement) -> bool {
+        let [left, _, ..] = &statement.sides[..] else { return false };
+        let [Part::Text(span)] = &left.parts[..] else { return false };
+        let name = self.lexis.lone_name(self.text, span);
+        let is_own = name.as_ref().is_some_and(|n| self.lexis.habits.products.contains(&n.key()));
+        let is_free = name.is_some() && self.lexis.formula(self.text, span).is_err();
+        is_own || self.lexis.is_helper(self.source(span)) || is_free && !self.is_right_name(span)
+    }
+
+    /// Reads a statement that gives a name its meaning before the one that uses it.
+    pub fn ahead_of(&mut self, user: &Statement, definition: &Statement) {
+        self.reader = Some(user.span.start);
+        self.statement(definition, None);
+        self.reader = None;
+    }
+
     /// True for a statement that stands in a sentence that tells a case.
     fn is_case(&self, statement: &Statement) -> bool {
         let prose = statement.prose.clone().filter(|p| {
@@ -258,6 +291,21 @@ impl<'a> Walk<'a> {
 
     fn source(&self, span: &Range<usize>) -> &'a str {
         self.text.get(span.clone()).unwrap_or_default().trim()
+    }
+
+    /// The paragraph that ends before a statement.
+    fn paragraph_before(&self, statement: &Statement) -> &'a str {
+        let text: &'a str = self.text;
+        let Some(prose) = statement.prose.clone().filter(|p| p.end <= statement.span.start) else {
+            return "";
+        };
+        if statement.span.start - prose.end > MAX_DISTANCE {
+            return "";
+        }
+        let before = text.get(..prose.end).unwrap_or_default();
+        let lines = before.rsplit('\n').take_while(|l| !l.trim().is_empty()).take(8);
+        let length: usize = lines.map(|l| l.len() + 1).sum();
+        before.get(before.len().saturating_sub(length)..).unwrap_or_default()
     }
 
     fn claim_name(&self, statement: &Statement) -> String {

@@ -3,14 +3,13 @@
 use super::{Assertion, Defined, Pair, Piece, Reference, Scalar, Spoken, Walk};
 use crate::facts::About;
 use crate::habits::with_named_signs;
-use crate::jacobians::Part;
 use crate::lexis::{read, set_in};
 use crate::matrix::Matrix;
 use crate::names::Name;
 use crate::note::{Unread, Unreadable};
 use denavit::forward::Reference as Frame;
 use denavit::geometry::orientation::OrientationSet;
-use denavit_reading::document::{Place, Statement};
+use denavit_reading::document::Statement;
 use denavit_symbolic::parse::{Function, Syntax, SyntaxKind};
 use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
 use denavit_symbolic::{Angle, Expr, Node};
@@ -108,6 +107,10 @@ impl Walk<'_> {
         }
         let is_case = self.is_case(statement);
         if is_case && self.case(statement, &read) {
+            return true;
+        }
+        if self.is_place(statement, &read) {
+            self.taken.push(statement.span.clone());
             return true;
         }
         if !is_case && self.configuration(&spans, &read) {
@@ -264,72 +267,8 @@ impl Walk<'_> {
             printed: syntax.clone(),
             value: syntax.value(),
             subject: self.number,
+            from: self.reader.unwrap_or(statement.span.start),
         });
-    }
-
-    /// A joint's value in a sentence that tells a case: a singular configuration, if the sentence says so.
-    fn case(&mut self, statement: &Statement, read: &[Scalar]) -> bool {
-        let [Scalar::Formula(_, left), Scalar::Formula(span, right)] = read else { return false };
-        let (of, value) = (left.value(), right.value());
-        let joints = self.subject.joints();
-        if !of.as_symbol().is_some_and(|s| joints.contains(&s.into())) || !value.symbols().is_empty() {
-            return false;
-        }
-        let said = statement.prose.clone().and_then(|p| self.text.get(p)).unwrap_or_default().to_lowercase();
-        let determinant = self.subject.determinant(Part::Any).filter(|_| is_singular(&said));
-        match determinant {
-            Some(determinant) => {
-                let there = determinant.substitute(|s| (Some(s) == of.as_symbol()).then_some(value));
-                let piece = Piece::Pair(Pair {
-                    place: None,
-                    span: span.clone(),
-                    printed: None,
-                    value: there,
-                    wanted: Expr::int(0),
-                    also: vec![],
-                });
-                // The configurations of a sentence are one claim.
-                let last = self.assertions.last_mut().filter(|a| a.about == About::Singularity);
-                match last.filter(|a| statement.span.start.saturating_sub(a.span.end) < 120) {
-                    Some(assertion) => {
-                        assertion.span.end = statement.span.end;
-                        assertion.pieces.push(piece);
-                    }
-                    None => {
-                        let mut assertion = self.assertion(statement, About::Singularity);
-                        assertion.pieces = vec![piece];
-                        self.assertions.push(assertion);
-                    }
-                }
-            }
-            None => self.taken.push(statement.span.clone()),
-        }
-        true
-    }
-
-    /// True for an equation to be solved in a sentence: `det J = 0`, `s_5 = 0`.
-    fn is_condition(&self, statement: &Statement, read: &[Scalar]) -> bool {
-        let [Scalar::Formula(span, left), Scalar::Formula(_, right)] = read else { return false };
-        let is_constant = right.value().symbols().is_empty() && !is_measured(right.value());
-        let is_entry = self.is_right_name(span) && self.lexis.lone_name(self.text, span).is_some();
-        statement.place == Place::Inline
-            && is_constant
-            && !left.value().symbols().is_empty()
-            && (!is_entry || !denavit_symbolic::equal(left.value(), right.value()).is_equal())
-    }
-
-    /// True for an entry of the pose that a sentence gives a value in which no joint occurs: `with px = 0.6, pz = d1`.
-    fn is_goal(&self, statement: &Statement, read: &[Scalar]) -> bool {
-        let [Scalar::Formula(span, left), Scalar::Formula(_, right)] = read else { return false };
-        let joints = self.subject.joints();
-        let moves = |e: Expr| e.symbols().iter().any(|s| joints.contains(&(*s).into()));
-        statement.place == Place::Inline
-            && self.is_right_name(span)
-            && moves(left.value())
-            && !moves(right.value())
-            && (right.value().symbols().is_empty() || !self.lexis.is_by_custom(self.source(span)))
-            && !self.speaks_of_pose(&statement.sides[1].span)
-            && !(right.value().symbols().is_empty() && self.at.knows(left.value(), &self.subject))
     }
 
     /// What a name is whose function a side is: `cos ε = …`, `r² = …`; with the value that the name has then.
@@ -487,7 +426,7 @@ impl Walk<'_> {
     }
 
     /// The determinant that a name says: `\det J_v`, `|J|`.
-    fn determinant(&self, span: &Range<usize>) -> Option<Expr> {
+    pub(super) fn determinant(&self, span: &Range<usize>) -> Option<Expr> {
         let source = self.source(span);
         let bare = ["\\operatorname{det}", "\\mathrm{det}", "\\det", "\\left", "\\right", "det"]
             .iter()
@@ -499,8 +438,33 @@ impl Walk<'_> {
         let inner = inner.trim();
         let name = self.lexis.lone_name(inner, &(0..inner.len()))?;
         let told = crate::jacobians::told_of_jacobian(&name)?;
-        let printed = self.lexis.defined(&name).filter(|m| m.shape().is_some_and(|(r, c)| r == c));
-        printed.and_then(Matrix::determinant).or_else(|| self.subject.determinant(told.part))
+        // Rows that vanish are left out.
+        let moves = |row: &&Vec<Option<Expr>>| row.iter().any(|e| e.is_none_or(|e| !e.is_zero()));
+        let printed = self.lexis.defined(&name).map(|m| Matrix(m.0.iter().filter(moves).cloned().collect()));
+        let is_square = |m: &Matrix| m.shape().is_some_and(|(r, c)| r == c);
+        if let (Some(whole), Some(false)) = (self.lexis.defined(&name), printed.as_ref().map(is_square)) {
+            return self.told_minor(whole).filter(is_square)?.determinant();
+        }
+        printed.and_then(|m| m.determinant()).or_else(|| self.subject.determinant(told.part))
+    }
+
+    /// The rows or columns of a full Jacobian that the words before name: `rows vx, vy, wz`, `joints 1, 2 and 3`.
+    fn told_minor(&self, whole: &Matrix) -> Option<Matrix> {
+        const ROWS: [[&str; 2]; 6] =
+            [["vx", "vx"], ["vy", "vy"], ["vz", "vz"], ["wx", "ωx"], ["wy", "ωy"], ["wz", "ωz"]];
+        let words: Vec<String> =
+            self.source(&self.last_prose).split([' ', ',', ':', ';', '$']).map(plain_name).collect();
+        let (rows, columns) = whole.shape()?;
+        let is_row =
+            |r: &usize| ROWS.get(*r).is_some_and(|names| words.iter().any(|w| names.contains(&&**w)));
+        let told: Vec<usize> = (0..rows).filter(is_row).collect();
+        let numbers: Vec<usize> = words.iter().filter_map(|w| w.parse().ok()).collect();
+        let is_told = |c: &usize| told.is_empty() && numbers.contains(&(c + 1));
+        let joints: Vec<usize> = (0..columns).filter(is_told).collect();
+        let moves = |r: &usize| whole.0[*r].iter().any(|e| e.is_none_or(|e| !e.is_zero()));
+        let rows: Vec<usize> = if told.is_empty() { (0..rows).filter(moves).collect() } else { told };
+        let columns = if joints.is_empty() { (0..columns).collect() } else { joints };
+        Some(Matrix(rows.iter().map(|&r| columns.iter().map(|&c| whole.entry(r, c)).collect()).collect()))
     }
 
     pub(super) fn told_matrix(&self, words: &str) -> Option<Reference> {
@@ -561,13 +525,6 @@ fn has_entry(walk: &Walk<'_>, span: &Range<usize>) -> bool {
     let Ok(syntax) = walk.lexis.inverse_formula(walk.text, span) else { return false };
     let symbols = syntax.value().symbols();
     (0..3).any(|r| (0..3).any(|c| symbols.contains(&walk.lexis.pose_symbol(r, c))))
-}
-
-/// True if a sentence says that the arm is singular somewhere.
-fn is_singular(said: &str) -> bool {
-    let denials =
-        ["not singul", "nicht singul", "non singul", "no singul", "nonsingul", "pas singul", "unless"];
-    said.contains("singul") && !denials.iter().any(|d| said.contains(d))
 }
 
 /// True if an arctangent or the like occurs.

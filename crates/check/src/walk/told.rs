@@ -57,7 +57,11 @@ impl Walk<'_> {
         if is_case(line) {
             return;
         }
-        let joined = line.replace('$', " ").replace("\\left", "     ").replace("\\right", "      ");
+        let joined = line
+            .replace('$', " ")
+            .replace('\u{200b}', "   ")
+            .replace("\\left", "     ")
+            .replace("\\right", "      ");
         let joined = joined.replace("\\,", "  ").replace("\\;", "  ");
         self.told_lists(&joined);
         self.told_tuples(&joined, prose.start);
@@ -94,6 +98,21 @@ impl Walk<'_> {
                 names.clear();
             } else if plain_name(value) != value.replace(['_', '{', '}', '\\', ' '], "") || !is_name(value) {
                 names.clear();
+            }
+        }
+    }
+
+    /// Reads the values that the lines between two statements give, but for the prose that is read with the second.
+    pub(super) fn told_between(&mut self, span: &Range<usize>, prose: Option<&Range<usize>>) {
+        let Some(text) = self.text.get(span.clone()) else { return };
+        let mut start = span.start;
+        for line in text.split_inclusive('\n') {
+            let here = start..start + line.trim_end().len();
+            start += line.len();
+            let is_prose = prose.is_some_and(|p| p.start < here.end && here.start < p.end);
+            let is_text = !line.trim_start().starts_with(['|', '%', '!', '#', '\\', '<']);
+            if line.contains('=') && is_text && !is_prose {
+                self.told_in(&here);
             }
         }
     }

@@ -114,10 +114,10 @@ impl Study {
         let names = description.vocabulary();
         let n = description.rows.len();
         let mut models: Vec<(String, Option<String>, [[Expr; 4]; 4])> = vec![];
-        let derived = |from: usize, to: Reference| {
-            ForwardModel::derive(&description, Reference::Frame(from), to, Outputs::ALL).matrix
+        let derived = |from: Reference, to: Reference| {
+            ForwardModel::derive(&description, from, to, Outputs::ALL).matrix
         };
-        if let Ok(pose) = derived(0, Reference::Tool) {
+        if let Ok(pose) = derived(Reference::Base, Reference::Tool) {
             models.push(("T".into(), None, pose));
         }
         let mut parts = vec![(0, 2), (0, 3.min(n)), (1, n.min(4)), (n.saturating_sub(3), n)];
@@ -128,7 +128,7 @@ impl Study {
         for (i, j) in parts {
             let left = format!("T_{{{i}{j}}}");
             let claim = Some(format!("T{i}{j}"));
-            if let Ok(matrix) = derived(i, Reference::Frame(j)) {
+            if let Ok(matrix) = derived(Reference::Frame(i), Reference::Frame(j)) {
                 models.push((left.clone(), claim.clone(), matrix));
             }
             // As the product leaves it, worked out from the right.

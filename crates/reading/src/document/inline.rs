@@ -117,6 +117,10 @@ impl Scanner<'_, '_> {
                 b'=' => related = true,
                 b'$' if bytes.get(i + 1) == Some(&b'$') => break,
                 b'$' => {
+                    if let Some(bytes) = continuation(rest.get(i + 1..).unwrap_or("")) {
+                        i += bytes + 1;
+                        continue;
+                    }
                     // `it costs $5, and x = 3 of $`
                     let content = at + 1..at + i;
                     let inner = cut(self.text(), &content);
@@ -178,6 +182,13 @@ impl Scanner<'_, '_> {
         }
         (at + run, false)
     }
+}
+
+/// The bytes up to the formula that goes on behind a `$`: ` ${}+ b$`, where the line may be broken.
+fn continuation(rest: &str) -> Option<usize> {
+    let behind = rest.trim_start_matches([' ', '\n']);
+    let blanks = rest.len() - behind.len();
+    (blanks <= 2 && behind.starts_with("${}")).then_some(blanks + 1)
 }
 
 /// Whether a display goes on from the start of `rest` to byte `end`: no heading or fence is in it.

@@ -158,6 +158,8 @@ impl<'t> Lexer<'t> {
                 self.gap = self.gap.max(if self.blanks > 1 { Gap::Wide } else { Gap::Blank });
             }
             '$' | '`' | '~' if next != Some('=') => self.skip(size),
+            // What says that a formula is proved.
+            '✓' | '✔' | '∎' | '□' | '■' => self.skip(size),
             '%' | '#' => self.skip(line_length(rest)),
             '/' if next == Some('/') => self.skip(line_length(rest)),
             '\\' => self.command(next),
@@ -322,7 +324,7 @@ fn command_kind(name: &str) -> Option<Kind> {
         "hline" | "nonumber" | "notag" | "displaystyle" | "textstyle" | "limits" | "nolimits"
         | "noindent" | "big" | "Big" | "bigg" | "Bigg" | "bigl" | "bigr" | "Bigl" | "Bigr" | "biggl"
         | "biggr" | "Biggl" | "Biggr" | "bigm" | "allowbreak" | "centering" | "medskip" | "smallskip"
-        | "bigskip" | "small" => {
+        | "bigskip" | "small" | "checkmark" | "qed" | "qedsymbol" | "square" | "blacksquare" => {
             return None;
         }
         "equiv" => Kind::Relation(Relation::Identical),

@@ -122,6 +122,7 @@ impl Reader<'_> {
                         _ => return Some(k),
                     }
                 }
+                Kind::Word if self.is_power(k) => k = k.checked_sub(1).filter(|b| *b >= floor)?,
                 Kind::Word | Kind::Command if !self.is_prose(k) => {
                     match k.checked_sub(1).filter(|b| *b >= floor).and_then(|b| self.kind(b)) {
                         Some(Kind::Script) => k = k.checked_sub(2).filter(|b| *b >= floor)?,
@@ -132,6 +133,12 @@ impl Reader<'_> {
                 _ => return None,
             }
         }
+    }
+
+    /// True for the `⁻¹` of `A(q)⁻¹`.
+    fn is_power(&self, at: usize) -> bool {
+        let is_raised = |c: char| matches!(c, '⁺' | '⁻' | '¹' | '²' | '³' | '⁰' | '⁴'..='⁹' | 'ᵀ');
+        self.tokens[at].gap == super::lexer::Gap::None && self.shown(at).chars().all(is_raised)
     }
 
     /// The token that opens what `at` closes.
@@ -303,6 +310,7 @@ mod tests {
             ),
             ("so that cos(q2) = (x² + y² - 0.34)/0.3, das gibt", vec!["cos(q2) = (x² + y² - 0.34)/0.3"]),
             ("the tip is at q = (30°, 60°, 0.2 m).", vec!["q = (30°, 60°, 0.2 m)"]),
+            ("A1(q1)⁻¹·U = A2·A3, third row", vec!["A1(q1)⁻¹·U = A2·A3"]),
             ("there is nothing here", vec![]),
         ] {
             let found: Vec<&str> = formulas(line, &(0..line.len())).into_iter().map(|s| &line[s]).collect();

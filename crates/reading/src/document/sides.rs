@@ -1,7 +1,7 @@
 //! A piece of a document as a formula parser wants it.
 
 use super::cut;
-use super::lexer::{Kind, Token, lex};
+use super::lexer::{Bracket, Kind, Token, lex};
 use std::borrow::Cow;
 use std::ops::Range;
 
@@ -14,9 +14,18 @@ pub fn formula<'t>(text: &'t str, span: &Range<usize>) -> Cow<'t, str> {
         out.extend(std::iter::repeat_n(' ', to.saturating_sub(from)));
     };
     let mut at = span.start;
-    for token in lex(text, span) {
+    let tokens = lex(text, span);
+    let kind = |i: usize| tokens.get(i).map(|t| t.kind);
+    // `{}` before a sign keeps its distance; before a script it bears that.
+    let is_empty = |i: usize| {
+        kind(i) == Some(Kind::Open(Bracket::Brace))
+            && kind(i + 1) == Some(Kind::Close(Bracket::Brace))
+            && kind(i + 2) != Some(Kind::Script)
+    };
+    for (i, token) in tokens.iter().enumerate() {
         blank(at, token.span.start, &mut out);
         match token.kind {
+            _ if is_empty(i) || i > 0 && is_empty(i - 1) => blank(token.span.start, token.span.end, &mut out),
             Kind::Amp | Kind::Row | Kind::Quad => blank(token.span.start, token.span.end, &mut out),
             _ => out.push_str(cut(text, &token.span)),
         }

@@ -375,11 +375,19 @@ impl<'t> Reader<'t> {
             matches!(nodes.get(i + 1..), Some([Node { kind: NodeKind::Group { bracket, .. }, .. }])
                 if *bracket == super::lexer::Bracket::Round)
         };
-        let Some(at) = prose.or(quad.filter(lone)) else { return (nodes, None) };
+        let number = nodes.len().checked_sub(1).filter(|&i| i > related + 1 && self.is_number(&nodes[i]));
+        let Some(at) = prose.or(quad.filter(lone)).or(number) else { return (nodes, None) };
         let kept = nodes.get(..at).unwrap_or(nodes);
         let aside = nodes.get(at..).unwrap_or(&[]);
         let aside = aside.iter().find(|n| !n.is(Kind::Quad)).zip(aside.last());
         (trim(self.text, kept), aside.map(|(a, b)| a.span.start..b.span.end))
+    }
+
+    /// `(3)`, set off from what is before it: the number of an equation.
+    fn is_number(&self, node: &Node) -> bool {
+        let is_set_off = node.gap == Gap::Wide;
+        let inner = cut(self.text, &node.span).strip_prefix('(').and_then(|s| s.strip_suffix(')'));
+        is_set_off && inner.is_some_and(|i| i.starts_with(|c: char| c.is_ascii_digit()) && i.len() <= 5)
     }
 
     /// `X_p : a = b`
@@ -472,7 +480,7 @@ fn trim<'n>(text: &str, nodes: &'n [Node]) -> &'n [Node] {
             Some(Kind::Amp | Kind::Quad | Kind::Comma | Kind::Semicolon | Kind::Row | Kind::Arrow)
         )
     };
-    let stop = |n: &Node| idle(n) || (n.is(Kind::Operator) && cut(text, &n.span) == ".");
+    let stop = |n: &Node| idle(n) || n.is(Kind::Colon) || (n.is(Kind::Operator) && cut(text, &n.span) == ".");
     let Some(first) = nodes.iter().position(|n| !idle(n)) else { return &[] };
     let last = nodes.iter().rposition(|n| !stop(n)).unwrap_or(first);
     nodes.get(first..=last.max(first)).unwrap_or(&[])

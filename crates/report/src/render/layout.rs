@@ -143,7 +143,10 @@ pub fn named(block: &Block, names: &Vocabulary) -> Option<Named> {
         true => format!("{letter}{}{}", r + 1, c + 1),
         false => format!("{letter}{}_{}", r + 1, c + 1),
     };
-    let is_free = |letter: &&str| places.iter().all(|&p| names.lookup(&called(letter, p)).is_none());
+    // The algorithm of a Jacobian calls its entries alike: j11.
+    let is_own = |letter: &str| letter == "j" && letter == wanted;
+    let is_free =
+        |letter: &&str| is_own(letter) || places.iter().all(|&p| names.lookup(&called(letter, p)).is_none());
     let letters = [wanted.as_str(), "t", "u", "w", "m", "k"];
     let letter = *letters.iter().find(|l| is_free(l))?;
     let mut with = Cow::Borrowed(names);

@@ -1,7 +1,7 @@
 //! What is said of inverse kinematics: its derivation step by step, and why there is none.
 
 use crate::explained::{Case, Component, Consequence, Kind, Remark, Source};
-use crate::tree::{Line, Math, Proof};
+use crate::tree::{Factor, Line, Math, Proof};
 use denavit::inverse::derivation::{Elimination, NotGiven};
 use denavit::inverse::{Doubt, Goal, Label, Obstacle, Refusal, Stuck, Task, Unsuitable};
 use denavit_symbolic::Expr;
@@ -18,6 +18,13 @@ pub struct Given {
     pub sought: Vec<Math>,
     /// Whether the chain is given as it is: nothing constant stands at its ends.
     pub is_whole: bool,
+}
+
+impl Given {
+    /// U = T: the chain gives the pose itself.
+    pub fn whole() -> Math {
+        Math::Products(vec![Factor::named("U")], vec![Factor::named("T")])
+    }
 }
 
 /// The coefficients of an equation.
@@ -42,10 +49,7 @@ pub trait Inverse {
     /// What is given, what is sought, and that the chain follows.
     fn given(&self, given: Given) -> Line;
 
-    /// The columns of the matrix U.
-    fn columns_of_pose(&self, columns: [[Expr; 3]; 4]) -> Line;
-
-    /// What the short names of the cosine and sine of `q` are, and of the cosine of a sum; behind another sentence.
+    /// What the short names of the cosine and sine of `q` are, and of the cosine of a sum.
     fn short_names(&self, q: Expr, sum: Option<Expr>) -> Line;
 
     /// The title of a step that finds `unknown`.

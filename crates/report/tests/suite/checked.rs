@@ -41,7 +41,7 @@ fn what_claims_are_about() {
     let frame = || Box::new(FRAME());
     let jacobian = |body, axes, is_angular_first, rows| {
         let order = if is_angular_first { [3, 4, 5, 0, 1, 2] } else { [0, 1, 2, 3, 4, 5] };
-        Meaning::Jacobian(Jacobian { body, axes, is_angular_first, rows, order })
+        Meaning::Jacobian(Jacobian { body, at: None, axes, is_angular_first, rows, order })
     };
     let last = Reference::Frame(6);
     for meaning in [
@@ -65,6 +65,7 @@ fn what_claims_are_about() {
         both(&|w| w.meaning(&meaning));
     }
     let scara = Jacobian {
+        at: None,
         body: Reference::Tool,
         axes: Reference::Frame(0),
         is_angular_first: false,

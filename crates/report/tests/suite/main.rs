@@ -3,6 +3,7 @@
 mod checked;
 mod escape;
 mod explain;
+mod fed_back;
 mod figures;
 mod language;
 mod plot;

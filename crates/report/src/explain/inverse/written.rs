@@ -114,8 +114,9 @@ fn setting(e: &Explanation, words: &dyn Wording, blocks: &mut Vec<Block>) {
     for (name, factors) in &e.matrices {
         blocks.push(formula(Math::Products(vec![name.clone()], factors.clone())));
     }
-    let columns = std::array::from_fn(|k| [e.pose[k], e.pose[4 + k], e.pose[8 + k]]);
-    let mut line = words.columns_of_pose(columns);
+    let mut rows: Vec<Vec<Expr>> = e.pose.chunks(4).map(<[Expr]>::to_vec).collect();
+    rows.push([0, 0, 0, 1].map(Expr::int).to_vec());
+    blocks.push(formula(Math::Matrix(Factor::named("U"), rows)));
     let names = e.names();
     if let Some(&q) = variables.iter().find(|q| names.number_of(**q).is_some()) {
         // A cosine that is written out needs no words.
@@ -124,9 +125,8 @@ fn setting(e: &Explanation, words: &dyn Wording, blocks: &mut Vec<Block>) {
             short != full
         };
         let sum = e.steps.iter().filter_map(|s| s.meaning).chain(e.sum()).find(is_short);
-        line.0.extend(words.short_names(q.into(), sum).0);
+        blocks.push(Block::Paragraph(words.short_names(q.into(), sum)));
     }
-    blocks.push(Block::Paragraph(line));
 }
 
 fn explained(number: usize, s: &Explained, words: &dyn Wording, blocks: &mut Vec<Block>) {
@@ -154,7 +154,11 @@ fn explained(number: usize, s: &Explained, words: &dyn Wording, blocks: &mut Vec
 fn equation(s: &Explained, words: &dyn Wording, blocks: &mut Vec<Block>) {
     let is_squared = s.sources.iter().any(|o| o.squared);
     let length = |c: &Statement| c.math.exprs().into_iter().map(literals).sum::<u64>();
-    let said = |coefficients| Block::Paragraph(words.equation(s.kind, is_squared, &s.form, &coefficients));
+    // Letters that are given no meaning are not shown.
+    let is_letter = |x: &Symbol| matches!(&*x.name(), "A" | "B" | "C" | "D" | "E" | "F");
+    let has_letters = s.form.iter().flat_map(Math::exprs).any(|e| e.symbols().iter().any(is_letter));
+    let form = if s.coefficients.is_empty() && has_letters { &[][..] } else { &s.form };
+    let said = |coefficients| Block::Paragraph(words.equation(s.kind, is_squared, form, &coefficients));
     if s.coefficients.iter().map(length).sum::<u64>() > INLINE {
         blocks.push(said(Coefficients::Below));
         blocks.extend(s.coefficients.iter().map(block));

@@ -128,6 +128,10 @@ impl Check for English {
     fn sense(&self, sense: Sense) -> String {
         match sense {
             Sense::LinkAlone => "read as the transform of a link alone, not as a frame in the base",
+            Sense::OwnLinks => "read as the document defines them: only their product is the robot's",
+            Sense::VelocitiesOfJacobian => {
+                "velocities read as those of the Jacobian: its point, along its axes"
+            }
             Sense::IndicesExchanged => {
                 "read with the frame on the left and the one in which it is seen on the right"
             }
@@ -366,13 +370,14 @@ fn matrix_of_velocities(jacobian: &Jacobian) -> String {
         Reference::Base | Reference::Frame(_) => "the origin of the last frame",
     };
     let axes = match jacobian.axes {
-        Reference::Frame(0) => String::new(),
+        Reference::Base | Reference::Frame(0) => String::new(),
         Reference::Frame(k) => format!(" along the axes of frame {k}"),
-        Reference::Base | Reference::Tool => " along its own axes".into(),
+        Reference::Tool => " along its own axes".into(),
     };
+    let at = jacobian.at.map_or(String::new(), |k| format!(" at the origin of frame {k}"));
     let first = if jacobian.is_angular_first { ", angular rows first" } else { "" };
     let part = rows_of(jacobian).map_or(String::new(), |rows| format!(", rows {rows}"));
-    format!("the Jacobian of {body}{axes}{first}{part}")
+    format!("the Jacobian of {body}{at}{axes}{first}{part}")
 }
 
 fn short_row(ShortRow { row, elements, width }: ShortRow) -> String {

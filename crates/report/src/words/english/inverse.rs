@@ -46,16 +46,13 @@ impl Inverse for English {
                 " (joints too many: any values are allowed, and the derivation is shortest with these)"
             }
         });
-        line.text("; sought ").list(given.sought).text(". ").text(match given.is_whole {
-            true => "With U = T the chain is",
-            false => "What is constant at both ends is taken to the side of the pose; what is left is",
-        })
-    }
-
-    fn columns_of_pose(&self, columns: [[Expr; 3]; 4]) -> Line {
-        let [n, o, a, p] = columns.map(|c| c.map(Math::from));
-        let line = Line::new("U has the columns (").list(n).text("), (").list(o).text("), (").list(a);
-        line.text(") and (").list(p).text(") (the position). ")
+        let line = line.text("; sought ").list(given.sought).text(". ");
+        match given.is_whole {
+            true => line.text("With ").math(Given::whole()).text(" the chain is"),
+            false => {
+                line.text("What is constant at both ends is taken to the side of the pose; what is left is")
+            }
+        }
     }
 
     fn short_names(&self, q: Expr, sum: Option<Expr>) -> Line {

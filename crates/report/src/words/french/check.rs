@@ -138,6 +138,10 @@ impl Check for French {
             Sense::LinkAlone => {
                 "lu comme la matrice de passage d'un seul corps, non comme un repère dans la base"
             }
+            Sense::OwnLinks => "lu comme le document les définit : seul leur produit est celui du robot",
+            Sense::VelocitiesOfJacobian => {
+                "vitesses lues comme celles de la jacobienne : de son point, suivant ses axes"
+            }
             Sense::IndicesExchanged => "lu avec le repère à gauche et celui où il est vu à droite",
             Sense::Helper => {
                 "lu comme une grandeur auxiliaire du document, non comme un élément de la situation"
@@ -397,13 +401,14 @@ fn matrix_of_velocities(jacobian: &Jacobian) -> String {
         Reference::Base | Reference::Frame(_) => "l'origine du dernier repère",
     };
     let axes = match jacobian.axes {
-        Reference::Frame(0) => String::new(),
+        Reference::Base | Reference::Frame(0) => String::new(),
         Reference::Frame(k) => format!(" suivant les axes du repère {k}"),
-        Reference::Base | Reference::Tool => " suivant ses propres axes".into(),
+        Reference::Tool => " suivant ses propres axes".into(),
     };
+    let at = jacobian.at.map_or(String::new(), |k| format!(" à l'origine du repère {k}"));
     let first = if jacobian.is_angular_first { ", lignes de la vitesse angulaire d'abord" } else { "" };
     let part = rows_of(jacobian).map_or(String::new(), |rows| format!(", lignes {rows}"));
-    say!("la jacobienne de {body}{axes}{first}{part}")
+    say!("la jacobienne de {body}{at}{axes}{first}{part}")
 }
 
 fn short_row(ShortRow { row, elements, width }: ShortRow) -> String {

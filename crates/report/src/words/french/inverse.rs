@@ -48,16 +48,11 @@ impl Inverse for French {
                  celles-ci)"
             }
         });
-        set(line.text(" ; on cherche ").list(given.sought).text(". ").text(match given.is_whole {
-            true => "Avec U = T, la chaîne s'écrit",
-            false => "Ce qui est constant aux deux extrémités passe du côté de la pose ; il reste",
-        }))
-    }
-
-    fn columns_of_pose(&self, columns: [[Expr; 3]; 4]) -> Line {
-        let [n, o, a, p] = columns.map(|c| c.map(Math::from));
-        let line = Line::new("U a pour colonnes (").list(n).text("), (").list(o).text("), (").list(a);
-        line.text(") et (").list(p).text(") (la position). ")
+        let line = line.text(" ; on cherche ").list(given.sought).text(". ");
+        set(match given.is_whole {
+            true => line.text("Avec ").math(Given::whole()).text(", la chaîne s'écrit"),
+            false => line.text("Ce qui est constant aux deux extrémités passe du côté de la pose ; il reste"),
+        })
     }
 
     fn short_names(&self, q: Expr, sum: Option<Expr>) -> Line {

@@ -1,0 +1,114 @@
+//! Equations that claim nothing of the robot: cases, conditions, places, goals.
+
+use super::scalars::is_measured;
+use super::{Pair, Piece, Scalar, Walk};
+use crate::facts::About;
+use crate::jacobians::Part;
+use denavit_reading::document::{Place, Statement};
+use denavit_symbolic::Expr;
+use denavit_symbolic::parse::{Syntax, SyntaxKind};
+use std::ops::Range;
+
+impl Walk<'_> {
+    /// A joint's value in a sentence that tells a case: a singular configuration, if the sentence says so.
+    pub(super) fn case(&mut self, statement: &Statement, read: &[Scalar]) -> bool {
+        let [Scalar::Formula(_, left), Scalar::Formula(span, right)] = read else { return false };
+        let (of, value) = (left.value(), right.value());
+        let joints = self.subject.joints();
+        if !of.as_symbol().is_some_and(|s| joints.contains(&s.into())) || !value.symbols().is_empty() {
+            return false;
+        }
+        let said = statement.prose.clone().and_then(|p| self.text.get(p)).unwrap_or_default().to_lowercase();
+        let determinant = self.subject.determinant(Part::Any).filter(|_| is_singular(&said));
+        match determinant {
+            Some(determinant) => {
+                let there = determinant.substitute(|s| (Some(s) == of.as_symbol()).then_some(value));
+                let piece = Piece::Pair(Pair {
+                    place: None,
+                    span: span.clone(),
+                    printed: None,
+                    value: there,
+                    wanted: Expr::int(0),
+                    also: vec![],
+                });
+                // The configurations of a sentence are one claim.
+                let last = self.assertions.last_mut().filter(|a| a.about == About::Singularity);
+                match last.filter(|a| statement.span.start.saturating_sub(a.span.end) < 120) {
+                    Some(assertion) => {
+                        assertion.span.end = statement.span.end;
+                        assertion.pieces.push(piece);
+                    }
+                    None => {
+                        let mut assertion = self.assertion(statement, About::Singularity);
+                        assertion.pieces = vec![piece];
+                        self.assertions.push(assertion);
+                    }
+                }
+            }
+            None => self.taken.push(statement.span.clone()),
+        }
+        true
+    }
+
+    /// True for the value of a joint that only says where something is so, without the pose:
+    /// `where q_3 = atan2(-d_4, a_3) or q_3 = …`.
+    pub(super) fn is_place(&self, statement: &Statement, read: &[Scalar]) -> bool {
+        const WHERE: [&str; 8] = ["where", "at", "wo", "bei", "où", "donde", "dove", "onde"];
+        let [Scalar::Formula(_, left), Scalar::Formula(span, _)] = read else { return false };
+        let is_joint =
+            matches!(left.kind, SyntaxKind::Name(_)) && self.subject.joints().contains(&left.value());
+        if !is_joint || statement.place != Place::Inline || self.speaks_of_pose(span) {
+            return false;
+        }
+        let before = self.text.get(..statement.span.start).unwrap_or_default();
+        let line = before.rsplit('\n').next().unwrap_or_default();
+        let words = line.split(|c: char| !c.is_alphabetic()).filter(|w| !w.is_empty() && *w != "item");
+        words.take(1).any(|w| WHERE.contains(&w))
+    }
+
+    /// True for an equation that only the joints and lengths occur in, and that is none: `s_5 = 0` on a line of its own.
+    fn is_to_be_solved(&self, span: &Range<usize>, left: &Syntax, right: Expr) -> bool {
+        right.is_zero()
+            && self.lexis.lone_name(self.text, span).is_none_or(|_| !self.is_right_name(span))
+            && self.determinant(span).is_none()
+            && !self.speaks_of_pose(span)
+            && !self.at.knows(left.value(), &self.subject)
+            && left.value().symbols().iter().any(|s| self.subject.joints().contains(&(*s).into()))
+            && !denavit_symbolic::equal(left.value(), right).is_equal()
+    }
+
+    /// True for an equation to be solved: `det J = 0`, `s_5 = 0` in a sentence, `s_5 = 0` without the pose anywhere.
+    pub(super) fn is_condition(&self, statement: &Statement, read: &[Scalar]) -> bool {
+        let [Scalar::Formula(span, left), Scalar::Formula(_, right)] = read else { return false };
+        if self.is_to_be_solved(span, left, right.value()) {
+            return true;
+        }
+        let is_constant = right.value().symbols().is_empty() && !is_measured(right.value());
+        let is_entry = self.is_right_name(span) && self.lexis.lone_name(self.text, span).is_some();
+        statement.place == Place::Inline
+            && is_constant
+            && !left.value().symbols().is_empty()
+            && (!is_entry || !denavit_symbolic::equal(left.value(), right.value()).is_equal())
+    }
+
+    /// True for an entry of the pose that a sentence gives a value in which no joint occurs: `with px = 0.6, pz = d1`.
+    pub(super) fn is_goal(&self, statement: &Statement, read: &[Scalar]) -> bool {
+        let [Scalar::Formula(span, left), Scalar::Formula(_, right)] = read else { return false };
+        let joints = self.subject.joints();
+        let moves = |e: Expr| e.symbols().iter().any(|s| joints.contains(&(*s).into()));
+        statement.place == Place::Inline
+            && self.is_right_name(span)
+            && moves(left.value())
+            && !moves(right.value())
+            && (right.value().symbols().is_empty() || !self.lexis.is_by_custom(self.source(span)))
+            && !self.speaks_of_pose(&statement.sides[1].span)
+            && !(right.value().symbols().is_empty() && self.at.knows(left.value(), &self.subject))
+    }
+}
+
+/// True if a sentence says that the arm is singular somewhere.
+fn is_singular(said: &str) -> bool {
+    let denials =
+        ["not singul", "nicht singul", "non singul", "no singul", "nonsingul", "pas singul", "unless"];
+    said.contains("singul") && !denials.iter().any(|d| said.contains(d))
+}
