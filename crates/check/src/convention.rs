@@ -84,6 +84,39 @@ pub(super) fn said(text: &str) -> Option<(Convention, Range<usize>)> {
     Some(found)
 }
 
+/// Where a text says in words that its lengths are in millimetres, and nowhere that they are in metres.
+pub(super) fn in_millimetres(text: &str) -> Option<Range<usize>> {
+    let lower = text.to_ascii_lowercase();
+    let says = |units: &[&str]| {
+        let phrases = LENGTHS.iter().flat_map(|w| units.iter().map(move |u| format!("{w} {u}")));
+        phrases.into_iter().find_map(|phrase| {
+            let is_short = phrase.ends_with(" m") || phrase.ends_with(" mm");
+            let ends =
+                |at: &usize| !is_short || !lower[at + phrase.len()..].starts_with(char::is_alphanumeric);
+            lower.match_indices(&phrase).map(|m| m.0).find(ends).map(|at| at..at + phrase.len())
+        })
+    };
+    says(&["mm", "millimet", "millim\u{e8}tres", "mil\u{ed}metros"])
+        .filter(|_| says(&["m", "met", "m\u{e8}tres"]).is_none())
+}
+
+/// Words before the unit of lengths.
+const LENGTHS: &[&str] = &[
+    "lengths in",
+    "lengths are in",
+    "length in",
+    "dimensions in",
+    "distances in",
+    "l\u{e4}ngen in",
+    "ma\u{df}e in",
+    "longueurs en",
+    "dimensions en",
+    "longitudes en",
+    "medidas en",
+    "lunghezze in",
+    "comprimentos em",
+];
+
 /// The conventions that a text names, each where it first does.
 pub(super) fn named(text: &str) -> Vec<(Convention, Range<usize>)> {
     // As many bytes as the text has, so that places agree.

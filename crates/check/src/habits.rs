@@ -69,6 +69,8 @@ pub(super) enum Columns {
     Noap,
     /// s, n, a, P
     Snap,
+    /// n, s, a, o: the place of the hand is o.
+    Nsao,
 }
 
 impl Columns {
@@ -76,11 +78,19 @@ impl Columns {
         match self {
             Columns::Noap => ["n", "o", "a", "p"],
             Columns::Snap => ["s", "n", "a", "p"],
+            Columns::Nsao => ["n", "s", "a", "o"],
         }
     }
 
     /// Those that a text uses.
     pub fn of(text: &str) -> Self {
+        // As words: `o_x`, `o_{x}` or `ox`.
+        let words: String = text.chars().filter(|c| !matches!(c, '_' | '{' | '}' | '\\')).collect();
+        let words: BTreeSet<&str> = words.split(|c: char| !c.is_alphanumeric()).collect();
+        let has = |letter: &str| AXES.iter().any(|a| words.contains(format!("{letter}{a}").as_str()));
+        if has("o") && !["n", "p", "P", "s"].into_iter().any(has) {
+            return Columns::Nsao;
+        }
         let plain: String = plain_name(text);
         if plain.contains("ox") || !plain.contains("sx") { Columns::Noap } else { Columns::Snap }
     }
@@ -115,6 +125,8 @@ impl Places {
 pub(super) struct Habits {
     /// The letters of the pose's columns.
     pub columns: Columns,
+    /// Lengths without a unit are in millimetres.
+    pub millimetres: bool,
     /// A number behind `T` is that of a link, not of a frame in the base.
     pub links: bool,
     /// The left index is the frame, the right one that in which it is seen.
@@ -134,6 +146,7 @@ impl Habits {
     pub fn of(text: &str) -> Self {
         Habits {
             columns: Columns::of(text),
+            millimetres: false,
             links: false,
             exchanged: false,
             cosine_first: false,

@@ -48,6 +48,9 @@ impl Subject {
         if rows > 6 || columns != self.joints().len() {
             return None;
         }
+        if let Some(found) = self.jacobian_in_numbers(printed, told) {
+            return Some(found);
+        }
         let mut points = Points::new(7);
         let mut value = |e: &Option<Expr>| e.and_then(|e| points.value(e));
         let wanted: Vec<Vec<Option<Value>>> =
@@ -73,6 +76,22 @@ impl Subject {
             }
         }
         best.map(|(_, about, matrix)| (matrix, about))
+    }
+
+    /// Numbers agree with no formula: they are those of the Jacobian that the arm has by nature, if it has as many rows.
+    fn jacobian_in_numbers(&self, printed: &Matrix, told: &Told) -> Option<(Matrix, Jacobian)> {
+        let is_number = |e: &Option<Expr>| e.is_some_and(|e| e.symbols().is_empty());
+        if !printed.0.iter().flatten().all(is_number) || told.frame.is_some() || told.axes.is_some() {
+            return None;
+        }
+        let task = self.task(told.part).filter(|t| t.len() == printed.0.len())?;
+        let axes = self.ground();
+        let mut order = [0; 6];
+        order.iter_mut().zip(&task).for_each(|(o, &r)| *o = u8::try_from(r).unwrap_or_default());
+        let rows = task.len();
+        let jacobian =
+            Jacobian { body: Reference::Tool, at: None, axes, is_angular_first: false, rows, order };
+        Some((self.square_jacobian(told.part)?, jacobian))
     }
 
     /// Full Jacobians of the points and along the axes that a name may mean, the usual ones first.

@@ -4,7 +4,7 @@ use super::facts::{Condition, Remark, SlipKind, Unproved};
 use super::formula::Formula;
 use super::habits::with_named_signs;
 use super::inverse::Composed;
-use super::numbers;
+use super::numbers::{self, Answer};
 use super::outcome::{Claim, Counterexample, Entry, Finding, Patch, Slip, Standing, Wrong};
 use super::plan::{Plan, Walked};
 use super::subject::Subject;
@@ -18,6 +18,7 @@ use denavit_symbolic::readable::{literals, simplify};
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Equality, Expr, Symbol, equal};
 use std::collections::BTreeMap;
+use std::f64::consts::PI;
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -160,7 +161,7 @@ impl<'a> Judge<'a> {
             Piece::Number { place, span, answer } => Entry {
                 place: *place,
                 span: span.clone(),
-                finding: numbers::judge(answer, &self.plan.subjects[subject], self.tolerance),
+                finding: self.number(answer, span, subject),
                 identities: vec![],
             },
             Piece::Pair(pair) => {
@@ -175,6 +176,20 @@ impl<'a> Judge<'a> {
         }
     }
 
+    /// The verdict on a number; where lengths are in millimetres, one without a unit may be a length, too.
+    fn number(&self, answer: &Answer, span: &Range<usize>, subject: usize) -> Finding {
+        let found = numbers::judge(answer, &self.plan.subjects[subject], self.tolerance);
+        let is_bare = || !self.text.get(span.clone()).unwrap_or_default().contains(char::is_alphabetic);
+        match found {
+            Finding::Wrong(w)
+                if self.plan.habits.millimetres && w.remarks == [Remark::Millimetres] && is_bare() =>
+            {
+                Finding::Equal { unless_zero: vec![] }
+            }
+            found => found,
+        }
+    }
+
     fn finding(&mut self, pair: &Pair, subject: usize) -> Finding {
         if let Some(printed) = &pair.printed
             && (printed.sign_choices() > 0 || with_named_signs(vec![pair.value]).len() > 1)
@@ -186,14 +201,24 @@ impl<'a> Judge<'a> {
                 let names = self.vocabulary(subject);
                 Finding::Equal { unless_zero: conditions.iter().map(|c| Formula::new(*c, names)).collect() }
             }
-            Equality::Different { .. } => Finding::Wrong(Box::new(self.wrong(pair, subject))),
+            Equality::Different { .. } => self.refuted(pair, subject),
             Equality::Undecided(_) => {
                 match counterexample(pair.value, pair.wanted, &self.plan.subjects[subject]) {
-                    Some(_) => Finding::Wrong(Box::new(self.wrong(pair, subject))),
+                    Some(_) => self.refuted(pair, subject),
                     None => Finding::Undecided { why: Unproved::NotFound },
                 }
             }
         }
+    }
+
+    /// What is not equal everywhere: wrong, or right in a part of all configurations, as what uses √(x² + y²) for x is.
+    fn refuted(&mut self, pair: &Pair, subject: usize) -> Finding {
+        if !right_in_part(pair.value, pair.wanted, &self.plan.subjects[subject]) {
+            return Finding::Wrong(Box::new(self.wrong(pair, subject)));
+        }
+        let correct = shown(pair.wanted, self.vocabulary(subject)).iter().map(ToString::to_string).collect();
+        let condition = Condition::Configurations(vec![]);
+        Finding::Conditional { condition, correct, remarks: vec![Remark::Sampled] }
     }
 
     /// A formula with ±: one of the signs is right at each configuration, or none.
@@ -394,6 +419,29 @@ fn sample(seed: u32, index: usize) -> f64 {
     z = (z ^ (z >> 30)).wrapping_mul(0x94D0_49BB_1331_11EB);
     0.3 + 2.0 * ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
 }
+
+/// True if two formulas that differ agree all the same at some of many configurations from everywhere.
+fn right_in_part(printed: Expr, right: Expr, subject: &Subject) -> bool {
+    let mut symbols = printed.symbols();
+    symbols.extend(right.symbols());
+    let joints = subject.joints();
+    let mut agreeing = 0;
+    for seed in 0..MANY {
+        let value = |s: Symbol| {
+            let index = symbols.iter().position(|x| *x == s)?;
+            // Joints are anywhere, lengths positive.
+            let x = sample(seed, index);
+            Some(if joints.contains(&s.into()) { (x - 1.3) * PI } else { x })
+        };
+        let (Ok(a), Ok(b)) = (printed.eval(value), right.eval(value)) else { continue };
+        let is_same = (a - b).abs() <= 1e-9 * (1.0 + a.abs().max(b.abs()));
+        agreeing += u32::from(is_same && b.abs() > 1e-6);
+    }
+    agreeing >= MANY / 10
+}
+
+/// So many configurations tell a formula that is right in a part of them.
+const MANY: u32 = 60;
 
 /// A configuration in whole degrees at which two formulas differ.
 pub(super) fn counterexample(printed: Expr, right: Expr, subject: &Subject) -> Option<Counterexample> {

@@ -100,6 +100,10 @@ pub fn check(
     let supported =
         if robot.is_none() { supported::by_statements(text, format, &document, options) } else { None };
     let mut options = options.clone();
+    if let (None, Some(place)) = (options.table.lengths_in_millimetres, convention::in_millimetres(text)) {
+        notes.note(place, Noted::InMillimetres);
+        options.table.lengths_in_millimetres = Some(true);
+    }
     if let Some(s) = supported {
         notes.warning(s.head, Noted::Supported { convention: s.convention, right: s.right, rival: s.rival });
         options.table.convention = Some(s.convention);

@@ -43,6 +43,8 @@ pub enum Noted {
     NoRobot,
     /// The tables are read in the convention that the text names.
     ReadAs(Convention),
+    /// Lengths without a unit in tables are in millimetres: the text says so.
+    InMillimetres,
     /// The text does not say the convention of its tables; it is the one in which its own statements are right.
     Supported {
         /// Which.

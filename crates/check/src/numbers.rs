@@ -47,6 +47,11 @@ impl Configuration {
         }
     }
 
+    /// The joints have no values any more.
+    pub fn forget_joints(&mut self) {
+        self.values.clear();
+    }
+
     /// States a length.
     pub fn give(&mut self, symbol: Symbol, value: Expr) {
         if let Ok(x) = value.eval(|_| None) {
@@ -106,8 +111,8 @@ pub(super) fn decimal_points(text: &str) -> Option<String> {
                 let end = (k + 1..bytes.len()).take_while(|&i| is_digit(i)).last().unwrap_or(k);
                 let before = start.checked_sub(1).and_then(|i| bytes.get(i));
                 // `T_{0,6}`, `r(1,2)`, `1,2,3`
-                let is_index =
-                    matches!(before, Some(b'{' | b'_' | b',')) || bytes.get(end + 1) == Some(&b',');
+                let is_index = matches!(before, Some(b'{' | b'_' | b','))
+                    || bytes.get(end + 1) == Some(&b',') && is_digit(end + 2);
                 let is_pair = before == Some(&b'(') && bytes.get(end + 1) == Some(&b')');
                 if is_index || is_pair {
                     return None;

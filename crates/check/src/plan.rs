@@ -116,7 +116,9 @@ impl Plan {
             subject.line = Some(line_column(text, table.span.start).0);
             Some(subject)
         };
-        let habits = Rc::new(Habits::of(text).with_products(text, document));
+        let habits = Habits::of(text).with_products(text, document);
+        let millimetres = options.table.lengths_in_millimetres == Some(true);
+        let habits = Rc::new(Habits { millimetres, ..habits });
         let authors = BTreeSet::new();
         let turns = vec![];
         let mut plan = Plan { subjects: vec![], habits, own_table: None, authors, turns, has_robot: true };

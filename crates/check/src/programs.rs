@@ -84,6 +84,7 @@ impl Program<'_> {
             let is_returned = function.returned.iter().any(|r| r.name.as_deref() == Some(a.name.as_str()));
             if is_last
                 && !is_returned
+                && !(is_of_part(function) && matches!(a.name.to_lowercase().as_str(), "x" | "y" | "z"))
                 && a.name.contains(|c: char| c.is_ascii_digit() || c == 'x' || c == 'y' || c == 'z')
             {
                 found.extend(self.named(&a.name, &a.name, &a.span, &a.value));
@@ -139,6 +140,9 @@ impl Program<'_> {
         span: &Range<usize>,
         rows: &[Vec<Cell>],
     ) -> Option<Assertion> {
+        if is_of_part(function) {
+            return None;
+        }
         let pose = self.subject.pose();
         let columns = rows.first()?.len();
         let joints = self.subject.description.variables().len();
@@ -212,4 +216,30 @@ impl Program<'_> {
             spoken: None,
         }
     }
+}
+
+/// True for a function whose name says that it is about a part of the arm, not about the hand.
+fn is_of_part(function: &Reading) -> bool {
+    const PARTS: [&str; 18] = [
+        "wrist",
+        "elbow",
+        "shoulder",
+        "knee",
+        "ankle",
+        "hip",
+        "axis",
+        "axes",
+        "center",
+        "centre",
+        "poignet",
+        "coude",
+        "epaule",
+        "handgelenk",
+        "ellbogen",
+        "schulter",
+        "muneca",
+        "codo",
+    ];
+    let name = function.name.to_lowercase();
+    PARTS.iter().any(|part| name.contains(part))
 }

@@ -217,12 +217,15 @@ fn family(name: &str) -> String {
 /// Random points and configurations for each robot.
 struct Trials {
     points: Points,
-    by_subject: Vec<[Option<Trial>; 2]>,
+    by_subject: Vec<[Option<Trial>; 3]>,
 }
 
 impl Trials {
     fn new(plan: &Plan) -> Self {
-        Trials { points: Points::new(23), by_subject: plan.subjects.iter().map(|_| [None, None]).collect() }
+        Trials {
+            points: Points::new(23),
+            by_subject: plan.subjects.iter().map(|_| [None, None, None]).collect(),
+        }
     }
 
     fn score(&mut self, plan: &Plan, walked: &Walked) -> Score {
@@ -247,7 +250,7 @@ impl Trials {
         match &assertion.spoken {
             Some(Spoken::Joint { of, branches, .. }) => {
                 let columns = plan.habits.columns;
-                let slot = &mut self.by_subject[assertion.subject][usize::from(columns == Columns::Snap)];
+                let slot = &mut self.by_subject[assertion.subject][columns as usize];
                 let trial = slot.get_or_insert_with(|| Trial::new(subject, &Places(columns)));
                 let [own, any] = trial.shares(*of, branches);
                 return (any > 0.0).then_some(own > 0.0);

@@ -369,7 +369,7 @@ fn indices(name: &Name, habits: &Habits) -> Option<(Index, Index)> {
             _ => {
                 let to = index(sub)?;
                 let from = match (&to, name.base.as_str()) {
-                    (Index::Number(k), "T") if habits.links => Index::Number(k.checked_sub(1)?),
+                    (Index::Number(k), "T" | "R") if habits.links => Index::Number(k.checked_sub(1)?),
                     (Index::Number(k), "A" | "H" | "M") => Index::Number(k.checked_sub(1)?),
                     (Index::Letter(j, k), "A" | "H" | "M" | "T") => Index::Letter(*j, k - 1),
                     (Index::End, "A" | "H" | "M") => return None,

@@ -96,6 +96,9 @@ impl Walk<'_> {
         let [Scalar::Formula(span, left), Scalar::Formula(_, right)] = read else { return false };
         let joints = self.subject.joints();
         let moves = |e: Expr| e.symbols().iter().any(|s| joints.contains(&(*s).into()));
+        if right.value().symbols().is_empty() && self.is_right_name(span) && self.tells_goal(statement) {
+            return true;
+        }
         statement.place == Place::Inline
             && self.is_right_name(span)
             && moves(left.value())
@@ -105,6 +108,46 @@ impl Walk<'_> {
             && !(right.value().symbols().is_empty() && self.at.knows(left.value(), &self.subject))
     }
 }
+
+impl Walk<'_> {
+    /// True if the words of the line before a statement give a place that is to be reached.
+    pub(super) fn tells_goal(&self, statement: &Statement) -> bool {
+        let before = self.text.get(..statement.span.start).unwrap_or_default();
+        let line = before.rsplit('\n').next().unwrap_or_default();
+        tells_goal(&line.rsplit(". ").next().unwrap_or_default().to_lowercase())
+    }
+}
+
+/// True if words, in small letters, give a place that is to be reached.
+pub(super) fn tells_goal(sentence: &str) -> bool {
+    GOALS.iter().any(|words| sentence.contains(words))
+}
+
+/// Words before a place that is to be reached.
+const GOALS: [&str; 22] = [
+    "for the point",
+    "for the position",
+    "for the pose",
+    "for a point",
+    "to the point",
+    "inverse for",
+    "inverse kinematics for",
+    "to reach",
+    "target",
+    "desired",
+    "für den punkt",
+    "für die position",
+    "inverse für",
+    "zielpunkt",
+    "zielposition",
+    "pour le point",
+    "pour la position",
+    "position désirée",
+    "para el punto",
+    "para la posición",
+    "punto deseado",
+    "per il punto",
+];
 
 /// True if a sentence says that the arm is singular somewhere.
 fn is_singular(said: &str) -> bool {

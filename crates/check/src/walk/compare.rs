@@ -183,6 +183,12 @@ impl Walk<'_> {
             Cell::LeftOut => true,
             _ => false,
         };
+        // Numbers between bars are no single entry of a larger matrix.
+        if (cells.len(), width) == (1, 1) && wanted.0.iter().map(Vec::len).sum::<usize>() > 1 {
+            let errors = vec![Unread::new(grid.span.clone(), Unreadable::NeitherFormulaNorProduct)];
+            out.pieces.push(Piece::Unreadable { place: None, span: grid.span.clone(), errors });
+            return;
+        }
         if cells.len() > wanted.0.len() {
             out.remarks.push(Remark::ManyRows { printed: cells.len(), wanted: wanted.0.len() });
         }
@@ -195,6 +201,8 @@ impl Walk<'_> {
         let is_computed =
             |cell: &Cell| matches!(cell, Cell::Formulas(f) if f.iter().any(|f| is_measured(f.1.value())));
         let is_worked_out = is_open && cells.iter().flatten().any(is_computed);
+        // Zeros and ones alone are the matrix at some configuration, not at all.
+        let mut is_bare = is_open && !is_worked_out && width > 1 && cells.len() > 1;
         for (r, row) in cells.iter().enumerate() {
             if row.len() < width {
                 let short = ShortRow { row: r + 1, elements: row.len(), width };
@@ -234,6 +242,13 @@ impl Walk<'_> {
                         for (span, syntax) in formulas {
                             if is_numeric {
                                 out.pieces.extend(self.number(place, span, syntax.value(), wanted));
+                                continue;
+                            }
+                            if is_open && !is_worked_out && width > 1 && !wanted.symbols().is_empty() {
+                                if std::mem::take(&mut is_bare) {
+                                    let errors = vec![Unread::new(span.clone(), Unreadable::NoConfiguration)];
+                                    out.pieces.push(Piece::Unreadable { place, span: span.clone(), errors });
+                                }
                                 continue;
                             }
                             if is_worked_out && !is_measured(syntax.value()) && !wanted.symbols().is_empty() {
@@ -283,7 +298,8 @@ impl Walk<'_> {
         span: &Range<usize>,
         out: &mut Assertion,
     ) -> bool {
-        let Some(value) = value else { return false };
+        let is_entry = |m: &Matrix| m.shape() == Some((1, 1));
+        let Some(value) = value.filter(|m| !is_entry(m) || is_entry(wanted)) else { return false };
         let value = match (value.shape(), wanted.shape()) {
             (Some((4, 4)), Some((3, 3))) => &value.rotation_part(),
             _ => value,

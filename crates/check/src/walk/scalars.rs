@@ -90,6 +90,18 @@ impl Walk<'_> {
         }
     }
 
+    /// True for `Z = P_z - L`: by custom Z is that entry of the pose, which it cannot be here.
+    fn is_told_of_itself(&self, name: &Range<usize>, formula: &Range<usize>) -> bool {
+        let entry = |span: &Range<usize>| self.lexis.inverse_formula(self.text, span).ok().map(|s| s.value());
+        let (Some(name), Some(formula)) =
+            (entry(name).filter(|_| self.lexis.is_by_custom(self.source(name))), entry(formula))
+        else {
+            return false;
+        };
+        let is_entry = |s| (0..3).any(|r| (0..4).any(|c| self.lexis.pose_symbol(r, c) == s));
+        name.as_symbol().is_some_and(|s| is_entry(s) && formula != name && formula.symbols().contains(&s))
+    }
+
     /// Reads a statement as one between scalars; false if it is none.
     pub(super) fn scalars(&mut self, statement: &Statement, claim: Option<&str>) -> bool {
         let spans: Vec<Range<usize>> = statement.sides.iter().map(|s| s.span.clone()).collect();
@@ -104,6 +116,10 @@ impl Walk<'_> {
             if all_matrices || read.iter().any(is_matrix) {
                 return false;
             }
+        }
+        if self.tells_goal(statement) {
+            // Where the joints are is what is asked for.
+            self.at.forget_joints();
         }
         let is_case = self.is_case(statement);
         if is_case && self.case(statement, &read) {
@@ -135,7 +151,9 @@ impl Walk<'_> {
         // A name that the document defines here.
         let is_definition = told.is_none()
             && match &read[..] {
-                [first, Scalar::Formula(span, syntax), ..] if self.defines(&spans[0], first, syntax) => {
+                [first, Scalar::Formula(span, syntax), ..]
+                    if self.defines(&spans[0], first, syntax) || self.is_told_of_itself(&spans[0], span) =>
+                {
                     let name = match first {
                         Scalar::Lone(name) => plain_name(&format!("{}{}", name.base, name.sub)),
                         _ => plain_name(self.source(&spans[0])),
@@ -200,7 +218,8 @@ impl Walk<'_> {
                     pieces.extend(self.number(None, span, syntax.value(), wanted));
                 }
                 Scalar::Formula(span, syntax)
-                    if is_measured(syntax.value()) && !wanted.symbols().is_empty() =>
+                    if (is_measured(syntax.value()) || self.is_quantity(span, syntax))
+                        && !wanted.symbols().is_empty() =>
                 {
                     let errors = vec![Unread::new(span.clone(), Unreadable::NoConfiguration)];
                     pieces.push(Piece::Unreadable { place: None, span: span.clone(), errors });
@@ -425,6 +444,23 @@ impl Walk<'_> {
         reference.matrix.entry(r.checked_sub(1)?, c.checked_sub(1)?)
     }
 
+    /// True for a number with its unit, `0 mm`.
+    fn is_quantity(&self, span: &Range<usize>, syntax: &Syntax) -> bool {
+        syntax.value().symbols().is_empty() && crate::numbers::unit_behind(self.source(span)).is_some()
+    }
+
+    /// True if a line before a place begins with a name and gives it a matrix.
+    fn is_printed(&self, name: &Name, at: usize) -> bool {
+        self.text.get(..at).unwrap_or_default().lines().any(|line| {
+            let line = line.trim_start_matches([' ', '\t', '$', '-', '*', '&']);
+            let sides = line.strip_prefix(name.base.as_str()).and_then(|rest| rest.split_once('='));
+            sides.is_some_and(|(left, right)| {
+                let goes_on = left.starts_with(|c: char| c.is_alphabetic());
+                !goes_on && (right.contains("matrix") || right.trim_start().starts_with(['[', '|', '(']))
+            })
+        })
+    }
+
     /// The determinant that a name says: `\det J_v`, `|J|`.
     pub(super) fn determinant(&self, span: &Range<usize>) -> Option<Expr> {
         let source = self.source(span);
@@ -445,7 +481,19 @@ impl Walk<'_> {
         if let (Some(whole), Some(false)) = (self.lexis.defined(&name), printed.as_ref().map(is_square)) {
             return self.told_minor(whole).filter(is_square)?.determinant();
         }
-        printed.and_then(|m| m.determinant()).or_else(|| self.subject.determinant(told.part))
+        // Numbers are what the author makes of it, and may be wrong.
+        let is_known = |m: &Matrix| m.0.iter().flatten().flatten().any(|e| !e.symbols().is_empty());
+        let (printed, is_numeric) = match printed {
+            Some(m) if !is_known(&m) => (None, true),
+            printed => (printed, false),
+        };
+        if is_numeric && self.subject.square_jacobian(crate::jacobians::Part::Any).is_none() {
+            return None;
+        }
+        // That of a matrix which is printed and could not be read is not the one that the arm has by nature.
+        let is_open = printed.is_none() && !is_numeric && self.is_printed(&name, span.start);
+        let by_nature = || if is_open { None } else { self.subject.determinant(told.part) };
+        printed.and_then(|m| m.determinant()).or_else(by_nature)
     }
 
     /// The rows or columns of a full Jacobian that the words before name: `rows vx, vy, wz`, `joints 1, 2 and 3`.

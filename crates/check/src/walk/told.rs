@@ -1,5 +1,6 @@
 //! What a document states: configurations, lengths, rates, in formulas and in sentences.
 
+use super::cases::tells_goal;
 use super::{Scalar, Walk};
 use crate::lexis::read;
 use denavit::description::read_value;
@@ -42,6 +43,22 @@ const RATES: [&str; 8] = [
     "rates of the joints",
 ];
 
+/// Words that put all joints to zero.
+const ZERO: [&str; 12] = [
+    "all joints zero",
+    "all joints at zero",
+    "all joints are zero",
+    "all joint variables zero",
+    "all joint angles zero",
+    "all angles zero",
+    "alle gelenke null",
+    "alle gelenke auf null",
+    "tous les joints à zéro",
+    "toutes les articulations à zéro",
+    "todas las articulaciones en cero",
+    "todas las articulaciones a cero",
+];
+
 /// What a list of values is for.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum List {
@@ -63,6 +80,13 @@ impl Walk<'_> {
             .replace("\\left", "     ")
             .replace("\\right", "      ");
         let joined = joined.replace("\\,", "  ").replace("\\;", "  ");
+        let lower = joined.to_lowercase();
+        if tells_goal(&lower) {
+            self.at.forget_joints();
+        }
+        if ZERO.iter().any(|words| lower.contains(words)) {
+            (0..self.subject.joints().len()).for_each(|joint| self.at.set(joint, Expr::int(0)));
+        }
         self.told_lists(&joined);
         self.told_tuples(&joined, prose.start);
         let parts: Vec<&str> = joined.split('=').collect();
@@ -87,7 +111,12 @@ impl Walk<'_> {
             let words: Vec<&str> = value.split(' ').filter(|w| !w.is_empty()).collect();
             let short = words.iter().take(2).copied().collect::<Vec<&str>>().join(" ");
             let first = words.first().copied().unwrap_or_default();
-            let tried = [value, short.as_str(), first.trim_end_matches([':', '.'])];
+            // `36.9° - 29.5°` is no value with words behind it.
+            let is_sum = words.get(1).is_some_and(|w| matches!(*w, "-" | "+" | "−" | "±" | "*" | "/" | "·"));
+            let tried = match is_sum {
+                true => [value; 3],
+                false => [value, short.as_str(), first.trim_end_matches([':', '.'])],
+            };
             let mut is_given = false;
             for name in &names {
                 is_given |= tried.iter().any(|v| self.assign(name, v));
@@ -228,6 +257,12 @@ impl Walk<'_> {
     pub(super) fn constant(&self, text: &str) -> Option<Expr> {
         let text = text.trim().trim_end_matches('.');
         let (number, factor) = match crate::numbers::unit_behind(text) {
+            // The unit is that of a number, not of the last term of a sum.
+            Some((number, _))
+                if number.trim_start_matches(['-', '+', '−']).contains(['-', '+', '−', '±', '°']) =>
+            {
+                return None;
+            }
             Some((number, factor)) => (number, factor),
             None => (text, Expr::int(1)),
         };

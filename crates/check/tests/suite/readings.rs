@@ -181,3 +181,62 @@ fn statements_tell_the_convention() {
     assert_eq!(told("px = 2 a3 C1\n\npy = 0"), None);
     assert_eq!(told("The arm is blue."), None);
 }
+
+#[test]
+fn right_statements_are_not_accused() {
+    let wrong = |text: &str| {
+        let all = checked(PLANAR, text);
+        all.claims
+            .iter()
+            .filter(|c| c.standing() == Standing::Wrong)
+            .map(|c| c.name.clone())
+            .collect::<Vec<String>>()
+    };
+    let nobody: [&str; 0] = [];
+    // The place of the hand is o, where no letters say that o is an axis.
+    assert_eq!(wrong("o_x = a1 C1 + a2 C12\n\no_y = a1 S1 + a2 S12"), nobody);
+    assert_eq!(wrong("n_x = C12\n\no_x = a1 C1 + a2 C12"), ["o_x"]);
+    // Zeros and ones without joints are the matrix somewhere.
+    assert_eq!(wrong("With the arm stretched, R_02 = [1, 0, 0; 0, 1, 0; 0, 0, 1]"), nobody);
+    assert_eq!(wrong("All joints zero: R_02 = [0, 1, 0; 1, 0, 0; 0, 0, 1]"), ["R_02"]);
+    // The point that is to be reached is not where the arm was before.
+    let numbers = PLANAR.replace("| a1 |", "| 1 |").replace("| a2 |", "| 1 |");
+    let there =
+        |text: &str| checked(&numbers, &format!("For q1 = 30°, q2 = 60°: x = 0.866 m.\n\n{text}")).tally();
+    let tally = there("For the point x = 1.2 m, y = 0.9 m I get the following.");
+    assert_eq!((tally.wrong, tally.equal), (0, 1));
+    assert_eq!(there("There I get x = 1.2 m, y = 0.9 m.").wrong, 2);
+    // Two names of one entry: one of them is a helper.
+    assert_eq!(wrong("X = px - a1 C1\n\nθ12 = atan2(py - a1 S1, X)"), nobody);
+    // A root for a length that may be negative.
+    let text = "w = sqrt((a1 + a2 C2)²)\n\npx = w C1 - a2 S1 S2";
+    assert_eq!(wrong(text), nobody);
+    assert_eq!(wrong(&text.replace("C1 - a2", "C1 + a2")), ["px"]);
+    // A matrix in bars, and one that is wrong.
+    let text = "J = | -a1 S1 - a2 S12   -a2 S12 |\n    |  a1 C1 + a2 C12    a2 C12 |\n\ndet J = a1 a2 S2";
+    assert_eq!(wrong(text), nobody);
+    assert_eq!(wrong(&text.replace("a2 S12   -a2", "a2 C12   -a2")), ["J"]);
+    // The determinant of a matrix that could not be read is that of another.
+    assert_eq!(wrong("J(zeta) = [zeta; 1]\n\ndet J = 3 a1"), nobody);
+    // Fractions with commas, and a comma behind one.
+    let text = "Für q1 = 0,5 rad und q2 = 0,25 rad: cos(q1) = 0,878, sin(q1) = 0,479, also";
+    assert_eq!(wrong(text), nobody);
+}
+
+#[test]
+fn lengths_in_millimetres_by_words() {
+    let table = "Standard DH, lengths in mm.\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | θ1 | 0 | 300 | 0 |\n\n";
+    let all = check(
+        &format!("{table}At θ1 = 30°:\n\nx = 259.8 mm\n\nT_01 = [0.866, -0.5, 0, 259.8; 0.5, 0.866, 0, 150; 0, 0, 1, 0; 0, 0, 0, 1]"),
+        Format::Markdown,
+        None,
+        &CheckOptions::default(),
+    )
+    .expect("a table");
+    assert!(
+        all.claims.len() == 2 && all.claims.iter().all(|c| c.standing() == Standing::Equal),
+        "{:?}",
+        all.claims
+    );
+    assert!(all.notes.iter().any(|n| n.what == Noted::InMillimetres));
+}

@@ -108,6 +108,14 @@ pub(super) fn read(reader: &mut Reader, at: usize, limit: usize, manner: Manner)
         }
         return end.max(at + 1);
     }
+    // Bars are drawn for brackets, unless words or unit vectors say that it is a determinant.
+    let is_determinant = outside.iter().flatten().any(|(_, s)| {
+        let words = cut(text, s).to_lowercase();
+        words.contains("det") || words.contains('Δ') || words.contains('×')
+    }) || rows
+        .first()
+        .and_then(|r| r.1.first())
+        .is_some_and(|piece| cut(text, &piece.inner).split_whitespace().eq(["i", "j", "k"]));
     let mut items: Vec<(usize, Vec<Node>)> = vec![];
     for (column, span) in outside.into_iter().flatten() {
         items.push((column, build(text, lex(text, &span), false).nodes));
@@ -121,7 +129,11 @@ pub(super) fn read(reader: &mut Reader, at: usize, limit: usize, manner: Manner)
             pieces.iter().map(|p| build(text, lex(text, &p.inner), false).nodes).collect();
         let cells: Vec<&[Node]> = trees.iter().map(Vec::as_slice).filter(|t| !t.is_empty()).collect();
         let rows = blank_rows(text, &cells, last.inner.end);
-        let kind = NodeKind::Grid(Box::new(Grid::new(span.clone(), first.fence, rows)));
+        let fence = match first.fence {
+            Fence::Bars if !is_determinant => Fence::Square,
+            fence => fence,
+        };
+        let kind = NodeKind::Grid(Box::new(Grid::new(span.clone(), fence, rows)));
         items.push((column, vec![Node { kind, span, gap: Gap::Blank }]));
     }
     items.sort_by_key(|i| i.0);

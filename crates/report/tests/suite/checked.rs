@@ -310,6 +310,7 @@ fn what_is_not_read() {
         Noted::TooLong { bytes: 9_000_000, most: 8_000_000 },
         Noted::NoRobot,
         Noted::ReadAs(Convention::Khalil),
+        Noted::InMillimetres,
         Noted::Supported { convention: Convention::Craig, right: 12, rival: 3 },
         Noted::NotSet("a9".into(), NotSet::Unknown { name: "a9".into(), known: vec![] }),
         Noted::NotSet(

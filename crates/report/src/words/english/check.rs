@@ -317,6 +317,7 @@ impl Check for English {
                 "there is no robot: no table of Denavit-Hartenberg parameters stands in the document".into()
             }
             Noted::ReadAs(convention) => format!("tables are read as {convention}: the text says so"),
+            Noted::InMillimetres => "lengths of tables without a unit are in mm: the text says so".into(),
             Noted::Supported { convention, right, rival } => format!(
                 "tables are read as {convention}: of the statements of the text {right} hold so, {rival} in another convention"
             ),
@@ -345,6 +346,7 @@ impl Check for English {
             Noted::Document(_)
             | Noted::TooLong { .. }
             | Noted::ReadAs(_)
+            | Noted::InMillimetres
             | Noted::Supported { .. }
             | Noted::Reading(_)
             | Noted::NotSet(..)

@@ -333,6 +333,9 @@ impl Check for French {
             Noted::ReadAs(convention) => {
                 say!("les tableaux sont lus dans la convention {convention} : le texte le dit")
             }
+            Noted::InMillimetres => {
+                say!("les longueurs sans unité des tableaux sont en mm : le texte le dit")
+            }
             Noted::Supported { convention, right, rival } => say!(
                 "les tableaux sont lus dans la convention {convention} : {right} énoncés du texte sont justes ainsi, {rival} dans une autre"
             ),
@@ -367,6 +370,7 @@ impl Check for French {
             Noted::Document(_)
             | Noted::TooLong { .. }
             | Noted::ReadAs(_)
+            | Noted::InMillimetres
             | Noted::Supported { .. }
             | Noted::Reading(_)
             | Noted::NotSet(..)
