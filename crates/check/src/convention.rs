@@ -244,6 +244,9 @@ fn told_in_motions(text: &str) -> Option<(Convention, Range<usize>)> {
     None
 }
 
+/// The arguments of a motion are no longer than this, in bytes.
+const MAX_ARGUMENTS: usize = 80;
+
 /// A product of motions with their axes as arguments: `Rot(z, θ) × Trans(0, 0, d) × Trans(a, 0, 0) × Rot(x, α)`.
 fn as_a_product(text: &str) -> Option<(Convention, Range<usize>)> {
     let mut run: Vec<([char; 2], Range<usize>)> = vec![];
@@ -251,7 +254,11 @@ fn as_a_product(text: &str) -> Option<(Convention, Range<usize>)> {
         let before = text[..open].trim_end_matches(['}', ' ', '\\', '{']);
         let before = before.strip_suffix("left").map_or(before, |b| b.trim_end_matches(['}', ' ', '\\']));
         let name = before.rsplit(|c: char| !c.is_ascii_alphabetic()).next().unwrap_or_default();
-        let Some(close) = text[open..].find([')', '\n']).map(|n| open + n) else { break };
+        if name.is_empty() {
+            continue;
+        }
+        let ends = |&(n, c): &(usize, char)| n > MAX_ARGUMENTS || matches!(c, ')' | '\n');
+        let Some(close) = text[open..].char_indices().find(ends).map(|(n, _)| open + n) else { break };
         let Some(motion) = motion(name, &text[open + 1..close]) else { continue };
         let start = before.len() - name.len();
         // Between two of a product stand signs and commands for signs only.

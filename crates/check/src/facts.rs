@@ -258,6 +258,8 @@ pub enum Sense {
     CosineFirst,
     /// The columns of the pose are s, n, a, P.
     ColumnsSnap,
+    /// The place of the hand is o.
+    PlaceIsO,
 }
 
 /// A printed row with fewer elements than others.

@@ -84,13 +84,6 @@ impl Columns {
 
     /// Those that a text uses.
     pub fn of(text: &str) -> Self {
-        // As words: `o_x`, `o_{x}` or `ox`.
-        let words: String = text.chars().filter(|c| !matches!(c, '_' | '{' | '}' | '\\')).collect();
-        let words: BTreeSet<&str> = words.split(|c: char| !c.is_alphanumeric()).collect();
-        let has = |letter: &str| AXES.iter().any(|a| words.contains(format!("{letter}{a}").as_str()));
-        if has("o") && !["n", "p", "P", "s"].into_iter().any(has) {
-            return Columns::Nsao;
-        }
         let plain: String = plain_name(text);
         if plain.contains("ox") || !plain.contains("sx") { Columns::Noap } else { Columns::Snap }
     }

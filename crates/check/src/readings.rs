@@ -34,6 +34,28 @@ struct Score {
     wrong: BTreeSet<usize>,
 }
 
+/// The letters that a document has for the hand.
+struct Letters {
+    /// It names them in its words.
+    tells_hand: bool,
+    /// o has coordinates, and neither n, s nor p has.
+    may_be_o: bool,
+}
+
+impl Letters {
+    fn of(text: &str) -> Self {
+        // As words: `o_x`, `o_{x}` or `ox`.
+        let words: String = text.chars().filter(|c| !matches!(c, '_' | '{' | '}' | '\\')).collect();
+        let words: BTreeSet<&str> = words.split(|c: char| !c.is_alphanumeric()).collect();
+        let has =
+            |letter: &str| ["x", "y", "z"].iter().any(|a| words.contains(format!("{letter}{a}").as_str()));
+        Letters {
+            tells_hand: !super::custom::hand_letters(text).is_empty(),
+            may_be_o: has("o") && !["n", "p", "P", "s"].into_iter().any(has),
+        }
+    }
+}
+
 /// The plan with the readings that the document supports, and what is said of them.
 pub(super) fn weighed(
     text: &str,
@@ -50,13 +72,13 @@ pub(super) fn weighed(
     }
     let mut trials = Trials::new(&plan);
     let mut score = trials.score(&plan, &walked);
+    let letters = Letters::of(text);
     for _ in 0..ROUNDS {
         if score.wrong.is_empty() {
             break;
         }
         let mut best: Option<(usize, Plan, Walked, Score, Sense)> = None;
-        let tells_hand = !super::custom::hand_letters(text).is_empty();
-        for (habits, sense, margin) in candidates(&plan.habits, &walked, &score, tells_hand) {
+        for (habits, sense, margin) in candidates(&plan.habits, &walked, &score, &letters) {
             let other = plan.with_habits(habits);
             let there = other.walk(text, document, options);
             let own = trials.score(&other, &there);
@@ -92,7 +114,7 @@ fn candidates(
     habits: &Habits,
     walked: &Walked,
     score: &Score,
-    tells_hand: bool,
+    letters: &Letters,
 ) -> Vec<(Habits, Sense, usize)> {
     let wrong: Vec<&Assertion> =
         score.wrong.iter().filter_map(|&at| walked.assertions.iter().find(|a| a.span.start == at)).collect();
@@ -109,6 +131,10 @@ fn candidates(
         }
         if habits.columns == Columns::Noap {
             found.push((Habits { columns: Columns::Snap, ..habits.clone() }, Sense::ColumnsSnap, MARGIN));
+        }
+        // Where the entries are by custom those of the second column, and the text has no other letter for the place.
+        if habits.columns == Columns::Noap && letters.may_be_o {
+            found.push((Habits { columns: Columns::Nsao, ..habits.clone() }, Sense::PlaceIsO, 1));
         }
     }
     let own: BTreeSet<String> = walked.assertions.iter().filter_map(own_link).collect();
@@ -135,7 +161,8 @@ fn candidates(
         .filter(|a| matches!(a.about, About::Entry | About::Equation) && a.spoken.is_none())
         .map(|a| plain_name(&super::custom::plain(&a.name)))
         .filter(|n| n.chars().count() <= 6 && n.chars().all(char::is_alphanumeric))
-        .filter(|n| may_be_helper(n, tells_hand))
+        .filter(|n| may_be_helper(n, letters.tells_hand))
+        .chain(walked.defined.iter().filter(|d| d.by_custom).map(|d| plain_name(&d.name)))
         .collect();
     let families: BTreeSet<String> = names.iter().map(|n| family(n)).collect();
     let mut sets: Vec<BTreeSet<String>> =

@@ -98,6 +98,8 @@ pub(super) enum Spoken {
 #[derive(Clone, Debug)]
 pub(super) struct Defined {
     pub name: String,
+    /// By custom it is an entry of the pose.
+    pub by_custom: bool,
     /// The whole statement, and its left side as printed.
     pub statement: Range<usize>,
     pub shown: String,

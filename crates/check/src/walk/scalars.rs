@@ -276,10 +276,12 @@ impl Walk<'_> {
         span: &Range<usize>,
         syntax: &Syntax,
     ) {
+        let by_custom = self.lexis.is_by_custom(&name);
         self.lexis.define(&name, value);
         self.lexis.define_inverse(&name, inverse);
         self.defined.push(Defined {
             name,
+            by_custom,
             statement: statement.span.clone(),
             shown: self.claim_name(statement),
             span: span.clone(),

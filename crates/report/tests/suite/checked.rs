@@ -295,9 +295,14 @@ fn what_is_not_read() {
     ] {
         both(&|w| w.skipped(&why));
     }
-    for sense in
-        [Sense::LinkAlone, Sense::IndicesExchanged, Sense::Helper, Sense::CosineFirst, Sense::ColumnsSnap]
-    {
+    for sense in [
+        Sense::LinkAlone,
+        Sense::IndicesExchanged,
+        Sense::Helper,
+        Sense::CosineFirst,
+        Sense::ColumnsSnap,
+        Sense::PlaceIsO,
+    ] {
         both(&|w| w.sense(sense));
     }
     expect(

@@ -138,6 +138,7 @@ impl Check for English {
             Sense::Helper => "read as a helper of the document, not as an entry of the pose",
             Sense::CosineFirst => "read with the cosine as the first argument of atan2",
             Sense::ColumnsSnap => "read with s, n, a, P as the columns of the pose",
+            Sense::PlaceIsO => "read with o as the place of the hand",
         }
         .into()
     }

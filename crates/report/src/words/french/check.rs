@@ -148,6 +148,7 @@ impl Check for French {
             }
             Sense::CosineFirst => "lu avec le cosinus comme premier argument de atan2",
             Sense::ColumnsSnap => "lu avec s, n, a, P comme colonnes de la situation",
+            Sense::PlaceIsO => "lu avec o comme position de l’organe terminal",
         })
     }
 
