@@ -1,6 +1,6 @@
 //! What the compiled languages have in common: the words at the head of a file, and the steps of a function.
 
-use crate::blocks::{blocks, reads};
+use crate::blocks::blocks;
 use crate::listing::{Listing, Statement};
 use crate::names::{Names, no_test, renamed, sanitised};
 use crate::spelling::Spelling;
@@ -43,6 +43,16 @@ pub(crate) enum Step {
     Result { place: usize, value: Expr },
 }
 
+/// The formulas that a step reads.
+pub(crate) fn formulas(step: &Step) -> Vec<Expr> {
+    match step {
+        Step::Pairs(pairs) => pairs.iter().map(|p| p.angle).collect(),
+        Step::Atan2 { y, x, .. } => vec![*y, *x],
+        Step::Let { value, .. } | Step::Result { value, .. } => vec![*value],
+        Step::Break => vec![],
+    }
+}
+
 /// A function in the words of a language. Its formulas have no sines, cosines or arctangents.
 pub(crate) struct Function<'a> {
     pub routine: &'a Routine<'a>,
@@ -79,7 +89,8 @@ impl<'a> Function<'a> {
             }
         }
         let body = body.list;
-        Function { routine, name, result, hoisted, body, reads: reads(&listing), names }
+        let reads = hoisted.iter().chain(&body).flat_map(formulas).flat_map(|e| e.symbols()).collect();
+        Function { routine, name, result, hoisted, body, reads, names }
     }
 
     /// Whether a variable or parameter is read.

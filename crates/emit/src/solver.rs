@@ -1,10 +1,10 @@
 //! A solver in the words of a language: steps between roots, each at the depth where it is known.
 
-use crate::compiled::{Pair, Step, Steps};
+use crate::compiled::{Pair, Step, Steps, formulas};
 use crate::listing::Listing;
 use crate::names::{Names, comment, sanitised};
 use crate::{Language, Library, SolverRoutine};
-use denavit_program::solver::{BESIDE, Register, Root};
+use denavit_program::solver::{BESIDE, Register, Root, may_hide};
 use denavit_symbolic::{Expr, Node, Symbol};
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -187,6 +187,8 @@ pub(crate) struct Plan<'a> {
     pub leaf: Vec<Step>,
     pub outputs: Vec<Expr>,
     pub residual: Expr,
+    /// Rounding may hide branches: it is never certain that all are found.
+    pub may_hide: bool,
     /// How far the variables are from what they must be, if that is known, and the size.
     pub defect: Option<Expr>,
     pub size: Expr,
@@ -318,6 +320,7 @@ impl<'a> Plan<'a> {
             leaf: vec![],
             outputs,
             residual,
+            may_hide: may_hide(routine.usual.iter().copied()),
             defect: solver.defect.map(of),
             size,
             reads: FxHashSet::default(),
@@ -426,6 +429,11 @@ impl<'a> Plan<'a> {
              an unknown is free somewhere, or nearly so; what is there solves the equations, and there may be more."
                 .into(),
         );
+        if self.may_hide {
+            lines.push(
+                "This arm is solved by dividing by so little that rounding may hide branches: complete is never said.".into(),
+            );
+        }
         lines.push(match self.defect {
             Some(_) => "Not a pose: the rotation is off by more than 1e-5 from all rotations, or something is no number; by \
                  less, the nearest rotation is meant."
@@ -529,16 +537,6 @@ pub(crate) fn defined(step: &Step) -> Vec<Symbol> {
         }
         Step::Atan2 { name, .. } | Step::Let { name, .. } => vec![Symbol::new(name)],
         Step::Break | Step::Result { .. } => vec![],
-    }
-}
-
-/// The formulas that a step reads.
-pub(crate) fn formulas(step: &Step) -> Vec<Expr> {
-    match step {
-        Step::Pairs(pairs) => pairs.iter().map(|p| p.angle).collect(),
-        Step::Atan2 { y, x, .. } => vec![*y, *x],
-        Step::Let { value, .. } | Step::Result { value, .. } => vec![*value],
-        Step::Break => vec![],
     }
 }
 

@@ -10,7 +10,7 @@ use denavit::geometry::{Rotation, Transform, Vector};
 use denavit::inverse::{Goal, InverseModel, JointSpace, Refusal, variables};
 use denavit::robot::Robot;
 use denavit_emit::{Certificate, KnownSolution, Language, Precision, SolverRoutine, SolverVector};
-use denavit_program::solver::{BESIDE, SAME, Solver, SolverScalar};
+use denavit_program::solver::{BESIDE, SAME, Solver, SolverScalar, may_hide};
 use denavit_program::{Extended, Program};
 use denavit_symbolic::{Expr, Symbol};
 use std::f64::consts::TAU;
@@ -389,7 +389,8 @@ impl<'a> Tester<'a> {
     /// All solutions, and whether there may be more; nothing if some are not clean.
     fn solutions(&mut self, variables: &[f64]) -> Option<(Vec<KnownSolution>, Certificate)> {
         let leaves = self.solver.solve_carefully(variables, &[]);
-        let is_near = leaves.met_free() != 0
+        let is_near = may_hide(self.usual.iter().copied())
+            || leaves.met_free() != 0
             || leaves.lost_guard() < BESIDE
             || leaves.iter().any(|l| l.free != 0 || l.guard < BESIDE);
         let certificate = if is_near { Certificate::Singular } else { Certificate::Complete };

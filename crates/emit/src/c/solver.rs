@@ -107,7 +107,7 @@ impl Source<'_> {
             out.line(&format!("const double {} = {}[{k}];", plan.names.of(symbol), plan.argument));
         }
         out.line("int count = 0;");
-        out.line("int is_near = 0;");
+        out.line(&format!("int is_near = {};", u8::from(plan.may_hide)));
         out.blank();
         let atan2 = if is_double { "any_atan2" } else { "atan2" };
         let mut nested = Nested::new(plan, Language::C, "", atan2);

@@ -70,7 +70,7 @@ impl Source<'_> {
             out.line(&format!("const double {} = {}[{k}];", plan.names.of(symbol), plan.argument));
         }
         out.line("int count = 0;");
-        out.line("int is_near = 0;");
+        out.line(&format!("int is_near = {};", u8::from(plan.may_hide)));
         out.blank();
         let prefix = format!("{name}_");
         let mut nested = Nested::new(plan, Language::Cuda, &prefix, "atan2");

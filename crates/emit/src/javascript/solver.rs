@@ -120,7 +120,7 @@ impl Module<'_> {
         }
         lines.push(format!("  /** @type {{{kind}[]}} */"));
         lines.push("  const solutions = [];".into());
-        lines.push("  let isNear = false;".into());
+        lines.push(format!("  let isNear = {};", plan.may_hide));
         lines.push(String::new());
         let mut nested = Nested::new(plan, Language::JavaScript, "", "Math.atan2");
         nested.refusal = returned(&certificate, &format!("\"{}\"", Certificate::NotAPose.words()));

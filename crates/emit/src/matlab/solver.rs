@@ -86,7 +86,7 @@ impl Module<'_> {
         );
         lines.push("solutions = struct('results', {}, 'residual', {}, 'multiplicity', {}, ...".into());
         lines.push("    'branch', {}, 'free', {});".into());
-        lines.push("is_near = false;".into());
+        lines.push(format!("is_near = {};", plan.may_hide));
         lines.push(format!("{result} = zeros(0, {});", plan.outputs.len()));
         lines.push("info = struct('residual', zeros(0, 1), 'multiplicity', zeros(0, 1), ...".into());
         lines.push("    'branch', zeros(0, 1), 'free', zeros(0, 1));".into());

@@ -139,7 +139,8 @@ impl Module<'_> {
         lines.push(format!("    residuals = np.empty(shape + ({most},))"));
         lines.push(format!("    multiplicities = np.zeros(shape + ({most},), dtype=int)"));
         lines.push(format!("    frees = np.zeros(shape + ({most},), dtype=int)"));
-        lines.push("    is_near = np.zeros(shape, dtype=bool)".into());
+        let first = if plan.may_hide { "ones" } else { "zeros" };
+        lines.push(format!("    is_near = np.{first}(shape, dtype=bool)"));
         lines.push(String::new());
         lines.push(
             "    with np.errstate(all=\"ignore\"):  # what no root stands behind may be anything".into(),

@@ -1,8 +1,8 @@
 //! The steps of a solver without branches, so that loops over lanes become vector code.
 
-use crate::compiled::{Body, Pair, Step};
+use crate::compiled::{Body, Pair, Step, formulas};
 use crate::names::Names;
-use crate::solver::{Branching, Kind, Plan, defined, formulas};
+use crate::solver::{Branching, Kind, Plan, defined};
 use crate::spelling::Spelling;
 use crate::{Language, Precision};
 use denavit_program::solver::CANDIDATE;

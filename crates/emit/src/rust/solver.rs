@@ -79,9 +79,9 @@ const ROWS: usize = 8;
 /// More branches are found one by one.
 const MOST: usize = 16;
 
-/// Whether the roots have a form without branches.
+/// Whether the roots have a form without branches, by which nothing is hidden.
 fn has_lanes(plan: &Plan) -> bool {
-    plan.max() <= MOST && plan.nodes.iter().all(|n| n.kind() != Kind::Quartic)
+    plan.max() <= MOST && !plan.may_hide && plan.nodes.iter().all(|n| n.kind() != Kind::Quartic)
 }
 
 /// Whether branches go side by side.
@@ -231,7 +231,7 @@ impl Source<'_> {
         self.open(plan, &mut out);
         self.take(plan, &mut out);
         out.line("let mut count = 0;");
-        out.line("let mut is_near = false;");
+        out.line(&format!("let mut is_near = {};", plan.may_hide));
         out.blank();
         let mut nested = Nested::new(plan, Language::Rust, "roots::", "atan2");
         nested.sine_cosine = Some("sin_cos");

@@ -197,6 +197,15 @@ pub const NEAR: f64 = 1e-6;
 /// A guard below this, beside what is usual of it, magnifies the error of such a solution until what follows means little:
 /// where there is one, whether all solutions were found is to be confirmed.
 pub const BESIDE: f64 = 1e-4;
+/// By less than this, all in all, a solver divides only where rounding grows until it may hide branches.
+const CLEAR: f64 = 1e-5;
+
+/// Whether a solver usually divides by so little, all in all, that rounding may hide branches: what it finds need not be
+/// all. `usual` is how large the guard of each node is usually ([`SolverFunction::usual_guards`]).
+pub fn may_hide(usual: impl IntoIterator<Item = f64>) -> bool {
+    usual.into_iter().product::<f64>() < CLEAR
+}
+
 /// The largest defect of the variables that is taken for rounding.
 pub const ROUNDED: f64 = 1e-5;
 /// Two branches are the same solution if all results differ by at most this (angles modulo 2π).

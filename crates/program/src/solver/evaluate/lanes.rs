@@ -8,21 +8,18 @@ use super::{Shape, SolverFunction, Step};
 use crate::evaluate::block::Lanes;
 use crate::evaluate::tape::{Cells, Tape};
 use crate::solver::roots::{direction, quadratic, relative, sincos, vanishes};
-use crate::solver::{CLAMP, Root, SAME};
+use crate::solver::{CLAMP, Root, SAME, may_hide};
 use std::f64::consts::TAU;
 
 /// Outputs up to which there are fast evaluators.
 const MOST_OUTPUTS: usize = 32;
-
-/// By less than this, all in all, a solver usually divides only where rounding grows until it may hide branches.
-const CLEAR: f64 = 1e-5;
 
 /// Whether every root has a version over lanes, and the branches are few enough.
 pub(super) fn is_possible(shape: &Shape) -> bool {
     shape.most <= 64
         && shape.outputs.len() <= MOST_OUTPUTS
         && !shape.steps.iter().any(|s| matches!(s.root, Root::Quartic { .. }))
-        && shape.steps.iter().map(|s| s.usual).product::<f64>() >= CLEAR
+        && !may_hide(shape.steps.iter().map(|s| s.usual))
 }
 
 /// The levels of a solver as tapes over one register file.
