@@ -27,7 +27,9 @@ fn attack(kind: Kind, seed: u64, language: Language) -> Result<bool, String> {
         name: Some("arm".into()),
         fixed: false,
     };
-    let found = generate(&description, &options).map_err(|e| format!("{e:?}\n{text}"))?;
+    let found = std::panic::catch_unwind(|| generate(&description, &options))
+        .map_err(|_| format!("it panics\n{text}"))?
+        .map_err(|e| format!("{e:?}\n{text}"))?;
     if found.inverse.is_none() && found.refused.is_none() {
         return Err(format!("the inverse function is missing without a reason\n{text}"));
     }

@@ -2,7 +2,7 @@
 
 use super::algebra::Kind;
 use super::chain::{Difference, Element, Motion, NormalChain};
-use super::equations::{Equations, Goal, Length, Split, equations};
+use super::equations::{Goal, Split};
 use super::known::Unknown;
 use super::naming::{names, unique};
 use super::plan::{Determinant, Form, Norm, Row, Step};
@@ -103,8 +103,7 @@ pub fn without_residual(model: &super::model::InverseModel) -> Solver {
 
 /// The solver of a model that takes rounded rotations for those that are nearest to them.
 pub fn rounding(model: &super::model::InverseModel) -> Solver {
-    let Equations { whole, .. } = equations(&model.chain, model.goal, Length::Short);
-    with(model, &Options { splits: Some(&whole), is_rounding: true })
+    with(model, &Options { splits: Some(&model.whole), is_rounding: true })
 }
 
 fn with(model: &super::model::InverseModel, options: &Options) -> Solver {
@@ -503,7 +502,7 @@ impl Builder<'_> {
                 best = Some((cost, rotation, position));
             }
         }
-        let (_, rotation, position) = best.expect("at the ends of the chain both sides are short");
+        let (_, rotation, position) = best.expect("both sides are formed at the ends of the chain");
         let (rotation, position) = (self.sum_of_squares(&rotation), self.sum_of_squares(&position));
         let g = &mut self.solver.graph;
         let area = g.mul(size, size);

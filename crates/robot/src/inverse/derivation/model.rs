@@ -60,6 +60,8 @@ pub struct InverseModel {
     pub labels: Vec<Option<Label>>,
     /// Both sides of the chain's equations at each two cuts.
     pub splits: Vec<Split>,
+    /// The same without the entries that the arm holds at a number.
+    pub(super) whole: Vec<Split>,
     /// The steps as a solver, and its inputs.
     pub compiled: Compiled,
 }
@@ -259,8 +261,8 @@ impl InverseModel {
             (given, outcome) = searched(&problem);
         }
         let sides = problem.sides;
-        if !outcome.is_complete() || !is_whole(&chain, &sides.splits) {
-            let is_spent = chain.algebra.is_spent() || !is_whole(&chain, &sides.splits);
+        if !outcome.is_complete() || !is_whole(&chain, &sides.splits, options.goal) {
+            let is_spent = chain.algebra.is_spent() || !is_whole(&chain, &sides.splits, options.goal);
             return Err(stuck(chain, outcome, given, surplus, is_spent));
         }
         let labels = labels(&chain, &outcome.steps);
@@ -296,6 +298,7 @@ impl InverseModel {
             variants,
             labels,
             splits: sides.splits.clone(),
+            whole: sides.whole.clone(),
             compiled,
             chain,
             description: settled,
@@ -338,9 +341,18 @@ fn may_end(chain: &NormalChain, screen: Option<&Screen>, asked: &[usize], surplu
     sets.len() > TRIALS || sets.iter().any(may_end)
 }
 
-/// True if the product of the whole chain was not too long to be formed.
-fn is_whole(chain: &NormalChain, splits: &[Split]) -> bool {
-    splits.iter().any(|s| s.left == 0 && s.right == chain.elements.len())
+/// True if the product of the whole chain was formed: it was not too long, and there was work left for it.
+fn is_whole(chain: &NormalChain, splits: &[Split], goal: Goal) -> bool {
+    let columns = match goal {
+        Goal::Pose => 0..3,
+        Goal::Position => 0..0,
+        Goal::PositionAndAxis => 2..3,
+    };
+    let mut ends = splits.iter().filter(|s| s.left == 0 && s.right == chain.elements.len());
+    ends.any(|s| {
+        let turned = s.pose_rotation.iter().flat_map(|row| &row[columns.clone()]);
+        s.pose.iter().chain(turned).all(Option::is_some)
+    })
 }
 
 /// Whether joint variables determine as many axes: of coupled joints, some tell how axes move together, which no step asks.
