@@ -47,7 +47,7 @@ struct Arm {
 impl Arm {
     fn new(description: Description) -> Result<Self> {
         let robot = Robot::numeric(&description)?;
-        let space = JointSpace::new(&description, robot.reach());
+        let space = JointSpace::new(&description, &robot);
         Ok(Arm { description, robot, space })
     }
 

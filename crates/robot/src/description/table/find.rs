@@ -153,9 +153,20 @@ fn headed(text: &str, separator: Separator) -> Vec<Grid> {
                 continue;
             }
         }
-        open = is_header(line, &split(&span, None), separator);
-        if open {
-            grids.push(Grid { rows: vec![split(&span, None)], span, separator, ruled: true });
+        // `Standard DH:   i   alpha   a   d   theta`
+        let behind = text[span.clone()].rfind(':').map(|n| span.start + n + 1..span.end);
+        let header = [Some(span.clone()), behind]
+            .into_iter()
+            .flatten()
+            .find(|part| is_header(text[part.clone()].trim(), &split(part, None), separator));
+        open = header.is_some();
+        if let Some(header) = header {
+            grids.push(Grid {
+                rows: vec![split(&header, None)],
+                span: header.start..span.end,
+                separator,
+                ruled: true,
+            });
         }
     }
     grids.retain(|g| g.rows.len() > 1);
