@@ -212,7 +212,7 @@ impl Walk<'_> {
             match s {
                 Scalar::Formula(span, syntax)
                     if syntax.value().symbols().is_empty()
-                        && !wanted.symbols().is_empty()
+                        && (!wanted.symbols().is_empty() || self.is_rounded(span))
                         && self.at.knows(wanted, &self.subject) =>
                 {
                     pieces.extend(self.number(None, span, syntax.value(), wanted));
@@ -444,6 +444,13 @@ impl Walk<'_> {
         let (r, c): (usize, usize) = (r.trim().parse().ok()?, c.trim().parse().ok()?);
         let reference = self.told_matrix(name)?;
         reference.matrix.entry(r.checked_sub(1)?, c.checked_sub(1)?)
+    }
+
+    /// True for a number with digits behind the point, which may be rounded: `0.567 m`.
+    fn is_rounded(&self, span: &Range<usize>) -> bool {
+        let source = self.source(span).trim();
+        let number = crate::numbers::unit_behind(source).map_or(source, |(number, _)| number).trim();
+        number.contains('.') && number.trim_start_matches(['-', '\u{2212}']).parse::<f64>().is_ok()
     }
 
     /// True for a number with its unit, `0 mm`.

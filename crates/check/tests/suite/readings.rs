@@ -156,6 +156,18 @@ fn tables_set_with_blanks() {
     let text = "standard convention\n\n  link   theta   d    a    alpha\n   1     t1     0    a1   0\n   2     t2     0    a2   0\n\n\
                 px = a1 C1 + a2 C12";
     is("", text, &[("px", Standing::Equal)]);
+    let behind_words =
+        text.replace("  link   theta", "standard DH:  i  theta").replace("a1", "2").replace("a2", "1.5");
+    let told = "px = 2 C1 + 1.5 C12\n\nFor t1 = 20 deg, t2 = 45 deg: px = 2 cos 20 + 1.5 cos 65 = 2.513";
+    let (table, _) = behind_words.split_once("px").expect("a formula");
+    is("", &format!("{table}{told}"), &[("px", Standing::Equal), ("px", Standing::Equal)]);
+}
+
+#[test]
+fn rounded_numbers_behind_exact_ones() {
+    is(PLANAR, "yw = 1 - 0.5 sin 60° = 0.567 m", &[("yw", Standing::Equal)]);
+    is(PLANAR, "yw = 1 - 0.5 sin 60° = 0.576 m", &[("yw", Standing::Wrong)]);
+    is(PLANAR, "k = sqrt(7) = 2.65", &[("k", Standing::Equal)]);
 }
 
 #[test]

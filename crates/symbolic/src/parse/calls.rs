@@ -118,7 +118,7 @@ impl Parser<'_> {
         }
     }
 
-    /// The arguments of a function: in brackets, or one fraction or root.
+    /// The arguments of a function: in brackets, or one fraction, root or number.
     fn arguments(&mut self, f: Function) -> Read<(Value, Option<Value>)> {
         let open = self.at;
         let closing = match self.peek() {
@@ -132,6 +132,7 @@ impl Parser<'_> {
                 }
                 return Ok((argument, None));
             }
+            Some(Kind::Number(_)) if f.takes_angle() => return self.bare(f, open),
             _ => {
                 let hint = format!("`{}` takes its argument in brackets", f.name());
                 return Err(self.unexpected("`(`").hint(hint));
@@ -151,6 +152,23 @@ impl Parser<'_> {
         };
         self.close(closing, open)?;
         Ok((first, second))
+    }
+
+    /// A number as the argument without brackets, `cos 30°`, where nothing behind it may belong to the argument.
+    fn bare(&mut self, f: Function, open: usize) -> Read<(Value, Option<Value>)> {
+        let argument = self.primary()?;
+        let has_unit = matches!(self.tokens[self.at - 1].kind, Kind::Degree | Kind::Radian);
+        let ends = match self.peek() {
+            None | Some(Kind::Plus | Kind::Minus | Kind::PlusMinus | Kind::MinusPlus) => true,
+            Some(Kind::Close(_) | Kind::Comma | Kind::Equals) => true,
+            Some(Kind::Divide | Kind::Caret | Kind::Number(_) | Kind::Degree | Kind::Radian) => false,
+            Some(_) => has_unit,
+        };
+        if ends {
+            return Ok((argument, None));
+        }
+        let e = ParseError::new(self.span_from(open), "it is not clear where the argument ends");
+        Err(e.hint(format!("`{}` takes its argument in brackets", f.name())))
     }
 
     /// The value of a function.

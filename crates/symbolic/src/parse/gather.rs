@@ -138,7 +138,7 @@ impl Lexer<'_> {
         }
         match self.marks.get(at).map(|m| &m.glyph) {
             Some(Glyph::Char('(' | '[' | '{')) => Next::Bracket,
-            Some(Glyph::Char('√') | Glyph::Fraction) => Next::Argument,
+            Some(Glyph::Char('√' | '0'..='9') | Glyph::Fraction) => Next::Argument,
             _ => Next::Other,
         }
     }

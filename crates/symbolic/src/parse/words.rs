@@ -25,7 +25,7 @@ pub(super) struct Letter {
 pub(super) enum Next {
     /// A bracket, perhaps behind a power.
     Bracket,
-    /// A fraction or a root, likewise: the argument of a function with a full name.
+    /// A fraction, a root or a number, likewise: the argument of a function with a full name.
     Argument,
     Other,
 }

@@ -300,6 +300,18 @@ fn refused_words() {
         Some("write `cos(…)` for a cosine, or the missing index"),
     );
     check_error(&v, "cos", 0..3, "`cos` takes its argument in brackets", None);
+    let unclear = "it is not clear where the argument ends";
+    check_error(&v, "cos 20 θ1", 4..6, unclear, Some("`cos` takes its argument in brackets"));
+    check_error(&v, "sin 30°/2", 4..8, unclear, Some("`sin` takes its argument in brackets"));
+    check_error(&v, "sin 2^2", 4..5, unclear, Some("`sin` takes its argument in brackets"));
+    for (bare, bracketed) in [
+        ("2 cos 20° + 1.5 sin 65° sin 30°", "2 cos(20°) + 1.5 sin(65°) sin(30°)"),
+        ("1 - cos^2 60°", "1 - cos^2(60°)"),
+        ("\\sin 30^\\circ", "sin(30°)"),
+        ("cos 2 - sin 3", "cos(2) - sin(3)"),
+    ] {
+        assert_eq!(parse(bare, &v).expect(bare), parse(bracketed, &v).expect(bracketed), "{bare}");
+    }
     check_error(
         &v,
         "cos2θ1",
