@@ -4,11 +4,12 @@
 //! follows from it.
 
 use super::CheckOptions;
-use super::facts::{About, Meaning, Unproved};
+use super::facts::{About, Meaning, Remark, Unproved};
 use super::numbers;
 use super::outcome::{Claim, Finding, Standing};
 use super::plan::{Plan, Walked};
 use super::subject::Subject;
+use super::tables::{Judged, Standing as TableStanding};
 use super::walk::Piece;
 use denavit_reading::document::Document;
 use denavit_reading::slip::Points;
@@ -51,13 +52,13 @@ pub(super) fn carry(
     }
 }
 
-/// Frames that are wrong for the robot that is given, but right by the document's own table, are not decided: frames may be
-/// chosen.
+/// What is wrong for the robot that is given, but right by the document's own table: right too if that is the same mechanism,
+/// carried if it is wrong, and of frames not decided if nobody knows.
 pub(super) fn by_own_table(
     text: &str,
     document: &Document,
     plan: &Plan,
-    own: &Subject,
+    own: &Judged,
     options: &CheckOptions,
     walked: &Walked,
     claims: &mut [Claim],
@@ -70,29 +71,39 @@ pub(super) fn by_own_table(
             )
         )
     };
-    let is_meant = |c: &Claim| c.standing() == Standing::Wrong && speaks_of_frames(&c.about);
-    if !claims.iter().any(is_meant) {
+    let is_known = own.standing != TableStanding::Undecided;
+    let is_off = |c: &Claim| match c.standing() {
+        Standing::Wrong => is_known || speaks_of_frames(&c.about),
+        Standing::Carried => is_known,
+        _ => false,
+    };
+    if own.standing == TableStanding::Identical || !claims.iter().any(is_off) {
         return;
     }
-    let other = plan.with(&|_| Some(own.clone())).walk(text, document, options);
-    if other.assertions.len() != walked.assertions.len() {
+    let other = plan.with(&|_| Some(Subject::clone(&own.subject)));
+    let read = other.walk(text, document, options);
+    if read.assertions.len() != walked.assertions.len() {
         return;
     }
-    for (claim, assertion) in claims.iter_mut().zip(&other.assertions) {
-        let is_right = |piece: &Piece| match piece {
-            Piece::Pair(pair) => equal(pair.value, pair.wanted).is_equal(),
-            Piece::Number { answer, .. } => {
-                matches!(numbers::judge(answer, own, None), Finding::Equal { .. })
-            }
-            Piece::Unreadable { .. } => false,
-        };
-        if is_meant(claim) && assertion.pieces.iter().all(is_right) {
-            claim.instead = None;
-            for entry in &mut claim.entries {
-                if entry.finding.standing() == Standing::Wrong {
-                    entry.finding = Finding::Undecided { why: Unproved::OwnTable };
-                }
-            }
+    let (judged, _) = super::judge::judge(text, &other, &read, options.tolerance);
+    let by = claims.len();
+    for (claim, other) in claims.iter_mut().zip(judged) {
+        if !is_off(claim) || !matches!(other.standing(), Standing::Equal | Standing::Conditional) {
+            continue;
+        }
+        claim.instead = None;
+        if own.standing == TableStanding::SameArm {
+            (claim.entries, claim.remarks) = (other.entries, other.remarks);
+            claim.remarks.push(Remark::ByOwnTable);
+            continue;
+        }
+        for entry in &mut claim.entries {
+            entry.finding = match &entry.finding {
+                Finding::Wrong(_) if !is_known => Finding::Undecided { why: Unproved::OwnTable },
+                Finding::Wrong(wrong) => Finding::Carried { by, correct: wrong.correct.clone() },
+                Finding::Carried { correct, .. } => Finding::Carried { by, correct: correct.clone() },
+                _ => continue,
+            };
         }
     }
 }

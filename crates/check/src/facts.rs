@@ -28,6 +28,12 @@ pub enum About {
     Joint,
     /// An angle of an orientation.
     Angle(OrientationSet),
+    /// A table of the arm, held against the robot's.
+    Table,
+    /// A row of such a table.
+    TableRow,
+    /// Values of all joints in a table, for a pose that the document gives or that stands beside them.
+    Configuration,
 }
 
 /// What a matrix or a vector is by the robot. Frames are numbered by rows; the tool is the hand.
@@ -239,6 +245,38 @@ pub enum Remark {
     FailsAt(Vec<f64>),
     /// The left side minus the right one.
     Residual(Formula),
+    /// A table is that of the robot, but for what its author may choose.
+    Placed(Box<Placement>),
+    /// It is right by the document's own table, which is the same mechanism as the robot.
+    ByOwnTable,
+}
+
+/// What a table leaves as it likes, while its axes are those of the robot. Joints are counted from 1.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Placement {
+    /// Joints that are 0 elsewhere, and what is added to the robot's variable.
+    pub zeros: Vec<(usize, Formula)>,
+    /// Joints that count the other way.
+    pub reversed: Vec<usize>,
+    /// Frame 0 stands elsewhere.
+    pub base: bool,
+    /// The last frame stands elsewhere.
+    pub hand: bool,
+    /// Frame 0 or the last frame is turned.
+    pub is_turned: bool,
+    /// Names of the table for lengths of the robot.
+    pub names: Vec<(String, String)>,
+    /// The convention in which the table is that of the robot, where nothing says it.
+    pub convention: Option<Convention>,
+    /// Its lengths are in millimetres.
+    pub millimetres: bool,
+}
+
+impl Placement {
+    /// True if nothing is left to the author.
+    pub fn is_none(&self) -> bool {
+        *self == Placement::default()
+    }
 }
 
 /// A meaning of a name that is not the first one.
@@ -303,6 +341,8 @@ pub enum Condition {
     Configurations(Vec<Vec<Formula>>),
     /// In a part of all orientations: where all of these are positive, if that is known.
     Orientations(Vec<Formula>),
+    /// As an answer to a task that leaves this free.
+    Placed(Box<Placement>),
 }
 
 /// Why a formula is neither proved nor refuted.
@@ -316,6 +356,12 @@ pub enum Unproved {
     OwnTable,
     /// The names are those of no angles of the set.
     NotOfSet,
+    /// Nothing says for which pose values of the joints are.
+    NoPose,
+    /// A table has other joints than the robot.
+    OtherJoints,
+    /// A table has names that are not the robot's.
+    OtherNames,
     /// What the judge of values says.
     Values(Undecided),
 }

@@ -7,6 +7,7 @@
 
 mod carried;
 mod causes;
+mod configurations;
 mod convention;
 mod custom;
 mod definitions;
@@ -31,6 +32,7 @@ mod programs;
 mod readings;
 mod subject;
 mod supported;
+mod tables;
 mod trial;
 mod unjudged;
 mod values;
@@ -38,8 +40,8 @@ mod walk;
 mod whole;
 
 pub use facts::{
-    About, Change, Condition, Instead, Jacobian, Meaning, Remark, Sense, ShortRow, SlipKind, TableCell,
-    Unproved, Zeros,
+    About, Change, Condition, Instead, Jacobian, Meaning, Placement, Remark, Sense, ShortRow, SlipKind,
+    TableCell, Unproved, Zeros,
 };
 pub use formula::Formula;
 pub use note::{Note, Noted, Unread, Unreadable};
@@ -137,9 +139,18 @@ pub fn check(
         causes = causes::causes(text, &document, &plan, options, &walked, &mut claims);
     }
     carried::carry(text, &document, &plan, options, &walked, &mut claims);
-    if let Some(own) = plan.own_table.clone() {
-        carried::by_own_table(text, &document, &plan, &own, options, &walked, &mut claims);
+    let judged = tables::judge(text, &plan.subjects[0], &plan.own_tables);
+    for (k, table) in judged.into_iter().enumerate() {
+        if k == 0 {
+            carried::by_own_table(text, &document, &plan, &table, options, &walked, &mut claims);
+        }
+        claims.extend(table.claims);
     }
+    claims.extend(configurations::judged(text, plan::kind_of_tables(format), &plan, &walked));
+    causes.retain(|c| {
+        let finding = |at: &(usize, usize)| Some(claims.get(at.0)?.entries.get(at.1)?.finding.standing());
+        c.turns_right.iter().any(|at| matches!(finding(at), Some(Standing::Wrong | Standing::Carried)))
+    });
     let unjudged = unjudged::listed(text, &document, &walked, &mut claims, options);
     let mut checked = Checked {
         claims,

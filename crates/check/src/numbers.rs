@@ -60,6 +60,11 @@ impl Configuration {
         }
     }
 
+    /// The length that the document states.
+    pub fn length(&self, symbol: Symbol) -> Option<f64> {
+        self.lengths.iter().find(|l| l.0 == symbol).map(|l| l.1)
+    }
+
     /// True if all joints that a formula speaks of have values.
     pub fn knows(&self, e: Expr, subject: &Subject) -> bool {
         let variables = subject.description.variables();
@@ -82,8 +87,7 @@ impl Configuration {
                     () => x,
                 });
             }
-            let stated = self.lengths.iter().find(|l| l.0 == s).map(|l| l.1);
-            stated.or_else(|| d.value(s))
+            self.length(s).or_else(|| d.value(s))
         };
         e.eval(value).ok().filter(|x| x.is_finite())
     }

@@ -9,11 +9,13 @@ use super::note::{Note, Noted, Notes, Unread, Unreadable};
 use super::order;
 use super::programs;
 use super::subject::Subject;
+use super::tables::OwnTable;
 use super::walk::{Assertion, Defined, Walk};
 use denavit::catalogue;
 use denavit::description::table::{PrintedTable, tables};
 use denavit::description::{
-    Convention, Description, Diagnostic, JointKind, NotSet, Parameter, Severity, TableKind, line_column,
+    Convention, Description, Diagnostic, JointKind, NotSet, Parameter, Severity, TableKind, TableOptions,
+    line_column,
 };
 use denavit::geometry::Transform;
 use denavit_reading::code::Dialect;
@@ -30,8 +32,8 @@ pub(super) struct Plan {
     pub subjects: Vec<Rc<Subject>>,
     /// What the document means by names that may mean several things.
     pub habits: Rc<Habits>,
-    /// The document's own table, where another robot is given.
-    pub own_table: Option<Rc<Subject>>,
+    /// The document's own tables, where another robot is given.
+    pub own_tables: Rc<Vec<OwnTable>>,
     /// Where claims stand that are taken as the author prints them.
     authors: BTreeSet<usize>,
     /// Place in the text and number of the robot, in the order of the text.
@@ -121,7 +123,8 @@ impl Plan {
         let habits = Rc::new(Habits { millimetres, ..habits });
         let authors = BTreeSet::new();
         let turns = vec![];
-        let mut plan = Plan { subjects: vec![], habits, own_table: None, authors, turns, has_robot: true };
+        let own_tables = Rc::new(vec![]);
+        let mut plan = Plan { subjects: vec![], habits, own_tables, authors, turns, has_robot: true };
         if let Some(robot) = robot {
             plan.push(0, named(robot));
         }
@@ -138,8 +141,15 @@ impl Plan {
             events.extend(printed.iter().map(|t| (t.span.end, Event::Table(t))));
         }
         if robot.is_some() {
-            let first = printed.iter().find_map(|t| Some((t, t.robot.as_ref().ok()?)));
-            plan.own_table = first.and_then(|(t, (d, _))| from_table(d, t)).map(Rc::new);
+            let mut own: Vec<OwnTable> = vec![];
+            for (table, is_tried) in in_each_convention(text, kind, &reading, &printed) {
+                if let Ok((d, _)) = &table.robot
+                    && let Some(subject) = from_table(d, &table)
+                {
+                    own.push(OwnTable { table, subject: Rc::new(subject), is_tried });
+                }
+            }
+            plan.own_tables = Rc::new(own);
         }
         events.sort_by_key(|e| e.0);
         let mut failed: Vec<Diagnostic> = vec![];
@@ -229,6 +239,11 @@ impl Plan {
         Ok(plan)
     }
 
+    /// The number of the robot that a place of the text is about.
+    pub fn at(&self, place: usize) -> usize {
+        self.turns.iter().rev().find(|t| t.0 <= place).map_or(0, |t| t.1)
+    }
+
     fn push(&mut self, at: usize, subject: Option<Subject>) {
         if let Some(subject) = subject {
             // What stands before the first table is about it, too.
@@ -243,8 +258,8 @@ impl Plan {
         let changed = |s: &Rc<Subject>| change(s).map_or_else(|| Rc::clone(s), Rc::new);
         let subjects = self.subjects.iter().map(changed).collect();
         let (habits, turns) = (Rc::clone(&self.habits), self.turns.clone());
-        let (own_table, authors) = (self.own_table.clone(), self.authors.clone());
-        Plan { subjects, habits, own_table, authors, turns, has_robot: self.has_robot }
+        let (own_tables, authors) = (Rc::clone(&self.own_tables), self.authors.clone());
+        Plan { subjects, habits, own_tables, authors, turns, has_robot: self.has_robot }
     }
 
     /// The same document, claims at these places taken as the author prints them.
@@ -315,7 +330,7 @@ impl Plan {
         inverse_names.push(Rc::new(walk.lexis.inverse_names()));
         let (mut assertions, mut refused) = (walk.assertions, vec![]);
         for (span, language) in programs(text, document, options) {
-            let number = self.turns.iter().rev().find(|t| t.0 <= span.start).map_or(0, |t| t.1);
+            let number = self.at(span.start);
             let subject = &self.subjects[number];
             let lexis = Lexis::new(subject, &self.habits, &Rc::from(text));
             let (found, errors) = programs::assertions(text, &span, language, subject, &lexis, number);
@@ -351,6 +366,33 @@ pub(super) fn is_setting(line: &str) -> bool {
 enum Event<'a> {
     Table(&'a PrintedTable),
     Directive(&'a Directive),
+}
+
+/// The most tables that are held against a robot.
+const MAX_TABLES: usize = 12;
+
+/// The tables that can be read, one whose convention nothing says in each of them; and whether it was tried.
+fn in_each_convention(
+    text: &str,
+    kind: TableKind,
+    reading: &TableOptions,
+    printed: &[PrintedTable],
+) -> Vec<(PrintedTable, bool)> {
+    let is_open = |t: &PrintedTable| t.robot.is_err() && reading.convention.is_none();
+    let tried: Vec<PrintedTable> = match printed.iter().take(MAX_TABLES).any(is_open) {
+        false => vec![],
+        true => Convention::ALL
+            .into_iter()
+            .flat_map(|c| tables(text, kind, &TableOptions { convention: Some(c), ..reading.clone() }))
+            .collect(),
+    };
+    let of = |table: &PrintedTable| -> Vec<(PrintedTable, bool)> {
+        if !is_open(table) {
+            return vec![(table.clone(), false)];
+        }
+        tried.iter().filter(|t| t.span == table.span).map(|t| (t.clone(), true)).collect()
+    };
+    printed.iter().take(MAX_TABLES).flat_map(of).collect()
 }
 
 /// A robot without links, for what holds of any.

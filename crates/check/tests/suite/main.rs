@@ -1,5 +1,6 @@
 //! Tests of verdicts, one program.
 
+mod configurations;
 mod documents;
 mod hostile;
 mod inverse;
@@ -7,6 +8,7 @@ mod marking;
 mod mutations;
 mod readings;
 mod statements;
+mod tables;
 
 #[path = "../../../robot/tests/suite/common/mod.rs"]
 mod common;

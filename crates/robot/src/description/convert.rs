@@ -155,7 +155,7 @@ impl Description {
     }
 
     /// The constant ends of the chain multiplied into base and tool.
-    fn core(&self) -> (Transform<Expr>, Vec<Screw>, Transform<Expr>) {
+    pub(super) fn core(&self) -> (Transform<Expr>, Vec<Screw>, Transform<Expr>) {
         let variables = self.variables();
         let mut screws = self.screws();
         let moves = |s: &Screw| {

@@ -15,6 +15,7 @@ mod parameters;
 mod periods;
 mod robot_file;
 mod rows;
+mod same;
 pub mod table;
 mod units;
 mod value;
@@ -25,6 +26,7 @@ pub use diagnostic::{Diagnostic, Diagnostics, Severity, line_column, render};
 pub use order::{Cell, Screw, Screws};
 pub use parameters::MissingValue;
 pub use robot_file::{MAX_BYTES, MAX_ROWS, read_toml, write_toml};
+pub use same::{SameMechanism, Sameness, same_mechanism};
 pub use table::{TableKind, TableOptions, read_table};
 pub use value::{Measure, NotSet, read_value};
 

@@ -22,6 +22,7 @@ mod motion_profiles;
 mod motion_timing;
 mod numeric;
 mod redundant;
+mod same;
 mod scope;
 mod singular;
 mod singular_found;

@@ -6,8 +6,8 @@ use crate::words::check::{ROUNDING, percent, positive, rows_of};
 use denavit::forward::Reference;
 use denavit_check::inverse::{Cause, Composed, Undecided};
 use denavit_check::{
-    About, Change, Condition, Formula, Instead, Jacobian, Meaning, Noted, Remark, Sense, ShortRow, Skipped,
-    SlipKind, TableCell, Unproved, Unreadable, Zeros, decimal,
+    About, Change, Condition, Formula, Instead, Jacobian, Meaning, Noted, Placement, Remark, Sense, ShortRow,
+    Skipped, SlipKind, TableCell, Unproved, Unreadable, Zeros, decimal,
 };
 use denavit_reading::slip::Slip;
 
@@ -21,6 +21,9 @@ impl Check for English {
             About::Helper => "a helper of what is proved",
             About::Singularity => "a singular configuration",
             About::Joint => "values of a joint",
+            About::Table => "the table of the robot",
+            About::Configuration => "a configuration of the robot",
+            About::TableRow => "a row of the table",
             About::Angle(set) => return format!("an angle of the set {set}"),
         }
         .into()
@@ -122,6 +125,8 @@ impl Check for English {
             Remark::DivisionByZero { factor, zeros } => division_by_zero(factor, zeros),
             Remark::FailsAt(q) => format!("wrong at q = {q:.4?}, though the joint is determined there"),
             Remark::Residual(e) => format!("left minus right is {e}"),
+            Remark::Placed(placement) => format!("the same mechanism: {}", placed(placement)),
+            Remark::ByOwnTable => "by the document's own table, which is the same mechanism".into(),
         }
     }
 
@@ -181,6 +186,9 @@ impl Check for English {
             }
             Condition::Orientations(all) if all.is_empty() => "in a part of all orientations".into(),
             Condition::Orientations(all) => format!("where {}", positive(all, " and ")),
+            Condition::Placed(placement) => {
+                format!("as the same mechanism, if the task leaves this free: {}", placed(placement))
+            }
         }
     }
 
@@ -196,6 +204,9 @@ impl Check for English {
                 "right by the table of the document, which was not held against that of the robot"
             }
             Unproved::NotOfSet => "these are no angles of that set",
+            Unproved::NoPose => "nothing says for which pose these values of the joints are",
+            Unproved::OtherJoints => "it has not the joints of the robot",
+            Unproved::OtherNames => "it has lengths that are not known of the robot",
             Unproved::Values(why) => return self.undecided(why),
         }
         .into()
@@ -423,4 +434,26 @@ fn together(c: &Composed) -> String {
         "one after another the formulas yield {} of {} solutions at {} poses{spurious}",
         c.yielded, c.existing, c.poses
     )
+}
+
+/// What the author of a table chose.
+fn placed(placement: &Placement) -> String {
+    let mut said = vec![];
+    said.extend(placement.convention.map(|c| format!("it is read in the convention {c}")));
+    if placement.millimetres {
+        said.push("lengths are in millimetres".into());
+    }
+    said.extend(placement.names.iter().map(|(own, robot)| format!("{own} stands for {robot}")));
+    said.extend(placement.zeros.iter().map(|(k, by)| format!("joint {k} is {by} more than the robot's")));
+    said.extend(placement.reversed.iter().map(|k| format!("joint {k} counts the other way")));
+    if placement.base {
+        said.push("frame 0 stands elsewhere".into());
+    }
+    if placement.hand {
+        said.push("the last frame stands elsewhere".into());
+    }
+    if placement.is_turned && !placement.base && !placement.hand {
+        said.push("frame 0 or the last frame is turned".into());
+    }
+    said.join("; ")
 }

@@ -7,8 +7,8 @@ use denavit::description::NotSet;
 use denavit::forward::Reference;
 use denavit_check::inverse::{Cause, Composed, Missing, Undecided};
 use denavit_check::{
-    About, Change, Condition, Formula, Instead, Jacobian, Meaning, Noted, Remark, Sense, ShortRow, Skipped,
-    SlipKind, TableCell, Unproved, Unreadable, Zeros, decimal,
+    About, Change, Condition, Formula, Instead, Jacobian, Meaning, Noted, Placement, Remark, Sense, ShortRow,
+    Skipped, SlipKind, TableCell, Unproved, Unreadable, Zeros, decimal,
 };
 use denavit_reading::slip::Slip;
 
@@ -22,6 +22,9 @@ impl Check for French {
             About::Helper => "une grandeur auxiliaire de ce qui est démontré",
             About::Singularity => "une configuration singulière",
             About::Joint => "les valeurs d'une articulation",
+            About::Table => "le tableau du robot",
+            About::Configuration => "une configuration du robot",
+            About::TableRow => "une ligne du tableau",
             About::Angle(set) => return format!("un angle du triplet {set}"),
         })
     }
@@ -130,6 +133,8 @@ impl Check for French {
                 say!("faux en q = {q:.4?}, bien que l'articulation y soit déterminée")
             }
             Remark::Residual(e) => say!("premier membre moins second membre : ") + &e.to_string(),
+            Remark::Placed(placement) => say!("le même mécanisme : ") + &placed(placement),
+            Remark::ByOwnTable => printed("d'après le tableau du document, qui est le même mécanisme"),
         }
     }
 
@@ -192,6 +197,9 @@ impl Check for French {
                 "pour une partie des orientations seulement".into()
             }
             Condition::Orientations(all) => format!("pour {}", positive(all, " et ")),
+            Condition::Placed(placement) => {
+                say!("comme même mécanisme, si l'énoncé laisse ceci libre : ") + &placed(placement)
+            }
         }
     }
 
@@ -207,6 +215,9 @@ impl Check for French {
                 "juste selon le tableau du document, qui n'a pas été comparé à celui du robot"
             }
             Unproved::NotOfSet => "ce ne sont pas des angles de ce triplet",
+            Unproved::NoPose => "rien ne dit pour quelle pose sont ces valeurs des articulations",
+            Unproved::OtherJoints => "il n'a pas les articulations du robot",
+            Unproved::OtherNames => "il a des longueurs inconnues du robot",
             Unproved::Values(why) => return self.undecided(why),
         })
     }
@@ -470,4 +481,31 @@ fn together(c: &Composed) -> String {
         c.existing,
         c.poses
     )
+}
+
+/// Ce que l'auteur d'un tableau a choisi.
+fn placed(placement: &Placement) -> String {
+    let mut said = vec![];
+    said.extend(placement.convention.map(|c| format!("il est lu dans la convention {c}")));
+    if placement.millimetres {
+        said.push("les longueurs sont en millimètres".into());
+    }
+    said.extend(placement.names.iter().map(|(own, robot)| format!("{own} désigne {robot}")));
+    said.extend(
+        placement
+            .zeros
+            .iter()
+            .map(|(k, by)| format!("l'articulation {k} vaut {by} de plus que celle du robot")),
+    );
+    said.extend(placement.reversed.iter().map(|k| format!("l'articulation {k} compte dans l'autre sens")));
+    if placement.base {
+        said.push("le repère 0 est ailleurs".into());
+    }
+    if placement.hand {
+        said.push("le dernier repère est ailleurs".into());
+    }
+    if placement.is_turned && !placement.base && !placement.hand {
+        said.push("le repère 0 ou le dernier repère est tourné".into());
+    }
+    said.join(" ; ")
 }

@@ -1,11 +1,12 @@
 //! All tables of a text, each with the robot that it makes of those before it.
 
+use super::columns::Role;
 use super::find;
 use super::layout::Layout;
 use super::lines::{Around, Lines};
 use super::{TableKind, TableOptions, layouts, read};
 use crate::description::diagnostic::{Diagnostic, Diagnostics};
-use crate::description::{Description, MAX_BYTES, MAX_ROWS};
+use crate::description::{Cell, Description, MAX_BYTES, MAX_ROWS};
 use std::ops::Range;
 
 /// The most tables of a text that are read.
@@ -26,6 +27,29 @@ pub struct PrintedTable {
     pub letters: [Option<&'static str>; 2],
     /// The index of the length along x is that of the row before: `a_{i-1}`.
     pub previous: bool,
+    /// The rows that stand in this table.
+    pub rows: Vec<PrintedRow>,
+}
+
+/// A row of a table as it stands in a text.
+#[derive(Clone, Debug)]
+pub struct PrintedRow {
+    /// Where it stands.
+    pub span: Range<usize>,
+    /// Its cells that describe the arm: which, the number of the column from 1, and where.
+    pub cells: Vec<(Cell, usize, Range<usize>)>,
+}
+
+/// Rows of cells as they stand in a text, each cell with its place; the first row may be a head.
+pub type PrintedGrid = Vec<Vec<(String, Range<usize>)>>;
+
+/// Whatever a text sets in rows and columns, in its order.
+pub fn grids(text: &str, kind: TableKind) -> Vec<PrintedGrid> {
+    if text.len() > MAX_BYTES {
+        return vec![];
+    }
+    let cells = |row: &Vec<find::GridCell>| row.iter().map(|c| (c.text.clone(), c.span.clone())).collect();
+    find::grids(text, kind).iter().map(|grid| grid.rows.iter().map(cells).collect()).collect()
 }
 
 /// The tables of a text in their order. A table whose rows are numbered from k > 1 on goes on where the last table
@@ -67,8 +91,36 @@ pub fn tables(text: &str, kind: TableKind, options: &TableOptions) -> Vec<Printe
             None => (vec![], [None, None], false),
         };
         let robot = out.finish(reading.map(|r| r.description));
-        found.push(PrintedTable { span: layout.span.clone(), first, robot, variables, letters, previous });
+        let rows = layout.rows.iter().map(|row| printed(layout, row, letters)).collect();
+        found.push(PrintedTable {
+            span: layout.span.clone(),
+            first,
+            robot,
+            variables,
+            letters,
+            previous,
+            rows,
+        });
         chains.push(chain);
     }
     found
+}
+
+/// A row with what its cells are, by the letters of the lengths along x and z.
+fn printed(layout: &Layout, row: &[find::GridCell], [along_x, along_z]: [Option<&str>; 2]) -> PrintedRow {
+    let cell = |role: Role| match role {
+        Role::Theta => Some(Cell::Theta),
+        Role::Alpha => Some(Cell::Alpha),
+        Role::Gamma => Some(Cell::Gamma),
+        Role::B => Some(Cell::B),
+        _ if role.is_letter() && along_x == Some(role.letter()) => Some(Cell::A),
+        _ if role.is_letter() && along_z == Some(role.letter()) => Some(Cell::D),
+        _ => None,
+    };
+    let columns = layout.columns.iter().zip(row).enumerate();
+    let cells =
+        columns.filter_map(|(k, (c, text))| Some((cell(c.role)?, k + 1, text.span.clone()))).collect();
+    let (first, last) = (row.first(), row.last());
+    let span = first.map_or(0, |c| c.span.start)..last.map_or(0, |c| c.span.end);
+    PrintedRow { span, cells }
 }

@@ -39,7 +39,7 @@ mod lines;
 mod read;
 mod values;
 
-pub use each::{PrintedTable, tables};
+pub use each::{PrintedGrid, PrintedRow, PrintedTable, grids, tables};
 
 use super::diagnostic::{Diagnostic, Diagnostics};
 use super::{Convention, Description, MAX_BYTES, MAX_ROWS};

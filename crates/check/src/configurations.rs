@@ -1,0 +1,396 @@
+//! Tables of numbers with a column for each joint: all solutions of a pose, or configurations with their poses beside them.
+//!
+//! A row is held against the pose that the document gave last in numbers, or against its own further columns. It is called
+//! wrong only in a table of which another row is right: then the columns are read as their author means them.
+
+use super::facts::{About, Remark, SlipKind, Unproved};
+use super::numbers::{Configuration, decimal, half_unit};
+use super::outcome::{Claim, Entry, Finding, Patch, Slip, Wrong};
+use super::plan::{Plan, Walked};
+use super::subject::Subject;
+use super::walk::{Assertion, Piece};
+use denavit::description::table::{PrintedGrid, grids};
+use denavit::description::{JointKind, TableKind};
+use denavit_reading::slip::Slip as Kind;
+use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
+use denavit_symbolic::{Expr, Symbol};
+use std::ops::Range;
+
+/// The most rows of a table that are looked at.
+const MAX_ROWS: usize = 500;
+/// The bytes before a table in which its unit may stand.
+const BEFORE: usize = 400;
+
+/// A quantity with its printed value, and half a unit of the last digit.
+#[derive(Clone)]
+struct Target {
+    wanted: Expr,
+    printed: f64,
+    half: f64,
+    /// Where it stands in the row, if it does.
+    cell: Option<usize>,
+}
+
+/// What a column holds.
+enum Column {
+    /// A joint, with the unit of its head.
+    Joint(usize, Option<f64>),
+    /// A quantity of the pose, with the unit of its head.
+    Pose(Expr, Option<f64>),
+    Other,
+}
+
+/// A table with a column for each joint.
+struct Listed<'a> {
+    subject: &'a Subject,
+    number: usize,
+    columns: Vec<Column>,
+    rows: Vec<Row>,
+    /// What all rows should reach.
+    targets: Vec<Target>,
+    at: Configuration,
+}
+
+/// A row as printed.
+struct Row {
+    span: Range<usize>,
+    /// The place, the value and half a unit of the last digit of each cell that is a number.
+    cells: Vec<Option<(Range<usize>, f64, f64)>>,
+}
+
+/// The claims of a document's tables of configurations.
+pub(super) fn judged(text: &str, kind: TableKind, plan: &Plan, walked: &Walked) -> Vec<Claim> {
+    let mut found = vec![];
+    for grid in grids(text, kind) {
+        if let Some(listed) = Listed::of(text, &grid, plan, walked) {
+            found.extend(listed.claims());
+        }
+    }
+    found
+}
+
+impl<'a> Listed<'a> {
+    /// A grid whose head names all joints of the robot.
+    fn of(text: &str, grid: &PrintedGrid, plan: &'a Plan, walked: &Walked) -> Option<Self> {
+        let (heads, rows) = grid.split_first()?;
+        let start = heads.first()?.1.start;
+        let number = plan.at(start);
+        let subject = &*plan.subjects[number];
+        let names = walked.names_of(number);
+        let joints = subject.joints().len();
+        if joints < 2 || rows.is_empty() || rows.len() > MAX_ROWS {
+            return None;
+        }
+        // `x` is a place, unless it is needed for a joint.
+        let columns = [true, false].into_iter().find_map(|places_first| {
+            let read = |h: &(String, Range<usize>)| column(&h.0, subject, names, places_first);
+            let columns: Vec<Column> = heads.iter().map(read).collect();
+            let count =
+                |k: usize| columns.iter().filter(|c| matches!(c, Column::Joint(i, _) if *i == k)).count();
+            (0..joints).all(|k| count(k) == 1).then_some(columns)
+        })?;
+        let printed: Vec<Row> = rows.iter().map(|row| read(row)).collect();
+        // Each row gives every joint a number.
+        let is_full = |row: &Row| {
+            columns.iter().zip(&row.cells).all(|(c, x)| !matches!(c, Column::Joint(..)) || x.is_some())
+                && row.cells.len() == columns.len()
+        };
+        if !printed.iter().all(is_full) {
+            return None;
+        }
+        let before = walked.assertions.iter().rev().filter(|a| a.span.end <= start && a.subject == number);
+        let stated = before.into_iter().find_map(stated);
+        let (mut targets, at) = stated.unwrap_or_default();
+        if targets.is_empty() {
+            targets = goal(before_of(text, start), subject);
+        }
+        let mut listed = Listed { subject, number, columns, rows: printed, targets, at };
+        listed.settle_units(text, start);
+        Some(listed)
+    }
+
+    /// The units of columns without one: degrees by the words before the table, or by the size of the numbers.
+    fn settle_units(&mut self, text: &str, start: usize) {
+        let from =
+            (start.saturating_sub(BEFORE)..=start).find(|&k| text.is_char_boundary(k)).unwrap_or(start);
+        let near = text[from..start].rsplit("\n\n").take(2).collect::<Vec<&str>>().join(" ").to_lowercase();
+        let says = |words: &[&str]| words.iter().any(|w| near.contains(w));
+        let in_degrees = says(&["degree", "(deg", " deg", "grad", "degré", "gradi", "°"]);
+        let in_radians = says(&["radian", "(rad", " rad", "[rad"]);
+        let in_millimetres = says(&["(mm", "[mm", " mm", "millim"]);
+        let kinds: Vec<JointKind> = self.subject.description.variables().iter().map(|v| v.kind).collect();
+        let turning = |c: &Column| matches!(c, Column::Joint(k, _) if kinds[*k] == JointKind::Revolute);
+        let largest = |row: &Row| {
+            let angles = self.columns.iter().zip(&row.cells).filter(|(c, _)| turning(c));
+            angles.filter_map(|(_, x)| x.as_ref()).map(|x| x.1.abs()).fold(0.0, f64::max)
+        };
+        let is_large = self.rows.iter().map(largest).fold(0.0, f64::max) > std::f64::consts::TAU;
+        let angle = if is_large || in_degrees && !in_radians { 1_f64.to_radians() } else { 1.0 };
+        let length = if in_millimetres { 0.001 } else { 1.0 };
+        for column in &mut self.columns {
+            match column {
+                Column::Joint(k, unit @ None) => {
+                    *unit = Some(if kinds[*k] == JointKind::Revolute { angle } else { length });
+                }
+                Column::Pose(_, unit @ None) => *unit = Some(length),
+                _ => {}
+            }
+        }
+    }
+
+    /// What a row says of itself, or else what all rows should reach.
+    fn targets(&self, row: &Row) -> Vec<Target> {
+        let own: Vec<Target> = self
+            .columns
+            .iter()
+            .zip(&row.cells)
+            .enumerate()
+            .filter_map(|(k, (column, cell))| match (column, cell) {
+                (Column::Pose(wanted, unit), Some((_, x, half))) => {
+                    let unit = unit.unwrap_or(1.0);
+                    Some(Target { wanted: *wanted, printed: x * unit, half: half * unit, cell: Some(k) })
+                }
+                _ => None,
+            })
+            .collect();
+        if own.is_empty() { self.targets.clone() } else { own }
+    }
+
+    /// The joints of a row, and half a unit of the last digit of each.
+    fn joints(&self, row: &Row) -> Vec<(f64, f64)> {
+        let mut q = vec![(0.0, 0.0); self.subject.joints().len()];
+        for (column, cell) in self.columns.iter().zip(&row.cells) {
+            if let (Column::Joint(k, unit), Some((_, x, half))) = (column, cell) {
+                let unit = unit.unwrap_or(1.0);
+                q[*k] = (x * unit, half * unit);
+            }
+        }
+        q
+    }
+
+    /// The value of a quantity.
+    fn value(&self, e: Expr, q: &[(f64, f64)]) -> Option<f64> {
+        let (d, joints) = (&self.subject.description, self.subject.joints());
+        let value = |s: Symbol| {
+            let joint = joints.iter().position(|j| *j == s.into()).map(|k| q[k].0);
+            joint.or_else(|| self.at.length(s)).or_else(|| d.value(s))
+        };
+        e.eval(value).ok().filter(|x| x.is_finite())
+    }
+
+    /// How far a quantity is from what is printed, beside how far rounding may move it; nothing where lengths have no values.
+    fn off(&self, target: &Target, q: &[(f64, f64)]) -> Option<(f64, f64)> {
+        let x = self.value(target.wanted, q)?;
+        let mut allowed = target.half;
+        for k in 0..q.len() {
+            let mut moved = q.to_vec();
+            moved[k].0 += moved[k].1;
+            allowed += (self.value(target.wanted, &moved)? - x).abs();
+        }
+        Some(((x - target.printed).abs(), 1.05 * allowed + 1e-9))
+    }
+
+    /// True if all that a row should reach is reached.
+    fn reaches(&self, targets: &[Target], q: &[(f64, f64)]) -> Option<bool> {
+        let mut all = true;
+        for target in targets {
+            let (off, allowed) = self.off(target, q)?;
+            all &= off <= allowed;
+        }
+        Some(all)
+    }
+
+    fn claims(&self) -> Vec<Claim> {
+        let standing: Vec<Option<bool>> = self
+            .rows
+            .iter()
+            .map(|row| {
+                let targets = self.targets(row);
+                if targets.len() < 2 { None } else { self.reaches(&targets, &self.joints(row)) }
+            })
+            .collect();
+        let is_meant = standing.contains(&Some(true));
+        let claim = |row: &Row, name: String, entries: Vec<Entry>| Claim {
+            span: row.span.clone(),
+            name,
+            about: About::Configuration,
+            entries,
+            instead: None,
+            remarks: vec![],
+            robot: self.number,
+        };
+        let whole = |span: &Range<usize>, finding: Finding| Entry {
+            place: None,
+            span: span.clone(),
+            finding,
+            identities: vec![],
+        };
+        if !is_meant {
+            // One word for the table: what it is about is not known.
+            let first = &self.rows[0];
+            let undecided = Finding::Undecided { why: Unproved::NoPose };
+            return vec![claim(first, "row 1".into(), vec![whole(&first.span, undecided)])];
+        }
+        let rows = self.rows.iter().zip(standing).enumerate();
+        let judged = rows.map(|(r, (row, standing))| {
+            let entries = match standing {
+                Some(true) => vec![whole(&row.span, Finding::Equal { unless_zero: vec![] })],
+                Some(false) => self.wrong(r, row),
+                None => vec![whole(&row.span, Finding::Undecided { why: Unproved::NoLength })],
+            };
+            claim(row, format!("row {}", r + 1), entries)
+        });
+        judged.collect()
+    }
+
+    /// The cells of a row that is wrong: quantities that differ, or the joint whose value would make it right.
+    fn wrong(&self, r: usize, row: &Row) -> Vec<Entry> {
+        let (q, targets) = (self.joints(row), self.targets(row));
+        let mended = self.mended(&q, &targets);
+        let differs = |k: usize| {
+            let own = targets.iter().find(|t| t.cell == Some(k))?;
+            let (off, allowed) = self.off(own, &q)?;
+            (off > allowed).then(|| self.value(own.wanted, &q)).flatten()
+        };
+        let mut entries = vec![];
+        for (k, (column, cell)) in self.columns.iter().zip(&row.cells).enumerate() {
+            let Some((span, x, _)) = cell else { continue };
+            let finding = match (column, &mended) {
+                (Column::Other, _) => continue,
+                (_, Some((at, now, kind))) if *at == k => {
+                    let patches = vec![Patch { span: span.clone(), now: now.clone() }];
+                    let slip = Slip { kind: kind.clone(), patches, formula: now.clone() };
+                    let correct = vec![now.clone()];
+                    Finding::Wrong(Box::new(Wrong { correct, slip: Some(slip), ..Wrong::default() }))
+                }
+                (Column::Pose(_, unit), None) if differs(k).is_some() => {
+                    let right = differs(k).unwrap_or_default() / unit.unwrap_or(1.0);
+                    let remark = if (right + x).abs() < 1e-9 {
+                        Remark::Sign
+                    } else {
+                        Remark::OffBy((right - x).abs())
+                    };
+                    let correct = vec![decimal(right)];
+                    Finding::Wrong(Box::new(Wrong { correct, remarks: vec![remark], ..Wrong::default() }))
+                }
+                _ => Finding::Equal { unless_zero: vec![] },
+            };
+            entries.push(Entry {
+                place: Some((r + 1, k + 1)),
+                span: span.clone(),
+                finding,
+                identities: vec![],
+            });
+        }
+        let is_said = entries.iter().any(|e| matches!(e.finding, Finding::Wrong(_)));
+        if !is_said {
+            // Nothing that one cell explains.
+            let off = targets.iter().filter_map(|t| self.off(t, &q)).map(|o| o.0).fold(0.0, f64::max);
+            let remarks = vec![Remark::OffBy(off)];
+            let finding = Finding::Wrong(Box::new(Wrong { remarks, ..Wrong::default() }));
+            entries = vec![Entry { place: None, span: row.span.clone(), finding, identities: vec![] }];
+        }
+        entries
+    }
+
+    /// The one joint whose value with another sign, or half a turn away, makes a row right; two joints exchanged are none.
+    fn mended(&self, q: &[(f64, f64)], targets: &[Target]) -> Option<(usize, String, SlipKind)> {
+        let half_turn = std::f64::consts::PI;
+        for (k, column) in self.columns.iter().enumerate() {
+            let Column::Joint(joint, unit) = column else { continue };
+            let unit = unit.unwrap_or(1.0);
+            let (x, half) = q[*joint];
+            let decimals = (0..12).find(|d| half / unit >= 0.49 * 10_f64.powi(-d)).unwrap_or(0) as usize;
+            let shown = |x: f64| format!("{:.decimals$}", x / unit);
+            let turned = x - half_turn.copysign(x);
+            let tries = [(-x, SlipKind::Formula(Kind::Sign)), (turned, SlipKind::Formula(Kind::Number))];
+            for (now, kind) in tries {
+                let mut q = q.to_vec();
+                q[*joint].0 = now;
+                if now != x && self.reaches(targets, &q) == Some(true) {
+                    return Some((k, shown(now), kind));
+                }
+            }
+        }
+        None
+    }
+}
+
+/// The numbers of the pose that a statement gives.
+fn stated(assertion: &Assertion) -> Option<(Vec<Target>, Configuration)> {
+    let mut at = None;
+    let targets: Vec<Target> = assertion
+        .pieces
+        .iter()
+        .filter_map(|piece| match piece {
+            Piece::Number { answer, .. } if !answer.wanted.symbols().is_empty() => {
+                at = Some(answer.at.clone());
+                Some(Target { wanted: answer.wanted, printed: answer.printed, half: answer.half, cell: None })
+            }
+            _ => None,
+        })
+        .collect();
+    (targets.len() >= 2).then(|| (targets, at.unwrap_or_default()))
+}
+
+/// The text before a table.
+fn before_of(text: &str, start: usize) -> &str {
+    let from = (start.saturating_sub(BEFORE)..=start).find(|&k| text.is_char_boundary(k)).unwrap_or(start);
+    &text[from..start]
+}
+
+/// The last point that a text gives in numbers, `(0.4, 0.2, 0.3)`, as the place of the hand.
+fn goal(text: &str, subject: &Subject) -> Vec<Target> {
+    let position = subject.pose().translation.0;
+    let point = |inner: &str| -> Option<Vec<Target>> {
+        let numbers: Vec<&str> = inner.split([',', ';']).map(str::trim).collect();
+        let unit = if text.contains(" mm") { 0.001 } else { 1.0 };
+        let target = |(number, wanted): (&&str, &Expr)| {
+            let x: f64 = number.replace('−', "-").parse().ok()?;
+            Some(Target { wanted: *wanted, printed: x * unit, half: half_unit(number) * unit, cell: None })
+        };
+        let found = (2..=3).contains(&numbers.len());
+        found.then(|| numbers.iter().zip(&position).map(target).collect::<Option<Vec<Target>>>())?
+    };
+    let open = text.char_indices().rev().filter(|(_, c)| matches!(c, '(' | '['));
+    let inner = open.map(|(at, _)| text[at + 1..].split([')', ']']).next().unwrap_or_default());
+    inner.filter_map(point).next().unwrap_or_default()
+}
+
+/// A head: a joint, or an entry of the pose, with its unit.
+fn column(head: &str, subject: &Subject, names: &Vocabulary, places_first: bool) -> Column {
+    let plain = plain_name(&head.replace(['$', '*'], "").replace("^\\circ", "°").replace("\\circ", "°"));
+    let cut = plain.find(['(', '[', '/', ',']).unwrap_or(plain.len());
+    let (name, unit) = plain.split_at(cut);
+    let name = name.trim_end_matches('°').replace("mathrm", "");
+    let unit = match unit.trim_matches(['(', ')', '[', ']', '/', ',', ' ']) {
+        "deg" | "°" | "degree" | "degrees" | "Grad" | "grad" => Some(1_f64.to_radians()),
+        "rad" | "m" => Some(1.0),
+        "mm" => Some(0.001),
+        "cm" => Some(0.01),
+        _ if plain[..cut].ends_with('°') => Some(1_f64.to_radians()),
+        _ => None,
+    };
+    let found = names.lookup(&name);
+    let joint = found.and_then(|e| subject.joints().iter().position(|q| *q == e));
+    let axis = |c: &str| ["x", "y", "z"].iter().position(|a| *a == c);
+    let place = name.strip_prefix('p').or(name.strip_prefix('P')).and_then(axis).or_else(|| axis(&name));
+    match (joint, place) {
+        (Some(joint), None) => Column::Joint(joint, unit),
+        (Some(joint), Some(_)) if !places_first => Column::Joint(joint, unit),
+        (_, Some(r)) => Column::Pose(subject.pose().translation.0[r], unit),
+        (None, None) => Column::Other,
+    }
+}
+
+/// The numbers of a row.
+fn read(row: &[(String, Range<usize>)]) -> Row {
+    let number = |cell: &(String, Range<usize>)| {
+        let text = cell.0.replace(['−', '–'], "-").replace("^\\circ", "").replace("{,}", ".");
+        let text = text.trim_matches(['$', ' ', '°', '*']).trim_end_matches("deg").trim().to_string();
+        let x: f64 = text.parse().ok()?;
+        Some((cell.1.clone(), x, half_unit(&text)))
+    };
+    let span = row.first().map_or(0, |c| c.1.start)..row.last().map_or(0, |c| c.1.end);
+    Row { span, cells: row.iter().map(number).collect() }
+}

@@ -1,0 +1,101 @@
+//! Tables of numbers with a column for each joint.
+
+use denavit::catalogue;
+use denavit::description::{Description, JointKind};
+use denavit::random::Random;
+use denavit::robot::Robot;
+use denavit_check::{About, CheckOptions, Claim, Standing, check};
+use denavit_reading::document::Format;
+
+/// Arms whose lengths have values.
+fn arms() -> impl Iterator<Item = (Description, Robot<f64>)> {
+    let all = catalogue::names().into_iter().filter_map(catalogue::robot);
+    all.filter_map(|d| Some((Robot::numeric(&d).ok()?, d)).map(|(r, d)| (d, r))).filter(|(d, _)| {
+        let plain = d.rows.iter().all(|r| r.variable.is_some());
+        plain && (2..=7).contains(&d.rows.len())
+    })
+}
+
+fn claims(text: &str, robot: &Description) -> Vec<Claim> {
+    let found = check(text, Format::Markdown, Some(robot), &CheckOptions::default()).unwrap();
+    found.claims.into_iter().filter(|c| c.about == About::Configuration).collect()
+}
+
+/// A head and rows of joints in degrees and metres, each with the place of the hand in millimetres.
+fn table(d: &Description, rows: &[(Vec<f64>, [f64; 3])]) -> String {
+    let joints = d.variables();
+    let heads: Vec<String> = (1..=joints.len()).map(|k| format!("q{k}")).collect();
+    let mut text =
+        format!("Poses (angles in degrees):\n\n| {} | x [mm] | y [mm] | z [mm] |\n", heads.join(" | "));
+    text += &format!("|{}\n", "---|".repeat(joints.len() + 3));
+    for (q, p) in rows {
+        let q = q.iter().zip(&joints).map(|(x, v)| match v.kind {
+            JointKind::Revolute => format!("{:.1}", x.to_degrees()),
+            JointKind::Prismatic => format!("{x:.3}"),
+        });
+        let cells: Vec<String> = q.chain(p.iter().map(|x| format!("{:.1}", 1000.0 * x))).collect();
+        text += &format!("| {} |\n", cells.join(" | "));
+    }
+    text
+}
+
+#[test]
+fn a_wrong_row_is_found_and_no_right_one_accused() {
+    let mut random = Random(7);
+    let (mut arms_tried, mut found) = (0, 0);
+    for (d, robot) in arms() {
+        let joints = d.variables();
+        let mut rows: Vec<(Vec<f64>, [f64; 3])> = (0..6)
+            .map(|_| {
+                let q: Vec<f64> = joints
+                    .iter()
+                    .map(|v| match v.kind {
+                        JointKind::Revolute => (300.0 * random.unit() - 150.0).round().to_radians(),
+                        JointKind::Prismatic => (1000.0 * random.unit()).round() / 1000.0,
+                    })
+                    .collect();
+                let p = robot.pose(&q).translation.0;
+                (q, p)
+            })
+            .collect();
+        let right = claims(&table(&d, &rows), &d);
+        assert!(right.len() == 6 && right.iter().all(|c| c.standing() == Standing::Equal), "{}", d.name);
+        // One number with another sign.
+        let r = (random.unit() * 6.0) as usize;
+        let axis = (random.unit() * 3.0) as usize;
+        if rows[r].1[axis].abs() < 0.02 {
+            continue;
+        }
+        arms_tried += 1;
+        rows[r].1[axis] = -rows[r].1[axis];
+        for (k, claim) in claims(&table(&d, &rows), &d).iter().enumerate() {
+            assert_eq!(claim.standing() == Standing::Wrong, k == r, "{}, row {k}", d.name);
+            found += usize::from(claim.standing() == Standing::Wrong);
+        }
+    }
+    assert!(arms_tried > 50 && found == arms_tried, "{found} of {arms_tried}");
+}
+
+#[test]
+fn solutions_of_a_point() {
+    let d = catalogue::robot("articulated-3r").unwrap();
+    let text = |elbow: &str, goal: &str| {
+        format!(
+            "All solutions for the point {goal} m, degrees:\n\n| no | θ1 | θ2 | θ3 |\n|--|--|--|--|\n\
+             | a | 30.00 | 45.00 | -60.00 |\n| b | 30.00 | {elbow} | 60.00 |\n"
+        )
+    };
+    let robot = Robot::numeric(&d).unwrap();
+    let q = [30.0_f64, 45.0, -60.0].map(f64::to_radians);
+    let p = robot.pose(&q).translation.0;
+    let goal = format!("({:.4}, {:.4}, {:.4})", p[0], p[1], p[2]);
+    // The elbow on the other side: θ2 + 2·atan2(a3 s3, a2 + a3 c3).
+    let [a2, a3] = [1, 2].map(|k| d.rows[k].a.eval(|s| d.value(s)).unwrap());
+    let lean = (a3 * q[2].sin()).atan2(a2 + a3 * q[2].cos());
+    let other = format!("{:.2}", (q[1] + 2.0 * lean).to_degrees());
+    let standings = |text: &str| claims(text, &d).iter().map(Claim::standing).collect::<Vec<_>>();
+    assert_eq!(standings(&text(&other, &goal)), [Standing::Equal; 2]);
+    assert_eq!(standings(&text("12.30", &goal)), [Standing::Equal, Standing::Wrong]);
+    // No row fits: what is meant is not known.
+    assert_eq!(standings(&text(&other, "(9.1, 8.2, 7.3)")), [Standing::Undecided]);
+}
