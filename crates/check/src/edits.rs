@@ -4,6 +4,7 @@
 //! the formula is right then.
 
 use super::outcome::Patch;
+use denavit::description::Description;
 use denavit_reading::slip::Slip;
 use denavit_symbolic::Node;
 use denavit_symbolic::parse::{Function, Syntax, SyntaxKind};
@@ -11,6 +12,8 @@ use std::ops::Range;
 
 /// The most changes of a formula that are tried.
 const MAX_EDITS: usize = 160;
+/// The most lengths that may be lost.
+const MAX_LENGTHS: usize = 12;
 /// The largest index that is tried.
 const MAX_INDEX: u32 = 7;
 
@@ -30,13 +33,30 @@ pub(super) enum Kind {
     Slip(Slip),
 }
 
-/// The changes of a formula, the likely ones first.
-pub(super) fn edits(source: &str, syntax: &Syntax) -> Vec<Edit> {
+/// The changes of a formula, the likely ones first; lengths of the robot may be lost from it.
+pub(super) fn edits(source: &str, syntax: &Syntax, lengths: &[String]) -> Vec<Edit> {
     let mut found: [Vec<Edit>; 4] = Default::default();
     visit(source, syntax, &mut found);
+    let end = syntax.span.end;
+    let lost = |sign: char| {
+        lengths.iter().map(move |length| Edit {
+            kind: Kind::Slip(Slip::LostTerm),
+            patches: vec![Patch { span: end..end, now: format!(" {sign} {length}") }],
+        })
+    };
+    found[3].extend(lost('+').chain(lost('-')));
     let mut all: Vec<Edit> = found.into_iter().flatten().collect();
     all.truncate(MAX_EDITS);
     all
+}
+
+/// The lengths of a robot as a formula writes them.
+pub(super) fn lengths(source: &str, description: &Description) -> Vec<String> {
+    let spelled = |name: &str| match name.char_indices().find(|(i, c)| *i > 0 && c.is_ascii_digit()) {
+        Some((i, _)) if source.contains('_') => format!("{}_{{{}}}", &name[..i], &name[i..]),
+        _ => name.to_string(),
+    };
+    description.parameters.iter().map(|p| spelled(&p.symbol.name())).take(MAX_LENGTHS).collect()
 }
 
 /// The formula after a change.
@@ -64,6 +84,11 @@ fn visit(source: &str, syntax: &Syntax, found: &mut [Vec<Edit>; 4]) {
                 let patches =
                     vec![(a.span.clone(), text(b).trim().into()), (b.span.clone(), text(a).trim().into())];
                 add(0, Kind::Arguments, patches);
+                let mut all = vec![];
+                [a, b].into_iter().for_each(|argument| all_turned(source, argument, &mut all));
+                if all.len() > 1 {
+                    add(1, Kind::Slip(Slip::SineForCosine), all);
+                }
                 for argument in [a, b] {
                     if !matches!(argument.kind, SyntaxKind::Sum(_)) {
                         let start = argument.span.start;
@@ -72,45 +97,16 @@ fn visit(source: &str, syntax: &Syntax, found: &mut [Vec<Edit>; 4]) {
                 }
             }
         }
-        SyntaxKind::Call(f @ (Function::Sin | Function::Cos), _) => {
-            let (was, now) = if *f == Function::Sin { ("sin", "cos") } else { ("cos", "sin") };
-            let shown = text(syntax);
-            let at = shown.find(was).map(|i| (i, was.len(), now)).or_else(|| {
-                let first = shown.chars().next()?;
-                let other = match first {
-                    's' => "c",
-                    'c' => "s",
-                    'S' => "C",
-                    'C' => "S",
-                    _ => return None,
-                };
-                Some((0, 1, other))
-            });
-            if let Some((i, length, now)) = at {
-                let start = syntax.span.start + i;
-                add(1, Kind::Slip(Slip::SineForCosine), vec![(start..start + length, now.into())]);
+        SyntaxKind::Call(Function::Sin | Function::Cos, _) => {
+            if let Some(patch) = turned(source, syntax) {
+                add(1, Kind::Slip(Slip::SineForCosine), vec![patch]);
             }
         }
-        SyntaxKind::Name(e) => {
+        SyntaxKind::Name(_) => {
             let shown = text(syntax);
             let start = syntax.span.start;
-            let other = match shown.trim_start_matches('\\').chars().next() {
-                Some('s') => Some("c"),
-                Some('c') => Some("s"),
-                Some('S') => Some("C"),
-                Some('C') => Some("S"),
-                _ => None,
-            };
-            if let (Node::Sin(_) | Node::Cos(_), Some(now)) = (e.node(), other) {
-                let word = ["\\sin", "\\cos", "sin", "cos"].iter().find(|w| shown.starts_with(**w));
-                let (length, now) = match word {
-                    Some(w) => (
-                        w.len(),
-                        if w.contains("sin") { w.replace("sin", "cos") } else { w.replace("cos", "sin") },
-                    ),
-                    None => (1, now.to_string()),
-                };
-                add(1, Kind::Slip(Slip::SineForCosine), vec![(start..start + length, now)]);
+            if let Some(patch) = turned(source, syntax) {
+                add(1, Kind::Slip(Slip::SineForCosine), vec![patch]);
             }
             let digit = shown.char_indices().rev().find(|(_, c)| c.is_ascii_digit());
             if let Some((i, digit)) = digit.filter(|_| shown.starts_with(|c: char| !c.is_ascii_digit())) {
@@ -150,6 +146,16 @@ fn visit(source: &str, syntax: &Syntax, found: &mut [Vec<Edit>; 4]) {
                     None => {}
                 }
             }
+            // Two terms in each other's places: `a² − b²` for `b² − a²`.
+            for (i, (sign, a)) in terms.iter().enumerate() {
+                for (other, b) in &terms[i + 1..] {
+                    if sign.is_minus() != other.is_minus() && text(a) != text(b) {
+                        let patches =
+                            vec![(a.span.clone(), text(b).into()), (b.span.clone(), text(a).into())];
+                        add(3, Kind::Slip(Slip::Exchanged), patches);
+                    }
+                }
+            }
         }
         SyntaxKind::Product(factors) => {
             let first = factors.iter().find(|f| f.0).map(|f| &f.1);
@@ -168,5 +174,33 @@ fn visit(source: &str, syntax: &Syntax, found: &mut [Vec<Edit>; 4]) {
     }
     for part in syntax.children() {
         visit(source, part, found);
+    }
+}
+
+/// A sine for a cosine, or a cosine for a sine: the part of the text and what stands there then.
+fn turned(source: &str, syntax: &Syntax) -> Option<(Range<usize>, String)> {
+    let is_turned = match &syntax.kind {
+        SyntaxKind::Call(Function::Sin | Function::Cos, _) => true,
+        SyntaxKind::Name(e) => matches!(e.node(), Node::Sin(_) | Node::Cos(_)),
+        _ => false,
+    };
+    let shown = source.get(syntax.span.clone()).filter(|_| is_turned)?;
+    let word = [("sin", "cos"), ("cos", "sin")].into_iter().find_map(|(was, now)| {
+        let i = shown.find(was).filter(|i| shown[..*i].chars().all(|c| !c.is_alphanumeric()))?;
+        Some((i, was, now))
+    });
+    let (i, was, now) = word.or_else(|| {
+        let letters = [("s", "c"), ("c", "s"), ("S", "C"), ("C", "S")];
+        letters.into_iter().find(|l| shown.starts_with(l.0)).map(|(was, now)| (0, was, now))
+    })?;
+    let start = syntax.span.start + i;
+    Some((start..start + was.len(), now.into()))
+}
+
+/// All sines and cosines of a formula turned.
+fn all_turned(source: &str, syntax: &Syntax, found: &mut Vec<(Range<usize>, String)>) {
+    match turned(source, syntax) {
+        Some(patch) => found.push(patch),
+        None => syntax.children().into_iter().for_each(|part| all_turned(source, part, found)),
     }
 }

@@ -341,6 +341,8 @@ pub enum Condition {
     Configurations(Vec<Vec<Formula>>),
     /// In a part of all orientations: where all of these are positive, if that is known.
     Orientations(Vec<Formula>),
+    /// A helper, where what uses it is right: that is not all proved, or not all right.
+    AsUsed,
     /// As an answer to a task that leaves this free.
     Placed(Box<Placement>),
 }

@@ -5,6 +5,7 @@
 //! (`judge`). For what is wrong, the smallest change that mends it is looked for, first of the robot's table (`causes`),
 //! then of the formula (`denavit_reading::slip`).
 
+mod blamed;
 mod carried;
 mod causes;
 mod configurations;
@@ -30,6 +31,7 @@ mod plan;
 mod product;
 mod programs;
 mod readings;
+mod scripts;
 mod subject;
 mod supported;
 mod tables;
@@ -57,6 +59,7 @@ use denavit_reading::document::{self, Document, Format};
 use judge::Judge;
 use note::Notes;
 use plan::Plan;
+use std::rc::Rc;
 
 /// The longest document, in bytes.
 pub const MAX_BYTES: usize = 8_000_000;
@@ -95,7 +98,7 @@ pub fn check(
     }
     let respelled = numbers::decimal_points(text);
     let text = respelled.as_deref().unwrap_or(text);
-    let document = match options.language {
+    let mut document = match options.language {
         Some(_) => Document::default(),
         None => document::read(text, format),
     };
@@ -111,7 +114,15 @@ pub fn check(
         options.table.convention = Some(s.convention);
     }
     let options = &options;
-    let plan = Plan::of(text, format, &document, robot, options, &mut notes)?;
+    let mut plan = Plan::of(text, format, &document, robot, options, &mut notes)?;
+    let programs = plan::programs(text, &document, options);
+    let scripts = scripts::inverse(text, &programs, &|name| plan.is_joint(name));
+    let respelled = scripts.map(|mut scripts| {
+        scripts.join(&mut document);
+        plan.programs = Some(Rc::from(scripts.programs));
+        scripts.text
+    });
+    let text = respelled.as_deref().unwrap_or(text);
     let (plan, senses) = readings::weighed(text, &document, plan, options);
     for sense in senses {
         notes.note(0..0, Noted::Reading(sense));
@@ -139,6 +150,7 @@ pub fn check(
         causes = causes::causes(text, &document, &plan, options, &walked, &mut claims);
     }
     carried::carry(text, &document, &plan, options, &walked, &mut claims);
+    blamed::helpers(text, format, &plan, options, &walked, &mut claims);
     let judged = tables::judge(text, &plan.subjects[0], &plan.own_tables);
     for (k, table) in judged.into_iter().enumerate() {
         if k == 0 {

@@ -40,6 +40,8 @@ pub(super) struct Plan {
     turns: Vec<(usize, usize)>,
     /// False where neither a robot was given nor a table stands in the document.
     pub has_robot: bool,
+    /// The text of which programs are read, where it is another.
+    pub programs: Option<Rc<str>>,
 }
 
 /// What the statements of a document claim.
@@ -124,7 +126,8 @@ impl Plan {
         let authors = BTreeSet::new();
         let turns = vec![];
         let own_tables = Rc::new(vec![]);
-        let mut plan = Plan { subjects: vec![], habits, own_tables, authors, turns, has_robot: true };
+        let (has_robot, programs) = (true, None);
+        let mut plan = Plan { subjects: vec![], habits, own_tables, authors, turns, has_robot, programs };
         if let Some(robot) = robot {
             plan.push(0, named(robot));
         }
@@ -244,6 +247,12 @@ impl Plan {
         self.turns.iter().rev().find(|t| t.0 <= place).map_or(0, |t| t.1)
     }
 
+    /// True for a name of a joint.
+    pub fn is_joint(&self, name: &str) -> bool {
+        let found = |s: &Rc<Subject>| s.vocabulary().lookup(name).is_some_and(|e| s.joints().contains(&e));
+        self.subjects.iter().any(found)
+    }
+
     fn push(&mut self, at: usize, subject: Option<Subject>) {
         if let Some(subject) = subject {
             // What stands before the first table is about it, too.
@@ -259,7 +268,8 @@ impl Plan {
         let subjects = self.subjects.iter().map(changed).collect();
         let (habits, turns) = (Rc::clone(&self.habits), self.turns.clone());
         let (own_tables, authors) = (Rc::clone(&self.own_tables), self.authors.clone());
-        Plan { subjects, habits, own_tables, authors, turns, has_robot: self.has_robot }
+        let programs = self.programs.clone();
+        Plan { subjects, habits, own_tables, authors, turns, has_robot: self.has_robot, programs }
     }
 
     /// The same document, claims at these places taken as the author prints them.
@@ -333,7 +343,8 @@ impl Plan {
             let number = self.at(span.start);
             let subject = &self.subjects[number];
             let lexis = Lexis::new(subject, &self.habits, &Rc::from(text));
-            let (found, errors) = programs::assertions(text, &span, language, subject, &lexis, number);
+            let source = self.programs.as_deref().unwrap_or(text);
+            let (found, errors) = programs::assertions(source, &span, language, subject, &lexis, number);
             assertions.extend(found);
             refused.extend(errors);
         }
@@ -465,7 +476,11 @@ fn with_tool(d: &Description, place: &str) -> Option<Description> {
 }
 
 /// The programs of a document, or the one that it is.
-fn programs(text: &str, document: &Document, options: &CheckOptions) -> Vec<(Range<usize>, Dialect)> {
+pub(super) fn programs(
+    text: &str,
+    document: &Document,
+    options: &CheckOptions,
+) -> Vec<(Range<usize>, Dialect)> {
     if let Some(language) = options.language {
         return vec![(0..text.len(), language)];
     }

@@ -1,7 +1,7 @@
 //! What of a document was not judged, so that nothing is passed over in silence; and the helpers that what is proved uses.
 
 use super::CheckOptions;
-use super::facts::About;
+use super::facts::{About, Condition};
 use super::note::Unreadable;
 use super::outcome::{Claim, Entry, Finding, Skipped, Standing, Unjudged};
 use super::plan::Walked;
@@ -105,12 +105,15 @@ struct User {
     names: BTreeSet<String>,
     /// A product of printed matrices, of which only the text is known.
     is_worked_out: bool,
+    /// It is proved.
+    is_proved: bool,
 }
 
 impl User {
     /// What stands in a statement.
-    fn of(text: &str, assertion: &Assertion) -> Self {
-        let mut user = User { span: assertion.span.clone(), names: BTreeSet::new(), is_worked_out: false };
+    fn of(text: &str, assertion: &Assertion, is_proved: bool) -> Self {
+        let span = assertion.span.clone();
+        let mut user = User { span, names: BTreeSet::new(), is_worked_out: false, is_proved };
         for piece in &assertion.pieces {
             match piece {
                 Piece::Pair(Pair { printed: Some(syntax), span, .. }) => user.add(text, span, syntax),
@@ -143,10 +146,26 @@ impl User {
     }
 }
 
-/// A claim for each helper that something proved uses, directly or through another helper.
+/// True for a claim that shows its helpers to be right, if only under a condition: it is, or it is so in a part of all configurations or as far as it goes,
+/// or one change of its own, or of a helper, makes it so.
+fn rests_well(claim: &Claim, claims: &[Claim]) -> bool {
+    let of = |e: &Entry| match &e.finding {
+        Finding::Equal { .. } => true,
+        Finding::Conditional {
+            condition: Condition::Incomplete(_) | Condition::Configurations(_), ..
+        } => true,
+        Finding::Carried { by, .. } => claims.get(*by).is_some_and(|c| c.about == About::Helper),
+        Finding::Wrong(wrong) => claim.about == About::Joint && wrong.slip.is_some(),
+        _ => false,
+    };
+    !claim.entries.is_empty() && claim.entries.iter().all(of)
+}
+
+/// A claim for each helper that something right uses, directly or through another helper.
 fn helpers(text: &str, walked: &Walked, claims: &[Claim]) -> Vec<Claim> {
-    let proved = claims.iter().zip(&walked.assertions).filter(|(c, _)| c.standing() == Standing::Equal);
-    let mut users: Vec<User> = proved.map(|(_, a)| User::of(text, a)).collect();
+    let good = claims.iter().zip(&walked.assertions).filter(|(c, _)| rests_well(c, claims));
+    let mut users: Vec<User> =
+        good.map(|(c, a)| User::of(text, a, c.standing() == Standing::Equal)).collect();
     let own =
         |d: &Defined| claims.iter().any(|c| c.span.start < d.statement.end && d.statement.start < c.span.end);
     let mut found: Vec<Claim> = vec![];
@@ -156,35 +175,39 @@ fn helpers(text: &str, walked: &Walked, claims: &[Claim]) -> Vec<Claim> {
             continue;
         }
         let end = walked.defined[k + 1..].iter().find(|d| d.name == defined.name).map(|d| d.from);
-        let is_used = users.iter().any(|u| {
+        let uses = |u: &&User| {
             u.span.start >= defined.from
                 && end.is_none_or(|e| u.span.start < e)
                 && u.span != defined.statement
                 && u.uses(text, &defined.name)
+        };
+        let Some(is_proved) = users.iter().filter(uses).map(|u| u.is_proved).max() else { continue };
+        let (span, names) = (defined.statement.clone(), BTreeSet::new());
+        let mut user = User { span, names, is_worked_out: false, is_proved };
+        user.add(text, &defined.span, &defined.printed);
+        users.push(user);
+        let finding = match is_proved {
+            true => Finding::Equal { unless_zero: vec![] },
+            false => {
+                let (correct, remarks) = (vec![], vec![]);
+                Finding::Conditional { condition: Condition::AsUsed, correct, remarks }
+            }
+        };
+        found.push(Claim {
+            span: defined.statement.clone(),
+            name: defined.shown.clone(),
+            about: About::Helper,
+            entries: vec![Entry { place: None, span: defined.span.clone(), finding, identities: vec![] }],
+            instead: None,
+            remarks: vec![],
+            robot: defined.subject,
         });
-        if is_used {
-            let mut user =
-                User { span: defined.statement.clone(), names: BTreeSet::new(), is_worked_out: false };
-            user.add(text, &defined.span, &defined.printed);
-            users.push(user);
-            let finding = Finding::Equal { unless_zero: vec![] };
-            let entry = Entry { place: None, span: defined.span.clone(), finding, identities: vec![] };
-            found.push(Claim {
-                span: defined.statement.clone(),
-                name: defined.shown.clone(),
-                about: About::Helper,
-                entries: vec![entry],
-                instead: None,
-                remarks: vec![],
-                robot: defined.subject,
-            });
-        }
     }
     found
 }
 
 /// True if a formula uses a name.
-fn mentions(source: &str, name: &str) -> bool {
+pub(super) fn mentions(source: &str, name: &str) -> bool {
     mentions_in(source, name) || source.split_whitespace().any(|word| mentions_in(word, name))
 }
 

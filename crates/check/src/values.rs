@@ -1,7 +1,7 @@
 //! Printed values of joint variables and of orientation angles: from statements to the judges, and from their answers to
 //! verdicts.
 
-use super::edits::{Kind, edited, edits};
+use super::edits::{Kind, edited, edits, lengths};
 use super::facts::SlipKind;
 use super::facts::{Condition, Remark, Unproved, Zeros};
 use super::formula::Formula;
@@ -186,7 +186,7 @@ impl Judge<'_> {
         known: &[Expr],
     ) -> Option<Slip> {
         let source = self.text.get(span.clone())?;
-        for edit in edits(source, syntax) {
+        for edit in edits(source, syntax, &lengths(source, &self.subject.description)) {
             let Some(formula) = edited(source, &edit) else { continue };
             let Ok(changed) = read(&formula, &(0..formula.len()), self.names) else { continue };
             let changed = self.habits.ordered(changed);

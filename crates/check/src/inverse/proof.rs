@@ -134,8 +134,21 @@ impl Roots {
         rebuilt(e, &mut change)
     }
 
+    /// The same without the signs that do not matter, as in (ε·ρ)².
+    fn without_signs(&self, e: Expr) -> Expr {
+        self.signs.iter().fold(e, |e, (sign, _)| {
+            if !e.symbols().iter().any(|s| Expr::from(*s) == *sign) {
+                return e;
+            }
+            let with = |n: i64| e.substitute(|s| (Expr::from(s) == *sign).then(|| Expr::int(n)));
+            let (plus, minus) = (with(1), with(-1));
+            if equal(plus, minus).is_equal() { plus } else { e }
+        })
+    }
+
     /// √a with what is a square taken out: √(n/d) = √(n·d)/|d|.
     fn root(&mut self, a: Expr) -> Expr {
+        let a = self.without_signs(a);
         let Some((num, den)) = self.fraction(a) else { return a.sqrt() };
         let product = if den.is_one() { num } else { num * den };
         let Ok(product) = factored(product, &[]) else { return a.sqrt() };

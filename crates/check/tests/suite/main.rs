@@ -7,6 +7,7 @@ mod inverse;
 mod marking;
 mod mutations;
 mod readings;
+mod scripts;
 mod statements;
 mod tables;
 

@@ -8,7 +8,7 @@ use denavit::geometry::orientation::OrientationSet;
 use denavit_check::inverse::{Cause, Composed, Missing, Undecided};
 use denavit_check::{
     About, Change, CheckOptions, Checked, Condition, Finding, Formula, Instead, Jacobian, Meaning, Noted,
-    Remark, Sense, ShortRow, Skipped, SlipKind, TableCell, Unproved, Unreadable, Zeros, check,
+    Placement, Remark, Sense, ShortRow, Skipped, SlipKind, TableCell, Unproved, Unreadable, Zeros, check,
 };
 use denavit_reading::document::Format;
 use denavit_reading::slip::Slip;
@@ -79,6 +79,9 @@ fn what_claims_are_about() {
     );
     for about in [
         About::Helper,
+        About::Table,
+        About::TableRow,
+        About::Configuration,
         About::Singularity,
         About::Matrices,
         About::Entry,
@@ -127,6 +130,20 @@ fn what_matrices_are_instead() {
     }
 }
 
+/// All that an author may choose.
+fn placed() -> Placement {
+    Placement {
+        zeros: vec![(2, formula("pi/2"))],
+        reversed: vec![3],
+        base: true,
+        hand: true,
+        is_turned: true,
+        names: vec![("l2".into(), "a2".into())],
+        convention: Some(Convention::Craig),
+        millimetres: true,
+    }
+}
+
 #[test]
 fn remarks() {
     for remark in [
@@ -147,6 +164,8 @@ fn remarks() {
         Remark::NoNumber { value: None, share: 0.5 },
         Remark::FailsAt(vec![0.0, 1.5]),
         Remark::Residual(formula("D1")),
+        Remark::ByOwnTable,
+        Remark::Placed(Box::new(placed())),
     ] {
         both(&|w| w.remarked(&remark));
     }
@@ -176,6 +195,8 @@ fn conditions_and_doubts() {
     for condition in [
         Condition::OneSign,
         Condition::OwnSign,
+        Condition::AsUsed,
+        Condition::Placed(Box::new(placed())),
         Condition::Incomplete(None),
         Condition::Incomplete(Some(MISSING)),
         Condition::Compared { poses: 198, apart: 1e-16 },
@@ -196,6 +217,9 @@ fn conditions_and_doubts() {
         Unproved::NoLength,
         Unproved::NotFound,
         Unproved::NotOfSet,
+        Unproved::NoPose,
+        Unproved::OtherJoints,
+        Unproved::OtherNames,
         Unproved::Values(Undecided::UnknownSymbol(Symbol::new("zeta"))),
         Unproved::Values(Undecided::Shape),
         Unproved::Values(Undecided::Circular),

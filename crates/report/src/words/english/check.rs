@@ -18,7 +18,7 @@ impl Check for English {
             About::Matrices => "an equation between matrices",
             About::Entry => "an entry",
             About::Equation => "an equation",
-            About::Helper => "a helper of what is proved",
+            About::Helper => "a helper",
             About::Singularity => "a singular configuration",
             About::Joint => "values of a joint",
             About::Table => "the table of the robot",
@@ -186,6 +186,7 @@ impl Check for English {
             }
             Condition::Orientations(all) if all.is_empty() => "in a part of all orientations".into(),
             Condition::Orientations(all) => format!("where {}", positive(all, " and ")),
+            Condition::AsUsed => "as far as what uses it is right".into(),
             Condition::Placed(placement) => {
                 format!("as the same mechanism, if the task leaves this free: {}", placed(placement))
             }

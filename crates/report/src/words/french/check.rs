@@ -19,7 +19,7 @@ impl Check for French {
             About::Matrices => "une équation entre matrices",
             About::Entry => "un élément",
             About::Equation => "une équation",
-            About::Helper => "une grandeur auxiliaire de ce qui est démontré",
+            About::Helper => "une grandeur auxiliaire",
             About::Singularity => "une configuration singulière",
             About::Joint => "les valeurs d'une articulation",
             About::Table => "le tableau du robot",
@@ -197,6 +197,7 @@ impl Check for French {
                 "pour une partie des orientations seulement".into()
             }
             Condition::Orientations(all) => format!("pour {}", positive(all, " et ")),
+            Condition::AsUsed => "dans la mesure où ce qui l'utilise est juste".into(),
             Condition::Placed(placement) => {
                 say!("comme même mécanisme, si l'énoncé laisse ceci libre : ") + &placed(placement)
             }

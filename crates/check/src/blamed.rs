@@ -1,0 +1,167 @@
+//! A wrong value of a joint whose fault is in a helper: the one change of the helper's definition that makes it right.
+//!
+//! Each change is made in the text, and the document is read once more; nothing else is known of how formulas use one another.
+
+use super::CheckOptions;
+use super::edits::{Kind, edited, edits, lengths};
+use super::facts::{About, SlipKind};
+use super::outcome::{Claim, Entry, Finding, Patch, Slip, Standing, Wrong};
+use super::plan::{Plan, Walked};
+use super::trial::Trial;
+use super::unjudged::mentions;
+use super::walk::{Defined, Spoken};
+use super::{habits::Places, values};
+use denavit_reading::document::{self, Document, Format};
+use denavit_symbolic::Expr;
+use std::collections::BTreeSet;
+
+/// No more readings of a document than these.
+const MAX_READINGS: usize = 240;
+/// Longer documents are not read again.
+const MAX_BYTES: usize = 60_000;
+/// A change is looked at if it gives the own value at such a share of the configurations.
+const LEAST_SHARE: f64 = 0.2;
+
+/// Names the helpers that make values of joints wrong; the values are carried then.
+pub(super) fn helpers(
+    text: &str,
+    format: Format,
+    plan: &Plan,
+    options: &CheckOptions,
+    walked: &Walked,
+    claims: &mut Vec<Claim>,
+) {
+    let is_open = |c: &Claim| match c.entries.first().map(|e| &e.finding) {
+        Some(Finding::Wrong(wrong)) => wrong.slip.is_none() && c.about == About::Joint,
+        _ => false,
+    };
+    let count = walked.assertions.len();
+    if text.len() > MAX_BYTES || options.language.is_some() {
+        return;
+    }
+    let mut left = MAX_READINGS;
+    let mut seen: BTreeSet<usize> = BTreeSet::new();
+    for k in 0..count.min(claims.len()) {
+        if !is_open(&claims[k]) {
+            continue;
+        }
+        let Some(Spoken::Joint { of, .. }) = &walked.assertions[k].spoken else { continue };
+        let subject = walked.assertions[k].subject;
+        let trial = Trial::new(&plan.subjects[subject], &Places(plan.habits.columns));
+        for d in used(text, walked, k) {
+            if seen.contains(&d.span.start) || left == 0 {
+                continue;
+            }
+            let search = Search { text, format, plan, options, walked, trial: &trial };
+            if let Some((slip, mended)) = search.mended(d, k, *of, claims, &mut left) {
+                seen.insert(d.span.start);
+                blame(d, slip, &mended, claims);
+                break;
+            }
+        }
+    }
+}
+
+/// The helper is wrong, and what it made wrong is carried.
+fn blame(d: &Defined, slip: Slip, mended: &[usize], claims: &mut Vec<Claim>) {
+    let by = claims.len();
+    let wrong = Wrong { correct: vec![slip.formula.clone()], slip: Some(slip), ..Wrong::default() };
+    let finding = Finding::Wrong(Box::new(wrong));
+    claims.push(Claim {
+        span: d.statement.clone(),
+        name: d.shown.clone(),
+        about: About::Helper,
+        entries: vec![Entry { place: None, span: d.span.clone(), finding, identities: vec![] }],
+        instead: None,
+        remarks: vec![],
+        robot: d.subject,
+    });
+    for &k in mended {
+        for entry in &mut claims[k].entries {
+            if let Finding::Wrong(wrong) = &entry.finding {
+                entry.finding = Finding::Carried { by, correct: wrong.correct.clone() };
+            }
+        }
+    }
+}
+
+/// The helpers that a claim uses, directly or through another one, the nearest first.
+fn used<'a>(text: &str, walked: &'a Walked, claim: usize) -> Vec<&'a Defined> {
+    let assertion = &walked.assertions[claim];
+    let mut sources = vec![text.get(assertion.span.clone()).unwrap_or_default()];
+    let mut found: Vec<&Defined> = vec![];
+    for d in walked.defined.iter().rev() {
+        let is_before = d.from <= assertion.span.start && d.subject == assertion.subject;
+        let own = assertion.span.start < d.statement.end && d.statement.start < assertion.span.end;
+        if is_before && !own && sources.iter().any(|s| mentions(s, &d.name)) {
+            sources.push(text.get(d.span.clone()).unwrap_or_default());
+            found.push(d);
+        }
+    }
+    found
+}
+
+struct Search<'a> {
+    text: &'a str,
+    format: Format,
+    plan: &'a Plan,
+    options: &'a CheckOptions,
+    walked: &'a Walked,
+    trial: &'a Trial,
+}
+
+impl Search<'_> {
+    /// The first change of a helper that makes a claim right, and none wrong that is right; with all that it makes right.
+    fn mended(
+        &self,
+        d: &Defined,
+        claim: usize,
+        of: Expr,
+        claims: &[Claim],
+        left: &mut usize,
+    ) -> Option<(Slip, Vec<usize>)> {
+        let source = self.text.get(d.span.clone())?;
+        let lengths = lengths(source, &self.plan.subjects[d.subject].description);
+        for edit in edits(source, &d.printed, &lengths) {
+            let formula = edited(source, &edit)?;
+            if *left == 0 {
+                return None;
+            }
+            *left -= 1;
+            let text = [&self.text[..d.span.start], &formula, &self.text[d.span.end..]].concat();
+            let document: Document = document::read(&text, self.format);
+            let walked = self.plan.walk(&text, &document, self.options);
+            if walked.assertions.len() != self.walked.assertions.len() {
+                continue;
+            }
+            let Some(Spoken::Joint { of: other, branches, .. }) = &walked.assertions[claim].spoken else {
+                continue;
+            };
+            if *other != of || self.trial.shares(of, branches)[0] < LEAST_SHARE {
+                continue;
+            }
+            let (judged, _) = values::judge(&text, self.plan, &walked);
+            let is_right = |c: &Claim| matches!(c.standing(), Standing::Equal | Standing::Conditional);
+            let mended: Vec<usize> = judged
+                .iter()
+                .filter(|(k, now)| claims[*k].standing() == Standing::Wrong && is_right(now))
+                .map(|j| j.0)
+                .collect();
+            let breaks = judged.iter().any(|(k, now)| is_right(&claims[*k]) && !is_right(now));
+            if !mended.contains(&claim) || breaks {
+                continue;
+            }
+            let moved = |p: &Patch| Patch {
+                span: p.span.start + d.span.start..p.span.end + d.span.start,
+                now: p.now.clone(),
+            };
+            let kind = match edit.kind {
+                Kind::Arguments => SlipKind::Arguments,
+                Kind::Slip(slip) => SlipKind::Formula(slip),
+            };
+            let patches = edit.patches.iter().map(moved).collect();
+            return Some((Slip { kind, patches, formula }, mended));
+        }
+        None
+    }
+}
