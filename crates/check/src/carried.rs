@@ -5,6 +5,7 @@
 
 use super::CheckOptions;
 use super::facts::{About, Meaning, Remark, Unproved};
+use super::matrix::Matrix;
 use super::numbers;
 use super::outcome::{Claim, Finding, Standing};
 use super::plan::{Plan, Walked};
@@ -13,7 +14,7 @@ use super::tables::{Judged, Standing as TableStanding};
 use super::walk::Piece;
 use denavit_reading::document::Document;
 use denavit_reading::slip::Points;
-use denavit_symbolic::equal;
+use denavit_symbolic::{Expr, equal};
 use std::collections::BTreeSet;
 
 /// No more wrong claims are followed.
@@ -48,6 +49,96 @@ pub(super) fn carry(
         for set in sets {
             let author = plan.with_authors(set).walk(text, document, options);
             follow(plan, walked, &author, claims, by);
+        }
+    }
+}
+
+/// Turns wrong matrices of programs into carried ones that are products or inverses of others by name, one of them wrong, and
+/// would be right if those were.
+pub(super) fn in_programs(text: &str, walked: &Walked, claims: &mut [Claim]) {
+    for k in 0..claims.len().min(walked.assertions.len()) {
+        let assertion = &walked.assertions[k];
+        let Some(whole) = assertion.whole.as_ref().filter(|_| claims[k].standing() == Standing::Wrong) else {
+            continue;
+        };
+        let source = text.get(assertion.span.clone()).unwrap_or_default();
+        let before = || walked.assertions[..k].iter().enumerate().rev();
+        let factor = |name: &str| before().find(|(_, a)| a.name == name && a.whole.is_some());
+        let plain = ["np.linalg.inv", "linalg.inv", "inv"];
+        let inner = plain
+            .iter()
+            .find_map(|f| source.trim().strip_prefix(f)?.trim().strip_prefix('(')?.strip_suffix(')'));
+        let names: Vec<&str> = inner.unwrap_or(source).split(['@', '*']).map(str::trim).collect();
+        let Some(factors) = names.iter().map(|n| factor(n)).collect::<Option<Vec<_>>>() else { continue };
+        let mut matrices = factors.iter().filter_map(|f| f.1.whole.clone());
+        let Some(first) = matrices.next() else { continue };
+        let product = matrices.try_fold(first, |x, y| x.times(&y));
+        let product = if inner.is_some() { product.and_then(|p| p.times(whole)) } else { product };
+        let is_same = |p: Matrix| {
+            let one = |r, c| Some(Expr::int(i64::from(r == c)));
+            let wanted = |r, c| if inner.is_some() { one(r, c) } else { whole.entry(r, c) };
+            let (rows, columns) = p.shape().unwrap_or_default();
+            let places = (0..rows).flat_map(|r| (0..columns).map(move |c| (r, c)));
+            let mut pairs = places.map(|(r, c)| Some((p.entry(r, c)?, wanted(r, c)?)));
+            rows > 0 && pairs.all(|pair| pair.is_some_and(|(x, y)| equal(x, y).is_equal()))
+        };
+        let is_off = |k: usize| matches!(claims[k].standing(), Standing::Wrong | Standing::Carried);
+        let by = factors.iter().map(|f| f.0).find(|&f| is_off(f));
+        let (Some(by), true) = (by, product.is_some_and(is_same)) else { continue };
+        claims[k].instead = None;
+        for entry in &mut claims[k].entries {
+            if let Finding::Wrong(wrong) = &entry.finding {
+                entry.finding = Finding::Carried { by, correct: wrong.correct.clone() };
+            }
+        }
+    }
+}
+
+/// What a wrong function of a row makes wrong is carried: with its entries mended it is right.
+pub(super) fn by_row_function(
+    text: &str,
+    document: &Document,
+    plan: &Plan,
+    options: &CheckOptions,
+    walked: &Walked,
+    claims: &mut [Claim],
+) {
+    let is_row = |c: &Claim| c.about == About::Matrix(Meaning::Row) && c.standing() == Standing::Wrong;
+    let Some(by) = claims.iter().position(is_row) else { return };
+    let slips = claims[by].entries.iter().filter_map(|e| match &e.finding {
+        Finding::Wrong(wrong) => Some((e.span.clone(), wrong.correct.first()?.clone())),
+        _ => None,
+    });
+    let mut patches: Vec<_> = slips.collect();
+    patches.sort_by_key(|p| p.0.start);
+    // Places stay where they are if nothing becomes longer than it was; else the rest moves, and only the order counts.
+    let mut mended = plan.programs.as_deref().unwrap_or(text).to_string();
+    for (span, now) in patches.into_iter().rev() {
+        if mended.get(span.clone()).is_none() {
+            return;
+        }
+        mended.replace_range(span, &now);
+    }
+    let is_program = options.language.is_some();
+    if !is_program || walked.assertions.len() > MAX_FORMULAS {
+        return;
+    }
+    let other = plan.without_programs().walk(&mended, document, options);
+    if other.assertions.len() != walked.assertions.len() {
+        return;
+    }
+    for (k, after) in other.assertions.iter().enumerate().filter(|(k, _)| *k != by) {
+        let is_right = |piece: &Piece| match piece {
+            Piece::Pair(pair) => equal(pair.value, pair.wanted).is_equal(),
+            _ => false,
+        };
+        if claims[k].standing() == Standing::Wrong && after.pieces.iter().all(is_right) {
+            claims[k].instead = None;
+            for entry in &mut claims[k].entries {
+                if let Finding::Wrong(wrong) = &entry.finding {
+                    entry.finding = Finding::Carried { by, correct: wrong.correct.clone() };
+                }
+            }
         }
     }
 }

@@ -277,6 +277,11 @@ impl Plan {
         Plan { authors, ..self.with(&|_| None) }
     }
 
+    /// The same document, programs read in its own text.
+    pub fn without_programs(&self) -> Self {
+        Plan { programs: None, ..self.with(&|_| None) }
+    }
+
     /// The same document with names in other senses.
     pub fn with_habits(&self, habits: Habits) -> Self {
         Plan { habits: Rc::new(habits), ..self.with(&|_| None) }

@@ -2,16 +2,23 @@
 //! what a function returns.
 
 use super::facts::{About, Meaning};
+use super::inverse::rebuilt;
 use super::jacobians::Told;
 use super::lexis::Lexis;
 use super::matrix::Matrix;
 use super::note::{Unread, Unreadable};
 use super::subject::Subject;
 use super::walk::{Assertion, Pair, Piece, is_measured};
+use denavit::description::{Convention, JointKind, Screw};
 use denavit::forward::Reference;
-use denavit_reading::code::{Assigned, Cell, Code, Dialect, Reading, Value, read};
+use denavit::geometry::Axis;
+use denavit_reading::code::{
+    Assigned, Cell, Code, Dialect, Reading, RowFunction, Value, is_vector, read_stated,
+};
+use denavit_symbolic::parse::ParseError;
 use denavit_symbolic::vocabulary::Vocabulary;
-use denavit_symbolic::{Expr, Symbol};
+use denavit_symbolic::{Angle, Expr, Node, Rational, Symbol, equal};
+use std::f64::consts::TAU;
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -26,14 +33,27 @@ pub(super) fn assertions(
 ) -> (Vec<Assertion>, Vec<Unread>) {
     let joints: Vec<Expr> = subject.description.variables().iter().map(|v| v.symbol.into()).collect();
     let meaning = |name: &str| lexis.names.lookup(name).filter(|_| !lexis.is_by_custom(name));
-    let Code { functions, refusals } = read(text, span.clone(), language, &meaning, &joints);
-    let mut refusals: Vec<Unread> = refusals.into_iter().map(Unread::from).collect();
-    let mut found = vec![];
+    let stated = Stated::of(text.get(span.clone()).unwrap_or_default(), subject);
+    let joint = |name: &str| {
+        let found = lexis.names.lookup(name)?;
+        joints.iter().position(|q| *q == found)
+    };
+    let told = |name: &str, values: &[Expr]| stated.joints(values, joint(name), name);
+    let Code { functions, rows, refusals } =
+        read_stated(text, span.clone(), language, &meaning, &joints, &told);
+    // What stands in a function that is judged as that of a row is not refused as another one.
+    let of_row = |e: &ParseError| rows.iter().any(|r| r.reading.span.contains(&e.span.start));
+    let mut refusals: Vec<Unread> = refusals.into_iter().filter(|e| !of_row(e)).map(Unread::from).collect();
+    let mut found: Vec<Assertion> = rows
+        .iter()
+        .filter_map(|r| row_function(text, r, subject.description.convention, number, lexis))
+        .collect();
+    let own: Vec<String> = functions.iter().map(|f| f.name.clone()).filter(|n| !n.is_empty()).collect();
     for function in &functions {
         let names = Rc::new(names_in(function, lexis));
         let given = functions.iter().filter(|f| f.name.is_empty() || f.name == function.name);
         let given = given.flat_map(|f| given_in(f, subject, lexis)).collect();
-        let program = Program { text, subject, lexis, number, names, given };
+        let program = Program { text, subject, lexis, number, names, given, functions: &own };
         let before = found.len();
         found.extend(program.assigned(function));
         found.extend(program.returned(function));
@@ -43,6 +63,153 @@ pub(super) fn assertions(
         }
     }
     (found, refusals)
+}
+
+/// The transform of a row as a function gives it, held against the convention to which it is nearest, the robot's first.
+fn row_function(
+    text: &str,
+    function: &RowFunction,
+    convention: Convention,
+    number: usize,
+    lexis: &Lexis,
+) -> Option<Assertion> {
+    let returned = function.reading.returned.first()?;
+    let Value::Matrix(rows) = &returned.value else { return None };
+    if rows.len() != 4 || rows.iter().any(|r| r.len() != 4) {
+        return None;
+    }
+    let [theta, alpha] = function.angles;
+    let [first, second] = function.lengths;
+    let mut best: Option<(usize, Matrix)> = None;
+    let standard = convention.begins_with_joint();
+    for begins_with_joint in [standard, !standard] {
+        for (along_x, along_z) in [(first, second), (second, first)] {
+            let z = Screw { axis: Axis::Z, angle: theta, length: along_z }.transform();
+            let x = Screw { axis: Axis::X, angle: alpha, length: along_x }.transform();
+            let wanted = Matrix::of(&if begins_with_joint { z * x } else { x * z });
+            let differs = |&(r, c): &(usize, usize)| {
+                wanted.entry(r, c).is_none_or(|w| !equal(rows[r][c].value, w).is_equal())
+            };
+            let count = (0..16).map(|k| (k / 4, k % 4)).filter(differs).count();
+            if best.as_ref().is_none_or(|b| count < b.0) {
+                best = Some((count, wanted));
+            }
+        }
+    }
+    let (_, wanted) = best.filter(|b| b.0 <= MOST_WRONG)?;
+    let mut pieces = vec![];
+    for (r, row) in rows.iter().enumerate() {
+        for (c, cell) in row.iter().enumerate() {
+            let printed = cell.syntax.clone().filter(|_| text.get(cell.span.clone()).is_some());
+            pieces.push(Piece::Pair(Pair {
+                place: Some((r + 1, c + 1)),
+                span: cell.span.clone(),
+                printed,
+                value: cell.value,
+                wanted: wanted.entry(r, c)?,
+                also: vec![],
+            }));
+        }
+    }
+    let own = names_in(&function.reading, lexis);
+    let names = [theta, alpha, first, second].iter().fold(own, |names, e| {
+        let name = e.as_symbol().map_or_else(String::new, |s| s.name().trim_end_matches("_i").to_string());
+        names.alias(&name, *e)
+    });
+    Some(Assertion {
+        span: returned.span.clone(),
+        name: function.reading.name.clone(),
+        about: About::Matrix(Meaning::Row),
+        pieces,
+        remarks: vec![],
+        subject: number,
+        whole: None,
+        names: Some(Rc::new(names)),
+        reference: None,
+        spoken: None,
+    })
+}
+
+/// A matrix with more wrong entries is none of a row.
+const MOST_WRONG: usize = 5;
+
+/// 180/π, until what it stands in is worked out.
+const PER_RADIAN: &str = "degrees per radian";
+
+/// Angles that a script has in degrees, worked out: π · 180/π is 180.
+fn in_radians(e: Expr) -> Expr {
+    let per_radian = Expr::symbol(PER_RADIAN);
+    let has = |e: Expr| e.symbols().iter().any(|s| Expr::from(*s) == per_radian);
+    if !has(e) {
+        return e;
+    }
+    // π · 180/π does not depend on what π is.
+    let back = |e: Expr| {
+        let at = |pi: i64| {
+            let named = rebuilt(e, &mut |_, new: Expr| if new == Expr::pi() { Expr::int(pi) } else { new });
+            let full = Expr::from(Rational::new(180, pi));
+            Angle::of(named.substitute(|s| (Expr::from(s) == per_radian).then_some(full))).to_expr()
+        };
+        let all = [at(2), at(3), at(5), at(7)];
+        match all.windows(2).all(|pair| pair[0] == pair[1]) {
+            true => all[0],
+            false => e.substitute(|s| (Expr::from(s) == per_radian).then(|| Expr::int(180) / Expr::pi())),
+        }
+    };
+    let mut change = |_, new: Expr| match new.node() {
+        Node::Sin(a) if has(a) => back(a).sin(),
+        Node::Cos(a) if has(a) => back(a).cos(),
+        _ => new,
+    };
+    let inner = rebuilt(e, &mut change);
+    if has(inner) { back(inner) } else { inner }
+}
+
+/// How a script gives joints their values: what it computes from them is read as a formula in the joints.
+struct Stated {
+    kinds: Vec<JointKind>,
+    joints: Vec<Expr>,
+    in_degrees: bool,
+}
+
+impl Stated {
+    /// Angles are in degrees if the script turns degrees into radians somewhere, or a name of a joint gets a number that
+    /// looks like degrees.
+    fn of(text: &str, subject: &Subject) -> Self {
+        const TURNS: [&str; 8] =
+            ["deg2rad", "radians(", "cosd(", "sind(", "pi/180", "pi / 180", "*pi/180", "pi)/180"];
+        let kinds = subject.description.variables().iter().map(|v| v.kind).collect();
+        let in_degrees = TURNS.iter().any(|t| text.contains(t));
+        Stated { kinds, joints: subject.joints().to_vec(), in_degrees }
+    }
+
+    /// The joints for their values: of one name, or of a vector of all of them.
+    fn joints(&self, values: &[Expr], joint: Option<usize>, name: &str) -> Option<Vec<Expr>> {
+        let numbers: Vec<usize> = match (joint, values) {
+            (Some(k), [_]) => vec![k],
+            (None, all) if all.len() > 1 && all.len() == self.joints.len() && is_vector(name) => {
+                (0..all.len()).collect()
+            }
+            _ => return None,
+        };
+        numbers.into_iter().zip(values).map(|(k, value)| self.joint(k, *value)).collect()
+    }
+
+    fn joint(&self, k: usize, value: Expr) -> Option<Expr> {
+        let form = Angle::of(value);
+        if !form.terms.is_empty() {
+            return None;
+        }
+        let is_angle = self.kinds[k] == JointKind::Revolute;
+        let x = value.as_number().map(|r| r.to_f64());
+        // `q1 = 30` with `deg2rad(q1)` further down; `q1 = pi/6`, `q1 = 0.5`.
+        let is_degrees = match x {
+            Some(0.0) => self.in_degrees,
+            Some(x) => x.abs() > TAU || x % 5.0 == 0.0,
+            None => false,
+        };
+        Some(if is_angle && is_degrees { self.joints[k] * Expr::symbol(PER_RADIAN) } else { self.joints[k] })
+    }
 }
 
 /// Lengths of the robot that a program sets to numbers.
@@ -72,6 +239,8 @@ struct Program<'a> {
     names: Rc<Vocabulary>,
     /// Lengths that the program has as numbers.
     given: Vec<(Symbol, Expr)>,
+    /// The functions of the program that are judged.
+    functions: &'a [String],
 }
 
 impl Program<'_> {
@@ -88,9 +257,32 @@ impl Program<'_> {
                 && a.name.contains(|c: char| c.is_ascii_digit() || c == 'x' || c == 'y' || c == 'z')
             {
                 found.extend(self.named(&a.name, &a.name, &a.span, &a.value));
+            } else if is_last
+                && !is_returned
+                && matches!(a.name.as_str(), "T" | "H" | "Tee" | "T_ee" | "J" | "Jac" | "jac")
+                && let Value::Matrix(rows) = &a.value
+                && self.moves(rows)
+                && !self.is_call_of_own(&a.span)
+            {
+                // What a script calls so is the hand's.
+                found.extend(self.pose(function, &a.name, &a.span, rows));
             }
         }
         found
+    }
+
+    /// True for a call of a function of the program, which is judged itself.
+    fn is_call_of_own(&self, span: &Range<usize>) -> bool {
+        let source = self.text.get(span.clone()).unwrap_or_default();
+        let called = source.split_once('(').map_or("", |c| c.0.trim());
+        self.functions.iter().any(|f| f == called)
+    }
+
+    /// True if a joint occurs.
+    fn moves(&self, rows: &[Vec<Cell>]) -> bool {
+        let joints = self.subject.joints();
+        let symbols = rows.iter().flatten().flat_map(|c| c.value.symbols());
+        symbols.into_iter().any(|s| joints.contains(&s.into()))
     }
 
     fn returned(&self, function: &Reading) -> Vec<Assertion> {
@@ -150,7 +342,8 @@ impl Program<'_> {
         let hand = Meaning::Frame { of: Reference::Tool, seen_from: Reference::Frame(0) };
         let (matrix, about) = match (rows.len(), columns) {
             (n, m) if is_jacobian && m == joints && n <= 6 => {
-                let values = Matrix(rows.iter().map(|r| r.iter().map(|c| Some(c.value)).collect()).collect());
+                let value = |c: &Cell| Some(in_radians(c.value));
+                let values = Matrix(rows.iter().map(|r| r.iter().map(value).collect()).collect());
                 let (matrix, jacobian) = self.subject.nearest_jacobian(&values, &Told::default())?;
                 (matrix, Meaning::Jacobian(jacobian))
             }
@@ -176,23 +369,25 @@ impl Program<'_> {
 
     /// A computed value against the right one; lengths that the program has as numbers are numbers in both.
     fn piece(&self, place: Option<(usize, usize)>, cell: &Cell, wanted: Expr) -> Piece {
+        let value = in_radians(cell.value);
         let joints = self.subject.joints();
         let moves = wanted.symbols().iter().any(|s| joints.contains(&(*s).into()));
-        if moves && cell.value.symbols().is_empty() && is_measured(cell.value) {
+        if moves && value.symbols().is_empty() && is_measured(value) {
             let errors = vec![Unread::new(cell.span.clone(), Unreadable::NoConfiguration)];
             return Piece::Unreadable { place, span: cell.span.clone(), errors };
         }
         let d = &self.subject.description;
         let uses = |e: Expr| e.symbols().iter().any(|s| d.parameter(*s).is_some());
-        let wanted = match uses(cell.value) {
+        let wanted = match uses(value) {
             true => wanted,
             false => wanted.substitute(|s| {
                 let given = self.given.iter().rev().find(|g| g.0 == s).map(|g| g.1);
                 given.or_else(|| d.exact_value(s))
             }),
         };
-        let printed = cell.syntax.clone().filter(|_| self.text.get(cell.span.clone()).is_some());
-        Piece::Pair(Pair { place, span: cell.span.clone(), printed, value: cell.value, wanted, also: vec![] })
+        let is_written = value == cell.value && self.text.get(cell.span.clone()).is_some();
+        let printed = cell.syntax.clone().filter(|_| is_written);
+        Piece::Pair(Pair { place, span: cell.span.clone(), printed, value, wanted, also: vec![] })
     }
 
     fn assertion(

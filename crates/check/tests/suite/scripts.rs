@@ -1,4 +1,4 @@
-//! Inverse kinematics in programs, helpers at fault, and roots of squares.
+//! Inverse kinematics in programs, helpers at fault, roots of squares; functions of a row, and scripts with numbers.
 
 use denavit::catalogue;
 use denavit_check::{About, CheckOptions, Checked, Claim, Finding, SlipKind, Standing, check};
@@ -77,4 +77,60 @@ fn a_helper_is_blamed_for_what_it_makes_wrong() {
         assert_eq!((helper.standing(), &helper.about), (Standing::Wrong, &About::Helper), "{now}");
         assert_eq!(claim(&found, "theta3").standing(), Standing::Carried, "{now}");
     }
+}
+
+fn dh(entry: &str) -> String {
+    format!(
+        "import numpy as np\ndef dh(theta, d, a, alpha):\n    ct, st = np.cos(theta), np.sin(theta)\n    \
+         ca, sa = np.cos(alpha), np.sin(alpha)\n    return np.array([[ct, -st*ca, st*sa, a*ct],\n\
+         [st, ct*ca, {entry}, a*st], [0, sa, ca, d], [0, 0, 0, 1]])\n\n\
+         def fk(q):\n    A1 = dh(q[0], d1, 0, np.pi/2)\n    A2 = dh(q[1], 0, a2, 0)\n    A3 = dh(q[2], 0, a3, 0)\n    \
+         return A1 @ A2 @ A3\n"
+    )
+}
+
+#[test]
+fn a_wrong_function_of_a_row_is_the_slip_and_the_rest_is_carried() {
+    let right = checked("articulated-3r", &dh("-ct*sa"), Some(Dialect::Python));
+    assert!(right.claims.len() >= 5 && right.claims.iter().all(|c| c.standing() == Standing::Equal));
+    let wrong = checked("articulated-3r", &dh("ct*sa"), Some(Dialect::Python));
+    assert_eq!(claim(&wrong, "dh").standing(), Standing::Wrong);
+    for (name, standing) in [("A1", Standing::Carried), ("A2", Standing::Equal), ("fk(…)", Standing::Carried)]
+    {
+        assert_eq!(claim(&wrong, name).standing(), standing, "{name}");
+    }
+    // Craig's rows, the lengths in the other order.
+    let craig = "import numpy as np\ndef trans(alpha, a, d, theta):\n    return np.array([\n\
+        [np.cos(theta), -np.sin(theta), 0, a],\n\
+        [np.sin(theta)*np.cos(alpha), np.cos(theta)*np.cos(alpha), -np.sin(alpha), -d*np.sin(alpha)],\n\
+        [np.sin(theta)*np.sin(alpha), np.cos(theta)*np.sin(alpha), np.cos(alpha), d*np.cos(alpha)],\n\
+        [0, 0, 0, 1]])\n";
+    let right = checked("puma560-craig", craig, Some(Dialect::Python));
+    assert_eq!(claim(&right, "trans").standing(), Standing::Equal);
+}
+
+#[test]
+fn numbers_that_a_script_gives_joints_are_joints() {
+    let text = |angle: &str| {
+        format!(
+            "import numpy as np\na1, a2 = 0.5, 0.4\nq1, q2 = 30, 45\n\ndef Rz(t):\n    c, s = np.cos(t), np.sin(t)\n    \
+             return np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])\n\n\
+             def shift(x):\n    M = np.eye(4)\n    M[0, 3] = x\n    return M\n\n\
+             A1 = Rz(np.deg2rad(q1)) @ shift(a1)\nA2 = Rz({angle}) @ shift(a2)\nT02 = A1 @ A2\n"
+        )
+    };
+    let standings = |text: &str| {
+        let found = checked("planar-2r", text, Some(Dialect::Python));
+        ["A1", "A2", "T02"].map(|name| claim(&found, name).standing())
+    };
+    assert_eq!(standings(&text("np.deg2rad(q2)")), [Standing::Equal; 3]);
+    assert_eq!(standings(&text("q2")), [Standing::Equal, Standing::Wrong, Standing::Carried]);
+    // A vector of all joints, and MATLAB in degrees.
+    let vector = "import numpy as np\nq = np.deg2rad([30, 45])\na1, a2 = 0.5, 0.4\n\
+        px = a1*np.cos(q[0]) + a2*np.cos(q[0] + q[1])\npy = a1*np.sin(q[0]) + a2*np.sin(q[1])\n";
+    let found = checked("planar-2r", vector, Some(Dialect::Python));
+    assert_eq!(["px", "py"].map(|n| claim(&found, n).standing()), [Standing::Equal, Standing::Wrong]);
+    let matlab = "q1 = 30; q2 = 45;\na1 = 0.5; a2 = 0.4;\nT = [cosd(q1+q2) -sind(q1+q2) 0 a1*cosd(q1)+a2*cosd(q1+q2); \
+        sind(q1+q2) cosd(q1+q2) 0 a1*sind(q1)+a2*sind(q1+q2); 0 0 1 0; 0 0 0 1];\n";
+    assert_eq!(claim(&checked("planar-2r", matlab, Some(Dialect::Matlab)), "T").standing(), Standing::Equal);
 }

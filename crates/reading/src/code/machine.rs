@@ -55,6 +55,8 @@ pub(super) struct Machine<'a> {
     pub language: Dialect,
     pub names: &'a dyn Fn(&str) -> Option<Expr>,
     pub joints: &'a [Expr],
+    /// What names stand for that the script gives numbers.
+    pub stated: &'a super::Stated<'a>,
     pub functions: BTreeMap<&'a str, &'a Definition>,
     pub imports: BTreeMap<&'a str, &'a str>,
     pub stars: Vec<&'a str>,
@@ -78,11 +80,17 @@ pub(super) struct Machine<'a> {
 }
 
 impl<'a> Machine<'a> {
-    pub fn new(language: Dialect, names: &'a dyn Fn(&str) -> Option<Expr>, joints: &'a [Expr]) -> Self {
+    pub fn new(
+        language: Dialect,
+        names: &'a dyn Fn(&str) -> Option<Expr>,
+        joints: &'a [Expr],
+        stated: &'a super::Stated<'a>,
+    ) -> Self {
         Machine {
             language,
             names,
             joints,
+            stated,
             functions: BTreeMap::new(),
             imports: BTreeMap::new(),
             stars: vec![],

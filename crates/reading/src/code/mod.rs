@@ -76,8 +76,21 @@ pub struct Code {
     /// The statements outside of functions, if they give a name a value, and the functions, in the order of the text.
     /// Functions that only others of the text can call, with arguments of their own, are not among them.
     pub functions: Vec<Reading>,
+    /// Functions of the four parameters of a row of a Denavit–Hartenberg table, with what stands for these.
+    pub rows: Vec<RowFunction>,
     /// What is not read, in the order of the text.
     pub refusals: Vec<ParseError>,
+}
+
+/// A function that gives the transform of a row of a table.
+#[derive(Clone, Debug)]
+pub struct RowFunction {
+    /// What it computes.
+    pub reading: Reading,
+    /// What stands for θ and α.
+    pub angles: [Expr; 2],
+    /// What stands for the lengths, in the order of the arguments.
+    pub lengths: [Expr; 2],
 }
 
 /// What a function computes.
@@ -147,6 +160,21 @@ pub fn read(
     names: &dyn Fn(&str) -> Option<Expr>,
     joints: &[Expr],
 ) -> Code {
+    read_stated(text, span, language, names, joints, &|_, _| None)
+}
+
+/// What a name stands for that a script gives numbers: as many formulas.
+pub type Stated<'a> = dyn Fn(&str, &[Expr]) -> Option<Vec<Expr>> + 'a;
+
+/// The same, where numbers that a script gives names outside of functions are what `stated` says: joints for their values.
+pub fn read_stated(
+    text: &str,
+    span: Range<usize>,
+    language: Dialect,
+    names: &dyn Fn(&str) -> Option<Expr>,
+    joints: &[Expr],
+    stated: &Stated<'_>,
+) -> Code {
     let mut code = Code::default();
     if text.get(span.clone()).is_none_or(|part| part.len() > MAX_BYTES) {
         let message = format!("a program has at most {MAX_BYTES} bytes");
@@ -157,7 +185,7 @@ pub fn read(
         Dialect::Python => python::parse(text, &span),
         Dialect::Matlab => matlab::parse(text, &span),
     };
-    let mut machine = Machine::new(language, names, joints);
+    let mut machine = Machine::new(language, names, joints, stated);
     machine.refusals = errors;
     let definitions: Vec<&Definition> = program.iter().filter_map(definition).collect();
     machine.functions = definitions.iter().map(|d| (d.name.as_str(), *d)).collect();
@@ -173,9 +201,17 @@ pub fn read(
         names.remove(d.name.as_str());
         of_others.extend(names);
     }
+    let mut of_script = BTreeSet::new();
+    for statement in program.iter().filter(|s| definition(s).is_none()) {
+        tree::mentioned(std::slice::from_ref(statement), &mut of_script);
+    }
     let mut helpers = vec![];
     for d in &definitions {
-        let is_helper = of_others.contains(d.name.as_str());
+        // A script calls `Rz(t)` with what it likes, `fk(q)` with the joints.
+        let is_joints = |p: &tree::Parameter| is_vector(&p.name) || (machine.names)(&p.name).is_some();
+        let is_of_script = of_script.contains(d.name.as_str()) && !d.parameters.iter().all(is_joints);
+        let is_helper =
+            of_others.contains(d.name.as_str()) || is_of_script && d.parameters.len() < joints.len();
         match arguments(d, &machine, is_helper) {
             Ok(slots) => code.functions.push(reading(d, slots, &mut machine)),
             Err(_) if is_helper => helpers.push(*d),
@@ -189,6 +225,9 @@ pub fn read(
         {
             code.functions.push(reading(d, slots, &mut machine));
         }
+    }
+    for d in &definitions {
+        code.rows.extend(row_function(d, &mut machine));
     }
     code.functions.sort_by_key(|f| (!f.name.is_empty(), f.span.start));
     if machine.budget.is_spent() && machine.refusals.len() < MAX_REFUSALS {
@@ -215,6 +254,31 @@ fn reading<'a>(
 ) -> Reading {
     let (assigned, returned) = machine.function(d, slots);
     Reading { name: d.name.clone(), span: d.span.clone(), assigned, returned }
+}
+
+/// A function whose arguments are named as the parameters of a row are; errors of it are reported where it is called.
+fn row_function<'a>(d: &'a Definition, machine: &mut Machine<'a>) -> Option<RowFunction> {
+    let role = |name: &str| match name.to_lowercase().trim_end_matches(['_', 'i']) {
+        "theta" | "th" | "tht" | "t" | "q" | "θ" => Some(0),
+        "alpha" | "alph" | "alfa" | "al" | "alp" | "α" => Some(1),
+        "a" | "d" | "r" => Some(2),
+        _ => None,
+    };
+    let roles: Vec<usize> = d.parameters.iter().map(|p| role(&p.name)).collect::<Option<_>>()?;
+    let count = |k: usize| roles.iter().filter(|r| **r == k).count();
+    if [count(0), count(1), count(2)] != [1, 1, 2] {
+        return None;
+    }
+    let symbols: Vec<Expr> = d.parameters.iter().map(|p| Expr::symbol(&format!("{}_i", p.name))).collect();
+    let of =
+        |k: usize| -> Vec<Expr> { symbols.iter().zip(&roles).filter(|s| *s.1 == k).map(|s| *s.0).collect() };
+    let (angles, lengths) = ([of(0)[0], of(1)[0]], [of(2)[0], of(2)[1]]);
+    let slots = d.parameters.iter().zip(&symbols);
+    let slots = slots.map(|(p, e)| (p.name.as_str(), Object::Scalar(Scalar::of(*e, &p.span)))).collect();
+    let refusals = machine.refusals.len();
+    let reading = reading(d, slots, machine);
+    machine.refusals.truncate(refusals);
+    Some(RowFunction { reading, angles, lengths })
 }
 
 /// The meaning of the arguments of a function that is read by itself.
@@ -257,6 +321,7 @@ fn arguments<'a>(
     Ok(slots)
 }
 
-fn is_vector(name: &str) -> bool {
+/// True for a name that usually stands for all joints.
+pub fn is_vector(name: &str) -> bool {
     eval::VECTORS.contains(&name)
 }

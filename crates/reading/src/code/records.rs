@@ -2,10 +2,13 @@
 
 use super::machine::{Machine, Slot};
 use super::report;
+use super::scalar::Scalar;
 use super::tree::{Definition, Span};
-use super::value::Object;
+use super::value::{Matrix, Object};
 use super::{Assigned, Returned};
+use denavit_symbolic::Expr;
 use denavit_symbolic::parse::ParseError;
+use std::rc::Rc;
 
 impl<'a> Machine<'a> {
     /// What a MATLAB function gives back.
@@ -44,6 +47,10 @@ impl<'a> Machine<'a> {
             value => value,
         };
         let mut record = None;
+        if let Some(value) = self.told(name, &value) {
+            self.frame().slots.insert(name, Slot::of(value));
+            return;
+        }
         if let (true, Some(right)) = (self.is_recorded(), right)
             && let Some(value) = report::value(&value, &mut self.budget)
         {
@@ -56,6 +63,35 @@ impl<'a> Machine<'a> {
             value => value,
         };
         self.frame().slots.insert(name, Slot { value: Some(value), record, touched: None });
+    }
+
+    /// What a name stands for that the script gives numbers, and which is known to be something else.
+    fn told(&self, name: &str, value: &Object<'a>) -> Option<Object<'a>> {
+        if self.frames.len() > 1 {
+            return None;
+        }
+        let replaced = |entries: &[Scalar]| -> Option<Vec<Scalar>> {
+            let values: Vec<Expr> = entries.iter().map(|s| s.expr).collect();
+            let is_constant = values.iter().all(|e| e.symbols().is_empty());
+            let now = is_constant.then(|| (self.stated)(name, &values)).flatten()?;
+            Some(now.into_iter().zip(entries).map(|(e, s)| Scalar::of(e, &s.span)).collect())
+        };
+        match value {
+            Object::Scalar(s) => Some(Object::Scalar(replaced(std::slice::from_ref(s))?.pop()?)),
+            Object::Matrix(m) if m.is_vector() => {
+                let entries = replaced(&m.entries)?;
+                Some(Object::Matrix(Matrix { entries, storage: Rc::new(()), ..Matrix::clone(m) }.into()))
+            }
+            Object::List(items) => {
+                let scalar = |o: &Object<'a>| match o {
+                    Object::Scalar(s) => Some(s.clone()),
+                    _ => None,
+                };
+                let entries: Vec<Scalar> = items.iter().map(scalar).collect::<Option<_>>()?;
+                Some(Object::list(replaced(&entries)?.into_iter().map(Object::Scalar).collect()))
+            }
+            _ => None,
+        }
     }
 
     /// Entries of a name were set: what it was before is not its value.

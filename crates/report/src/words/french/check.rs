@@ -197,7 +197,7 @@ impl Check for French {
                 "pour une partie des orientations seulement".into()
             }
             Condition::Orientations(all) => format!("pour {}", positive(all, " et ")),
-            Condition::AsUsed => "dans la mesure où ce qui l'utilise est juste".into(),
+            Condition::AsUsed => printed("dans la mesure où ce qui l'utilise est juste"),
             Condition::Placed(placement) => {
                 say!("comme même mécanisme, si l'énoncé laisse ceci libre : ") + &placed(placement)
             }
@@ -508,5 +508,5 @@ fn placed(placement: &Placement) -> String {
     if placement.is_turned && !placement.base && !placement.hand {
         said.push("le repère 0 ou le dernier repère est tourné".into());
     }
-    said.join(" ; ")
+    printed(&said.join(" ; "))
 }
