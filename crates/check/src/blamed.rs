@@ -131,10 +131,18 @@ impl Search<'_> {
             let text = [&self.text[..d.span.start], &formula, &self.text[d.span.end..]].concat();
             let document: Document = document::read(&text, self.format);
             let walked = self.plan.walk(&text, &document, self.options);
-            if walked.assertions.len() != self.walked.assertions.len() {
-                continue;
-            }
-            let Some(Spoken::Joint { of: other, branches, .. }) = &walked.assertions[claim].spoken else {
+            // Statements behind the change have moved; a mended helper may be a claim of its own.
+            let place = |start: usize| match start >= d.span.end {
+                true => (start + formula.len()).saturating_sub(source.len()),
+                false => start,
+            };
+            let same = |k: usize| {
+                let start = place(self.walked.assertions[k].span.start);
+                walked.assertions.iter().position(|a| a.span.start == start && a.spoken.is_some())
+            };
+            let Some(Spoken::Joint { of: other, branches, .. }) =
+                same(claim).and_then(|k| walked.assertions[k].spoken.as_ref())
+            else {
                 continue;
             };
             if *other != of || self.trial.shares(of, branches)[0] < LEAST_SHARE {
@@ -142,12 +150,19 @@ impl Search<'_> {
             }
             let (judged, _) = values::judge(&text, self.plan, &walked);
             let is_right = |c: &Claim| matches!(c.standing(), Standing::Equal | Standing::Conditional);
-            let mended: Vec<usize> = judged
-                .iter()
-                .filter(|(k, now)| claims[*k].standing() == Standing::Wrong && is_right(now))
-                .map(|j| j.0)
+            let now = |k: usize| {
+                let at = same(k)?;
+                judged.iter().find(|j| j.0 == at).map(|j| &j.1)
+            };
+            let count = self.walked.assertions.len().min(claims.len());
+            let mended: Vec<usize> = (0..count)
+                .filter(|&k| claims[k].standing() == Standing::Wrong && now(k).is_some_and(is_right))
                 .collect();
-            let breaks = judged.iter().any(|(k, now)| is_right(&claims[*k]) && !is_right(now));
+            let breaks = (0..count).any(|k| {
+                self.walked.assertions[k].spoken.is_some()
+                    && is_right(&claims[k])
+                    && !now(k).is_some_and(is_right)
+            });
             if !mended.contains(&claim) || breaks {
                 continue;
             }
