@@ -13,7 +13,7 @@ use denavit::description::table::{PrintedGrid, grids};
 use denavit::description::{JointKind, TableKind};
 use denavit_reading::slip::Slip as Kind;
 use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
-use denavit_symbolic::{Expr, Symbol};
+use denavit_symbolic::{Angle, Expr, Symbol};
 use std::ops::Range;
 
 /// The most rows of a table that are looked at.
@@ -29,14 +29,18 @@ struct Target {
     half: f64,
     /// Where it stands in the row, if it does.
     cell: Option<usize>,
+    /// It is the same a turn further.
+    is_angle: bool,
 }
 
 /// What a column holds.
 enum Column {
     /// A joint, with the unit of its head.
     Joint(usize, Option<f64>),
-    /// A quantity of the pose, with the unit of its head.
-    Pose(Expr, Option<f64>),
+    /// A quantity of the pose, with the unit of its head; angles are the same a turn further.
+    Pose(Expr, Option<f64>, bool),
+    /// The number of the row, or words.
+    Number,
     Other,
 }
 
@@ -132,7 +136,9 @@ impl<'a> Listed<'a> {
                 Column::Joint(k, unit @ None) => {
                     *unit = Some(if kinds[*k] == JointKind::Revolute { angle } else { length });
                 }
-                Column::Pose(_, unit @ None) => *unit = Some(length),
+                Column::Pose(_, unit @ None, is_angle) => {
+                    *unit = Some(if *is_angle { angle } else { length })
+                }
                 _ => {}
             }
         }
@@ -146,9 +152,10 @@ impl<'a> Listed<'a> {
             .zip(&row.cells)
             .enumerate()
             .filter_map(|(k, (column, cell))| match (column, cell) {
-                (Column::Pose(wanted, unit), Some((_, x, half))) => {
+                (Column::Pose(wanted, unit, is_angle), Some((_, x, half))) => {
                     let unit = unit.unwrap_or(1.0);
-                    Some(Target { wanted: *wanted, printed: x * unit, half: half * unit, cell: Some(k) })
+                    let (wanted, is_angle) = (*wanted, *is_angle);
+                    Some(Target { wanted, printed: x * unit, half: half * unit, cell: Some(k), is_angle })
                 }
                 _ => None,
             })
@@ -187,7 +194,10 @@ impl<'a> Listed<'a> {
             moved[k].0 += moved[k].1;
             allowed += (self.value(target.wanted, &moved)? - x).abs();
         }
-        Some(((x - target.printed).abs(), 1.05 * allowed + 1e-9))
+        let off = x - target.printed;
+        let turn = std::f64::consts::TAU;
+        let off = if target.is_angle { off - turn * (off / turn).round() } else { off };
+        Some((off.abs(), 1.05 * allowed + 1e-9))
     }
 
     /// True if all that a row should reach is reached.
@@ -234,7 +244,7 @@ impl<'a> Listed<'a> {
         let rows = self.rows.iter().zip(standing).enumerate();
         let judged = rows.map(|(r, (row, standing))| {
             let entries = match standing {
-                Some(true) => vec![whole(&row.span, Finding::Equal { unless_zero: vec![] })],
+                Some(true) => self.right(r, row),
                 Some(false) => self.wrong(r, row),
                 None => vec![whole(&row.span, Finding::Undecided { why: Unproved::NoLength })],
             };
@@ -243,27 +253,42 @@ impl<'a> Listed<'a> {
         judged.collect()
     }
 
+    /// A row that is right as far as its columns are known.
+    fn right(&self, r: usize, row: &Row) -> Vec<Entry> {
+        let equal = || Finding::Equal { unless_zero: vec![] };
+        let whole = Entry { place: None, span: row.span.clone(), finding: equal(), identities: vec![] };
+        let cells = self.columns.iter().zip(&row.cells).enumerate();
+        let unknown = cells.filter_map(|(k, (column, cell))| {
+            let (span, ..) = cell.as_ref().filter(|_| matches!(column, Column::Other))?;
+            let finding = Finding::Undecided { why: Unproved::UnknownColumn };
+            Some(Entry { place: Some((r + 1, k + 1)), span: span.clone(), finding, identities: vec![] })
+        });
+        std::iter::once(whole).chain(unknown).collect()
+    }
+
     /// The cells of a row that is wrong: quantities that differ, or the joint whose value would make it right.
     fn wrong(&self, r: usize, row: &Row) -> Vec<Entry> {
         let (q, targets) = (self.joints(row), self.targets(row));
-        let mended = self.mended(&q, &targets);
         let differs = |k: usize| {
             let own = targets.iter().find(|t| t.cell == Some(k))?;
             let (off, allowed) = self.off(own, &q)?;
             (off > allowed).then(|| self.value(own.wanted, &q)).flatten()
         };
+        // One quantity that differs is the slip itself.
+        let is_one = (0..self.columns.len()).filter(|&k| differs(k).is_some()).count() == 1;
+        let mended = if is_one { None } else { self.mended(&q, &targets) };
         let mut entries = vec![];
         for (k, (column, cell)) in self.columns.iter().zip(&row.cells).enumerate() {
             let Some((span, x, _)) = cell else { continue };
             let finding = match (column, &mended) {
-                (Column::Other, _) => continue,
+                (Column::Other | Column::Number, _) => continue,
                 (_, Some((at, now, kind))) if *at == k => {
                     let patches = vec![Patch { span: span.clone(), now: now.clone() }];
                     let slip = Slip { kind: kind.clone(), patches, formula: now.clone() };
                     let correct = vec![now.clone()];
                     Finding::Wrong(Box::new(Wrong { correct, slip: Some(slip), ..Wrong::default() }))
                 }
-                (Column::Pose(_, unit), None) if differs(k).is_some() => {
+                (Column::Pose(_, unit, _), None) if differs(k).is_some() => {
                     let right = differs(k).unwrap_or_default() / unit.unwrap_or(1.0);
                     let remark = if (right + x).abs() < 1e-9 {
                         Remark::Sign
@@ -325,7 +350,13 @@ fn stated(assertion: &Assertion) -> Option<(Vec<Target>, Configuration)> {
         .filter_map(|piece| match piece {
             Piece::Number { answer, .. } if !answer.wanted.symbols().is_empty() => {
                 at = Some(answer.at.clone());
-                Some(Target { wanted: answer.wanted, printed: answer.printed, half: answer.half, cell: None })
+                Some(Target {
+                    wanted: answer.wanted,
+                    printed: answer.printed,
+                    half: answer.half,
+                    cell: None,
+                    is_angle: false,
+                })
             }
             _ => None,
         })
@@ -347,7 +378,13 @@ fn goal(text: &str, subject: &Subject) -> Vec<Target> {
         let unit = if text.contains(" mm") { 0.001 } else { 1.0 };
         let target = |(number, wanted): (&&str, &Expr)| {
             let x: f64 = number.replace('−', "-").parse().ok()?;
-            Some(Target { wanted: *wanted, printed: x * unit, half: half_unit(number) * unit, cell: None })
+            Some(Target {
+                wanted: *wanted,
+                printed: x * unit,
+                half: half_unit(number) * unit,
+                cell: None,
+                is_angle: false,
+            })
         };
         let found = (2..=3).contains(&numbers.len());
         found.then(|| numbers.iter().zip(&position).map(target).collect::<Option<Vec<Target>>>())?
@@ -371,16 +408,38 @@ fn column(head: &str, subject: &Subject, names: &Vocabulary, places_first: bool)
         _ if plain[..cut].ends_with('°') => Some(1_f64.to_radians()),
         _ => None,
     };
-    let found = names.lookup(&name);
+    let found = names.lookup(&name).or_else(|| names.lookup(&super::custom::plain(&name)));
     let joint = found.and_then(|e| subject.joints().iter().position(|q| *q == e));
     let axis = |c: &str| ["x", "y", "z"].iter().position(|a| *a == c);
     let place = name.strip_prefix('p').or(name.strip_prefix('P')).and_then(axis).or_else(|| axis(&name));
     match (joint, place) {
         (Some(joint), None) => Column::Joint(joint, unit),
         (Some(joint), Some(_)) if !places_first => Column::Joint(joint, unit),
-        (_, Some(r)) => Column::Pose(subject.pose().translation.0[r], unit),
-        (None, None) => Column::Other,
+        (_, Some(r)) => Column::Pose(subject.pose().translation.0[r], unit, false),
+        // What the document gives a formula, or what the pose is known by.
+        (None, None) => match found.filter(|e| depends(*e, subject)) {
+            Some(e) => {
+                let is_angle = Angle::of(e).terms.iter().all(|t| subject.joints().contains(&t.0));
+                Column::Pose(e, unit, is_angle)
+            }
+            None if is_number_of_row(&name) => Column::Number,
+            None => Column::Other,
+        },
     }
+}
+
+/// True if a joint occurs.
+fn depends(e: Expr, subject: &Subject) -> bool {
+    e.symbols().iter().any(|s| subject.joints().contains(&(*s).into()))
+}
+
+/// True for the head of a column that counts rows.
+fn is_number_of_row(head: &str) -> bool {
+    const HEADS: [&str; 16] = [
+        "", "i", "j", "k", "n", "#", "no", "no.", "nr", "nr.", "case", "pose", "row", "solution", "sol",
+        "test",
+    ];
+    HEADS.contains(&head.to_lowercase().as_str())
 }
 
 /// The numbers of a row.

@@ -298,6 +298,8 @@ pub enum Sense {
     ColumnsSnap,
     /// The place of the hand is o.
     PlaceIsO,
+    /// Frame 0 is the base in front of the table.
+    ZeroIsBase,
 }
 
 /// A printed row with fewer elements than others.
@@ -360,6 +362,8 @@ pub enum Unproved {
     NotOfSet,
     /// Nothing says for which pose values of the joints are.
     NoPose,
+    /// A column of a table has a head that is not known.
+    UnknownColumn,
     /// A table has other joints than the robot.
     OtherJoints,
     /// A table has names that are not the robot's.

@@ -25,20 +25,31 @@ pub(super) fn with_named_signs(values: Vec<Expr>) -> Vec<Expr> {
     })
 }
 
-/// The names of signs that a text has, `ε = ±1`, `κ_2 = \pm 1`, each with what stands for it.
+/// The names of signs that a text has, `ε = ±1`, `κ_2 = \pm 1`, `σ = +1 if …, σ = −1 otherwise`, each with what stands for it.
 pub(super) fn named_signs(plain: &str) -> Vec<(String, Expr)> {
-    let mut found: Vec<(String, Expr)> = vec![];
-    for said in ["=±1", "=pm1"] {
-        for (at, _) in plain.match_indices(said) {
+    let told = |said: &[&str]| -> Vec<String> {
+        let places = said.iter().flat_map(|said| plain.match_indices(said));
+        let names = places.filter_map(|(at, said)| {
             let goes_on = plain[at + said.len()..].starts_with(|c: char| c.is_ascii_digit() || c == '.');
-            let Some(name) = sign_before(&plain[..at]).filter(|_| !goes_on) else { continue };
-            if found.iter().all(|f| f.0 != name) {
-                let sign = Expr::symbol(&format!("{SIGN}{name}"));
-                found.push((name, sign));
-            }
+            sign_before(&plain[..at]).filter(|_| !goes_on)
+        });
+        names.collect()
+    };
+    let (plus, minus) = (told(&["=+1"]), told(&["=-1", "=−1"]));
+    let either = plus.into_iter().filter(|name| minus.contains(name));
+    let mut found: Vec<(String, Expr)> = vec![];
+    for name in told(&["=±1", "=pm1"]).into_iter().chain(either) {
+        if found.iter().all(|f| f.0 != name) {
+            let sign = Expr::symbol(&format!("{SIGN}{name}"));
+            found.push((name, sign));
         }
     }
     found
+}
+
+/// True for a sign that the document names.
+pub(super) fn is_named_sign(e: Expr) -> bool {
+    e.as_symbol().is_some_and(|s| s.name().strip_prefix(SIGN).is_some_and(|n| !n.contains(' ')))
 }
 
 /// The name of a sign at the end of a text: a letter that is customary for signs, with its number.
@@ -124,6 +135,8 @@ pub(super) struct Habits {
     pub links: bool,
     /// The left index is the frame, the right one that in which it is seen.
     pub exchanged: bool,
+    /// Frame 0 is the base that the robot's file has in front of its table.
+    pub zero_is_base: bool,
     /// `atan2` has the cosine first.
     pub cosine_first: bool,
     /// Velocities are those of the Jacobian that was printed last: of its point, along its axes.
@@ -142,6 +155,7 @@ impl Habits {
             millimetres: false,
             links: false,
             exchanged: false,
+            zero_is_base: false,
             cosine_first: false,
             velocities_of_jacobian: false,
             helpers: BTreeSet::new(),

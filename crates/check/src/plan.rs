@@ -10,7 +10,7 @@ use super::order;
 use super::programs;
 use super::subject::Subject;
 use super::tables::OwnTable;
-use super::walk::{Assertion, Defined, Walk};
+use super::walk::{Assertion, Defined, Walk, points};
 use denavit::catalogue;
 use denavit::description::table::{PrintedTable, tables};
 use denavit::description::{
@@ -353,6 +353,7 @@ impl Plan {
             assertions.extend(found);
             refused.extend(errors);
         }
+        assertions.extend(points(&walk.defined, &assertions, &self.subjects));
         assertions.sort_by_key(|a| a.span.start);
         Walked {
             assertions,

@@ -73,12 +73,13 @@ pub(super) fn weighed(
     let mut trials = Trials::new(&plan);
     let mut score = trials.score(&plan, &walked);
     let letters = Letters::of(text);
+    let has_base = plan.subjects.iter().any(|s| s.ground() == Reference::Base);
     for _ in 0..ROUNDS {
         if score.wrong.is_empty() {
             break;
         }
         let mut best: Option<(usize, Plan, Walked, Score, Sense)> = None;
-        for (habits, sense, margin) in candidates(&plan.habits, &walked, &score, &letters) {
+        for (habits, sense, margin) in candidates(&plan.habits, &walked, &score, &letters, has_base) {
             let other = plan.with_habits(habits);
             let there = other.walk(text, document, options);
             let own = trials.score(&other, &there);
@@ -115,6 +116,7 @@ fn candidates(
     walked: &Walked,
     score: &Score,
     letters: &Letters,
+    has_base: bool,
 ) -> Vec<(Habits, Sense, usize)> {
     let wrong: Vec<&Assertion> =
         score.wrong.iter().filter_map(|&at| walked.assertions.iter().find(|a| a.span.start == at)).collect();
@@ -128,6 +130,9 @@ fn candidates(
         }
         if !habits.exchanged {
             found.push((Habits { exchanged: true, ..habits.clone() }, Sense::IndicesExchanged, MARGIN));
+        }
+        if !habits.zero_is_base && has_base {
+            found.push((Habits { zero_is_base: true, ..habits.clone() }, Sense::ZeroIsBase, 1));
         }
         if habits.columns == Columns::Noap {
             found.push((Habits { columns: Columns::Snap, ..habits.clone() }, Sense::ColumnsSnap, MARGIN));

@@ -180,6 +180,12 @@ impl Subject {
         Transform::from_rotation_translation(Rotation::from_rows(rows), position)
     }
 
+    /// The origin of a frame in the base.
+    pub fn origin(&self, frame: usize) -> Vector<Expr> {
+        let x = self.transform(Some(0), Some(frame)).unwrap_or_else(Transform::identity);
+        (self.robot.base * x).translation
+    }
+
     /// The rows of the geometric Jacobian of the hand's point at the origin of a frame, linear first.
     pub fn geometric_rows_at(&self, at: Reference, along: Reference) -> Vec<Vec<Expr>> {
         let view = Viewpoint { at, ..Viewpoint::of(Reference::Tool, along) };
@@ -316,7 +322,8 @@ impl Subject {
                 let (i, j) = (place(&from)?, place(&to)?);
                 let is_hand = [&name.left, &name.sub, &name.sup].iter().all(|s| s.is_empty());
                 let found = self.transform(i, j)?;
-                let found = if is_hand { self.robot.base * found } else { found };
+                let is_base = habits.zero_is_base && i == Some(0);
+                let found = if is_hand || is_base { self.robot.base * found } else { found };
                 (found, Meaning::Frame { of: frame(j), seen_from: frame(i) })
             }
         };

@@ -3,6 +3,7 @@
 use super::scalars::is_measured;
 use super::{Pair, Piece, Scalar, Walk};
 use crate::facts::About;
+use crate::habits::is_named_sign;
 use crate::jacobians::Part;
 use denavit_reading::document::{Place, Statement};
 use denavit_symbolic::Expr;
@@ -154,4 +155,11 @@ fn is_singular(said: &str) -> bool {
     let denials =
         ["not singul", "nicht singul", "non singul", "no singul", "nonsingul", "pas singul", "unless"];
     said.contains("singul") && !denials.iter().any(|d| said.contains(d))
+}
+
+/// True for `σ = +1`, where the document names a sign.
+pub(super) fn is_choice_of_sign(read: &[Scalar]) -> bool {
+    let [Scalar::Formula(_, left), Scalar::Formula(_, right)] = read else { return false };
+    let one = right.value();
+    is_named_sign(left.value()) && (one.is_one() || (-one).is_one() || right.sign_choices() > 0)
 }

@@ -4,9 +4,11 @@ mod author;
 mod cases;
 mod compare;
 mod matrices;
+mod points;
 mod scalars;
 mod told;
 
+pub(super) use points::points;
 pub(super) use scalars::is_measured;
 
 use super::facts::{About, Meaning, Remark};

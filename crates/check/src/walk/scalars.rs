@@ -1,5 +1,6 @@
 //! Equations between scalars: entries, definitions, identities, values of joints and angles.
 
+use super::cases::is_choice_of_sign;
 use super::{Assertion, Defined, Pair, Piece, Reference, Scalar, Spoken, Walk};
 use crate::facts::About;
 use crate::habits::with_named_signs;
@@ -125,7 +126,7 @@ impl Walk<'_> {
         if is_case && self.case(statement, &read) {
             return true;
         }
-        if self.is_place(statement, &read) {
+        if self.is_place(statement, &read) || is_choice_of_sign(&read) {
             self.taken.push(statement.span.clone());
             return true;
         }

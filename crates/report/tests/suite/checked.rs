@@ -218,6 +218,7 @@ fn conditions_and_doubts() {
         Unproved::NotFound,
         Unproved::NotOfSet,
         Unproved::NoPose,
+        Unproved::UnknownColumn,
         Unproved::OtherJoints,
         Unproved::OtherNames,
         Unproved::Values(Undecided::UnknownSymbol(Symbol::new("zeta"))),
@@ -326,6 +327,7 @@ fn what_is_not_read() {
         Sense::CosineFirst,
         Sense::ColumnsSnap,
         Sense::PlaceIsO,
+        Sense::ZeroIsBase,
     ] {
         both(&|w| w.sense(sense));
     }

@@ -40,8 +40,15 @@ pub enum Sameness {
 struct Moving {
     angle: Expr,
     length: Expr,
-    turns: Option<usize>,
-    slides: Option<usize>,
+    turns: Option<Own>,
+    slides: Option<Own>,
+}
+
+/// The joint variable of a motion, and whether it counts with a minus.
+#[derive(Clone, Copy, Debug)]
+struct Own {
+    joint: usize,
+    is_negative: bool,
 }
 
 /// A chain of which each turn about z moves: `base · z₀ x₀ z₁ … zₘ · tool`.
@@ -72,7 +79,8 @@ pub fn same_mechanism(a: &Description, b: &Description) -> Sameness {
         return Sameness::Different;
     }
     let (Some(a), Some(b)) = (Word::of(a), Word::of(b)) else { return Sameness::Undecided };
-    let pattern = |w: &Word| w.z.iter().map(|z| (z.turns, z.slides)).collect::<Vec<_>>();
+    let joint = |own: Option<Own>| own.map(|o| o.joint);
+    let pattern = |w: &Word| w.z.iter().map(|z| (joint(z.turns), joint(z.slides))).collect::<Vec<_>>();
     if pattern(&a) != pattern(&b) {
         return Sameness::Undecided;
     }
@@ -143,14 +151,14 @@ fn between(a: &Word, b: &Word, flips: &Flips) -> SameMechanism {
         let before = k.checked_sub(1).and_then(|k| flips.x.get(k));
         let turned = matches!((before, flips.x.get(k)), (Some(x), Some(y)) if x != y);
         let half = if turned { Expr::pi() } else { Expr::int(0) };
-        if let Some(joint) = za.turns {
-            zeros[joint] = within_turn(signed(za.angle, flips.z[k]) + half - zb.angle);
-            reversed[joint] = flips.z[k];
-        }
-        if let Some(joint) = za.slides {
-            zeros[joint] = normal(signed(za.length, flips.z[k]) - zb.length);
-            reversed[joint] = flips.z[k];
-        }
+        let mut set = |a: Option<Own>, b: Option<Own>, zero: Expr| {
+            if let (Some(a), Some(b)) = (a, b) {
+                zeros[a.joint] = signed(zero, b.is_negative);
+                reversed[a.joint] = flips.z[k] ^ a.is_negative ^ b.is_negative;
+            }
+        };
+        set(za.turns, zb.turns, within_turn(signed(za.angle, flips.z[k]) + half - zb.angle));
+        set(za.slides, zb.slides, normal(signed(za.length, flips.z[k]) - zb.length));
     }
     // The frames of the first, in which those of the second are turned round.
     let round = |x: bool, z: bool| {
@@ -165,21 +173,21 @@ fn between(a: &Word, b: &Word, flips: &Flips) -> SameMechanism {
     let finish = round(last.unwrap_or_default(), end);
     // A turn of the base about the first axis, or of the tool about the last, may as well be another zero position.
     let quarters = [0, 1, 2, -1].map(|k| Expr::pi() * Expr::from(Rational::new(k, 2)));
-    let place = |joint: Option<usize>, pose: &dyn Fn(Transform<Expr>) -> Transform<Expr>| {
+    let place = |joint: Option<Own>, pose: &dyn Fn(Transform<Expr>) -> Transform<Expr>| {
         let turns = if joint.is_some() { &quarters[..] } else { &quarters[..1] };
         let posed = |phi: &Expr| (*phi, tidy(pose(Transform::rotation_z(*phi))));
         let all: Vec<(Expr, Transform<Expr>)> = turns.iter().map(posed).collect();
         *all.iter().find(|p| p.1 == Transform::identity()).unwrap_or(&all[0])
     };
-    let (joint_1, joint_n) = (a.z[0].turns, a.z[a.x.len()].turns);
+    let (joint_1, joint_n) = (b.z[0].turns, b.z[b.x.len()].turns);
     let (phi, base) = place(joint_1, &|turn| a.base * begin * turn * b.base.inverse());
     if let Some(joint) = joint_1 {
-        zeros[joint] = within_turn(zeros[joint] - phi);
+        zeros[joint.joint] = within_turn(zeros[joint.joint] - signed(phi, joint.is_negative));
     }
     let joint_n = joint_n.filter(|_| a.z.len() > 1);
     let (phi, tool) = place(joint_n, &|turn| b.tool.inverse() * turn * finish.inverse() * a.tool);
     if let Some(joint) = joint_n {
-        zeros[joint] = within_turn(zeros[joint] - phi);
+        zeros[joint.joint] = within_turn(zeros[joint.joint] - signed(phi, joint.is_negative));
     }
     SameMechanism { reversed, zeros, base, tool }
 }
@@ -222,9 +230,13 @@ impl Word {
                     (0..variables.len()).filter(|&i| e.symbols().contains(&variables[i].symbol)).collect();
                 match used[..] {
                     [] => Some((None, e)),
-                    [i] if variables[i].kind == kind => {
-                        let constant = normal(e - variables[i].symbol.into());
-                        (!constant.symbols().contains(&variables[i].symbol)).then_some((Some(i), constant))
+                    [joint] if variables[joint].kind == kind => {
+                        let symbol = variables[joint].symbol;
+                        [false, true].into_iter().find_map(|is_negative| {
+                            let constant = normal(e - signed(symbol.into(), is_negative));
+                            let is_constant = !constant.symbols().contains(&symbol);
+                            is_constant.then_some((Some(Own { joint, is_negative }), constant))
+                        })
                     }
                     _ => None,
                 }
@@ -371,7 +383,8 @@ impl Word {
     fn at(&self, q: &[f64], number: &impl Fn(Expr) -> f64) -> Transform<f64> {
         let mut x = self.base.map(number);
         for (k, z) in self.z.iter().enumerate() {
-            let value = |joint: Option<usize>| joint.map_or(0.0, |i| q[i]);
+            let value =
+                |own: Option<Own>| own.map_or(0.0, |o| if o.is_negative { -q[o.joint] } else { q[o.joint] });
             let angle = number(z.angle) + value(z.turns);
             let length = number(z.length) + value(z.slides);
             x = x * Transform::rotation_about(Axis::Z, angle) * Transform::translation_z(length);

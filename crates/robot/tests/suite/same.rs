@@ -33,12 +33,13 @@ fn random_table(random: &mut Random) -> Description {
         let alpha = pick(random, &["0", "90", "-90", "180", "0", "90", "35"]);
         // Two joints on one line are no arm.
         let alpha = if a == "0" && alpha == "0" { "-90".into() } else { alpha };
+        let minus = if random.unit() < 0.2 { "-" } else { "" };
         if random.unit() < 0.25 {
             let theta = pick(random, &["0", "90", "-90", "180"]);
-            rows.push_str(&format!("| {i} | {theta} | q{i} | {a} | {alpha} |\n"));
+            rows.push_str(&format!("| {i} | {theta} | {minus}q{i} | {a} | {alpha} |\n"));
         } else {
             let d = length(random, "b");
-            rows.push_str(&format!("| {i} | q{i} | {d} | {a} | {alpha} |\n"));
+            rows.push_str(&format!("| {i} | {minus}q{i} | {d} | {a} | {alpha} |\n"));
         }
     }
     table(&rows)
@@ -63,13 +64,16 @@ fn turn_axis(d: &mut Description, k: usize) {
         Some(before) => d.rows[before].alpha = d.rows[before].alpha + half,
         None => d.base = d.base * Transform::rotation_x(half),
     }
-    // Rx(π)·Rz(θ)·Tz(d)·Rx(π) = Rz(−θ)·Tz(−d): the variable counts as before, the constants are turned round.
+    // Rx(π)·Rz(θ)·Tz(d)·Rx(π) = Rz(−θ)·Tz(−d); the variable counts the other way half of the time.
     let row = &mut d.rows[k];
     let variable = row.variable.unwrap();
-    let own = Expr::from(variable.symbol);
+    let minus = |e: Expr| match k % 2 {
+        0 => (-e).substitute(|s| (s == variable.symbol).then(|| -Expr::from(s))),
+        _ => -e,
+    };
     match variable.kind {
-        JointKind::Revolute => (row.theta, row.d) = (own - (row.theta - own), -row.d),
-        JointKind::Prismatic => (row.theta, row.d) = (-row.theta, own - (row.d - own)),
+        JointKind::Revolute => (row.theta, row.d) = (minus(row.theta), -row.d),
+        JointKind::Prismatic => (row.theta, row.d) = (-row.theta, minus(row.d)),
     }
     row.alpha = row.alpha + half;
 }

@@ -143,6 +143,7 @@ impl Check for English {
             Sense::Helper => "read as a helper of the document, not as an entry of the pose",
             Sense::CosineFirst => "read with the cosine as the first argument of atan2",
             Sense::ColumnsSnap => "read with s, n, a, P as the columns of the pose",
+            Sense::ZeroIsBase => "read with the robot's base as frame 0",
             Sense::PlaceIsO => "read with o as the place of the hand",
         }
         .into()
@@ -206,6 +207,7 @@ impl Check for English {
             }
             Unproved::NotOfSet => "these are no angles of that set",
             Unproved::NoPose => "nothing says for which pose these values of the joints are",
+            Unproved::UnknownColumn => "what the column holds is not known",
             Unproved::OtherJoints => "it has not the joints of the robot",
             Unproved::OtherNames => "it has lengths that are not known of the robot",
             Unproved::Values(why) => return self.undecided(why),

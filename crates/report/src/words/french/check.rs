@@ -153,6 +153,7 @@ impl Check for French {
             }
             Sense::CosineFirst => "lu avec le cosinus comme premier argument de atan2",
             Sense::ColumnsSnap => "lu avec s, n, a, P comme colonnes de la situation",
+            Sense::ZeroIsBase => "lu avec la base du robot comme repère 0",
             Sense::PlaceIsO => "lu avec o comme position de l’organe terminal",
         })
     }
@@ -217,6 +218,7 @@ impl Check for French {
             }
             Unproved::NotOfSet => "ce ne sont pas des angles de ce triplet",
             Unproved::NoPose => "rien ne dit pour quelle pose sont ces valeurs des articulations",
+            Unproved::UnknownColumn => "la colonne n'est pas connue",
             Unproved::OtherJoints => "il n'a pas les articulations du robot",
             Unproved::OtherNames => "il a des longueurs inconnues du robot",
             Unproved::Values(why) => return self.undecided(why),

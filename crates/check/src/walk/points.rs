@@ -1,0 +1,113 @@
+//! Points of the arm under names of the author's own: `x_w`, `y_w`, `z_w` are the wrist centre if their values are.
+//!
+//! Names that differ in a letter x, y, z alone are one point. Which one is asked of the values: that frame whose origin has most
+//! of the coordinates, at least half of them; the others are held against it.
+
+use super::{Assertion, Defined, Pair, Piece};
+use crate::facts::{About, Meaning};
+use crate::subject::Subject;
+use denavit::forward::Reference;
+use denavit_symbolic::readable::literals;
+use denavit_symbolic::{Expr, equal};
+use std::rc::Rc;
+
+/// Longer formulas are not compared.
+const LONGEST: u64 = 4_000;
+/// So many definitions of a document are looked at.
+const MOST: usize = 300;
+
+/// The claims that names of points make, where nothing else is known of these.
+pub(in super::super) fn points(
+    defined: &[Defined],
+    assertions: &[Assertion],
+    subjects: &[Rc<Subject>],
+) -> Vec<Assertion> {
+    let is_free = |d: &&Defined| {
+        let touches = |a: &Assertion| a.span.start < d.statement.end && d.statement.start < a.span.end;
+        literals(d.value) <= LONGEST && !assertions.iter().any(touches)
+    };
+    let named: Vec<(String, usize, &Defined)> = defined
+        .iter()
+        .take(MOST)
+        .filter(is_free)
+        .filter_map(|d| coordinate(&d.name).map(|(stem, axis)| (stem, axis, d)))
+        .collect();
+    let mut found = vec![];
+    let mut seen: Vec<(String, usize)> = vec![];
+    for (stem, _, first) in &named {
+        let key = (stem.clone(), first.subject);
+        if seen.contains(&key) {
+            continue;
+        }
+        seen.push(key);
+        let point: Vec<(usize, &Defined)> = named
+            .iter()
+            .filter(|n| n.0 == *stem && n.2.subject == first.subject)
+            .map(|n| (n.1, n.2))
+            .collect();
+        let Some(subject) = subjects.get(first.subject).filter(|_| point.len() > 1) else { continue };
+        found.extend(claims(&point, subject));
+    }
+    found
+}
+
+/// The claims that a point makes.
+fn claims(point: &[(usize, &Defined)], subject: &Subject) -> Vec<Assertion> {
+    let moves = |e: Expr| e.symbols().iter().any(|s| subject.joints().contains(&(*s).into()));
+    let mut best: Option<(usize, usize)> = None;
+    for k in 1..=subject.last() {
+        let origin = subject.origin(k);
+        let agrees = |(axis, d): &&(usize, &Defined)| {
+            moves(d.value) && moves(origin[*axis]) && equal(d.value, origin[*axis]).is_equal()
+        };
+        let count = point.iter().filter(agrees).count();
+        if best.is_none_or(|b| count > b.0) {
+            best = Some((count, k));
+        }
+    }
+    let Some((count, k)) = best.filter(|b| 2 * b.0 >= point.len()) else { return vec![] };
+    // One of two is little: both may be something else.
+    if count == point.len() || count > 1 || point.len() == 2 {
+        let origin = subject.origin(k);
+        let frame = Meaning::Frame { of: Reference::Frame(k), seen_from: Reference::Frame(0) };
+        return point.iter().map(|(axis, d)| assertion(d, origin[*axis], &frame)).collect();
+    }
+    vec![]
+}
+
+fn assertion(d: &Defined, wanted: Expr, frame: &Meaning) -> Assertion {
+    let pair = Pair {
+        place: None,
+        span: d.span.clone(),
+        printed: Some(d.printed.clone()),
+        value: d.value,
+        wanted,
+        also: vec![],
+    };
+    Assertion {
+        span: d.statement.clone(),
+        name: d.shown.clone(),
+        about: About::Matrix(Meaning::Origin(Box::new(frame.clone()))),
+        pieces: vec![Piece::Pair(pair)],
+        remarks: vec![],
+        subject: d.subject,
+        names: None,
+        whole: None,
+        reference: None,
+        spoken: None,
+    }
+}
+
+/// The rest of a name and its axis: `xw`, `wx`, `p_{cx}`.
+fn coordinate(name: &str) -> Option<(String, usize)> {
+    let axis = |c: char| "xyz".find(c.to_ascii_lowercase());
+    let (first, last) = (name.chars().next()?, name.chars().next_back()?);
+    if name.chars().count() < 2 || name.chars().count() > 8 {
+        return None;
+    }
+    match (axis(first), axis(last)) {
+        (Some(k), _) => Some((format!("{}|", &name[first.len_utf8()..]), k)),
+        (None, Some(k)) => Some((format!("|{}", &name[..name.len() - last.len_utf8()]), k)),
+        (None, None) => None,
+    }
+}
