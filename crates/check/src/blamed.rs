@@ -9,10 +9,10 @@ use super::outcome::{Claim, Entry, Finding, Patch, Slip, Standing, Wrong};
 use super::plan::{Plan, Walked};
 use super::trial::Trial;
 use super::unjudged::mentions;
-use super::walk::{Defined, Spoken};
+use super::walk::{Defined, Piece, Spoken};
 use super::{habits::Places, values};
 use denavit_reading::document::{self, Document, Format};
-use denavit_symbolic::Expr;
+use denavit_symbolic::{Expr, equal};
 use std::collections::BTreeSet;
 
 /// No more readings of a document than these.
@@ -158,6 +158,19 @@ impl Search<'_> {
             let mended: Vec<usize> = (0..count)
                 .filter(|&k| claims[k].standing() == Standing::Wrong && now(k).is_some_and(is_right))
                 .collect();
+            // Equations that are right then, too.
+            let holds = |k: usize| {
+                let start = place(self.walked.assertions[k].span.start);
+                let same = walked.assertions.iter().find(|a| a.span.start == start && a.spoken.is_none());
+                let is_right = |p: &Piece| matches!(p, Piece::Pair(p) if equal(p.value, p.wanted).is_equal());
+                same.is_some_and(|a| !a.pieces.is_empty() && a.pieces.iter().all(is_right))
+            };
+            let equations = (0..count).filter(|&k| {
+                self.walked.assertions[k].spoken.is_none()
+                    && claims[k].standing() == Standing::Wrong
+                    && holds(k)
+            });
+            let mended: Vec<usize> = mended.into_iter().chain(equations).collect();
             let breaks = (0..count).any(|k| {
                 self.walked.assertions[k].spoken.is_some()
                     && is_right(&claims[k])

@@ -49,6 +49,7 @@ pub(super) fn names(subject: &Subject, text: &str, places: &Places) -> Vec<Custo
     torques(subject, &plain, &mut add);
     wrist(subject, &plain, places, &mut add);
     frames(subject, &plain, places, &mut add);
+    wrist_rotation(subject, &plain, places, &mut add);
     direction(subject, &plain, places, &mut add);
     for letters in hand_letters(text) {
         for (r, name) in letters.iter().enumerate() {
@@ -110,6 +111,7 @@ fn rates(subject: &Subject, plain: &str, add: &mut Add<'_>) {
             format!("dot{upper}"),
             format!("{upper}dot"),
             format!("dotp{axis}"),
+            format!("dotP{axis}"),
             format!("p{axis}dot"),
         ] {
             add(&name, linear, linear);
@@ -208,6 +210,24 @@ fn frames(subject: &Subject, plain: &str, places: &Places, add: &mut Add<'_>) {
         {
             add(&name, x.matrix()[r][column], y.matrix()[r][column]);
         }
+    }
+}
+
+/// Entries of the rotation of the wrist, frame 6 in frame 3: `m_{13}`, where a text has several of them and speaks of that frame.
+fn wrist_rotation(subject: &Subject, plain: &str, places: &Places, add: &mut Add<'_>) {
+    const FRAMES: [&str; 6] = ["36", "3R6", "3^6", "6^3", "3T6", "3A6"];
+    let entries = [(1, 3), (2, 3), (3, 3), (3, 1), (3, 2)].map(|(r, c)| format!("m{r}{c}"));
+    let count = entries.iter().filter(|name| plain.contains(name.as_str())).count();
+    if count < 3 || subject.last() != 6 || !FRAMES.iter().any(|f| plain.contains(f)) {
+        return;
+    }
+    let (Some(x), Some(y)) = (subject.transform(Some(3), Some(6)), seen_through(subject, places, 3, 6))
+    else {
+        return;
+    };
+    let (x, y) = (x.rotation.rows(), y.rotation.rows());
+    for (r, c) in (0..9).map(|k| (k / 3, k % 3)) {
+        add(&format!("m{}{}", r + 1, c + 1), x[r][c], y[r][c]);
     }
 }
 

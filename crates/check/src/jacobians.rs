@@ -8,7 +8,7 @@ use super::subject::Subject;
 use denavit::forward::Reference;
 use denavit_reading::slip::{Points, Value};
 use denavit_symbolic::readable::simplify;
-use denavit_symbolic::{Expr, Node};
+use denavit_symbolic::{Expr, Node, equal};
 use rustc_hash::FxHashMap;
 
 /// Which rows the name of a Jacobian tells.
@@ -45,6 +45,9 @@ impl Subject {
     /// Of the Jacobians that people print, the one that agrees with a matrix in most entries, its rows in any order.
     pub fn nearest_jacobian(&self, printed: &Matrix, told: &Told) -> Option<(Matrix, Jacobian)> {
         let (rows, columns) = printed.shape()?;
+        if (2..self.joints().len()).contains(&columns) {
+            return self.jacobian_of_first_joints(printed);
+        }
         if rows > 6 || columns != self.joints().len() {
             return None;
         }
@@ -76,6 +79,37 @@ impl Subject {
             }
         }
         best.map(|(_, about, matrix)| (matrix, about))
+    }
+
+    /// That of a point which the first joints alone move, as the wrist centre, if most of the matrix agrees with it.
+    fn jacobian_of_first_joints(&self, printed: &Matrix) -> Option<(Matrix, Jacobian)> {
+        let (rows, columns) = printed.shape().filter(|s| (2..=3).contains(&s.0))?;
+        let axes = self.ground();
+        let mut best: Option<(usize, usize, Vec<Vec<Expr>>)> = None;
+        for k in columns..self.last() {
+            let full = self.geometric_rows(Reference::Frame(k), axes);
+            let still = |e: &Expr| e.is_zero() || equal(*e, Expr::int(0)).is_equal();
+            if !full[..3].iter().all(|row| row[columns..].iter().all(still)) {
+                continue;
+            }
+            let agrees = |&(r, c): &(usize, usize)| {
+                let entry = printed.entry(r, c).filter(|e| !e.is_zero());
+                entry.is_some_and(|e| equal(e, full[r][c]).is_equal())
+            };
+            let count = (0..rows).flat_map(|r| (0..columns).map(move |c| (r, c))).filter(agrees).count();
+            if best.as_ref().is_none_or(|b| count > b.0) {
+                best = Some((count, k, full));
+            }
+        }
+        let (count, k, full) = best?;
+        let told = printed.0.iter().flatten().flatten().filter(|e| !e.is_zero()).count();
+        if 2 * count <= told {
+            return None;
+        }
+        let rows_of = |r: &Vec<Expr>| r[..columns].iter().map(|e| Some(*e)).collect();
+        let matrix = Matrix(full[..rows].iter().map(rows_of).collect());
+        let (body, order) = (Reference::Frame(k), [0, 1, 2, 3, 4, 5]);
+        Some((matrix, Jacobian { body, at: None, axes, is_angular_first: false, rows, order }))
     }
 
     /// Numbers agree with no formula: they are those of the Jacobian that the arm has by nature, if it has as many rows.

@@ -349,7 +349,10 @@ impl Plan {
             let subject = &self.subjects[number];
             let lexis = Lexis::new(subject, &self.habits, &Rc::from(text));
             let source = self.programs.as_deref().unwrap_or(text);
-            let (found, errors) = programs::assertions(source, &span, language, subject, &lexis, number);
+            let mut told = Walk::new(text, subject, &self.habits);
+            told.told_in_comments(&span, language);
+            let (found, errors) =
+                programs::assertions(source, &span, language, subject, &lexis, number, &told.at);
             assertions.extend(found);
             refused.extend(errors);
         }

@@ -3,10 +3,11 @@
 
 use super::facts::{About, Meaning};
 use super::inverse::rebuilt;
-use super::jacobians::Told;
+use super::jacobians::{Part, Told};
 use super::lexis::Lexis;
 use super::matrix::Matrix;
 use super::note::{Unread, Unreadable};
+use super::numbers::{Answer, Configuration, half_unit};
 use super::subject::Subject;
 use super::walk::{Assertion, Pair, Piece, is_measured};
 use denavit::description::{Convention, JointKind, Screw};
@@ -30,6 +31,7 @@ pub(super) fn assertions(
     subject: &Subject,
     lexis: &Lexis,
     number: usize,
+    at: &Configuration,
 ) -> (Vec<Assertion>, Vec<Unread>) {
     let joints: Vec<Expr> = subject.description.variables().iter().map(|v| v.symbol.into()).collect();
     let meaning = |name: &str| lexis.names.lookup(name).filter(|_| !lexis.is_by_custom(name));
@@ -53,7 +55,7 @@ pub(super) fn assertions(
         let names = Rc::new(names_in(function, lexis));
         let given = functions.iter().filter(|f| f.name.is_empty() || f.name == function.name);
         let given = given.flat_map(|f| given_in(f, subject, lexis)).collect();
-        let program = Program { text, subject, lexis, number, names, given, functions: &own };
+        let program = Program { text, subject, lexis, number, names, given, functions: &own, at };
         let before = found.len();
         found.extend(program.assigned(function));
         found.extend(program.returned(function));
@@ -129,6 +131,12 @@ fn row_function(
         spoken: None,
     })
 }
+
+/// Names that scripts give the hand's pose and Jacobian.
+const HANDS: [&str; 4] = ["T", "H", "Tee", "T_ee"];
+const JACOBIANS: [&str; 11] = ["J", "Jac", "jac", "Jv", "J_v", "Jp", "J_p", "Jw", "J_w", "Jo", "J_o"];
+/// Names of the determinant of the Jacobian.
+const DETERMINANTS: [&str; 4] = ["detJ", "det_J", "detj", "det_j"];
 
 /// A matrix with more wrong entries is none of a row.
 const MOST_WRONG: usize = 5;
@@ -241,12 +249,21 @@ struct Program<'a> {
     given: Vec<(Symbol, Expr)>,
     /// The functions of the program that are judged.
     functions: &'a [String],
+    /// The configuration that comments state.
+    at: &'a Configuration,
 }
 
 impl Program<'_> {
     /// The last values of variables whose names say what they are.
     fn assigned(&self, function: &Reading) -> Vec<Assertion> {
         let mut found = vec![];
+        let determinants = function.assigned.iter().filter(|a| DETERMINANTS.contains(&a.name.as_str()));
+        for a in determinants {
+            if let (Value::Scalar(cell), Some(wanted)) = (&a.value, self.subject.determinant(Part::Any)) {
+                let pieces = vec![self.piece(None, cell, wanted)];
+                found.push(self.assertion(&a.name, About::Equation, &a.span, pieces, None));
+            }
+        }
         for (i, a) in function.assigned.iter().enumerate() {
             let is_last = !function.assigned[i + 1..].iter().any(|b| b.name == a.name);
             // What is returned under that name is judged there.
@@ -259,7 +276,7 @@ impl Program<'_> {
                 found.extend(self.named(&a.name, &a.name, &a.span, &a.value));
             } else if is_last
                 && !is_returned
-                && matches!(a.name.as_str(), "T" | "H" | "Tee" | "T_ee" | "J" | "Jac" | "jac")
+                && (HANDS.contains(&a.name.as_str()) || JACOBIANS.contains(&a.name.as_str()))
                 && let Value::Matrix(rows) = &a.value
                 && self.moves(rows)
                 && !self.is_call_of_own(&a.span)
@@ -289,9 +306,12 @@ impl Program<'_> {
         let mut found = vec![];
         for r in &function.returned {
             let shown = r.name.clone().unwrap_or_else(|| format!("{}(…)", function.name));
-            let named = r.name.as_ref().and_then(|name| self.named(name, &shown, &r.span, &r.value));
+            // A name is given back, its formula stands where it got its value.
+            let own = |name: &String| function.assigned.iter().rev().find(|a| a.name == *name);
+            let span = r.name.as_ref().and_then(own).map_or(&r.span, |a| &a.span);
+            let named = r.name.as_ref().and_then(|name| self.named(name, &shown, span, &r.value));
             found.extend(named.or_else(|| match &r.value {
-                Value::Matrix(rows) => self.pose(function, &shown, &r.span, rows),
+                Value::Matrix(rows) => self.pose(function, &shown, span, rows),
                 Value::Scalar(_) => None,
             }));
         }
@@ -344,7 +364,13 @@ impl Program<'_> {
             (n, m) if is_jacobian && m == joints && n <= 6 => {
                 let value = |c: &Cell| Some(in_radians(c.value));
                 let values = Matrix(rows.iter().map(|r| r.iter().map(value).collect()).collect());
-                let (matrix, jacobian) = self.subject.nearest_jacobian(&values, &Told::default())?;
+                let part = match shown {
+                    "Jv" | "J_v" | "Jp" | "J_p" => Part::Linear,
+                    "Jw" | "J_w" | "Jo" | "J_o" => Part::Angular,
+                    _ => Part::Any,
+                };
+                let told = Told { part, ..Told::default() };
+                let (matrix, jacobian) = self.subject.nearest_jacobian(&values, &told)?;
                 (matrix, Meaning::Jacobian(jacobian))
             }
             (4, 4) => (Matrix::of(&pose), hand),
@@ -372,7 +398,16 @@ impl Program<'_> {
         let value = in_radians(cell.value);
         let joints = self.subject.joints();
         let moves = wanted.symbols().iter().any(|s| joints.contains(&(*s).into()));
-        if moves && value.symbols().is_empty() && is_measured(value) {
+        let is_number = moves && value.symbols().is_empty() && is_measured(value);
+        if is_number
+            && self.at.knows(wanted, self.subject)
+            && let Ok(printed) = value.eval(|_| None)
+        {
+            let half = half_unit(self.text.get(cell.span.clone()).unwrap_or_default());
+            let answer = Answer { printed, half, wanted, at: self.at.clone(), constant: Some(value) };
+            return Piece::Number { place, span: cell.span.clone(), answer };
+        }
+        if is_number {
             let errors = vec![Unread::new(cell.span.clone(), Unreadable::NoConfiguration)];
             return Piece::Unreadable { place, span: cell.span.clone(), errors };
         }

@@ -131,7 +131,10 @@ fn candidates(
         if !habits.exchanged {
             found.push((Habits { exchanged: true, ..habits.clone() }, Sense::IndicesExchanged, MARGIN));
         }
-        if !habits.zero_is_base && has_base {
+        // One entry is a slip; a frame elsewhere shows in several.
+        let differs = |p: &&Piece| matches!(p, Piece::Pair(p) if !equal(p.value, p.wanted).is_equal());
+        let is_elsewhere = |a: &&&Assertion| a.pieces.iter().filter(differs).count() > 1;
+        if !habits.zero_is_base && has_base && wrong.iter().any(|a| is_elsewhere(&a)) {
             found.push((Habits { zero_is_base: true, ..habits.clone() }, Sense::ZeroIsBase, 1));
         }
         if habits.columns == Columns::Noap {

@@ -66,7 +66,8 @@ impl Setting {
             is_angle,
             entries,
             parameters,
-            size: size.max(1e-3),
+            // An arm of slides alone has no length of its own.
+            size: if size == 0.0 { 1.0 } else { size.max(1e-3) },
             is_enumerated: true,
             given: vec![],
             inputs,

@@ -53,7 +53,7 @@ impl Walk<'_> {
         );
         let (rows, columns) = printed.shape()?;
         let joints = self.subject.description.variables().len();
-        if columns != joints || !(2..=6).contains(&rows) {
+        if !(2..=joints).contains(&columns) && columns != joints || !(2..=6).contains(&rows) {
             return None;
         }
         let points = frames_told(self.paragraph_before(statement));

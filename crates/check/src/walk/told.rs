@@ -4,6 +4,7 @@ use super::cases::tells_goal;
 use super::{Scalar, Walk};
 use crate::lexis::read;
 use denavit::description::read_value;
+use denavit_reading::code::Dialect;
 use denavit_symbolic::parse::SyntaxKind;
 use denavit_symbolic::vocabulary::plain_name;
 use denavit_symbolic::{Expr, Symbol};
@@ -128,6 +129,19 @@ impl Walk<'_> {
             } else if plain_name(value) != value.replace(['_', '{', '}', '\\', ' '], "") || !is_name(value) {
                 names.clear();
             }
+        }
+    }
+
+    /// Reads the values that the comments of a program give.
+    pub(in super::super) fn told_in_comments(&mut self, span: &Range<usize>, language: Dialect) {
+        let mark = if language == Dialect::Python { '#' } else { '%' };
+        let Some(text) = self.text.get(span.clone()) else { return };
+        let mut start = span.start;
+        for line in text.split_inclusive('\n') {
+            if let Some(at) = line.find(mark) {
+                self.told_in(&(start + at + 1..start + line.trim_end().len()));
+            }
+            start += line.len();
         }
     }
 

@@ -99,3 +99,25 @@ fn solutions_of_a_point() {
     // No row fits: what is meant is not known.
     assert_eq!(standings(&text(&other, "(9.1, 8.2, 7.3)")), [Standing::Undecided]);
 }
+
+#[test]
+fn columns_of_angles_and_columns_that_nobody_knows() {
+    let d = catalogue::robot("planar-3r").unwrap();
+    let robot = Robot::numeric(&d).unwrap();
+    let row = |q: [f64; 3], phi: f64| {
+        let p = robot.pose(&q.map(f64::to_radians)).translation.0;
+        format!("| {} | {} | {} | {:.3} | {:.3} | {phi} |\n", q[0], q[1], q[2], p[0], p[1])
+    };
+    let text = |head: &str, phi: f64| {
+        format!(
+            "phi = q1 + q2 + q3 is the angle of the hand. Angles in degrees.\n\n| q1 | q2 | q3 | x | y | {head} |\n\
+             |--|--|--|--|--|--|\n{}{}",
+            row([30.0, 45.0, -60.0], 15.0),
+            row([100.0, 60.0, 90.0], phi)
+        )
+    };
+    let standings = |text: &str| claims(text, &d).iter().map(Claim::standing).collect::<Vec<_>>();
+    assert_eq!(standings(&text("phi", -110.0)), [Standing::Equal; 2], "a turn further is the same");
+    assert_eq!(standings(&text("phi", 110.0)), [Standing::Equal, Standing::Wrong]);
+    assert_eq!(standings(&text("zeta", 7.0)), [Standing::Undecided; 2], "nothing is passed over");
+}

@@ -6,6 +6,7 @@ mod hostile;
 mod inverse;
 mod marking;
 mod mutations;
+mod named;
 mod readings;
 mod scripts;
 mod statements;
