@@ -8,6 +8,7 @@ use crate::jacobians::Part;
 use denavit_reading::document::{Place, Statement};
 use denavit_symbolic::Expr;
 use denavit_symbolic::parse::{Syntax, SyntaxKind};
+use denavit_symbolic::vocabulary::plain_name;
 use std::ops::Range;
 
 impl Walk<'_> {
@@ -76,6 +77,20 @@ impl Walk<'_> {
             && !self.at.knows(left.value(), &self.subject)
             && left.value().symbols().iter().any(|s| self.subject.joints().contains(&(*s).into()))
             && !denavit_symbolic::equal(left.value(), right).is_equal()
+    }
+
+    /// True for another whole number of a name that the document gave one: `σ_j = 0` for what turns, `σ_j = 1` for what slides.
+    pub(super) fn is_other_case(&self, spans: &[Range<usize>], read: &[Scalar]) -> bool {
+        let ([name, _], [Scalar::Formula(_, left), Scalar::Formula(_, right)]) = (spans, read) else {
+            return false;
+        };
+        let is_whole = |e: Expr| e.as_number().is_some_and(|n| n.to_integer().is_some());
+        let name = match self.lexis.lone_name(self.text, name) {
+            Some(lone) => plain_name(&format!("{}{}", lone.base, lone.sub)),
+            None => plain_name(self.source(name)),
+        };
+        let given = self.defined.iter().rev().find(|d| d.name == name);
+        is_whole(left.value()) && is_whole(right.value()) && given.is_some_and(|d| is_whole(d.value))
     }
 
     /// True for an equation to be solved: `det J = 0`, `s_5 = 0` in a sentence, `s_5 = 0` without the pose anywhere.

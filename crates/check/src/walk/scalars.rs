@@ -126,7 +126,7 @@ impl Walk<'_> {
         if is_case && self.case(statement, &read) {
             return true;
         }
-        if self.is_place(statement, &read) || is_choice_of_sign(&read) {
+        if self.is_place(statement, &read) || is_choice_of_sign(&read) || self.is_other_case(&spans, &read) {
             self.taken.push(statement.span.clone());
             return true;
         }

@@ -77,3 +77,10 @@ fn the_jacobian_of_the_first_joints() {
     let places: Vec<_> = places.filter(|e| matches!(e.finding, Finding::Wrong(_))).map(|e| e.place).collect();
     assert_eq!(places, [Some((1, 1))]);
 }
+
+#[test]
+fn a_name_may_have_a_number_for_each_case() {
+    let text = "Here $\\sigma_j = 0$ for a joint that turns and\n\n- $\\sigma_j = 1$ for one that slides.\n\n$p_z = d_1 + a_2 s_2 + a_3 s_{23}$\n";
+    let found = checked("articulated-3r", text);
+    assert!(found.claims.iter().all(|c| c.standing() == Standing::Equal), "{:?}", found.claims);
+}
