@@ -53,6 +53,30 @@ pub(super) fn carry(
     }
 }
 
+/// Entries that are the name of something wrong before are carried: `return np.array([x, y, z])`.
+pub(super) fn by_name(text: &str, claims: &mut [Claim]) {
+    let wrong: Vec<(String, usize, usize)> = claims
+        .iter()
+        .enumerate()
+        .filter(|(_, c)| matches!(c.standing(), Standing::Wrong | Standing::Carried) && c.entries.len() == 1)
+        .map(|(k, c)| (c.name.clone(), k, c.span.start))
+        .collect();
+    for (k, claim) in claims.iter_mut().enumerate() {
+        if claim.entries.len() < 2 {
+            continue;
+        }
+        for entry in &mut claim.entries {
+            let source = text.get(entry.span.clone()).unwrap_or_default().trim();
+            let before = |w: &&(String, usize, usize)| w.0 == source && w.1 != k && w.2 < entry.span.start;
+            if let (Finding::Wrong(is), Some((_, by, _))) = (&entry.finding, wrong.iter().rev().find(before))
+            {
+                entry.finding = Finding::Carried { by: *by, correct: is.correct.clone() };
+                claim.instead = None;
+            }
+        }
+    }
+}
+
 /// Turns wrong matrices of programs into carried ones that are products or inverses of others by name, one of them wrong, and
 /// would be right if those were.
 pub(super) fn in_programs(text: &str, walked: &Walked, claims: &mut [Claim]) {

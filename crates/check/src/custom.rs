@@ -215,10 +215,9 @@ fn frames(subject: &Subject, plain: &str, places: &Places, add: &mut Add<'_>) {
 
 /// Entries of the rotation of the wrist, frame 6 in frame 3: `m_{13}`, where a text has several of them and speaks of that frame.
 fn wrist_rotation(subject: &Subject, plain: &str, places: &Places, add: &mut Add<'_>) {
-    const FRAMES: [&str; 6] = ["36", "3R6", "3^6", "6^3", "3T6", "3A6"];
     let entries = [(1, 3), (2, 3), (3, 3), (3, 1), (3, 2)].map(|(r, c)| format!("m{r}{c}"));
     let count = entries.iter().filter(|name| plain.contains(name.as_str())).count();
-    if count < 3 || subject.last() != 6 || !FRAMES.iter().any(|f| plain.contains(f)) {
+    if count < 3 || !speaks_of_wrist(plain) {
         return;
     }
     let (Some(x), Some(y)) = (subject.transform(Some(3), Some(6)), seen_through(subject, places, 3, 6))
@@ -229,6 +228,17 @@ fn wrist_rotation(subject: &Subject, plain: &str, places: &Places, add: &mut Add
     for (r, c) in (0..9).map(|k| (k / 3, k % 3)) {
         add(&format!("m{}{}", r + 1, c + 1), x[r][c], y[r][c]);
     }
+}
+
+/// True for a text, without marks of subscripts, that speaks of frame 6 in frame 3.
+pub(super) fn speaks_of_wrist(plain: &str) -> bool {
+    ["36", "3R6", "R^36", "3^6", "6^3", "3T6", "3A6"].iter().any(|f| plain.contains(f))
+}
+
+/// Frame 6 in frame 3 of an arm with six joints, and that by the pose as symbols.
+pub(super) fn wrist_frame(subject: &Subject, places: &Places) -> Option<(Transform<Expr>, Transform<Expr>)> {
+    let is_six = subject.last() == 6;
+    is_six.then(|| Some((subject.transform(Some(3), Some(6))?, seen_through(subject, places, 3, 6)?)))?
 }
 
 /// A frame in another by the hand's pose as symbols and the joints outside of both.

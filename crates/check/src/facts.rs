@@ -300,6 +300,8 @@ pub enum Sense {
     PlaceIsO,
     /// Frame 0 is the base in front of the table.
     ZeroIsBase,
+    /// r_ij are the entries of the wrist's rotation.
+    WristEntries,
 }
 
 /// A printed row with fewer elements than others.

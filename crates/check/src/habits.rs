@@ -137,6 +137,8 @@ pub(super) struct Habits {
     pub exchanged: bool,
     /// Frame 0 is the base that the robot's file has in front of its table.
     pub zero_is_base: bool,
+    /// r_ij are the entries of frame 6 in frame 3.
+    pub wrist_entries: bool,
     /// `atan2` has the cosine first.
     pub cosine_first: bool,
     /// Velocities are those of the Jacobian that was printed last: of its point, along its axes.
@@ -156,6 +158,7 @@ impl Habits {
             links: false,
             exchanged: false,
             zero_is_base: false,
+            wrist_entries: false,
             cosine_first: false,
             velocities_of_jacobian: false,
             helpers: BTreeSet::new(),

@@ -80,6 +80,7 @@ impl Lexis {
                 lexis.declare(&name, pose[r][3], pose_symbol(columns, r, 3).into());
             }
         }
+        let wrist = habits.wrist_entries.then(|| custom::wrist_frame(subject, &Places(columns))).flatten();
         for (r, axis) in AXES.iter().enumerate() {
             for (c, letter) in columns.letters().iter().enumerate() {
                 let symbol = pose_symbol(columns, r, c);
@@ -90,7 +91,11 @@ impl Lexis {
                 for spelling in spellings {
                     lexis.declare(&spelling, pose[r][c], symbol.into());
                 }
-                lexis.declare(&format!("r{}{}", r + 1, c + 1), pose[r][c], symbol.into());
+                let name = format!("r{}{}", r + 1, c + 1);
+                match wrist.as_ref().filter(|_| c < 3) {
+                    Some((x, y)) => lexis.declare(&name, x.matrix()[r][c], y.matrix()[r][c]),
+                    None => lexis.declare(&name, pose[r][c], symbol.into()),
+                };
                 lexis.declare(&format!("t{}{}", r + 1, c + 1), pose[r][c], symbol.into());
                 for matrix in ["T", "R"] {
                     lexis.declare(&format!("{matrix}({},{})", r + 1, c + 1), pose[r][c], symbol.into());

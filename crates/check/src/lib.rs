@@ -152,6 +152,7 @@ pub fn check(
     carried::carry(text, &document, &plan, options, &walked, &mut claims);
     carried::by_row_function(text, &document, &plan, options, &walked, &mut claims);
     carried::in_programs(text, &walked, &mut claims);
+    carried::by_name(text, &mut claims);
     blamed::helpers(text, format, &plan, options, &walked, &mut claims);
     let judged = tables::judge(text, &plan.subjects[0], &plan.own_tables);
     for (k, table) in judged.into_iter().enumerate() {

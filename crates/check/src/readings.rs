@@ -40,6 +40,8 @@ struct Letters {
     tells_hand: bool,
     /// o has coordinates, and neither n, s nor p has.
     may_be_o: bool,
+    /// It speaks of frame 6 in frame 3, and of r_ij.
+    has_wrist: bool,
 }
 
 impl Letters {
@@ -52,8 +54,17 @@ impl Letters {
         Letters {
             tells_hand: !super::custom::hand_letters(text).is_empty(),
             may_be_o: has("o") && !["n", "p", "P", "s"].into_iter().any(has),
+            has_wrist: super::custom::speaks_of_wrist(&plain_name(text)) && words.iter().any(|w| is_r(w)),
         }
     }
+}
+
+/// True for `r13`, `rij`.
+fn is_r(word: &str) -> bool {
+    word == "rij"
+        || word
+            .strip_prefix('r')
+            .is_some_and(|d| d.len() == 2 && d.bytes().all(|b| (b'1'..=b'3').contains(&b)))
 }
 
 /// The plan with the readings that the document supports, and what is said of them.
@@ -149,6 +160,10 @@ fn candidates(
     if wrong.iter().any(|a| own_link(a).is_some()) && !own.is_subset(&habits.products) {
         let products = habits.products.union(&own).cloned().collect();
         found.push((Habits { products, ..habits.clone() }, Sense::OwnLinks, 0));
+    }
+    let has_wrist = letters.has_wrist && wrong.iter().any(|a| a.spoken.is_some());
+    if !habits.wrist_entries && has_wrist {
+        found.push((Habits { wrist_entries: true, ..habits.clone() }, Sense::WristEntries, 1));
     }
     if !habits.cosine_first && wrong.iter().any(|a| a.spoken.is_some()) {
         found.push((Habits { cosine_first: true, ..habits.clone() }, Sense::CosineFirst, MARGIN));

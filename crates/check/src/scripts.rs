@@ -100,7 +100,8 @@ fn says_nothing(name: &str, formula: &str) -> bool {
     let is_number = plain.trim_start_matches(['-', '+']).parse::<f64>().is_ok();
     let is_entry = matches!(plain, "px" | "py" | "pz")
         && matches!(name.to_lowercase().as_str(), "x" | "y" | "z" | "px" | "py" | "pz");
-    is_number || is_entry || plain == name || plain.starts_with(['[', '{']) || plain.contains(['"', '\''])
+    // Arrays are read where the program is.
+    is_number || is_entry || plain == name || plain.contains(['[', '{', '"', '\''])
 }
 
 /// The functions of a program, and what stands outside of them.

@@ -2,13 +2,15 @@
 
 use super::CheckOptions;
 use super::facts::{About, Condition};
+use super::lexis::read;
 use super::note::Unreadable;
 use super::outcome::{Claim, Entry, Finding, Skipped, Standing, Unjudged};
 use super::plan::Walked;
 use super::walk::{Assertion, Defined, Pair, Piece, Spoken};
 use denavit_reading::document::{Document, Statement};
+use denavit_symbolic::equal;
 use denavit_symbolic::parse::{Syntax, SyntaxKind};
-use denavit_symbolic::vocabulary::plain_name;
+use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -100,7 +102,9 @@ fn is_named(text: &str, walked: &Walked, span: &Range<usize>, claims: &[Claim]) 
 }
 
 /// The names that a formula, or several, are written in.
-struct User {
+struct User<'a> {
+    /// The equation, where it is one between values.
+    equation: Option<&'a Assertion>,
     span: Range<usize>,
     names: BTreeSet<String>,
     /// A product of printed matrices, of which only the text is known.
@@ -109,11 +113,12 @@ struct User {
     is_proved: bool,
 }
 
-impl User {
+impl<'a> User<'a> {
     /// What stands in a statement.
-    fn of(text: &str, assertion: &Assertion, is_proved: bool) -> Self {
+    fn of(text: &str, assertion: &'a Assertion, is_proved: bool) -> Self {
         let span = assertion.span.clone();
-        let mut user = User { span, names: BTreeSet::new(), is_worked_out: false, is_proved };
+        let equation = assertion.spoken.is_none().then_some(assertion);
+        let mut user = User { equation, span, names: BTreeSet::new(), is_worked_out: false, is_proved };
         for piece in &assertion.pieces {
             match piece {
                 Piece::Pair(Pair { printed: Some(syntax), span, .. }) => user.add(text, span, syntax),
@@ -180,10 +185,11 @@ fn helpers(text: &str, walked: &Walked, claims: &[Claim]) -> Vec<Claim> {
                 && end.is_none_or(|e| u.span.start < e)
                 && u.span != defined.statement
                 && u.uses(text, &defined.name)
+                && !u.equation.is_some_and(|a| is_even(text, walked, a, defined))
         };
         let Some(is_proved) = users.iter().filter(uses).map(|u| u.is_proved).max() else { continue };
         let (span, names) = (defined.statement.clone(), BTreeSet::new());
-        let mut user = User { span, names, is_worked_out: false, is_proved };
+        let mut user = User { equation: None, span, names, is_worked_out: false, is_proved };
         user.add(text, &defined.span, &defined.printed);
         users.push(user);
         let finding = match is_proved {
@@ -204,6 +210,21 @@ fn helpers(text: &str, walked: &Walked, claims: &[Claim]) -> Vec<Claim> {
         });
     }
     found
+}
+
+/// True for an equation that holds for a helper with the other sign as well, as one between squares: it says nothing of the helper.
+fn is_even(text: &str, walked: &Walked, assertion: &Assertion, defined: &Defined) -> bool {
+    let names = Vocabulary::clone(walked.names_of(assertion.subject)).alias(&defined.name, -defined.value);
+    let value = |span: &Range<usize>| read(text, span, &names).ok().map(|s| s.value());
+    let Some((reference, _)) = &assertion.reference else { return false };
+    let holds = |piece: &Piece| match piece {
+        Piece::Pair(pair) => match (value(reference), value(&pair.span)) {
+            (Some(a), Some(b)) => equal(a, b).is_equal(),
+            _ => false,
+        },
+        _ => false,
+    };
+    !assertion.pieces.is_empty() && assertion.pieces.iter().all(holds)
 }
 
 /// True if a formula uses a name.

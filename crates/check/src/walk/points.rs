@@ -55,7 +55,13 @@ pub(in super::super) fn points(
 fn claims(point: &[(usize, &Defined)], subject: &Subject) -> Vec<Assertion> {
     let moves = |e: Expr| e.symbols().iter().any(|s| subject.joints().contains(&(*s).into()));
     let mut best: Option<(usize, usize)> = None;
-    for k in 1..=subject.last() {
+    // `x_3` is of frame 3, if of any.
+    let told = point[0].1.name.trim_matches(|c: char| !c.is_ascii_digit()).parse::<usize>().ok();
+    let frames = match told {
+        Some(k) => k..=k.min(subject.last()),
+        None => 1..=subject.last(),
+    };
+    for k in frames {
         let origin = subject.origin(k);
         let agrees = |(axis, d): &&(usize, &Defined)| {
             moves(d.value) && moves(origin[*axis]) && equal(d.value, origin[*axis]).is_equal()
@@ -65,9 +71,10 @@ fn claims(point: &[(usize, &Defined)], subject: &Subject) -> Vec<Assertion> {
             best = Some((count, k));
         }
     }
-    let Some((count, k)) = best.filter(|b| 2 * b.0 >= point.len()) else { return vec![] };
-    // One of two is little: both may be something else.
-    if count == point.len() || count > 1 || point.len() == 2 {
+    let is_enough = |b: &(usize, usize)| 2 * b.0 >= point.len() || told.is_some() && b.0 > 0;
+    let Some((count, k)) = best.filter(is_enough) else { return vec![] };
+    // One of three is little: all may be something else.
+    if count > 1 || point.len() == 2 || told.is_some() {
         let origin = subject.origin(k);
         let frame = Meaning::Frame { of: Reference::Frame(k), seen_from: Reference::Frame(0) };
         return point.iter().map(|(axis, d)| assertion(d, origin[*axis], &frame)).collect();
@@ -102,7 +109,10 @@ fn assertion(d: &Defined, wanted: Expr, frame: &Meaning) -> Assertion {
 fn coordinate(name: &str) -> Option<(String, usize)> {
     let axis = |c: char| "xyz".find(c.to_ascii_lowercase());
     let (first, last) = (name.chars().next()?, name.chars().next_back()?);
-    if name.chars().count() < 2 || name.chars().count() > 8 {
+    if name.chars().count() == 1 && !first.is_ascii() {
+        return None;
+    }
+    if name.chars().count() > 8 {
         return None;
     }
     match (axis(first), axis(last)) {

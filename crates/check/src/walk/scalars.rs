@@ -94,9 +94,12 @@ impl Walk<'_> {
     /// True for `Z = P_z - L`: by custom Z is that entry of the pose, which it cannot be here.
     fn is_told_of_itself(&self, name: &Range<usize>, formula: &Range<usize>) -> bool {
         let entry = |span: &Range<usize>| self.lexis.inverse_formula(self.text, span).ok().map(|s| s.value());
-        let (Some(name), Some(formula)) =
-            (entry(name).filter(|_| self.lexis.is_by_custom(self.source(name))), entry(formula))
-        else {
+        // By custom, or beside the same in another spelling: `Px = px - d6*ax`.
+        let is_own = |name: &Range<usize>| {
+            let plain = |span: &Range<usize>| plain_name(self.source(span));
+            self.lexis.is_by_custom(self.source(name)) || !plain(formula).contains(&plain(name))
+        };
+        let (Some(name), Some(formula)) = (entry(name).filter(|_| is_own(name)), entry(formula)) else {
             return false;
         };
         let is_entry = |s| (0..3).any(|r| (0..4).any(|c| self.lexis.pose_symbol(r, c) == s));

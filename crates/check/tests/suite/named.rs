@@ -84,3 +84,48 @@ fn a_name_may_have_a_number_for_each_case() {
     let found = checked("articulated-3r", text);
     assert!(found.claims.iter().all(|c| c.standing() == Standing::Equal), "{:?}", found.claims);
 }
+
+#[test]
+fn a_name_beside_its_own_other_spelling_is_the_authors() {
+    let found = checked("ur5", "Px = px - d6*ax\n\nPy = py - d6*ay\n\nd4 = Px*sin(q1) - Py*cos(q1)\n");
+    for name in ["Px", "Py", "d4"] {
+        assert_eq!(standing(&found, name), Standing::Equal, "{name}");
+    }
+}
+
+#[test]
+fn letters_of_the_hand_may_be_another_point() {
+    let wrist = "The first wrist point is at\n\nx = cos(q1)*(a2*cos(q2) + a3*cos(q2+q3)) + d4*sin(q1)\n\n\
+                 y = sin(q1)*(a2*cos(q2) + a3*cos(q2+q3)) - d4*cos(q1)\n\nz = d1 + a2*sin(q2) + a3*cos(q2+q3)\n";
+    let found = checked("ur5", wrist);
+    assert_eq!(
+        ["x", "y", "z"].map(|n| standing(&found, n)),
+        [Standing::Equal, Standing::Equal, Standing::Wrong]
+    );
+}
+
+/// x² + y² does not tell the signs of x and y.
+#[test]
+fn what_holds_for_both_signs_vouches_for_none() {
+    let text = |u: &str| {
+        format!("u = {u}\n\nw = a2*sin(q2) + a3*sin(q2+q3)\n\nu^2 + w^2 = a2^2 + a3^2 + 2*a2*a3*cos(q3)\n")
+    };
+    let plane = "a2*cos(q2) + a3*cos(q2+q3)";
+    for u in [plane.to_string(), format!("-({plane})")] {
+        let found = checked("articulated-3r", &text(&u));
+        assert!(found.claims.iter().all(|c| c.name != "u"), "{:?}", found.claims);
+        assert_eq!(standing(&found, "u^2 + w^2"), Standing::Equal);
+    }
+    let found = checked("articulated-3r", &format!("u = {plane}\n\npx = u*cos(q1)\n"));
+    assert_eq!(standing(&found, "u"), Standing::Equal);
+}
+
+#[test]
+fn r_ij_may_be_the_wrist_s() {
+    let text = "With $r_{ij}$ the elements of $R^3_6$:\n\n- $\\theta_5=\\operatorname{atan2}(\\pm\\sqrt{r_{13}^2+r_{23}^2}, r_{33})$\n\
+                - $\\theta_4=\\operatorname{atan2}(r_{23}\\sin\\theta_5, r_{13}\\sin\\theta_5)$\n";
+    let found = checked("stanford", text);
+    for name in ["\\theta_5", "\\theta_4"] {
+        assert_eq!(standing(&found, name), Standing::Equal, "{name}: {:?}", found.claims);
+    }
+}

@@ -328,6 +328,7 @@ fn what_is_not_read() {
         Sense::ColumnsSnap,
         Sense::PlaceIsO,
         Sense::ZeroIsBase,
+        Sense::WristEntries,
     ] {
         both(&|w| w.sense(sense));
     }
