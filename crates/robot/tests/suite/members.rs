@@ -94,3 +94,40 @@ fn a_given_joint_stays() {
     assert!(!found.is_empty());
     assert!(found.iter().all(|(_, m)| m.members.iter().all(|x| (x[2] - q[2]).abs() < 1e-9)));
 }
+
+/// A wrist that misses by a little nearly turns about one line; a motion "in these proportions everywhere" is a line all round.
+#[test]
+fn what_is_nearly_a_line_is_not_called_one() {
+    let mut lines = 0;
+    for offset in ["0", "1e-7", "1e-6", "1e-5", "1e-4"] {
+        let text = format!(
+            "name = \"wrist\"\nconvention = \"standard\"\n\
+             [[joints]]\ntheta = \"q1\"\nalpha = \"90 deg\"\nd = 0.4\n[[joints]]\ntheta = \"q2\"\na = 0.4\n\
+             [[joints]]\ntheta = \"q3\"\na = 0.02\nalpha = \"-90 deg\"\nd = 0.1\n\
+             [[joints]]\ntheta = \"q4\"\nd = 0.35\nalpha = \"90 deg\"\n\
+             [[joints]]\ntheta = \"q5\"\nalpha = \"-90 deg\"\na = {offset}\n[[joints]]\ntheta = \"q6\"\nd = 0.08\n"
+        );
+        let (d, _) = denavit::description::read_toml(&text).expect("a robot");
+        let inverse = InverseKinematics::new(&d, &InverseOptions::default()).expect("numbers");
+        let arm = Robot::numeric(&d).expect("numbers");
+        for q in [
+            [0.0, -0.25, 0.25, 0.0, 0.0, 0.0],
+            [0.25, 0.25, -0.25, -0.25, 0.0, -0.25],
+            [0.1, 0.2, 0.15, 0.3, 0.0, 0.1],
+        ] {
+            let pose = arm.pose(&q.map(|turns| turns * TAU));
+            for family in inverse.solve(&pose, &[]).families.iter().filter(|f| f.is_affine) {
+                lines += 1;
+                let (start, along) = (&family.representative.q, &family.direction);
+                let most = along.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+                for k in -8..=8 {
+                    let by = f64::from(k) / 16.0 * TAU / most;
+                    let q: Vec<f64> = start.iter().zip(along).map(|(x, d)| x + by * d).collect();
+                    let missed = distance(&arm.pose(&q), &pose, arm.reach());
+                    assert!(missed <= MISSED, "offset {offset}: {missed} at {q:?}");
+                }
+            }
+        }
+    }
+    assert!(lines > 0, "a straight wrist turns all round");
+}

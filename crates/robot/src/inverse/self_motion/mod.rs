@@ -191,9 +191,21 @@ impl<'a> Tracker<'a> {
         let moving: Vec<usize> = (0..d.len()).filter(|&j| d[j].abs() > STRAIGHT).collect();
         let turns_alone = moving.iter().all(|&j| periods[j].is_finite());
         let lead = moving.iter().copied().max_by(|&a, &b| d[a].abs().total_cmp(&d[b].abs()));
-        let (Some(lead), true, false) = (lead, motion.is_affine && turns_alone, motion.is_closed()) else {
-            return motion;
+        let (Some(lead), true, true) = (lead, motion.is_affine, turns_alone) else { return motion };
+        let start = &motion.curve[0];
+        let line = |length: f64| -> Vec<Vec<f64>> {
+            let parts = (length / LONGEST).ceil();
+            let at =
+                |k: f64| (0..d.len()).map(|j| start[j] + k / parts * length * d[j] / d[lead].abs()).collect();
+            (0..=parts as usize).map(|k| at(k as f64)).collect()
         };
+        let Frame { robot, goal, size, .. } = self.frame;
+        let misses =
+            |q: &Vec<f64>| newton::distance(robot, goal, self.pose, q, size) > self.missed.max(ON_LINE);
+        // What is followed within rounding and leaves the pose further out is no line: of an arm that is nearly special, say.
+        if line(periods[lead]).iter().any(misses) {
+            return SelfMotion { is_affine: false, ..motion };
+        }
         // All joints are back where they were after some turns of the one that moves most.
         let is_back = |k: &f64| {
             moving.iter().all(|&j| {
@@ -201,22 +213,11 @@ impl<'a> Tracker<'a> {
                 (turns - turns.round()).abs() < 1e-6
             })
         };
-        let Some(length) = [1.0, 2.0, 3.0, 4.0, 6.0].iter().find(|k| is_back(k)).map(|k| k * periods[lead])
-        else {
-            return motion;
-        };
-        let start = &motion.curve[0];
-        let parts = (length / LONGEST).ceil();
-        let at =
-            |k: f64| (0..d.len()).map(|j| start[j] + k / parts * length * d[j] / d[lead].abs()).collect();
-        let curve: Vec<Vec<f64>> = (0..=parts as usize).map(|k| at(k as f64)).collect();
-        let Frame { robot, goal, size, .. } = self.frame;
-        let misses =
-            |q: &Vec<f64>| newton::distance(robot, goal, self.pose, q, size) > self.missed.max(ON_LINE);
-        if curve.iter().any(misses) {
-            return motion;
+        let length = [1.0, 2.0, 3.0, 4.0, 6.0].iter().find(|k| is_back(k)).map(|k| k * periods[lead]);
+        match length.map(line).filter(|curve| !motion.is_closed() && !curve.iter().any(misses)) {
+            Some(curve) => SelfMotion { curve, ends: [CurveEnd::Closed; 2], ..motion },
+            None => motion,
         }
-        SelfMotion { curve, ends: [CurveEnd::Closed; 2], ..motion }
     }
 
     /// The curve in one direction; `second` is the smallest singular value at its start but one.
