@@ -132,6 +132,8 @@ impl Plan {
             plan.push(0, named(robot));
         }
         let kind = kind_of_tables(format);
+        let bare = without_marks(text, options);
+        let text = bare.as_deref().unwrap_or(text);
         let mut reading = options.table.clone();
         if let (None, Some((convention, place))) = (reading.convention, convention::said(text)) {
             notes.note(place, Noted::ReadAs(convention));
@@ -370,6 +372,19 @@ impl Plan {
             inverse_names,
         }
     }
+}
+
+/// A program with blanks for the marks of its comments, in which tables stand.
+fn without_marks(text: &str, options: &CheckOptions) -> Option<String> {
+    let mark = match options.language? {
+        Dialect::Python => '#',
+        Dialect::Matlab => '%',
+    };
+    let bare = |line: &str| match line.trim_start().starts_with(mark) {
+        true => line.replacen(mark, " ", 1),
+        false => line.to_string(),
+    };
+    Some(text.split_inclusive('\n').map(bare).collect())
 }
 
 /// How tables are set in a document.

@@ -134,3 +134,19 @@ fn numbers_that_a_script_gives_joints_are_joints() {
         sind(q1+q2) cosd(q1+q2) 0 a1*sind(q1)+a2*sind(q1+q2); 0 0 1 0; 0 0 0 1];\n";
     assert_eq!(claim(&checked("planar-2r", matlab, Some(Dialect::Matlab)), "T").standing(), Standing::Equal);
 }
+
+#[test]
+fn a_table_in_the_comments_of_a_program() {
+    let program = |mark: char| {
+        format!(
+            "{mark} standard DH:\n{mark} | joint | theta | d | a | alpha |\n{mark} |---|---|---|---|---|\n\
+             {mark} | 1 | q1 | h | e | 0 |\n{mark} | 2 | q2 | 0 | b | 0 |\npx = e*cos(q1) + b*cos(q1 + q2)\npy = e*sin(q1) + b*sin(q2)\n"
+        )
+    };
+    for (mark, language) in [('#', Dialect::Python), ('%', Dialect::Matlab)] {
+        let options = CheckOptions { language: Some(language), ..CheckOptions::default() };
+        let found = check(&program(mark), Format::Plain, None, &options).unwrap();
+        assert_eq!(claim(&found, "px").standing(), Standing::Equal, "{mark}");
+        assert_eq!(claim(&found, "py").standing(), Standing::Wrong, "{mark}");
+    }
+}
