@@ -51,14 +51,17 @@ export function scenario(name, options, body = options) {
     const { origin } = new URL(site.url);
     if (permissions.length > 0) await surroundings.grantPermissions(permissions, { origin });
     const wrong = [];
-    // How often a page was left for another, or for good: what it was still fetching then is given up.
+    // How often a page was left for another, or for good: what it was still fetching then is given up. It may be given
+    // up before the word comes that the page is left, or asked for after the next page was: that shows once this one stands.
     let left = 0;
+    let givenUp = [];
     const leftBefore = new WeakMap();
     const say = (words) => expected.some((pattern) => pattern.test(words)) || wrong.push(words);
     const follow = (page) => {
       page.on("console", (m) => m.type() === "error" && say(`console: ${m.text()}`));
       page.on("pageerror", (e) => say(`error: ${e}`));
       page.on("close", () => left++);
+      page.on("domcontentloaded", () => (givenUp = []));
     };
     surroundings.on("page", follow);
     surroundings.on("request", (r) => {
@@ -70,12 +73,16 @@ export function scenario(name, options, body = options) {
     surroundings.on("requestfailed", (r) => {
       // A worker that is ended while it fetches a part has not failed, nor a page that is left, nor a tab before it has its icon.
       const isLeft = leftBefore.get(r) !== left || /(derive\.wasm|documents\.wasm|icon\.svg)$/.test(r.url());
-      if (!isLeft || r.failure()?.errorText !== "net::ERR_ABORTED") say(`failed: ${r.url()} ${r.failure()?.errorText}`);
+      const why = r.failure()?.errorText;
+      const words = `failed: ${r.url()} ${why}`;
+      if (why !== "net::ERR_ABORTED") say(words);
+      else if (!isLeft) givenUp.push(words);
     });
     if (init) await surroundings.addInitScript(init);
     const page = await surroundings.newPage();
     try {
       await body(page, surroundings);
+      givenUp.forEach(say);
       assert.deepEqual(wrong, []);
     } catch (why) {
       if (wrong.length > 0 && !why.message?.includes(wrong[0])) why.message += `\nIn the page: ${wrong.join("\n")}`;
