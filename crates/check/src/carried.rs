@@ -182,7 +182,7 @@ pub(super) fn by_own_table(
         matches!(
             about,
             About::Matrix(
-                Meaning::Frame { .. } | Meaning::Rotation(_) | Meaning::Origin(_) | Meaning::AxisZ(_)
+                Meaning::Frame { .. } | Meaning::Rotation(_) | Meaning::Origin(_) | Meaning::Axis(..)
             )
         )
     };

@@ -61,8 +61,8 @@ pub enum Meaning {
     },
     /// The rotation of a transform.
     Rotation(Box<Meaning>),
-    /// The axis z of a frame.
-    AxisZ(Box<Meaning>),
+    /// An axis of a frame.
+    Axis(Axis, Box<Meaning>),
     /// The origin of a frame.
     Origin(Box<Meaning>),
     /// An inverse.
@@ -86,6 +86,8 @@ pub enum Meaning {
     Translation,
     /// A Jacobian.
     Jacobian(Jacobian),
+    /// The column of a joint (a number from 1) in a Jacobian.
+    Column(usize, Jacobian),
     /// The torques of the joints for a load on the hand.
     Torques,
 }

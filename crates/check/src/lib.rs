@@ -31,6 +31,7 @@ mod plan;
 mod product;
 mod programs;
 mod readings;
+mod recognised;
 mod scripts;
 mod subject;
 mod supported;

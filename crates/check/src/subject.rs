@@ -330,7 +330,7 @@ impl Subject {
         Some(match name.base.as_str() {
             "T" | "A" | "H" | "M" => (Matrix::of(&transform), frame),
             "R" => (Matrix::of_rotation(&transform.rotation), Meaning::Rotation(frame.into())),
-            "Z" | "z" => (Matrix::column(&transform.rotation.z()), Meaning::AxisZ(frame.into())),
+            "Z" | "z" => (Matrix::column(&transform.rotation.z()), Meaning::Axis(Axis::Z, frame.into())),
             "P" | "p" | "O" | "Ω" | "o" => {
                 (Matrix::column(&transform.translation), Meaning::Origin(frame.into()))
             }

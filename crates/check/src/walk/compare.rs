@@ -6,8 +6,11 @@ use crate::facts::{Meaning, Remark, ShortRow};
 use crate::jacobians::{Told, frames_told, told_of_jacobian};
 use crate::matrix::Matrix;
 use crate::note::{Unread, Unreadable};
-use crate::numbers::{Answer, half_unit};
+use crate::numbers::{Answer, half_unit, judge};
+use crate::outcome::Finding;
 use crate::product::{Factor, NotMatrices, Product};
+use crate::recognised::{Agreement, candidates, nearest};
+use denavit::forward::Reference::Tool;
 use denavit::geometry::Transform;
 use denavit_reading::document::{Fence, Grid, Part, Side, Statement};
 use denavit_reading::slip::Points;
@@ -60,6 +63,69 @@ impl Walk<'_> {
         let told = Told { points, ..told.unwrap_or_default() };
         let (matrix, jacobian) = self.subject.nearest_jacobian(&printed, &told)?;
         Some(Reference { matrix, about: Some(Meaning::Jacobian(jacobian)) })
+    }
+
+    /// What a printed matrix is by the robot, where the name beside it says nothing: its value is asked.
+    pub(super) fn recognised(
+        &self,
+        read: &[Result<Product<'_>, NotMatrices>],
+        statement: &Statement,
+    ) -> Option<Reference> {
+        if self.subject.last() == 0 {
+            return None;
+        }
+        let grid = read.iter().find_map(|r| match r.as_ref().ok()?.factors.as_deref()? {
+            [Factor::Grid(grid)] if grid.fence != Fence::Bars => Some(*grid),
+            _ => None,
+        })?;
+        let name = match &statement.sides[..] {
+            [_] => None,
+            [left, ..] => match (&read[0], &left.parts[..]) {
+                (Err(NotMatrices::Unknown(name)), _) if self.is_lone(left, name) => Some((**name).clone()),
+                (Err(_), [Part::Text(_)]) => None,
+                _ => return None,
+            },
+            [] => return None,
+        };
+        let printed = self.printed(grid)?;
+        let is_number = |e: &Option<Expr>| e.is_some_and(|e| e.symbols().is_empty());
+        if printed.0.iter().flatten().all(is_number) {
+            let (matrix, about) = self.recognised_number(grid, &printed)?;
+            return Some(Reference { matrix, about: Some(about) });
+        }
+        let ((matrix, about), agreement) = nearest(&self.subject, &printed)?;
+        let Agreement { telling, agreeing, is_whole } = agreement;
+        let base = name.as_ref().map_or("", |n| n.base.as_str());
+        let is_place = matches!(base, "p" | "P" | "r" | "d" | "o" | "x" | "X" | "t");
+        let is_vector = printed.shape()?.1 == 1;
+        let is_hand =
+            about == Meaning::Origin(Box::new(Meaning::Frame { of: Tool, seen_from: self.subject.ground() }));
+        let is_near = match is_vector {
+            true => is_place && is_hand && telling >= 2 && 2 * agreeing >= telling,
+            false => {
+                matches!(base, "T" | "A" | "H" | "M" | "R") && telling >= 3 && 3 * agreeing >= 2 * telling
+            }
+        };
+        let is_certain = is_whole && (telling >= 2 || telling == 1 && (is_place || !is_vector));
+        (is_certain || is_near).then_some(Reference { matrix, about: Some(about) })
+    }
+
+    /// What a matrix of numbers is by the robot at the present configuration.
+    fn recognised_number(&self, grid: &Grid, printed: &Matrix) -> Option<(Matrix, Meaning)> {
+        let spans: Vec<&Range<usize>> = grid.rows.iter().flatten().collect();
+        let entries: Vec<Expr> = printed.0.iter().flatten().copied().collect::<Option<_>>()?;
+        if entries.iter().filter(|e| is_measured(**e)).count() < 2 || spans.len() != entries.len() {
+            return None;
+        }
+        let fits = |(matrix, _): &(Matrix, Meaning)| {
+            let wanted = matrix.0.iter().flatten();
+            wanted.zip(&entries).zip(&spans).all(|((wanted, printed), span)| {
+                let Some(wanted) = wanted.filter(|w| self.at.knows(*w, &self.subject)) else { return false };
+                matches!(self.number(None, span, *printed, wanted), Some(Piece::Number { answer, .. })
+                    if matches!(judge(&answer, &self.subject, None), Finding::Equal { .. }))
+            })
+        };
+        candidates(&self.subject, printed.shape()?).into_iter().find(fits)
     }
 
     /// Holds a side against a matrix that is known.

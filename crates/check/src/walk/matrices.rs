@@ -290,7 +290,7 @@ impl Walk<'_> {
             (None, Some((i, reference))) => (i, Some(reference)),
             (None, None) => match jacobian() {
                 Some(reference) => (usize::MAX, Some(reference)),
-                None => (usize::MAX, self.rates_of(statement)),
+                None => (usize::MAX, self.rates_of(statement).or_else(|| self.recognised(&read, statement))),
             },
         };
         if let Some(Reference { matrix, about: Some(Meaning::Jacobian(jacobian)) }) = &reference {

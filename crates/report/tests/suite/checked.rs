@@ -98,7 +98,7 @@ fn what_claims_are_about() {
         "the rotation of frame 3 in frame 2",
         "la rotation du repère 3 dans le repère 2",
     );
-    let axis = Meaning::AxisZ(Meaning::Row.into());
+    let axis = Meaning::Axis(Axis::Z, Meaning::Row.into());
     let french = "l'axe z de la matrice de passage d'une ligne quelconque";
     expect(&|w| w.meaning(&axis), "the axis z of the transform of any row", french);
     let origin = Meaning::Origin(Meaning::Translation.into());

@@ -44,7 +44,7 @@ impl Check for English {
                 format!("frame {of} in frame {seen_from}, wherever they are")
             }
             Meaning::Rotation(whose) => of("the rotation", whose),
-            Meaning::AxisZ(whose) => of("the axis z", whose),
+            Meaning::Axis(axis, whose) => of(&format!("the axis {axis}"), whose),
             Meaning::Origin(whose) => of("the origin", whose),
             Meaning::Inverse(whose) => of("the inverse", whose),
             Meaning::Transpose(whose) => of("the transpose", whose),
@@ -60,6 +60,7 @@ impl Check for English {
             Meaning::Translation => "a translation".into(),
             Meaning::Torques => "the torques of the joints".into(),
             Meaning::Jacobian(jacobian) => matrix_of_velocities(jacobian),
+            Meaning::Column(joint, of) => format!("column {joint} of {}", matrix_of_velocities(of)),
         }
     }
 

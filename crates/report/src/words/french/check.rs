@@ -44,7 +44,7 @@ impl Check for French {
                 say!("le repère {of} dans le repère {seen_from}, où qu'ils soient")
             }
             Meaning::Rotation(whose) => of("la rotation", whose),
-            Meaning::AxisZ(whose) => of("l'axe z", whose),
+            Meaning::Axis(axis, whose) => of(&format!("l'axe {axis}"), whose),
             Meaning::Origin(whose) => of("l'origine", whose),
             Meaning::Inverse(whose) => of("l'inverse", whose),
             Meaning::Transpose(whose) => of("la transposée", whose),
@@ -60,6 +60,7 @@ impl Check for French {
             Meaning::Translation => "une translation".into(),
             Meaning::Torques => say!("les couples des articulations"),
             Meaning::Jacobian(jacobian) => matrix_of_velocities(jacobian),
+            Meaning::Column(joint, of) => say!("la colonne {joint} {}", genitive(&matrix_of_velocities(of))),
         }
     }
 
