@@ -12,6 +12,14 @@ const OWN: &[(&str, Convention)] = &[
     ("siciliano", Convention::Standard),
     ("spong", Convention::Standard),
     ("paul's convention", Convention::Standard),
+    // Constructors of toolboxes.
+    ("revolutemdh", Convention::Craig),
+    ("prismaticmdh", Convention::Craig),
+    ("'modified'", Convention::Craig),
+    ("\"modified\"", Convention::Craig),
+    ("'mdh'", Convention::Craig),
+    ("revolutedh", Convention::Standard),
+    ("prismaticdh", Convention::Standard),
 ];
 
 /// Words that name a convention beside one of [`SUBJECTS`].
@@ -98,6 +106,24 @@ pub(super) fn in_millimetres(text: &str) -> Option<Range<usize>> {
     };
     says(&["mm", "millimet", "millim\u{e8}tres", "mil\u{ed}metros"])
         .filter(|_| says(&["m", "met", "m\u{e8}tres"]).is_none())
+}
+
+/// True for a text whose only lengths with a unit are in millimetres: `d (mm)`, `80 mm`.
+pub(super) fn tables_in_millimetres(text: &str) -> bool {
+    let count = |unit: &str| {
+        let is_unit = |at: &usize| {
+            let (before, behind) = (&text[..*at], &text[at + unit.len()..]);
+            let is_apart = before.ends_with(['(', '[', ' ', '~', ',', '{'])
+                || before.ends_with(|c: char| c.is_ascii_digit());
+            let number = before.trim_end_matches([' ', '~', ',', '\\', '{']);
+            let is_number = number.ends_with(|c: char| c.is_ascii_digit());
+            let ends = !behind.starts_with(|c: char| c.is_alphanumeric() || c == '_');
+            let is_head = before.ends_with(['(', '[']) && behind.starts_with([')', ']']);
+            is_apart && ends && (is_number || is_head)
+        };
+        text.match_indices(unit).map(|m| m.0).filter(is_unit).count()
+    };
+    count("mm") > 1 && count("m") == 0
 }
 
 /// Words before the unit of lengths.

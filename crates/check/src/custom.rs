@@ -1,7 +1,7 @@
 //! Names that custom gives a meaning beside the entries of the pose: velocities and rates, torques and forces, the wrist centre,
 //! entries of frames in each other, the direction of a planar arm, and the letters that a text uses for the hand's place.
 
-use super::habits::Places;
+use super::habits::{Habits, Places};
 use super::matrix::Matrix;
 use super::subject::Subject;
 use denavit::description::JointKind;
@@ -36,7 +36,8 @@ pub(super) fn plain(text: &str) -> String {
 }
 
 /// The customary names that a text mentions.
-pub(super) fn names(subject: &Subject, text: &str, places: &Places) -> Vec<Custom> {
+pub(super) fn names(subject: &Subject, text: &str, habits: &Habits) -> Vec<Custom> {
+    let places = &Places(habits.columns);
     if subject.last() == 0 {
         return vec![];
     }
@@ -46,7 +47,7 @@ pub(super) fn names(subject: &Subject, text: &str, places: &Places) -> Vec<Custo
         found.push(Custom { name: name.to_string(), meaning, inverse });
     };
     rates(subject, &plain, &mut add);
-    torques(subject, &plain, &mut add);
+    torques(subject, text, habits.load, &mut add);
     wrist(subject, &plain, places, &mut add);
     frames(subject, &plain, places, &mut add);
     wrist_rotation(subject, &plain, places, &mut add);
@@ -121,24 +122,54 @@ fn rates(subject: &Subject, plain: &str, add: &mut Add<'_>) {
 }
 
 /// The torques of all joints, below one another.
-pub(super) fn torque_column(subject: &Subject, text: &str) -> Option<Matrix> {
+pub(super) fn torque_column(subject: &Subject, text: &str, load: Load) -> Option<Matrix> {
     let mut found: Vec<(String, Expr)> = vec![];
-    torques(subject, &plain(text), &mut |name, meaning, _| found.push((name.to_string(), meaning)));
+    torques(subject, text, load, &mut |name, meaning, _| found.push((name.to_string(), meaning)));
     let of = |k: usize| found.iter().find(|(name, _)| *name == format!("τ{k}")).map(|f| vec![Some(f.1)]);
     let column: Vec<Vec<Option<Expr>>> = (1..=subject.joints().len()).map_while(of).collect();
     (!column.is_empty() && column.len() == subject.joints().len()).then_some(Matrix(column))
 }
 
+/// True for a name, marks of subscripts left aside, that stands in a text as such, or behind the digits of another.
+fn is_mentioned(text: &str, name: &str) -> bool {
+    let words = text.split(|c: char| !(c.is_alphanumeric() || matches!(c, '_' | '{' | '}' | '\\')));
+    words.filter(|w| w.len() < 200).any(|word| {
+        let word = plain_name(word);
+        word.match_indices(name).any(|(at, _)| {
+            let ends = word[at + name.len()..].starts_with(char::is_alphanumeric);
+            !ends && !word[..at].ends_with(char::is_alphabetic)
+        })
+    })
+}
+
+/// The letter of a load, its axis, and whether it points against it.
+type Load = Option<(char, usize, bool)>;
+
+/// The letters that a text has for torques.
+fn torque_letters(text: &str) -> Vec<&'static str> {
+    let all = plain(text);
+    ["τ", "Γ"].into_iter().filter(|t| all.contains(t)).collect()
+}
+
+/// Letters of their own that a text may have for a load on the hand: it speaks of torques, and names no components of a force.
+pub(super) fn letters_of_load(text: &str) -> Vec<char> {
+    let components = ["Fx", "Fy", "Fz", "fx", "fy", "fz"];
+    if torque_letters(text).is_empty() || components.iter().any(|c| is_mentioned(text, c)) {
+        return vec![];
+    }
+    ['W', 'F', 'P', 'G', 'f'].into_iter().filter(|c| is_mentioned(text, &c.to_string())).collect()
+}
+
 /// Torques of the joints for a force at the hand, in those of its components that are mentioned.
-fn torques(subject: &Subject, plain: &str, add: &mut Add<'_>) {
-    let letters: Vec<&str> = ["τ", "Γ"].into_iter().filter(|t| plain.contains(t)).collect();
+fn torques(subject: &Subject, text: &str, own: Load, add: &mut Add<'_>) {
+    let letters = torque_letters(text);
     if letters.is_empty() {
         return;
     }
     let mut load = [Expr::int(0); 6];
     for (first, forces) in [(0, ["F", "f"]), (3, ["M", "m"])] {
         for (r, axis) in AXES.iter().enumerate() {
-            if let Some(letter) = forces.iter().find(|f| plain.contains(&format!("{f}{axis}"))) {
+            if let Some(letter) = forces.iter().find(|f| is_mentioned(text, &format!("{f}{axis}"))) {
                 let name = format!("{letter}{axis}");
                 let symbol = Expr::symbol(&name);
                 load[first + r] = symbol;
@@ -146,12 +177,25 @@ fn torques(subject: &Subject, plain: &str, add: &mut Add<'_>) {
             }
         }
     }
-    if load[..3].iter().all(|e| e.is_zero()) {
+    if let Some((letter, axis, is_minus)) = own.filter(|_| load.iter().all(|e| e.is_zero())) {
+        let symbol = Expr::symbol(&letter.to_string());
+        load[axis] = if is_minus { -symbol } else { symbol };
+        add(&letter.to_string(), symbol, symbol);
+    }
+    if load.iter().all(|e| e.is_zero()) {
         return;
     }
-    for (k, torque) in (1..).zip(subject.torques(&load)) {
+    let kinds = subject.description.variables().into_iter().map(|v| v.kind);
+    for ((k, torque), kind) in (1..).zip(subject.torques(&load)).zip(kinds) {
         for letter in &letters {
             add(&format!("{letter}{k}"), torque, torque);
+        }
+        // The force of a sliding joint has a letter of its own.
+        for letter in ["f", "F", "Q"] {
+            let name = format!("{letter}{k}");
+            if kind == JointKind::Prismatic && is_mentioned(text, &name) {
+                add(&name, torque, torque);
+            }
         }
     }
 }

@@ -88,6 +88,24 @@ pub enum Meaning {
     Jacobian(Jacobian),
     /// The column of a joint (a number from 1) in a Jacobian.
     Column(usize, Jacobian),
+    /// The velocity of a frame along the axes of another.
+    Velocity {
+        /// Whose: of its origin, if it is not angular.
+        of: Reference,
+        /// Along whose axes.
+        along: Reference,
+        /// Whether it is the angular one.
+        is_angular: bool,
+    },
+    /// What something is with all joints at 0.
+    AtRest(Box<Meaning>),
+    /// The screw of a joint (a number from 1) with all joints at 0.
+    Screw {
+        /// Which joint.
+        joint: usize,
+        /// Whether the direction of the axis stands behind the moment.
+        is_linear_first: bool,
+    },
     /// The torques of the joints for a load on the hand.
     Torques,
 }
@@ -304,6 +322,20 @@ pub enum Sense {
     ZeroIsBase,
     /// r_ij are the entries of the wrist's rotation.
     WristEntries,
+    /// Lengths without a unit are in millimetres, or in metres.
+    Unit {
+        /// Which.
+        millimetres: bool,
+    },
+    /// A load on the hand of this letter along an axis, or against it.
+    Load {
+        /// Its letter.
+        letter: char,
+        /// The axis.
+        axis: Axis,
+        /// Whether it points against the axis.
+        is_minus: bool,
+    },
 }
 
 /// A printed row with fewer elements than others.

@@ -96,6 +96,10 @@ impl Columns {
     /// Those that a text uses.
     pub fn of(text: &str) -> Self {
         let plain: String = plain_name(text);
+        // `o = (o_x, o_y, o_z)` is a place where there are no other letters for one.
+        if plain.contains("(ox,oy,oz)") && !["nx", "sx", "px", "Px"].iter().any(|n| plain.contains(n)) {
+            return Columns::Nsao;
+        }
         if plain.contains("ox") || !plain.contains("sx") { Columns::Noap } else { Columns::Snap }
     }
 }
@@ -129,8 +133,10 @@ impl Places {
 pub(super) struct Habits {
     /// The letters of the pose's columns.
     pub columns: Columns,
-    /// Lengths without a unit are in millimetres.
+    /// Lengths without a unit may be in millimetres.
     pub millimetres: bool,
+    /// The unit of lengths is a millimetre, in the robot and in what is printed.
+    pub scaled: bool,
     /// A number behind `T` is that of a link, not of a frame in the base.
     pub links: bool,
     /// The left index is the frame, the right one that in which it is seen.
@@ -141,6 +147,10 @@ pub(super) struct Habits {
     pub wrist_entries: bool,
     /// `atan2` has the cosine first.
     pub cosine_first: bool,
+    /// The arctangent of a fraction takes the signs of both parts, as the text says.
+    pub arctan_of_both: bool,
+    /// A load on the hand that has a letter of its own: `W`, its axis, and whether it points against it.
+    pub load: Option<(char, usize, bool)>,
     /// Velocities are those of the Jacobian that was printed last: of its point, along its axes.
     pub velocities_of_jacobian: bool,
     /// Names that are helpers, not entries of the pose.
@@ -155,12 +165,15 @@ impl Habits {
         Habits {
             columns: Columns::of(text),
             millimetres: false,
+            scaled: false,
             links: false,
             exchanged: false,
             zero_is_base: false,
             wrist_entries: false,
             cosine_first: false,
+            arctan_of_both: tells_both_signs(text),
             velocities_of_jacobian: false,
+            load: None,
             helpers: BTreeSet::new(),
             products: BTreeSet::new(),
         }
@@ -168,7 +181,8 @@ impl Habits {
 
     /// A formula with the arguments of `atan2` in the order that is read: the sine first.
     pub fn ordered(&self, syntax: Syntax) -> Syntax {
-        if self.cosine_first { exchanged(syntax) } else { syntax }
+        let syntax = if self.cosine_first { exchanged(syntax) } else { syntax };
+        if self.arctan_of_both { changed(syntax, &mut of_both) } else { syntax }
     }
 
     /// A formula as the document would print it.
@@ -206,24 +220,80 @@ impl Habits {
 
 /// A formula with the arguments of each `atan2` exchanged.
 fn exchanged(syntax: Syntax) -> Syntax {
-    let Syntax { kind, span } = syntax;
-    let boxed = |s: Box<Syntax>| Box::new(exchanged(*s));
-    let kind = match kind {
+    changed(syntax, &mut |kind| match kind {
         SyntaxKind::Call(Function::Atan2, arguments) => {
-            SyntaxKind::Call(Function::Atan2, arguments.into_iter().rev().map(exchanged).collect())
+            SyntaxKind::Call(Function::Atan2, arguments.into_iter().rev().collect())
         }
-        SyntaxKind::Call(f, arguments) => SyntaxKind::Call(f, arguments.into_iter().map(exchanged).collect()),
+        other => other,
+    })
+}
+
+/// The arctangent of a fraction as that of both its parts.
+fn of_both(kind: SyntaxKind) -> SyntaxKind {
+    let SyntaxKind::Call(Function::Arctan, arguments) = &kind else { return kind };
+    let [argument] = &arguments[..] else { return kind };
+    let mut inner = argument;
+    while let SyntaxKind::Bracket(next) = &inner.kind {
+        inner = next;
+    }
+    let both = match &inner.kind {
+        SyntaxKind::Fraction(a, b) => Some([(**a).clone(), (**b).clone()]),
+        SyntaxKind::Product(factors) => match &factors[..] {
+            [(false, a), (true, b)] => Some([a.clone(), b.clone()]),
+            _ => None,
+        },
+        _ => None,
+    };
+    match both {
+        Some(both) => SyntaxKind::Call(Function::Atan2, both.into()),
+        None => kind,
+    }
+}
+
+/// True for a text that says that its arctangents are those of the right quadrant.
+fn tells_both_signs(text: &str) -> bool {
+    const PHRASES: [&str; 16] = [
+        "signs of numerator",
+        "sign of numerator",
+        "signs of the numerator",
+        "sign of the numerator",
+        "signs of both",
+        "four-quadrant",
+        "four quadrant",
+        "correct quadrant",
+        "right quadrant",
+        "proper quadrant",
+        "appropriate quadrant",
+        "richtigen quadranten",
+        "vorzeichen von zähler",
+        "bon quadrant",
+        "cuadrante correcto",
+        "quadrante corretto",
+    ];
+    let lower = text.split_whitespace().collect::<Vec<_>>().join(" ").to_lowercase();
+    PHRASES.iter().any(|p| lower.contains(p))
+}
+
+/// A formula with each of its parts changed, from within.
+fn changed(syntax: Syntax, change: &mut dyn FnMut(SyntaxKind) -> SyntaxKind) -> Syntax {
+    let Syntax { kind, span } = syntax;
+    let kind = match kind {
+        SyntaxKind::Call(f, arguments) => {
+            SyntaxKind::Call(f, arguments.into_iter().map(|s| changed(s, change)).collect())
+        }
         SyntaxKind::Sum(terms) => {
-            SyntaxKind::Sum(terms.into_iter().map(|(sign, s)| (sign, exchanged(s))).collect())
+            SyntaxKind::Sum(terms.into_iter().map(|(sign, s)| (sign, changed(s, change))).collect())
         }
         SyntaxKind::Product(factors) => {
-            SyntaxKind::Product(factors.into_iter().map(|(over, s)| (over, exchanged(s))).collect())
+            SyntaxKind::Product(factors.into_iter().map(|(over, s)| (over, changed(s, change))).collect())
         }
-        SyntaxKind::Fraction(a, b) => SyntaxKind::Fraction(boxed(a), boxed(b)),
-        SyntaxKind::Power(a, n) => SyntaxKind::Power(boxed(a), n),
-        SyntaxKind::Root(a) => SyntaxKind::Root(boxed(a)),
-        SyntaxKind::Bracket(a) => SyntaxKind::Bracket(boxed(a)),
+        SyntaxKind::Fraction(a, b) => {
+            SyntaxKind::Fraction(Box::new(changed(*a, change)), Box::new(changed(*b, change)))
+        }
+        SyntaxKind::Power(a, n) => SyntaxKind::Power(Box::new(changed(*a, change)), n),
+        SyntaxKind::Root(a) => SyntaxKind::Root(Box::new(changed(*a, change))),
+        SyntaxKind::Bracket(a) => SyntaxKind::Bracket(Box::new(changed(*a, change))),
         SyntaxKind::Name(_) | SyntaxKind::Number(_) => kind,
     };
-    Syntax { kind, span }
+    Syntax { kind: change(kind), span }
 }

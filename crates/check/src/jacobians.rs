@@ -320,5 +320,7 @@ pub(super) fn told(name: &Name) -> Told {
     let number = |text: &str| text.chars().filter(char::is_ascii_digit).collect::<String>().parse().ok();
     let frame = (!letters.is_empty()).then(|| number(&sub)).flatten();
     let axes = number(&name.left).or_else(|| number(&name.sup));
-    Told { part, frame, axes, points: vec![] }
+    // The spatial Jacobian is that of the point at the origin of the base.
+    let is_spatial = [&name.left, &name.sup, &name.sub].iter().any(|i| *i == "s");
+    Told { part, frame, axes, points: if is_spatial { vec![0] } else { vec![] } }
 }

@@ -108,11 +108,11 @@ impl Lexis {
                 lexis.inverse = std::mem::take(&mut lexis.inverse).alias(&name, sign);
             }
         }
-        if let Some(torques) = custom::torque_column(subject, text) {
+        if let Some(torques) = custom::torque_column(subject, text, habits.load) {
             let name = Name { base: "τ".into(), ..Name::default() };
             lexis.matrices.insert(name.key(), (torques, Some(Meaning::Torques)));
         }
-        for custom in custom::names(subject, text, &Places(columns)) {
+        for custom in custom::names(subject, text, habits) {
             if lexis.declare(&custom.name, custom.meaning, custom.inverse) {
                 lexis.by_custom.insert(plain_name(&custom.name));
             }

@@ -134,8 +134,9 @@ pub(super) fn decimal_points(text: &str) -> Option<String> {
     String::from_utf8(bytes).ok()
 }
 
-/// A number and the factor of the unit behind it, to metres, radians and seconds; nothing where there is no unit.
-pub(super) fn unit_behind(text: &str) -> Option<(&str, Expr)> {
+/// A number and the factor of the unit behind it, to metres, radians and seconds, and whether it measures a length or what is
+/// proportional to one; nothing where there is no unit.
+pub(super) fn unit_behind(text: &str) -> Option<(&str, Expr, bool)> {
     let degree = Expr::pi() / Expr::int(180);
     let part = |n: i64| Expr::int(1) / Expr::int(n);
     let units: [(&str, Expr); 24] = [
@@ -172,7 +173,8 @@ pub(super) fn unit_behind(text: &str) -> Option<(&str, Expr)> {
             .fold(before.trim_end(), |b, look| b.strip_suffix(look).unwrap_or(b).trim_end());
         let is_number = before.ends_with(|c: char| c.is_ascii_digit() || matches!(c, '.' | ')' | 'π'));
         if is_number && before.starts_with(|c: char| !c.is_alphabetic()) {
-            return Some((before, factor));
+            let is_length = unit.contains('m') || unit.contains('M');
+            return Some((before, factor, is_length));
         }
     }
     None

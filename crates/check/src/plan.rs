@@ -22,7 +22,7 @@ use denavit_reading::code::Dialect;
 use denavit_reading::document::{CodeBlock, Directive, Document, Format};
 use denavit_symbolic::parse::parse;
 use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
-use denavit_symbolic::{Expr, Symbol};
+use denavit_symbolic::{Expr, Rational, Symbol};
 use std::collections::BTreeSet;
 use std::ops::Range;
 use std::rc::Rc;
@@ -42,6 +42,10 @@ pub(super) struct Plan {
     pub has_robot: bool,
     /// The text of which programs are read, where it is another.
     pub programs: Option<Rc<str>>,
+    /// The robots are the document's own.
+    pub is_own: bool,
+    /// Where its tables stand.
+    pub tables: Rc<Vec<Range<usize>>>,
 }
 
 /// What the statements of a document claim.
@@ -121,13 +125,24 @@ impl Plan {
             Some(subject)
         };
         let habits = Habits::of(text).with_products(text, document);
-        let millimetres = options.table.lengths_in_millimetres == Some(true);
+        let in_millimetres = options.table.lengths_in_millimetres == Some(true);
+        let millimetres = in_millimetres && robot.is_some();
         let habits = Rc::new(Habits { millimetres, ..habits });
         let authors = BTreeSet::new();
         let turns = vec![];
         let own_tables = Rc::new(vec![]);
-        let (has_robot, programs) = (true, None);
-        let mut plan = Plan { subjects: vec![], habits, own_tables, authors, turns, has_robot, programs };
+        let (has_robot, programs, is_own) = (true, None, robot.is_none());
+        let mut plan = Plan {
+            subjects: vec![],
+            habits,
+            own_tables,
+            authors,
+            turns,
+            has_robot,
+            programs,
+            is_own,
+            tables: Rc::default(),
+        };
         if let Some(robot) = robot {
             plan.push(0, named(robot));
         }
@@ -140,6 +155,7 @@ impl Plan {
             reading.convention = Some(convention);
         }
         let printed = if format == Format::Toml { vec![] } else { tables(text, kind, &reading) };
+        plan.tables = Rc::new(printed.iter().map(|t| t.span.clone()).collect());
         let mut events: Vec<(usize, Event)> =
             directives(document).map(|d| (d.span.start, Event::Directive(d))).collect();
         if robot.is_none() {
@@ -241,7 +257,8 @@ impl Plan {
             plan.push(0, Subject::new(nothing(Convention::Standard)));
         }
         failed.into_iter().for_each(|f| notes.add(f.into()));
-        Ok(plan)
+        let in_millimetres = in_millimetres || convention::tables_in_millimetres(text);
+        Ok(if in_millimetres && plan.is_own { plan.with_unit(true) } else { plan })
     }
 
     /// The number of the robot that a place of the text is about.
@@ -271,7 +288,8 @@ impl Plan {
         let (habits, turns) = (Rc::clone(&self.habits), self.turns.clone());
         let (own_tables, authors) = (Rc::clone(&self.own_tables), self.authors.clone());
         let programs = self.programs.clone();
-        Plan { subjects, habits, own_tables, authors, turns, has_robot: self.has_robot, programs }
+        let (has_robot, is_own, tables) = (self.has_robot, self.is_own, Rc::clone(&self.tables));
+        Plan { subjects, habits, own_tables, authors, turns, has_robot, programs, is_own, tables }
     }
 
     /// The same document, claims at these places taken as the author prints them.
@@ -282,6 +300,17 @@ impl Plan {
     /// The same document, programs read in its own text.
     pub fn without_programs(&self) -> Self {
         Plan { programs: None, ..self.with(&|_| None) }
+    }
+
+    /// The same document, its lengths without a unit in millimetres or in metres; only tables of its own have such.
+    pub fn with_unit(&self, millimetres: bool) -> Self {
+        let plan = self.with_habits(Habits { scaled: millimetres, ..Habits::clone(&self.habits) });
+        if millimetres == self.habits.scaled {
+            return plan;
+        }
+        let thousand = Rational::from(1000);
+        let factor = if millimetres { thousand } else { &Rational::ONE / &thousand };
+        plan.with(&|s| Some(s.in_unit(&factor)))
     }
 
     /// The same document with names in other senses.
@@ -324,7 +353,8 @@ impl Plan {
                     _ => {}
                 }
             }
-            if is_off || is_skipped {
+            let is_row = |t: &Range<usize>| t.start <= statement.span.start && statement.span.end <= t.end;
+            if is_off || is_skipped || self.tables.iter().any(is_row) {
                 ignored.push(statement.span.clone());
             } else if walk.count() < super::MAX_FORMULAS && !is_read[at] {
                 let first = walk.assertions.len();

@@ -14,6 +14,7 @@ use super::plan::{Plan, Walked};
 use super::trial::{self, Trial};
 use super::walk::{Assertion, Piece, Spoken};
 use denavit::forward::Reference;
+use denavit::geometry::Axis;
 use denavit_reading::document::{Document, Statement};
 use denavit_reading::slip::Points;
 use denavit_symbolic::vocabulary::plain_name;
@@ -42,6 +43,10 @@ struct Letters {
     may_be_o: bool,
     /// It speaks of frame 6 in frame 3, and of r_ij.
     has_wrist: bool,
+    /// Letters that may be those of a load on the hand.
+    loads: Vec<char>,
+    /// It speaks of millimetres.
+    has_millimetres: bool,
 }
 
 impl Letters {
@@ -53,6 +58,8 @@ impl Letters {
             |letter: &str| ["x", "y", "z"].iter().any(|a| words.contains(format!("{letter}{a}").as_str()));
         Letters {
             tells_hand: !super::custom::hand_letters(text).is_empty(),
+            loads: super::custom::letters_of_load(text),
+            has_millimetres: text.contains("mm"),
             may_be_o: has("o") && !["n", "p", "P", "s"].into_iter().any(has),
             has_wrist: super::custom::speaks_of_wrist(&plain_name(text)) && words.iter().any(|w| is_r(w)),
         }
@@ -86,21 +93,32 @@ pub(super) fn weighed(
     let letters = Letters::of(text);
     let has_base = plan.subjects.iter().any(|s| s.ground() == Reference::Base);
     for _ in 0..ROUNDS {
-        if score.wrong.is_empty() {
+        let may_load = plan.habits.load.is_none() && !letters.loads.is_empty();
+        if score.wrong.is_empty() && !may_load {
             break;
         }
         let mut best: Option<(usize, Plan, Walked, Score, Sense)> = None;
-        for (habits, sense, margin) in candidates(&plan.habits, &walked, &score, &letters, has_base) {
-            let other = plan.with_habits(habits);
+        let unit = (plan.is_own && letters.has_millimetres && !score.wrong.is_empty()).then(|| {
+            let scaled = !plan.habits.scaled;
+            (Habits { scaled, ..Habits::clone(&plan.habits) }, Sense::Unit { millimetres: scaled }, MARGIN)
+        });
+        let found = candidates(&plan.habits, &walked, &score, &letters, has_base);
+        for (habits, sense, margin) in found.into_iter().chain(unit) {
+            let other = match sense {
+                Sense::Unit { millimetres } => plan.with_unit(millimetres),
+                _ => plan.with_habits(habits),
+            };
             let there = other.walk(text, document, options);
             let own = trials.score(&other, &there);
             let gain = own.right.saturating_sub(score.right);
             // Links that are the document's own must yield something of the robot that else is wrong.
             let is_borne_out = sense != Sense::OwnLinks
                 || own.right_at.iter().any(|at| is_own_chain(text, document, &other, &walked, &score, *at));
+            let is_load = matches!(sense, Sense::Load { .. });
             let is_better = gain >= margin
                 && is_borne_out
-                && own.wrong.len() < score.wrong.len()
+                && (own.wrong.len() < score.wrong.len()
+                    || is_load && own.wrong.len() <= score.wrong.len() + gain)
                 && best.as_ref().is_none_or(|b| gain > b.0);
             if is_better {
                 best = Some((gain, other, there, own, sense));
@@ -154,6 +172,15 @@ fn candidates(
         // Where the entries are by custom those of the second column, and the text has no other letter for the place.
         if habits.columns == Columns::Noap && letters.may_be_o {
             found.push((Habits { columns: Columns::Nsao, ..habits.clone() }, Sense::PlaceIsO, 1));
+        }
+    }
+    if habits.load.is_none() {
+        let axes = [Axis::X, Axis::Y, Axis::Z].into_iter().enumerate();
+        for (letter, (k, axis)) in letters.loads.iter().flat_map(|&l| axes.clone().map(move |a| (l, a))) {
+            for is_minus in [false, true] {
+                let load = Some((letter, k, is_minus));
+                found.push((Habits { load, ..habits.clone() }, Sense::Load { letter, axis, is_minus }, 1));
+            }
         }
     }
     let own: BTreeSet<String> = walked.assertions.iter().filter_map(own_link).collect();

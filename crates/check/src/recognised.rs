@@ -20,7 +20,16 @@ pub(super) fn candidates(subject: &Subject, shape: (usize, usize)) -> Vec<Candid
         (1, columns) if columns > 1 => {
             candidates(subject, (columns, 1)).into_iter().map(|(m, about)| (m.transposed(), about)).collect()
         }
-        (4, 4) => frames(subject).into_iter().map(|(x, frame)| (Matrix::of(&x), frame)).collect(),
+        (4, 4) => {
+            let all = frames(subject);
+            let still = all.iter().filter(
+                |(_, f)| matches!(f, Meaning::Frame { seen_from, .. } if *seen_from == subject.ground()),
+            );
+            let still: Vec<Candidate> = still
+                .map(|(x, f)| (at_rest(subject, &Matrix::of(x)), Meaning::AtRest(f.clone().into())))
+                .collect();
+            all.into_iter().map(|(x, frame)| (Matrix::of(&x), frame)).chain(still).collect()
+        }
         (3, 3) => {
             let frames = frames(subject);
             let turns = frames.iter().map(|(x, frame)| {
@@ -38,9 +47,15 @@ pub(super) fn candidates(subject: &Subject, shape: (usize, usize)) -> Vec<Candid
                 let own = [(Axis::Z, x.rotation.z()), (Axis::X, x.rotation.x()), (Axis::Y, x.rotation.y())];
                 own.map(|(axis, v)| (cut(&v), Meaning::Axis(axis, f.clone().into())))
             });
-            origins.chain(axes).chain(columns(subject, rows)).collect()
+            let still = axes_at_rest(subject).into_iter().filter(|_| rows == 3);
+            origins
+                .chain(axes)
+                .chain(columns(subject, rows))
+                .chain(velocities(subject, rows))
+                .chain(still)
+                .collect()
         }
-        (6, 1) => columns(subject, 6),
+        (6, 1) => columns(subject, 6).into_iter().chain(screws(subject)).collect(),
         _ => vec![],
     }
 }
@@ -91,6 +106,62 @@ fn columns(subject: &Subject, rows: usize) -> Vec<Candidate> {
             let jacobian = Jacobian { body: Reference::Tool, at: None, axes, is_angular_first, rows, order };
             let column = Matrix(order[..rows].iter().map(entry).collect());
             found.push((column, Meaning::Column(joint + 1, jacobian)));
+        }
+    }
+    found
+}
+
+/// The velocities of all frames, along their own axes and those of the base, in the joints' rates.
+fn velocities(subject: &Subject, rows: usize) -> Vec<Candidate> {
+    let n = subject.last().min(MAX_FRAMES);
+    let rates = subject.rates();
+    let bodies = std::iter::once(Reference::Tool).chain((1..=n).rev().map(Reference::Frame));
+    let mut found = vec![];
+    for of in bodies {
+        for along in [subject.ground(), of] {
+            let full = subject.geometric_rows(of, along);
+            let sum = |r: usize| {
+                let terms = full[r].iter().zip(&rates);
+                vec![Some(terms.fold(Expr::int(0), |sum, (&e, &rate)| sum + e * rate))]
+            };
+            for is_angular in [false, true] {
+                let first = if is_angular { 3 } else { 0 };
+                let column = Matrix((first..first + rows).map(sum).collect());
+                found.push((column, Meaning::Velocity { of, along, is_angular }));
+            }
+        }
+    }
+    found
+}
+
+/// A matrix with all joints at 0.
+fn at_rest(subject: &Subject, m: &Matrix) -> Matrix {
+    let joints = subject.joints();
+    let still = |e: Expr| e.substitute(|s| joints.contains(&s.into()).then(|| Expr::int(0)));
+    Matrix(m.0.iter().map(|row| row.iter().map(|e| e.map(still)).collect()).collect())
+}
+
+/// The directions of the joints' axes with all joints at 0, and the moments of the axes.
+fn axes_at_rest(subject: &Subject) -> Vec<Candidate> {
+    let screws = screws(subject);
+    let part = |rows: std::ops::Range<usize>, m: &Matrix| Matrix(m.0[rows].to_vec());
+    let of = |(m, about): &Candidate| [(part(0..3, m), about.clone()), (part(3..6, m), about.clone())];
+    screws.iter().step_by(2).flat_map(of).collect()
+}
+
+/// The screws of the joints about the base with all joints at 0, the direction of the axis first, then last.
+fn screws(subject: &Subject) -> Vec<Candidate> {
+    let n = subject.last();
+    if n > MAX_FRAMES {
+        return vec![];
+    }
+    let full = subject.geometric_rows_at(Reference::Frame(0), subject.ground());
+    let mut found = vec![];
+    for joint in 0..subject.joints().len() {
+        for is_linear_first in [false, true] {
+            let order = if is_linear_first { [0, 1, 2, 3, 4, 5] } else { [3, 4, 5, 0, 1, 2] };
+            let column = Matrix(order.iter().map(|&r: &usize| vec![full[r].get(joint).copied()]).collect());
+            found.push((at_rest(subject, &column), Meaning::Screw { joint: joint + 1, is_linear_first }));
         }
     }
     found

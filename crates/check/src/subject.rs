@@ -4,13 +4,13 @@ use super::facts::Meaning;
 use super::habits::Habits;
 use super::matrix::Matrix;
 use super::names::{Index, Name, index, pair};
-use denavit::description::{Convention, Description, JointKind, Screw};
+use denavit::description::{Convention, Description, JointKind, Measure, Screw};
 use denavit::forward::Reference;
 use denavit::geometry::{Axis, Rotation, Transform, Vector};
 use denavit::robot::Robot;
 use denavit::velocity::{Viewpoint, geometric};
 use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
-use denavit_symbolic::{Expr, Symbol};
+use denavit_symbolic::{Angle, Expr, Rational, Symbol};
 use std::collections::BTreeMap;
 
 /// A robot as formulas name it.
@@ -78,6 +78,37 @@ impl Subject {
     pub fn with(&self, description: Description) -> Self {
         let robot = Robot::symbolic(&description);
         Subject { description, robot, ..self.clone() }
+    }
+
+    /// The same with its lengths in another unit: so many of them are one of those before.
+    pub fn in_unit(&self, factor: &Rational) -> Self {
+        let mut d = self.description.clone();
+        let (up, down) = (Expr::from(factor.clone()), Expr::int(1) / Expr::from(factor.clone()));
+        let sliding: Vec<Symbol> =
+            d.variables().iter().filter(|v| v.kind == JointKind::Prismatic).map(|v| v.symbol).collect();
+        let lengths: Vec<Symbol> =
+            d.parameters.iter().map(|p| p.symbol).filter(|s| d.measure(*s) == Measure::Length).collect();
+        let scaled = |e: Expr| {
+            let is_length = |s: Symbol| lengths.contains(&s) || sliding.contains(&s);
+            let there = e.substitute(|s| is_length(s).then(|| Expr::from(s) * down));
+            let angle = Angle::of(there * up);
+            // A sum of symbols and numbers is written as such.
+            if angle.terms.iter().all(|(e, _)| e.as_symbol().is_some()) {
+                angle.to_expr()
+            } else {
+                there * up
+            }
+        };
+        for row in &mut d.rows {
+            (row.a, row.d, row.b) = (scaled(row.a), scaled(row.d), scaled(row.b));
+        }
+        for p in &mut d.parameters {
+            p.value = p.value.map(|v| if lengths.contains(&p.symbol) { v * up } else { v });
+        }
+        for x in [&mut d.base, &mut d.tool] {
+            x.translation = Vector(x.translation.0.map(scaled));
+        }
+        self.with(d)
     }
 
     /// The arm of the first rows alone.

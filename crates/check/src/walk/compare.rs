@@ -3,12 +3,12 @@
 use super::scalars::is_measured;
 use super::{Assertion, Cell, Pair, Piece, Reference, Walk};
 use crate::facts::{Meaning, Remark, ShortRow};
-use crate::jacobians::{Told, frames_told, told_of_jacobian};
+use crate::jacobians::{frames_told, told_of_jacobian};
 use crate::matrix::Matrix;
 use crate::note::{Unread, Unreadable};
 use crate::numbers::{Answer, half_unit, judge};
 use crate::outcome::Finding;
-use crate::product::{Factor, NotMatrices, Product};
+use crate::product::{Factor, NotMatrices, Product, product};
 use crate::recognised::{Agreement, candidates, nearest};
 use denavit::forward::Reference::Tool;
 use denavit::geometry::Transform;
@@ -59,10 +59,31 @@ impl Walk<'_> {
         if !(2..=joints).contains(&columns) && columns != joints || !(2..=6).contains(&rows) {
             return None;
         }
-        let points = frames_told(self.paragraph_before(statement));
-        let told = Told { points, ..told.unwrap_or_default() };
+        let mut told = told.unwrap_or_default();
+        told.points.extend(frames_told(self.paragraph_before(statement)));
         let (matrix, jacobian) = self.subject.nearest_jacobian(&printed, &told)?;
         Some(Reference { matrix, about: Some(Meaning::Jacobian(jacobian)) })
+    }
+
+    /// The length of a vector, or its square: `|p_5 - S|^2`, `\|p\|`.
+    pub(super) fn norm(&self, span: &Range<usize>) -> Option<Expr> {
+        const BARS: [&str; 4] = ["|", "\\|", "\\lVert", "\\Vert"];
+        const ENDS: [&str; 4] = ["|", "\\|", "\\rVert", "\\Vert"];
+        let source = self.text.get(span.clone())?;
+        let (start, bar) = (0..4).find_map(|k| Some((source.strip_prefix(BARS[k])?.len(), k)))?;
+        let start = source.len() - start;
+        let close = source[start..].find(ENDS[bar])? + start;
+        let power: String =
+            source[close + ENDS[bar].len()..].chars().filter(|c| !matches!(c, '{' | '}' | ' ')).collect();
+        if !matches!(power.as_str(), "" | "^2" | "²") {
+            return None;
+        }
+        let inner = span.start + start..span.start + close;
+        let side = Side { span: inner.clone(), parts: vec![Part::Text(inner)] };
+        let found = product(self.text, &side, &self.lexis, &self.subject, &|_| None).ok()?;
+        let value = found.value.filter(|m| m.shape().is_some_and(|s| s.1 == 1 && s.0 > 1))?;
+        let square = value.0.iter().flatten().try_fold(Expr::int(0), |sum, e| Some(sum + (*e)?.powi(2)))?;
+        Some(if power.is_empty() { square.sqrt() } else { square })
     }
 
     /// What a printed matrix is by the robot, where the name beside it says nothing: its value is asked.

@@ -8,7 +8,7 @@ use crate::names::{Name, Token, tokens};
 use crate::note::{Unread, Unreadable};
 use crate::product::{Factor, NotMatrices, Product, product};
 use denavit::forward::Reference as Frame;
-use denavit_reading::document::{Fence, Grid, Part, Side, Statement, sides};
+use denavit_reading::document::{Fence, Grid, Part, Place, Side, Statement, sides};
 use denavit_symbolic::parse::{Syntax, SyntaxKind};
 use denavit_symbolic::{Expr, Symbol};
 use std::ops::Range;
@@ -139,6 +139,7 @@ impl Walk<'_> {
         let names = self.elementary(statement);
         let before = (!names.is_empty()).then(|| self.lexis.clone());
         names.iter().for_each(|name| self.lexis.declare_arguments(name));
+        self.declare_load(statement);
         let is_named = statement.sides.iter().flat_map(|s| &s.parts).all(|p| matches!(p, Part::Text(_)));
         self.lexis.anywhere.set(is_named && names.is_empty());
         let definitions = self.equate(statement, claim);
@@ -159,6 +160,35 @@ impl Walk<'_> {
                 Definition::Cell(name, value) => self.lexis.define(&name, value),
             }
         }
+    }
+
+    /// The letters of a load that the document gives as a vector, `f = (0, 0, -W)`, stand for themselves.
+    fn declare_load(&mut self, statement: &Statement) {
+        let [left, right] = &statement.sides[..] else { return };
+        let [Part::Matrix(grid), ..] = &right.parts[..] else { return };
+        let is_load = self.lone(left).is_some_and(|n| matches!(n.base.as_str(), "f" | "F" | "w" | "W" | "h"));
+        if !is_load || elements(grid) > 6 {
+            return;
+        }
+        let cells = self.cells(grid);
+        let mut free: Vec<String> = vec![];
+        for (cell, span) in cells.iter().flatten().zip(grid.rows.iter().flatten()) {
+            if matches!(cell, Cell::Formulas(_) | Cell::LeftOut) {
+                continue;
+            }
+            let bare = span.start + self.text[span.clone()].len()
+                - self.text[span.clone()].trim_start_matches(['-', '−', ' ', '+']).len();
+            if let Some(name) = self.lexis.lone_name(self.text, &(bare..span.end)) {
+                free.push(format!("{}{}", name.base, name.sub));
+            }
+        }
+        if free.is_empty() {
+            return;
+        }
+        for name in free {
+            self.lexis.define(&name, Expr::symbol(&name));
+        }
+        self.cells.borrow_mut().clear();
     }
 
     /// Reads `q = [0, 30, 45]` as a configuration.
@@ -259,6 +289,11 @@ impl Walk<'_> {
             return definitions;
         }
         if self.whole_configuration(statement) {
+            return definitions;
+        }
+        // What a sentence tells is a claim only where it is something of the robot.
+        if statement.place == Place::Told && self.recognised(&read, statement).is_none() {
+            self.taken.push(statement.span.clone());
             return definitions;
         }
         if let Some(columns) = self.columns(statement) {

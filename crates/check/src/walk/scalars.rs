@@ -22,7 +22,7 @@ impl Walk<'_> {
             Ok(syntax) => return Scalar::Formula(span.clone(), syntax),
             Err(errors) => errors,
         };
-        if let Some(value) = self.determinant(span) {
+        if let Some(value) = self.determinant(span).or_else(|| self.norm(span)) {
             let kind = SyntaxKind::Name(value);
             return Scalar::Formula(span.clone(), Syntax { kind, span: 0..span.len() });
         }
@@ -453,7 +453,7 @@ impl Walk<'_> {
     /// True for a number with digits behind the point, which may be rounded: `0.567 m`.
     fn is_rounded(&self, span: &Range<usize>) -> bool {
         let source = self.source(span).trim();
-        let number = crate::numbers::unit_behind(source).map_or(source, |(number, _)| number).trim();
+        let number = crate::numbers::unit_behind(source).map_or(source, |(number, ..)| number).trim();
         number.contains('.') && number.trim_start_matches(['-', '\u{2212}']).parse::<f64>().is_ok()
     }
 

@@ -3,7 +3,7 @@
 use super::cases::tells_goal;
 use super::{Scalar, Walk};
 use crate::lexis::read;
-use denavit::description::read_value;
+use denavit::description::{Measure, read_value};
 use denavit_reading::code::Dialect;
 use denavit_symbolic::parse::SyntaxKind;
 use denavit_symbolic::vocabulary::plain_name;
@@ -253,7 +253,7 @@ impl Walk<'_> {
             .iter()
             .zip(&symbols)
             .map(|(v, s)| match list {
-                List::Lengths => read_value(v, d.measure(*s)).ok(),
+                List::Lengths => read_value(v, d.measure(*s)).ok().map(|v| self.in_unit(v)),
                 List::Joints | List::Rates => self.constant(v),
             })
             .collect();
@@ -267,17 +267,24 @@ impl Walk<'_> {
         true
     }
 
+    /// A length in metres, in the unit in which the document has lengths.
+    fn in_unit(&self, metres: Expr) -> Expr {
+        if self.lexis.habits.scaled { metres * Expr::int(1000) } else { metres }
+    }
+
     /// A number with its unit: `30°`, `0.1 m`, `0.5 rad/s`.
     pub(super) fn constant(&self, text: &str) -> Option<Expr> {
         let text = text.trim().trim_end_matches('.');
         let (number, factor) = match crate::numbers::unit_behind(text) {
             // The unit is that of a number, not of the last term of a sum.
-            Some((number, _))
+            Some((number, ..))
                 if number.trim_start_matches(['-', '+', '−']).contains(['-', '+', '−', '±', '°']) =>
             {
                 return None;
             }
-            Some((number, factor)) => (number, factor),
+            Some((number, factor, is_length)) => {
+                (number, if is_length { self.in_unit(factor) } else { factor })
+            }
             None => (text, Expr::int(1)),
         };
         let value = read(number, &(0..number.len()), &self.lexis.names).ok()?.value();
@@ -301,8 +308,12 @@ impl Walk<'_> {
         if d.parameter(symbol).is_none() {
             return false;
         }
-        let Ok(constant) = read_value(value, d.measure(symbol)) else { return false };
-        self.at.give(symbol, constant);
+        let measure = d.measure(symbol);
+        let Ok(constant) = read_value(value, measure) else { return false };
+        // Without a unit it is in that of the document already.
+        let has_unit = crate::numbers::unit_behind(value).is_some();
+        let is_length = measure == Measure::Length && (has_unit || !self.lexis.habits.scaled);
+        self.at.give(symbol, if is_length { self.in_unit(constant) } else { constant });
         true
     }
 

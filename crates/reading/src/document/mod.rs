@@ -77,6 +77,8 @@ pub enum Place {
     Line,
     /// A key and its value.
     Key,
+    /// Values in brackets that a sentence tells of something: `the tip is at (0.3, 0.4)`.
+    Told,
 }
 
 /// One side of a statement: its parts are multiplied where no operator stands between them.

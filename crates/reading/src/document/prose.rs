@@ -41,6 +41,38 @@ pub(super) fn formulas(text: &str, line: &Range<usize>) -> Vec<Range<usize>> {
     found
 }
 
+/// Values in brackets that the words of a line tell of something: `the tip is at (1.5, 1.2)`, `… of R03 is (s2, 0, c2)`.
+pub(super) fn tuples(text: &str, line: &Range<usize>) -> Vec<Range<usize>> {
+    const BEFORE: [&str; 22] = [
+        "at", "is", "are", "to", "becomes", "reads", "bei", "ist", "lautet", "sind", "est", "en", "vaut",
+        "sont", "es", "son", "vale", "está", "è", "sono", "in", "point",
+    ];
+    let shown = cut(text, line);
+    if shown.len() > 1_000 {
+        return vec![];
+    }
+    let mut found = vec![];
+    for (at, _) in shown.match_indices('(').take(MOST_FORMULAS) {
+        let before = shown[..at].trim_end_matches([' ', '$']);
+        let word = before.rsplit([' ', '\t']).next().unwrap_or_default();
+        let gap = shown[..at].ends_with([' ', '$']);
+        if !gap || !BEFORE.contains(&word.to_lowercase().as_str()) {
+            continue;
+        }
+        let mut depth = 0_usize;
+        let close = shown[at..].char_indices().find(|(_, c)| {
+            depth = depth + usize::from(*c == '(') - usize::from(*c == ')');
+            depth == 0
+        });
+        let Some((length, _)) = close else { continue };
+        let inner = &shown[at + 1..at + length];
+        if inner.contains(',') && !inner.contains('=') && inner.len() < 300 {
+            found.push(line.start + at..line.start + at + length + 1);
+        }
+    }
+    found
+}
+
 struct Reader<'a> {
     text: &'a str,
     tokens: &'a [Token],

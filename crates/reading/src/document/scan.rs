@@ -317,6 +317,12 @@ impl<'t> Scanner<'_, 't> {
                     self.reader.region(formula, manner);
                 }
             }
+            if !is_foreign(cut(text, &span)) {
+                let manner = self.manner(Place::Told);
+                for tuple in prose::tuples(text, &span) {
+                    self.reader.region(tuple, manner);
+                }
+            }
             // `t22:` alone labels what follows.
             let alone = cut(text, &(lead.rest.min(span.end)..span.end)).trim().is_empty();
             self.reader.label = lead.label.filter(|_| alone);

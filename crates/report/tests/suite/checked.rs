@@ -329,6 +329,9 @@ fn what_is_not_read() {
         Sense::PlaceIsO,
         Sense::ZeroIsBase,
         Sense::WristEntries,
+        Sense::Unit { millimetres: true },
+        Sense::Unit { millimetres: false },
+        Sense::Load { letter: 'W', axis: Axis::Z, is_minus: false },
     ] {
         both(&|w| w.sense(sense));
     }

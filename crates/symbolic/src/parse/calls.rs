@@ -133,6 +133,7 @@ impl Parser<'_> {
                 return Ok((argument, None));
             }
             Some(Kind::Number(_)) if f.takes_angle() => return self.bare(f, open),
+            Some(Kind::Atom(_)) if f.is_inverse() => return self.bare(f, open),
             _ => {
                 let hint = format!("`{}` takes its argument in brackets", f.name());
                 return Err(self.unexpected("`(`").hint(hint));
@@ -154,7 +155,7 @@ impl Parser<'_> {
         Ok((first, second))
     }
 
-    /// A number as the argument without brackets, `cos 30°`, where nothing behind it may belong to the argument.
+    /// A number or a name as the argument without brackets, `cos 30°`, `arccos a_x`, where nothing behind it may belong to the argument.
     fn bare(&mut self, f: Function, open: usize) -> Read<(Value, Option<Value>)> {
         let argument = self.primary()?;
         let has_unit = matches!(self.tokens[self.at - 1].kind, Kind::Degree | Kind::Radian);

@@ -33,6 +33,11 @@ pub(super) fn edges(letters: &[Letter], from: usize, next: Next, names: &Names) 
             }
         } else if function.takes_angle() {
             found.extend(arguments(letters, from, after, function, names));
+        } else if function.is_inverse() && name.starts_with("arc") && !letters[after].glued {
+            // `\arccos a_x`: one name.
+            if names.known(&spelled(&letters[after..])).is_some() {
+                found.push(Edge { to: after, cost: TRIG, meaning: Ok(Piece::Function(function)) });
+            }
         }
     }
     found

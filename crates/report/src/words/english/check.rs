@@ -60,6 +60,15 @@ impl Check for English {
             Meaning::Translation => "a translation".into(),
             Meaning::Torques => "the torques of the joints".into(),
             Meaning::Jacobian(jacobian) => matrix_of_velocities(jacobian),
+            Meaning::Velocity { of, along, is_angular } => {
+                let what = if *is_angular { "angular velocity" } else { "velocity" };
+                match along {
+                    Reference::Base | Reference::Frame(0) => format!("the {what} of {}", frame(*of)),
+                    _ => format!("the {what} of {} along the axes of {}", frame(*of), frame(*along)),
+                }
+            }
+            Meaning::AtRest(what) => format!("{} with all joints at 0", self.meaning(what)),
+            Meaning::Screw { joint, .. } => format!("the screw of joint {joint} with all joints at 0"),
             Meaning::Column(joint, of) => format!("column {joint} of {}", matrix_of_velocities(of)),
         }
     }
@@ -147,6 +156,12 @@ impl Check for English {
             Sense::WristEntries => "read with r_ij as the entries of frame 6 in frame 3",
             Sense::ZeroIsBase => "read with the robot's base as frame 0",
             Sense::PlaceIsO => "read with o as the place of the hand",
+            Sense::Unit { millimetres: true } => "lengths without a unit read as millimetres",
+            Sense::Unit { millimetres: false } => "lengths without a unit read as metres",
+            Sense::Load { letter, axis, is_minus } => {
+                let against = if is_minus { "against" } else { "along" };
+                return format!("{letter} read as a load on the hand {against} the axis {axis}");
+            }
         }
         .into()
     }

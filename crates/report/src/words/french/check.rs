@@ -60,6 +60,19 @@ impl Check for French {
             Meaning::Translation => "une translation".into(),
             Meaning::Torques => say!("les couples des articulations"),
             Meaning::Jacobian(jacobian) => matrix_of_velocities(jacobian),
+            Meaning::Velocity { of, along, is_angular } => {
+                let what = if *is_angular { "la vitesse angulaire" } else { "la vitesse" };
+                match along {
+                    Reference::Base | Reference::Frame(0) => say!("{what} {}", genitive(&frame(*of))),
+                    _ => {
+                        say!("{what} {} suivant les axes {}", genitive(&frame(*of)), genitive(&frame(*along)))
+                    }
+                }
+            }
+            Meaning::AtRest(what) => say!("{}, toutes les articulations à 0", self.meaning(what)),
+            Meaning::Screw { joint, .. } => {
+                say!("le torseur de l'articulation {joint}, toutes les articulations à 0")
+            }
             Meaning::Column(joint, of) => say!("la colonne {joint} {}", genitive(&matrix_of_velocities(of))),
         }
     }
@@ -140,6 +153,10 @@ impl Check for French {
     }
 
     fn sense(&self, sense: Sense) -> String {
+        if let Sense::Load { letter, axis, is_minus } = sense {
+            let along = if is_minus { "contre" } else { "suivant" };
+            return say!("{letter} lu comme une charge sur l'organe terminal, {along} l'axe {axis}");
+        }
         printed(match sense {
             Sense::LinkAlone => {
                 "lu comme la matrice de passage d'un seul corps, non comme un repère dans la base"
@@ -157,6 +174,9 @@ impl Check for French {
             Sense::WristEntries => "lu avec r_ij comme éléments du repère 6 dans le repère 3",
             Sense::ZeroIsBase => "lu avec la base du robot comme repère 0",
             Sense::PlaceIsO => "lu avec o comme position de l’organe terminal",
+            Sense::Load { .. } => "lu comme une charge",
+            Sense::Unit { millimetres: true } => "longueurs sans unité lues en millimètres",
+            Sense::Unit { millimetres: false } => "longueurs sans unité lues en mètres",
         })
     }
 

@@ -132,6 +132,14 @@ const WORDS: &[(&str, Role)] = &[
     ("jointlimits", Role::Limits),
     ("name", Role::Name),
     ("jointname", Role::Name),
+    ("variable", Role::Variable),
+    ("variables", Role::Variable),
+    ("jointvariable", Role::Variable),
+    ("variablei", Role::Variable),
+    ("gelenkvariable", Role::Variable),
+    ("variablearticulaire", Role::Variable),
+    ("variablearticular", Role::Variable),
+    ("variabiledigiunto", Role::Variable),
     ("linklength", Role::A),
     ("linktwist", Role::Alpha),
     ("twist", Role::Alpha),
@@ -158,6 +166,15 @@ pub(super) fn column(text: &str) -> Column {
     }
     let (head, unit, qualifier) = split_unit(text);
     let (mut role, mut previous) = symbol(&plain(head));
+    if role == Role::Other {
+        // `Verdrehung α_i`, `θ_i angle`: a letter beside words.
+        let words = || head.split([' ', '~']).filter(|w| !w.trim_matches(['$', ',', '.']).is_empty());
+        let beside = [words().next_back(), words().next()].into_iter().flatten().map(|w| symbol(&plain(w)));
+        let letter = beside.filter(|s| s.0.is_letter() && words().count() > 1).next();
+        if let Some(letter) = letter.filter(|_| words().count() <= 4) {
+            (role, previous) = letter;
+        }
+    }
     if let (Role::Other, Some(inside)) = (role, &qualifier) {
         (role, previous) = symbol(&plain(inside)); // link offset (d)
     } else if role == Role::Variable && qualifier.is_some() {
@@ -242,6 +259,9 @@ pub(super) fn plain(text: &str) -> String {
             Some(rest) => out = rest.to_string(),
             None => break,
         }
+    }
+    if let Some(rest) = out.strip_prefix("var").filter(|r| r.starts_with("theta") || r.starts_with("alpha")) {
+        out = rest.to_string(); // `\vartheta`
     }
     if out.starts_with("heta") {
         out.insert(0, 't'); // the scan took `\t` for a tab

@@ -4,7 +4,7 @@ use super::columns::Role;
 use super::find;
 use super::layout::Layout;
 use super::lines::{Around, Lines};
-use super::{TableKind, TableOptions, layouts, read};
+use super::{TableKind, TableOptions, grids_of, layouts, read};
 use crate::description::diagnostic::{Diagnostic, Diagnostics};
 use crate::description::{Cell, Description, MAX_BYTES, MAX_ROWS};
 use std::ops::Range;
@@ -59,7 +59,7 @@ pub fn tables(text: &str, kind: TableKind, options: &TableOptions) -> Vec<Printe
         return vec![];
     }
     let lines = Lines::of(text);
-    let layouts = layouts(&find::grids(text, kind), &lines, options, &mut Diagnostics::default());
+    let layouts = layouts(&grids_of(text, kind), &lines, options, &mut Diagnostics::default());
     let numbers = |l: &Layout| l.rows.iter().filter_map(|r| l.number(r)).collect::<Vec<usize>>();
     let mut chains: Vec<Vec<Layout>> = vec![];
     let mut found = vec![];

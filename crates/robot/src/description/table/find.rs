@@ -53,14 +53,16 @@ pub(super) fn grids(text: &str, kind: TableKind) -> Vec<Grid> {
             grids.extend(blocks(text, Separator::Field('\t'), false));
             grids.extend(latex::grids(text));
             // Among other text, commas and blanks make a table only below a line of its letters.
+            let is_free = |g: &Grid, all: &[Grid]| {
+                !all.iter().any(|o| o.span.start < g.span.end && g.span.start < o.span.end)
+            };
             for separator in [Separator::Field(';'), Separator::Field(','), Separator::Blank] {
                 let below = headed(text, separator);
-                let is_free = |g: &Grid, all: &[Grid]| {
-                    !all.iter().any(|o| o.span.start < g.span.end && g.span.start < o.span.end)
-                };
                 let free: Vec<Grid> = below.into_iter().filter(|g| is_free(g, &grids)).collect();
                 grids.extend(free);
             }
+            let turned: Vec<Grid> = turned(text).into_iter().filter(|g| is_free(g, &grids)).collect();
+            grids.extend(turned);
             grids
         }
         TableKind::Csv => {
@@ -100,6 +102,14 @@ fn blocks(text: &str, separator: Separator, loose: bool) -> Vec<Grid> {
             _ => split_pipes(text, span.clone()),
         };
         let rule = cells.iter().all(is_rule);
+        // `+---+-------+` above and below the rows of a frame of characters.
+        if separator == Separator::Pipe && is_frame(line) {
+            if let Some(grid) = grids.last_mut().filter(|_| open) {
+                grid.ruled |= grid.rows.len() == 1;
+                grid.span.end = span.end;
+            }
+            continue;
+        }
         let grid = grids.last_mut().filter(|_| open);
         open = match &grid {
             _ if !rule && (cells[0].text.contains('=') || lines::directive(line).is_some()) => false,
@@ -134,6 +144,7 @@ fn headed(text: &str, separator: Separator) -> Vec<Grid> {
     let mut grids: Vec<Grid> = vec![];
     let mut open = false;
     for span in lines(text) {
+        let span = uncommented(text, span);
         let line = text[span.clone()].trim();
         if line.len() > 500 {
             open = false;
@@ -145,8 +156,18 @@ fn headed(text: &str, separator: Separator) -> Vec<Grid> {
                 continue;
             }
             let width = grid.rows.first().map_or(0, Vec::len);
+            let span = behind_index(text, span.clone());
             let cells = split(&span, Some(width));
-            let is_row = cells.len() == width && !line.contains('=') && is_numbered(&cells[0].text);
+            let has_index = grid.rows[0].iter().any(|c| column(&c.text).role == Role::Index);
+            let is_value = |c: &GridCell| c.text.len() < 24 && c.text.split(' ').count() < 4;
+            let begins = |cells: &[GridCell]| match has_index {
+                true => is_numbered(&cells[0].text),
+                false => {
+                    cells.iter().all(is_value)
+                        && cells.iter().any(|c| c.text.contains(|x: char| x.is_ascii_digit()))
+                }
+            };
+            let is_row = cells.len() == width && !text[span.clone()].contains('=') && begins(&cells);
             if is_row {
                 grid.span.end = span.end;
                 grid.rows.push(cells);
@@ -173,6 +194,54 @@ fn headed(text: &str, separator: Separator) -> Vec<Grid> {
     grids
 }
 
+/// Lines of blanks that begin with a letter of a table each: its rows and columns are swapped.
+fn turned(text: &str) -> Vec<Grid> {
+    let mut grids: Vec<Grid> = vec![];
+    let mut run: Vec<(Vec<GridCell>, Range<usize>)> = vec![];
+    let mut close = |run: &mut Vec<(Vec<GridCell>, Range<usize>)>| {
+        let letters = run.iter().filter(|r| column(&r.0[0].text).role.is_letter()).count();
+        if letters >= 3 {
+            let span = run[0].1.start..run[run.len() - 1].1.end;
+            let rows = run.drain(..).map(|r| r.0).collect();
+            grids.push(Grid { rows, span, separator: Separator::Blank, ruled: false });
+        }
+        run.clear();
+    };
+    for span in lines(text).map(|l| uncommented(text, l)).chain([text.len()..text.len()]) {
+        let line = text[span.clone()].trim();
+        let is_plain = line.len() < 300 && !line.contains(['=', '|', '&', '\t', ':']);
+        let cells = if is_plain { split_blanks(text, span.clone(), None) } else { vec![] };
+        let role = cells.first().map(|c| column(&c.text).role);
+        let is_one = role.is_some_and(|r| r.is_letter() || r == Role::Index && !cells[0].text.is_empty());
+        if cells.len() < 3 || !is_one || run.first().is_some_and(|r| r.0.len() != cells.len()) {
+            close(&mut run);
+        }
+        if cells.len() >= 3 && is_one {
+            run.push((cells, span));
+        }
+    }
+    close(&mut run);
+    grids
+}
+
+/// A line without the mark of a comment before it.
+fn uncommented(text: &str, span: Range<usize>) -> Range<usize> {
+    let line = &text[span.clone()];
+    let bare = line.trim_start().trim_start_matches(['%', '#', '/', '*', '>']);
+    match bare.starts_with([' ', '\t']) {
+        true => span.end - bare.len()..span.end,
+        false => span,
+    }
+}
+
+/// A line behind `i = `, where a row's number stands.
+fn behind_index(text: &str, span: Range<usize>) -> Range<usize> {
+    let line = &text[span.clone()];
+    let Some((before, rest)) = line.split_once('=') else { return span };
+    let is_index = matches!(before.trim(), "i" | "j" | "k" | "n" | "link" | "joint");
+    if is_index { span.end - rest.len()..span.end } else { span }
+}
+
 /// True for a line of nothing but heads of columns.
 fn is_header(line: &str, cells: &[GridCell], separator: Separator) -> bool {
     let roles: Vec<Role> = cells.iter().map(|c| column(&c.text).role).collect();
@@ -187,6 +256,10 @@ fn is_header(line: &str, cells: &[GridCell], separator: Separator) -> bool {
 
 /// `3`, `Link 3`, `J3`
 fn is_numbered(cell: &str) -> bool {
+    // `axis 2 (shoulder):`
+    let bare = cell.trim_end_matches([':', '.', ' ']);
+    let bare = bare.strip_suffix(')').and_then(|b| b.rsplit_once('(')).map_or(bare, |b| b.0.trim_end());
+    let cell = bare.trim_end_matches([':', '.', ' ']);
     let name = cell.trim_end_matches(|c: char| c.is_ascii_digit());
     name.len() < cell.len() && name.chars().all(|c| c.is_alphabetic() || matches!(c, ' ' | '_' | '.' | '#'))
 }
@@ -213,7 +286,18 @@ fn split_blanks(text: &str, span: Range<usize>, width: Option<usize>) -> Vec<Gri
         if let Some(from) = start {
             cells.push(GridCell::of(text, span.start + from..span.end));
         }
-        cells
+        // `90 deg` is one cell.
+        let mut joined: Vec<GridCell> = vec![];
+        for cell in cells {
+            let is_unit = matches!(cell.text.as_str(), "deg" | "rad" | "°" | "mm" | "cm" | "m" | "degrees");
+            match joined.last_mut() {
+                Some(last) if is_unit && last.text.ends_with(|c: char| c.is_ascii_digit()) => {
+                    *last = GridCell::of(text, last.span.start..cell.span.end);
+                }
+                _ => joined.push(cell),
+            }
+        }
+        joined
     };
     let (wide, narrow) = (pieces(2), pieces(1));
     match width {
@@ -239,6 +323,33 @@ fn is_row(line: &str, cells: &[GridCell], grid: &Grid, loose: bool) -> bool {
 /// `| … |`
 fn is_framed(line: &str) -> bool {
     line.len() > 1 && line.starts_with('|') && line.ends_with('|')
+}
+
+/// `+---+-------+`
+fn is_frame(line: &str) -> bool {
+    line.len() > 4
+        && line.starts_with(['+', '├', '┌', '└', '╞'])
+        && line.chars().all(|c| {
+            matches!(
+                c,
+                '+' | '-'
+                    | '='
+                    | '─'
+                    | '┬'
+                    | '┼'
+                    | '┴'
+                    | '├'
+                    | '┤'
+                    | '┌'
+                    | '┐'
+                    | '└'
+                    | '┘'
+                    | '═'
+                    | '╞'
+                    | '╡'
+                    | '╪'
+            )
+        })
 }
 
 /// `---`, `:--:`

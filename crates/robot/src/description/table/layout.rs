@@ -37,8 +37,35 @@ impl Layout {
         if letters.len() < 3 || !letters.contains(&Role::Alpha) && !letters.contains(&Role::Theta) {
             return None;
         }
+        // Angeles calls the length along z b; beside γ or another one it is Khalil's.
+        if letters.contains(&Role::B) && ![Role::D, Role::R, Role::Gamma].iter().any(|r| letters.contains(r))
+        {
+            columns.iter_mut().filter(|c| c.role == Role::B).for_each(|c| c.role = Role::D);
+        }
         let rows = below_units(&mut columns, rows);
-        Self::with_rows(columns, heads.clone(), rows, grid)
+        let layout = Self::with_rows(columns, heads.clone(), rows, grid)?;
+        Some(layout.with_angles_of_variables())
+    }
+
+    /// A table without a column θ whose variables stand in one of their own: those that no length holds are the angles.
+    fn with_angles_of_variables(mut self) -> Self {
+        let Some(at) = self.find(Role::Variable).filter(|_| self.find(Role::Theta).is_none()) else {
+            return self;
+        };
+        let z: Vec<usize> = [Role::D, Role::R].into_iter().filter_map(|r| self.find(r)).collect();
+        let Some(head) = self.heads.get(at).cloned() else { return self };
+        for row in &mut self.rows {
+            let Some(variable) = row.get(at).cloned() else { continue };
+            let name = plain(&variable.text);
+            let holds =
+                |k: &usize| row.get(*k).is_some_and(|c| !name.is_empty() && plain(&c.text).contains(&name));
+            let is_length = z.iter().any(holds);
+            let text = if is_length { "0".to_string() } else { variable.text };
+            row.push(GridCell { text, span: variable.span });
+        }
+        self.columns.push(Column { role: Role::Theta, previous: false, unit: None });
+        self.heads.push(head);
+        self
     }
 
     /// A grid whose columns are told from left to right; a number of the row may stand before them. A first row

@@ -26,6 +26,8 @@ pub(super) struct Lines {
 pub(super) struct Around {
     /// Directives: behind the table before it, and below it if it is the last one.
     pub directives: Range<usize>,
+    /// The tables themselves, where rows may be told by names with values.
+    pub tables: Vec<Range<usize>>,
     /// What no other table has next to it.
     pub own: Range<usize>,
     /// From the table before it to the table behind it.
@@ -41,6 +43,7 @@ impl Around {
         let behind = all.iter().map(|l| l.span.start).filter(|&s| s >= end).min();
         let below = if behind.is_some() { end } else { length };
         Around {
+            tables: chosen.iter().map(|l| l.span.clone()).collect(),
             directives: before.unwrap_or(0)..below,
             own: before.map_or(0, |_| start)..below,
             neighbours: before.unwrap_or(0)..behind.unwrap_or(length),

@@ -37,6 +37,7 @@ mod letters;
 mod limits;
 mod lines;
 mod read;
+mod told;
 mod values;
 
 pub use each::{PrintedGrid, PrintedRow, PrintedTable, grids, tables};
@@ -92,7 +93,7 @@ pub fn read_table(
     let blanked = text.strip_prefix('\u{feff}').map(|rest| format!("   {rest}"));
     let text = blanked.as_deref().unwrap_or(text);
     let lines = Lines::of(text);
-    let layouts = layouts(&find::grids(text, kind), &lines, options, &mut out);
+    let layouts = layouts(&grids_of(text, kind), &lines, options, &mut out);
     let chosen = choose(text, &layouts, options.table, &mut out);
     let description = match chosen.as_slice() {
         [] => None,
@@ -106,6 +107,16 @@ pub fn read_table(
         }
     };
     out.finish(description)
+}
+
+/// What a text sets in rows and columns, or what it tells row by row where nothing of that is a table.
+fn grids_of(text: &str, kind: TableKind) -> Vec<Grid> {
+    let mut grids = find::grids(text, kind);
+    if kind != TableKind::Csv && !grids.iter().any(|g| Layout::of(g).is_some()) {
+        grids.extend(told::grids(text));
+        grids.sort_by_key(|g| g.span.start);
+    }
+    grids
 }
 
 /// The tables of the grids: those with a header, or those that are as wide as the told columns.

@@ -121,7 +121,9 @@ fn unused(
     out: &mut Diagnostics,
 ) {
     let mut seen: Vec<&str> = vec![];
-    for (name, cell) in lines.values.iter().filter(|v| around.own.contains(&v.1.span.start)) {
+    let is_row = |at: usize| around.tables.iter().any(|t| t.contains(&at));
+    let own = |at: usize| around.own.contains(&at) && !is_row(at);
+    for (name, cell) in lines.values.iter().filter(|v| own(v.1.span.start)) {
         let known = parameters.iter().any(|p| *p.symbol.name() == **name) || is_reserved(name);
         if known || seen.contains(&name.as_str()) || out.is_full() {
             continue;
