@@ -53,6 +53,8 @@ struct Listed<'a> {
     /// What all rows should reach.
     targets: Vec<Target>,
     at: Configuration,
+    /// The unit of lengths is a millimetre.
+    scaled: bool,
 }
 
 /// A row as printed.
@@ -106,9 +108,20 @@ impl<'a> Listed<'a> {
         let stated = before.into_iter().find_map(stated);
         let (mut targets, at) = stated.unwrap_or_default();
         if targets.is_empty() {
-            targets = goal(before_of(text, start), subject);
+            targets = goal(before_of(text, start), subject, plan.habits.scaled);
         }
-        let mut listed = Listed { subject, number, columns, rows: printed, targets, at };
+        let scaled = plan.habits.scaled;
+        let mut listed = Listed { subject, number, columns, rows: printed, targets, at, scaled };
+        if scaled {
+            let kinds: Vec<JointKind> = subject.description.variables().iter().map(|v| v.kind).collect();
+            for column in &mut listed.columns {
+                match column {
+                    Column::Joint(k, Some(unit)) if kinds[*k] == JointKind::Prismatic => *unit *= 1000.0,
+                    Column::Pose(_, Some(unit), false) => *unit *= 1000.0,
+                    _ => {}
+                }
+            }
+        }
         listed.settle_units(text, start);
         Some(listed)
     }
@@ -130,7 +143,7 @@ impl<'a> Listed<'a> {
         };
         let is_large = self.rows.iter().map(largest).fold(0.0, f64::max) > std::f64::consts::TAU;
         let angle = if is_large || in_degrees && !in_radians { 1_f64.to_radians() } else { 1.0 };
-        let length = if in_millimetres { 0.001 } else { 1.0 };
+        let length = if in_millimetres && !self.scaled { 0.001 } else { 1.0 };
         for column in &mut self.columns {
             match column {
                 Column::Joint(k, unit @ None) => {
@@ -371,11 +384,11 @@ fn before_of(text: &str, start: usize) -> &str {
 }
 
 /// The last point that a text gives in numbers, `(0.4, 0.2, 0.3)`, as the place of the hand.
-fn goal(text: &str, subject: &Subject) -> Vec<Target> {
+fn goal(text: &str, subject: &Subject, scaled: bool) -> Vec<Target> {
     let position = subject.pose().translation.0;
     let point = |inner: &str| -> Option<Vec<Target>> {
         let numbers: Vec<&str> = inner.split([',', ';']).map(str::trim).collect();
-        let unit = if text.contains(" mm") { 0.001 } else { 1.0 };
+        let unit = if text.contains(" mm") && !scaled { 0.001 } else { 1.0 };
         let target = |(number, wanted): (&&str, &Expr)| {
             let x: f64 = number.replace('−', "-").parse().ok()?;
             Some(Target {

@@ -165,6 +165,7 @@ impl<'a> Judge<'a> {
                 identities: vec![],
             },
             Piece::Pair(pair) => {
+                let pair = &self.in_numbers(pair, subject);
                 let finding = self.finding(pair, subject);
                 let mut identities = vec![];
                 if finding.standing() == Standing::Equal {
@@ -173,6 +174,21 @@ impl<'a> Judge<'a> {
                 }
                 Entry { place: pair.place, span: pair.span.clone(), finding, identities }
             }
+        }
+    }
+
+    /// A formula with the numbers of the table in it, where it is right by these: `80 c5` for `d6 c5`.
+    fn in_numbers(&self, pair: &Pair, subject: usize) -> Pair {
+        let d = &self.plan.subjects[subject].description;
+        let has_value = |e: Expr| e.symbols().iter().any(|s| d.exact_value(*s).is_some());
+        if !has_value(pair.wanted) || equal(pair.value, pair.wanted).is_equal() {
+            return pair.clone();
+        }
+        let known = |e: Expr| e.substitute(|s| d.exact_value(s));
+        let (value, wanted) = (known(pair.value), known(pair.wanted));
+        match equal(value, wanted).is_equal() {
+            true => Pair { value, wanted, ..pair.clone() },
+            false => pair.clone(),
         }
     }
 

@@ -297,6 +297,13 @@ impl Lexis {
         if self.is_posed.get() && matrix == Matrix::of(&subject.pose()) {
             matrix = Matrix::of(&Places(self.habits.columns).pose());
         }
+        if name.is_at_rest()
+            && matches!(found.1, Some(Meaning::Frame { .. } | Meaning::Rotation(_) | Meaning::Origin(_)))
+        {
+            let joints = subject.joints();
+            let still = |e: Expr| e.substitute(|s| joints.contains(&s.into()).then(|| Expr::int(0)));
+            matrix = Matrix(matrix.0.iter().map(|row| row.iter().map(|e| e.map(still)).collect()).collect());
+        }
         if name.is_inverse {
             matrix = matrix.inverse()?;
         }

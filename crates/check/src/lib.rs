@@ -15,6 +15,7 @@ mod definitions;
 mod edits;
 mod facts;
 mod formula;
+mod goals;
 mod habits;
 pub mod inverse;
 mod jacobians;
@@ -162,6 +163,7 @@ pub fn check(
         }
         claims.extend(table.claims);
     }
+    claims.extend(goals::judged(text, &plan, &walked));
     claims.extend(configurations::judged(text, plan::kind_of_tables(format), &plan, &walked));
     causes.retain(|c| {
         let finding = |at: &(usize, usize)| Some(claims.get(at.0)?.entries.get(at.1)?.finding.standing());

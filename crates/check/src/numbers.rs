@@ -65,6 +65,17 @@ impl Configuration {
         self.lengths.iter().find(|l| l.0 == symbol).map(|l| l.1)
     }
 
+    /// True if a sum of joints has this value, degrees or radians, but for whole turns.
+    pub fn has(&self, of: Expr, value: f64, subject: &Subject) -> bool {
+        let at = [Unit::Radians, Unit::Degrees]
+            .into_iter()
+            .filter_map(|unit| self.value(of, subject, unit, false));
+        at.into_iter().any(|x| {
+            let off = x - value;
+            (off - TAU * (off / TAU).round()).abs() < 1e-3
+        })
+    }
+
     /// True if all joints that a formula speaks of have values.
     pub fn knows(&self, e: Expr, subject: &Subject) -> bool {
         let variables = subject.description.variables();
@@ -101,6 +112,9 @@ impl Configuration {
 
 /// A text that writes a half as `0,5` with points instead, byte for byte; nothing for other texts.
 pub(super) fn decimal_points(text: &str) -> Option<String> {
+    // `0{,}20` in LaTeX: the digits before it are moved up to the point.
+    let spelled = (text.contains("{,}")).then(|| without_braces(text));
+    let text = spelled.as_deref().unwrap_or(text);
     let bytes = text.as_bytes();
     let is_digit = |k: usize| bytes.get(k).is_some_and(u8::is_ascii_digit);
     let mut commas = vec![];
@@ -109,7 +123,7 @@ pub(super) fn decimal_points(text: &str) -> Option<String> {
             continue;
         }
         match b {
-            b'.' => return None,
+            b'.' => return spelled,
             b',' => {
                 let start = (0..k).rev().take_while(|&i| is_digit(i)).last().unwrap_or(k);
                 let end = (k + 1..bytes.len()).take_while(|&i| is_digit(i)).last().unwrap_or(k);
@@ -119,7 +133,7 @@ pub(super) fn decimal_points(text: &str) -> Option<String> {
                     || bytes.get(end + 1) == Some(&b',') && is_digit(end + 2);
                 let is_pair = before == Some(&b'(') && bytes.get(end + 1) == Some(&b')');
                 if is_index || is_pair {
-                    return None;
+                    return spelled;
                 }
                 commas.push(k);
             }
@@ -127,11 +141,25 @@ pub(super) fn decimal_points(text: &str) -> Option<String> {
         }
     }
     if commas.len() < 3 {
-        return None;
+        return spelled;
     }
     let mut bytes = text.as_bytes().to_vec();
     commas.into_iter().for_each(|k| bytes[k] = b'.');
     String::from_utf8(bytes).ok()
+}
+
+/// A text with `{,}` between digits as a point, byte for byte.
+fn without_braces(text: &str) -> String {
+    let mut bytes = text.as_bytes().to_vec();
+    for (at, _) in text.match_indices("{,}") {
+        let start = (0..at).rev().take_while(|&i| bytes[i].is_ascii_digit()).last();
+        let is_number = bytes.get(at + 3).is_some_and(u8::is_ascii_digit);
+        let Some(start) = start.filter(|_| is_number) else { continue };
+        bytes.copy_within(start..at, start + 2);
+        bytes[start..start + 2].fill(b' ');
+        bytes[at + 2] = b'.';
+    }
+    String::from_utf8(bytes).unwrap_or_else(|_| text.to_string())
 }
 
 /// A number and the factor of the unit behind it, to metres, radians and seconds, and whether it measures a length or what is
@@ -139,13 +167,18 @@ pub(super) fn decimal_points(text: &str) -> Option<String> {
 pub(super) fn unit_behind(text: &str) -> Option<(&str, Expr, bool)> {
     let degree = Expr::pi() / Expr::int(180);
     let part = |n: i64| Expr::int(1) / Expr::int(n);
-    let units: [(&str, Expr); 24] = [
+    let units: [(&str, Expr); 29] = [
         ("rad/s", Expr::int(1)),
         ("deg/s", degree),
         ("°/s", degree),
         ("mm/s", part(1000)),
         ("cm/s", part(100)),
         ("m/s", Expr::int(1)),
+        ("kN*m", Expr::int(1000)),
+        ("kN·m", Expr::int(1000)),
+        ("kN m", Expr::int(1000)),
+        ("kNm", Expr::int(1000)),
+        ("kN", Expr::int(1000)),
         ("N*m", Expr::int(1)),
         ("N·m", Expr::int(1)),
         ("N m", Expr::int(1)),

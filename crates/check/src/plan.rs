@@ -2,6 +2,7 @@
 
 use super::CheckOptions;
 use super::convention;
+use super::goals::Answered;
 use super::habits::Habits;
 use super::lexis::Lexis;
 use super::lexis::set_in;
@@ -54,6 +55,8 @@ pub(super) struct Walked {
     pub skipped: Vec<(Range<usize>, Unreadable)>,
     /// What states a configuration or a case, and claims nothing.
     pub taken: Vec<Range<usize>>,
+    /// Numbers that joints are said to have where a pose is given.
+    pub answered: Vec<Answered>,
     /// What the document tells not to judge.
     pub ignored: Vec<Range<usize>>,
     /// Names that the document gives matrices: the statement and the name as printed.
@@ -394,6 +397,7 @@ impl Plan {
             assertions,
             skipped: walk.skipped,
             taken: walk.taken,
+            answered: walk.answered,
             ignored,
             named: walk.named,
             defined: walk.defined,
@@ -478,13 +482,16 @@ fn nothing(convention: Convention) -> Description {
 /// The words of a text that are a letter or two and a number, marks of subscripts left aside.
 fn mentioned(text: &str) -> BTreeSet<String> {
     let mut found = BTreeSet::new();
-    let plain = plain_name(text);
-    let chars: Vec<char> = plain.chars().collect();
-    for (i, pair) in chars.windows(2).enumerate() {
-        if pair[0].is_alphabetic() && pair[1].is_ascii_digit() {
-            let digits: String = chars[i + 1..].iter().take_while(|c| c.is_ascii_digit()).take(2).collect();
-            found.insert(format!("{}{digits}", pair[0]));
-            found.insert(format!("{}{}", pair[0], pair[1]));
+    for word in text.split_whitespace() {
+        let plain = plain_name(word);
+        let chars: Vec<char> = plain.chars().collect();
+        for (i, pair) in chars.windows(2).enumerate() {
+            if pair[0].is_alphabetic() && pair[1].is_ascii_digit() {
+                let digits: String =
+                    chars[i + 1..].iter().take_while(|c| c.is_ascii_digit()).take(2).collect();
+                found.insert(format!("{}{digits}", pair[0]));
+                found.insert(format!("{}{}", pair[0], pair[1]));
+            }
         }
     }
     found

@@ -293,7 +293,12 @@ impl Subject {
             for (number, symbol) in &angles[start + 1..] {
                 digits.push_str(&number.to_string());
                 sum = sum + (*symbol).into();
-                for letter in ["θ", "th", "q"] {
+                let is_t = self
+                    .variables
+                    .iter()
+                    .flatten()
+                    .any(|v| v.starts_with('t') && v[1..].parse::<usize>().is_ok());
+                for letter in ["θ", "th", "q", "t"].into_iter().filter(|l| *l != "t" || is_t) {
                     names = declare(names, &format!("{letter}{digits}"), sum);
                 }
             }

@@ -28,6 +28,11 @@ impl Name {
         format!("{}{base}{}{}", mark("^", left), mark("_", sub), mark("^", sup))
     }
 
+    /// True for the value with all joints at 0, `T(0)`.
+    pub fn is_at_rest(&self) -> bool {
+        matches!(&self.arguments[..], [zero] if zero.trim_matches(['{', '}', '\\', ' ']) == "0")
+    }
+
     /// True for a base with nothing around it.
     pub fn is_bare(&self) -> bool {
         self.left.is_empty() && self.sub.is_empty() && self.sup.is_empty() && self.arguments.is_empty()

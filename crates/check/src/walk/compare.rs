@@ -361,6 +361,20 @@ impl Walk<'_> {
         }
     }
 
+    /// Half a unit of the last digit of a number, in the unit in which it is compared.
+    pub(super) fn half(&self, span: &Range<usize>) -> f64 {
+        let source = self.source(span);
+        let degree = std::f64::consts::PI / 180.0;
+        match crate::numbers::unit_behind(source.trim_end_matches([',', '.', ';'])) {
+            Some((number, factor, is_length)) => {
+                let factor = if is_length { self.in_unit(factor) } else { factor };
+                half_unit(number) * factor.eval(|_| None).unwrap_or(1.0)
+            }
+            None if source.contains('°') || source.contains("\\circ") => half_unit(source) * degree,
+            None => half_unit(source),
+        }
+    }
+
     /// A number in print against a formula at the present configuration.
     pub(super) fn number(
         &self,
@@ -371,7 +385,7 @@ impl Walk<'_> {
     ) -> Option<Piece> {
         let constant = Some(printed);
         let printed = printed.eval(|_| None).ok()?;
-        let half = half_unit(self.source(span));
+        let half = self.half(span);
         let answer = Answer { printed, half, wanted, at: self.at.clone(), constant };
         Some(Piece::Number { place, span: span.clone(), answer })
     }

@@ -2,6 +2,7 @@
 
 use super::{Assertion, Cell, Cells, Definition, MAX_ELEMENTS, Piece, Reference, Scalar, Walk};
 use crate::facts::{About, Jacobian, Meaning};
+use crate::goals::Target;
 use crate::jacobians::{Part as Rows, told_of_jacobian};
 use crate::matrix::Matrix;
 use crate::names::{Name, Token, tokens};
@@ -231,6 +232,48 @@ impl Walk<'_> {
         true
     }
 
+    /// Keeps a pose of numbers that is to be reached: `p = (0.4, 0.2, 0.3)`, `T_06 = […]` above inverse kinematics.
+    fn aims_at_matrix(&mut self, statement: &Statement) -> bool {
+        let [left, right] = &statement.sides[..] else { return false };
+        let [Part::Matrix(grid)] = &right.parts[..] else { return false };
+        let Some(name) = self.lone(left).filter(|_| self.in_inverse) else { return false };
+        let Some(printed) = self.printed(grid) else { return false };
+        let is_number = |e: &Option<Expr>| e.is_some_and(|e| e.symbols().is_empty());
+        if !printed.0.iter().flatten().all(is_number) {
+            return false;
+        }
+        let place = || {
+            let is_place =
+                matches!(name.base.as_str(), "p" | "P" | "x" | "X" | "r" | "o" | "d") && name.left.is_empty();
+            let column = Matrix::column(&self.subject.pose().translation);
+            is_place.then_some(column)
+        };
+        let known = self.lexis.matrix(&self.subject, &name).filter(|m| m.1.is_some()).map(|m| m.0);
+        let Some(wanted) = known.or_else(place) else { return false };
+        let is_row = printed.shape().is_some_and(|s| s.0 == 1 && s.1 > 1);
+        let wanted = if is_row { wanted.transposed() } else { wanted };
+        let mut targets = vec![];
+        for (r, row) in self.cells(grid).iter().enumerate() {
+            for (c, cell) in row.iter().enumerate() {
+                let (Cell::Formulas(formulas), Some(wanted)) = (cell, wanted.entry(r, c)) else { continue };
+                let Some((span, syntax)) = formulas.first() else { continue };
+                let moves = wanted.symbols().iter().any(|s| self.subject.joints().contains(&(*s).into()));
+                if moves && self.at.knows(wanted, &self.subject) {
+                    return false;
+                }
+                if let (true, Ok(printed)) = (moves, syntax.value().eval(|_| None)) {
+                    targets.push(Target { wanted, printed, half: self.half(span) });
+                }
+            }
+        }
+        if targets.is_empty() {
+            return false;
+        }
+        self.aim_at(statement, targets);
+        self.taken.push(statement.span.clone());
+        true
+    }
+
     /// The velocity of the hand that the document gives as numbers: `v = (0.1, 0, 0)`.
     fn velocity_given(&self) -> Option<Matrix> {
         let name = Name { base: "v".into(), ..Name::default() };
@@ -288,7 +331,7 @@ impl Walk<'_> {
             self.skipped.push((statement.span.clone(), Unreadable::NeitherFormulaNorProduct));
             return definitions;
         }
-        if self.whole_configuration(statement) {
+        if self.whole_configuration(statement) || self.aims_at_matrix(statement) {
             return definitions;
         }
         // What a sentence tells is a claim only where it is something of the robot.
@@ -416,6 +459,7 @@ impl Walk<'_> {
             };
             if let (Some(name), Some((matrix, about))) = (unknown, &defined)
                 && self.is_lone(side, &name)
+                && !name.is_at_rest()
             {
                 definitions.push(Definition::Matrix(name.as_ref().clone(), matrix.clone(), about.clone()));
             }

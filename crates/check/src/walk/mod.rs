@@ -12,6 +12,7 @@ pub(super) use points::points;
 pub(super) use scalars::is_measured;
 
 use super::facts::{About, Meaning, Remark};
+use super::goals::{Answered, Target};
 use super::habits::Habits;
 use super::lexis::{Lexis, read};
 use super::matrix::Matrix;
@@ -139,6 +140,13 @@ pub(super) struct Walk<'a> {
     pub skipped: Vec<(Range<usize>, Unreadable)>,
     /// What states a configuration or a case, and claims nothing.
     pub taken: Vec<Range<usize>>,
+    /// Numbers that joints are said to have where a pose is given.
+    pub answered: Vec<Answered>,
+    /// The pose that is to be reached, as far as the text has given it in numbers, and where it did last.
+    goal: Vec<Target>,
+    goal_at: usize,
+    /// What is read is about inverse kinematics.
+    in_inverse: bool,
     /// Names that the document gives matrices: the statement and the name as printed.
     pub named: Vec<(Range<usize>, String)>,
     /// The statement before which another one is read.
@@ -204,6 +212,10 @@ impl<'a> Walk<'a> {
             defined: vec![],
             sines: vec![],
             taken: vec![],
+            answered: vec![],
+            goal: vec![],
+            goal_at: 0,
+            in_inverse: false,
             named: vec![],
             reader: None,
             last_prose: 0..0,
@@ -248,6 +260,11 @@ impl<'a> Walk<'a> {
             && *heading != self.last_heading
         {
             self.last_heading = heading.clone();
+            let words = self.text.get(heading.clone()).unwrap_or_default().to_lowercase();
+            self.in_inverse = cases::tells_inverse(&words);
+            if self.in_inverse {
+                self.at.forget_joints();
+            }
             self.told_in(heading);
         }
         let before = self.last_end.min(statement.span.start)..statement.span.start;
@@ -257,6 +274,11 @@ impl<'a> Walk<'a> {
             && *prose != self.last_prose
         {
             self.last_prose = prose.clone();
+            let words = self.text.get(prose.clone()).unwrap_or_default().to_lowercase();
+            if words.len() < 60 && cases::tells_inverse(&words) {
+                self.in_inverse = true;
+                self.at.forget_joints();
+            }
             self.told_in(prose);
         }
         if statement.sides.iter().flat_map(|s| &s.parts).all(|p| matches!(p, Part::Text(_)))

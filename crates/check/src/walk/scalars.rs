@@ -122,22 +122,35 @@ impl Walk<'_> {
             }
         }
         if self.tells_goal(statement) {
+            self.in_inverse = true;
             // Where the joints are is what is asked for.
             self.at.forget_joints();
         }
         let is_case = self.is_case(statement);
-        if is_case && self.case(statement, &read) {
+        if is_case && (self.case(statement, &read) || self.is_open(&read)) {
+            self.take_as_case(statement);
             return true;
         }
         if self.is_place(statement, &read) || is_choice_of_sign(&read) || self.is_other_case(&spans, &read) {
             self.taken.push(statement.span.clone());
             return true;
         }
+        if !is_case && self.answer(statement, &read) {
+            return true;
+        }
         if !is_case && self.configuration(&spans, &read) {
             self.taken.push(statement.span.clone());
             return true;
         }
-        if self.is_condition(statement, &read) || self.is_goal(statement, &read) {
+        if self.is_number_with_signs(&read) {
+            // Nothing says which pose has it.
+            self.skipped.push((statement.span.clone(), Unreadable::NoConfiguration));
+            return true;
+        }
+        if self.aims(statement, &read)
+            || self.is_condition(statement, &read)
+            || self.is_goal(statement, &read)
+        {
             self.taken.push(statement.span.clone());
             return true;
         }
@@ -146,6 +159,11 @@ impl Walk<'_> {
                 Spoken::Joint { .. } => About::Joint,
                 Spoken::Angle { set, .. } => About::Angle(set),
             };
+            if about == About::Joint {
+                // Numbers behind it are those of a pose to be reached.
+                self.in_inverse = true;
+                self.at.forget_joints();
+            }
             let assertion = Assertion { spoken: Some(spoken), ..self.assertion(statement, about) };
             self.assertions.push(assertion);
             return true;

@@ -88,6 +88,7 @@ impl Walk<'_> {
         if ZERO.iter().any(|words| lower.contains(words)) {
             (0..self.subject.joints().len()).for_each(|joint| self.at.set(joint, Expr::int(0)));
         }
+        self.told_names(&joined);
         self.told_lists(&joined);
         self.told_tuples(&joined, prose.start);
         let parts: Vec<&str> = joined.split('=').collect();
@@ -130,6 +131,68 @@ impl Walk<'_> {
                 names.clear();
             }
         }
+    }
+
+    /// Reads the names that words give a formula: `let zeta be the wanted t2+t3+t4`.
+    fn told_names(&mut self, line: &str) {
+        const VERBS: [&str; 7] =
+            [" be ", " denote ", " denotes ", " stand for ", " stands for ", " means ", " bezeichnet "];
+        let lower = line.to_lowercase();
+        if lower.len() != line.len() {
+            return;
+        }
+        for (at, verb) in VERBS.iter().flat_map(|v| lower.match_indices(v)) {
+            let before = line[..at].trim_end();
+            let name =
+                before.rsplit([' ', '(', ',']).next().unwrap_or_default().trim_matches(['$', '*', '`']);
+            let is_let = verb != " be "
+                || before[..before.len() - name.len()].trim_end().to_lowercase().ends_with("let");
+            if !is_let || name.is_empty() || self.lexis.names.lookup(name).is_some() {
+                continue;
+            }
+            let rest = line[at + verb.len()..].split(['.', ',', ';', ':']).next().unwrap_or_default();
+            // The formula stands at the end of the phrase.
+            let words: Vec<(usize, &str)> = rest
+                .split(' ')
+                .scan(0, |k, w| {
+                    let start = *k;
+                    *k += w.len() + 1;
+                    Some((start, w))
+                })
+                .collect();
+            let value = words.iter().find_map(|(start, _)| {
+                let source = rest.get(*start..)?.trim().trim_matches(['$', '*', '`']);
+                let value = read(source, &(0..source.len()), &self.lexis.names).ok()?.value();
+                (!value.symbols().is_empty()).then_some(value)
+            });
+            if let Some(value) = value {
+                let plain = plain_name(name);
+                self.lexis.define(&plain, value);
+                let inverse = denavit_symbolic::Angle::of(value);
+                let is_sum = inverse.terms.iter().all(|(e, _)| self.subject.joints().contains(e));
+                // A sum of joints that is wanted is known where the joints are looked for.
+                if is_sum && inverse.terms.len() > 1 {
+                    let entry = self.direction_of(value);
+                    self.lexis.define_inverse(&plain, entry.unwrap_or(value));
+                }
+            }
+        }
+    }
+
+    /// The angle of the hand in its plane by the entries of the pose, where a sum of joints is that.
+    fn direction_of(&self, sum: Expr) -> Option<Expr> {
+        let rows = self.subject.pose().rotation.rows();
+        let symbol = |r: usize, c: usize| Expr::from(self.lexis.pose_symbol(r, c));
+        let mut points = denavit_reading::slip::Points::new(5);
+        let (sine, cosine) = (points.value(sum.sin()), points.value(sum.cos()));
+        let find = |value| {
+            (0..9).map(|k| (k / 3, k % 3)).find(|&(r, c)| {
+                let mut points = denavit_reading::slip::Points::new(5);
+                points.value(rows[r][c]) == value
+            })
+        };
+        let ((a, b), (c, d)) = (find(sine)?, find(cosine)?);
+        Some(symbol(a, b).atan2(symbol(c, d)))
     }
 
     /// Reads the values that the comments of a program give.
@@ -268,7 +331,7 @@ impl Walk<'_> {
     }
 
     /// A length in metres, in the unit in which the document has lengths.
-    fn in_unit(&self, metres: Expr) -> Expr {
+    pub(super) fn in_unit(&self, metres: Expr) -> Expr {
         if self.lexis.habits.scaled { metres * Expr::int(1000) } else { metres }
     }
 
@@ -347,8 +410,20 @@ impl Walk<'_> {
 
 /// True for a text that tells a case, not a configuration.
 pub(super) fn is_case(line: &str) -> bool {
-    const CASES: [&str; 16] = [
+    const CASES: [&str; 28] = [
         "if ",
+        "iff ",
+        "loses rank",
+        "lose rank",
+        "drops rank",
+        "rank drops",
+        "only for ",
+        "genau dann",
+        "nur dann",
+        "si et seulement",
+        "s'annulent",
+        "se anula",
+        "si annulla",
         "when ",
         "unless",
         "singul",

@@ -94,6 +94,12 @@ impl Reader<'_> {
             Some(Kind::Word) => {
                 let word = self.shown(at);
                 let bare = word.trim_matches(['*', '\'', '’']);
+                if word == "I"
+                    && self.kind(at + 1) == Some(Kind::Word)
+                    && is_sentence_word(self.shown(at + 1))
+                {
+                    return true;
+                }
                 let is_unit = at > 0 && is_number(self.shown(at - 1)) && is_unit(bare);
                 !is_unit && (words::is_link(bare) || is_sentence_word(bare))
             }
@@ -151,6 +157,7 @@ impl Reader<'_> {
                         {
                             k -= 1;
                         }
+                        Some(Kind::Other) if self.shown(k - 1) == "√" => return Some(k - 1),
                         _ => return Some(k),
                     }
                 }
@@ -205,6 +212,10 @@ impl Reader<'_> {
                     depth -= 1;
                 }
                 _ if depth > 0 => {}
+                Kind::Other if self.shown(k) == "√" => {
+                    k += 1;
+                    continue;
+                }
                 Kind::Comma
                 | Kind::Semicolon
                 | Kind::Colon
@@ -290,6 +301,8 @@ fn is_unit(word: &str) -> bool {
             | "grados"
             | "degrés"
             | "N"
+            | "kN"
+            | "kNm"
             | "Nm"
             | "s"
             | "°"
@@ -343,6 +356,7 @@ mod tests {
             ("so that cos(q2) = (x² + y² - 0.34)/0.3, das gibt", vec!["cos(q2) = (x² + y² - 0.34)/0.3"]),
             ("the tip is at q = (30°, 60°, 0.2 m).", vec!["q = (30°, 60°, 0.2 m)"]),
             ("A1(q1)⁻¹·U = A2·A3, third row", vec!["A1(q1)⁻¹·U = A2·A3"]),
+            ("its distance is r = √(x² + y²) = 0.4, and", vec!["r = √(x² + y²) = 0.4"]),
             ("there is nothing here", vec![]),
         ] {
             let found: Vec<&str> = formulas(line, &(0..line.len())).into_iter().map(|s| &line[s]).collect();

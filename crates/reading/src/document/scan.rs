@@ -225,8 +225,14 @@ impl<'t> Scanner<'_, 't> {
             if rest.starts_with('{') {
                 let end = trimmed(text, span).end;
                 let inner = end - rest.len() + 1..end;
-                let close = cut(text, &inner).rfind('}').map_or(inner.end, |i| inner.start + i);
+                let close = closing(cut(text, &inner)).map_or(inner.end, |i| inner.start + i);
                 self.headed(inner.start..close);
+                // `\paragraph{Position.} Given $o$ …`: the text begins on its line.
+                let rest = (close + 1).min(end)..end;
+                let is_label = cut(text, &rest).trim_start().starts_with("\\label");
+                if !is_label && has_letters(text, &rest) {
+                    return Some(self.line(rest, next, limit));
+                }
                 return Some(next);
             }
         }
@@ -418,4 +424,18 @@ impl<'t> Scanner<'_, 't> {
 
 fn has_letters(text: &str, span: &Range<usize>) -> bool {
     cut(text, span).chars().any(char::is_alphabetic)
+}
+
+/// Where the brace that is open before a text closes.
+fn closing(text: &str) -> Option<usize> {
+    let mut depth = 0_usize;
+    for (i, c) in text.char_indices() {
+        match c {
+            '{' => depth += 1,
+            '}' if depth == 0 => return Some(i),
+            '}' => depth -= 1,
+            _ => {}
+        }
+    }
+    None
 }

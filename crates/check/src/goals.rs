@@ -1,0 +1,343 @@
+//! Numbers that joints are said to have where a pose is given in numbers: they are right if some configuration with them has that
+//! pose, as far as the printed digits tell.
+
+use super::facts::{About, Remark, Unproved};
+use super::numbers::{Configuration, decimal};
+use super::outcome::{Claim, Entry, Finding, Wrong};
+use super::plan::{Plan, Walked};
+use super::subject::Subject;
+use denavit::description::JointKind;
+use denavit::random::Random;
+use denavit_symbolic::{Expr, Symbol};
+use std::f64::consts::{PI, TAU};
+use std::ops::Range;
+
+/// A quantity of the pose with its printed value, and half a unit of the last digit.
+#[derive(Clone, Debug)]
+pub(super) struct Target {
+    pub wanted: Expr,
+    pub printed: f64,
+    pub half: f64,
+}
+
+/// A joint, or a sum of joints, and the numbers that a document gives it.
+#[derive(Clone, Debug)]
+pub(super) struct Answered {
+    pub span: Range<usize>,
+    /// As printed.
+    pub name: String,
+    /// Where the values stand.
+    pub value: Range<usize>,
+    pub of: Expr,
+    pub values: Vec<f64>,
+    /// Half a unit of the last digit.
+    pub half: f64,
+    /// The values have a unit.
+    pub has_unit: bool,
+    pub subject: usize,
+    /// The pose that should be reached.
+    pub targets: Vec<Target>,
+    /// Lengths that the document states.
+    pub at: Configuration,
+}
+
+/// Starts of a search, and its steps.
+const STARTS: usize = 60;
+const STEPS: usize = 40;
+/// Residuals in units of what rounding explains, up to which a value is right.
+const ENOUGH: f64 = 2.0;
+/// No more answers are looked at.
+const MAX_ANSWERS: usize = 200;
+
+/// A claim for each of the numbers; those of which the pose is not known are left out.
+pub(super) fn judged(text: &str, plan: &Plan, walked: &Walked) -> Vec<Claim> {
+    let mut found = vec![];
+    let answers = &walked.answered[..walked.answered.len().min(MAX_ANSWERS)];
+    let mut at = 0;
+    while at < answers.len() {
+        let first = &answers[at];
+        let line = |a: &Answered| text[..a.span.start].matches('\n').count();
+        let same = |a: &&Answered| a.subject == first.subject && line(a) == line(first);
+        let count = answers[at..].iter().take_while(same).count();
+        let group = &answers[at..at + count];
+        at += count;
+        let search = Search::new(&plan.subjects[first.subject], group);
+        let Some(search) = search else { continue };
+        found.extend(search.verdicts().into_iter().zip(group));
+    }
+    // What is wrong is so only beside something that is right of the same robot: then the pose is the one that is meant.
+    let is_meant = found.iter().any(|(v, _)| *v == Some(true));
+    let claims = found.into_iter().map(|(verdict, answer)| {
+        let finding = match verdict {
+            Some(true) => Finding::Equal { unless_zero: vec![] },
+            Some(false) if is_meant => Finding::Wrong(Box::new(wrong(plan, answer))),
+            _ => Finding::Undecided { why: Unproved::NoPose },
+        };
+        let entry = Entry { place: None, span: answer.value.clone(), finding, identities: vec![] };
+        Claim {
+            span: answer.span.clone(),
+            name: answer.name.clone(),
+            about: About::Configuration,
+            entries: vec![entry],
+            instead: None,
+            remarks: vec![],
+            robot: answer.subject,
+        }
+    });
+    claims.collect()
+}
+
+/// What is said of a wrong value: the right ones nearest to it.
+fn wrong(plan: &Plan, answer: &Answered) -> Wrong {
+    let mut wrong = Wrong::default();
+    let Some(search) = Search::new(&plan.subjects[answer.subject], std::slice::from_ref(answer)) else {
+        return wrong;
+    };
+    let (Some(&x), Some(right)) = (answer.values.first(), search.nearest(answer)) else { return wrong };
+    let shown = |v: f64| if search.in_degrees(answer) { decimal(v.to_degrees()) } else { decimal(v) };
+    wrong.correct = vec![shown(right)];
+    let off = (right - x).abs();
+    wrong.remarks.push(if (right + x).abs() < 4.0 * answer.half + 1e-9 {
+        Remark::Sign
+    } else {
+        Remark::OffBy(if search.in_degrees(answer) { off.to_degrees() } else { off })
+    });
+    wrong
+}
+
+/// A joint or a sum of joints at a value, and how far it may be off.
+type Fixed = (Expr, f64, f64);
+
+/// Configurations that reach a pose.
+struct Search<'a> {
+    subject: &'a Subject,
+    group: &'a [Answered],
+    is_angle: Vec<bool>,
+    size: f64,
+}
+
+impl<'a> Search<'a> {
+    /// Nothing if the pose does not determine the joints.
+    fn new(subject: &'a Subject, group: &'a [Answered]) -> Option<Self> {
+        let kinds = subject.description.variables();
+        let is_angle: Vec<bool> = kinds.iter().map(|v| v.kind == JointKind::Revolute).collect();
+        let targets = &group.first()?.targets;
+        let search = Search { subject, group, is_angle, size: 1.0 };
+        let is_known =
+            targets.iter().all(|t| search.value(t.wanted, &vec![0.1; search.is_angle.len()]).is_some());
+        if targets.len() < search.is_angle.len() || !is_known {
+            return None;
+        }
+        let size = targets.iter().map(|t| t.printed.abs()).fold(0.1, f64::max);
+        Some(Search { size, ..search })
+    }
+
+    fn value(&self, e: Expr, q: &[f64]) -> Option<f64> {
+        let (d, joints) = (&self.subject.description, self.subject.joints());
+        let at = &self.group[0].at;
+        let value = |s: Symbol| {
+            let joint = joints.iter().position(|j| *j == s.into()).map(|k| q[k]);
+            joint.or_else(|| at.length(s)).or_else(|| d.value(s))
+        };
+        e.eval(value).ok().filter(|x| x.is_finite())
+    }
+
+    /// True for values of angles that are in degrees: they say so, or are more than a turn in radians.
+    fn in_degrees(&self, answer: &Answered) -> bool {
+        let bare = self.group.iter().filter(|a| !a.has_unit && self.turns(a.of)).flat_map(|a| &a.values);
+        self.turns(answer.of)
+            && (answer.has_unit || bare.into_iter().any(|x| x.abs() > TAU || *x != 0.0 && x % 5.0 == 0.0))
+    }
+
+    fn turns(&self, of: Expr) -> bool {
+        let joints = self.subject.joints();
+        of.symbols()
+            .iter()
+            .all(|s| joints.iter().position(|j| *j == (*s).into()).is_some_and(|k| self.is_angle[k]))
+    }
+
+    /// A value in radians or in the document's length, and half a unit of its last digit.
+    fn fixed(&self, answer: &Answered, value: f64) -> Fixed {
+        let to = if self.in_degrees(answer) && !answer.has_unit { PI / 180.0 } else { 1.0 };
+        (answer.of, value * to, answer.half * to)
+    }
+
+    /// Residuals in units of what rounding explains.
+    fn residuals(&self, fixed: &[Fixed], q: &[f64]) -> Option<Vec<f64>> {
+        let mut found = vec![];
+        for t in &self.group[0].targets {
+            found.push((self.value(t.wanted, q)? - t.printed) / (t.half + 1e-4 * self.size));
+        }
+        for (of, value, half) in fixed {
+            let off = self.value(*of, q)? - value;
+            let off = if self.turns(*of) { off - TAU * (off / TAU).round() } else { off };
+            found.push(off / (half + 1e-4));
+        }
+        Some(found)
+    }
+
+    /// A configuration with these values that reaches the pose.
+    fn reach(&self, fixed: &[Fixed], random: &mut Random) -> Option<Vec<f64>> {
+        let n = self.is_angle.len();
+        for _ in 0..STARTS {
+            let draw = |random: &mut Random, &is_angle: &bool| {
+                (2.0 * random.unit() - 1.0) * if is_angle { PI } else { self.size }
+            };
+            let mut q: Vec<f64> = self.is_angle.iter().map(|a| draw(random, a)).collect();
+            for (of, value, _) in fixed {
+                if let Some(k) = self.subject.joints().iter().position(|j| j == of) {
+                    q[k] = *value;
+                }
+            }
+            let mut damping = 1e-2;
+            let mut r = self.residuals(fixed, &q)?;
+            for _ in 0..STEPS {
+                let cost: f64 = r.iter().map(|x| x * x).sum();
+                if r.iter().all(|x| x.abs() <= ENOUGH) {
+                    return self.is_isolated(&q).then_some(q);
+                }
+                let mut j = vec![vec![0.0; n]; r.len()];
+                for k in 0..n {
+                    let h = 1e-7 * if self.is_angle[k] { 1.0 } else { self.size };
+                    let mut there = q.clone();
+                    there[k] += h;
+                    let moved = self.residuals(fixed, &there)?;
+                    for (row, (a, b)) in j.iter_mut().zip(moved.iter().zip(&r)) {
+                        row[k] = (a - b) / h;
+                    }
+                }
+                let step = damped(&j, &r, damping)?;
+                let next: Vec<f64> = q.iter().zip(&step).map(|(a, b)| a - b).collect();
+                let there = self.residuals(fixed, &next)?;
+                if there.iter().map(|x| x * x).sum::<f64>() < cost {
+                    (q, r) = (next, there);
+                    damping = (damping * 0.2).max(1e-12);
+                } else {
+                    damping *= 8.0;
+                    if damping > 1e6 {
+                        break;
+                    }
+                }
+            }
+        }
+        None
+    }
+
+    /// True where the pose determines the joints.
+    fn is_isolated(&self, q: &[f64]) -> bool {
+        let n = q.len();
+        let Some(r) = self.residuals(&[], q) else { return false };
+        let mut normal = vec![vec![0.0; n]; n];
+        let mut columns = vec![];
+        for k in 0..n {
+            let mut there = q.to_vec();
+            there[k] += 1e-6;
+            let Some(moved) = self.residuals(&[], &there) else { return false };
+            let scale = self.group[0].targets.iter().map(|t| t.half + 1e-4 * self.size);
+            let column = moved.iter().zip(&r).zip(scale).map(|((a, b), s)| (a - b) / 1e-6 * s / self.size);
+            columns.push(column.collect::<Vec<f64>>());
+        }
+        for (a, row) in normal.iter_mut().enumerate() {
+            for (b, entry) in row.iter_mut().enumerate() {
+                *entry = columns[a].iter().zip(&columns[b]).map(|(x, y)| x * y).sum();
+            }
+        }
+        determinant(normal).abs().powf(0.5 / n as f64) > 1e-3
+    }
+
+    /// For each value: whether some configuration with it reaches the pose; nothing where that is not known.
+    fn verdicts(&self) -> Vec<Option<bool>> {
+        let mut random = Random(11);
+        let single = self.group.iter().all(|a| a.values.len() == 1) && self.group.len() > 1;
+        if single {
+            let all: Vec<Fixed> = self.group.iter().map(|a| self.fixed(a, a.values[0])).collect();
+            if self.reach(&all, &mut random).is_some() {
+                return vec![Some(true); self.group.len()];
+            }
+            // One that is wrong leaves the others right together.
+            for k in 0..all.len() {
+                let mut rest = all.clone();
+                rest.remove(k);
+                if all.len() > 2 && self.reach(&rest, &mut random).is_some() {
+                    return (0..all.len()).map(|i| Some(i != k)).collect();
+                }
+            }
+        }
+        let own = |a: &Answered| {
+            let all = a.values.iter().map(|&v| self.reach(&[self.fixed(a, v)], &mut random).is_some());
+            Some(all.collect::<Vec<bool>>().into_iter().all(|x| x))
+        };
+        let found: Vec<Option<bool>> = self.group.iter().map(own).collect();
+        // Each is one of the pose, but not all together.
+        if single && found.iter().all(|f| *f == Some(true)) { vec![None; found.len()] } else { found }
+    }
+
+    /// The value nearest to a wrong one with which the pose is reached.
+    fn nearest(&self, answer: &Answered) -> Option<f64> {
+        let (_, x, _) = self.fixed(answer, *answer.values.first()?);
+        let mut random = Random(13);
+        let mut best: Option<f64> = None;
+        for _ in 0..8 {
+            let Some(q) = self.reach(&[], &mut random) else { continue };
+            let y = self.value(answer.of, &q)?;
+            let y = if self.turns(answer.of) { y - TAU * ((y - x) / TAU).round() } else { y };
+            if best.is_none_or(|b| (y - x).abs() < (b - x).abs()) {
+                best = Some(y);
+            }
+        }
+        best
+    }
+}
+
+/// The step of least squares, damped.
+fn damped(j: &[Vec<f64>], r: &[f64], damping: f64) -> Option<Vec<f64>> {
+    let n = j.first()?.len();
+    let mut a = vec![vec![0.0; n + 1]; n];
+    for (i, row) in a.iter_mut().enumerate() {
+        for (k, entry) in row.iter_mut().take(n).enumerate() {
+            *entry = j.iter().map(|g| g[i] * g[k]).sum();
+        }
+        row[n] = j.iter().zip(r).map(|(g, r)| g[i] * r).sum();
+    }
+    let largest = (0..n).map(|i| a[i][i]).fold(1e-30, f64::max);
+    for (i, row) in a.iter_mut().enumerate() {
+        row[i] += damping * row[i].max(1e-9 * largest);
+    }
+    for i in 0..n {
+        let pivot = (i..n).max_by(|&x, &y| a[x][i].abs().total_cmp(&a[y][i].abs()))?;
+        a.swap(i, pivot);
+        if a[i][i].abs() < 1e-300 {
+            return None;
+        }
+        for k in 0..n {
+            if k != i {
+                let factor = a[k][i] / a[i][i];
+                let row = a[i].clone();
+                a[k].iter_mut().zip(&row).for_each(|(x, y)| *x -= factor * y);
+            }
+        }
+    }
+    Some((0..n).map(|i| a[i][n] / a[i][i]).collect())
+}
+
+fn determinant(mut a: Vec<Vec<f64>>) -> f64 {
+    let n = a.len();
+    let mut product = 1.0;
+    for i in 0..n {
+        let Some(pivot) = (i..n).max_by(|&x, &y| a[x][i].abs().total_cmp(&a[y][i].abs())) else { return 0.0 };
+        if a[pivot][i] == 0.0 {
+            return 0.0;
+        }
+        if pivot != i {
+            a.swap(i, pivot);
+            product = -product;
+        }
+        product *= a[i][i];
+        for k in i + 1..n {
+            let factor = a[k][i] / a[i][i];
+            let row = a[i].clone();
+            a[k].iter_mut().zip(&row).for_each(|(x, y)| *x -= factor * y);
+        }
+    }
+    product
+}
