@@ -67,7 +67,20 @@ struct Row {
 /// The claims of a document's tables of configurations.
 pub(super) fn judged(text: &str, kind: TableKind, plan: &Plan, walked: &Walked) -> Vec<Claim> {
     let mut found = vec![];
-    for grid in grids(text, kind) {
+    let mut all = grids(text, kind);
+    let is_joint = |name: &String| {
+        let subject = &*plan.subjects[0];
+        matches!(column(name, subject, walked.names_of(0), true), Column::Joint(..))
+    };
+    let is_head = |names: &[String]| names.iter().filter(|n| is_joint(n)).count() >= 2;
+    let place = |g: &PrintedGrid| g.first().and_then(|r| r.first()).map_or(0, |c| c.1.start);
+    for grid in super::plain_tables::below(text, &is_head) {
+        let (start, end) = (place(&grid), grid.last().and_then(|r| r.last()).map_or(0, |c| c.1.end));
+        if !all.iter().any(|g| (start..end).contains(&place(g))) {
+            all.push(grid);
+        }
+    }
+    for grid in all {
         if let Some(listed) = Listed::of(text, &grid, plan, walked) {
             found.extend(listed.claims());
         }
@@ -93,8 +106,12 @@ impl<'a> Listed<'a> {
             let columns: Vec<Column> = heads.iter().map(read).collect();
             let count =
                 |k: usize| columns.iter().filter(|c| matches!(c, Column::Joint(i, _) if *i == k)).count();
-            (0..joints).all(|k| count(k) == 1).then_some(columns)
+            let told = (0..joints).filter(|&k| count(k) == 1).count();
+            ((0..joints).all(|k| count(k) <= 1) && told >= 2).then_some(columns)
         })?;
+        let is_told = |k: usize| columns.iter().any(|c| matches!(c, Column::Joint(i, _) if *i == k));
+        let open: Vec<Expr> = (0..joints).filter(|&k| !is_told(k)).map(|k| subject.joints()[k]).collect();
+        let is_open = |e: Expr| e.symbols().iter().any(|s| open.contains(&(*s).into()));
         let printed: Vec<Row> = rows.iter().map(|row| read(row)).collect();
         // Each row gives every joint a number.
         let is_full = |row: &Row| {
@@ -107,9 +124,19 @@ impl<'a> Listed<'a> {
         let before = walked.assertions.iter().rev().filter(|a| a.span.end <= start && a.subject == number);
         let stated = before.into_iter().find_map(stated);
         let (mut targets, at) = stated.unwrap_or_default();
+        targets.retain(|t: &Target| !is_open(t.wanted));
         if targets.is_empty() {
             targets = goal(before_of(text, start), subject, plan.habits.scaled);
         }
+        targets.retain(|t: &Target| !is_open(t.wanted));
+        // What depends on a joint that the table does not give is not known.
+        let columns: Vec<Column> = columns
+            .into_iter()
+            .map(|c| match c {
+                Column::Pose(e, ..) if is_open(e) => Column::Other,
+                other => other,
+            })
+            .collect();
         let scaled = plan.habits.scaled;
         let mut listed = Listed { subject, number, columns, rows: printed, targets, at, scaled };
         if scaled {
@@ -458,7 +485,13 @@ fn is_number_of_row(head: &str) -> bool {
 /// The numbers of a row.
 fn read(row: &[(String, Range<usize>)]) -> Row {
     let number = |cell: &(String, Range<usize>)| {
-        let text = cell.0.replace(['−', '–'], "-").replace("^\\circ", "").replace("{,}", ".");
+        let bare = cell
+            .0
+            .trim_end_matches("mm")
+            .trim_end_matches("cm")
+            .trim_end_matches("rad")
+            .trim_end_matches(" m");
+        let text = bare.replace(['−', '–'], "-").replace("^\\circ", "").replace("{,}", ".");
         let text = text.trim_matches(['$', ' ', '°', '*']).trim_end_matches("deg").trim().to_string();
         let x: f64 = text.parse().ok()?;
         Some((cell.1.clone(), x, half_unit(&text)))

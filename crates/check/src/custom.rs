@@ -25,7 +25,9 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// The names of a text: letters, each with the digits and letters behind it, marks of subscripts left aside.
 pub(super) fn plain(text: &str) -> String {
-    let mut plain = plain_name(text);
+    // `\\rho` as ρ, by its command; of the rest only names that no word contains.
+    let text = if text.contains('\\') { greek_commands(text) } else { text.to_string() };
+    let mut plain = plain_name(&text);
     for name in ["vartheta", "varphi", "theta", "omega", "phi", "tau"] {
         if plain.contains(name) {
             let letter = greek::letter(name).unwrap_or('φ');
@@ -33,6 +35,23 @@ pub(super) fn plain(text: &str) -> String {
         }
     }
     plain
+}
+
+/// A text with the commands of Greek letters as letters.
+fn greek_commands(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(at) = rest.find('\\') {
+        out.push_str(&rest[..at]);
+        let name: String = rest[at + 1..].chars().take_while(char::is_ascii_alphabetic).collect();
+        match greek::letter(&name) {
+            Some(letter) => out.push(letter),
+            None => out.push_str(&rest[at..at + 1 + name.len()]),
+        }
+        rest = &rest[at + 1 + name.len()..];
+    }
+    out.push_str(rest);
+    out
 }
 
 /// The customary names that a text mentions.
@@ -142,6 +161,11 @@ fn is_mentioned(text: &str, name: &str) -> bool {
     })
 }
 
+/// True for a text that has names for the entries of a rotation: no frame is turned against itself, as `R_{11}` would be.
+pub(super) fn names_entries(text: &str) -> bool {
+    ["R11", "R22", "R33"].iter().any(|name| is_mentioned(text, name))
+}
+
 /// The letter of a load, its axis, and whether it points against it.
 type Load = Option<(char, usize, bool)>;
 
@@ -202,8 +226,11 @@ fn torques(subject: &Subject, text: &str, own: Load, add: &mut Add<'_>) {
 
 /// The point in which the last three axes meet.
 fn wrist(subject: &Subject, plain: &str, places: &Places, add: &mut Add<'_>) {
-    let Some(centre) = subject.wrist_centre() else { return };
     let n = subject.last();
+    // The arm without its wrist has the wrist's centre as its hand.
+    let is_arm = (2..=4).contains(&n) && subject.joints().len() <= 3;
+    let origin = || subject.transform(Some(n), None).map(|x| x.translation).filter(|_| is_arm);
+    let Some(centre) = subject.wrist_centre().or_else(origin) else { return };
     let Some(base) = subject.transform(Some(0), Some(n)) else { return };
     let point = base.act_on_point(centre);
     let Some(tool) = subject.transform(None, Some(n)) else { return };
@@ -218,6 +245,8 @@ fn wrist(subject: &Subject, plain: &str, places: &Places, add: &mut Add<'_>) {
                 format!("pc{a}"),
                 format!("pw{a}"),
                 format!("pW{a}"),
+                format!("PW{a}"),
+                format!("oW{a}"),
                 format!("oc{a}"),
                 format!("P{a}w"),
                 format!("Pw{a}"),

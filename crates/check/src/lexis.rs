@@ -97,6 +97,9 @@ impl Lexis {
                     None => lexis.declare(&name, pose[r][c], symbol.into()),
                 };
                 lexis.declare(&format!("t{}{}", r + 1, c + 1), pose[r][c], symbol.into());
+                if c < 3 && custom::names_entries(text) {
+                    lexis.declare(&format!("R{}{}", r + 1, c + 1), pose[r][c], symbol.into());
+                }
                 for matrix in ["T", "R"] {
                     lexis.declare(&format!("{matrix}({},{})", r + 1, c + 1), pose[r][c], symbol.into());
                 }

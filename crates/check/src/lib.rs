@@ -28,6 +28,7 @@ mod note;
 mod numbers;
 mod order;
 mod outcome;
+mod plain_tables;
 mod plan;
 mod product;
 mod programs;

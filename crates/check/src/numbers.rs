@@ -110,11 +110,15 @@ impl Configuration {
     }
 }
 
-/// A text that writes a half as `0,5` with points instead, byte for byte; nothing for other texts.
+/// A text that writes a half as `0,5` or `0{,}5` with points instead, byte for byte; nothing for other texts.
 pub(super) fn decimal_points(text: &str) -> Option<String> {
-    // `0{,}20` in LaTeX: the digits before it are moved up to the point.
-    let spelled = (text.contains("{,}")).then(|| without_braces(text));
-    let text = spelled.as_deref().unwrap_or(text);
+    let pointed = pointed(text);
+    let source = pointed.as_deref().unwrap_or(text);
+    if source.contains("{,}") { Some(without_braces(source)) } else { pointed }
+}
+
+/// A text with points for the commas between digits, where these are those of numbers.
+fn pointed(text: &str) -> Option<String> {
     let bytes = text.as_bytes();
     let is_digit = |k: usize| bytes.get(k).is_some_and(u8::is_ascii_digit);
     let mut commas = vec![];
@@ -123,7 +127,7 @@ pub(super) fn decimal_points(text: &str) -> Option<String> {
             continue;
         }
         match b {
-            b'.' => return spelled,
+            b'.' => return None,
             b',' => {
                 let start = (0..k).rev().take_while(|&i| is_digit(i)).last().unwrap_or(k);
                 let end = (k + 1..bytes.len()).take_while(|&i| is_digit(i)).last().unwrap_or(k);
@@ -133,7 +137,7 @@ pub(super) fn decimal_points(text: &str) -> Option<String> {
                     || bytes.get(end + 1) == Some(&b',') && is_digit(end + 2);
                 let is_pair = before == Some(&b'(') && bytes.get(end + 1) == Some(&b')');
                 if is_index || is_pair {
-                    return spelled;
+                    return None;
                 }
                 commas.push(k);
             }
@@ -141,7 +145,7 @@ pub(super) fn decimal_points(text: &str) -> Option<String> {
         }
     }
     if commas.len() < 3 {
-        return spelled;
+        return None;
     }
     let mut bytes = text.as_bytes().to_vec();
     commas.into_iter().for_each(|k| bytes[k] = b'.');
@@ -234,7 +238,8 @@ pub(super) fn half_unit(text: &str) -> f64 {
 
 /// The verdict on a number.
 pub(super) fn judge(answer: &Answer, subject: &Subject, tolerance: Option<f64>) -> Finding {
-    let allowed = tolerance.unwrap_or(answer.half * 1.01 + 1e-12);
+    // One unit of the last digit: what was computed from other rounded numbers is off by as much.
+    let allowed = tolerance.unwrap_or(answer.half * 3.0 + 1e-12);
     let units = match answer.at.looks_like_degrees() {
         true => [Unit::Degrees, Unit::Radians],
         false => [Unit::Radians, Unit::Degrees],
@@ -256,7 +261,7 @@ pub(super) fn judge(answer: &Answer, subject: &Subject, tolerance: Option<f64>) 
         (None, Some(k)) if k > 1.0 => Remark::Millimetres,
         (None, Some(_)) => Remark::Metres,
         (None, None) if near(-right, allowed) => Remark::Sign,
-        (None, None) if near(right, 12.0 * allowed) => Remark::LastDigit,
+        (None, None) if near(right, 4.0 * allowed) => Remark::LastDigit,
         (None, None) => Remark::OffBy((answer.printed - right).abs()),
     });
     Finding::Wrong(Box::new(wrong))

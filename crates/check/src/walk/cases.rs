@@ -25,7 +25,9 @@ impl Walk<'_> {
             return false;
         }
         let said = statement.prose.clone().and_then(|p| self.text.get(p)).unwrap_or_default().to_lowercase();
-        let determinant = self.subject.determinant(Part::Any).filter(|_| is_singular(&said));
+        // A rounded angle is where the determinant vanishes as nearly as it is printed.
+        let is_rounded = self.source(span).contains('.');
+        let determinant = self.subject.determinant(Part::Any).filter(|_| is_singular(&said) && !is_rounded);
         match determinant {
             Some(determinant) => {
                 let there = determinant.substitute(|s| (Some(s) == of.as_symbol()).then_some(value));
@@ -91,7 +93,10 @@ impl Walk<'_> {
         let (Scalar::Formula(_, left), rest) = read.split_first()? else { return None };
         let joints = self.subject.joints();
         let form = Angle::of(left.value());
-        let is_sum = !form.terms.is_empty() && form.terms.iter().all(|t| joints.contains(&t.0));
+        // `θ_1 + θ_2`, or `q_3 - δ` with a number δ.
+        let is_part = |e: &Expr| joints.contains(e) || e.symbols().is_empty();
+        let is_sum =
+            form.terms.iter().any(|t| joints.contains(&t.0)) && form.terms.iter().all(|t| is_part(&t.0));
         let is_number = |s: &Scalar| matches!(s, Scalar::Formula(_, s) if s.value().symbols().is_empty());
         // The last side is the number that the others come to.
         let Scalar::Formula(span, syntax) = rest.last()? else { return None };
@@ -301,8 +306,22 @@ const GOALS: [&str; 22] = [
 
 /// True if a sentence says that the arm is singular somewhere.
 fn is_singular(said: &str) -> bool {
-    let denials =
-        ["not singul", "nicht singul", "non singul", "no singul", "nonsingul", "pas singul", "unless"];
+    let denials = [
+        "not singul",
+        "nicht singul",
+        "non singul",
+        "no singul",
+        "nonsingul",
+        "pas singul",
+        "unless",
+        "not at ",
+        "nicht bei",
+        "pas pour",
+        "no en ",
+        "non per ",
+        "not when",
+        "not if",
+    ];
     said.contains("singul") && !denials.iter().any(|d| said.contains(d))
 }
 

@@ -375,6 +375,30 @@ impl Walk<'_> {
         }
     }
 
+    /// The unit that stands behind the marks of a formula, `$\dot\theta_1 = -6.17$ °/s`; 1 where there is none.
+    fn unit_outside(&self, span: &Range<usize>) -> f64 {
+        if crate::numbers::unit_behind(self.source(span)).is_some() {
+            return 1.0;
+        }
+        let rest = self.text.get(span.end..).unwrap_or_default();
+        let rest = rest.trim_start_matches(['$', ' ', '~', '\\']);
+        let word = rest
+            .split(|c: char| c.is_whitespace() || matches!(c, ',' | ';' | ')' | '$' | '&'))
+            .next()
+            .unwrap_or_default();
+        if word.is_empty() || word.len() > 12 || rest.len() == self.text.get(span.end..).map_or(0, str::len) {
+            return 1.0;
+        }
+        let number = format!("1{word}");
+        match crate::numbers::unit_behind(&number) {
+            Some(("1", factor, is_length)) => {
+                let factor = if is_length { self.in_unit(factor) } else { factor };
+                factor.eval(|_| None).unwrap_or(1.0)
+            }
+            _ => 1.0,
+        }
+    }
+
     /// A number in print against a formula at the present configuration.
     pub(super) fn number(
         &self,
@@ -384,8 +408,9 @@ impl Walk<'_> {
         wanted: Expr,
     ) -> Option<Piece> {
         let constant = Some(printed);
-        let printed = printed.eval(|_| None).ok()?;
-        let half = self.half(span);
+        let unit = self.unit_outside(span);
+        let printed = printed.eval(|_| None).ok()? * unit;
+        let half = self.half(span) * unit;
         let answer = Answer { printed, half, wanted, at: self.at.clone(), constant };
         Some(Piece::Number { place, span: span.clone(), answer })
     }

@@ -278,9 +278,24 @@ impl Walk<'_> {
     fn velocity_given(&self) -> Option<Matrix> {
         let name = Name { base: "v".into(), ..Name::default() };
         let v = self.lexis.defined(&name)?;
+        // `v = (0.1, 0, 0)` is a column.
+        let v = if v.shape()?.0 == 1 { v.transposed() } else { v.clone() };
         let is_number = |e: &Option<Expr>| e.is_some_and(|e| e.symbols().is_empty());
-        (v.shape()? == (self.subject.joints().len(), 1) && v.0.iter().flatten().all(is_number))
-            .then(|| v.clone())
+        (v.shape()? == (self.subject.joints().len(), 1) && v.0.iter().flatten().all(is_number)).then_some(v)
+    }
+
+    /// A formula in the joints' rates by those that the given velocity of the hand takes, where it is in numbers.
+    pub(super) fn with_rates(&self, wanted: Expr) -> Expr {
+        let rates = self.subject.rates();
+        let is_rate = |s: &Symbol| rates.contains(&(*s).into());
+        let is_open = wanted.symbols().iter().any(|s| is_rate(s) && self.at.length(*s).is_none());
+        let Some(v) = self.velocity_given().filter(|_| is_open) else { return wanted };
+        let jacobian = self.subject.square_jacobian(Rows::Any).and_then(|j| j.inverse());
+        let Some(values) = jacobian.and_then(|j| j.times(&v)) else { return wanted };
+        wanted.substitute(|s| {
+            let k = rates.iter().position(|r| *r == s.into())?;
+            values.entry(k, 0)
+        })
     }
 
     /// The joint rates that a velocity takes, where a statement is about them: `\dot q = J^{-1} v`.

@@ -218,6 +218,7 @@ impl Walk<'_> {
                 found.or_else(|| formulas().next()).map(|(i, _, s)| (i, s.value()))
             }
         };
+        let reference = reference.map(|(at, wanted)| (at, self.with_rates(wanted)));
         let Some((at, wanted)) = reference else {
             for s in &read {
                 if let Scalar::Broken(span, errors) = s {

@@ -230,7 +230,8 @@ impl Walk<'_> {
             let open = behind.trim_start();
             let Some(inner) = open.strip_prefix(['(', '[']) else { continue };
             let Some(close) = inner.find([')', ']']) else { continue };
-            let values: Vec<&str> = inner[..close].split([',', ';']).map(str::trim).collect();
+            let values: Vec<&str> =
+                inner[..close].split([',', ';']).map(|v| v.trim_matches(['\\', ' ', '~'])).collect();
             let before = line[..at].trim_end();
             let name = before.rsplit([' ', ',', ';', ':']).next().unwrap_or_default();
             let plain = crate::custom::plain(&name.replace(['(', ')', '*'], ""));

@@ -157,7 +157,7 @@ impl Reader<'_> {
                         {
                             k -= 1;
                         }
-                        Some(Kind::Other) if self.shown(k - 1) == "√" => return Some(k - 1),
+                        Some(Kind::Mark) if self.shown(k - 1) == "√" => return Some(k - 1),
                         _ => return Some(k),
                     }
                 }
@@ -212,7 +212,7 @@ impl Reader<'_> {
                     depth -= 1;
                 }
                 _ if depth > 0 => {}
-                Kind::Other if self.shown(k) == "√" => {
+                Kind::Mark if self.shown(k) == "√" => {
                     k += 1;
                     continue;
                 }

@@ -216,6 +216,8 @@ impl<'t> Reader<'t> {
             let word = node.is(Kind::Word) && node.gap > Gap::None && words::is_link(shown);
             let hard = match node.token() {
                 Some(Kind::Semicolon | Kind::Arrow) => true,
+                // `θ1 = 20°: cos θ5 = 0.5`
+                Some(Kind::Colon) => related && self.begins_statement(next),
                 Some(Kind::Prose) if related && words::is_condition(prose_of(shown)) => false,
                 Some(Kind::Prose) => {
                     i == first || self.begins_statement(next) || words::is_link(prose_of(shown))
