@@ -393,6 +393,8 @@ pub(super) fn hand_letters(text: &str) -> Vec<Vec<String>> {
         let rest = &text[at + word.len()..];
         let sentence = rest.split(['\n', ';', ':']).next().unwrap_or_default();
         let sentence = sentence.split(". ").next().unwrap_or_default();
+        let bare = letters_without_brackets(sentence);
+        found.extend(bare.filter(|names| !found.contains(names)));
         let Some(open) = sentence.find('(').filter(|o| *o < 40) else { continue };
         if sentence[..open].contains('=') {
             continue;
@@ -412,6 +414,20 @@ pub(super) fn hand_letters(text: &str) -> Vec<Vec<String>> {
         }
     }
     found
+}
+
+/// `… is given by $q_x$, $q_y$, $q_z$`
+fn letters_without_brackets(sentence: &str) -> Option<Vec<String>> {
+    let words: Vec<&str> =
+        sentence.split([' ', ',']).filter(|w| !w.is_empty() && *w != "and").take(12).collect();
+    let names: Vec<String> = words.iter().map(|w| plain_name(&w.replace(['$', '*', '.'], ""))).collect();
+    let is_name = |n: &str, axis: &str| {
+        let stem = n.strip_suffix(axis);
+        stem.is_some_and(|s| (1..=2).contains(&s.chars().count()) && s.chars().all(char::is_alphabetic))
+    };
+    let run = names.windows(3).find(|w| w.iter().zip(AXES).all(|(n, a)| is_name(n, a)))?;
+    let stems: BTreeSet<&str> = run.iter().zip(AXES).filter_map(|(n, a)| n.strip_suffix(a)).collect();
+    (stems.len() == 1 && !stems.contains("p")).then(|| run.to_vec())
 }
 
 impl Subject {

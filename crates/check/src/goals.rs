@@ -18,6 +18,16 @@ pub(super) struct Target {
     pub wanted: Expr,
     pub printed: f64,
     pub half: f64,
+    /// It is a length, not an entry of a rotation or an angle.
+    pub is_length: bool,
+}
+
+impl Target {
+    /// A quantity of a robot.
+    pub fn new(subject: &Subject, wanted: Expr, printed: f64, half: f64) -> Self {
+        let is_length = subject.pose().translation.0.contains(&wanted);
+        Target { wanted, printed, half, is_length }
+    }
 }
 
 /// A joint, or a sum of joints, and the numbers that a document gives it.
@@ -128,8 +138,14 @@ impl<'a> Search<'a> {
         if targets.len() < search.is_angle.len() || !is_known {
             return None;
         }
-        let size = targets.iter().map(|t| t.printed.abs()).fold(0.1, f64::max);
+        let lengths = targets.iter().filter(|t| t.is_length).map(|t| t.printed.abs());
+        let size = lengths.fold(0.0, f64::max);
+        let size = if size > 0.0 { size } else { 1.0 };
         Some(Search { size, ..search })
+    }
+
+    fn scale(&self, target: &Target) -> f64 {
+        if target.is_length { self.size } else { 1.0 }
     }
 
     fn value(&self, e: Expr, q: &[f64]) -> Option<f64> {
@@ -166,12 +182,14 @@ impl<'a> Search<'a> {
     fn residuals(&self, fixed: &[Fixed], q: &[f64]) -> Option<Vec<f64>> {
         let mut found = vec![];
         for t in &self.group[0].targets {
-            found.push((self.value(t.wanted, q)? - t.printed) / (t.half + 1e-4 * self.size));
+            let off = self.value(t.wanted, q)? - t.printed;
+            found.push(off / (t.half + 2e-4 * self.scale(t)));
         }
         for (of, value, half) in fixed {
             let off = self.value(*of, q)? - value;
             let off = if self.turns(*of) { off - TAU * (off / TAU).round() } else { off };
-            found.push(off / (half + 1e-4));
+            let scale = if self.turns(*of) { 1.0 } else { self.size };
+            found.push(off / (half + 2e-4 * scale));
         }
         Some(found)
     }
@@ -230,11 +248,12 @@ impl<'a> Search<'a> {
         let mut normal = vec![vec![0.0; n]; n];
         let mut columns = vec![];
         for k in 0..n {
+            let step = 1e-6 * if self.is_angle[k] { 1.0 } else { self.size };
             let mut there = q.to_vec();
-            there[k] += 1e-6;
+            there[k] += step;
             let Some(moved) = self.residuals(&[], &there) else { return false };
-            let scale = self.group[0].targets.iter().map(|t| t.half + 1e-4 * self.size);
-            let column = moved.iter().zip(&r).zip(scale).map(|((a, b), s)| (a - b) / 1e-6 * s / self.size);
+            let scale = self.group[0].targets.iter().map(|t| (t.half + 2e-4 * self.scale(t)) / self.scale(t));
+            let column = moved.iter().zip(&r).zip(scale).map(|((a, b), s)| (a - b) / 1e-6 * s);
             columns.push(column.collect::<Vec<f64>>());
         }
         for (a, row) in normal.iter_mut().enumerate() {

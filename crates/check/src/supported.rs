@@ -19,6 +19,9 @@ pub(super) struct Supported {
     pub head: Range<usize>,
 }
 
+/// So many more right statements say what a convention is where none is wrong in another.
+const CLEARLY: usize = 3;
+
 /// The convention in which more statements are right and fewer wrong than in any other; nothing where tables or words say
 /// it.
 pub(super) fn by_statements(
@@ -49,7 +52,9 @@ pub(super) fn by_statements(
     scores.sort_by_key(|s| std::cmp::Reverse(s.1[0]));
     let &(convention, [right, wrong]) = scores.first()?;
     let rivals = &scores[1..];
-    let is_best = rivals.iter().all(|&(_, [other, wrong_there])| right > other && wrong < wrong_there);
+    let is_best = rivals.iter().all(|&(_, [other, wrong_there])| {
+        right > other && (wrong < wrong_there || wrong == wrong_there && right >= other + CLEARLY)
+    });
     if !is_best {
         return None;
     }

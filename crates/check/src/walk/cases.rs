@@ -157,7 +157,8 @@ impl Walk<'_> {
         }
         let Ok(printed) = right.value().eval(|_| None) else { return false };
         let half = self.half(span);
-        self.aim_at(statement, vec![Target { wanted, printed, half }]);
+        let target = Target::new(&self.subject, wanted, printed, half);
+        self.aim_at(statement, vec![target]);
         true
     }
 

@@ -262,7 +262,7 @@ impl Walk<'_> {
                     return false;
                 }
                 if let (true, Ok(printed)) = (moves, syntax.value().eval(|_| None)) {
-                    targets.push(Target { wanted, printed, half: self.half(span) });
+                    targets.push(Target::new(&self.subject, wanted, printed, self.half(span)));
                 }
             }
         }

@@ -341,8 +341,10 @@ impl<'a> Walk<'a> {
     }
 
     fn assertion(&self, statement: &Statement, about: About) -> Assertion {
+        // A drawn matrix stands above and below its name: the claim is where that stands.
+        let start = statement.sides.first().map_or(0, |s| s.span.start);
         Assertion {
-            span: statement.span.clone(),
+            span: statement.span.start.max(start)..statement.span.end,
             name: self.claim_name(statement),
             about,
             pieces: vec![],

@@ -184,6 +184,14 @@ impl Walk<'_> {
                     self.defined_here(statement, name, [syntax.value(), inverse], span, syntax);
                     true
                 }
+                [Scalar::Broken(left, _), Scalar::Formula(span, syntax), ..]
+                    if self.name_with_argument(left).is_some() =>
+                {
+                    let inverse = self.inverse_value(span, syntax);
+                    let name = self.name_with_argument(left).unwrap_or_default();
+                    self.defined_here(statement, name, [syntax.value(), inverse], span, syntax);
+                    true
+                }
                 [Scalar::Broken(left, _), Scalar::Formula(span, syntax)] => {
                     let inverse = self.inverse_value(span, syntax);
                     match (self.implied(left, syntax.value()), self.implied(left, inverse)) {
@@ -337,6 +345,17 @@ impl Walk<'_> {
             () => return None,
         };
         Some((name, value))
+    }
+
+    /// A name with a letter as its argument, `f_{11}(p)`: as a whole it is a name.
+    fn name_with_argument(&self, span: &Range<usize>) -> Option<String> {
+        let plain = plain_name(&self.source(span).replace("\\left", "").replace("\\right", ""));
+        let (name, rest) = plain.split_once('(')?;
+        let argument = rest.strip_suffix(')')?;
+        let is_name = name.chars().next().is_some_and(char::is_alphabetic) && name.chars().count() <= 4;
+        let is_letter = argument.chars().count() == 1 && argument.chars().all(char::is_alphabetic);
+        let is_function = matches!(name, "cos" | "sin" | "tan" | "atan" | "sqrt" | "det" | "c" | "s");
+        (is_name && is_letter && !is_function && self.lexis.names.lookup(name).is_none()).then_some(plain)
     }
 
     /// Keeps what is printed for the sine or cosine of a joint: `c_3 = D`, `s_3 = ±√(1 − D²)`.
