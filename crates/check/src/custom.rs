@@ -230,7 +230,9 @@ fn wrist(subject: &Subject, plain: &str, places: &Places, add: &mut Add<'_>) {
     // The arm without its wrist has the wrist's centre as its hand.
     let is_arm = (2..=4).contains(&n) && subject.joints().len() <= 3;
     let origin = || subject.transform(Some(n), None).map(|x| x.translation).filter(|_| is_arm);
-    let Some(centre) = subject.wrist_centre().or_else(origin) else { return };
+    let own = subject.wrist_centre();
+    let is_only_arm = own.is_none();
+    let Some(centre) = own.or_else(origin) else { return };
     let Some(base) = subject.transform(Some(0), Some(n)) else { return };
     let point = base.act_on_point(centre);
     let Some(tool) = subject.transform(None, Some(n)) else { return };
@@ -253,7 +255,9 @@ fn wrist(subject: &Subject, plain: &str, places: &Places, add: &mut Add<'_>) {
                 format!("w{a}"),
             ]
         };
-        for name in spelled(axis).into_iter().filter(|name| plain.contains(name.as_str())) {
+        let is_meant =
+            |name: &String| plain.contains(name.as_str()) && (!is_only_arm || name.starts_with(['p', 'P']));
+        for name in spelled(axis).into_iter().filter(is_meant) {
             add(&name, point.0[r], inverse.0[r]);
         }
     }

@@ -267,7 +267,9 @@ impl<'a> Search<'a> {
     /// For each value: whether some configuration with it reaches the pose; nothing where that is not known.
     fn verdicts(&self) -> Vec<Option<bool>> {
         let mut random = Random(11);
-        let single = self.group.iter().all(|a| a.values.len() == 1) && self.group.len() > 1;
+        // `q2 = 60° or q2 = -60°` are two answers.
+        let twice = (1..self.group.len()).any(|k| self.group[..k].iter().any(|a| a.of == self.group[k].of));
+        let single = self.group.iter().all(|a| a.values.len() == 1) && self.group.len() > 1 && !twice;
         if single {
             let all: Vec<Fixed> = self.group.iter().map(|a| self.fixed(a, a.values[0])).collect();
             if self.reach(&all, &mut random).is_some() {

@@ -9,7 +9,7 @@ use super::outcome::{Claim, Counterexample, Entry, Finding, Patch, Slip, Standin
 use super::plan::{Plan, Walked};
 use super::subject::Subject;
 use super::values;
-use super::walk::{Assertion, Pair, Piece};
+use super::walk::{Assertion, Pair, Piece, is_measured};
 use super::whole;
 use denavit_reading::slip::{Effort, Lexicon, Points, Repair, Slip as Kind, Wanted, repairs};
 use denavit_symbolic::parse::{Syntax, SyntaxKind};
@@ -180,8 +180,12 @@ impl<'a> Judge<'a> {
     /// A formula with the numbers of the table in it, where it is right by these: `80 c5` for `d6 c5`.
     fn in_numbers(&self, pair: &Pair, subject: usize) -> Pair {
         let d = &self.plan.subjects[subject].description;
-        let has_value = |e: Expr| e.symbols().iter().any(|s| d.exact_value(*s).is_some());
-        if !has_value(pair.wanted) || equal(pair.value, pair.wanted).is_equal() {
+        // The names that are missing in print must be lengths that a number can stand for.
+        let printed = pair.value.symbols();
+        let is_number = |s: &Symbol| d.exact_value(*s).is_some_and(is_measured);
+        let mut missing = pair.wanted.symbols().into_iter().filter(|s| !printed.contains(s)).peekable();
+        let is_open = missing.peek().is_none() || !missing.all(|s| is_number(&s));
+        if is_open || equal(pair.value, pair.wanted).is_equal() {
             return pair.clone();
         }
         let known = |e: Expr| e.substitute(|s| d.exact_value(s));

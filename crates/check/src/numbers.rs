@@ -239,7 +239,7 @@ pub(super) fn half_unit(text: &str) -> f64 {
 /// The verdict on a number.
 pub(super) fn judge(answer: &Answer, subject: &Subject, tolerance: Option<f64>) -> Finding {
     // One unit of the last digit: what was computed from other rounded numbers is off by as much.
-    let allowed = tolerance.unwrap_or(answer.half * 3.0 + 1e-12);
+    let allowed = tolerance.unwrap_or_else(|| allowed(answer));
     let units = match answer.at.looks_like_degrees() {
         true => [Unit::Degrees, Unit::Radians],
         false => [Unit::Radians, Unit::Degrees],
@@ -265,6 +265,16 @@ pub(super) fn judge(answer: &Answer, subject: &Subject, tolerance: Option<f64>) 
         (None, None) => Remark::OffBy((answer.printed - right).abs()),
     });
     Finding::Wrong(Box::new(wrong))
+}
+
+/// How far a number may be off: zero and one are meant so, other whole numbers are rounded.
+fn allowed(answer: &Answer) -> f64 {
+    let is_whole = answer.printed.fract() == 0.0 && answer.half >= 0.5;
+    match is_whole {
+        true if answer.printed.abs() <= 1.0 => 5e-3,
+        true => answer.half * 1.01,
+        false => answer.half * 3.0 + 1e-12,
+    }
 }
 
 /// True if a number is what follows from other rounded numbers.

@@ -16,11 +16,14 @@ pub(super) fn below(text: &str, is_head: &dyn Fn(&[String]) -> bool) -> Vec<Prin
     let mut found = vec![];
     let mut at = 0;
     while at < lines.len() {
-        let head = groups(text, &lines[at]);
+        let line = &lines[at];
         at += 1;
+        if line.len() > LONGEST {
+            continue;
+        }
+        let head = groups(text, line);
         let names: Vec<String> = head.iter().flatten().map(|c| c.0.clone()).collect();
-        let is_short = lines[at - 1].len() <= LONGEST && (3..=20).contains(&names.len());
-        if !is_short || !is_head(&names) {
+        if !(3..=20).contains(&names.len()) || !is_head(&names) {
             continue;
         }
         let mut rows: PrintedGrid = vec![head.concat()];

@@ -12,7 +12,7 @@ use super::order;
 use super::outcome::Finding;
 use super::plan::{Plan, Walked};
 use super::trial::{self, Trial};
-use super::walk::{Assertion, Piece, Spoken};
+use super::walk::{Assertion, Piece, Spoken, is_measured};
 use denavit::forward::Reference;
 use denavit::geometry::Axis;
 use denavit_reading::document::{Document, Statement};
@@ -343,7 +343,10 @@ impl Trials {
                 Piece::Pair(pair) => {
                     let d = &subject.description;
                     let known = |e: Expr| e.substitute(|s| d.exact_value(s));
-                    let has_value = pair.wanted.symbols().iter().any(|s| d.exact_value(*s).is_some());
+                    let printed = pair.value.symbols();
+                    let missing = pair.wanted.symbols().into_iter().filter(|s| !printed.contains(s));
+                    let missing: Vec<Option<Expr>> = missing.map(|s| d.exact_value(s)).collect();
+                    let has_value = !missing.is_empty() && missing.iter().all(|v| v.is_some_and(is_measured));
                     let is_by_numbers = has_value
                         && self.points.value(known(pair.wanted)) == self.points.value(known(pair.value));
                     if is_by_numbers {

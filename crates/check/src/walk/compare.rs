@@ -127,6 +127,8 @@ impl Walk<'_> {
                 matches!(base, "T" | "A" | "H" | "M" | "R") && telling >= 3 && 3 * agreeing >= 2 * telling
             }
         };
+        let is_velocity = matches!(base, "ω" | "Ω" | "v" | "V") && matches!(about, Meaning::Velocity { .. });
+        let is_place = is_place || is_velocity;
         let is_certain = is_whole && (telling >= 2 || telling == 1 && (is_place || !is_vector));
         (is_certain || is_near).then_some(Reference { matrix, about: Some(about) })
     }

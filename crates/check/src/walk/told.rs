@@ -370,7 +370,18 @@ impl Walk<'_> {
             };
         }
         if d.parameter(symbol).is_none() {
-            return false;
+            // A component of a load: `Fx = -18 kN`.
+            let name = symbol.name();
+            let is_load =
+                name.len() == 2 && name.starts_with(['F', 'f', 'M', 'm']) && name.ends_with(['x', 'y', 'z'])
+                    || self.lexis.habits.load.is_some_and(|l| *name == *l.0.to_string());
+            return match self.constant(value).filter(|_| is_load) {
+                Some(constant) => {
+                    self.at.give(symbol, constant);
+                    true
+                }
+                None => false,
+            };
         }
         let measure = d.measure(symbol);
         let Ok(constant) = read_value(value, measure) else { return false };

@@ -11,6 +11,7 @@ mod readings;
 mod scripts;
 mod statements;
 mod tables;
+mod told;
 
 #[path = "../../../robot/tests/suite/common/mod.rs"]
 mod common;

@@ -237,8 +237,7 @@ pub struct CheckArguments {
     /// What the left side of the first statement means: `T06`, `A3`, `R03`, `"T06 3,4"` for an entry
     #[arg(long, value_name = "NAME")]
     pub claim: Option<String>,
-    /// How far a numeric answer may be off, in its own unit (default: half a unit of its last digit, or what rounded
-    /// angles explain)
+    /// How far a numeric answer may be off, in its own unit (default: one unit of its last digit)
     #[arg(long, value_name = "TOLERANCE")]
     pub tolerance: Option<f64>,
     /// Points for each claim, from a TOML file: prints a sheet for the teacher

@@ -345,6 +345,17 @@ impl Builder<'_> {
             let Some(node) = nodes.get_mut(i) else { continue };
             if let NodeKind::Group { bracket: Bracket::Round | Bracket::Left('('), inner, close, .. } =
                 &node.kind
+                && inner.iter().any(|n| n.is(Kind::Semicolon))
+                && i > 0
+                && let Some(rows) = grid::certain_rows(self.text, inner, *close, false)
+                && rows.iter().all(|r| r.len() == 1)
+            {
+                // `P = (0.6; 0.35; -0.4)`, where commas are those of decimals.
+                node.kind = NodeKind::Grid(Box::new(Grid::new(node.span.clone(), Fence::Round, rows)));
+                continue;
+            }
+            if let NodeKind::Group { bracket: Bracket::Round | Bracket::Left('('), inner, close, .. } =
+                &node.kind
                 && inner.iter().any(|n| n.is(Kind::Comma))
                 && i > 0
                 && let Some(row) = grid::single_row(self.text, inner, *close)

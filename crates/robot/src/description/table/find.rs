@@ -159,7 +159,10 @@ fn headed(text: &str, separator: Separator) -> Vec<Grid> {
             let span = behind_index(text, span.clone());
             let cells = split(&span, Some(width));
             let has_index = grid.rows[0].iter().any(|c| column(&c.text).role == Role::Index);
-            let is_value = |c: &GridCell| c.text.len() < 24 && c.text.split(' ').count() < 4;
+            let is_value = |c: &GridCell| {
+                let is_whole = c.text.matches('(').count() == c.text.matches(')').count();
+                c.text.len() < 24 && c.text.split(' ').count() < 4 && is_whole && !c.text.contains(':')
+            };
             let begins = |cells: &[GridCell]| match has_index {
                 true => is_numbered(&cells[0].text),
                 false => {

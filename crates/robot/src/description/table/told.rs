@@ -14,6 +14,8 @@ use std::ops::Range;
 /// The longest line that is looked at, and the most rows.
 const MAX_LINE: usize = 500;
 const MAX_ROWS: usize = 100;
+/// No more lines that tell the order of the letters are looked behind.
+const MAX_ORDERS: usize = 20;
 /// So many bytes may stand between two rows in brackets.
 const MAX_BETWEEN: usize = 60;
 /// So many bytes behind the order of the columns the first row begins at the latest.
@@ -195,12 +197,16 @@ fn counted(head: &str) -> Option<usize> {
 /// Rows of values behind words that tell the order of the letters.
 fn ordered(text: &str) -> Vec<Vec<Told>> {
     let mut found = vec![];
-    let mut at = 0;
+    let (mut at, mut tries) = (0, 0);
     for line in lines(text) {
         if line.start < at || line.len() > MAX_LINE {
             continue;
         }
         let Some((order, end)) = order_in(text, &line) else { continue };
+        tries += 1;
+        if tries > MAX_ORDERS {
+            break;
+        }
         let rows = in_brackets(text, end, &order).or_else(|| in_lines(text, line.end, &order));
         if let Some(rows) = rows {
             at = rows.last().map_or(at, |r| r.span.end);
