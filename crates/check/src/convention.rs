@@ -12,6 +12,8 @@ const OWN: &[(&str, Convention)] = &[
     ("siciliano", Convention::Standard),
     ("spong", Convention::Standard),
     ("paul's convention", Convention::Standard),
+    ("paul's book", Convention::Standard),
+    ("after paul", Convention::Standard),
     // Constructors of toolboxes.
     ("revolutemdh", Convention::Craig),
     ("prismaticmdh", Convention::Craig),

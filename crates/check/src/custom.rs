@@ -7,7 +7,8 @@ use super::subject::Subject;
 use denavit::description::JointKind;
 use denavit::geometry::{Transform, Vector};
 use denavit_reading::slip::Points;
-use denavit_symbolic::vocabulary::plain_name;
+use denavit_symbolic::parse::parse;
+use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
 use denavit_symbolic::{Expr, equal, greek};
 use std::collections::BTreeSet;
 
@@ -161,6 +162,43 @@ fn is_mentioned(text: &str, name: &str) -> bool {
     })
 }
 
+/// The load that a text gives as a vector, `F = (0, 0, -W)`, `\mathbf f = (10; -5)`: force, and moment if there are six.
+fn load_given(text: &str) -> Option<[Expr; 6]> {
+    let open = Vocabulary::new().open(true);
+    for (at, _) in text.match_indices('=').take(2_000) {
+        let before = text[..at].trim_end_matches([' ', '}', '&', '$']);
+        let Some(stem) = before.strip_suffix(['F', 'f']) else { continue };
+        if stem.ends_with(|c: char| c.is_alphanumeric() || c == '_') {
+            continue;
+        }
+        let rest = text[at + 1..].trim_start_matches([' ', '\n', '&', '$']);
+        let rest = rest.strip_prefix("\\left").unwrap_or(rest);
+        let Some(inner) = rest.strip_prefix(['(', '[']).and_then(|r| r.split([')', ']']).next()) else {
+            continue;
+        };
+        let parts: Vec<&str> =
+            inner.split([',', ';']).map(|p| p.trim_matches(['\\', ' ', '~', '$'])).collect();
+        let values: Option<Vec<Expr>> =
+            parts.iter().map(|p| parse(&p.replace('−', "-"), &open).ok()).collect();
+        let Some(values) = values.filter(|v| matches!(v.len(), 2 | 3 | 6)) else { continue };
+        let is_short = values.iter().all(|e| e.symbols().len() <= 1);
+        if is_short && values.iter().any(|e| !e.is_zero()) {
+            let mut load = [Expr::int(0); 6];
+            load.iter_mut().zip(values).for_each(|(l, v)| *l = v);
+            return Some(load);
+        }
+    }
+    None
+}
+
+/// True for a text that gives the entries of some matrix names t_ij: `call its entries t11, t21, …`.
+pub(super) fn calls_entries(text: &str) -> bool {
+    let lower = plain_name(&text.to_lowercase()).replace('$', "");
+    ["entriest1", "elementst1", "elementet1", "élémentst1", "elementost1", "elementit1"]
+        .iter()
+        .any(|w| lower.contains(w))
+}
+
 /// True for a text that has names for the entries of a rotation: no frame is turned against itself, as `R_{11}` would be.
 pub(super) fn names_entries(text: &str) -> bool {
     ["R11", "R22", "R33"].iter().any(|name| is_mentioned(text, name))
@@ -178,7 +216,8 @@ fn torque_letters(text: &str) -> Vec<&'static str> {
 /// Letters of their own that a text may have for a load on the hand: it speaks of torques, and names no components of a force.
 pub(super) fn letters_of_load(text: &str) -> Vec<char> {
     let components = ["Fx", "Fy", "Fz", "fx", "fy", "fz"];
-    if torque_letters(text).is_empty() || components.iter().any(|c| is_mentioned(text, c)) {
+    let is_given = components.iter().any(|c| is_mentioned(text, c)) || load_given(text).is_some();
+    if torque_letters(text).is_empty() || is_given {
         return vec![];
     }
     ['W', 'F', 'P', 'G', 'f'].into_iter().filter(|c| is_mentioned(text, &c.to_string())).collect()
@@ -193,12 +232,28 @@ fn torques(subject: &Subject, text: &str, own: Load, add: &mut Add<'_>) {
     let mut load = [Expr::int(0); 6];
     for (first, forces) in [(0, ["F", "f"]), (3, ["M", "m"])] {
         for (r, axis) in AXES.iter().enumerate() {
-            if let Some(letter) = forces.iter().find(|f| is_mentioned(text, &format!("{f}{axis}"))) {
+            // `My` is a word, too.
+            let is_marked = |f: &str| {
+                f == "F"
+                    || f == "f"
+                    || text.contains(&format!("{f}_{axis}"))
+                    || text.contains(&format!("{f}_{{{axis}"))
+            };
+            let is_named = |f: &&&str| is_marked(f) && is_mentioned(text, &format!("{f}{axis}"));
+            if let Some(letter) = forces.iter().find(is_named) {
                 let name = format!("{letter}{axis}");
                 let symbol = Expr::symbol(&name);
                 load[first + r] = symbol;
                 add(&name, symbol, symbol);
             }
+        }
+    }
+    if load.iter().all(|e| e.is_zero())
+        && let Some(given) = load_given(text)
+    {
+        load = given;
+        for symbol in given.iter().flat_map(|e| e.symbols()) {
+            add(&symbol.name(), symbol.into(), symbol.into());
         }
     }
     if let Some((letter, axis, is_minus)) = own.filter(|_| load.iter().all(|e| e.is_zero())) {

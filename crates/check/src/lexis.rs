@@ -96,7 +96,9 @@ impl Lexis {
                     Some((x, y)) => lexis.declare(&name, x.matrix()[r][c], y.matrix()[r][c]),
                     None => lexis.declare(&name, pose[r][c], symbol.into()),
                 };
-                lexis.declare(&format!("t{}{}", r + 1, c + 1), pose[r][c], symbol.into());
+                if !custom::calls_entries(text) {
+                    lexis.declare(&format!("t{}{}", r + 1, c + 1), pose[r][c], symbol.into());
+                }
                 if c < 3 && custom::names_entries(text) {
                     lexis.declare(&format!("R{}{}", r + 1, c + 1), pose[r][c], symbol.into());
                 }

@@ -227,6 +227,7 @@ impl Walk<'_> {
             }
         };
         let reference = reference.map(|(at, wanted)| (at, self.with_rates(wanted)));
+        let reference = reference.map(|(at, wanted)| (at, self.of_moving(statement, &read, wanted)));
         let Some((at, wanted)) = reference else {
             for s in &read {
                 if let Scalar::Broken(span, errors) = s {
@@ -291,6 +292,36 @@ impl Walk<'_> {
         assertion.reference = formulas().find(|f| f.0 == at).map(|(_, span, s)| (span.clone(), s.clone()));
         self.assertions.push(assertion);
         true
+    }
+
+    /// A velocity where words say that only the joints move whose rates are printed.
+    fn of_moving(&self, statement: &Statement, read: &[Scalar], wanted: Expr) -> Expr {
+        const ONLY: [&str; 8] = ["only ", "alone", " nur ", "allein", "seule", "solo ", "sola ", "solamente"];
+        let rates = self.subject.rates();
+        let is_rate = |e: &Expr| rates.contains(e);
+        let words = [&statement.prose, &statement.heading]
+            .into_iter()
+            .flatten()
+            .filter_map(|s| self.text.get(s.clone()));
+        let says_only = words.into_iter().any(|w| ONLY.iter().any(|o| w.to_lowercase().contains(o)));
+        if !says_only || !wanted.symbols().iter().any(|s| is_rate(&(*s).into())) {
+            return wanted;
+        }
+        let printed: Vec<Expr> = read
+            .iter()
+            .skip(1)
+            .filter_map(|s| if let Scalar::Formula(_, s) = s { Some(s.value()) } else { None })
+            .flat_map(|e| e.symbols())
+            .map(Expr::from)
+            .filter(is_rate)
+            .collect();
+        match printed.is_empty() {
+            true => wanted,
+            false => wanted.substitute(|s| {
+                let e = Expr::from(s);
+                (is_rate(&e) && !printed.contains(&e)).then(|| Expr::int(0))
+            }),
+        }
     }
 
     /// The value of a formula, the entries of the pose as symbols.

@@ -104,7 +104,11 @@ impl Walk<'_> {
                 JOINTS.iter().filter_map(|j| value.split_once(j)).map(|v| v.0).min_by_key(|v| v.len());
             let value = value.unwrap_or(rest.split([',', ';', ')']).next().unwrap_or_default());
             let value = value.trim().trim_end_matches([':', '.', '?', '!']);
-            if name.is_empty() {
+            // `cos θ3 = 0.2` says nothing of θ3 itself.
+            let before = pair[0].trim_end().strip_suffix(name).unwrap_or_default().trim_end();
+            let word = before.rsplit([' ', '(', '$', '\\']).next().unwrap_or_default();
+            let is_argument = matches!(word, "cos" | "sin" | "tan" | "sen" | "tg" | "det");
+            if name.is_empty() || is_argument {
                 names.clear();
                 continue;
             }

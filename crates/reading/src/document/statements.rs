@@ -236,6 +236,8 @@ impl<'t> Reader<'t> {
                 parted = true;
                 continue;
             }
+            // `px = 0.175 m    py = 0.303 m`
+            parted |= node.gap == Gap::Wide && related && manner.place == Place::Line;
             if parted && related && !node.is(Kind::Amp) {
                 if self.begins_statement(nodes.get(i..).unwrap_or(&[])) {
                     self.segment(nodes.get(first..i).unwrap_or(&[]), manner, course);

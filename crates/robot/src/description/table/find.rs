@@ -157,7 +157,18 @@ fn headed(text: &str, separator: Separator) -> Vec<Grid> {
             }
             let width = grid.rows.first().map_or(0, Vec::len);
             let span = behind_index(text, span.clone());
-            let cells = split(&span, Some(width));
+            let mut cells = split(&span, Some(width));
+            // Rows may say their number where the head has no column for it.
+            if grid.rows.len() == 1 && cells.len() != width {
+                let wider = split(&span, Some(width + 1));
+                let is_labelled = wider.len() == width + 1 && is_numbered(&wider[0].text);
+                if is_labelled && !grid.rows[0].iter().any(|c| column(&c.text).role == Role::Index) {
+                    let at = grid.rows[0][0].span.start;
+                    grid.rows[0].insert(0, GridCell { text: String::new(), span: at..at });
+                    cells = wider;
+                }
+            }
+            let width = grid.rows.first().map_or(0, Vec::len);
             let has_index = grid.rows[0].iter().any(|c| column(&c.text).role == Role::Index);
             let is_value = |c: &GridCell| {
                 let is_whole = c.text.matches('(').count() == c.text.matches(')').count();
@@ -247,7 +258,11 @@ fn behind_index(text: &str, span: Range<usize>) -> Range<usize> {
 
 /// True for a line of nothing but heads of columns.
 fn is_header(line: &str, cells: &[GridCell], separator: Separator) -> bool {
-    let roles: Vec<Role> = cells.iter().map(|c| column(&c.text).role).collect();
+    let mut roles: Vec<Role> = cells.iter().map(|c| column(&c.text).role).collect();
+    // `DH table   theta   d   a   alpha`: words stand above the numbers of the rows.
+    if roles.first() == Some(&Role::Other) && roles[1..].iter().filter(|r| r.is_letter()).count() >= 4 {
+        roles[0] = Role::Index;
+    }
     let letters = roles.iter().filter(|r| r.is_letter()).count();
     let others = roles.iter().filter(|r| **r == Role::Other).count();
     letters >= 3

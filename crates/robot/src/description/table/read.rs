@@ -7,7 +7,7 @@ use super::layout::Layout;
 use super::letters::{Letters, check_letters, columns, convention, letters};
 use super::lines::{Around, Lines};
 use super::{TableOptions, limits, values};
-use crate::description::cell::{Place, Style, read_cell, variable_number};
+use crate::description::cell::{Place, Style, name_of, read_cell, variable_number};
 use crate::description::diagnostic::{Diagnostic, Diagnostics};
 use crate::description::rows::{self, Cell, Cells};
 use crate::description::units::{Quantity, Unit, unit_named};
@@ -422,6 +422,23 @@ fn read_row<'a>(
 fn read_table_cell(cell: &GridCell, style: &Style, out: &mut Diagnostics) -> TableCell {
     let mut found =
         TableCell { cell: Cell::zero(cell.span.clone()), star: false, marker: false, bare: vec![] };
+    // `d_1 = 0.0892` in a cell is that number.
+    let told = cell
+        .text
+        .split_once('=')
+        .filter(|t| !t.1.contains('=') && name_of(t.0.trim_matches(['$', ' ']), true).is_some());
+    let own;
+    let cell = match told {
+        Some((name, value)) => {
+            let start = cell.span.start + name.len() + 1;
+            own = GridCell {
+                text: value.trim().to_string(),
+                span: start + (value.len() - value.trim_start().len())..cell.span.end,
+            };
+            &own
+        }
+        None => cell,
+    };
     let (text, star) = without_stars(&cell.text);
     found.star = star;
     let bare = text.trim_matches(['$', ' ']);

@@ -91,7 +91,7 @@ fn letter(name: &str) -> Option<(Role, Option<usize>)> {
 /// Rows of names with values, a line or a clause each.
 fn named(text: &str) -> Vec<Vec<Told>> {
     let mut rows = vec![];
-    for line in lines(text).filter(|l| l.len() <= MAX_LINE) {
+    for line in paragraphs(text).into_iter().filter(|l| l.len() <= 4 * MAX_LINE) {
         let cuts = text[line.clone()].match_indices(';').map(|(i, _)| line.start + i);
         let mut start = line.start;
         let mut clauses: Vec<Told> = vec![];
@@ -107,7 +107,28 @@ fn named(text: &str) -> Vec<Vec<Told>> {
             return vec![];
         }
     }
-    if rows.len() < 2 { vec![] } else { tables(rows) }
+    // A row without the joint's own letters is none of a table.
+    let is_whole = |r: &Told| {
+        r.cells.iter().any(|c| c.0 == Role::Theta) || r.cells.iter().any(|c| matches!(c.0, Role::D | Role::R))
+    };
+    if rows.len() < 2 || !rows.iter().all(is_whole) { vec![] } else { tables(rows) }
+}
+
+/// Lines; those of a paragraph that goes on with `;` are one.
+fn paragraphs(text: &str) -> Vec<Range<usize>> {
+    let mut found: Vec<Range<usize>> = vec![];
+    let mut is_open = false;
+    for line in lines(text) {
+        let shown = text[line.clone()].trim();
+        let begins = shown.is_empty() || shown.starts_with(['-', '*', '|', '\\', '%', '#', '>', '(']);
+        let has_cut = |r: &Range<usize>| text[r.clone()].contains(';');
+        match found.last_mut() {
+            Some(last) if is_open && !begins && (has_cut(last) || has_cut(&line)) => last.end = line.end,
+            _ => found.push(line.clone()),
+        }
+        is_open = !shown.is_empty();
+    }
+    found
 }
 
 /// Rows that begin to count again are another table.
@@ -318,7 +339,11 @@ fn values(text: &str, span: &Range<usize>) -> Vec<Range<usize>> {
         found.retain(|r| !text[r.clone()].trim().is_empty());
         found
     };
-    if source.contains(',') { cut(&|c| c == ',') } else { cut(&char::is_whitespace) }
+    match () {
+        () if source.contains('|') => cut(&|c| c == '|'),
+        () if source.contains(',') => cut(&|c| c == ','),
+        () => cut(&char::is_whitespace),
+    }
 }
 
 /// Lines that end in as many values: `axis 1 (lift):  0  d1  0  90`.
