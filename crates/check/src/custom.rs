@@ -191,6 +191,15 @@ fn load_given(text: &str) -> Option<[Expr; 6]> {
     None
 }
 
+/// True for a text that has p_x, p_y for the place of the hand.
+pub(super) fn has_place(text: &str) -> bool {
+    let has = |axis: &str| {
+        let marked = ["p_", "p_{", "P_", "P_{"].iter().any(|p| text.contains(&format!("{p}{axis}")));
+        marked || ["p", "P"].iter().any(|p| is_mentioned(text, &format!("{p}{axis}")))
+    };
+    has("x") && has("y")
+}
+
 /// True for a text that gives the entries of some matrix names t_ij: `call its entries t11, t21, …`.
 pub(super) fn calls_entries(text: &str) -> bool {
     let lower = plain_name(&text.to_lowercase()).replace('$', "");
@@ -220,7 +229,15 @@ pub(super) fn letters_of_load(text: &str) -> Vec<char> {
     if torque_letters(text).is_empty() || is_given {
         return vec![];
     }
-    ['W', 'F', 'P', 'G', 'f'].into_iter().filter(|c| is_mentioned(text, &c.to_string())).collect()
+    // A weight m·g counts as one letter.
+    let weighs =
+        text.contains("mg") || text.contains("m g") || text.contains("m·g") || text.contains("m\\,g");
+    let weight = Some('g').filter(|_| weighs);
+    ['W', 'F', 'P', 'G', 'f']
+        .into_iter()
+        .filter(|c| is_mentioned(text, &c.to_string()))
+        .chain(weight)
+        .collect()
 }
 
 /// Torques of the joints for a force at the hand, in those of its components that are mentioned.
@@ -258,8 +275,12 @@ fn torques(subject: &Subject, text: &str, own: Load, add: &mut Add<'_>) {
     }
     if let Some((letter, axis, is_minus)) = own.filter(|_| load.iter().all(|e| e.is_zero())) {
         let symbol = Expr::symbol(&letter.to_string());
-        load[axis] = if is_minus { -symbol } else { symbol };
-        add(&letter.to_string(), symbol, symbol);
+        let mass = (letter == 'g').then(|| Expr::symbol("m"));
+        let size = mass.map_or(symbol, |m| m * symbol);
+        load[axis] = if is_minus { -size } else { size };
+        for own in [Some(symbol), mass].into_iter().flatten() {
+            add(&own.as_symbol().map_or_else(String::new, |s| s.name().to_string()), own, own);
+        }
     }
     if load.iter().all(|e| e.is_zero()) {
         return;
@@ -308,6 +329,7 @@ fn wrist(subject: &Subject, plain: &str, places: &Places, add: &mut Add<'_>) {
                 format!("P{a}w"),
                 format!("Pw{a}"),
                 format!("w{a}"),
+                format!("W{a}"),
             ]
         };
         let is_meant =
@@ -322,6 +344,22 @@ fn wrist(subject: &Subject, plain: &str, places: &Places, add: &mut Add<'_>) {
 fn frames(subject: &Subject, plain: &str, places: &Places, add: &mut Add<'_>) {
     let chars: Vec<char> = plain.chars().collect();
     let mut seen = BTreeSet::new();
+    // The origin of a frame in the base: `p_{5x}`.
+    for w in chars.windows(3) {
+        let [letter @ ('p' | 'P' | 'o' | 'O'), j, axis] = w else { continue };
+        let (Some(j), Some(r)) = (j.to_digit(10), AXES.iter().position(|a| a.starts_with(*axis))) else {
+            continue;
+        };
+        let name = format!("{letter}{j}{axis}");
+        let j = j as usize;
+        if j == 0 || j > subject.last() || !seen.insert(name.clone()) {
+            continue;
+        }
+        let behind = subject.transform(None, Some(j));
+        if let (Some(x), Some(behind)) = (subject.transform(Some(0), Some(j)), behind) {
+            add(&name, x.translation.0[r], (places.pose() * behind).translation.0[r]);
+        }
+    }
     for w in chars.windows(4) {
         let [letter, i, j, axis] = w else { continue };
         let (Some(i), Some(j)) = (i.to_digit(10), j.to_digit(10)) else { continue };
@@ -347,9 +385,11 @@ fn frames(subject: &Subject, plain: &str, places: &Places, add: &mut Add<'_>) {
 
 /// Entries of the rotation of the wrist, frame 6 in frame 3: `m_{13}`, where a text has several of them and speaks of that frame.
 fn wrist_rotation(subject: &Subject, plain: &str, places: &Places, add: &mut Add<'_>) {
-    let entries = [(1, 3), (2, 3), (3, 3), (3, 1), (3, 2)].map(|(r, c)| format!("m{r}{c}"));
-    let count = entries.iter().filter(|name| plain.contains(name.as_str())).count();
-    if count < 3 || !speaks_of_wrist(plain) {
+    let entries = |letter: &str| {
+        (0..9).filter(|k| plain.contains(&format!("{letter}{}{}", k / 3 + 1, k % 3 + 1))).count()
+    };
+    let letters: Vec<&str> = ["m", "M", "g", "G", "u", "U"].into_iter().filter(|l| entries(l) >= 3).collect();
+    if letters.is_empty() || !speaks_of_wrist(plain) {
         return;
     }
     let (Some(x), Some(y)) = (subject.transform(Some(3), Some(6)), seen_through(subject, places, 3, 6))
@@ -358,7 +398,9 @@ fn wrist_rotation(subject: &Subject, plain: &str, places: &Places, add: &mut Add
     };
     let (x, y) = (x.rotation.rows(), y.rotation.rows());
     for (r, c) in (0..9).map(|k| (k / 3, k % 3)) {
-        add(&format!("m{}{}", r + 1, c + 1), x[r][c], y[r][c]);
+        for letter in &letters {
+            add(&format!("{letter}{}{}", r + 1, c + 1), x[r][c], y[r][c]);
+        }
     }
 }
 
@@ -461,6 +503,13 @@ pub(super) fn hand_letters(text: &str) -> Vec<Vec<String>> {
         let Some(close) = sentence[open..].find(')') else { continue };
         let inner = &sentence[open + 1..open + close];
         let names: Vec<String> = inner.split(',').map(|n| plain_name(&n.replace(['$', '*'], ""))).collect();
+        // `(w_1, w_2, w_3)`
+        let by_numbers = names.len() == 3
+            && names.iter().zip(["1", "2", "3"]).all(|(n, k)| {
+                n.strip_suffix(k).is_some_and(|s| {
+                    s.chars().count() == 1 && s.chars().all(|c| matches!(c, 'p' | 'P' | 'w' | 'x' | 'r'))
+                })
+            });
         let is_name = |n: &String| {
             n.chars().next().is_some_and(char::is_alphabetic)
                 && n.chars().count() <= 4
@@ -468,7 +517,11 @@ pub(super) fn hand_letters(text: &str) -> Vec<Vec<String>> {
         };
         let ends = |n: &String, a: &str| n.to_lowercase().ends_with(a);
         let by_axes = names.iter().zip(AXES).all(|(n, a)| ends(n, a));
-        if (2..=3).contains(&names.len()) && names.iter().all(is_name) && by_axes && !found.contains(&names) {
+        if (2..=3).contains(&names.len())
+            && names.iter().all(is_name)
+            && (by_axes || by_numbers)
+            && !found.contains(&names)
+        {
             found.push(names);
         }
     }

@@ -76,8 +76,10 @@ impl Lexis {
         lexis.by_custom.extend(AXES.iter().flat_map(|a| [a.to_string(), a.to_uppercase()]));
         lexis.by_custom.retain(|name| lexis.names.lookup(name).is_none());
         for (r, axis) in AXES.iter().enumerate() {
-            for name in [axis.to_string(), axis.to_uppercase()] {
-                lexis.declare(&name, pose[r][3], pose_symbol(columns, r, 3).into());
+            lexis.declare(axis, pose[r][3], pose_symbol(columns, r, 3).into());
+            // Beside p_x another X is the author's own.
+            if !custom::has_place(text) {
+                lexis.declare(&axis.to_uppercase(), pose[r][3], pose_symbol(columns, r, 3).into());
             }
         }
         let wrist = habits.wrist_entries.then(|| custom::wrist_frame(subject, &Places(columns))).flatten();

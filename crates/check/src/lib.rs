@@ -101,6 +101,8 @@ pub fn check(
     }
     let respelled = numbers::decimal_points(text);
     let text = respelled.as_deref().unwrap_or(text);
+    let respelled = options.language.is_none().then(|| numbers::rates_by_primes(text)).flatten();
+    let text = respelled.as_deref().unwrap_or(text);
     let mut document = match options.language {
         Some(_) => Document::default(),
         None => document::read(text, format),

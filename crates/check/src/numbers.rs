@@ -152,6 +152,36 @@ fn pointed(text: &str) -> Option<String> {
     String::from_utf8(bytes).ok()
 }
 
+/// A text that writes joint rates as `θ1'`, with `dθ1` instead, byte for byte; nothing for other texts.
+pub(super) fn rates_by_primes(text: &str) -> Option<String> {
+    const SPEED: [&str; 9] = ["rad/s", "m/s", "velo", "vitesse", "geschwind", "rates", "ωz", "vx", "v_x"];
+    let lower = text.to_lowercase();
+    let has_dots = text.contains("\\dot") || text.contains('\u{307}') || lower.contains("```");
+    if has_dots || !SPEED.iter().any(|w| lower.contains(w)) {
+        return None;
+    }
+    let mut bytes = text.as_bytes().to_vec();
+    let mut is_any = false;
+    for (at, prime) in text.match_indices(['\'', '′']) {
+        if prime.len() > 1 {
+            continue;
+        }
+        let before = &text[..at];
+        let number = before.trim_end_matches(|c: char| c.is_ascii_digit() || ('₀'..='₉').contains(&c));
+        let name = number.trim_end_matches(|c: char| c.is_alphabetic());
+        let letters = number[name.len()..].chars().count();
+        let is_word = name.ends_with(|c: char| c.is_alphanumeric() || c == '_');
+        if number.len() == before.len() || !(1..=5).contains(&letters) || is_word {
+            continue;
+        }
+        let start = name.len();
+        bytes.copy_within(start..at, start + 1);
+        bytes[start] = b'd';
+        is_any = true;
+    }
+    if is_any { String::from_utf8(bytes).ok() } else { None }
+}
+
 /// A text with `{,}` between digits as a point, byte for byte.
 fn without_braces(text: &str) -> String {
     let mut bytes = text.as_bytes().to_vec();

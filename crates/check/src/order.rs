@@ -29,6 +29,8 @@ enum Gap {
     Joint,
     /// A word that says that names follow.
     Link,
+    /// Such a word with others behind it: `with the reach`.
+    Phrase,
     Text,
 }
 
@@ -45,8 +47,17 @@ pub(super) fn before(text: &str, statements: &[Statement], at: usize, habits: &H
     while gap(k) == Some(Gap::Joint) && k < at + AHEAD {
         k += 1;
     }
-    if gap(k) != Some(Gap::Link) {
-        return found;
+    match gap(k) {
+        Some(Gap::Link) => {}
+        // A name that had a meaning before may get another one there.
+        Some(Gap::Phrase) => {
+            let left = |s: &Statement| s.sides.first().and_then(|l| text.get(l.span.clone())).map(plain_name);
+            let own = statements.get(k + 1).and_then(left);
+            if statements[..=at].iter().any(|s| left(s) == own) {
+                return found;
+            }
+        }
+        _ => return found,
     }
     loop {
         k += 1;
@@ -123,7 +134,10 @@ fn between(text: &str, span: &Range<usize>) -> Option<Gap> {
     Some(match &words[..] {
         [] => Gap::Joint,
         [word] if JOINTS.contains(&word.as_str()) => Gap::Joint,
-        [word] if LINKS.contains(&word.as_str()) => Gap::Link,
+        // `mit der Ausladung b = …`
+        [word, rest @ ..] if LINKS.contains(&word.as_str()) && rest.len() <= 5 && !source.contains(". ") => {
+            Gap::Phrase
+        }
         _ => Gap::Text,
     })
 }

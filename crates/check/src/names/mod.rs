@@ -314,6 +314,10 @@ impl Reader<'_> {
             .find(|word| WORDS.contains(&word.as_str()) || (self.is_known)(word));
         name.base = known.unwrap_or_else(|| first.to_string());
         self.at += name.base.chars().count();
+        // `Jv` is J_v.
+        if let Some(part) = name.base.strip_prefix('J').filter(|p| p.chars().count() == 1) {
+            (name.sub, name.base) = (part.to_string(), "J".to_string());
+        }
         Some(())
     }
 

@@ -177,7 +177,9 @@ impl Walk<'_> {
                     if self.defines(&spans[0], first, syntax) || self.is_told_of_itself(&spans[0], span) =>
                 {
                     let name = match first {
-                        Scalar::Lone(name) => plain_name(&format!("{}{}", name.base, name.sub)),
+                        Scalar::Lone(name) => {
+                            plain_name(&format!("{}{}", name.base, name.sub)).replace('ℓ', "l")
+                        }
                         _ => plain_name(self.source(&spans[0])),
                     };
                     let inverse = self.inverse_value(span, syntax);

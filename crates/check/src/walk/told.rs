@@ -362,7 +362,10 @@ impl Walk<'_> {
     /// Gives a joint or a length a value; false if that is not what is written.
     fn assign(&mut self, name: &str, value: &str) -> bool {
         let name = name.trim_matches(['*', '`']);
-        let Some(symbol) = self.lexis.names.lookup(name).and_then(|e| e.as_symbol()) else { return false };
+        let plain: String =
+            name.chars().map(|c| denavit_symbolic::parse::subscript(c).unwrap_or(c)).collect();
+        let found = self.lexis.names.lookup(name).or_else(|| self.lexis.names.lookup(&plain));
+        let Some(symbol) = found.and_then(|e| e.as_symbol()) else { return false };
         let d = &self.subject.description;
         if let Some(joint) = d.variables().iter().position(|v| v.symbol == symbol) {
             return match self.constant(value) {

@@ -277,7 +277,10 @@ impl<'t> Reader<'t> {
         let (sides, relations) = self.sides_of(nodes);
         let begins_related = first.relation().is_some();
         let operator = first.is(Kind::Operator);
-        let open = last.relation().is_some() || last.is(Kind::Operator);
+        // `90^\circ` ends in a script, not in an operator.
+        let is_script =
+            nodes.len().checked_sub(2).and_then(|k| nodes.get(k)).is_some_and(|n| n.is(Kind::Script));
+        let open = last.relation().is_some() || last.is(Kind::Operator) && !is_script;
         let sign = matches!(cut(self.text, &first.span), "-" | "−" | "±" | "\\pm" | "+");
         let prose = first.is(Kind::Prose);
         let goes_on = course.before
