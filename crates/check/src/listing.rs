@@ -53,11 +53,12 @@ pub(super) fn tables_of(
     if is_program {
         listed.extend(told_rows(bare).and_then(|l| table(&l, reading)));
     }
-    // A head that was taken for words leaves rows out.
+    // A head that was taken for words leaves rows out, a length that slides a joint.
     let most = |tables: &[PrintedTable]| {
-        tables.iter().filter(|t| t.robot.is_ok()).map(|t| t.rows.len()).max().unwrap_or(0)
+        let robots = tables.iter().filter_map(|t| t.robot.as_ref().ok().map(|(d, _)| d));
+        robots.map(|d| (d.rows.len(), d.variables().len())).max().unwrap_or_default()
     };
-    if most(&printed) > 0 {
+    if most(&printed).0 > 0 {
         return if most(&listed) > most(&printed) { listed } else { printed };
     }
     if listed.is_empty() {
