@@ -9,6 +9,7 @@ use super::matrix::Matrix;
 use super::numbers;
 use super::outcome::{Claim, Finding, Standing};
 use super::plan::{Plan, Walked};
+use super::programs::Followed;
 use super::subject::Subject;
 use super::tables::{Judged, Standing as TableStanding};
 use super::walk::Piece;
@@ -113,6 +114,24 @@ pub(super) fn in_programs(text: &str, walked: &Walked, claims: &mut [Claim]) {
         for entry in &mut claims[k].entries {
             if let Finding::Wrong(wrong) = &entry.finding {
                 entry.finding = Finding::Carried { by, correct: wrong.correct.clone() };
+            }
+        }
+    }
+}
+
+/// What of programs is right given what they computed before is carried.
+pub(super) fn as_computed(walked: &Walked, claims: &mut [Claim]) {
+    for Followed { span, by, follows } in &walked.followed {
+        let at = |span: &std::ops::Range<usize>| walked.assertions.iter().position(|a| a.span == *span);
+        let (Some(k), Some(by)) = (at(span), at(by)) else { continue };
+        if !claims.get(by).is_some_and(|c| matches!(c.standing(), Standing::Wrong | Standing::Carried)) {
+            continue;
+        }
+        let Some(claim) = claims.get_mut(k).filter(|c| c.entries.len() == follows.len()) else { continue };
+        for (entry, _) in claim.entries.iter_mut().zip(follows).filter(|(_, follows)| **follows) {
+            if let Finding::Wrong(wrong) = &entry.finding {
+                entry.finding = Finding::Carried { by, correct: wrong.correct.clone() };
+                claim.instead = None;
             }
         }
     }

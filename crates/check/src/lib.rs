@@ -21,6 +21,7 @@ pub mod inverse;
 mod jacobians;
 mod judge;
 mod lexis;
+mod listing;
 pub mod marking;
 mod matrix;
 mod names;
@@ -122,8 +123,10 @@ pub fn check(
     let mut plan = Plan::of(text, format, &document, robot, options, &mut notes)?;
     let programs = plan::programs(text, &document, options);
     let scripts = scripts::inverse(text, &programs, &|name| plan.is_joint(name));
+    let mut lost = vec![];
     let respelled = scripts.map(|mut scripts| {
         scripts.join(&mut document);
+        lost = std::mem::take(&mut scripts.lost);
         plan.programs = Some(Rc::from(scripts.programs));
         scripts.text
     });
@@ -132,7 +135,8 @@ pub fn check(
     for sense in senses {
         notes.note(0..0, Noted::Reading(sense));
     }
-    let walked = plan.walk(text, &document, options);
+    let mut walked = plan.walk(text, &document, options);
+    walked.unsaid.extend(lost);
     if !plan.has_robot && walked.assertions.is_empty() {
         notes.error(0..0, Noted::NoRobot);
         return Err(notes.found());
@@ -157,6 +161,7 @@ pub fn check(
     carried::carry(text, &document, &plan, options, &walked, &mut claims);
     carried::by_row_function(text, &document, &plan, options, &walked, &mut claims);
     carried::in_programs(text, &walked, &mut claims);
+    carried::as_computed(&walked, &mut claims);
     carried::by_name(text, &mut claims);
     blamed::helpers(text, format, &plan, options, &walked, &mut claims);
     let judged = tables::judge(text, &plan.subjects[0], &plan.own_tables);

@@ -4,11 +4,11 @@ use super::CheckOptions;
 use super::convention;
 use super::goals::Answered;
 use super::habits::Habits;
-use super::lexis::Lexis;
 use super::lexis::set_in;
+use super::listing;
 use super::note::{Note, Noted, Notes, Unread, Unreadable};
 use super::order;
-use super::programs;
+use super::programs::{self, Followed, Source};
 use super::subject::Subject;
 use super::tables::OwnTable;
 use super::walk::{Assertion, Defined, Walk, points};
@@ -65,6 +65,10 @@ pub(super) struct Walked {
     pub defined: Vec<Defined>,
     /// What of programs could not be read.
     pub refused: Vec<Unread>,
+    /// What of programs follows from something wrong before.
+    pub followed: Vec<Followed>,
+    /// Names that programs give values with joints in them, and where.
+    pub unsaid: Vec<(Range<usize>, String)>,
     /// The names of each robot's part of the document, at its end.
     pub names: Vec<Rc<Vocabulary>>,
     /// The same with the entries of the pose as symbols.
@@ -150,14 +154,13 @@ impl Plan {
             plan.push(0, named(robot));
         }
         let kind = kind_of_tables(format);
-        let bare = without_marks(text, options);
-        let text = bare.as_deref().unwrap_or(text);
         let mut reading = options.table.clone();
         if let (None, Some((convention, place))) = (reading.convention, convention::said(text)) {
             notes.note(place, Noted::ReadAs(convention));
             reading.convention = Some(convention);
         }
-        let printed = if format == Format::Toml { vec![] } else { tables(text, kind, &reading) };
+        let is_open = format != Format::Toml;
+        let printed = if is_open { listing::tables_of(text, kind, options, &reading) } else { vec![] };
         plan.tables = Rc::new(printed.iter().map(|t| t.span.clone()).collect());
         let mut events: Vec<(usize, Event)> =
             directives(document).map(|d| (d.span.start, Event::Directive(d))).collect();
@@ -275,6 +278,24 @@ impl Plan {
         self.subjects.iter().any(found)
     }
 
+    /// The programs of a document: the number of the robot, the language, and the blocks.
+    fn blocks(
+        &self,
+        text: &str,
+        document: &Document,
+        options: &CheckOptions,
+    ) -> Vec<(usize, Dialect, Vec<Range<usize>>)> {
+        let mut found: Vec<(usize, Dialect, Vec<Range<usize>>)> = vec![];
+        for (span, language) in programs(text, document, options) {
+            let number = self.at(span.start);
+            match found.iter_mut().find(|f| (f.0, f.1) == (number, language)) {
+                Some(program) => program.2.push(span),
+                None => found.push((number, language, vec![span])),
+            }
+        }
+        found
+    }
+
     fn push(&mut self, at: usize, subject: Option<Subject>) {
         if let Some(subject) = subject {
             // What stands before the first table is about it, too.
@@ -379,18 +400,19 @@ impl Plan {
         names.push(Rc::new(walk.lexis.names.clone()));
         inverse_names.push(Rc::new(walk.lexis.inverse_names()));
         let (mut assertions, mut refused) = (walk.assertions, vec![]);
-        for (span, language) in programs(text, document, options) {
-            let number = self.at(span.start);
-            let subject = &self.subjects[number];
-            let lexis = Lexis::new(subject, &self.habits, &Rc::from(text));
-            let source = self.programs.as_deref().unwrap_or(text);
-            let mut told = Walk::new(text, subject, &self.habits);
-            told.told_in_comments(&span, language);
-            let (found, errors) =
-                programs::assertions(source, &span, language, subject, &lexis, number, &told.at);
-            assertions.extend(found);
-            refused.extend(errors);
+        let source = self.programs.as_deref().unwrap_or(text);
+        let (mut followed, mut unsaid) = (vec![], vec![]);
+        for (number, language, blocks) in self.blocks(text, document, options) {
+            let outputs = outputs(text, document, &blocks);
+            let of = Source { text, source, blocks: &blocks, outputs: &outputs, language, number };
+            let found = programs::assertions(&of, &self.subjects[number], &self.habits);
+            assertions.extend(found.assertions);
+            refused.extend(found.refused);
+            followed.extend(found.followed);
+            unsaid.extend(found.unsaid);
+            walk.defined.extend(found.defined);
         }
+        walk.defined.sort_by_key(|d| d.from);
         assertions.extend(points(&walk.defined, &assertions, &self.subjects));
         assertions.sort_by_key(|a| a.span.start);
         Walked {
@@ -402,23 +424,12 @@ impl Plan {
             named: walk.named,
             defined: walk.defined,
             refused,
+            followed,
+            unsaid,
             names,
             inverse_names,
         }
     }
-}
-
-/// A program with blanks for the marks of its comments, in which tables stand.
-fn without_marks(text: &str, options: &CheckOptions) -> Option<String> {
-    let mark = match options.language? {
-        Dialect::Python => '#',
-        Dialect::Matlab => '%',
-    };
-    let bare = |line: &str| match line.trim_start().starts_with(mark) {
-        true => line.replacen(mark, " ", 1),
-        false => line.to_string(),
-    };
-    Some(text.split_inclusive('\n').map(bare).collect())
 }
 
 /// How tables are set in a document.
@@ -549,12 +560,22 @@ pub(super) fn programs(
         let language = match block.language.as_str() {
             "python" | "py" | "python3" | "numpy" => Dialect::Python,
             "matlab" | "octave" | "m" => Dialect::Matlab,
+            "c" | "cpp" | "c++" | "arduino" | "ino" => Dialect::C,
             _ => return None,
         };
         let is_skipped = block.directives.iter().any(|d| matches!(words(d).0, "skip" | "off"));
         (!is_skipped).then(|| (block.span.clone(), language))
     };
     document.code.iter().filter_map(of).collect()
+}
+
+/// Where what a block of a program shows may stand: up to the next block of a language.
+fn outputs(text: &str, document: &Document, blocks: &[Range<usize>]) -> Vec<Range<usize>> {
+    let next = |end: usize| {
+        let later = document.code.iter().filter(|c| c.span.start > end && !c.language.is_empty());
+        later.map(|c| c.span.start).min().unwrap_or(text.len())
+    };
+    blocks.iter().map(|b| b.end..next(b.end)).collect()
 }
 
 /// All directives of a document.

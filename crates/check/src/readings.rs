@@ -139,6 +139,21 @@ pub(super) fn support(text: &str, document: &Document, plan: Plan, options: &Che
     [score.right, score.wrong.len()]
 }
 
+/// How many entries of formulas are right and how many wrong; zeros and ones are not counted.
+pub(super) fn entries(walked: &Walked) -> [usize; 2] {
+    let mut points = Points::new(41);
+    let mut found = [0, 0];
+    for piece in walked.assertions.iter().flat_map(|a| &a.pieces) {
+        let Piece::Pair(pair) = piece else { continue };
+        let is_plain = |e: Expr| e.as_number().is_some_and(|r| r.is_zero() || r.is_one());
+        if !(is_plain(pair.value) && is_plain(pair.wanted)) {
+            let is_right = points.value(pair.value) == points.value(pair.wanted);
+            found[usize::from(!is_right)] += 1;
+        }
+    }
+    found
+}
+
 /// Other habits that may explain what is wrong, how they are said, and how many more statements must be right.
 fn candidates(
     habits: &Habits,

@@ -2,9 +2,8 @@
 
 use super::note::Notes;
 use super::plan::{Plan, kind_of_tables};
-use super::{CheckOptions, convention, readings};
+use super::{CheckOptions, convention, listing, readings};
 use denavit::description::Convention;
-use denavit::description::table::tables;
 use denavit_reading::document::{Document, Format};
 use std::ops::Range;
 
@@ -34,12 +33,13 @@ pub(super) fn by_statements(
         return None;
     }
     let kind = kind_of_tables(format);
-    let unsaid = tables(text, kind, &options.table).into_iter().find(|t| t.robot.is_err())?;
+    let unsaid =
+        listing::tables_of(text, kind, options, &options.table).into_iter().find(|t| t.robot.is_err())?;
     let mut scores: Vec<(Convention, [usize; 2])> = vec![];
     for convention in Convention::ALL {
         let mut there = options.clone();
         there.table.convention = Some(convention);
-        let printed = tables(text, kind, &there.table);
+        let printed = listing::tables_of(text, kind, &there, &there.table);
         // What is amiss with the table is something else, or the letters are not those of the convention.
         if !printed.iter().any(|t| t.span == unsaid.span && t.robot.is_ok()) {
             continue;
@@ -47,7 +47,11 @@ pub(super) fn by_statements(
         let Ok(plan) = Plan::of(text, format, document, None, &there, &mut Notes::default()) else {
             continue;
         };
-        scores.push((convention, readings::support(text, document, plan, &there)));
+        let score = match options.language {
+            Some(_) => readings::entries(&plan.walk(text, document, &there)),
+            None => readings::support(text, document, plan, &there),
+        };
+        scores.push((convention, score));
     }
     scores.sort_by_key(|s| std::cmp::Reverse(s.1[0]));
     let &(convention, [right, wrong]) = scores.first()?;

@@ -42,6 +42,11 @@ pub(super) fn listed(
         }
         found.push(Unjudged { span: span.clone(), why: why(walked, statement) });
     }
+    for (span, name) in &walked.unsaid {
+        if !touches(&covered, span) && !touches(&walked.taken, span) {
+            found.push(Unjudged { span: span.clone(), why: Skipped::Unused(name.clone()) });
+        }
+    }
     for error in &walked.refused {
         if !touches(&judged, &error.span) {
             found.push(Unjudged { span: error.span.clone(), why: Skipped::Unreadable(error.why.clone()) });

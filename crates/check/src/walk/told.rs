@@ -201,12 +201,12 @@ impl Walk<'_> {
 
     /// Reads the values that the comments of a program give.
     pub(in super::super) fn told_in_comments(&mut self, span: &Range<usize>, language: Dialect) {
-        let mark = if language == Dialect::Python { '#' } else { '%' };
+        let mark = super::super::listing::comment_mark(language);
         let Some(text) = self.text.get(span.clone()) else { return };
         let mut start = span.start;
         for line in text.split_inclusive('\n') {
             if let Some(at) = line.find(mark) {
-                self.told_in(&(start + at + 1..start + line.trim_end().len()));
+                self.told_in(&(start + at + mark.len()..start + line.trim_end().len()));
             }
             start += line.len();
         }

@@ -150,3 +150,103 @@ fn a_table_in_the_comments_of_a_program() {
         assert_eq!(claim(&found, "py").standing(), Standing::Wrong, "{mark}");
     }
 }
+
+/// Names and standings of what is said of a document that brings its table along.
+fn standings(text: &str, format: Format, language: Option<Dialect>) -> Vec<(String, Standing)> {
+    let options = CheckOptions { language, ..CheckOptions::default() };
+    let found = check(text, format, None, &options).unwrap();
+    found.claims.iter().map(|c| (c.name.clone(), c.standing())).collect()
+}
+
+fn of(all: &[(String, Standing)], name: &str) -> Standing {
+    all.iter().find(|c| c.0 == name).unwrap_or_else(|| panic!("no claim about {name}: {all:?}")).1
+}
+
+const TABLE: &str = "| i | a | alpha | d | theta |\n|---|---|---|---|---|\n| 1 | l1 | 0 | 0 | q1 |\n| 2 | l2 | 0 | 0 | q2 |\n\n";
+
+#[test]
+fn cells_of_a_notebook_share_their_names() {
+    let text = |sign: &str| {
+        format!(
+            "convention: standard\n\n{TABLE}```python\nfrom sympy import *\nq1, q2, l1, l2 = symbols('q1 q2 l1 l2')\n\
+             x = l1*cos(q1) + l2*cos(q1 + q2)\ny = l1*sin(q1) {sign} l2*sin(q1 + q2)\n```\n\nThen\n\n\
+             ```python\nJ = Matrix([x, y]).jacobian([q1, q2])\nJ.subs({{q1: pi/6, q2: pi/3, l1: 0.5, l2: 0.4}}).evalf(3)\n```\n\n\
+             ```\nMatrix([\n[-0.65, -0.4],\n[0.433, 0]])\n```\n"
+        )
+    };
+    let right = standings(&text("+"), Format::Markdown, None);
+    assert!(right.iter().all(|c| c.1 == Standing::Equal), "{right:?}");
+    assert_eq!(of(&right, "J"), Standing::Equal);
+    let wrong = standings(&text("-"), Format::Markdown, None);
+    assert_eq!([of(&wrong, "y"), of(&wrong, "J")], [Standing::Wrong, Standing::Carried]);
+}
+
+#[test]
+fn what_a_program_prints() {
+    let text = |printed: &str| {
+        format!(
+            "# standard DH\n# | i | a | alpha | d | theta |\n# | 1 | 0.3 | 0 | 0 | q1 |\n# | 2 | 0.2 | 0 | 0 | q2 |\nimport math\n\
+             q1 = math.radians(30)\nq2 = math.radians(60)\nx = 0.3*math.cos(q1) + 0.2*math.cos(q1+q2)\n\
+             y = 0.3*math.sin(q1) + 0.2*math.sin(q1+q2)\nprint(x, y)   # {printed}\n"
+        )
+    };
+    for (printed, standing) in [
+        ("0.2598 0.35", Standing::Equal),
+        ("0.2598 0.53", Standing::Wrong),
+        ("[0.26, 0.35]", Standing::Equal),
+    ] {
+        let all = standings(&text(printed), Format::Plain, Some(Dialect::Python));
+        assert_eq!(of(&all, "x, y"), standing, "{printed}");
+    }
+}
+
+#[test]
+fn programs_in_c() {
+    let text = |last: &str| {
+        format!(
+            "#include <math.h>\n/* DH (standard)\n * | i | a  | alpha | d | theta |\n * | 1 | L1 | 0 | 0 | theta1 |\n \
+             * | 2 | L2 | 0 | 0 | theta2 |\n */\nfloat L1 = 100.0f; /* mm */\nfloat L2 = 80.0f;\n\n\
+             void forward(float theta1, float theta2, float *x, float *y) {{\n  *x = L1*cosf(theta1) + L2*cosf(theta1 + theta2);\n  \
+             *y = L1*sinf(theta1) + L2*sinf({last});\n}}\n\n\
+             void jacobian(const double q[2], double J[2][2])\n{{\n  double s1 = sin(q[0]), s12 = sin(q[0] + q[1]);\n  \
+             J[0][0] = -L1*s1 - L2*s12; J[0][1] = -L2*s12;\n  J[1][0] = L1*cos(q[0]) + L2*cos(q[0] + q[1]);\n  \
+             J[1][1] = L2*cos(q[0] + q[1]);\n}}\n"
+        )
+    };
+    let right = standings(&text("theta1 + theta2"), Format::Plain, Some(Dialect::C));
+    assert_eq!(["x", "y", "J"].map(|n| of(&right, n)), [Standing::Equal; 3]);
+    let wrong = standings(&text("theta2"), Format::Plain, Some(Dialect::C));
+    assert_eq!(["x", "y", "J"].map(|n| of(&wrong, n)), [Standing::Equal, Standing::Wrong, Standing::Equal]);
+}
+
+#[test]
+fn robots_in_code_and_in_words() {
+    let formulas =
+        "x = np.cos(q1)*(0.3*np.cos(q2) + 0.2*np.cos(q2 + q3))\nz = 0.4 + 0.3*np.sin(q2) + 0.2*np.sin(q3)\n";
+    for robot in [
+        "robot = DHRobot([\n    RevoluteDH(d=0.4, a=0, alpha=pi/2),\n    RevoluteDH(d=0, a=0.3, alpha=0),\n    RevoluteDH(a=0.2)])\n",
+        "L1 = Link('d', 0.4, 'a', 0, 'alpha', pi/2)\nL2 = Link('d', 0, 'a', 0.3, 'alpha', 0)\nL3 = Link('d', 0, 'a', 0.2, 'alpha', 0)\n",
+        "# DH parameters (theta, d, a, alpha), standard:\n#   axis 1: q1  0.4  0  90\n#   axis 2: q2  0  0.3  0\n#   axis 3: q3  0  0.2  0\n",
+        "# standard DH\n#  1: theta = q1, d = 0.4, a = 0, alpha = 90\n#  2: theta = q2, d = 0, a = 0.3, alpha = 0\n#  3: theta = q3, d = 0, a = 0.2, alpha = 0\n",
+    ] {
+        let text = format!("import numpy as np\nfrom math import pi\n{robot}\n{formulas}");
+        let all = standings(&text, Format::Plain, Some(Dialect::Python));
+        assert_eq!([of(&all, "x"), of(&all, "z")], [Standing::Equal, Standing::Wrong], "{robot}");
+    }
+    // Without a robot nothing is claimed.
+    let options = CheckOptions { language: Some(Dialect::Python), ..CheckOptions::default() };
+    assert!(check("x = 0.3\ny = 0.5\nz = x + y\n", Format::Plain, None, &options).is_err());
+}
+
+#[test]
+fn branches_classes_and_bounds_of_inverse_functions() {
+    let text = "import numpy as np\nclass Arm:\n    def ik(self, x, y, z, lefty=True):\n        r, s = np.hypot(x, y), z - self.d1\n        \
+                c3 = (r**2 + s**2 - self.a2**2 - self.a3**2)/(2*self.a2*self.a3)\n        c3 = np.clip(c3, -1.0, 1.0)\n        \
+                q3 = np.arccos(c3) if lefty else -np.arccos(c3)\n        \
+                q2 = np.arctan2(s, r) - np.arctan2(self.a3*np.sin(q3), self.a2 + self.a3*np.cos(q3))\n        return q2, q3\n";
+    let found = checked("articulated-3r", text, Some(Dialect::Python));
+    for name in ["c3", "q3", "q2"] {
+        let standing = claim(&found, name).standing();
+        assert!(matches!(standing, Standing::Equal | Standing::Conditional), "{name}: {standing:?}");
+    }
+}

@@ -60,10 +60,7 @@ impl Parser<'_> {
             Some(Mark::Op("[")) if is_matlab => return self.nested(|p| p.rows("]")),
             Some(Mark::Op("{")) if is_matlab => return self.nested(|p| p.rows("}")),
             Some(Mark::Op("[")) => return self.nested(Self::list),
-            Some(Mark::Op("{")) => {
-                let e = ParseError::new(self.here(), "a dictionary or set is not read");
-                return Err(e.hint("write a list, or names of their own"));
-            }
+            Some(Mark::Op("{")) => return self.nested(Self::dictionary),
             Some(Mark::Op("@")) if is_matlab => return self.nested(Self::anonymous),
             _ => return Err(self.unexpected("a value")),
         };
@@ -85,7 +82,7 @@ impl Parser<'_> {
             return Ok(self.node(Kind::Tuple(vec![]), start));
         }
         let inner = match self.language {
-            Dialect::Python => self.expressions()?,
+            Dialect::Python | Dialect::C => self.expressions()?,
             Dialect::Matlab => self.expression()?,
         };
         let inner = self.comprehension(inner)?;
@@ -110,6 +107,27 @@ impl Parser<'_> {
             }
         }
         Ok(self.node(Kind::List(parts), start))
+    }
+
+    /// `{q1: 0.3, q2: 0.5}` as a list of pairs.
+    fn dictionary(&mut self) -> Parsed<Node> {
+        let start = self.at;
+        self.at += 1;
+        let mut pairs = vec![];
+        while !self.eat("}") {
+            let from = self.at;
+            let key = self.expression()?;
+            if !self.eat(":") {
+                let e = ParseError::new(self.here(), "a set is not read");
+                return Err(e.hint("write a list"));
+            }
+            let value = self.expression()?;
+            pairs.push(self.node(Kind::List(vec![key, value]), from));
+            if !self.eat(",") && !self.is_op("}") {
+                return Err(self.unexpected("`,` or `}`"));
+            }
+        }
+        Ok(self.node(Kind::List(pairs), start))
     }
 
     fn rows(&mut self, close: &str) -> Parsed<Node> {

@@ -290,7 +290,7 @@ impl Parser<'_> {
 
     pub fn postfix(&mut self) -> Parsed<Node> {
         let start = self.at;
-        let base = self.primary()?;
+        let mut base = self.primary()?;
         let mut suffixes = vec![];
         loop {
             let is_apart = self.tokens.get(self.at).is_some_and(|t| t.is_apart);
@@ -321,6 +321,14 @@ impl Parser<'_> {
                 }
                 _ => break,
             };
+            if let (SuffixKind::Attribute(name), Kind::Name(own), true) =
+                (&kind, &base.kind, suffixes.is_empty())
+                && own == "self"
+                && !is_matlab
+            {
+                base = self.node(Kind::Name(name.clone()), start);
+                continue;
+            }
             suffixes.push(Suffix { kind, end: self.since(start).end });
             if suffixes.len() > MAX_NESTING {
                 return Err(ParseError::new(self.since(start), "too many calls in a row"));

@@ -80,7 +80,7 @@ impl<'a> Lexer<'a> {
 
     fn run(&mut self) {
         match self.language {
-            Dialect::Python => self.indentation(),
+            Dialect::Python | Dialect::C => self.indentation(),
             Dialect::Matlab => self.block_comment(),
         }
         while let Some(c) = self.rest().chars().next() {
@@ -131,7 +131,7 @@ impl<'a> Lexer<'a> {
             (None, _) => {
                 self.push(Mark::Newline, 1);
                 match self.language {
-                    Dialect::Python => self.indentation(),
+                    Dialect::Python | Dialect::C => self.indentation(),
                     Dialect::Matlab => self.block_comment(),
                 }
             }

@@ -38,6 +38,20 @@ impl<'a> Machine<'a> {
                 let arguments = vec![y.scalar(&py)?.clone(), x.scalar(&px)?.clone()];
                 Ok(Object::Scalar(applied(Function::Atan2, arguments, &mut self.budget, span)?))
             }
+            "asind" | "acosd" | "atand" | "atan2d" => {
+                let f = match name {
+                    "asind" => Function::Arcsin,
+                    "acosd" => Function::Arccos,
+                    "atand" => Function::Arctan,
+                    _ => Function::Atan2,
+                };
+                let of = |(value, place): &(Object<'a>, Span)| Ok(value.scalar(place)?.clone());
+                let arguments = given.positional.iter().map(of).collect::<Read<Vec<Scalar>>>()?;
+                let angle = applied(f, arguments, &mut self.budget, span)?;
+                let pi = self.pi(span);
+                let scaled = self.times(&angle, &Scalar::of(Expr::int(180), span), span)?;
+                Ok(Object::Scalar(combined(Op::Div, &scaled, &pi, &mut self.budget, span)?.named(span)))
+            }
             "radians" | "deg2rad" => {
                 let [(value, place)] = self.positional(given, path, span)?;
                 self.each_entry(value, &place, |m, s| Ok(m.radians(&s)?.named(span)))
@@ -67,7 +81,30 @@ impl<'a> Machine<'a> {
                 Ok(object(m.matrix(sort, &place)?.transposed()))
             }
             "multi_dot" | "reduce" => self.product_of_all(name, given, path, span),
-            "simplify" | "trigsimp" | "expand" | "double" | "combine" | "nsimplify" => {
+            "subs" if !given.positional.is_empty() => {
+                let mut given = given;
+                let (value, _) = given.positional.remove(0);
+                self.substituted(&value, &given, span)
+            }
+            "diff" | "Derivative" if !given.positional.is_empty() => {
+                self.differentiated(&given.positional[0].0.clone(), &given.positional[1..], span)
+            }
+            "jacobian" => {
+                let [(value, _), by] = self.positional(given, path, span)?;
+                self.jacobian(&value, &by, span)
+            }
+            "det" | "Determinant" => {
+                let [(m, place)] = self.positional(given, path, span)?;
+                self.determinant(&m.matrix(sort, &place)?, span)
+            }
+            "lambdify" => match given.positional.get(1) {
+                Some((value, _)) => Ok(value.clone()),
+                None => refuse(span, "`lambdify` without a formula is not read"),
+            },
+            "simplify" | "trigsimp" | "expand" | "double" | "combine" | "nsimplify" | "factor"
+            | "collect" | "cancel" | "together" | "apart" | "expand_trig" | "radsimp" | "powsimp" | "N"
+            | "vpa" | "round" | "around" | "single" | "real" | "eval" | "simplifyFraction" | "horner"
+            | "numden_" => {
                 let value = self.first(given, path, span)?;
                 self.each_entry(value, span, |_, s| Ok(s.unwritten(span)))
             }

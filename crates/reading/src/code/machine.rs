@@ -3,11 +3,12 @@
 use super::Dialect;
 use super::matlab::is_display;
 use super::place::{is_aliased, shallow};
+use super::python::is_main;
 use super::report;
 use super::scalar::{Budget, Read, Scalar, Stop, refuse, refuse_hint};
 use super::tree::{Definition, Kind, Node, Op, Span, Statement, StatementKind, SuffixKind, changed};
 use super::value::{Closure, Object};
-use super::{Assigned, MAX_DEPTH, MAX_REFUSALS, MAX_STATEMENTS, MAX_TURNS, Returned};
+use super::{Assigned, MAX_DEPTH, MAX_REFUSALS, MAX_STATEMENTS, MAX_TURNS, Returned, Shown};
 use denavit_symbolic::Expr;
 use denavit_symbolic::parse::ParseError;
 use std::collections::{BTreeMap, BTreeSet};
@@ -57,6 +58,10 @@ pub(super) struct Machine<'a> {
     pub joints: &'a [Expr],
     /// What names stand for that the script gives numbers.
     pub stated: &'a super::Stated<'a>,
+    /// Values that stand for those that names get, by the places of these.
+    pub mended: &'a BTreeMap<usize, Vec<Expr>>,
+    /// What was shown.
+    pub shown: Vec<Shown>,
     pub functions: BTreeMap<&'a str, &'a Definition>,
     pub imports: BTreeMap<&'a str, &'a str>,
     pub stars: Vec<&'a str>,
@@ -80,17 +85,15 @@ pub(super) struct Machine<'a> {
 }
 
 impl<'a> Machine<'a> {
-    pub fn new(
-        language: Dialect,
-        names: &'a dyn Fn(&str) -> Option<Expr>,
-        joints: &'a [Expr],
-        stated: &'a super::Stated<'a>,
-    ) -> Self {
+    pub fn new(language: Dialect, asked: &super::Asked<'a>) -> Self {
+        let super::Asked { names, joints, stated, mended } = *asked;
         Machine {
             language,
             names,
             joints,
             stated,
+            mended,
+            shown: vec![],
             functions: BTreeMap::new(),
             imports: BTreeMap::new(),
             stars: vec![],
@@ -252,6 +255,15 @@ impl<'a> Machine<'a> {
             }
             StatementKind::For(target, source, body) => return self.turns(target, source, body),
             StatementKind::If(arms, other) => {
+                if let [(test, body)] = arms.as_slice()
+                    && is_main(test)
+                {
+                    // What a program does for show is followed as far as it goes.
+                    let refusals = self.refusals.len();
+                    self.block(body);
+                    self.refusals.truncate(refusals);
+                    return Ok(Flow::Next);
+                }
                 for (test, body) in arms {
                     let test_value = self.eval(test)?;
                     if self.truth(&test_value, &test.span)? {
@@ -332,7 +344,18 @@ impl<'a> Machine<'a> {
 
     /// An expression by itself: it may change a list, or only show something.
     fn show(&mut self, node: &'a Node) -> Read<()> {
-        if matches!(node.kind, Kind::Text(_) | Kind::Name(_)) || is_display(node) {
+        if matches!(node.kind, Kind::Text(_)) {
+            return Ok(());
+        }
+        if is_display(node) {
+            self.displayed(node);
+            return Ok(());
+        }
+        if matches!(node.kind, Kind::Name(_)) {
+            // A command, or a value that is asked for.
+            if let Ok(value) = self.eval(node) {
+                self.shows(&[(node, value)], &node.span, false);
+            }
             return Ok(());
         }
         if let Kind::Path(base, suffixes) = &node.kind
@@ -362,7 +385,37 @@ impl<'a> Machine<'a> {
             }
             return refuse(&node.span, format!("`.{method}` of {} is not read", place.about()));
         }
-        self.eval(node).map(|_| ())
+        let value = self.eval(node)?;
+        self.shows(&[(node, value)], &node.span, false);
+        Ok(())
+    }
+
+    /// `print(x, y)`: what is no value says nothing here.
+    fn displayed(&mut self, node: &'a Node) {
+        let Kind::Path(_, suffixes) = &node.kind else { return };
+        let Some(SuffixKind::Call(arguments)) = suffixes.last().map(|s| &s.kind) else { return };
+        let mut values = vec![];
+        for argument in arguments.iter().filter(|a| a.name.is_none()) {
+            if let Ok(value) = self.eval(&argument.value) {
+                values.push((&argument.value, value));
+            }
+        }
+        self.shows(&values, &node.span, true);
+    }
+
+    fn shows(&mut self, values: &[(&'a Node, Object<'a>)], span: &Span, is_call: bool) {
+        if !self.is_recorded() {
+            return;
+        }
+        let mut found = vec![];
+        for (node, value) in values {
+            if let Some(value) = report::value(value, &mut self.budget) {
+                found.push((node.span.clone(), value));
+            }
+        }
+        if !found.is_empty() {
+            self.shown.push(Shown { span: span.clone(), values: found, is_call });
+        }
     }
 
     fn restore(&mut self, name: &'a str, value: Object<'a>) {

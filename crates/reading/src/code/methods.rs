@@ -107,15 +107,40 @@ impl<'a> Machine<'a> {
                 let blocks = [Matrix::clone(m), other.matrix(sort, &place)?];
                 Ok(object(if name == "row_join" { beside(&blocks, span)? } else { above(&blocks, span)? }))
             }
+            (Object::Scalar(_) | Object::Matrix(_), "subs" | "xreplace") => {
+                self.substituted(value, &given, span)
+            }
+            (Object::Scalar(_) | Object::Matrix(_), "diff") => {
+                self.differentiated(value, &given.positional, span)
+            }
+            (Object::Matrix(_) | Object::List(_), "jacobian") => {
+                let [by] = self.positional(given, name, span)?;
+                self.jacobian(value, &by, span)
+            }
+            (Object::Matrix(m), "det" | "berkowitz_det") => self.determinant(m, span),
+            (Object::Matrix(m), "row" | "col") => {
+                let [(k, place)] = self.positional(given, name, span)?;
+                let k = k.scalar(&place)?.to_integer().and_then(|k| usize::try_from(k).ok());
+                let (rows, columns): (Vec<usize>, Vec<usize>) =
+                    ((0..m.rows).collect(), (0..m.columns).collect());
+                match k {
+                    Some(k) if name == "row" && k < m.rows => Ok(object(m.part(&[k], &columns))),
+                    Some(k) if name == "col" && k < m.columns => Ok(object(m.part(&rows, &[k]))),
+                    _ => refuse(span, "there is no such row or column"),
+                }
+            }
             (_, "astype") => match given.positional.first() {
                 Some((Object::Path(kind), _)) if kind.contains("float") => {
                     self.each_entry(value.clone(), span, |_, s| Ok(s.wholly(false)))
                 }
                 _ => refuse(span, "this type of entries is not read"),
             },
-            (Object::Scalar(_) | Object::Matrix(_), "simplify" | "expand" | "item" | "doit") => {
-                self.each_entry(value.clone(), span, |_, s| Ok(s.unwritten(span)))
-            }
+            (
+                Object::Scalar(_) | Object::Matrix(_),
+                "simplify" | "expand" | "item" | "doit" | "evalf" | "n" | "factor" | "trigsimp" | "collect"
+                | "cancel" | "round" | "together" | "as_mutable" | "as_immutable" | "applyfunc" | "rewrite"
+                | "nsimplify",
+            ) => self.each_entry(value.clone(), span, |_, s| Ok(s.unwritten(span))),
             _ => {
                 let hint = "only arithmetic, matrices, sines and roots are";
                 refuse_hint(span, format!("`.{name}` of {} is not read", value.about()), hint)

@@ -10,6 +10,8 @@
 
 mod atoms;
 mod builders;
+mod c;
+mod calculus;
 mod calls;
 mod eval;
 mod grammar;
@@ -33,7 +35,7 @@ use machine::Machine;
 use scalar::Scalar;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
-use tree::{Definition, Statement, StatementKind};
+use tree::{Definition, Kind, Node, Statement, StatementKind};
 use value::Object;
 
 /// The longest text, in bytes.
@@ -68,6 +70,8 @@ pub enum Dialect {
     Python,
     /// MATLAB or Octave.
     Matlab,
+    /// C or C++.
+    C,
 }
 
 /// What a text computes.
@@ -104,6 +108,19 @@ pub struct Reading {
     pub assigned: Vec<Assigned>,
     /// What it gives back; empty if that is not known.
     pub returned: Vec<Returned>,
+    /// What it shows, by `print` or by standing alone.
+    pub shown: Vec<Shown>,
+}
+
+/// A statement that shows values.
+#[derive(Clone, Debug)]
+pub struct Shown {
+    /// The statement.
+    pub span: Range<usize>,
+    /// Each value with the place of its formula.
+    pub values: Vec<(Range<usize>, Value)>,
+    /// `print(…)`, not a value that stands alone.
+    pub is_call: bool,
 }
 
 /// A name and its value. A matrix whose entries are set one by one is here once, complete, from the first statement that
@@ -175,35 +192,89 @@ pub fn read_stated(
     joints: &[Expr],
     stated: &Stated<'_>,
 ) -> Code {
-    let mut code = Code::default();
-    if text.get(span.clone()).is_none_or(|part| part.len() > MAX_BYTES) {
-        let message = format!("a program has at most {MAX_BYTES} bytes");
-        code.refusals.push(ParseError::new(span, message));
-        return code;
-    }
-    let (program, errors) = match language {
-        Dialect::Python => python::parse(text, &span),
-        Dialect::Matlab => matlab::parse(text, &span),
-    };
-    let mut machine = Machine::new(language, names, joints, stated);
-    machine.refusals = errors;
-    let definitions: Vec<&Definition> = program.iter().filter_map(definition).collect();
-    machine.functions = definitions.iter().map(|d| (d.name.as_str(), *d)).collect();
+    let asked = Asked { names, joints, stated, mended: &BTreeMap::new() };
+    read_blocks(text, &[span], language, &asked).pop().unwrap_or_default()
+}
 
-    let assigned = machine.script(&program);
-    if !assigned.is_empty() || definitions.is_empty() {
-        code.functions.push(Reading { name: String::new(), span: span.clone(), assigned, returned: vec![] });
+/// What a program is read with.
+#[derive(Clone, Copy)]
+pub struct Asked<'a> {
+    /// The meaning of names without a value in the text.
+    pub names: &'a dyn Fn(&str) -> Option<Expr>,
+    /// All joints.
+    pub joints: &'a [Expr],
+    /// What names stand for that a script gives numbers.
+    pub stated: &'a Stated<'a>,
+    /// Values that stand for those that names get, by the place where these are written: all entries, by rows.
+    pub mended: &'a BTreeMap<usize, Vec<Expr>>,
+}
+
+/// Reads the blocks of one program, as the cells of a notebook are: a name keeps its value in those that follow.
+pub fn read_blocks(text: &str, spans: &[Range<usize>], language: Dialect, asked: &Asked<'_>) -> Vec<Code> {
+    let mut codes: Vec<Code> = spans.iter().map(|_| Code::default()).collect();
+    let Some(last) = spans.last().cloned() else { return codes };
+    let length: usize = spans.iter().map(Range::len).sum();
+    if length > MAX_BYTES || spans.iter().any(|s| text.get(s.clone()).is_none()) {
+        let message = format!("a program has at most {MAX_BYTES} bytes");
+        codes[spans.len() - 1].refusals.push(ParseError::new(last, message));
+        return codes;
     }
+    let parsed: Vec<(Vec<Statement>, Vec<ParseError>)> = spans
+        .iter()
+        .map(|span| match language {
+            Dialect::Python => python::parse(text, span),
+            Dialect::Matlab => matlab::parse(text, span),
+            Dialect::C => c::parse(text, span),
+        })
+        .collect();
+    // C is read as what it says in Python.
+    let language = if language == Dialect::C { Dialect::Python } else { language };
+    let mut machine = Machine::new(language, asked);
+    machine.refusals = parsed.iter().flat_map(|p| p.1.iter().cloned()).collect();
+    let mut of_script = BTreeSet::new();
+    let scripts = parsed.iter().flat_map(|p| &p.0).filter(|s| definition(s).is_none());
+    scripts.for_each(|statement| tree::mentioned(std::slice::from_ref(statement), &mut of_script));
     let mut of_others = BTreeSet::new();
-    for d in &definitions {
+    for d in parsed.iter().flat_map(|p| &p.0).filter_map(definition) {
         let mut names = BTreeSet::new();
         tree::mentioned(&d.body, &mut names);
         names.remove(d.name.as_str());
         of_others.extend(names);
     }
-    let mut of_script = BTreeSet::new();
-    for statement in program.iter().filter(|s| definition(s).is_none()) {
-        tree::mentioned(std::slice::from_ref(statement), &mut of_script);
+    for ((code, (program, _)), span) in codes.iter_mut().zip(&parsed).zip(spans) {
+        block(code, program, span, &mut machine, [&of_script, &of_others]);
+    }
+    if machine.budget.is_spent() && machine.refusals.len() < MAX_REFUSALS {
+        let e = ParseError::new(last, "the code computes more than is followed")
+            .hint("leave only the kinematics");
+        machine.refusals.push(e);
+    }
+    for e in machine.refusals {
+        let of = |s: &Range<usize>| s.start <= e.span.start && e.span.start <= s.end;
+        let k = spans.iter().position(of).unwrap_or(0);
+        codes[k].refusals.push(e);
+    }
+    for code in &mut codes {
+        code.refusals.sort_by_key(|e| (e.span.start, e.span.end));
+    }
+    codes
+}
+
+/// One block, after those before it.
+fn block<'a>(
+    code: &mut Code,
+    program: &'a [Statement],
+    span: &Range<usize>,
+    machine: &mut Machine<'a>,
+    [of_script, of_others]: [&BTreeSet<&str>; 2],
+) {
+    let definitions: Vec<&Definition> = program.iter().filter_map(definition).collect();
+    machine.functions.extend(definitions.iter().map(|d| (d.name.as_str(), *d)));
+    let assigned = machine.script(program);
+    let shown = std::mem::take(&mut machine.shown);
+    if !assigned.is_empty() || !shown.is_empty() || definitions.is_empty() {
+        let (name, span, returned) = (String::new(), span.clone(), vec![]);
+        code.functions.push(Reading { name, span, assigned, returned, shown });
     }
     let mut helpers = vec![];
     for d in &definitions {
@@ -211,9 +282,9 @@ pub fn read_stated(
         let is_joints = |p: &tree::Parameter| is_vector(&p.name) || (machine.names)(&p.name).is_some();
         let is_of_script = of_script.contains(d.name.as_str()) && !d.parameters.iter().all(is_joints);
         let is_helper =
-            of_others.contains(d.name.as_str()) || is_of_script && d.parameters.len() < joints.len();
-        match arguments(d, &machine, is_helper) {
-            Ok(slots) => code.functions.push(reading(d, slots, &mut machine)),
+            of_others.contains(d.name.as_str()) || is_of_script && d.parameters.len() < machine.joints.len();
+        match arguments(d, machine, is_helper) {
+            Ok(slots) => code.functions.push(reading(d, slots, machine)),
             Err(_) if is_helper => helpers.push(*d),
             Err(e) => machine.refuse(e.into()),
         }
@@ -221,23 +292,38 @@ pub fn read_stated(
     for d in helpers {
         // Another function calls it with the joints as they are.
         if machine.called.contains(&d.name.as_str())
-            && let Ok(slots) = arguments(d, &machine, false)
+            && let Ok(slots) = arguments(d, machine, false)
         {
-            code.functions.push(reading(d, slots, &mut machine));
+            code.functions.push(reading(d, slots, machine));
         }
     }
     for d in &definitions {
-        code.rows.extend(row_function(d, &mut machine));
+        code.rows.extend(row_function(d, machine));
+    }
+    // `px = lambda q1, q2: …`, `px = @(q1, q2) …`
+    for statement in program {
+        if let StatementKind::Assign(targets, value) = &statement.kind
+            && let ([Node { kind: Kind::Name(name), .. }], Kind::Lambda(d)) =
+                (targets.as_slice(), &value.kind)
+        {
+            match arguments(d, machine, of_script.contains(name.as_str())) {
+                Ok(slots) => {
+                    let mut read = reading(d, slots, machine);
+                    read.name.clone_from(name);
+                    read.returned.iter_mut().for_each(|r| r.name = None);
+                    code.functions.push(read);
+                }
+                Err(_) => {
+                    let renamed = row_function(d, machine);
+                    code.rows.extend(renamed.map(|mut r| {
+                        r.reading.name.clone_from(name);
+                        r
+                    }));
+                }
+            }
+        }
     }
     code.functions.sort_by_key(|f| (!f.name.is_empty(), f.span.start));
-    if machine.budget.is_spent() && machine.refusals.len() < MAX_REFUSALS {
-        let e = ParseError::new(span, "the code computes more than is followed")
-            .hint("leave only the kinematics");
-        machine.refusals.push(e);
-    }
-    code.refusals = machine.refusals;
-    code.refusals.sort_by_key(|e| (e.span.start, e.span.end));
-    code
 }
 
 fn definition(statement: &Statement) -> Option<&Definition> {
@@ -253,7 +339,8 @@ fn reading<'a>(
     machine: &mut Machine<'a>,
 ) -> Reading {
     let (assigned, returned) = machine.function(d, slots);
-    Reading { name: d.name.clone(), span: d.span.clone(), assigned, returned }
+    let shown = std::mem::take(&mut machine.shown);
+    Reading { name: d.name.clone(), span: d.span.clone(), assigned, returned, shown }
 }
 
 /// A function whose arguments are named as the parameters of a row are; errors of it are reported where it is called.
@@ -312,7 +399,7 @@ fn arguments<'a>(
         [first, ..] => {
             let message = format!("what `{}` of `{}` stands for is not known", first.name, d.name);
             let hint = match machine.language {
-                Dialect::Python => "a function of the joints is `def fk(q):`",
+                Dialect::Python | Dialect::C => "a function of the joints is `def fk(q):`",
                 Dialect::Matlab => "a function of the joints is `function T = fk(q)`",
             };
             return Err(ParseError::new(first.span.clone(), message).hint(hint));

@@ -71,7 +71,7 @@ impl<'a> Machine<'a> {
             };
             let from_zero = match self.language {
                 Dialect::Python if n < 0 => n.checked_add(length as i64),
-                Dialect::Python => Some(n),
+                Dialect::Python | Dialect::C => Some(n),
                 Dialect::Matlab => n.checked_sub(1),
             };
             let index = from_zero.and_then(|i| usize::try_from(i).ok());

@@ -3,7 +3,7 @@
 use super::Dialect;
 use super::grammar::{Parsed, Parser};
 use super::lexer::{self, Mark};
-use super::tree::{Definition, Kind, Node, Op, Span, Statement, StatementKind};
+use super::tree::{Definition, Kind, Node, Op, Parameter, Span, Statement, StatementKind};
 use denavit_symbolic::parse::ParseError;
 
 /// Decorators that leave what a function computes as it is.
@@ -23,16 +23,15 @@ const HARMLESS: &[&str] = &[
 
 /// The statements of a part of a text.
 pub(super) fn parse(text: &str, span: &Span) -> (Vec<Statement>, Vec<ParseError>) {
-    let mut parser = Parser {
-        text,
-        tokens: lexer::tokens(text, span, Dialect::Python),
-        at: 0,
-        language: Dialect::Python,
-        in_matrix: false,
-        depth: 0,
-        in_index: false,
-        errors: vec![],
-    };
+    let tokens = lexer::tokens(text, span, Dialect::Python);
+    let (at, language, depth) = (0, Dialect::Python, 0);
+    let parser =
+        Parser { text, tokens, at, language, in_matrix: false, depth, in_index: false, errors: vec![] };
+    statements(parser)
+}
+
+/// The statements of tokens.
+pub(super) fn statements(mut parser: Parser<'_>) -> (Vec<Statement>, Vec<ParseError>) {
     let mut statements = vec![];
     while parser.mark().is_some() {
         // What is left of a block whose beginning was not understood.
@@ -53,11 +52,17 @@ impl Parser<'_> {
             self.at += 1;
             return;
         }
+        if self.is_word("class") {
+            if let Err(e) = self.nested(|p| p.class(out)) {
+                self.recover(e, start, out);
+            }
+            return;
+        }
         let read = self.nested(|p| match p.mark() {
             Some(Mark::Name(word)) => match word.as_str() {
                 "def" => p.definition(start).map(Some),
                 "for" => p.for_block(start).map(Some),
-                "if" => p.if_block(start),
+                "if" => p.if_block(start).map(Some),
                 "while" => {
                     let e = ParseError::new(p.here(), "a `while` loop is not read");
                     p.refused_block(e.hint("only loops over known numbers are: `for i in range(6)`"), start)
@@ -69,7 +74,6 @@ impl Parser<'_> {
                 "match" if !p.next_is("=") && !p.next_is(".") && !p.next_is("(") => {
                     p.refused_block(ParseError::new(p.here(), "`match` is not read"), start).map(Some)
                 }
-                "class" => p.class(start).map(Some),
                 _ => Ok(None),
             },
             Some(Mark::Op("@")) => p.decorated(start).map(Some),
@@ -340,8 +344,7 @@ impl Parser<'_> {
         Ok(statement)
     }
 
-    /// `None` for a block that is not part of what is read: `if __name__ == "__main__"`.
-    fn if_block(&mut self, start: usize) -> Parsed<Option<Statement>> {
+    fn if_block(&mut self, start: usize) -> Parsed<Statement> {
         let (mut arms, mut other) = (vec![], vec![]);
         self.at += 1;
         loop {
@@ -355,10 +358,7 @@ impl Parser<'_> {
             }
             break;
         }
-        if arms.first().is_some_and(|(test, _)| is_main(test)) {
-            return Ok(None);
-        }
-        Ok(Some(Statement { kind: StatementKind::If(arms, other), span: self.since(start) }))
+        Ok(Statement { kind: StatementKind::If(arms, other), span: self.since(start) })
     }
 
     /// A block that is not read, with the blocks that belong to it.
@@ -385,18 +385,37 @@ impl Parser<'_> {
         }
     }
 
-    fn class(&mut self, start: usize) -> Parsed<Statement> {
-        let error = ParseError::new(self.here(), "a class is not read");
-        let error = error.hint("write its kinematics as a function of its own");
-        let mut statement = self.refused_block(error, start)?;
-        if let StatementKind::Refused(_, body) = &mut statement.kind {
-            body.clear(); // its names are its own
+    /// The functions of a class stand for themselves, `self.a` for `a`, and what is done at its making is done once.
+    fn class(&mut self, out: &mut Vec<Statement>) -> Parsed<()> {
+        while !matches!(self.mark(), None | Some(Mark::Newline | Mark::Op(":"))) {
+            self.at += 1;
         }
-        Ok(statement)
+        for statement in self.block()? {
+            let Statement { kind: StatementKind::Define(mut d), span } = statement else {
+                out.push(statement);
+                continue;
+            };
+            let is_own = |p: &Parameter| matches!(p.name.as_str(), "self" | "cls");
+            if d.parameters.first().is_some_and(is_own) {
+                d.parameters.remove(0);
+            }
+            if d.name != "__init__" {
+                out.push(Statement { kind: StatementKind::Define(d), span });
+                continue;
+            }
+            for p in d.parameters {
+                let Some(value) = p.default else { continue };
+                let target = Node { kind: Kind::Name(p.name), span: p.span.clone() };
+                out.push(Statement { kind: StatementKind::Assign(vec![target], value), span: p.span });
+            }
+            out.extend(d.body);
+        }
+        Ok(())
     }
 }
 
-fn is_main(test: &Node) -> bool {
+/// `__name__ == "__main__"`
+pub(super) fn is_main(test: &Node) -> bool {
     let Kind::Chain(left, rest) = &test.kind else { return false };
     match (&left.kind, rest.as_slice()) {
         (Kind::Name(name), [(Op::Equal, Node { kind: Kind::Text(text), .. })]) => {

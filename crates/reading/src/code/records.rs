@@ -35,7 +35,7 @@ impl<'a> Machine<'a> {
     }
 
     /// True in the function that is read, not in those that it calls.
-    fn is_recorded(&self) -> bool {
+    pub(super) fn is_recorded(&self) -> bool {
         self.frames.len() == self.root + 1
     }
 
@@ -57,12 +57,26 @@ impl<'a> Machine<'a> {
             record = Some(self.records.len());
             self.records.push(Some(Assigned { name: name.to_string(), span: right.clone(), value }));
         }
+        let value = right.map_or(value.clone(), |right| self.mended(value, right.start));
         // How a scalar is written was put down; from here on its name stands for it.
         let value = match value {
             Object::Scalar(s) => Object::Scalar(s.unwritten(&s.span)),
             value => value,
         };
         self.frame().slots.insert(name, Slot { value: Some(value), record, touched: None });
+    }
+
+    /// The value that stands for one that is written at a place.
+    fn mended(&self, value: Object<'a>, place: usize) -> Object<'a> {
+        let Some(entries) = self.mended.get(&place).filter(|_| self.is_recorded()) else { return value };
+        match (value, entries.as_slice()) {
+            (Object::Scalar(s), [e]) => Object::Scalar(Scalar::of(*e, &s.span)),
+            (Object::Matrix(m), all) if m.entries.len() == all.len() => {
+                let entries = all.iter().zip(&m.entries).map(|(e, s)| Scalar::of(*e, &s.span)).collect();
+                Object::Matrix(Matrix { entries, storage: Rc::new(()), ..Matrix::clone(&m) }.into())
+            }
+            (value, _) => value,
+        }
     }
 
     /// What a name stands for that the script gives numbers, and which is known to be something else.
@@ -72,8 +86,7 @@ impl<'a> Machine<'a> {
         }
         let replaced = |entries: &[Scalar]| -> Option<Vec<Scalar>> {
             let values: Vec<Expr> = entries.iter().map(|s| s.expr).collect();
-            let is_constant = values.iter().all(|e| e.symbols().is_empty());
-            let now = is_constant.then(|| (self.stated)(name, &values)).flatten()?;
+            let now = (self.stated)(name, &values)?;
             Some(now.into_iter().zip(entries).map(|(e, s)| Scalar::of(e, &s.span)).collect())
         };
         match value {
@@ -101,9 +114,9 @@ impl<'a> Machine<'a> {
         }
         let Some(slot) = self.frame().slots.get_mut(name) else { return };
         let record = slot.record.take();
-        let mut start = slot.touched.as_ref().map_or(span.start, |t| t.start);
-        if let Some(old) = record.and_then(|r| self.records.get_mut(r)?.take()) {
-            start = start.min(old.span.start);
+        let start = slot.touched.as_ref().map_or(span.start, |t| t.start);
+        if let Some(old) = record.and_then(|r| self.records.get_mut(r)) {
+            *old = None;
         }
         if let Some(slot) = self.frame().slots.get_mut(name) {
             let end = slot.touched.as_ref().map_or(span.end, |t| t.end.max(span.end));
@@ -121,8 +134,15 @@ impl<'a> Machine<'a> {
         let Some(span) = slot.touched.take() else { return };
         slot.record = Some(next);
         let value = slot.value.clone();
-        if let Some(value) = value.and_then(|v| report::value(&v, &mut self.budget)) {
-            self.records.push(Some(Assigned { name: name.to_string(), span, value }));
+        if let Some(written) = value.clone().and_then(|v| report::value(&v, &mut self.budget)) {
+            let place = span.start;
+            self.records.push(Some(Assigned { name: name.to_string(), span, value: written }));
+            if let Some(value) = value.filter(|_| self.mended.contains_key(&place)) {
+                let value = self.mended(value, place);
+                if let Some(slot) = self.frame().slots.get_mut(name) {
+                    slot.value = Some(value);
+                }
+            }
         } else {
             self.records.push(None);
         }

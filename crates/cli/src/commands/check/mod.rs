@@ -194,6 +194,7 @@ fn language_of(name: &str) -> Option<Dialect> {
     match Path::new(name).extension()?.to_str()? {
         "py" => Some(Dialect::Python),
         "m" => Some(Dialect::Matlab),
+        "c" | "h" | "cpp" | "cc" | "hpp" | "ino" => Some(Dialect::C),
         _ => None,
     }
 }

@@ -1,0 +1,569 @@
+//! What straight-line code computes, as claims about the robot: matrices and scalars whose names say what they are, and
+//! what a function returns.
+
+mod followed;
+mod rows;
+mod shown;
+mod stated;
+
+use super::facts::{About, Meaning};
+use super::habits::Habits;
+use super::jacobians::{Part, Told};
+use super::lexis::Lexis;
+use super::matrix::Matrix;
+use super::note::{Unread, Unreadable};
+use super::numbers::{Answer, Configuration, half_unit};
+use super::recognised;
+use super::subject::Subject;
+use super::walk::{Assertion, Defined, Pair, Piece, Walk, is_measured};
+use denavit::forward::Reference;
+use denavit_reading::code::{Asked, Assigned, Cell, Code, Dialect, Reading, Value, read_blocks};
+use denavit_symbolic::parse::{ParseError, SyntaxKind};
+use denavit_symbolic::vocabulary::Vocabulary;
+use denavit_symbolic::{Expr, Node, Rational, Symbol, equal};
+use followed::{entries_of, followed, mended_by};
+use rows::row_function;
+use shown::Showing;
+use stated::{Stated, in_radians};
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::rc::Rc;
+
+/// What the programs of a document claim.
+#[derive(Default)]
+pub(super) struct Programs {
+    pub assertions: Vec<Assertion>,
+    /// What of them could not be read.
+    pub refused: Vec<Unread>,
+    /// Scalars that they give names.
+    pub defined: Vec<Defined>,
+    /// What follows from something wrong before.
+    pub followed: Vec<Followed>,
+    /// Names that get a value with joints in it of which nothing is said, and where.
+    pub unsaid: Vec<(Range<usize>, String)>,
+}
+
+/// A claim whose entries are right given what the program computed before.
+#[derive(Clone, Debug)]
+pub(super) struct Followed {
+    /// The claim.
+    pub span: Range<usize>,
+    /// The claim that it follows from.
+    pub by: Range<usize>,
+    /// For each entry.
+    pub follows: Vec<bool>,
+}
+
+/// A program of a document: blocks of one language about one robot, in which names keep their values.
+pub(super) struct Source<'a> {
+    /// The text as it is.
+    pub text: &'a str,
+    /// The text with what else is read of it left out.
+    pub source: &'a str,
+    pub blocks: &'a [Range<usize>],
+    /// Where what each block shows may stand outside of it.
+    pub outputs: &'a [Range<usize>],
+    pub language: Dialect,
+    /// The number of the robot.
+    pub number: usize,
+}
+
+/// The claims of a program, and what of it could not be read.
+pub(super) fn assertions(of: &Source<'_>, subject: &Rc<Subject>, habits: &Rc<Habits>) -> Programs {
+    let Source { text, source, blocks, language, number, .. } = *of;
+    let lexis = &Lexis::new(subject, habits, &Rc::from(text));
+    let joints: Vec<Expr> = subject.description.variables().iter().map(|v| v.symbol.into()).collect();
+    let meaning = |name: &str| lexis.names.lookup(name).filter(|_| !lexis.is_by_custom(name));
+    let all: String = blocks.iter().filter_map(|b| source.get(b.clone())).collect();
+    let stated = Stated::of(&all, subject);
+    let joint = |name: &str| {
+        let found = lexis.names.lookup(name)?;
+        joints.iter().position(|q| *q == found)
+    };
+    let told = |name: &str, values: &[Expr]| stated.joints(values, joint(name), name);
+    let mut mended = BTreeMap::new();
+    let asked = Asked { names: &meaning, joints: &joints, stated: &told, mended: &mended };
+    let codes = read_blocks(source, blocks, language, &asked);
+    let mut found = Programs::default();
+    let mut comments = Walk::new(text, subject, habits);
+    let has_links = !subject.description.rows.is_empty();
+    for (code, span) in codes.iter().zip(blocks) {
+        let mut places = vec![(span.start, comments.at.clone())];
+        for line in lines(text, span) {
+            comments.told_in_comments(&line, language);
+            places.push((line.end, comments.at.clone()));
+        }
+        let Code { functions, rows, refusals } = code;
+        // What stands in a function that is judged as that of a row is not refused as another one.
+        let of_row = |e: &ParseError| rows.iter().any(|r| r.reading.span.contains(&e.span.start));
+        found.refused.extend(refusals.iter().filter(|e| !of_row(e)).cloned().map(Unread::from));
+        let convention = subject.description.convention;
+        found
+            .assertions
+            .extend(rows.iter().filter_map(|r| row_function(source, r, convention, number, lexis)));
+        if !has_links {
+            continue;
+        }
+        let own: Vec<String> = functions.iter().map(|f| f.name.clone()).filter(|n| !n.is_empty()).collect();
+        for function in functions {
+            let names = Rc::new(names_in(function, lexis));
+            let before = codes.iter().flat_map(|c| &c.functions);
+            let given = before.filter(|f| f.name.is_empty() || f.name == function.name);
+            let given = given.flat_map(|f| given_in(f, subject, lexis)).collect();
+            let at = &places;
+            let program = Program { text: source, subject, lexis, number, names, given, functions: &own, at };
+            let count = found.assertions.len();
+            found.assertions.extend(program.assigned(function));
+            found.assertions.extend(program.returned(function));
+            let judged = found.assertions[count..].to_vec();
+            found.assertions.extend(program.recognised(function, &judged));
+            if found.assertions.len() == count && !function.returned.is_empty() {
+                let why = Unreadable::NothingTold(function.name.clone());
+                found.refused.push(Unread::new(function.span.clone(), why));
+            }
+        }
+    }
+    if !has_links {
+        return found;
+    }
+    mended.extend(found.assertions.iter().filter_map(mended_by));
+    let truth = match mended.is_empty() {
+        true => None,
+        false => Some(read_blocks(
+            source,
+            blocks,
+            language,
+            &Asked { names: &meaning, joints: &joints, stated: &told, mended: &mended },
+        )),
+    };
+    let right = truth.as_deref().unwrap_or(&codes);
+    found.followed = followed(source, &codes, right, &found.assertions);
+    let shown = Showing { of, subject, lexis, stated: &stated, meaning: &meaning, judged: &found.assertions };
+    let (outputs, follow) = shown.outputs(&codes, right);
+    found.assertions.extend(outputs);
+    found.followed.extend(follow);
+    found.unsaid = unsaid(&codes, subject);
+    found.defined = defined(source, &codes, &found.assertions, number);
+    found
+}
+
+/// The lines of a part of a text.
+fn lines(text: &str, span: &Range<usize>) -> Vec<Range<usize>> {
+    let mut start = span.start;
+    let part = text.get(span.clone()).unwrap_or_default();
+    let of = |line: &str| {
+        let line = start..start + line.len();
+        start = line.end;
+        line
+    };
+    part.split_inclusive('\n').map(of).collect()
+}
+
+/// The names in a formula.
+pub(super) fn words(formula: &str) -> impl Iterator<Item = &str> {
+    formula.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|w| !w.is_empty())
+}
+
+/// What a program computes from the joints.
+fn unsaid(codes: &[Code], subject: &Subject) -> Vec<(Range<usize>, String)> {
+    let moves = |e: &Expr| e.symbols().iter().any(|s| subject.joints().contains(&(*s).into()));
+    let is_plain = |e: &Expr| matches!(e.node(), Node::Symbol(_) | Node::Sin(_) | Node::Cos(_));
+    let tells = |value: &Value| {
+        let entries = entries_of(value);
+        entries.iter().any(moves) && !(entries.len() == 1 && is_plain(&entries[0]))
+    };
+    let functions = codes.iter().flat_map(|c| &c.functions);
+    let assigned = functions.flat_map(|f| &f.assigned).filter(|a| tells(&a.value));
+    assigned.map(|a| (a.span.clone(), a.name.clone())).collect()
+}
+
+/// Scalars with names of the author's own, which later formulas use.
+fn defined(source: &str, codes: &[Code], assertions: &[Assertion], subject: usize) -> Vec<Defined> {
+    let mut found: Vec<Defined> = vec![];
+    for a in codes.iter().flat_map(|c| &c.functions).flat_map(|f| &f.assigned) {
+        let Value::Scalar(cell) = &a.value else { continue };
+        let (Some(printed), false) = (&cell.syntax, cell.value.symbols().is_empty()) else { continue };
+        let is_judged = assertions.iter().any(|x| x.span.start < a.span.end && a.span.start < x.span.end);
+        let is_own = a.span.start <= cell.span.start && cell.span.end <= a.span.end;
+        // `c12 = cos(q1 + q2)` is an abbreviation.
+        let is_plain = matches!(cell.value.node(), Node::Sin(_) | Node::Cos(_));
+        if is_judged || !is_own || is_plain || matches!(printed.kind, SyntaxKind::Name(_)) {
+            continue;
+        }
+        let line = source[..a.span.start].rfind('\n').map_or(0, |i| i + 1);
+        let start = line + (source[line..].len() - source[line..].trim_start().len());
+        found.push(Defined {
+            name: a.name.clone(),
+            by_custom: false,
+            statement: start.min(a.span.start)..a.span.end,
+            shown: a.name.clone(),
+            span: cell.span.clone(),
+            printed: printed.clone(),
+            value: cell.value,
+            subject,
+            from: a.span.end,
+        });
+    }
+    found.dedup_by(|a, b| a.span == b.span);
+    found
+}
+
+/// Names that scripts give the hand's pose and Jacobian.
+const HANDS: [&str; 4] = ["T", "H", "Tee", "T_ee"];
+const JACOBIANS: [&str; 11] = ["J", "Jac", "jac", "Jv", "J_v", "Jp", "J_p", "Jw", "J_w", "Jo", "J_o"];
+/// Names of the determinant of the Jacobian.
+const DETERMINANTS: [&str; 5] = ["detJ", "det_J", "detj", "det_j", "det"];
+
+/// Lengths of the robot that a program sets to numbers.
+fn given_in(function: &Reading, subject: &Subject, lexis: &Lexis) -> Vec<(Symbol, Expr)> {
+    let of = |a: &Assigned| {
+        let Value::Scalar(cell) = &a.value else { return None };
+        let lower = a.name.to_lowercase();
+        let found = lexis.names.lookup(&a.name).or_else(|| lexis.names.lookup(&lower));
+        let symbol = found?.as_symbol()?;
+        let is_length = subject.description.parameter(symbol).is_some();
+        (is_length && cell.value.symbols().is_empty()).then_some((symbol, cell.value))
+    };
+    function.assigned.iter().filter_map(of).collect()
+}
+
+/// The names of the document and those that a function gives its scalars.
+fn names_in(function: &Reading, lexis: &Lexis) -> Vocabulary {
+    function.assigned.iter().fold(lexis.names.clone(), |names, a| match &a.value {
+        Value::Scalar(cell) if a.name.chars().all(char::is_alphanumeric) => names.alias(&a.name, cell.value),
+        _ => names,
+    })
+}
+
+struct Program<'a> {
+    text: &'a str,
+    subject: &'a Subject,
+    lexis: &'a Lexis,
+    number: usize,
+    names: Rc<Vocabulary>,
+    /// Lengths that the program has as numbers.
+    given: Vec<(Symbol, Expr)>,
+    /// The functions of the program that are judged.
+    functions: &'a [String],
+    /// The configurations that comments state, each from a place on.
+    at: &'a [(usize, Configuration)],
+}
+
+impl Program<'_> {
+    /// The last values of variables whose names say what they are.
+    fn assigned(&self, function: &Reading) -> Vec<Assertion> {
+        let mut found = vec![];
+        // `det` alone is that of J if its formula says so.
+        let of_jacobian = |a: &&Assigned| {
+            let source = self.text.get(a.span.clone()).unwrap_or_default();
+            DETERMINANTS.contains(&a.name.as_str())
+                && (a.name != "det" || words(source).any(|w| JACOBIANS.contains(&w)))
+        };
+        let determinants = function.assigned.iter().filter(of_jacobian);
+        for a in determinants {
+            if let (Value::Scalar(cell), Some(wanted)) = (&a.value, self.subject.determinant(Part::Any)) {
+                let pieces = vec![self.piece(None, cell, wanted)];
+                found.push(self.assertion(&a.name, About::Equation, &a.span, pieces, None));
+            }
+        }
+        for (i, a) in function.assigned.iter().enumerate() {
+            let is_last = !function.assigned[i + 1..].iter().any(|b| b.name == a.name);
+            // What is returned under that name is judged there.
+            let is_returned = function.returned.iter().any(|r| r.name.as_deref() == Some(a.name.as_str()));
+            if is_last
+                && !is_returned
+                && !(is_of_part(function) && matches!(a.name.to_lowercase().as_str(), "x" | "y" | "z"))
+                && a.name.contains(|c: char| c.is_ascii_digit() || c == 'x' || c == 'y' || c == 'z')
+            {
+                found.extend(self.named(&a.name, &a.name, &a.span, &a.value));
+            } else if is_last
+                && !is_returned
+                && (HANDS.contains(&a.name.as_str()) || JACOBIANS.contains(&a.name.as_str()))
+                && let Value::Matrix(rows) = &a.value
+                && self.moves(rows)
+                && !self.is_call_of_own(&a.span)
+            {
+                // What a script calls so is the hand's.
+                found.extend(self.pose(function, &a.name, &a.span, rows));
+            }
+        }
+        found
+    }
+
+    /// True for a call of a function of the program, which is judged itself.
+    fn is_call_of_own(&self, span: &Range<usize>) -> bool {
+        let source = self.text.get(span.clone()).unwrap_or_default();
+        let called = source.split_once('(').map_or("", |c| c.0.trim());
+        self.functions.iter().any(|f| f == called)
+    }
+
+    /// True if a joint occurs.
+    fn moves(&self, rows: &[Vec<Cell>]) -> bool {
+        let joints = self.subject.joints();
+        let symbols = rows.iter().flatten().flat_map(|c| c.value.symbols());
+        symbols.into_iter().any(|s| joints.contains(&s.into()))
+    }
+
+    /// Matrices whose names say nothing, if they are ones of the robot.
+    fn recognised(&self, function: &Reading, judged: &[Assertion]) -> Vec<Assertion> {
+        let mut found = vec![];
+        for (i, a) in function.assigned.iter().enumerate() {
+            let Value::Matrix(rows) = &a.value else { continue };
+            let is_last = !function.assigned[i + 1..].iter().any(|b| b.name == a.name);
+            let is_judged = judged.iter().any(|x| x.span.start < a.span.end && a.span.start < x.span.end);
+            if !is_last || is_judged || !self.moves(rows) {
+                continue;
+            }
+            let values = rows.iter().map(|r| r.iter().map(|c| Some(in_radians(c.value))).collect()).collect();
+            let printed = Matrix(values);
+            let Some(((matrix, about), agreement)) = recognised::nearest(self.subject, &printed) else {
+                continue;
+            };
+            if !agreement.is_whole {
+                continue;
+            }
+            if let Some(pieces) = self.compare(rows, &matrix) {
+                found.push(self.assertion(&a.name, About::Matrix(about), &a.span, pieces, Some(matrix)));
+            }
+        }
+        found
+    }
+
+    fn returned(&self, function: &Reading) -> Vec<Assertion> {
+        let mut found = vec![];
+        for r in &function.returned {
+            let shown = r.name.clone().unwrap_or_else(|| format!("{}(…)", function.name));
+            // A name is given back, its formula stands where it got its value.
+            let own = |name: &String| function.assigned.iter().rev().find(|a| a.name == *name);
+            let span = r.name.as_ref().and_then(own).map_or(&r.span, |a| &a.span);
+            let is_other =
+                |n: &&String| is_of_part(function) && matches!(n.to_lowercase().as_str(), "x" | "y" | "z");
+            let named = r
+                .name
+                .as_ref()
+                .filter(|n| !is_other(n))
+                .and_then(|name| self.named(name, &shown, span, &r.value));
+            found.extend(named.or_else(|| match &r.value {
+                Value::Matrix(rows) => self.pose(function, &shown, span, rows),
+                Value::Scalar(cell) => self.by_function(function, span, cell, &shown),
+            }));
+        }
+        found
+    }
+
+    /// A variable whose name has a meaning.
+    fn named(&self, name: &str, shown: &str, span: &Range<usize>, value: &Value) -> Option<Assertion> {
+        match value {
+            // A name for another one says nothing.
+            Value::Scalar(cell) if cell.value.as_symbol().is_some() => {
+                let axis = ["x", "y", "z"].iter().position(|a| *a == name.to_lowercase())?;
+                let wanted = self.subject.pose().translation.0[axis];
+                let pieces = vec![self.piece(None, cell, wanted)];
+                let is_right = equal(cell.value, wanted).is_equal();
+                is_right.then(|| self.assertion(shown, About::Entry, span, pieces, None))
+            }
+            Value::Scalar(cell) => {
+                let axis = ["x", "y", "z"].iter().position(|a| *a == name.to_lowercase());
+                let told = axis_of(name)
+                    .filter(|_| shown.ends_with("(…)") || self.lexis.names.lookup(name).is_none());
+                let wanted = match axis.or(told).filter(|_| self.lexis.names.lookup(name).is_none()) {
+                    Some(r) => self.subject.pose().translation.0[r],
+                    None => self.lexis.names.lookup(name).filter(|_| self.lexis.is_right(name))?,
+                };
+                let pieces = vec![self.piece(None, cell, wanted)];
+                Some(self.assertion(shown, About::Entry, span, pieces, None))
+            }
+            Value::Matrix(rows) => {
+                let name = self.lexis.lone_name(name, &(0..name.len()))?;
+                if name.is_bare() {
+                    return None;
+                }
+                let (matrix, about) = self.lexis.matrix(self.subject, &name)?;
+                let pieces = self.compare(rows, &matrix)?;
+                Some(self.assertion(shown, About::Matrix(about?), span, pieces, Some(matrix)))
+            }
+        }
+    }
+
+    /// What a function gives back without a telling name: by its shape the hand's pose, rotation, position or Jacobian.
+    fn pose(
+        &self,
+        function: &Reading,
+        shown: &str,
+        span: &Range<usize>,
+        rows: &[Vec<Cell>],
+    ) -> Option<Assertion> {
+        if is_of_part(function) {
+            return None;
+        }
+        let pose = self.subject.pose();
+        let columns = rows.first()?.len();
+        let joints = self.subject.description.variables().len();
+        let is_jacobian = function.name.to_lowercase().contains("jac") || shown.starts_with('J');
+        let hand = Meaning::Frame { of: Reference::Tool, seen_from: Reference::Frame(0) };
+        let (matrix, about) = match (rows.len(), columns) {
+            (n, m) if is_jacobian && m == joints && n <= 6 => {
+                let value = |c: &Cell| Some(in_radians(c.value));
+                let values = Matrix(rows.iter().map(|r| r.iter().map(value).collect()).collect());
+                let part = match shown {
+                    "Jv" | "J_v" | "Jp" | "J_p" => Part::Linear,
+                    "Jw" | "J_w" | "Jo" | "J_o" => Part::Angular,
+                    _ => Part::Any,
+                };
+                let told = Told { part, ..Told::default() };
+                let (matrix, jacobian) = self.subject.nearest_jacobian(&values, &told)?;
+                (matrix, Meaning::Jacobian(jacobian))
+            }
+            (4, 4) => (Matrix::of(&pose), hand),
+            (3, 3) => (Matrix::of_rotation(&pose.rotation), Meaning::Rotation(hand.into())),
+            (3, 1) => (Matrix::column(&pose.translation), Meaning::Position),
+            _ => return None,
+        };
+        let pieces = self.compare(rows, &matrix)?;
+        Some(self.assertion(shown, About::Matrix(about), span, pieces, Some(matrix)))
+    }
+
+    /// `fk_x(…)` by what a function is called.
+    fn by_function(
+        &self,
+        function: &Reading,
+        span: &Range<usize>,
+        cell: &Cell,
+        shown: &str,
+    ) -> Option<Assertion> {
+        let axis =
+            axis_of(&function.name).filter(|_| !is_of_part(function) && function.returned.len() == 1)?;
+        let pieces = vec![self.piece(None, cell, self.subject.pose().translation.0[axis])];
+        Some(self.assertion(shown, About::Entry, span, pieces, None))
+    }
+
+    fn compare(&self, rows: &[Vec<Cell>], matrix: &Matrix) -> Option<Vec<Piece>> {
+        let mut pieces = vec![];
+        for (r, row) in rows.iter().enumerate() {
+            for (c, cell) in row.iter().enumerate() {
+                let wanted = matrix.entry(r, c)?;
+                pieces.push(self.piece(Some((r + 1, c + 1)), cell, wanted));
+            }
+        }
+        Some(pieces)
+    }
+
+    /// A computed value against the right one; lengths that the program has as numbers are numbers in both.
+    fn piece(&self, place: Option<(usize, usize)>, cell: &Cell, wanted: Expr) -> Piece {
+        let value = in_radians(cell.value);
+        let joints = self.subject.joints();
+        let moves = wanted.symbols().iter().any(|s| joints.contains(&(*s).into()));
+        let is_number = moves && value.symbols().is_empty() && is_measured(value);
+        let line_end =
+            self.text[cell.span.end..].find('\n').map_or(self.text.len(), |i| cell.span.end + i + 1);
+        let at = self.at.iter().rev().find(|p| p.0 <= line_end).map(|p| &p.1);
+        if is_number
+            && let Some(at) = at.filter(|at| at.knows(wanted, self.subject))
+            && let Ok(printed) = value.eval(|_| None)
+        {
+            let half = half_unit(self.text.get(cell.span.clone()).unwrap_or_default());
+            let answer = Answer { printed, half, wanted, at: at.clone(), constant: Some(value) };
+            return Piece::Number { place, span: cell.span.clone(), answer };
+        }
+        if is_number {
+            let errors = vec![Unread::new(cell.span.clone(), Unreadable::NoConfiguration)];
+            return Piece::Unreadable { place, span: cell.span.clone(), errors };
+        }
+        let d = &self.subject.description;
+        let uses = |e: Expr| e.symbols().iter().any(|s| d.parameter(*s).is_some());
+        let wanted = match uses(value) {
+            true => wanted,
+            false => wanted.substitute(|s| {
+                let given = self.given.iter().rev().find(|g| g.0 == s).map(|g| g.1);
+                given.or_else(|| d.exact_value(s))
+            }),
+        };
+        // A length that the program has under another name, or one that the robot has not: a tool's.
+        let is_known = |s: &Symbol| joints.contains(&(*s).into()) || d.parameter(*s).is_some();
+        let differs = || !equal(value, wanted).is_equal();
+        let foreign = value.symbols().into_iter().find(|s| !is_known(s));
+        let has_lengths = Expr::postorder(&[value]).iter().any(|e| match e.node() {
+            Node::Number(r) => !(&r * &Rational::from(2)).is_integer(),
+            _ => false,
+        });
+        let is_lost = |s: &Symbol| has_lengths && d.parameter(*s).is_some() && !uses(value);
+        let lost = wanted.symbols().into_iter().find(is_lost);
+        // What is made of a pose in numbers is a formula of the joints only at that pose.
+        let moved =
+            |e: Expr| e.symbols().into_iter().filter(|s| joints.contains(&(*s).into())).collect::<Vec<_>>();
+        let (own, other) = (moved(value), moved(wanted));
+        let is_apart = !own.is_empty() && !other.is_empty() && !own.iter().any(|s| other.contains(s));
+        let is_measured = |e: &Expr| match e.node() {
+            Node::Number(r) => !(&r * &Rational::from(1000)).is_integer(),
+            _ => false,
+        };
+        let at_pose = is_apart && Expr::postorder(&[value]).iter().any(is_measured);
+        let apart = own.first().copied().filter(|_| at_pose);
+        if let Some(name) = foreign.or(lost).or(apart).filter(|_| differs()) {
+            let errors = vec![Unread::new(cell.span.clone(), Unreadable::Unknown(name.name().to_string()))];
+            return Piece::Unreadable { place, span: cell.span.clone(), errors };
+        }
+        let is_written = value == cell.value && self.text.get(cell.span.clone()).is_some();
+        let printed = cell.syntax.clone().filter(|_| is_written);
+        Piece::Pair(Pair { place, span: cell.span.clone(), printed, value, wanted, also: vec![] })
+    }
+
+    fn assertion(
+        &self,
+        name: &str,
+        about: About,
+        span: &Range<usize>,
+        pieces: Vec<Piece>,
+        whole: Option<Matrix>,
+    ) -> Assertion {
+        Assertion {
+            span: span.clone(),
+            name: name.to_string(),
+            about,
+            pieces,
+            remarks: vec![],
+            subject: self.number,
+            whole,
+            names: Some(Rc::clone(&self.names)),
+            reference: None,
+            spoken: None,
+        }
+    }
+}
+
+/// The coordinate of the hand that a function is called after: `fk_x`, `get_y`, `px`.
+fn axis_of(name: &str) -> Option<usize> {
+    let lower = name.to_lowercase();
+    let (rest, last) = lower.split_at(lower.len() - lower.chars().next_back()?.len_utf8());
+    let axis = ["x", "y", "z"].iter().position(|a| *a == last)?;
+    let of_hand =
+        ["fk", "get", "p", "pos", "forward", "fwd", "tcp", "ee", "hand", "tip", "end", "calc", "compute", ""];
+    let words: Vec<&str> = rest.split('_').filter(|w| !w.is_empty()).collect();
+    words.iter().all(|w| of_hand.contains(w)).then_some(axis)
+}
+
+/// True for a function whose name says that it is about a part of the arm, not about the hand.
+fn is_of_part(function: &Reading) -> bool {
+    const PARTS: [&str; 18] = [
+        "wrist",
+        "elbow",
+        "shoulder",
+        "knee",
+        "ankle",
+        "hip",
+        "axis",
+        "axes",
+        "center",
+        "centre",
+        "poignet",
+        "coude",
+        "epaule",
+        "handgelenk",
+        "ellbogen",
+        "schulter",
+        "muneca",
+        "codo",
+    ];
+    let name = function.name.to_lowercase();
+    PARTS.iter().any(|part| name.contains(part))
+}

@@ -1,0 +1,107 @@
+//! The arguments of a function of C: those that it reads, and those that it writes.
+
+use super::{MAX_LENGTH, Writer};
+use crate::code::lexer::{Mark, Token};
+use std::collections::BTreeMap;
+
+impl Writer {
+    /// The fields that a function writes, by structure, in order.
+    pub(super) fn written(&self, from: usize, to: usize) -> BTreeMap<String, Vec<String>> {
+        let mut found: BTreeMap<String, Vec<String>> = BTreeMap::new();
+        for i in from..to {
+            if let (Some(base), "." | "->", Some(field), "=") =
+                (self.name(i), self.op(i + 1), self.name(i + 2), self.op(i + 3))
+            {
+                let fields = found.entry(base.to_string()).or_default();
+                if !fields.iter().any(|f| f == field) {
+                    fields.push(field.to_string());
+                }
+            }
+        }
+        found
+    }
+
+    /// Writes the arguments that a function reads; returns the arrays that it writes, with their sizes.
+    pub(super) fn parameters(
+        &mut self,
+        from: usize,
+        to: usize,
+        body: usize,
+        end: usize,
+    ) -> Vec<(String, Vec<usize>)> {
+        let mut sizes = vec![];
+        let mut start = from;
+        let mut is_first = true;
+        while start < to {
+            let stop = (start..to).find(|&i| self.op(i) == ",").unwrap_or(to);
+            let words: Vec<usize> = (start..stop).filter(|&i| self.name(i).is_some()).collect();
+            let is_const = words.iter().any(|&i| self.name(i) == Some("const"));
+            if let Some(&k) = words.last().filter(|&&i| self.name(i) != Some("void")) {
+                let name = self.name(k).unwrap_or_default().to_string();
+                let is_pointer = (start..k).any(|i| matches!(self.op(i), "*" | "&")) || self.op(k + 1) == "[";
+                let is_structure = self.fields.contains_key(&name);
+                let is_written = !is_const && is_pointer && self.is_written(&name, body, end);
+                if is_structure && is_pointer {
+                    let fields = self.fields.get(&name).cloned().unwrap_or_default();
+                    let names: Vec<String> = fields.iter().map(|f| self.field(&name, f)).collect();
+                    self.outputs.extend(names);
+                } else if is_written {
+                    self.outputs.push(name.clone());
+                    if let Some(size) = self.size(k, &name, body, end) {
+                        sizes.push((name, size));
+                    }
+                } else {
+                    if !is_first {
+                        self.out.push(Token { mark: Mark::Op(","), ..self.tokens[k].clone() });
+                    }
+                    self.out.push(self.tokens[k].clone());
+                    is_first = false;
+                }
+            }
+            start = stop + 1;
+        }
+        sizes
+    }
+
+    /// True if a function gives an argument, or entries of it, a value.
+    pub(super) fn is_written(&self, name: &str, body: usize, end: usize) -> bool {
+        (body..end).filter(|&i| self.name(i) == Some(name)).any(|i| {
+            let mut k = i + 1;
+            while self.op(k) == "[" {
+                k = self.behind(k);
+            }
+            self.op(k) == "="
+        })
+    }
+
+    /// The size of an array that is written, declared or by its largest index.
+    pub(super) fn size(&self, k: usize, name: &str, body: usize, end: usize) -> Option<Vec<usize>> {
+        let whole = |i: usize| match self.tokens.get(i).map(|t| &t.mark) {
+            Some(Mark::Number(r, true)) => r.to_integer().and_then(|n| usize::try_from(n).ok()),
+            _ => None,
+        };
+        let mut declared = vec![];
+        let mut i = k + 1;
+        while self.op(i) == "[" {
+            declared.push(whole(i + 1));
+            i = self.behind(i);
+        }
+        if !declared.is_empty() && declared.iter().all(Option::is_some) {
+            return declared.into_iter().map(|n| n.filter(|n| (1..=MAX_LENGTH).contains(n))).collect();
+        }
+        let mut sides: Vec<usize> = vec![];
+        for i in (body..end).filter(|&i| self.name(i) == Some(name)) {
+            let (mut k, mut side) = (i + 1, 0);
+            while self.op(k) == "[" {
+                let n = whole(k + 1)? + 1;
+                match sides.get_mut(side) {
+                    Some(most) => *most = n.max(*most),
+                    None => sides.push(n),
+                }
+                (k, side) = (self.behind(k), side + 1);
+            }
+        }
+        let fits = !sides.is_empty() && sides.iter().all(|n| *n <= MAX_LENGTH);
+        fits.then_some(sides)
+    }
+}
