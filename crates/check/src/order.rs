@@ -134,6 +134,7 @@ fn between(text: &str, span: &Range<usize>) -> Option<Gap> {
     Some(match &words[..] {
         [] => Gap::Joint,
         [word] if JOINTS.contains(&word.as_str()) => Gap::Joint,
+        [word] if LINKS.contains(&word.as_str()) => Gap::Link,
         // `mit der Ausladung b = …`
         [word, rest @ ..] if LINKS.contains(&word.as_str()) && rest.len() <= 5 && !source.contains(". ") => {
             Gap::Phrase
