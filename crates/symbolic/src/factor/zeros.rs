@@ -67,7 +67,7 @@ impl Zero {
     }
 
     /// The same, where the angle is a multiple of one symbol and a constant, for that symbol: all values within its period, in
-    /// whole turns as far as they go. A joint with the gear ½ has 2 q for π/2, one with the gear 2 four values for two.
+    /// whole turns as far as they go. Of sin(q/2) = 0 that are 0 and 2π, of sin(2q) = 0 four values.
     pub fn solved(&self) -> (Expr, Vec<Expr>) {
         let own = (self.angle(), self.values());
         let sum = Angle::of(own.0);

@@ -299,7 +299,7 @@ fn where_factors_are_zero() {
 
 /// Multiples of one symbol are solved for it, all values within its own period.
 #[test]
-fn zeros_of_a_geared_joint() {
+fn zeros_of_a_multiple() {
     let written = |e: Expr| print(e, &names(), Style::Ascii);
     for (text, expected) in [
         ("C5", "q5: pi/2, -pi/2"),
