@@ -68,7 +68,9 @@ impl General {
         }
         let solver = GeneralSolver::new(&robot, &space)
             .map_err(|why| Some(format!("nor does elimination serve the arm: {why}")))?;
-        let (axes, plan) = solver.parts();
+        let Some((axes, plan)) = solver.parts() else {
+            return Err(Some("elimination is generated for arms of six axes".into()));
+        };
         let (axes, plan, tables) = (axes.clone(), plan.clone(), plan.tables());
         match options.language {
             Language::Rust => {}

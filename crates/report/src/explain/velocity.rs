@@ -177,8 +177,8 @@ fn determinants(found: &Singularities, words: &dyn Wording) -> Vec<Block> {
 fn remarks(view: &Viewpoint<Expr>, s: &Singularity, words: &dyn Wording) -> Vec<Line> {
     let mut lines = vec![];
     if let Some(zero) = s.zeros.first() {
-        let values = zero.values().into_iter();
-        lines.push(words.zeros(values.map(|x| Math::equation(zero.angle(), x)).collect()));
+        let (unknown, values) = zero.solved();
+        lines.push(words.zeros(values.into_iter().map(|x| Math::equation(unknown, x)).collect()));
     }
     let Some(example) = &s.example else {
         lines.push(Line::new(words.no_example()));

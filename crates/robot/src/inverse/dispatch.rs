@@ -4,6 +4,7 @@
 //! |---|---|
 //! | a closed form is derived | [`InverseSolver`] |
 //! | six joints without one, or nearly special | [`GeneralSolver`], the closed form beside it |
+//! | six joints, one of which drives several axes (geared wrists) | [`GeneralSolver`] |
 //! | more joints than the hand can use | [`RedundantSolver`] |
 //! | anything else | descents of [`NumericSolver`] from all over |
 //!

@@ -11,6 +11,7 @@ mod every_arm;
 mod follow;
 mod forward;
 mod frames;
+mod geared;
 mod geometry;
 mod idealise;
 mod inverse;

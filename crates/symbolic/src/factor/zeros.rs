@@ -38,6 +38,9 @@ pub enum Zero {
     },
 }
 
+/// More copies of a zero are not listed.
+const MOST_COPIES: i64 = 4;
+
 impl Zero {
     /// The angle that the zeros are solved for.
     pub fn angle(&self) -> Expr {
@@ -61,6 +64,31 @@ impl Zero {
                 vec![first, first + Expr::pi()]
             }
         }
+    }
+
+    /// The same, where the angle is a multiple of one symbol and a constant, for that symbol: all values within its period, in
+    /// whole turns as far as they go. Of sin(q/2) = 0 that are 0 and 2π, of sin(2q) = 0 four values.
+    pub fn solved(&self) -> (Expr, Vec<Expr>) {
+        let own = (self.angle(), self.values());
+        let sum = Angle::of(own.0);
+        let [(x, k)] = &sum.terms[..] else { return own };
+        let Some((times, parts)) = k.abs().to_parts() else { return own };
+        if x.as_symbol().is_none() || times > MOST_COPIES || x == &own.0 {
+            return own;
+        }
+        let constant = Angle { terms: vec![], ..sum.clone() };
+        let by = k.recip().unwrap_or(Rational::ONE);
+        let turns = |n: i64| Angle { turns: Rational::from(2 * n), ..Angle::default() };
+        let value = |copy: i64, v: Expr| {
+            let q = Angle::of(v).plus(&constant.scaled(&-Rational::ONE)).plus(&turns(copy)).scaled(&by);
+            let Ok(number) = q.to_expr().eval(|_| None) else { return q.to_expr() };
+            // All copies are within so many turns: to (−half, half] of them.
+            let wide = std::f64::consts::TAU * parts as f64;
+            let times = (number / wide - 0.5 - 1e-12).ceil() as i64;
+            q.plus(&turns(-times * parts)).to_expr()
+        };
+        let values = (0..times).flat_map(|copy| own.1.iter().map(move |v| value(copy, *v))).collect();
+        (*x, values)
     }
 
     /// True if what the zeros are made of is free of other angles.

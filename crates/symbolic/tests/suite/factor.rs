@@ -297,6 +297,32 @@ fn where_factors_are_zero() {
     }
 }
 
+/// Multiples of one symbol are solved for it, all values within its own period.
+#[test]
+fn zeros_of_a_multiple() {
+    let written = |e: Expr| print(e, &names(), Style::Ascii);
+    for (text, expected) in [
+        ("C5", "q5: pi/2, -pi/2"),
+        ("sin(q3/2)", "q3: 0, 2*pi"),
+        ("cos(q3/2)", "q3: pi, -pi"),
+        ("sin(2*q5)", "q5: 0, pi/2, pi, -pi/2"),
+        ("sin(2*q5 + pi/6)", "q5: -pi/12, 5*pi/12, 11*pi/12, -7*pi/12"),
+        ("cos(2*q4/3)", "q4: 3*pi/4, -3*pi/4, -9*pi/4, 9*pi/4"),
+        ("S23", "q2 + q3: 0, pi"),
+        ("1 + cos(q3/2)", "q3: 2*pi"),
+    ] {
+        let found = zeros(read(text));
+        let (unknown, values) = found[0].solved();
+        let shown: Vec<String> = values.iter().map(|v| written(*v)).collect();
+        assert_eq!(format!("{}: {}", written(unknown), shown.join(", ")), expected, "{text}");
+        let Some(symbol) = unknown.as_symbol() else { continue };
+        for value in values {
+            let there = read(text).substitute(|s| (s == symbol).then_some(value));
+            assert!(equal(there, Expr::int(0)).is_equal(), "{text} at {value}");
+        }
+    }
+}
+
 #[test]
 fn zeros_of_an_angle_of_choice() {
     let (factor, q3, q23) = (read("a2*C2 + a3*C23 - d4*S23"), read("q3"), read("q2 + q3"));

@@ -9,7 +9,7 @@ use std::fmt;
 /// Why elimination does not serve an arm.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Unsuited {
-    /// It has this many axes that move, not six.
+    /// It has this many axes that move: not six, nor more of which one joint drives all but five.
     Axes(usize),
     /// A row of the table both turns and slides (counted from 1).
     TwoInOne(usize),
@@ -22,7 +22,10 @@ pub enum Unsuited {
 impl fmt::Display for Unsuited {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Unsuited::Axes(n) => write!(f, "{n} axes move; elimination serves six"),
+            Unsuited::Axes(n) => write!(
+                f,
+                "{n} axes move; elimination serves six, or more where one joint drives all but five of them"
+            ),
             Unsuited::TwoInOne(row) => write!(f, "row {row} both turns and slides"),
             Unsuited::Coupled => f.write_str("the places of the axes do not determine the joint variables"),
             Unsuited::Degenerate(why) => f.write_str(why),
@@ -84,7 +87,7 @@ pub(super) fn rigid(x: &Transform<f64>) -> Rigid {
 }
 
 /// The inverse of a matrix, by Gauss's and Jordan's elimination.
-fn inverted(mut m: [[f64; 6]; 6]) -> Option<[[f64; 6]; 6]> {
+pub(super) fn inverted(mut m: [[f64; 6]; 6]) -> Option<[[f64; 6]; 6]> {
     let mut inverse: [[f64; 6]; 6] =
         std::array::from_fn(|i| std::array::from_fn(|j| f64::from(u8::from(i == j))));
     for k in 0..6 {

@@ -27,7 +27,7 @@ const AROUND: f64 = 0.1;
 impl GeneralSolver {
     /// Adds what descents find and a complete answer does not have, and takes back that it is complete.
     pub(super) fn confirm(&self, pose: &Transform<f64>, size: f64, answer: &mut Answer) {
-        if !answer.is_complete() || !(self.is_faint() || self.is_special(answer)) {
+        if !answer.is_complete() || !(self.is_geared() || self.is_faint() || self.is_special(answer)) {
             return;
         }
         let mut random = Random(1);

@@ -1,6 +1,7 @@
 //! All solutions of a pose by elimination, as solutions of the robot.
 
 use super::arm::{SixAxes, Unsuited, rigid};
+use super::geared::{Found, Geared};
 use crate::geometry::Transform;
 use crate::inverse::answer::{Answer, Doubt, Family, Solution};
 use crate::inverse::branch::Branch;
@@ -19,11 +20,26 @@ pub struct GeneralSolver {
     pub robot: Robot<f64>,
     /// Its joints.
     pub space: JointSpace,
+    method: Method,
+    /// How much of the motion of the joints the hand sees at least, in most configurations.
+    pub(super) seen: f64,
+}
+
+/// How the configurations are found.
+#[derive(Clone, Debug)]
+enum Method {
+    /// By the elimination of six axes.
+    Six(Box<Six>),
+    /// One unknown drives all but five axes.
+    Geared(Box<Geared>),
+}
+
+/// Six axes, how they are solved, and memory for it.
+#[derive(Clone, Debug)]
+struct Six {
     axes: SixAxes,
     plan: Plan,
     found: Shared<elimination::Answer>,
-    /// How much of the motion of the joints the hand sees at least, in most configurations.
-    pub(super) seen: f64,
 }
 
 /// A solution may miss the pose by this (see [`Solution::residual`]).
@@ -43,37 +59,72 @@ impl GeneralSolver {
     /// # Errors
     /// See [`Unsuited`].
     pub fn new(robot: &Robot<f64>, space: &JointSpace) -> Result<Self, Unsuited> {
-        let axes = SixAxes::new(robot)?;
-        let plan = Plan::new(&axes.arm).map_err(|e| Unsuited::Degenerate(e.to_string()))?;
-        let found = Shared::new(elimination::Answer::default());
+        let method = match SixAxes::new(robot) {
+            Ok(axes) => {
+                let plan = Plan::new(&axes.arm).map_err(|e| Unsuited::Degenerate(e.to_string()))?;
+                let found = Shared::new(elimination::Answer::default());
+                Method::Six(Box::new(Six { axes, plan, found }))
+            }
+            Err(Unsuited::Axes(n)) if n > 6 => Method::Geared(Box::new(Geared::new(robot, space)?)),
+            Err(why) => return Err(why),
+        };
         let seen = newton::usually_seen(robot, Goal::Pose, space);
-        Ok(GeneralSolver { robot: robot.clone(), space: space.clone(), axes, plan, found, seen })
+        Ok(GeneralSolver { robot: robot.clone(), space: space.clone(), method, seen })
     }
 
-    /// The arm, and how it is solved.
-    pub fn parts(&self) -> (&SixAxes, &Plan) {
-        (&self.axes, &self.plan)
+    /// The arm, and how it is solved, if it has six axes.
+    pub fn parts(&self) -> Option<(&SixAxes, &Plan)> {
+        match &self.method {
+            Method::Six(six) => Some((&six.axes, &six.plan)),
+            Method::Geared(_) => None,
+        }
+    }
+
+    /// Whether one joint drives several axes.
+    pub(super) fn is_geared(&self) -> bool {
+        matches!(self.method, Method::Geared(_))
     }
 
     /// How many splits of the loop a pose takes.
     pub fn splits(&self, pose: &Transform<f64>) -> u32 {
-        let mut found = self.found.lend();
-        self.plan.solve(&rigid(pose), &mut found);
-        found.splits
+        match &self.method {
+            Method::Six(six) => {
+                let mut found = six.found.lend();
+                six.plan.solve(&rigid(pose), &mut found);
+                found.splits
+            }
+            Method::Geared(_) => 1,
+        }
+    }
+
+    /// What elimination finds.
+    fn roots(&self, pose: &Transform<f64>) -> (Vec<Found>, Certificate) {
+        match &self.method {
+            Method::Six(six) => {
+                let mut found = six.found.lend();
+                six.plan.solve(&rigid(pose), &mut found);
+                let one = |s: &elimination::Solution| Found {
+                    q: six.axes.joints(&s.q),
+                    multiplicity: s.multiplicity,
+                    singular: s.singular,
+                };
+                (found.solutions.iter().map(one).collect(), found.certificate)
+            }
+            Method::Geared(geared) => geared.solve(&self.robot, &self.space, pose),
+        }
     }
 
     /// All solutions of a pose of the tool in the base, in ascending order of their joint variables.
     pub fn solve(&self, pose: &Transform<f64>) -> Answer {
         let mut answer = Answer::empty();
-        let mut found = self.found.lend();
-        self.plan.solve(&rigid(pose), &mut found);
-        answer.doubt = match found.certificate {
+        let (found, certificate) = self.roots(pose);
+        answer.doubt = match certificate {
             Certificate::Complete => None,
             Certificate::NearDoubleRoot => Some(Doubt::DoubleRoot),
             Certificate::Undecided => Some(Doubt::Uncounted),
         };
         let size = self.space.size(pose);
-        self.collect(&found.solutions, pose, size, &mut answer);
+        self.collect(found, pose, size, &mut answer);
         self.families(pose, size, &mut answer);
         self.confirm(pose, size, &mut answer);
         answer.spread(&self.space);
@@ -85,16 +136,10 @@ impl GeneralSolver {
     }
 
     /// Adds what was found and solves the pose.
-    fn collect(
-        &self,
-        found: &[elimination::Solution],
-        pose: &Transform<f64>,
-        size: f64,
-        answer: &mut Answer,
-    ) {
+    fn collect(&self, found: Vec<Found>, pose: &Transform<f64>, size: f64, answer: &mut Answer) {
         let miss = |q: &[f64]| newton::distance(&self.robot, Goal::Pose, pose, q, size);
         for found in found {
-            let mut q = self.axes.joints(&found.q);
+            let mut q = found.q;
             let mut residual = miss(&q);
             if residual > ROUGH
                 && let Some((polished, better)) = newton::polish(&self.robot, Goal::Pose, pose, &q, &[], size)

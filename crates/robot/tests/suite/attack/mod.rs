@@ -2,8 +2,8 @@
 
 pub mod arms;
 mod cases;
-mod judge;
-mod poses;
+pub mod judge;
+pub mod poses;
 
 use crate::common::{Random, share};
 use arms::Kind;
