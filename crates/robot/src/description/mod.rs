@@ -8,6 +8,7 @@ pub mod convert;
 pub mod diagnostic;
 mod filled;
 mod joints;
+mod lines;
 mod named;
 mod names;
 mod order;
@@ -23,6 +24,7 @@ mod value;
 pub use cell::MAX_LENGTH as MAX_CELL_BYTES;
 pub use convert::{Conversion, Moved, SameChain, prove_same_chain};
 pub use diagnostic::{Diagnostic, Diagnostics, Severity, line_column, render};
+pub use lines::{Agreement, AxisAtRest, ChainAtRest, NotPlaced, Placed, same_screws};
 pub use order::{Cell, Screw, Screws};
 pub use parameters::MissingValue;
 pub use robot_file::{MAX_BYTES, MAX_ROWS, read_toml, write_toml};
@@ -162,6 +164,30 @@ pub enum JointKind {
     Revolute,
     /// Slides along z.
     Prismatic,
+}
+
+impl Row {
+    /// The row that moves nothing.
+    pub fn still() -> Self {
+        let zero = Expr::int(0);
+        let [theta, d, a, alpha, gamma, b] = [zero; 6];
+        Row {
+            theta,
+            d,
+            a,
+            alpha,
+            gamma,
+            b,
+            variable: None,
+            name: None,
+            limits: None,
+            velocity: None,
+            acceleration: None,
+            mass: None,
+            com: None,
+            inertia: None,
+        }
+    }
 }
 
 impl Description {

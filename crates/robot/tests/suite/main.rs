@@ -14,6 +14,7 @@ mod frames;
 mod geometry;
 mod idealise;
 mod inverse;
+mod lines;
 mod mechanism;
 mod members;
 mod motion_jerk;
