@@ -10,6 +10,7 @@ const TARGETS: &[(&str, &str)] = &[
     ("formula", "fuzz/seeds/formula"),
     ("robot_file", "crates/robot/catalogue"),
     ("table", "fuzz/seeds/table"),
+    ("urdf", "crates/robot/tests/urdf"),
     ("document", "examples/documents"),
 ];
 /// The soaks that are not fuzz targets: tests at their full size, and arms at random.

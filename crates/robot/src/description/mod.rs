@@ -5,6 +5,7 @@
 
 mod cell;
 pub mod convert;
+mod decimals;
 pub mod diagnostic;
 mod filled;
 mod joints;
@@ -18,11 +19,15 @@ mod robot_file;
 mod rows;
 mod same;
 pub mod table;
+mod tree;
 mod units;
+mod urdf;
 mod value;
+mod xml;
 
 pub use cell::MAX_LENGTH as MAX_CELL_BYTES;
 pub use convert::{Conversion, Moved, SameChain, prove_same_chain};
+pub use decimals::Decimals;
 pub use diagnostic::{Diagnostic, Diagnostics, Severity, line_column, render};
 pub use lines::{Agreement, AxisAtRest, ChainAtRest, NotPlaced, Placed, same_screws};
 pub use order::{Cell, Screw, Screws};
@@ -30,7 +35,10 @@ pub use parameters::MissingValue;
 pub use robot_file::{MAX_BYTES, MAX_ROWS, read_toml, write_toml};
 pub use same::{SameMechanism, Sameness, same_mechanism};
 pub use table::{TableKind, TableOptions, read_table};
+pub use tree::{Body, Chain, Follows, Joint, Mass, Mechanism, NoChain};
+pub use urdf::read_urdf;
 pub use value::{Measure, NotSet, read_value};
+pub use xml::MAX_XML_BYTES;
 
 use denavit_symbolic::{Expr, Symbol};
 use std::fmt;

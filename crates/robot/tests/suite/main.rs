@@ -30,5 +30,6 @@ mod singular_found;
 mod singular_motion;
 mod solver_text;
 mod track;
+mod urdf;
 mod velocity;
 mod workspace;

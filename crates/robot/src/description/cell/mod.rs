@@ -9,6 +9,7 @@ mod special;
 mod write;
 
 pub(super) use measure::greek;
+pub(super) use special::name as multiple_name;
 pub(super) use write::write_cell;
 
 use super::diagnostic::{Diagnostics, Severity};
