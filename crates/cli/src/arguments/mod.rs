@@ -16,8 +16,8 @@ pub use view::ViewArguments;
 
 /// Everything about a robot arm from its Denavit-Hartenberg table: exact, proved, in formulas and in numbers.
 ///
-/// A ROBOT is a name from the catalogue (`denavit robots`), a robot file (.toml), or a table as it stands in a
-/// document (.md, .txt, .csv, .tsv, .tex). Exit codes: 0 done, 1 the answer is no, 2 usage, 3 bad input, 4 not
+/// A ROBOT is a name from the catalogue (`denavit robots`), a robot file (.toml), a URDF (.urdf), or a table as it stands in
+/// a document (.md, .txt, .csv, .tsv, .tex). Exit codes: 0 done, 1 the answer is no, 2 usage, 3 bad input, 4 not
 /// supported, 5 gave up.
 #[derive(Parser)]
 #[command(name = "denavit", version, max_term_width = 110)]
@@ -70,12 +70,12 @@ pub struct RobotsArguments {
 /// The robot that a command is about.
 #[derive(Args)]
 pub struct RobotArguments {
-    /// A catalogue name, or the path of a robot file or table (- reads a table from standard input)
+    /// A catalogue name, or the path of a robot file, URDF or table (- reads a table from standard input)
     pub robot: String,
     /// Give a parameter a value, as in `--set D3=450mm` (can be repeated)
     #[arg(long = "set", value_name = "NAME=VALUE")]
     pub set: Vec<String>,
-    /// The convention of a table whose document does not say it
+    /// The convention of a table whose document does not say it; of a URDF the one its table is made in (standard)
     #[arg(long, value_enum)]
     pub convention: Option<ConventionName>,
     /// The unit of angles without unit in a table
@@ -90,6 +90,15 @@ pub struct RobotArguments {
     /// What the columns of a table mean, in order, as in `--columns "theta alpha a d"`
     #[arg(long, value_name = "LETTERS")]
     pub columns: Option<String>,
+    /// The link of a URDF at which the chain begins; the root otherwise
+    #[arg(long, value_name = "LINK")]
+    pub base: Option<String>,
+    /// The link of a URDF at which the chain ends; the leaf with the most joints otherwise
+    #[arg(long, value_name = "LINK")]
+    pub tip: Option<String>,
+    /// Take the decimals of a URDF's angles as they are: 1.5708 is not read as 90°
+    #[arg(long)]
+    pub as_written: bool,
 }
 
 /// `show`

@@ -57,8 +57,69 @@ fn refusals() {
     refused(&["derive", "ur5", "--from", "7"], 2, "0 to 6");
     refused(&["derive", "ur5", "--only", "w"], 2, "unknown part `w`");
     refused(&["show", "ur5", "--set", "d9=1"], 2, "no parameter `d9`");
-    refused(&["show", "arm.urdf"], 4, "URDF");
+    refused(&["show", "arm.urdf"], 3, "error: arm.urdf: ");
+    refused(&["show", "arm.urdf.xacro"], 4, "xacro");
+    refused(&["show", "ur5", "--tip", "tool0"], 2, "--tip is for URDF files");
     refused(&["paint", "ur5"], 2, "unrecognized subcommand");
+}
+
+/// A URDF of the tests of the science.
+fn urdf(name: &str) -> String {
+    format!("{}/../robot/tests/urdf/{name}.urdf", env!("CARGO_MANIFEST_DIR"))
+}
+
+#[test]
+fn every_verb_takes_a_urdf() {
+    let file = urdf("ur5_robot");
+    let chain = ["--base", "base", "--tip", "tool0"];
+    let all = |verb: &str, rest: &[&str]| {
+        let arguments = [&[verb, &file][..], &chain, rest].concat();
+        let output = denavit(&arguments);
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", stderr(&output));
+        (stdout(&output), stderr(&output))
+    };
+    let (table, notes) = all("show", &[]);
+    assert!(
+        table.contains("shoulder_pan_joint") && table.contains("0.42500") | table.contains("0.425"),
+        "{table}"
+    );
+    assert!(
+        notes.contains("note: 1.57079632679 is read as π/2") && notes.contains("proved to be the file's chain"),
+        "{notes}"
+    );
+    // As the catalogue's arm, whose table is the maker's.
+    let q = ["-q", "0.3,-1.2,1.5,0.4,0.9,-0.6"];
+    let pose = |arguments: &[&str]| json(&[arguments, &q, &["--json"]].concat())["pose"].clone();
+    let [here, there] = [pose(&[&["fk", &file][..], &chain].concat()), pose(&["fk", "ur5"])];
+    let numbers = |v: &Value| -> Vec<f64> {
+        v.as_array()
+            .unwrap()
+            .iter()
+            .flat_map(|r| r.as_array().unwrap())
+            .map(|x| x.as_f64().unwrap())
+            .collect()
+    };
+    for (x, y) in numbers(&here).iter().zip(numbers(&there)) {
+        assert!((x - y).abs() < 1e-12, "{here} {there}");
+    }
+    let (solved, _) = all("ik", &["-q", "0.3,-1.2,1.5,0.4,0.9,-0.6"]);
+    assert!(solved.contains('8'), "{solved}");
+    all("derive", &["--from", "1"]);
+    all("jacobian", &["-q", "0.3,-1.2,1.5,0.4,0.9,-0.6"]);
+    let (file_text, _) = all("show", &["--toml"]);
+    assert!(file_text.contains("name = \"wrist_3_joint\""), "{file_text}");
+    let (craig, _) = all("show", &["--convention", "craig"]);
+    assert!(craig.contains("craig convention"));
+    let (_, notes) = all("show", &["--as-written"]);
+    assert!(!notes.contains("is read as π/2"), "{notes}");
+}
+
+#[test]
+fn a_urdf_says_what_it_cannot_do() {
+    refused(&["show", &urdf("ur5_gripper")], 2, "choose one with --tip LINK");
+    refused(&["show", &urdf("ur5_robot"), "--tip", "tol0"], 2, "did you mean `tool0`?");
+    refused(&["show", &urdf("ur5_robot"), "--base", "base", "--tip", "base_link"], 3, "no joint moves");
+    refused(&["show", &urdf("ur5_robot"), "--table", "2"], 2, "--table is for tables");
 }
 
 #[test]
