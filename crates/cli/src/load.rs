@@ -1,5 +1,6 @@
 //! From what stands on the command line to a robot.
 
+mod files;
 mod urdf;
 
 use crate::arguments::{AngleUnit, LengthUnit, RobotArguments};
@@ -33,7 +34,7 @@ pub fn robot(arguments: &RobotArguments) -> Result<Description, Failure> {
 pub fn robot_file(arguments: &RobotArguments) -> Result<(Description, String), Failure> {
     let name = catalogue_name(&arguments.robot);
     let listed = name.as_deref().and_then(|n| Some((n, catalogue::text(n)?)));
-    let is_urdf = listed.is_none() && arguments.robot.ends_with(".urdf");
+    let is_urdf = listed.is_none() && [".urdf", ".xacro"].iter().any(|e| arguments.robot.ends_with(e));
     let is_table = listed.is_none() && !is_urdf && !arguments.robot.ends_with(".toml");
     if let (false, Some(option)) = (is_table, table_option(arguments, is_urdf)) {
         return Err(Failure::Usage(format!(
@@ -74,6 +75,8 @@ fn urdf_option(arguments: &RobotArguments) -> Option<&'static str> {
         (arguments.base.is_some(), "--base"),
         (arguments.tip.is_some(), "--tip"),
         (arguments.as_written, "--as-written"),
+        (!arguments.arg.is_empty(), "--arg"),
+        (!arguments.package.is_empty(), "--package"),
     ];
     given.into_iter().find(|g| g.0).map(|g| g.1)
 }
@@ -100,14 +103,10 @@ fn from_file(arguments: &RobotArguments) -> Result<(Description, Option<String>)
         Some("md" | "markdown" | "txt") => Some(TableKind::Markdown),
         Some("csv" | "tsv") => Some(TableKind::Csv),
         Some("tex") => Some(TableKind::Latex),
-        Some("urdf") => return Ok((urdf::from_urdf(arguments)?, None)),
-        Some("xacro") => {
-            return Err(Failure::Unsupported(format!(
-                "xacro; `xacro {name} > robot.urdf` writes a URDF, which is read"
-            )));
-        }
+        Some("urdf" | "xacro") => return Ok((urdf::from_urdf(arguments)?, None)),
         _ if path.is_file() => {
-            let hint = "a robot file ends in .toml or .urdf, a table in .md, .txt, .csv, .tsv or .tex";
+            let hint =
+                "a robot file ends in .toml, .urdf or .xacro, a table in .md, .txt, .csv, .tsv or .tex";
             return Err(Failure::Input(format!("error: {name}: what is this?\n  = hint: {hint}")));
         }
         _ => return Err(unknown_robot(name)),

@@ -16,8 +16,8 @@ pub use view::ViewArguments;
 
 /// Everything about a robot arm from its Denavit-Hartenberg table: exact, proved, in formulas and in numbers.
 ///
-/// A ROBOT is a name from the catalogue (`denavit robots`), a robot file (.toml), a URDF (.urdf), or a table as it stands in
-/// a document (.md, .txt, .csv, .tsv, .tex). Exit codes: 0 done, 1 the answer is no, 2 usage, 3 bad input, 4 not
+/// A ROBOT is a name from the catalogue (`denavit robots`), a robot file (.toml), a URDF (.urdf, .xacro), or a table as it
+/// stands in a document (.md, .txt, .csv, .tsv, .tex). Exit codes: 0 done, 1 the answer is no, 2 usage, 3 bad input, 4 not
 /// supported, 5 gave up.
 #[derive(Parser)]
 #[command(name = "denavit", version, max_term_width = 110)]
@@ -99,6 +99,12 @@ pub struct RobotArguments {
     /// Take the decimals of a URDF's angles as they are: 1.5708 is not read as 90°
     #[arg(long)]
     pub as_written: bool,
+    /// Give an argument of a xacro file a value (can be repeated)
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub arg: Vec<String>,
+    /// The folder of a package that a xacro file asks for; those beside its own are found (can be repeated)
+    #[arg(long, value_name = "NAME=FOLDER")]
+    pub package: Vec<String>,
 }
 
 /// `show`

@@ -1,12 +1,15 @@
-//! A URDF, and the chain of it that a command is about.
+//! A URDF, plain or for xacro to expand, and the chain of it that a command is about.
 
-use super::render;
+use super::coloured;
+use super::files::Folder;
 use crate::arguments::RobotArguments;
 use crate::failure::Failure;
 use crate::terminal::note;
 use denavit::description::{
-    Agreement, Chain, Convention, Decimals, Description, MAX_XML_BYTES, Mechanism, NoChain, read_urdf,
+    Agreement, Chain, Convention, Decimals, Description, Diagnostic, MAX_XML_BYTES, Mechanism, NoChain,
+    read_xacro,
 };
+use std::path::PathBuf;
 
 /// The chain that the arguments name.
 ///
@@ -16,11 +19,22 @@ pub fn from_urdf(arguments: &RobotArguments) -> Result<Description, Failure> {
     let name = arguments.robot.as_str();
     let text = super::contents(name, MAX_XML_BYTES);
     let text = text.map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
+    let packages = pairs(&arguments.package, "--package", "ur_description=../ur_description")?;
+    let packages: Vec<(String, PathBuf)> = packages.into_iter().map(|(n, p)| (n, p.into())).collect();
+    let given = pairs(&arguments.arg, "--arg", "name=ur5")?;
+    let read = |decimals| read_xacro(name, &text, &mut Folder::around(name, &packages), &given, decimals);
     let decimals = if arguments.as_written { Decimals::AsWritten } else { Decimals::Meant };
-    let (mechanism, findings) =
-        read_urdf(&text, decimals).map_err(|findings| Failure::Input(render(&findings, name, &text)))?;
-    note(render(&findings, name, &text).trim_end());
-    if let (Decimals::Meant, Ok((written, _))) = (decimals, read_urdf(&text, Decimals::AsWritten)) {
+    let (outcome, files) = read(decimals);
+    let render = |findings: &[Diagnostic]| -> String {
+        let shown = |d: &Diagnostic| {
+            let (name, text, span) = files.locate(&d.span)?;
+            Some(coloured(&Diagnostic { span, ..d.clone() }, name, text))
+        };
+        findings.iter().filter_map(shown).collect()
+    };
+    let (mechanism, findings) = outcome.map_err(|findings| Failure::Input(render(&findings)))?;
+    note(render(&findings).trim_end());
+    if let (Decimals::Meant, (Ok((written, _)), _)) = (decimals, read(Decimals::AsWritten)) {
         say_moved(mechanism.apart(&written), name);
     }
     let convention = arguments.convention.map_or(Convention::Standard, Into::into);
@@ -29,6 +43,16 @@ pub fn from_urdf(arguments: &RobotArguments) -> Result<Description, Failure> {
     let [from, to] = [chain.from, chain.to].map(|b| mechanism.bodies[b].name.clone());
     say_chain(&chain, &mechanism, [&from, &to]);
     Ok(Description { source: Some(format!("{name}: {from} to {to}")), ..chain.description })
+}
+
+/// `NAME=VALUE`, or `NAME:=VALUE` as ROS writes it.
+fn pairs(settings: &[String], option: &str, example: &str) -> Result<Vec<(String, String)>, Failure> {
+    let pair = |setting: &String| {
+        let sides = setting.split_once(":=").or_else(|| setting.split_once('='));
+        let sides = sides.map(|(name, value)| (name.trim().to_string(), value.trim().to_string()));
+        sides.ok_or_else(|| Failure::Usage(format!("{option} {setting}: write NAME=VALUE, as in {example}")))
+    };
+    settings.iter().map(pair).collect()
 }
 
 /// Says by how much the reading of decimals moves the links, where a person could see it.

@@ -58,7 +58,8 @@ fn refusals() {
     refused(&["derive", "ur5", "--only", "w"], 2, "unknown part `w`");
     refused(&["show", "ur5", "--set", "d9=1"], 2, "no parameter `d9`");
     refused(&["show", "arm.urdf"], 3, "error: arm.urdf: ");
-    refused(&["show", "arm.urdf.xacro"], 4, "xacro");
+    refused(&["show", "arm.urdf.xacro"], 3, "error: arm.urdf.xacro: ");
+    refused(&["show", "ur5", "--arg", "a=1"], 2, "--arg is for URDF files");
     refused(&["show", "ur5", "--tip", "tool0"], 2, "--tip is for URDF files");
     refused(&["paint", "ur5"], 2, "unrecognized subcommand");
 }
@@ -84,7 +85,8 @@ fn every_verb_takes_a_urdf() {
         "{table}"
     );
     assert!(
-        notes.contains("note: 1.57079632679 is read as π/2") && notes.contains("proved to be the file's chain"),
+        notes.contains("note: 1.57079632679 is read as π/2")
+            && notes.contains("proved to be the file's chain"),
         "{notes}"
     );
     // As the catalogue's arm, whose table is the maker's.
@@ -112,6 +114,47 @@ fn every_verb_takes_a_urdf() {
     assert!(craig.contains("craig convention"));
     let (_, notes) = all("show", &["--as-written"]);
     assert!(!notes.contains("is read as π/2"), "{notes}");
+}
+
+/// A robot in packages on disk: what it includes is found beside it, and nothing outside of the packages is read.
+#[test]
+fn xacro_finds_its_files() {
+    let folder = std::env::temp_dir().join(format!("denavit-xacro-{}", std::process::id()));
+    let write = |name: &str, text: &str| {
+        let file = folder.join(name);
+        std::fs::create_dir_all(file.parent().expect("a folder")).expect("a folder");
+        std::fs::write(&file, text).expect("a file");
+        file.to_str().expect("UTF-8").to_string()
+    };
+    let robot = |inner: &str| {
+        format!("<robot xmlns:xacro='http://www.ros.org/wiki/xacro' name='r'>\n{inner}\n</robot>")
+    };
+    let macros = "<xacro:macro name='arm' params='l'><link name='a'/><link name='b'/><joint name='turn' type='continuous'>\
+        <origin xyz='0 0 ${l}' rpy='${radians(90)} 0 0'/><parent link='a'/><child link='b'/><axis xyz='0 0 1'/></joint></xacro:macro>";
+    write("arm_description/package.xml", "<package><name>arm_description</name></package>");
+    write("arm_description/arm.xacro", &robot(macros));
+    write("other/package.xml", "<package><name>other</name></package>");
+    write("secret.xacro", &robot(macros));
+    let main = write(
+        "other/urdf/r.urdf.xacro",
+        &robot(
+            "<xacro:arg name='l' default='0.5'/><xacro:include filename='$(find arm_description)/arm.xacro'/><xacro:arm l='$(arg l)'/>",
+        ),
+    );
+    let shown = json(&["show", &main, "--arg", "l:=0.25", "--json"]);
+    assert_eq!(shown["joints"].as_array().map(Vec::len).unwrap_or(1), 1, "{shown}");
+    let file = denavit(&["show", &main, "--arg", "l=0.25", "--toml"]);
+    assert!(stdout(&file).contains("0.25 m") && stdout(&file).contains("turn"), "{}", stdout(&file));
+    let outside = write(
+        "other/urdf/outside.urdf.xacro",
+        &robot("<xacro:include filename='../../secret.xacro'/><link name='a'/>"),
+    );
+    refused(&["show", &outside], 3, "lies outside");
+    let missing =
+        write("other/urdf/missing.urdf.xacro", &robot("<xacro:include filename='$(find nowhere)/x.xacro'/>"));
+    refused(&["show", &missing], 3, "--package nowhere=FOLDER");
+    refused(&["show", &missing, "--package", "nowhere"], 2, "write NAME=VALUE");
+    std::fs::remove_dir_all(folder).expect("it was written");
 }
 
 #[test]

@@ -18,11 +18,13 @@ mod periods;
 mod robot_file;
 mod rows;
 mod same;
+mod sources;
 pub mod table;
 mod tree;
 mod units;
 mod urdf;
 mod value;
+mod xacro;
 mod xml;
 
 pub use cell::MAX_LENGTH as MAX_CELL_BYTES;
@@ -34,9 +36,10 @@ pub use order::{Cell, Screw, Screws};
 pub use parameters::MissingValue;
 pub use robot_file::{MAX_BYTES, MAX_ROWS, read_toml, write_toml};
 pub use same::{SameMechanism, Sameness, same_mechanism};
+pub use sources::{Alone, Files, Sources};
 pub use table::{TableKind, TableOptions, read_table};
 pub use tree::{Body, Chain, Follows, Joint, Mass, Mechanism, NoChain};
-pub use urdf::read_urdf;
+pub use urdf::{Reading, read_urdf, read_xacro};
 pub use value::{Measure, NotSet, read_value};
 pub use xml::MAX_XML_BYTES;
 

@@ -33,3 +33,4 @@ mod track;
 mod urdf;
 mod velocity;
 mod workspace;
+mod xacro;

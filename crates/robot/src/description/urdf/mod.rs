@@ -9,8 +9,10 @@ mod tree;
 mod values;
 
 use super::diagnostic::{Diagnostic, Diagnostics};
+use super::sources::{Files, Sources};
 use super::tree::{Body, Mechanism};
-use super::xml::{Element, MAX_XML_BYTES, parse, preamble, shown};
+use super::xacro::{Xacro, expand, is_xacro};
+use super::xml::{Element, parse, shown};
 use super::{Decimals, MAX_ROWS};
 use std::collections::HashMap;
 use std::ops::Range;
@@ -41,18 +43,60 @@ pub(super) struct Links {
 /// All errors of the text (with the warnings and notes), in the order of the text.
 pub fn read_urdf(text: &str, decimals: Decimals) -> Result<(Mechanism, Vec<Diagnostic>), Vec<Diagnostic>> {
     let mut out = Diagnostics::default();
-    let start = if text.len() > MAX_XML_BYTES { 0 } else { preamble(text, &mut out) };
-    let Some(document) = parse(text, start, &mut out) else { return out.finish(None) };
+    let Some(tree) = parse(text, 0, &mut out) else { return out.finish(None) };
     let mut reader = Reader::new(out, decimals);
-    let mechanism = reader.robot(Element::root(&document, start));
+    let mechanism = reader.robot(tree.root());
     reader.say_angles();
     reader.out.finish(mechanism)
+}
+
+/// A mechanism with what there is to say, or all that is wrong.
+pub type Reading = Result<(Mechanism, Vec<Diagnostic>), Vec<Diagnostic>>;
+
+/// Reads a URDF that xacro is to expand, or one that it need not, with the files that it includes.
+///
+/// `arguments` are the values of its arguments by name. Places are those of all files together ([`Files`]).
+///
+/// # Errors
+/// All errors of the texts (with the warnings and notes).
+pub fn read_xacro(
+    name: &str,
+    text: &str,
+    sources: &mut dyn Sources,
+    arguments: &[(String, String)],
+    decimals: Decimals,
+) -> (Reading, Files) {
+    let mut files = Files::default();
+    files.add(name.into(), text.into());
+    let mut out = Diagnostics::default();
+    let Some(tree) = parse(text, 0, &mut out) else { return (out.finish(None), files) };
+    let mut xacro = Xacro::new(files, out, sources, arguments);
+    let tree = if is_xacro(&tree) { expand(&mut xacro, tree) } else { Some(tree) };
+    let calls = xacro.first_calls();
+    let Xacro { files, out, .. } = xacro;
+    let Some(tree) = tree.filter(|_| !out.has_errors()) else { return (out.finish(None), files) };
+    let mut reader = Reader::new(out, decimals);
+    let mechanism = reader.robot(tree.root());
+    reader.say_angles();
+    // What stands in a macro says who called it first.
+    let hinted = |mut list: Vec<Diagnostic>| {
+        for finding in list.iter_mut().filter(|f| f.hint.is_none()) {
+            let call = calls.iter().find(|(body, _)| body.contains(&finding.span.start));
+            finding.hint = call.map(|(_, call)| format!("expanded from {}", files.place(call)));
+        }
+        list
+    };
+    let reading = match reader.out.finish(mechanism) {
+        Ok((mechanism, list)) => Ok((mechanism, hinted(list))),
+        Err(list) => Err(hinted(list)),
+    };
+    (reading, files)
 }
 
 impl Reader {
     fn robot(&mut self, robot: Element) -> Option<Mechanism> {
         if robot.name() != Some("robot") {
-            let name = robot.full_name();
+            let name = robot.full_name().to_string();
             let finding =
                 self.out.error(robot.span(), format!("the root element is <{}>, not <robot>", shown(&name)));
             match name.as_str() {
@@ -89,7 +133,7 @@ impl Reader {
         let found = robot.children().find(|c| c.full_name().starts_with("xacro:"));
         if let Some(element) = found {
             self.out
-                .error(element.span(), format!("<{}> is for xacro to expand", shown(&element.full_name())))
+                .error(element.span(), format!("<{}> is for xacro to expand", shown(element.full_name())))
                 .hint("`xacro robot.urdf.xacro > robot.urdf` writes the URDF");
         }
         found.is_some()
@@ -129,7 +173,7 @@ impl Reader {
     fn beside(&mut self, robot: Element) {
         let mut said: Vec<String> = vec![];
         for child in robot.children() {
-            let name = child.full_name();
+            let name = child.full_name().to_string();
             if matches!(child.name(), Some("link" | "joint")) || said.contains(&name) || said.len() > 20 {
                 continue;
             }

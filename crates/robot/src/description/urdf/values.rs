@@ -36,7 +36,11 @@ impl Reader {
 
     /// A decimal.
     pub fn decimal(&mut self, word: &Text) -> Option<Rational> {
-        let number = Rational::from_decimal(word.text);
+        let number = match word.exact {
+            // What is computed in doubles only, such as a mass.
+            Some(e) => e.eval(|_| None).ok().and_then(Rational::from_f64),
+            None => Rational::from_decimal(word.text),
+        };
         let Some(number) = number else {
             let finding =
                 self.out.error(word.span.clone(), format!("`{}` is no decimal number", shown(word.text)));
@@ -92,6 +96,9 @@ impl Reader {
 
     /// A length; noise of a program is 0.
     pub fn length(&mut self, x: Rational, word: &Text) -> Expr {
+        if let Some(exact) = word.exact {
+            return exact;
+        }
         let is_noise = !x.is_zero() && x.abs() < Rational::new(NOISE.0, NOISE.1);
         if is_noise && self.decimals == Decimals::Meant {
             self.out.note(word.span.clone(), format!("{} m is read as 0", shown(word.text)));
@@ -102,6 +109,9 @@ impl Reader {
 
     /// An angle: a multiple of π/12 where its digits print one.
     pub fn angle(&mut self, x: Rational, word: &Text) -> Expr {
+        if let Some(exact) = word.exact {
+            return exact;
+        }
         if self.decimals == Decimals::AsWritten {
             return x.into();
         }
@@ -173,11 +183,17 @@ impl Reader {
             return x;
         };
         let Some(numbers) = self.numbers(&value, "xyz", 3) else { return x };
+        let exact: Vec<Expr> =
+            numbers.iter().map(|(x, word)| word.exact.unwrap_or_else(|| x.clone().into())).collect();
+        let is_exact = numbers.iter().any(|n| n.1.exact.is_some());
         let mut v: Vec<Rational> = numbers.into_iter().map(|n| n.0).collect();
         let largest = v.iter().map(Rational::abs).max().unwrap_or_default();
         if largest.is_zero() {
             self.out.error(value.span.clone(), "the axis is the vector 0");
             return x;
+        }
+        if is_exact {
+            return Vector([exact[0], exact[1], exact[2]]);
         }
         let noise = &largest * &Rational::new(NOISE.0, NOISE.1);
         let is_noise = |c: &Rational| !c.is_zero() && c.abs() < noise;
