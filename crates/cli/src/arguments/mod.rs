@@ -1,5 +1,6 @@
 //! The command line.
 
+mod convert;
 mod path;
 mod report;
 mod view;
@@ -10,6 +11,7 @@ use denavit::inverse::{Criterion, Goal};
 use denavit_emit::Language;
 use std::path::PathBuf;
 
+pub use convert::{ConvertArguments, ConvertFormat};
 pub use path::{PathArguments, PathFormat};
 pub use report::{ReportArguments, ReportFormat, ReportLanguage, SectionName};
 pub use view::ViewArguments;
@@ -37,6 +39,8 @@ pub enum Command {
     Robots(RobotsArguments),
     /// Show a robot's table and what is special about its structure, or convert it to another convention
     Show(ShowArguments),
+    /// Convert a robot into another format: a robot file, a URDF; proved the same
+    Convert(ConvertArguments),
     /// Compute poses: the tool, all frames, orientations in any set of angles
     Fk(FkArguments),
     /// Find all joint variables for a pose, or derive and explain the formulas for them

@@ -158,6 +158,26 @@ fn xacro_finds_its_files() {
 }
 
 #[test]
+fn robots_are_converted_and_held_against_themselves() {
+    let output = denavit(&["convert", "puma560", "--to", "urdf"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(
+        stdout(&output).starts_with("<robot name=\"")
+            && stderr(&output).contains("proved to be the same robot")
+    );
+    let file = std::env::temp_dir().join(format!("denavit-convert-{}.urdf", std::process::id()));
+    let path = file.to_str().expect("UTF-8");
+    assert_eq!(denavit(&["convert", "ur5", "--to", "urdf", "-o", path]).status.code(), Some(0));
+    let output = denavit(&["convert", path, "--to", "toml", "--as", "craig"]);
+    assert!(stdout(&output).contains("convention = \"craig\""), "{}", stderr(&output));
+    assert!(stderr(&output).contains("proved to be the same robot"), "{}", stderr(&output));
+    std::fs::remove_file(file).expect("it was written");
+    let output = denavit(&["convert", "kinova-mico", "--to", "urdf"]);
+    assert!(stderr(&output).contains("poses differ by"), "{}", stderr(&output));
+    refused(&["convert", "prrrrp", "--to", "urdf"], 3, "no value for");
+}
+
+#[test]
 fn a_urdf_says_what_it_cannot_do() {
     refused(&["show", &urdf("ur5_gripper")], 2, "choose one with --tip LINK");
     refused(&["show", &urdf("ur5_robot"), "--tip", "tol0"], 2, "did you mean `tool0`?");

@@ -39,7 +39,7 @@ pub use same::{SameMechanism, Sameness, same_mechanism};
 pub use sources::{Alone, Files, Sources};
 pub use table::{TableKind, TableOptions, read_table};
 pub use tree::{Body, Chain, Follows, Joint, Mass, Mechanism, NoChain};
-pub use urdf::{Reading, read_urdf, read_xacro};
+pub use urdf::{Reading, read_urdf, read_xacro, write_urdf};
 pub use value::{Measure, NotSet, read_value};
 pub use xml::MAX_XML_BYTES;
 

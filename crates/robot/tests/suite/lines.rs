@@ -12,16 +12,7 @@ use denavit_symbolic::{Angle, Expr, Rational};
 
 /// The robot with numbers for its parameters.
 fn in_numbers(d: &Description) -> Description {
-    let mut d = d.filled();
-    let parameters = std::mem::take(&mut d.parameters);
-    let number = |e: Expr| e.substitute(|s| parameters.iter().find(|p| p.symbol == s)?.value);
-    for row in &mut d.rows {
-        for cell in [&mut row.theta, &mut row.d, &mut row.a, &mut row.alpha, &mut row.gamma, &mut row.b] {
-            *cell = number(*cell);
-        }
-    }
-    (d.base, d.tool) = (d.base.map(number), d.tool.map(number));
-    d
+    d.filled().in_numbers()
 }
 
 fn cells(d: &Description) -> Vec<[Expr; 4]> {

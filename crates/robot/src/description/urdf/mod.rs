@@ -7,6 +7,9 @@ mod inertia;
 mod joints;
 mod tree;
 mod values;
+mod write;
+
+pub use write::write_urdf;
 
 use super::diagnostic::{Diagnostic, Diagnostics};
 use super::sources::{Files, Sources};
