@@ -10,6 +10,8 @@ const TARGETS: &[(&str, &str)] = &[
     ("formula", "fuzz/seeds/formula"),
     ("robot_file", "crates/robot/catalogue"),
     ("table", "fuzz/seeds/table"),
+    ("urdf", "crates/robot/tests/urdf"),
+    ("xacro", "fuzz/seeds/xacro"),
     ("document", "examples/documents"),
 ];
 /// The soaks that are not fuzz targets: tests at their full size, and arms at random.

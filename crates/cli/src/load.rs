@@ -1,5 +1,8 @@
 //! From what stands on the command line to a robot.
 
+mod files;
+mod urdf;
+
 use crate::arguments::{AngleUnit, LengthUnit, RobotArguments};
 use crate::failure::Failure;
 use crate::terminal::{decimals, note};
@@ -31,12 +34,16 @@ pub fn robot(arguments: &RobotArguments) -> Result<Description, Failure> {
 pub fn robot_file(arguments: &RobotArguments) -> Result<(Description, String), Failure> {
     let name = catalogue_name(&arguments.robot);
     let listed = name.as_deref().and_then(|n| Some((n, catalogue::text(n)?)));
-    let is_table = listed.is_none() && !arguments.robot.ends_with(".toml");
-    if let (false, Some(option)) = (is_table, table_option(arguments)) {
+    let is_urdf = listed.is_none() && [".urdf", ".xacro"].iter().any(|e| arguments.robot.ends_with(e));
+    let is_table = listed.is_none() && !is_urdf && !arguments.robot.ends_with(".toml");
+    if let (false, Some(option)) = (is_table, table_option(arguments, is_urdf)) {
         return Err(Failure::Usage(format!(
             "{option} is for tables, and {} says it itself",
             arguments.robot
         )));
+    }
+    if let (false, Some(option)) = (is_urdf, urdf_option(arguments)) {
+        return Err(Failure::Usage(format!("{option} is for URDF files, and {} is none", arguments.robot)));
     }
     let (mut description, text) = match listed {
         Some((name, text)) => (read(name, text, read_toml(text))?, Some(text.to_string())),
@@ -62,10 +69,22 @@ fn catalogue_name(text: &str) -> Option<String> {
     (!is_path).then(|| text.to_lowercase().replace([' ', '_'], "-"))
 }
 
-/// The option given that only a table can need.
-fn table_option(arguments: &RobotArguments) -> Option<&'static str> {
+/// The option given that only a URDF can need.
+fn urdf_option(arguments: &RobotArguments) -> Option<&'static str> {
     let given = [
-        (arguments.convention.is_some(), "--convention"),
+        (arguments.base.is_some(), "--base"),
+        (arguments.tip.is_some(), "--tip"),
+        (arguments.as_written, "--as-written"),
+        (!arguments.arg.is_empty(), "--arg"),
+        (!arguments.package.is_empty(), "--package"),
+    ];
+    given.into_iter().find(|g| g.0).map(|g| g.1)
+}
+
+/// The option given that only a table can need; a convention can be asked of a URDF as well.
+fn table_option(arguments: &RobotArguments, is_urdf: bool) -> Option<&'static str> {
+    let given = [
+        (arguments.convention.is_some() && !is_urdf, "--convention"),
         (arguments.angles.is_some(), "--angles"),
         (arguments.lengths.is_some(), "--lengths"),
         (arguments.table.is_some(), "--table"),
@@ -84,18 +103,15 @@ fn from_file(arguments: &RobotArguments) -> Result<(Description, Option<String>)
         Some("md" | "markdown" | "txt") => Some(TableKind::Markdown),
         Some("csv" | "tsv") => Some(TableKind::Csv),
         Some("tex") => Some(TableKind::Latex),
-        Some("urdf" | "xacro") => {
-            return Err(Failure::Unsupported(
-                "URDF is not read yet; write the Denavit-Hartenberg table".into(),
-            ));
-        }
+        Some("urdf" | "xacro") => return Ok((urdf::from_urdf(arguments)?, None)),
         _ if path.is_file() => {
-            let hint = "a robot file ends in .toml, a table in .md, .txt, .csv, .tsv or .tex";
+            let hint =
+                "a robot file ends in .toml, .urdf or .xacro, a table in .md, .txt, .csv, .tsv or .tex";
             return Err(Failure::Input(format!("error: {name}: what is this?\n  = hint: {hint}")));
         }
         _ => return Err(unknown_robot(name)),
     };
-    let text = contents(name).map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
+    let text = contents(name, MAX_BYTES).map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
     let outcome = match kind {
         None => read_toml(&text),
         Some(kind) => read_table(&text, kind, &table_options(arguments)),
@@ -105,8 +121,8 @@ fn from_file(arguments: &RobotArguments) -> Result<(Description, Option<String>)
 }
 
 /// The text of a file or of standard input, bounded, whatever its bytes are.
-fn contents(name: &str) -> io::Result<String> {
-    let limit = MAX_BYTES as u64 + 1;
+fn contents(name: &str, most: usize) -> io::Result<String> {
+    let limit = most as u64 + 1;
     let mut bytes = vec![];
     if name == "-" {
         io::stdin().lock().take(limit).read_to_end(&mut bytes)?;
@@ -130,15 +146,17 @@ pub fn table_options(arguments: &RobotArguments) -> TableOptions {
 type Reading = Result<(Description, Vec<Diagnostic>), Vec<Diagnostic>>;
 
 fn read(name: &str, text: &str, outcome: Reading) -> Result<Description, Failure> {
-    let render =
-        |findings: &[Diagnostic]| findings.iter().map(|d| coloured(d, name, text)).collect::<String>();
     match outcome {
         Ok((description, findings)) => {
-            note(render(&findings).trim_end());
+            note(render(&findings, name, text).trim_end());
             Ok(description)
         }
-        Err(findings) => Err(Failure::Input(render(&findings))),
+        Err(findings) => Err(Failure::Input(render(&findings, name, text))),
     }
+}
+
+fn render(findings: &[Diagnostic], name: &str, text: &str) -> String {
+    findings.iter().map(|d| coloured(d, name, text)).collect()
 }
 
 fn coloured(finding: &Diagnostic, name: &str, text: &str) -> String {
@@ -155,7 +173,9 @@ fn coloured(finding: &Diagnostic, name: &str, text: &str) -> String {
 fn unknown_robot(name: &str) -> Failure {
     let close: Vec<&str> = catalogue::names().into_iter().filter(|n| similar(n, name)).take(6).collect();
     let hint = match &close[..] {
-        [] => "`denavit robots` lists the catalogue; files end in .toml, .md, .csv or .tex".to_string(),
+        [] => {
+            "`denavit robots` lists the catalogue; files end in .toml, .urdf, .md, .csv or .tex".to_string()
+        }
         names => format!("did you mean {}?", names.join(", ")),
     };
     Failure::Input(format!("error: no robot or file `{name}`\n  = hint: {hint}"))

@@ -18,6 +18,7 @@ fn main() -> ExitCode {
     let done = match arguments.command {
         Command::Robots(a) => commands::robots::run(&a),
         Command::Show(a) => commands::show::run(&a),
+        Command::Convert(a) => commands::convert::run(&a),
         Command::Fk(a) => commands::fk::run(&a),
         Command::Ik(a) => commands::ik::run(&a),
         Command::Jacobian(a) => commands::jacobian::run(&a),

@@ -4,6 +4,7 @@
 //! - [`equal`]: decides whether two formulas are the same function, exactly.
 //! - [`Ring`]: the canonical form behind it; [`readable`]: the form that a person would write.
 //! - [`factor`]: a formula as a product, and where a factor is 0.
+//! - [`real`]: constants to compute a geometry with, exact or to 60 digits.
 //! - [`scoped`]: a store of expressions for one piece of work, dropped behind it.
 //!
 //! This crate knows formulas, not where they come from.
@@ -19,6 +20,7 @@ pub mod poly;
 pub mod print;
 pub mod rational;
 pub mod readable;
+pub mod real;
 pub mod ring;
 pub mod rules;
 pub mod vocabulary;

@@ -68,8 +68,13 @@ impl Rational {
         }
     }
 
+    /// `n / d`, where `d` is not 0.
+    pub(crate) fn from_parts(n: BigInt, d: BigInt) -> Self {
+        Self::from_big(n, d)
+    }
+
     /// Numerator and denominator in arbitrary precision.
-    fn parts(&self) -> (BigInt, BigInt) {
+    pub(crate) fn parts(&self) -> (BigInt, BigInt) {
         match &self.0 {
             Repr::Small(n, d) => ((*n).into(), (*d).into()),
             Repr::Big(b) => (b.0.clone(), b.1.clone()),

@@ -2,6 +2,7 @@
 
 mod certificate;
 pub mod check;
+pub mod convert;
 pub mod derive;
 pub mod document;
 pub mod fk;

@@ -57,8 +57,132 @@ fn refusals() {
     refused(&["derive", "ur5", "--from", "7"], 2, "0 to 6");
     refused(&["derive", "ur5", "--only", "w"], 2, "unknown part `w`");
     refused(&["show", "ur5", "--set", "d9=1"], 2, "no parameter `d9`");
-    refused(&["show", "arm.urdf"], 4, "URDF");
+    refused(&["show", "arm.urdf"], 3, "error: arm.urdf: ");
+    refused(&["show", "arm.urdf.xacro"], 3, "error: arm.urdf.xacro: ");
+    refused(&["show", "ur5", "--arg", "a=1"], 2, "--arg is for URDF files");
+    refused(&["show", "ur5", "--tip", "tool0"], 2, "--tip is for URDF files");
     refused(&["paint", "ur5"], 2, "unrecognized subcommand");
+}
+
+/// A URDF of the tests of the science.
+fn urdf(name: &str) -> String {
+    format!("{}/../robot/tests/urdf/{name}.urdf", env!("CARGO_MANIFEST_DIR"))
+}
+
+#[test]
+fn every_verb_takes_a_urdf() {
+    let file = urdf("ur5_robot");
+    let chain = ["--base", "base", "--tip", "tool0"];
+    let all = |verb: &str, rest: &[&str]| {
+        let arguments = [&[verb, &file][..], &chain, rest].concat();
+        let output = denavit(&arguments);
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", stderr(&output));
+        (stdout(&output), stderr(&output))
+    };
+    let (table, notes) = all("show", &[]);
+    assert!(
+        table.contains("shoulder_pan_joint") && table.contains("0.42500") | table.contains("0.425"),
+        "{table}"
+    );
+    assert!(
+        notes.contains("note: 1.57079632679 is read as π/2")
+            && notes.contains("proved to be the file's chain"),
+        "{notes}"
+    );
+    // As the catalogue's arm, whose table is the maker's.
+    let q = ["-q", "0.3,-1.2,1.5,0.4,0.9,-0.6"];
+    let pose = |arguments: &[&str]| json(&[arguments, &q, &["--json"]].concat())["pose"].clone();
+    let [here, there] = [pose(&[&["fk", &file][..], &chain].concat()), pose(&["fk", "ur5"])];
+    let numbers = |v: &Value| -> Vec<f64> {
+        v.as_array()
+            .unwrap()
+            .iter()
+            .flat_map(|r| r.as_array().unwrap())
+            .map(|x| x.as_f64().unwrap())
+            .collect()
+    };
+    for (x, y) in numbers(&here).iter().zip(numbers(&there)) {
+        assert!((x - y).abs() < 1e-12, "{here} {there}");
+    }
+    let (solved, _) = all("ik", &["-q", "0.3,-1.2,1.5,0.4,0.9,-0.6"]);
+    assert!(solved.contains('8'), "{solved}");
+    all("derive", &["--from", "1"]);
+    all("jacobian", &["-q", "0.3,-1.2,1.5,0.4,0.9,-0.6"]);
+    let (file_text, _) = all("show", &["--toml"]);
+    assert!(file_text.contains("name = \"wrist_3_joint\""), "{file_text}");
+    let (craig, _) = all("show", &["--convention", "craig"]);
+    assert!(craig.contains("craig convention"));
+    let (_, notes) = all("show", &["--as-written"]);
+    assert!(!notes.contains("is read as π/2"), "{notes}");
+}
+
+/// A robot in packages on disk: what it includes is found beside it, and nothing outside of the packages is read.
+#[test]
+fn xacro_finds_its_files() {
+    let folder = std::env::temp_dir().join(format!("denavit-xacro-{}", std::process::id()));
+    let write = |name: &str, text: &str| {
+        let file = folder.join(name);
+        std::fs::create_dir_all(file.parent().expect("a folder")).expect("a folder");
+        std::fs::write(&file, text).expect("a file");
+        file.to_str().expect("UTF-8").to_string()
+    };
+    let robot = |inner: &str| {
+        format!("<robot xmlns:xacro='http://www.ros.org/wiki/xacro' name='r'>\n{inner}\n</robot>")
+    };
+    let macros = "<xacro:macro name='arm' params='l'><link name='a'/><link name='b'/><joint name='turn' type='continuous'>\
+        <origin xyz='0 0 ${l}' rpy='${radians(90)} 0 0'/><parent link='a'/><child link='b'/><axis xyz='0 0 1'/></joint></xacro:macro>";
+    write("arm_description/package.xml", "<package><name>arm_description</name></package>");
+    write("arm_description/arm.xacro", &robot(macros));
+    write("other/package.xml", "<package><name>other</name></package>");
+    write("secret.xacro", &robot(macros));
+    let main = write(
+        "other/urdf/r.urdf.xacro",
+        &robot(
+            "<xacro:arg name='l' default='0.5'/><xacro:include filename='$(find arm_description)/arm.xacro'/><xacro:arm l='$(arg l)'/>",
+        ),
+    );
+    let shown = json(&["show", &main, "--arg", "l:=0.25", "--json"]);
+    assert_eq!(shown["joints"].as_array().map(Vec::len).unwrap_or(1), 1, "{shown}");
+    let file = denavit(&["show", &main, "--arg", "l=0.25", "--toml"]);
+    assert!(stdout(&file).contains("0.25 m") && stdout(&file).contains("turn"), "{}", stdout(&file));
+    let outside = write(
+        "other/urdf/outside.urdf.xacro",
+        &robot("<xacro:include filename='../../secret.xacro'/><link name='a'/>"),
+    );
+    refused(&["show", &outside], 3, "lies outside");
+    let missing =
+        write("other/urdf/missing.urdf.xacro", &robot("<xacro:include filename='$(find nowhere)/x.xacro'/>"));
+    refused(&["show", &missing], 3, "--package nowhere=FOLDER");
+    refused(&["show", &missing, "--package", "nowhere"], 2, "write NAME=VALUE");
+    std::fs::remove_dir_all(folder).expect("it was written");
+}
+
+#[test]
+fn robots_are_converted_and_held_against_themselves() {
+    let output = denavit(&["convert", "puma560", "--to", "urdf"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(
+        stdout(&output).starts_with("<robot name=\"")
+            && stderr(&output).contains("proved to be the same robot")
+    );
+    let file = std::env::temp_dir().join(format!("denavit-convert-{}.urdf", std::process::id()));
+    let path = file.to_str().expect("UTF-8");
+    assert_eq!(denavit(&["convert", "ur5", "--to", "urdf", "-o", path]).status.code(), Some(0));
+    let output = denavit(&["convert", path, "--to", "toml", "--as", "craig"]);
+    assert!(stdout(&output).contains("convention = \"craig\""), "{}", stderr(&output));
+    assert!(stderr(&output).contains("proved to be the same robot"), "{}", stderr(&output));
+    std::fs::remove_file(file).expect("it was written");
+    let output = denavit(&["convert", "kinova-mico", "--to", "urdf"]);
+    assert!(stderr(&output).contains("poses differ by"), "{}", stderr(&output));
+    refused(&["convert", "prrrrp", "--to", "urdf"], 3, "no value for");
+}
+
+#[test]
+fn a_urdf_says_what_it_cannot_do() {
+    refused(&["show", &urdf("ur5_gripper")], 2, "choose one with --tip LINK");
+    refused(&["show", &urdf("ur5_robot"), "--tip", "tol0"], 2, "did you mean `tool0`?");
+    refused(&["show", &urdf("ur5_robot"), "--base", "base", "--tip", "base_link"], 3, "no joint moves");
+    refused(&["show", &urdf("ur5_robot"), "--table", "2"], 2, "--table is for tables");
 }
 
 #[test]

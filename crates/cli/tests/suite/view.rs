@@ -116,7 +116,7 @@ fn what_cannot_be_shown_is_refused() {
     let empty = folder.join("empty");
     for (arguments, code, says) in [
         (&["view", "nobody"][..], 3, "no robot or file `nobody`"),
-        (&["view", "arm.urdf"], 4, "URDF"),
+        (&["view", "arm.urdf"], 3, "error: arm.urdf: "),
         (&["view", "--set", "d6=1"], 2, "not provided: robot"),
         (&["view", "--port", "70000"], 2, "70000"),
         (&["view", "--page", path(&empty)], 3, "no index.html in it"),

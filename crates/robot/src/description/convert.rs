@@ -4,7 +4,7 @@
 //! Khalil's. The same product is cut at other places: each X moves to the neighbouring row, and the one at the
 //! end of the chain becomes part of the base or of the tool.
 
-use super::{Convention, Description, Row, Screw};
+use super::{Convention, Description, Row, Screw, same_screws};
 use crate::geometry::{Axis, Rotation, Transform, Vector};
 use denavit_symbolic::{Angle, Equality, Expr, Refusal, Ring, equal};
 
@@ -185,14 +185,17 @@ fn move_frame(row: &mut Row, x_new_old: &Transform<Expr>) {
 
 /// Proves that two descriptions take the same joint variables to the same pose, or that they do not.
 ///
-/// Chains that are the same screws cut in other places are compared screw by screw, whatever their length;
-/// others by the product of all their transforms.
+/// Chains that are the same screws cut in other places are compared screw by screw, those with the same axes at rest axis by
+/// axis ([`same_screws`]), whatever their length; others by the product of all their transforms.
 pub fn prove_same_chain(a: &Description, b: &Description) -> SameChain {
     let ((base_a, core_a, tool_a), (base_b, core_b, tool_b)) = (a.core(), b.core());
     if core_a == core_b
         && same_transform(&base_a, &base_b).is_equal()
         && same_transform(&tool_a, &tool_b).is_equal()
     {
+        return SameChain::Equal;
+    }
+    if same_screws(a, b) {
         return SameChain::Equal;
     }
     let product =

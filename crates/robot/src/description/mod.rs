@@ -5,9 +5,11 @@
 
 mod cell;
 pub mod convert;
+mod decimals;
 pub mod diagnostic;
 mod filled;
 mod joints;
+mod lines;
 mod named;
 mod names;
 mod order;
@@ -16,19 +18,30 @@ mod periods;
 mod robot_file;
 mod rows;
 mod same;
+mod sources;
 pub mod table;
+mod tree;
 mod units;
+mod urdf;
 mod value;
+mod xacro;
+mod xml;
 
 pub use cell::MAX_LENGTH as MAX_CELL_BYTES;
 pub use convert::{Conversion, Moved, SameChain, prove_same_chain};
+pub use decimals::Decimals;
 pub use diagnostic::{Diagnostic, Diagnostics, Severity, line_column, render};
+pub use lines::{Agreement, AxisAtRest, ChainAtRest, NotPlaced, Placed, same_screws};
 pub use order::{Cell, Screw, Screws};
 pub use parameters::MissingValue;
 pub use robot_file::{MAX_BYTES, MAX_ROWS, read_toml, write_toml};
 pub use same::{SameMechanism, Sameness, same_mechanism};
+pub use sources::{Alone, Files, Sources};
 pub use table::{TableKind, TableOptions, read_table};
+pub use tree::{Body, Chain, Follows, Joint, Mass, Mechanism, NoChain};
+pub use urdf::{Reading, read_urdf, read_xacro, write_urdf};
 pub use value::{Measure, NotSet, read_value};
+pub use xml::MAX_XML_BYTES;
 
 use denavit_symbolic::{Expr, Symbol};
 use std::fmt;
@@ -162,6 +175,30 @@ pub enum JointKind {
     Revolute,
     /// Slides along z.
     Prismatic,
+}
+
+impl Row {
+    /// The row that moves nothing.
+    pub fn still() -> Self {
+        let zero = Expr::int(0);
+        let [theta, d, a, alpha, gamma, b] = [zero; 6];
+        Row {
+            theta,
+            d,
+            a,
+            alpha,
+            gamma,
+            b,
+            variable: None,
+            name: None,
+            limits: None,
+            velocity: None,
+            acceleration: None,
+            mass: None,
+            com: None,
+            inertia: None,
+        }
+    }
 }
 
 impl Description {

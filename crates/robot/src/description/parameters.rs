@@ -12,6 +12,21 @@ impl Parameter {
 }
 
 impl Description {
+    /// The robot with the values of its parameters in their place; those without value stay.
+    #[must_use]
+    pub fn in_numbers(&self) -> Description {
+        let value = |e: Expr| e.substitute(|s| self.exact_value(s));
+        let mut numbers = self.clone();
+        numbers.parameters.retain(|p| p.value.is_none());
+        for row in &mut numbers.rows {
+            for cell in [&mut row.theta, &mut row.d, &mut row.a, &mut row.alpha, &mut row.gamma, &mut row.b] {
+                *cell = value(*cell);
+            }
+        }
+        (numbers.base, numbers.tool) = (self.base.map(value), self.tool.map(value));
+        numbers
+    }
+
     /// The parameter with this symbol.
     pub fn parameter(&self, symbol: Symbol) -> Option<&Parameter> {
         self.parameters.iter().find(|p| p.symbol == symbol)

@@ -58,13 +58,7 @@ impl Cells {
             gamma: self.gamma.expr,
             b: self.b.expr,
             variable,
-            name: None,
-            limits: None,
-            velocity: None,
-            acceleration: None,
-            mass: None,
-            com: None,
-            inertia: None,
+            ..Row::still()
         }
     }
 

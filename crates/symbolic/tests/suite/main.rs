@@ -7,4 +7,5 @@ mod factor;
 mod parse;
 mod print;
 mod readable;
+mod real;
 mod syntax;

@@ -9,7 +9,8 @@ mod special;
 mod write;
 
 pub(super) use measure::greek;
-pub(super) use write::write_cell;
+pub(super) use special::name as multiple_name;
+pub(super) use write::{decimal, write_cell};
 
 use super::diagnostic::{Diagnostics, Severity};
 use super::units::{Quantity, Unit};

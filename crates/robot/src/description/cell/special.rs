@@ -42,7 +42,7 @@ pub(super) fn recognise(radians: &Rational, digits: usize) -> Angle {
 }
 
 /// `3π/4`
-pub(super) fn name(multiple: &Rational) -> String {
+pub(in crate::description) fn name(multiple: &Rational) -> String {
     let (n, d) = multiple.to_parts().unwrap_or((0, 1));
     let top = match n {
         0 => return "0".into(),

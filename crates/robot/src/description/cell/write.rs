@@ -18,7 +18,7 @@ pub(in crate::description) fn write_cell(e: Expr, quantity: Quantity) -> String 
 }
 
 /// A number as a decimal, or as a quotient if it has none.
-fn decimal(r: &Rational) -> String {
+pub(in crate::description) fn decimal(r: &Rational) -> String {
     let sign = if r.is_negative() { "-" } else { "" };
     let mut scaled = r.abs();
     for places in 0..=60 {

@@ -7,6 +7,7 @@ mod parameters;
 mod write;
 
 pub(super) use parameters::name_fault;
+pub(super) use write::exact_rpy;
 pub use write::write_toml;
 
 use super::cell::{Style, Value};

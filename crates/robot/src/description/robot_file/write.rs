@@ -101,7 +101,7 @@ fn write_frame(out: &mut String, frame: &Transform<Expr>) {
 
 /// Roll, pitch and yaw that give this rotation, entry by entry, if they are multiples of π/180 or a turn about
 /// one axis by an angle that occurs in it.
-fn exact_rpy(r: &Rotation<Expr>) -> Option<[Expr; 3]> {
+pub(in crate::description) fn exact_rpy(r: &Rotation<Expr>) -> Option<[Expr; 3]> {
     let o = Expr::int(0);
     let angles: Vec<Expr> = Expr::postorder(r.rows().as_flattened())
         .into_iter()

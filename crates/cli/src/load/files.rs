@@ -1,0 +1,84 @@
+//! The files that a robot description names, where they lie.
+
+use denavit::description::{MAX_XML_BYTES, Sources};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// How many folders above a file are looked through for packages.
+const MOST_ABOVE: usize = 12;
+
+/// Files below the folder of the first one, below its packages, and below those that are named.
+pub struct Folder {
+    /// The folders that may be read from.
+    roots: Vec<PathBuf>,
+    /// Packages that were named.
+    named: Vec<(String, PathBuf)>,
+    /// Folders with packages in them.
+    around: Vec<PathBuf>,
+}
+
+impl Folder {
+    /// Around a file; `packages` are those that the command line names.
+    pub fn around(file: &str, packages: &[(String, PathBuf)]) -> Self {
+        let file = fs::canonicalize(file).unwrap_or_else(|_| file.into());
+        let mut around = vec![];
+        let mut roots = vec![];
+        for above in file.ancestors().skip(1).take(MOST_ABOVE) {
+            // A package and what lies beside it.
+            if above.join("package.xml").is_file() {
+                roots.push(above.to_path_buf());
+                around.extend(above.parent().map(Path::to_path_buf));
+            }
+        }
+        roots.extend(file.parent().map(Path::to_path_buf));
+        for (variable, inside) in [("ROS_PACKAGE_PATH", ""), ("AMENT_PREFIX_PATH", "share")] {
+            let paths = std::env::var_os(variable).unwrap_or_default();
+            around.extend(std::env::split_paths(&paths).filter(|p| p.is_dir()).map(|p| p.join(inside)));
+        }
+        let named: Vec<_> =
+            packages.iter().filter_map(|(n, p)| Some((n.clone(), fs::canonicalize(p).ok()?))).collect();
+        roots.extend(named.iter().map(|n| n.1.clone()));
+        Folder { roots, named, around }
+    }
+}
+
+impl Sources for Folder {
+    fn open(&mut self, from: &str, wanted: &str) -> Result<(String, String), String> {
+        let wanted_path = Path::new(wanted.strip_prefix("file://").unwrap_or(wanted));
+        let beside = Path::new(from).parent().unwrap_or(Path::new("."));
+        let path = fs::canonicalize(beside.join(wanted_path)).map_err(|e| format!("`{wanted}`: {e}"))?;
+        if !self.roots.iter().any(|root| path.starts_with(root)) {
+            return Err(format!("`{wanted}` lies outside of the folders of the robot and its packages"));
+        }
+        let size = fs::metadata(&path).map_err(|e| format!("`{wanted}`: {e}"))?.len();
+        if size > MAX_XML_BYTES as u64 {
+            return Err(format!("`{wanted}` has {size} bytes; {MAX_XML_BYTES} are allowed"));
+        }
+        let bytes = fs::read(&path).map_err(|e| format!("`{wanted}`: {e}"))?;
+        Ok((path.to_string_lossy().into_owned(), String::from_utf8_lossy(&bytes).into_owned()))
+    }
+
+    fn package(&mut self, name: &str) -> Option<String> {
+        let is_plain = !name.is_empty() && !name.contains(['/', '\\']) && name != "." && name != "..";
+        if !is_plain {
+            return None;
+        }
+        let named = self.named.iter().find(|n| n.0 == name).map(|n| n.1.clone());
+        let own = self.roots.iter().find(|r| names(r, name)).cloned();
+        let beside = || self.around.iter().map(|a| a.join(name)).find(|p| p.is_dir());
+        let found = named.or(own).or_else(beside)?;
+        let found = fs::canonicalize(found).ok()?;
+        if !self.roots.contains(&found) {
+            self.roots.push(found.clone());
+        }
+        Some(found.to_string_lossy().into_owned())
+    }
+}
+
+/// True if a folder is the package of a name: by its `package.xml`, or its own name.
+fn names(folder: &Path, name: &str) -> bool {
+    let tag = format!("<name>{name}</name>");
+    let said = fs::read_to_string(folder.join("package.xml"))
+        .is_ok_and(|text| text.replace([' ', '\n'], "").contains(&tag));
+    said || folder.file_name().is_some_and(|n| n == name)
+}

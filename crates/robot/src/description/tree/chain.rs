@@ -1,0 +1,255 @@
+//! A serial chain through the tree.
+
+use super::{Joint, Mechanism};
+use crate::description::lines::{Agreement, AxisAtRest, ChainAtRest, NotPlaced};
+use crate::description::{Convention, Description, JointKind, MAX_ROWS, diagnostic::nearest};
+use crate::geometry::{Rotation, Transform, Vector};
+use denavit_symbolic::{Expr, Rational};
+use std::fmt;
+
+/// A chain through a mechanism.
+#[derive(Clone, Debug)]
+pub struct Chain {
+    /// Its table.
+    pub description: Description,
+    /// The body it begins at.
+    pub from: usize,
+    /// The body it ends at.
+    pub to: usize,
+    /// The joint of the mechanism that each joint variable is the value of.
+    pub joints: Vec<usize>,
+    /// How the table was found to be the chain.
+    pub agreement: Agreement,
+}
+
+/// Why there is no chain.
+#[derive(Clone, PartialEq, Debug)]
+pub enum NoChain {
+    /// There is no body of this name.
+    Unknown {
+        /// The name.
+        name: String,
+        /// One that may have been meant.
+        near: Option<String>,
+    },
+    /// No joint moves between these.
+    Rigid {
+        /// Where it begins.
+        from: String,
+        /// Where it ends.
+        to: String,
+    },
+    /// Several ends have as many joints, the most.
+    Several(Vec<String>),
+    /// More joints than a table may have rows.
+    TooLong(usize),
+    /// The axis of this joint has no direction.
+    NoDirection(String),
+}
+
+impl fmt::Display for NoChain {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NoChain::Unknown { name, near: None } => write!(f, "there is no link `{name}`"),
+            NoChain::Unknown { name, near: Some(near) } => {
+                write!(f, "there is no link `{name}`; did you mean `{near}`?")
+            }
+            NoChain::Rigid { from, to } => write!(f, "no joint moves between `{from}` and `{to}`"),
+            NoChain::Several(tips) => {
+                write!(f, "there are several tips: {}", tips.join(", "))
+            }
+            NoChain::TooLong(joints) => write!(f, "a chain of {joints} joints; {MAX_ROWS} are allowed"),
+            NoChain::NoDirection(joint) => write!(f, "the axis of `{joint}` has no direction"),
+        }
+    }
+}
+
+impl std::error::Error for NoChain {}
+
+/// A joint on the way, and whether it is gone through from its child to its parent.
+#[derive(Clone, Copy)]
+struct Step {
+    joint: usize,
+    is_up: bool,
+}
+
+impl Mechanism {
+    /// The chain between two bodies, by their names: from the root, and to the leaf with the most joints, where none is given.
+    ///
+    /// Its joint variables are the joints on the way in order, each counting as in the mechanism. Of joints that follow others
+    /// the one on the way that is followed is the variable, else the first in the mechanism that follows.
+    ///
+    /// # Errors
+    /// If there is no such body, several ends, or nothing that moves.
+    pub fn chain(
+        &self,
+        from: Option<&str>,
+        to: Option<&str>,
+        convention: Convention,
+    ) -> Result<Chain, NoChain> {
+        let find = |name: &str| {
+            let near = || nearest(name, self.bodies.iter().map(|b| b.name.as_str())).map(str::to_string);
+            self.body(name).ok_or_else(|| NoChain::Unknown { name: name.into(), near: near() })
+        };
+        let from = from.map_or(Ok(self.root), find)?;
+        let to = match to {
+            Some(name) => find(name)?,
+            None => self.tip(from)?,
+        };
+        self.between(from, to, convention)
+    }
+
+    /// The leaf with the most joints on the way to it.
+    fn tip(&self, from: usize) -> Result<usize, NoChain> {
+        let up = self.to_root(from);
+        let count = |leaf: usize| {
+            let moves =
+                |s: &Step| self.joints[s.joint].kind.is_some() && self.joints[s.joint].follows.is_none();
+            self.way(&up, leaf).iter().filter(|s| moves(s)).count()
+        };
+        let leaves: Vec<(usize, usize)> =
+            self.leaves().into_iter().filter(|&l| l != from).map(|l| (count(l), l)).collect();
+        let most = leaves.iter().map(|l| l.0).max().unwrap_or(0);
+        let tips: Vec<usize> = leaves.iter().filter(|l| l.0 == most).map(|l| l.1).collect();
+        match tips[..] {
+            [tip] => Ok(tip),
+            [] => Err(self.rigid(from, from)),
+            _ if most == 0 => Err(self.rigid(from, tips[0])),
+            _ => Err(NoChain::Several(tips.iter().map(|&t| self.bodies[t].name.clone()).collect())),
+        }
+    }
+
+    fn rigid(&self, from: usize, to: usize) -> NoChain {
+        let name = |b: usize| self.bodies[b].name.clone();
+        NoChain::Rigid { from: name(from), to: name(to) }
+    }
+
+    /// The joints from a body to the root.
+    fn to_root(&self, body: usize) -> Vec<usize> {
+        let mut all = vec![];
+        let mut body = body;
+        while let Some(joint) = self.joint_to(body).filter(|_| all.len() <= self.joints.len()) {
+            all.push(joint);
+            body = self.joints[joint].parent;
+        }
+        all
+    }
+
+    /// The joints on the way to a body from the one whose joints to the root these are.
+    fn way(&self, up: &[usize], to: usize) -> Vec<Step> {
+        let down = self.to_root(to);
+        let common = up.iter().rev().zip(down.iter().rev()).take_while(|(a, b)| a == b).count();
+        let upward = up[..up.len() - common].iter().map(|&joint| Step { joint, is_up: true });
+        let downward = down[..down.len() - common].iter().rev().map(|&joint| Step { joint, is_up: false });
+        upward.chain(downward).collect()
+    }
+
+    fn between(&self, from: usize, to: usize, convention: Convention) -> Result<Chain, NoChain> {
+        let way = self.way(&self.to_root(from), to);
+        // Each moving joint on the way as a variable's factor and an offset.
+        let mut joints: Vec<usize> = vec![];
+        let mut axes: Vec<AxisAtRest> = vec![];
+        let mut of_axis: Vec<usize> = vec![];
+        let mut x = Transform::<Expr>::identity();
+        let mut beside = None;
+        for Step { joint: j, is_up } in way.iter().copied() {
+            let joint = &self.joints[j];
+            let (moves, rest) = self.moves(j, &way, &mut joints);
+            let motion = joint.kind.map_or(Transform::identity(), |kind| moved(joint, kind, rest));
+            if !is_up {
+                x = x * joint.origin;
+            }
+            if let (Some(kind), Some(moves)) = (joint.kind, moves) {
+                let direction = x.act_on_vector(joint.axis);
+                let direction = if is_up { -direction } else { direction };
+                axes.push(AxisAtRest { kind, point: x.translation, direction, moves: vec![moves] });
+                of_axis.push(j);
+                beside.get_or_insert(x.rotation);
+            }
+            x = if is_up { x * motion.inverse() * joint.origin.inverse() } else { x * motion };
+        }
+        if axes.is_empty() {
+            return Err(self.rigid(from, to));
+        }
+        if axes.len() > MAX_ROWS / 2 {
+            return Err(NoChain::TooLong(axes.len()));
+        }
+        let chain = ChainAtRest { axes, tip: x, beside: beside.unwrap_or_else(Rotation::identity) };
+        let placed = chain.description(&self.name, convention).map_err(|why| match why {
+            NotPlaced::NoDirection(k) => NoChain::NoDirection(self.joints[of_axis[k]].name.clone()),
+            NotPlaced::Symbols => self.rigid(from, to),
+        });
+        let (mut description, agreement) = placed?;
+        self.name_rows(&mut description, &of_axis, &joints);
+        Ok(Chain { description, from, to, joints, agreement })
+    }
+
+    /// What moves a joint: a variable of the chain with its factor, none if it stands still; and its value at rest.
+    fn moves(&self, j: usize, way: &[Step], joints: &mut Vec<usize>) -> (Option<(usize, Rational)>, Expr) {
+        let none = Expr::int(0);
+        if self.joints[j].kind.is_none() {
+            return (None, none);
+        }
+        let of = |j: usize| match &self.joints[j].follows {
+            Some(f) => (f.joint, f.factor.clone(), f.offset),
+            None => (j, Rational::ONE, Expr::int(0)),
+        };
+        let (leader, factor, offset) = of(j);
+        if factor.is_zero() {
+            return (None, offset);
+        }
+        // The variable is the leader's value if that is on the way, else that of the first in the file which follows it.
+        let follows = |s: &&Step| self.joints[s.joint].kind.is_some() && of(s.joint).0 == leader;
+        let is_there = way.iter().any(|s| s.joint == leader);
+        let followers = way.iter().filter(follows).map(|s| s.joint).filter(|&k| !of(k).1.is_zero());
+        let first = followers.min().unwrap_or(j);
+        let own = if is_there { leader } else { first };
+        let (_, own_factor, own_offset) = of(own);
+        let ratio = &factor / &own_factor;
+        let rest = offset - Expr::from(ratio.clone()) * own_offset;
+        let known = joints.iter().position(|&k| k == own);
+        let number = known.unwrap_or(joints.len());
+        if known.is_none() {
+            joints.push(own);
+        }
+        (Some((number, ratio)), rest)
+    }
+
+    /// Names and limits of the joints.
+    fn name_rows(&self, d: &mut Description, of_axis: &[usize], joints: &[usize]) {
+        let names: Vec<&str> = of_axis.iter().map(|&j| self.joints[j].name.as_str()).collect();
+        let symbols: Vec<_> = d.variables().iter().map(|v| v.symbol).collect();
+        let moves = |e: Expr| e.symbols().iter().any(|s| symbols.contains(s));
+        let rows = d.rows.iter_mut().filter(|r| moves(r.theta) || moves(r.d));
+        let mut next = 0;
+        for (row, name) in rows.zip(names) {
+            row.name = Some(name.into());
+            if row.variable.is_some() {
+                let joint = &self.joints[joints[next]];
+                (row.limits, row.velocity) = (joint.limits, joint.velocity);
+                next += 1;
+            }
+        }
+    }
+}
+
+/// What a joint does at a value, in its frame: a turn about its axis or a slide along it.
+fn moved(joint: &Joint, kind: JointKind, value: Expr) -> Transform<Expr> {
+    if value.is_zero() {
+        return Transform::identity();
+    }
+    let over = Expr::int(1) / joint.axis.norm();
+    let axis = joint.axis.scale(over);
+    if kind == JointKind::Prismatic {
+        return Transform::from_rotation_translation(Rotation::identity(), axis.scale(value));
+    }
+    // 1 + sin θ·[z] + (1 − cos θ)·[z]²
+    let ([x, y, z], (s, c), one) = (axis.0, value.sin_cos(), Expr::int(1));
+    let v = one - c;
+    let rows = [
+        [one - v * (y * y + z * z), v * x * y - s * z, v * x * z + s * y],
+        [v * x * y + s * z, one - v * (x * x + z * z), v * y * z - s * x],
+        [v * x * z - s * y, v * y * z + s * x, one - v * (x * x + y * y)],
+    ];
+    Transform::from_rotation_translation(Rotation::from_rows(rows), Vector::zero())
+}

@@ -1,0 +1,106 @@
+//! A mechanism as a tree: bodies, and joints about axes between them, as robot descriptions such as URDF have it.
+//!
+//! `origin` is the joint's frame in its parent body at rest, and the child body's frame at that; the axis stands in it. A serial
+//! chain through the tree is a [`Description`] like any other ([`Mechanism::chain`]).
+
+mod chain;
+mod poses;
+
+pub use chain::{Chain, NoChain};
+
+use super::JointKind;
+use crate::geometry::{Transform, Vector};
+use denavit_symbolic::{Expr, Rational};
+
+/// A tree of bodies.
+#[derive(Clone, Debug)]
+pub struct Mechanism {
+    /// What people call it.
+    pub name: String,
+    /// The bodies.
+    pub bodies: Vec<Body>,
+    /// The joints: the joint to a body stands before those behind it.
+    pub joints: Vec<Joint>,
+    /// The body that the tree hangs on.
+    pub root: usize,
+}
+
+/// A body and its frame.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// Its name.
+    pub name: String,
+    /// Its mass, if it is given.
+    pub mass: Option<Mass>,
+}
+
+/// How a body's mass is distributed.
+#[derive(Clone, Debug)]
+pub struct Mass {
+    /// kg
+    pub mass: Expr,
+    /// The centre of mass in the body's frame, metres.
+    pub com: [Expr; 3],
+    /// The inertia about the centre of mass, along the axes of the body's frame, xx xy xz yy yz zz, kg·m².
+    pub inertia: [Expr; 6],
+}
+
+/// A joint between two bodies.
+#[derive(Clone, Debug)]
+pub struct Joint {
+    /// Its name.
+    pub name: String,
+    /// How it moves; nothing for one that is fixed.
+    pub kind: Option<JointKind>,
+    /// The body that it stands on.
+    pub parent: usize,
+    /// The body that it moves.
+    pub child: usize,
+    /// Its frame in that of the parent.
+    pub origin: Transform<Expr>,
+    /// Its axis in its frame, of any length.
+    pub axis: Vector<Expr>,
+    /// The lowest and the highest value, radians or metres.
+    pub limits: Option<[Expr; 2]>,
+    /// The highest speed.
+    pub velocity: Option<Expr>,
+    /// The highest torque or force.
+    pub effort: Option<Expr>,
+    /// What it follows, if it does not move by itself.
+    pub follows: Option<Follows>,
+}
+
+/// A joint that moves as another does.
+#[derive(Clone, Debug)]
+pub struct Follows {
+    /// The other, which moves by itself.
+    pub joint: usize,
+    /// What its value is multiplied by.
+    pub factor: Rational,
+    /// What is added.
+    pub offset: Expr,
+}
+
+impl Mechanism {
+    /// The joints that move by themselves, in order: their values are the variables of the mechanism.
+    pub fn variables(&self) -> Vec<usize> {
+        let moves = |&j: &usize| self.joints[j].kind.is_some() && self.joints[j].follows.is_none();
+        (0..self.joints.len()).filter(moves).collect()
+    }
+
+    /// The body with a name.
+    pub fn body(&self, name: &str) -> Option<usize> {
+        self.bodies.iter().position(|b| b.name == name)
+    }
+
+    /// The joint that moves a body; none for the root.
+    pub fn joint_to(&self, body: usize) -> Option<usize> {
+        self.joints.iter().position(|j| j.child == body)
+    }
+
+    /// The bodies on which nothing stands.
+    pub fn leaves(&self) -> Vec<usize> {
+        let is_leaf = |&b: &usize| self.joints.iter().all(|j| j.parent != b);
+        (0..self.bodies.len()).filter(is_leaf).collect()
+    }
+}

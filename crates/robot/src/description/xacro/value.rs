@@ -1,0 +1,275 @@
+//! Values of xacro's expressions: exact numbers, texts, truths, lists.
+
+use denavit_symbolic::real::{Real, Values};
+use denavit_symbolic::{Angle, Expr, Rational};
+
+/// Why something has no value.
+#[derive(Clone, Debug)]
+pub(super) struct Fault {
+    pub message: String,
+    pub hint: Option<String>,
+}
+
+/// A value.
+#[derive(Clone, Debug)]
+pub(super) enum Val {
+    Number(Expr),
+    Text(String),
+    Truth(bool),
+    List(Vec<Val>),
+}
+
+/// Longer numbers, in bits, and formulas, in nodes, are not worked with.
+const MAX_BITS: u64 = 4096;
+const MAX_FORMULA: usize = 200;
+/// The largest power.
+const MAX_POWER: i64 = 64;
+
+impl Fault {
+    pub fn new(message: impl Into<String>) -> Self {
+        Fault { message: message.into(), hint: None }
+    }
+
+    pub fn hint(self, hint: impl Into<String>) -> Self {
+        Fault { hint: Some(hint.into()), ..self }
+    }
+}
+
+/// The number, and no more than it needs: a multiple of π and a rational are brought to normal form.
+pub(super) fn number(e: Expr) -> Result<Val, Fault> {
+    let form = Angle::of(e);
+    if form.turns.bits().max(form.radians.bits()) > MAX_BITS {
+        return Err(Fault::new("a number that is too long"));
+    }
+    if form.is_constant() {
+        return Ok(Val::Number(form.to_expr()));
+    }
+    if Expr::postorder(&[e]).len() <= MAX_FORMULA {
+        return Ok(Val::Number(e));
+    }
+    Ok(Val::Number(real(e)?.settled()))
+}
+
+/// The value in numbers.
+pub(super) fn real(e: Expr) -> Result<Real, Fault> {
+    Values::default()
+        .of(e)
+        .ok_or_else(|| Fault::new("this has no value: a division by 0, or a root of what is below 0"))
+}
+
+impl Val {
+    pub fn expr(&self) -> Result<Expr, Fault> {
+        match self {
+            Val::Number(e) => Ok(*e),
+            Val::Truth(t) => Ok(Expr::int(i64::from(*t))),
+            Val::Text(t) => match Rational::from_decimal(t.trim()) {
+                Some(x) => Ok(x.into()),
+                None => Err(Fault::new(format!("`{}` is no number", crate::description::xml::shown(t)))),
+            },
+            Val::List(_) => Err(Fault::new("a list is no number")),
+        }
+    }
+
+    pub fn rational(&self) -> Result<Rational, Fault> {
+        let e = self.expr()?;
+        e.as_number()
+            .or_else(|| Rational::from_f64(e.eval(|_| None).ok()?))
+            .ok_or_else(|| Fault::new("this is no number"))
+    }
+
+    pub fn index(&self) -> Result<i64, Fault> {
+        self.rational()?.floor().to_integer().ok_or_else(|| Fault::new("a number out of range"))
+    }
+
+    pub fn truth(&self) -> Result<bool, Fault> {
+        Ok(match self {
+            Val::Truth(t) => *t,
+            Val::Number(e) => !real(*e)?.is_zero(),
+            Val::List(l) => !l.is_empty(),
+            Val::Text(t) => match t.trim() {
+                "true" | "True" | "1" => true,
+                "false" | "False" | "0" | "" => false,
+                t => match Rational::from_decimal(t) {
+                    Some(x) => !x.is_zero(),
+                    None => {
+                        let shown = crate::description::xml::shown(t);
+                        return Err(Fault::new(format!("`{shown}` is neither true nor false")));
+                    }
+                },
+            },
+        })
+    }
+
+    /// As Python takes it in `not`, `and`, `or` and a choice: a text that is no number is true unless it is empty.
+    pub fn holds(&self) -> Result<bool, Fault> {
+        match self {
+            Val::Text(t) => Ok(self.truth().unwrap_or(!t.is_empty())),
+            _ => self.truth(),
+        }
+    }
+
+    /// As text: numbers as decimals, the nearest double's where they are none.
+    pub fn show(&self) -> String {
+        match self {
+            Val::Number(e) => {
+                decimal(*e).unwrap_or_else(|| format!("{}", e.eval(|_| None).unwrap_or(f64::NAN)))
+            }
+            Val::Text(t) => t.clone(),
+            Val::Truth(true) => "True".into(),
+            Val::Truth(false) => "False".into(),
+            Val::List(l) => format!("[{}]", l.iter().map(Val::show).collect::<Vec<_>>().join(", ")),
+        }
+    }
+}
+
+/// The decimal that a number is, if it is one with at most 40 places.
+pub(super) fn decimal(e: Expr) -> Option<String> {
+    let x = e.as_number()?;
+    let mut scaled = x.abs();
+    for places in 0..=40 {
+        if scaled.is_integer() {
+            let digits = format!("{:0>width$}", scaled.digits().0, width = places + 1);
+            let (whole, fraction) = digits.split_at(digits.len() - places);
+            let sign = if x.is_negative() { "-" } else { "" };
+            return Some(if places == 0 {
+                format!("{sign}{whole}")
+            } else {
+                format!("{sign}{whole}.{fraction}")
+            });
+        }
+        scaled = scaled * Rational::from(10);
+    }
+    None
+}
+
+/// `a op b`.
+pub(super) fn arithmetic(op: &str, a: &Val, b: &Val) -> Result<Val, Fault> {
+    if let (Val::Text(x), Val::Text(y), "+") = (a, b, op)
+        && (a.expr().is_err() || b.expr().is_err())
+    {
+        return Ok(Val::Text(format!("{x}{y}")));
+    }
+    let (x, y) = (a.expr()?, b.expr()?);
+    let zero = || Fault::new("a division by 0");
+    let floor = |x: Expr, y: Expr| -> Result<Rational, Fault> { Ok(Val::Number(x / y).rational()?.floor()) };
+    match op {
+        "+" => number(x + y),
+        "-" => number(x - y),
+        "*" => number(x * y),
+        _ if matches!(op, "/" | "//" | "%") && real(y)?.is_zero() => Err(zero()),
+        // (a + bπ)/c
+        "/" => match y.as_number().and_then(|k| k.recip()) {
+            Some(k) => number(Angle::of(x).scaled(&k).to_expr()),
+            None if x == y => number(Expr::int(1)),
+            None => number(x / y),
+        },
+        "//" => number(floor(x, y)?.into()),
+        "%" => number(x - y * Expr::from(floor(x, y)?)),
+        "**" => power(x, y),
+        _ => Err(Fault::new(format!("`{op}` is not read"))),
+    }
+}
+
+fn power(x: Expr, y: Expr) -> Result<Val, Fault> {
+    let exponent = y.as_number();
+    if let Some(n) = exponent.as_ref().and_then(Rational::to_integer).filter(|n| n.abs() <= MAX_POWER) {
+        if n < 0 && real(x)?.is_zero() {
+            return Err(Fault::new("a division by 0"));
+        }
+        return number(x.powi(n as i32));
+    }
+    if exponent == Some(Rational::new(1, 2)) {
+        real(x.sqrt())?;
+        return number(x.sqrt());
+    }
+    let value = |e: Expr| e.eval(|_| None).unwrap_or(f64::NAN);
+    let power =
+        Rational::from_f64(value(x).powf(value(y))).ok_or_else(|| Fault::new("a power without value"))?;
+    number(power.into())
+}
+
+/// A function of numbers.
+pub(super) fn function(name: &str, arguments: &[Val]) -> Result<Val, Fault> {
+    let count = |n: usize| match arguments.len() == n {
+        true => Ok(()),
+        false => Err(Fault::new(format!("`{name}` takes {n} value{}", if n == 1 { "" } else { "s" }))),
+    };
+    let half_turn = || Expr::int(180);
+    let first =
+        || arguments.first().map_or_else(|| Err(Fault::new(format!("`{name}` of nothing"))), Val::expr);
+    match name {
+        "str" => return count(1).map(|()| Val::Text(arguments[0].show())),
+        "len" => {
+            count(1)?;
+            let length = match &arguments[0] {
+                Val::List(l) => l.len(),
+                other => other.show().chars().count(),
+            };
+            return number(Expr::int(length as i64));
+        }
+        "max" | "min" => {
+            let mut best = first()?;
+            for other in &arguments[1..] {
+                let other = other.expr()?;
+                let is_below = real(other - best)?.is_negative();
+                if is_below == (name == "min") {
+                    best = other;
+                }
+            }
+            return number(best);
+        }
+        "atan2" => {
+            count(2)?;
+            return angle(arguments[0].expr()?, arguments[1].expr()?);
+        }
+        "pow" => return count(2).and_then(|()| power(arguments[0].expr()?, arguments[1].expr()?)),
+        "round" if arguments.len() == 2 => {
+            let places = u32::try_from(arguments[1].index()?).ok().filter(|p| *p <= 40);
+            let places = places.ok_or_else(|| Fault::new("a number of places out of range"))?;
+            return number(real(first()?)?.to_decimal(places).into());
+        }
+        _ => count(1)?,
+    }
+    let x = first()?;
+    let floor = |e: Expr| -> Result<Rational, Fault> { Ok(Val::Number(e).rational()?.floor()) };
+    match name {
+        "radians" => number(Expr::pi() * Expr::from(Rational::new(1, 180)) * x),
+        "degrees" => {
+            let form = Angle::of(x);
+            match form.is_constant() && form.radians.is_zero() {
+                true => number(Expr::from(form.turns) * half_turn()),
+                false => number(x * half_turn() / Expr::pi()),
+            }
+        }
+        "sin" => number(x.sin()),
+        "cos" => number(x.cos()),
+        "tan" => arithmetic("/", &number(x.sin())?, &number(x.cos())?),
+        "asin" => angle(x, (Expr::int(1) - x * x).sqrt()),
+        "acos" => angle((Expr::int(1) - x * x).sqrt(), x),
+        "atan" => angle(x, Expr::int(1)),
+        "sqrt" => {
+            real(x.sqrt())?;
+            number(x.sqrt())
+        }
+        "abs" | "fabs" => number(if real(x)?.is_negative() { -x } else { x }),
+        "float" => number(x),
+        "floor" => number(floor(x)?.into()),
+        "ceil" => number((-floor(-x)?).into()),
+        "round" => number(floor(x + Expr::from(Rational::new(1, 2)))?.into()),
+        "int" => number(match real(x)?.is_negative() {
+            true => (-floor(-x)?).into(),
+            false => floor(x)?.into(),
+        }),
+        _ => Err(Fault::new(format!("the function `{}` is not read", crate::description::xml::shown(name)))),
+    }
+}
+
+/// The angle of the point (x, y).
+fn angle(y: Expr, x: Expr) -> Result<Val, Fault> {
+    let (y, x) = (real(y)?, real(x)?);
+    let length = (y.clone() * y.clone() + x.clone() * x.clone()).sqrt();
+    match length.and_then(|l| l.recip()) {
+        Some(over) => number((y * over.clone()).angle(&(x * over))),
+        None => number(Expr::int(0)),
+    }
+}

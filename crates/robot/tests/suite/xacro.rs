@@ -1,0 +1,343 @@
+//! xacro: what it expands to, exactly, and what it refuses, with places.
+
+use crate::common::Random;
+use denavit::description::{Alone, Convention, Decimals, Files, Mechanism, Reading, Sources, read_xacro};
+use denavit_symbolic::Expr;
+use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
+
+/// Files by name, packages in folders of their name.
+struct Shelf(BTreeMap<String, String>);
+
+impl Sources for Shelf {
+    fn open(&mut self, _: &str, wanted: &str) -> Result<(String, String), String> {
+        let text = self.0.get(wanted).ok_or_else(|| format!("no file `{wanted}`"))?;
+        Ok((wanted.into(), text.clone()))
+    }
+
+    fn package(&mut self, name: &str) -> Option<String> {
+        (name == "arms").then(|| "/arms".into())
+    }
+}
+
+fn robot(inner: &str) -> String {
+    format!("<robot xmlns:xacro='http://www.ros.org/wiki/xacro' name='r'>\n{inner}\n</robot>")
+}
+
+/// A robot of one joint, whose origin has this `xyz` and `rpy`.
+fn joint(xyz: &str, rpy: &str) -> String {
+    format!(
+        "<link name='a'/><link name='b'/><joint name='j' type='continuous'><origin xyz='{xyz}' rpy='{rpy}'/>\
+         <parent link='a'/><child link='b'/><axis xyz='0 0 1'/></joint>"
+    )
+}
+
+fn with(inner: &str, files: &[(&str, &str)], arguments: &[(&str, &str)]) -> (Reading, Files) {
+    let mut shelf = Shelf(files.iter().map(|(n, t)| (n.to_string(), robot(t))).collect());
+    let arguments: Vec<_> = arguments.iter().map(|(n, v)| (n.to_string(), v.to_string())).collect();
+    read_xacro("main.xacro", &robot(inner), &mut shelf, &arguments, Decimals::Meant)
+}
+
+#[track_caller]
+fn read(inner: &str) -> Mechanism {
+    let (reading, files) = with(inner, &[], &[]);
+    reading.unwrap_or_else(|list| panic!("{}", list.iter().map(|d| files.render(d)).collect::<String>())).0
+}
+
+/// `place: message | hint` of each finding.
+fn refused((reading, files): (Reading, Files)) -> Vec<String> {
+    let list = reading.expect_err("it is refused");
+    let hint = |h: &Option<String>| h.as_ref().map_or(String::new(), |h| format!(" | {h}"));
+    list.iter().map(|d| format!("{}: {}{}", files.place(&d.span), d.message, hint(&d.hint))).collect()
+}
+
+/// The three numbers of the origin's place.
+fn place(m: &Mechanism) -> [Expr; 3] {
+    m.joints[0].origin.translation.0
+}
+
+fn decimal(text: &str) -> Expr {
+    denavit_symbolic::Rational::from_decimal(text).unwrap().into()
+}
+
+#[test]
+fn numbers_are_exact() {
+    for (expression, value) in [
+        ("0.1 + 0.2", decimal("0.3")),
+        ("1/3 + 1/6", decimal("0.5")),
+        ("2*(3 - 5)", decimal("-4")),
+        ("-2**2", decimal("-4")),
+        ("2**-1", decimal("0.5")),
+        ("7 % 3", decimal("1")),
+        ("-7 // 2", decimal("-4")),
+        ("sin(pi/6)", decimal("0.5")),
+        ("cos(radians(60))", decimal("0.5")),
+        ("degrees(pi/4)", decimal("45")),
+        ("sqrt(0.25)", decimal("0.5")),
+        ("degrees(atan2(1, 1))", decimal("45")),
+        ("degrees(acos(0.5))", decimal("60")),
+        ("max(1, 3, 2) + min(4, 5)", decimal("7")),
+        ("abs(-0.5) + int(2.7) + round(0.5)", decimal("3.5")),
+        ("[1, 2, 3][1] + [4, 5][-1]", decimal("7")),
+        ("1 if 2 > 3 else 4", decimal("4")),
+        ("5 if not (1 == 2 or 'a' != 'a') and 'b' in 'abc' else undefined", decimal("5")),
+        ("math.pi/math.pi", decimal("1")),
+        ("len('abc') + len([1, 2])", decimal("5")),
+        ("1e-3*1000", decimal("1")),
+        ("True + 1", decimal("2")),
+    ] {
+        let quoted = expression.replace('\'', "&apos;").replace('>', "&gt;");
+        let m = read(&joint(&format!("${{{quoted}}} 0 0"), "0 0 0"));
+        assert_eq!(place(&m)[0], value, "{expression}");
+    }
+    // What is no decimal keeps its value.
+    let m = read(&joint("${1/3} ${sqrt(2)/2} 0", "${pi/5} 0 ${radians(37)}"));
+    assert_eq!(place(&m)[0], Expr::int(1) / Expr::int(3));
+    assert_eq!(
+        place(&m)[1] * place(&m)[1],
+        Expr::int(2).sqrt() / Expr::int(2) * (Expr::int(2).sqrt() / Expr::int(2))
+    );
+    let turned = denavit::geometry::Rotation::from_rpy(
+        Expr::pi() / Expr::int(5),
+        Expr::int(0),
+        Expr::pi() * Expr::from(denavit_symbolic::Rational::new(37, 180)),
+    );
+    assert_eq!(m.joints[0].origin.rotation, turned);
+}
+
+#[test]
+fn properties_are_lazy_and_see_their_scope() {
+    let xyz = |inner: &str| place(&read(&format!("{inner}{}", joint("${a} ${b} 0", "0 0 0"))));
+    // Used before what they refer to is given; one that names itself means what it was.
+    let found = xyz("<xacro:property name='a' value='${2*b}'/><xacro:property name='b' value='0.25'/>");
+    assert_eq!(found[0], decimal("0.5"));
+    let found = xyz(
+        "<xacro:property name='b' value='1'/><xacro:property name='b' value='${b + 1}'/><xacro:property name='a' value='${b}'/>",
+    );
+    assert_eq!(found[..2], [decimal("2"), decimal("2")]);
+    // A default is only one.
+    let found = xyz(
+        "<xacro:property name='a' value='1'/><xacro:property name='a' default='5'/><xacro:property name='b' default='3'/>",
+    );
+    assert_eq!(found[..2], [decimal("1"), decimal("3")]);
+    // A macro's own are its own, unless it says otherwise; it sees those of its caller.
+    let found = xyz(
+        "<xacro:macro name='m' params='x'><xacro:property name='a' value='9'/><xacro:property name='b' value='${x + a}' scope='parent'/></xacro:macro>
+         <xacro:property name='a' value='1'/><xacro:property name='b' value='0'/><xacro:m x='${a + 1}'/>",
+    );
+    assert_eq!(found[..2], [decimal("1"), decimal("11")]);
+}
+
+#[test]
+fn macros_take_values_blocks_and_defaults() {
+    let inner = "
+<xacro:macro name='link' params='name parent:=^|base xyz:=&apos;0 0 0&apos; *origin **more'>
+  <link name='${name}'/>
+  <joint name='${name}_joint' type='continuous'>
+    <xacro:insert_block name='origin'/><parent link='${parent}'/><child link='${name}'/>
+    <xacro:insert_block name='more'/>
+  </joint>
+  <link name='${name}_tip'/>
+  <joint name='${name}_fixed' type='fixed'><origin xyz='${xyz}'/><parent link='${name}'/><child link='${name}_tip'/></joint>
+</xacro:macro>
+<link name='base'/>
+<xacro:property name='h' value='0.5'/>
+<xacro:link name='one'><origin xyz='0 0 ${h}'/><x><axis xyz='0 0 1'/></x></xacro:link>
+<xacro:property name='parent' value='one'/>
+<xacro:link name='two' xyz='1 2 3'><origin xyz='0 0 ${2*h}'/><x><axis xyz='0 1 0'/></x></xacro:link>
+";
+    let m = read(inner);
+    let joint = |name: &str| m.joints.iter().find(|j| j.name == name).unwrap();
+    assert_eq!(m.bodies[joint("two_joint").parent].name, "one");
+    assert_eq!(joint("two_joint").origin.translation[2], Expr::int(1));
+    assert_eq!(joint("two_joint").axis[1], Expr::int(1));
+    assert_eq!(joint("two_fixed").origin.translation.0, [1, 2, 3].map(Expr::int));
+    assert_eq!(joint("one_joint").origin.translation[2], decimal("0.5"));
+    assert_eq!(m.chain(None, Some("two_tip"), Convention::Standard).unwrap().joints.len(), 2);
+}
+
+#[test]
+fn conditions_arguments_and_files() {
+    let main = "<xacro:arg name='long' default='false'/><xacro:arg name='x' default='0.1'/>
+<xacro:include filename='lengths.xacro'/>
+<xacro:include filename='$(find arms)/lengths.xacro'/>
+<xacro:include filename='none.xacro' optional='true'/>
+<xacro:if value='$(arg long)'><xacro:property name='l' value='2'/></xacro:if>
+<xacro:unless value='${$(arg long)}'><xacro:property name='l' value='1'/></xacro:unless>";
+    let files = [
+        ("lengths.xacro", "<xacro:property name='k' value='3'/>"),
+        ("/arms/lengths.xacro", "<xacro:property name='n' value='7'/>"),
+    ];
+    let text = format!("{main}{}", joint("${l} ${k} ${n + $(arg x)}", "0 0 0"));
+    let read = |arguments: &[(&str, &str)]| place(&with(&text, &files, arguments).0.unwrap().0);
+    assert_eq!(read(&[]), [decimal("1"), decimal("3"), decimal("7.1")]);
+    assert_eq!(read(&[("long", "true"), ("x", "-1")]), [decimal("2"), decimal("3"), decimal("6")]);
+}
+
+#[test]
+fn faults_have_the_place_of_the_text_and_of_the_call() {
+    let one = |inner: &str| refused(with(inner, &[], &[]));
+    for (inner, said) in [
+        (
+            "<xacro:property name='link' value='a'/><link name='${lnk}'/>",
+            "main.xacro:2:52: `lnk` is not defined | did you mean `link`?",
+        ),
+        ("<xacro:foo/>", "main.xacro:2:1: the macro `foo` is not defined"),
+        (
+            "<xacro:property name='a' value='${a + 1}'/><link name='${a}'/>",
+            "main.xacro:2:1: `a` is not defined",
+        ),
+        (
+            "<xacro:property name='a' value='${b}'/><xacro:property name='b' value='${a}'/><link name='${a}'/>",
+            "main.xacro:2:91: `a` refers to itself",
+        ),
+        ("<xacro:if value='maybe'/>", "main.xacro:2:1: `maybe` is neither true nor false"),
+        ("<xacro:include filename='x.xacro'/>", "main.xacro:2:1: no file `x.xacro`"),
+        (
+            "<xacro:include filename='$(find legs)/x.xacro'/>",
+            "main.xacro:2:1: the package `legs` is not found | say where it is: --package legs=FOLDER",
+        ),
+        (
+            "<link name='$(arg n)'/>",
+            "main.xacro:2:13: the argument `n` is not given | give it: --arg n=VALUE",
+        ),
+        (
+            "<link name='$(eval 1)'/>",
+            "main.xacro:2:13: `$(eval …)` is not read | expand the file with xacro first",
+        ),
+        ("<link name='${1/0}'/>", "main.xacro:2:13: a division by 0"),
+        ("<link name='${1 +}'/>", "main.xacro:2:13: an expression that is not complete"),
+        ("<link name='${(1}'/>", "main.xacro:2:13: `)` is missing"),
+        ("<link name='${1'/>", "main.xacro:2:13: `}` is missing"),
+        ("<link name='${lambda x: x}'/>", "main.xacro:2:13: `lambda` is not defined"),
+        (
+            "<xacro:element xacro:name='link'/>",
+            "main.xacro:2:1: <xacro:element> is not read | expand the file with xacro first",
+        ),
+    ] {
+        let found = one(inner);
+        assert!(found[0].starts_with(said), "{inner}: {found:?}");
+    }
+    // In a macro, in another file: both places.
+    let files = [(
+        "m.xacro",
+        "<xacro:macro name='m' params='l'>\n<link name='a'/>\n<joint name='j' type='fixed'><origin xyz='0 ${l + k} 0'/></joint>\n</xacro:macro>",
+    )];
+    let found = refused(with("<xacro:include filename='m.xacro'/>\n<xacro:m l='1'/>", &files, &[]));
+    assert_eq!(found, ["m.xacro:4:43: `k` is not defined | expanded from main.xacro:3:1"]);
+    // What the reader of the URDF finds later, too.
+    let files = [(
+        "m.xacro",
+        "<xacro:macro name='m' params='l'>\n<link name='a'/>\n<joint name='j' type='fixed'><origin xyz='${l} 0'/></joint>\n</xacro:macro>",
+    )];
+    let found = refused(with("<xacro:include filename='m.xacro'/>\n<xacro:m l='1'/>", &files, &[]));
+    assert!(
+        found.iter().any(|f| f == "m.xacro:4:43: `xyz` has 2 numbers, not 3 | expanded from main.xacro:3:1"),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn hostile_files_are_refused_at_once() {
+    let ring = [
+        ("a.xacro", "<xacro:include filename='b.xacro'/>"),
+        ("b.xacro", "<xacro:include filename='a.xacro'/>"),
+    ];
+    let twice = "<xacro:macro name='m' params=''><xacro:m/><xacro:m/></xacro:macro><xacro:m/>";
+    let doubling: String = (0..60)
+        .map(|i| format!("<xacro:macro name='m{i}'><xacro:m{0}/><xacro:m{0}/></xacro:macro>", i + 1))
+        .collect::<String>()
+        + "<xacro:macro name='m60'><link name='a'/></xacro:macro><xacro:m0/>";
+    let squares: String = (0..200)
+        .map(|i| format!("<xacro:property name='p{}' value='${{p{i}*p{i}}}'/>", i + 1))
+        .collect::<String>()
+        + "<xacro:property name='p0' value='1.1'/><link name='${p200}'/>";
+    let long = format!(
+        "<xacro:property name='p0' value='1'/>{}<link name='${{p5000}}'/>",
+        (0..5000)
+            .map(|i| format!("<xacro:property name='p{}' value='${{p{i} + 1}}'/>", i + 1))
+            .collect::<String>()
+    );
+    let deep = format!("<link name='${{{}1{}}}'/>", "(".repeat(1000), ")".repeat(1000));
+    let choices = format!("<link name='${{{}}}'/>", "1 if 0 else ".repeat(200) + "2");
+    let minus = format!("<link name='${{{}1}}'/>", "-".repeat(3900));
+    for (name, inner, said) in [
+        ("ring of files", "<xacro:include filename='a.xacro'/>", "includes itself"),
+        ("macro that calls itself", twice, "deeply"),
+        ("doubling", &doubling, "elements are expanded"),
+        ("squares", &squares, "too"),
+        ("properties of properties", &long, "deeply"),
+        ("brackets", &deep, "brackets in brackets"),
+        ("choices", &choices, "brackets in brackets"),
+        ("signs", &minus, "no link"),
+        ("power", "<link name='${9**9**9}'/>", "value"),
+    ] {
+        let start = Instant::now();
+        let (reading, files) = with(inner, &ring, &[]);
+        let shown: Vec<String> = match reading {
+            Ok((m, _)) => vec![format!("no link is wrong: {}", m.bodies.len())],
+            Err(list) => list.iter().map(|d| files.render(d)).collect(),
+        };
+        assert!(shown.iter().any(|s| s.contains(said)), "{name}: {:?}", &shown[..shown.len().min(3)]);
+        assert!(start.elapsed() < Duration::from_secs(20), "{name} took {:?}", start.elapsed());
+    }
+}
+
+/// Pieces of expressions and elements thrown together: nothing panics.
+#[test]
+fn soup_does_no_harm() {
+    let mut random = Random(20);
+    let words = [
+        "${",
+        "}",
+        "$(arg a)",
+        "$(find arms)",
+        "$$",
+        "1",
+        "0.5",
+        "pi",
+        "a",
+        "+",
+        "-",
+        "*",
+        "/",
+        "**",
+        "//",
+        "%",
+        "(",
+        ")",
+        "[",
+        "]",
+        ",",
+        " if ",
+        " else ",
+        " not ",
+        " in ",
+        "&apos;",
+        "sin(",
+        "radians(",
+        ".lower()",
+        "é",
+        "<xacro:m/>",
+        "<xacro:property name='a' value='${",
+        "'/>",
+        "<xacro:if value='",
+        "</xacro:if>",
+        "<xacro:macro name='m' params='*b c:=^'>",
+        "</xacro:macro>",
+        "<link name='",
+        "<xacro:insert_block name='b'/>",
+    ];
+    for _ in 0..20_000 {
+        let mut inner = String::from("<link name='${");
+        for _ in 0..1 + (random.unit() * 12.0) as usize {
+            inner.push_str(words[(random.unit() * words.len() as f64) as usize]);
+        }
+        inner.push_str("}'/>");
+        let (reading, files) = read_xacro("soup", &robot(&inner), &mut Alone, &[], Decimals::Meant);
+        if let Err(list) = reading {
+            assert!(!list.is_empty(), "refused without a reason: {inner}");
+            list.iter().for_each(|d| assert!(!files.render(d).is_empty()));
+        }
+    }
+}

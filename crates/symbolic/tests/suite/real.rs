@@ -1,0 +1,81 @@
+//! Real constants.
+
+use denavit_symbolic::real::{Real, Values};
+use denavit_symbolic::{Expr, Rational};
+
+fn value(e: Expr) -> Real {
+    Values::default().of(e).unwrap()
+}
+
+fn decimal(text: &str) -> Real {
+    Rational::from_decimal(text).unwrap().into()
+}
+
+fn is_small(x: &Real, below: f64) -> bool {
+    x.to_f64().abs() < below
+}
+
+/// Digits of the tables: π from Abramowitz and Stegun, table 1.1; sin 1, cos 1 and arctan ½ by mpmath 1.4.1 with 70 digits.
+#[test]
+fn sixty_digits_are_right() {
+    let one = Expr::int(1);
+    for (e, digits) in [
+        (Expr::pi(), "3.14159265358979323846264338327950288419716939937510582097494459"),
+        (one.sin(), "0.84147098480789650665250232163029899962256306079837106567275171"),
+        (one.cos(), "0.540302305868139717400936607442976603732310420617922227670097255"),
+        (one.atan2(Expr::int(2)), "0.463647609000806116214256231461214402028537054286120263810933089"),
+        ((-one).atan2(Expr::int(-2)), "-2.6779450445889871222483871518182884821686323450889855571640115"),
+    ] {
+        assert!(is_small(&(value(e) - decimal(digits)), 1e-60), "{digits}");
+    }
+    let many_turns = Expr::int(1) + Expr::pi() * Expr::int(2000);
+    assert!(is_small(&(value(many_turns.sin()) - value(one.sin())), 1e-60));
+}
+
+#[test]
+fn multiples_of_a_twelfth_turn_are_exact() {
+    for n in -24..=24 {
+        let angle = Expr::pi() * Expr::from(Rational::new(n, 12));
+        let (s, c) = angle.sin_cos();
+        let (s, c) = (value(s), value(c));
+        assert!(s.is_exact() && c.is_exact());
+        let square = s.clone() * s.clone() + c.clone() * c.clone();
+        assert!((square - Real::from(1)).is_zero());
+        let found = s.angle(&c).eval(|_| None).unwrap();
+        let turns = (angle.eval(|_| None).unwrap() - found) / std::f64::consts::TAU;
+        assert!((turns - turns.round()).abs() < 1e-15 && found > -3.1415 && found < 3.1416, "{n}");
+        // 1/x and √x² stay in the field.
+        if !s.is_zero() {
+            assert!((s.recip().unwrap() * s.clone() - Real::from(1)).is_zero());
+        }
+        let root = (s.clone() * s.clone()).sqrt().unwrap();
+        assert!(root.is_exact() && (root - s.abs()).is_zero());
+    }
+}
+
+#[test]
+fn what_is_outside_of_the_field_is_rounded() {
+    assert!(Real::from(98).sqrt().unwrap().is_exact());
+    let five = Real::from(5).sqrt().unwrap();
+    assert!(!five.is_exact() && is_small(&(five.clone() * five - Real::from(5)), 1e-70));
+    assert!(Real::from(-1).sqrt().is_none() && Real::from(0).recip().is_none());
+    assert!(Values::default().of(Expr::symbol("a") + Expr::int(1)).is_none());
+}
+
+#[test]
+fn angles_come_back_as_they_were_written() {
+    let degrees =
+        |text: &str| Expr::from(Rational::from_decimal(text).unwrap()) / Expr::int(180) * Expr::pi();
+    let radians = |text: &str| Expr::from(Rational::from_decimal(text).unwrap());
+    for angle in [
+        degrees("79.34995"),
+        degrees("-11.25"),
+        radians("0.3"),
+        radians("-2.7"),
+        radians("0.0427") - Expr::pi() / Expr::int(2),
+    ] {
+        let (s, c) = angle.sin_cos();
+        let found = value(s).angle(&value(c));
+        assert!(value(found - angle).is_zero());
+    }
+}
