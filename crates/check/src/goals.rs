@@ -2,54 +2,15 @@
 //! pose, as far as the printed digits tell.
 
 use super::facts::{About, Remark, Unproved};
-use super::numbers::{Configuration, decimal};
+use super::numbers::decimal;
 use super::outcome::{Claim, Entry, Finding, Wrong};
 use super::plan::{Plan, Walked};
 use super::subject::Subject;
+use super::walk::{Answered, Target};
 use denavit::description::JointKind;
 use denavit::random::Random;
 use denavit_symbolic::{Expr, Symbol};
 use std::f64::consts::{PI, TAU};
-use std::ops::Range;
-
-/// A quantity of the pose with its printed value, and half a unit of the last digit.
-#[derive(Clone, Debug)]
-pub(super) struct Target {
-    pub wanted: Expr,
-    pub printed: f64,
-    pub half: f64,
-    /// It is a length, not an entry of a rotation or an angle.
-    pub is_length: bool,
-}
-
-impl Target {
-    /// A quantity of a robot.
-    pub fn new(subject: &Subject, wanted: Expr, printed: f64, half: f64) -> Self {
-        let is_length = subject.pose().translation.0.contains(&wanted);
-        Target { wanted, printed, half, is_length }
-    }
-}
-
-/// A joint, or a sum of joints, and the numbers that a document gives it.
-#[derive(Clone, Debug)]
-pub(super) struct Answered {
-    pub span: Range<usize>,
-    /// As printed.
-    pub name: String,
-    /// Where the values stand.
-    pub value: Range<usize>,
-    pub of: Expr,
-    pub values: Vec<f64>,
-    /// Half a unit of the last digit.
-    pub half: f64,
-    /// The values have a unit.
-    pub has_unit: bool,
-    pub subject: usize,
-    /// The pose that should be reached.
-    pub targets: Vec<Target>,
-    /// Lengths that the document states.
-    pub at: Configuration,
-}
 
 /// Starts of a search, and its steps.
 const STARTS: usize = 60;

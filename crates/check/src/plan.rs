@@ -2,7 +2,6 @@
 
 use super::CheckOptions;
 use super::convention;
-use super::goals::Answered;
 use super::habits::Habits;
 use super::lexis::set_in;
 use super::listing;
@@ -11,7 +10,7 @@ use super::order;
 use super::programs::{self, Followed, Source};
 use super::subject::Subject;
 use super::tables::OwnTable;
-use super::walk::{Assertion, Defined, Walk, points};
+use super::walk::{Answered, Assertion, Defined, Walk, points};
 use denavit::catalogue;
 use denavit::description::table::{PrintedTable, tables};
 use denavit::description::{

@@ -3,17 +3,13 @@
 use super::scalars::is_measured;
 use super::{Pair, Piece, Scalar, Walk};
 use crate::facts::About;
-use crate::goals::{Answered, Target};
 use crate::habits::is_named_sign;
 use crate::jacobians::Part;
 use denavit_reading::document::{Place, Statement};
+use denavit_symbolic::Expr;
 use denavit_symbolic::parse::{Syntax, SyntaxKind};
 use denavit_symbolic::vocabulary::plain_name;
-use denavit_symbolic::{Angle, Expr};
 use std::ops::Range;
-
-/// Numbers of one pose stand no farther from each other, in bytes.
-const FAR: usize = 300;
 
 impl Walk<'_> {
     /// A joint's value in a sentence that tells a case: a singular configuration, if the sentence says so.
@@ -86,90 +82,6 @@ impl Walk<'_> {
             let is_any = moves(&first) || rest.iter().any(moves);
             is_any && rest.iter().any(|e| !denavit_symbolic::equal(first, *e).is_equal())
         })
-    }
-
-    /// The joint, or the sum of joints, that is said to have numbers.
-    fn numbers_of_joint<'r>(&self, read: &'r [Scalar]) -> Option<(Expr, &'r Range<usize>, &'r Syntax)> {
-        let (Scalar::Formula(_, left), rest) = read.split_first()? else { return None };
-        let joints = self.subject.joints();
-        let form = Angle::of(left.value());
-        // `θ_1 + θ_2`, or `q_3 - δ` with a number δ.
-        let is_part = |e: &Expr| joints.contains(e) || e.symbols().is_empty();
-        let is_sum =
-            form.terms.iter().any(|t| joints.contains(&t.0)) && form.terms.iter().all(|t| is_part(&t.0));
-        let is_number = |s: &Scalar| matches!(s, Scalar::Formula(_, s) if s.value().symbols().is_empty());
-        // The last side is the number that the others come to.
-        let Scalar::Formula(span, syntax) = rest.last()? else { return None };
-        (is_sum && rest.iter().all(is_number)).then_some((left.value(), span, syntax))
-    }
-
-    /// True for numbers with signs that a joint is said to have, `θ_5 = ±60°`, where nothing says for which pose.
-    pub(super) fn is_number_with_signs(&self, read: &[Scalar]) -> bool {
-        self.numbers_of_joint(read).is_some_and(|(of, _, syntax)| {
-            let at = |e: Expr| e.eval(|_| None).ok();
-            let known = self.at.knows(of, &self.subject);
-            syntax.sign_choices() > 0
-                && !(known
-                    && syntax
-                        .variants()
-                        .iter()
-                        .any(|v| at(v.value()).is_some_and(|x| self.at.has(of, x, &self.subject))))
-        })
-    }
-
-    /// Keeps the numbers that a joint is said to have for the pose that is to be reached; false if there is none.
-    pub(super) fn answer(&mut self, statement: &Statement, read: &[Scalar]) -> bool {
-        if !self.in_inverse || self.goal.is_empty() {
-            return false;
-        }
-        let Some((of, span, syntax)) = self.numbers_of_joint(read) else { return false };
-        let values: Vec<f64> =
-            syntax.variants().iter().filter_map(|v| v.value().eval(|_| None).ok()).collect();
-        let source = self.source(span);
-        let is_degree = source.contains('°') || source.contains("deg") || source.contains("circ");
-        let has_unit = is_degree || source.contains(|c: char| c.is_alphabetic() || c == 'π');
-        let half = self.half(span);
-        let name = self.claim_name(statement);
-        self.answered.push(Answered {
-            span: statement.span.clone(),
-            name,
-            value: span.clone(),
-            of,
-            values,
-            half,
-            has_unit,
-            subject: self.number,
-            targets: self.goal.clone(),
-            at: self.at.clone(),
-        });
-        true
-    }
-
-    /// Keeps a number for an entry of the pose that is to be reached: `x = 516.8 mm` above inverse kinematics.
-    pub(super) fn aims(&mut self, statement: &Statement, read: &[Scalar]) -> bool {
-        let [Scalar::Formula(name, left), Scalar::Formula(span, right)] = read else { return false };
-        let wanted = left.value();
-        let moves = wanted.symbols().iter().any(|s| self.subject.joints().contains(&(*s).into()));
-        let is_place = self.is_right_name(name) || self.numbers_of_joint(read).is_some();
-        let is_known = self.at.knows(wanted, &self.subject);
-        if !self.in_inverse || !moves || is_known || !right.value().symbols().is_empty() || !is_place {
-            return false;
-        }
-        let Ok(printed) = right.value().eval(|_| None) else { return false };
-        let half = self.half(span);
-        let target = Target::new(&self.subject, wanted, printed, half);
-        self.aim_at(statement, vec![target]);
-        true
-    }
-
-    /// Adds to the pose that is to be reached; what stands far behind begins another one.
-    pub(super) fn aim_at(&mut self, statement: &Statement, targets: Vec<Target>) {
-        let is_told = |t: &Target| targets.iter().any(|n| n.wanted == t.wanted);
-        if statement.span.start.saturating_sub(self.goal_at) > FAR || self.goal.iter().any(is_told) {
-            self.goal.clear();
-        }
-        self.goal.extend(targets);
-        self.goal_at = statement.span.end;
     }
 
     /// True for the value of a joint that only says where something is so, without the pose:

@@ -2,8 +2,7 @@
 
 use super::{Assertion, Cell, Cells, Definition, MAX_ELEMENTS, Piece, Reference, Scalar, Walk};
 use crate::facts::{About, Jacobian, Meaning};
-use crate::goals::Target;
-use crate::jacobians::{Part as Rows, told_of_jacobian};
+use crate::jacobians::told_of_jacobian;
 use crate::matrix::Matrix;
 use crate::names::{Name, Token, tokens};
 use crate::note::{Unread, Unreadable};
@@ -163,35 +162,6 @@ impl Walk<'_> {
         }
     }
 
-    /// The letters of a load that the document gives as a vector, `f = (0, 0, -W)`, stand for themselves.
-    fn declare_load(&mut self, statement: &Statement) {
-        let [left, right] = &statement.sides[..] else { return };
-        let [Part::Matrix(grid), ..] = &right.parts[..] else { return };
-        let is_load = self.lone(left).is_some_and(|n| matches!(n.base.as_str(), "f" | "F" | "w" | "W" | "h"));
-        if !is_load || elements(grid) > 6 {
-            return;
-        }
-        let cells = self.cells(grid);
-        let mut free: Vec<String> = vec![];
-        for (cell, span) in cells.iter().flatten().zip(grid.rows.iter().flatten()) {
-            if matches!(cell, Cell::Formulas(_) | Cell::LeftOut) {
-                continue;
-            }
-            let bare = span.start + self.text[span.clone()].len()
-                - self.text[span.clone()].trim_start_matches(['-', '−', ' ', '+']).len();
-            if let Some(name) = self.lexis.lone_name(self.text, &(bare..span.end)) {
-                free.push(format!("{}{}", name.base, name.sub));
-            }
-        }
-        if free.is_empty() {
-            return;
-        }
-        for name in free {
-            self.lexis.define(&name, Expr::symbol(&name));
-        }
-        self.cells.borrow_mut().clear();
-    }
-
     /// Reads `q = [0, 30, 45]` as a configuration.
     fn whole_configuration(&mut self, statement: &Statement) -> bool {
         let [left, right] = &statement.sides[..] else { return false };
@@ -230,84 +200,6 @@ impl Walk<'_> {
             self.at.set(joint, value);
         }
         true
-    }
-
-    /// Keeps a pose of numbers that is to be reached: `p = (0.4, 0.2, 0.3)`, `T_06 = […]` above inverse kinematics.
-    fn aims_at_matrix(&mut self, statement: &Statement) -> bool {
-        let [left, right] = &statement.sides[..] else { return false };
-        let [Part::Matrix(grid)] = &right.parts[..] else { return false };
-        let Some(name) = self.lone(left).filter(|_| self.in_inverse) else { return false };
-        let Some(printed) = self.printed(grid) else { return false };
-        let is_number = |e: &Option<Expr>| e.is_some_and(|e| e.symbols().is_empty());
-        if !printed.0.iter().flatten().all(is_number) {
-            return false;
-        }
-        let place = || {
-            let is_place =
-                matches!(name.base.as_str(), "p" | "P" | "x" | "X" | "r" | "o" | "d") && name.left.is_empty();
-            let column = Matrix::column(&self.subject.pose().translation);
-            is_place.then_some(column)
-        };
-        let known = self.lexis.matrix(&self.subject, &name).filter(|m| m.1.is_some()).map(|m| m.0);
-        let Some(wanted) = known.or_else(place) else { return false };
-        let is_row = printed.shape().is_some_and(|s| s.0 == 1 && s.1 > 1);
-        let wanted = if is_row { wanted.transposed() } else { wanted };
-        let mut targets = vec![];
-        for (r, row) in self.cells(grid).iter().enumerate() {
-            for (c, cell) in row.iter().enumerate() {
-                let (Cell::Formulas(formulas), Some(wanted)) = (cell, wanted.entry(r, c)) else { continue };
-                let Some((span, syntax)) = formulas.first() else { continue };
-                let moves = wanted.symbols().iter().any(|s| self.subject.joints().contains(&(*s).into()));
-                if moves && self.at.knows(wanted, &self.subject) {
-                    return false;
-                }
-                if let (true, Ok(printed)) = (moves, syntax.value().eval(|_| None)) {
-                    targets.push(Target::new(&self.subject, wanted, printed, self.half(span)));
-                }
-            }
-        }
-        if targets.is_empty() {
-            return false;
-        }
-        self.aim_at(statement, targets);
-        self.taken.push(statement.span.clone());
-        true
-    }
-
-    /// The velocity of the hand that the document gives as numbers: `v = (0.1, 0, 0)`.
-    fn velocity_given(&self) -> Option<Matrix> {
-        let name = Name { base: "v".into(), ..Name::default() };
-        let v = self.lexis.defined(&name)?;
-        // `v = (0.1, 0, 0)` is a column.
-        let v = if v.shape()?.0 == 1 { v.transposed() } else { v.clone() };
-        let is_number = |e: &Option<Expr>| e.is_some_and(|e| e.symbols().is_empty());
-        (v.shape()? == (self.subject.joints().len(), 1) && v.0.iter().flatten().all(is_number)).then_some(v)
-    }
-
-    /// A formula in the joints' rates by those that the given velocity of the hand takes, where it is in numbers.
-    pub(super) fn with_rates(&self, wanted: Expr) -> Expr {
-        let rates = self.subject.rates();
-        let is_rate = |s: &Symbol| rates.contains(&(*s).into());
-        let is_open = wanted.symbols().iter().any(|s| is_rate(s) && self.at.length(*s).is_none());
-        let Some(v) = self.velocity_given().filter(|_| is_open) else { return wanted };
-        let jacobian = self.subject.square_jacobian(Rows::Any).and_then(|j| j.inverse());
-        let Some(values) = jacobian.and_then(|j| j.times(&v)) else { return wanted };
-        wanted.substitute(|s| {
-            let k = rates.iter().position(|r| *r == s.into())?;
-            values.entry(k, 0)
-        })
-    }
-
-    /// The joint rates that a velocity takes, where a statement is about them: `\dot q = J^{-1} v`.
-    fn rates_of(&self, statement: &Statement) -> Option<Reference> {
-        let [Part::Text(name)] = &statement.sides.first()?.parts[..] else { return None };
-        let plain = crate::custom::plain(self.source(name));
-        if !matches!(plain.as_str(), "dotq" | "dotθ" | "qdot" | "θdot" | "q\u{307}" | "θ\u{307}") {
-            return None;
-        }
-        let jacobian = self.subject.square_jacobian(Rows::Any)?;
-        let matrix = jacobian.inverse()?.times(&self.velocity_given()?)?;
-        Some(Reference { matrix, about: None })
     }
 
     /// The elementary transforms that a statement names, `Rot(x, θ)`.
@@ -598,7 +490,7 @@ impl Walk<'_> {
     }
 
     /// The one name that a side is.
-    fn lone(&self, side: &Side) -> Option<Name> {
+    pub(super) fn lone(&self, side: &Side) -> Option<Name> {
         match &side.parts[..] {
             [Part::Text(span)] => self.lexis.lone_name(self.text, span),
             _ => None,
@@ -641,7 +533,7 @@ impl Walk<'_> {
 }
 
 /// The number of elements of a printed matrix.
-fn elements(grid: &Grid) -> usize {
+pub(super) fn elements(grid: &Grid) -> usize {
     grid.rows.iter().map(Vec::len).sum()
 }
 

@@ -3,16 +3,19 @@
 mod author;
 mod cases;
 mod compare;
+mod determinants;
+mod goal;
 mod matrices;
 mod points;
+mod rates;
 mod scalars;
 mod told;
 
+pub(super) use goal::{Answered, Target};
 pub(super) use points::points;
 pub(super) use scalars::is_measured;
 
 use super::facts::{About, Meaning, Remark};
-use super::goals::{Answered, Target};
 use super::habits::Habits;
 use super::lexis::{Lexis, read};
 use super::matrix::Matrix;

@@ -1,0 +1,183 @@
+//! Poses that are to be reached, as far as a document gives them in numbers, and the numbers that it gives joints for them.
+
+use super::{Cell, Scalar, Walk};
+use crate::matrix::Matrix;
+use crate::numbers::Configuration;
+use crate::subject::Subject;
+use denavit_reading::document::{Part, Statement};
+use denavit_symbolic::parse::Syntax;
+use denavit_symbolic::{Angle, Expr};
+use std::ops::Range;
+
+/// A quantity of the pose with its printed value, and half a unit of the last digit.
+#[derive(Clone, Debug)]
+pub(in super::super) struct Target {
+    pub wanted: Expr,
+    pub printed: f64,
+    pub half: f64,
+    /// It is a length, not an entry of a rotation or an angle.
+    pub is_length: bool,
+}
+
+impl Target {
+    /// A quantity of a robot.
+    pub fn new(subject: &Subject, wanted: Expr, printed: f64, half: f64) -> Self {
+        let is_length = subject.pose().translation.0.contains(&wanted);
+        Target { wanted, printed, half, is_length }
+    }
+}
+
+/// A joint, or a sum of joints, and the numbers that a document gives it.
+#[derive(Clone, Debug)]
+pub(in super::super) struct Answered {
+    pub span: Range<usize>,
+    /// As printed.
+    pub name: String,
+    /// Where the values stand.
+    pub value: Range<usize>,
+    pub of: Expr,
+    pub values: Vec<f64>,
+    /// Half a unit of the last digit.
+    pub half: f64,
+    /// The values have a unit.
+    pub has_unit: bool,
+    pub subject: usize,
+    /// The pose that should be reached.
+    pub targets: Vec<Target>,
+    /// Lengths that the document states.
+    pub at: Configuration,
+}
+
+/// Numbers of one pose stand no farther from each other, in bytes.
+const FAR: usize = 300;
+
+impl Walk<'_> {
+    /// The joint, or the sum of joints, that is said to have numbers.
+    pub(super) fn numbers_of_joint<'r>(
+        &self,
+        read: &'r [Scalar],
+    ) -> Option<(Expr, &'r Range<usize>, &'r Syntax)> {
+        let (Scalar::Formula(_, left), rest) = read.split_first()? else { return None };
+        let joints = self.subject.joints();
+        let form = Angle::of(left.value());
+        // `θ_1 + θ_2`, or `q_3 - δ` with a number δ.
+        let is_part = |e: &Expr| joints.contains(e) || e.symbols().is_empty();
+        let is_sum =
+            form.terms.iter().any(|t| joints.contains(&t.0)) && form.terms.iter().all(|t| is_part(&t.0));
+        let is_number = |s: &Scalar| matches!(s, Scalar::Formula(_, s) if s.value().symbols().is_empty());
+        // The last side is the number that the others come to.
+        let Scalar::Formula(span, syntax) = rest.last()? else { return None };
+        (is_sum && rest.iter().all(is_number)).then_some((left.value(), span, syntax))
+    }
+
+    /// True for numbers with signs that a joint is said to have, `θ_5 = ±60°`, where nothing says for which pose.
+    pub(super) fn is_number_with_signs(&self, read: &[Scalar]) -> bool {
+        self.numbers_of_joint(read).is_some_and(|(of, _, syntax)| {
+            let at = |e: Expr| e.eval(|_| None).ok();
+            let known = self.at.knows(of, &self.subject);
+            syntax.sign_choices() > 0
+                && !(known
+                    && syntax
+                        .variants()
+                        .iter()
+                        .any(|v| at(v.value()).is_some_and(|x| self.at.has(of, x, &self.subject))))
+        })
+    }
+
+    /// Keeps the numbers that a joint is said to have for the pose that is to be reached; false if there is none.
+    pub(super) fn answer(&mut self, statement: &Statement, read: &[Scalar]) -> bool {
+        if !self.in_inverse || self.goal.is_empty() {
+            return false;
+        }
+        let Some((of, span, syntax)) = self.numbers_of_joint(read) else { return false };
+        let values: Vec<f64> =
+            syntax.variants().iter().filter_map(|v| v.value().eval(|_| None).ok()).collect();
+        let source = self.source(span);
+        let is_degree = source.contains('°') || source.contains("deg") || source.contains("circ");
+        let has_unit = is_degree || source.contains(|c: char| c.is_alphabetic() || c == 'π');
+        let half = self.half(span);
+        let name = self.claim_name(statement);
+        self.answered.push(Answered {
+            span: statement.span.clone(),
+            name,
+            value: span.clone(),
+            of,
+            values,
+            half,
+            has_unit,
+            subject: self.number,
+            targets: self.goal.clone(),
+            at: self.at.clone(),
+        });
+        true
+    }
+
+    /// Keeps a number for an entry of the pose that is to be reached: `x = 516.8 mm` above inverse kinematics.
+    pub(super) fn aims(&mut self, statement: &Statement, read: &[Scalar]) -> bool {
+        let [Scalar::Formula(name, left), Scalar::Formula(span, right)] = read else { return false };
+        let wanted = left.value();
+        let moves = wanted.symbols().iter().any(|s| self.subject.joints().contains(&(*s).into()));
+        let is_place = self.is_right_name(name) || self.numbers_of_joint(read).is_some();
+        let is_known = self.at.knows(wanted, &self.subject);
+        if !self.in_inverse || !moves || is_known || !right.value().symbols().is_empty() || !is_place {
+            return false;
+        }
+        let Ok(printed) = right.value().eval(|_| None) else { return false };
+        let half = self.half(span);
+        let target = Target::new(&self.subject, wanted, printed, half);
+        self.aim_at(statement, vec![target]);
+        true
+    }
+
+    /// Adds to the pose that is to be reached; what stands far behind begins another one.
+    pub(super) fn aim_at(&mut self, statement: &Statement, targets: Vec<Target>) {
+        let is_told = |t: &Target| targets.iter().any(|n| n.wanted == t.wanted);
+        if statement.span.start.saturating_sub(self.goal_at) > FAR || self.goal.iter().any(is_told) {
+            self.goal.clear();
+        }
+        self.goal.extend(targets);
+        self.goal_at = statement.span.end;
+    }
+
+    /// Keeps a pose of numbers that is to be reached: `p = (0.4, 0.2, 0.3)`, `T_06 = […]` above inverse kinematics.
+    pub(super) fn aims_at_matrix(&mut self, statement: &Statement) -> bool {
+        let [left, right] = &statement.sides[..] else { return false };
+        let [Part::Matrix(grid)] = &right.parts[..] else { return false };
+        let Some(name) = self.lone(left).filter(|_| self.in_inverse) else { return false };
+        let Some(printed) = self.printed(grid) else { return false };
+        let is_number = |e: &Option<Expr>| e.is_some_and(|e| e.symbols().is_empty());
+        if !printed.0.iter().flatten().all(is_number) {
+            return false;
+        }
+        let place = || {
+            let is_place =
+                matches!(name.base.as_str(), "p" | "P" | "x" | "X" | "r" | "o" | "d") && name.left.is_empty();
+            let column = Matrix::column(&self.subject.pose().translation);
+            is_place.then_some(column)
+        };
+        let known = self.lexis.matrix(&self.subject, &name).filter(|m| m.1.is_some()).map(|m| m.0);
+        let Some(wanted) = known.or_else(place) else { return false };
+        let is_row = printed.shape().is_some_and(|s| s.0 == 1 && s.1 > 1);
+        let wanted = if is_row { wanted.transposed() } else { wanted };
+        let mut targets = vec![];
+        for (r, row) in self.cells(grid).iter().enumerate() {
+            for (c, cell) in row.iter().enumerate() {
+                let (Cell::Formulas(formulas), Some(wanted)) = (cell, wanted.entry(r, c)) else { continue };
+                let Some((span, syntax)) = formulas.first() else { continue };
+                let moves = wanted.symbols().iter().any(|s| self.subject.joints().contains(&(*s).into()));
+                if moves && self.at.knows(wanted, &self.subject) {
+                    return false;
+                }
+                if let (true, Ok(printed)) = (moves, syntax.value().eval(|_| None)) {
+                    targets.push(Target::new(&self.subject, wanted, printed, self.half(span)));
+                }
+            }
+        }
+        if targets.is_empty() {
+            return false;
+        }
+        self.aim_at(statement, targets);
+        self.taken.push(statement.span.clone());
+        true
+    }
+}

@@ -1,0 +1,106 @@
+//! Velocities and loads of the hand that a document gives, and the rates of joints in numbers.
+
+use super::matrices::elements;
+use super::{Cell, Reference, Scalar, Walk};
+use crate::jacobians::Part as Rows;
+use crate::matrix::Matrix;
+use crate::names::Name;
+use denavit_reading::document::{Part, Statement};
+use denavit_symbolic::{Expr, Symbol};
+
+impl Walk<'_> {
+    /// The letters of a load that the document gives as a vector, `f = (0, 0, -W)`, stand for themselves.
+    pub(super) fn declare_load(&mut self, statement: &Statement) {
+        let [left, right] = &statement.sides[..] else { return };
+        let [Part::Matrix(grid), ..] = &right.parts[..] else { return };
+        let is_load = self.lone(left).is_some_and(|n| matches!(n.base.as_str(), "f" | "F" | "w" | "W" | "h"));
+        if !is_load || elements(grid) > 6 {
+            return;
+        }
+        let cells = self.cells(grid);
+        let mut free: Vec<String> = vec![];
+        for (cell, span) in cells.iter().flatten().zip(grid.rows.iter().flatten()) {
+            if matches!(cell, Cell::Formulas(_) | Cell::LeftOut) {
+                continue;
+            }
+            let bare = span.start + self.text[span.clone()].len()
+                - self.text[span.clone()].trim_start_matches(['-', '−', ' ', '+']).len();
+            if let Some(name) = self.lexis.lone_name(self.text, &(bare..span.end)) {
+                free.push(format!("{}{}", name.base, name.sub));
+            }
+        }
+        if free.is_empty() {
+            return;
+        }
+        for name in free {
+            self.lexis.define(&name, Expr::symbol(&name));
+        }
+        self.cells.borrow_mut().clear();
+    }
+
+    /// The velocity of the hand that the document gives as numbers: `v = (0.1, 0, 0)`.
+    pub(super) fn velocity_given(&self) -> Option<Matrix> {
+        let name = Name { base: "v".into(), ..Name::default() };
+        let v = self.lexis.defined(&name)?;
+        // `v = (0.1, 0, 0)` is a column.
+        let v = if v.shape()?.0 == 1 { v.transposed() } else { v.clone() };
+        let is_number = |e: &Option<Expr>| e.is_some_and(|e| e.symbols().is_empty());
+        (v.shape()? == (self.subject.joints().len(), 1) && v.0.iter().flatten().all(is_number)).then_some(v)
+    }
+
+    /// A formula in the joints' rates by those that the given velocity of the hand takes, where it is in numbers.
+    pub(super) fn with_rates(&self, wanted: Expr) -> Expr {
+        let rates = self.subject.rates();
+        let is_rate = |s: &Symbol| rates.contains(&(*s).into());
+        let is_open = wanted.symbols().iter().any(|s| is_rate(s) && self.at.length(*s).is_none());
+        let Some(v) = self.velocity_given().filter(|_| is_open) else { return wanted };
+        let jacobian = self.subject.square_jacobian(Rows::Any).and_then(|j| j.inverse());
+        let Some(values) = jacobian.and_then(|j| j.times(&v)) else { return wanted };
+        wanted.substitute(|s| {
+            let k = rates.iter().position(|r| *r == s.into())?;
+            values.entry(k, 0)
+        })
+    }
+
+    /// The joint rates that a velocity takes, where a statement is about them: `\dot q = J^{-1} v`.
+    pub(super) fn rates_of(&self, statement: &Statement) -> Option<Reference> {
+        let [Part::Text(name)] = &statement.sides.first()?.parts[..] else { return None };
+        let plain = crate::custom::plain(self.source(name));
+        if !matches!(plain.as_str(), "dotq" | "dotθ" | "qdot" | "θdot" | "q\u{307}" | "θ\u{307}") {
+            return None;
+        }
+        let jacobian = self.subject.square_jacobian(Rows::Any)?;
+        let matrix = jacobian.inverse()?.times(&self.velocity_given()?)?;
+        Some(Reference { matrix, about: None })
+    }
+
+    /// A velocity where words say that only the joints move whose rates are printed.
+    pub(super) fn of_moving(&self, statement: &Statement, read: &[Scalar], wanted: Expr) -> Expr {
+        const ONLY: [&str; 8] = ["only ", "alone", " nur ", "allein", "seule", "solo ", "sola ", "solamente"];
+        let rates = self.subject.rates();
+        let is_rate = |e: &Expr| rates.contains(e);
+        let words = [&statement.prose, &statement.heading]
+            .into_iter()
+            .flatten()
+            .filter_map(|s| self.text.get(s.clone()));
+        let says_only = words.into_iter().any(|w| ONLY.iter().any(|o| w.to_lowercase().contains(o)));
+        if !says_only || !wanted.symbols().iter().any(|s| is_rate(&(*s).into())) {
+            return wanted;
+        }
+        let printed: Vec<Expr> = read
+            .iter()
+            .skip(1)
+            .filter_map(|s| if let Scalar::Formula(_, s) = s { Some(s.value()) } else { None })
+            .flat_map(|e| e.symbols())
+            .map(Expr::from)
+            .filter(is_rate)
+            .collect();
+        match printed.is_empty() {
+            true => wanted,
+            false => wanted.substitute(|s| {
+                let e = Expr::from(s);
+                (is_rate(&e) && !printed.contains(&e)).then(|| Expr::int(0))
+            }),
+        }
+    }
+}
