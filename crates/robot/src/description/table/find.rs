@@ -221,7 +221,7 @@ fn turned(text: &str) -> Vec<Grid> {
         }
         run.clear();
     };
-    for span in lines(text).map(|l| uncommented(text, l)).chain([text.len()..text.len()]) {
+    for span in lines(text).map(|l| uncommented(text, l)).chain(std::iter::once(text.len()..text.len())) {
         let line = text[span.clone()].trim();
         let is_plain = line.len() < 300 && !line.contains(['=', '|', '&', '\t', ':']);
         let cells = if is_plain { split_blanks(text, span.clone(), None) } else { vec![] };

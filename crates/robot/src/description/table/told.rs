@@ -29,9 +29,12 @@ struct Told {
     span: Range<usize>,
 }
 
+/// Reads the rows of each table that is told one way.
+type Reader = fn(&str) -> Vec<Vec<Told>>;
+
 /// The tables of a text that are told so.
 pub(super) fn grids(text: &str) -> Vec<Grid> {
-    let readers: [fn(&str) -> Vec<Vec<Told>>; 3] = [constructed, named, ordered];
+    let readers: [Reader; 3] = [constructed, named, ordered];
     let found = readers.into_iter().map(|read| read(text)).find(|tables| !tables.is_empty());
     found.unwrap_or_default().into_iter().filter_map(|rows| grid(text, &rows)).collect()
 }
