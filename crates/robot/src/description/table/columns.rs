@@ -169,7 +169,8 @@ pub(super) fn column(text: &str) -> Column {
     if role == Role::Other {
         // `Verdrehung α_i`, `θ_i angle`: a letter beside words.
         let words = || head.split([' ', '~']).filter(|w| !w.trim_matches(['$', ',', '.']).is_empty());
-        let mut beside = [words().next_back(), words().next()].into_iter().flatten().map(|w| symbol(&plain(w)));
+        let mut beside =
+            [words().next_back(), words().next()].into_iter().flatten().map(|w| symbol(&plain(w)));
         let letter = beside.find(|s| s.0.is_letter() && words().count() > 1);
         if let Some(letter) = letter.filter(|_| words().count() <= 4) {
             (role, previous) = letter;
