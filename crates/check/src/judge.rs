@@ -184,8 +184,21 @@ impl<'a> Judge<'a> {
         let printed = pair.value.symbols();
         let is_number = |s: &Symbol| d.exact_value(*s).is_some_and(is_measured);
         let mut missing = pair.wanted.symbols().into_iter().filter(|s| !printed.contains(s)).peekable();
-        let is_open = missing.peek().is_none() || !missing.all(|s| is_number(&s));
-        if is_open || equal(pair.value, pair.wanted).is_equal() {
+        let is_replaced = missing.peek().is_some() && missing.all(|s| is_number(&s));
+        // `400` beside an `x_w` in which `a1` is.
+        let symbols = || printed.iter().copied().chain(pair.wanted.symbols());
+        let lengths = || symbols().filter_map(|s| d.exact_value(s));
+        let is_beside = || {
+            let mut found = false;
+            let mut each = |s: &Syntax| {
+                if let SyntaxKind::Number(_) = s.kind {
+                    found |= is_measured(s.value()) && lengths().any(|l| l == s.value());
+                }
+            };
+            pair.printed.iter().for_each(|s| visit(s, &mut each));
+            found
+        };
+        if !is_replaced && !is_beside() || equal(pair.value, pair.wanted).is_equal() {
             return pair.clone();
         }
         let known = |e: Expr| e.substitute(|s| d.exact_value(s));

@@ -192,7 +192,7 @@ pub(super) fn tells_goal(sentence: &str) -> bool {
 }
 
 /// Words before a place that is to be reached.
-const GOALS: [&str; 22] = [
+const GOALS: [&str; 27] = [
     "for the point",
     "for the position",
     "for the pose",
@@ -203,6 +203,11 @@ const GOALS: [&str; 22] = [
     "to reach",
     "target",
     "desired",
+    "wanted at",
+    "wanted pose",
+    "gewünscht",
+    "souhait",
+    "desiderat",
     "für den punkt",
     "für die position",
     "inverse für",

@@ -7,6 +7,7 @@ use crate::subject::Subject;
 use denavit_reading::document::{Part, Statement};
 use denavit_symbolic::parse::Syntax;
 use denavit_symbolic::{Angle, Expr};
+use std::f64::consts::PI;
 use std::ops::Range;
 
 /// A quantity of the pose with its printed value, and half a unit of the last digit.
@@ -66,13 +67,35 @@ impl Walk<'_> {
             form.terms.iter().any(|t| joints.contains(&t.0)) && form.terms.iter().all(|t| is_part(&t.0));
         let is_number = |s: &Scalar| matches!(s, Scalar::Formula(_, s) if s.value().symbols().is_empty());
         // The last side is the number that the others come to.
-        let Scalar::Formula(span, syntax) = rest.last()? else { return None };
-        (is_sum && rest.iter().all(is_number)).then_some((left.value(), span, syntax))
+        let last = rest.last().filter(|s| is_number(s))?;
+        let Scalar::Formula(span, syntax) = last else { return None };
+        is_sum.then_some((left.value(), span, syntax))
+    }
+
+    /// True if each side between a joint and its number is a number, too, or follows from the pose that is to be reached:
+    /// `θ_3 = 70° - θ_1 - θ_2` where `θ_1 + θ_2 + θ_3 = 70°` is.
+    fn only_numbers(&self, read: &[Scalar]) -> bool {
+        let [Scalar::Formula(_, left), rest @ ..] = read else { return false };
+        let follows = |e: Expr| {
+            let rest = left.value() - e;
+            self.goal.iter().any(|t| {
+                let is = |e: Expr, value: f64| {
+                    let form = Angle::of(e);
+                    let constant = form.turns.to_f64() * PI + form.radians.to_f64();
+                    form.terms.is_empty() && (constant - value).abs() < t.half
+                };
+                is(rest - t.wanted, -t.printed) || is(rest + t.wanted, t.printed)
+            })
+        };
+        rest.iter().all(|s| match s {
+            Scalar::Formula(_, s) => s.value().symbols().is_empty() || follows(s.value()),
+            _ => false,
+        })
     }
 
     /// True for numbers with signs that a joint is said to have, `θ_5 = ±60°`, where nothing says for which pose.
     pub(super) fn is_number_with_signs(&self, read: &[Scalar]) -> bool {
-        self.numbers_of_joint(read).is_some_and(|(of, _, syntax)| {
+        self.numbers_of_joint(read).filter(|_| self.only_numbers(read)).is_some_and(|(of, _, syntax)| {
             let at = |e: Expr| e.eval(|_| None).ok();
             let known = self.at.knows(of, &self.subject);
             syntax.sign_choices() > 0
@@ -84,7 +107,7 @@ impl Walk<'_> {
         })
     }
 
-    /// Keeps the numbers that a joint is said to have for the pose that is to be reached; false if there is none.
+    /// Keeps the numbers that a joint is said to have for the pose that is to be reached; false if there is more to judge.
     pub(super) fn answer(&mut self, statement: &Statement, read: &[Scalar]) -> bool {
         if !self.in_inverse || self.goal.is_empty() {
             return false;
@@ -109,12 +132,20 @@ impl Walk<'_> {
             targets: self.goal.clone(),
             at: self.at.clone(),
         });
-        true
+        self.only_numbers(read)
     }
 
     /// Keeps a number for an entry of the pose that is to be reached: `x = 516.8 mm` above inverse kinematics.
     pub(super) fn aims(&mut self, statement: &Statement, read: &[Scalar]) -> bool {
-        let [Scalar::Formula(name, left), Scalar::Formula(span, right)] = read else { return false };
+        let (Scalar::Formula(name, left), Scalar::Formula(span, right)) = (match read {
+            [name, number] => (name, number),
+            // `φ = θ_1 + θ_2 + θ_3 = 70°`.
+            [Scalar::Formula(_, a), Scalar::Formula(_, b), _] if a.value() != b.value() => return false,
+            [name, Scalar::Formula(..), number] => (name, number),
+            _ => return false,
+        }) else {
+            return false;
+        };
         let wanted = left.value();
         let moves = wanted.symbols().iter().any(|s| self.subject.joints().contains(&(*s).into()));
         let is_place = self.is_right_name(name) || self.numbers_of_joint(read).is_some();

@@ -420,6 +420,10 @@ impl Walk<'_> {
         {
             return None;
         }
+        // Numbers for a pose that is given are judged by themselves.
+        if self.answered.last().is_some_and(|a| a.span.contains(&first.start)) {
+            sides.retain(|s| !is_number(&s.1));
+        }
         // What was printed for the joint's own sine and cosine stands for them.
         let own: Vec<&(Expr, Vec<Expr>)> =
             self.sines.iter().filter(|s| s.0 == of.sin() || s.0 == of.cos()).collect();
