@@ -315,11 +315,13 @@ impl<'a> Listed<'a> {
             (off > allowed).then(|| self.value(own.wanted, &q)).flatten()
         };
         // One quantity that differs is the slip itself.
-        let is_one = (0..self.columns.len()).filter(|&k| differs(k).is_some()).count() == 1;
+        let differing: Vec<usize> = (0..self.columns.len()).filter(|&k| differs(k).is_some()).collect();
+        let is_own = |k: usize| row.cells[k].as_ref().is_some_and(|c| !c.0.is_empty());
+        let is_one = matches!(differing[..], [k] if is_own(k));
         let mended = if is_one { None } else { self.mended(&q, &targets) };
         let mut entries = vec![];
         for (k, (column, cell)) in self.columns.iter().zip(&row.cells).enumerate() {
-            let Some((span, x, _)) = cell else { continue };
+            let Some((span, x, _)) = cell.as_ref().filter(|c| !c.0.is_empty()) else { continue };
             let finding = match (column, &mended) {
                 (Column::Other | Column::Number, _) => continue,
                 (_, Some((at, now, kind))) if *at == k => {
@@ -496,6 +498,8 @@ fn read(row: &[(String, Range<usize>)]) -> Row {
         let x: f64 = text.parse().ok()?;
         Some((cell.1.clone(), x, half_unit(&text)))
     };
-    let span = row.first().map_or(0, |c| c.1.start)..row.last().map_or(0, |c| c.1.end);
+    // A cell that is said above has no place of its own.
+    let own = || row.iter().filter(|c| !c.1.is_empty());
+    let span = own().next().map_or(0, |c| c.1.start)..own().next_back().map_or(0, |c| c.1.end);
     Row { span, cells: row.iter().map(number).collect() }
 }
