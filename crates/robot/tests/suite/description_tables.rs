@@ -467,10 +467,8 @@ fn told_columns_need_no_known_header() {
         TableKind::Markdown,
         &standard,
         &[
-            "1:1 error: there is no Denavit-Hartenberg table in the text | a table has a header with at least \
-             three of theta, d, a, alpha, r, and numbered rows; where it names them otherwise, say what its \
-             columns are from left to right: `columns: theta d a alpha`",
-            "1:10 error: `twist` is no column of a table",
+            "1:10 error: `twist` is no column of a table | columns: theta, d, a, alpha (and r, gamma, b in Khalil's \
+             letters), from left to right",
         ],
     );
 }
