@@ -194,6 +194,36 @@ fn statements_tell_the_convention() {
 }
 
 #[test]
+fn numbers_for_a_pose_behind_formulas() {
+    let rows = [(1, 4), (2, 3), (3, 1)].map(|(k, a)| format!("| {k} | θ{k} | 0 | {a} | 0 |\n")).concat();
+    let table =
+        format!("convention: standard\n\n| i | theta | d | a | alpha |\n|---|---|---|---|---|\n{rows}\n");
+    let at = |f: fn(f64) -> f64| {
+        [(4, 20.0), (3, 80.0), (1, 50.0)].map(|(a, x): (i32, f64)| f64::from(a) * f(x.to_radians()))
+    };
+    let [x, y]: [f64; 2] = [at(f64::cos), at(f64::sin)].map(|p| p.iter().sum());
+    let text = format!(
+        "Tool wanted at $x = {x:.4}$, $y = {y:.4}$ with $φ = θ_1 + θ_2 + θ_3 = 50°$. First the wrist,\n\n\
+         $x_w = x - \\cos φ$\n\n$y_w = y - \\sin φ$\n\n\
+         $\\cos θ_2 = (x_w^2 + y_w^2 - 4^2 - 3^2)/(2·4·3)$\n\n$θ_2 = 60.0°$\n\n\
+         $θ_1 = atan2(y_w, x_w) - atan2(3 \\sin θ_2, 4 + 3 \\cos θ_2) = 20.0°$\n\n\
+         $θ_3 = 50° - θ_1 - θ_2 = -30.0°$\n"
+    );
+    let wrong = |text: &str| {
+        let all = checked(&table, text);
+        all.claims
+            .iter()
+            .filter(|c| c.standing() == Standing::Wrong)
+            .map(|c| c.name.clone())
+            .collect::<Vec<String>>()
+    };
+    assert_eq!(wrong(&text), [""; 0]);
+    assert!(checked(&table, &text).tally().equal > 4);
+    assert_eq!(wrong(&text.replace("= -30.0°", "= -10.0°")), ["θ_3"]);
+    assert_eq!(wrong(&text.replace("- 4^2", "- 4")), [r"\cos θ_2"]);
+}
+
+#[test]
 fn right_statements_are_not_accused() {
     let wrong = |text: &str| {
         let all = checked(PLANAR, text);
