@@ -153,7 +153,10 @@ pub(super) fn torque_column(subject: &Subject, text: &str, load: Load) -> Option
 /// True for a name, marks of subscripts left aside, that stands in a text as such, or behind the digits of another.
 fn is_mentioned(text: &str, name: &str) -> bool {
     let words = text.split(|c: char| !(c.is_alphanumeric() || matches!(c, '_' | '{' | '}' | '\\')));
-    words.filter(|w| w.len() < 200).any(|word| {
+    // Letters stay what they are in a plain name.
+    let letters = || name.chars().filter(char::is_ascii);
+    let may_be = |w: &&str| w.len() < 200 && letters().all(|c| w.contains(c));
+    words.filter(may_be).any(|word| {
         let word = plain_name(word);
         word.match_indices(name).any(|(at, _)| {
             let ends = word[at + name.len()..].starts_with(char::is_alphanumeric);
@@ -202,7 +205,11 @@ pub(super) fn has_place(text: &str) -> bool {
 
 /// True for a text that gives the entries of some matrix names t_ij: `call its entries t11, t21, …`.
 pub(super) fn calls_entries(text: &str) -> bool {
-    let lower = plain_name(&text.to_lowercase()).replace('$', "");
+    let lower = text.to_lowercase();
+    if !["entries", "element", "élément"].iter().any(|w| lower.contains(w)) {
+        return false;
+    }
+    let lower = plain_name(&lower).replace('$', "");
     ["entriest1", "elementst1", "elementet1", "élémentst1", "elementost1", "elementit1"]
         .iter()
         .any(|w| lower.contains(w))
@@ -225,8 +232,8 @@ fn torque_letters(text: &str) -> Vec<&'static str> {
 /// Letters of their own that a text may have for a load on the hand: it speaks of torques, and names no components of a force.
 pub(super) fn letters_of_load(text: &str) -> Vec<char> {
     let components = ["Fx", "Fy", "Fz", "fx", "fy", "fz"];
-    let is_given = components.iter().any(|c| is_mentioned(text, c)) || load_given(text).is_some();
-    if torque_letters(text).is_empty() || is_given {
+    let is_given = || components.iter().any(|c| is_mentioned(text, c)) || load_given(text).is_some();
+    if torque_letters(text).is_empty() || is_given() {
         return vec![];
     }
     // A weight m·g counts as one letter.

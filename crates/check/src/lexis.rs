@@ -75,13 +75,15 @@ impl Lexis {
         let pose = subject.pose().matrix();
         lexis.by_custom.extend(AXES.iter().flat_map(|a| [a.to_string(), a.to_uppercase()]));
         lexis.by_custom.retain(|name| lexis.names.lookup(name).is_none());
+        let has_place = custom::has_place(text);
         for (r, axis) in AXES.iter().enumerate() {
             lexis.declare(axis, pose[r][3], pose_symbol(columns, r, 3).into());
             // Beside p_x another X is the author's own.
-            if !custom::has_place(text) {
+            if !has_place {
                 lexis.declare(&axis.to_uppercase(), pose[r][3], pose_symbol(columns, r, 3).into());
             }
         }
+        let (calls_entries, names_entries) = (custom::calls_entries(text), custom::names_entries(text));
         let wrist = habits.wrist_entries.then(|| custom::wrist_frame(subject, &Places(columns))).flatten();
         for (r, axis) in AXES.iter().enumerate() {
             for (c, letter) in columns.letters().iter().enumerate() {
@@ -98,10 +100,10 @@ impl Lexis {
                     Some((x, y)) => lexis.declare(&name, x.matrix()[r][c], y.matrix()[r][c]),
                     None => lexis.declare(&name, pose[r][c], symbol.into()),
                 };
-                if !custom::calls_entries(text) {
+                if !calls_entries {
                     lexis.declare(&format!("t{}{}", r + 1, c + 1), pose[r][c], symbol.into());
                 }
-                if c < 3 && custom::names_entries(text) {
+                if c < 3 && names_entries {
                     lexis.declare(&format!("R{}{}", r + 1, c + 1), pose[r][c], symbol.into());
                 }
                 for matrix in ["T", "R"] {

@@ -225,7 +225,7 @@ fn turned(text: &str) -> Vec<Grid> {
         let line = text[span.clone()].trim();
         let is_plain = line.len() < 300 && !line.contains(['=', '|', '&', '\t', ':']);
         let cells = if is_plain { split_blanks(text, span.clone(), None) } else { vec![] };
-        let role = cells.first().map(|c| column(&c.text).role);
+        let role = cells.first().filter(|_| cells.len() > 2).map(|c| column(&c.text).role);
         let is_one = role.is_some_and(|r| r.is_letter() || r == Role::Index && !cells[0].text.is_empty());
         if cells.len() < 3 || !is_one || run.first().is_some_and(|r| r.0.len() != cells.len()) {
             close(&mut run);
