@@ -3,7 +3,7 @@
 //! Names that differ in a letter x, y, z alone are one point. Which one is asked of the values: that frame whose origin has most
 //! of the coordinates, at least half of them; the others are held against it.
 
-use super::{Assertion, Defined, Pair, Piece};
+use super::{Assertion, Defined, Pair, Piece, is_measured};
 use crate::facts::{About, Meaning};
 use crate::subject::Subject;
 use denavit::forward::Reference;
@@ -24,7 +24,8 @@ pub(in super::super) fn points(
 ) -> Vec<Assertion> {
     let is_free = |d: &&Defined| {
         let touches = |a: &Assertion| a.span.start < d.statement.end && d.statement.start < a.span.end;
-        literals(d.value) <= LONGEST && !assertions.iter().any(touches)
+        // A number is that of a configuration.
+        !is_measured(d.value) && literals(d.value) <= LONGEST && !assertions.iter().any(touches)
     };
     let named: Vec<(String, usize, &Defined)> = defined
         .iter()

@@ -79,6 +79,11 @@ impl Walk<'_> {
                 let joint = left.value().as_symbol().filter(|s| self.subject.joints().contains(&(*s).into()));
                 // A helper may be defined anew: what it was before is not what it should be.
                 if matches!(left.kind, SyntaxKind::Name(_)) && self.lexis.is_helper(self.source(span)) {
+                    // A number for it at a known configuration is its value.
+                    let is_value = formula.value().symbols().is_empty() && !left.value().symbols().is_empty();
+                    if is_value && self.at.knows(left.value(), &self.subject) {
+                        return false;
+                    }
                     return !denavit_symbolic::equal(left.value(), formula.value()).is_equal();
                 }
                 let is_letter = self.source(span).starts_with('t') && !self.source(span).starts_with("th");
