@@ -12,6 +12,8 @@ use std::f64::consts::TAU;
 pub(super) struct Configuration {
     /// Values, and whether they have a unit.
     values: Vec<Option<(f64, bool)>>,
+    /// Those of the configuration before, while the joints are what is asked for.
+    before: Vec<Option<(f64, bool)>>,
     /// Lengths that the document states, metres.
     lengths: Vec<(Symbol, f64)>,
 }
@@ -47,9 +49,21 @@ impl Configuration {
         }
     }
 
-    /// The joints have no values any more.
-    pub fn forget_joints(&mut self) {
-        self.values.clear();
+    /// The joints have no values any more; those that they had were found, or are kept.
+    pub fn forget_joints(&mut self, were_found: bool) {
+        let values = std::mem::take(&mut self.values);
+        // A part of a configuration is that of another.
+        let is_whole = values.iter().all(Option::is_some) && values.len() >= self.before.len();
+        if !were_found && is_whole && !values.is_empty() {
+            self.before = values;
+        }
+    }
+
+    /// The joints have the values again that they had when these were forgotten.
+    pub fn recall_joints(&mut self) {
+        if !self.before.is_empty() {
+            self.values.clone_from(&self.before);
+        }
     }
 
     /// States a length.
@@ -122,6 +136,8 @@ fn pointed(text: &str) -> Option<String> {
     let bytes = text.as_bytes();
     let is_digit = |k: usize| bytes.get(k).is_some_and(u8::is_ascii_digit);
     let mut commas = vec![];
+    // `0,45 m` is a number.
+    let mut has_unit = false;
     for (k, b) in bytes.iter().enumerate() {
         if k == 0 || !is_digit(k - 1) || !is_digit(k + 1) {
             continue;
@@ -139,12 +155,15 @@ fn pointed(text: &str) -> Option<String> {
                 if is_index || is_pair {
                     return None;
                 }
+                let unit = text.get(end + 1..).unwrap_or_default().trim_start_matches(' ');
+                let word = unit.split(|c: char| !c.is_alphanumeric() && c != '°').next().unwrap_or_default();
+                has_unit |= matches!(word, "m" | "mm" | "cm" | "rad" | "°" | "kg" | "N" | "Nm");
                 commas.push(k);
             }
             _ => {}
         }
     }
-    if commas.len() < 3 {
+    if commas.len() < 3 && !has_unit {
         return None;
     }
     let mut bytes = text.as_bytes().to_vec();

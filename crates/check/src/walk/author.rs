@@ -1,6 +1,6 @@
 //! What an author printed, in the place of what the robot gives.
 
-use super::{Assertion, Piece, Walk};
+use super::{Assertion, Defined, Piece, Walk};
 use crate::facts::{About, Meaning};
 use crate::matrix::Matrix;
 use crate::subject::Subject;
@@ -12,6 +12,15 @@ use std::collections::BTreeSet;
 use std::rc::Rc;
 
 impl Walk<'_> {
+    /// True for the value of a name that is defined once, without a choice of sign.
+    pub(super) fn is_plain_helper(&self, value: Expr) -> bool {
+        let mut own = self.defined.iter().filter(|d| d.value == value);
+        let is_choice = |d: &Defined| {
+            d.printed.sign_choices() > 0 || self.defined.iter().filter(|o| o.name == d.name).count() > 1
+        };
+        own.next().is_some_and(|d| !is_choice(d)) && own.next().is_none()
+    }
+
     /// Takes what the claims at these places print for what follows, of the claims from number `first` on.
     pub fn believe(&mut self, places: &BTreeSet<usize>, first: usize) {
         let told: Vec<Assertion> = self.assertions[first.min(self.assertions.len())..]

@@ -264,9 +264,9 @@ impl<'a> Walk<'a> {
         {
             self.last_heading = heading.clone();
             let words = self.text.get(heading.clone()).unwrap_or_default().to_lowercase();
-            self.in_inverse = cases::tells_inverse(&words);
+            let were_found = std::mem::replace(&mut self.in_inverse, cases::tells_inverse(&words));
             if self.in_inverse {
-                self.at.forget_joints();
+                self.at.forget_joints(were_found);
             }
             self.told_in(heading);
         }
@@ -279,8 +279,7 @@ impl<'a> Walk<'a> {
             self.last_prose = prose.clone();
             let words = self.text.get(prose.clone()).unwrap_or_default().to_lowercase();
             if words.len() < 60 && cases::tells_inverse(&words) {
-                self.in_inverse = true;
-                self.at.forget_joints();
+                self.look_for_joints();
             }
             self.told_in(prose);
         }
@@ -307,6 +306,12 @@ impl<'a> Walk<'a> {
         self.reader = Some(user.span.start);
         self.statement(definition, None);
         self.reader = None;
+    }
+
+    /// From here on the joints are what is asked for.
+    fn look_for_joints(&mut self) {
+        let were_found = std::mem::replace(&mut self.in_inverse, true);
+        self.at.forget_joints(were_found);
     }
 
     /// True for a statement that stands in a sentence that tells a case.

@@ -81,7 +81,10 @@ impl Walk<'_> {
                 if matches!(left.kind, SyntaxKind::Name(_)) && self.lexis.is_helper(self.source(span)) {
                     // A number for it at a known configuration is its value.
                     let is_value = formula.value().symbols().is_empty() && !left.value().symbols().is_empty();
-                    if is_value && self.at.knows(left.value(), &self.subject) {
+                    if is_value
+                        && self.is_plain_helper(left.value())
+                        && self.at.knows(left.value(), &self.subject)
+                    {
                         return false;
                     }
                     return !denavit_symbolic::equal(left.value(), formula.value()).is_equal();
@@ -126,9 +129,7 @@ impl Walk<'_> {
             }
         }
         if self.tells_goal(statement) {
-            self.in_inverse = true;
-            // Where the joints are is what is asked for.
-            self.at.forget_joints();
+            self.look_for_joints();
         }
         let is_case = self.is_case(statement);
         if is_case && (self.case(statement, &read) || self.is_open(&read)) {
@@ -165,8 +166,7 @@ impl Walk<'_> {
             };
             if about == About::Joint {
                 // Numbers behind it are those of a pose to be reached.
-                self.in_inverse = true;
-                self.at.forget_joints();
+                self.look_for_joints();
             }
             let assertion = Assertion { spoken: Some(spoken), ..self.assertion(statement, about) };
             self.assertions.push(assertion);

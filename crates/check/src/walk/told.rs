@@ -60,6 +60,27 @@ const ZERO: [&str; 12] = [
     "todas las articulaciones a cero",
 ];
 
+/// Words for the configuration that stands further up.
+const SAME: [&str; 17] = [
+    "same configuration",
+    "same posture",
+    "configuration of part",
+    "configuration of (",
+    "configuration above",
+    "posture of part",
+    "posture of (",
+    "posture above",
+    "derselben stellung",
+    "derselben konfiguration",
+    "gleichen stellung",
+    "gleichen konfiguration",
+    "même configuration",
+    "configuration du ",
+    "misma configuración",
+    "misma postura",
+    "stessa configurazione",
+];
+
 /// What a list of values is for.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum List {
@@ -83,7 +104,11 @@ impl Walk<'_> {
         let joined = joined.replace("\\,", "  ").replace("\\;", "  ");
         let lower = joined.to_lowercase();
         if tells_goal(&lower) {
-            self.at.forget_joints();
+            self.at.forget_joints(self.in_inverse);
+        }
+        if self.in_inverse && SAME.iter().any(|words| lower.contains(words)) {
+            self.at.recall_joints();
+            self.in_inverse = false;
         }
         if ZERO.iter().any(|words| lower.contains(words)) {
             (0..self.subject.joints().len()).for_each(|joint| self.at.set(joint, Expr::int(0)));
@@ -375,6 +400,13 @@ impl Walk<'_> {
                 }
                 None => false,
             };
+        }
+        // Rates of joints are given where none are asked for.
+        let is_rate = self.subject.rates().contains(&symbol.into());
+        if is_rate && self.velocity_given().is_none() {
+            let Some(constant) = self.constant(value) else { return false };
+            self.at.give(symbol, constant);
+            return true;
         }
         if d.parameter(symbol).is_none() {
             // A component of a load: `Fx = -18 kN`.

@@ -139,3 +139,22 @@ fn conditions_are_no_claims() {
     );
     assert!(found.claims.iter().all(|c| c.standing() == Standing::Equal), "{:?}", found.claims);
 }
+
+#[test]
+fn values_of_points_and_rates_and_of_the_configuration_before() {
+    let table = "DH (standard)\n\n| i | theta | d | a | alpha |\n|---|---|---|---|---|\n| 1 | θ1 | 0 | L1 | 0 |\n| 2 | θ2 | 0 | 0,5 | 0 |\n\n\
+                 avec L1 = 0,5 m.\n\nx_C = L1·c1 + 0,5·c12\ny_C = L1·s1 + 0,5·s12\n\nPour θ1 = 30°, θ2 = 60° :\n";
+    let text = format!(
+        "{table}x_C = 0,433 m ; y_C = 0,750 m\n\nPour le point (0,3 ; 0,4) : θ1 = 1°\n\n\
+         Dans la configuration du 1), avec θ1' = 0,3 rad/s, θ2' = -0,1 rad/s :\nvx = -0,175 m/s ; vy = 0,130 m/s\n"
+    );
+    let found = plain(&text);
+    assert_eq!(found.tally().wrong, 0, "{:?}", found.claims);
+    assert_eq!([standing(&found, "vx"), standing(&found, "vy")], [Standing::Equal; 2]);
+    let found = plain(&text.replace("vx = -0,175", "vx = -0,275").replace("y_C = 0,750", "y_C = 0,450"));
+    let wrong = found.claims.iter().filter(|c| c.standing() == Standing::Wrong).map(|c| c.name.as_str());
+    assert_eq!(wrong.collect::<Vec<_>>(), ["y_C", "vx"]);
+    // Where no configuration is known, a number for a point accuses nothing.
+    let found = plain(&text.replace("Pour θ1 = 30°, θ2 = 60° :", "Quelque part :"));
+    assert_eq!(found.tally().wrong, 0, "{:?}", found.claims);
+}

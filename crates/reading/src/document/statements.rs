@@ -213,7 +213,9 @@ impl<'t> Reader<'t> {
         for (i, node) in nodes.iter().enumerate() {
             let shown = cut(self.text, &node.span);
             let next = nodes.get(i + 1..).unwrap_or(&[]);
-            let word = node.is(Kind::Word) && node.gap > Gap::None && words::is_link(shown);
+            // `with L_1 = 0.45 m` may begin a line.
+            let apart = node.gap > Gap::None || i == 0 && next.first().is_some_and(|n| n.gap > Gap::None);
+            let word = node.is(Kind::Word) && apart && words::is_link(&shown.to_lowercase());
             let hard = match node.token() {
                 Some(Kind::Semicolon | Kind::Arrow) => true,
                 // `θ1 = 20°: cos θ5 = 0.5`

@@ -130,6 +130,8 @@ pub(super) fn is_prose(text: &str, span: &Range<usize>) -> bool {
         [_, Some(b)] if is_conjunction(b) => false,
         [Some(a), _] if is_conjunction(a) => false,
         [Some(a), Some(b)] if is_plain(a) => a.chars().count() >= 4 || is_filler(a) || is_link(b),
+        // `0.5 m wird`
+        [Some("m" | "mm" | "cm" | "rad"), Some(b)] if is_plain(b) && b.chars().count() > 3 => true,
         [Some(a), Some(b)] if is_plain(b) => is_filler(b) && a.chars().all(char::is_alphanumeric),
         _ => false,
     })
