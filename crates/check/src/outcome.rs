@@ -25,8 +25,10 @@ pub struct Checked {
 /// How many claims there are of each kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tally {
-    /// Proved equal.
+    /// Right: proved equal, or right in numbers.
     pub equal: usize,
+    /// Of these, what is proved.
+    pub proved: usize,
     /// Refuted.
     pub wrong: usize,
     /// Equal where a condition holds.
@@ -91,6 +93,7 @@ impl Checked {
     pub fn tally(&self) -> Tally {
         let mut tally = Tally { unjudged: self.unjudged.len(), ..Tally::default() };
         for claim in &self.claims {
+            tally.proved += usize::from(claim.is_proved());
             match claim.standing() {
                 Standing::Equal => tally.equal += 1,
                 Standing::Wrong => tally.wrong += 1,
@@ -166,6 +169,14 @@ impl Claim {
             Standing::Conditional,
         ];
         order.into_iter().find(|&s| has(s)).unwrap_or(Standing::Equal)
+    }
+
+    /// True if it is right by proof: what agrees with printed digits, is found by a search or seen in samples is not.
+    pub fn is_proved(&self) -> bool {
+        // Tables have a proof of their own; a helper is right by what uses it.
+        let is_apart = matches!(self.about, About::Table | About::TableRow | About::Helper);
+        let by_proof = |e: &Entry| is_apart || !e.identities.is_empty();
+        self.standing() == Standing::Equal && self.entries.iter().all(by_proof)
     }
 }
 

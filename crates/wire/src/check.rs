@@ -229,7 +229,8 @@ impl Checked {
 
 impl From<check::Tally> for Tally {
     fn from(tally: check::Tally) -> Self {
-        let check::Tally { equal, wrong, conditional, carried, undecided, unreadable, unjudged } = tally;
+        let check::Tally { equal, proved: _, wrong, conditional, carried, undecided, unreadable, unjudged } =
+            tally;
         Tally { carried, conditional, equal, undecided, unjudged, unreadable, wrong }
     }
 }

@@ -44,7 +44,8 @@ pub fn page(document: &Document) -> String {
     let _ = writeln!(out, "<p>Held against {}: {} claims.</p>", robots.concat(), checked.claims.len());
     out += "<ul class=\"legend\">\n";
     for (count, class, word) in [
-        (tally.equal, "equal", "proved equal"),
+        (tally.proved, "equal", "proved equal"),
+        (tally.equal - tally.proved, "equal", "right in numbers"),
         (tally.wrong, "wrong", "wrong"),
         (tally.conditional, "other", "right under a condition"),
         (tally.carried, "other", "carried from an earlier error"),
@@ -190,7 +191,7 @@ fn note(document: &Document, claim: &Claim) -> Option<String> {
 fn finding(document: &Document, entry: &Entry) -> String {
     let code = |text: &str| format!("<code>{}</code>", escaped(text));
     match &entry.finding {
-        Finding::Equal { .. } => "proved equal".into(),
+        Finding::Equal { .. } => "right".into(),
         Finding::Carried { by, correct } => {
             let cause = document.checked.claims.get(*by);
             let said = cause.map(|c| words().carried(&c.name, document.line(c.span.start)));

@@ -10,10 +10,11 @@ pub fn list(document: &Document) -> String {
     let checked = document.checked;
     let t = checked.tally();
     let mut out = format!(
-        "{} claims: {} proved, {} wrong, {} right under a condition, {} carried, {} undecided, {} unreadable; {} lines not \
+        "{} claims: {} proved, {} right in numbers, {} wrong, {} right under a condition, {} carried, {} undecided, {} unreadable; {} lines not \
          judged.\n",
         checked.claims.len(),
-        t.equal,
+        t.proved,
+        t.equal - t.proved,
         t.wrong,
         t.conditional,
         t.carried,

@@ -29,8 +29,9 @@ pub fn report(document: &Document, all: bool) -> String {
     let names: Vec<&str> = checked.robots.iter().map(|r| r.name.as_str()).collect();
     let mut robots = names.clone();
     robots.dedup();
-    let mut parts = vec![format!("{} proved", styled(&tally.equal.to_string(), GOOD))];
+    let mut parts = vec![format!("{} proved", styled(&tally.proved.to_string(), GOOD))];
     for (count, word, style) in [
+        (tally.equal - tally.proved, "right in numbers", GOOD),
         (tally.wrong, "wrong", BAD),
         (tally.conditional, "right under a condition", DOUBT),
         (tally.carried, "carried from an earlier error", DOUBT),
@@ -114,7 +115,8 @@ fn shown(document: &Document, claim: &Claim) -> String {
         _ => ("?", DOUBT),
     };
     let word = match standing {
-        Standing::Equal => "proved equal",
+        Standing::Equal if claim.is_proved() => "proved equal",
+        Standing::Equal => "right in numbers",
         Standing::Wrong => "wrong",
         Standing::Conditional => "right under a condition",
         Standing::Carried => "carried from an earlier error",

@@ -153,10 +153,6 @@ impl Check for French {
     }
 
     fn sense(&self, sense: Sense) -> String {
-        if let Sense::Load { letter, axis, is_minus } = sense {
-            let along = if is_minus { "contre" } else { "suivant" };
-            return say!("{letter} lu comme une charge sur l'organe terminal, {along} l'axe {axis}");
-        }
         printed(match sense {
             Sense::LinkAlone => {
                 "lu comme la matrice de passage d'un seul corps, non comme un repère dans la base"
@@ -174,7 +170,10 @@ impl Check for French {
             Sense::WristEntries => "lu avec r_ij comme éléments du repère 6 dans le repère 3",
             Sense::ZeroIsBase => "lu avec la base du robot comme repère 0",
             Sense::PlaceIsO => "lu avec o comme position de l’organe terminal",
-            Sense::Load { .. } => "lu comme une charge",
+            Sense::Load { letter, axis, is_minus } => {
+                let along = if is_minus { "contre" } else { "suivant" };
+                return say!("{letter} lu comme une charge sur l'organe terminal, {along} l'axe {axis}");
+            }
             Sense::Unit { millimetres: true } => "longueurs sans unité lues en millimètres",
             Sense::Unit { millimetres: false } => "longueurs sans unité lues en mètres",
         })
