@@ -39,8 +39,8 @@ fn page() -> Result<String> {
         let (counts, list) = list.split_once('\n').context("counts")?;
         let cells: Vec<&str> =
             counts.split(|c: char| !c.is_ascii_digit()).filter(|n| !n.is_empty()).collect();
-        if cells.len() != 8 {
-            bail!("{file}: eight counts, not `{counts}`");
+        if cells.len() != 9 {
+            bail!("{file}: nine counts, not `{counts}`");
         }
         let _ = writeln!(rows, "| [{title}](#{}) | {} |", anchor(title), cells.join(" | "));
         let _ = write!(lists, "\n## {title}\n\n{source} [Transcription](../{file}).\n{list}");
@@ -52,11 +52,11 @@ fn page() -> Result<String> {
          `cargo xtask test` fails if it is not up to date.\n\n\
          A claim is what stands to the left of an equality sign, with one formula or a matrix; it is wrong if one of its\n\
          entries is. Verdicts are by proof, unless they say that they are by comparison with all solutions or found in\n\
-         samples. Line is the line of the transcription. What is not wrong or right under a condition is proved, and\n\
-         not listed. Where a slip comes from, what is odd in print and what the documents leave out:\n\
+         samples. Line is the line of the transcription. What is not wrong or right under a condition is proved,\n\
+         or said to be right in numbers, and not listed. Where a slip comes from, what is odd in print and what the documents leave out:\n\
          [remarks](errata-remarks.md).\n\n\
-         | document | claims | proved | wrong | right under a condition | carried | undecided | unreadable | lines not judged |\n\
-         |---|--:|--:|--:|--:|--:|--:|--:|--:|\n{rows}{lists}"
+         | document | claims | proved | right in numbers | wrong | right under a condition | carried | undecided | unreadable | lines not judged |\n\
+         |---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n{rows}{lists}"
     ))
 }
 
