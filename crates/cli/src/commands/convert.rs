@@ -5,12 +5,8 @@ use crate::commands::report::put;
 use crate::failure::Failure;
 use crate::load;
 use crate::terminal::note;
-use denavit::Robot;
-use denavit::description::{
-    Decimals, Description, prove_same_chain, read_toml, read_urdf, write_toml, write_urdf,
-};
-use denavit::random::Random;
-use std::f64::consts::PI;
+use denavit::description::{Decimals, Description, read_toml, read_urdf, write_toml, write_urdf};
+use denavit::mechanism::{COMPARED, Comparison, compare};
 
 /// Writes a robot in another format.
 ///
@@ -45,22 +41,19 @@ pub fn run(arguments: &ConvertArguments) -> Result<(), Failure> {
 
 /// Says how what was written is the robot.
 fn say_same(robot: &Description, back: Option<&Description>) {
-    const SAMPLES: usize = 256;
-    let Some(back) = back.filter(|b| b.variables().len() == robot.variables().len()) else {
-        return note("note: what was written was not held against the robot");
+    let Some(back) = back else {
+        return note(
+            "note: what was written was not held against the robot: it does not read back as one chain",
+        );
     };
-    if prove_same_chain(robot, back).is_equal() || prove_same_chain(&robot.in_numbers(), back).is_equal() {
-        return note("note: read back, it is proved to be the same robot");
-    }
-    let (Ok(a), Ok(b)) = (Robot::numeric(robot), Robot::numeric(back)) else {
-        return note("note: what was written was not held against the robot: parameters have no values");
-    };
-    let mut random = Random(20);
-    let mut most = 0.0_f64;
-    for _ in 0..SAMPLES {
-        let q: Vec<f64> = robot.variables().iter().map(|_| (2.0 * random.unit() - 1.0) * PI).collect();
-        let [x, y] = [&a, &b].map(|r| r.pose(&q).matrix().concat());
-        most = x.iter().zip(y).fold(most, |most, (x, y)| most.max((x - y).abs()));
-    }
-    note(&format!("note: read back, its poses differ by {most:.0e} at most in {SAMPLES} configurations"));
+    note(&match compare(robot, back) {
+        Comparison::Proved => "note: read back, it is proved to be the same robot".to_string(),
+        Comparison::Sampled(by) => {
+            format!("note: read back, its poses differ by {by:.0e} at most in {COMPARED} configurations")
+        }
+        Comparison::OtherJoints => "note: read back, it has other joints than the robot".into(),
+        Comparison::NoNumbers(missing) => {
+            format!("note: what was written was not held against the robot: {missing}")
+        }
+    });
 }

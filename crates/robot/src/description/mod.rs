@@ -15,6 +15,7 @@ mod names;
 mod order;
 mod parameters;
 mod periods;
+mod reader;
 mod robot_file;
 mod rows;
 mod same;

@@ -1,11 +1,11 @@
 //! The moving axes with the constants between them, and the chain they come from.
 
 use crate::common::Random;
-use denavit::description::JointKind;
-use denavit::description::read_toml;
+use denavit::description::{Convention, JointKind, read_toml};
 use denavit::geometry::Transform;
-use denavit::mechanism::{Lengths, MovingAxes, MovingAxis};
+use denavit::mechanism::{Comparison, Lengths, MovingAxes, MovingAxis, compare};
 use denavit::{Robot, catalogue};
+use denavit_symbolic::{Expr, Rational};
 
 /// Turns and slides with constants beside them, a row that does both, a constant row, and a coupling.
 const MIXED: &str = r#"
@@ -51,4 +51,22 @@ fn axes_and_constants_multiply_to_the_pose() {
             assert!(off < 1e-12 * robot.reach().max(1.0), "{}: {off}", description.name);
         }
     }
+}
+
+/// Another way to write the same arm is proved to be it; what is off by a millimetre or turned round is not.
+#[test]
+fn descriptions_are_compared() {
+    let ur5 = catalogue::robot("ur5").unwrap();
+    assert_eq!(compare(&ur5, &ur5.converted(Convention::Craig).description), Comparison::Proved);
+    assert_eq!(compare(&ur5, &ur5.in_numbers()), Comparison::Proved);
+    let mut longer = ur5.in_numbers();
+    longer.tool = longer.tool * Transform::translation_z(Expr::from(Rational::new(1, 1000)));
+    let Comparison::Sampled(by) = compare(&ur5, &longer) else { panic!("a longer tool is another arm") };
+    assert!((0.9e-3..=1e-3).contains(&by), "{by:e}");
+    assert_eq!(compare(&ur5, &catalogue::robot("stanford").unwrap()), Comparison::OtherJoints);
+    let open = catalogue::robot("prrrrp").unwrap();
+    let mut other = open.clone();
+    other.tool = other.tool * Transform::translation_z(Expr::int(1));
+    assert_eq!(compare(&open, &open.converted(Convention::Standard).description), Comparison::Proved);
+    assert!(matches!(compare(&open, &other), Comparison::NoNumbers(_)));
 }

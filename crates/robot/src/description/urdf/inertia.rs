@@ -1,6 +1,6 @@
 //! `<inertial>`: a link's mass, its centre, its inertia.
 
-use super::Reader;
+use crate::description::reader::Reader;
 use crate::description::tree::Mass;
 use crate::description::xml::Element;
 use crate::geometry::Rotation;

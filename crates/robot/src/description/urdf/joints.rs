@@ -1,8 +1,9 @@
 //! `<joint>`: what stands on what, and how it moves.
 
-use super::{Links, Reader};
+use super::Links;
 use crate::description::JointKind;
 use crate::description::diagnostic::nearest;
+use crate::description::reader::Reader;
 use crate::description::tree::{Body, Joint};
 use crate::description::xml::{Element, shown};
 use crate::geometry::{Transform, Vector};

@@ -6,12 +6,12 @@
 mod inertia;
 mod joints;
 mod tree;
-mod values;
 mod write;
 
 pub use write::write_urdf;
 
 use super::diagnostic::{Diagnostic, Diagnostics};
+use super::reader::Reader;
 use super::sources::{Files, Sources};
 use super::tree::{Body, Mechanism};
 use super::xacro::{Xacro, expand, is_xacro};
@@ -19,7 +19,6 @@ use super::xml::{Element, parse, shown};
 use super::{Decimals, MAX_ROWS};
 use std::collections::HashMap;
 use std::ops::Range;
-use values::Reader;
 
 /// What stands in `<robot>` beside links and joints, and says nothing of kinematics.
 const BESIDE: &[&str] = &[

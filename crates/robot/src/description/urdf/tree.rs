@@ -1,8 +1,9 @@
 //! Links and joints as one tree.
 
+use super::Links;
 use super::joints::Draft;
-use super::{Links, Reader};
 use crate::description::diagnostic::nearest;
+use crate::description::reader::Reader;
 use crate::description::tree::{Follows, Joint, Mechanism};
 use crate::description::xml::{Element, shown};
 use denavit_symbolic::{Expr, Rational};

@@ -1,9 +1,9 @@
-//! The numbers of a URDF: exact decimals, and angles by their digits.
+//! The numbers of a robot description in XML: exact decimals, and angles by their digits.
 
-use crate::description::Decimals;
-use crate::description::decimals::{Found, Meant, name, places, recognise};
-use crate::description::diagnostic::{Diagnostics, Severity};
-use crate::description::xml::{Element, Text, shown};
+use super::Decimals;
+use super::decimals::{Found, Meant, name, places, recognise};
+use super::diagnostic::{Diagnostics, Severity};
+use super::xml::{Element, Text, shown};
 use crate::geometry::{Rotation, Transform, Vector};
 use denavit_symbolic::{Expr, Rational};
 use std::collections::BTreeMap;
@@ -17,7 +17,7 @@ const LARGEST: i64 = 1_000_000_000;
 /// A text being read, and what was found in it.
 pub(super) struct Reader {
     pub out: Diagnostics,
-    decimals: Decimals,
+    pub decimals: Decimals,
     /// What angles were taken for: by text and multiple, where first, how often.
     angles: BTreeMap<(String, i64), Angles>,
 }
@@ -182,18 +182,26 @@ impl Reader {
             self.out.warning(element.span(), "an axis without `xyz` is taken as x");
             return x;
         };
-        let Some(numbers) = self.numbers(&value, "xyz", 3) else { return x };
+        self.direction(&value, "xyz").unwrap_or(x)
+    }
+
+    /// Three numbers that are a direction; nothing where they are none, which is said.
+    pub fn direction(&mut self, value: &Text, what: &str) -> Option<Vector<Expr>> {
+        let numbers = self.numbers(value, what, 3)?;
         let exact: Vec<Expr> =
             numbers.iter().map(|(x, word)| word.exact.unwrap_or_else(|| x.clone().into())).collect();
         let is_exact = numbers.iter().any(|n| n.1.exact.is_some());
         let mut v: Vec<Rational> = numbers.into_iter().map(|n| n.0).collect();
         let largest = v.iter().map(Rational::abs).max().unwrap_or_default();
         if largest.is_zero() {
-            self.out.error(value.span.clone(), "the axis is the vector 0");
-            return x;
+            self.out.error(
+                value.span.clone(),
+                format!("the {} is the vector 0", if what == "xyz" { "axis" } else { what }),
+            );
+            return None;
         }
         if is_exact {
-            return Vector([exact[0], exact[1], exact[2]]);
+            return Some(Vector([exact[0], exact[1], exact[2]]));
         }
         let noise = &largest * &Rational::new(NOISE.0, NOISE.1);
         let is_noise = |c: &Rational| !c.is_zero() && c.abs() < noise;
@@ -202,9 +210,9 @@ impl Reader {
                 self.out.note(value.span.clone(), "components below 1e-12 of the largest are read as 0");
                 v.iter_mut().filter(|c| is_noise(c)).for_each(|c| *c = Rational::ZERO);
             }
-            self.diagonal(&mut v, &largest, &value);
+            self.diagonal(&mut v, &largest, value);
         }
-        Vector([0, 1, 2].map(|i| Expr::from(v[i].clone())))
+        Some(Vector([0, 1, 2].map(|i| Expr::from(v[i].clone()))))
     }
 
     /// `0.7071 0 0.7072` is a diagonal.
