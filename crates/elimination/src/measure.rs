@@ -22,6 +22,8 @@ use crate::{
 
 /// Poses on which every split is tried, and the best of them again.
 const POSES: [usize; 2] = [32, 96];
+/// The same where any good split will do.
+const FEW: [usize; 2] = [8, 8];
 
 /// What a way to solve did on the poses.
 #[derive(Clone, Copy, Debug, Default)]
@@ -69,6 +71,18 @@ impl Plan {
     /// # Errors
     /// If the arm has no isolated configurations in general, or no split works for it.
     pub fn new(arm: &Arm) -> Result<Plan, Unsuitable> {
+        Plan::measured(arm, POSES)
+    }
+
+    /// The same from a tenth of the poses: a good split, if not the best, where few poses are solved.
+    ///
+    /// # Errors
+    /// See [`Plan::new`].
+    pub fn quick(arm: &Arm) -> Result<Plan, Unsuitable> {
+        Plan::measured(arm, FEW)
+    }
+
+    fn measured(arm: &Arm, count: [usize; 2]) -> Result<Plan, Unsuitable> {
         let size = arm.size();
         let scaled = arm.scaled(1.0 / size);
         check(arm)?;
@@ -78,13 +92,14 @@ impl Plan {
         let constants =
             Constants { arm: scaled, size, fourier: Fourier::new(DEGREE), wide: Fourier::new(wide::DEGREE) };
         let mut draws = Draws(0x9e37_79b9_7f4a_7c15);
-        let poses: Vec<([f64; 6], Rigid)> = (0..POSES[0] + POSES[1])
+        let poses: Vec<([f64; 6], Rigid)> = (0..count[0] + count[1])
             .map(|_| {
                 let q = draws.configuration(&constants.arm);
                 (q, constants.arm.pose(&q))
             })
             .collect();
 
+        let poses = poses.split_at(count[0]);
         let slides = arm.joints.iter().filter(|&&joint| joint == Joint::Prismatic).count();
         let arm = &constants.arm;
         let method = match slides {
@@ -93,16 +108,16 @@ impl Plan {
                     .flat_map(|hidden| [true, false].map(|last| Split::new(arm, hidden, last)))
                     .flatten()
                     .collect();
-                Method::Splits(rank(&constants, ways, &poses, |split| Way::Split { split, wide: false }))
+                Method::Splits(rank(&constants, ways, poses, |split| Way::Split { split, wide: false }))
             }
             2 => {
-                let some: Vec<Rigid> = poses[..6].iter().map(|(_, pose)| *pose).collect();
+                let some: Vec<Rigid> = poses.0[..6].iter().map(|(_, pose)| *pose).collect();
                 let ways = (0..4)
                     .flat_map(|first| [true, false].map(|forwards| Sliding::new(arm, first, forwards)))
                     .flatten()
                     .filter_map(|mut way| way.settle(arm, &some).then_some(way))
                     .collect();
-                Method::Slides(rank(&constants, ways, &poses, |way| Way::Slides(way)))
+                Method::Slides(rank(&constants, ways, poses, |way| Way::Slides(way)))
             }
             _ => Method::Triple(Box::new(Triple::new(arm).ok_or(Unsuitable::TooManySlides)?)),
         };
@@ -120,7 +135,7 @@ impl Plan {
 fn rank<W>(
     constants: &Constants,
     ways: Vec<W>,
-    poses: &[([f64; 6], Rigid)],
+    (some, more): (&[([f64; 6], Rigid)], &[([f64; 6], Rigid)]),
     as_way: impl Fn(&W) -> Way<'_>,
 ) -> Vec<W> {
     let mut answer = Answer::default();
@@ -137,11 +152,11 @@ fn rank<W>(
     };
     let order = |a: &(W, Score), b: &(W, Score)| b.1.merit().total_cmp(&a.1.merit());
     for one in &mut tried {
-        measure(one, &poses[..POSES[0]]);
+        measure(one, some);
     }
     tried.sort_by(order);
     for one in tried.iter_mut().take(4) {
-        measure(one, &poses[POSES[0]..]);
+        measure(one, more);
     }
     tried.sort_by(order);
     let mut seen = [false; 6];

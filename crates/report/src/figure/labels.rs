@@ -16,6 +16,8 @@ const AIR: f64 = 1.5;
 const FAR: f64 = 17.0;
 /// Obstacles are points at this distance.
 const GRAIN: f64 = 3.0;
+/// Obstacles lie in squares of this size, points.
+const CELL: f64 = 16.0;
 
 /// A label that waits for its place.
 #[derive(Clone, Debug)]
@@ -39,15 +41,34 @@ pub struct Wish {
 pub struct Sheet {
     width: f64,
     height: f64,
-    /// Points, how large they are, how bad it is to lie on them.
-    obstacles: Vec<([f64; 2], f64, f64)>,
+    /// Those of each square, row by row; what lies beside the sheet in the square next to it.
+    obstacles: Vec<Vec<Obstacle>>,
+    /// The largest radius of an obstacle.
+    radius: f64,
     taken: Vec<Rect>,
 }
+
+/// A point, how large it is, how bad it is to lie on it.
+type Obstacle = ([f64; 2], f64, f64);
 
 impl Sheet {
     /// An empty sheet.
     pub fn new(width: f64, height: f64) -> Self {
-        Sheet { width, height, obstacles: vec![], taken: vec![] }
+        let [columns, rows] = [width, height].map(cells);
+        Sheet { width, height, obstacles: vec![vec![]; columns * rows], radius: 0.0, taken: vec![] }
+    }
+
+    /// The square of a point, or the one next to it.
+    fn cell(&self, [x, y]: [f64; 2]) -> [usize; 2] {
+        let of = |x: f64, size: f64| ((x / CELL).max(0.0) as usize).min(cells(size) - 1);
+        [of(x, self.width), of(y, self.height)]
+    }
+
+    /// The obstacles that may lie in a rectangle.
+    fn within(&self, [l, t, r, b]: Rect) -> impl Iterator<Item = &Obstacle> {
+        let ([left, top], [right, bottom]) = (self.cell([l, t]), self.cell([r, b]));
+        let columns = cells(self.width);
+        (top..=bottom).flat_map(move |y| self.obstacles[y * columns..][left..=right].iter().flatten())
     }
 
     /// Something long and thick that labels should not lie on.
@@ -56,8 +77,11 @@ impl Sheet {
         let steps = (length / GRAIN).ceil().clamp(1.0, 400.0);
         for k in 0..=steps as usize {
             let t = k as f64 / steps;
-            self.obstacles.push(([a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])], radius, weight));
+            let point = [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])];
+            let [column, row] = self.cell(point);
+            self.obstacles[row * cells(self.width) + column].push((point, radius, weight));
         }
+        self.radius = self.radius.max(radius);
     }
 
     /// How much there is along a line already, per point of its length.
@@ -65,7 +89,10 @@ impl Sheet {
         let (vx, vy) = (b[0] - a[0], b[1] - a[1]);
         let square = (vx * vx + vy * vy).max(1e-9);
         let mut sum = 0.0;
-        for ([x, y], radius, weight) in &self.obstacles {
+        let reach = self.radius + 3.0;
+        let [left, right] = [a[0].min(b[0]) - reach, a[0].max(b[0]) + reach];
+        let [top, bottom] = [a[1].min(b[1]) - reach, a[1].max(b[1]) + reach];
+        for ([x, y], radius, weight) in self.within([left, top, right, bottom]) {
             let t = (((x - a[0]) * vx + (y - a[1]) * vy) / square).clamp(0.0, 1.0);
             let (dx, dy) = (a[0] + t * vx - x, a[1] + t * vy - y);
             if dx.hypot(dy) < radius + 3.0 {
@@ -138,7 +165,8 @@ impl Sheet {
             return None;
         }
         let mut sum = 0.0;
-        for ([x, y], radius, weight) in &self.obstacles {
+        let reach = self.radius + AIR;
+        for ([x, y], radius, weight) in self.within([l - reach, t - reach, r + reach, b + reach]) {
             let (dx, dy) = ((l - x).max(x - r), (t - y).max(y - b));
             if dx < radius + AIR && dy < radius + AIR {
                 sum += 2.0 * weight;
@@ -167,6 +195,11 @@ impl Sheet {
         }
         best
     }
+}
+
+/// How many squares there are along a side of the sheet.
+fn cells(size: f64) -> usize {
+    (size / CELL).ceil().clamp(1.0, 1000.0) as usize
 }
 
 fn around([x, y]: [f64; 2], w: f64, h: f64) -> Rect {

@@ -6,13 +6,15 @@
 use super::algebra::Kind;
 use super::chain::NormalChain;
 use super::equations::{Equations, Split};
-use super::known::{Known, Samples, Unknown, Ways, rewritten};
+use super::forms::{Forms, View};
+use super::known::{Known, Samples, Unknown};
 use super::plan::{Cost, Determinant, Elimination, Form, Norm, Origin, Row, Step};
 use denavit_symbolic::Rational;
 use denavit_symbolic::poly::{Atom, Monomial, Poly};
 use rustc_hash::FxHashMap;
 use std::cell::RefCell;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
+use std::rc::Rc;
 
 /// Cuts, whether on the side of the pose, components.
 type SquaresKey = (usize, usize, bool, Vec<usize>);
@@ -27,10 +29,7 @@ pub struct Problem<'a> {
     pub samples: &'a Samples,
     /// Sums of squares that were multiplied out.
     squares: RefCell<FxHashMap<SquaresKey, Poly>>,
-    /// Squares of what is open of components of a position.
-    squared: RefCell<FxHashMap<Poly, Poly>>,
-    /// Polynomials in the basis of their unknowns, by the ways to the angles that were replaced.
-    rewritten: RefCell<FxHashMap<(Poly, Ways), Poly>>,
+    pub(super) forms: Forms,
 }
 
 /// Equations of one unknown that are compared in pairs.
@@ -56,20 +55,10 @@ impl Seen {
     }
 }
 
-/// A polynomial by powers of an unknown: (cosine, sine), or (displacement, 0).
-type View = BTreeMap<(u16, u16), Poly>;
-
 impl<'a> Problem<'a> {
     /// A search's problem.
     pub fn new(chain: &'a NormalChain, sides: &'a Equations, samples: &'a Samples) -> Self {
-        Problem {
-            chain,
-            sides,
-            samples,
-            squares: RefCell::default(),
-            squared: RefCell::default(),
-            rewritten: RefCell::default(),
-        }
+        Problem { chain, sides, samples, squares: RefCell::default(), forms: Forms::default() }
     }
 }
 
@@ -208,32 +197,6 @@ impl Problem<'_> {
         Some(Seen { unknowns, zero, degree: 2, origin })
     }
 
-    /// The polynomial with its unknown angles written in those of a basis.
-    fn in_basis(&self, known: &Known, p: &Poly, basis: &[Unknown]) -> Poly {
-        let ways = known.ways(self.chain, p, basis);
-        if ways.is_empty() {
-            return p.clone();
-        }
-        let key = (p.clone(), ways);
-        if let Some(found) = self.rewritten.borrow().get(&key) {
-            return found.clone();
-        }
-        let found = rewritten(self.chain, p, &key.1);
-        self.rewritten.borrow_mut().insert(key, found.clone());
-        found
-    }
-
-    /// The square, which is asked for again from the next state on.
-    fn squared(&self, p: &Poly) -> Poly {
-        let mut known = self.squared.borrow_mut();
-        if let Some(square) = known.get(p) {
-            return square.clone();
-        }
-        let square = self.chain.algebra.square(p);
-        known.insert(p.clone(), square.clone());
-        square
-    }
-
     /// The terms of a polynomial that are known, and the others.
     fn known_part(&self, known: &Known, p: &Poly) -> (Poly, Poly) {
         let is_known = |m: &Monomial| {
@@ -253,20 +216,6 @@ impl Problem<'_> {
         let products: usize = sum.squares.iter().map(|p| p.terms().len() * p.terms().len()).sum();
         let square = |total: Poly, p: &Poly| total.plus(&self.chain.algebra.square(p));
         (products <= SQUARED).then(|| sum.squares.iter().fold(sum.plus.clone(), square))
-    }
-
-    /// A polynomial by powers of an unknown.
-    fn view(&self, p: &Poly, x: Unknown) -> View {
-        let mut view: BTreeMap<(u16, u16), Vec<(Monomial, Rational)>> = BTreeMap::new();
-        let (c, s) = self.atoms(x);
-        for (m, r) in p.terms() {
-            let key = (m.exponent(c), s.map_or(0, |s| m.exponent(s)));
-            let rest = m.without(c);
-            let rest = s.map_or(rest.clone(), |s| rest.without(s));
-            view.entry(key).or_default().push((rest, r.clone()));
-        }
-        let polys = view.into_iter().map(|(k, terms)| (k, Poly::from_terms(terms)));
-        polys.filter(|(_, p)| !self.samples.vanishes(p)).collect()
     }
 
     /// The atoms of an unknown: cosine and sine, or the displacement alone.
@@ -437,7 +386,7 @@ impl Problem<'_> {
                     known.rank(&all) == 2
                 }
             };
-            let rows: Vec<(View, &Seen)> = seen
+            let rows: Vec<(Rc<View>, &Seen)> = seen
                 .iter()
                 .filter(spans)
                 .take(PAIRS)

@@ -6,6 +6,7 @@ mod chain;
 pub(super) mod compile;
 mod conditions;
 mod equations;
+mod forms;
 mod known;
 mod model;
 mod naming;

@@ -198,7 +198,7 @@ pub(in crate::inverse) enum Extent {
     Whole,
     /// What solves poses; a derivation that cannot end is refused before it begins.
     Solver,
-    /// The steps and their solver alone.
+    /// The steps and their solver alone, of a redundant arm, if what is left with joints given has a usual geometry.
     Steps,
 }
 
@@ -242,7 +242,8 @@ impl InverseModel {
                 _ => NotGiven::TooMany { given: asked.len(), surplus },
             }));
         }
-        let screen = (options.goal == Goal::Pose).then(|| Screen::new(&chain, &samples));
+        let screen =
+            (options.goal == Goal::Pose).then(|| Screen::new(&chain, &samples, extent == Extent::Steps));
         if extent != Extent::Whole && !may_end(&chain, screen.as_ref(), &asked, surplus) {
             let outcome =
                 Outcome { steps: vec![], missing: Known::new(&chain, &chain.axes_of(&asked)).open(&chain) };

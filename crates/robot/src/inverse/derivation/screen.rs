@@ -4,6 +4,9 @@
 //! of its derivatives by the axes at some configurations, the entries of the pose held: never more than of the unknowns
 //! that its polynomial shows. Here every equation with one unknown counts as solved, and so do any two with the same two
 //! unknowns; what cannot be found even so is not found by the search.
+//!
+//! Of a redundant arm the joints that are given are chosen, and six turns that are left have a closed form where three
+//! neighbours meet or are parallel (D. L. Pieper, *The Kinematics of Manipulators under Computer Control*, 1968).
 
 use super::algebra::Algebra;
 use super::chain::{Element, Motion, NormalChain};
@@ -28,6 +31,11 @@ type Forms = Vec<Vec<f64>>;
 pub struct Screen {
     axes: usize,
     equations: Vec<Forms>,
+    /// A point and the direction of each axis at some configuration; no point of one that slides.
+    lines: Vec<(Option<[f64; 3]>, [f64; 3])>,
+    length: f64,
+    /// Whether six turns have to be of a usual geometry.
+    usual: bool,
 }
 
 /// A 4×4 matrix without its last row; the pose need not be rigid.
@@ -77,13 +85,15 @@ fn derivative_times(d: &Block, o: &Block) -> Block {
 type Entries = [f64; 16];
 
 impl Screen {
-    /// For a chain whose whole pose is given.
-    pub fn new(chain: &NormalChain, samples: &Samples) -> Self {
+    /// For a chain whose whole pose is given; with `usual`, six turns count only if [usual](Self::is_usual).
+    pub fn new(chain: &NormalChain, samples: &Samples, usual: bool) -> Self {
         let n = chain.elements.len();
         let mut random = Random(0x5851_F42D_4C95_7F2D);
         let mut gradients: Vec<Vec<Forms>> = vec![];
+        let mut lines = vec![];
         for _ in 0..CONFIGURATIONS {
             let parts = parts(chain, samples, &mut random);
+            lines = self::lines(chain, &parts[0]);
             let mut drawn = |by: f64| by * (2.0 * random.unit() - 1.0);
             let r = std::array::from_fn(|_| std::array::from_fn(|_| drawn(1.0)));
             let pose = Block { r, p: std::array::from_fn(|_| drawn(2.0 * samples.length())) };
@@ -108,11 +118,37 @@ impl Screen {
                 }
             }
         }
-        Screen { axes: chain.axes.len(), equations }
+        Screen { axes: chain.axes.len(), equations, lines, length, usual }
+    }
+
+    /// False if six turns are left of which no three neighbours meet in a point or are parallel.
+    fn is_usual(&self, given: &[usize]) -> bool {
+        let left: Vec<_> = (0..self.axes).filter(|k| !given.contains(k)).map(|k| self.lines[k]).collect();
+        let turns: Vec<_> = left.iter().filter_map(|&(point, z)| Some((point?, z))).collect();
+        let is_small = |v: [f64; 3], unit: f64| square(&v).sqrt() <= SMALL * unit;
+        let are_parallel = |a: [f64; 3], b: [f64; 3]| is_small(cross(&a, &b), 1.0);
+        let special = |w: &[([f64; 3], [f64; 3])]| {
+            let [(p, u), (q, v), (r, w)] = [w[0], w[1], w[2]];
+            if are_parallel(u, v) || are_parallel(v, w) {
+                return are_parallel(u, v) && are_parallel(v, w);
+            }
+            // The points of the second axis that are nearest to the others are one, and on them.
+            let nearest = |(p, u): ([f64; 3], [f64; 3])| {
+                let (n, between) = (cross(&u, &v), std::array::from_fn(|i| p[i] - q[i]));
+                let along = dot(&cross(&between, &u), &n) / -dot(&n, &n);
+                (along, dot(&between, &n).abs() / square(&n).sqrt())
+            };
+            let ((a, first), (b, second)) = (nearest((p, u)), nearest((r, w)));
+            (a - b).abs().max(first).max(second) <= SMALL * self.length
+        };
+        left.len() != 6 || turns.len() < 6 || turns.windows(3).any(special)
     }
 
     /// False if the search cannot find everything from the values of some axes.
     pub fn may_end(&self, given: &[usize]) -> bool {
+        if self.usual && !self.is_usual(given) {
+            return false;
+        }
         let unit = |k: usize| (0..self.axes).map(|j| f64::from(u8::from(j == k))).collect::<Vec<f64>>();
         let mut known: Forms = given.iter().map(|&k| unit(k)).collect();
         loop {
@@ -143,6 +179,18 @@ impl Screen {
             }
         }
     }
+}
+
+/// The axes at a configuration, by the products of the first elements.
+fn lines(chain: &NormalChain, before: &[Part]) -> Vec<(Option<[f64; 3]>, [f64; 3])> {
+    let mut lines = vec![(None, [0.0; 3]); chain.axes.len()];
+    for (element, part) in chain.elements.iter().zip(before) {
+        if let Element::Axis(k) = element {
+            let turns = chain.axes[*k].motion != Motion::Slide;
+            lines[*k] = (turns.then_some(part.value.p), part.value.r.map(|row| row[2]));
+        }
+    }
+    lines
 }
 
 /// All products of neighbouring elements at a configuration: by the first element, then by how many.
@@ -249,6 +297,10 @@ fn entries(
 
 fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
+fn cross(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
+    Vector(*a).cross(Vector(*b)).0
 }
 
 /// Rᵀ v.

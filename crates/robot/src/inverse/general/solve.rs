@@ -11,7 +11,7 @@ use crate::inverse::self_motion::{SelfMotion, follow, is_self_motion};
 use crate::mechanism::Robot;
 use crate::shared::Shared;
 use crate::space::JointSpace;
-use denavit_elimination::{self as elimination, Certificate, Plan};
+use denavit_elimination::{self as elimination, Arm, Certificate, Plan, Unsuitable};
 
 /// Finds the solutions of poses for any robot with six joints.
 #[derive(Clone, Debug)]
@@ -59,9 +59,25 @@ impl GeneralSolver {
     /// # Errors
     /// See [`Unsuited`].
     pub fn new(robot: &Robot<f64>, space: &JointSpace) -> Result<Self, Unsuited> {
+        GeneralSolver::planned(robot, space, Plan::new)
+    }
+
+    /// The same where a few poses are to be solved: an elimination that suits, if not the best.
+    ///
+    /// # Errors
+    /// See [`Unsuited`].
+    pub fn quick(robot: &Robot<f64>, space: &JointSpace) -> Result<Self, Unsuited> {
+        GeneralSolver::planned(robot, space, Plan::quick)
+    }
+
+    fn planned(
+        robot: &Robot<f64>,
+        space: &JointSpace,
+        plan: impl Fn(&Arm) -> Result<Plan, Unsuitable>,
+    ) -> Result<Self, Unsuited> {
         let method = match SixAxes::new(robot) {
             Ok(axes) => {
-                let plan = Plan::new(&axes.arm).map_err(|e| Unsuited::Degenerate(e.to_string()))?;
+                let plan = plan(&axes.arm).map_err(|e| Unsuited::Degenerate(e.to_string()))?;
                 let found = Shared::new(elimination::Answer::default());
                 Method::Six(Box::new(Six { axes, plan, found }))
             }

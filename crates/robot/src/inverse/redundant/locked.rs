@@ -68,7 +68,7 @@ impl Locked {
         } else {
             product(&robot.links[place + 1..count]) * robot.tool
         };
-        let rest = GeneralSolver::new(&robot.held(&[(joint, 0.0)]), &space.held(&[joint])).ok()?;
+        let rest = GeneralSolver::quick(&robot.held(&[(joint, 0.0)]), &space.held(&[joint])).ok()?;
         Some(Locked { joint, is_first, outer, link, joints: robot.joints, rest })
     }
 
