@@ -7,7 +7,7 @@
 use super::cell::variable_number;
 use super::diagnostic::{Diagnostics, nearest};
 use super::{Convention, JointKind, Row, Variable};
-use denavit_symbolic::{Angle, Expr, Symbol};
+use denavit_symbolic::{Angle, Expr, Rational, Symbol, equal};
 use std::ops::{Range, RangeInclusive};
 
 /// A cell that was read, and where.
@@ -144,6 +144,13 @@ fn follows(row: &Cells, out: &mut Diagnostics) {
 /// The factors that joint variables can have, signs aside.
 const FACTORS: RangeInclusive<f64> = 1e-9..=1e9;
 
+/// Whether three values of a variable lie on a line, whatever the others are.
+fn is_affine(e: Expr, variable: Symbol) -> bool {
+    let value = |sevenths: i64| Expr::from(Rational::new(sevenths, 7));
+    let [zero, one, two] = [0, 1, 2].map(|x| e.substitute(|s| (s == variable).then(|| value(x))));
+    equal(zero + two, Expr::int(2) * one).is_equal()
+}
+
 /// Every joint variable stands in a sum, with a number other than 0 as its factor.
 fn check_linear(row: &Cells, z: &str, report: bool, out: &mut Diagnostics) {
     for (cell, name) in [(&row.theta, "theta"), (&row.d, z)] {
@@ -163,8 +170,12 @@ fn check_linear(row: &Cells, z: &str, report: bool, out: &mut Diagnostics) {
         for (q, span) in variables {
             let symbol = Symbol::new(&format!("q{q}"));
             if nonlinear.contains(&symbol) {
-                out.error(span, format!("`{name}` is not linear in `q{q}`"))
-                    .hint(format!("a joint variable may have a rational number as its factor and an offset: `{name} = \"2*q{q} + 90 deg\"`"));
+                let why = if is_affine(cell.expr, symbol) {
+                    format!("the factor of `q{q}` in `{name}` is no rational number")
+                } else {
+                    format!("`{name}` is not linear in `q{q}`")
+                };
+                out.error(span, why).hint(format!("a joint variable may have a rational number as its factor and an offset: `{name} = \"2*q{q} + 90 deg\"`"));
             } else if !summands.contains(&symbol) {
                 out.error(span, format!("`q{q}` cancels in `{name}`"));
             } else if let Some((_, k)) = factors.iter().find(|t| t.0.as_symbol() == Some(symbol))

@@ -93,6 +93,12 @@ fn rows_say_what_is_wrong_with_them() {
             "theta = \"q1^2\"",
             vec!["3:10 error: `theta` is not linear in `q1` | a joint variable may have a rational number"],
         ),
+        (
+            "theta = \"pi*q1\"",
+            vec![
+                "3:13 error: the factor of `q1` in `theta` is no rational number | a joint variable may have",
+            ],
+        ),
         ("theta = \"sin(q1)\"", vec!["3:14 error: `theta` is not linear in `q1`"]),
         ("theta = \"2*q1 - q1 - q1\"", vec!["3:12 error: `q1` cancels in `theta`"]),
         ("theta = \"q1\"\nlimits = [2, 1]", vec!["4:10 error: the lower limit is above the upper one"]),
