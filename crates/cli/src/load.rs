@@ -3,6 +3,8 @@
 mod files;
 mod urdf;
 
+pub use urdf::bundle;
+
 use crate::arguments::{AngleUnit, LengthUnit, RobotArguments};
 use crate::failure::Failure;
 use crate::terminal::{decimals, note};
@@ -34,7 +36,7 @@ pub fn robot(arguments: &RobotArguments) -> Result<Description, Failure> {
 pub fn robot_file(arguments: &RobotArguments) -> Result<(Description, String), Failure> {
     let name = catalogue_name(&arguments.robot);
     let listed = name.as_deref().and_then(|n| Some((n, catalogue::text(n)?)));
-    let is_urdf = listed.is_none() && [".urdf", ".xacro"].iter().any(|e| arguments.robot.ends_with(e));
+    let is_urdf = listed.is_none() && is_tree(&arguments.robot);
     let is_table = listed.is_none() && !is_urdf && !arguments.robot.ends_with(".toml");
     if let (false, Some(option)) = (is_table, table_option(arguments, is_urdf)) {
         return Err(Failure::Usage(format!(
@@ -61,6 +63,11 @@ pub fn robot_file(arguments: &RobotArguments) -> Result<(Description, String), F
     }
     let text = text.filter(|_| arguments.set.is_empty()).unwrap_or_else(|| write_toml(&description));
     Ok((description, text))
+}
+
+/// True for a file that describes a tree.
+pub fn is_tree(name: &str) -> bool {
+    [".urdf", ".xacro"].iter().any(|e| name.ends_with(e))
 }
 
 /// The catalogue's spelling: lower case, words joined by hyphens. `None` for what looks like a path.

@@ -107,7 +107,11 @@ fn placed(findings: &[Diagnostic], text: &str) -> Vec<Finding> {
     findings.iter().map(|d| Finding::placed(d, text)).collect()
 }
 
-fn convention(name: &str) -> Result<Convention, Refusal> {
+/// The convention of a name.
+///
+/// # Errors
+/// If there is none.
+pub fn convention(name: &str) -> Result<Convention, Refusal> {
     let found = Convention::ALL.into_iter().find(|c| c.name() == name);
     found.ok_or_else(|| Refusal::new(format!("no convention is called `{name}`")))
 }

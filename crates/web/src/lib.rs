@@ -9,7 +9,9 @@ mod border;
 mod catalogue;
 mod definitions;
 mod documents;
+mod dropped;
 mod formulas;
+mod looks;
 mod model;
 mod motion;
 mod orientation;
@@ -21,6 +23,7 @@ mod session;
 mod solve;
 mod steps;
 mod subject;
+mod tree;
 mod values;
 mod velocity;
 
@@ -70,7 +73,7 @@ enum MoreRequest {
     Path(motion::Wish),
 }
 
-/// What can be asked about documents and source code.
+/// What can be asked about documents, source code, and descriptions of trees.
 #[derive(Deserialize)]
 #[serde(tag = "op", content = "input", rename_all = "camelCase")]
 enum DocumentRequest {
@@ -78,6 +81,7 @@ enum DocumentRequest {
     Report { format: String, language: String, q: Vec<f64> },
     Code { language: String, name: Option<String> },
     Figure(documents::Picture),
+    Tree(tree::Wanted),
 }
 
 /// A robot file as it is written.
@@ -115,7 +119,7 @@ pub fn answer_more(request: &str) -> String {
     })
 }
 
-/// Answers a request about documents and source code.
+/// Answers a request about documents, source code, or a description of a tree.
 pub fn answer_documents(request: &str) -> String {
     answered(request, |session, request| match request {
         DocumentRequest::Check { text, name } => told(documents::check(session.robot()?, &text, &name)),
@@ -124,6 +128,7 @@ pub fn answer_documents(request: &str) -> String {
         }
         DocumentRequest::Code { language, name } => told(documents::code(session.robot()?, &language, name)),
         DocumentRequest::Figure(picture) => told(documents::figure(session.robot()?, &picture)),
+        DocumentRequest::Tree(wanted) => told(tree::tree(&wanted)),
     })
 }
 

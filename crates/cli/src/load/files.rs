@@ -2,7 +2,7 @@
 
 use denavit::description::{MAX_XML_BYTES, Sources};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 /// How many folders above a file are looked through for packages.
 const MOST_ABOVE: usize = 12;
@@ -15,6 +15,17 @@ pub struct Folder {
     named: Vec<(String, PathBuf)>,
     /// Folders with packages in them.
     around: Vec<PathBuf>,
+    /// What was asked for and found.
+    pub found: Found,
+}
+
+/// Files and packages that were found, by paths without links and dots.
+#[derive(Default)]
+pub struct Found {
+    /// Texts by path.
+    pub texts: Vec<(String, String)>,
+    /// Folders of packages by name.
+    pub packages: Vec<(String, String)>,
 }
 
 impl Folder {
@@ -38,7 +49,7 @@ impl Folder {
         let named: Vec<_> =
             packages.iter().filter_map(|(n, p)| Some((n.clone(), fs::canonicalize(p).ok()?))).collect();
         roots.extend(named.iter().map(|n| n.1.clone()));
-        Folder { roots, named, around }
+        Folder { roots, named, around, found: Found::default() }
     }
 }
 
@@ -55,7 +66,13 @@ impl Sources for Folder {
             return Err(format!("`{wanted}` has {size} bytes; {MAX_XML_BYTES} are allowed"));
         }
         let bytes = fs::read(&path).map_err(|e| format!("`{wanted}`: {e}"))?;
-        Ok((path.to_string_lossy().into_owned(), String::from_utf8_lossy(&bytes).into_owned()))
+        let text = String::from_utf8_lossy(&bytes).into_owned();
+        for name in [plain(&beside.join(wanted_path)), plain(&path)] {
+            if !self.found.texts.iter().any(|(known, _)| *known == name) {
+                self.found.texts.push((name, text.clone()));
+            }
+        }
+        Ok((path.to_string_lossy().into_owned(), text))
     }
 
     fn package(&mut self, name: &str) -> Option<String> {
@@ -71,8 +88,49 @@ impl Sources for Folder {
         if !self.roots.contains(&found) {
             self.roots.push(found.clone());
         }
-        Some(found.to_string_lossy().into_owned())
+        let folder = found.to_string_lossy().into_owned();
+        if !self.found.packages.iter().any(|(known, _)| known == name) {
+            self.found.packages.push((name.into(), plain(&found)));
+        }
+        Some(folder)
     }
+}
+
+impl Folder {
+    /// A mesh that a description names, and its path; nothing if there is none below the folders of the robot and its packages.
+    pub fn mesh(&mut self, from: &str, wanted: &str) -> Option<(String, PathBuf)> {
+        let in_package = wanted.strip_prefix("package://").or_else(|| wanted.strip_prefix("model://"));
+        let (roots, named) = match in_package.and_then(|name| name.split_once('/')) {
+            Some((package, rest)) => {
+                let folder = PathBuf::from(self.package(package)?);
+                let path = folder.join(rest.trim_start_matches('/'));
+                (vec![folder], path)
+            }
+            None => {
+                let beside = Path::new(from).parent().unwrap_or(Path::new("."));
+                (self.roots.clone(), beside.join(wanted.strip_prefix("file://").unwrap_or(wanted)))
+            }
+        };
+        let path = fs::canonicalize(&named).ok().filter(|p| p.is_file())?;
+        roots.iter().any(|root| path.starts_with(root)).then(|| (plain(&named), path))
+    }
+}
+
+/// A path from the top without dots, words between slashes.
+pub fn plain(path: &Path) -> String {
+    let mut parts: Vec<String> = vec![];
+    for part in path.components() {
+        match part {
+            Component::Normal(_) | Component::Prefix(_) => {
+                parts.push(part.as_os_str().to_string_lossy().replace('\\', "/"));
+            }
+            Component::ParentDir => {
+                parts.pop();
+            }
+            Component::CurDir | Component::RootDir => {}
+        }
+    }
+    parts.join("/")
 }
 
 /// True if a folder is the package of a name: by its `package.xml`, or its own name.

@@ -1,14 +1,16 @@
 //! A URDF, plain or for xacro to expand, and the chain of it that a command is about.
 
 use super::coloured;
-use super::files::Folder;
+use super::files::{Folder, plain};
 use crate::arguments::RobotArguments;
 use crate::failure::Failure;
 use crate::terminal::note;
 use denavit::description::{
     Agreement, Chain, Convention, Decimals, Description, Diagnostic, MAX_XML_BYTES, Mechanism, NoChain,
-    read_xacro,
+    Shape, read_xacro,
 };
+use denavit_wire::view::Bundle;
+use std::fs;
 use std::path::PathBuf;
 
 /// The chain that the arguments name.
@@ -43,6 +45,77 @@ pub fn from_urdf(arguments: &RobotArguments) -> Result<Description, Failure> {
     let [from, to] = [chain.from, chain.to].map(|b| mechanism.bodies[b].name.clone());
     say_chain(&chain, &mechanism, [&from, &to]);
     Ok(Description { source: Some(format!("{name}: {from} to {to}")), ..chain.description })
+}
+
+/// The most bytes of a mesh, and of all together, that the page is given.
+const MOST_MESH: u64 = 64 << 20;
+const MOST_MESHES: u64 = 256 << 20;
+
+/// The description that the arguments name, with all that the page needs to open it itself, and its meshes in the order of
+/// their numbers.
+///
+/// # Errors
+/// If the file cannot be read or has errors.
+pub fn bundle(arguments: &RobotArguments) -> Result<(Bundle, Vec<PathBuf>), Failure> {
+    let file = fs::canonicalize(&arguments.robot)
+        .map_err(|e| Failure::Input(format!("error: {}: {e}", arguments.robot)))?;
+    let name = file.to_string_lossy().into_owned();
+    let text = super::contents(&name, MAX_XML_BYTES);
+    let text = text.map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
+    let packages = pairs(&arguments.package, "--package", "ur_description=../ur_description")?;
+    let packages: Vec<(String, PathBuf)> = packages.into_iter().map(|(n, p)| (n, p.into())).collect();
+    let given = pairs(&arguments.arg, "--arg", "name=ur5")?;
+    let mut folder = Folder::around(&name, &packages);
+    let (outcome, _) = read_xacro(&name, &text, &mut folder, &given, Decimals::Meant);
+    let (mechanism, _) = outcome.map_err(|_| Failure::Input(format!("error: {name}: it has errors")))?;
+    let mut paths: Vec<PathBuf> = vec![];
+    let mut meshes: Vec<(String, String, usize)> = vec![];
+    let mut sum = 0;
+    for look in mechanism.bodies.iter().flat_map(|b| &b.looks) {
+        let Shape::Mesh { file, .. } = &look.shape else { continue };
+        let Some((key, path)) = folder.mesh(&name, file) else { continue };
+        for (key, path) in with_data(key, path) {
+            let size = fs::metadata(&path).map_or(u64::MAX, |m| m.len());
+            let is_known = meshes.iter().any(|(known, ..)| *known == key);
+            if is_known || size > MOST_MESH || sum + size > MOST_MESHES {
+                continue;
+            }
+            sum += size;
+            meshes.push((key, format!("mesh/{}", paths.len()), usize::try_from(size).unwrap_or(usize::MAX)));
+            paths.push(path);
+        }
+    }
+    let own = plain(&file);
+    let mut texts = folder.found.texts;
+    texts.push((own.clone(), text));
+    let bundle = Bundle {
+        arguments: given,
+        as_written: arguments.as_written,
+        base: arguments.base.clone(),
+        convention: arguments.convention.map(|c| Convention::from(c).name()),
+        meshes,
+        name: own,
+        packages: folder.found.packages,
+        texts,
+        tip: arguments.tip.clone(),
+    };
+    Ok((bundle, paths))
+}
+
+/// A mesh, and the files of data beside one that is glTF.
+fn with_data(key: String, path: PathBuf) -> Vec<(String, PathBuf)> {
+    let is_gltf = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("gltf"));
+    let folder = path.parent().filter(|_| is_gltf).and_then(|f| fs::read_dir(f).ok());
+    let beside = folder.into_iter().flatten().filter_map(Result::ok).filter(|e| {
+        let is_file = e.file_type().is_ok_and(|t| t.is_file());
+        is_file && e.path().extension().is_some_and(|x| x.eq_ignore_ascii_case("bin"))
+    });
+    let top = key.rsplit_once('/').map_or(String::new(), |(folder, _)| format!("{folder}/"));
+    let data = beside.map(|e| (format!("{top}{}", e.file_name().to_string_lossy()), e.path()));
+    let mut all: Vec<(String, PathBuf)> = data.collect();
+    all.sort();
+    all.insert(0, (key, path));
+    all
 }
 
 /// `NAME=VALUE`, or `NAME:=VALUE` as ROS writes it.

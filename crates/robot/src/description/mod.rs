@@ -39,7 +39,7 @@ pub use robot_file::{MAX_BYTES, MAX_ROWS, read_toml, write_toml};
 pub use same::{SameMechanism, Sameness, same_mechanism};
 pub use sources::{Alone, Files, Sources};
 pub use table::{TableKind, TableOptions, read_table};
-pub use tree::{Body, Chain, Follows, Joint, Mass, Mechanism, NoChain};
+pub use tree::{Body, Chain, Follows, Joint, Look, Mass, Mechanism, NoChain, Shape};
 pub use urdf::{Reading, read_urdf, read_xacro, write_urdf};
 pub use value::{Measure, NotSet, read_value};
 pub use xml::MAX_XML_BYTES;

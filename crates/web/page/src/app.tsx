@@ -8,14 +8,16 @@ import { FormulasPanel } from "./panels/formulas.tsx";
 import { HandPanel } from "./panels/hand.tsx";
 import { JointsPanel } from "./panels/joints.tsx";
 import { PathPanel } from "./panels/path.tsx";
-import { chooseFile, dialog, openFile, RobotsDialog, saveFile } from "./panels/robots.tsx";
+import { chooseFile, dialog, openFiles, RobotsDialog, saveFile } from "./panels/robots.tsx";
 import { SharePanel } from "./panels/share.tsx";
 import { TablePanel } from "./panels/table.tsx";
 import { SceneView } from "./scene/view.tsx";
 import { phase, side } from "./shell.ts";
-import { batch, file, look, type Panel, panel, robot, selected, stale } from "./state.ts";
+import { batch, file, look, type Panel, panel, robot, said, selected, stale } from "./state.ts";
 import { undoByKey } from "./table/undoing.ts";
 import { TopBar } from "./top.tsx";
+import { ChainBar } from "./tree/chain.tsx";
+import { ofDrop } from "./tree/files.ts";
 import { formatWithUnit } from "./units.ts";
 import { Callout } from "./widgets/callout.tsx";
 import { Icon } from "./widgets/icons.tsx";
@@ -68,6 +70,7 @@ export function App() {
           />
           <div class="panel" role="tabpanel" id={panelId("side")} aria-labelledby={tabId("side", panel.value)} tabIndex={0} key={panel.value}>
             {isReady && <Assumed />}
+            {isReady && (panel.value === "table" || panel.value === "joints") && <ChainBar />}
             {isReady && <Guarded key={panel.value}>{PANELS.find((one) => one.value === panel.value)?.view()}</Guarded>}
           </div>
         </section>
@@ -167,8 +170,9 @@ function DropZone() {
       if (!hasFile(event)) return;
       event.preventDefault();
       setOver(false);
-      const dropped = event.dataTransfer?.files[0];
-      if (dropped && phase.value.kind === "ready") void openFile(dropped);
+      if (!event.dataTransfer || phase.value.kind !== "ready") return;
+      // What was dropped can be listed only now.
+      ofDrop(event.dataTransfer).then(openFiles).catch(said);
     };
     addEventListener("dragover", over);
     addEventListener("dragleave", leave);

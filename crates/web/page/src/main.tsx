@@ -7,6 +7,7 @@ import { openListed, openText } from "./panels/robots.tsx";
 import { keepAddress, restoreAddress } from "./share.ts";
 import { keepPreferences, phase } from "./shell.ts";
 import { file, hasPicture, said, start } from "./state.ts";
+import { type Bundle, openServed } from "./tree/open.ts";
 
 const FIRST = "staubli-rx90";
 
@@ -42,7 +43,8 @@ async function firstRobot(): Promise<void> {
     try {
       const answer = await fetch(new URL(given, document.baseURI));
       if (!answer.ok) throw new Error(`The robot file could not be fetched (${answer.status}).`);
-      openText(await answer.text(), given);
+      if (given.endsWith(".json")) await openServed((await answer.json()) as Bundle);
+      else openText(await answer.text(), given);
     } catch (why) {
       said(why);
     }

@@ -1,6 +1,8 @@
 // All tests of the page, in one browser: `node --test tests/all.mjs`.
 import "./figures.mjs";
 import "./robots.mjs";
+import "./tree.mjs";
+import "./meshes.mjs";
 import "./table.mjs";
 import "./joints.mjs";
 import "./hand.mjs";

@@ -3,7 +3,7 @@ import { readFileSync } from "node:fs";
 
 const dist = new URL("../dist/", import.meta.url);
 const ENTRIES = ["answer", "answer_more", "answer_documents"];
-const LATER = { formulas: 1, values: 1, singular: 1, workspace: 1, path: 1, check: 2, report: 2, code: 2, figure: 2 };
+const LATER = { formulas: 1, values: 1, singular: 1, workspace: 1, path: 1, check: 2, report: 2, code: 2, figure: 2, tree: 2 };
 const modules = ["denavit", "derive", "documents"].map((name) => new WebAssembly.Module(readFileSync(new URL(`${name}.wasm`, dist))));
 
 export class Engine {

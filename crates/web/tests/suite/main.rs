@@ -1,3 +1,5 @@
 //! Tests of the engine of the page, one program.
 
+mod ask;
 mod requests;
+mod tree;

@@ -1,23 +1,7 @@
 //! Every request of the page, answered natively: the same code that is compiled for it.
 
+use crate::ask::{ask, far, numbers, told};
 use serde_json::{Value, json};
-
-fn ask(op: &str, input: Value) -> Value {
-    let request = json!({ "op": op, "input": input }).to_string();
-    let text = match op {
-        "formulas" | "values" | "singular" | "workspace" | "path" => denavit_web::answer_more(&request),
-        "check" | "report" | "code" | "figure" => denavit_web::answer_documents(&request),
-        _ => denavit_web::answer(&request),
-    };
-    serde_json::from_str(&text).expect("an answer is JSON")
-}
-
-/// The answer, which is no refusal.
-fn told(op: &str, input: Value) -> Value {
-    let answer = ask(op, input);
-    assert!(answer.get("error").is_none(), "{op}: {answer}");
-    answer
-}
 
 /// A robot of the catalogue in hand: its file, what is known of it.
 fn taken(name: &str) -> (Value, Value) {
@@ -25,18 +9,6 @@ fn taken(name: &str) -> (Value, Value) {
     let answer = told("edit", json!({ "file": file }));
     assert!(answer["robot"].is_object(), "{name}: {answer}");
     (file, answer["robot"].clone())
-}
-
-fn numbers(value: &Value) -> Vec<f64> {
-    value.as_array().into_iter().flatten().filter_map(Value::as_f64).collect()
-}
-
-fn flat(matrix: &Value) -> Vec<f64> {
-    matrix.as_array().into_iter().flatten().flat_map(numbers).collect()
-}
-
-fn far(a: &Value, b: &Value) -> f64 {
-    flat(a).iter().zip(flat(b)).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max)
 }
 
 #[test]

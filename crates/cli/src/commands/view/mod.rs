@@ -34,12 +34,14 @@ pub fn run(arguments: &ViewArguments) -> Result<(), Failure> {
         }
         None => (Site::embedded().ok_or_else(without_page)?, "the page".into()),
     };
-    let site = match robot {
-        Some((_, text)) => {
-            site.with_robot(&text).map_err(|e| Failure::Input(format!("error: {name}: {e}")))?
-        }
-        None => site,
+    // The page opens a tree itself, so that another chain can be chosen there.
+    let tree = arguments.robot.as_ref().filter(|r| r.set.is_empty() && load::is_tree(&r.robot));
+    let site = match (tree.map(load::bundle).transpose()?, robot) {
+        (Some((bundle, meshes)), _) => site.with_tree(&denavit_wire::text(&bundle), &meshes),
+        (None, Some((_, text))) => site.with_robot(&text),
+        (None, None) => Ok(site),
     };
+    let site = site.map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
     let server = Server::bind(site, arguments.port, Bounds::default()).map_err(|e| match arguments.port {
         0 => Failure::Io(e),
         port => Failure::Usage(format!("--port {port}: {e}")),

@@ -1,17 +1,20 @@
 //! What is served: the files of the page and the robot that it is opened with, all in memory.
 
 use super::packing::{Packed, pack, packed};
+use flate2::Compression;
 use flate2::read::GzDecoder;
+use flate2::write::GzEncoder;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
+use std::fs;
 use std::io::{self, Error, ErrorKind, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The file that the address of the page itself stands for.
 const INDEX: &str = "index.html";
-/// The file of the robot that the page is opened with, and the line of the index that names it.
+/// The file of the robot that the page is opened with: a table, or a tree with all that belongs to it.
 const ROBOT: &str = "robot.toml";
-const MENTION: &str = r#"<meta name="denavit-robot" content="robot.toml">"#;
+const TREE: &str = "robot.json";
 
 /// A row of the table in the program: name, content type, contents compressed.
 pub type Row = (&'static str, &'static str, &'static [u8]);
@@ -76,15 +79,39 @@ impl Site {
     ///
     /// # Errors
     /// If the index has no head to name it in.
-    pub fn with_robot(mut self, text: &str) -> io::Result<Site> {
+    pub fn with_robot(self, text: &str) -> io::Result<Site> {
+        self.opened_with(ROBOT, text)
+    }
+
+    /// The page opened with a tree, the JSON of a bundle; its meshes are read now, and have numbers for names.
+    ///
+    /// # Errors
+    /// If the index has no head, or a mesh cannot be read.
+    pub fn with_tree(self, bundle: &str, meshes: &[PathBuf]) -> io::Result<Site> {
+        let mut site = self.opened_with(TREE, bundle)?;
+        for (number, path) in meshes.iter().enumerate() {
+            // Many bytes, compressed for a short way: quickly.
+            let mut encoder = GzEncoder::new(vec![], Compression::fast());
+            io::copy(&mut fs::File::open(path)?, &mut encoder)?;
+            let file = File { content_type: "application/octet-stream", gzip: Cow::Owned(encoder.finish()?) };
+            site.files.insert(format!("mesh/{number}"), file);
+        }
+        Ok(site)
+    }
+
+    fn opened_with(mut self, name: &str, text: &str) -> io::Result<Site> {
         const HEAD: &str = "<head>";
         let index = self.files.get(INDEX).map_or(Ok(vec![]), File::plain)?;
         let index = String::from_utf8_lossy(&index);
         if !index.contains(HEAD) {
             return Err(Error::new(ErrorKind::InvalidData, format!("{INDEX} has no {HEAD}")));
         }
-        let index = index.replacen(HEAD, &format!("{HEAD}\n{MENTION}"), 1);
-        let changed = vec![packed(INDEX, index.as_bytes())?, packed(ROBOT, text.as_bytes())?];
+        let mention = format!(
+            r#"{HEAD}
+<meta name="denavit-robot" content="{name}">"#
+        );
+        let index = index.replacen(HEAD, &mention, 1);
+        let changed = vec![packed(INDEX, index.as_bytes())?, packed(name, text.as_bytes())?];
         self.files.extend(Site::of(changed).files);
         Ok(self)
     }

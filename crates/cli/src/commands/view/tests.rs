@@ -29,7 +29,10 @@ fn start(bounds: Bounds) -> Running {
 
 fn start_with(contents: &[(&str, &[u8])], bounds: Bounds) -> Running {
     let files = contents.iter().map(|(name, bytes)| packed(name, bytes).expect("in memory"));
-    let site = Site::of(files.collect()).with_robot("name = \"arm\"\n").expect("a head");
+    started(Site::of(files.collect()).with_robot("name = \"arm\"\n").expect("a head"), bounds)
+}
+
+fn started(site: Site, bounds: Bounds) -> Running {
     let server = Server::bind(site, 0, bounds).expect("a free port");
     let address = server.address();
     thread::spawn(move || server.run());
@@ -112,6 +115,44 @@ fn the_files_are_served() {
     let head = server.ask(&by_name.replace("GET", "HEAD"));
     assert!(head.contains(&format!("Content-Length: {}\r\n", SCRIPT.len())), "{head}");
     assert!(head.ends_with("\r\n\r\n"), "{head}");
+}
+
+#[test]
+fn meshes_have_numbers_and_no_name_leads_to_a_file() {
+    let folder = std::env::temp_dir().join(format!("denavit-view-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let (mesh, secret) = (folder.join("arm.stl"), folder.join("secret.stl"));
+    std::fs::write(&mesh, b"solid arm").expect("a mesh");
+    std::fs::write(&secret, b"solid secret").expect("another");
+    let index = b"<!doctype html><html><head></head></html>";
+    let site = Site::of(vec![packed("index.html", index).expect("in memory")]);
+    let site = site.with_tree("{\"name\":\"arm\"}", &[mesh]).expect("a head, a mesh");
+    let missing = Site::of(vec![packed("index.html", index).expect("in memory")]);
+    assert!(missing.with_tree("{}", &[folder.join("none.stl")]).is_err());
+    let server = started(site, Bounds { farewell: Duration::from_millis(200), ..Bounds::default() });
+    assert!(server.get("/TOKEN/", "").contains("<meta name=\"denavit-robot\" content=\"robot.json\">"));
+    assert!(server.get("/TOKEN/robot.json", "").ends_with("{\"name\":\"arm\"}"));
+    // What is served is what was there at the start.
+    std::fs::remove_dir_all(&folder).expect("it is ours");
+    let answer = server.get("/TOKEN/mesh/0", "");
+    assert!(answer.contains("Content-Type: application/octet-stream\r\n"), "{answer}");
+    assert!(answer.contains("connect-src 'self';") && answer.ends_with("\r\n\r\nsolid arm"), "{answer}");
+    let names = [
+        "1",
+        "arm.stl",
+        "secret.stl",
+        "00",
+        "0/",
+        "../robot.toml",
+        "0/../1",
+        "%30",
+        "-1",
+        "18446744073709551616",
+        "",
+    ];
+    for name in names {
+        server.check(&format!("GET /TOKEN/mesh/{name} HTTP/1.1\r\nHost: 127.0.0.1:PORT\r\n\r\n"), 404);
+    }
 }
 
 #[test]

@@ -32,6 +32,45 @@ pub struct Body {
     pub name: String,
     /// Its mass, if it is given.
     pub mass: Option<Mass>,
+    /// What it looks like: it says nothing of how it moves.
+    pub looks: Vec<Look>,
+}
+
+/// A part of what a body looks like, in doubles.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Look {
+    /// Its shape.
+    pub shape: Shape,
+    /// Where it stands in the body's frame.
+    pub origin: Transform<f64>,
+    /// Red, green, blue and how opaque, from 0 to 1, if it is given.
+    pub colour: Option<[f64; 4]>,
+}
+
+/// A shape about its own origin.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Shape {
+    /// A box: its edges along x, y and z, metres.
+    Box([f64; 3]),
+    /// A cylinder about z, metres.
+    Cylinder {
+        /// Its radius.
+        radius: f64,
+        /// Its length.
+        length: f64,
+    },
+    /// A ball.
+    Sphere {
+        /// Its radius, metres.
+        radius: f64,
+    },
+    /// What stands in another file.
+    Mesh {
+        /// The file as it is named: by a path, or in a package.
+        file: String,
+        /// What its lengths are multiplied by, along x, y and z.
+        scale: [f64; 3],
+    },
 }
 
 /// How a body's mass is distributed.

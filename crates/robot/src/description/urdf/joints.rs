@@ -117,7 +117,7 @@ impl Reader {
             self.out
                 .warning(link.span.clone(), "the link `world` is not declared; it is taken as the ground");
             links.by_name.insert(known.clone(), links.bodies.len());
-            links.bodies.push(Body { name: known, mass: None });
+            links.bodies.push(Body { name: known, mass: None, looks: vec![] });
             links.spans.push(link.span);
             return links.by_name.get("world").copied();
         }
@@ -245,7 +245,7 @@ fn planar(joint: &Joint, span: &Range<usize>, links: &mut Links, drafts: &mut Ve
         let name = format!("{} {suffix}", joint.name);
         let child = if suffix == "turn" { joint.child } else { links.bodies.len() };
         if suffix != "turn" {
-            links.bodies.push(Body { name: name.clone(), mass: None });
+            links.bodies.push(Body { name: name.clone(), mass: None, looks: vec![] });
             links.spans.push(span.clone());
         }
         let origin = if suffix == "x" { joint.origin } else { Transform::identity() };

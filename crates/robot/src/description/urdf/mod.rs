@@ -1,10 +1,11 @@
 //! The Unified Robot Description Format (URDF): links, and joints between them.
 //!
-//! Lengths are exact decimals, angles what their digits mean ([`Decimals`]). What a file says of looks, collisions and drives is
-//! left; what it leaves out is what the format says: x for an axis, the identity for an origin.
+//! Lengths are exact decimals, angles what their digits mean ([`Decimals`]). Looks are kept in doubles; what a file says of
+//! collisions and drives is left; what it leaves out is what the format says: x for an axis, the identity for an origin.
 
 mod inertia;
 mod joints;
+mod looks;
 mod tree;
 mod write;
 
@@ -142,6 +143,7 @@ impl Reader {
     }
 
     fn links(&mut self, robot: Element) -> Links {
+        let materials = self.materials(robot);
         let mut links = Links { bodies: vec![], spans: vec![], by_name: HashMap::new() };
         for link in robot.all("link") {
             link.only(&["name", "type"], &mut self.out);
@@ -156,7 +158,8 @@ impl Reader {
             self.known(link, &["inertial", "visual", "collision", "contact", "self_collision_checking"]);
             let mass = link.one("inertial", &mut self.out).and_then(|e| self.mass(e));
             links.by_name.insert(name.clone(), links.bodies.len());
-            links.bodies.push(Body { name, mass });
+            let looks = self.looks(link, &materials);
+            links.bodies.push(Body { name, mass, looks });
             links.spans.push(link.span());
         }
         links

@@ -1,4 +1,4 @@
-// The engines of the page: one at once, for what takes no time; two in workers, for what takes longer.
+// The engines of the page: one at once, for what takes no time; the others in workers, for what takes longer.
 
 import { EngineError, Instance, PARTS } from "./instance.ts";
 import type { Input, Op, Output } from "./types.ts";
@@ -97,10 +97,12 @@ export interface Engines {
   solver: Remote;
   /** Formulas, the workspace, checks, reports, code. */
   formulas: Remote;
+  /** Descriptions of trees, which are no matter of the robot in hand. */
+  files: Remote;
 }
 
 /** Fetches and compiles the engine, once for all. */
 export async function load(): Promise<Engines> {
   const module = await WebAssembly.compileStreaming(fetch(new URL(PARTS[0], document.baseURI)));
-  return { now: new Instance([module]), solver: new Remote(module), formulas: new Remote(module) };
+  return { now: new Instance([module]), solver: new Remote(module), formulas: new Remote(module), files: new Remote(module) };
 }

@@ -26,6 +26,7 @@ const LATER: Partial<Record<Op, 1 | 2>> = {
   report: 2,
   code: 2,
   figure: 2,
+  tree: 2,
 };
 
 export function partOf(op: Op): 0 | 1 | 2 {

@@ -56,6 +56,8 @@ export interface Finding {
   hint: string | null;
   /** Where in a text that was opened. */
   at?: Place;
+  /** The file that the place is in, where it is not the one that was opened. */
+  source?: string;
   /** Where in a robot file: `joints.2.theta`, `joints.0.limits.1`, `parameters.3.value`, `tool.xyz.0`, `name`. */
   cell?: string;
 }
@@ -433,7 +435,71 @@ export interface Requests {
   check: [{ text: string; name: string }, Checked];
   report: [{ format: "html" | "typst" | "latex" | "markdown"; language: "en" | "fr"; q: number[] }, { text: string; files?: { path: string; text: string }[] }];
   code: [{ language: "rust" | "c" | "python" | "matlab" | "javascript" | "cuda"; name?: string }, { files: { path: string; text: string }[]; words: string; test: string }];
+  tree: [TreeWanted, TreeTaken];
   figure: [{ q: number[]; scheme: boolean; azimuth?: number; elevation?: number }, { svg: string }];
+}
+
+/** `tree` */
+export interface TreeWanted {
+  /** The path of the description among the files. */
+  name: string;
+  text: string;
+  around?: { texts?: [string, string][]; packages?: [string, string][]; others?: string[] };
+  /** Names and values that xacro is given. */
+  arguments?: [string, string][];
+  base?: string;
+  tip?: string;
+  convention?: Convention;
+  as_written?: boolean;
+}
+
+/** How the bodies of a tree look, and how they move with the joints of the chain. */
+export interface Looks {
+  /** The body whose frame is the base of the chain. */
+  base: number;
+  bodies: number;
+  /** From the root on: child = parent · origin · motion by factor · variable + offset. */
+  joints: {
+    parent: number;
+    child: number;
+    origin: Matrix;
+    axis: Point;
+    kind: JointKind | null;
+    variable: number | null;
+    factor: number;
+    offset: number;
+  }[];
+  parts: LookPart[];
+}
+
+export interface LookPart {
+  body: number;
+  shape: "box" | "cylinder" | "sphere" | "mesh";
+  /** Edges of a box; radius and length of a cylinder; radius of a ball; scales of a mesh. */
+  size: Point;
+  origin: Matrix;
+  colour: [number, number, number, number] | null;
+  /** The path of its mesh. */
+  file?: string;
+}
+
+export interface TreeTaken {
+  /** The table; nothing where the description has errors or a choice has to be made. */
+  file: RobotFile | null;
+  findings: Finding[];
+  /** Nothing where there is no chain yet. */
+  looks: Looks | null;
+  /** Nothing where the description has errors. */
+  tree: {
+    name: string;
+    base: string;
+    /** Nothing where several links may be meant. */
+    tip: string | null;
+    links: string[];
+    /** The links that may be meant; else those at which the tree ends. */
+    tips: string[];
+    words: string;
+  } | null;
 }
 
 export type Op = keyof Requests;

@@ -2,9 +2,12 @@
 
 import { useEffect, useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
 import type { Convention, Finding, Input, Listed } from "../engine/types.ts";
-import { batch, engine, file, note, panel, replace, said, signal, stale } from "../state.ts";
+import { batch, effect, engine, file, note, panel, replace, said, signal, stale } from "../state.ts";
 import { flush } from "../table/cells.ts";
 import { CONVENTIONS } from "../table/convention.tsx";
+import { TreePart } from "../tree/dialog.tsx";
+import { type Lying, ofInput } from "../tree/files.ts";
+import { alone, asked, isTree, openTree, read as readTree } from "../tree/open.ts";
 import { Button } from "../widgets/button.tsx";
 import { Findings } from "../widgets/callout.tsx";
 import { download } from "../widgets/copy.tsx";
@@ -14,7 +17,7 @@ import { byKey } from "../widgets/keys.ts";
 import { sentence } from "../widgets/words.tsx";
 import { panelId, tabId, Tabs } from "../widgets/tabs.tsx";
 
-type Part = "catalogue" | "text";
+type Part = "catalogue" | "text" | "tree";
 
 /** The dialog, if it is open, with what it begins with. */
 export const dialog = signal<{ part: Part; text?: string; name?: string; findings?: Finding[] } | null>(null);
@@ -23,6 +26,8 @@ type OpenKind = Input<"open">["kind"];
 
 /** A file larger than this is no robot description, bytes. */
 const MOST_BYTES = 2_000_000;
+/** A tree is written by programs, and larger, bytes. */
+const MOST_TREE_BYTES = 16 * 2 ** 20;
 
 /** Opens a text as a robot; says what was found if it is none. */
 function open(text: string, kind: OpenKind, options: { convention?: Convention; degrees?: boolean; millimetres?: boolean; table?: number } = {}): { opened: boolean; findings: Finding[] } {
@@ -44,8 +49,23 @@ export function openListed(name: string): void {
   }
 }
 
+// What has to be asked about a description of a tree is asked in the dialog.
+effect(() => {
+  if (asked.value && dialog.peek()?.part !== "tree") dialog.value = { part: "tree" };
+});
+
+/** A description of a tree that stands in one text. */
+function openTreeText(text: string, name: string): void {
+  void readTree(alone(name, text), { main: name, given: "", asWritten: false }).then(treeIsTaken).catch(said);
+}
+
+function treeIsTaken(taken: boolean): void {
+  if (taken) dialog.value = null;
+}
+
 /** A text with its file's name. Where it cannot be read the dialog opens with the text and what is wrong. */
 export function openText(text: string, name: string): void {
+  if (/\.(urdf|xacro)$/i.test(name) || isTree(text)) return openTreeText(text, name);
   try {
     const { opened, findings } = open(text, kindOf(name));
     if (opened) {
@@ -67,11 +87,17 @@ function kindOf(name: string): OpenKind {
   return Object.hasOwn(kinds, ending) ? kinds[ending] : "any";
 }
 
-export async function openFile(chosen: File): Promise<void> {
-  if (chosen.size > MOST_BYTES) return said(new Error(`${chosen.name} is larger than 2 MB: it is not a robot description.`));
-  if (/\.(urdf|xacro)$/i.test(chosen.name)) return said(new Error("URDF is not read yet: write the Denavit–Hartenberg table."));
+/** Files that were chosen or dropped: a robot file, a table, or a tree with what belongs to it. */
+export async function openFiles(files: Lying[]): Promise<void> {
   try {
-    openText(await chosen.text(), chosen.name);
+    const [only] = files;
+    if (!only) throw new Error("There is no file in it.");
+    if (files.length > 1 || /\.zip$/i.test(only.path)) return treeIsTaken(await openTree(files));
+    const isTreeFile = /\.(urdf|xacro|xml)$/i.test(only.path);
+    if (only.size > (isTreeFile ? MOST_TREE_BYTES : MOST_BYTES)) {
+      throw new Error(`${only.path} is larger than ${isTreeFile ? "16 MiB" : "2 MB"}: it is not a robot description.`);
+    }
+    openText(new TextDecoder().decode(await only.read()), only.path);
   } catch (why) {
     said(why);
   }
@@ -79,12 +105,24 @@ export async function openFile(chosen: File): Promise<void> {
 
 /** Asks for a file. */
 export function chooseFile(): void {
+  ask((input) => {
+    input.accept = ".toml,.md,.markdown,.csv,.tsv,.tex,.txt,.urdf,.xacro,.xml,.zip";
+  });
+}
+
+/** Asks for a folder. */
+export function chooseFolder(): void {
+  ask((input) => {
+    input.webkitdirectory = true;
+  });
+}
+
+function ask(about: (input: HTMLInputElement) => void): void {
   const input = document.createElement("input");
   input.type = "file";
-  input.accept = ".toml,.md,.markdown,.csv,.tsv,.tex,.txt";
+  about(input);
   input.onchange = () => {
-    const chosen = input.files?.[0];
-    if (chosen) void openFile(chosen);
+    if (input.files && input.files.length > 0) void openFiles(ofInput(input.files));
   };
   input.click();
 }
@@ -106,11 +144,19 @@ export function slug(name: string): string {
   return words?.join("-").slice(0, 60) || "robot";
 }
 
+/** What was asked is forgotten with the dialog. */
+function close(): void {
+  batch(() => {
+    dialog.value = null;
+    asked.value = null;
+  });
+}
+
 export function RobotsDialog() {
   const shown = dialog.value;
   if (!shown) return null;
   return (
-    <Dialog title="Choose a robot" onClose={() => (dialog.value = null)}>
+    <Dialog title="Choose a robot" onClose={close}>
       <div class="robots">
         <Tabs
           label="Where from"
@@ -120,10 +166,13 @@ export function RobotsDialog() {
           tabs={[
             { value: "catalogue" as const, label: "Catalogue" },
             { value: "text" as const, label: "Paste or open" },
+            { value: "tree" as const, label: "URDF, xacro" },
           ]}
         />
         <div class="body" role="tabpanel" id={panelId("robots")} aria-labelledby={tabId("robots", shown.part)}>
-          {shown.part === "catalogue" ? <Catalogue /> : <FromText text={shown.text ?? ""} name={shown.name ?? ""} findings={shown.findings ?? []} />}
+          {shown.part === "catalogue" && <Catalogue />}
+          {shown.part === "text" && <FromText text={shown.text ?? ""} name={shown.name ?? ""} findings={shown.findings ?? []} />}
+          {shown.part === "tree" && <TreePart chooseFile={chooseFile} chooseFolder={chooseFolder} done={close} />}
         </div>
       </div>
     </Dialog>
@@ -264,6 +313,7 @@ function FromText({ text: first, name, findings: firstFindings }: { text: string
   }, [tables]);
 
   const read = () => {
+    if (kind === "any" && isTree(text)) return openTreeText(text, name || "pasted.urdf");
     try {
       const answer = open(text, kind, {
         convention: convention || undefined,
@@ -295,7 +345,7 @@ function FromText({ text: first, name, findings: firstFindings }: { text: string
     >
       <div class="row-of-buttons">
         <Button label="Open a file" icon="open" onClick={chooseFile} />
-        <span class="fine">or drop one anywhere on this page: a robot file, Markdown, CSV or LaTeX.</span>
+        <span class="fine">or drop one anywhere on this page: a robot file, Markdown, CSV, LaTeX, URDF or xacro.</span>
       </div>
       <label class="labelled">
         {name || "A table, as it stands in a document"}

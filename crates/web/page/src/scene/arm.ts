@@ -6,7 +6,9 @@ import type { Scene } from "../engine/types.ts";
 import { answerNow, ghost, highlighted, q, robot, scene, selected } from "../state.ts";
 import { build, type Paint, plate } from "./body.ts";
 import { add } from "./geometry.ts";
+import { inBodies } from "./looks.ts";
 import type { Label } from "./labels.ts";
+import { symbolsOnTable } from "./skeleton.ts";
 import { Solids, type Tint } from "./solids.ts";
 import type { Stage } from "./stage.ts";
 import { blend, type Colour, colours, type Palette } from "./theme.ts";
@@ -69,6 +71,12 @@ function pedestal(solids: Solids, { ground, unit }: Scene, floorAt: number, tint
   solids.cylinder("joint", [x, y, floorAt], [x, y, floorAt + 0.3 * unit], 2.1 * unit, tint);
 }
 
+/** Plate and pedestal. */
+function stand(solids: Solids, now: Scene, floorAt: number, colour: Colour): void {
+  plate(solids, now.ground, now.unit, [colour, 0]);
+  pedestal(solids, now, floorAt, [colour, 0]);
+}
+
 /** A joint that is pointed at says its name and value. */
 function namesOf({ symbols }: Scene, palette: Palette): Label[] {
   const model = robot.peek();
@@ -81,6 +89,14 @@ function namesOf({ symbols }: Scene, palette: Palette): Label[] {
   });
 }
 
+/** Inside of its bodies the arm is thin: its joints, where the table has them, and the skeleton between them. */
+const THIN = 0.3;
+
+function thin(now: Scene): Scene {
+  const symbols = symbolsOnTable(now).map((symbol) => ({ ...symbol, radius: 1.5 * THIN * symbol.radius, half: 1.5 * THIN * symbol.half }));
+  return { ...now, symbols, bars: [], unit: THIN * now.unit };
+}
+
 export function addArm(stage: Stage): void {
   const solids = new Solids(["matte", "shadow"], 2);
   stage.add(solids.object);
@@ -90,17 +106,17 @@ export function addArm(stage: Stage): void {
     () => {
       const now = scene.value;
       const palette = colours.value;
-      return now && { now, palette, paint: paintOf(now, palette), floorAt: floor.value, isBack: selected.value !== null };
+      return now && { now, palette, paint: paintOf(now, palette), floorAt: floor.value, isBack: selected.value !== null, isInside: inBodies.value };
     },
     (value) => {
       solids.begin();
       if (value) {
-        const { now, palette, paint, floorAt, isBack } = value;
-        solids.shade(floorAt + 0.001, palette.shadow, isBack ? 0.08 : 0.15);
+        const { palette, paint, floorAt, isBack, isInside } = value;
+        const now = isInside ? thin(value.now) : value.now;
+        solids.shade(floorAt + 0.001, palette.shadow, isInside ? 0 : isBack ? 0.08 : 0.15);
         build(solids, now, now.unit, paint, true);
-        const base: Tint = [isBack ? blend(palette.base, palette.background, 0.62) : palette.base, 0];
-        plate(solids, now.ground, now.unit, base);
-        pedestal(solids, now, floorAt, base);
+        // Bodies have a foot of their own.
+        if (!isInside) stand(solids, now, floorAt, isBack ? blend(palette.base, palette.background, 0.62) : palette.base);
       }
       stage.labels.set("joints", value ? namesOf(value.now, value.palette) : []);
       solids.end();

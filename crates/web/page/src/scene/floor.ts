@@ -4,6 +4,7 @@ import { BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments } from
 import type { Point } from "../engine/types.ts";
 import { look, robot, scene } from "../state.ts";
 import { floor, floorOf } from "./arm.ts";
+import { corners, wholeTrees } from "./looks.ts";
 import type { Stage } from "./stage.ts";
 import { blend, colours } from "./theme.ts";
 import { inLength } from "./units.ts";
@@ -66,12 +67,12 @@ export function addFloor(stage: Stage): void {
     },
   );
 
-  // Another robot stands on another floor; while it moves the floor stays.
-  let stands: unknown = null;
-  stage.watch("ground", () => ({ model: robot.value, now: scene.value }), ({ model, now }) => {
-    if (!model || !now || stands === model) return;
-    stands = model;
-    floor.value = floorOf(now, model.reach);
+  // Another robot stands on another floor, one with bodies on theirs; while it moves the floor stays.
+  let stands: unknown[] = [];
+  stage.watch("ground", () => ({ model: robot.value, now: scene.value, trees: wholeTrees.value }), ({ model, now, trees }) => {
+    if (!model || !now || (stands[0] === model && stands[1] === trees)) return;
+    stands = [model, trees];
+    const lowest = Math.min(...corners().map((point) => point[2]));
+    floor.value = Number.isFinite(lowest) ? lowest : floorOf(now, model.reach);
   });
 }
-

@@ -3,6 +3,7 @@
 import type { Matrix, Scene } from "../engine/types.ts";
 import { look, playing, pose, scene, selected, target } from "../state.ts";
 import { add, apart, axisOf, originOf, scale } from "./geometry.ts";
+import { inBodies } from "./looks.ts";
 import type { Label } from "./labels.ts";
 import type { Stage } from "./stage.ts";
 import { Strokes } from "./strokes.ts";
@@ -26,7 +27,7 @@ export function drawFrame(strokes: Strokes, frame: Matrix, palette: Palette, { l
       width: k === 1 ? 0.75 * width : width,
       head: (k === 1 ? 3 : 4.2) * width,
       alpha: k === 1 ? 0.8 * alpha : alpha,
-      through: 0.35,
+      through: inBodies.peek() ? 0.85 : 0.35,
     });
   }
 }
@@ -67,7 +68,7 @@ export function addFrames(stage: Stage): void {
   stage.onEnd(() => strokes.dispose());
   stage.watch(
     "frames",
-    () => ({ now: scene.value, palette: colours.value, isShown: look.value.frames, row: selected.value, hasLabels: look.value.labels && !playing.value }),
+    () => ({ now: scene.value, palette: colours.value, isShown: look.value.frames, row: selected.value, hasLabels: look.value.labels && !playing.value, isInside: inBodies.value }),
     ({ now, palette, isShown, row, hasLabels }) => {
       strokes.begin();
       if (now && isShown) draw(stage, strokes, now, palette, row, hasLabels);

@@ -17,6 +17,11 @@ export interface Measures {
   /** How many ghosts, labels stand in the picture. */
   ghosts: number;
   labels: number;
+  /** How many pieces of bodies are there to be drawn; how often all of a tree's were. */
+  bodies: number;
+  trees: number;
+  /** The lowest and the highest corner of the bodies, in the base. */
+  box: () => number[][];
   /** Where handles of the gizmo are, pixels of the canvas: a test drags them. */
   handles: () => Record<string, [number, number]>;
   /** Where the middles of the joints are, pixels of the canvas, in the order of the engine's symbols. */
@@ -39,6 +44,9 @@ export const measures: Measures = {
   software: false,
   ghosts: 0,
   labels: 0,
+  bodies: 0,
+  trees: 0,
+  box: () => [],
   handles: () => ({}),
   joints: () => [],
 };

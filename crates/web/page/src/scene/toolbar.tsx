@@ -3,12 +3,14 @@
 import { type Look, look, path, show } from "../state.ts";
 import { look as lookFrom } from "./cube.tsx";
 import { handles } from "./gizmo.ts";
+import { bodiesWanted, hasBodies } from "./looks.ts";
 import type { Stage } from "./stage.ts";
 import { fit } from "./view-fit.ts";
 
 const DRAWINGS = {
   frames: "M5.5 12.5V3M3.5 5l2-2 2 2M5.5 12.5H15M13 10.5l2 2-2 2M5.5 12.5 2.5 15.5",
   labels: "M4 5.5V4h10v1.5M9 4v10M7 14h4",
+  bodies: "M5 15.5h8M6.5 15.5v-3.2L4.6 8.4a2.6 2.6 0 0 1 3.6-3.6L11 6.2M9.5 12.3v3.2M8.6 9.6l2.9-2 2.9 1.5a1.6 1.6 0 0 0 .3-3.1L11.5 4",
   ghosts: "M3 15v-5l4-4 3 2M8 15v-4.5l4-4.5 3.5 1.5M2 15h8",
   workspace: "M2.5 13.5a6.5 6.5 0 0 1 13 0zM6.5 13.5a2.5 2.5 0 0 1 5 0",
   singular: "M9 3l6.5 11.5h-13zM9 7.5v3.5M9 12.7v.1",
@@ -74,6 +76,7 @@ export function Toolbar({ stage }: { stage: Stage }) {
     <div class="scene-toolbar" role="toolbar" aria-label="Scene">
       <Handles />
       <div class="scene-tools" role="group" aria-label="Shown">
+        {hasBodies.value && <Tool drawing="bodies" label="Bodies of the robot" pressed={bodiesWanted.value} onClick={() => (bodiesWanted.value = !bodiesWanted.value)} />}
         <Switch of="frames" label="Frames" />
         <Switch of="labels" label="Labels" />
         <Switch of="ghosts" label="Other solutions" />

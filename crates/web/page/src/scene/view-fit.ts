@@ -4,6 +4,7 @@ import type { Point } from "../engine/types.ts";
 import { look, robot, scene, workspace } from "../state.ts";
 import { bounds } from "./body.ts";
 import { add, between, originOf } from "./geometry.ts";
+import { corners } from "./looks.ts";
 import type { Stage } from "./stage.ts";
 
 /** Pixels. */
@@ -12,7 +13,7 @@ const STRIP = 44;
 export function fit(stage: Stage, isEased: boolean): void {
   const now = scene.peek();
   if (!now) return;
-  const { centre, radius } = bounds(now, [now.ground.at, ...now.frames.map(originOf)]);
+  const { centre, radius } = bounds(now, [now.ground.at, ...now.frames.map(originOf), ...corners()]);
   // An arm that is folded up will unfold.
   const room = Math.max(radius + 3 * now.unit, 0.45 * (robot.peek()?.reach ?? 0));
   let ball = { centre, radius: room };

@@ -10,12 +10,14 @@ import { addFloor } from "./floor.ts";
 import { addFrames } from "./frames.ts";
 import { addGhosts } from "./ghosts.ts";
 import { Gizmo } from "./gizmo.ts";
+import { addLooks, wholeTrees } from "./looks.ts";
 import { Notes } from "./notes.tsx";
 import { addPath } from "./path.ts";
 import { runPlayer } from "./player.ts";
 import { addPointer } from "./pointer.ts";
 import { addRow } from "./row.ts";
 import { graphics, Stage } from "./stage.ts";
+import { addSkeleton } from "./skeleton.ts";
 import { Toolbar } from "./toolbar.tsx";
 import { FACES } from "./orbit.ts";
 import { fit } from "./view-fit.ts";
@@ -30,6 +32,8 @@ function build(canvas: HTMLCanvasElement, isSoftware: boolean): Stage {
   addFloor(stage);
   addArm(stage);
   addFrames(stage);
+  addLooks(stage);
+  addSkeleton(stage);
   addRow(stage);
   addGhosts(stage);
   addWorkspace(stage);
@@ -50,6 +54,11 @@ function build(canvas: HTMLCanvasElement, isSoftware: boolean): Stage {
       if (!first) stage.orbit.go({ azimuth: FACES.corner[0], elevation: FACES.corner[1] }, 0);
       if (!(first && isAskedFor())) fit(stage, false);
       first = false;
+    }),
+  );
+  stage.onEnd(
+    effect(() => {
+      if (wholeTrees.value > 0) fit(stage, false);
     }),
   );
   return stage;

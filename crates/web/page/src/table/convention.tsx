@@ -3,6 +3,7 @@
 import { useState } from "preact/hooks";
 import type { Convention, Output } from "../engine/types.ts";
 import { change, engine, file, note, said, stale } from "../state.ts";
+import { carry } from "../tree/open.ts";
 import { Button } from "../widgets/button.tsx";
 import { Callout } from "../widgets/callout.tsx";
 import { sentence, Words } from "../widgets/words.tsx";
@@ -26,6 +27,8 @@ export function ConventionChoice() {
     try {
       flush();
       const answer = engine().now.call("convert", { to: shown });
+      // The arm stays, and so does the tree that it is a chain of.
+      if (answer.proved) carry(answer.file);
       change(answer.file);
       setOutcome(answer);
       note("The table is converted; the arm is the same.");

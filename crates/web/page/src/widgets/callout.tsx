@@ -28,7 +28,7 @@ export function Findings({ findings }: { findings: Finding[] }) {
           <li key={index}>
             {finding.at && (
               <span class="quiet">
-                Line {finding.at.line}, column {finding.at.column}:{" "}
+                {finding.source ? `${finding.source}, line` : "Line"} {finding.at.line}, column {finding.at.column}:{" "}
               </span>
             )}
             <Words text={sentence(finding.message)} />
