@@ -1,7 +1,7 @@
 // Meshes of a description: each kind, where they stand, and what is said of those that are missing, too large, or none.
 import assert from "node:assert/strict";
 import { strToU8, zipSync } from "fflate";
-import { openRobot, saysInStatus, scenario, tab, until } from "./support.mjs";
+import { address, open, openRobot, saysInStatus, scenario, shared, tab, until } from "./support.mjs";
 
 const visual = (geometry, origin = "") => `<visual>${origin}<geometry>${geometry}</geometry></visual>`;
 const mesh = (file, more = "") => `<mesh filename="${file}" ${more}/>`;
@@ -116,4 +116,36 @@ scenario("missing, foreign, broken and too large meshes are said, and the robot 
   assert.match(said, /2 meshes of the package away are not among the files/);
   assert.match(said, /1 mesh of the package arm is not among the files/);
   assert.match(said, /2 meshes are not among the files/);
+});
+
+scenario("a tree that the page is served with is opened, its meshes by number", async (page) => {
+  const name = "home/me/ws/arm/urdf/arm.urdf";
+  const bundle = {
+    arguments: [],
+    as_written: false,
+    base: null,
+    convention: "craig",
+    meshes: [["home/me/ws/other/meshes/m.stl", "mesh/0", STL.length]],
+    name,
+    packages: [["arm", "home/me/ws/other"]],
+    texts: [[name, robot(visual(mesh("package://arm/meshes/m.stl")), "")]],
+    tip: null,
+  };
+  const asked = [];
+  await page.route("**/robot.json", (route) => route.fulfill({ json: bundle }));
+  await page.route("**/mesh/*", (route) => {
+    asked.push(new URL(route.request().url()).pathname);
+    return route.fulfill({ body: STL, contentType: "application/octet-stream" });
+  });
+  await page.route(address(), async (route) => {
+    const response = await route.fetch();
+    const body = (await response.text()).replace("<head>", '<head>\n<meta name="denavit-robot" content="robot.json">');
+    await route.fulfill({ response, body });
+  });
+  await open(page);
+  await until(() => page.evaluate(() => window.denavit.trees === 1), "the bodies are there");
+  near(await box(page), [[0, 0, 0], [3, 2, 0]], "the mesh");
+  assert.deepEqual(asked, ["/mesh/0"]);
+  const held = await shared(page, (s) => s.file.name === "drawn", "the robot is there");
+  assert.equal(held.file.convention, "craig");
 });
