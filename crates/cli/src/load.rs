@@ -1,6 +1,7 @@
 //! From what stands on the command line to a robot.
 
 mod files;
+mod rows;
 mod urdf;
 
 pub use urdf::bundle;
@@ -10,8 +11,8 @@ use crate::failure::Failure;
 use crate::terminal::{decimals, note};
 use denavit::catalogue;
 use denavit::description::{
-    Description, Diagnostic, MAX_BYTES, Measure, Severity, TableKind, TableOptions, read_table, read_toml,
-    read_value, write_toml,
+    Described, Description, Diagnostic, MAX_BYTES, Measure, Mechanism, RowTree, Severity, TableKind,
+    TableOptions, read_robot, read_table_robot, read_value, write_toml,
 };
 use denavit_symbolic::Expr;
 use std::f64::consts::TAU;
@@ -36,19 +37,9 @@ pub fn robot(arguments: &RobotArguments) -> Result<Description, Failure> {
 pub fn robot_file(arguments: &RobotArguments) -> Result<(Description, String), Failure> {
     let name = catalogue_name(&arguments.robot);
     let listed = name.as_deref().and_then(|n| Some((n, catalogue::text(n)?)));
-    let is_urdf = listed.is_none() && is_tree(&arguments.robot);
-    let is_table = listed.is_none() && !is_urdf && !arguments.robot.ends_with(".toml");
-    if let (false, Some(option)) = (is_table, table_option(arguments, is_urdf)) {
-        return Err(Failure::Usage(format!(
-            "{option} is for tables, and {} says it itself",
-            arguments.robot
-        )));
-    }
-    if let (false, Some(option)) = (is_urdf, urdf_option(arguments)) {
-        return Err(Failure::Usage(format!("{option} is for URDF files, and {} is none", arguments.robot)));
-    }
+    check_options(arguments, listed.is_some())?;
     let (mut description, text) = match listed {
-        Some((name, text)) => (read(name, text, read_toml(text))?, Some(text.to_string())),
+        Some((name, text)) => robot_of_rows(arguments, read(name, text, read_robot(text))?, text)?,
         None => from_file(arguments)?,
     };
     let mut seen: Vec<&str> = vec![];
@@ -70,18 +61,33 @@ pub fn is_tree(name: &str) -> bool {
     [".urdf", ".xacro"].iter().any(|e| name.ends_with(e))
 }
 
+/// Options that are for other kinds of files are refused.
+fn check_options(arguments: &RobotArguments, is_listed: bool) -> Result<(), Failure> {
+    let is_urdf = !is_listed && is_tree(&arguments.robot);
+    let is_par = !is_listed && arguments.robot.ends_with(".par");
+    let is_table = !is_listed && !is_urdf && !is_par && !arguments.robot.ends_with(".toml");
+    if let (false, Some(option)) = (is_table, table_option(arguments, is_urdf || is_par)) {
+        return Err(Failure::Usage(format!(
+            "{option} is for tables, and {} says it itself",
+            arguments.robot
+        )));
+    }
+    if let (false, Some(option)) = (is_urdf, urdf_option(arguments, is_par)) {
+        return Err(Failure::Usage(format!("{option} is for URDF files, and {} is none", arguments.robot)));
+    }
+    Ok(())
+}
+
 /// The catalogue's spelling: lower case, words joined by hyphens. `None` for what looks like a path.
 fn catalogue_name(text: &str) -> Option<String> {
     let is_path = text.contains(['/', '\\', '.']) || text == "-";
     (!is_path).then(|| text.to_lowercase().replace([' ', '_'], "-"))
 }
 
-/// The option given that only a URDF can need.
-fn urdf_option(arguments: &RobotArguments) -> Option<&'static str> {
+/// The option given that only a URDF can need; `.par` files hold decimals, too.
+fn urdf_option(arguments: &RobotArguments, is_par: bool) -> Option<&'static str> {
     let given = [
-        (arguments.base.is_some(), "--base"),
-        (arguments.tip.is_some(), "--tip"),
-        (arguments.as_written, "--as-written"),
+        (arguments.as_written && !is_par, "--as-written"),
         (!arguments.arg.is_empty(), "--arg"),
         (!arguments.package.is_empty(), "--package"),
     ];
@@ -111,20 +117,81 @@ fn from_file(arguments: &RobotArguments) -> Result<(Description, Option<String>)
         Some("csv" | "tsv") => Some(TableKind::Csv),
         Some("tex") => Some(TableKind::Latex),
         Some("urdf" | "xacro") => return Ok((urdf::from_urdf(arguments)?, None)),
+        Some("par") => return Ok((rows::from_par(arguments)?, None)),
         _ if path.is_file() => {
             let hint =
-                "a robot file ends in .toml, .urdf or .xacro, a table in .md, .txt, .csv, .tsv or .tex";
+                "a robot file ends in .toml, .urdf, .xacro or .par, a table in .md, .txt, .csv, .tsv or .tex";
             return Err(Failure::Input(format!("error: {name}: what is this?\n  = hint: {hint}")));
         }
         _ => return Err(unknown_robot(name)),
     };
     let text = contents(name, MAX_BYTES).map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
     let outcome = match kind {
-        None => read_toml(&text),
-        Some(kind) => read_table(&text, kind, &table_options(arguments)),
+        None => read_robot(&text),
+        Some(kind) => read_table_robot(&text, kind, &table_options(arguments)),
     };
-    let description = read(name, &text, outcome)?;
-    Ok((description, kind.is_none().then_some(text)))
+    let (description, written) = robot_of_rows(arguments, read(name, &text, outcome)?, &text)?;
+    Ok((description, written.filter(|_| kind.is_none())))
+}
+
+/// The chain of what was read, and its text if that describes just this chain.
+fn robot_of_rows(
+    arguments: &RobotArguments,
+    described: Described,
+    text: &str,
+) -> Result<(Description, Option<String>), Failure> {
+    let is_chain = matches!(described, Described::Chain(_));
+    let description = rows::chain(arguments, described)?;
+    Ok((description, is_chain.then(|| text.to_string())))
+}
+
+/// The tree of bodies or rows that the arguments name, if it is one and no chain of it is asked for.
+///
+/// # Errors
+/// If the file cannot be read or has errors.
+pub fn mechanism(arguments: &RobotArguments) -> Result<Option<Tree>, Failure> {
+    if arguments.base.is_some() || arguments.tip.is_some() {
+        return Ok(None);
+    }
+    let name = arguments.robot.as_str();
+    let tree = match Path::new(name).extension().and_then(|e| e.to_str()) {
+        Some("urdf" | "xacro") => {
+            check_options(arguments, false)?;
+            Tree::Bodies(urdf::mechanism(arguments)?)
+        }
+        Some("par") => {
+            check_options(arguments, false)?;
+            let tree = rows::par(arguments)?;
+            if tree.is_chain() {
+                return Ok(None);
+            }
+            Tree::Rows(tree)
+        }
+        _ => {
+            let listed = catalogue_name(name).and_then(|n| catalogue::text(&n).map(str::to_string));
+            let is_listed = listed.is_some();
+            let is_toml = is_listed || name.ends_with(".toml");
+            let text = listed.map_or_else(|| contents(name, MAX_BYTES).ok(), Some).filter(|_| is_toml);
+            let Some(Ok((Described::Tree(tree), findings))) = text.as_deref().map(read_robot) else {
+                return Ok(None);
+            };
+            check_options(arguments, is_listed)?;
+            note(render(&findings, name, text.as_deref().unwrap_or_default()).trim_end());
+            Tree::Rows(*tree)
+        }
+    };
+    if !arguments.set.is_empty() {
+        return Err(Failure::Usage("--set is for one chain: name its end with --tip".into()));
+    }
+    Ok(Some(tree))
+}
+
+/// A whole tree.
+pub enum Tree {
+    /// As bodies and joints between them.
+    Bodies(Mechanism),
+    /// As rows.
+    Rows(RowTree),
 }
 
 /// The text of a file or of standard input, bounded, whatever its bytes are.
@@ -150,13 +217,13 @@ pub fn table_options(arguments: &RobotArguments) -> TableOptions {
     }
 }
 
-type Reading = Result<(Description, Vec<Diagnostic>), Vec<Diagnostic>>;
+type Reading = Result<(Described, Vec<Diagnostic>), Vec<Diagnostic>>;
 
-fn read(name: &str, text: &str, outcome: Reading) -> Result<Description, Failure> {
+fn read(name: &str, text: &str, outcome: Reading) -> Result<Described, Failure> {
     match outcome {
-        Ok((description, findings)) => {
+        Ok((described, findings)) => {
             note(render(&findings, name, text).trim_end());
-            Ok(description)
+            Ok(described)
         }
         Err(findings) => Err(Failure::Input(render(&findings, name, text))),
     }
@@ -180,9 +247,8 @@ fn coloured(finding: &Diagnostic, name: &str, text: &str) -> String {
 fn unknown_robot(name: &str) -> Failure {
     let close: Vec<&str> = catalogue::names().into_iter().filter(|n| similar(n, name)).take(6).collect();
     let hint = match &close[..] {
-        [] => {
-            "`denavit robots` lists the catalogue; files end in .toml, .urdf, .md, .csv or .tex".to_string()
-        }
+        [] => "`denavit robots` lists the catalogue; files end in .toml, .urdf, .par, .md, .csv or .tex"
+            .to_string(),
         names => format!("did you mean {}?", names.join(", ")),
     };
     Failure::Input(format!("error: no robot or file `{name}`\n  = hint: {hint}"))

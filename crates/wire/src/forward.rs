@@ -41,6 +41,40 @@ impl Placed<'_> {
     }
 }
 
+/// All bodies of a tree at a configuration.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct PlacedTree<'a> {
+    /// The bodies in the root, in the order of the file.
+    pub frames: &'a [NamedPose<'a>],
+    /// The joints that move by themselves, by name.
+    pub joints: &'a [String],
+    /// Their values.
+    pub q: &'a [f64],
+    /// The robot's name.
+    pub robot: &'a str,
+    /// The version.
+    pub schema: Schema,
+    /// Whether all joints are within their limits, where the robot has some.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub within_limits: Option<bool>,
+}
+
+impl PlacedTree<'_> {
+    /// Appends a line.
+    pub fn write(&self, out: &mut Vec<u8>) {
+        crate::line(self, out);
+    }
+}
+
+/// A frame with a name.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct NamedPose<'a> {
+    /// The name.
+    pub name: &'a str,
+    /// The pose.
+    pub pose: Matrix,
+}
+
 /// The link transforms and a forward model.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Derived {

@@ -15,7 +15,7 @@ pub struct ConvertArguments {
     /// Into what
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub to: ConvertFormat,
-    /// The convention of a robot file's table; that of the robot otherwise
+    /// The convention of what is written; that of the robot otherwise
     #[arg(long = "as", value_enum)]
     pub written_as: Option<ConventionName>,
     /// Where to write it (- for standard output)
@@ -30,4 +30,20 @@ pub enum ConvertFormat {
     Toml,
     /// A URDF: joints in their places, no looks
     Urdf,
+    /// A robot file with the axes at rest: a point and a direction each, and the tip
+    Axes,
+    /// A robot file with the product of exponentials: screws (ω, v) in the base, and M
+    Poe,
+    /// The same with the screws in the tip
+    BodyPoe,
+    /// A .par file of SYMORO: rows in Khalil's notation, all of a tree if no --tip is named
+    Par,
+    /// A robot file with the rows of a whole tree in Khalil's notation
+    Tree,
+    /// The table for Markdown, base and tool as rows
+    Markdown,
+    /// The table for LaTeX
+    Latex,
+    /// The table as fields between commas
+    Csv,
 }

@@ -18,8 +18,8 @@ pub use view::ViewArguments;
 
 /// Everything about a robot arm from its Denavit-Hartenberg table: exact, proved, in formulas and in numbers.
 ///
-/// A ROBOT is a name from the catalogue (`denavit robots`), a robot file (.toml), a URDF (.urdf, .xacro), or a table as it
-/// stands in a document (.md, .txt, .csv, .tsv, .tex). Exit codes: 0 done, 1 the answer is no, 2 usage, 3 bad input, 4 not
+/// A ROBOT is a name from the catalogue (`denavit robots`), a robot file (.toml), a URDF (.urdf, .xacro), a .par
+/// file of SYMORO, or a table as it stands in a document (.md, .txt, .csv, .tsv, .tex). Exit codes: 0 done, 1 the answer is no, 2 usage, 3 bad input, 4 not
 /// supported, 5 gave up.
 #[derive(Parser)]
 #[command(name = "denavit", version, max_term_width = 110)]
@@ -39,7 +39,7 @@ pub enum Command {
     Robots(RobotsArguments),
     /// Show a robot's table and what is special about its structure, or convert it to another convention
     Show(ShowArguments),
-    /// Convert a robot into another format: a robot file, a URDF; proved the same
+    /// Convert a robot into another format: a robot file, its axes, screws, a URDF, a .par file, a table; proved the same
     Convert(ConvertArguments),
     /// Compute poses: the tool, all frames, orientations in any set of angles
     Fk(FkArguments),
@@ -94,10 +94,10 @@ pub struct RobotArguments {
     /// What the columns of a table mean, in order, as in `--columns "theta alpha a d"`
     #[arg(long, value_name = "LETTERS")]
     pub columns: Option<String>,
-    /// The link of a URDF at which the chain begins; the root otherwise
+    /// The link of a URDF, or the frame of a tree of rows, at which the chain begins; the root otherwise
     #[arg(long, value_name = "LINK")]
     pub base: Option<String>,
-    /// The link of a URDF at which the chain ends; the leaf with the most joints otherwise
+    /// The link or frame at which the chain ends; the leaf with the most joints otherwise
     #[arg(long, value_name = "LINK")]
     pub tip: Option<String>,
     /// Take the decimals of a URDF's angles as they are: 1.5708 is not read as 90°
@@ -150,7 +150,7 @@ pub struct FkArguments {
     /// Read one JSON array of joint variables a line from a file (- for standard input), answer a line each
     #[arg(long, value_name = "FILE", conflicts_with = "q")]
     pub input: Option<PathBuf>,
-    /// Frames to give as well: `all`, or the number of one
+    /// Frames to give as well: `all`, or the number of one; `all` of a tree without --tip are those of all its bodies
     #[arg(long, value_name = "all|N")]
     pub frames: Option<String>,
     /// The orientation too as: quaternion, axis-angle, rpy, or an Euler set such as zyz (with --symbolic rpy and Euler sets)

@@ -2,12 +2,13 @@
 
 use super::coloured;
 use super::files::{Folder, plain};
+use super::rows::no_chain;
 use crate::arguments::RobotArguments;
 use crate::failure::Failure;
 use crate::terminal::note;
 use denavit::description::{
-    Agreement, Chain, Convention, Decimals, Description, Diagnostic, MAX_XML_BYTES, Mechanism, NoChain,
-    Shape, read_xacro,
+    Agreement, Chain, Convention, Decimals, Description, Diagnostic, MAX_XML_BYTES, Mechanism, Shape,
+    read_xacro,
 };
 use denavit_wire::view::Bundle;
 use std::fs;
@@ -18,6 +19,20 @@ use std::path::PathBuf;
 /// # Errors
 /// If the file cannot be read or has errors, or there is no such chain.
 pub fn from_urdf(arguments: &RobotArguments) -> Result<Description, Failure> {
+    let (name, mechanism) = (arguments.robot.as_str(), mechanism(arguments)?);
+    let convention = arguments.convention.map_or(Convention::Standard, Into::into);
+    let (base, tip) = (arguments.base.as_deref(), arguments.tip.as_deref());
+    let chain = mechanism.chain(base, tip, convention).map_err(|why| no_chain(name, &why))?;
+    let [from, to] = [chain.from, chain.to].map(|b| mechanism.bodies[b].name.clone());
+    say_chain(&chain, &mechanism, [&from, &to]);
+    Ok(Description { source: Some(format!("{name}: {from} to {to}")), ..chain.description })
+}
+
+/// All of the file that the arguments name.
+///
+/// # Errors
+/// If the file cannot be read or has errors.
+pub fn mechanism(arguments: &RobotArguments) -> Result<Mechanism, Failure> {
     let name = arguments.robot.as_str();
     let text = super::contents(name, MAX_XML_BYTES);
     let text = text.map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
@@ -39,12 +54,7 @@ pub fn from_urdf(arguments: &RobotArguments) -> Result<Description, Failure> {
     if let (Decimals::Meant, (Ok((written, _)), _)) = (decimals, read(Decimals::AsWritten)) {
         say_moved(mechanism.apart(&written), name);
     }
-    let convention = arguments.convention.map_or(Convention::Standard, Into::into);
-    let (base, tip) = (arguments.base.as_deref(), arguments.tip.as_deref());
-    let chain = mechanism.chain(base, tip, convention).map_err(|why| no_chain(name, &why))?;
-    let [from, to] = [chain.from, chain.to].map(|b| mechanism.bodies[b].name.clone());
-    say_chain(&chain, &mechanism, [&from, &to]);
-    Ok(Description { source: Some(format!("{name}: {from} to {to}")), ..chain.description })
+    Ok(mechanism)
 }
 
 /// The most bytes of a mesh, and of all together, that the page is given.
@@ -151,15 +161,4 @@ fn say_chain(chain: &Chain, mechanism: &Mechanism, [from, to]: [&str; 2]) {
         format!("; what `{}` follows is not on the way, it moves by itself", joint.name)
     });
     note(&format!("note: from `{from}` to `{to}`, {joints}; {proof}{follows}"));
-}
-
-fn no_chain(name: &str, why: &NoChain) -> Failure {
-    let text = format!("{name}: {why}");
-    match why {
-        NoChain::Several(_) => Failure::Usage(format!("{text}\n  = hint: choose one with --tip LINK")),
-        NoChain::Unknown { .. } => Failure::Usage(text),
-        NoChain::Rigid { .. } | NoChain::TooLong(_) | NoChain::NoDirection(_) => {
-            Failure::Input(format!("error: {text}"))
-        }
-    }
 }

@@ -11,4 +11,5 @@ mod generate;
 mod ik;
 mod motion;
 mod stream;
+mod trees;
 mod view;

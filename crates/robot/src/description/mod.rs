@@ -3,6 +3,7 @@
 //! A [`Description`] is text made precise: every cell an exact formula in parameters and joint variables. It is
 //! read from a robot file or from a table as it stands in a document, and turned into a `Robot` to compute with.
 
+mod branches;
 mod cell;
 pub mod convert;
 mod decimals;
@@ -28,17 +29,20 @@ mod value;
 mod xacro;
 mod xml;
 
+pub use branches::{NamedFrame, NoPar, ParFile, RowChain, RowTree, read_par, write_par};
 pub use cell::MAX_LENGTH as MAX_CELL_BYTES;
 pub use convert::{Conversion, Moved, SameChain, prove_same_chain};
 pub use decimals::Decimals;
 pub use diagnostic::{Diagnostic, Diagnostics, Severity, line_column, render};
-pub use lines::{Agreement, AxisAtRest, ChainAtRest, NotPlaced, Placed, same_screws};
+pub use lines::{Agreement, AxisAtRest, ChainAtRest, Named, NotNamed, NotPlaced, Placed, same_screws};
 pub use order::{Cell, Screw, Screws};
 pub use parameters::MissingValue;
-pub use robot_file::{MAX_BYTES, MAX_ROWS, read_toml, write_toml};
+pub use robot_file::{
+    AxesAs, Described, MAX_BYTES, MAX_ROWS, read_robot, read_toml, write_axes, write_toml, write_tree,
+};
 pub use same::{SameMechanism, Sameness, same_mechanism};
 pub use sources::{Alone, Files, Sources};
-pub use table::{TableKind, TableOptions, read_table};
+pub use table::{TableKind, TableOptions, read_table, read_table_robot, write_table};
 pub use tree::{Body, Chain, Follows, Joint, Look, Mass, Mechanism, NoChain, Shape};
 pub use urdf::{Reading, read_urdf, read_xacro, write_urdf};
 pub use value::{Measure, NotSet, read_value};

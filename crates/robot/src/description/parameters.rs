@@ -15,9 +15,16 @@ impl Description {
     /// The robot with the values of its parameters in their place; those without value stay.
     #[must_use]
     pub fn in_numbers(&self) -> Description {
-        let value = |e: Expr| e.substitute(|s| self.exact_value(s));
+        let all: Vec<Symbol> = self.parameters.iter().map(|p| p.symbol).collect();
+        self.with_numbers_for(&all)
+    }
+
+    /// The robot with the values of these parameters in their place; those without value stay.
+    #[must_use]
+    pub fn with_numbers_for(&self, these: &[Symbol]) -> Description {
+        let value = |e: Expr| e.substitute(|s| self.exact_value(s).filter(|_| these.contains(&s)));
         let mut numbers = self.clone();
-        numbers.parameters.retain(|p| p.value.is_none());
+        numbers.parameters.retain(|p| p.value.is_none() || !these.contains(&p.symbol));
         for row in &mut numbers.rows {
             for cell in [&mut row.theta, &mut row.d, &mut row.a, &mut row.alpha, &mut row.gamma, &mut row.b] {
                 *cell = value(*cell);

@@ -191,3 +191,14 @@ fn an_axis_without_direction_is_named() {
     };
     assert_eq!(chain.rows().unwrap_err(), NotPlaced::NoDirection(0));
 }
+
+#[test]
+fn a_chain_turned_round_twice_has_the_same_table() {
+    for name in ["ur5", "puma560", "staubli-rx90", "kinova-mico", "stanford", "scara", "kuka-kr5-arc"] {
+        let chain = in_numbers(&catalogue::robot(name).unwrap()).at_rest();
+        let (once, twice) = (chain.rows().unwrap(), chain.reversed().reversed().rows().unwrap());
+        let table = |p: &Placed| p.rows.iter().map(|r| [r.theta, r.d, r.a, r.alpha]).collect::<Vec<_>>();
+        assert_eq!(table(&once), table(&twice), "{name}");
+        assert_eq!((once.base, once.tool), (twice.base, twice.tool), "{name}");
+    }
+}

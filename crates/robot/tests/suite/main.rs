@@ -1,6 +1,7 @@
 //! Tests of the science, one program.
 
 mod attack;
+mod axes;
 mod common;
 mod description;
 mod description_bytes;
@@ -31,7 +32,9 @@ mod singular_found;
 mod singular_motion;
 mod solver_text;
 mod track;
+mod trees;
 mod urdf;
 mod velocity;
 mod workspace;
+mod written_tables;
 mod xacro;

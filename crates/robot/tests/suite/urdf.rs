@@ -171,15 +171,23 @@ fn apart(a: &Transform<f64>, b: &Transform<f64>) -> f64 {
 /// As written; meant decimals may move what is printed with two or three places, and that is bounded.
 #[test]
 fn all_links_are_where_pinocchio_has_them() {
-    let mut links = 0;
+    let (mut links, mut programs) = (0, std::collections::BTreeMap::new());
     for (name, text, samples) in peers() {
         let read = |decimals| read_urdf(&text, decimals).unwrap_or_else(|e| panic!("{name}: {e:?}")).0;
         let (m, meant) = (read(Decimals::AsWritten), read(Decimals::Meant));
         for sample in &samples {
             let value = |&j: &usize| sample["joints"][&m.joints[j].name].as_f64().unwrap_or(0.0);
             let q: Vec<f64> = m.variables().iter().map(value).collect();
-            for (body, pose) in m.bodies.iter().zip(m.poses(&q)) {
+            // The program for all of them has them there, too.
+            let program = programs
+                .entry(name.clone())
+                .or_insert_with(|| m.frames_program(&(0..m.bodies.len()).collect::<Vec<_>>()).compile(&[]));
+            let results = program.scalar().eval(&q).to_vec();
+            for ((body, pose), entries) in m.bodies.iter().zip(m.poses(&q)).zip(results.chunks(16)) {
                 let Some(peer) = sample["links"][&body.name].as_array() else { continue };
+                let differs = |(x, y): (&Value, &f64)| (x.as_f64().unwrap() - y).abs();
+                let off = peer.iter().zip(entries).map(differs).fold(0.0, f64::max);
+                assert!(off < 1e-12, "{name}, {}: {off:e} in the program", body.name);
                 let matrix = pose.matrix().concat();
                 let off =
                     peer.iter().zip(matrix).map(|(x, y)| (x.as_f64().unwrap() - y).abs()).fold(0.0, f64::max);

@@ -1,13 +1,14 @@
 //! What is answered for a configuration, as JSON.
 
 use crate::commands::fk::{Request, limits};
-use denavit::description::Description;
+use denavit::description::{Description, Joint, Mechanism};
 use denavit::forward::{Reference, frames_program};
 use denavit::geometry::orientation::{OrientationSet, extract};
 use denavit::geometry::{Rotation, Transform, Vector};
 use denavit_program::{Arithmetic, Function, Program};
+use denavit_symbolic::Expr;
 use denavit_wire::Schema;
-use denavit_wire::forward::Placed;
+use denavit_wire::forward::{NamedPose, Placed, PlacedTree};
 use denavit_wire::pose::{matrices, matrix_of};
 
 /// Entries of a pose.
@@ -51,9 +52,43 @@ pub struct Answers {
     /// For each joint; none if no joint has limits.
     limits: Vec<Option<[f64; 2]>>,
     orientation: Option<OrientationSet>,
+    /// The bodies and the joints of a tree, where all of it was asked for.
+    tree: Option<Names>,
+}
+
+/// What the bodies and the joints of a tree are called.
+struct Names {
+    bodies: Vec<String>,
+    joints: Vec<String>,
 }
 
 impl Answers {
+    /// For all bodies of a tree.
+    pub fn of_tree(m: &Mechanism) -> Self {
+        let all: Vec<usize> = (0..m.bodies.len()).collect();
+        let function = m.frames_program(&all).compile(&[]);
+        let joints: Vec<&Joint> = m.variables().into_iter().map(|j| &m.joints[j]).collect();
+        let number = |e: Expr| e.eval(|_| None).ok();
+        let limits = joints.iter().map(|j| j.limits.and_then(|[a, b]| Some([number(a)?, number(b)?])));
+        let mut limits: Vec<Option<[f64; 2]>> = limits.collect();
+        if limits.iter().all(Option::is_none) {
+            limits.clear();
+        }
+        let names = Names {
+            bodies: m.bodies.iter().map(|b| b.name.clone()).collect(),
+            joints: joints.iter().map(|j| j.name.clone()).collect(),
+        };
+        Answers {
+            function: function.on(function.target().0, Arithmetic::Strict),
+            joints: joints.len(),
+            results: POSE * all.len(),
+            robot: m.name.clone(),
+            limits,
+            orientation: None,
+            tree: Some(names),
+        }
+    }
+
     /// For a robot whose parameters have values.
     pub fn new(description: &Description, request: &Request) -> Self {
         let frames = request.frames.iter().map(|&i| Reference::Frame(i));
@@ -70,14 +105,23 @@ impl Answers {
             robot: description.name.clone(),
             limits,
             orientation: request.orientation,
+            tree: None,
         }
     }
 
     /// Writes the answer: an object on one line.
     pub fn write(&self, q: &[f64], results: &[f64], out: &mut Vec<u8>) {
+        let within_limits =
+            (!self.limits.is_empty()).then(|| self.limits.iter().zip(q).all(|l| is_inside(&l)));
+        if let Some(names) = &self.tree {
+            let frames = names.bodies.iter().zip(matrices(results));
+            let frames: Vec<_> = frames.map(|(name, pose)| NamedPose { name, pose }).collect();
+            let (joints, robot) = (&names.joints[..], self.robot.as_str());
+            PlacedTree { frames: &frames, joints, q, robot, schema: Schema, within_limits }.write(out);
+            return;
+        }
         let (frames, pose) = results.split_at(self.results - POSE);
         let orientation = self.orientation.zip(transforms(pose).next());
-        let inside = |(l, x): (&Option<[f64; 2]>, &f64)| l.is_none_or(|[low, high]| (low..=high).contains(x));
         let placed = Placed {
             frames: &matrices(frames),
             orientation: orientation.map(|(set, x)| extract(&x.rotation, set).into()),
@@ -85,8 +129,13 @@ impl Answers {
             q,
             robot: &self.robot,
             schema: Schema,
-            within_limits: (!self.limits.is_empty()).then(|| self.limits.iter().zip(q).all(inside)),
+            within_limits,
         };
         placed.write(out);
     }
+}
+
+/// Whether a joint is within its limits.
+fn is_inside((limits, x): &(&Option<[f64; 2]>, &f64)) -> bool {
+    limits.is_none_or(|[low, high]| (low..=high).contains(x))
 }

@@ -2,6 +2,7 @@
 
 mod answer;
 mod stream;
+mod tree;
 
 use crate::arguments::{FkArguments, Format};
 use crate::commands::derive;
@@ -28,6 +29,11 @@ pub fn run(arguments: &FkArguments) -> Result<(), Failure> {
     if arguments.symbolic {
         let format = if arguments.json { Format::Json } else { Format::Terminal };
         return derive::matrix_only(&arguments.robot, orientation(arguments)?, format);
+    }
+    if arguments.frames.as_deref() == Some("all")
+        && let Some(found) = load::mechanism(&arguments.robot)?
+    {
+        return tree::run(arguments, &found);
     }
     let description = load::robot(&arguments.robot)?;
     let request = Request::new(&description, arguments)?;

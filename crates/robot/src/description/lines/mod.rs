@@ -6,12 +6,16 @@
 //! sign; x along the normals, turned so that the table is the plainest (`signs`); where axes are parallel, through the origin
 //! before. Axes that are nearly parallel have a normal far away, and a fixed row more instead (Hayati and Mirmirani 1985).
 
+mod ends;
 mod place;
 mod screws;
 mod signs;
 mod space;
+mod symbols;
 
+pub(super) use ends::{Turns, frame_on, settled};
 pub use screws::{Agreement, same_screws};
+pub use symbols::{Named, NotNamed};
 
 use super::{Convention, Description, JointKind, Row, Variable};
 use crate::geometry::{Rotation, Transform, Vector};

@@ -4,7 +4,7 @@
 use super::space::{Frame, V, cross, minus};
 use super::{AxisAtRest, ChainAtRest, Draft, NotPlaced};
 use crate::description::{Description, JointKind, Screw};
-use crate::geometry::{Axis, Rotation, Transform};
+use crate::geometry::{Axis, Rotation, Transform, Vector};
 use denavit_symbolic::real::{Real, Values};
 use denavit_symbolic::{Angle, Expr, Rational, Ring, Symbol};
 
@@ -37,31 +37,110 @@ impl Rest {
     fn of(d: &Description) -> Self {
         let variables: Vec<Symbol> = d.variables().iter().map(|v| v.symbol).collect();
         let still = |e: Expr| e.substitute(|s| variables.contains(&s).then(|| Expr::int(0)));
-        let form = |e: Expr| {
-            let moves = |t: &(Expr, Rational)| t.0.as_symbol().is_some_and(|s| variables.contains(&s));
-            Angle::of(e).terms.into_iter().filter(moves).collect::<Vec<_>>()
-        };
-        let (mut x, mut screws) = (d.base, vec![]);
+        let form = form_of(&variables);
+        let (mut walk, mut screws) = (Walk::from(d.base), vec![]);
         for screw in d.rows.iter().flat_map(|r| r.screws(d.convention)) {
-            if screw.axis == Axis::Z {
-                for (kind, e) in [(JointKind::Revolute, screw.angle), (JointKind::Prismatic, screw.length)] {
-                    let form = form(e);
-                    if !form.is_empty() {
-                        screws.push(Screwed { kind, form, frame: x });
-                    }
-                }
+            for (kind, form) in motions(&screw, &form) {
+                screws.push(Screwed { kind, form, frame: walk.frame() });
             }
-            x = x * Screw { angle: still(screw.angle), length: still(screw.length), ..screw }.transform();
+            walk.go(&Screw { angle: still(screw.angle), length: still(screw.length), ..screw });
         }
-        Rest { screws, tip: x * d.tool }
+        Rest { screws, tip: walk.frame() * d.tool }
+    }
+
+    /// The frames of the axes seen from the tip, in the same order; the tip is where the base is seen.
+    fn from_tip(d: &Description) -> Self {
+        let variables: Vec<Symbol> = d.variables().iter().map(|v| v.symbol).collect();
+        let back = |e: Expr| -e.substitute(|s| variables.contains(&s).then(|| Expr::int(0)));
+        let form = form_of(&variables);
+        let (mut walk, mut screws) = (Walk::from(d.tool.inverse()), vec![]);
+        let all: Vec<Screw> = d.rows.iter().flat_map(|r| r.screws(d.convention)).collect();
+        for screw in all.iter().rev() {
+            walk.go(&Screw { angle: back(screw.angle), length: back(screw.length), ..*screw });
+            for (kind, form) in motions(screw, &form).into_iter().rev() {
+                screws.push(Screwed { kind, form, frame: walk.frame() });
+            }
+        }
+        screws.reverse();
+        Rest { screws, tip: walk.frame() * d.base.inverse() }
+    }
+}
+
+/// The joint variables of a cell with their factors.
+fn form_of(variables: &[Symbol]) -> impl Fn(Expr) -> Vec<(Expr, Rational)> {
+    move |e| {
+        let moves = |t: &(Expr, Rational)| t.0.as_symbol().is_some_and(|s| variables.contains(&s));
+        Angle::of(e).terms.into_iter().filter(moves).collect()
+    }
+}
+
+/// What joint variables do to a screw about z: it turns, or slides.
+fn motions(
+    screw: &Screw,
+    form: &impl Fn(Expr) -> Vec<(Expr, Rational)>,
+) -> Vec<(JointKind, Vec<(Expr, Rational)>)> {
+    if screw.axis != Axis::Z {
+        return vec![];
+    }
+    let both = [(JointKind::Revolute, screw.angle), (JointKind::Prismatic, screw.length)];
+    both.into_iter().map(|(kind, e)| (kind, form(e))).filter(|m| !m.1.is_empty()).collect()
+}
+
+/// A frame that goes along constant screws. Turns about one axis behind each other are one turn, so that their sines stay short.
+struct Walk {
+    place: Vector<Expr>,
+    /// Turns, and the rotation behind each; the first is where it began.
+    turns: Vec<(Axis, Expr, Rotation<Expr>)>,
+    start: Rotation<Expr>,
+}
+
+impl Walk {
+    fn from(x: Transform<Expr>) -> Self {
+        Walk { place: x.translation, turns: vec![], start: x.rotation }
+    }
+
+    fn rotation(&self) -> Rotation<Expr> {
+        self.turns.last().map_or(self.start, |t| t.2)
+    }
+
+    fn frame(&self) -> Transform<Expr> {
+        Transform::from_rotation_translation(self.rotation(), self.place)
+    }
+
+    fn go(&mut self, screw: &Screw) {
+        if !screw.length.is_zero() {
+            self.place = self.place + self.rotation().column(screw.axis).scale(screw.length);
+        }
+        let mut angle = screw.angle;
+        if let Some((_, before, _)) = self.turns.pop_if(|t| t.0 == screw.axis) {
+            angle = Angle::of(before + angle).to_expr();
+        }
+        if !angle.is_zero() {
+            let rotation = self.rotation() * Rotation::about(screw.axis, angle);
+            self.turns.push((screw.axis, angle, rotation));
+        }
     }
 }
 
 impl Description {
     /// Its axes and its tip at rest, with the values of its parameters.
     pub fn at_rest(&self) -> ChainAtRest {
-        let value = |s: Symbol| self.exact_value(s);
-        let number = |e: Expr| e.substitute(value);
+        self.at_rest_with(|s| self.exact_value(s))
+    }
+
+    /// Its axes and its tip at rest, with names for its parameters.
+    pub fn axes_with_names(&self) -> ChainAtRest {
+        self.at_rest_with(|_| None)
+    }
+
+    /// Points and directions of its axes seen from the tip at rest, with names for its parameters.
+    pub(in crate::description) fn axes_from_tip(&self) -> Vec<[Vector<Expr>; 2]> {
+        let screws = Rest::from_tip(self).screws;
+        screws.iter().map(|s| [s.frame.translation, s.frame.rotation.z()]).collect()
+    }
+
+    fn at_rest_with(&self, value: impl Fn(Symbol) -> Option<Expr>) -> ChainAtRest {
+        let number = |e: Expr| e.substitute(&value);
         let rest = Rest::of(self);
         let variables = self.variables();
         let index = |e: Expr| variables.iter().position(|v| e.as_symbol() == Some(v.symbol)).unwrap_or(0);
@@ -93,6 +172,37 @@ pub fn same_screws(a: &Description, b: &Description) -> bool {
         }
     }
     let (m, n) = (a.tip.matrix(), b.tip.matrix());
+    zero.extend((0..12).map(|k| m[k / 4][k % 4] - n[k / 4][k % 4]));
+    are_zero(&zero)
+}
+
+/// True if a description is proved to be a chain whose points may hold names, as polynomials in them; the directions are numbers.
+pub(super) fn is_chain(chain: &ChainAtRest, d: &Description) -> bool {
+    let (rest, variables) = (Rest::of(d), d.variables());
+    if rest.screws.len() != chain.axes.len() {
+        return false;
+    }
+    let mut zero: Vec<Expr> = vec![];
+    for (screw, axis) in rest.screws.iter().zip(&chain.axes) {
+        let moves = |(v, k): &(usize, Rational)| Some((Expr::from(variables.get(*v)?.symbol), k.clone()));
+        let moves: Option<Vec<(Expr, Rational)>> = axis.moves.iter().map(moves).collect();
+        let mut form = screw.form.clone();
+        let is_same_form = moves.is_some_and(|moves| {
+            form.retain(|term| !moves.contains(term));
+            form.is_empty() && moves.len() == screw.form.len()
+        });
+        // z and the direction point the same way.
+        let z = screw.frame.rotation.z();
+        let along = z.dot(axis.direction).eval(|_| None);
+        if screw.kind != axis.kind || !is_same_form || !along.is_ok_and(|x| x > 0.0) {
+            return false;
+        }
+        zero.extend(z.cross(axis.direction).0);
+        if axis.kind == JointKind::Revolute {
+            zero.extend((screw.frame.translation - axis.point).cross(axis.direction).0);
+        }
+    }
+    let (m, n) = (rest.tip.matrix(), chain.tip.matrix());
     zero.extend((0..12).map(|k| m[k / 4][k % 4] - n[k / 4][k % 4]));
     are_zero(&zero)
 }

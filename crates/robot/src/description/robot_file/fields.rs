@@ -1,5 +1,6 @@
 //! The values of a TOML table, with their places.
 
+use super::tree::Branches;
 use super::{Cell, Value};
 use crate::description::cell::{Place, Style, read_cell};
 use crate::description::diagnostic::{Diagnostics, nearest};
@@ -11,6 +12,8 @@ use toml::de::{DeArray, DeTable, DeValue};
 pub(super) struct Reader<'t> {
     pub text: &'t str,
     pub out: Diagnostics,
+    /// What makes the rows a tree, if they are one.
+    pub branches: Option<Branches>,
 }
 
 /// The entries of a table in the order of the text.

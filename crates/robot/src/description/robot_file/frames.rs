@@ -1,6 +1,6 @@
 //! `[base]` and `[tool]`: constant transforms.
 
-use super::fields::Reader;
+use super::fields::{Fields, Reader};
 use super::{Cell, Quantity, Style};
 use crate::geometry::{Rotation, Transform, Vector};
 use denavit_symbolic::{Expr, equal};
@@ -23,10 +23,15 @@ impl Reader<'_> {
         value: Option<&Spanned<DeValue>>,
         what: &str,
     ) -> (Option<Transform<Expr>>, FrameCells) {
+        let Some(value) = value else { return (Some(Transform::identity()), FrameCells::default()) };
+        let Some(fields) = self.table(value, what) else { return (None, FrameCells::default()) };
+        self.pose(&fields, &[])
+    }
+
+    /// The transform of a table that has `others` beside it.
+    pub fn pose(&mut self, fields: &Fields, others: &[&str]) -> (Option<Transform<Expr>>, FrameCells) {
         let mut cells = FrameCells::default();
-        let Some(value) = value else { return (Some(Transform::identity()), cells) };
-        let Some(fields) = self.table(value, what) else { return (None, cells) };
-        self.unknown_keys(&fields, &["xyz", "rpy", "matrix"], |key| {
+        self.unknown_keys(fields, &[&["xyz", "rpy", "matrix"], others].concat(), |key| {
             ["quaternion", "xyzw", "euler"]
                 .contains(&key)
                 .then(|| "give the rotation as `rpy` or `matrix`".into())
@@ -42,7 +47,7 @@ impl Reader<'_> {
             let transform = self.matrix(matrix, &mut cells);
             return (transform, cells);
         }
-        let zero = || vec![Cell::zero(value.span()); 3];
+        let zero = || vec![Cell::zero(fields.span.clone()); 3];
         let mut three = |key: &str, quantity| match fields.get(key) {
             Some(v) => self.list(v, &Style::of(quantity), key, 3),
             None => Some(zero()),

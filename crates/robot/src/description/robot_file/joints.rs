@@ -14,7 +14,7 @@ const LETTERS: &[&str] = &["theta", "d", "a", "alpha", "r", "gamma", "b"];
 /// A row whose limits wait until it is known what they limit.
 pub(super) struct Draft<'a> {
     pub cells: Cells,
-    fields: Fields<'a>,
+    pub fields: Fields<'a>,
 }
 
 /// The letters of a convention, in its order.
@@ -40,6 +40,9 @@ fn hint(key: &str, convention: Option<Convention>) -> Option<String> {
             );
         }
         "min" | "max" | "lower" | "upper" => return Some("limits = [lower, upper]".into()),
+        "after" if convention.is_some() => {
+            return Some("rows of a tree stand in the convention khalil".into());
+        }
         "effort" | "torque" => return Some("not part of a robot file".into()),
         _ => key,
     };
@@ -88,7 +91,8 @@ impl Reader<'_> {
         convention: Option<Convention>,
     ) -> Option<Draft<'a>> {
         let fields = self.table(row, "[joints]")?;
-        let known = [convention.map_or(LETTERS, letters), COMMON].concat();
+        let branches: &[&str] = if convention == Some(Convention::Khalil) { &["after"] } else { &[] };
+        let known = [convention.map_or(LETTERS, letters), COMMON, branches].concat();
         self.unknown_keys(&fields, &known, |key| hint(key, convention));
         let khalil = convention == Some(Convention::Khalil);
         let mut cell = |key: &str, quantity| {
@@ -119,7 +123,19 @@ impl Reader<'_> {
 
     fn row(&mut self, draft: &Draft, variable: Option<Variable>, names: &[String]) -> Row {
         let get = |key| draft.fields.get(key);
-        let kind = variable.map(|v| v.kind);
+        let mut row = draft.cells.row(variable);
+        self.joint_limits(&draft.fields, &mut row);
+        let mass = get("mass").and_then(|v| self.mass(v, names));
+        let com = get("com").and_then(|v| self.constants(v, Quantity::Length, "com", names));
+        let inertia = get("inertia").and_then(|v| self.constants(v, Quantity::Inertia, "inertia", names));
+        let name = self.string(get("name"));
+        Row { name, mass, com, inertia, ..row }
+    }
+
+    /// How far and how fast a row's joint moves.
+    pub fn joint_limits(&mut self, fields: &Fields, row: &mut Row) {
+        let get = |key| fields.get(key);
+        let kind = row.variable.map(|v| v.kind);
         let turns = kind == Some(JointKind::Revolute);
         let (rate, change) = match turns {
             true => (Quantity::AngularVelocity, Quantity::AngularAcceleration),
@@ -134,14 +150,9 @@ impl Reader<'_> {
                     .hint("write the variable into theta or into the length along z, or drop the line");
             }
         }
-        let limits = get("limits").zip(kind).and_then(|(v, kind)| self.limits(v, quantity_of(kind)));
-        let velocity = get("velocity").zip(kind).and_then(|(v, _)| self.positive(v, rate));
-        let acceleration = get("acceleration").zip(kind).and_then(|(v, _)| self.positive(v, change));
-        let mass = get("mass").and_then(|v| self.mass(v, names));
-        let com = get("com").and_then(|v| self.constants(v, Quantity::Length, "com", names));
-        let inertia = get("inertia").and_then(|v| self.constants(v, Quantity::Inertia, "inertia", names));
-        let name = self.string(get("name"));
-        Row { name, limits, velocity, acceleration, mass, com, inertia, ..draft.cells.row(variable) }
+        row.limits = get("limits").zip(kind).and_then(|(v, kind)| self.limits(v, quantity_of(kind)));
+        row.velocity = get("velocity").zip(kind).and_then(|(v, _)| self.positive(v, rate));
+        row.acceleration = get("acceleration").zip(kind).and_then(|(v, _)| self.positive(v, change));
     }
 
     fn limits(&mut self, value: &Spanned<DeValue>, quantity: Quantity) -> Option<[Expr; 2]> {

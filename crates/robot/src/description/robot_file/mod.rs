@@ -1,15 +1,20 @@
 //! Robot files (TOML), as `docs/robot-files.md` describes them.
 
+mod axes;
 mod fields;
 mod frames;
 mod joints;
 mod parameters;
+mod tree;
 mod write;
+mod write_axes;
 
 pub(super) use parameters::name_fault;
 pub(super) use write::exact_rpy;
-pub use write::write_toml;
+pub use write::{write_toml, write_tree};
+pub use write_axes::{AxesAs, write_axes};
 
+use super::branches::RowTree;
 use super::cell::{Style, Value};
 use super::diagnostic::{Diagnostic, Diagnostics, nearest};
 use super::rows::{self, Cell};
@@ -17,6 +22,7 @@ use super::units::Quantity;
 use super::{Convention, Description, JointKind};
 use denavit_symbolic::{Expr, Symbol};
 use fields::{Fields, Reader};
+use frames::FrameCells;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -27,14 +33,43 @@ pub const MAX_ROWS: usize = 500;
 /// The largest number of parameters.
 const MAX_PARAMETERS: usize = 1000;
 
-const KEYS: &[&str] =
-    &["name", "convention", "source", "parameters", "joints", "base", "tool", "poses", "gravity"];
+const KEYS: &[&str] = &[
+    "name",
+    "convention",
+    "source",
+    "parameters",
+    "joints",
+    "base",
+    "tool",
+    "poses",
+    "gravity",
+    "frames",
+    "tip",
+];
 
-/// Reads a robot file. With the description come warnings and notes.
+/// What a text describes.
+#[derive(Clone, Debug)]
+pub enum Described {
+    /// One chain.
+    Chain(Box<Description>),
+    /// A tree of rows.
+    Tree(Box<RowTree>),
+}
+
+/// Reads a robot file; of a tree the chain to its tip, or to the frame with the most joints on the way. With the description come
+/// warnings and notes.
+///
+/// # Errors
+/// All errors of the text (with the warnings and notes), in the order of the text; a tree with several ends and no `tip`.
+pub fn read_toml(text: &str) -> Result<(Description, Vec<Diagnostic>), Vec<Diagnostic>> {
+    read_robot(text).and_then(|(read, findings)| read.chain(findings))
+}
+
+/// Reads a robot file. With what it describes come warnings and notes.
 ///
 /// # Errors
 /// All errors of the text (with the warnings and notes), in the order of the text.
-pub fn read_toml(text: &str) -> Result<(Description, Vec<Diagnostic>), Vec<Diagnostic>> {
+pub fn read_robot(text: &str) -> Result<(Described, Vec<Diagnostic>), Vec<Diagnostic>> {
     let mut out = Diagnostics::default();
     if text.len() > MAX_BYTES {
         out.error(0..0, format!("the text has {} bytes; {MAX_BYTES} are allowed", text.len()));
@@ -56,14 +91,21 @@ pub fn read_toml(text: &str) -> Result<(Description, Vec<Diagnostic>), Vec<Diagn
     if !readable {
         return out.finish(None); // what a broken line meant is anybody's guess
     }
-    let mut reader = Reader { text, out };
+    let mut reader = Reader { text, out, branches: None };
     let description = reader.description(table.get_ref());
-    reader.out.finish(description)
+    let described = description.map(|d| match reader.branches.take() {
+        Some(branches) => Described::Tree(Box::new(branches.tree(d))),
+        None => Described::Chain(Box::new(d)),
+    });
+    reader.out.finish(described)
 }
 
 impl Reader<'_> {
     fn description(&mut self, table: &DeTable) -> Option<Description> {
         let fields = Fields::new(table, 0..0);
+        if let Some(given) = axes::Given::of(&fields) {
+            return self.axes_description(&fields, given);
+        }
         self.unknown_keys(&fields, KEYS, top_level_hint);
         let name = self.string(fields.get("name")).unwrap_or_else(|| "robot".into());
         let source = self.string(fields.get("source"));
@@ -73,11 +115,12 @@ impl Reader<'_> {
         let names: Vec<String> = declared.iter().map(|p| p.name.clone()).collect();
         let drafts = self.joints(fields.get("joints"), convention);
         let cells: Vec<rows::Cells> = drafts.iter().map(|d| d.cells.clone()).collect();
+        let pieces = self.branches(&fields, &drafts, convention);
         let (base, base_cells) = self.frame(fields.get("base"), "base");
         let (tool, tool_cells) = self.frame(fields.get("tool"), "tool");
 
         rows::check_declared(cells.iter().flat_map(|r| r.all()), &names, drafts.len(), &mut self.out);
-        let frame_cells = [&base_cells, &tool_cells];
+        let frame_cells: Vec<&FrameCells> = [&base_cells, &tool_cells].into_iter().chain(&pieces).collect();
         for cell in frame_cells.iter().flat_map(|c| c.lengths.iter().chain(&c.angles).chain(&c.entries)) {
             self.constant_of_parameters(cell, &names, drafts.len());
         }
@@ -88,11 +131,7 @@ impl Reader<'_> {
         let kinds: Vec<JointKind> = variables.iter().flatten().map(|v| v.kind).collect();
         let rows = self.rows(drafts, &variables, &names);
         let poses = self.poses(fields.get("poses"), &kinds);
-        let gravity = fields.get("gravity").and_then(|v| {
-            let cells = self.list(v, &Style::plain(Quantity::Acceleration), "gravity", 3)?;
-            cells.iter().for_each(|c| self.constant_of_parameters(c, &names, kinds.len()));
-            cells.iter().map(|c| c.expr).collect::<Vec<Expr>>().try_into().ok()
-        });
+        let gravity = self.gravity(fields.get("gravity"), &names, kinds.len());
         Some(Description {
             name,
             source,
@@ -104,6 +143,17 @@ impl Reader<'_> {
             poses,
             gravity,
         })
+    }
+
+    fn gravity(
+        &mut self,
+        value: Option<&Spanned<DeValue>>,
+        names: &[String],
+        count: usize,
+    ) -> Option<[Expr; 3]> {
+        let cells = self.list(value?, &Style::plain(Quantity::Acceleration), "gravity", 3)?;
+        cells.iter().for_each(|c| self.constant_of_parameters(c, names, count));
+        cells.iter().map(|c| c.expr).collect::<Vec<Expr>>().try_into().ok()
     }
 
     fn convention(&mut self, value: Option<&Spanned<DeValue>>) -> Option<Convention> {
@@ -208,6 +258,8 @@ fn top_level_hint(key: &str) -> Option<String> {
             belongs("[[joints]]")
         }
         "xyz" | "rpy" | "matrix" => belongs("[base] or [tool]"),
+        "frames" => Some("[[frames]] are frames with names in a tree".into()),
+        "tip" => Some("a file with [[joints]] has [tool]; [tip] belongs to [[axes]] and [[screws]]".into()),
         "joint" | "links" | "rows" => Some("each row of the table is a [[joints]]".into()),
         _ => None,
     }

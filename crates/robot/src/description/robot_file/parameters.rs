@@ -17,6 +17,12 @@ pub(super) struct Uses {
 }
 
 impl Uses {
+    /// What these cells use.
+    pub fn of_cells(angles: &[Cell], lengths: &[Cell]) -> Self {
+        let summands = |cells: &[Cell]| cells.iter().flat_map(Cell::summands).collect();
+        Uses { angles: summands(angles), lengths: summands(lengths) }
+    }
+
     pub fn of(rows: &[Cells], frames: &[&FrameCells]) -> Self {
         let summands =
             |cells: &mut dyn Iterator<Item = &Cell>| cells.flat_map(Cell::summands).collect::<Vec<_>>();

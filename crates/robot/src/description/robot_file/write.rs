@@ -1,5 +1,6 @@
 //! A description as a robot file that reads back to it.
 
+use crate::description::branches::{BASE, RowTree};
 use crate::description::cell::write_cell;
 use crate::description::units::Quantity;
 use crate::description::{Convention, Description, JointKind, Row};
@@ -10,7 +11,58 @@ use std::fmt::Write;
 
 /// The robot file of a description.
 pub fn write_toml(d: &Description) -> String {
-    let mut out = format!("name = {}\nconvention = \"{}\"\n", quoted(&d.name), d.convention);
+    let mut out = String::new();
+    write_head(&mut out, d);
+    for row in &d.rows {
+        out.push_str("\n[[joints]]\n");
+        write_row(&mut out, row, d.convention);
+    }
+    for (name, frame) in [("base", &d.base), ("tool", &d.tool)] {
+        if *frame != Transform::identity() {
+            let _ = writeln!(out, "\n[{name}]");
+            write_frame(&mut out, frame);
+        }
+    }
+    write_poses(&mut out, d);
+    out
+}
+
+/// The robot file of a tree of rows.
+pub fn write_tree(tree: &RowTree) -> String {
+    let mut out = String::new();
+    let d = tree.all_rows();
+    write_head(&mut out, &d);
+    if let Some(tip) = &tree.tip {
+        // Keys stand before the tables.
+        let key = format!("tip = {}\n", quoted(tip));
+        let at = out.find("\n\n[parameters]").map_or(out.len(), |at| at + 1);
+        out.insert_str(at, &key);
+    }
+    let names_of = |a: Option<usize>| match a {
+        None => quoted(BASE),
+        Some(a) => tree.rows[a].name.as_ref().map_or((a + 1).to_string(), |n| quoted(n)),
+    };
+    for (j, row) in tree.rows.iter().enumerate() {
+        out.push_str("\n[[joints]]\n");
+        if tree.after[j] != j.checked_sub(1) {
+            let _ = writeln!(out, "after = {}", names_of(tree.after[j]));
+        }
+        write_row(&mut out, row, Convention::Khalil);
+    }
+    for frame in &tree.frames {
+        let _ = writeln!(out, "\n[[frames]]\nname = {}\non = {}", quoted(&frame.name), names_of(frame.on));
+        write_frame(&mut out, &frame.pose);
+    }
+    if tree.base != Transform::identity() {
+        out.push_str("\n[base]\n");
+        write_frame(&mut out, &tree.base);
+    }
+    out
+}
+
+/// What a file begins with: name, convention, source, gravity and parameters.
+pub(super) fn write_head(out: &mut String, d: &Description) {
+    let _ = writeln!(out, "name = {}\nconvention = \"{}\"", quoted(&d.name), d.convention);
     if let Some(source) = &d.source {
         let _ = writeln!(out, "source = {}", quoted(source));
     }
@@ -25,16 +77,10 @@ pub fn write_toml(d: &Description) -> String {
             let _ = writeln!(out, "{} = {value}", key(&p.symbol.name()));
         }
     }
-    for row in &d.rows {
-        out.push_str("\n[[joints]]\n");
-        write_row(&mut out, row, d.convention);
-    }
-    for (name, frame) in [("base", &d.base), ("tool", &d.tool)] {
-        if *frame != Transform::identity() {
-            let _ = writeln!(out, "\n[{name}]");
-            write_frame(&mut out, frame);
-        }
-    }
+}
+
+/// `[poses]`
+pub(super) fn write_poses(out: &mut String, d: &Description) {
     if !d.poses.is_empty() {
         out.push_str("\n[poses]\n");
         let kinds: Vec<JointKind> = d.variables().iter().map(|v| v.kind).collect();
@@ -44,7 +90,6 @@ pub fn write_toml(d: &Description) -> String {
             let _ = writeln!(out, "{} = [{}]", key(name), values.join(", "));
         }
     }
-    out
 }
 
 fn write_row(out: &mut String, row: &Row, convention: Convention) {
@@ -55,22 +100,9 @@ fn write_row(out: &mut String, row: &Row, convention: Convention) {
         let quantity = if c.turns() { Quantity::Angle } else { Quantity::Length };
         let _ = writeln!(out, "{} = {}", c.key(convention), cell(c.of(row), quantity));
     }
-    let turns = row.variable.is_none_or(|v| v.kind == JointKind::Revolute);
-    let (value, rate, change) = match turns {
-        true => (Quantity::Angle, Quantity::AngularVelocity, Quantity::AngularAcceleration),
-        false => (Quantity::Length, Quantity::Velocity, Quantity::Acceleration),
-    };
-    if let Some(limits) = &row.limits {
-        let _ = writeln!(out, "limits = {}", list(limits, value));
-    }
-    for (key, e, quantity) in [
-        ("velocity", row.velocity, rate),
-        ("acceleration", row.acceleration, change),
-        ("mass", row.mass, Quantity::Mass),
-    ] {
-        if let Some(e) = e {
-            let _ = writeln!(out, "{key} = {}", cell(e, quantity));
-        }
+    write_limits(out, row);
+    if let Some(mass) = row.mass {
+        let _ = writeln!(out, "mass = {}", cell(mass, Quantity::Mass));
     }
     if let Some(com) = &row.com {
         let _ = writeln!(out, "com = {}", list(com, Quantity::Length));
@@ -80,7 +112,24 @@ fn write_row(out: &mut String, row: &Row, convention: Convention) {
     }
 }
 
-fn write_frame(out: &mut String, frame: &Transform<Expr>) {
+/// How far and how fast a row's joint moves.
+pub(super) fn write_limits(out: &mut String, row: &Row) {
+    let turns = row.variable.is_none_or(|v| v.kind == JointKind::Revolute);
+    let (value, rate, change) = match turns {
+        true => (Quantity::Angle, Quantity::AngularVelocity, Quantity::AngularAcceleration),
+        false => (Quantity::Length, Quantity::Velocity, Quantity::Acceleration),
+    };
+    if let Some(limits) = &row.limits {
+        let _ = writeln!(out, "limits = {}", list(limits, value));
+    }
+    for (key, e, quantity) in [("velocity", row.velocity, rate), ("acceleration", row.acceleration, change)] {
+        if let Some(e) = e {
+            let _ = writeln!(out, "{key} = {}", cell(e, quantity));
+        }
+    }
+}
+
+pub(super) fn write_frame(out: &mut String, frame: &Transform<Expr>) {
     let zero = [Expr::int(0); 3];
     if let Some(rpy) = exact_rpy(&frame.rotation) {
         if frame.translation.0 != zero {
@@ -139,11 +188,11 @@ pub(in crate::description) fn exact_rpy(r: &Rotation<Expr>) -> Option<[Expr; 3]>
     None
 }
 
-fn cell(e: Expr, quantity: Quantity) -> String {
+pub(super) fn cell(e: Expr, quantity: Quantity) -> String {
     if e.is_zero() { "0".into() } else { quoted(&write_cell(e, quantity)) }
 }
 
-fn list(values: &[Expr], quantity: Quantity) -> String {
+pub(super) fn list(values: &[Expr], quantity: Quantity) -> String {
     format!("[{}]", values.iter().map(|&e| cell(e, quantity)).collect::<Vec<_>>().join(", "))
 }
 
@@ -168,7 +217,7 @@ fn key(name: &str) -> String {
     if bare { name.to_string() } else { quoted(name) }
 }
 
-fn quoted(text: &str) -> String {
+pub(super) fn quoted(text: &str) -> String {
     let mut out = String::from("\"");
     for c in text.chars() {
         match c {

@@ -9,6 +9,10 @@ use denavit_symbolic::parse::subscript;
 pub(super) enum Role {
     /// The number of the row or joint.
     Index,
+    /// a(j): the row that this one stands on.
+    After,
+    /// μ: whether the joint has a motor.
+    Motor,
     /// σ or the type: revolute or prismatic.
     Sigma,
     Theta,
@@ -115,6 +119,12 @@ const WORDS: &[(&str, Role)] = &[
     ("variable", Role::Variable),
     ("jointvariable", Role::Variable),
     ("var", Role::Variable),
+    ("ant", Role::After),
+    ("antj", Role::After),
+    ("antecedent", Role::After),
+    ("antécédent", Role::After),
+    ("mu", Role::Motor),
+    ("muj", Role::Motor),
     ("offset", Role::Offset),
     ("min", Role::Lower),
     ("lower", Role::Lower),
@@ -163,6 +173,14 @@ const LETTERS: &[(&str, Role)] = &[
 pub(super) fn column(text: &str) -> Column {
     if text.len() > 200 {
         return Column { role: Role::Other, previous: false, unit: None };
+    }
+    // Khalil's a(j) is no length.
+    if text.len() < 20
+        && text.contains('(')
+        && ["a(j)", "a(i)"]
+            .contains(&text.replace(['$', ' ', '*', '{', '}', '_'], "").to_lowercase().as_str())
+    {
+        return Column { role: Role::After, previous: false, unit: None };
     }
     let (head, unit, qualifier) = split_unit(text);
     let (mut role, mut previous) = symbol(&plain(head));

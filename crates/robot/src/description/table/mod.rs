@@ -27,6 +27,7 @@
 //! **Nothing is dropped in silence.** A row with too few or too many cells is an error, and so are rows below a
 //! blank line or a line of text that do not go on counting; empty cells are 0, and a note says so.
 
+mod after;
 mod columns;
 mod each;
 mod find;
@@ -39,11 +40,13 @@ mod lines;
 mod read;
 mod told;
 mod values;
+mod write;
 
 pub use each::{PrintedGrid, PrintedRow, PrintedTable, grids, tables};
+pub use write::write_table;
 
 use super::diagnostic::{Diagnostic, Diagnostics};
-use super::{Convention, Description, MAX_BYTES, MAX_ROWS};
+use super::{Convention, Described, Description, MAX_BYTES, MAX_ROWS, RowTree};
 use find::Grid;
 use layout::Layout;
 use lines::{Around, Lines};
@@ -75,7 +78,8 @@ pub struct TableOptions {
     pub columns: Option<String>,
 }
 
-/// Reads the table of a text. With the description come warnings and notes.
+/// Reads the table of a text; of a tree, which has a column a(j), the chain to the frame with the most joints on the way. With the
+/// description come warnings and notes.
 ///
 /// # Errors
 /// All errors of the text (with the warnings and notes), in the order of the text.
@@ -84,6 +88,18 @@ pub fn read_table(
     kind: TableKind,
     options: &TableOptions,
 ) -> Result<(Description, Vec<Diagnostic>), Vec<Diagnostic>> {
+    read_table_robot(text, kind, options).and_then(|(read, findings)| read.chain(findings))
+}
+
+/// Reads the table of a text, which may be one of a tree. With what it describes come warnings and notes.
+///
+/// # Errors
+/// All errors of the text (with the warnings and notes), in the order of the text.
+pub fn read_table_robot(
+    text: &str,
+    kind: TableKind,
+    options: &TableOptions,
+) -> Result<(Described, Vec<Diagnostic>), Vec<Diagnostic>> {
     let mut out = Diagnostics::default();
     if text.len() > MAX_BYTES {
         out.error(0..0, format!("the text has {} bytes; {MAX_BYTES} are allowed", text.len()));
@@ -103,7 +119,13 @@ pub fn read_table(
         }
         chosen => {
             let around = Around::of(chosen, &layouts, text.len());
-            read::description(text, chosen, &lines, &around, options, &mut out).map(|r| r.description)
+            read::description(text, chosen, &lines, &around, options, &mut out).map(|r| {
+                let read::Reading { description: d, after, .. } = r;
+                match after {
+                    Some(after) => Described::Tree(Box::new(RowTree::of_rows(d, after))),
+                    None => Described::Chain(Box::new(d)),
+                }
+            })
         }
     };
     out.finish(description)

@@ -1,5 +1,6 @@
 //! From the cells of a table to a description.
 
+use super::after::antecedents;
 use super::columns::{Column, Role};
 use super::find::{GridCell, Separator};
 use super::joint::{Joint, joints};
@@ -28,6 +29,8 @@ pub(super) struct Reading {
     pub along_z: Option<&'static str>,
     /// The index of the length along x is that of the row before: `a_{i-1}`.
     pub previous: bool,
+    /// The row that each stands on, where a column says it and it is not always the one above.
+    pub after: Option<Vec<Option<usize>>>,
 }
 
 /// A cell of the table.
@@ -262,6 +265,7 @@ fn read_as(letters: &Letters, tables: &Tables, out: &mut Diagnostics) -> Reading
         Joint::Fixed => None,
     });
     Reading {
+        after: antecedents(&read, letters.convention, out),
         variables: moves.collect(),
         along_x: letters.x.map(Role::letter),
         along_z: letters.z.map(Role::letter),

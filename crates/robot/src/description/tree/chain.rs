@@ -45,6 +45,8 @@ pub enum NoChain {
     TooLong(usize),
     /// The axis of this joint has no direction.
     NoDirection(String),
+    /// The chain is not a way down the tree, and these have no value.
+    NeedsValues(Vec<String>),
 }
 
 impl fmt::Display for NoChain {
@@ -60,6 +62,13 @@ impl fmt::Display for NoChain {
             }
             NoChain::TooLong(joints) => write!(f, "a chain of {joints} joints; {MAX_ROWS} are allowed"),
             NoChain::NoDirection(joint) => write!(f, "the axis of `{joint}` has no direction"),
+            NoChain::NeedsValues(names) => {
+                write!(
+                    f,
+                    "this chain does not go down the tree, and is made of values: {} has none",
+                    names.join(", ")
+                )
+            }
         }
     }
 }
@@ -234,7 +243,7 @@ impl Mechanism {
 }
 
 /// What a joint does at a value, in its frame: a turn about its axis or a slide along it.
-fn moved(joint: &Joint, kind: JointKind, value: Expr) -> Transform<Expr> {
+pub(in crate::description) fn moved(joint: &Joint, kind: JointKind, value: Expr) -> Transform<Expr> {
     if value.is_zero() {
         return Transform::identity();
     }

@@ -5,7 +5,9 @@
 
 mod chain;
 mod poses;
+mod program;
 
+pub(super) use chain::moved;
 pub use chain::{Chain, NoChain};
 
 use super::JointKind;

@@ -1,0 +1,113 @@
+//! `fk --frames all` of a tree: where all its bodies are.
+
+use super::answer::{Answers, transforms};
+use super::{plural, stream, value};
+use crate::arguments::FkArguments;
+use crate::failure::Failure;
+use crate::load::{self, Tree};
+use crate::terminal::{Align, HEADING, noise, number, styled, table};
+use denavit::description::{Joint, Mechanism};
+use denavit::geometry::Transform;
+use denavit::geometry::orientation::{OrientationSet, extract};
+use denavit::quantity::reading;
+use std::io::Write;
+
+/// Answers for all bodies.
+///
+/// # Errors
+/// If a parameter has no value, the configuration cannot be read, or nothing can be written.
+pub fn run(arguments: &FkArguments, tree: &Tree) -> Result<(), Failure> {
+    let name = &arguments.robot.robot;
+    if arguments.orientation.is_some() {
+        return Err(Failure::Usage("--orientation is for one chain: name its end with --tip".into()));
+    }
+    let mechanism = match tree {
+        Tree::Bodies(m) => m.clone(),
+        Tree::Rows(rows) => {
+            rows.mechanism().map_err(|missing| Failure::Input(format!("error: {name}: {missing}")))?
+        }
+    };
+    let answers = Answers::of_tree(&mechanism);
+    match (&arguments.input, &arguments.q) {
+        (Some(path), _) => stream::run(answers, path),
+        (None, text) => {
+            let q = configuration(&mechanism, text.as_deref())?;
+            let results = answers.function.scalar().eval(&q).to_vec();
+            let mut out = anstream::stdout();
+            if arguments.json {
+                let mut text = vec![];
+                answers.write(&q, &results, &mut text);
+                out.write_all(&text)?;
+            } else {
+                write!(out, "{}", report(&mechanism, &q, &results))?;
+            }
+            Ok(())
+        }
+    }
+}
+
+/// The joints that move by themselves.
+fn joints(m: &Mechanism) -> Vec<&Joint> {
+    m.variables().into_iter().map(|j| &m.joints[j]).collect()
+}
+
+/// Values of all joints in order, or `NAME=VALUE` for some, the others at 0.
+fn configuration(m: &Mechanism, text: Option<&str>) -> Result<Vec<f64>, Failure> {
+    let joints = joints(m);
+    let names = || joints.iter().map(|j| j.name.as_str()).collect::<Vec<_>>().join(", ");
+    let bad = |why: String| Failure::Usage(format!("-q: {why}"));
+    let Some(text) = text else {
+        let example = joints.first().map_or("joint", |j| j.name.as_str());
+        return Err(Failure::Usage(format!(
+            "say where the joints are: -q with {}, or with some by name, as in -q \"{example}=0.5\" (the others are at 0): {}",
+            plural(joints.len(), "value"),
+            names()
+        )));
+    };
+    let parts = load::list(text);
+    let number = |joint: &Joint, text: &str| {
+        let kind = joint.kind.unwrap_or(denavit::description::JointKind::Revolute);
+        load::value_of(text, kind.into()).and_then(value).map_err(|why| format!("{}: {why}", joint.name))
+    };
+    if !text.contains('=') {
+        if parts.len() != joints.len() {
+            let (given, wanted) = (plural(parts.len(), "value"), plural(joints.len(), "joint"));
+            return Err(bad(format!("{given} given, the tree has {wanted}: {}", names())));
+        }
+        let values: Result<Vec<f64>, String> = joints.iter().zip(&parts).map(|(j, t)| number(j, t)).collect();
+        return values.map_err(bad);
+    }
+    let mut q = vec![0.0; joints.len()];
+    // Names may hold blanks.
+    for part in text.split([',', ';']).map(str::trim) {
+        let Some((name, text)) = part.split_once('=') else {
+            return Err(bad(format!("`{part}`: write NAME=VALUE")));
+        };
+        let Some(at) = joints.iter().position(|j| j.name == name.trim()) else {
+            return Err(bad(format!("no joint `{}` moves by itself; they are {}", name.trim(), names())));
+        };
+        q[at] = number(joints[at], text.trim()).map_err(bad)?;
+    }
+    Ok(q)
+}
+
+/// The answer for reading: a line a body.
+fn report(m: &Mechanism, q: &[f64], results: &[f64]) -> String {
+    let moved = joints(m).into_iter().zip(q).filter(|(_, x)| **x != 0.0);
+    let kind = |j: &Joint| j.kind.unwrap_or(denavit::description::JointKind::Revolute);
+    let at: Vec<String> = moved.map(|(j, &x)| format!("{} = {}", j.name, reading(x, kind(j)))).collect();
+    let at = if at.is_empty() { "all joints at 0".to_string() } else { at.join(", ") };
+    let poses: Vec<Transform<f64>> = transforms(results).collect();
+    let rounding = noise(&poses);
+    let row = |(body, x): (&denavit::description::Body, &Transform<f64>)| {
+        let rpy = extract(&x.rotation, OrientationSet::Rpy).values;
+        let angle = |x: f64| reading(x, denavit::description::JointKind::Revolute);
+        let place = x.translation.0.map(|e| number(e, rounding));
+        [vec![body.name.clone()], place.to_vec(), rpy.into_iter().map(angle).collect()].concat()
+    };
+    let rows: Vec<Vec<String>> = m.bodies.iter().zip(&poses).map(row).collect();
+    let header = ["frame", "x", "y", "z", "roll", "pitch", "yaw"];
+    let mut align = vec![Align::Right; header.len()];
+    align[0] = Align::Left;
+    format!("{} at {at}\n\n{}", styled(&m.name, HEADING), table(&header, &align, &rows))
+}

@@ -1,0 +1,91 @@
+//! What is described in rows, one chain or a tree, and the chain of it that a command is about.
+
+use super::{contents, render};
+use crate::arguments::RobotArguments;
+use crate::failure::Failure;
+use crate::terminal::note;
+use denavit::description::{
+    Agreement, Convention, Decimals, Described, Description, MAX_BYTES, NoChain, RowTree, read_par,
+};
+
+/// The chain of what was read; a description that is one already has no `--base` and `--tip`.
+///
+/// # Errors
+/// If there is no such chain.
+pub fn chain(arguments: &RobotArguments, described: Described) -> Result<Description, Failure> {
+    let name = arguments.robot.as_str();
+    let tree = match described {
+        Described::Chain(d) => {
+            let given = [(&arguments.base, "--base"), (&arguments.tip, "--tip")];
+            return match given.into_iter().find(|g| g.0.is_some()) {
+                None => Ok(*d),
+                Some((_, option)) => Err(Failure::Usage(format!(
+                    "{option} is for URDF files and trees, and {name} is one chain"
+                ))),
+            };
+        }
+        Described::Tree(tree) => tree,
+    };
+    of_tree(arguments, &tree, Convention::Khalil)
+}
+
+/// The chain of a tree that the arguments name.
+fn of_tree(arguments: &RobotArguments, tree: &RowTree, usual: Convention) -> Result<Description, Failure> {
+    let name = arguments.robot.as_str();
+    let convention = arguments.convention.map_or(usual, Into::into);
+    let (base, tip) = (arguments.base.as_deref(), arguments.tip.as_deref());
+    let chain = tree.chain(base, tip, convention).map_err(|why| no_chain(name, &why))?;
+    let joints = chain.description.variables().len();
+    let joints = format!("{joints} joint{}", if joints == 1 { "" } else { "s" });
+    let rows = match chain.agreement {
+        None => "its rows as they stand".to_string(),
+        Some(Agreement::Proved) => "its table is proved to be the tree's chain".into(),
+        Some(Agreement::Within(by)) if by < 1e-50 => "its table is the tree's chain to 60 digits".into(),
+        Some(Agreement::Within(by)) => format!("its table is the tree's chain within {by:.0e}"),
+    };
+    note(&format!("note: from `{}` to `{}`, {joints}; {rows}", chain.from, chain.to));
+    Ok(chain.description)
+}
+
+/// Reads the file of `.par` that the arguments name.
+///
+/// # Errors
+/// If it cannot be read or has errors.
+pub fn par(arguments: &RobotArguments) -> Result<RowTree, Failure> {
+    let name = arguments.robot.as_str();
+    let text = contents(name, MAX_BYTES).map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
+    let decimals = if arguments.as_written { Decimals::AsWritten } else { Decimals::Meant };
+    let (tree, findings) = read_par(&text, decimals).map_err(|f| Failure::Input(render(&f, name, &text)))?;
+    note(render(&findings, name, &text).trim_end());
+    Ok(tree)
+}
+
+/// The chain of a `.par` file that the arguments name.
+///
+/// # Errors
+/// If the file cannot be read or has errors, or there is no such chain.
+pub fn from_par(arguments: &RobotArguments) -> Result<Description, Failure> {
+    let tree = par(arguments)?;
+    let given = arguments.base.is_some() || arguments.tip.is_some();
+    if tree.is_chain() && !given {
+        let convention = arguments.convention.map_or(Convention::Khalil, Into::into);
+        let chain = tree.chain(None, None, convention);
+        return chain.map(|c| c.description).map_err(|why| no_chain(&arguments.robot, &why));
+    }
+    of_tree(arguments, &tree, Convention::Khalil)
+}
+
+/// Why there is no chain, with the option that helps.
+pub fn no_chain(name: &str, why: &NoChain) -> Failure {
+    let text = format!("{name}: {why}");
+    match why {
+        NoChain::Several(_) => Failure::Usage(format!("{text}\n  = hint: choose one with --tip LINK")),
+        NoChain::Unknown { .. } => Failure::Usage(text),
+        NoChain::NeedsValues(_) => {
+            Failure::Input(format!("error: {text}\n  = hint: give them values in the file"))
+        }
+        NoChain::Rigid { .. } | NoChain::TooLong(_) | NoChain::NoDirection(_) => {
+            Failure::Input(format!("error: {text}"))
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! Robots by their axes, trees of rows and bodies, and what `convert` makes of them.
+
+use crate::common::{fed, text};
+use serde_json::Value;
+use std::path::PathBuf;
+
+fn run(arguments: &[&str]) -> (i32, String, String) {
+    let output = fed(arguments, "");
+    (output.status.code().unwrap_or(-1), text(&output.stdout), text(&output.stderr))
+}
+
+/// A file for one test, away at its end.
+struct File(PathBuf);
+
+impl File {
+    fn new(name: &str, text: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("denavit-{}-{name}", std::process::id()));
+        std::fs::write(&path, text).expect("a file");
+        File(path)
+    }
+
+    fn name(&self) -> &str {
+        self.0.to_str().expect("a name")
+    }
+}
+
+impl Drop for File {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_file(&self.0);
+    }
+}
+
+fn structure(name: &str) -> String {
+    format!("{}/../robot/structures/{name}.toml", env!("CARGO_MANIFEST_DIR"))
+}
+
+fn urdf(name: &str) -> String {
+    format!("{}/../robot/tests/urdf/{name}.urdf", env!("CARGO_MANIFEST_DIR"))
+}
+
+/// What is written in a format opens again and is converted from there as well.
+#[test]
+fn every_format_goes_there_and_back() {
+    for (to, ending) in [
+        ("axes", "toml"),
+        ("poe", "toml"),
+        ("body-poe", "toml"),
+        ("markdown", "md"),
+        ("latex", "tex"),
+        ("csv", "csv"),
+        ("par", "par"),
+        ("tree", "toml"),
+    ] {
+        let (code, written, said) = run(&["convert", "puma560", "--to", to]);
+        assert_eq!(code, 0, "{to}: {said}");
+        assert!(said.contains("read back, it is proved to be the same robot"), "{to}: {said}\n{written}");
+        let file = File::new(&format!("puma.{ending}"), &written);
+        let (code, shown, said) = run(&["show", file.name()]);
+        assert_eq!(code, 0, "{to}: {said}");
+        assert!(shown.contains("a spherical wrist"), "{to}: {shown}");
+        let (code, _, said) = run(&["convert", file.name(), "--to", "toml"]);
+        assert!(code == 0 && said.contains("proved to be the same robot"), "{to}: {said}");
+    }
+    let (code, text, said) = run(&["convert", "ur5", "--to", "markdown", "--as", "craig"]);
+    assert!(code == 0 && text.contains("convention: craig") && text.contains("α_{i-1}"), "{said}{text}");
+    let (_, text, said) = run(&["convert", "rethink-baxter-left", "--to", "csv"]);
+    assert!(said.contains("its poses differ by"), "{said}{text}");
+    let (code, _, said) = run(&["convert", "parallelogram-5r", "--to", "par"]);
+    assert!(code == 3 && said.contains("has no words for that"), "{said}");
+}
+
+#[test]
+fn axes_say_what_is_wrong_with_them() {
+    let file = File::new("axes.toml", "[[axes]]\npoint = [0, 0, 0]\ndirection = [0, 0, 0]\n");
+    let (code, _, said) = run(&["show", file.name()]);
+    assert!(code == 3 && said.contains(":3:13: error: this axis has no direction"), "{said}");
+}
+
+#[test]
+fn chains_of_a_tree_of_rows() {
+    let file = structure("dual-arm");
+    let (code, shown, said) = run(&["show", &file]);
+    assert!(code == 0 && shown.contains("7 joints"), "{said}{shown}");
+    assert!(said.contains("from `base` to `right hand`, 7 joints; its rows as they stand"), "{said}");
+    let (code, shown, said) = run(&["show", &file, "--base", "left hand", "--tip", "right hand"]);
+    assert!(
+        code == 0 && shown.contains("12 joints") && said.contains("proved to be the tree's chain"),
+        "{said}"
+    );
+    let (code, _, said) = run(&["show", &file, "--tip", "right hend"]);
+    assert!(code == 2 && said.contains("did you mean `right hand`?"), "{said}");
+    let (code, _, said) = run(&["show", "ur5", "--tip", "hand"]);
+    assert!(code == 2 && said.contains("--tip is for URDF files and trees, and ur5 is one chain"), "{said}");
+    let (code, written, said) = run(&["convert", &file, "--to", "par"]);
+    assert!(code == 0 && said.contains("chains are proved to be the same"), "{said}");
+    let par = File::new("dual.par", &written);
+    // The two hands and the camera are rows 14, 15 and 16 of the file.
+    let (code, shown, said) = run(&["show", par.name(), "--tip", "15"]);
+    assert!(code == 0 && shown.contains("7 joints"), "{said}{shown}");
+    let (code, _, said) = run(&["show", par.name()]);
+    assert!(code == 2 && said.contains("there are several tips"), "{said}");
+    let (code, written, said) = run(&["convert", &urdf("ur5_gripper"), "--to", "tree"]);
+    assert!(code == 0 && said.contains("chains are proved to be the same"), "{said}\n{written}");
+}
+
+#[test]
+fn all_bodies_of_a_tree_at_once() {
+    let file = structure("humanoid");
+    let at = "left elbow=-60deg, right knee=0.5";
+    let (code, shown, said) = run(&["fk", &file, "--frames", "all", "-q", at]);
+    assert!(code == 0 && shown.contains("left elbow = −60°"), "{said}{shown}");
+    assert_eq!(shown.lines().filter(|l| l.contains("palm")).count(), 2, "{shown}");
+    let (code, out, said) = run(&["fk", &file, "--frames", "all", "-q", at, "--json"]);
+    assert_eq!(code, 0, "{said}");
+    let answer: Value = serde_json::from_str(&out).expect("JSON");
+    let frames = answer["frames"].as_array().expect("frames");
+    assert_eq!((frames.len(), answer["joints"].as_array().map(Vec::len)), (37, Some(31)));
+    // The palm is where its chain has it.
+    let palm = frames.iter().find(|f| f["name"] == "left palm").expect("a palm");
+    let chain = ["fk", &file, "--tip", "left palm", "-q", "0,0,0,0,0,0,-60deg,0,0,0", "--json"];
+    let (code, out, said) = run(&chain);
+    assert_eq!(code, 0, "{said}");
+    let one: Value = serde_json::from_str(&out).expect("JSON");
+    for (a, b) in palm["pose"].as_array().unwrap().iter().zip(one["pose"].as_array().unwrap()) {
+        for (a, b) in a.as_array().unwrap().iter().zip(b.as_array().unwrap()) {
+            assert!((a.as_f64().unwrap() - b.as_f64().unwrap()).abs() < 1e-14, "{a} {b}");
+        }
+    }
+    // A line for each line, as with one chain.
+    let output = fed(&["fk", &urdf("pr2"), "--frames", "all", "--input", "-"], "[0]\n");
+    assert!(text(&output.stdout).contains("\"error\""), "one value is too few");
+    let (code, _, said) = run(&["fk", &file, "--frames", "all"]);
+    assert!(code == 2 && said.contains("say where the joints are"), "{said}");
+    let (code, _, said) = run(&["fk", &file, "--frames", "all", "-q", "elbow=1"]);
+    assert!(code == 2 && said.contains("no joint `elbow` moves by itself"), "{said}");
+    let (code, _, said) = run(&["fk", &file, "--frames", "all", "-q", "1, 2"]);
+    assert!(code == 2 && said.contains("2 values given, the tree has 31 joints"), "{said}");
+}

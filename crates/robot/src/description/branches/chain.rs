@@ -1,0 +1,171 @@
+//! A serial chain through a tree of rows.
+
+use super::{BASE, RowTree};
+use crate::description::diagnostic::nearest;
+use crate::description::{Agreement, Convention, Description, MAX_ROWS, NoChain, Row, Variable};
+use crate::geometry::Transform;
+use denavit_symbolic::{Angle, Expr, Symbol};
+
+/// A chain through a tree of rows.
+#[derive(Clone, Debug)]
+pub struct RowChain {
+    /// Its table.
+    pub description: Description,
+    /// The frame that it begins at.
+    pub from: String,
+    /// The frame that it ends at.
+    pub to: String,
+    /// How the table was found to be the chain; rows that stand as they are need no proof.
+    pub agreement: Option<Agreement>,
+}
+
+/// A frame of a tree: its row, and its pose there.
+type Place = (Option<usize>, Transform<Expr>);
+
+impl RowTree {
+    /// The chain between two frames: from the base, and to the tip of the tree, or else the frame with the most joints on the way,
+    /// where none is named.
+    ///
+    /// Down the tree the rows stay as they are, with their names for lengths; every other way is made of axes, with the values of
+    /// the parameters.
+    ///
+    /// # Errors
+    /// If there is no such frame, several ends, nothing that moves, or a parameter that is needed has no value.
+    pub fn chain(
+        &self,
+        from: Option<&str>,
+        to: Option<&str>,
+        convention: Convention,
+    ) -> Result<RowChain, NoChain> {
+        let from = from.unwrap_or(BASE);
+        let start = self.place(from)?;
+        let to = match to.or(self.tip.as_deref()) {
+            Some(name) => name.to_string(),
+            None => self.farthest(start.0)?,
+        };
+        let end = self.place(&to)?;
+        let way = self.way(end.0);
+        let below = match start.0 {
+            None => Some(&way[..]),
+            Some(row) => way.iter().position(|&j| j == row).map(|at| &way[at + 1..]),
+        };
+        let base = if from == BASE { self.base } else { start.1.inverse() };
+        let straight = below.and_then(|rows| self.straight(rows, base, end));
+        if let Some(d) = straight {
+            let description = d.converted(convention).description;
+            if description.variables().is_empty() {
+                return Err(NoChain::Rigid { from: from.into(), to });
+            }
+            return Ok(RowChain { description, from: from.into(), to, agreement: None });
+        }
+        let mechanism = self.mechanism().map_err(|missing| NoChain::NeedsValues(missing.parameters))?;
+        let chain = mechanism.chain(Some(from), Some(&to), convention)?;
+        Ok(RowChain {
+            description: chain.description,
+            from: from.into(),
+            to,
+            agreement: Some(chain.agreement),
+        })
+    }
+
+    fn place(&self, name: &str) -> Result<Place, NoChain> {
+        if let Some(frame) = self.frames.iter().find(|f| f.name == name) {
+            return Ok((frame.on, frame.pose));
+        }
+        let row = (0..self.rows.len()).find(|&j| self.frame_name(j) == name);
+        if row.is_some() || name == BASE {
+            return Ok((row, Transform::identity()));
+        }
+        let names = self.frame_names();
+        let near = nearest(name, names.iter().map(String::as_str)).map(str::to_string);
+        Err(NoChain::Unknown { name: name.into(), near })
+    }
+
+    /// The rows from frame 0 to one.
+    pub(super) fn way(&self, row: Option<usize>) -> Vec<usize> {
+        let mut way = vec![];
+        let mut next = row;
+        while let Some(j) = next {
+            way.push(j);
+            next = self.after[j];
+        }
+        way.reverse();
+        way
+    }
+
+    /// The frame with the most joints on the way to it, of those on which nothing stands.
+    fn farthest(&self, from: Option<usize>) -> Result<String, NoChain> {
+        let count = |row: Option<usize>| {
+            let way = self.way(row);
+            let shared = from.map_or(vec![], |j| self.way(Some(j)));
+            let common = way.iter().zip(&shared).take_while(|(a, b)| a == b).count();
+            let rows = way[common..].iter().chain(&shared[common..]);
+            rows.filter(|&&j| self.rows[j].variable.is_some()).count()
+        };
+        let is_leaf =
+            |j: &usize| !self.after.contains(&Some(*j)) && self.frames.iter().all(|f| f.on != Some(*j));
+        let rows = (0..self.rows.len()).filter(is_leaf).map(|j| (count(Some(j)), self.frame_name(j)));
+        let leaves: Vec<(usize, String)> =
+            rows.chain(self.frames.iter().map(|f| (count(f.on), f.name.clone()))).collect();
+        let most = leaves.iter().map(|l| l.0).max().unwrap_or(0);
+        let tips: Vec<String> = leaves.into_iter().filter(|l| l.0 == most).map(|l| l.1).collect();
+        match &tips[..] {
+            [] => Err(NoChain::Rigid { from: BASE.into(), to: BASE.into() }),
+            [tip] => Ok(tip.clone()),
+            _ => Err(NoChain::Several(tips)),
+        }
+    }
+
+    /// The rows of a way down the tree as a table; nothing where a row would bring two variables with it.
+    fn straight(&self, way: &[usize], base: Transform<Expr>, end: Place) -> Option<Description> {
+        if way.len() > MAX_ROWS {
+            return None;
+        }
+        let all = self.variables();
+        let mut known: Vec<Symbol> = vec![];
+        let mut rows: Vec<Row> = vec![];
+        for &j in way {
+            let row = &self.rows[j];
+            let symbols = [row.theta.symbols(), row.d.symbols()].concat();
+            let new: Vec<Symbol> =
+                symbols.into_iter().filter(|s| all.contains(s) && !known.contains(s)).collect();
+            if new.len() > 1 {
+                return None;
+            }
+            known.extend(&new);
+            let renamed = |e: Expr| {
+                let number = |s: Symbol| known.iter().position(|k| *k == s);
+                let e = e.substitute(|s| number(s).map(|n| Expr::symbol(&format!("q{}", n + 1))));
+                Angle::of(e).to_expr()
+            };
+            let mut row = Row { theta: renamed(row.theta), d: renamed(row.d), variable: None, ..row.clone() };
+            if let Some(&symbol) = new.first() {
+                let leader = self.rows.iter().find(|r| r.variable.is_some_and(|v| v.symbol == symbol))?;
+                let kind = self.motions(&self.rows[j]).iter().find(|m| all[m.1] == symbol)?.0;
+                row.variable = Some(Variable { symbol: Symbol::new(&format!("q{}", known.len())), kind });
+                if leader.variable.is_some_and(|v| v.kind == kind) {
+                    (row.limits, row.velocity) = (leader.limits, leader.velocity);
+                }
+            }
+            rows.push(row);
+        }
+        let occurring: Vec<Symbol> = rows
+            .iter()
+            .flat_map(|r| [r.theta, r.d, r.a, r.alpha, r.gamma, r.b])
+            .chain(base.matrix().concat())
+            .chain(end.1.matrix().concat())
+            .flat_map(Expr::symbols)
+            .collect();
+        Some(Description {
+            name: self.name.clone(),
+            source: self.source.clone(),
+            convention: Convention::Khalil,
+            parameters: self.parameters.iter().filter(|p| occurring.contains(&p.symbol)).cloned().collect(),
+            rows,
+            base,
+            tool: end.1,
+            poses: vec![],
+            gravity: self.gravity,
+        })
+    }
+}

@@ -1,0 +1,241 @@
+//! Trees of rows: the notation of Khalil and Kleinfinger (1986), in which each row names the frame that it stands on.
+//!
+//! Row j takes the frame a(j) to its own: `Rz(γ)·Tz(b)·Rx(α)·Tx(d)·Rz(θ)·Tz(r)`. A chain from a frame down the tree is the rows on the
+//! way, as they stand; other chains go through the [`Mechanism`] of the tree.
+
+mod chain;
+mod par;
+mod place;
+mod write_par;
+
+pub use chain::RowChain;
+pub use par::read_par;
+pub use write_par::{NoPar, ParFile, write_par};
+
+use super::{
+    Body, Convention, Description, Follows, Joint, JointKind, Mechanism, MissingValue, Parameter, Row,
+};
+use crate::geometry::{Axis, Transform, Vector};
+use denavit_symbolic::{Angle, Expr, Rational, Symbol};
+
+/// A tree of rows.
+#[derive(Clone, Debug)]
+pub struct RowTree {
+    /// What people call it.
+    pub name: String,
+    /// Where the numbers come from.
+    pub source: Option<String>,
+    /// Symbols that stand for constants.
+    pub parameters: Vec<Parameter>,
+    /// The rows, in Khalil's convention; their variables q1, q2, … count over all of them.
+    pub rows: Vec<Row>,
+    /// The row that each stands on, an earlier one; none for frame 0.
+    pub after: Vec<Option<usize>>,
+    /// Frame 0 in the base.
+    pub base: Transform<Expr>,
+    /// Frames with names that stand on rows.
+    pub frames: Vec<NamedFrame>,
+    /// The frame at which a chain ends if no other is asked for.
+    pub tip: Option<String>,
+    /// The acceleration of gravity in the base, m/s².
+    pub gravity: Option<[Expr; 3]>,
+}
+
+/// A frame that does not move on its row.
+#[derive(Clone, Debug)]
+pub struct NamedFrame {
+    /// Its name.
+    pub name: String,
+    /// The row that it stands on; none for frame 0.
+    pub on: Option<usize>,
+    /// Its pose in that row's frame.
+    pub pose: Transform<Expr>,
+}
+
+/// The name of the base.
+pub(in crate::description) const BASE: &str = "base";
+
+impl RowTree {
+    /// What the frame of a row is called: by the row's name, else by its number, from 1.
+    pub fn frame_name(&self, row: usize) -> String {
+        self.rows[row].name.clone().unwrap_or_else(|| (row + 1).to_string())
+    }
+
+    /// The names of all frames: the base, those of the rows, and the others.
+    pub fn frame_names(&self) -> Vec<String> {
+        let rows = (0..self.rows.len()).map(|j| self.frame_name(j));
+        [BASE.to_string()].into_iter().chain(rows).chain(self.frames.iter().map(|f| f.name.clone())).collect()
+    }
+
+    /// All rows as if they were a table: for what is said of parameters.
+    pub(in crate::description) fn all_rows(&self) -> Description {
+        Description {
+            name: self.name.clone(),
+            source: self.source.clone(),
+            convention: Convention::Khalil,
+            parameters: self.parameters.clone(),
+            rows: self.rows.clone(),
+            base: self.base,
+            tool: self.frames.first().map_or(Transform::identity(), |f| f.pose),
+            poses: vec![],
+            gravity: self.gravity,
+        }
+    }
+
+    /// True if every row stands on the one above, and nothing beside.
+    pub fn is_chain(&self) -> bool {
+        self.frames.is_empty() && self.after.iter().enumerate().all(|(j, a)| *a == j.checked_sub(1))
+    }
+
+    /// The rows of a table as a tree; `after` names the row that each stands on.
+    pub(in crate::description) fn of_rows(d: Description, after: Vec<Option<usize>>) -> Self {
+        RowTree {
+            name: d.name,
+            source: d.source,
+            parameters: d.parameters,
+            rows: d.rows,
+            after,
+            base: d.base,
+            frames: vec![],
+            tip: None,
+            gravity: d.gravity,
+        }
+    }
+
+    /// A chain as a tree without branches.
+    pub fn of_chain(d: &Description) -> Self {
+        let khalil = d.converted(Convention::Khalil).description;
+        let last = khalil.rows.len().checked_sub(1);
+        let tool = NamedFrame { name: "tool".into(), on: last, pose: khalil.tool };
+        RowTree {
+            after: (0..khalil.rows.len()).map(|j| j.checked_sub(1)).collect(),
+            frames: [tool].into_iter().filter(|f| f.pose != Transform::identity()).collect(),
+            tip: None,
+            name: khalil.name,
+            source: khalil.source,
+            parameters: khalil.parameters,
+            rows: khalil.rows,
+            base: khalil.base,
+            gravity: khalil.gravity,
+        }
+    }
+
+    /// The joint variables, q1 first.
+    pub(super) fn variables(&self) -> Vec<Symbol> {
+        self.rows.iter().filter_map(|r| r.variable).map(|v| v.symbol).collect()
+    }
+
+    /// The motions of a row: what kind, by which variable, with which factor; its own first.
+    pub(super) fn motions(&self, row: &Row) -> Vec<(JointKind, usize, Rational)> {
+        let variables = self.variables();
+        let mut all = vec![];
+        for (kind, e) in [(JointKind::Revolute, row.theta), (JointKind::Prismatic, row.d)] {
+            for (term, factor) in Angle::of(e).terms {
+                if let Some(v) = term.as_symbol().and_then(|s| variables.iter().position(|x| *x == s)) {
+                    all.push((kind, v, factor));
+                }
+            }
+        }
+        let own = row.variable.map(|v| v.symbol);
+        all.sort_by_key(|m| Some(variables[m.1]) != own);
+        all
+    }
+
+    /// The tree as bodies and joints, with the values of its parameters. A row that several variables move is several joints on one
+    /// axis.
+    ///
+    /// # Errors
+    /// If a parameter has no value.
+    pub fn mechanism(&self) -> Result<Mechanism, MissingValue> {
+        let names: Vec<Symbol> = self.parameters.iter().map(|p| p.symbol).collect();
+        let value = |s: Symbol| self.parameters.iter().find(|p| p.symbol == s)?.value;
+        let used: Vec<Symbol> = self
+            .rows
+            .iter()
+            .flat_map(|r| [r.theta, r.d, r.a, r.alpha, r.gamma, r.b])
+            .chain(self.base.matrix().concat())
+            .chain(self.frames.iter().flat_map(|f| f.pose.matrix().concat()))
+            .flat_map(Expr::symbols)
+            .filter(|s| names.contains(s))
+            .collect();
+        denavit_program::values(&used, |s| value(s)?.eval(|_| None).ok())?;
+        let number = |e: Expr| e.substitute(value);
+
+        let body = |name: String| Body { name, mass: None, looks: vec![] };
+        let mut m =
+            Mechanism { name: self.name.clone(), bodies: vec![body(BASE.into())], joints: vec![], root: 0 };
+        let mut of_row: Vec<usize> = vec![];
+        let mut leader: Vec<usize> = vec![];
+        let variables = self.variables();
+        for (j, row) in self.rows.iter().enumerate() {
+            let parent = self.after[j].map_or(0, |a| of_row[a]);
+            let before = if self.after[j].is_none() { self.base } else { Transform::identity() };
+            let still = |e: Expr| number(e.substitute(|s| variables.contains(&s).then(|| Expr::int(0))));
+            let screws = row.screws(Convention::Khalil);
+            let joint = crate::description::Screw {
+                angle: still(screws.joint.angle),
+                length: still(screws.joint.length),
+                ..screws.joint
+            };
+            let x = screws.before.iter().fold(before, |x, s| x * s.transform()) * joint.transform();
+            let mut origin = x.map(number);
+            let mut parent = parent;
+            let motions = self.motions(row);
+            let steps = motions.len().max(1);
+            for k in 0..steps {
+                let is_last = k + 1 == steps;
+                let name = self.frame_name(j);
+                let name = if is_last { name } else { format!("{name} ({})", k + 1) };
+                let child = m.bodies.len();
+                m.bodies.push(body(name.clone()));
+                let z = Vector::unit(Axis::Z);
+                let mut joint = Joint {
+                    name,
+                    kind: None,
+                    parent,
+                    child,
+                    origin: std::mem::replace(&mut origin, Transform::identity()),
+                    axis: z,
+                    limits: row.limits.filter(|_| k == 0),
+                    velocity: row.velocity.filter(|_| k == 0),
+                    effort: None,
+                    follows: None,
+                };
+                if let Some((kind, v, factor)) = motions.get(k) {
+                    joint.kind = Some(*kind);
+                    if leader.get(*v).is_some() {
+                        joint.follows =
+                            Some(Follows { joint: leader[*v], factor: factor.clone(), offset: Expr::int(0) });
+                    } else {
+                        leader.push(m.joints.len());
+                        joint.axis = if factor.is_negative() { -z } else { z };
+                    }
+                }
+                m.joints.push(joint);
+                parent = child;
+            }
+            of_row.push(parent);
+        }
+        for frame in &self.frames {
+            let child = m.bodies.len();
+            m.bodies.push(body(frame.name.clone()));
+            let (parent, before) = match frame.on {
+                Some(row) => (of_row[row], Transform::identity()),
+                None => (0, self.base),
+            };
+            m.joints.push(Joint {
+                name: frame.name.clone(),
+                kind: None,
+                parent,
+                child,
+                origin: (before * frame.pose).map(number),
+                axis: Vector::unit(Axis::Z),
+                limits: None,
+                velocity: None,
+                effort: None,
+                follows: None,
+            });
+        }
+        Ok(m)
+    }
+}
