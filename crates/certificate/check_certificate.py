@@ -216,6 +216,7 @@ def main(files):
             certificate = json.load(open(file, encoding="utf-8"))
             names, checker = [c["name"] for c in certificate["claims"]], Checker(certificate)
             need(names == certificate["summary"] and len(set(names)) == len(names), "its claims are not those of its summary")
+            need(names or certificate["missing"], "it says nothing")
             for claim in certificate["claims"]:
                 checker.check(claim)
             open_ = "; not certified: " + ", ".join(certificate["missing"]) if certificate["missing"] else ""

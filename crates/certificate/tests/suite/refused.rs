@@ -129,6 +129,15 @@ fn what_names_mean() {
 fn the_list_of_claims() {
     let ur = || forward("ur5");
     refuses(ur(), |c| drop(c["claims"].as_array_mut().map(Vec::pop)), "summary");
+    refuses(
+        ur(),
+        |c| {
+            for list in ["claims", "summary", "missing"] {
+                c[list] = json!([]);
+            }
+        },
+        "it says nothing",
+    );
     refuses(ur(), |c| c["claims"][1] = c["claims"][0].clone(), "summary");
     refuses(ur(), |c| c["claims"][0]["name"] = json!("another"), "summary");
     refuses(ur(), |c| c["claims"][0]["left"]["frame"][2] = json!(2), NO_SUM);

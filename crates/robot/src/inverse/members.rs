@@ -1,6 +1,6 @@
 //! Members along a family of solutions, in order: the arm as it moves with its hand still.
 
-use super::answer::Family;
+use super::answer::{Answer, Doubt, Family, Solution};
 use super::dispatch::{InverseKinematics, TOLERANCE};
 use super::newton;
 use super::self_motion::follow_loosely;
@@ -25,7 +25,36 @@ pub struct Members {
     pub is_closed: bool,
 }
 
+/// A configuration this near to a solution is told of as that one (radians, and lengths by the reach).
+const NEAR: f64 = 1e-3;
+
 impl InverseKinematics {
+    /// Adds a configuration that is known to have the pose to an answer that lacks it, which is then not complete.
+    ///
+    /// # Panics
+    /// If there is not one entry per joint.
+    pub fn include(&self, pose: &Transform<f64>, answer: &mut Answer, q: &[f64]) {
+        assert_eq!(q.len(), self.robot.joints, "one entry per joint");
+        let residual = newton::distance(&self.robot, self.goal, pose, q, self.size(pose));
+        let mut all = answer.solutions.iter().chain(answer.families.iter().map(|f| &f.representative));
+        let is_listed = all.any(|s| self.space.distance(&s.q, q) <= NEAR || self.space.is_listed_as(q, &s.q));
+        if !residual.is_finite()
+            || residual > TOLERANCE
+            || is_listed
+            || self.family_of(pose, answer, q).is_some()
+        {
+            return;
+        }
+        if self.nearest(pose, answer, q).is_some_and(|n| n.distance <= NEAR) {
+            return;
+        }
+        let mut own = q.to_vec();
+        self.space.wrap(&mut own);
+        let within_limits = self.space.within(&own);
+        answer.add(Solution::found(own, residual, within_limits), None);
+        (answer.doubt, answer.obstacle) = (answer.doubt.or(Some(Doubt::Sampled)), None);
+    }
+
     /// The members of a family that [`solve`](Self::solve) found for a pose, [`MAX_MEMBERS`] at most, whatever the limits
     /// of joints that turn. A family with several parameters is its representative alone.
     pub fn members(&self, pose: &Transform<f64>, family: &Family) -> Members {

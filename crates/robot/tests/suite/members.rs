@@ -1,10 +1,11 @@
 //! Members of the families that a pose's solutions form: each holds the pose, and neighbours are near.
 
-use crate::common::robot;
+use crate::common::{Random, robot};
 use denavit::Robot;
+use denavit::description::read_toml;
 use denavit::geometry::Transform;
 use denavit::inverse::{Family, InverseKinematics, InverseOptions, MAX_MEMBERS, Members};
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// A whole turn is divided into so many steps.
 const TURN: usize = 72;
@@ -130,4 +131,31 @@ fn what_is_nearly_a_line_is_not_called_one() {
         }
     }
     assert!(lines > 0, "a straight wrist turns all round");
+}
+
+/// Six axes through the corners of a box move with their hand still where the roots of elimination cannot be counted: a
+/// configuration that is known to have the pose is not lost, and the answer is not called complete.
+#[test]
+fn what_is_known_to_have_the_pose_is_in_the_answer() {
+    let lengths = [0.3, 0.2, 0.6, 0.6, 0.2, 0.3];
+    let row = |(k, a): (usize, &f64)| {
+        let alpha = if k % 2 == 0 { 90 } else { -90 };
+        format!("[[joints]]\na = {a}\nalpha = \"{alpha} deg\"\ntheta = \"q{}\"\n", k + 1)
+    };
+    let rows: String = lengths.iter().enumerate().map(row).collect();
+    let (d, _) =
+        read_toml(&format!("name = \"box\"\nconvention = \"standard\"\n{rows}")).expect("a robot file");
+    let inverse = InverseKinematics::new(&d, &InverseOptions::default()).expect("all parameters have values");
+    let mut random = Random(3);
+    for _ in 0..20 {
+        let q: Vec<f64> = (0..6).map(|_| FRAC_PI_2 * (4.0 * random.unit()).floor() - PI).collect();
+        let pose = inverse.robot.pose(&q);
+        let mut answer = inverse.solve(&pose, &[]);
+        inverse.include(&pose, &mut answer, &q);
+        let listed = answer.solutions.iter().any(|s| inverse.space.distance(&s.q, &q) <= 1e-3);
+        assert!(listed || inverse.family_of(&pose, &answer, &q).is_some(), "{q:?}");
+        let before = answer.clone();
+        inverse.include(&pose, &mut answer, &q);
+        assert_eq!(answer.solutions.len(), before.solutions.len(), "{q:?} is added twice");
+    }
 }

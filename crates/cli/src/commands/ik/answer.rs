@@ -72,13 +72,17 @@ impl Question {
         Question { given, criterion, wanted, robot, method, names, space, joints, ideal }
     }
 
-    /// The answer, and the solution that is best by the criterion, if there is one.
-    pub fn ask(&self, solver: &InverseKinematics, pose: &Transform<f64>) -> Found {
+    /// The answer, and the solution that is best by the criterion, if there is one; `at` is a configuration that the pose was
+    /// taken from.
+    pub fn ask(&self, solver: &InverseKinematics, pose: &Transform<f64>, at: Option<&[f64]>) -> Found {
         let mut answer = match (&self.criterion, self.wanted.one) {
             (Some(Criterion::Nearest(to)), true) => solver.one(pose, &self.given, Some(to)),
             (_, true) => solver.one(pose, &self.given, None),
             _ => solver.solve(pose, &self.given),
         };
+        if let (Some(q), false) = (at, self.wanted.one) {
+            solver.include(pose, &mut answer, q);
+        }
         let best = self.criterion.as_ref().and_then(|c| solver.best(pose, &answer, c));
         let left_out = self.wanted.within_limits.then(|| answer.leave_out(&self.space));
         let best = best.filter(|b| b.within_limits || !self.wanted.within_limits);
@@ -269,6 +273,9 @@ impl Report<'_> {
         {
             return String::new();
         }
+        if let Some(k) = self.solver.family_of(self.pose, self.answer, at) {
+            return format!("\n  -q is a member of family {}\n", k + 1);
+        }
         let Some(nearest) = self.solver.nearest(self.pose, self.answer, at) else { return String::new() };
         let away = nearest.distance;
         // Outside of the limits its copies are far away.
@@ -279,10 +286,7 @@ impl Report<'_> {
             return format!("\n  -q is solution {} moved by periods of its joints\n", k + 1);
         }
         match away <= SAME {
-            true => match self.solver.family_of(self.pose, self.answer, at) {
-                Some(k) => format!("\n  -q is a member of family {}\n", k + 1),
-                None => "\n  -q is a member of a family\n".into(),
-            },
+            true => "\n  -q is a member of a family\n".into(),
             false => format!(
                 "\n  -q is {} from the nearest of these: so close are solutions to each other where the arm is nearly singular\n",
                 reading(away, JointKind::Revolute)
@@ -381,7 +385,7 @@ impl Report<'_> {
         if let Some([low, high]) = f.interval {
             of += &format!(", from {} to {}", shown(low), shown(high));
         }
-        if !f.feasible.is_empty() {
+        if !f.feasible.is_empty() && self.question.space.limits.iter().any(Option::is_some) {
             let stretch = |[low, high]: &[f64; 2]| format!("{} to {}", shown(*low), shown(*high));
             let stretches: Vec<String> = f.feasible.iter().map(stretch).collect();
             of += &format!("; within the limits {}", stretches.join(", "));

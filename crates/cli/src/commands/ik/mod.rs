@@ -90,7 +90,7 @@ pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
         (None, Some(text)) => pose::read(text, &arguments.orientation, goal)?,
         (None, None) => return Ok(()),
     };
-    let found = question.ask(&solver, &pose);
+    let found = question.ask(&solver, &pose, at.as_deref());
     let answer = &found.answer;
     let text = if arguments.json {
         format!("{}\n", denavit_wire::text(&question.wire(&pose, &found)))

@@ -40,7 +40,7 @@ const TOLD: usize = 20;
 
 impl Poses {
     fn solved(&mut self, number: usize, pose: &Transform<f64>, out: &mut Vec<u8>) {
-        let mut found = self.question.ask(&self.solver, pose);
+        let mut found = self.question.ask(&self.solver, pose, None);
         // Curves are long; they are for one pose.
         found.answer.families.iter_mut().for_each(|f| f.curve.clear());
         if self.follow

@@ -151,7 +151,9 @@ impl Singularities {
         let matrix = jacobian.matrix.as_ref().map_err(|why| Obstacle::TooLarge(*why))?;
         let minors = minors::all(matrix, rows, &symbol_order(description)).map_err(Obstacle::TooLarge)?;
         let Some(first) = minors.first() else {
-            return Err(Obstacle::AlwaysSingular(minors::rank(matrix, rows).saturating_sub(1)));
+            let moved = |&&r: &&usize| matrix.columns.iter().any(|c| !c[r].is_zero());
+            let bound = rows.iter().filter(moved).count();
+            return Err(Obstacle::AlwaysSingular(minors::rank(matrix, rows).saturating_sub(1).min(bound)));
         };
         let shared: Vec<(Expr, u32)> = first
             .determinant
