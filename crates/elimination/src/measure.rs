@@ -25,6 +25,9 @@ const POSES: [usize; 2] = [32, 96];
 /// The same where any good split will do.
 const FEW: [usize; 2] = [8, 8];
 
+/// A pose with a configuration that has it.
+type Pose = ([f64; 6], Rigid);
+
 /// What a way to solve did on the poses.
 #[derive(Clone, Copy, Debug, Default)]
 struct Score {
@@ -92,7 +95,7 @@ impl Plan {
         let constants =
             Constants { arm: scaled, size, fourier: Fourier::new(DEGREE), wide: Fourier::new(wide::DEGREE) };
         let mut draws = Draws(0x9e37_79b9_7f4a_7c15);
-        let poses: Vec<([f64; 6], Rigid)> = (0..count[0] + count[1])
+        let poses: Vec<Pose> = (0..count[0] + count[1])
             .map(|_| {
                 let q = draws.configuration(&constants.arm);
                 (q, constants.arm.pose(&q))
@@ -135,12 +138,12 @@ impl Plan {
 fn rank<W>(
     constants: &Constants,
     ways: Vec<W>,
-    (some, more): (&[([f64; 6], Rigid)], &[([f64; 6], Rigid)]),
+    (some, more): (&[Pose], &[Pose]),
     as_way: impl Fn(&W) -> Way<'_>,
 ) -> Vec<W> {
     let mut answer = Answer::default();
     let mut tried: Vec<(W, Score)> = ways.into_iter().map(|way| (way, Score::default())).collect();
-    let mut measure = |(way, score): &mut (W, Score), poses: &[([f64; 6], Rigid)]| {
+    let mut measure = |(way, score): &mut (W, Score), poses: &[Pose]| {
         for (q, pose) in poses {
             let verdict = solve::<Strict>(constants, Task::Trial(as_way(way)), pose, &mut answer);
             score.add(&constants.arm, q, verdict, &answer.work);
