@@ -12,6 +12,7 @@ const TARGETS: &[(&str, &str)] = &[
     ("table", "fuzz/seeds/table"),
     ("urdf", "crates/robot/tests/urdf"),
     ("xacro", "fuzz/seeds/xacro"),
+    ("mjcf", "crates/robot/tests/mjcf"),
     ("document", "examples/documents"),
 ];
 /// The soaks that are not fuzz targets: tests at their full size, and arms at random.

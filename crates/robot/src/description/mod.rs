@@ -9,8 +9,10 @@ pub mod convert;
 mod decimals;
 pub mod diagnostic;
 mod filled;
+mod inertia;
 mod joints;
 mod lines;
+mod mjcf;
 mod named;
 mod names;
 mod order;
@@ -35,6 +37,7 @@ pub use convert::{Conversion, Moved, SameChain, prove_same_chain};
 pub use decimals::Decimals;
 pub use diagnostic::{Diagnostic, Diagnostics, Severity, line_column, render};
 pub use lines::{Agreement, AxisAtRest, ChainAtRest, Named, NotNamed, NotPlaced, Placed, same_screws};
+pub use mjcf::{read_mjcf, write_mjcf};
 pub use order::{Cell, Screw, Screws};
 pub use parameters::MissingValue;
 pub use robot_file::{
@@ -46,7 +49,7 @@ pub use table::{TableKind, TableOptions, read_table, read_table_robot, write_tab
 pub use tree::{Body, Chain, Follows, Joint, Look, Mass, Mechanism, NoChain, Shape};
 pub use urdf::{Reading, read_urdf, read_xacro, write_urdf};
 pub use value::{Measure, NotSet, read_value};
-pub use xml::MAX_XML_BYTES;
+pub use xml::{MAX_XML_BYTES, root_element};
 
 use denavit_symbolic::{Expr, Symbol};
 use std::fmt;

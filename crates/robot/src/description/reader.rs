@@ -188,16 +188,23 @@ impl Reader {
     /// Three numbers that are a direction; nothing where they are none, which is said.
     pub fn direction(&mut self, value: &Text, what: &str) -> Option<Vector<Expr>> {
         let numbers = self.numbers(value, what, 3)?;
+        self.direction_of(numbers, value, what)
+    }
+
+    /// Numbers of a value that are a direction.
+    pub fn direction_of(
+        &mut self,
+        numbers: Vec<(Rational, Text)>,
+        value: &Text,
+        what: &str,
+    ) -> Option<Vector<Expr>> {
         let exact: Vec<Expr> =
             numbers.iter().map(|(x, word)| word.exact.unwrap_or_else(|| x.clone().into())).collect();
         let is_exact = numbers.iter().any(|n| n.1.exact.is_some());
         let mut v: Vec<Rational> = numbers.into_iter().map(|n| n.0).collect();
         let largest = v.iter().map(Rational::abs).max().unwrap_or_default();
         if largest.is_zero() {
-            self.out.error(
-                value.span.clone(),
-                format!("the {} is the vector 0", if what == "xyz" { "axis" } else { what }),
-            );
+            self.out.error(value.span.clone(), format!("the {} is the vector 0", said(what)));
             return None;
         }
         if is_exact {
@@ -210,24 +217,31 @@ impl Reader {
                 self.out.note(value.span.clone(), "components below 1e-12 of the largest are read as 0");
                 v.iter_mut().filter(|c| is_noise(c)).for_each(|c| *c = Rational::ZERO);
             }
-            self.diagonal(&mut v, &largest, value);
+            self.diagonal(&mut v, &largest, value, what);
         }
         Some(Vector([0, 1, 2].map(|i| Expr::from(v[i].clone()))))
     }
 
     /// `0.7071 0 0.7072` is a diagonal.
-    fn diagonal(&mut self, v: &mut [Rational], largest: &Rational, value: &Text) {
+    fn diagonal(&mut self, v: &mut [Rational], largest: &Rational, value: &Text, what: &str) {
         let near = |c: &Rational| {
             let off = (&c.abs() - largest).abs();
             !off.is_zero() && off < largest * &Rational::new(1, 10_000)
         };
         let all = v.iter().filter(|c| !c.is_zero()).all(|c| near(c) || c.abs() == *largest);
         if all && v.iter().any(near) {
-            self.out
-                .note(value.span.clone(), format!("the axis {} is read as a diagonal", shown(value.text)));
+            self.out.note(
+                value.span.clone(),
+                format!("the {} {} is read as a diagonal", said(what), shown(value.text)),
+            );
             for c in v.iter_mut().filter(|c| !c.is_zero()) {
                 *c = if c.is_negative() { -largest } else { largest.clone() };
             }
         }
     }
+}
+
+/// What the value of an attribute is.
+fn said(attribute: &str) -> &str {
+    if attribute == "xyz" { "axis" } else { attribute }
 }

@@ -19,6 +19,7 @@ mod inverse;
 mod lines;
 mod mechanism;
 mod members;
+mod mjcf;
 mod motion_jerk;
 mod motion_plan;
 mod motion_profiles;

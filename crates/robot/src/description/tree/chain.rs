@@ -247,18 +247,22 @@ pub(in crate::description) fn moved(joint: &Joint, kind: JointKind, value: Expr)
     if value.is_zero() {
         return Transform::identity();
     }
-    let over = Expr::int(1) / joint.axis.norm();
-    let axis = joint.axis.scale(over);
     if kind == JointKind::Prismatic {
+        let axis = joint.axis.scale(Expr::int(1) / joint.axis.norm());
         return Transform::from_rotation_translation(Rotation::identity(), axis.scale(value));
     }
+    Transform::from_rotation_translation(turned(joint.axis, value), Vector::zero())
+}
+
+/// The turn about an axis of any length.
+pub(in crate::description) fn turned(axis: Vector<Expr>, angle: Expr) -> Rotation<Expr> {
     // 1 + sin θ·[z] + (1 − cos θ)·[z]²
-    let ([x, y, z], (s, c), one) = (axis.0, value.sin_cos(), Expr::int(1));
+    let [x, y, z] = axis.scale(Expr::int(1) / axis.norm()).0;
+    let ((s, c), one) = (angle.sin_cos(), Expr::int(1));
     let v = one - c;
-    let rows = [
+    Rotation::from_rows([
         [one - v * (y * y + z * z), v * x * y - s * z, v * x * z + s * y],
         [v * x * y + s * z, one - v * (x * x + z * z), v * y * z - s * x],
         [v * x * z - s * y, v * y * z + s * x, one - v * (x * x + y * y)],
-    ];
-    Transform::from_rotation_translation(Rotation::from_rows(rows), Vector::zero())
+    ])
 }

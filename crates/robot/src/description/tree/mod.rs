@@ -4,11 +4,12 @@
 //! chain through the tree is a [`Description`] like any other ([`Mechanism::chain`]).
 
 mod chain;
+mod of;
 mod poses;
 mod program;
 
-pub(super) use chain::moved;
 pub use chain::{Chain, NoChain};
+pub(super) use chain::{moved, turned};
 
 use super::JointKind;
 use crate::geometry::{Transform, Vector};

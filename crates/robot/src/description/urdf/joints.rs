@@ -15,10 +15,10 @@ use std::ops::Range;
 const TYPES: [&str; 6] = ["revolute", "continuous", "prismatic", "fixed", "planar", "floating"];
 
 /// Limits beyond this, radians or metres, stand for none.
-const FAR: i64 = 1_000_000;
+pub(in crate::description) const FAR: i64 = 1_000_000;
 
 /// A joint under way.
-pub(super) struct Draft {
+pub(in crate::description) struct Draft {
     pub joint: Joint,
     pub span: Range<usize>,
     /// The name of the joint that it follows, its factor and offset, and where it says so.
@@ -116,10 +116,7 @@ impl Reader {
         if known == "world" && end == "parent" {
             self.out
                 .warning(link.span.clone(), "the link `world` is not declared; it is taken as the ground");
-            links.by_name.insert(known.clone(), links.bodies.len());
-            links.bodies.push(Body { name: known, mass: None, looks: vec![] });
-            links.spans.push(link.span);
-            return links.by_name.get("world").copied();
+            return Some(links.add(known, None, link.span));
         }
         let finding = self.out.error(link.span.clone(), format!("there is no link `{}`", shown(link.text)));
         if let Some(near) = nearest(&known, links.bodies.iter().map(|b| b.name.as_str())) {

@@ -3,18 +3,18 @@
 //! Lengths are exact decimals, angles what their digits mean ([`Decimals`]). Looks are kept in doubles; what a file says of
 //! collisions and drives is left; what it leaves out is what the format says: x for an axis, the identity for an origin.
 
-mod inertia;
 mod joints;
 mod looks;
 mod tree;
 mod write;
 
+pub(super) use joints::{Draft, FAR};
 pub use write::write_urdf;
 
 use super::diagnostic::{Diagnostic, Diagnostics};
 use super::reader::Reader;
 use super::sources::{Files, Sources};
-use super::tree::{Body, Mechanism};
+use super::tree::{Body, Mass, Mechanism};
 use super::xacro::{Xacro, expand, is_xacro};
 use super::xml::{Element, parse, shown};
 use super::{Decimals, MAX_ROWS};
@@ -34,10 +34,22 @@ const BESIDE: &[&str] = &[
 ];
 
 /// The links of a file: their bodies and places.
+#[derive(Default)]
 pub(super) struct Links {
-    bodies: Vec<Body>,
-    spans: Vec<Range<usize>>,
-    by_name: HashMap<String, usize>,
+    pub bodies: Vec<Body>,
+    pub spans: Vec<Range<usize>>,
+    pub by_name: HashMap<String, usize>,
+}
+
+impl Links {
+    /// Adds a link of a name that none has yet, and gives its number.
+    pub fn add(&mut self, name: String, mass: Option<Mass>, span: Range<usize>) -> usize {
+        let number = self.bodies.len();
+        self.by_name.insert(name.clone(), number);
+        self.bodies.push(Body { name, mass, looks: vec![] });
+        self.spans.push(span);
+        number
+    }
 }
 
 /// Reads a URDF. With the mechanism come warnings and notes.
@@ -104,7 +116,7 @@ impl Reader {
                 self.out.error(robot.span(), format!("the root element is <{}>, not <robot>", shown(&name)));
             match name.as_str() {
                 "sdf" => finding.hint("this is SDF, which is not read: export a URDF"),
-                "mujoco" | "mujocoinclude" => finding.hint("this is MJCF, which is not read: export a URDF"),
+                "mujoco" | "mujocoinclude" => finding.hint("this is a model of MuJoCo's (MJCF)"),
                 _ => {}
             }
             return None;
@@ -157,10 +169,9 @@ impl Reader {
             }
             self.known(link, &["inertial", "visual", "collision", "contact", "self_collision_checking"]);
             let mass = link.one("inertial", &mut self.out).and_then(|e| self.mass(e));
-            links.by_name.insert(name.clone(), links.bodies.len());
             let looks = self.looks(link, &materials);
-            links.bodies.push(Body { name, mass, looks });
-            links.spans.push(link.span());
+            let number = links.add(name, mass, link.span());
+            links.bodies[number].looks = looks;
         }
         links
     }
@@ -200,7 +211,7 @@ impl Reader {
     }
 
     /// Warns of elements that are not among these.
-    fn known(&mut self, parent: Element, names: &[&str]) {
+    pub(super) fn known(&mut self, parent: Element, names: &[&str]) {
         for child in parent.children() {
             let Some(name) = child.name().filter(|n| !names.contains(n) && !self.out.is_full()) else {
                 continue;
@@ -215,6 +226,6 @@ impl Reader {
 }
 
 /// A name on one line.
-fn plain(name: &str) -> String {
+pub(super) fn plain(name: &str) -> String {
     name.replace(|c: char| c.is_control(), " ")
 }

@@ -10,7 +10,7 @@ use denavit_symbolic::{Expr, Rational};
 use std::collections::HashMap;
 
 impl Reader {
-    pub(super) fn tree(
+    pub(in crate::description) fn tree(
         &mut self,
         robot: Element,
         name: String,

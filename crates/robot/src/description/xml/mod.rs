@@ -3,8 +3,10 @@
 //! There are no entities: a document type is refused. Nothing here recurses.
 
 mod tree;
+mod write;
 
 pub(super) use tree::{Attribute, Element, Node, Text, Tree, Value};
+pub(super) use write::{escaped, number};
 
 use super::diagnostic::Diagnostics;
 use roxmltree::{Document, Error, ParsingOptions};
@@ -13,13 +15,30 @@ use roxmltree::{Document, Error, ParsingOptions};
 pub const MAX_XML_BYTES: usize = 16 << 20;
 /// The largest number of elements, texts and comments.
 const MAX_NODES: u32 = 400_000;
-/// How deep elements may stand in elements.
+/// How deep elements may stand in elements where a format does not nest what it describes.
 const MAX_DEPTH: usize = 64;
 /// The largest number of attributes of one element.
 const MAX_ATTRIBUTES: usize = 256;
 
 /// How some editors begin a text.
 const BYTE_ORDER_MARK: char = '\u{feff}';
+
+/// The name of the root element of a text, if it begins as XML does.
+pub fn root_element(text: &str) -> Option<&str> {
+    let mut rest = text;
+    loop {
+        rest = rest.trim_start_matches(|c: char| c == BYTE_ORDER_MARK || c.is_whitespace());
+        let skipped =
+            [("<!--", "-->"), ("<?", "?>"), ("<!", ">")].into_iter().find(|s| rest.starts_with(s.0));
+        match skipped {
+            Some((_, close)) => rest = &rest[rest.find(close)? + close.len()..],
+            None => break,
+        }
+    }
+    let name = rest.strip_prefix('<')?;
+    let end = name.find(|c: char| c.is_whitespace() || matches!(c, '>' | '/' | '<')).unwrap_or(name.len());
+    Some(&name[..end]).filter(|n| !n.is_empty())
+}
 
 /// What stands before the text proper.
 fn preamble(text: &str, file: usize, out: &mut Diagnostics) -> usize {
@@ -35,6 +54,11 @@ fn preamble(text: &str, file: usize, out: &mut Diagnostics) -> usize {
 
 /// The elements of a text that begins at byte `file` of all that is read; nothing where it is no document, which is said.
 pub(super) fn parse(text: &str, file: usize, out: &mut Diagnostics) -> Option<Tree> {
+    parse_to(MAX_DEPTH, text, file, out)
+}
+
+/// As [`parse`] does, for elements that stand in each other so deep at most.
+pub(super) fn parse_to(most: usize, text: &str, file: usize, out: &mut Diagnostics) -> Option<Tree> {
     if text.len() > MAX_XML_BYTES {
         out.error(file..file, format!("the text has {} bytes; {MAX_XML_BYTES} are allowed", text.len()));
         return None;
@@ -59,12 +83,10 @@ pub(super) fn parse(text: &str, file: usize, out: &mut Diagnostics) -> Option<Tr
             return None;
         }
     };
-    let deep = depth(&document).filter(|d| d.0 > MAX_DEPTH);
+    let deep = depth(&document, most).filter(|d| d.0 > most);
     if let Some((_, at)) = deep {
-        out.error(
-            start + at..start + at + 1,
-            format!("elements stand in elements more than {MAX_DEPTH} deep"),
-        );
+        let message = format!("elements stand in elements more than {most} deep");
+        out.error(start + at..start + at + 1, message);
         return None;
     }
     Some(Tree::of(&document, start))
@@ -154,14 +176,14 @@ fn too_many_attributes(text: &str) -> Option<usize> {
 }
 
 /// How deep the deepest element stands, and where.
-fn depth(document: &Document) -> Option<(usize, usize)> {
+fn depth(document: &Document, most: usize) -> Option<(usize, usize)> {
     let mut open: Vec<(usize, roxmltree::Node)> = vec![(1, document.root_element())];
     let mut deepest: Option<(usize, usize)> = None;
     while let Some((depth, node)) = open.pop() {
         if deepest.is_none_or(|d| d.0 < depth) {
             deepest = Some((depth, node.range().start));
         }
-        if depth <= MAX_DEPTH {
+        if depth <= most {
             open.extend(node.children().filter(roxmltree::Node::is_element).map(|n| (depth + 1, n)));
         }
     }

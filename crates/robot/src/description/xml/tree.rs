@@ -141,6 +141,15 @@ impl<'a> Element<'a> {
         Some(Text { text: &value.text, span: value.span.clone(), exact, value })
     }
 
+    /// The attributes in order, with their values.
+    pub fn attributes(&self) -> impl Iterator<Item = (&'a str, Text<'a>)> + use<'a> {
+        self.get().attributes.iter().map(|a| {
+            let value = &a.value;
+            let exact = value.exact_at(0..value.text.len());
+            (a.name.as_str(), Text { text: &value.text, span: value.span.clone(), exact, value })
+        })
+    }
+
     /// Warns of attributes that are not among these.
     pub fn only(&self, known: &[&str], out: &mut Diagnostics) {
         for attribute in &self.get().attributes {

@@ -1,0 +1,298 @@
+//! MuJoCo's format of models (MJCF): bodies in bodies, with joints between each and the one that carries it.
+//!
+//! What stands in the world is a tree whose root is the body `world`; sites with a name are bodies without mass. Each joint moves its
+//! body from where the file has it, `ref` being its value there. Lengths are exact decimals, angles in degrees exact, those in
+//! radians, and quaternions, what their digits mean ([`Decimals`]). What a model says of looks, contacts and drives is left.
+
+mod bodies;
+mod defaults;
+mod equality;
+mod include;
+mod joints;
+mod turns;
+mod write;
+
+pub use write::write_mjcf;
+
+use super::diagnostic::{Diagnostics, nearest};
+use super::reader::Reader;
+use super::sources::{Files, Sources};
+use super::tree::Mechanism;
+use super::urdf::{Draft, Links, Reading, plain};
+use super::xml::{Element, shown};
+use super::{Decimals, MAX_ROWS};
+use crate::geometry::Axis;
+use bodies::{Context, Named};
+use defaults::Classes;
+use denavit_symbolic::Expr;
+use include::{Document, Opened};
+use std::collections::HashMap;
+use turns::{Compiler, Placing, Quaternions};
+
+/// What stands in `<mujoco>` and says nothing of kinematics.
+const BESIDE: [&str; 14] = [
+    "option",
+    "size",
+    "statistic",
+    "asset",
+    "visual",
+    "contact",
+    "deformable",
+    "tendon",
+    "actuator",
+    "sensor",
+    "keyframe",
+    "custom",
+    "extension",
+    "skin",
+];
+
+/// What stands there and does.
+const READ: [&str; 4] = ["compiler", "default", "worldbody", "equality"];
+
+/// The attributes of `<compiler>`, few of which matter here.
+const COMPILER: [&str; 23] = [
+    "angle",
+    "eulerseq",
+    "autolimits",
+    "coordinate",
+    "boundmass",
+    "boundinertia",
+    "settotalmass",
+    "balanceinertia",
+    "strippath",
+    "fitaabb",
+    "meshdir",
+    "texturedir",
+    "assetdir",
+    "discardvisual",
+    "usethread",
+    "fusestatic",
+    "inertiafromgeom",
+    "inertiagrouprange",
+    "exactmeshinertia",
+    "saveinertial",
+    "alignfree",
+    "convexhull",
+    "conflict",
+];
+
+/// A model of its own: what is said in it counts in it alone.
+struct Model<'a> {
+    root: Element<'a>,
+    compiler: Compiler,
+    classes: Classes<'a>,
+    /// The models that it may attach.
+    parts: &'a HashMap<String, usize>,
+}
+
+/// A mechanism under way.
+struct Mjcf<'a, 'r> {
+    reader: &'r mut Reader,
+    quaternions: Quaternions,
+    models: &'r [Model<'a>],
+    links: Links,
+    /// How each body got its name.
+    named: Vec<Named>,
+    drafts: Vec<Draft>,
+    /// The joints that move, by their names.
+    joints: HashMap<String, usize>,
+    /// The value that each joint of `drafts` has where the file shows the model.
+    references: HashMap<usize, Expr>,
+    /// The models that are there: which, and what stands before and behind their names.
+    parts: Vec<(usize, String, String)>,
+    open: Vec<(Element<'a>, Context)>,
+    work: usize,
+    /// How many elements were repeated.
+    repeated: usize,
+    /// True once something was said of geoms that stand for inertias.
+    said_geoms: bool,
+}
+
+/// Reads a model of MuJoCo's, with the files that it includes and the models that it attaches.
+///
+/// Places are those of all files together ([`Files`]).
+///
+/// # Errors
+/// All errors of the texts (with the warnings and notes).
+pub fn read_mjcf(name: &str, text: &str, sources: &mut dyn Sources, decimals: Decimals) -> (Reading, Files) {
+    let mut opened = Opened::new(sources);
+    let documents = opened.documents(name, text);
+    let Opened { files, out, .. } = opened;
+    if out.has_errors() {
+        return (out.finish(None), files);
+    }
+    let mut reader = Reader::new(out, decimals);
+    let mechanism = robot(&documents, &mut reader);
+    reader.say_angles();
+    (reader.out.finish(mechanism), files)
+}
+
+fn robot(documents: &[Document], reader: &mut Reader) -> Option<Mechanism> {
+    let mut models = vec![];
+    for document in documents {
+        let root = document.tree.root();
+        if root.name() != Some("mujoco") {
+            let message = format!("the root element is <{}>, not <mujoco>", shown(root.full_name()));
+            let finding = reader.out.error(root.span(), message);
+            match root.full_name() {
+                "mujocoinclude" => finding.hint("this is a part of a model: read the file that includes it"),
+                "robot" => finding.hint("this is a URDF"),
+                "sdf" => finding.hint("this is SDF, which is not read"),
+                _ => {}
+            }
+            return None;
+        }
+        root.only(&["model"], &mut reader.out);
+        let compiler = compiler(root, reader);
+        let classes = Classes::of(root, &mut reader.out);
+        beside(root, &mut reader.out);
+        models.push(Model { root, compiler, classes, parts: &document.parts });
+    }
+    let root = models.first()?.root;
+    let mut mjcf = Mjcf {
+        reader,
+        quaternions: Quaternions::new(),
+        models: &models,
+        links: Links::default(),
+        named: vec![],
+        drafts: vec![],
+        joints: HashMap::new(),
+        references: HashMap::new(),
+        parts: vec![(0, String::new(), String::new())],
+        open: vec![],
+        work: 0,
+        repeated: 0,
+        said_geoms: false,
+    };
+    mjcf.world(root);
+    mjcf.couplings();
+    mjcf.name_fixed();
+    let Mjcf { reader, quaternions, links, drafts, .. } = mjcf;
+    for (span, count, said) in quaternions.into_values() {
+        let places = if count == 1 { String::new() } else { format!(", {count} places") };
+        reader.out.note(span, format!("{said}{places}"));
+    }
+    let moving = drafts.iter().filter(|d| d.moves()).count();
+    if moving > MAX_ROWS {
+        reader.out.error(root.span(), format!("{moving} moving joints; {MAX_ROWS} are allowed"));
+        return None;
+    }
+    let name = root.attribute("model").map_or_else(|| "robot".to_string(), |n| plain(n.text));
+    reader.tree(root, name, links, drafts)
+}
+
+impl<'a> Mjcf<'a, '_> {
+    /// Reads places and turns as a model has them.
+    fn placing(&mut self, model: usize) -> Placing<'_> {
+        let compiler = self.models[model].compiler;
+        Placing { reader: self.reader, compiler, quaternions: &mut self.quaternions }
+    }
+
+    /// What hangs on the world, and on that.
+    fn world(&mut self, root: Element<'a>) {
+        self.links.add("world".into(), None, root.span());
+        self.named.push(Named::ByFile);
+        let worlds: Vec<Element<'a>> = root.all("worldbody").collect();
+        if worlds.is_empty() {
+            self.reader.out.error(root.span(), "an empty model: there is no <worldbody>");
+        }
+        for world in &worlds {
+            world.only(&[], &mut self.reader.out);
+        }
+        self.push(worlds.iter().flat_map(Element::children), &Context::world());
+        self.walk();
+    }
+}
+
+/// What the `<compiler>` elements of a model say of angles and limits.
+fn compiler(root: Element, reader: &mut Reader) -> Compiler {
+    let mut compiler = Compiler::default();
+    for element in root.all("compiler") {
+        element.only(&COMPILER, &mut reader.out);
+        if let Some(angle) = element.attribute("angle") {
+            match angle.text {
+                "degree" => compiler.degrees = true,
+                "radian" => compiler.degrees = false,
+                _ => {
+                    let message =
+                        format!("angles are in `degree` or `radian`, not in `{}`", shown(angle.text));
+                    reader.out.error(angle.span, message);
+                }
+            }
+        }
+        if let Some(sequence) = element.attribute("eulerseq") {
+            let axis = |c: char| {
+                let axis = Axis::ALL["xyz".find(c.to_ascii_lowercase())?];
+                Some((axis, c.is_ascii_uppercase()))
+            };
+            let axes: Option<Vec<_>> = sequence.text.chars().map(axis).collect();
+            match axes.as_deref() {
+                Some(&[a, b, c]) => compiler.sequence = [a, b, c],
+                _ => {
+                    let message = format!("`{}` is no sequence of Euler angles", shown(sequence.text));
+                    let finding = reader.out.error(sequence.span, message);
+                    finding.hint("three of x, y, z, or X, Y, Z for axes that stay");
+                }
+            }
+        }
+        if let Some(limits) = element.attribute("autolimits") {
+            compiler.autolimits = truth(&limits, reader).unwrap_or(true);
+        }
+        if let Some(global) = element.attribute("coordinate").filter(|c| c.text != "local") {
+            reader
+                .out
+                .error(global.span, "global coordinates are not read")
+                .hint("MuJoCo up to 2.3.3 reads such a model, and saves it with local ones");
+        }
+    }
+    compiler
+}
+
+/// `true` or `false`; anything else is reported.
+fn truth(text: &super::xml::Text, reader: &mut Reader) -> Option<bool> {
+    match text.text {
+        "true" => Some(true),
+        "false" => Some(false),
+        other => {
+            let message = format!("`{}` is neither `true` nor `false`", shown(other));
+            reader.out.error(text.span.clone(), message);
+            None
+        }
+    }
+}
+
+/// Says what in `<mujoco>` is left: once, but for what is unknown.
+fn beside(root: Element, out: &mut Diagnostics) {
+    let mut left: Vec<&str> = vec![];
+    let mut first = None;
+    for child in root.children() {
+        match child.name() {
+            Some(name) if READ.contains(&name) => {}
+            Some(name) if BESIDE.contains(&name) => {
+                if !left.contains(&name) {
+                    left.push(name);
+                }
+                first.get_or_insert(child.span());
+            }
+            _ if out.is_full() => {}
+            _ => {
+                let name = child.full_name();
+                let finding =
+                    out.warning(child.span(), format!("<{}> is unknown: it is skipped", shown(name)));
+                if let Some(near) = nearest(name, READ.into_iter().chain(BESIDE)) {
+                    finding.hint(format!("did you mean <{near}>?"));
+                }
+            }
+        }
+    }
+    if let Some(first) = first {
+        let names: Vec<String> = left.iter().map(|n| format!("<{n}>")).collect();
+        let verb = if names.len() == 1 {
+            "says nothing of kinematics: it is"
+        } else {
+            "say nothing of kinematics: they are"
+        };
+        out.note(first, format!("{} {verb} skipped", names.join(", ")));
+    }
+}

@@ -1,0 +1,241 @@
+//! A tree as a model of MuJoCo's that reads back to it.
+//!
+//! Each body that moves has a solid: capsules to what it carries, or a ball. They touch nothing. Where a mass is given it is
+//! written; elsewhere a solid's is MuJoCo's own. A body without mass on which nothing stands is a site.
+
+use crate::description::JointKind;
+use crate::description::robot_file::exact_rpy;
+use crate::description::tree::{Joint, Mass, Mechanism};
+use crate::description::xml::{escaped, number};
+use crate::geometry::{Rotation, Transform, Vector};
+use denavit_symbolic::{Expr, Rational};
+use std::collections::HashMap;
+use std::fmt::Write;
+
+/// How thick solids are, of the longest way from a joint to the next.
+const THICKNESS: f64 = 0.06;
+/// The thinnest ones, metres.
+const THINNEST: f64 = 0.005;
+
+/// What is to be written next.
+enum Step {
+    /// A body and the joint to it; none for the root.
+    Open(usize, Option<usize>),
+    Close,
+}
+
+/// The model of a tree whose numbers are constants.
+pub fn write_mjcf(tree: &Mechanism) -> String {
+    let mut on: Vec<Vec<usize>> = vec![vec![]; tree.bodies.len()];
+    for (j, joint) in tree.joints.iter().enumerate() {
+        on[joint.parent].push(j);
+    }
+    let mut names = HashMap::new();
+    let names: Vec<String> = tree
+        .joints
+        .iter()
+        .map(|j| {
+            let times = names.entry(j.name.as_str()).and_modify(|n| *n += 1).or_insert(1);
+            if *times == 1 { escaped(&j.name) } else { format!("{}_{times}", escaped(&j.name)) }
+        })
+        .collect();
+    let far = tree.joints.iter().map(|j| length(&j.origin)).fold(0.0, f64::max);
+    let mut file =
+        File { tree, on, names, radius: (THICKNESS * far).max(THINNEST), text: String::new(), depth: 2 };
+    let _ = write!(
+        file.text,
+        "<mujoco model=\"{}\">\n  <compiler angle=\"radian\" eulerseq=\"XYZ\" autolimits=\"true\"/>\n  \
+         <default>\n    <geom contype=\"0\" conaffinity=\"0\"/>\n  </default>\n  <worldbody>\n",
+        escaped(&tree.name)
+    );
+    let mut steps = match tree.bodies[tree.root].name.as_str() {
+        // The world is there.
+        "world" => {
+            file.on[tree.root].iter().rev().map(|&j| Step::Open(tree.joints[j].child, Some(j))).collect()
+        }
+        _ => vec![Step::Open(tree.root, None)],
+    };
+    while let Some(step) = steps.pop() {
+        match step {
+            Step::Close => file.close(),
+            Step::Open(body, joint) => {
+                if file.open(body, joint) {
+                    steps.push(Step::Close);
+                    steps.extend(
+                        file.on[body].iter().rev().map(|&j| Step::Open(tree.joints[j].child, Some(j))),
+                    );
+                }
+            }
+        }
+    }
+    file.text.push_str("  </worldbody>\n");
+    file.couplings();
+    file.text.push_str("</mujoco>\n");
+    file.text
+}
+
+/// A file under way.
+struct File<'a> {
+    tree: &'a Mechanism,
+    /// The joints on each body.
+    on: Vec<Vec<usize>>,
+    /// The names of the joints.
+    names: Vec<String>,
+    radius: f64,
+    text: String,
+    depth: usize,
+}
+
+impl File<'_> {
+    fn line(&mut self, line: &str) {
+        // What is very deep is not moved in further.
+        let _ = writeln!(self.text, "{}{line}", "  ".repeat(self.depth.min(40)));
+    }
+
+    fn close(&mut self) {
+        self.depth -= 1;
+        self.line("</body>");
+    }
+
+    /// A body up to what stands on it; false for a site, on which nothing stands.
+    fn open(&mut self, body: usize, joint: Option<usize>) -> bool {
+        let tree = self.tree;
+        let name = escaped(&tree.bodies[body].name);
+        let joint = joint.map(|j| (j, &tree.joints[j]));
+        let placed = joint.map_or(String::new(), |(_, j)| placed(&j.origin));
+        let moves = joint.is_some_and(|(_, j)| j.kind.is_some());
+        let mass = tree.bodies[body].mass.as_ref();
+        if joint.is_some() && !moves && self.on[body].is_empty() && mass.is_none() {
+            self.line(&format!("<site name=\"{name}\"{placed}/>"));
+            return false;
+        }
+        self.line(&format!("<body name=\"{name}\"{placed}>"));
+        self.depth += 1;
+        if let Some((j, joint)) = joint.filter(|_| moves) {
+            let line = self.joint(j, joint);
+            self.line(&line);
+        }
+        if let Some(inertial) = mass.and_then(inertial) {
+            self.line(&inertial);
+        }
+        self.solid(body, moves);
+        true
+    }
+
+    fn joint(&self, j: usize, joint: &Joint) -> String {
+        let kind = if joint.kind == Some(JointKind::Prismatic) { "slide" } else { "hinge" };
+        let axis = joint.axis.0.map(number).join(" ");
+        let [low, high] = joint.limits.map_or([String::new(), String::new()], |l| l.map(number));
+        let range = if low.is_empty() { low } else { format!(" range=\"{low} {high}\"") };
+        let force = joint.effort.map_or(String::new(), |e| {
+            let e = number(e);
+            format!(" actuatorfrcrange=\"-{e} {e}\"")
+        });
+        format!("<joint name=\"{}\" type=\"{kind}\" axis=\"{axis}\"{range}{force}/>", self.names[j])
+    }
+
+    /// Capsules to what a body carries; a ball where there is none and it moves.
+    fn solid(&mut self, body: usize, moves: bool) {
+        let ends: Vec<[f64; 3]> = self.on[body]
+            .iter()
+            .map(|&j| self.tree.joints[j].origin.translation.0.map(value))
+            .filter(|p| p.iter().map(|x| x * x).sum::<f64>().sqrt() > self.radius)
+            .collect();
+        let radius = self.radius;
+        for [x, y, z] in &ends {
+            self.line(&format!(
+                "<geom type=\"capsule\" size=\"{radius:.4}\" fromto=\"0 0 0 {x:.6} {y:.6} {z:.6}\"/>"
+            ));
+        }
+        if ends.is_empty() && moves {
+            self.line(&format!("<geom type=\"sphere\" size=\"{radius:.4}\"/>"));
+        }
+    }
+
+    fn couplings(&mut self) {
+        let tree = self.tree;
+        let follows =
+            tree.joints.iter().enumerate().filter_map(|(j, joint)| Some((j, joint.follows.as_ref()?)));
+        let lines: Vec<String> = follows
+            .map(|(j, f)| {
+                let (factor, offset) = (number(f.factor.clone().into()), number(f.offset));
+                let [one, other] = [&self.names[j], &self.names[f.joint]];
+                format!("<joint joint1=\"{one}\" joint2=\"{other}\" polycoef=\"{offset} {factor} 0 0 0\"/>")
+            })
+            .collect();
+        if lines.is_empty() {
+            return;
+        }
+        self.text.push_str("  <equality>\n");
+        self.depth = 2;
+        lines.iter().for_each(|l| self.line(l));
+        self.text.push_str("  </equality>\n");
+    }
+}
+
+fn value(e: Expr) -> f64 {
+    e.eval(|_| None).unwrap_or(f64::NAN)
+}
+
+fn length(x: &Transform<Expr>) -> f64 {
+    let Vector(p) = x.translation.map(value);
+    p.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// Where a frame is, and how it is turned: by fixed angles about x, y, z where these are exact, else by a quaternion.
+fn placed(x: &Transform<Expr>) -> String {
+    let list = |v: [Expr; 3]| v.map(number).join(" ");
+    let is_there = x.translation == Vector::zero();
+    let pos = if is_there { String::new() } else { format!(" pos=\"{}\"", list(x.translation.0)) };
+    if x.rotation == Rotation::identity() {
+        return pos;
+    }
+    match exact_rpy(&x.rotation) {
+        Some(rpy) => format!("{pos} euler=\"{}\"", list(rpy)),
+        None => {
+            let q = quaternion(&x.rotation)
+                .map(|c| number(Rational::from_f64(c).map_or(Expr::int(0), Expr::from)));
+            format!("{pos} quat=\"{}\"", q.join(" "))
+        }
+    }
+}
+
+/// The unit quaternion of a rotation, w first, in doubles (Shepperd 1978: from its largest component).
+fn quaternion(r: &Rotation<Expr>) -> [f64; 4] {
+    let m = r.map(value).rows();
+    let trace = m[0][0] + m[1][1] + m[2][2];
+    let largest = [trace, m[0][0], m[1][1], m[2][2]];
+    let k = (0..4).fold(0, |best, k| if largest[k] > largest[best] { k } else { best });
+    let q = if k == 0 {
+        [1.0 + trace, m[2][1] - m[1][2], m[0][2] - m[2][0], m[1][0] - m[0][1]]
+    } else {
+        let [i, j, l] = [0, 1, 2].map(|n| (k - 1 + n) % 3);
+        let mut q = [m[l][j] - m[j][l], 0.0, 0.0, 0.0];
+        q[i + 1] = 1.0 + m[i][i] - m[j][j] - m[l][l];
+        q[j + 1] = m[j][i] + m[i][j];
+        q[l + 1] = m[l][i] + m[i][l];
+        q
+    };
+    let size = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+    q.map(|x| x / size)
+}
+
+/// A mass that a body can have; MuJoCo refuses others.
+fn inertial(mass: &Mass) -> Option<String> {
+    let [xx, xy, xz, yy, yz, zz] = mass.inertia.map(value);
+    let minor = xx * yy - xy * xy;
+    let volume = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
+    // Of the eigenvalues none is larger than the others together if ½tr − I is not negative either.
+    let half = 0.5 * (xx + yy + zz);
+    let [a, b, c] = [half - xx, half - yy, half - zz];
+    let rest = a * (b * c - yz * yz) - xy * (xy * c + yz * xz) - xz * (xy * yz + b * xz);
+    let is_body = value(mass.mass) > 0.0 && xx > 0.0 && minor > 0.0 && volume > 0.0;
+    let is_possible = a >= 0.0 && b >= 0.0 && c >= 0.0 && rest >= 0.0;
+    if !(is_body && is_possible) {
+        return None;
+    }
+    let com = mass.com.map(number).join(" ");
+    let [xx, xy, xz, yy, yz, zz] = mass.inertia.map(number);
+    let m = number(mass.mass);
+    Some(format!("<inertial pos=\"{com}\" mass=\"{m}\" fullinertia=\"{xx} {yy} {zz} {xy} {xz} {yz}\"/>"))
+}
