@@ -11,8 +11,8 @@ use crate::failure::Failure;
 use crate::terminal::{decimals, note};
 use denavit::catalogue;
 use denavit::description::{
-    Described, Description, Diagnostic, MAX_BYTES, Measure, Mechanism, RowTree, Severity, TableKind,
-    TableOptions, read_robot, read_table_robot, read_value, write_toml,
+    Described, Description, Diagnostic, MAX_BYTES, MAX_XML_BYTES, Measure, Mechanism, RowTree, Severity,
+    TableKind, TableOptions, read_robot, read_table_robot, read_value, write_toml,
 };
 use denavit_symbolic::Expr;
 use std::f64::consts::TAU;
@@ -56,9 +56,14 @@ pub fn robot_file(arguments: &RobotArguments) -> Result<(Description, String), F
     Ok((description, text))
 }
 
-/// True for a file that describes a tree.
+/// True for a file of bodies and joints: a URDF, or a model of MuJoCo's. Which, its root element says.
 pub fn is_tree(name: &str) -> bool {
-    [".urdf", ".xacro"].iter().any(|e| name.ends_with(e))
+    [".urdf", ".xacro", ".xml", ".mjcf"].iter().any(|e| name.ends_with(e))
+}
+
+/// True for such a file that the page opens itself.
+pub fn is_for_page(name: &str) -> bool {
+    is_tree(name) && !contents(name, MAX_XML_BYTES).is_ok_and(|text| urdf::is_mjcf(&text))
 }
 
 /// Options that are for other kinds of files are refused.
@@ -116,7 +121,7 @@ fn from_file(arguments: &RobotArguments) -> Result<(Description, Option<String>)
         Some("md" | "markdown" | "txt") => Some(TableKind::Markdown),
         Some("csv" | "tsv") => Some(TableKind::Csv),
         Some("tex") => Some(TableKind::Latex),
-        Some("urdf" | "xacro") => return Ok((urdf::from_urdf(arguments)?, None)),
+        Some("urdf" | "xacro" | "xml" | "mjcf") => return Ok((urdf::from_urdf(arguments)?, None)),
         Some("par") => return Ok((rows::from_par(arguments)?, None)),
         _ if path.is_file() => {
             let hint =
@@ -155,7 +160,7 @@ pub fn mechanism(arguments: &RobotArguments) -> Result<Option<Tree>, Failure> {
     }
     let name = arguments.robot.as_str();
     let tree = match Path::new(name).extension().and_then(|e| e.to_str()) {
-        Some("urdf" | "xacro") => {
+        Some("urdf" | "xacro" | "xml" | "mjcf") => {
             check_options(arguments, false)?;
             Tree::Bodies(urdf::mechanism(arguments)?)
         }

@@ -30,6 +30,8 @@ pub enum ConvertFormat {
     Toml,
     /// A URDF: joints in their places, no looks
     Urdf,
+    /// A model of MuJoCo's: joints in their places, simple solids
+    Mjcf,
     /// A robot file with the axes at rest: a point and a direction each, and the tip
     Axes,
     /// A robot file with the product of exponentials: screws (ω, v) in the base, and M

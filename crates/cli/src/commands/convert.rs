@@ -7,9 +7,9 @@ use crate::failure::Failure;
 use crate::load::{self, Tree};
 use crate::terminal::note;
 use denavit::description::{
-    AxesAs, Convention, Decimals, Described, Description, NoPar, NotNamed, RowTree, TableKind, TableOptions,
-    read_par, read_robot, read_table, read_toml, read_urdf, write_axes, write_par, write_table, write_toml,
-    write_tree, write_urdf,
+    Alone, AxesAs, Convention, Decimals, Described, Description, Mechanism, NoPar, NotNamed, RowTree,
+    TableKind, TableOptions, read_mjcf, read_par, read_robot, read_table, read_toml, read_urdf, write_axes,
+    write_mjcf, write_par, write_table, write_toml, write_tree, write_urdf,
 };
 use denavit::mechanism::{COMPARED, Comparison, compare};
 
@@ -38,6 +38,14 @@ pub fn run(arguments: &ConvertArguments) -> Result<(), Failure> {
             let text = write_urdf(&converted)
                 .map_err(|missing| no_values(missing.iter().map(|s| s.name().to_string())))?;
             let read = read_urdf(&text, Decimals::Meant).ok();
+            let chain = read.and_then(|(m, _)| m.chain(Some("base"), Some("tool"), robot.convention).ok());
+            (text, chain.map(|c| c.description))
+        }
+        ConvertFormat::Mjcf => {
+            let bodies = Mechanism::of(&converted)
+                .map_err(|missing| no_values(missing.iter().map(|s| s.name().to_string())))?;
+            let text = write_mjcf(&bodies);
+            let read = read_mjcf("written", &text, &mut Alone, Decimals::Meant).0.ok();
             let chain = read.and_then(|(m, _)| m.chain(Some("base"), Some("tool"), robot.convention).ok());
             (text, chain.map(|c| c.description))
         }

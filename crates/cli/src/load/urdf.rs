@@ -8,7 +8,7 @@ use crate::failure::Failure;
 use crate::terminal::note;
 use denavit::description::{
     Agreement, Chain, Convention, Decimals, Description, Diagnostic, MAX_XML_BYTES, Mechanism, Shape,
-    read_xacro,
+    read_mjcf, read_xacro, root_element,
 };
 use denavit_wire::view::Bundle;
 use std::fs;
@@ -39,7 +39,17 @@ pub fn mechanism(arguments: &RobotArguments) -> Result<Mechanism, Failure> {
     let packages = pairs(&arguments.package, "--package", "ur_description=../ur_description")?;
     let packages: Vec<(String, PathBuf)> = packages.into_iter().map(|(n, p)| (n, p.into())).collect();
     let given = pairs(&arguments.arg, "--arg", "name=ur5")?;
-    let read = |decimals| read_xacro(name, &text, &mut Folder::around(name, &packages), &given, decimals);
+    let is_mjcf = is_mjcf(&text);
+    if is_mjcf && !given.is_empty() {
+        return Err(Failure::Usage(format!("--arg is for xacro files, and {name} is a model of MuJoCo's")));
+    }
+    let read = |decimals| {
+        let mut folder = Folder::around(name, &packages);
+        match is_mjcf {
+            true => read_mjcf(name, &text, &mut folder, decimals),
+            false => read_xacro(name, &text, &mut folder, &given, decimals),
+        }
+    };
     let decimals = if arguments.as_written { Decimals::AsWritten } else { Decimals::Meant };
     let (outcome, files) = read(decimals);
     let render = |findings: &[Diagnostic]| -> String {
@@ -126,6 +136,11 @@ fn with_data(key: String, path: PathBuf) -> Vec<(String, PathBuf)> {
     all.sort();
     all.insert(0, (key, path));
     all
+}
+
+/// True for a model of MuJoCo's.
+pub fn is_mjcf(text: &str) -> bool {
+    matches!(root_element(text), Some("mujoco" | "mujocoinclude"))
 }
 
 /// `NAME=VALUE`, or `NAME:=VALUE` as ROS writes it.
