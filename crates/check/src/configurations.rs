@@ -150,6 +150,7 @@ impl<'a> Listed<'a> {
             }
         }
         listed.settle_units(text, start);
+        listed.settle_lengths();
         Some(listed)
     }
 
@@ -181,6 +182,31 @@ impl<'a> Listed<'a> {
                 }
                 _ => {}
             }
+        }
+    }
+
+    /// Lengths in the unit of the robot's table, where no row is right in millimetres and one is then.
+    fn settle_lengths(&mut self) {
+        let is_any_right = |listed: &Self| {
+            listed.rows.iter().any(|row| {
+                let targets = listed.targets(row);
+                targets.len() > 1 && listed.reaches(&targets, &listed.joints(row)) == Some(true)
+            })
+        };
+        let is_length = |c: &Column| matches!(c, Column::Pose(_, Some(unit), false) if *unit < 1.0);
+        if is_any_right(self) || !self.columns.iter().any(is_length) {
+            return;
+        }
+        let change = |listed: &mut Self, factor: f64| {
+            for column in &mut listed.columns {
+                if let Column::Pose(_, Some(unit), false) = column {
+                    *unit *= factor;
+                }
+            }
+        };
+        change(self, 1000.0);
+        if !is_any_right(self) {
+            change(self, 0.001);
         }
     }
 
@@ -438,6 +464,18 @@ fn goal(text: &str, subject: &Subject, scaled: bool) -> Vec<Target> {
 
 /// A head: a joint, or an entry of the pose, with its unit.
 fn column(head: &str, subject: &Subject, names: &Vocabulary, places_first: bool) -> Column {
+    let found = column_of(head, subject, names, places_first);
+    // `x berechnet`, `y measured`.
+    match head.split_once(' ').filter(|_| matches!(found, Column::Other)) {
+        Some((name, rest)) if rest.chars().all(|c| c.is_alphabetic() || c == ' ') => {
+            column_of(name, subject, names, places_first)
+        }
+        _ => found,
+    }
+}
+
+/// A head without further words.
+fn column_of(head: &str, subject: &Subject, names: &Vocabulary, places_first: bool) -> Column {
     let plain = plain_name(&head.replace(['$', '*'], "").replace("^\\circ", "°").replace("\\circ", "°"));
     let cut = plain.find(['(', '[', '/', ',']).unwrap_or(plain.len());
     let (name, unit) = plain.split_at(cut);
@@ -452,7 +490,7 @@ fn column(head: &str, subject: &Subject, names: &Vocabulary, places_first: bool)
     };
     let found = names.lookup(&name).or_else(|| names.lookup(&super::custom::plain(&name)));
     let joint = found.and_then(|e| subject.joints().iter().position(|q| *q == e));
-    let axis = |c: &str| ["x", "y", "z"].iter().position(|a| *a == c);
+    let axis = |c: &str| ["x", "y", "z"].iter().position(|a| *a == c.to_lowercase());
     let place = name.strip_prefix('p').or(name.strip_prefix('P')).and_then(axis).or_else(|| axis(&name));
     match (joint, place) {
         (Some(joint), None) => Column::Joint(joint, unit),

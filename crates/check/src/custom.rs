@@ -226,7 +226,22 @@ type Load = Option<(char, usize, bool)>;
 /// The letters that a text has for torques.
 fn torque_letters(text: &str) -> Vec<&'static str> {
     let all = plain(text);
-    ["τ", "Γ"].into_iter().filter(|t| all.contains(t)).collect()
+    let mut found: Vec<&str> = ["τ", "Γ"].into_iter().filter(|t| all.contains(t)).collect();
+    if all.contains("Gamma1") || all.contains("Gamma2") {
+        found.push("Gamma");
+    }
+    // M is a moment where a text says so and names a force.
+    let lower = text.to_lowercase();
+    let says = ["torque", "moment", "couple", "drehmoment", "coppie"].iter().any(|w| lower.contains(w));
+    let has_force = ["Fx", "Fy", "Fz", "fx", "fy", "fz"].iter().any(|f| is_mentioned(text, f));
+    let is_told = |k: usize| {
+        let name = format!("M{k}");
+        is_mentioned(text, &name) && ["=", "&="].iter().any(|e| all.contains(&format!("{name}{e}")))
+    };
+    if found.is_empty() && says && has_force && (1..=6).filter(|k| is_told(*k)).count() > 0 {
+        found.push("M");
+    }
+    found
 }
 
 /// Letters of their own that a text may have for a load on the hand: it speaks of torques, and names no components of a force.

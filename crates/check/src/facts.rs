@@ -381,6 +381,8 @@ pub enum Condition {
     Orientations(Vec<Formula>),
     /// A helper, where what uses it is right: that is not all proved, or not all right.
     AsUsed,
+    /// While other joints are at rest, as the text has some fixed.
+    Locked,
     /// As an answer to a task that leaves this free.
     Placed(Box<Placement>),
 }

@@ -47,6 +47,11 @@ pub(super) fn named_signs(plain: &str) -> Vec<(String, Expr)> {
     found
 }
 
+/// What stands for a sign under a name.
+pub(super) fn named_sign(name: &str) -> Expr {
+    Expr::symbol(&format!("{SIGN}{name}"))
+}
+
 /// True for a sign that the document names.
 pub(super) fn is_named_sign(e: Expr) -> bool {
     e.as_symbol().is_some_and(|s| s.name().strip_prefix(SIGN).is_some_and(|n| !n.contains(' ')))

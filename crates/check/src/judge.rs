@@ -4,6 +4,7 @@ use super::facts::{Condition, Remark, SlipKind, Unproved};
 use super::formula::Formula;
 use super::habits::with_named_signs;
 use super::inverse::Composed;
+use super::leeway;
 use super::numbers::{self, Answer};
 use super::outcome::{Claim, Counterexample, Entry, Finding, Patch, Slip, Standing, Wrong};
 use super::plan::{Plan, Walked};
@@ -166,7 +167,26 @@ impl<'a> Judge<'a> {
             },
             Piece::Pair(pair) => {
                 let pair = &self.in_numbers(pair, subject);
-                let finding = self.finding(pair, subject);
+                let robot = &self.plan.subjects[subject];
+                let mut finding = self.finding(pair, subject);
+                let seen = match finding.standing() {
+                    Standing::Wrong => leeway::of_inverse(pair, robot),
+                    _ => None,
+                };
+                let pair = seen.as_ref().unwrap_or(pair);
+                if seen.is_some() {
+                    finding = self.finding(pair, subject);
+                }
+                if finding.standing() == Standing::Wrong && leeway::is_rounded(self.text, pair, robot) {
+                    // Right in numbers: there is no identity.
+                    let finding = Finding::Equal { unless_zero: vec![] };
+                    return Entry { place: pair.place, span: pair.span.clone(), finding, identities: vec![] };
+                }
+                if finding.standing() == Standing::Wrong && leeway::with_locked_joints(self.text, pair, robot)
+                {
+                    let (correct, remarks) = (vec![], vec![]);
+                    finding = Finding::Conditional { condition: Condition::Locked, correct, remarks };
+                }
                 let mut identities = vec![];
                 if finding.standing() == Standing::Equal {
                     identities.push([pair.value, pair.wanted]);

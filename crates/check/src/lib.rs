@@ -12,6 +12,7 @@ mod configurations;
 mod convention;
 mod custom;
 mod definitions;
+mod directions;
 mod edits;
 mod facts;
 mod formula;
@@ -20,6 +21,7 @@ mod habits;
 pub mod inverse;
 mod jacobians;
 mod judge;
+mod leeway;
 mod lexis;
 mod listing;
 pub mod marking;
@@ -104,6 +106,10 @@ pub fn check(
     let text = respelled.as_deref().unwrap_or(text);
     let respelled = options.language.is_none().then(|| numbers::rates_by_primes(text)).flatten();
     let text = respelled.as_deref().unwrap_or(text);
+    let respelled = options.language.is_none().then(|| numbers::alternatives_by_primes(text)).flatten();
+    let text = respelled.as_deref().unwrap_or(text);
+    let respelled = options.language.is_none().then(|| numbers::words_as_signs(text)).flatten();
+    let text = respelled.as_deref().unwrap_or(text);
     let mut document = match options.language {
         Some(_) => Document::default(),
         None => document::read(text, format),
@@ -122,12 +128,13 @@ pub fn check(
     let options = &options;
     let mut plan = Plan::of(text, format, &document, robot, options, &mut notes)?;
     let programs = plan::programs(text, &document, options);
-    let scripts = scripts::inverse(text, &programs, &|name| plan.is_joint(name));
+    let scripts = scripts::inverse(text, &programs, &|name| plan.is_joint(name), &|name| plan.is_known(name));
     let mut lost = vec![];
     let respelled = scripts.map(|mut scripts| {
         scripts.join(&mut document);
         lost = std::mem::take(&mut scripts.lost);
         plan.programs = Some(Rc::from(scripts.programs));
+        plan.posed = scripts.posed;
         scripts.text
     });
     let text = respelled.as_deref().unwrap_or(text);

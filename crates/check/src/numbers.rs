@@ -201,6 +201,58 @@ pub(super) fn rates_by_primes(text: &str) -> Option<String> {
     if is_any { String::from_utf8(bytes).ok() } else { None }
 }
 
+/// A text in which the other value of a joint has a prime, `θ_1' = θ_1 + π`, without these, byte for byte: both are values of the
+/// joint; nothing for other texts.
+pub(super) fn alternatives_by_primes(text: &str) -> Option<String> {
+    const LETTERS: [&str; 5] = ["theta", "θ", "ϑ", "q", "t"];
+    let mut bytes = text.as_bytes().to_vec();
+    let mut is_any = false;
+    for (at, prime) in text.match_indices(['\'', '′']) {
+        let before = text[..at].trim_end_matches('}');
+        let number = before.trim_end_matches(|c: char| c.is_ascii_digit() || ('₀'..='₉').contains(&c));
+        let stem = number.trim_end_matches(['{', '_']);
+        let Some(rest) = LETTERS.iter().find_map(|l| stem.strip_suffix(l)) else { continue };
+        let rest = rest.strip_suffix("\\var").or(rest.strip_suffix('\\')).unwrap_or(rest);
+        let is_part = rest.ends_with(|c: char| c.is_alphanumeric() || matches!(c, '_' | '\'' | '"' | '\\'));
+        let goes_on = text[at + prime.len()..].starts_with(|c: char| c.is_alphanumeric() || c == '\'');
+        if number.len() == before.len() || before.len() - number.len() > 3 || is_part || goes_on {
+            continue;
+        }
+        bytes[at..at + prime.len()].fill(b' ');
+        is_any = true;
+    }
+    if is_any { String::from_utf8(bytes).ok() } else { None }
+}
+
+/// A text with the words that other languages have for a root, and with `dx/dt`, as formulas are written, byte for byte; nothing
+/// for other texts.
+pub(super) fn words_as_signs(text: &str) -> Option<String> {
+    const WORDS: [(&str, &str); 7] = [
+        ("racine(", "sqrt  ("),
+        ("radice(", "sqrt  ("),
+        ("Wurzel(", "sqrt  ("),
+        ("wurzel(", "sqrt  ("),
+        ("dx/dt", "xdot "),
+        ("dy/dt", "ydot "),
+        ("dz/dt", "zdot "),
+    ];
+    if !WORDS.iter().any(|w| text.contains(w.0)) {
+        return None;
+    }
+    let is_part = |c: char| c.is_alphanumeric();
+    let mut bytes = text.as_bytes().to_vec();
+    for (word, now) in WORDS {
+        for (at, _) in text.match_indices(word) {
+            if !text[..at].ends_with(is_part) && !text[at + word.len()..].starts_with(is_part)
+                || word.ends_with('(')
+            {
+                bytes[at..at + word.len()].copy_from_slice(now.as_bytes());
+            }
+        }
+    }
+    String::from_utf8(bytes).ok()
+}
+
 /// A text with `{,}` between digits as a point, byte for byte.
 fn without_braces(text: &str) -> String {
     let mut bytes = text.as_bytes().to_vec();
@@ -220,7 +272,7 @@ fn without_braces(text: &str) -> String {
 pub(super) fn unit_behind(text: &str) -> Option<(&str, Expr, bool)> {
     let degree = Expr::pi() / Expr::int(180);
     let part = |n: i64| Expr::int(1) / Expr::int(n);
-    let units: [(&str, Expr); 29] = [
+    let units: [(&str, Expr); 33] = [
         ("rad/s", Expr::int(1)),
         ("deg/s", degree),
         ("°/s", degree),
@@ -232,6 +284,10 @@ pub(super) fn unit_behind(text: &str) -> Option<(&str, Expr, bool)> {
         ("kN m", Expr::int(1000)),
         ("kNm", Expr::int(1000)),
         ("kN", Expr::int(1000)),
+        ("N\\,m", Expr::int(1)),
+        ("N\\cdot m", Expr::int(1)),
+        ("N\\cdot\\mathrm{m", Expr::int(1)),
+        ("N~m", Expr::int(1)),
         ("N*m", Expr::int(1)),
         ("N·m", Expr::int(1)),
         ("N m", Expr::int(1)),
@@ -254,7 +310,7 @@ pub(super) fn unit_behind(text: &str) -> Option<(&str, Expr, bool)> {
     let plain = text.trim().trim_end_matches(['.', ',', ' ', '$', '}']);
     for (unit, factor) in units {
         let Some(before) = plain.strip_suffix(unit) else { continue };
-        let before = ["\\mathrm{", "\\text{", "\\,", "\\;", "~", "\\ "]
+        let before = ["\\mathrm{", "\\text{", "\\,", "\\;", "~", "\\ ", "\\"]
             .iter()
             .fold(before.trim_end(), |b, look| b.strip_suffix(look).unwrap_or(b).trim_end());
         let is_number = before.ends_with(|c: char| c.is_ascii_digit() || matches!(c, '.' | ')' | 'π'));

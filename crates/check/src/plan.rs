@@ -20,6 +20,7 @@ use denavit::description::{
 use denavit::geometry::Transform;
 use denavit_reading::code::Dialect;
 use denavit_reading::document::{CodeBlock, Directive, Document, Format};
+use denavit_reading::slip::Points;
 use denavit_symbolic::parse::parse;
 use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
 use denavit_symbolic::{Expr, Rational, Symbol};
@@ -42,6 +43,8 @@ pub(super) struct Plan {
     pub has_robot: bool,
     /// The text of which programs are read, where it is another.
     pub programs: Option<Rc<str>>,
+    /// Functions, or whole programs, that give joints their values and are not read line by line.
+    pub posed: Vec<Range<usize>>,
     /// The robots are the document's own.
     pub is_own: bool,
     /// Where its tables stand.
@@ -146,6 +149,7 @@ impl Plan {
             turns,
             has_robot,
             programs,
+            posed: vec![],
             is_own,
             tables: Rc::default(),
         };
@@ -304,6 +308,16 @@ impl Plan {
         }
     }
 
+    /// True for a name that the first robot gives its meaning; for one of the direction of the hand, if its arm is planar.
+    pub fn is_known(&self, name: &str) -> bool {
+        let Some(subject) = self.subjects.first() else { return true };
+        let is_direction = DIRECTIONS.contains(&name);
+        let mut points = Points::new(59);
+        let flat = subject.pose().rotation.rows()[2][2].powi(2);
+        let is_planar = points.value(flat) == points.value(Expr::int(1));
+        subject.vocabulary().lookup(name).is_some() || is_direction && is_planar
+    }
+
     /// The same document about other robots.
     pub fn with(&self, change: &dyn Fn(&Subject) -> Option<Subject>) -> Self {
         let changed = |s: &Rc<Subject>| change(s).map_or_else(|| Rc::clone(s), Rc::new);
@@ -312,7 +326,8 @@ impl Plan {
         let (own_tables, authors) = (Rc::clone(&self.own_tables), self.authors.clone());
         let programs = self.programs.clone();
         let (has_robot, is_own, tables) = (self.has_robot, self.is_own, Rc::clone(&self.tables));
-        Plan { subjects, habits, own_tables, authors, turns, has_robot, programs, is_own, tables }
+        let posed = self.posed.clone();
+        Plan { subjects, habits, own_tables, authors, turns, has_robot, programs, posed, is_own, tables }
     }
 
     /// The same document, claims at these places taken as the author prints them.
@@ -403,7 +418,15 @@ impl Plan {
         let (mut followed, mut unsaid) = (vec![], vec![]);
         for (number, language, blocks) in self.blocks(text, document, options) {
             let outputs = outputs(text, document, &blocks);
-            let of = Source { text, source, blocks: &blocks, outputs: &outputs, language, number };
+            let of = Source {
+                text,
+                source,
+                blocks: &blocks,
+                outputs: &outputs,
+                language,
+                number,
+                posed: &self.posed,
+            };
             let found = programs::assertions(&of, &self.subjects[number], &self.habits);
             assertions.extend(found.assertions);
             refused.extend(found.refused);
@@ -430,6 +453,9 @@ impl Plan {
         }
     }
 }
+
+/// Names that programs give the direction of the hand.
+pub(super) const DIRECTIONS: [&str; 6] = ["phi", "pitch", "gamma", "zeta", "psi", "beta"];
 
 /// How tables are set in a document.
 pub(super) fn kind_of_tables(format: Format) -> TableKind {

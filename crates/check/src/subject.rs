@@ -264,6 +264,11 @@ impl Subject {
                 }
             }
         }
+        for (n, v) in (self.first + 1..).zip(&variables).filter(|_| self.first > 0) {
+            if v.kind == JointKind::Revolute {
+                names = names.angle(u32::try_from(n).unwrap_or(0), v.symbol);
+            }
+        }
         let first = i32::try_from(self.first).unwrap_or(0);
         for (i, row) in (first + 1..).zip(&d.rows) {
             let k = i - i32::from(self.previous);

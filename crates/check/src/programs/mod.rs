@@ -2,6 +2,7 @@
 //! what a function returns.
 
 mod followed;
+mod posed;
 mod rows;
 mod shown;
 mod stated;
@@ -22,6 +23,7 @@ use denavit_symbolic::parse::{ParseError, SyntaxKind};
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Expr, Node, Rational, Symbol, equal};
 use followed::{entries_of, followed, mended_by};
+use posed::Telling;
 use rows::row_function;
 use shown::Showing;
 use stated::{Stated, in_radians};
@@ -66,6 +68,8 @@ pub(super) struct Source<'a> {
     pub language: Dialect,
     /// The number of the robot.
     pub number: usize,
+    /// Functions, or whole programs, that give joints their values.
+    pub posed: &'a [Range<usize>],
 }
 
 /// The claims of a program, and what of it could not be read.
@@ -81,8 +85,8 @@ pub(super) fn assertions(of: &Source<'_>, subject: &Rc<Subject>, habits: &Rc<Hab
         joints.iter().position(|q| *q == found)
     };
     let told = |name: &str, values: &[Expr]| stated.joints(values, joint(name), name);
-    let mut mended = BTreeMap::new();
-    let asked = Asked { names: &meaning, joints: &joints, stated: &told, mended: &mended };
+    let (mut mended, none) = (BTreeMap::new(), BTreeMap::new());
+    let asked = Asked { names: &meaning, joints: &joints, stated: &told, mended: &none, posed: None };
     let codes = read_blocks(source, blocks, language, &asked);
     let mut found = Programs::default();
     let mut comments = Walk::new(text, subject, habits);
@@ -133,7 +137,7 @@ pub(super) fn assertions(of: &Source<'_>, subject: &Rc<Subject>, habits: &Rc<Hab
             source,
             blocks,
             language,
-            &Asked { names: &meaning, joints: &joints, stated: &told, mended: &mended },
+            &Asked { names: &meaning, joints: &joints, stated: &told, mended: &mended, posed: None },
         )),
     };
     let right = truth.as_deref().unwrap_or(&codes);
@@ -144,6 +148,8 @@ pub(super) fn assertions(of: &Source<'_>, subject: &Rc<Subject>, habits: &Rc<Hab
     found.followed.extend(follow);
     found.unsaid = unsaid(&codes, subject);
     found.defined = defined(source, &codes, &found.assertions, number);
+    let telling = Telling { subject, habits, lexis, functions: of.posed };
+    posed::solutions(of, &telling, &asked, &mut found);
     found
 }
 
@@ -414,6 +420,8 @@ impl Program<'_> {
                 let (matrix, jacobian) = self.subject.nearest_jacobian(&values, &told)?;
                 (matrix, Meaning::Jacobian(jacobian))
             }
+            // A part of a Jacobian is no pose.
+            _ if is_jacobian => return None,
             (4, 4) => (Matrix::of(&pose), hand),
             (3, 3) => (Matrix::of_rotation(&pose.rotation), Meaning::Rotation(hand.into())),
             (3, 1) => (Matrix::column(&pose.translation), Meaning::Position),
@@ -499,6 +507,18 @@ impl Program<'_> {
         };
         let at_pose = is_apart && Expr::postorder(&[value]).iter().any(is_measured);
         let apart = own.first().copied().filter(|_| at_pose);
+        // A length of the program's own beside all of the robot's, as that of a tool.
+        let numbers = |e: Expr| -> Vec<Rational> {
+            let all = Expr::postorder(&[e]).into_iter().filter_map(|e| e.as_number());
+            all.filter(|r| !(r * &Rational::from(2)).is_integer()).map(|r| r.abs()).collect()
+        };
+        let (mine, theirs) = (numbers(value), numbers(wanted));
+        let has_more = theirs.iter().all(|r| mine.contains(r)) && mine.iter().any(|r| !theirs.contains(r));
+        if has_more && foreign.is_none() && !self.knows_all(&mine) && differs() {
+            let why = Unreadable::Unknown(self.text.get(cell.span.clone()).unwrap_or_default().to_string());
+            let errors = vec![Unread::new(cell.span.clone(), why)];
+            return Piece::Unreadable { place, span: cell.span.clone(), errors };
+        }
         if let Some(name) = foreign.or(lost).or(apart).filter(|_| differs()) {
             let errors = vec![Unread::new(cell.span.clone(), Unreadable::Unknown(name.name().to_string()))];
             return Piece::Unreadable { place, span: cell.span.clone(), errors };
@@ -506,6 +526,17 @@ impl Program<'_> {
         let is_written = value == cell.value && self.text.get(cell.span.clone()).is_some();
         let printed = cell.syntax.clone().filter(|_| is_written);
         Piece::Pair(Pair { place, span: cell.span.clone(), printed, value, wanted, also: vec![] })
+    }
+
+    /// True if numbers are made of the robot's alone, or of those that the program has for its lengths.
+    fn knows_all(&self, numbers: &[Rational]) -> bool {
+        let d = &self.subject.description;
+        let rows = d.rows.iter().flat_map(|r| [r.theta, r.d, r.a, r.b]).flat_map(|e| Expr::postorder(&[e]));
+        let given = self.given.iter().map(|g| g.1);
+        let values = d.parameters.iter().filter_map(|p| d.exact_value(p.symbol));
+        let all = rows.chain(given).chain(values).filter_map(|e| e.as_number());
+        let known: Vec<Rational> = all.map(|r| r.abs()).collect();
+        numbers.iter().all(|r| known.contains(r))
     }
 
     fn assertion(

@@ -8,6 +8,7 @@
 mod spelling;
 
 use super::listing::comment_mark;
+use super::plan::DIRECTIONS;
 use denavit_reading::code::Dialect;
 use denavit_reading::document::{self, Document, Format, Statement};
 use spelling::{branches, roots, spelled, squeezed};
@@ -21,6 +22,8 @@ pub(super) struct Scripts {
     /// The text without the functions that were read so.
     pub programs: String,
     pub statements: Vec<Statement>,
+    /// Functions, or whole programs, that give joints their values and are not read line by line.
+    pub posed: Vec<Range<usize>>,
     /// Names and formulas that are not read.
     pub lost: Vec<(Range<usize>, String)>,
 }
@@ -68,15 +71,20 @@ pub(super) fn inverse(
     text: &str,
     programs: &[(Range<usize>, Dialect)],
     is_joint: &dyn Fn(&str) -> bool,
+    is_known: &dyn Fn(&str) -> bool,
 ) -> Option<Scripts> {
     let mut respelled = text.as_bytes().to_vec();
     let mut kept = text.as_bytes().to_vec();
     // The statements, those that stand in one tuple each in a text of its own.
     let blank: Vec<u8> = text.bytes().map(|b| if b == b'\n' { b'\n' } else { b' ' }).collect();
     let mut alone = vec![blank.clone()];
-    let (mut is_any, mut unread) = (false, vec![]);
+    let (mut is_any, mut unread, mut posed) = (false, vec![], vec![]);
     for (span, language) in programs {
-        for region in regions(text, span, *language) {
+        let all = regions(text, span, *language);
+        // Numbers that the program gives names beside the functions.
+        let own: Vec<String> =
+            all.iter().take(1).flat_map(|r| &r.lines).flat_map(|l| &l.parts).map(|p| p.0.clone()).collect();
+        for region in all {
             let solves = |line: &Line| {
                 let has = |part: &(String, Range<usize>)| {
                     let source = &text[part.1.clone()];
@@ -84,10 +92,48 @@ pub(super) fn inverse(
                 };
                 line.parts.iter().any(has)
             };
+            let whole = region.function.clone().unwrap_or(span.clone());
             if !region.lines.iter().any(solves) {
+                let source = &text[whole.clone()];
+                if INVERSE.iter().any(|f| source.contains(f)) {
+                    is_any = true;
+                    posed.push(whole);
+                }
                 continue;
             }
             is_any = true;
+            // What goes by vectors and matrices is followed as a program.
+            let mut known = region.parameters.clone();
+            known.extend(poses(text, &region.lines));
+            let telling = Region {
+                parameters: known,
+                lines: vec![],
+                function: None,
+                signs: region.signs.clone(),
+                renamed: vec![],
+            };
+            let mut lost: BTreeSet<String> = BTreeSet::new();
+            let is_cut = |line: &Line, lost: &mut BTreeSet<String>| {
+                line.is_lost(text, &telling, *language, lost) && line.parts.iter().any(|p| is_joint(&p.0))
+            };
+            let words = |l: &Line| -> BTreeSet<String> {
+                let source = l.parts.iter().map(|p| &text[p.1.clone()]);
+                source.flat_map(|s| crate::programs::words(s).map(String::from).collect::<Vec<_>>()).collect()
+            };
+            let is_foreign = |w: &String| {
+                let is_own =
+                    own.contains(w) || DIRECTIONS.contains(&w.as_str()) && region.parameters.contains(w);
+                is_own && !is_known(w)
+            };
+            let has_own =
+                region.function.is_some() && region.lines.iter().any(|l| words(l).iter().any(is_foreign));
+            if has_own || region.lines.iter().filter(|l| is_cut(l, &mut lost)).count() > 0 {
+                posed.push(whole);
+                if let Some(function) = region.function {
+                    kept[function].iter_mut().filter(|b| **b != b'\n').for_each(|b| *b = b' ');
+                }
+                continue;
+            }
             let mut region = region;
             region.parameters.extend(poses(text, &region.lines));
             let mut lost: BTreeSet<String> = BTreeSet::new();
@@ -129,7 +175,7 @@ pub(super) fn inverse(
         statements.extend(document::read(&String::from_utf8(bytes).ok()?, Format::Plain).statements);
     }
     statements.sort_by_key(|s| s.span.start);
-    Some(Scripts { text: respelled?, programs: kept?, statements, lost: unread })
+    Some(Scripts { text: respelled?, programs: kept?, statements, posed, lost: unread })
 }
 
 impl Scripts {

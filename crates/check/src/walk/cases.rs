@@ -1,7 +1,7 @@
 //! Equations that claim nothing of the robot: cases, conditions, places, goals.
 
 use super::scalars::is_measured;
-use super::{Pair, Piece, Scalar, Walk};
+use super::{Pair, Piece, Scalar, Spoken, Walk};
 use crate::facts::About;
 use crate::habits::is_named_sign;
 use crate::jacobians::Part;
@@ -125,6 +125,45 @@ impl Walk<'_> {
         is_whole(left.value()) && is_whole(right.value()) && given.is_some_and(|d| is_whole(d.value))
     }
 
+    /// The other value of a joint, half a turn from one that was printed: `θ_1 = θ_1 + 180°`.
+    pub(super) fn half_turn(&self, read: &[Scalar]) -> Option<Spoken> {
+        let [Scalar::Formula(_, left), Scalar::Formula(span, right)] = read else { return None };
+        let of = left.value();
+        if !matches!(left.kind, SyntaxKind::Name(_)) || !self.subject.joints().contains(&of) {
+            return None;
+        }
+        let turn = right.value() - of;
+        if !is_half_turn(turn) {
+            return None;
+        }
+        let own = self.assertions.iter().rev().filter(|a| a.subject == self.number);
+        let first = own.filter_map(|a| a.spoken.as_ref()).find_map(|s| match s {
+            Spoken::Joint { of: other, branches, .. } if *other == of => Some(branches),
+            _ => None,
+        })?;
+        let branches = first.iter().map(|b| *b + Expr::pi()).collect();
+        Some(Spoken::Joint { of, sides: vec![(span.clone(), right.clone())], branches })
+    }
+
+    /// True for a joint's value in other joints alone that is not so everywhere.
+    pub(super) fn is_told_of_joints(&self, spans: &[Range<usize>], read: &[Scalar]) -> bool {
+        let ([name, value], [Scalar::Formula(_, left), Scalar::Formula(_, right)]) = (spans, read) else {
+            return false;
+        };
+        let joints = self.subject.joints();
+        let symbols = right.value().symbols();
+        if matches!(left.kind, SyntaxKind::Name(_)) && is_half_turn(right.value() - left.value()) {
+            return joints.contains(&left.value());
+        }
+        matches!(left.kind, SyntaxKind::Name(_))
+            && joints.contains(&left.value())
+            && !self.is_right_name(name)
+            && !symbols.is_empty()
+            && symbols.iter().all(|s| joints.contains(&(*s).into()))
+            && !symbols.contains(&left.value().as_symbol().unwrap_or(symbols[0]))
+            && !self.speaks_of_pose(value)
+    }
+
     /// True for an equation to be solved: `det J = 0`, `s_5 = 0` in a sentence, `s_5 = 0` without the pose anywhere.
     pub(super) fn is_condition(&self, statement: &Statement, read: &[Scalar]) -> bool {
         let [Scalar::Formula(span, left), Scalar::Formula(_, right)] = read else { return false };
@@ -164,6 +203,11 @@ impl Walk<'_> {
         let line = before.rsplit('\n').next().unwrap_or_default();
         tells_goal(&line.rsplit(". ").next().unwrap_or_default().to_lowercase())
     }
+}
+
+/// True for ±π.
+fn is_half_turn(turn: Expr) -> bool {
+    [Expr::pi(), -Expr::pi()].iter().any(|p| denavit_symbolic::equal(turn, *p).is_equal())
 }
 
 /// True if a heading, in small letters, is one above inverse kinematics.

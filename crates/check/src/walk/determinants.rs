@@ -2,6 +2,8 @@
 
 use super::Walk;
 use crate::matrix::Matrix;
+use crate::names::Name;
+use denavit::forward::Reference;
 use denavit_symbolic::Expr;
 use denavit_symbolic::vocabulary::plain_name;
 use std::ops::Range;
@@ -15,6 +17,9 @@ impl Walk<'_> {
             .fold(source.to_string(), |s, w| s.replace(w, " "));
         if bare == source && !(source.starts_with('|') && source.ends_with('|') && source.len() > 2) {
             return None;
+        }
+        if let Some(columns) = columns_of(&bare) {
+            return self.minor(&columns);
         }
         let inner = bare.replace(['|', '(', ')'], " ");
         let inner = inner.trim();
@@ -42,6 +47,29 @@ impl Walk<'_> {
         printed.and_then(|m| m.determinant()).or_else(by_nature)
     }
 
+    /// The determinant of columns of the Jacobian of which the document speaks, or of the one that the arm has by nature.
+    fn minor(&self, columns: &[usize]) -> Option<Expr> {
+        let bare = Name { base: "J".into(), ..Name::default() };
+        let printed = self.lexis.defined(&bare).cloned();
+        let moves = |m: Matrix| {
+            let rows: Vec<_> =
+                m.0.into_iter().filter(|r| r.iter().any(|e| e.is_none_or(|e| !e.is_zero()))).collect();
+            Matrix(rows)
+        };
+        let by_nature = || {
+            let rows = self.subject.geometric_rows(Reference::Tool, Reference::Frame(0));
+            Matrix(rows[..3].iter().map(|r| r.iter().map(|e| Some(*e)).collect()).collect())
+        };
+        let fits = |m: &Matrix| {
+            m.shape().is_some_and(|(r, c)| r == columns.len() && columns.iter().all(|k| *k <= c))
+        };
+        let is_formula = |m: &Matrix| m.0.iter().flatten().flatten().any(|e| !e.symbols().is_empty());
+        let printed = printed.filter(is_formula).map(moves).filter(fits);
+        let whole = printed.or_else(|| Some(moves(by_nature())).filter(fits))?;
+        let picked = |row: &Vec<Option<Expr>>| columns.iter().map(|k| row[k - 1]).collect();
+        Matrix(whole.0.iter().map(picked).collect()).determinant()
+    }
+
     /// The rows or columns of a full Jacobian that the words before name: `rows vx, vy, wz`, `joints 1, 2 and 3`.
     pub(super) fn told_minor(&self, whole: &Matrix) -> Option<Matrix> {
         const ROWS: [[&str; 2]; 6] =
@@ -59,5 +87,46 @@ impl Walk<'_> {
         let rows: Vec<usize> = if told.is_empty() { (0..rows).filter(moves).collect() } else { told };
         let columns = if joints.is_empty() { (0..columns).collect() } else { joints };
         Some(Matrix(rows.iter().map(|&r| columns.iter().map(|&c| whole.entry(r, c)).collect()).collect()))
+    }
+}
+
+/// The columns that `[J_1 J_2]` or `J_{123}` names, from 1 on.
+fn columns_of(source: &str) -> Option<Vec<usize>> {
+    let plain: String = plain_name(&source.replace(['[', ']', '|', '(', ')', ',', ';', '&', '~'], " "))
+        .chars()
+        .filter(|c| !c.is_whitespace() && *c != '\\')
+        .collect();
+    let digits =
+        |s: &str| -> Vec<usize> { s.chars().filter_map(|c| c.to_digit(10)).map(|d| d as usize).collect() };
+    let parts: Vec<&str> = plain.strip_prefix('J')?.split('J').collect();
+    let is_number = |p: &&str| !p.is_empty() && p.chars().all(|c| c.is_ascii_digit());
+    if !parts.iter().all(|p| is_number(p)) {
+        return None;
+    }
+    let columns = match &parts[..] {
+        [one] if one.len() >= 2 => digits(one),
+        [_] => return None,
+        several => several.iter().map(|p| p.parse().ok()).collect::<Option<Vec<usize>>>()?,
+    };
+    let is_ascending = columns.is_sorted_by(|a, b| a < b) && columns[0] > 0;
+    is_ascending.then_some(columns)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::columns_of;
+
+    #[test]
+    fn columns_by_their_numbers() {
+        for (source, columns) in [
+            (" [J_1\\;J_2]", Some(vec![1, 2])),
+            (" J_{123}", Some(vec![1, 2, 3])),
+            ("J123", Some(vec![1, 2, 3])),
+            ("J_1", None),
+            ("J_v", None),
+            ("J_{21}", None),
+        ] {
+            assert_eq!(columns_of(source), columns, "{source}");
+        }
     }
 }

@@ -2,8 +2,9 @@
 
 use super::cases::is_choice_of_sign;
 use super::{Assertion, Defined, Pair, Piece, Reference, Scalar, Spoken, Walk};
+use crate::directions::sum_in_pose;
 use crate::facts::About;
-use crate::habits::with_named_signs;
+use crate::habits::{Places, with_named_signs};
 use crate::lexis::{read, set_in};
 use crate::names::Name;
 use crate::note::{Unread, Unreadable};
@@ -159,7 +160,8 @@ impl Walk<'_> {
             self.taken.push(statement.span.clone());
             return true;
         }
-        if let Some(spoken) = self.values(&spans, &read).or_else(|| self.angle(statement, &read)) {
+        let spoken = self.half_turn(&read).or_else(|| self.values(&spans, &read));
+        if let Some(spoken) = spoken.or_else(|| self.angle(statement, &read)) {
             let about = match spoken {
                 Spoken::Joint { .. } => About::Joint,
                 Spoken::Angle { set, .. } => About::Angle(set),
@@ -170,6 +172,11 @@ impl Walk<'_> {
             }
             let assertion = Assertion { spoken: Some(spoken), ..self.assertion(statement, about) };
             self.assertions.push(assertion);
+            return true;
+        }
+        if self.is_told_of_joints(&spans, &read) {
+            // `θ4 = −θ2` keeps the hand level: it says how to move, nothing of the robot.
+            self.skipped.push((statement.span.clone(), Unreadable::NeitherFormulaNorProduct));
             return true;
         }
         self.record_sine(&spans, &read);
@@ -315,6 +322,11 @@ impl Walk<'_> {
         syntax: &Syntax,
     ) {
         let by_custom = self.lexis.is_by_custom(&name);
+        // φ = θ2 + θ3 + θ4 is told with the pose.
+        let is_angle = name.ends_with(|c: char| c.is_alphabetic());
+        let places = Places(self.lexis.habits.columns);
+        let shown = is_angle.then(|| sum_in_pose(&self.subject, &places, inverse)).flatten();
+        let inverse = shown.unwrap_or(inverse);
         self.lexis.define(&name, value);
         self.lexis.define_inverse(&name, inverse);
         self.defined.push(Defined {

@@ -1,5 +1,6 @@
 //! Tests of verdicts, one program.
 
+mod allowed;
 mod configurations;
 mod documents;
 mod hostile;

@@ -51,8 +51,14 @@ impl<'a> Machine<'a> {
             Kind::Comprehension(parts) => self.comprehension(parts),
             Kind::Choice(parts) => {
                 let [test, value, other] = &**parts;
-                let test_value = self.eval(test)?;
-                match self.truth(&test_value, &test.span)? {
+                let holds = self.eval(test).and_then(|v| self.truth(&v, &test.span));
+                if holds.is_err() && self.posed.is_some() {
+                    let (a, b) = (self.eval(value)?, self.eval(other)?);
+                    if let Some(either) = self.one_of(&a, &b, span) {
+                        return Ok(either);
+                    }
+                }
+                match holds? {
                     true => self.eval(value),
                     false => self.eval(other),
                 }

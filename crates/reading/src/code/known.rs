@@ -37,6 +37,8 @@ const PYTHON: &[&str] = &[
     "reduce",
     "print",
     "deepcopy",
+    "max",
+    "min",
 ];
 /// What may be called by its bare name behind `import *`, and in MATLAB.
 const BARE: &[&str] = &[
@@ -46,6 +48,11 @@ const BARE: &[&str] = &[
     "sqrt",
     "atan2",
     "arctan2",
+    "max",
+    "min",
+    "clip",
+    "fmax",
+    "fmin",
     "acos",
     "asin",
     "atan",
@@ -100,6 +107,8 @@ const BARE: &[&str] = &[
     "round",
 ];
 const MATLAB: &[&str] = &[
+    "max",
+    "min",
     "cos",
     "sin",
     "tan",

@@ -48,6 +48,10 @@ impl<'a> Machine<'a> {
                 let of = |(value, place): &(Object<'a>, Span)| Ok(value.scalar(place)?.clone());
                 let arguments = given.positional.iter().map(of).collect::<Read<Vec<Scalar>>>()?;
                 let angle = applied(f, arguments, &mut self.budget, span)?;
+                if let Some(posed) = self.posed {
+                    let degrees = Scalar::of(posed.per_radian, span);
+                    return Ok(Object::Scalar(self.times(&angle, &degrees, span)?));
+                }
                 let pi = self.pi(span);
                 let scaled = self.times(&angle, &Scalar::of(Expr::int(180), span), span)?;
                 Ok(Object::Scalar(combined(Op::Div, &scaled, &pi, &mut self.budget, span)?.named(span)))
@@ -117,6 +121,19 @@ impl<'a> Machine<'a> {
                 match value.scalar(span)?.to_integer() {
                     Some(_) => Ok(value),
                     None => refuse(span, "`int` cuts off values that are not known"),
+                }
+            }
+            "clip" | "max" | "min" | "maximum" | "minimum" | "fmax" | "fmin" => {
+                // What keeps a value within ±1 against rounding leaves it as it is.
+                let is_bound = |o: &Object<'a>| match o {
+                    Object::Scalar(s) => s.expr.is_one() || (-s.expr).is_one(),
+                    _ => false,
+                };
+                let rest: Vec<&(Object<'a>, Span)> =
+                    given.positional.iter().filter(|v| !is_bound(&v.0)).collect();
+                match rest[..] {
+                    [(value, _)] if given.positional.len() > 1 => Ok(value.clone()),
+                    _ => refuse(span, format!("`{name}` of values is not read")),
                 }
             }
             "abs" | "fabs" => {

@@ -60,6 +60,8 @@ pub(super) struct Machine<'a> {
     pub stated: &'a super::Stated<'a>,
     /// Values that stand for those that names get, by the places of these.
     pub mended: &'a BTreeMap<usize, Vec<Expr>>,
+    /// How a program is read that is told of a pose.
+    pub posed: Option<super::Posed<'a>>,
     /// What was shown.
     pub shown: Vec<Shown>,
     pub functions: BTreeMap<&'a str, &'a Definition>,
@@ -86,13 +88,14 @@ pub(super) struct Machine<'a> {
 
 impl<'a> Machine<'a> {
     pub fn new(language: Dialect, asked: &super::Asked<'a>) -> Self {
-        let super::Asked { names, joints, stated, mended } = *asked;
+        let super::Asked { names, joints, stated, mended, posed } = *asked;
         Machine {
             language,
             names,
             joints,
             stated,
             mended,
+            posed,
             shown: vec![],
             functions: BTreeMap::new(),
             imports: BTreeMap::new(),
@@ -264,9 +267,14 @@ impl<'a> Machine<'a> {
                     self.refusals.truncate(refusals);
                     return Ok(Flow::Next);
                 }
-                for (test, body) in arms {
-                    let test_value = self.eval(test)?;
-                    if self.truth(&test_value, &test.span)? {
+                for (k, (test, body)) in arms.iter().enumerate() {
+                    let holds = self.eval(test).and_then(|v| self.truth(&v, &test.span));
+                    if holds.is_err() && self.posed.is_some() {
+                        let rest = arms[k..].iter().map(|a| a.1.as_slice());
+                        let ways: Vec<&'a [Statement]> = rest.chain([other.as_slice()]).collect();
+                        return self.either(&ways, span);
+                    }
+                    if holds? {
                         return Ok(self.block(body));
                     }
                 }
@@ -309,6 +317,9 @@ impl<'a> Machine<'a> {
 
     /// A symbol that the program declares.
     pub fn declared(&self, name: &str, span: &Span) -> Scalar {
+        if let Some(entry) = self.entry_of_pose(name, span) {
+            return entry;
+        }
         Scalar::of((self.names)(name).unwrap_or_else(|| Expr::symbol(name)), span)
     }
 
@@ -492,6 +503,10 @@ impl<'a> Machine<'a> {
                 };
                 let steps = self.steps(&old, suffixes, &target.span)?;
                 drop(old);
+                let value = match &steps[..] {
+                    [step] => self.posed_entry(name, step, value, right, &target.span),
+                    _ => value,
+                };
                 let value = match value {
                     Object::Matrix(m) => Object::Matrix(m.fresh().into()),
                     Object::Scalar(s) => Object::Scalar(s.settled()),

@@ -10,6 +10,9 @@ use super::value::{Matrix, Object, Sort, inverse, object, product, side};
 impl<'a> Machine<'a> {
     /// `T.T`, `T.shape`
     pub fn property(&mut self, value: &Object<'a>, name: &str, span: &Span) -> Read<Object<'a>> {
+        if let Some(field) = self.field(value, name, span) {
+            return Ok(field);
+        }
         match (value, name) {
             (Object::Matrix(m), "T") => Ok(object(m.transposed())),
             (Object::Matrix(m), "I") if m.sort == Sort::NumpyMatrix => {

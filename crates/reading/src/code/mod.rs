@@ -22,6 +22,7 @@ mod machine;
 mod matlab;
 mod methods;
 mod place;
+mod posed;
 mod python;
 mod records;
 mod report;
@@ -32,6 +33,7 @@ mod value;
 use denavit_symbolic::Expr;
 use denavit_symbolic::parse::{ParseError, Syntax};
 use machine::Machine;
+pub use posed::Posed;
 use scalar::Scalar;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -192,7 +194,7 @@ pub fn read_stated(
     joints: &[Expr],
     stated: &Stated<'_>,
 ) -> Code {
-    let asked = Asked { names, joints, stated, mended: &BTreeMap::new() };
+    let asked = Asked { names, joints, stated, mended: &BTreeMap::new(), posed: None };
     read_blocks(text, &[span], language, &asked).pop().unwrap_or_default()
 }
 
@@ -207,6 +209,8 @@ pub struct Asked<'a> {
     pub stated: &'a Stated<'a>,
     /// Values that stand for those that names get, by the place where these are written: all entries, by rows.
     pub mended: &'a BTreeMap<usize, Vec<Expr>>,
+    /// How it is read where it is told of a pose, and gives joints their values.
+    pub posed: Option<Posed<'a>>,
 }
 
 /// Reads the blocks of one program, as the cells of a notebook are: a name keeps its value in those that follow.
@@ -374,6 +378,9 @@ fn arguments<'a>(
     machine: &Machine<'a>,
     is_helper: bool,
 ) -> Result<BTreeMap<&'a str, Object<'a>>, ParseError> {
+    if machine.posed.is_some() {
+        return Ok(machine.posed_arguments(&d.parameters));
+    }
     let mut slots = BTreeMap::new();
     let mut unknown = vec![];
     for p in &d.parameters {

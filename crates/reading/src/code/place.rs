@@ -38,6 +38,16 @@ pub(super) struct Step {
     is_cell: bool,
 }
 
+impl Step {
+    /// The place of a single entry of a vector.
+    pub fn single(&self) -> Option<usize> {
+        match self.picks[..] {
+            [Pick::One(k)] => Some(k),
+            _ => None,
+        }
+    }
+}
+
 impl<'a> Machine<'a> {
     /// What an index picks of `length`; beyond it only if entries are set.
     fn pick(&mut self, node: &'a Node, length: usize, grows: bool) -> Read<Pick> {

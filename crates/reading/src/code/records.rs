@@ -58,6 +58,10 @@ impl<'a> Machine<'a> {
             self.records.push(Some(Assigned { name: name.to_string(), span: right.clone(), value }));
         }
         let value = right.map_or(value.clone(), |right| self.mended(value, right.start));
+        let posed = right.and_then(|right| {
+            self.pose_in_numbers(name, &value, right).or_else(|| self.joint_of(name, &value, right))
+        });
+        let value = posed.unwrap_or(value);
         // How a scalar is written was put down; from here on its name stands for it.
         let value = match value {
             Object::Scalar(s) => Object::Scalar(s.unwritten(&s.span)),
@@ -164,5 +168,15 @@ impl<'a> Machine<'a> {
             slot.record = None;
         }
         std::mem::take(&mut self.records).into_iter().flatten().collect()
+    }
+}
+
+/// True for a value that is numbers alone.
+pub(super) fn is_number(value: &Object<'_>) -> bool {
+    match value {
+        Object::Scalar(s) => s.expr.symbols().is_empty(),
+        Object::Matrix(m) => m.entries.iter().all(|s| s.expr.symbols().is_empty()),
+        Object::List(items) => items.iter().all(is_number),
+        _ => false,
     }
 }

@@ -196,6 +196,7 @@ fn conditions_and_doubts() {
         Condition::OneSign,
         Condition::OwnSign,
         Condition::AsUsed,
+        Condition::Locked,
         Condition::Placed(Box::new(placed())),
         Condition::Incomplete(None),
         Condition::Incomplete(Some(MISSING)),

@@ -205,6 +205,7 @@ impl Check for English {
             Condition::Orientations(all) if all.is_empty() => "in a part of all orientations".into(),
             Condition::Orientations(all) => format!("where {}", positive(all, " and ")),
             Condition::AsUsed => "as far as what uses it is right".into(),
+            Condition::Locked => "while other joints are at rest".into(),
             Condition::Placed(placement) => {
                 format!("as the same mechanism, if the task leaves this free: {}", placed(placement))
             }

@@ -116,6 +116,8 @@ const WORDS: &[(&str, Role)] = &[
     ("jointtype", Role::Sigma),
     ("typ", Role::Sigma),
     ("r/p", Role::Sigma),
+    // McKerrow's length of a link.
+    ("l", Role::A),
     ("variable", Role::Variable),
     ("jointvariable", Role::Variable),
     ("var", Role::Variable),
@@ -142,6 +144,8 @@ const WORDS: &[(&str, Role)] = &[
     ("jointlimits", Role::Limits),
     ("name", Role::Name),
     ("jointname", Role::Name),
+    // McKerrow's length of a link.
+    ("l", Role::A),
     ("variable", Role::Variable),
     ("variables", Role::Variable),
     ("jointvariable", Role::Variable),

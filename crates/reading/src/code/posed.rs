@@ -1,0 +1,210 @@
+//! Programs of inverse kinematics: what they are told of a pose stands for its entries, and the name of a joint stands for the
+//! joint once it has a value. What is not known of a choice is a sign.
+
+use super::machine::{Flow, Machine, Slot};
+use super::place::Step;
+use super::records::is_number;
+use super::report;
+use super::scalar::{Read, Scalar};
+use super::tree::{Kind, Node, Parameter, Span, Statement, changed};
+use super::value::{Matrix, Object, Sort, object};
+use super::{Assigned, Dialect, eval};
+use denavit_symbolic::Expr;
+use std::collections::BTreeMap;
+
+/// What names mean in a program that is told of a pose.
+#[derive(Clone, Copy)]
+pub struct Posed<'a> {
+    /// The entries of the pose that a name stands for, by rows.
+    pub given: &'a dyn Fn(&str) -> Option<Vec<Vec<Expr>>>,
+    /// What a name stands for that got the value of a joint, which it is for.
+    pub joint: &'a dyn Fn(&str) -> Option<Expr>,
+    /// What stands for +1 or −1 under a name.
+    pub sign: &'a dyn Fn(&str) -> Expr,
+    /// What stands for 180/π in the values of `atan2d`.
+    pub per_radian: Expr,
+}
+
+/// What an argument of which nothing is known is called.
+const ARGUMENT: &str = "argument ";
+/// Parts of the names of arguments that are signs.
+const SIGNS: [&str; 12] = [
+    "sign", "sgn", "elbow", "shoulder", "wrist", "flip", "sigma", "branch", "coude", "codo", "ellbogen",
+    "gomito",
+];
+
+impl<'a> Machine<'a> {
+    /// The arguments of a function that is told of a pose.
+    pub fn posed_arguments(&self, parameters: &'a [Parameter]) -> BTreeMap<&'a str, Object<'a>> {
+        let mut slots = BTreeMap::new();
+        let Some(posed) = self.posed else { return slots };
+        for p in parameters {
+            let scalar = |e: Expr| Object::Scalar(Scalar::of(e, &p.span));
+            let is_one = p.default.as_ref().is_some_and(is_plus_or_minus_one);
+            let has_number = p.default.as_ref().is_some_and(|d| matches!(d.kind, Kind::Number(..)));
+            let lower = p.name.to_lowercase();
+            let is_sign = || p.default.is_none() && (SIGNS.iter().any(|s| lower.contains(s)) || lower == "s");
+            let value = match () {
+                () if is_one => scalar((posed.sign)(&p.name)),
+                () if has_number => continue,
+                () => match self.entries_of_pose(&p.name, &p.span) {
+                    Some(entries) => entries,
+                    None if eval::VECTORS.contains(&p.name.as_str()) => self.joint_vector(&p.span),
+                    None => match (self.names)(&p.name) {
+                        Some(meaning) => scalar(meaning),
+                        None if is_sign() => scalar((posed.sign)(&p.name)),
+                        None => scalar(Expr::symbol(&format!("{ARGUMENT}{}", p.name))),
+                    },
+                },
+            };
+            slots.insert(p.name.as_str(), value);
+        }
+        slots
+    }
+
+    /// The one entry of the pose that a name stands for.
+    pub fn entry_of_pose(&self, name: &str, span: &Span) -> Option<Scalar> {
+        match self.entries_of_pose(name, span)? {
+            Object::Scalar(s) => Some(s),
+            _ => None,
+        }
+    }
+
+    /// What a name stands for of the pose.
+    fn entries_of_pose(&self, name: &str, span: &Span) -> Option<Object<'a>> {
+        let rows = (self.posed?.given)(name)?;
+        let is_matlab = self.language == Dialect::Matlab;
+        let columns = rows.first()?.len();
+        let entries: Vec<Scalar> = rows.iter().flatten().map(|e| Scalar::of(*e, span)).collect();
+        if let [one] = &entries[..] {
+            return Some(Object::Scalar(one.clone()));
+        }
+        Some(match (columns, is_matlab) {
+            (1, false) => object(Matrix::vector(entries, Sort::Array)),
+            (_, true) => object(Matrix::new(rows.len(), columns, entries, Sort::Matlab)),
+            _ => object(Matrix::new(rows.len(), columns, entries, Sort::Array)),
+        })
+    }
+
+    /// The entries of the pose in place of the numbers that a script has for them.
+    pub fn pose_in_numbers(&self, name: &str, value: &Object<'a>, span: &Span) -> Option<Object<'a>> {
+        if self.frames.len() > 1 || !is_number(value) {
+            return None;
+        }
+        let entries = self.entries_of_pose(name, span)?;
+        let shape = |o: &Object<'a>| match o {
+            Object::Scalar(_) => Some(1),
+            Object::Matrix(m) => Some(m.entries.len()),
+            Object::List(items) => Some(items.len()),
+            _ => None,
+        };
+        (shape(value) == shape(&entries)).then_some(entries)
+    }
+
+    /// The joint that a name is for, once it got a value that is a formula.
+    pub fn joint_of(&self, name: &str, value: &Object<'a>, span: &Span) -> Option<Object<'a>> {
+        let joint = (self.posed?.joint)(name).filter(|_| self.is_recorded())?;
+        match value {
+            Object::Scalar(s) if !s.expr.symbols().is_empty() => {
+                Some(Object::Scalar(Scalar::of(joint, span)))
+            }
+            _ => None,
+        }
+    }
+
+    /// A field of an argument of which nothing is known, `L.d1`: what the name means.
+    pub fn field(&self, value: &Object<'a>, name: &str, span: &Span) -> Option<Object<'a>> {
+        self.posed?;
+        let Object::Scalar(s) = value else { return None };
+        let symbol = s.expr.as_symbol()?;
+        if !symbol.name().starts_with(ARGUMENT) {
+            return None;
+        }
+        let meaning = (self.names)(name).map(|e| Object::Scalar(Scalar::of(e, span)));
+        meaning.or_else(|| self.entries_of_pose(name, span))
+    }
+
+    /// An entry of the joints that gets a value, `q[0] = atan2(…)`: it is put down, and stands for the joint from here on.
+    pub fn posed_entry(
+        &mut self,
+        name: &str,
+        step: &Step,
+        value: Object<'a>,
+        right: &Span,
+        target: &Span,
+    ) -> Object<'a> {
+        let is_joints = self.posed.is_some() && eval::VECTORS.contains(&name) && self.is_recorded();
+        let joint = step.single().filter(|_| is_joints).and_then(|k| self.joints.get(k).map(|q| (k, *q)));
+        let (Some((k, joint)), Object::Scalar(s)) = (joint, &value) else { return value };
+        if s.expr.symbols().is_empty() {
+            return value;
+        }
+        if let Some(written) = report::value(&value, &mut self.budget) {
+            let shown = format!("{name}[{k}]");
+            self.records.push(Some(Assigned { name: shown, span: right.clone(), value: written }));
+        }
+        Object::Scalar(Scalar::of(joint, target))
+    }
+
+    /// One of two values, by a sign that stands for what is not known.
+    pub fn one_of(&self, a: &Object<'a>, b: &Object<'a>, span: &Span) -> Option<Object<'a>> {
+        let sign = (self.posed?.sign)(&format!("@{}", span.start));
+        let (Object::Scalar(a), Object::Scalar(b)) = (a, b) else { return None };
+        let (x, y) = (a.expr, b.expr);
+        let (one, two) = (Expr::int(1), Expr::int(2));
+        let value = match () {
+            () if x == y => x,
+            () if x == -y || y == -x => sign * x,
+            () => x * (one + sign) / two + y * (one - sign) / two,
+        };
+        Some(Object::Scalar(Scalar::of(value, span)))
+    }
+
+    /// Both ways from a condition that is not known; what names get in them is one of two values.
+    pub fn either(&mut self, bodies: &[&'a [Statement]], span: &Span) -> Read<Flow<'a>> {
+        let mut names: Vec<&'a str> = vec![];
+        let mut ways: Vec<&'a [Statement]> = vec![];
+        for body in bodies {
+            // What gives up, or gives something back early, is not followed.
+            if !changed(body, &mut names) {
+                ways.push(body);
+            }
+        }
+        names.sort_unstable();
+        names.dedup();
+        let value = |m: &mut Self, name: &str| m.frame().slots.get(name).and_then(|s| s.value.clone());
+        let before: Vec<Option<Object<'a>>> = names.iter().map(|n| value(self, n)).collect();
+        let mut after: Vec<Vec<Option<Object<'a>>>> = vec![];
+        for way in ways {
+            for (name, was) in names.iter().zip(&before) {
+                match was {
+                    Some(was) => self.frame().slots.insert(name, Slot::of(was.clone())),
+                    None => self.frame().slots.remove(name),
+                };
+            }
+            if let Flow::Next = self.block(way) {
+                after.push(names.iter().map(|n| value(self, n)).collect());
+            }
+        }
+        for (k, name) in names.iter().enumerate() {
+            let all: Vec<&Object<'a>> = after.iter().filter_map(|a| a[k].as_ref()).collect();
+            let now = match all[..] {
+                [one] => Some(one.clone()),
+                [a, b] => self.one_of(a, b, span),
+                _ => None,
+            };
+            let slot = now.map_or_else(Slot::default, Slot::of);
+            self.frame().slots.insert(name, slot);
+        }
+        Ok(Flow::Next)
+    }
+}
+
+fn is_plus_or_minus_one(node: &Node) -> bool {
+    match &node.kind {
+        Kind::Number(r, ..) => r.is_one(),
+        Kind::Bracket(inner) => is_plus_or_minus_one(inner),
+        Kind::Unary(_, inner) => is_plus_or_minus_one(inner),
+        _ => false,
+    }
+}
