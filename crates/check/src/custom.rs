@@ -9,7 +9,7 @@ use denavit::geometry::{Transform, Vector};
 use denavit_reading::slip::Points;
 use denavit_symbolic::parse::parse;
 use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
-use denavit_symbolic::{Expr, equal, greek};
+use denavit_symbolic::{Expr, greek};
 use std::collections::BTreeSet;
 
 /// A name with its meaning.
@@ -71,7 +71,7 @@ pub(super) fn names(subject: &Subject, text: &str, habits: &Habits) -> Vec<Custo
     wrist(subject, &plain, places, &mut add);
     frames(subject, &plain, places, &mut add);
     wrist_rotation(subject, &plain, places, &mut add);
-    direction(subject, &plain, places, &mut add);
+    super::directions::direction(subject, &plain, places, &mut add);
     for letters in hand_letters(text) {
         for (r, name) in letters.iter().enumerate() {
             add(name, subject.pose().translation.0[r], places.symbol(r, 3).into());
@@ -80,7 +80,7 @@ pub(super) fn names(subject: &Subject, text: &str, habits: &Habits) -> Vec<Custo
     found
 }
 
-type Add<'a> = dyn FnMut(&str, Expr, Expr) + 'a;
+pub(super) type Add<'a> = dyn FnMut(&str, Expr, Expr) + 'a;
 
 /// Joint rates, and the velocity of the hand in them.
 fn rates(subject: &Subject, plain: &str, add: &mut Add<'_>) {
@@ -447,41 +447,6 @@ pub(super) fn seen_through(
     let before = subject.transform(Some(0), Some(i))?.inverse();
     let behind = subject.transform(None, Some(j))?;
     Some(before * places.pose() * behind)
-}
-
-/// The direction of the hand of an arm whose hand stays upright: φ.
-fn direction(subject: &Subject, plain: &str, places: &Places, add: &mut Add<'_>) {
-    let spelled: Vec<&str> = ["φ", "ϕ"].into_iter().filter(|p| plain.contains(p)).collect();
-    if spelled.is_empty() {
-        return;
-    }
-    let pose = subject.pose();
-    let mut points = Points::new(3);
-    let (one, zero) = (points.value(Expr::int(1)), points.value(Expr::int(0)));
-    let up = pose.rotation.rows()[2][2].powi(2);
-    if points.value(up) != one || !equal(up, Expr::int(1)).is_equal() {
-        return;
-    }
-    let mut sum = Expr::int(0);
-    let j = subject.geometric_rows(denavit::forward::Reference::Tool, denavit::forward::Reference::Frame(0));
-    for (k, &q) in subject.joints().iter().enumerate() {
-        let turn = points.value(j[5][k]);
-        sum = match () {
-            () if turn == one => sum + q,
-            () if turn == points.value(Expr::int(-1)) => sum - q,
-            () if turn == zero => sum,
-            () => return,
-        };
-    }
-    let [n, _, _] = pose.rotation.rows();
-    let second = pose.rotation.rows()[1];
-    let agrees = [(n[0], sum.cos()), (second[0], sum.sin())]
-        .into_iter()
-        .all(|(a, b)| points.value(a) == points.value(b) && equal(a, b).is_equal());
-    if agrees {
-        let inverse = Expr::from(places.symbol(1, 0)).atan2(places.symbol(0, 0).into());
-        spelled.iter().for_each(|name| add(name, sum, inverse));
-    }
 }
 
 /// The letters for the hand's place that sentences tell: `the tip is at (q_x, q_y)`.

@@ -1,11 +1,14 @@
 //! Sums of joints as the pose shows them: φ = θ2 + θ3 + θ4 is an angle of the hand seen from a link before these joints.
 
+use super::custom::Add;
 use super::habits::Places;
 use super::subject::Subject;
 use denavit::description::JointKind;
 use denavit::forward::Reference;
 use denavit_reading::slip::Points;
+use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Angle, Expr, equal};
+use std::rc::Rc;
 
 /// A sum of joints in the entries of the pose and the joints before them; nothing if the pose does not show it.
 pub(super) fn sum_in_pose(subject: &Subject, places: &Places, sum: Expr) -> Option<Expr> {
@@ -80,4 +83,65 @@ pub(super) fn parallel_sum(subject: &Subject) -> Option<Expr> {
         }
     }
     best.1
+}
+
+/// The direction of the hand of an arm whose hand stays upright: φ.
+pub(super) fn direction(subject: &Subject, plain: &str, places: &Places, add: &mut Add<'_>) {
+    let spelled: Vec<&str> = ["φ", "ϕ"].into_iter().filter(|p| plain.contains(p)).collect();
+    if spelled.is_empty() {
+        return;
+    }
+    let pose = subject.pose();
+    let mut points = Points::new(3);
+    let (one, zero) = (points.value(Expr::int(1)), points.value(Expr::int(0)));
+    let up = pose.rotation.rows()[2][2].powi(2);
+    if points.value(up) != one || !equal(up, Expr::int(1)).is_equal() {
+        return;
+    }
+    let mut sum = Expr::int(0);
+    let j = subject.geometric_rows(Reference::Tool, Reference::Frame(0));
+    for (k, &q) in subject.joints().iter().enumerate() {
+        let turn = points.value(j[5][k]);
+        sum = match () {
+            () if turn == one => sum + q,
+            () if turn == points.value(Expr::int(-1)) => sum - q,
+            () if turn == zero => sum,
+            () => return,
+        };
+    }
+    let [n, _, _] = pose.rotation.rows();
+    let second = pose.rotation.rows()[1];
+    let agrees = [(n[0], sum.cos()), (second[0], sum.sin())]
+        .into_iter()
+        .all(|(a, b)| points.value(a) == points.value(b) && equal(a, b).is_equal());
+    if agrees {
+        let inverse = Expr::from(places.symbol(1, 0)).atan2(places.symbol(0, 0).into());
+        spelled.iter().for_each(|name| add(name, sum, inverse));
+    }
+}
+
+/// Names that programs give the direction of the hand.
+pub(super) const DIRECTIONS: [&str; 6] = ["phi", "pitch", "gamma", "zeta", "psi", "beta"];
+
+/// Names that a robot gives their meaning; those of the direction of the hand, if its arm is planar.
+pub(super) struct Known {
+    names: Vocabulary,
+    is_planar: bool,
+}
+
+impl Known {
+    /// The names of the first robot of a document.
+    pub fn of(subjects: &[Rc<Subject>]) -> Self {
+        let Some(subject) = subjects.first() else {
+            return Known { names: Vocabulary::new(), is_planar: true };
+        };
+        let mut points = Points::new(59);
+        let flat = subject.pose().rotation.rows()[2][2].powi(2);
+        let is_planar = points.value(flat) == points.value(Expr::int(1));
+        Known { names: subject.vocabulary(), is_planar }
+    }
+
+    pub fn has(&self, name: &str) -> bool {
+        self.names.lookup(name).is_some() || self.is_planar && DIRECTIONS.contains(&name)
+    }
 }

@@ -34,14 +34,14 @@ pub(super) fn judged(text: &str, plan: &Plan, walked: &Walked) -> Vec<Claim> {
         at += count;
         let search = Search::new(&plan.subjects[first.subject], group);
         let Some(search) = search else { continue };
-        found.extend(search.verdicts().into_iter().zip(group));
+        found.extend(search.verdicts().into_iter().zip(group).map(|(v, a)| (v, a, group)));
     }
     // What is wrong is so only beside something that is right of the same robot: then the pose is the one that is meant.
-    let is_meant = found.iter().any(|(v, _)| *v == Some(true));
-    let claims = found.into_iter().map(|(verdict, answer)| {
+    let is_meant = found.iter().any(|(v, ..)| *v == Some(true));
+    let claims = found.into_iter().map(|(verdict, answer, group)| {
         let finding = match verdict {
             Some(true) => Finding::Equal { unless_zero: vec![] },
-            Some(false) if is_meant => Finding::Wrong(Box::new(wrong(plan, answer))),
+            Some(false) if is_meant => Finding::Wrong(Box::new(wrong(plan, answer, group))),
             _ => Finding::Undecided { why: Unproved::NoPose },
         };
         let entry = Entry { place: None, span: answer.value.clone(), finding, identities: vec![] };
@@ -58,13 +58,13 @@ pub(super) fn judged(text: &str, plan: &Plan, walked: &Walked) -> Vec<Claim> {
     claims.collect()
 }
 
-/// What is said of a wrong value: the right ones nearest to it.
-fn wrong(plan: &Plan, answer: &Answered) -> Wrong {
-    let mut wrong = Wrong::default();
-    let Some(search) = Search::new(&plan.subjects[answer.subject], std::slice::from_ref(answer)) else {
-        return wrong;
-    };
-    let (Some(&x), Some(right)) = (answer.values.first(), search.nearest(answer)) else { return wrong };
+/// What is said of a wrong value: the one that goes with the others of its line, or else the right one nearest to it.
+fn wrong(plan: &Plan, answer: &Answered, group: &[Answered]) -> Wrong {
+    // Nothing was found by a search: that is no proof.
+    let mut wrong = Wrong { remarks: vec![Remark::Sampled], ..Wrong::default() };
+    let Some(search) = Search::new(&plan.subjects[answer.subject], group) else { return wrong };
+    let right = search.of_branch(answer).or_else(|| search.nearest(answer));
+    let (Some(&x), Some(right)) = (answer.values.first(), right) else { return wrong };
     let shown = |v: f64| if search.in_degrees(answer) { decimal(v.to_degrees()) } else { decimal(v) };
     wrong.correct = vec![shown(right)];
     let off = (right - x).abs();
@@ -252,6 +252,19 @@ impl<'a> Search<'a> {
         let found: Vec<Option<bool>> = self.group.iter().map(own).collect();
         // Each is one of the pose, but not all together.
         if single && found.iter().all(|f| *f == Some(true)) { vec![None; found.len()] } else { found }
+    }
+
+    /// The value with which the others of the line, one number each, reach the pose.
+    fn of_branch(&self, answer: &Answered) -> Option<f64> {
+        let others: Vec<&Answered> = self.group.iter().filter(|a| a.of != answer.of).collect();
+        if others.is_empty() || others.iter().any(|a| a.values.len() != 1) {
+            return None;
+        }
+        let fixed: Vec<Fixed> = others.iter().map(|a| self.fixed(a, a.values[0])).collect();
+        let q = self.reach(&fixed, &mut Random(17))?;
+        let y = self.value(answer.of, &q)?;
+        let (_, x, _) = self.fixed(answer, *answer.values.first()?);
+        Some(if self.turns(answer.of) { y - TAU * ((y - x) / TAU).round() } else { y })
     }
 
     /// The value nearest to a wrong one with which the pose is reached.

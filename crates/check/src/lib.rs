@@ -128,7 +128,8 @@ pub fn check(
     let options = &options;
     let mut plan = Plan::of(text, format, &document, robot, options, &mut notes)?;
     let programs = plan::programs(text, &document, options);
-    let scripts = scripts::inverse(text, &programs, &|name| plan.is_joint(name), &|name| plan.is_known(name));
+    let known = directions::Known::of(&plan.subjects);
+    let scripts = scripts::inverse(text, &programs, &|name| plan.is_joint(name), &|name| known.has(name));
     let mut lost = vec![];
     let respelled = scripts.map(|mut scripts| {
         scripts.join(&mut document);

@@ -20,7 +20,6 @@ use denavit::description::{
 use denavit::geometry::Transform;
 use denavit_reading::code::Dialect;
 use denavit_reading::document::{CodeBlock, Directive, Document, Format};
-use denavit_reading::slip::Points;
 use denavit_symbolic::parse::parse;
 use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
 use denavit_symbolic::{Expr, Rational, Symbol};
@@ -308,16 +307,6 @@ impl Plan {
         }
     }
 
-    /// True for a name that the first robot gives its meaning; for one of the direction of the hand, if its arm is planar.
-    pub fn is_known(&self, name: &str) -> bool {
-        let Some(subject) = self.subjects.first() else { return true };
-        let is_direction = DIRECTIONS.contains(&name);
-        let mut points = Points::new(59);
-        let flat = subject.pose().rotation.rows()[2][2].powi(2);
-        let is_planar = points.value(flat) == points.value(Expr::int(1));
-        subject.vocabulary().lookup(name).is_some() || is_direction && is_planar
-    }
-
     /// The same document about other robots.
     pub fn with(&self, change: &dyn Fn(&Subject) -> Option<Subject>) -> Self {
         let changed = |s: &Rc<Subject>| change(s).map_or_else(|| Rc::clone(s), Rc::new);
@@ -453,9 +442,6 @@ impl Plan {
         }
     }
 }
-
-/// Names that programs give the direction of the hand.
-pub(super) const DIRECTIONS: [&str; 6] = ["phi", "pitch", "gamma", "zeta", "psi", "beta"];
 
 /// How tables are set in a document.
 pub(super) fn kind_of_tables(format: Format) -> TableKind {

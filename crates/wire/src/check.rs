@@ -89,6 +89,8 @@ pub struct Claim {
     pub entries: Vec<Entry>,
     /// What a matrix is as a whole.
     pub instead: Option<String>,
+    /// It is right by proof; what is equal and not proved is right in numbers.
+    pub proved: bool,
     /// What else is to be said.
     pub remarks: Vec<String>,
     /// Its robot, a number in the list, from 0.
@@ -294,6 +296,7 @@ impl Document<'_> {
             slip: speaker.and_then(|e| e.slip.clone()).flatten(),
             entries,
             instead: claim.instead.map(|i| words().instead(i)),
+            proved: claim.is_proved(),
             remarks: remarks(&claim.remarks),
             robot: claim.robot,
             verdict: standing.name(),

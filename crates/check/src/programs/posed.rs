@@ -2,12 +2,11 @@
 
 use super::stated::in_radians;
 use super::{Program, Programs, Source, defined, given_in, names_in};
-use crate::directions::{parallel_sum, sum_in_pose};
+use crate::directions::{DIRECTIONS, parallel_sum, sum_in_pose};
 use crate::facts::About;
 use crate::habits::{Habits, Places, named_sign, with_named_signs};
 use crate::lexis::Lexis;
 use crate::note::Unread;
-use crate::plan::DIRECTIONS;
 use crate::subject::Subject;
 use crate::walk::{Assertion, Piece, Spoken};
 use denavit::description::JointKind;

@@ -7,8 +7,8 @@
 
 mod spelling;
 
+use super::directions::DIRECTIONS;
 use super::listing::comment_mark;
-use super::plan::DIRECTIONS;
 use denavit_reading::code::Dialect;
 use denavit_reading::document::{self, Document, Format, Statement};
 use spelling::{branches, roots, spelled, squeezed};

@@ -47,6 +47,18 @@ impl Walk<'_> {
         printed.and_then(|m| m.determinant()).or_else(by_nature)
     }
 
+    /// True if a line before a place begins with a name and gives it a matrix.
+    pub(super) fn is_printed(&self, name: &Name, at: usize) -> bool {
+        self.text.get(..at).unwrap_or_default().lines().any(|line| {
+            let line = line.trim_start_matches([' ', '\t', '$', '-', '*', '&']);
+            let sides = line.strip_prefix(name.base.as_str()).and_then(|rest| rest.split_once('='));
+            sides.is_some_and(|(left, right)| {
+                let goes_on = left.starts_with(|c: char| c.is_alphabetic());
+                !goes_on && (right.contains("matrix") || right.trim_start().starts_with(['[', '|', '(']))
+            })
+        })
+    }
+
     /// The determinant of columns of the Jacobian of which the document speaks, or of the one that the arm has by nature.
     fn minor(&self, columns: &[usize]) -> Option<Expr> {
         let bare = Name { base: "J".into(), ..Name::default() };
@@ -100,7 +112,7 @@ fn columns_of(source: &str) -> Option<Vec<usize>> {
         |s: &str| -> Vec<usize> { s.chars().filter_map(|c| c.to_digit(10)).map(|d| d as usize).collect() };
     let parts: Vec<&str> = plain.strip_prefix('J')?.split('J').collect();
     let is_number = |p: &&str| !p.is_empty() && p.chars().all(|c| c.is_ascii_digit());
-    if !parts.iter().all(|p| is_number(p)) {
+    if !parts.iter().all(is_number) {
         return None;
     }
     let columns = match &parts[..] {

@@ -523,18 +523,6 @@ impl Walk<'_> {
         syntax.value().symbols().is_empty() && crate::numbers::unit_behind(self.source(span)).is_some()
     }
 
-    /// True if a line before a place begins with a name and gives it a matrix.
-    pub(super) fn is_printed(&self, name: &Name, at: usize) -> bool {
-        self.text.get(..at).unwrap_or_default().lines().any(|line| {
-            let line = line.trim_start_matches([' ', '\t', '$', '-', '*', '&']);
-            let sides = line.strip_prefix(name.base.as_str()).and_then(|rest| rest.split_once('='));
-            sides.is_some_and(|(left, right)| {
-                let goes_on = left.starts_with(|c: char| c.is_alphabetic());
-                !goes_on && (right.contains("matrix") || right.trim_start().starts_with(['[', '|', '(']))
-            })
-        })
-    }
-
     pub(super) fn told_matrix(&self, words: &str) -> Option<Reference> {
         let name = self.lexis.lone_name(words, &(0..words.len()))?;
         let (matrix, about) = self.lexis.matrix(&self.subject, &name)?;

@@ -88,7 +88,7 @@ fn half_a_turn_is_another_value() {
         );
         assert!(found.claims.len() == 2 && found.tally().wrong == 0, "{:?}", all(&found));
         let found = read(
-            &format!("{ELBOW}$\\theta_1 = \\operatorname{{atan2}}(p_x, p_y)$ and {other}.\n"),
+            &format!("{ELBOW}$\\theta_1 = \\operatorname{{atan2}}(-p_y, p_x)$ and {other}.\n"),
             Format::Markdown,
             None,
         );

@@ -33,11 +33,17 @@ export function VerdictIcon({ verdict }: { verdict: Verdict }) {
   );
 }
 
+/** What is equal and not proved agrees with the digits that are printed. */
+const IN_NUMBERS = "right in numbers";
+
 /** `3 claims: 1 wrong, 2 proved.` */
 export function tallyWords(checked: Checked): string {
   const count = checked.claims.length;
   if (count === 0) return "No claim about the robot was found in this text.";
-  const parts = ORDER.filter((verdict) => checked.tally[verdict] > 0).map((verdict) => `${checked.tally[verdict]} ${VERDICTS[verdict].counted}`);
+  const inNumbers = checked.claims.filter((claim) => claim.verdict === "equal" && !claim.proved).length;
+  const counts = ORDER.map((verdict) => ({ count: checked.tally[verdict] - (verdict === "equal" ? inNumbers : 0), words: VERDICTS[verdict].counted }));
+  counts.push({ count: inNumbers, words: IN_NUMBERS });
+  const parts = counts.filter(({ count }) => count > 0).map(({ count, words }) => `${count} ${words}`);
   const open = checked.tally.unjudged;
   const rest = open === 0 ? "" : ` ${open} ${open === 1 ? "line" : "lines"} not judged.`;
   return `${count} ${count === 1 ? "claim" : "claims"}: ${parts.join(", ")}.${rest}`;
@@ -104,7 +110,7 @@ function ClaimItem({ claim, index, context, isChosen }: { claim: Claim; index: n
       <button type="button" class="claim-head" aria-pressed={isChosen} title="Show it in the text" onClick={() => context.select(claim.at, index)}>
         <VerdictIcon verdict={claim.verdict} />
         <span class="claim-name">{claim.claim}</span>
-        <span class="claim-verdict">{VERDICTS[claim.verdict].words}</span>
+        <span class="claim-verdict">{claim.verdict === "equal" && !claim.proved ? IN_NUMBERS : VERDICTS[claim.verdict].words}</span>
         <span class="claim-about">
           {claim.about}, line {claim.at.line}
           {claim.entries.length > 1 && told.length > 0 && `; ${right} of ${claim.entries.length} entries right`}

@@ -353,6 +353,8 @@ export interface Claim {
   /** Which of the robots. */
   robot: number;
   verdict: Verdict;
+  /** It is right by proof; what is equal and not proved is right in numbers. */
+  proved: boolean;
   correct: string | null;
   slip: Slip | null;
   remarks: string[];
