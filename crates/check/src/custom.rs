@@ -80,7 +80,7 @@ pub(super) fn names(subject: &Subject, text: &str, habits: &Habits) -> Vec<Custo
     found
 }
 
-pub(super) type Add<'a> = dyn FnMut(&str, Expr, Expr) + 'a;
+type Add<'a> = dyn FnMut(&str, Expr, Expr) + 'a;
 
 /// Joint rates, and the velocity of the hand in them.
 fn rates(subject: &Subject, plain: &str, add: &mut Add<'_>) {

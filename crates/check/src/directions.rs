@@ -1,6 +1,5 @@
 //! Sums of joints as the pose shows them: φ = θ2 + θ3 + θ4 is an angle of the hand seen from a link before these joints.
 
-use super::custom::Add;
 use super::habits::Places;
 use super::subject::Subject;
 use denavit::description::JointKind;
@@ -86,7 +85,12 @@ pub(super) fn parallel_sum(subject: &Subject) -> Option<Expr> {
 }
 
 /// The direction of the hand of an arm whose hand stays upright: φ.
-pub(super) fn direction(subject: &Subject, plain: &str, places: &Places, add: &mut Add<'_>) {
+pub(super) fn direction(
+    subject: &Subject,
+    plain: &str,
+    places: &Places,
+    add: &mut dyn FnMut(&str, Expr, Expr),
+) {
     let spelled: Vec<&str> = ["φ", "ϕ"].into_iter().filter(|p| plain.contains(p)).collect();
     if spelled.is_empty() {
         return;
