@@ -88,10 +88,11 @@ impl<'a> Machine<'a> {
 
     /// The entries of the pose in place of the numbers that a script has for them.
     pub fn pose_in_numbers(&self, name: &str, value: &Object<'a>, span: &Span) -> Option<Object<'a>> {
-        if self.frames.len() > 1 || !is_number(value) {
+        if self.frames.len() > 1 {
             return None;
         }
-        let entries = self.entries_of_pose(name, span)?;
+        // Names first: what a value is made of is looked for only where it may be a pose.
+        let entries = self.entries_of_pose(name, span).filter(|_| is_number(value))?;
         let shape = |o: &Object<'a>| match o {
             Object::Scalar(_) => Some(1),
             Object::Matrix(m) => Some(m.entries.len()),
