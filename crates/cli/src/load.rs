@@ -124,8 +124,7 @@ fn from_file(arguments: &RobotArguments) -> Result<(Description, Option<String>)
         Some("urdf" | "xacro" | "xml" | "mjcf") => return Ok((urdf::from_urdf(arguments)?, None)),
         Some("par") => return Ok((rows::from_par(arguments)?, None)),
         _ if path.is_file() => {
-            let hint =
-                "a robot file ends in .toml, .urdf, .xacro or .par, a table in .md, .txt, .csv, .tsv or .tex";
+            let hint = "a robot file ends in .toml, .urdf, .xacro, .xml, .mjcf or .par, a table in .md, .txt, .csv, .tsv or .tex";
             return Err(Failure::Input(format!("error: {name}: what is this?\n  = hint: {hint}")));
         }
         _ => return Err(unknown_robot(name)),
@@ -252,8 +251,10 @@ fn coloured(finding: &Diagnostic, name: &str, text: &str) -> String {
 fn unknown_robot(name: &str) -> Failure {
     let close: Vec<&str> = catalogue::names().into_iter().filter(|n| similar(n, name)).take(6).collect();
     let hint = match &close[..] {
-        [] => "`denavit robots` lists the catalogue; files end in .toml, .urdf, .par, .md, .csv or .tex"
-            .to_string(),
+        [] => {
+            "`denavit robots` lists the catalogue; files end in .toml, .urdf, .xml, .par, .md, .csv or .tex"
+                .to_string()
+        }
         names => format!("did you mean {}?", names.join(", ")),
     };
     Failure::Input(format!("error: no robot or file `{name}`\n  = hint: {hint}"))

@@ -18,9 +18,9 @@ pub use view::ViewArguments;
 
 /// Everything about a robot arm from its Denavit-Hartenberg table: exact, proved, in formulas and in numbers.
 ///
-/// A ROBOT is a name from the catalogue (`denavit robots`), a robot file (.toml), a URDF (.urdf, .xacro), a .par
-/// file of SYMORO, or a table as it stands in a document (.md, .txt, .csv, .tsv, .tex). Exit codes: 0 done, 1 the answer is no, 2 usage, 3 bad input, 4 not
-/// supported, 5 gave up.
+/// A ROBOT is a name from the catalogue (`denavit robots`), a robot file (.toml), a URDF (.urdf, .xacro), a model of MuJoCo
+/// (.xml, .mjcf), a .par file of SYMORO, or a table as it stands in a document (.md, .txt, .csv, .tsv, .tex).
+/// Exit codes: 0 done, 1 the answer is no, 2 usage, 3 bad input, 4 not supported, 5 gave up.
 #[derive(Parser)]
 #[command(name = "denavit", version, max_term_width = 110)]
 pub struct Arguments {
@@ -39,7 +39,7 @@ pub enum Command {
     Robots(RobotsArguments),
     /// Show a robot's table and what is special about its structure, or convert it to another convention
     Show(ShowArguments),
-    /// Convert a robot into another format: a robot file, its axes, screws, a URDF, a .par file, a table; proved the same
+    /// Convert a robot into another format: a robot file, its axes, screws, a URDF, an MJCF, a .par file, a table; proved the same
     Convert(ConvertArguments),
     /// Compute poses: the tool, all frames, orientations in any set of angles
     Fk(FkArguments),
@@ -74,12 +74,12 @@ pub struct RobotsArguments {
 /// The robot that a command is about.
 #[derive(Args)]
 pub struct RobotArguments {
-    /// A catalogue name, or the path of a robot file, URDF or table (- reads a table from standard input)
+    /// A catalogue name, or the path of a robot file, URDF, MJCF or table (- reads a table from standard input)
     pub robot: String,
     /// Give a parameter a value, as in `--set D3=450mm` (can be repeated)
     #[arg(long = "set", value_name = "NAME=VALUE")]
     pub set: Vec<String>,
-    /// The convention of a table whose document does not say it; of a URDF the one its table is made in (standard)
+    /// The convention of a table whose document does not say it; of a URDF or MJCF the one its table is made in (standard)
     #[arg(long, value_enum)]
     pub convention: Option<ConventionName>,
     /// The unit of angles without unit in a table
@@ -94,13 +94,13 @@ pub struct RobotArguments {
     /// What the columns of a table mean, in order, as in `--columns "theta alpha a d"`
     #[arg(long, value_name = "LETTERS")]
     pub columns: Option<String>,
-    /// The link of a URDF, or the frame of a tree of rows, at which the chain begins; the root otherwise
+    /// The link of a URDF or MJCF, or the frame of a tree of rows, at which the chain begins; the root otherwise
     #[arg(long, value_name = "LINK")]
     pub base: Option<String>,
     /// The link or frame at which the chain ends; the leaf with the most joints otherwise
     #[arg(long, value_name = "LINK")]
     pub tip: Option<String>,
-    /// Take the decimals of a URDF's angles as they are: 1.5708 is not read as 90°
+    /// Take the decimals of angles in a URDF or MJCF as they are: 1.5708 is not read as 90°
     #[arg(long)]
     pub as_written: bool,
     /// Give an argument of a xacro file a value (can be repeated)

@@ -177,6 +177,41 @@ fn robots_are_converted_and_held_against_themselves() {
     refused(&["convert", "prrrrp", "--to", "urdf"], 3, "no value for");
 }
 
+/// A model is known by its root element, whatever its name is; what is written of a robot is the robot.
+#[test]
+fn every_verb_takes_a_model_for_mujoco() {
+    let model = format!("{}/../robot/tests/mjcf/ur5e.xml", env!("CARGO_MANIFEST_DIR"));
+    let folder = std::env::temp_dir().join(format!("denavit-mjcf-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    for name in ["arm.xml", "arm.urdf", "arm.mjcf"] {
+        let path = folder.join(name);
+        std::fs::copy(&model, &path).expect("the model is there");
+        let file = path.to_str().expect("UTF-8");
+        for (verb, rest) in
+            [("show", &[][..]), ("fk", &["-q", "1 2 3 4 5 6"]), ("ik", &["-q", "0.3,-1.2,1.5,0.4,0.9,-0.6"])]
+        {
+            let arguments = [&[verb, file, "--base", "base", "--tip", "right_hand"][..], rest].concat();
+            let output = denavit(&arguments);
+            assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", stderr(&output));
+            assert!(stderr(&output).contains("proved to be the file's chain"), "{}", stderr(&output));
+        }
+        refused(&["show", file, "--arg", "a=1"], 2, "--arg is for xacro files");
+        refused(&["show", file, "--tip", "rigt_hand"], 2, "did you mean `right_hand`?");
+    }
+    let written = folder.join("written.xml");
+    let path = written.to_str().expect("UTF-8");
+    let output = denavit(&["convert", "puma560", "--to", "mjcf", "-o", path]);
+    assert!(stderr(&output).contains("proved to be the same robot"), "{}", stderr(&output));
+    let output = denavit(&["convert", path, "--base", "base", "--tip", "tool", "--to", "urdf"]);
+    assert!(stdout(&output).starts_with("<robot"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("proved to be the same robot"), "{}", stderr(&output));
+    refused(&["convert", "prrrrp", "--to", "mjcf"], 3, "no value for");
+    std::fs::write(&written, "<mujoco>\n  <worldbody>\n    <body pos='1 2'/>\n  </worldbody>\n</mujoco>\n")
+        .expect("a file");
+    refused(&["show", path], 3, "written.xml:3:16: ");
+    std::fs::remove_dir_all(folder).expect("it was made");
+}
+
 #[test]
 fn a_urdf_says_what_it_cannot_do() {
     refused(&["show", &urdf("ur5_gripper")], 2, "choose one with --tip LINK");
