@@ -164,7 +164,7 @@ fn not_there(Missing { package, count, first }: &Missing) -> Placed {
 fn moved(metres: f64) -> Option<Placed> {
     let micrometres = metres * 1e6;
     let words = format!(
-        "read so, links lie up to {micrometres:.3} µm from where the decimals as they are written have them"
+        "read so, links lie up to {micrometres:.3} µm from where the decimals as they are written have them, in configurations that were tried"
     );
     (metres > 1e-9).then(|| alone(Severity::Note, words, None))
 }

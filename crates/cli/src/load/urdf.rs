@@ -158,7 +158,7 @@ fn say_moved(metres: f64, name: &str) {
     if metres > 1e-9 {
         let micrometres = metres * 1e6;
         note(&format!(
-            "{name}: note: read so, links lie up to {micrometres:.3} µm from where the decimals as they are written have them"
+            "{name}: note: read so, links lie up to {micrometres:.3} µm from where the decimals as they are written have them, in configurations that were tried"
         ));
     }
 }
@@ -175,5 +175,10 @@ fn say_chain(chain: &Chain, mechanism: &Mechanism, [from, to]: [&str; 2]) {
     let follows = follows.map_or(String::new(), |joint| {
         format!("; what `{}` follows is not on the way, it moves by itself", joint.name)
     });
-    note(&format!("note: from `{from}` to `{to}`, {joints}; {proof}{follows}"));
+    let masses = mechanism.bodies.iter().filter(|b| b.mass.is_some()).count();
+    let masses = match masses {
+        0 => String::new(),
+        _ => format!("; {masses} links of the file have masses, which a table leaves out"),
+    };
+    note(&format!("note: from `{from}` to `{to}`, {joints}; {proof}{follows}{masses}"));
 }

@@ -212,6 +212,44 @@ fn every_verb_takes_a_model_for_mujoco() {
     std::fs::remove_dir_all(folder).expect("it was made");
 }
 
+/// ROS's own parser asks for velocity and effort of every limit and for limits of every slide; masses are carried over; names
+/// come back out of LaTeX.
+#[test]
+fn what_is_written_is_what_others_read() {
+    let folder = std::env::temp_dir().join(format!("denavit-written-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let at = |name: &str| folder.join(name).to_str().expect("UTF-8").to_string();
+    let rows = "[[joints]]\nname = \"arm_1_joint\"\ntheta = \"q1\"\na = \"1 m\"\nlimits = [-1, 1]\nmass = 2\n\
+                com = [\"-0.5 m\", 0, 0]\ninertia = [0.1, 0.2, 0.3, 0.01, 0, 0]\n\
+                [[joints]]\nname = \"arm_2_joint\"\nd = \"q2\"\nalpha = \"90 deg\"\n";
+    std::fs::write(at("arm.toml"), format!("name = \"arm\"\nconvention = \"standard\"\n{rows}"))
+        .expect("a file");
+    let urdf = stdout(&denavit(&["convert", &at("arm.toml"), "--to", "urdf"]));
+    let limits: Vec<&str> = urdf.lines().filter(|l| l.contains("<limit")).collect();
+    assert_eq!(limits.len(), 2, "{urdf}");
+    let asked = ["lower=", "upper=", "effort=", "velocity="];
+    assert!(limits.iter().all(|l| asked.iter().all(|a| l.contains(a))), "{urdf}");
+    assert!(urdf.contains("<mass value=\"2\"/>") && urdf.contains("ixx=\"0.1\""), "{urdf}");
+    std::fs::write(at("arm.urdf"), &urdf).expect("a file");
+    let output = denavit(&["show", &at("arm.urdf"), "--tip", "tool"]);
+    assert!(
+        stderr(&output).contains("of the file have masses, which a table leaves out"),
+        "{}",
+        stderr(&output)
+    );
+    denavit(&["convert", &at("arm.toml"), "--to", "latex", "-o", &at("arm.tex")]);
+    let shown = stdout(&denavit(&["show", &at("arm.tex")]));
+    assert!(shown.contains("arm_1_joint") && !shown.contains('\\'), "{shown}");
+    // A planar joint about z slides along x and y.
+    let planar = "<robot name=\"p\"><link name=\"a\"/><link name=\"b\"/><joint name=\"pl\" type=\"planar\">\
+                  <parent link=\"a\"/><child link=\"b\"/><axis xyz=\"0 0 1\"/></joint></robot>";
+    std::fs::write(at("planar.urdf"), planar).expect("a file");
+    let output = denavit(&["fk", &at("planar.urdf"), "--frames", "all", "-q", "pl x=1, pl y=2", "--json"]);
+    let poses = stdout(&output);
+    assert!(poses.replace(char::is_whitespace, "").contains("[1,0,0,1],[0,1,0,2]"), "{poses}");
+    std::fs::remove_dir_all(folder).expect("it was made");
+}
+
 #[test]
 fn a_urdf_says_what_it_cannot_do() {
     refused(&["show", &urdf("ur5_gripper")], 2, "choose one with --tip LINK");

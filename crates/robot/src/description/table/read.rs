@@ -162,6 +162,17 @@ struct Tables<'a> {
     options: &'a TableOptions,
 }
 
+/// A name without the backslashes that Markdown and LaTeX want before some signs: `arm\_1`.
+fn plain_name(text: &str) -> String {
+    let mut name = String::new();
+    let mut rest = text.chars().peekable();
+    while let Some(c) = rest.next() {
+        let is_escape = c == '\\' && rest.peek().is_some_and(char::is_ascii_punctuation);
+        name.extend(if is_escape { rest.next() } else { Some(c) });
+    }
+    name
+}
+
 /// True for tables that write a half as `0,5`.
 fn has_decimal_commas(layouts: &[&Layout]) -> bool {
     let is_number = |text: &str, mark: char| {
@@ -254,7 +265,7 @@ fn read_as(letters: &Letters, tables: &Tables, out: &mut Diagnostics) -> Reading
         .zip(&read)
         .zip(&variables)
         .map(|((cells, read), &variable)| Row {
-            name: read.source(Role::Name).map(|n| n.text.clone()).filter(|n| !n.is_empty()),
+            name: read.source(Role::Name).map(|n| plain_name(&n.text)).filter(|n| !n.is_empty()),
             limits: variable.and_then(|v| limits::limits(read, v.kind, &units, out)),
             ..cells.row(variable)
         })

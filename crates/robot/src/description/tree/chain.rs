@@ -60,7 +60,7 @@ impl fmt::Display for NoChain {
             NoChain::Several(tips) => {
                 write!(f, "there are several tips: {}", tips.join(", "))
             }
-            NoChain::TooLong(joints) => write!(f, "a chain of {joints} joints; {MAX_ROWS} are allowed"),
+            NoChain::TooLong(joints) => write!(f, "a chain of {joints} joints; {} are allowed", MAX_ROWS / 2),
             NoChain::NoDirection(joint) => write!(f, "the axis of `{joint}` has no direction"),
             NoChain::NeedsValues(names) => {
                 write!(

@@ -64,7 +64,7 @@ impl Mechanism {
         poses
     }
 
-    /// By how much the bodies of two readings of one file lie apart at most, metres, over configurations that look random.
+    /// By how much the bodies of two readings of one file lie apart at most, metres, over configurations that look random: no bound, but near to one.
     pub fn apart(&self, other: &Mechanism) -> f64 {
         const SAMPLES: usize = 256;
         let variables = self.variables();
@@ -76,8 +76,16 @@ impl Mechanism {
         let (a, b) = (self.numbers(), other.numbers());
         for _ in 0..SAMPLES {
             let value = |&j: &usize| {
-                let turns = self.joints[j].kind == Some(JointKind::Revolute);
-                (2.0 * random.unit() - 1.0) * if turns { PI } else { 0.5 }
+                let joint = &self.joints[j];
+                let ends = joint
+                    .limits
+                    .and_then(|ends| Some([ends[0].eval(|_| None).ok()?, ends[1].eval(|_| None).ok()?]));
+                let [low, high] = match (joint.kind, ends) {
+                    (Some(JointKind::Revolute), _) => [-PI, PI],
+                    (_, Some(ends)) => ends,
+                    (_, None) => [-0.5, 0.5],
+                };
+                low + (high - low) * random.unit()
             };
             let q: Vec<f64> = variables.iter().map(value).collect();
             for (a, b) in self.placed(&a, &q).iter().zip(other.placed(&b, &q)) {

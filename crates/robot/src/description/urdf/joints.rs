@@ -231,8 +231,9 @@ fn planar(joint: &Joint, span: &Range<usize>, links: &mut Links, drafts: &mut Ve
     let size = |i: usize| joint.axis[i].eval(|_| None).unwrap_or(0.0).abs();
     let least = (0..3).min_by(|&i, &j| size(i).total_cmp(&size(j))).unwrap_or(0);
     let beside = Vector([0, 1, 2].map(|i| Expr::int(i64::from(i == least))));
-    let first = beside.cross(joint.axis);
-    let second = joint.axis.cross(first);
+    // About z these are x and y.
+    let second = joint.axis.cross(beside);
+    let first = second.cross(joint.axis);
     let mut parent = joint.parent;
     for (suffix, axis, kind) in [
         ("x", first, JointKind::Prismatic),

@@ -1,14 +1,18 @@
 //! A description as a URDF that reads back to it.
 //!
-//! Angles have 17 digits, by which they are found again, lengths are decimals.
+//! Angles have 17 digits, by which they are found again, lengths are decimals. ROS's own parser asks for effort and velocity of
+//! every limit, and for limits of every slide: 0 and a distance that nothing has stand for what is not known.
 
 use crate::description::robot_file::exact_rpy;
-use crate::description::tree::{Joint, Mechanism};
+use crate::description::tree::{Joint, Mass, Mechanism};
 use crate::description::xml::{escaped, number};
 use crate::description::{Description, JointKind};
 use crate::geometry::Rotation;
 use denavit_symbolic::{Expr, Rational, Symbol};
 use std::fmt::Write;
+
+/// Where no slide goes, metres: limits so far away are read as none.
+const NOWHERE: &str = "1e9";
 
 /// The URDF of a description.
 ///
@@ -18,7 +22,11 @@ pub fn write_urdf(d: &Description) -> Result<String, Vec<Symbol>> {
     let tree = Mechanism::of(d)?;
     let mut text = format!("<robot name=\"{}\">\n", escaped(&tree.name));
     let link = |text: &mut String, body: usize| {
-        let _ = writeln!(text, "  <link name=\"{}\"/>", escaped(&tree.bodies[body].name));
+        let name = escaped(&tree.bodies[body].name);
+        let _ = match &tree.bodies[body].mass {
+            Some(mass) => writeln!(text, "  <link name=\"{name}\">\n{}  </link>", inertial(mass)),
+            None => writeln!(text, "  <link name=\"{name}\"/>"),
+        };
     };
     link(&mut text, tree.root);
     for joint in &tree.joints {
@@ -51,14 +59,30 @@ fn write_joint(text: &mut String, tree: &Mechanism, joint: &Joint) {
         let factor = number(follows.factor.clone().into());
         let _ = writeln!(text, "    <mimic joint=\"{leader}\" multiplier=\"{factor}\"/>");
     }
-    let speed = joint.velocity.map_or(String::new(), |v| format!(" velocity=\"{}\"", number(v)));
-    if let Some([low, high]) = joint.limits {
-        let (low, high) = (number(low), number(high));
-        let _ = writeln!(text, "    <limit lower=\"{low}\" upper=\"{high}\" effort=\"0\"{speed}/>");
-    } else if !speed.is_empty() {
-        let _ = writeln!(text, "    <limit effort=\"0\"{speed}/>");
+    let known = |x: Option<Expr>| x.map_or("0".into(), number);
+    let drive = format!("effort=\"{}\" velocity=\"{}\"", known(joint.effort), known(joint.velocity));
+    let ends = match (joint.kind, joint.limits) {
+        (Some(_), Some([low, high])) => Some((number(low), number(high))),
+        (Some(JointKind::Prismatic), None) => Some((format!("-{NOWHERE}"), NOWHERE.into())),
+        _ => None,
+    };
+    if let Some((low, high)) = ends {
+        let _ = writeln!(text, "    <limit lower=\"{low}\" upper=\"{high}\" {drive}/>");
+    } else if joint.velocity.is_some() || joint.effort.is_some() {
+        let _ = writeln!(text, "    <limit {drive}/>");
     }
     text.push_str("  </joint>\n");
+}
+
+/// A body's mass about its centre, along the axes of its frame.
+fn inertial(mass: &Mass) -> String {
+    let [xx, xy, xz, yy, yz, zz] = mass.inertia.map(number);
+    format!(
+        "    <inertial>\n      <origin xyz=\"{}\"/>\n      <mass value=\"{}\"/>\n      \
+         <inertia ixx=\"{xx}\" ixy=\"{xy}\" ixz=\"{xz}\" iyy=\"{yy}\" iyz=\"{yz}\" izz=\"{zz}\"/>\n    </inertial>\n",
+        mass.com.map(number).join(" "),
+        number(mass.mass)
+    )
 }
 
 /// Roll, pitch and yaw in doubles.
