@@ -67,7 +67,7 @@ pub(super) fn names(subject: &Subject, text: &str, habits: &Habits) -> Vec<Custo
         found.push(Custom { name: name.to_string(), meaning, inverse });
     };
     rates(subject, &plain, &mut add);
-    torques(subject, text, habits.load, &mut add);
+    torques(subject, text, habits, &mut add);
     wrist(subject, &plain, places, &mut add);
     frames(subject, &plain, places, &mut add);
     wrist_rotation(subject, &plain, places, &mut add);
@@ -142,9 +142,9 @@ fn rates(subject: &Subject, plain: &str, add: &mut Add<'_>) {
 }
 
 /// The torques of all joints, below one another.
-pub(super) fn torque_column(subject: &Subject, text: &str, load: Load) -> Option<Matrix> {
+pub(super) fn torque_column(subject: &Subject, text: &str, habits: &Habits) -> Option<Matrix> {
     let mut found: Vec<(String, Expr)> = vec![];
-    torques(subject, text, load, &mut |name, meaning, _| found.push((name.to_string(), meaning)));
+    torques(subject, text, habits, &mut |name, meaning, _| found.push((name.to_string(), meaning)));
     let of = |k: usize| found.iter().find(|(name, _)| *name == format!("τ{k}")).map(|f| vec![Some(f.1)]);
     let column: Vec<Vec<Option<Expr>>> = (1..=subject.joints().len()).map_while(of).collect();
     (!column.is_empty() && column.len() == subject.joints().len()).then_some(Matrix(column))
@@ -220,9 +220,6 @@ pub(super) fn names_entries(text: &str) -> bool {
     ["R11", "R22", "R33"].iter().any(|name| is_mentioned(text, name))
 }
 
-/// The letter of a load, its axis, and whether it points against it.
-type Load = Option<(char, usize, bool)>;
-
 /// The letters that a text has for torques.
 fn torque_letters(text: &str) -> Vec<&'static str> {
     let all = plain(text);
@@ -263,7 +260,7 @@ pub(super) fn letters_of_load(text: &str) -> Vec<char> {
 }
 
 /// Torques of the joints for a force at the hand, in those of its components that are mentioned.
-fn torques(subject: &Subject, text: &str, own: Load, add: &mut Add<'_>) {
+fn torques(subject: &Subject, text: &str, habits: &Habits, add: &mut Add<'_>) {
     let letters = torque_letters(text);
     if letters.is_empty() {
         return;
@@ -295,7 +292,7 @@ fn torques(subject: &Subject, text: &str, own: Load, add: &mut Add<'_>) {
             add(&symbol.name(), symbol.into(), symbol.into());
         }
     }
-    if let Some((letter, axis, is_minus)) = own.filter(|_| load.iter().all(|e| e.is_zero())) {
+    if let Some((letter, axis, is_minus)) = habits.load.filter(|_| load.iter().all(|e| e.is_zero())) {
         let symbol = Expr::symbol(&letter.to_string());
         let mass = (letter == 'g').then(|| Expr::symbol("m"));
         let size = mass.map_or(symbol, |m| m * symbol);
@@ -306,6 +303,11 @@ fn torques(subject: &Subject, text: &str, own: Load, add: &mut Add<'_>) {
     }
     if load.iter().all(|e| e.is_zero()) {
         return;
+    }
+    if habits.load_in_hand {
+        let turn = subject.pose().rotation;
+        let [force, moment] = [0, 3].map(|k| (turn * Vector([load[k], load[k + 1], load[k + 2]])).0);
+        load = std::array::from_fn(|k| if k < 3 { force[k] } else { moment[k - 3] });
     }
     let kinds = subject.description.variables().into_iter().map(|v| v.kind);
     for ((k, torque), kind) in (1..).zip(subject.torques(&load)).zip(kinds) {

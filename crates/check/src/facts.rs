@@ -327,6 +327,8 @@ pub enum Sense {
         /// Which.
         millimetres: bool,
     },
+    /// The components of a load are those along the axes of the hand.
+    LoadInHand,
     /// A load on the hand of this letter along an axis, or against it.
     Load {
         /// Its letter.

@@ -156,6 +156,8 @@ pub(super) struct Habits {
     pub arctan_of_both: bool,
     /// A load on the hand that has a letter of its own: `W`, its axis, and whether it points against it.
     pub load: Option<(char, usize, bool)>,
+    /// The components of a load are those along the axes of the hand.
+    pub load_in_hand: bool,
     /// Velocities are those of the Jacobian that was printed last: of its point, along its axes.
     pub velocities_of_jacobian: bool,
     /// Names that are helpers, not entries of the pose.
@@ -179,6 +181,7 @@ impl Habits {
             arctan_of_both: tells_both_signs(text),
             velocities_of_jacobian: false,
             load: None,
+            load_in_hand: false,
             helpers: BTreeSet::new(),
             products: BTreeSet::new(),
         }

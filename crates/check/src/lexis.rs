@@ -117,7 +117,7 @@ impl Lexis {
                 lexis.inverse = std::mem::take(&mut lexis.inverse).alias(&name, sign);
             }
         }
-        if let Some(torques) = custom::torque_column(subject, text, habits.load) {
+        if let Some(torques) = custom::torque_column(subject, text, habits) {
             let name = Name { base: "τ".into(), ..Name::default() };
             lexis.matrices.insert(name.key(), (torques, Some(Meaning::Torques)));
         }

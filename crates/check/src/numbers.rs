@@ -4,7 +4,7 @@ use super::facts::{Remark, Unproved};
 use super::outcome::{Finding, Wrong};
 use super::subject::Subject;
 use denavit::description::JointKind;
-use denavit_symbolic::{Expr, Symbol};
+use denavit_symbolic::{Expr, Rational, Symbol};
 use std::f64::consts::TAU;
 
 /// The configuration that a document states, joint by joint.
@@ -96,6 +96,25 @@ impl Configuration {
         let symbols = e.symbols();
         let has = |k: usize| self.values.get(k).is_some_and(Option::is_some);
         (0..variables.len()).filter(|&k| symbols.contains(&variables[k].symbol)).all(has)
+    }
+
+    /// A formula at the configuration, lengths as letters; nothing if a joint that it speaks of has no value that is exact: a
+    /// multiple of 15°, or a slide in its home.
+    pub fn exactly(&self, e: Expr, subject: &Subject) -> Option<Expr> {
+        let variables = subject.description.variables();
+        let mut exact = vec![];
+        for (j, v) in variables.iter().enumerate().filter(|(_, v)| e.symbols().contains(&v.symbol)) {
+            let (x, has_unit) = (*self.values.get(j)?)?;
+            let is_degrees = !has_unit && self.looks_like_degrees();
+            let steps = if is_degrees { x / 15.0 } else { x.to_degrees() / 15.0 };
+            let is_exact =
+                (steps - steps.round()).abs() < 1e-9 && (v.kind == JointKind::Revolute || x == 0.0);
+            exact.push((
+                v.symbol,
+                is_exact.then(|| Expr::pi() * Expr::from(Rational::new(steps.round() as i64, 12)))?,
+            ));
+        }
+        Some(e.substitute(|s| exact.iter().find(|x| x.0 == s).map(|x| x.1)))
     }
 
     /// The value of a formula, lengths by the robot's file.

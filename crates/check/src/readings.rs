@@ -198,6 +198,13 @@ fn candidates(
             }
         }
     }
+    let is_torque = |a: &&Assertion| {
+        let name = plain_name(&super::custom::plain(&a.name));
+        name.starts_with(['τ', 'Γ']) || name.starts_with("Gamma")
+    };
+    if !habits.load_in_hand && wrong.iter().any(is_torque) {
+        found.push((Habits { load_in_hand: true, ..habits.clone() }, Sense::LoadInHand, MARGIN));
+    }
     let own: BTreeSet<String> = walked.assertions.iter().filter_map(own_link).collect();
     if wrong.iter().any(|a| own_link(a).is_some()) && !own.is_subset(&habits.products) {
         let products = habits.products.union(&own).cloned().collect();

@@ -401,6 +401,27 @@ impl Walk<'_> {
         }
     }
 
+    /// What a formula without joints is held against, where its own sentence gives a configuration: at rest `x = l_1 + l_2` is
+    /// the place of the hand there.
+    pub(super) fn there(&self, span: &Range<usize>, printed: Expr, wanted: Expr) -> Expr {
+        let variables = self.subject.description.variables();
+        let has_joints = |e: Expr| e.symbols().iter().any(|s| variables.iter().any(|v| v.symbol == *s));
+        if has_joints(printed) || !has_joints(wanted) || equal(printed, wanted).is_equal() {
+            return wanted;
+        }
+        let before = &self.text[..span.start];
+        let sentence =
+            &before[[". ", "\n\n", ":"].iter().filter_map(|end| before.rfind(end)).max().unwrap_or(0)..];
+        let is_value = |at: usize| {
+            sentence[at + 1..]
+                .trim_start_matches([' ', '$', '-', '−'])
+                .starts_with(|c: char| c.is_ascii_digit() || c == 'π' || c == '\\')
+        };
+        let is_told = sentence.match_indices('=').any(|(at, _)| is_value(at));
+        let there = self.at.exactly(wanted, &self.subject).filter(|_| is_told);
+        there.filter(|&there| equal(printed, there).is_equal()).unwrap_or(wanted)
+    }
+
     /// A number in print against a formula at the present configuration.
     pub(super) fn number(
         &self,

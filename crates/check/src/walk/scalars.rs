@@ -274,7 +274,7 @@ impl Walk<'_> {
                     span: span.clone(),
                     printed: Some(syntax.clone()),
                     value: syntax.value(),
-                    wanted,
+                    wanted: self.there(span, syntax.value(), wanted),
                     also: vec![],
                 })),
                 Scalar::Lone(_) if i == 0 => {}

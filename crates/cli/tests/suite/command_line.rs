@@ -246,7 +246,10 @@ fn what_is_written_is_what_others_read() {
     std::fs::write(at("planar.urdf"), planar).expect("a file");
     let output = denavit(&["fk", &at("planar.urdf"), "--frames", "all", "-q", "pl x=1, pl y=2", "--json"]);
     let poses = stdout(&output);
-    assert!(poses.replace(char::is_whitespace, "").contains("[1,0,0,1],[0,1,0,2]"), "{poses}");
+    assert!(
+        poses.replace(char::is_whitespace, "").contains("[1.0,0.0,0.0,1.0],[0.0,1.0,0.0,2.0]"),
+        "{poses}"
+    );
     std::fs::remove_dir_all(folder).expect("it was made");
 }
 

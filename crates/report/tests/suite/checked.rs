@@ -329,6 +329,7 @@ fn what_is_not_read() {
         Sense::ColumnsSnap,
         Sense::PlaceIsO,
         Sense::ZeroIsBase,
+        Sense::LoadInHand,
         Sense::WristEntries,
         Sense::Unit { millimetres: true },
         Sense::Unit { millimetres: false },

@@ -153,6 +153,7 @@ impl Check for English {
             Sense::Helper => "read as a helper of the document, not as an entry of the pose",
             Sense::CosineFirst => "read with the cosine as the first argument of atan2",
             Sense::ColumnsSnap => "read with s, n, a, P as the columns of the pose",
+            Sense::LoadInHand => "the components of the load are read as those along the axes of the hand",
             Sense::WristEntries => "read with r_ij as the entries of frame 6 in frame 3",
             Sense::ZeroIsBase => "read with the robot's base as frame 0",
             Sense::PlaceIsO => "read with o as the place of the hand",

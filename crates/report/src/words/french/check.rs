@@ -167,6 +167,7 @@ impl Check for French {
             }
             Sense::CosineFirst => "lu avec le cosinus comme premier argument de atan2",
             Sense::ColumnsSnap => "lu avec s, n, a, P comme colonnes de la situation",
+            Sense::LoadInHand => "les composantes de la charge sont lues suivant les axes de la main",
             Sense::WristEntries => "lu avec r_ij comme éléments du repère 6 dans le repère 3",
             Sense::ZeroIsBase => "lu avec la base du robot comme repère 0",
             Sense::PlaceIsO => "lu avec o comme position de l’organe terminal",
