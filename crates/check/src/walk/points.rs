@@ -3,12 +3,15 @@
 //! Names that differ in a letter x, y, z alone are one point. Which one is asked of the values: that frame whose origin has most
 //! of the coordinates, at least half of them; the others are held against it.
 
-use super::{Assertion, Defined, Pair, Piece, is_measured};
+use super::{Assertion, Defined, Pair, Piece, Walk, is_measured};
 use crate::facts::{About, Meaning};
 use crate::subject::Subject;
 use denavit::forward::Reference;
+use denavit_reading::document::Statement;
+use denavit_symbolic::parse::Syntax;
 use denavit_symbolic::readable::literals;
 use denavit_symbolic::{Expr, equal};
+use std::ops::Range;
 use std::rc::Rc;
 
 /// Longer formulas are not compared.
@@ -81,6 +84,35 @@ fn claims(point: &[(usize, &Defined)], subject: &Subject) -> Vec<Assertion> {
         return point.iter().map(|(axis, d)| assertion(d, origin[*axis], &frame)).collect();
     }
     vec![]
+}
+
+impl Walk<'_> {
+    /// A name that is defined already, at a configuration that its sentence gives; false if it is not that.
+    pub(super) fn is_held_there(
+        &mut self,
+        statement: &Statement,
+        name: &str,
+        span: &Range<usize>,
+        syntax: &Syntax,
+    ) -> bool {
+        let Some(d) = self.defined.iter().rev().find(|d| d.name == name) else { return false };
+        let wanted = self.there(span, syntax.value(), d.value);
+        if wanted == d.value {
+            return false;
+        }
+        let pair = Pair {
+            place: None,
+            span: span.clone(),
+            printed: Some(syntax.clone()),
+            value: syntax.value(),
+            wanted,
+            also: vec![],
+        };
+        let held =
+            Assertion { pieces: vec![Piece::Pair(pair)], ..self.assertion(statement, About::Equation) };
+        self.assertions.push(held);
+        true
+    }
 }
 
 fn assertion(d: &Defined, wanted: Expr, frame: &Meaning) -> Assertion {

@@ -321,6 +321,9 @@ impl Walk<'_> {
         span: &Range<usize>,
         syntax: &Syntax,
     ) {
+        if self.is_held_there(statement, &name, span, syntax) {
+            return;
+        }
         let by_custom = self.lexis.is_by_custom(&name);
         // φ = θ2 + θ3 + θ4 is told with the pose.
         let is_angle = name.ends_with(|c: char| c.is_alphabetic());
