@@ -98,21 +98,18 @@ impl Configuration {
         (0..variables.len()).filter(|&k| symbols.contains(&variables[k].symbol)).all(has)
     }
 
-    /// A formula at the configuration, lengths as letters; nothing if a joint that it speaks of has no value that is exact: a
-    /// multiple of 15°, or a slide in its home.
+    /// A formula at the configuration, lengths as letters; joints that have no value stay. Nothing if one has a value that is
+    /// not exact: a multiple of 15°, or a slide in its home.
     pub fn exactly(&self, e: Expr, subject: &Subject) -> Option<Expr> {
-        let variables = subject.description.variables();
+        let is_degrees = self.looks_like_degrees();
         let mut exact = vec![];
-        for (j, v) in variables.iter().enumerate().filter(|(_, v)| e.symbols().contains(&v.symbol)) {
-            let (x, has_unit) = (*self.values.get(j)?)?;
-            let is_degrees = !has_unit && self.looks_like_degrees();
-            let steps = if is_degrees { x / 15.0 } else { x.to_degrees() / 15.0 };
-            let is_exact =
-                (steps - steps.round()).abs() < 1e-9 && (v.kind == JointKind::Revolute || x == 0.0);
-            exact.push((
-                v.symbol,
-                is_exact.then(|| Expr::pi() * Expr::from(Rational::new(steps.round() as i64, 12)))?,
-            ));
+        for (v, value) in subject.description.variables().iter().zip(&self.values) {
+            let Some((x, has_unit)) = *value else { continue };
+            let steps = if is_degrees && !has_unit { x / 15.0 } else { x.to_degrees() / 15.0 };
+            if (steps - steps.round()).abs() > 1e-9 || v.kind == JointKind::Prismatic && x != 0.0 {
+                return None;
+            }
+            exact.push((v.symbol, Expr::pi() * Expr::from(Rational::new(steps.round() as i64, 12))));
         }
         Some(e.substitute(|s| exact.iter().find(|x| x.0 == s).map(|x| x.1)))
     }

@@ -184,3 +184,37 @@ fn words_of_other_languages_and_units() {
     let found = read(text, Format::Markdown, None);
     assert_eq!(all(&found), [("p_x", Standing::Equal), ("p_y", Standing::Wrong)]);
 }
+
+const POLAR: &str = "Standard DH\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | θ1 | h | 0 | -90° |\n\
+                     | 2 | θ2 | 0 | 0 | 90° |\n| 3 | 0 | d3 | 0 | 0 |\n\n";
+
+#[test]
+fn forces_along_the_axes_of_the_hand() {
+    let text = |second: &str, third: &str| {
+        format!(
+            "{POLAR}A force $f = (f_x, f_y, f_z)$ in the hand's own frame is balanced by the torques\n\n\
+             $\\tau_1 = d_3 s_2 f_y$\n\n$\\tau_2 = {second}$\n\n$\\tau_3 = {third}$\n"
+        )
+    };
+    let found = read(&text("d_3 f_x", "f_z"), Format::Markdown, None);
+    let right = ["\\tau_1", "\\tau_2", "\\tau_3"].map(|n| (n, Standing::Equal));
+    assert_eq!(all(&found), right);
+    // A slip in one is wrong all the same.
+    let found = read(&text("d_3 f_z", "f_z"), Format::Markdown, None);
+    assert_eq!(standing(&found, "\\tau_2"), Standing::Wrong);
+}
+
+#[test]
+fn formulas_at_a_configuration_of_their_own_sentence() {
+    let text = |x: &str| {
+        format!(
+            "{PLANAR}The hand is at\n\n$x_h = l_1 c_1 + d_3 s_{{12}}$\n\n$y_h = l_1 s_1 - d_3 c_{{12}}$\n\n\
+             At rest, $\\theta_1 = \\theta_2 = 0$, it is at $x_h = {x}$.\n"
+        )
+    };
+    let last = |x: &str| {
+        read(&text(x), Format::Markdown, None).claims.last().map(|c| (c.name.clone(), c.standing()))
+    };
+    assert_eq!(last("l_1"), Some(("x_h".into(), Standing::Equal)));
+    assert_ne!(last("l_1 + d_3"), Some(("x_h".into(), Standing::Equal)));
+}
