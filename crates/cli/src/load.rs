@@ -12,7 +12,7 @@ use crate::terminal::{decimals, note};
 use denavit::catalogue;
 use denavit::description::{
     Described, Description, Diagnostic, MAX_BYTES, MAX_XML_BYTES, Measure, Mechanism, RowTree, Severity,
-    TableKind, TableOptions, read_robot, read_table_robot, read_value, write_toml,
+    TableKind, TableOptions, Variable, read_robot, read_table_robot, read_value, write_toml,
 };
 use denavit_symbolic::Expr;
 use std::f64::consts::TAU;
@@ -270,6 +270,24 @@ fn similar(candidate: &str, text: &str) -> bool {
     let mut rest = candidate.chars();
     let found = text.chars().filter(|&c| rest.clone().any(|r| r == c) && rest.any(|r| r == c)).count();
     candidate.contains(&text) || (found + 1 >= text.len() && text.len() + 3 >= candidate.len())
+}
+
+/// The joint (from 0) that a word names: by its number from 1, its variable, or the name of its row.
+///
+/// # Errors
+/// A sentence that says which there are.
+pub fn joint(d: &Description, word: &str) -> Result<usize, String> {
+    let moving: Vec<_> = d.rows.iter().filter_map(|r| Some((r.variable?, r.name.as_deref()))).collect();
+    let number = word.parse().ok().filter(|n| (1..=moving.len()).contains(n)).map(|n: usize| n - 1);
+    let variable = || moving.iter().position(|m| *m.0.symbol.name() == *word);
+    let found = number.or_else(variable).or_else(|| moving.iter().position(|m| m.1 == Some(word)));
+    found.ok_or_else(|| {
+        let named = |(v, name): &(Variable, Option<&str>)| match name {
+            Some(name) => format!("{} ({name})", v.symbol.name()),
+            None => v.symbol.name().to_string(),
+        };
+        format!("no joint `{word}`; there are {}", moving.iter().map(named).collect::<Vec<_>>().join(", "))
+    })
 }
 
 /// The two sides of `NAME=VALUE`.

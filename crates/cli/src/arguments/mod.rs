@@ -143,8 +143,8 @@ pub struct FkArguments {
     /// The robot.
     #[command(flatten)]
     pub robot: RobotArguments,
-    /// The joint variables, as in `-q "0, -90deg, pi/2, 0.1, 20mm, 0"`, or the name of a pose of the robot file;
-    /// without unit radians and metres
+    /// The joint variables, as in `-q "0, -90deg, pi/2, 0.1, 20mm, 0"`, some of them by name, as in `-q "elbow=30deg"`, the
+    /// others at 0, or the name of a pose of the robot file; without unit radians and metres
     #[arg(short, long = "joints", value_name = "Q", allow_hyphen_values = true)]
     pub q: Option<String>,
     /// Read one JSON array of joint variables a line from a file (- for standard input), answer a line each

@@ -78,14 +78,8 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
 
 /// Joint variables (from 0) by name or number.
 fn joints(words: &str, description: &Description) -> Result<Vec<usize>, Failure> {
-    let variables = description.variables();
     let find = |word: &str| {
-        let number = word.parse().ok().filter(|n| (1..=variables.len()).contains(n)).map(|n: usize| n - 1);
-        let found = number.or_else(|| variables.iter().position(|v| *v.symbol.name() == *word));
-        found.ok_or_else(|| {
-            let names: Vec<String> = variables.iter().map(|v| v.symbol.name().to_string()).collect();
-            Failure::Usage(format!("--given: no joint `{word}`; there are {}", names.join(", ")))
-        })
+        crate::load::joint(description, word).map_err(|why| Failure::Usage(format!("--given: {why}")))
     };
     words.split(',').map(str::trim).filter(|w| !w.is_empty()).map(find).collect()
 }

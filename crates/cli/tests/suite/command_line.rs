@@ -212,6 +212,22 @@ fn every_verb_takes_a_model_for_mujoco() {
     std::fs::remove_dir_all(folder).expect("it was made");
 }
 
+/// Joints are called as their file calls them, or by their variables.
+#[test]
+fn joints_go_by_their_names() {
+    let file = urdf("ur5_robot");
+    let file = [file.as_str(), "--tip", "wrist_3_link", "--quiet"];
+    let fk = |q: &str| stdout(&denavit(&[&["fk"][..], &file, &["--json", "-q", q]].concat()));
+    let all = fk("0, -0.5, 0, 0, 1, 0");
+    assert!(all.contains("pose"), "{all}");
+    assert_eq!(fk("shoulder_lift_joint=-0.5, q5=1"), all);
+    assert_eq!(fk("2=-0.5, wrist_2_joint=1"), all);
+    let refuses = |q: &str, why: &str| refused(&[&["fk"][..], &file, &["-q", q]].concat(), 2, why);
+    refuses("elbow=1", "no joint `elbow`; there are q1 (shoulder_pan_joint), q2");
+    refuses("q2=1, shoulder_lift_joint=2", "shoulder_lift_joint is given twice");
+    refuses("q2=1, 3", "`3`: write NAME=VALUE");
+}
+
 /// ROS's own parser asks for velocity and effort of every limit and for limits of every slide; masses are carried over; names
 /// come back out of LaTeX.
 #[test]

@@ -43,7 +43,9 @@ pub fn run(arguments: &FkArguments) -> Result<(), Failure> {
         (Some(path), _) => stream::run(Answers::new(&description, &request), path),
         (None, Some(text)) => {
             let q = configuration(&description, text)?;
-            warn_of_limits(&description, &q);
+            for ((v, limits), &x) in limits(&description).into_iter().zip(&q) {
+                warn_of_limits(&v.symbol.name(), v.kind, limits, x);
+            }
             let mut out = anstream::stdout();
             if arguments.json {
                 let answers = Answers::new(&description, &request);
@@ -112,12 +114,15 @@ fn pose_names(d: &Description) -> String {
     }
 }
 
-/// A pose of the file, or values separated by commas, semicolons or blanks.
+/// A pose of the file, or values separated by commas, semicolons or blanks, or `NAME=VALUE` for some joints, the others at 0.
 pub fn configuration(d: &Description, text: &str) -> Result<Vec<f64>, Failure> {
     let variables = d.variables();
     let bad = |why: String| Failure::Usage(format!("-q: {why}"));
     if let Some((_, q)) = d.poses.iter().find(|p| p.0 == text.trim()) {
         return q.iter().map(|e| value(*e).map_err(bad)).collect();
+    }
+    if text.contains('=') {
+        return by_name(d, text).map_err(bad);
     }
     let parts = load::list(text);
     if parts.len() != variables.len() {
@@ -146,6 +151,22 @@ pub fn configuration(d: &Description, text: &str) -> Result<Vec<f64>, Failure> {
     if errors.is_empty() { Ok(q) } else { Err(bad(errors.join("\n  "))) }
 }
 
+/// Values of some joints by name, the others at 0.
+fn by_name(d: &Description, text: &str) -> Result<Vec<f64>, String> {
+    let variables = d.variables();
+    let mut q: Vec<Option<f64>> = vec![None; variables.len()];
+    for part in text.split([',', ';']).map(str::trim) {
+        let (name, text) = part.split_once('=').ok_or_else(|| format!("`{part}`: write NAME=VALUE"))?;
+        let at = load::joint(d, name.trim())?;
+        let read = load::value_of(text.trim(), variables[at].kind.into()).and_then(value);
+        let x = read.map_err(|why| format!("{}: {why}", name.trim()))?;
+        if q[at].replace(x).is_some() {
+            return Err(format!("{} is given twice", name.trim()));
+        }
+    }
+    Ok(q.into_iter().map(Option::unwrap_or_default).collect())
+}
+
 pub fn plural(n: usize, word: &str) -> String {
     format!("{n} {word}{}", if n == 1 { "" } else { "s" })
 }
@@ -162,15 +183,12 @@ pub fn limits(d: &Description) -> Vec<(Variable, Option<[f64; 2]>)> {
     d.rows.iter().filter_map(|r| Some((r.variable?, r.limits.and_then(numeric)))).collect()
 }
 
-fn warn_of_limits(d: &Description, q: &[f64]) {
-    for ((variable, limits), &x) in limits(d).into_iter().zip(q) {
-        if let Some([low, high]) = limits
-            && !(low..=high).contains(&x)
-        {
-            let shown = |x: f64| reading(x, variable.kind);
-            let (name, x, low, high) = (variable.symbol.name(), shown(x), shown(low), shown(high));
-            note(&format!("warning: {name} = {x} is outside its limits {low} … {high}"));
-        }
+fn warn_of_limits(name: &str, kind: JointKind, limits: Option<[f64; 2]>, x: f64) {
+    if let Some([low, high]) = limits
+        && !(low..=high).contains(&x)
+    {
+        let [x, low, high] = [x, low, high].map(|x| reading(x, kind));
+        note(&format!("warning: {name} = {x} is outside its limits {low} … {high}"));
     }
 }
 

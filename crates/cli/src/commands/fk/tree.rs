@@ -1,12 +1,12 @@
 //! `fk --frames all` of a tree: where all its bodies are.
 
 use super::answer::{Answers, transforms};
-use super::{plural, stream, value};
+use super::{plural, stream, value, warn_of_limits};
 use crate::arguments::FkArguments;
 use crate::failure::Failure;
 use crate::load::{self, Tree};
 use crate::terminal::{Align, HEADING, noise, number, styled, table};
-use denavit::description::{Joint, Mechanism};
+use denavit::description::{Joint, JointKind, Mechanism};
 use denavit::geometry::Transform;
 use denavit::geometry::orientation::{OrientationSet, extract};
 use denavit::quantity::reading;
@@ -32,6 +32,11 @@ pub fn run(arguments: &FkArguments, tree: &Tree) -> Result<(), Failure> {
         (Some(path), _) => stream::run(answers, path),
         (None, text) => {
             let q = configuration(&mechanism, text.as_deref())?;
+            let ends =
+                |j: &Joint| j.limits.and_then(|[low, high]| Some([value(low).ok()?, value(high).ok()?]));
+            for (joint, &x) in joints(&mechanism).into_iter().zip(&q) {
+                warn_of_limits(&joint.name, kind(joint), ends(joint), x);
+            }
             let results = answers.function.scalar().eval(&q).to_vec();
             let mut out = anstream::stdout();
             if arguments.json {
@@ -44,6 +49,10 @@ pub fn run(arguments: &FkArguments, tree: &Tree) -> Result<(), Failure> {
             Ok(())
         }
     }
+}
+
+fn kind(joint: &Joint) -> JointKind {
+    joint.kind.unwrap_or(JointKind::Revolute)
 }
 
 /// The joints that move by themselves.
@@ -66,8 +75,9 @@ fn configuration(m: &Mechanism, text: Option<&str>) -> Result<Vec<f64>, Failure>
     };
     let parts = load::list(text);
     let number = |joint: &Joint, text: &str| {
-        let kind = joint.kind.unwrap_or(denavit::description::JointKind::Revolute);
-        load::value_of(text, kind.into()).and_then(value).map_err(|why| format!("{}: {why}", joint.name))
+        load::value_of(text, kind(joint).into())
+            .and_then(value)
+            .map_err(|why| format!("{}: {why}", joint.name))
     };
     if !text.contains('=') {
         if parts.len() != joints.len() {
@@ -77,7 +87,7 @@ fn configuration(m: &Mechanism, text: Option<&str>) -> Result<Vec<f64>, Failure>
         let values: Result<Vec<f64>, String> = joints.iter().zip(&parts).map(|(j, t)| number(j, t)).collect();
         return values.map_err(bad);
     }
-    let mut q = vec![0.0; joints.len()];
+    let mut q: Vec<Option<f64>> = vec![None; joints.len()];
     // Names may hold blanks.
     for part in text.split([',', ';']).map(str::trim) {
         let Some((name, text)) = part.split_once('=') else {
@@ -86,22 +96,23 @@ fn configuration(m: &Mechanism, text: Option<&str>) -> Result<Vec<f64>, Failure>
         let Some(at) = joints.iter().position(|j| j.name == name.trim()) else {
             return Err(bad(format!("no joint `{}` moves by itself; they are {}", name.trim(), names())));
         };
-        q[at] = number(joints[at], text.trim()).map_err(bad)?;
+        if q[at].replace(number(joints[at], text.trim()).map_err(bad)?).is_some() {
+            return Err(bad(format!("{} is given twice", name.trim())));
+        }
     }
-    Ok(q)
+    Ok(q.into_iter().map(Option::unwrap_or_default).collect())
 }
 
 /// The answer for reading: a line a body.
 fn report(m: &Mechanism, q: &[f64], results: &[f64]) -> String {
     let moved = joints(m).into_iter().zip(q).filter(|(_, x)| **x != 0.0);
-    let kind = |j: &Joint| j.kind.unwrap_or(denavit::description::JointKind::Revolute);
     let at: Vec<String> = moved.map(|(j, &x)| format!("{} = {}", j.name, reading(x, kind(j)))).collect();
     let at = if at.is_empty() { "all joints at 0".to_string() } else { at.join(", ") };
     let poses: Vec<Transform<f64>> = transforms(results).collect();
     let rounding = noise(&poses);
     let row = |(body, x): (&denavit::description::Body, &Transform<f64>)| {
         let rpy = extract(&x.rotation, OrientationSet::Rpy).values;
-        let angle = |x: f64| reading(x, denavit::description::JointKind::Revolute);
+        let angle = |x: f64| reading(x, JointKind::Revolute);
         let place = x.translation.0.map(|e| number(e, rounding));
         [vec![body.name.clone()], place.to_vec(), rpy.into_iter().map(angle).collect()].concat()
     };

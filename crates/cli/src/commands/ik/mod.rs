@@ -224,12 +224,7 @@ fn given(description: &Description, text: Option<&str>) -> Result<Vec<(usize, Op
             Some((word, value)) => (word.trim(), Some(value)),
             None => (part, None),
         };
-        let number = word.parse().ok().filter(|n| (1..=variables.len()).contains(n)).map(|n: usize| n - 1);
-        let joint = number.or_else(|| variables.iter().position(|v| *v.symbol.name() == *word));
-        let Some(joint) = joint else {
-            let names: Vec<String> = variables.iter().map(|v| v.symbol.name().to_string()).collect();
-            return Err(bad(format!("no joint `{word}`; there are {}", names.join(", "))));
-        };
+        let joint = load::joint(description, word).map_err(bad)?;
         if found.iter().any(|g| g.0 == joint) {
             return Err(bad(format!("{word} is given twice")));
         }
