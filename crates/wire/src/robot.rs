@@ -94,6 +94,9 @@ pub struct Row {
     pub gamma: Option<String>,
     /// The least and the greatest value of its variable.
     pub limits: Option<[String; 2]>,
+    /// What its file calls it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
     /// The length along z in `khalil`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub r: Option<String>,
@@ -121,6 +124,7 @@ impl Row {
     fn of(d: &Description, columns: &[Cell], row: &denavit::description::Row) -> Self {
         let mut new = Row {
             limits: row.limits.map(|l| l.map(text)),
+            name: row.name.clone(),
             variable: row.variable.map(|v| v.symbol.name().to_string()),
             ..Row::default()
         };

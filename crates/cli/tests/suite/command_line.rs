@@ -222,6 +222,8 @@ fn joints_go_by_their_names() {
     assert!(all.contains("pose"), "{all}");
     assert_eq!(fk("shoulder_lift_joint=-0.5, q5=1"), all);
     assert_eq!(fk("2=-0.5, wrist_2_joint=1"), all);
+    let shown = stdout(&denavit(&[&["show"][..], &file, &["--json"]].concat()));
+    assert!(shown.contains("\"name\":\"shoulder_pan_joint\""), "{shown}");
     let refuses = |q: &str, why: &str| refused(&[&["fk"][..], &file, &["-q", q]].concat(), 2, why);
     refuses("elbow=1", "no joint `elbow`; there are q1 (shoulder_pan_joint), q2");
     refuses("q2=1, shoulder_lift_joint=2", "shoulder_lift_joint is given twice");
