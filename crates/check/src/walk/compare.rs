@@ -413,9 +413,8 @@ impl Walk<'_> {
         let sentence =
             &before[[". ", "\n\n", ":"].iter().filter_map(|end| before.rfind(end)).max().unwrap_or(0)..];
         let is_value = |at: usize| {
-            sentence[at + 1..]
-                .trim_start_matches([' ', '$', '-', '−'])
-                .starts_with(|c: char| c.is_ascii_digit() || c == 'π' || c == '\\')
+            let value = sentence[at + 1..].trim_start_matches([' ', '$', '-', '−', '+']);
+            value.starts_with(|c: char| c.is_ascii_digit() || c == 'π') || value.starts_with("\\pi")
         };
         let is_told = sentence.match_indices('=').any(|(at, _)| is_value(at));
         let there = self.at.exactly(wanted, &self.subject).filter(|_| is_told);

@@ -3,9 +3,9 @@
 use crate::common::Random;
 use denavit::catalogue;
 use denavit::description::{
-    Convention, Decimals, Described, Description, Diagnostic, NoChain, RowTree, Severity, TableKind,
-    TableOptions, line_column, prove_same_chain, read_par, read_robot, read_table_robot, read_toml,
-    read_urdf, write_par, write_tree,
+    Alone, Convention, Decimals, Described, Description, Diagnostic, Mechanism, NoChain, RowTree, Severity,
+    TableKind, TableOptions, line_column, prove_same_chain, read_mjcf, read_par, read_robot,
+    read_table_robot, read_toml, read_urdf, write_mjcf, write_par, write_tree, write_urdf,
 };
 use denavit::geometry::Transform;
 use denavit::mechanism::{Comparison, compare};
@@ -439,4 +439,59 @@ fn structures_are_read_and_their_chains_agree() {
     let d = tree.chain(None, Some("heading"), Convention::Khalil).unwrap().description;
     let expected = Transform::translation(0.7, -0.4, 0.0) * Transform::rotation_z(0.3);
     assert!(apart(&pose(&d, &[0.7, -0.4, 0.3]), &expected) < 1e-15);
+}
+
+/// Joints with gears, of any sign, and rows that others move too: bodies and joints move as the rows do, and so does what is
+/// written of them.
+#[test]
+fn gears_turn_by_their_factor() {
+    let mut random = Random(29);
+    let mut compared = 0;
+    for _ in 0..40 {
+        let mut pick = |of: &[&str]| of[(of.len() as f64 * random.unit()) as usize].to_string();
+        let convention = pick(&["standard", "craig", "khalil"]);
+        let along = if convention == "khalil" { ["r", "d"] } else { ["d", "a"] };
+        let mut text = format!("name = \"gears\"\nconvention = \"{convention}\"\n");
+        let joints = 3;
+        for k in 1..=joints {
+            let own = format!("{}*q{k}", pick(&["1", "-1", "2", "-3", "0.5", "-0.25"]));
+            let more = if k > 1 { pick(&["", " + q1", " - 0.5*q1", " + 2*q1"]) } else { String::new() };
+            let (turn, slide) = match pick(&["turn", "turn", "slide"]).as_str() {
+                "slide" => (pick(&["0", "30 deg"]), own),
+                _ => (own + &more, pick(&["0", "0.4"])),
+            };
+            let (alpha, a) = (pick(&["0", "90 deg", "-90 deg"]), pick(&["0", "0.3"]));
+            let [z, x] = along;
+            text += &format!(
+                "[[joints]]\nalpha = \"{alpha}\"\n{x} = {a}\ntheta = \"{turn}\"\n{z} = \"{slide}\"\n"
+            );
+        }
+        // A turn cannot follow a slide.
+        let Ok((d, _)) = read_toml(&text) else { continue };
+        let q: Vec<f64> = (0..joints).map(|_| 2.0 * random.unit() - 1.0).collect();
+        let is_same = |back: &Description, how: &str| match compare(&d, back) {
+            Comparison::Proved => {}
+            Comparison::Sampled(by) if by < 1e-12 => {}
+            other => panic!("{how}: {other:?}\n{text}"),
+        };
+        let bodies = Mechanism::of(&d).expect("numbers");
+        is_same(
+            &bodies.chain(Some("base"), Some("tool"), d.convention).expect("a chain").description,
+            "bodies",
+        );
+        let tool = bodies.body("tool").expect("a tool");
+        assert!(apart(&bodies.poses(&q)[tool], &pose(&d, &q)) < 1e-12, "{text}");
+        let rows = RowTree::of_chain(&d);
+        let (end, m) = (rows.frame_names().pop().expect("frames"), rows.mechanism().expect("numbers"));
+        assert!(apart(&m.poses(&q)[m.body(&end).expect("the end")], &pose(&d, &q)) < 1e-12, "{text}");
+        let chain =
+            |m: Mechanism| m.chain(Some("base"), Some("tool"), d.convention).expect("a chain").description;
+        let urdf = read_urdf(&write_urdf(&d).expect("numbers"), Decimals::Meant).expect("a URDF").0;
+        is_same(&chain(urdf), "URDF");
+        let mjcf =
+            read_mjcf("gears", &write_mjcf(&bodies), &mut Alone, Decimals::Meant).0.expect("a model").0;
+        is_same(&chain(mjcf), "MJCF");
+        compared += 1;
+    }
+    assert!(compared > 20, "{compared}");
 }

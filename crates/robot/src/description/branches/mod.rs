@@ -12,6 +12,7 @@ pub use chain::RowChain;
 pub use par::read_par;
 pub use write_par::{NoPar, ParFile, write_par};
 
+use super::tree::with_gear;
 use super::{
     Body, Convention, Description, Follows, Joint, JointKind, Mechanism, MissingValue, Parameter, Row,
 };
@@ -180,7 +181,8 @@ impl RowTree {
             let x = screws.before.iter().fold(before, |x, s| x * s.transform()) * joint.transform();
             let mut origin = x.map(number);
             let mut parent = parent;
-            let motions = self.motions(row);
+            let own = row.variable.and_then(|v| variables.iter().position(|s| *s == v.symbol));
+            let motions = with_gear(self.motions(row), own);
             let steps = motions.len().max(1);
             for k in 0..steps {
                 let is_last = k + 1 == steps;

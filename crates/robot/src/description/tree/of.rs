@@ -72,6 +72,7 @@ impl Mechanism {
             // Its own variable first, so that what follows it stands behind it.
             let own = row.variable.and_then(|v| variables.iter().position(|&s| s == v.symbol));
             moves.sort_by_key(|m| (Some(m.1) != own, m.1));
+            let moves = with_gear(moves, own);
             for (k, (kind, variable, factor)) in moves.iter().enumerate() {
                 let is_own = k == 0 && own == Some(*variable);
                 growing.row(row, i + 1, (*kind, *variable, factor), is_own, &names[*variable]);
@@ -138,15 +139,10 @@ impl Growing {
         name: &str,
     ) {
         let body = format!("link{number}");
-        if is_own && !factor.abs().is_one() {
-            // A joint that moves nothing but what follows it: the one with the gear does.
-            let driver = self.joint(name.into(), Some(kind), &format!("{name}_driver"));
-            (driver.limits, driver.velocity) = (row.limits, row.velocity);
-            self.own[variable] = Some(self.tree.joints.len() - 1);
-        } else if is_own {
-            // A factor of its own is the way round of the axis, if it is −1.
+        if is_own {
             let joint = self.joint(name.into(), Some(kind), &body);
             (joint.limits, joint.velocity) = (row.limits, row.velocity);
+            // A factor of its own is the way round of the axis.
             if factor.is_negative() {
                 joint.axis = -joint.axis;
             }
@@ -166,6 +162,24 @@ impl Growing {
         }
         self.tree
     }
+}
+
+/// The motions of a row, kind, variable and factor, its own first with a factor of 1 or −1: a joint with a gear is one that moves by
+/// its own value and one on the same axis that follows it by the rest.
+pub(in crate::description) fn with_gear(
+    mut moves: Vec<(JointKind, usize, Rational)>,
+    own: Option<usize>,
+) -> Vec<(JointKind, usize, Rational)> {
+    if let Some(&mut (kind, variable, ref mut factor)) = moves.first_mut()
+        && own == Some(variable)
+        && !factor.abs().is_one()
+    {
+        let unit = Rational::from(if factor.is_negative() { -1 } else { 1 });
+        let rest = &*factor - &unit;
+        *factor = unit;
+        moves.insert(1, (kind, variable, rest));
+    }
+    moves
 }
 
 /// The mass of a row's link in the frame of its body, in which the row's frame stands.
