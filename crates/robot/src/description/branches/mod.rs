@@ -186,13 +186,16 @@ impl RowTree {
             let steps = motions.len().max(1);
             for k in 0..steps {
                 let is_last = k + 1 == steps;
-                let name = self.frame_name(j);
-                let name = if is_last { name } else { format!("{name} ({})", k + 1) };
+                // The joint that moves by itself has the row's name, and so has the last body, the row's frame.
+                let numbered = |is_own: bool| {
+                    let name = self.frame_name(j);
+                    if is_own { name } else { format!("{name} ({})", k + 1) }
+                };
                 let child = m.bodies.len();
-                m.bodies.push(body(name.clone()));
+                m.bodies.push(body(numbered(is_last)));
                 let z = Vector::unit(Axis::Z);
                 let mut joint = Joint {
-                    name,
+                    name: numbered(k == 0),
                     kind: None,
                     parent,
                     child,
