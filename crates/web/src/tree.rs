@@ -5,11 +5,14 @@ use crate::looks::{Looks, Missing, looks};
 use crate::refusal::Refusal;
 use crate::robot_file::RobotFile;
 use denavit::description::{
-    Agreement, Chain, Convention, Decimals, Diagnostic, Files, Mechanism, NoChain, Severity, read_xacro,
-    write_toml,
+    Convention, Decimals, Diagnostic, Files, NoChain, Severity, read_xacro, write_toml,
 };
+use denavit_report::words::Geometry as _;
 use denavit_wire::finding::Finding;
 use serde::{Deserialize, Serialize};
+
+/// Metres that a person could see.
+const SEEN: f64 = 1e-9;
 
 /// A description of a tree, and the chain that is wanted of it.
 #[derive(Deserialize)]
@@ -93,7 +96,9 @@ pub fn tree(wanted: &Wanted) -> Result<Taken, Refusal> {
     };
     let mut findings = placed(&findings, &files, &wanted.name);
     if let (Decimals::Meant, (Ok((written, _)), _)) = (decimals, read(Decimals::AsWritten)) {
-        findings.extend(moved(mechanism.apart(&written)));
+        let apart = mechanism.apart(&written);
+        let words = || crate::words().read_apart(apart);
+        findings.extend((apart > SEEN).then(|| alone(Severity::Note, words(), None)));
     }
     let links: Vec<String> = mechanism.bodies.iter().map(|b| b.name.clone()).collect();
     let ends: Vec<String> = mechanism.leaves().into_iter().map(|b| links[b].clone()).collect();
@@ -109,7 +114,7 @@ pub fn tree(wanted: &Wanted) -> Result<Taken, Refusal> {
     };
     match mechanism.chain(base, tip, convention) {
         Ok(chain) => {
-            let words = said(&chain, &mechanism);
+            let words = crate::words().chain(&chain, &mechanism);
             let (looks, missing) = looks(&mechanism, &chain, &dropped, &wanted.name);
             findings.extend(missing.iter().map(not_there));
             let to = links[chain.to].clone();
@@ -158,43 +163,4 @@ fn not_there(Missing { package, count, first }: &Missing) -> Placed {
     let message = format!("{count} {meshes}{whose} {are} not among the files, the first one is `{first}`");
     let hint = "links are drawn without; open the whole folder, or a zip of it".to_string();
     alone(Severity::Note, message, Some(hint))
-}
-
-/// By how much the reading of decimals moves the links, where a person could see it.
-fn moved(metres: f64) -> Option<Placed> {
-    let micrometres = metres * 1e6;
-    let words = format!(
-        "read so, links lie up to {micrometres:.3} µm from where the decimals as they are written have them, in configurations that were tried"
-    );
-    (metres > 1e-9).then(|| alone(Severity::Note, words, None))
-}
-
-/// The chain in a sentence: joints, proof, what the file says beside the axes.
-fn said(chain: &Chain, mechanism: &Mechanism) -> String {
-    let [from, to] = [chain.from, chain.to].map(|b| &mechanism.bodies[b].name);
-    let on_way = |j: &&usize| mechanism.joints[**j].limits.is_some();
-    let (joints, limited) = (chain.joints.len(), chain.joints.iter().filter(on_way).count());
-    let proof = match chain.agreement {
-        Agreement::Proved => "its table is proved to be the file's chain".to_string(),
-        Agreement::Within(by) if by < 1e-50 => "its table is the file's chain to 60 digits".into(),
-        Agreement::Within(by) => format!("its table is the file's chain within {by:.0e}"),
-    };
-    let plural = if joints == 1 { "" } else { "s" };
-    let limits = match limited {
-        0 => "no limits".to_string(),
-        _ if limited == joints => "limits for all".into(),
-        _ => format!("limits for {limited}"),
-    };
-    let masses = mechanism.bodies.iter().filter(|b| b.mass.is_some()).count();
-    let masses = match masses {
-        0 => "no inertias".to_string(),
-        _ => format!("inertias for {masses} of {} links", mechanism.bodies.len()),
-    };
-    let follows = chain.joints.iter().map(|&j| &mechanism.joints[j]).find(|j| j.follows.is_some());
-    let follows = follows.map_or(String::new(), |joint| {
-        format!("; what `{}` follows is not on the way, it moves by itself", joint.name)
-    });
-    format!(
-        "from `{from}` to `{to}`, {joints} joint{plural}; {proof}{follows}. The file gives {limits}, {masses}"
-    )
 }

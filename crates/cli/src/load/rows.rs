@@ -3,10 +3,11 @@
 use super::{contents, render};
 use crate::arguments::RobotArguments;
 use crate::failure::Failure;
-use crate::terminal::note;
+use crate::terminal::{note, words};
 use denavit::description::{
-    Agreement, Convention, Decimals, Described, Description, MAX_BYTES, NoChain, RowTree, read_par,
+    Convention, Decimals, Described, Description, MAX_BYTES, NoChain, RowTree, read_par,
 };
+use denavit_report::words::Whole;
 
 /// The chain of what was read; a description that is one already has no `--base` and `--tip`.
 ///
@@ -39,9 +40,7 @@ fn of_tree(arguments: &RobotArguments, tree: &RowTree, usual: Convention) -> Res
     let joints = format!("{joints} joint{}", if joints == 1 { "" } else { "s" });
     let rows = match chain.agreement {
         None => "its rows as they stand".to_string(),
-        Some(Agreement::Proved) => "its table is proved to be the tree's chain".into(),
-        Some(Agreement::Within(by)) if by < 1e-50 => "its table is the tree's chain to 60 digits".into(),
-        Some(Agreement::Within(by)) => format!("its table is the tree's chain within {by:.0e}"),
+        Some(agreement) => words().agreement(agreement, Whole::Tree),
     };
     note(&format!("note: from `{}` to `{}`, {joints}; {rows}", chain.from, chain.to));
     Ok(chain.description)

@@ -5,14 +5,17 @@ use super::files::{Folder, plain};
 use super::rows::no_chain;
 use crate::arguments::RobotArguments;
 use crate::failure::Failure;
-use crate::terminal::note;
+use crate::terminal::{note, words};
 use denavit::description::{
-    Agreement, Chain, Convention, Decimals, Description, Diagnostic, MAX_XML_BYTES, Mechanism, Shape,
-    read_mjcf, read_xacro, root_element,
+    Convention, Decimals, Description, Diagnostic, MAX_XML_BYTES, Mechanism, Shape, read_mjcf, read_xacro,
+    root_element,
 };
 use denavit_wire::view::Bundle;
 use std::fs;
 use std::path::PathBuf;
+
+/// Metres that a person could see.
+const SEEN: f64 = 1e-9;
 
 /// The chain that the arguments name.
 ///
@@ -24,7 +27,7 @@ pub fn from_urdf(arguments: &RobotArguments) -> Result<Description, Failure> {
     let (base, tip) = (arguments.base.as_deref(), arguments.tip.as_deref());
     let chain = mechanism.chain(base, tip, convention).map_err(|why| no_chain(name, &why))?;
     let [from, to] = [chain.from, chain.to].map(|b| mechanism.bodies[b].name.clone());
-    say_chain(&chain, &mechanism, [&from, &to]);
+    note(&format!("note: {}", words().chain(&chain, &mechanism)));
     Ok(Description { source: Some(format!("{name}: {from} to {to}")), ..chain.description })
 }
 
@@ -62,7 +65,10 @@ pub fn mechanism(arguments: &RobotArguments) -> Result<Mechanism, Failure> {
     let (mechanism, findings) = outcome.map_err(|findings| Failure::Input(render(&findings)))?;
     note(render(&findings).trim_end());
     if let (Decimals::Meant, (Ok((written, _)), _)) = (decimals, read(Decimals::AsWritten)) {
-        say_moved(mechanism.apart(&written), name);
+        let apart = mechanism.apart(&written);
+        if apart > SEEN {
+            note(&format!("{name}: note: {}", words().read_apart(apart)));
+        }
     }
     Ok(mechanism)
 }
@@ -151,34 +157,4 @@ fn pairs(settings: &[String], option: &str, example: &str) -> Result<Vec<(String
         sides.ok_or_else(|| Failure::Usage(format!("{option} {setting}: write NAME=VALUE, as in {example}")))
     };
     settings.iter().map(pair).collect()
-}
-
-/// Says by how much the reading of decimals moves the links, where a person could see it.
-fn say_moved(metres: f64, name: &str) {
-    if metres > 1e-9 {
-        let micrometres = metres * 1e6;
-        note(&format!(
-            "{name}: note: read so, links lie up to {micrometres:.3} µm from where the decimals as they are written have them, in configurations that were tried"
-        ));
-    }
-}
-
-fn say_chain(chain: &Chain, mechanism: &Mechanism, [from, to]: [&str; 2]) {
-    let joints = chain.joints.len();
-    let joints = format!("{joints} joint{}", if joints == 1 { "" } else { "s" });
-    let proof = match chain.agreement {
-        Agreement::Proved => "its table is proved to be the file's chain".to_string(),
-        Agreement::Within(by) if by < 1e-50 => "its table is the file's chain to 60 digits".into(),
-        Agreement::Within(by) => format!("its table is the file's chain within {by:.0e}"),
-    };
-    let follows = chain.joints.iter().map(|&j| &mechanism.joints[j]).find(|j| j.follows.is_some());
-    let follows = follows.map_or(String::new(), |joint| {
-        format!("; what `{}` follows is not on the way, it moves by itself", joint.name)
-    });
-    let masses = mechanism.bodies.iter().filter(|b| b.mass.is_some()).count();
-    let masses = match masses {
-        0 => String::new(),
-        _ => format!("; {masses} links of the file have masses, which a table leaves out"),
-    };
-    note(&format!("note: from `{from}` to `{to}`, {joints}; {proof}{follows}{masses}"));
 }

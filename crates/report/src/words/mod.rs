@@ -17,7 +17,7 @@ mod velocity;
 pub use check::Check;
 pub use english::English;
 pub use french::French;
-pub use geometry::Geometry;
+pub use geometry::{Geometry, Whole};
 pub use inverse::{Coefficients, Given, Inverse};
 pub use motion::Motion;
 pub use report::{Caption, Column, Factors, Glance, Heading, List, Names, Report, Standings};

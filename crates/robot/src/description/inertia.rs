@@ -48,14 +48,14 @@ impl Reader {
 impl Mass {
     /// A mass in a body's frame, its centre and the axes of its inertia (xx xy xz yy yz zz) being a frame there.
     pub(super) fn about(mass: Rational, frame: &Transform<Expr>, inertia: [Rational; 6]) -> Self {
-        // I' = R I Rᵀ
-        let [xx, xy, xz, yy, yz, zz] = inertia.map(Expr::from);
-        let tensor = Rotation::from_rows([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
-        let m = (frame.rotation * tensor * frame.rotation.inverse()).rows();
-        Mass {
-            mass: mass.into(),
-            com: frame.translation.0,
-            inertia: [m[0][0], m[0][1], m[0][2], m[1][1], m[1][2], m[2][2]],
-        }
+        let inertia = turned(frame.rotation, inertia.map(Expr::from));
+        Mass { mass: mass.into(), com: frame.translation.0, inertia }
     }
+}
+
+/// An inertia, xx xy xz yy yz zz, along other axes: R I Rᵀ.
+pub(super) fn turned(r: Rotation<Expr>, [xx, xy, xz, yy, yz, zz]: [Expr; 6]) -> [Expr; 6] {
+    let tensor = Rotation::from_rows([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
+    let m = (r * tensor * r.inverse()).rows();
+    [m[0][0], m[0][1], m[0][2], m[1][1], m[1][2], m[2][2]]
 }

@@ -1,8 +1,9 @@
 //! Axes and tables.
 
-use super::English;
+use super::{English, counted};
 use crate::words::Geometry;
-use denavit::description::Moved;
+use crate::words::geometry::{Given, Whole};
+use denavit::description::{Agreement, Chain, Mechanism, Moved};
 use denavit::idealise::Measured;
 use denavit::structure::{NearlySpecial, Relation};
 
@@ -48,5 +49,45 @@ impl Geometry for English {
             Moved::LastToTool => "α and length x of the last row are part of the tool".into(),
         };
         all.iter().map(one).collect::<Vec<String>>().join("; ")
+    }
+
+    fn agreement(&self, agreement: Agreement, of: Whole) -> String {
+        let whole = match of {
+            Whole::File => "file's",
+            Whole::Tree => "tree's",
+        };
+        match agreement {
+            Agreement::Proved => format!("its table is proved to be the {whole} chain"),
+            Agreement::Within(by) if by < 1e-50 => format!("its table is the {whole} chain to 60 digits"),
+            Agreement::Within(by) => format!("its table is the {whole} chain within {by:.0e}"),
+        }
+    }
+
+    fn chain(&self, chain: &Chain, mechanism: &Mechanism) -> String {
+        let Given { ends: [from, to], joints, limited, heavy, links, follows } = Given::of(chain, mechanism);
+        let agreement = self.agreement(chain.agreement, Whole::File);
+        let follows = follows.map_or(String::new(), |name| {
+            format!("; what `{name}` follows is not on the way, it moves by itself")
+        });
+        let limits = match limited {
+            0 => "no limits".to_string(),
+            _ if limited == joints => "limits for all".into(),
+            _ => format!("limits for {limited}"),
+        };
+        let inertias = match heavy {
+            0 => "no inertias".to_string(),
+            _ => format!("inertias for {heavy} of {links} links, which a table leaves out"),
+        };
+        let joints = counted(joints, "joint", "joints");
+        format!(
+            "from `{from}` to `{to}`, {joints}; {agreement}{follows}. The file gives {limits}, {inertias}"
+        )
+    }
+
+    fn read_apart(&self, metres: f64) -> String {
+        let micrometres = metres * 1e6;
+        format!(
+            "read so, links lie up to {micrometres:.3} µm from where the decimals as they are written have them, in configurations that were tried"
+        )
     }
 }

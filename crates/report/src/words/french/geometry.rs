@@ -2,7 +2,8 @@
 
 use super::{French, printed};
 use crate::words::Geometry;
-use denavit::description::Moved;
+use crate::words::geometry::{Given, Whole};
+use denavit::description::{Agreement, Chain, Mechanism, Moved};
 use denavit::idealise::Measured;
 use denavit::structure::{NearlySpecial, Relation, Special};
 
@@ -58,5 +59,47 @@ impl Geometry for French {
         };
         let all = all.iter().map(one).collect::<Vec<String>>().join(" ; ");
         printed(&all)
+    }
+
+    fn agreement(&self, agreement: Agreement, of: Whole) -> String {
+        let whole = match of {
+            Whole::File => "du fichier",
+            Whole::Tree => "de l’arbre",
+        };
+        match agreement {
+            Agreement::Proved => format!("il est prouvé que son tableau est la chaîne {whole}"),
+            Agreement::Within(by) if by < 1e-50 => {
+                format!("son tableau est la chaîne {whole} à 60 chiffres près")
+            }
+            Agreement::Within(by) => format!("son tableau est la chaîne {whole} à {by:.0e} près"),
+        }
+    }
+
+    fn chain(&self, chain: &Chain, mechanism: &Mechanism) -> String {
+        let Given { ends: [from, to], joints, limited, heavy, links, follows } = Given::of(chain, mechanism);
+        let agreement = self.agreement(chain.agreement, Whole::File);
+        let follows = follows.map_or(String::new(), |name| {
+            format!(" ; ce que suit `{name}` n’est pas sur le chemin, elle bouge d’elle-même")
+        });
+        let limits = match limited {
+            0 => "aucune butée".to_string(),
+            _ if limited == joints => "des butées pour toutes".into(),
+            _ => format!("des butées pour {limited}"),
+        };
+        let inertias = match heavy {
+            0 => "aucune inertie".to_string(),
+            _ => format!("des inerties pour {heavy} corps sur {links}, qu’un tableau laisse de côté"),
+        };
+        let plural = if joints == 1 { "" } else { "s" };
+        printed(&format!(
+            "de `{from}` à `{to}`, {joints} articulation{plural} ; {agreement}{follows}. Le fichier donne {limits}, {inertias}"
+        ))
+    }
+
+    fn read_apart(&self, metres: f64) -> String {
+        let micrometres = metres * 1e6;
+        printed(&format!(
+            "ainsi lus, les corps se trouvent jusqu’à {micrometres:.3} µm d’où les mettent les décimales telles qu’elles sont écrites, dans les configurations essayées"
+        ))
     }
 }

@@ -4,8 +4,9 @@
 //! that adds variables is one joint for each, with bodies between; those that are not its own follow them.
 
 use super::{Body, Follows, Joint, Mass, Mechanism};
+use crate::description::inertia::turned;
 use crate::description::{Description, JointKind, Row, Variable};
-use crate::geometry::{Rotation, Transform, Vector};
+use crate::geometry::{Transform, Vector};
 use denavit_symbolic::{Angle, Expr, Rational, Symbol};
 use std::collections::HashSet;
 
@@ -184,13 +185,11 @@ pub(in crate::description) fn with_gear(
 
 /// The mass of a row's link in the frame of its body, in which the row's frame stands.
 fn mass(row: &Row, frame: &Transform<Expr>, value: &impl Fn(Expr) -> Expr) -> Option<Mass> {
-    let (mass, com, [xx, xy, xz, yy, yz, zz]) = (row.mass?, row.com?, row.inertia?);
-    let tensor = Rotation::from_rows([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
-    let m = (frame.rotation * tensor * frame.rotation.inverse()).rows();
+    let (mass, com, inertia) = (row.mass?, row.com?, row.inertia?);
     Some(Mass {
         mass: value(mass),
         com: frame.act_on_point(Vector(com)).0.map(value),
-        inertia: [m[0][0], m[0][1], m[0][2], m[1][1], m[1][2], m[2][2]].map(value),
+        inertia: turned(frame.rotation, inertia).map(value),
     })
 }
 
