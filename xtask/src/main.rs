@@ -3,6 +3,7 @@
 mod bench;
 mod certificates;
 mod counts;
+mod descriptions;
 mod documents;
 mod errata;
 mod languages;
@@ -47,6 +48,8 @@ cargo xtask web [--debug]        builds the page of `denavit view`, which the ne
                                  above its limits of size; --debug is quick, and limits nothing
 cargo xtask page                 drives the page, as it is built, in a browser
 cargo xtask certificates         certificates of the whole catalogue and of the documents, held by their checker; six by Coq
+cargo xtask descriptions         every URDF and xacro file of example-robot-data, pybullet_data and rtb-data: read, links where
+                                 Pinocchio has them, chains proved
 cargo xtask documents            reports as LaTeX, Typst and a browser read them
 cargo xtask errata [--write]     compares docs/errata.md with what `denavit check` says of the documents; --write renews it
 cargo xtask soak [--seconds N] [TARGET...]
@@ -90,6 +93,7 @@ fn dispatch(arguments: &[String]) -> Result<()> {
         ["web", "--debug"] => web::run(true),
         ["page"] => web::drive(),
         ["certificates"] => certificates::run(),
+        ["descriptions"] => descriptions::run(),
         ["documents"] => documents::run(),
         ["errata"] => errata::run(false),
         ["errata", "--write"] => errata::run(true),

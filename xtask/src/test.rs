@@ -51,6 +51,7 @@ const FULL: &[Step] = &[
     step("limits of size", &["web"]),
     step("page in full", &["page"]),
     step("certificates", &["certificates"]),
+    step("descriptions", &["descriptions"]),
     step("miri", &["miri"]),
     step("soak", &["soak"]),
     step("bench", &["bench"]),

@@ -116,6 +116,10 @@ impl Sources for Dropped<'_> {
         // An absolute path is one from the top of what was dropped.
         self.packages.get(name).map(|folder| format!("/{folder}"))
     }
+
+    fn canonical(&self, name: &str) -> String {
+        within("", name).unwrap_or_else(|| name.into())
+    }
 }
 
 /// The folder of a file.

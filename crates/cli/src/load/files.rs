@@ -94,6 +94,14 @@ impl Sources for Folder {
         }
         Some(folder)
     }
+
+    fn variable(&self, name: &str) -> Option<String> {
+        std::env::var(name).ok()
+    }
+
+    fn canonical(&self, name: &str) -> String {
+        fs::canonicalize(name).map_or_else(|_| name.into(), |path| path.to_string_lossy().into_owned())
+    }
 }
 
 impl Folder {

@@ -16,6 +16,16 @@ pub trait Sources {
 
     /// The folder of a package.
     fn package(&mut self, name: &str) -> Option<String>;
+
+    /// The value of a variable of the environment.
+    fn variable(&self, _name: &str) -> Option<String> {
+        None
+    }
+
+    /// The name by which [`open`](Sources::open) gives a file: that of the first file may be another way to it.
+    fn canonical(&self, name: &str) -> String {
+        name.into()
+    }
 }
 
 /// No other file.

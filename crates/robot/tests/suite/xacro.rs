@@ -6,17 +6,28 @@ use denavit_symbolic::Expr;
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
-/// Files by name, packages in folders of their name.
+/// The name of the first file.
+const MAIN: &str = "main.xacro";
+
+/// Files by name, packages in folders of their name; the first file has another name, too.
 struct Shelf(BTreeMap<String, String>);
 
 impl Sources for Shelf {
     fn open(&mut self, _: &str, wanted: &str) -> Result<(String, String), String> {
         let text = self.0.get(wanted).ok_or_else(|| format!("no file `{wanted}`"))?;
-        Ok((wanted.into(), text.clone()))
+        Ok((self.canonical(wanted), text.clone()))
     }
 
     fn package(&mut self, name: &str) -> Option<String> {
         (name == "arms").then(|| "/arms".into())
+    }
+
+    fn variable(&self, name: &str) -> Option<String> {
+        (name == "HEIGHT").then(|| "0.5".into())
+    }
+
+    fn canonical(&self, name: &str) -> String {
+        if name == MAIN { format!("/{MAIN}") } else { name.into() }
     }
 }
 
@@ -33,9 +44,15 @@ fn joint(xyz: &str, rpy: &str) -> String {
 }
 
 fn with(inner: &str, files: &[(&str, &str)], arguments: &[(&str, &str)]) -> (Reading, Files) {
-    let mut shelf = Shelf(files.iter().map(|(n, t)| (n.to_string(), robot(t))).collect());
+    let mut shelf = Shelf(
+        files
+            .iter()
+            .map(|(n, t)| (n.to_string(), if n.ends_with("yaml") { (*t).into() } else { robot(t) }))
+            .collect(),
+    );
+    shelf.0.insert(MAIN.into(), robot(inner));
     let arguments: Vec<_> = arguments.iter().map(|(n, v)| (n.to_string(), v.to_string())).collect();
-    read_xacro("main.xacro", &robot(inner), &mut shelf, &arguments, Decimals::Meant)
+    read_xacro(MAIN, &robot(inner), &mut shelf, &arguments, Decimals::Meant)
 }
 
 #[track_caller]
@@ -191,20 +208,39 @@ fn faults_have_the_place_of_the_text_and_of_the_call() {
             "<xacro:property name='a' value='${b}'/><xacro:property name='b' value='${a}'/><link name='${a}'/>",
             "main.xacro:2:91: `a` refers to itself",
         ),
-        ("<xacro:if value='maybe'/>", "main.xacro:2:1: `maybe` is neither true nor false"),
-        ("<xacro:include filename='x.xacro'/>", "main.xacro:2:1: no file `x.xacro`"),
+        ("<xacro:if value='maybe'/>", "main.xacro:2:18: `maybe` is neither true nor false"),
+        ("<xacro:include filename='x.xacro'/>", "main.xacro:2:26: no file `x.xacro`"),
         (
             "<xacro:include filename='$(find legs)/x.xacro'/>",
-            "main.xacro:2:1: the package `legs` is not found | say where it is: --package legs=FOLDER",
+            "main.xacro:2:26: the package `legs` is not found | say where it is: --package legs=FOLDER",
         ),
         (
             "<link name='$(arg n)'/>",
             "main.xacro:2:13: the argument `n` is not given | give it: --arg n=VALUE",
         ),
         (
-            "<link name='$(eval 1)'/>",
-            "main.xacro:2:13: `$(eval …)` is not read | expand the file with xacro first",
+            "<link name='$(eval a)'/>",
+            "main.xacro:2:13: the argument `a` is not given | give it: --arg a=VALUE",
         ),
+        ("<link name='$(env HOME)'/>", "main.xacro:2:13: the environment has no variable `HOME`"),
+        (
+            "<link name='$(anon a)'/>",
+            "main.xacro:2:13: `$(anon …)` is not read | expand the file with xacro first",
+        ),
+        (
+            "<xacro:macro name='m' params='a'/><xacro:m a='1' b='2'/>",
+            "main.xacro:2:50: the macro `m` has no parameter `b`",
+        ),
+        (
+            "<xacro:macro name='m' params='*a'/><xacro:m><link name='a'/><link name='b'/></xacro:m>",
+            "main.xacro:2:61: the macro `m` takes no further block",
+        ),
+        ("<xacro:include filename='main.xacro'/>", "main.xacro:2:26: `main.xacro` includes itself"),
+        (
+            "<xacro:include filename='main.xacro' ns='a b'/>",
+            "main.xacro:2:42: `a b` is no name for a namespace",
+        ),
+        ("<xacro:in.m/>", "main.xacro:2:1: the macro `in.m` is not defined"),
         ("<link name='${1/0}'/>", "main.xacro:2:13: a division by 0"),
         ("<link name='${1 +}'/>", "main.xacro:2:13: an expression that is not complete"),
         ("<link name='${(1}'/>", "main.xacro:2:13: `)` is missing"),
@@ -283,6 +319,153 @@ fn hostile_files_are_refused_at_once() {
     }
 }
 
+const VALUES: &str = "\
+# of an arm
+arm:
+  base: {xyz: [0.1, 0.2, 0.3], rpy: [0, !degrees 90,
+         !radians pi/6]}   # goes on
+  upper:
+    length: 0.425
+    'odd name': -1.5e-3
+    \"text\": \"a: b # c\"
+links:
+- name: one
+  size: !millimeters 120
+-
+  name: two
+  size: !inches 2
+  fixed: yes
+- [1, 2, 3]
+count: 0x10
+octal: 010
+big: 1_000
+none: ~
+last: it's plain, all of it
+";
+
+/// What each expression gives with the reference, xacro 2.1.1 of PyPI, in the same file; a third is exact here alone.
+#[test]
+fn values_of_yaml_namespaces_and_evaluated_arguments() {
+    let inner = "<xacro:property name='length' value='2'/><xacro:property name='twice' value='${2*length + outer}'/>
+<xacro:macro name='part' params='name k:=${length} **more'><link name='${name}_${k}_${length}'/><xacro:insert_block name='more'/>
+<xacro:own name='${name}'/><xacro:property name='told' value='${length + 1}' scope='parent'/></xacro:macro>
+<xacro:macro name='own' params='name'><link name='${name}_own'/></xacro:macro>";
+    let head = "<xacro:property name='d' value=\"${xacro.load_yaml('v.yaml')}\"/>
+<xacro:property name='length' value='7'/><xacro:property name='outer' value='0.5'/><xacro:property name='quoted' value=\"'1.0'\"/>
+<xacro:arg name='n' default='3'/><xacro:arg name='flag' default='true'/><xacro:arg name='s' default='ab'/>
+<xacro:include filename='inner.xacro' ns='sp'/>";
+    let files = [("v.yaml", VALUES), ("inner.xacro", inner)];
+    let part = "<xacro:sp.part name='p'><a><link name='given_${length}'/></a></xacro:sp.part>";
+    let links = |text: &str| -> Vec<String> {
+        let joined = |pair: &[&str]| {
+            format!(
+                "<joint name='{1}' type='fixed'><parent link='{0}'/><child link='{1}'/></joint>",
+                pair[0], pair[1]
+            )
+        };
+        let names = ["p_7_2", "given_7", "p_own", "last"];
+        let joints: String = names.windows(2).filter(|_| text.contains(part)).map(joined).collect();
+        let (reading, files) = with(&format!("{head}{text}{joints}"), &files, &[]);
+        let said = |list: Vec<denavit::description::Diagnostic>| -> String {
+            list.iter().map(|d| files.render(d)).collect()
+        };
+        let m = reading.unwrap_or_else(|list| panic!("{text}: {}", said(list))).0;
+        m.bodies.into_iter().map(|b| b.name).collect()
+    };
+    assert_eq!(links(&format!("{part}<link name='last'/>")), ["p_7_2", "given_7", "p_own", "last"]);
+    for (expression, value) in [
+        ("${d.arm.base.xyz[1]}", "0.2"),
+        ("${d['arm']['upper']['length']*2}", "0.85"),
+        ("${d.links[1]['size']}", "0.0508"),
+        ("${len(d.links)}", "3"),
+        ("${d.count}", "16"),
+        ("${d.octal}", "8"),
+        ("${d.big}", "1000"),
+        ("${d.none}", "None"),
+        ("${d.last}", "it's plain, all of it"),
+        ("${d.arm.upper.text}", "a: b # c"),
+        ("${d.arm.base.rpy[1]}", "1.5707963267948966"),
+        ("${d.arm.upper['odd name']}", "-0.0015"),
+        ("${d.links[2][0]}", "1"),
+        ("${d.links[0]['name']}", "one"),
+        ("${d.links[1].fixed}", "True"),
+        ("${sp.twice}", "4.5"),
+        ("${sp.length}", "2"),
+        ("$(eval 2*n + 1)", "7"),
+        ("$(eval s if flag else n)", "ab"),
+        ("${quoted}", "1.0"),
+        ("${xacro.arg('n')}", "3"),
+        ("$(optenv NO_SUCH_THING a  b)", "a b"),
+        ("${'arm' in d}", "True"),
+        ("$(optenv HEIGHT 7)$(env HEIGHT)", "0.50.5"),
+    ] {
+        assert_eq!(links(&format!("<link name=\"{expression}\"/>")), [value], "{expression}");
+    }
+    let told = format!(
+        "{part}<xacro:property name='last' value='${{told == 3}}'/><xacro:if value='${{last}}'><link name='last'/></xacro:if>"
+    );
+    assert_eq!(links(&told).len(), 4);
+    // Angles stay what they are.
+    let (reading, _) = with(
+        &format!(
+            "{head}{}",
+            joint("${d.arm.upper.length/3} 0 0", "0 ${d.arm.base.rpy[1]} ${d.arm.base.rpy[2]}")
+        ),
+        &files,
+        &[],
+    );
+    let m = reading.unwrap().0;
+    assert_eq!(place(&m)[0], decimal("0.425") / Expr::int(3));
+    let turn = |d: i64| Expr::pi() / Expr::int(d);
+    assert_eq!(
+        m.joints[0].origin.rotation,
+        denavit::geometry::Rotation::from_rpy(Expr::int(0), turn(2), turn(6))
+    );
+}
+
+#[test]
+fn what_is_wrong_in_yaml_has_its_place() {
+    let said = |yaml: &str, expression: &str| {
+        let inner = format!(
+            "<xacro:property name='d' value=\"${{load_yaml('v.yaml')}}\"/><link name='${{{expression}}}'/>"
+        );
+        refused(with(&inner, &[("v.yaml", yaml)], &[])).remove(0)
+    };
+    let deep = format!("a: {}1", "[".repeat(100));
+    for (yaml, expression, expected) in [
+        (
+            "a: 1\nb: &x 2\n",
+            "d.a",
+            "v.yaml:2:4: `&` is not read | anchors and texts over several lines are not read",
+        ),
+        (
+            "a: |\n  x\n",
+            "d.a",
+            "v.yaml:1:4: `|` is not read | anchors and texts over several lines are not read",
+        ),
+        (
+            "a: one\n  two\n",
+            "d.a",
+            "v.yaml:2:3: this belongs to nothing above it | values over several lines are not read; write each on one line",
+        ),
+        ("a: [1, 2\nb: 3", "d.a", "v.yaml:2:1: a comma is missing"),
+        ("a: [1,\n", "d.a", "v.yaml:1:4: a bracket that is not closed"),
+        ("a: {b 1}\n", "d.a", "v.yaml:1:5: `:` is missing"),
+        ("a: !turns 1\n", "d.a", "v.yaml:1:4: the tag `!turns` is not read"),
+        ("a: !degrees 1/0\n", "d.a", "v.yaml:1:4: a division by 0"),
+        ("\ta: 1\n", "d.a", "v.yaml:1:1: a tab where the line begins | indent with blanks"),
+        ("a: 1\n---\nb: 2", "d.a", "v.yaml:2:1: a second document is not read"),
+        ("a: 'x\n", "d.a", "v.yaml:1:4: a quote that is not closed"),
+        (" a: 1\nb: 2\n", "d.a", "v.yaml:2:1: this stands further left than what it belongs to"),
+        (&deep, "d.a", "v.yaml:1:64: values stand in values more than 60 deep"),
+        ("length: 1\n", "d.lenght", "main.xacro:2:70: there is no `lenght` | did you mean `length`?"),
+        ("- 1\n", "d[3]", "main.xacro:2:70: there is no entry 3: the list has 1"),
+        ("- 1\n", "d + 1", "main.xacro:2:70: a list is no number"),
+    ] {
+        assert_eq!(said(yaml, expression), expected, "{yaml}");
+    }
+}
+
 /// Pieces of expressions and elements thrown together: nothing panics.
 #[test]
 fn soup_does_no_harm() {
@@ -317,6 +500,9 @@ fn soup_does_no_harm() {
         "sin(",
         "radians(",
         ".lower()",
+        ".a",
+        "load_yaml(",
+        "$(eval ",
         "é",
         "<xacro:m/>",
         "<xacro:property name='a' value='${",

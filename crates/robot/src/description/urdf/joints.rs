@@ -181,8 +181,8 @@ impl Reader {
                 || limit.attribute("upper").is_some() != upper.is_some());
         let (lower, upper) = (lower.unwrap_or_default(), upper.unwrap_or_default());
         if lower > upper {
-            self.out
-                .error(limit.span(), format!("the lower limit of `{}` is above the upper one", shown(name)));
+            let message = format!("the lower limit of `{}` is above the upper one", shown(name));
+            self.out.warning(limit.span(), message).hint("it is read as without limits, as Bullet takes it");
             return (None, velocity, effort);
         }
         let far = Rational::from(FAR);

@@ -1,9 +1,9 @@
 //! Elements one after the other: those of xacro do what they say, others are taken over.
 
 use super::macros::Block;
-use super::scope::Stored;
+use super::scope::{BLOCK, Scope, Stored};
 use super::value::{Fault, Val, decimal};
-use super::{Blocks, MAX_DEPTH, MAX_WORK, Shared, Xacro};
+use super::{MAX_DEPTH, MAX_FILES, MAX_WORK, Shared, Xacro};
 use crate::description::xml::{Attribute, Node, Value, parse, shown};
 use std::rc::Rc;
 
@@ -13,8 +13,7 @@ impl Xacro<'_> {
         &mut self,
         tree: &Shared,
         children: &[usize],
-        scope: usize,
-        blocks: &Blocks,
+        scope: Scope,
         depth: usize,
     ) -> Vec<usize> {
         let mut all = vec![];
@@ -35,7 +34,7 @@ impl Xacro<'_> {
                 self.work = MAX_WORK + 1;
                 return all;
             }
-            match self.element((tree, child, &element), scope, blocks, depth) {
+            match self.element((tree, child, &element), scope, depth) {
                 Ok(nodes) => all.extend(nodes),
                 Err(fault) => self.fault(element.span, fault),
             }
@@ -46,15 +45,15 @@ impl Xacro<'_> {
     fn element(
         &mut self,
         (tree, index, element): (&Shared, usize, &Node),
-        scope: usize,
-        blocks: &Blocks,
+        scope: Scope,
         depth: usize,
     ) -> Result<Vec<usize>, Fault> {
         let Some(name) = element.name.strip_prefix("xacro:") else {
             let number = self.result.nodes.len();
             self.result.nodes.push(Node { attributes: vec![], children: vec![], ..element.clone() });
-            let attributes = element.attributes.iter().filter_map(|a| self.attribute(a, scope)).collect();
-            let children = self.body(tree, &element.children, scope, blocks, depth + 1);
+            let attributes =
+                element.attributes.iter().filter_map(|a| self.attribute(a, scope.names)).collect();
+            let children = self.body(tree, &element.children, scope, depth + 1);
             let node = &mut self.result.nodes[number];
             (node.attributes, node.children) = (attributes, children);
             return Ok(vec![number]);
@@ -64,9 +63,9 @@ impl Xacro<'_> {
             attribute(name).ok_or_else(|| Fault::new(format!("<{}> without `{name}`", shown(&element.name))))
         };
         match name {
-            "include" => self.include(&needs("filename")?.value, element, scope, blocks, depth),
+            "include" => self.include(&needs("filename")?.value, element, scope, depth),
             "property" => {
-                let name = needs("name")?.value.text.clone();
+                let name = self.value(&needs("name")?.value, scope.names)?.show();
                 self.set_property(&name, (tree, element), scope)?;
                 Ok(vec![])
             }
@@ -75,29 +74,35 @@ impl Xacro<'_> {
                 if let Some(default) = attribute("default")
                     && !self.arguments.contains_key(&name)
                 {
-                    let value = self.text(&default.value.text, scope)?.show();
+                    let value = self.value(&default.value, scope.names)?.show();
                     self.arguments.insert(name, value);
                 }
                 Ok(vec![])
             }
             "macro" => {
-                self.define(tree, index);
+                self.define(tree, index, scope);
                 Ok(vec![])
             }
             "if" | "unless" => {
-                let value = self.text(&needs("value")?.value.text, scope)?;
-                let takes = value.truth()? == (name == "if");
-                Ok(if takes { self.body(tree, &element.children, scope, blocks, depth + 1) } else { vec![] })
+                let condition = &needs("value")?.value;
+                let holds = self.value(condition, scope.names)?.truth();
+                let takes = holds.map_err(|fault| fault.at(condition.span.clone()))? == (name == "if");
+                Ok(if takes { self.body(tree, &element.children, scope, depth + 1) } else { vec![] })
             }
             "insert_block" => {
-                let name = self.text(&needs("name")?.value.text, scope)?;
-                self.insert(&name, scope, blocks, depth)
+                let name = self.value(&needs("name")?.value, scope.names)?;
+                self.insert(&name, scope, depth)
             }
-            "element" | "attribute" | "call" if !self.macros.contains_key(name) => {
+            "call" if self.macros.seen(scope.macros, name).is_none() => {
+                let name = self.value(&needs("macro")?.value, scope.names)?.show();
+                let others = element.attributes.iter().filter(|a| a.name != "macro").cloned().collect();
+                self.call(&name, (tree, &Node { attributes: others, ..element.clone() }), scope, depth)
+            }
+            "element" | "attribute" if self.macros.seen(scope.macros, name).is_none() => {
                 Err(Fault::new(format!("<xacro:{name}> is not read"))
                     .hint("expand the file with xacro first"))
             }
-            name => self.call(name, (tree, element), scope, blocks, depth),
+            name => self.call(name, (tree, element), scope, depth),
         }
     }
 
@@ -105,51 +110,89 @@ impl Xacro<'_> {
         &mut self,
         filename: &Value,
         element: &Node,
-        scope: usize,
-        blocks: &Blocks,
+        scope: Scope,
         depth: usize,
     ) -> Result<Vec<usize>, Fault> {
-        if element.attributes.iter().any(|a| a.name == "ns") {
-            return Err(Fault::new("`ns` is not read").hint("expand the file with xacro first"));
-        }
-        let is_optional = element
-            .attributes
-            .iter()
-            .any(|a| a.name == "optional" && matches!(a.value.text.as_str(), "true" | "True" | "1"));
-        let wanted = self.text(&filename.text, scope)?.show();
-        let from = self.files.name(self.open.last().copied().unwrap_or(0)).to_string();
-        let (name, text) = match self.sources.open(&from, &wanted) {
+        let attribute = |name: &str| element.attributes.iter().find(|a| a.name == name);
+        let inner = match attribute("ns") {
+            None => scope,
+            Some(space) => {
+                let name = self.value(&space.value, scope.names)?.show();
+                let is_word = name.starts_with(|c: char| c.is_alphabetic() || c == '_')
+                    && name.chars().all(|c| c.is_alphanumeric() || c == '_');
+                if !is_word {
+                    let message = format!("`{}` is no name for a namespace", shown(&name));
+                    return Err(Fault::new(message).at(space.value.span.clone()));
+                }
+                // Its macros see no others, its properties those around.
+                let (names, macros) = (self.scopes.space(Some(scope.names)), self.macros.space(None));
+                let inner = Scope { names, macros };
+                self.scopes.set(scope.names, &name, Stored::Known(Val::Space(inner)));
+                inner
+            }
+        };
+        let is_optional =
+            attribute("optional").is_some_and(|a| matches!(a.value.text.as_str(), "true" | "True" | "1"));
+        let wanted = self.value(filename, scope.names)?.show();
+        let (name, text) = match self.open_file(&wanted) {
             Ok(found) => found,
             Err(_) if is_optional => return Ok(vec![]),
-            Err(why) => return Err(Fault::new(why)),
+            Err(why) => return Err(why.at(filename.span.clone())),
         };
-        if self.open.iter().any(|&f| self.files.name(f) == name) {
-            return Err(Fault::new(format!("`{}` includes itself", shown(&wanted))));
-        }
-        if self.files.count() >= MAX_FILES {
-            return Err(Fault::new(format!("more than {MAX_FILES} files")));
+        if self.open.iter().any(|&f| self.sources.canonical(self.files.name(f)) == name) {
+            let message = format!("`{}` includes itself", shown(&wanted));
+            return Err(Fault::new(message).at(filename.span.clone()));
         }
         let (file, start) = self.files.add(name, text);
         let text = self.files.text(file).to_string();
         let Some(tree) = parse(&text, start, &mut self.out) else { return Ok(vec![]) };
         self.open.push(file);
         let children = tree.nodes[0].children.clone();
-        let result = self.body(&Rc::new(tree), &children, scope, blocks, depth + 1);
+        let result = self.body(&Rc::new(tree), &children, inner, depth + 1);
         self.open.pop();
         Ok(result)
+    }
+
+    /// The text of a file that the one at hand names, and its name.
+    pub(super) fn open_file(&mut self, wanted: &str) -> Result<(String, String), Fault> {
+        if self.files.count() >= MAX_FILES {
+            return Err(Fault::new(format!("more than {MAX_FILES} files")));
+        }
+        let from = self.files.name(self.open.last().copied().unwrap_or(0)).to_string();
+        self.sources.open(&from, wanted).map_err(Fault::new)
     }
 
     fn set_property(
         &mut self,
         name: &str,
         (tree, element): (&Shared, &Node),
-        scope: usize,
+        Scope { names: scope, .. }: Scope,
     ) -> Result<(), Fault> {
         let attribute = |name: &str| element.attributes.iter().find(|a| a.name == name);
+        let mut is_so = |name: &str, otherwise: bool| match attribute(name) {
+            Some(a) => self.value(&a.value, scope)?.truth(),
+            None => Ok(otherwise),
+        };
+        let (is_removed, is_lazy) = (is_so("remove", false)?, is_so("lazy_eval", true)?);
+        if is_removed {
+            while let Some(at) = self.scopes.find(scope, name) {
+                self.scopes.remove(at, name);
+            }
+            return Ok(());
+        }
         let wider = attribute("scope").map(|s| s.value.text.as_str());
         let to = match wider {
             None => scope,
-            Some("parent") => self.scopes.parent(scope).unwrap_or(scope),
+            Some("parent") => {
+                let mut at = self.scopes.parent(scope);
+                // A macro of a namespace has the scope around that as its caller's.
+                while let Some(space) =
+                    at.filter(|&s| !self.scopes.is_space(scope) && self.scopes.is_space(s))
+                {
+                    at = self.scopes.parent(space);
+                }
+                at.unwrap_or(scope)
+            }
             Some("global") => 0,
             Some(other) => {
                 return Err(Fault::new(format!("`{}` is no scope", shown(other)))
@@ -165,18 +208,19 @@ impl Xacro<'_> {
             let text = value.value.text.as_str();
             let names_itself = text.contains('$')
                 && text.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == name);
-            let stored = if wider.is_some() || names_itself {
+            let stored = if wider.is_some() || names_itself || !is_lazy {
                 let known = self.text(text, scope);
                 if names_itself && known.is_err() {
                     self.scopes.remove(scope, name);
                 }
-                Stored::Known(known?)
+                Stored::Known(known?.unquoted())
             } else {
                 Self::lazy(text, &value.value.span)
             };
             self.scopes.set(to, name, stored);
         } else {
-            self.raw.insert(name.into(), Block::Raw(tree.clone(), element.children.clone()));
+            let block = Block::Raw(tree.clone(), element.children.clone());
+            self.scopes.set(to, &format!("{BLOCK}{name}"), Stored::Block(block));
         }
         Ok(())
     }
@@ -208,6 +252,3 @@ impl Xacro<'_> {
         }
     }
 }
-
-/// How many files are read, each as often as it is included.
-const MAX_FILES: usize = 500;

@@ -1,8 +1,10 @@
 //! xacro's expressions: the part of Python that files have.
 
+use super::scope::Scope;
 use super::value::{Fault, Val, arithmetic, function, real};
-use crate::description::xml::shown;
+use crate::description::{diagnostic::nearest, xml::shown};
 use denavit_symbolic::{Expr, Rational};
+use std::rc::Rc;
 
 /// The longest expression, in bytes, and how deep brackets may stand in brackets.
 const MAX_LENGTH: usize = 4000;
@@ -22,21 +24,46 @@ const SIGNS: &[&str] = &[
     "}", ":",
 ];
 
+/// What an expression asks of what is around it.
+#[derive(Clone, Copy)]
+pub(super) enum Asked<'a> {
+    /// The value of a name.
+    Name(&'a str),
+    /// The value of a name in a namespace.
+    Member(Scope, &'a str),
+    /// The value of an argument, as text.
+    Argument(&'a str),
+    /// The folder of a package.
+    Package(&'a str),
+    /// The folder of the file at hand.
+    Folder,
+    /// The path of a file that the one at hand names.
+    File(&'a str),
+    /// What a file of YAML holds.
+    Values(&'a str),
+}
+
+/// Who answers.
+type Around<'n> = dyn FnMut(Asked) -> Result<Val, Fault> + 'n;
+
+/// Modules whose names may stand before what is in them.
+const MODULES: &[&str] = &["math", "xacro", "python", "numpy", "np"];
+
 /// An expression being evaluated; what is not chosen of `a if c else b` is read and not evaluated.
 struct Reader<'n> {
     tokens: Vec<Token>,
     next: usize,
     depth: usize,
     is_live: bool,
-    name: &'n mut dyn FnMut(&str) -> Result<Val, Fault>,
+    around: &'n mut Around<'n>,
 }
 
-/// The value of an expression; `name` answers for its names.
-pub(super) fn evaluate(text: &str, name: &mut dyn FnMut(&str) -> Result<Val, Fault>) -> Result<Val, Fault> {
+/// The value of an expression.
+pub(super) fn evaluate<'n>(text: &str, around: &'n mut Around<'n>) -> Result<Val, Fault> {
     if text.len() > MAX_LENGTH {
         return Err(Fault::new(format!("an expression of {} bytes; {MAX_LENGTH} are allowed", text.len())));
     }
-    let mut reader = Reader { tokens: tokens(text)?, next: 0, depth: 0, is_live: true, name };
+    let mut reader = Reader { tokens: tokens(text)?, next: 0, depth: 0, is_live: true, around };
     let value = reader.choice()?;
     match reader.peek() {
         None => Ok(value),
@@ -204,6 +231,7 @@ impl Reader<'_> {
             let b = self.sum()?;
             return self.live(|| match &b {
                 Val::List(l) => Ok(Val::Truth(l.iter().any(|x| is_same(&a, x)))),
+                Val::Map(m) => Ok(Val::Truth(m.iter().any(|x| x.0 == a.show()))),
                 other => Ok(Val::Truth(other.show().contains(&a.show()))),
             });
         }
@@ -275,21 +303,18 @@ impl Reader<'_> {
                 self.needs("]")?;
                 value = self.live(|| entry(&value, &index))?;
             } else if self.sign(&["."]).is_some() {
-                let Some(Token::Word(method)) = self.peek().cloned() else {
+                let Some(Token::Word(name)) = self.peek().cloned() else {
                     return Err(Fault::new("a name is missing"));
                 };
                 self.next += 1;
-                self.needs("(")?;
-                self.needs(")")?;
-                value = self.live(|| {
-                    let text = value.show();
-                    Ok(Val::Text(match method.as_str() {
-                        "lower" => text.to_lowercase(),
-                        "upper" => text.to_uppercase(),
-                        "strip" => text.trim().into(),
-                        other => return Err(Fault::new(format!("`.{}` is not read", shown(other)))),
-                    }))
-                })?;
+                let arguments = if self.sign(&["("]).is_some() { Some(self.list(")")?) } else { None };
+                if self.is_live {
+                    value = match (arguments, &value) {
+                        (Some(arguments), _) => method(&value, &name, &arguments)?,
+                        (None, Val::Space(space)) => (self.around)(Asked::Member(*space, &name))?,
+                        (None, _) => entry(&value, &Val::Text(name))?,
+                    };
+                }
             } else {
                 return Ok(value);
             }
@@ -309,12 +334,16 @@ impl Reader<'_> {
                 self.needs(")")?;
                 Ok(value)
             }
-            Token::Sign("[") => Ok(Val::List(self.list("]")?)),
+            Token::Sign("[") => Ok(Val::List(Rc::new(self.list("]")?))),
             Token::Word(w) if w == "True" || w == "true" => Ok(Val::Truth(true)),
             Token::Word(w) if w == "False" || w == "false" => Ok(Val::Truth(false)),
             Token::Word(mut w) => {
-                // math.sin, xacro.load_yaml
-                if matches!(w.as_str(), "math" | "xacro" | "numpy" | "np") && self.sign(&["."]).is_some() {
+                // math.sin, xacro.load_yaml; a namespace of the file's own may have such a name.
+                let is_module = MODULES.contains(&w.as_str())
+                    && self.peek() == Some(&Token::Sign("."))
+                    && (!self.is_live || (self.around)(Asked::Name(&w)).is_err());
+                if is_module {
+                    self.next += 1;
                     let Some(Token::Word(inner)) = self.peek().cloned() else {
                         return Err(Fault::new("a name is missing"));
                     };
@@ -323,17 +352,28 @@ impl Reader<'_> {
                 }
                 if self.sign(&["("]).is_some() {
                     let arguments = self.list(")")?;
-                    if w == "load_yaml" {
-                        return Err(
-                            Fault::new("`load_yaml` is not read").hint("expand the file with xacro first")
-                        );
-                    }
-                    return self.live(|| function(&w, &arguments));
+                    return if self.is_live { self.function(&w, &arguments) } else { Ok(Val::Truth(false)) };
                 }
-                if self.is_live { (self.name)(&w) } else { Ok(Val::Truth(false)) }
+                if self.is_live { (self.around)(Asked::Name(&w)) } else { Ok(Val::Truth(false)) }
             }
             other => Err(unexpected(&other)),
         }
+    }
+
+    /// The value of a function; some ask for what is around the expression.
+    fn function(&mut self, name: &str, arguments: &[Val]) -> Result<Val, Fault> {
+        let asked: fn(&str) -> Asked = match name {
+            "load_yaml" => |file| Asked::Values(file),
+            "arg" => |name| Asked::Argument(name),
+            "abs_filename" => |file| Asked::File(file),
+            "find" => |package| Asked::Package(package),
+            "dirname" if arguments.is_empty() => return (self.around)(Asked::Folder),
+            _ => return function(name, arguments),
+        };
+        let [Val::Text(text)] = arguments else {
+            return Err(Fault::new(format!("`{}` takes a text", shown(name))));
+        };
+        (self.around)(asked(text))
     }
 
     fn list(&mut self, end: &'static str) -> Result<Vec<Val>, Fault> {
@@ -358,9 +398,55 @@ fn is_same(a: &Val, b: &Val) -> bool {
 }
 
 fn entry(value: &Val, index: &Val) -> Result<Val, Fault> {
-    let Val::List(all) = value else { return Err(Fault::new("an index behind what is no list")) };
+    let all = match value {
+        Val::List(all) => all,
+        Val::Map(all) => {
+            let name = index.show();
+            let found = all.iter().find(|e| e.0 == name).map(|e| e.1.clone());
+            return found.ok_or_else(|| {
+                let fault = Fault::new(format!("there is no `{}`", shown(&name)));
+                match nearest(&name, all.iter().map(|e| e.0.as_str())) {
+                    Some(near) => fault.hint(format!("did you mean `{near}`?")),
+                    None => fault,
+                }
+            });
+        }
+        _ => return Err(Fault::new("an index behind what is no list")),
+    };
     let at = index.index()?;
     let at = if at < 0 { at + all.len() as i64 } else { at };
     let found = usize::try_from(at).ok().and_then(|i| all.get(i)).cloned();
     found.ok_or_else(|| Fault::new(format!("there is no entry {}: the list has {}", index.show(), all.len())))
+}
+
+/// What a value answers to a method.
+fn method(value: &Val, name: &str, arguments: &[Val]) -> Result<Val, Fault> {
+    let list = |all: Vec<Val>| Ok(Val::List(Rc::new(all)));
+    if let Val::Map(all) = value {
+        return match (name, arguments) {
+            ("keys", []) => list(all.iter().map(|e| Val::Text(e.0.clone())).collect()),
+            ("values", []) => list(all.iter().map(|e| e.1.clone()).collect()),
+            ("get", [key]) => entry(value, key),
+            ("get", [key, otherwise]) => Ok(entry(value, key).unwrap_or_else(|_| otherwise.clone())),
+            _ => Err(Fault::new(format!("`.{}` is not read", shown(name)))),
+        };
+    }
+    let text = value.show();
+    let texts: Vec<String> = arguments.iter().map(Val::show).collect();
+    let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
+    match (name, &texts[..]) {
+        ("lower", []) => Ok(Val::Text(text.to_lowercase())),
+        ("upper", []) => Ok(Val::Text(text.to_uppercase())),
+        ("strip", []) => Ok(Val::Text(text.trim().into())),
+        ("startswith", [start]) => Ok(Val::Truth(text.starts_with(start))),
+        ("endswith", [end]) => Ok(Val::Truth(text.ends_with(end))),
+        ("split", []) => list(text.split_whitespace().map(|t| Val::Text(t.into())).collect()),
+        ("split", [at]) if !at.is_empty() => list(text.split(at).map(|t| Val::Text(t.into())).collect()),
+        ("replace", [old, new])
+            if !old.is_empty() && text.len() * new.len().max(1) <= MAX_LENGTH * MAX_LENGTH =>
+        {
+            Ok(Val::Text(text.replace(old, new)))
+        }
+        _ => Err(Fault::new(format!("`.{}` is not read", shown(name)))),
+    }
 }

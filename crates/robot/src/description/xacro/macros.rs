@@ -1,8 +1,8 @@
 //! Macros: their parameters, and how they are called.
 
-use super::scope::Stored;
+use super::scope::{BLOCK, Scope, Stored};
 use super::value::{Fault, Val};
-use super::{Blocks, Shared, Xacro};
+use super::{Shared, Xacro};
 use crate::description::xml::{Node, shown};
 use std::cell::OnceCell;
 use std::ops::Range;
@@ -94,7 +94,7 @@ pub(super) fn parameters(text: &str) -> Vec<Parameter> {
 }
 
 impl Xacro<'_> {
-    pub(super) fn define(&mut self, tree: &Shared, node: usize) {
+    pub(super) fn define(&mut self, tree: &Shared, node: usize, scope: Scope) {
         let element = &tree.nodes[node];
         let text =
             |name: &str| element.attributes.iter().find(|a| a.name == name).map(|a| a.value.text.clone());
@@ -105,10 +105,24 @@ impl Xacro<'_> {
         let parameters = parameters(&text("params").unwrap_or_default());
         let file = self.open.last().copied().unwrap_or(0);
         let name = name.strip_prefix("xacro:").unwrap_or(&name).to_string();
-        self.macros.insert(
-            name,
-            Rc::new(Macro { tree: tree.clone(), node, parameters, file, called: OnceCell::new() }),
-        );
+        let definition = Macro { tree: tree.clone(), node, parameters, file, called: OnceCell::new() };
+        self.macros.set(scope.macros, &name, Rc::new(definition));
+    }
+
+    /// The macro of a name, and the scope that its body sees: `space.name` is one of a namespace.
+    fn named(&self, name: &str, scope: Scope) -> Option<(Rc<Macro>, Scope)> {
+        if let Some(found) = self.macros.seen(scope.macros, name) {
+            return Some((found.clone(), scope));
+        }
+        let mut at = scope;
+        let (spaces, name) = name.rsplit_once('.')?;
+        for space in spaces.split('.') {
+            let Some(Stored::Known(Val::Space(inner))) = self.scopes.seen(at.names, space) else {
+                return None;
+            };
+            at = *inner;
+        }
+        Some((self.macros.seen(at.macros, name)?.clone(), at))
     }
 
     /// The elements that a call of a macro stands for.
@@ -116,24 +130,19 @@ impl Xacro<'_> {
         &mut self,
         name: &str,
         (tree, element): (&Shared, &Node),
-        scope: usize,
-        blocks: &Blocks,
+        scope: Scope,
         depth: usize,
     ) -> Result<Vec<usize>, Fault> {
-        let Some(called) = self.macros.get(name).cloned() else {
-            let near = super::super::diagnostic::nearest(name, {
-                let mut names: Vec<&str> = self.macros.keys().map(String::as_str).collect();
-                names.sort_unstable();
-                names
-            });
+        let Some((called, seen)) = self.named(name, scope) else {
+            let names = self.macros.names(scope.macros);
+            let near = super::super::diagnostic::nearest(name, names);
             let fault = Fault::new(format!("the macro `{}` is not defined", shown(name)));
             return Err(match near {
                 Some(near) => fault.hint(format!("did you mean `{near}`?")),
                 None => fault,
             });
         };
-        let inner = self.scopes.inside(scope);
-        let mut inner_blocks = blocks.clone();
+        let inner = Scope { names: self.scopes.inside(seen.names), macros: self.macros.inside(seen.macros) };
         let mut held = element.children.iter();
         for parameter in &called.parameters {
             match parameter {
@@ -147,24 +156,28 @@ impl Xacro<'_> {
                     };
                     let is_inside = matches!(parameter, Parameter::Inside(_));
                     let children = if is_inside { tree.nodes[child].children.clone() } else { vec![child] };
-                    let expanded = self.body(tree, &children, scope, blocks, depth + 1);
-                    inner_blocks.insert(block.clone(), Block::Expanded(expanded));
+                    let expanded = self.body(tree, &children, scope, depth + 1);
+                    let block = format!("{BLOCK}{block}");
+                    self.scopes.set(inner.names, &block, Stored::Block(Block::Expanded(expanded)));
                 }
                 Parameter::Value(parameter, default) => {
                     let given = element.attributes.iter().find(|a| a.name == *parameter);
                     let inherited = default.as_ref().is_some_and(|d| d.is_inherited);
                     let value = match (given, default) {
-                        (Some(given), _) => self.text(&given.value.text, scope)?,
-                        (None, Some(_)) if inherited && self.scopes.find(scope, parameter).is_some() => {
-                            self.property(parameter, scope)?
+                        (Some(given), _) => self.value(&given.value, scope.names)?,
+                        (None, Some(_))
+                            if inherited && self.scopes.find(scope.names, parameter).is_some() =>
+                        {
+                            self.property(parameter, scope.names)?
                         }
-                        (None, Some(Default { text: Some(text), .. })) => self.text(text, inner)?,
+                        // A default sees what the call sees.
+                        (None, Some(Default { text: Some(text), .. })) => self.text(text, scope.names)?,
                         _ => {
                             let message = format!("the macro `{}` wants `{}`", shown(name), shown(parameter));
                             return Err(Fault::new(message));
                         }
                     };
-                    self.scopes.set(inner, parameter, Stored::Known(value));
+                    self.scopes.set(inner.names, parameter, Stored::Known(value.unquoted()));
                 }
             }
         }
@@ -172,14 +185,18 @@ impl Xacro<'_> {
             |n: &str| called.parameters.iter().any(|p| matches!(p, Parameter::Value(v, _) if v == n));
         if let Some(unknown) = element.attributes.iter().find(|a| !is_parameter(&a.name)) {
             let message = format!("the macro `{}` has no parameter `{}`", shown(name), shown(&unknown.name));
-            return Err(Fault::new(message));
+            return Err(Fault::new(message).at(unknown.span.clone()));
+        }
+        if let Some(&unused) = held.next() {
+            let message = format!("the macro `{}` takes no further block", shown(name));
+            return Err(Fault::new(message).at(tree.nodes[unused].span.clone()));
         }
         let first = self.calls.first().unwrap_or(&element.span).clone();
         called.called.get_or_init(|| first);
         self.calls.push(element.span.clone());
         self.open.push(called.file);
         let children = called.tree.nodes[called.node].children.clone();
-        let result = self.body(&called.tree, &children, inner, &inner_blocks, depth + 1);
+        let result = self.body(&called.tree, &children, inner, depth + 1);
         self.open.pop();
         self.calls.pop();
         Ok(result)
@@ -194,18 +211,12 @@ impl Xacro<'_> {
     }
 
     /// The elements that a block stands for.
-    pub(super) fn insert(
-        &mut self,
-        name: &Val,
-        scope: usize,
-        blocks: &Blocks,
-        depth: usize,
-    ) -> Result<Vec<usize>, Fault> {
+    pub(super) fn insert(&mut self, name: &Val, scope: Scope, depth: usize) -> Result<Vec<usize>, Fault> {
         let name = name.show();
-        match blocks.get(&name).cloned().or_else(|| self.raw.get(&name).cloned()) {
-            Some(Block::Expanded(nodes)) => Ok(nodes),
-            Some(Block::Raw(tree, nodes)) => Ok(self.body(&tree, &nodes, scope, blocks, depth + 1)),
-            None => Err(Fault::new(format!("there is no block `{}`", shown(&name)))),
+        match self.scopes.seen(scope.names, &format!("{BLOCK}{name}")).cloned() {
+            Some(Stored::Block(Block::Expanded(nodes))) => Ok(nodes),
+            Some(Stored::Block(Block::Raw(tree, nodes))) => Ok(self.body(&tree, &nodes, scope, depth + 1)),
+            _ => Err(Fault::new(format!("there is no block `{}`", shown(&name)))),
         }
     }
 }

@@ -1,13 +1,19 @@
 //! Values of xacro's expressions: exact numbers, texts, truths, lists.
 
+use super::scope::Scope;
+use crate::description::xml::shown;
 use denavit_symbolic::real::{Real, Values};
 use denavit_symbolic::{Angle, Expr, Rational};
+use std::ops::Range;
+use std::rc::Rc;
 
 /// Why something has no value.
 #[derive(Clone, Debug)]
 pub(super) struct Fault {
     pub message: String,
     pub hint: Option<String>,
+    /// Where, if elsewhere than the element or attribute that is being expanded.
+    pub at: Option<Range<usize>>,
 }
 
 /// A value.
@@ -16,7 +22,11 @@ pub(super) enum Val {
     Number(Expr),
     Text(String),
     Truth(bool),
-    List(Vec<Val>),
+    List(Rc<Vec<Val>>),
+    /// Values by name, in their order.
+    Map(Rc<Vec<(String, Val)>>),
+    /// A namespace.
+    Space(Scope),
 }
 
 /// Longer numbers, in bits, and formulas, in nodes, are not worked with.
@@ -27,11 +37,16 @@ const MAX_POWER: i64 = 64;
 
 impl Fault {
     pub fn new(message: impl Into<String>) -> Self {
-        Fault { message: message.into(), hint: None }
+        Fault { message: message.into(), hint: None, at: None }
     }
 
     pub fn hint(self, hint: impl Into<String>) -> Self {
         Fault { hint: Some(hint.into()), ..self }
+    }
+
+    /// At a place, unless it has one already.
+    pub fn at(self, place: Range<usize>) -> Self {
+        Fault { at: self.at.or(Some(place)), ..self }
     }
 }
 
@@ -64,9 +79,11 @@ impl Val {
             Val::Truth(t) => Ok(Expr::int(i64::from(*t))),
             Val::Text(t) => match Rational::from_decimal(t.trim()) {
                 Some(x) => Ok(x.into()),
-                None => Err(Fault::new(format!("`{}` is no number", crate::description::xml::shown(t)))),
+                None => Err(Fault::new(format!("`{}` is no number", shown(t)))),
             },
             Val::List(_) => Err(Fault::new("a list is no number")),
+            Val::Map(_) => Err(Fault::new("values by name are no number")),
+            Val::Space(_) => Err(Fault::new("a namespace is no number")),
         }
     }
 
@@ -86,13 +103,15 @@ impl Val {
             Val::Truth(t) => *t,
             Val::Number(e) => !real(*e)?.is_zero(),
             Val::List(l) => !l.is_empty(),
+            Val::Map(m) => !m.is_empty(),
+            Val::Space(_) => true,
             Val::Text(t) => match t.trim() {
                 "true" | "True" | "1" => true,
                 "false" | "False" | "0" | "" => false,
                 t => match Rational::from_decimal(t) {
                     Some(x) => !x.is_zero(),
                     None => {
-                        let shown = crate::description::xml::shown(t);
+                        let shown = shown(t);
                         return Err(Fault::new(format!("`{shown}` is neither true nor false")));
                     }
                 },
@@ -118,6 +137,32 @@ impl Val {
             Val::Truth(true) => "True".into(),
             Val::Truth(false) => "False".into(),
             Val::List(l) => format!("[{}]", l.iter().map(Val::show).collect::<Vec<_>>().join(", ")),
+            Val::Map(m) => {
+                let entries = m.iter().map(|(name, value)| format!("{name}: {}", value.show()));
+                format!("{{{}}}", entries.collect::<Vec<_>>().join(", "))
+            }
+            Val::Space(_) => "a namespace".into(),
+        }
+    }
+
+    /// A text in single quotes without them: so a property says that it is a text.
+    pub fn unquoted(self) -> Self {
+        let inner = |t: &str| Some(t.strip_prefix('\'')?.strip_suffix('\'')?.to_string());
+        match &self {
+            Val::Text(t) => inner(t).map_or(self, Val::Text),
+            _ => self,
+        }
+    }
+
+    /// The number or truth that a text is, if it is one.
+    pub fn converted(text: String) -> Self {
+        match text.to_lowercase().as_str() {
+            "true" => Val::Truth(true),
+            "false" => Val::Truth(false),
+            _ => match Rational::from_decimal(text.trim()) {
+                Some(x) => Val::Number(x.into()),
+                None => Val::Text(text),
+            },
         }
     }
 }
@@ -203,6 +248,7 @@ pub(super) fn function(name: &str, arguments: &[Val]) -> Result<Val, Fault> {
             count(1)?;
             let length = match &arguments[0] {
                 Val::List(l) => l.len(),
+                Val::Map(m) => m.len(),
                 other => other.show().chars().count(),
             };
             return number(Expr::int(length as i64));
@@ -260,7 +306,7 @@ pub(super) fn function(name: &str, arguments: &[Val]) -> Result<Val, Fault> {
             true => (-floor(-x)?).into(),
             false => floor(x)?.into(),
         }),
-        _ => Err(Fault::new(format!("the function `{}` is not read", crate::description::xml::shown(name)))),
+        _ => Err(Fault::new(format!("the function `{}` is not read", shown(name)))),
     }
 }
 
