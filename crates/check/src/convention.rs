@@ -1,6 +1,8 @@
 //! The convention that a document's words name, in the phrases of courses and books and in their languages.
 
 use denavit::description::Convention;
+use denavit::description::table::PrintedTable;
+use denavit_symbolic::Expr;
 use std::ops::Range;
 
 /// Words that name a convention by themselves.
@@ -110,9 +112,9 @@ pub(super) fn in_millimetres(text: &str) -> Option<Range<usize>> {
         .filter(|_| says(&["m", "met", "m\u{e8}tres"]).is_none())
 }
 
-/// True for a text whose only lengths with a unit are in millimetres: `d (mm)`, `80 mm`.
-pub(super) fn tables_in_millimetres(text: &str) -> bool {
-    let count = |unit: &str| {
+/// Where a text has a length in millimetres, if its only lengths with a unit are so: `d (mm)`, `80 mm`.
+pub(super) fn only_in_millimetres(text: &str) -> Option<Range<usize>> {
+    let places = |unit: &str| -> Vec<usize> {
         let is_unit = |at: &usize| {
             let (before, behind) = (&text[..*at], &text[at + unit.len()..]);
             let is_apart = before.ends_with(['(', '[', ' ', '~', ',', '{'])
@@ -123,9 +125,16 @@ pub(super) fn tables_in_millimetres(text: &str) -> bool {
             let is_head = before.ends_with(['(', '[']) && behind.starts_with([')', ']']);
             is_apart && ends && (is_number || is_head)
         };
-        text.match_indices(unit).map(|m| m.0).filter(is_unit).count()
+        text.match_indices(unit).map(|m| m.0).filter(is_unit).collect()
     };
-    count("mm") > 1 && count("m") == 0
+    let found = places("mm");
+    (found.len() > 1 && places("m").is_empty()).then(|| found[0]..found[0] + 2)
+}
+
+/// True for tables with lengths without a unit that no arm has in metres.
+pub(super) fn has_long_rows(tables: &[PrintedTable]) -> bool {
+    let rows = tables.iter().filter_map(|t| t.robot.as_ref().ok()).flat_map(|(d, _)| &d.rows);
+    rows.flat_map(|r| [r.a, r.d, r.b]).filter_map(Expr::as_number).any(|x| x.to_f64().abs() > 20.0)
 }
 
 /// Words before the unit of lengths.

@@ -309,6 +309,9 @@ fn torques(subject: &Subject, text: &str, habits: &Habits, add: &mut Add<'_>) {
         let [force, moment] = [0, 3].map(|k| (turn * Vector([load[k], load[k + 1], load[k + 2]])).0);
         load = std::array::from_fn(|k| if k < 3 { force[k] } else { moment[k - 3] });
     }
+    if habits.against_load {
+        load = load.map(|e| -e);
+    }
     let kinds = subject.description.variables().into_iter().map(|v| v.kind);
     for ((k, torque), kind) in (1..).zip(subject.torques(&load)).zip(kinds) {
         for letter in &letters {

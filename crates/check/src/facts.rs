@@ -300,7 +300,7 @@ impl Placement {
 }
 
 /// A meaning of a name that is not the first one.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub enum Sense {
     /// A number behind `T` is that of a link, not of a frame in the base.
     LinkAlone,
@@ -329,6 +329,13 @@ pub enum Sense {
     },
     /// The components of a load are those along the axes of the hand.
     LoadInHand,
+    /// The torques hold against the load: τ = −Jᵀ F.
+    AgainstLoad,
+    /// The hand stands there in the last frame of the table.
+    Tool {
+        /// Its coordinates.
+        place: [Formula; 3],
+    },
     /// A load on the hand of this letter along an axis, or against it.
     Load {
         /// Its letter.

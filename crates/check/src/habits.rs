@@ -158,6 +158,8 @@ pub(super) struct Habits {
     pub load: Option<(char, usize, bool)>,
     /// The components of a load are those along the axes of the hand.
     pub load_in_hand: bool,
+    /// The torques of the joints hold against the load.
+    pub against_load: bool,
     /// Velocities are those of the Jacobian that was printed last: of its point, along its axes.
     pub velocities_of_jacobian: bool,
     /// Names that are helpers, not entries of the pose.
@@ -182,6 +184,7 @@ impl Habits {
             velocities_of_jacobian: false,
             load: None,
             load_in_hand: false,
+            against_load: false,
             helpers: BTreeSet::new(),
             products: BTreeSet::new(),
         }

@@ -41,6 +41,7 @@ mod scripts;
 mod subject;
 mod supported;
 mod tables;
+mod tools;
 mod trial;
 mod unjudged;
 mod values;
@@ -59,12 +60,13 @@ pub use outcome::{
     Wrong,
 };
 
-use denavit::description::{Description, TableOptions};
+use denavit::description::{Convention, Description, TableOptions};
 use denavit_reading::code::Dialect;
 use denavit_reading::document::{self, Document, Format};
 use judge::Judge;
 use note::Notes;
 use plan::Plan;
+use std::ops::Range;
 use std::rc::Rc;
 
 /// The longest document, in bytes.
@@ -117,7 +119,19 @@ pub fn check(
     let supported =
         if robot.is_none() { supported::by_statements(text, format, &document, options) } else { None };
     let mut options = options.clone();
-    if let (None, Some(place)) = (options.table.lengths_in_millimetres, convention::in_millimetres(text)) {
+    let is_long = |_: &Range<usize>| {
+        let kind = plan::kind_of_tables(format);
+        // Lengths are the same in each convention.
+        let mut readings = Convention::ALL.into_iter().map(|c| {
+            let reading = TableOptions { convention: Some(c), ..options.table.clone() };
+            listing::tables_of(text, kind, &options, &reading)
+        });
+        robot.is_none() && readings.any(|tables| convention::has_long_rows(&tables))
+    };
+    let in_millimetres =
+        || convention::in_millimetres(text).or_else(|| convention::only_in_millimetres(text).filter(is_long));
+    let place = options.table.lengths_in_millimetres.is_none().then(in_millimetres).flatten();
+    if let Some(place) = place {
         notes.note(place, Noted::InMillimetres);
         options.table.lengths_in_millimetres = Some(true);
     }

@@ -64,7 +64,7 @@ pub(super) fn tables_of(
     if listed.is_empty() {
         listed.extend(links(text).and_then(|l| table(&l, reading)));
     }
-    if listed.is_empty() && is_program {
+    if listed.is_empty() && (is_program || text.contains("```")) {
         listed.extend(lists(text).and_then(|l| table(&l, reading)));
     }
     if listed.iter().any(|t| t.robot.is_ok()) || printed.is_empty() { listed } else { printed }

@@ -123,6 +123,15 @@ impl Unread {
     pub(super) fn new(span: Range<usize>, why: Unreadable) -> Self {
         Unread { span, why }
     }
+
+    /// The name that is not known.
+    pub(super) fn unknown(&self) -> Option<&str> {
+        match &self.why {
+            Unreadable::Unknown(name) => Some(name),
+            Unreadable::Syntax { message, .. } => message.strip_prefix("unknown `")?.strip_suffix('`'),
+            _ => None,
+        }
+    }
 }
 
 impl From<ParseError> for Unread {

@@ -283,9 +283,9 @@ fn without_braces(text: &str) -> String {
     String::from_utf8(bytes).unwrap_or_else(|_| text.to_string())
 }
 
-/// A number and the factor of the unit behind it, to metres, radians and seconds, and whether it measures a length or what is
-/// proportional to one; nothing where there is no unit.
-pub(super) fn unit_behind(text: &str) -> Option<(&str, Expr, bool)> {
+/// A number and the factor of the unit behind it, to metres, radians and seconds, and to which power of a length it is
+/// proportional; nothing where there is no unit.
+pub(super) fn unit_behind(text: &str) -> Option<(&str, Expr, u32)> {
     let degree = Expr::pi() / Expr::int(180);
     let part = |n: i64| Expr::int(1) / Expr::int(n);
     let units: [(&str, Expr); 33] = [
@@ -324,6 +324,11 @@ pub(super) fn unit_behind(text: &str) -> Option<(&str, Expr, bool)> {
         ("m", Expr::int(1)),
     ];
     let plain = text.trim().trim_end_matches(['.', ',', ' ', '$', '}']);
+    // `57956 mm^2`
+    for square in ["^2", "²", "^{2", "}^2", "}^{2"] {
+        let Some((before, factor, 1)) = plain.strip_suffix(square).and_then(unit_behind) else { continue };
+        return Some((before, factor * factor, 2));
+    }
     for (unit, factor) in units {
         let Some(before) = plain.strip_suffix(unit) else { continue };
         let before = ["\\mathrm{", "\\text{", "\\,", "\\;", "~", "\\ ", "\\"]
@@ -331,8 +336,7 @@ pub(super) fn unit_behind(text: &str) -> Option<(&str, Expr, bool)> {
             .fold(before.trim_end(), |b, look| b.strip_suffix(look).unwrap_or(b).trim_end());
         let is_number = before.ends_with(|c: char| c.is_ascii_digit() || matches!(c, '.' | ')' | 'π'));
         if is_number && before.starts_with(|c: char| !c.is_alphabetic()) {
-            let is_length = unit.contains('m') || unit.contains('M');
-            return Some((before, factor, is_length));
+            return Some((before, factor, u32::from(unit.contains(['m', 'M']))));
         }
     }
     None

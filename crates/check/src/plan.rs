@@ -17,7 +17,7 @@ use denavit::description::{
     Convention, Description, Diagnostic, JointKind, NotSet, Parameter, Severity, TableKind, TableOptions,
     line_column,
 };
-use denavit::geometry::Transform;
+use denavit::geometry::{Transform, Vector};
 use denavit_reading::code::Dialect;
 use denavit_reading::document::{CodeBlock, Directive, Document, Format};
 use denavit_symbolic::parse::parse;
@@ -265,7 +265,7 @@ impl Plan {
             plan.push(0, Subject::new(nothing(Convention::Standard)));
         }
         failed.into_iter().for_each(|f| notes.add(f.into()));
-        let in_millimetres = in_millimetres || convention::tables_in_millimetres(text);
+        let in_millimetres = in_millimetres || convention::only_in_millimetres(text).is_some();
         Ok(if in_millimetres && plan.is_own { plan.with_unit(true) } else { plan })
     }
 
@@ -338,6 +338,11 @@ impl Plan {
         let thousand = Rational::from(1000);
         let factor = if millimetres { thousand } else { &Rational::ONE / &thousand };
         plan.with(&|s| Some(s.in_unit(&factor)))
+    }
+
+    /// The same document, the hand at a place in the last frame.
+    pub fn with_tool(&self, place: &Vector<Expr>) -> Self {
+        self.with(&|s| Some(s.with(with_tool_at(&s.description, place))))
     }
 
     /// The same document with names in other senses.
@@ -548,14 +553,20 @@ fn with_tool(d: &Description, place: &str) -> Option<Description> {
     let names = d.vocabulary().open(true);
     let lengths: Vec<Expr> = place.split(',').map(|p| parse(p, &names).ok()).collect::<Option<_>>()?;
     let [x, y, z] = lengths[..] else { return None };
+    Some(with_tool_at(d, &Vector([x, y, z])))
+}
+
+/// The same with lengths that are worked out.
+fn with_tool_at(d: &Description, place: &Vector<Expr>) -> Description {
     let mut d = d.clone();
+    let Vector([x, y, z]) = *place;
     for symbol in [x, y, z].iter().flat_map(|e| e.symbols()) {
         if d.parameter(symbol).is_none() {
             d.parameters.push(Parameter { symbol, value: None });
         }
     }
     d.tool = Transform::translation(x, y, z);
-    Some(d)
+    d
 }
 
 /// The programs of a document, or the one that it is.

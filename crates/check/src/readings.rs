@@ -4,6 +4,7 @@
 
 use super::CheckOptions;
 use super::facts::{About, Meaning, Sense};
+use super::formula::Formula;
 use super::habits::{Columns, Habits, Places, with_named_signs};
 use super::matrix::Matrix;
 use super::names::{Name, Token, tokens};
@@ -14,12 +15,13 @@ use super::plan::{Plan, Walked};
 use super::trial::{self, Trial};
 use super::walk::{Assertion, Piece, Spoken, is_measured};
 use denavit::forward::Reference;
-use denavit::geometry::Axis;
+use denavit::geometry::{Axis, Vector};
 use denavit_reading::document::{Document, Statement};
 use denavit_reading::slip::Points;
 use denavit_symbolic::vocabulary::plain_name;
 use denavit_symbolic::{Expr, equal};
 use std::collections::BTreeSet;
+use std::rc::Rc;
 
 /// The most formulas of a document whose readings are weighed.
 const MAX_FORMULAS: usize = 3_000;
@@ -47,6 +49,8 @@ struct Letters {
     loads: Vec<char>,
     /// It speaks of millimetres.
     has_millimetres: bool,
+    /// Its words say that the arm holds something.
+    holds: bool,
 }
 
 impl Letters {
@@ -60,11 +64,32 @@ impl Letters {
             tells_hand: !super::custom::hand_letters(text).is_empty(),
             loads: super::custom::letters_of_load(text),
             has_millimetres: text.contains("mm"),
+            holds: HOLDING.iter().any(|w| text.to_lowercase().contains(w)),
             may_be_o: has("o") && !["n", "p", "P", "s"].into_iter().any(has),
             has_wrist: super::custom::speaks_of_wrist(&plain_name(text)) && words.iter().any(|w| is_r(w)),
         }
     }
 }
+
+/// Words of loads that are held.
+const HOLDING: [&str; 16] = [
+    "hold",
+    "held",
+    "balanc",
+    "equilib",
+    "weigh",
+    "against",
+    "acting on",
+    "counter",
+    "support",
+    "halten",
+    "gewicht",
+    "équilibr",
+    "poids",
+    "peso",
+    "sosten",
+    "sorregg",
+];
 
 /// True for `r13`, `rij`.
 fn is_r(word: &str) -> bool {
@@ -94,7 +119,8 @@ pub(super) fn weighed(
     let has_base = plan.subjects.iter().any(|s| s.ground() == Reference::Base);
     for _ in 0..ROUNDS {
         let may_load = plan.habits.load.is_none() && !letters.loads.is_empty();
-        if score.wrong.is_empty() && !may_load {
+        let tools = super::tools::candidates(text, &plan, &walked);
+        if score.wrong.is_empty() && !may_load && tools.is_empty() {
             break;
         }
         let mut best: Option<(usize, Plan, Walked, Score, Sense)> = None;
@@ -103,9 +129,15 @@ pub(super) fn weighed(
             (Habits { scaled, ..Habits::clone(&plan.habits) }, Sense::Unit { millimetres: scaled }, MARGIN)
         });
         let found = candidates(&plan.habits, &walked, &score, &letters, has_base);
-        for (habits, sense, margin) in found.into_iter().chain(unit) {
-            let other = match sense {
-                Sense::Unit { millimetres } => plan.with_unit(millimetres),
+        let tools = tools.into_iter().map(|place| {
+            let names = Rc::new(plan.subjects[0].vocabulary());
+            let place = place.0.map(|e| Formula::new(e, &names));
+            (Habits::clone(&plan.habits), Sense::Tool { place }, MARGIN)
+        });
+        for (habits, sense, margin) in found.into_iter().chain(unit).chain(tools) {
+            let other = match &sense {
+                Sense::Unit { millimetres } => plan.with_unit(*millimetres),
+                Sense::Tool { place } => plan.with_tool(&Vector(place.clone().map(|f| f.value))),
                 _ => plan.with_habits(habits),
             };
             let there = other.walk(text, document, options);
@@ -114,7 +146,8 @@ pub(super) fn weighed(
             // Links that are the document's own must yield something of the robot that else is wrong.
             let is_borne_out = sense != Sense::OwnLinks
                 || own.right_at.iter().any(|at| is_own_chain(text, document, &other, &walked, &score, *at));
-            let is_load = matches!(sense, Sense::Load { .. });
+            // What could not be read before may be wrong then.
+            let is_load = matches!(sense, Sense::Load { .. } | Sense::Tool { .. });
             let is_better = gain >= margin
                 && is_borne_out
                 && (own.wrong.len() < score.wrong.len()
@@ -204,6 +237,10 @@ fn candidates(
     };
     if !habits.load_in_hand && wrong.iter().any(is_torque) {
         found.push((Habits { load_in_hand: true, ..habits.clone() }, Sense::LoadInHand, MARGIN));
+    }
+    if !habits.against_load && wrong.iter().any(is_torque) {
+        let margin = if letters.holds { 1 } else { MARGIN };
+        found.push((Habits { against_load: true, ..habits.clone() }, Sense::AgainstLoad, margin));
     }
     let own: BTreeSet<String> = walked.assertions.iter().filter_map(own_link).collect();
     if wrong.iter().any(|a| own_link(a).is_some()) && !own.is_subset(&habits.products) {

@@ -368,8 +368,8 @@ impl Walk<'_> {
         let source = self.source(span);
         let degree = std::f64::consts::PI / 180.0;
         match crate::numbers::unit_behind(source.trim_end_matches([',', '.', ';'])) {
-            Some((number, factor, is_length)) => {
-                let factor = if is_length { self.in_unit(factor) } else { factor };
+            Some((number, factor, power)) => {
+                let factor = self.in_unit(factor, power);
                 half_unit(number) * factor.eval(|_| None).unwrap_or(1.0)
             }
             None if source.contains('°') || source.contains("\\circ") => half_unit(source) * degree,
@@ -383,9 +383,14 @@ impl Walk<'_> {
             return 1.0;
         }
         let rest = self.text.get(span.end..).unwrap_or_default();
-        let rest = rest.trim_start_matches(['$', ' ', '~', '\\']);
+        // The unit behind the bracket counts for each of the numbers in it.
+        let is_inside = |c: char| c.is_ascii_digit() || ".,;-−+ \t&\\".contains(c);
+        let inside = rest.trim_start_matches(is_inside).strip_prefix([')', ']']);
+        let rest = inside.unwrap_or(rest);
+        let rest = rest.trim_start_matches(['$', ' ', '~', '\\', ',', ';']);
+        let rest = ["mathrm{", "text{"].iter().fold(rest, |r, look| r.strip_prefix(look).unwrap_or(r));
         let word = rest
-            .split(|c: char| c.is_whitespace() || matches!(c, ',' | ';' | ')' | '$' | '&'))
+            .split(|c: char| c.is_whitespace() || matches!(c, ',' | ';' | ')' | '}' | '$' | '&'))
             .next()
             .unwrap_or_default();
         if word.is_empty() || word.len() > 12 || rest.len() == self.text.get(span.end..).map_or(0, str::len) {
@@ -393,8 +398,8 @@ impl Walk<'_> {
         }
         let number = format!("1{word}");
         match crate::numbers::unit_behind(&number) {
-            Some(("1", factor, is_length)) => {
-                let factor = if is_length { self.in_unit(factor) } else { factor };
+            Some(("1", factor, power)) => {
+                let factor = self.in_unit(factor, power);
                 factor.eval(|_| None).unwrap_or(1.0)
             }
             _ => 1.0,

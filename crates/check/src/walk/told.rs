@@ -346,7 +346,7 @@ impl Walk<'_> {
             .iter()
             .zip(&symbols)
             .map(|(v, s)| match list {
-                List::Lengths => read_value(v, d.measure(*s)).ok().map(|v| self.in_unit(v)),
+                List::Lengths => read_value(v, d.measure(*s)).ok().map(|v| self.in_unit(v, 1)),
                 List::Joints | List::Rates => self.constant(v),
             })
             .collect();
@@ -360,9 +360,9 @@ impl Walk<'_> {
         true
     }
 
-    /// A length in metres, in the unit in which the document has lengths.
-    pub(super) fn in_unit(&self, metres: Expr) -> Expr {
-        if self.lexis.habits.scaled { metres * Expr::int(1000) } else { metres }
+    /// What is proportional to a power of a length, out of metres into the unit in which the document has lengths.
+    pub(super) fn in_unit(&self, metres: Expr, power: u32) -> Expr {
+        if self.lexis.habits.scaled { metres * Expr::int(1000_i64.pow(power)) } else { metres }
     }
 
     /// A number with its unit: `30°`, `0.1 m`, `0.5 rad/s`.
@@ -375,9 +375,7 @@ impl Walk<'_> {
             {
                 return None;
             }
-            Some((number, factor, is_length)) => {
-                (number, if is_length { self.in_unit(factor) } else { factor })
-            }
+            Some((number, factor, power)) => (number, self.in_unit(factor, power)),
             None => (text, Expr::int(1)),
         };
         let value = read(number, &(0..number.len()), &self.lexis.names).ok()?.value();
@@ -427,7 +425,7 @@ impl Walk<'_> {
         // Without a unit it is in that of the document already.
         let has_unit = crate::numbers::unit_behind(value).is_some();
         let is_length = measure == Measure::Length && (has_unit || !self.lexis.habits.scaled);
-        self.at.give(symbol, if is_length { self.in_unit(constant) } else { constant });
+        self.at.give(symbol, if is_length { self.in_unit(constant, 1) } else { constant });
         true
     }
 

@@ -100,7 +100,7 @@ impl Reader<'_> {
                 {
                     return true;
                 }
-                let is_unit = at > 0 && is_number(self.shown(at - 1)) && is_unit(bare);
+                let is_unit = at > 0 && is_number(self.shown(at - 1)) && words::is_unit(bare);
                 !is_unit && (words::is_link(bare) || is_sentence_word(bare))
             }
             Some(Kind::Command) => matches!(self.shown(at), "\\text" | "\\textbf" | "\\emph" | "\\textit"),
@@ -286,27 +286,6 @@ impl Reader<'_> {
 
 fn is_number(word: &str) -> bool {
     word.starts_with(|c: char| c.is_ascii_digit())
-}
-
-fn is_unit(word: &str) -> bool {
-    matches!(
-        word,
-        "m" | "mm"
-            | "cm"
-            | "rad"
-            | "deg"
-            | "grad"
-            | "Grad"
-            | "degrees"
-            | "grados"
-            | "degrés"
-            | "N"
-            | "kN"
-            | "kNm"
-            | "Nm"
-            | "s"
-            | "°"
-    )
 }
 
 /// True for a word that no formula has: two letters or more, of which one is small, and no name.

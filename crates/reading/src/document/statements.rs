@@ -430,6 +430,12 @@ impl<'t> Reader<'t> {
     fn side(&self, nodes: &[Node], end: usize) -> Side {
         let mut side = Side { span: end..end, parts: vec![] };
         side.add(trim(self.text, nodes));
+        // `v = (0.1, 0.2) m/s`
+        if let [.., Part::Matrix(_), Part::Text(unit)] = side.parts.as_slice()
+            && words::is_unit_alone(cut(self.text, unit))
+        {
+            side.parts.pop();
+        }
         if let (Some(first), Some(last)) = (side.parts.first(), side.parts.last()) {
             let ends = side.parts.iter().map(|p| p.span().end).max().unwrap_or(last.span().end);
             side.span = first.span().start.min(ends)..ends;

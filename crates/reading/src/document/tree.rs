@@ -329,8 +329,12 @@ impl Builder<'_> {
                     | Kind::Row => true,
                     Kind::Script | Kind::Prose => after,
                     Kind::Operator => !after || node.is_some_and(|n| cut(self.text, &n.span) == "."),
-                    Kind::Word => {
-                        after && node.is_some_and(|n| cut(self.text, &n.span).starts_with(['\'', '′', 'ᵀ']))
+                    // A transpose, or a unit.
+                    Kind::Word | Kind::Command => {
+                        let is_unit = |shown: &str| words::is_unit(shown) || words::is_unit_alone(shown);
+                        let shown = node.map_or("", |n| cut(self.text, &n.span));
+                        after
+                            && (shown.starts_with(['\'', '′', 'ᵀ']) || is_unit(shown) || shown == "\\mathrm")
                     }
                     _ => false,
                 },

@@ -76,6 +76,26 @@ pub(super) fn is_greek(word: &str) -> bool {
     GREEK.contains(&word.to_ascii_lowercase().as_str())
 }
 
+/// A unit of lengths, angles, times, forces, or a part of one: `m` and `s` of `m/s`.
+pub(super) fn is_unit(word: &str) -> bool {
+    const UNITS: [&str; 16] = [
+        "m", "mm", "cm", "rad", "deg", "grad", "Grad", "degrees", "grados", "degrés", "N", "kN", "kNm", "Nm",
+        "s", "°",
+    ];
+    UNITS.contains(&word)
+}
+
+/// True for nothing but a unit: `m/s`, `N·m`, `\,\mathrm{mm}`.
+pub(super) fn is_unit_alone(text: &str) -> bool {
+    let looks = ["\\mathrm", "\\text", "\\rm", "\\circ", "\\,", "\\;", "\\:", "\\!"];
+    let plain = looks
+        .iter()
+        .fold(text.to_string(), |t, look| t.replace(look, if *look == "\\circ" { "°" } else { " " }));
+    let is_between = |c: char| c.is_whitespace() || "/·*^{}~$\\²".contains(c);
+    let mut words = plain.split(is_between).filter(|w| !w.is_empty()).peekable();
+    plain.len() < 40 && words.peek().is_some() && words.all(|w| is_unit(w) || matches!(w, "2" | "cdot"))
+}
+
 /// Short words that no formula has.
 pub(super) fn is_filler(word: &str) -> bool {
     const FILLERS: [&str; 44] = [

@@ -30,7 +30,7 @@ pub trait Check {
     fn remarked(&self, remark: &Remark) -> String;
 
     /// A meaning of a name that is not the first one.
-    fn sense(&self, sense: Sense) -> String;
+    fn sense(&self, sense: &Sense) -> String;
 
     /// Why a line that looks like a formula was not judged.
     fn skipped(&self, why: &Skipped) -> String;

@@ -112,7 +112,7 @@ impl Check for English {
             Remark::OffBy(x) => format!("off by {}", decimal(*x)),
             Remark::Sampled => "found so in samples, not proved".into(),
             Remark::Compared(poses) => format!("by comparison with all solutions at {poses} poses"),
-            Remark::ReadAs(sense) => self.sense(*sense),
+            Remark::ReadAs(sense) => self.sense(sense),
             Remark::SignLost { value, by, right_where } => {
                 let place = match &right_where[..] {
                     [] => String::new(),
@@ -140,7 +140,7 @@ impl Check for English {
         }
     }
 
-    fn sense(&self, sense: Sense) -> String {
+    fn sense(&self, sense: &Sense) -> String {
         match sense {
             Sense::LinkAlone => "read as the transform of a link alone, not as a frame in the base",
             Sense::OwnLinks => "read as the document defines them: only their product is the robot's",
@@ -153,6 +153,10 @@ impl Check for English {
             Sense::Helper => "read as a helper of the document, not as an entry of the pose",
             Sense::CosineFirst => "read with the cosine as the first argument of atan2",
             Sense::ColumnsSnap => "read with s, n, a, P as the columns of the pose",
+            Sense::AgainstLoad => "torques are read as those that hold against the load",
+            Sense::Tool { place: [x, y, z] } => {
+                return format!("the hand is read as the point ({x}, {y}, {z}) of the last frame");
+            }
             Sense::LoadInHand => "the components of the load are read as those along the axes of the hand",
             Sense::WristEntries => "read with r_ij as the entries of frame 6 in frame 3",
             Sense::ZeroIsBase => "read with the robot's base as frame 0",
@@ -160,7 +164,7 @@ impl Check for English {
             Sense::Unit { millimetres: true } => "lengths without a unit read as millimetres",
             Sense::Unit { millimetres: false } => "lengths without a unit read as metres",
             Sense::Load { letter, axis, is_minus } => {
-                let against = if is_minus { "against" } else { "along" };
+                let against = if *is_minus { "against" } else { "along" };
                 return format!("{letter} read as a load on the hand {against} the axis {axis}");
             }
         }
@@ -356,7 +360,7 @@ impl Check for English {
                 "tables are read as {convention}: of the statements of the text {right} hold so, {rival} in another convention"
             ),
             Noted::NotSet(name, why) => format!("value of `{name}`: {why}"),
-            Noted::Reading(sense) => self.sense(*sense),
+            Noted::Reading(sense) => self.sense(sense),
             Noted::UnknownRobot(name) => format!("no robot `{name}` in the catalogue"),
             Noted::NoSuchTable => "there is no such table".into(),
             Noted::UnknownConvention(name) => format!("unknown convention `{name}`"),

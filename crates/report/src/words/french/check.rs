@@ -124,7 +124,7 @@ impl Check for French {
             Remark::Compared(poses) => {
                 format!("par comparaison avec toutes les solutions en {}", counted(*poses, "pose", "poses"))
             }
-            Remark::ReadAs(sense) => self.sense(*sense),
+            Remark::ReadAs(sense) => self.sense(sense),
             Remark::SignLost { value, by, right_where } => {
                 let which = value.map(|k| format!("valeur {} : ", k + 1)).unwrap_or_default();
                 let place = match &right_where[..] {
@@ -152,7 +152,7 @@ impl Check for French {
         }
     }
 
-    fn sense(&self, sense: Sense) -> String {
+    fn sense(&self, sense: &Sense) -> String {
         printed(match sense {
             Sense::LinkAlone => {
                 "lu comme la matrice de passage d'un seul corps, non comme un repère dans la base"
@@ -167,12 +167,16 @@ impl Check for French {
             }
             Sense::CosineFirst => "lu avec le cosinus comme premier argument de atan2",
             Sense::ColumnsSnap => "lu avec s, n, a, P comme colonnes de la situation",
+            Sense::AgainstLoad => "les couples sont lus comme ceux qui s’opposent à la charge",
+            Sense::Tool { place: [x, y, z] } => {
+                return format!("la main est lue comme le point ({x}, {y}, {z}) du dernier repère");
+            }
             Sense::LoadInHand => "les composantes de la charge sont lues suivant les axes de la main",
             Sense::WristEntries => "lu avec r_ij comme éléments du repère 6 dans le repère 3",
             Sense::ZeroIsBase => "lu avec la base du robot comme repère 0",
             Sense::PlaceIsO => "lu avec o comme position de l’organe terminal",
             Sense::Load { letter, axis, is_minus } => {
-                let along = if is_minus { "contre" } else { "suivant" };
+                let along = if *is_minus { "contre" } else { "suivant" };
                 return say!("{letter} lu comme une charge sur l'organe terminal, {along} l'axe {axis}");
             }
             Sense::Unit { millimetres: true } => "longueurs sans unité lues en millimètres",
@@ -384,7 +388,7 @@ impl Check for French {
                 }
             },
             Noted::NotSet(name, NotSet::Value(_)) => say!("`{name}` reçoit une valeur illisible"),
-            Noted::Reading(sense) => self.sense(*sense),
+            Noted::Reading(sense) => self.sense(sense),
             Noted::UnknownRobot(name) => format!("aucun robot `{name}` dans le catalogue"),
             Noted::NoSuchTable => say!("ce tableau n'existe pas"),
             Noted::UnknownConvention(name) => format!("convention inconnue `{name}`"),

@@ -156,7 +156,7 @@ fn headed(text: &str, separator: Separator) -> Vec<Grid> {
                 continue;
             }
             let width = grid.rows.first().map_or(0, Vec::len);
-            let span = behind_index(text, span.clone());
+            let span = before_remark(text, behind_index(text, span.clone()));
             let mut cells = split(&span, Some(width));
             // Rows may say their number where the head has no column for it.
             if grid.rows.len() == 1 && cells.len() != width {
@@ -189,6 +189,7 @@ fn headed(text: &str, separator: Separator) -> Vec<Grid> {
             }
         }
         // `Standard DH:   i   alpha   a   d   theta`
+        let span = before_remark(text, span);
         let behind = text[span.clone()].rfind(':').map(|n| span.start + n + 1..span.end);
         let header = [Some(span.clone()), behind]
             .into_iter()
@@ -254,6 +255,19 @@ fn behind_index(text: &str, span: Range<usize>) -> Range<usize> {
     let Some((before, rest)) = line.split_once('=') else { return span };
     let is_index = matches!(before.trim(), "i" | "j" | "k" | "n" | "link" | "joint");
     if is_index { span.end - rest.len()..span.end } else { span }
+}
+
+/// A line without the remark in brackets that stands apart behind it: `3   q3   0   l3   0     (mm)`.
+fn before_remark(text: &str, span: Range<usize>) -> Range<usize> {
+    let line = text[span.clone()].trim_end();
+    let open = match line.chars().next_back() {
+        Some(')') => "  (",
+        Some(']') => "  [",
+        _ => return span,
+    };
+    let Some(at) = line.rfind(open) else { return span };
+    let is_one = !line[at + open.len()..line.len() - 1].contains(['(', ')', '[', ']']);
+    if is_one && !line[..at].trim().is_empty() { span.start..span.start + at } else { span }
 }
 
 /// True for a line of nothing but heads of columns.

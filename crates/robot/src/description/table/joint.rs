@@ -15,8 +15,13 @@ pub(super) enum Joint {
     Moves(JointKind, Option<String>),
 }
 
-/// The joint of each row.
-pub(super) fn joints(rows: &[ReadRow], convention: Convention, out: &mut Diagnostics) -> Vec<Joint> {
+/// The joint of each row; `is_given` tells the names to which the text gives values.
+pub(super) fn joints(
+    rows: &[ReadRow],
+    convention: Convention,
+    is_given: &dyn Fn(&str) -> bool,
+    out: &mut Diagnostics,
+) -> Vec<Joint> {
     let starred = rows.iter().any(|r| r.cells().iter().any(|c| c.star));
     let mut joints: Vec<Joint> = vec![];
     for row in rows {
@@ -24,7 +29,45 @@ pub(super) fn joints(rows: &[ReadRow], convention: Convention, out: &mut Diagnos
         joints.push(found.unwrap_or(Joint::Fixed));
     }
     check_owners(rows, &joints, convention.length_z(), out);
+    let is_silent = !starred && !out.has_errors() && rows.iter().all(|r| !says_what_moves(r));
+    if is_silent && joints.iter().all(|j| *j == Joint::Fixed) {
+        return by_words(rows, convention.length_z(), is_given, out);
+    }
     joints
+}
+
+/// True for a row with a cell for its type or its variable.
+fn says_what_moves(row: &ReadRow) -> bool {
+    row.source(Role::Sigma).or(row.source(Role::Variable)).is_some()
+}
+
+/// The joints of a table whose variables have names of their own (`pan`, `tilt`, `rho`): the one symbol of θ that has no
+/// value turns; where θ is a number, the one along z that stands nowhere else slides.
+fn by_words(rows: &[ReadRow], z: &str, is_given: &dyn Fn(&str) -> bool, out: &mut Diagnostics) -> Vec<Joint> {
+    let open = |cell: &TableCell| -> Option<String> {
+        let mut names = cell.cell.symbols.iter().map(|s| &s.0).filter(|n| !is_given(n));
+        let first = names.next()?;
+        names.all(|n| n == first).then(|| first.clone())
+    };
+    let uses = |name: &str| {
+        let cells = rows.iter().flat_map(|r| r.cells());
+        cells.filter(|c| c.cell.symbols.iter().any(|s| s.0 == name)).count()
+    };
+    let mut joint = |row: &ReadRow| {
+        let (cell, kind) = match row.theta.cell.symbols.is_empty() {
+            true => (&row.z, JointKind::Prismatic),
+            false => (&row.theta, JointKind::Revolute),
+        };
+        let name = open(cell).filter(|n| uses(n) == 1)?;
+        let letter = if kind == JointKind::Revolute { "theta" } else { z };
+        out.note(
+            cell.cell.span.clone(),
+            format!("`{name}` in {letter} is read as the variable of row {}", row.number),
+        )
+        .hint("if that is a constant, say its value, or add a column σ (0 revolute, 1 prismatic, 2 fixed)");
+        Some(Joint::Moves(kind, Some(name)))
+    };
+    rows.iter().map(|r| joint(r).unwrap_or(Joint::Fixed)).collect()
 }
 
 fn joint(row: &ReadRow, z: &str, starred: bool, above: &[Joint], out: &mut Diagnostics) -> Option<Joint> {
@@ -140,7 +183,7 @@ fn check_owners(rows: &[ReadRow], joints: &[Joint], z: &str, out: &mut Diagnosti
         })
     };
     for (row, joint) in rows.iter().zip(joints) {
-        if row.source(Role::Sigma).or(row.source(Role::Variable)).is_some() {
+        if says_what_moves(row) {
             continue;
         }
         let number = row.number;

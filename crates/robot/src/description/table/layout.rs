@@ -43,6 +43,15 @@ impl Layout {
             columns.iter_mut().filter(|c| c.role == Role::B).for_each(|c| c.role = Role::D);
         }
         let rows = below_units(&mut columns, rows);
+        // Words of any language above the numbers of the rows.
+        let counts =
+            |k: usize, row: &Vec<GridCell>| row.first().and_then(|c| number_in(&c.text)) == Some(k + 1);
+        if let Some(first) = columns.first_mut().filter(|c| c.role == Role::Other)
+            && letters.len() >= 4
+            && rows.iter().enumerate().all(|(k, row)| counts(k, row))
+        {
+            first.role = Role::Index;
+        }
         let layout = Self::with_rows(columns, heads.clone(), rows, grid)?;
         Some(layout.with_angles_of_variables())
     }

@@ -239,7 +239,8 @@ fn read_as(letters: &Letters, tables: &Tables, out: &mut Diagnostics) -> Reading
             out.add(finding);
         }
     }
-    let joints = joints(&read, letters.convention, out);
+    let is_given = |name: &str| values::is_constant(name, lines, &units);
+    let joints = joints(&read, letters.convention, &is_given, out);
     rename(&mut read, &joints, &units, out);
     units.angle = units.angle.or(common_unit(&told_columns[0], Quantity::Angle));
     units.length = units.length.or(common_unit(&told_columns[0], Quantity::Length));

@@ -60,6 +60,13 @@ pub(super) fn parameters(
     parameters
 }
 
+/// True for a name to which a line gives a constant.
+pub(super) fn is_constant(name: &str, lines: &Lines, units: &BareUnits) -> bool {
+    let style = units.style(Quantity::Open, None);
+    let mut given = lines.values.iter().filter(|v| v.0 == name);
+    given.any(|v| read_line(&v.1, &style, &mut Diagnostics::default()).is_some())
+}
+
 /// What a line gives a name, if that is a constant.
 fn read_line(cell: &GridCell, style: &Style, out: &mut Diagnostics) -> Option<Expr> {
     let trimmed = cell.text.trim_matches(['"', '\'', '$', ' ']);

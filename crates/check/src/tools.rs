@@ -1,0 +1,117 @@
+//! Tools of which a document speaks in words or only in its formulas: `the tip is at (L_3, 0, 0) in frame 4`, or a length that the
+//! table does not have. Each is a reading that the document's statements have to support.
+
+use super::note::Unread;
+use super::plan::{Plan, Walked};
+use super::walk::Piece;
+use denavit::geometry::Vector;
+use denavit_symbolic::parse::parse;
+use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
+use denavit_symbolic::{Expr, Symbol};
+use std::collections::BTreeMap;
+
+/// No more unknown names, and no more told places, are tried.
+const MOST_NAMES: usize = 3;
+const MOST_TOLD: usize = 4;
+/// The frame in which a place is told stands no farther from it, in bytes.
+const NEAR: usize = 60;
+/// The longest text of a place.
+const LONGEST: usize = 80;
+
+/// Places of the hand in the last frame that the text may mean, for arms without a tool.
+pub(super) fn candidates(text: &str, plan: &Plan, walked: &Walked) -> Vec<Vector<Expr>> {
+    let is_bare = |d: &denavit::description::Description| d.tool == denavit::geometry::Transform::identity();
+    if !plan.is_own || plan.subjects.is_empty() || !plan.subjects.iter().all(|s| is_bare(&s.description)) {
+        return vec![];
+    }
+    let mut found = told(text, plan);
+    let zero = Expr::int(0);
+    for name in unknown(walked) {
+        let size = Expr::symbol(&name);
+        for axis in [0, 2, 1] {
+            for size in [size, -size] {
+                found.push(Vector(std::array::from_fn(|k| if k == axis { size } else { zero })));
+            }
+        }
+    }
+    found
+}
+
+/// Names of lengths that formulas have and the robot has not, the one first that stands in most of them.
+fn unknown(walked: &Walked) -> Vec<String> {
+    let pieces = walked.assertions.iter().flat_map(|a| &a.pieces);
+    let unread = pieces.filter_map(|p| match p {
+        Piece::Unreadable { errors, .. } => Some(errors),
+        _ => None,
+    });
+    let mut counts: BTreeMap<String, usize> = BTreeMap::new();
+    for errors in unread {
+        let mut names: Vec<String> =
+            errors.iter().filter_map(Unread::unknown).map(plain_name).filter(|n| is_length(n)).collect();
+        names.dedup();
+        // What is unknown for two reasons is not made known by one.
+        if let ([name], true) = (&names[..], errors.iter().all(|e| e.unknown().is_some())) {
+            *counts.entry(name.clone()).or_default() += 1;
+        }
+    }
+    let mut names: Vec<(String, usize)> = counts.into_iter().collect();
+    names.sort_by_key(|n| std::cmp::Reverse(n.1));
+    names.into_iter().map(|n| n.0).take(MOST_NAMES).collect()
+}
+
+/// True for a letter of lengths, with a number or a letter behind it or without: `L3`, `l_t`, `e`.
+fn is_length(name: &str) -> bool {
+    let mut chars = name.chars();
+    let first = chars.next().is_some_and(|c| "aAbBcdDeEfghHklLprRt".contains(c));
+    let rest: Vec<char> = chars.collect();
+    first && rest.len() <= 2 && rest.iter().all(char::is_ascii_alphanumeric)
+}
+
+/// Three lengths in brackets beside the number of the last frame.
+fn told(text: &str, plan: &Plan) -> Vec<Vector<Expr>> {
+    let last: Vec<String> = plan.subjects.iter().map(|s| s.last().to_string()).collect();
+    let names = Vocabulary::new().open(true);
+    let mut found: Vec<Vector<Expr>> = vec![];
+    for (at, _) in text.match_indices(['(', '[']).take(2_000) {
+        let inside = &text[at + 1..];
+        let Some(length) = inside.find([')', ']']).filter(|l| *l <= LONGEST) else { continue };
+        let parts: Vec<&str> = inside[..length].split([',', ';']).map(str::trim).collect();
+        if parts.len() != 3 {
+            continue;
+        }
+        let before = edge(text, at.saturating_sub(NEAR)).map_or("", |from| &text[from..at]);
+        let behind =
+            edge(text, at + length + NEAR).map_or("", |to| text.get(at + length + 2..to).unwrap_or(""));
+        let line = |t: &str| t.split('\n').next().unwrap_or_default().to_string();
+        let around = format!("{} {}", before.rsplit('\n').next().unwrap_or_default(), line(behind));
+        let mut words = around.split(|c: char| !c.is_ascii_digit());
+        if !words.any(|w| last.iter().any(|l| l == w)) {
+            continue;
+        }
+        let value = |p: &&str| parse(&p.replace('−', "-"), &names).ok().filter(|e| is_short(*e));
+        let Some(place) = parts.iter().map(|p| value(p)).collect::<Option<Vec<Expr>>>() else { continue };
+        let [x, y, z] = place[..] else { continue };
+        let place = Vector([x, y, z]);
+        let moves = |s: Symbol| {
+            let own = |v: &denavit::description::Variable| v.symbol == s;
+            plan.is_joint(&s.name())
+                || plan.subjects.iter().any(|r| r.description.variables().iter().any(own))
+        };
+        let is_still = place.0.iter().flat_map(|e| e.symbols()).all(|s| !moves(s));
+        if is_still && place.0.iter().any(|e| !e.is_zero()) && !found.contains(&place) {
+            found.push(place);
+        }
+    }
+    found.truncate(MOST_TOLD);
+    found
+}
+
+/// A number, or a letter with a factor.
+fn is_short(e: Expr) -> bool {
+    e.symbols().len() <= 1 && e.symbols().iter().all(|s| is_length(&plain_name(&s.name())))
+}
+
+/// The nearest place before `at` at which no character is cut.
+fn edge(text: &str, at: usize) -> Option<usize> {
+    (0..=at.min(text.len())).rev().find(|i| text.is_char_boundary(*i))
+}
