@@ -32,6 +32,7 @@
 //!
 //! - [`forward`]: link transforms, the simplified model, the shortest algorithm for it.
 //! - [`velocity`]: Jacobians, singularities, velocities and forces.
+//! - [`dynamics`]: torques, inertia, gravity, motion, energy.
 //! - [`inverse`]: closed forms with their derivation, elimination, redundancy, descent.
 //! - [`motion`]: paths of joints and hand, followed and timed; [`workspace`]: where the tool point comes to.
 //!
@@ -42,6 +43,7 @@
 
 pub mod catalogue;
 pub mod description;
+pub mod dynamics;
 pub mod forward;
 pub mod geometry;
 pub mod idealise;

@@ -4,8 +4,8 @@
 //! Khalil's. The same product is cut at other places: each X moves to the neighbouring row, and the one at the
 //! end of the chain becomes part of the base or of the tool.
 
-use super::{Convention, Description, Row, Screw, same_screws};
-use crate::geometry::{Axis, Rotation, Transform, Vector};
+use super::{Convention, Description, Screw, same_screws};
+use crate::geometry::{Axis, Transform};
 use denavit_symbolic::{Angle, Equality, Expr, Refusal, Ring, equal};
 
 /// A description in another convention.
@@ -99,7 +99,7 @@ impl Description {
                 let before = &mut self.rows[i - 1];
                 before.theta = plus(before.theta, branch.angle);
                 before.d = plus(before.d, branch.length);
-                move_frame(before, &branch.transform().inverse());
+                before.move_frame(&branch.transform().inverse());
                 moved.push(Moved::BranchToRow(i - 1));
             }
         }
@@ -115,7 +115,7 @@ impl Description {
         let behind = screws.into_iter().skip(1).chain([x_screw(Expr::int(0), Expr::int(0))]);
         for (row, x) in self.rows.iter_mut().zip(behind) {
             (row.alpha, row.a) = (x.angle, x.length);
-            move_frame(row, &x.transform().inverse());
+            row.move_frame(&x.transform().inverse());
         }
     }
 
@@ -125,7 +125,7 @@ impl Description {
         for row in &mut self.rows {
             let own = x_screw(row.alpha, row.a);
             (row.alpha, row.a) = (x.angle, x.length);
-            move_frame(row, &own.transform());
+            row.move_frame(&own.transform());
             x = own;
         }
         if !x.is_identity() {
@@ -167,19 +167,6 @@ impl Description {
         let last = screws.iter().rposition(moves).map_or(0, |i| i + 1);
         let tool = screws.drain(last..).rev().fold(self.tool, |x, s| s.transform() * x);
         (base, screws, tool)
-    }
-}
-
-/// Writes a link's mass properties in its new frame; `x_new_old` is the old frame seen from it.
-fn move_frame(row: &mut Row, x_new_old: &Transform<Expr>) {
-    if let Some(com) = &mut row.com {
-        *com = x_new_old.act_on_point(Vector(*com)).0;
-    }
-    if let Some([xx, xy, xz, yy, yz, zz]) = row.inertia {
-        let r = x_new_old.rotation;
-        let inertia = Rotation::from_rows([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
-        let m = (r * inertia * r.inverse()).rows(); // I' = R I Rᵀ
-        row.inertia = Some([m[0][0], m[0][1], m[0][2], m[1][1], m[1][2], m[2][2]]);
     }
 }
 

@@ -12,6 +12,7 @@ mod filled;
 mod inertia;
 mod joints;
 mod lines;
+mod masses;
 mod mjcf;
 mod named;
 mod names;
@@ -165,6 +166,16 @@ pub struct Row {
     pub com: Option<[Expr; 3]>,
     /// Its inertia about the centre of mass in the row's frame, xx xy xz yy yz zz, kg·m².
     pub inertia: Option<[Expr; 6]>,
+    /// Its first moment in the row's frame, in place of its centre of mass: MX MY MZ, kg·m.
+    pub first_moment: Option<[Expr; 3]>,
+    /// Its inertia about the origin of the row's frame, in place of that about its centre of mass: XX XY XZ YY YZ ZZ, kg·m².
+    pub inertia_at_origin: Option<[Expr; 6]>,
+    /// The inertia of the joint's rotor as the joint feels it: IA, kg·m² (kg for a slide).
+    pub rotor: Option<Expr>,
+    /// The joint's viscous friction: FV, N·m·s/rad (N·s/m for a slide).
+    pub viscous: Option<Expr>,
+    /// The joint's friction of Coulomb: FS, N·m (N for a slide).
+    pub coulomb: Option<Expr>,
 }
 
 /// A joint variable.
@@ -205,6 +216,11 @@ impl Row {
             mass: None,
             com: None,
             inertia: None,
+            first_moment: None,
+            inertia_at_origin: None,
+            rotor: None,
+            viscous: None,
+            coulomb: None,
         }
     }
 }

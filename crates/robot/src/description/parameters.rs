@@ -30,6 +30,7 @@ impl Description {
                 *cell = value(*cell);
             }
         }
+        numbers.substitute_masses(value);
         (numbers.base, numbers.tool) = (self.base.map(value), self.tool.map(value));
         numbers
     }

@@ -21,6 +21,8 @@ pub enum Quantity {
     Mass,
     /// Kilogram square metres.
     Inertia,
+    /// Kilogram metres.
+    FirstMoment,
     /// A plain number.
     Number,
     /// A parameter: the first unit that occurs decides, none leaves it open.
@@ -39,6 +41,7 @@ impl Quantity {
             Quantity::Acceleration => "an acceleration",
             Quantity::Mass => "a mass",
             Quantity::Inertia => "a moment of inertia",
+            Quantity::FirstMoment => "a first moment of mass",
             Quantity::Number => "a plain number",
             Quantity::Open => "a length or an angle",
         }
@@ -55,6 +58,7 @@ impl Quantity {
             Quantity::Acceleration => (None, "m/s^2"),
             Quantity::Mass => (None, "kg"),
             Quantity::Inertia => (None, "kg m^2"),
+            Quantity::FirstMoment => (None, "kg m"),
             Quantity::Number | Quantity::Open => (None, ""),
         }
     }
@@ -139,6 +143,10 @@ const UNITS: &[Unit] = &[
     unit("kg m²", Quantity::Inertia, 1, 1),
     unit("kg*m^2", Quantity::Inertia, 1, 1),
     unit("kg·m²", Quantity::Inertia, 1, 1),
+    unit("kg m", Quantity::FirstMoment, 1, 1),
+    unit("kg*m", Quantity::FirstMoment, 1, 1),
+    unit("kg·m", Quantity::FirstMoment, 1, 1),
+    unit("g mm", Quantity::FirstMoment, 1, 1_000_000),
     unit("g mm^2", Quantity::Inertia, 1, 1_000_000_000),
     unit("g mm²", Quantity::Inertia, 1, 1_000_000_000),
 ];

@@ -1,4 +1,4 @@
-//! Vectors, rotations, rigid transforms, and the ways to write an orientation.
+//! Vectors, rotations, rigid transforms, the ways to write an orientation, and bodies by their mass.
 //!
 //! A transform `x_ab` is frame `b` seen from frame `a`: it takes the coordinates of a point in `b` to its
 //! coordinates in `a`, and inner letters cancel, `x_ac = x_ab * x_bc`. Frames are right-handed, angles in
@@ -7,11 +7,13 @@
 //! Everything but the reading of orientations is straight-line code over [`Scalar`](crate::scalar::Scalar):
 //! `f64` for numbers, `Expr` for formulas.
 
+pub mod body;
 pub mod orientation;
 pub mod rotation;
 pub mod transform;
 pub mod vector;
 
+pub use body::{Body, NoBody, PARAMETERS};
 pub use orientation::{EulerSet, Orientation, OrientationError, OrientationSet};
 pub use rotation::{NotRigid, Rotation};
 pub use transform::Transform;

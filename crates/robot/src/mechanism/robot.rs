@@ -57,7 +57,7 @@ impl<T: Scalar> Affine<T> {
 
     /// The value at a configuration, quarter turns left aside.
     #[inline]
-    fn value(&self, q: &[T]) -> T {
+    pub(crate) fn value(&self, q: &[T]) -> T {
         match self.linear(q) {
             None => self.offset,
             Some(x) if self.offset == T::zero() => x,

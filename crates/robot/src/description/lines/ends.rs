@@ -172,7 +172,7 @@ impl Description {
             let mut rows: Vec<Row> = (0..last).map(|k| fixed(turns.z[k + 1], turns.x[k])).collect();
             let z = turns.z[0];
             let end =
-                self.rows.last_mut().filter(|r| r.mass.is_none() && r.com.is_none() && r.inertia.is_none());
+                self.rows.last_mut().filter(|r| r.body().is_none());
             let branch = rows.first_mut().filter(|_| self.convention == Convention::Khalil);
             match (end, branch) {
                 (Some(end), _) => end.turn_behind(&z),

@@ -8,7 +8,20 @@ use denavit_symbolic::Expr;
 use toml::Spanned;
 use toml::de::DeValue;
 
-const COMMON: &[&str] = &["name", "limits", "velocity", "acceleration", "mass", "com", "inertia"];
+const COMMON: &[&str] = &[
+    "name",
+    "limits",
+    "velocity",
+    "acceleration",
+    "mass",
+    "com",
+    "inertia",
+    "first_moment",
+    "inertia_at_origin",
+    "rotor",
+    "viscous",
+    "coulomb",
+];
 const LETTERS: &[&str] = &["theta", "d", "a", "alpha", "r", "gamma", "b"];
 
 /// A row whose limits wait until it is known what they limit.
@@ -125,11 +138,9 @@ impl Reader<'_> {
         let get = |key| draft.fields.get(key);
         let mut row = draft.cells.row(variable);
         self.joint_limits(&draft.fields, &mut row);
-        let mass = get("mass").and_then(|v| self.mass(v, names));
-        let com = get("com").and_then(|v| self.constants(v, Quantity::Length, "com", names));
-        let inertia = get("inertia").and_then(|v| self.constants(v, Quantity::Inertia, "inertia", names));
-        let name = self.string(get("name"));
-        Row { name, mass, com, inertia, ..row }
+        row.name = self.string(get("name"));
+        self.masses(&draft.fields, &mut row, names);
+        row
     }
 
     /// How far and how fast a row's joint moves.
@@ -182,30 +193,9 @@ impl Reader<'_> {
         }
         Some(e)
     }
-
-    fn mass(&mut self, value: &Spanned<DeValue>, names: &[String]) -> Option<Expr> {
-        let cell = self.cell(value, &Style::plain(Quantity::Mass))?;
-        self.constant_of_parameters(&cell, names, 0);
-        if cell.symbols.is_empty() && number(cell.expr) < 0.0 {
-            self.out.error(value.span(), "the mass is negative");
-        }
-        Some(cell.expr)
-    }
-
-    fn constants<const N: usize>(
-        &mut self,
-        value: &Spanned<DeValue>,
-        quantity: Quantity,
-        what: &str,
-        names: &[String],
-    ) -> Option<[Expr; N]> {
-        let cells = self.list(value, &Style::plain(quantity), what, N)?;
-        cells.iter().for_each(|c| self.constant_of_parameters(c, names, 0));
-        cells.iter().map(|c| c.expr).collect::<Vec<Expr>>().try_into().ok()
-    }
 }
 
 /// The value of an expression without names.
-fn number(e: Expr) -> f64 {
+pub(super) fn number(e: Expr) -> f64 {
     e.eval(|_| None).unwrap_or(0.0)
 }

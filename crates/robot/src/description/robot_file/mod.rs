@@ -4,6 +4,7 @@ mod axes;
 mod fields;
 mod frames;
 mod joints;
+mod masses;
 mod parameters;
 mod tree;
 mod write;

@@ -101,15 +101,24 @@ fn write_row(out: &mut String, row: &Row, convention: Convention) {
         let _ = writeln!(out, "{} = {}", c.key(convention), cell(c.of(row), quantity));
     }
     write_limits(out, row);
-    if let Some(mass) = row.mass {
-        let _ = writeln!(out, "mass = {}", cell(mass, Quantity::Mass));
-    }
-    if let Some(com) = &row.com {
-        let _ = writeln!(out, "com = {}", list(com, Quantity::Length));
-    }
-    if let Some(inertia) = &row.inertia {
-        let _ = writeln!(out, "inertia = {}", list(inertia, Quantity::Inertia));
-    }
+    let slides = row.variable.is_some_and(|v| v.kind == JointKind::Prismatic);
+    let rotor = if slides { Quantity::Mass } else { Quantity::Inertia };
+    let one = |key: &str, e: Option<Expr>, quantity| e.map(|e| format!("{key} = {}", cell(e, quantity)));
+    let many =
+        |key: &str, e: Option<&[Expr]>, quantity| e.map(|e| format!("{key} = {}", list(e, quantity)));
+    let lines = [
+        one("mass", row.mass, Quantity::Mass),
+        many("com", row.com.as_ref().map(|e| &e[..]), Quantity::Length),
+        many("inertia", row.inertia.as_ref().map(|e| &e[..]), Quantity::Inertia),
+        many("first_moment", row.first_moment.as_ref().map(|e| &e[..]), Quantity::FirstMoment),
+        many("inertia_at_origin", row.inertia_at_origin.as_ref().map(|e| &e[..]), Quantity::Inertia),
+        one("rotor", row.rotor, rotor),
+        one("viscous", row.viscous, Quantity::Number),
+        one("coulomb", row.coulomb, Quantity::Number),
+    ];
+    lines.into_iter().flatten().for_each(|line| {
+        let _ = writeln!(out, "{line}");
+    });
 }
 
 /// How far and how fast a row's joint moves.

@@ -1,5 +1,6 @@
 //! A serial chain through the tree.
 
+use super::masses::Landing;
 use super::{Joint, Mechanism};
 use crate::description::lines::{Agreement, AxisAtRest, ChainAtRest, NotPlaced};
 use crate::description::{Convention, Description, JointKind, MAX_ROWS, diagnostic::nearest};
@@ -20,6 +21,8 @@ pub struct Chain {
     pub joints: Vec<usize>,
     /// How the table was found to be the chain.
     pub agreement: Agreement,
+    /// Joints that are not of the chain and behind which something weighs that hangs on a link of it: they count as fixed at 0.
+    pub held: Vec<usize>,
 }
 
 /// Why there is no chain.
@@ -161,6 +164,7 @@ impl Mechanism {
         let mut of_axis: Vec<usize> = vec![];
         let mut x = Transform::<Expr>::identity();
         let mut beside = None;
+        let mut landings: Vec<Landing> = vec![];
         for Step { joint: j, is_up } in way.iter().copied() {
             let joint = &self.joints[j];
             let (moves, rest) = self.moves(j, &way, &mut joints);
@@ -176,6 +180,9 @@ impl Mechanism {
                 beside.get_or_insert(x.rotation);
             }
             x = if is_up { x * motion.inverse() * joint.origin.inverse() } else { x * motion };
+            if of_axis.last() == Some(&j) {
+                landings.push(Landing { body: if is_up { joint.parent } else { joint.child }, at_rest: x });
+            }
         }
         if axes.is_empty() {
             return Err(self.rigid(from, to));
@@ -190,7 +197,8 @@ impl Mechanism {
         });
         let (mut description, agreement) = placed?;
         self.name_rows(&mut description, &of_axis, &joints);
-        Ok(Chain { description, from, to, joints, agreement })
+        let held = self.weigh_rows(&mut description, &of_axis, &landings, from);
+        Ok(Chain { description, from, to, joints, agreement, held })
     }
 
     /// What moves a joint: a variable of the chain with its factor, none if it stands still; and its value at rest.

@@ -4,6 +4,7 @@
 //! chain through the tree is a [`Description`] like any other ([`Mechanism::chain`]).
 
 mod chain;
+mod masses;
 mod of;
 mod poses;
 mod program;

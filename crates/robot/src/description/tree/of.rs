@@ -4,7 +4,6 @@
 //! that adds variables is one joint for each, with bodies between; those that are not its own follow them.
 
 use super::{Body, Follows, Joint, Mass, Mechanism};
-use crate::description::inertia::turned;
 use crate::description::{Description, JointKind, Row, Variable};
 use crate::geometry::{Transform, Vector};
 use denavit_symbolic::{Angle, Expr, Rational, Symbol};
@@ -185,12 +184,9 @@ pub(in crate::description) fn with_gear(
 
 /// The mass of a row's link in the frame of its body, in which the row's frame stands.
 fn mass(row: &Row, frame: &Transform<Expr>, value: &impl Fn(Expr) -> Expr) -> Option<Mass> {
-    let (mass, com, inertia) = (row.mass?, row.com?, row.inertia?);
-    Some(Mass {
-        mass: value(mass),
-        com: frame.act_on_point(Vector(com)).0.map(value),
-        inertia: turned(frame.rotation, inertia).map(value),
-    })
+    let mut row = row.clone();
+    row.move_frame(frame);
+    row.weighed().map(|m| Mass { mass: value(m.mass), com: m.com.map(value), inertia: m.inertia.map(value) })
 }
 
 /// The names of the joints that move by themselves; `q3` where there is none.

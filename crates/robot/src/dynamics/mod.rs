@@ -1,0 +1,32 @@
+//! Dynamics: what torques do to an arm with masses.
+//!
+//! Every algorithm is straight-line code over [`Scalar`](crate::scalar::Scalar): with `f64` it computes, with `Expr` it leaves
+//! formulas. The links are those of the moving axes ([`MovingAxes`](crate::mechanism::MovingAxes)): the frame of link k has its z
+//! along axis k, in every convention alike, and what is fixed to a link is part of it. Torques are newton metres, newtons for
+//! joints that slide; the joint variables radians and metres, their rates per second.
+//!
+//! - [`Dynamics`]: the links with their masses, the drives, gravity; over numbers or formulas.
+//! - [`inverse_dynamics`]: the recursion of Newton and Euler; gravity and velocity torques are cases of it.
+//! - [`inertia_matrix`]: A(q), by composite bodies.
+//! - [`kinetic_energy`], [`potential_energy`]: the energies.
+//! - [`regressor`]: W with τ = Wχ.
+//! - [`coriolis_matrix`]: C with C q̇ the velocity torques and Ȧ − 2C skew.
+//! - [`direct_dynamics`], [`articulated_bodies`]: accelerations.
+
+mod articulated;
+mod coriolis;
+mod direct;
+mod energy;
+mod inertia;
+mod model;
+mod newton_euler;
+mod regressor;
+
+pub use articulated::articulated_bodies;
+pub use coriolis::coriolis_matrix;
+pub use direct::{Factored, Singular, direct_dynamics, factored};
+pub use energy::{kinetic_energy, potential_energy};
+pub use inertia::inertia_matrix;
+pub use model::{Drive, Dynamics, Formulas, GRAVITY, Link, NoNumbers, Wrench};
+pub use newton_euler::{friction, gravity_torques, inverse_dynamics, velocity_torques};
+pub use regressor::regressor;

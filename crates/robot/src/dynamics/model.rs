@@ -1,0 +1,319 @@
+//! An arm with masses: its moving links, its drives, gravity.
+
+use crate::description::{Description, JointKind, Parameter, Row};
+use crate::geometry::{Axis, Body, PARAMETERS, Rotation, Transform, Vector};
+use crate::mechanism::{Affine, Lengths, MissingValue, MovingAxes, Robot};
+use crate::scalar::Scalar;
+use denavit_symbolic::{Expr, Rational, Symbol};
+use std::fmt;
+
+/// The acceleration of gravity where a description says nothing of it, along −z of the base, m/s²: as a decimal.
+pub const GRAVITY: (i64, i64) = (981, 100);
+
+/// An arm with masses.
+#[derive(Clone, Debug)]
+pub struct Dynamics<T> {
+    /// The links, base first: one for each moving axis.
+    pub links: Vec<Link<T>>,
+    /// The tool in the frame of the last link.
+    pub tool: Transform<T>,
+    /// The acceleration of gravity in the base, m/s².
+    pub gravity: Vector<T>,
+    /// The drives, one a joint variable.
+    pub drives: Vec<Drive<T>>,
+}
+
+/// What moves about or along one axis.
+#[derive(Clone, Debug)]
+pub struct Link<T> {
+    /// What is constant between the frame of the link before (the base, for the first) and the motion.
+    pub before: Transform<T>,
+    /// Whether it turns about z or slides along it.
+    pub kind: JointKind,
+    /// Its angle or its displacement.
+    pub value: Affine<T>,
+    /// Its mass with that of everything fixed to it, in its frame: the one behind the motion.
+    pub body: Body<T>,
+    /// The row of the table that its axis stands in, from 0.
+    pub row: usize,
+}
+
+/// What belongs to a joint variable itself.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Drive<T> {
+    /// The inertia of the rotor as the joint feels it, N² times its own behind a gear of N: IA, kg·m² (kg for a slide).
+    pub rotor: T,
+    /// Viscous friction: FV, torque by velocity.
+    pub viscous: T,
+    /// Coulomb's friction: FS, torque.
+    pub coulomb: T,
+}
+
+/// What the tool exerts on its surroundings: the force in newtons and the moment about the tool's origin in newton metres, along
+/// the axes of the base.
+pub type Wrench<T> = [Vector<T>; 2];
+
+impl<T: Scalar> Dynamics<T> {
+    /// How many joint variables there are.
+    pub fn joints(&self) -> usize {
+        self.drives.len()
+    }
+
+    /// A robot with the masses of its rows, each in the row's frame, with its drives, under gravity. What is fixed to the base
+    /// does not count.
+    pub fn new(robot: &Robot<T>, rows: &[Body<T>], drives: Vec<Drive<T>>, gravity: Vector<T>) -> Self {
+        let axes = MovingAxes::new(robot, Lengths::Before);
+        let mut constants = axes.constants.into_iter();
+        let mut links: Vec<Link<T>> = axes
+            .moving
+            .into_iter()
+            .zip(constants.by_ref())
+            .map(|(a, before)| Link {
+                before,
+                kind: a.kind,
+                value: a.value,
+                body: Body::nothing(),
+                row: a.row,
+            })
+            .collect();
+        let tool = constants.next().unwrap_or_else(Transform::identity);
+        // Where the frame of each row stands in that of the link that it is fixed to.
+        let (mut moved, mut place) = (0, Transform::identity());
+        for (link, body) in robot.links.iter().zip(rows) {
+            if link.moves() {
+                moved += usize::from(link.turns()) + usize::from(link.slides());
+                place = link.after;
+            } else {
+                place = place * link.transform(&[]);
+            }
+            if let Some(of) = moved.checked_sub(1) {
+                links[of].body = links[of].body + body.seen_from(&place);
+            }
+        }
+        Dynamics { links, tool, gravity, drives }
+    }
+
+    /// The rates of the axes at rates of the joints.
+    pub(super) fn rates(&self, joints: &[T]) -> Vec<T> {
+        let rate = |value: &Affine<T>| {
+            let parts = value.terms.iter().map(|&(j, k)| if k == T::one() { joints[j] } else { k * joints[j] });
+            parts.reduce(|a, b| a + b).unwrap_or_else(T::zero)
+        };
+        self.links.iter().map(|l| rate(&l.value)).collect()
+    }
+
+    /// What torques at the axes are at the joints: τ = Gᵀ τ of the axes, with the rates of the axes G q̇.
+    pub(super) fn at_joints(&self, axes: &[T]) -> Vec<T> {
+        let mut torques = vec![T::zero(); self.joints()];
+        for (link, &torque) in self.links.iter().zip(axes) {
+            for &(j, k) in &link.value.terms {
+                torques[j] = torques[j] + if k == T::one() { torque } else { k * torque };
+            }
+        }
+        torques
+    }
+
+    /// The same in another scalar type.
+    pub fn map<U: Scalar>(&self, mut f: impl FnMut(T) -> U) -> Dynamics<U> {
+        let mut links = vec![];
+        for l in &self.links {
+            let terms = l.value.terms.iter().map(|&(j, k)| (j, f(k))).collect();
+            let value = Affine { offset: f(l.value.offset), quarters: l.value.quarters, terms };
+            links.push(Link {
+                before: l.before.map(&mut f),
+                kind: l.kind,
+                value,
+                body: l.body.map(&mut f),
+                row: l.row,
+            });
+        }
+        let drive =
+            |d: &Drive<T>| Drive { rotor: f(d.rotor), viscous: f(d.viscous), coulomb: f(d.coulomb) };
+        let drives = self.drives.iter().map(drive).collect();
+        let (tool, gravity) = (self.tool.map(&mut f), self.gravity.map(&mut f));
+        Dynamics { links, tool, gravity, drives }
+    }
+}
+
+impl<T: Scalar> Link<T> {
+    /// The frame of the link in that of the one before.
+    pub(super) fn place(&self, q: &[T]) -> Transform<T> {
+        let motion = match self.kind {
+            JointKind::Revolute => {
+                let (s, c) = self.value.sin_cos(q);
+                let turn = Rotation::from_sin_cos(Axis::Z, s, c);
+                return Transform::from_rotation_translation(
+                    self.before.rotation * turn,
+                    self.before.translation,
+                );
+            }
+            JointKind::Prismatic => self.before.rotation.z().scale(self.value.value(q)),
+        };
+        Transform::from_rotation_translation(self.before.rotation, self.before.translation + motion)
+    }
+}
+
+impl<T: Scalar> Drive<T> {
+    /// A joint without any.
+    pub fn nothing() -> Self {
+        Drive { rotor: T::zero(), viscous: T::zero(), coulomb: T::zero() }
+    }
+}
+
+/// A dynamic model in formulas.
+#[derive(Clone, Debug)]
+pub struct Formulas {
+    /// The arm.
+    pub dynamics: Dynamics<Expr>,
+    /// The joint variables.
+    pub q: Vec<Symbol>,
+    /// Their rates, `qd1` ….
+    pub qd: Vec<Symbol>,
+    /// Their accelerations, `qdd1` ….
+    pub qdd: Vec<Symbol>,
+    /// All other symbols: those of the table, those of masses, gravity; with their values where these are known.
+    pub parameters: Vec<Parameter>,
+    /// Whether the masses are symbols of Khalil and Dombre's names, because the description says nothing of them.
+    pub is_generic: bool,
+}
+
+/// Why there is no dynamic model in numbers.
+#[derive(Clone, PartialEq, Debug)]
+pub enum NoNumbers {
+    /// The description says nothing of masses.
+    NoMasses,
+    /// Parameters without value.
+    Missing(MissingValue),
+}
+
+impl fmt::Display for NoNumbers {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NoNumbers::NoMasses => f.write_str("the description says nothing of masses"),
+            NoNumbers::Missing(missing) => missing.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for NoNumbers {}
+
+impl Description {
+    /// Whether the description says something of masses.
+    pub fn has_masses(&self) -> bool {
+        self.rows.iter().any(|r| r.body().is_some())
+    }
+
+    /// The acceleration of gravity in the base, m/s².
+    fn gravity_or_default(&self) -> Vector<Expr> {
+        let (n, d) = GRAVITY;
+        let down = || [Expr::int(0), Expr::int(0), Expr::from(Rational::new(-n, d))];
+        Vector(self.gravity.unwrap_or_else(down))
+    }
+}
+
+impl Formulas {
+    /// The model of a description. Where it says nothing of masses, the links have symbols of Khalil and Dombre's names with
+    /// the number of their axis, XX1 … M1; the drives have none. Gravity along an axis of the base has the symbol g.
+    pub fn new(d: &Description) -> Self {
+        let robot = Robot::symbolic(d);
+        let mut parameters = d.parameters.clone();
+        let mut named = |name: &str, value: Option<Expr>| {
+            let mut name = name.to_string();
+            while parameters.iter().any(|p| *p.symbol.name() == *name) {
+                name.push('_');
+            }
+            let symbol = Symbol::new(&name);
+            parameters.push(Parameter { symbol, value });
+            Expr::from(symbol)
+        };
+        let is_generic = !d.has_masses();
+        let mut number = 0;
+        let mut generic = |moves: bool| {
+            if !moves {
+                return Body::nothing();
+            }
+            number += 1;
+            Body::of(PARAMETERS.map(|name| named(&format!("{name}{number}"), None)))
+        };
+        let bodies: Vec<Body<Expr>> = robot
+            .links
+            .iter()
+            .zip(&d.rows)
+            .map(|(link, row)| match is_generic {
+                true => generic(link.moves()),
+                false => row.body().unwrap_or_else(Body::nothing),
+            })
+            .collect();
+        let mut gravity = d.gravity_or_default();
+        let along: Vec<usize> = (0..3).filter(|&i| !gravity[i].is_zero()).collect();
+        if let &[i] = &along[..]
+            && let Some(value) = gravity[i].as_number()
+        {
+            let g = named("g", Some(Expr::from(value.abs())));
+            gravity.0[i] = if value.is_negative() { -g } else { g };
+        }
+        let drives = d.rows.iter().filter(|r| r.variable.is_some()).map(Row::drive).collect();
+        let variables = d.variables();
+        let rates = |prefix: &str| -> Vec<Symbol> {
+            variables.iter().map(|v| Symbol::new(&format!("{prefix}{}", v.symbol.name().trim_start_matches('q')))).collect()
+        };
+        Formulas {
+            dynamics: Dynamics::new(&robot, &bodies, drives, gravity),
+            q: variables.iter().map(|v| v.symbol).collect(),
+            qd: rates("qd"),
+            qdd: rates("qdd"),
+            parameters,
+            is_generic,
+        }
+    }
+}
+
+impl Row {
+    fn drive(&self) -> Drive<Expr> {
+        let [rotor, viscous, coulomb] =
+            [self.rotor, self.viscous, self.coulomb].map(|e| e.unwrap_or_else(|| Expr::int(0)));
+        Drive { rotor, viscous, coulomb }
+    }
+}
+
+impl Dynamics<f64> {
+    /// The model of a description in numbers.
+    ///
+    /// # Errors
+    /// If the description says nothing of masses, or a parameter has no value.
+    pub fn numeric(d: &Description) -> Result<Self, NoNumbers> {
+        if !d.has_masses() {
+            return Err(NoNumbers::NoMasses);
+        }
+        let robot = Robot::numeric(d).map_err(NoNumbers::Missing)?;
+        let mut missing: Vec<String> = vec![];
+        let mut number = |e: Expr| {
+            e.eval(|s| d.value(s)).unwrap_or_else(|s| {
+                let name = s.name().to_string();
+                if !missing.contains(&name) {
+                    missing.push(name);
+                }
+                0.0
+            })
+        };
+        let mut bodies = vec![];
+        let mut drives = vec![];
+        for row in &d.rows {
+            bodies.push(row.body().map_or_else(Body::nothing, |b| b.map(&mut number)));
+            if row.variable.is_some() {
+                let drive = row.drive();
+                drives.push(Drive {
+                    rotor: number(drive.rotor),
+                    viscous: number(drive.viscous),
+                    coulomb: number(drive.coulomb),
+                });
+            }
+        }
+        let gravity = d.gravity_or_default().map(&mut number);
+        if missing.is_empty() {
+            Ok(Dynamics::new(&robot, &bodies, drives, gravity))
+        } else {
+            Err(NoNumbers::Missing(MissingValue { parameters: missing }))
+        }
+    }
+}
