@@ -8,6 +8,8 @@ mod description_bytes;
 mod description_tables;
 mod documents_inverse;
 mod documents_jacobian;
+mod dynamics;
+mod dynamics_files;
 mod every_arm;
 mod follow;
 mod forward;
