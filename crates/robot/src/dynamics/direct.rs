@@ -105,8 +105,7 @@ pub fn direct_dynamics(
     }
     let at_rest = inverse_dynamics(arm, q, qd, &vec![0.0; n], wrench);
     // The viscous part of friction is in these torques.
-    let rest: Vec<f64> = (0..n)
-        .map(|j| tau[j] - at_rest[j] - friction(arm, qd)[j] + arm.drives[j].viscous * qd[j])
-        .collect();
+    let rest: Vec<f64> =
+        (0..n).map(|j| tau[j] - at_rest[j] - friction(arm, qd)[j] + arm.drives[j].viscous * qd[j]).collect();
     Ok(factors.solve(&rest))
 }

@@ -96,7 +96,8 @@ impl<T: Scalar> Dynamics<T> {
     /// The rates of the axes at rates of the joints.
     pub(super) fn rates(&self, joints: &[T]) -> Vec<T> {
         let rate = |value: &Affine<T>| {
-            let parts = value.terms.iter().map(|&(j, k)| if k == T::one() { joints[j] } else { k * joints[j] });
+            let parts =
+                value.terms.iter().map(|&(j, k)| if k == T::one() { joints[j] } else { k * joints[j] });
             parts.reduce(|a, b| a + b).unwrap_or_else(T::zero)
         };
         self.links.iter().map(|l| rate(&l.value)).collect()
@@ -127,8 +128,7 @@ impl<T: Scalar> Dynamics<T> {
                 row: l.row,
             });
         }
-        let drive =
-            |d: &Drive<T>| Drive { rotor: f(d.rotor), viscous: f(d.viscous), coulomb: f(d.coulomb) };
+        let drive = |d: &Drive<T>| Drive { rotor: f(d.rotor), viscous: f(d.viscous), coulomb: f(d.coulomb) };
         let drives = self.drives.iter().map(drive).collect();
         let (tool, gravity) = (self.tool.map(&mut f), self.gravity.map(&mut f));
         Dynamics { links, tool, gravity, drives }
@@ -255,7 +255,10 @@ impl Formulas {
         let drives = d.rows.iter().filter(|r| r.variable.is_some()).map(Row::drive).collect();
         let variables = d.variables();
         let rates = |prefix: &str| -> Vec<Symbol> {
-            variables.iter().map(|v| Symbol::new(&format!("{prefix}{}", v.symbol.name().trim_start_matches('q')))).collect()
+            variables
+                .iter()
+                .map(|v| Symbol::new(&format!("{prefix}{}", v.symbol.name().trim_start_matches('q'))))
+                .collect()
         };
         Formulas {
             dynamics: Dynamics::new(&robot, &bodies, drives, gravity),

@@ -67,8 +67,7 @@ pub fn gravity_torques<T: Scalar>(arm: &Dynamics<T>, q: &[T]) -> Vec<T> {
 pub fn velocity_torques<T: Scalar>(arm: &Dynamics<T>, q: &[T], qd: &[T]) -> Vec<T> {
     let still = vec![T::zero(); arm.joints()];
     let motions = motions(arm, q, qd, &still, Vector::zero());
-    let wrenches: Vec<Wrench<T>> =
-        arm.links.iter().zip(&motions).map(|(l, m)| of_body(&l.body, m)).collect();
+    let wrenches: Vec<Wrench<T>> = arm.links.iter().zip(&motions).map(|(l, m)| of_body(&l.body, m)).collect();
     arm.at_joints(&backward(arm, &motions, &wrenches))
 }
 
@@ -101,19 +100,16 @@ pub(super) fn motions<T: Scalar>(
         let (turning, turning_rate, origin) = match all.last() {
             None => (still[0], still[1], base),
             // V̇ₚ + Uₚ p
-            Some(p) => (
-                back * p.turning,
-                back * p.turning_rate,
-                p.acceleration + p.spread * place.translation,
-            ),
+            Some(p) => {
+                (back * p.turning, back * p.turning_rate, p.acceleration + p.spread * place.translation)
+            }
         };
         let mut acceleration = back * origin;
         let (turning, turning_rate) = match link.kind {
             // ω = ωₚ + z q̇,   ω̇ = ω̇ₚ + z q̈ + ωₚ × z q̇
-            JointKind::Revolute => (
-                turning + z.scale(rate),
-                turning_rate + z.scale(change) + turning.cross(z.scale(rate)),
-            ),
+            JointKind::Revolute => {
+                (turning + z.scale(rate), turning_rate + z.scale(change) + turning.cross(z.scale(rate)))
+            }
             // V̇ += z q̈ + 2 ω × z q̇
             JointKind::Prismatic => {
                 let across = turning.cross(z.scale(rate));

@@ -40,13 +40,23 @@ pub(crate) fn random_arm(name: &str, seed: u64) -> Description {
     for k in 0..d.rows.len() {
         let mass = between(&mut random, 0.5, 4.0);
         let c: [f64; 3] = std::array::from_fn(|_| between(&mut random, -0.2, 0.2));
-        let root: [[f64; 3]; 3] = std::array::from_fn(|_| std::array::from_fn(|_| between(&mut random, -0.1, 0.1)));
+        let root: [[f64; 3]; 3] =
+            std::array::from_fn(|_| std::array::from_fn(|_| between(&mut random, -0.1, 0.1)));
         let s = |i: usize, j: usize| -> f64 {
             mass * (c[i] * c[j] + (0..3).map(|m| root[i][m] * root[j][m]).sum::<f64>())
         };
         let t = s(0, 0) + s(1, 1) + s(2, 2);
         let ten = [
-            t - s(0, 0), -s(0, 1), -s(0, 2), t - s(1, 1), -s(1, 2), t - s(2, 2), mass * c[0], mass * c[1], mass * c[2], mass,
+            t - s(0, 0),
+            -s(0, 1),
+            -s(0, 2),
+            t - s(1, 1),
+            -s(1, 2),
+            t - s(2, 2),
+            mass * c[0],
+            mass * c[1],
+            mass * c[2],
+            mass,
         ];
         weigh(&mut d, k, &ten);
         if d.rows[k].variable.is_some() {
@@ -63,8 +73,18 @@ pub(crate) fn random_arm(name: &str, seed: u64) -> Description {
 }
 
 pub(crate) const ARMS: [&str; 12] = [
-    "planar-3r", "scara", "articulated-3r", "staubli-rx90", "puma560", "stanford", "ur5", "franka-panda", "smart5-six-rail",
-    "oblique-6r", "parallelogram-5r", "prrrrp",
+    "planar-3r",
+    "scara",
+    "articulated-3r",
+    "staubli-rx90",
+    "puma560",
+    "stanford",
+    "ur5",
+    "franka-panda",
+    "smart5-six-rail",
+    "oblique-6r",
+    "parallelogram-5r",
+    "prrrrp",
 ];
 
 /// q, q̇, q̈.
@@ -327,17 +347,17 @@ fn two_links_move_as_the_textbook_says() {
         - 2.0 * m2 * l1 * l2 * s2 * v1 * v2
         + m2 * l2 * g * c12
         + (m1 + m2) * l1 * g * c1;
-    let tau2 = m2 * l1 * l2 * c2 * a1
-        + m2 * l1 * l2 * s2 * v1 * v1
-        + m2 * l2 * g * c12
-        + m2 * l2 * l2 * (a1 + a2);
+    let tau2 =
+        m2 * l1 * l2 * c2 * a1 + m2 * l1 * l2 * s2 * v1 * v1 + m2 * l2 * g * c12 + m2 * l2 * l2 * (a1 + a2);
     close("2R", &inverse_dynamics(&arm, &[q1, q2], &[v1, v2], &[a1, a2], None), &[tau1, tau2], 1e-14);
 }
 
 /// The formulas, traced, give the numbers.
 #[test]
 fn formulas_give_the_numbers() {
-    for (k, name) in ["planar-3r", "scara", "staubli-rx90", "stanford", "parallelogram-5r", "ur5"].iter().enumerate() {
+    for (k, name) in
+        ["planar-3r", "scara", "staubli-rx90", "stanford", "parallelogram-5r", "ur5"].iter().enumerate()
+    {
         let d = random_arm(name, 200 + k as u64);
         let formulas = Formulas::new(&d);
         assert!(!formulas.is_generic);
@@ -350,7 +370,8 @@ fn formulas_give_the_numbers() {
         let variables = [formulas.q.clone(), formulas.qd.clone(), formulas.qdd.clone()].concat();
         let parameters: Vec<_> = formulas.parameters.iter().map(|p| p.symbol).collect();
         let mut graph = Graph::new(&variables, &parameters);
-        let results: Vec<_> = all.iter().enumerate().map(|(i, &e)| (format!("r{i}"), graph.trace(e))).collect();
+        let results: Vec<_> =
+            all.iter().enumerate().map(|(i, &e)| (format!("r{i}"), graph.trace(e))).collect();
         let program = Program::new(&graph, &results, |_| None, &rustc_hash::FxHashSet::default());
         let value = |s| formulas.parameters.iter().find(|p| p.symbol == s)?.number();
         let function = program.compile_with(value).unwrap();

@@ -12,7 +12,8 @@ fn masses_are_written_and_read() {
     for (k, name) in ARMS.iter().enumerate() {
         let d = random_arm(name, 300 + k as u64);
         let text = write_toml(&d);
-        let (back, findings) = read_toml(&text).unwrap_or_else(|e| panic!("{name}: {}", shown(&text, &e).join("\n")));
+        let (back, findings) =
+            read_toml(&text).unwrap_or_else(|e| panic!("{name}: {}", shown(&text, &e).join("\n")));
         assert!(findings.iter().all(|f| f.message != "the mass is negative"), "{findings:?}");
         assert_eq!(back.gravity, d.gravity, "{name}");
         for (a, b) in back.rows.iter().zip(&d.rows) {
@@ -75,31 +76,49 @@ fn a_robot_without_masses_has_symbols() {
 #[test]
 fn what_no_body_has_is_said() {
     let rows = [
-        ("mass = 1\ninertia = [1, 0, 0, 1, 0, 3]", vec![
-            "6:11 warning: `upper`: no body has this inertia | of the moments about its principal axes none is larger than the \
+        (
+            "mass = 1\ninertia = [1, 0, 0, 1, 0, 3]",
+            vec![
+                "6:11 warning: `upper`: no body has this inertia | of the moments about its principal axes none is larger than the \
              sum of the others",
-        ]),
-        ("mass = 1\ninertia = [1, 2, 0, 1, 0, 1]", vec![
-            "6:11 warning: `upper`: no body has this: the inertia about the centre of mass is not positive | products of inertia \
+            ],
+        ),
+        (
+            "mass = 1\ninertia = [1, 2, 0, 1, 0, 1]",
+            vec![
+                "6:11 warning: `upper`: no body has this: the inertia about the centre of mass is not positive | products of inertia \
              have the sign of the tensor, XY = −∫xy dm",
-        ]),
-        ("mass = 0\ncom = [0, 0, 1]\ninertia = [1, 0, 0, 1, 0, 1]", vec![
-            "7:11 warning: `upper`: no body has this: its mass is 0, and the rest is not | give its mass",
-        ]),
+            ],
+        ),
+        (
+            "mass = 0\ncom = [0, 0, 1]\ninertia = [1, 0, 0, 1, 0, 1]",
+            vec![
+                "7:11 warning: `upper`: no body has this: its mass is 0, and the rest is not | give its mass",
+            ],
+        ),
         // Mass 2 at x = 1 has 2 of its own about y and z.
-        ("mass = 2\nfirst_moment = [2, 0, 0]\ninertia_at_origin = [0, 0, 0, 1, 0, 1]", vec![
-            "7:21 warning: `upper`: no body has this: the inertia about the centre of mass is not positive | products of inertia \
+        (
+            "mass = 2\nfirst_moment = [2, 0, 0]\ninertia_at_origin = [0, 0, 0, 1, 0, 1]",
+            vec![
+                "7:21 warning: `upper`: no body has this: the inertia about the centre of mass is not positive | products of inertia \
              have the sign of the tensor, XY = −∫xy dm",
-        ]),
-        ("mass = 2\ncom = [1, 0, 0]\nfirst_moment = [2, 0, 0]", vec![
-            "7:16 error: `first_moment` beside `com` | mass, com, inertia (about the centre of mass), or mass, first_moment, \
+            ],
+        ),
+        (
+            "mass = 2\ncom = [1, 0, 0]\nfirst_moment = [2, 0, 0]",
+            vec![
+                "7:16 error: `first_moment` beside `com` | mass, com, inertia (about the centre of mass), or mass, first_moment, \
              inertia_at_origin",
-        ]),
-        ("rotor = '-0.1 kg m^2'\nviscous = -1\ncoulomb = -2", vec![
-            "5:9 error: rotor is negative",
-            "6:11 error: viscous is negative",
-            "7:11 error: coulomb is negative",
-        ]),
+            ],
+        ),
+        (
+            "rotor = '-0.1 kg m^2'\nviscous = -1\ncoulomb = -2",
+            vec![
+                "5:9 error: rotor is negative",
+                "6:11 error: viscous is negative",
+                "7:11 error: coulomb is negative",
+            ],
+        ),
         ("mass = 2\nfirst_moment = [2, 0, 0]\ninertia_at_origin = [0, 0, 0, 2, 0, 2]", vec![]),
     ];
     for (keys, wanted) in rows {
@@ -111,5 +130,8 @@ fn what_no_body_has_is_said() {
     }
     let text = "convention = 'craig'\n[[joints]]\nrotor = 1\nalpha = 1\n[[joints]]\ntheta = 'q1'\n";
     let found = read_toml(text).unwrap_err();
-    assert!(shown(text, &found)[0].starts_with("3:9 error: `rotor` of a row without a joint variable"), "{found:?}");
+    assert!(
+        shown(text, &found)[0].starts_with("3:9 error: `rotor` of a row without a joint variable"),
+        "{found:?}"
+    );
 }

@@ -171,8 +171,7 @@ impl Description {
         } else {
             let mut rows: Vec<Row> = (0..last).map(|k| fixed(turns.z[k + 1], turns.x[k])).collect();
             let z = turns.z[0];
-            let end =
-                self.rows.last_mut().filter(|r| r.body().is_none());
+            let end = self.rows.last_mut().filter(|r| r.body().is_none());
             let branch = rows.first_mut().filter(|_| self.convention == Convention::Khalil);
             match (end, branch) {
                 (Some(end), _) => end.turn_behind(&z),

@@ -32,16 +32,16 @@ impl Reader<'_> {
         row.mass = get("mass").and_then(|v| self.not_negative(v, Quantity::Mass, "the mass", names));
         row.com = get("com").and_then(|v| self.constants(v, Quantity::Length, "com", names));
         row.inertia = get("inertia").and_then(|v| self.constants(v, Quantity::Inertia, "inertia", names));
-        row.first_moment = get("first_moment")
-            .and_then(|v| self.constants(v, Quantity::FirstMoment, "first_moment", names));
+        row.first_moment =
+            get("first_moment").and_then(|v| self.constants(v, Quantity::FirstMoment, "first_moment", names));
         row.inertia_at_origin = get("inertia_at_origin")
             .and_then(|v| self.constants(v, Quantity::Inertia, "inertia_at_origin", names));
         let twice = [("com", "first_moment"), ("inertia", "inertia_at_origin"), ("inertia", "first_moment")];
         for (one, other) in twice {
             if let (Some(_), Some(value)) = (get(one), get(other)) {
-                self.out
-                    .error(value.span(), format!("`{other}` beside `{one}`"))
-                    .hint("mass, com, inertia (about the centre of mass), or mass, first_moment, inertia_at_origin");
+                self.out.error(value.span(), format!("`{other}` beside `{one}`")).hint(
+                    "mass, com, inertia (about the centre of mass), or mass, first_moment, inertia_at_origin",
+                );
             }
         }
         self.check_body(fields, row);

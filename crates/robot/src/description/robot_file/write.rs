@@ -104,8 +104,7 @@ fn write_row(out: &mut String, row: &Row, convention: Convention) {
     let slides = row.variable.is_some_and(|v| v.kind == JointKind::Prismatic);
     let rotor = if slides { Quantity::Mass } else { Quantity::Inertia };
     let one = |key: &str, e: Option<Expr>, quantity| e.map(|e| format!("{key} = {}", cell(e, quantity)));
-    let many =
-        |key: &str, e: Option<&[Expr]>, quantity| e.map(|e| format!("{key} = {}", list(e, quantity)));
+    let many = |key: &str, e: Option<&[Expr]>, quantity| e.map(|e| format!("{key} = {}", list(e, quantity)));
     let lines = [
         one("mass", row.mass, Quantity::Mass),
         many("com", row.com.as_ref().map(|e| &e[..]), Quantity::Length),
