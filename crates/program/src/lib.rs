@@ -19,7 +19,7 @@ pub mod solver;
 mod text;
 
 pub use code::{Code, Instruction, NONE, Opcode};
-pub use domain::{Domain, Extended, Interval};
+pub use domain::{Domain, Extended, Interval, Residue};
 pub use evaluate::{Arithmetic, Batch, Block, Function, Isa, MissingValue, Real, Scalar, values};
 pub use graph::{COUNTING_RULE, Count, Graph, Op, Stage, Value, Walk};
 pub use pairs::{PairReason, PairRefusal};

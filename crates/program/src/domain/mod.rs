@@ -2,9 +2,11 @@
 
 mod extended;
 mod interval;
+mod residue;
 
 pub use extended::Extended;
 pub use interval::Interval;
+pub use residue::Residue;
 
 use denavit_symbolic::Rational;
 

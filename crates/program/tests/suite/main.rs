@@ -5,6 +5,7 @@ mod derivatives;
 mod domains;
 mod kernel;
 mod pairs;
+mod residue;
 mod roots;
 mod solver;
 mod steps;

@@ -2,7 +2,7 @@
 //!
 //! Spatial vectors of link k are in frame k, angular part first.
 
-use super::direct::Singular;
+use super::direct::{ROUNDING, Singular};
 use super::model::Dynamics;
 use super::newton_euler::friction;
 use crate::description::JointKind;
@@ -60,7 +60,7 @@ pub fn articulated_bodies(
         let column: Six = std::array::from_fn(|i| inertia[k][i][s]);
         let own = inertia[k][s][s];
         let pivot = own + arm.drives[joint].rotor / (factor * factor);
-        if !(pivot > 1e-13 * spatial(&arm.links[k].body)[s][s].abs()) {
+        if pivot.is_nan() || pivot <= ROUNDING * spatial(&arm.links[k].body)[s][s].abs() {
             return Some(Err(Singular { joint }));
         }
         let rest = (tau[joint] - friction[joint]) / factor - bias[k][s];

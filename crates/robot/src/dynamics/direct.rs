@@ -78,7 +78,7 @@ impl<T: Scalar> Factored<T> {
 }
 
 /// Pivots below this part of a diagonal entry are rounding.
-const ROUNDING: f64 = 1e-13;
+pub(super) const ROUNDING: f64 = 1e-13;
 
 /// The joint accelerations under torques `tau` in the state `(q, qd)`, with a wrench that the tool exerts: A⁻¹(τ − C q̇ − Q −
 /// friction − Jᵀ w).
@@ -99,7 +99,10 @@ pub fn direct_dynamics(
     assert_eq!(tau.len(), n, "one entry per joint");
     let matrix = inertia_matrix(arm, q);
     let factors = factored(&matrix);
-    let is_lost = |&j: &usize| !(factors.diagonal[j] > ROUNDING * matrix[j][j]);
+    let is_lost = |&j: &usize| {
+        let pivot = factors.diagonal[j];
+        pivot.is_nan() || pivot <= ROUNDING * matrix[j][j]
+    };
     if let Some(joint) = (0..n).find(is_lost) {
         return Err(Singular { joint });
     }

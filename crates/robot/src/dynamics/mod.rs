@@ -11,21 +11,26 @@
 //! - [`kinetic_energy`], [`potential_energy`]: the energies.
 //! - [`regressor`]: W with τ = Wχ.
 //! - [`coriolis_matrix`]: C with C q̇ the velocity torques and Ȧ − 2C skew.
+//! - [`BaseModel`]: base parameters, and torques in them.
 //! - [`direct_dynamics`], [`articulated_bodies`]: accelerations.
 
 mod articulated;
+mod base;
 mod coriolis;
 mod direct;
 mod energy;
+mod grouping;
 mod inertia;
 mod model;
 mod newton_euler;
 mod regressor;
 
 pub use articulated::articulated_bodies;
+pub use base::{BaseModel, BaseParameter, Fate, Minimality};
 pub use coriolis::coriolis_matrix;
 pub use direct::{Factored, Singular, direct_dynamics, factored};
 pub use energy::{kinetic_energy, potential_energy};
+pub use grouping::{Grouped, grouped};
 pub use inertia::inertia_matrix;
 pub use model::{Drive, Dynamics, Formulas, GRAVITY, Link, NoNumbers, Wrench};
 pub use newton_euler::{friction, gravity_torques, inverse_dynamics, velocity_torques};

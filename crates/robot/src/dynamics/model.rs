@@ -213,61 +213,83 @@ impl Description {
 
 impl Formulas {
     /// The model of a description. Where it says nothing of masses, the links have symbols of Khalil and Dombre's names with
-    /// the number of their axis, XX1 … M1; the drives have none. Gravity along an axis of the base has the symbol g.
+    /// the number of their axis, XX1 … M1, about the origins of their own frames; the drives have none. Gravity along an axis
+    /// of the base has the symbol g.
     pub fn new(d: &Description) -> Self {
+        Self::with(d, |_, _| None)
+    }
+
+    /// The same with a symbol for each number that is not 0 of a link: XX1 … M1, with that value.
+    pub fn named(d: &Description) -> Self {
+        Self::with(d, |e, named| e.symbols().is_empty().then(|| named(Some(e))))
+    }
+
+    fn with(
+        d: &Description,
+        mut instead: impl FnMut(Expr, &mut dyn FnMut(Option<Expr>) -> Expr) -> Option<Expr>,
+    ) -> Self {
         let robot = Robot::symbolic(d);
-        let mut parameters = d.parameters.clone();
-        let mut named = |name: &str, value: Option<Expr>| {
-            let mut name = name.to_string();
-            while parameters.iter().any(|p| *p.symbol.name() == *name) {
-                name.push('_');
-            }
-            let symbol = Symbol::new(&name);
-            parameters.push(Parameter { symbol, value });
-            Expr::from(symbol)
-        };
+        let mut names = Names { parameters: d.parameters.clone() };
+        let bodies: Vec<Body<Expr>> =
+            d.rows.iter().map(|row| row.body().unwrap_or_else(Body::nothing)).collect();
+        let drives = d.rows.iter().filter(|r| r.variable.is_some()).map(Row::drive).collect();
+        let mut dynamics = Dynamics::new(&robot, &bodies, drives, d.gravity_or_default());
         let is_generic = !d.has_masses();
-        let mut number = 0;
-        let mut generic = |moves: bool| {
-            if !moves {
-                return Body::nothing();
-            }
-            number += 1;
-            Body::of(PARAMETERS.map(|name| named(&format!("{name}{number}"), None)))
-        };
-        let bodies: Vec<Body<Expr>> = robot
-            .links
-            .iter()
-            .zip(&d.rows)
-            .map(|(link, row)| match is_generic {
-                true => generic(link.moves()),
-                false => row.body().unwrap_or_else(Body::nothing),
-            })
-            .collect();
-        let mut gravity = d.gravity_or_default();
+        for (k, link) in dynamics.links.iter_mut().enumerate() {
+            let given = link.body.parameters();
+            let all: [Expr; 10] = std::array::from_fn(|p| {
+                let mut named = |value| names.symbol(&format!("{}{}", PARAMETERS[p], k + 1), value);
+                match (is_generic, given[p].is_zero()) {
+                    (true, _) => named(None),
+                    (false, true) => given[p],
+                    (false, false) => instead(given[p], &mut named).unwrap_or(given[p]),
+                }
+            });
+            link.body = Body::of(all);
+        }
+        let gravity = &mut dynamics.gravity;
         let along: Vec<usize> = (0..3).filter(|&i| !gravity[i].is_zero()).collect();
         if let &[i] = &along[..]
             && let Some(value) = gravity[i].as_number()
         {
-            let g = named("g", Some(Expr::from(value.abs())));
+            let g = names.symbol("g", Some(Expr::from(value.abs())));
             gravity.0[i] = if value.is_negative() { -g } else { g };
         }
-        let drives = d.rows.iter().filter(|r| r.variable.is_some()).map(Row::drive).collect();
-        let variables = d.variables();
+        let q: Vec<Symbol> = d.variables().iter().map(|v| v.symbol).collect();
         let rates = |prefix: &str| -> Vec<Symbol> {
-            variables
-                .iter()
-                .map(|v| Symbol::new(&format!("{prefix}{}", v.symbol.name().trim_start_matches('q'))))
-                .collect()
+            let behind = |s: &Symbol| s.name().trim_start_matches('q').to_string();
+            q.iter().map(|s| Symbol::new(&format!("{prefix}{}", behind(s)))).collect()
         };
-        Formulas {
-            dynamics: Dynamics::new(&robot, &bodies, drives, gravity),
-            q: variables.iter().map(|v| v.symbol).collect(),
-            qd: rates("qd"),
-            qdd: rates("qdd"),
-            parameters,
-            is_generic,
+        let (qd, qdd) = (rates("qd"), rates("qdd"));
+        Formulas { dynamics, qd, qdd, q, parameters: names.parameters, is_generic }
+    }
+
+    /// The variables as formulas: q, q̇, q̈.
+    pub fn state(&self) -> [Vec<Expr>; 3] {
+        [&self.q, &self.qd, &self.qdd].map(|all| all.iter().map(|&s| s.into()).collect())
+    }
+
+    /// The value of a parameter.
+    pub fn value(&self, symbol: Symbol) -> Option<f64> {
+        self.parameters.iter().find(|p| p.symbol == symbol)?.number()
+    }
+}
+
+/// The parameters so far.
+struct Names {
+    parameters: Vec<Parameter>,
+}
+
+impl Names {
+    /// A further parameter; its name has an underscore behind it where another has it.
+    fn symbol(&mut self, name: &str, value: Option<Expr>) -> Expr {
+        let mut name = name.to_string();
+        while self.parameters.iter().any(|p| *p.symbol.name() == *name) {
+            name.push('_');
         }
+        let symbol = Symbol::new(&name);
+        self.parameters.push(Parameter { symbol, value });
+        symbol.into()
     }
 }
 

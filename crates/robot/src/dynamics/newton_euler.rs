@@ -136,17 +136,22 @@ fn spread<T: Scalar>(Vector([x, y, z]): Vector<T>, Vector([a, b, c]): Vector<T>)
 
 /// The force and the moment about the origin of its frame that move a body so.
 pub(super) fn of_body<T: Scalar>(body: &Body<T>, m: &Motion<T>) -> Wrench<T> {
-    let [xx, xy, xz, yy, yz, zz] = body.inertia;
-    let (u, ms) = (m.spread.rows(), body.first_moment);
-    let (Vector([x, y, z]), Vector([a, b, c])) = (m.turning, m.turning_rate);
-    // F = M V̇ + U·MS,   N = J ω̇ + ω × J ω + MS × V̇
+    let ms = body.first_moment;
+    // F = M V̇ + U·MS
     let force = m.acceleration.scale(body.mass) + m.spread * ms;
-    let moment = Vector([
+    [force, moment(&body.inertia, ms, m)]
+}
+
+/// N = J ω̇ + ω × J ω + MS × V̇
+pub(super) fn moment<T: Scalar>(inertia: &[T; 6], ms: Vector<T>, m: &Motion<T>) -> Vector<T> {
+    let ([xx, xy, xz, yy, yz, zz], u) = (*inertia, m.spread.rows());
+    let (Vector([x, y, z]), Vector([a, b, c])) = (m.turning, m.turning_rate);
+    let spin = Vector([
         xx * a + (zz - yy) * (y * z) - yz * (u[2][2] - u[1][1]) - xy * u[2][0] + xz * u[1][0],
         yy * b + (xx - zz) * (x * z) - xz * (u[0][0] - u[2][2]) - yz * u[0][1] + xy * u[2][1],
         zz * c + (yy - xx) * (x * y) - xy * (u[1][1] - u[0][0]) - xz * u[1][2] + yz * u[0][2],
     ]);
-    [force, moment + ms.cross(m.acceleration)]
+    spin + ms.cross(m.acceleration)
 }
 
 /// The torques at the axes for what acts on each link, in its frame.

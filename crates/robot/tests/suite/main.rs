@@ -9,6 +9,7 @@ mod description_tables;
 mod documents_inverse;
 mod documents_jacobian;
 mod dynamics;
+mod dynamics_base;
 mod dynamics_files;
 mod every_arm;
 mod follow;

@@ -1,0 +1,150 @@
+//! Mass on the axis of a revolute joint belongs to either of the two links that it joins, and a slide turns with the link before
+//! it: what a link can give to the one before, from the tip to the base (Gautier and Khalil 1990).
+//!
+//! A mass m, a first moment mz and a second moment zz along the axis are at the same place on both links, so that no energy
+//! changes. With m = M, mz = MZ and zz = YY a link keeps XX − YY, XY, XZ, YZ, ZZ, MX and MY. A slide keeps its mass and its first
+//! moment. Where all turns before it are about its own direction, it is fixed to the link before as seen along that direction: it
+//! keeps what it weighs along it alone, and the link before takes the rest, a mass for motions in the plan.
+
+use super::model::{Dynamics, Link};
+use crate::description::JointKind;
+use crate::geometry::{Body, Rotation, Transform, Vector};
+use denavit_symbolic::Expr;
+
+/// What a link has after grouping, about the origin of its frame.
+#[derive(Clone, Debug)]
+pub struct Grouped {
+    /// XX XY XZ YY YZ ZZ.
+    pub inertia: [Expr; 6],
+    /// MX MY MZ.
+    pub first_moment: Vector<Expr>,
+    /// The mass for accelerations along x, y and z: F = M V̇ component by component.
+    pub mass: Vector<Expr>,
+}
+
+impl Grouped {
+    /// A body as it is.
+    pub(super) fn of(body: &Body<Expr>) -> Self {
+        let mass = Vector([body.mass; 3]);
+        Grouped { inertia: body.inertia, first_moment: body.first_moment, mass }
+    }
+
+    /// Takes a body whose mass is one for the directions of `mass`.
+    fn take(&mut self, body: &Body<Expr>, mass: Vector<Expr>) {
+        self.inertia = std::array::from_fn(|k| self.inertia[k] + body.inertia[k]);
+        self.first_moment = self.first_moment + body.first_moment;
+        self.mass = self.mass + mass;
+    }
+
+    /// All numbers.
+    pub(super) fn entries(&self) -> [Expr; 12] {
+        let ([a, b, c, d, e, f], [x, y, z], [l, m, n]) = (self.inertia, self.first_moment.0, self.mass.0);
+        [a, b, c, d, e, f, x, y, z, l, m, n]
+    }
+
+    /// With other numbers in their place.
+    pub(super) fn with(&self, mut of: impl FnMut(usize, Expr) -> Expr) -> Self {
+        let e = self.entries();
+        let mut at = |k: usize| of(k, e[k]);
+        Grouped {
+            inertia: [at(0), at(1), at(2), at(3), at(4), at(5)],
+            first_moment: Vector([at(6), at(7), at(8)]),
+            mass: Vector([at(9), at(10), at(11)]),
+        }
+    }
+}
+
+/// The links after grouping, base first.
+pub fn grouped(arm: &Dynamics<Expr>) -> Vec<Grouped> {
+    let o = Expr::int(0);
+    let mut all: Vec<Grouped> = arm.links.iter().map(|l| Grouped::of(&l.body)).collect();
+    for j in (0..all.len()).rev() {
+        let (own, link) = (all[j].clone(), &arm.links[j]);
+        let [xx, xy, xz, yy, yz, zz] = own.inertia;
+        let [x, y, z] = own.mass.0;
+        // What is given away, in the frame before the motion, and for which directions its mass is one.
+        let (given, mass) = match link.kind {
+            JointKind::Revolute if x == y => {
+                let kept = Grouped {
+                    inertia: [if yy.is_zero() { xx } else { xx - yy }, xy, xz, o, yz, zz],
+                    first_moment: Vector([own.first_moment[0], own.first_moment[1], o]),
+                    mass: Vector([o; 3]),
+                };
+                all[j] = kept;
+                let first_moment = Vector([o, o, own.first_moment[2]]);
+                (Body { inertia: [yy, o, o, yy, o, o], first_moment, mass: x }, own.mass)
+            }
+            JointKind::Revolute => continue,
+            JointKind::Prismatic if is_plan(arm, j) && x == y => {
+                all[j] = Grouped { inertia: [o; 6], first_moment: Vector([o; 3]), mass: Vector([o, o, z]) };
+                let first_moment = Vector([own.first_moment[0], own.first_moment[1], o]);
+                (Body { inertia: own.inertia, first_moment, mass: x }, Vector([x, y, o]))
+            }
+            JointKind::Prismatic => {
+                all[j].inertia = [o; 6];
+                let first_moment = Vector([o; 3]);
+                (Body { inertia: own.inertia, first_moment, mass: o }, Vector([o; 3]))
+            }
+        };
+        if let Some(before) = j.checked_sub(1) {
+            let turned = diagonal(&link.before.rotation, mass).unwrap_or(mass);
+            let place = match link.kind {
+                JointKind::Revolute => link.before,
+                // What is constant of its displacement does not matter: only what turns is given away.
+                JointKind::Prismatic => still(link),
+            };
+            all[before].take(&given.seen_from(&place), turned);
+        }
+    }
+    all
+}
+
+/// The place of a slide in the frame before it, its own displacement left aside.
+fn still(link: &Link<Expr>) -> Transform<Expr> {
+    link.before
+}
+
+/// A mass for each direction of a frame, in another; `None` if it is none there.
+fn diagonal(r: &Rotation<Expr>, mass: Vector<Expr>) -> Option<Vector<Expr>> {
+    let [x, y, z] = mass.0;
+    if x == y && y == z {
+        return Some(mass);
+    }
+    let rows = r.rows();
+    let along = |row: [Expr; 3]| {
+        let one: Vec<usize> = (0..3).filter(|&c| !row[c].is_zero()).collect();
+        match one[..] {
+            [c] if (row[c] * row[c]).is_one() => Some(mass[c]),
+            _ => None,
+        }
+    };
+    let [a, b, c] = rows.map(along);
+    Some(Vector([a?, b?, c?])).or_else(|| {
+        // A turn about z leaves a mass in the plan as it is.
+        let about_z = rows[2][0].is_zero() && rows[2][1].is_zero();
+        (about_z && x == y).then_some(mass)
+    })
+}
+
+/// Whether a slide is along the direction of all turns before it, of which there is one, and masses can be kept apart by
+/// directions on the way to the base.
+fn is_plan(arm: &Dynamics<Expr>, slide: usize) -> bool {
+    let mut r = arm.links[slide].before.rotation;
+    let mut turns = 0;
+    for link in arm.links[..slide].iter().rev() {
+        if link.kind == JointKind::Revolute {
+            // The slide's direction in the frame of a link that turns: a turn about z leaves ±z alone.
+            let z = r.z();
+            if !(z[0].is_zero() && z[1].is_zero()) {
+                return false;
+            }
+            turns += 1;
+            r = link.before.rotation;
+        } else {
+            r = link.before.rotation * r;
+        }
+    }
+    let one = Expr::int(1);
+    let apart = |l: &Link<Expr>| diagonal(&l.before.rotation, Vector([one, one, Expr::int(0)])).is_some();
+    turns > 0 && arm.links[1..=slide].iter().all(apart)
+}

@@ -1,0 +1,200 @@
+//! Base parameters: how many, which, and that the torques are the same.
+
+use crate::common::{Random, robot};
+use denavit::description::{Convention, Description, read_toml};
+use denavit::dynamics::{BaseModel, Fate, Formulas, Minimality, inverse_dynamics};
+use denavit_program::{Program, Residue};
+use denavit_symbolic::{Expr, Rational, Symbol};
+use rustc_hash::FxHashMap;
+
+fn base(d: &Description) -> (Formulas, BaseModel) {
+    let formulas = Formulas::named(d);
+    let model = BaseModel::derive(d, &formulas);
+    (formulas, model)
+}
+
+/// Gravity along an axis.
+fn under(mut d: Description, gravity: [i64; 3]) -> Description {
+    d.gravity = Some(gravity.map(|x| Expr::from(Rational::new(x * 981, 100))));
+    d
+}
+
+/// As the literature has them (Gautier and Khalil 1990; Khalil and Dombre, ch. 9), and in the note's other arms.
+#[test]
+fn as_many_as_the_literature_has() {
+    let down = [0, 0, -1];
+    let plan = [0, -1, 0];
+    for (name, gravity, wanted) in [
+        ("staubli-rx90", down, 36),
+        ("puma560", down, 36),
+        ("puma560-craig", down, 36),
+        ("stanford", down, 33),
+        ("ur5", down, 36),
+        ("franka-panda", down, 43),
+        ("planar-2r", plan, 6),
+        ("planar-3r", plan, 9),
+        ("scara", down, 8),
+        ("articulated-3r", down, 15),
+    ] {
+        let d = under(robot(name), gravity);
+        for convention in [d.convention, Convention::Khalil] {
+            let (_, model) = base(&d.converted(convention).description);
+            assert_eq!(model.parameters.len(), wanted, "{name}");
+            assert_eq!(model.minimality, Minimality::Proved, "{name}");
+        }
+    }
+}
+
+/// The groupings of the RX-90, as SYMORO prints them.
+#[test]
+fn groupings_of_the_rx90() {
+    let d = robot("staubli-rx90");
+    let (_, model) = base(&d);
+    let shown = |name: &str| {
+        let p = model.parameters.iter().find(|p| *p.symbol.name() == *name);
+        let p = p.unwrap_or_else(|| panic!("{name} is none of {:?}", model.parameters));
+        p.value
+    };
+    let s = Expr::symbol;
+    let (d3, rl4) = (s("D3"), s("RL4"));
+    let m = |from: i64| (from..=6).map(|k| s(&format!("M{k}"))).reduce(|a, b| a + b).unwrap();
+    let wanted = [
+        ("ZZR1", s("ZZ1") + s("YY2") + s("YY3") + d3 * d3 * m(3)),
+        ("XXR2", s("XX2") - s("YY2") - d3 * d3 * m(3)),
+        ("XZR2", s("XZ2") - d3 * s("MZ3")),
+        ("ZZR2", s("ZZ2") + d3 * d3 * m(3)),
+        ("MXR2", s("MX2") + d3 * m(3)),
+        ("XXR3", s("XX3") - s("YY3") + s("YY4") + Expr::int(2) * rl4 * s("MZ4") + rl4 * rl4 * m(4)),
+        ("ZZR3", s("ZZ3") + s("YY4") + Expr::int(2) * rl4 * s("MZ4") + rl4 * rl4 * m(4)),
+        ("MYR3", s("MY3") + s("MZ4") + rl4 * m(4)),
+        ("XXR4", s("XX4") - s("YY4") + s("YY5")),
+        ("ZZR4", s("ZZ4") + s("YY5")),
+        ("MYR4", s("MY4") - s("MZ5")),
+        ("XXR5", s("XX5") - s("YY5") + s("YY6")),
+        ("ZZR5", s("ZZ5") + s("YY6")),
+        ("MYR5", s("MY5") + s("MZ6")),
+        ("XXR6", s("XX6") - s("YY6")),
+    ];
+    for (name, value) in wanted {
+        let found = shown(name);
+        assert!(denavit_symbolic::equal(found, value).is_equal(), "{name} = {found}, not {value}");
+    }
+    assert_eq!(model.parameters.iter().filter(|p| p.is_grouped).count(), wanted.len());
+    let fate = |name: &str| model.fates.iter().find(|f| *f.0.name() == *name).unwrap().1;
+    assert_eq!(fate("XX1"), Fate::WithoutEffect);
+    assert_eq!(fate("M1"), Fate::WithoutEffect);
+    assert_eq!(fate("MZ2"), Fate::WithoutEffect);
+    assert_eq!(fate("XY6"), Fate::Alone);
+    assert_eq!(fate("M6"), Fate::Grouped);
+}
+
+/// All values modulo a prime at a random state; the masses as they are grouped, or as they are.
+fn differs(formulas: &Formulas, model: &BaseModel, seed: u64) -> bool {
+    let mut random = Random(seed);
+    let mut any = || (random.unit() * (1_u64 << 53) as f64) as u64;
+    let mut at: FxHashMap<Symbol, Residue> = FxHashMap::default();
+    let symbols = formulas.parameters.iter().map(|p| p.symbol);
+    for s in symbols.chain(formulas.q.iter().chain(&formulas.qd).chain(&formulas.qdd).copied()) {
+        at.insert(s, Residue::input(any(), any()));
+    }
+    let [q, qd, qdd] = formulas.state();
+    let torques = inverse_dynamics(&formulas.dynamics, &q, &qd, &qdd, None);
+    let program = |all: &[Expr]| {
+        let variables = [formulas.q.clone(), formulas.qd.clone(), formulas.qdd.clone()].concat();
+        let mut graph = denavit_program::Graph::new(&variables, &[]);
+        let results: Vec<_> =
+            all.iter().enumerate().map(|(i, &e)| (format!("r{i}"), graph.trace(e))).collect();
+        Program::new(&graph, &results, |_| None, &rustc_hash::FxHashSet::default())
+    };
+    let values: Vec<Expr> = model.parameters.iter().map(|p| p.value).collect();
+    let wanted = program(&torques).eval(|s| at.get(&s).cloned()).unwrap();
+    let values = program(&values).eval(|s| at.get(&s).cloned()).unwrap();
+    for (p, value) in model.parameters.iter().zip(values) {
+        at.insert(p.symbol, value);
+    }
+    let found = model.inverse.eval(|s| at.get(&s).cloned()).unwrap();
+    assert!(wanted.iter().all(|w| w.get().is_some()), "undefined: {:?}", formulas.q);
+    found.iter().zip(&wanted).any(|(a, b)| a.get() != b.get())
+}
+
+/// With base parameters the torques are those of the bodies, exactly: at random states modulo 2⁶¹ − 1.
+#[test]
+fn grouping_changes_no_torque() {
+    for name in [
+        "staubli-rx90",
+        "puma560",
+        "stanford",
+        "ur5",
+        "franka-panda",
+        "scara",
+        "planar-3r",
+        "prrrrp",
+        "rail-puma",
+        "smart5-six-rail",
+        "cylindrical-rpp",
+        "cartesian-ppp",
+        "spherical-rrp",
+        "parallelogram-5r",
+    ] {
+        let (formulas, model) = base(&under(robot(name), [0, -1, 0]));
+        for seed in 0..2 {
+            assert!(!differs(&formulas, &model, seed), "{name}");
+        }
+    }
+}
+
+/// All structures of three joints with right angles between their axes, lengths there or not, two directions of gravity: the torques
+/// are the same, and the parameters proved to be the fewest.
+#[test]
+fn all_structures_of_three_joints() {
+    let mut cells = vec![];
+    for kind in ["R", "P"] {
+        for alpha in [0, 90] {
+            for a in [false, true] {
+                for d in [false, true] {
+                    cells.push((kind, alpha, a, d));
+                }
+            }
+        }
+    }
+    let (mut count, mut redundant) = (0, vec![]);
+    for gravity in ["[0, 0, '-9.81']", "[0, '-9.81', 0]"] {
+        for first in ["R", "P"] {
+            for second in &cells {
+                for third in &cells {
+                    let mut text = format!(
+                        "convention = 'khalil'\ngravity = {gravity}\n[parameters]\na2=''\na3=''\nd2=''\nd3=''\n"
+                    );
+                    for (k, (kind, alpha, a, d)) in
+                        [&(first, 0, false, false), second, third].into_iter().enumerate()
+                    {
+                        let k = k + 1;
+                        let length = if *a { format!("d = 'a{k}'\n") } else { String::new() };
+                        let offset = if *d { format!("d{k}") } else { "0".into() };
+                        let moves = match *kind {
+                            "R" => format!("theta = 'q{k}'\nr = '{offset}'\n"),
+                            _ => format!("r = 'q{k} + {offset}'\n"),
+                        };
+                        text += &format!("[[joints]]\nalpha = '{alpha} deg'\n{length}{moves}");
+                    }
+                    let d = read_toml(&text).unwrap_or_else(|e| panic!("{text}: {e:?}")).0;
+                    let (formulas, model) = base(&d);
+                    assert!(!differs(&formulas, &model, count), "{text}");
+                    count += 1;
+                    if model.minimality != Minimality::Proved {
+                        redundant.push((
+                            first,
+                            *second,
+                            *third,
+                            gravity,
+                            model.parameters.len(),
+                            model.minimality,
+                        ));
+                    }
+                }
+            }
+        }
+    }
+    assert_eq!(count, 1024);
+    assert!(redundant.is_empty(), "{}: {:?}", redundant.len(), &redundant[..20.min(redundant.len())]);
+}
