@@ -11,8 +11,8 @@ use crate::failure::Failure;
 use crate::terminal::{decimals, note};
 use denavit::catalogue;
 use denavit::description::{
-    Described, Description, Diagnostic, MAX_BYTES, MAX_XML_BYTES, Measure, Mechanism, RowTree, Severity,
-    TableKind, TableOptions, Variable, read_robot, read_table_robot, read_value, write_toml,
+    Described, Description, Diagnostic, MAX_BYTES, MAX_XML_BYTES, Measure, Mechanism, Row, RowTree, Severity,
+    TableKind, TableOptions, Variable, read_robot, read_table_robot, read_value, root_element, write_toml,
 };
 use denavit_symbolic::Expr;
 use std::f64::consts::TAU;
@@ -56,9 +56,24 @@ pub fn robot_file(arguments: &RobotArguments) -> Result<(Description, String), F
     Ok((description, text))
 }
 
-/// True for a file of bodies and joints: a URDF, or a model of MuJoCo's. Which, its root element says.
+/// The endings of files of bodies and joints, and those of others that are known.
+const TREES: [&str; 4] = ["urdf", "xacro", "xml", "mjcf"];
+const OTHERS: [&str; 8] = ["toml", "md", "markdown", "txt", "csv", "tsv", "tex", "par"];
+/// How much of a file is looked at for its root element.
+const HEAD: u64 = 1 << 16;
+
+/// True for a file of bodies and joints: a URDF, or a model of MuJoCo's. Which, its root element says; that it is one, too, where its
+/// ending says nothing.
 pub fn is_tree(name: &str) -> bool {
-    [".urdf", ".xacro", ".xml", ".mjcf"].iter().any(|e| name.ends_with(e))
+    let path = Path::new(name);
+    let ending = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
+    if TREES.contains(&ending) || OTHERS.contains(&ending) || name == "-" || !path.is_file() {
+        return TREES.contains(&ending);
+    }
+    let mut head = vec![];
+    let read = File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
+    let text = String::from_utf8_lossy(&head);
+    read.is_ok() && matches!(root_element(&text), Some("robot" | "mujoco" | "mujocoinclude" | "sdf"))
 }
 
 /// True for such a file that the page opens itself.
@@ -121,7 +136,7 @@ fn from_file(arguments: &RobotArguments) -> Result<(Description, Option<String>)
         Some("md" | "markdown" | "txt") => Some(TableKind::Markdown),
         Some("csv" | "tsv") => Some(TableKind::Csv),
         Some("tex") => Some(TableKind::Latex),
-        Some("urdf" | "xacro" | "xml" | "mjcf") => return Ok((urdf::from_urdf(arguments)?, None)),
+        _ if is_tree(name) => return Ok((urdf::from_urdf(arguments)?, None)),
         Some("par") => return Ok((rows::from_par(arguments)?, None)),
         _ if path.is_file() => {
             let hint = "a robot file ends in .toml, .urdf, .xacro, .xml, .mjcf or .par, a table in .md, .txt, .csv, .tsv or .tex";
@@ -158,8 +173,9 @@ pub fn mechanism(arguments: &RobotArguments) -> Result<Option<Tree>, Failure> {
         return Ok(None);
     }
     let name = arguments.robot.as_str();
+    let listed = catalogue_name(name).and_then(|n| catalogue::text(&n).map(str::to_string));
     let tree = match Path::new(name).extension().and_then(|e| e.to_str()) {
-        Some("urdf" | "xacro" | "xml" | "mjcf") => {
+        _ if listed.is_none() && is_tree(name) => {
             check_options(arguments, false)?;
             Tree::Bodies(urdf::mechanism(arguments)?)
         }
@@ -172,7 +188,6 @@ pub fn mechanism(arguments: &RobotArguments) -> Result<Option<Tree>, Failure> {
             Tree::Rows(tree)
         }
         _ => {
-            let listed = catalogue_name(name).and_then(|n| catalogue::text(&n).map(str::to_string));
             let is_listed = listed.is_some();
             let is_toml = is_listed || name.ends_with(".toml");
             let text = listed.map_or_else(|| contents(name, MAX_BYTES).ok(), Some).filter(|_| is_toml);
@@ -196,6 +211,16 @@ pub enum Tree {
     Bodies(Mechanism),
     /// As rows.
     Rows(RowTree),
+}
+
+impl Tree {
+    /// The same, lent.
+    pub fn as_ref(&self) -> denavit::mechanism::Tree<'_> {
+        match self {
+            Tree::Bodies(m) => denavit::mechanism::Tree::Bodies(m),
+            Tree::Rows(rows) => denavit::mechanism::Tree::Rows(rows),
+        }
+    }
 }
 
 /// The text of a file or of standard input, bounded, whatever its bytes are.
@@ -282,12 +307,28 @@ pub fn joint(d: &Description, word: &str) -> Result<usize, String> {
     let variable = || moving.iter().position(|m| *m.0.symbol.name() == *word);
     let found = number.or_else(variable).or_else(|| moving.iter().position(|m| m.1 == Some(word)));
     found.ok_or_else(|| {
+        let follows = d.rows.iter().find(|r| r.variable.is_none() && r.name.as_deref() == Some(word));
+        if let Some(leader) = follows.and_then(|row| follows_whom(d, row)) {
+            return format!("`{word}` does not move by itself: it follows {leader}");
+        }
         let named = |(v, name): &(Variable, Option<&str>)| match name {
             Some(name) => format!("{} ({name})", v.symbol.name()),
             None => v.symbol.name().to_string(),
         };
         format!("no joint `{word}`; there are {}", moving.iter().map(named).collect::<Vec<_>>().join(", "))
     })
+}
+
+/// The variables, with the names of their rows, that move a row which has none of its own.
+fn follows_whom(d: &Description, row: &Row) -> Option<String> {
+    let symbols = [row.theta, row.d].into_iter().flat_map(Expr::symbols).collect::<Vec<_>>();
+    let moving = d.rows.iter().filter_map(|r| Some((r.variable?.symbol, r.name.as_deref())));
+    let named = moving.filter(|m| symbols.contains(&m.0)).map(|(symbol, name)| match name {
+        Some(name) => format!("{} ({name})", symbol.name()),
+        None => symbol.name().to_string(),
+    });
+    let all: Vec<String> = named.collect();
+    (!all.is_empty()).then(|| all.join(" and "))
 }
 
 /// The two sides of `NAME=VALUE`.

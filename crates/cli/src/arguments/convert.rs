@@ -6,7 +6,8 @@ use std::path::PathBuf;
 
 /// `convert`
 ///
-/// What is written is read back and held against the robot: proved the same, or the difference of the poses is said.
+/// What is written is read back and held against the robot: proved the same, or the difference of the poses is said. Exit code 1 if
+/// it is another robot: if poses differ by more than doubles round by.
 #[derive(Args)]
 pub struct ConvertArguments {
     /// The robot.

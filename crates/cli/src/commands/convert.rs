@@ -11,12 +11,12 @@ use denavit::description::{
     TableKind, TableOptions, read_mjcf, read_par, read_robot, read_table, read_toml, read_urdf, write_axes,
     write_mjcf, write_par, write_table, write_toml, write_tree, write_urdf,
 };
-use denavit::mechanism::{COMPARED, Comparison, compare};
+use denavit::mechanism::{COMPARED, Comparison, compare, compare_chains};
 
 /// Writes a robot in another format.
 ///
 /// # Errors
-/// If there is no such robot, a parameter has no value, or nothing can be written.
+/// If there is no such robot, a parameter has no value, nothing can be written, or what was written is not the robot.
 pub fn run(arguments: &ConvertArguments) -> Result<(), Failure> {
     if matches!(arguments.to, ConvertFormat::Par | ConvertFormat::Tree)
         && let Some(whole) = load::mechanism(&arguments.robot)?
@@ -28,53 +28,81 @@ pub fn run(arguments: &ConvertArguments) -> Result<(), Failure> {
         Some(to) => robot.converted(to.into()).description,
         None => robot.clone(),
     };
-    let (text, back) = match arguments.to {
+    let Written { text, back } = written(&robot, &converted, arguments)?;
+    put(&arguments.output, text.as_bytes())?;
+    say_same(&robot, &back, arguments.robot.as_written)
+}
+
+/// What was written, and how it is read back.
+struct Written {
+    text: String,
+    back: Back,
+}
+
+/// What a text is read back to, if to one chain.
+enum Back {
+    /// There is one way to read it.
+    Alone(Option<Box<Description>>),
+    /// With the decimals of angles as they are meant, or as they are written.
+    ByDecimals(Box<dyn Fn(Decimals) -> Option<Description>>),
+}
+
+fn written(
+    robot: &Description,
+    converted: &Description,
+    arguments: &ConvertArguments,
+) -> Result<Written, Failure> {
+    let convention = robot.convention;
+    let alone =
+        |text: String, back: Option<Description>| Written { text, back: Back::Alone(back.map(Box::new)) };
+    Ok(match arguments.to {
         ConvertFormat::Toml => {
-            let text = write_toml(&converted);
+            let text = write_toml(converted);
             let back = read_toml(&text).ok().map(|r| r.0);
-            (text, back)
+            alone(text, back)
         }
         ConvertFormat::Urdf => {
-            let text = write_urdf(&converted)
-                .map_err(|missing| no_values(missing.iter().map(|s| s.name().to_string())))?;
-            let read = read_urdf(&text, Decimals::Meant).ok();
-            let chain = read.and_then(|(m, _)| m.chain(Some("base"), Some("tool"), robot.convention).ok());
-            (text, chain.map(|c| c.description))
+            let text = write_urdf(converted).map_err(|missing| no_values(missing.parameters.into_iter()))?;
+            let copy = text.clone();
+            let back = move |decimals| {
+                let (m, _) = read_urdf(&copy, decimals).ok()?;
+                Some(m.chain(Some("base"), Some("tool"), convention).ok()?.description)
+            };
+            Written { text, back: Back::ByDecimals(Box::new(back)) }
         }
         ConvertFormat::Mjcf => {
-            let bodies = Mechanism::of(&converted)
-                .map_err(|missing| no_values(missing.iter().map(|s| s.name().to_string())))?;
+            let bodies =
+                Mechanism::of(converted).map_err(|missing| no_values(missing.parameters.into_iter()))?;
             let text = write_mjcf(&bodies);
-            let read = read_mjcf("written", &text, &mut Alone, Decimals::Meant).0.ok();
-            let chain = read.and_then(|(m, _)| m.chain(Some("base"), Some("tool"), robot.convention).ok());
-            (text, chain.map(|c| c.description))
+            let copy = text.clone();
+            let back = move |decimals| {
+                let (m, _) = read_mjcf("written", &copy, &mut Alone, decimals).0.ok()?;
+                Some(m.chain(Some("base"), Some("tool"), convention).ok()?.description)
+            };
+            Written { text, back: Back::ByDecimals(Box::new(back)) }
         }
-        ConvertFormat::Axes => axes(&converted, AxesAs::Lines, arguments)?,
-        ConvertFormat::Poe => axes(&converted, AxesAs::Screws, arguments)?,
-        ConvertFormat::BodyPoe => axes(&converted, AxesAs::BodyScrews, arguments)?,
+        ConvertFormat::Axes => axes(converted, AxesAs::Lines, arguments)?,
+        ConvertFormat::Poe => axes(converted, AxesAs::Screws, arguments)?,
+        ConvertFormat::BodyPoe => axes(converted, AxesAs::BodyScrews, arguments)?,
         ConvertFormat::Par => {
             let file = write_par(&converted.as_tree()).map_err(no_par)?;
-            let end = file.last.to_string();
-            let back = read_par(&file.text, Decimals::Meant).ok();
-            let chain = back.and_then(|(t, _)| t.chain(None, Some(&end), robot.convention).ok());
-            (file.text, chain.map(|c| c.description))
+            let (copy, end) = (file.text.clone(), file.last.to_string());
+            let back = move |decimals| {
+                let (tree, _) = read_par(&copy, decimals).ok()?;
+                Some(tree.chain(None, Some(&end), convention).ok()?.description)
+            };
+            Written { text: file.text, back: Back::ByDecimals(Box::new(back)) }
         }
         ConvertFormat::Tree => {
             let text = write_tree(&converted.as_tree());
             let back = read_toml(&text).ok().map(|r| r.0);
-            (text, back)
+            alone(text, back)
         }
-        ConvertFormat::Markdown => table(&converted, TableKind::Markdown)?,
-        ConvertFormat::Latex => table(&converted, TableKind::Latex)?,
-        ConvertFormat::Csv => table(&converted, TableKind::Csv)?,
-    };
-    put(&arguments.output, text.as_bytes())?;
-    say_same(&robot, back.as_ref());
-    Ok(())
+        ConvertFormat::Markdown => table(converted, TableKind::Markdown)?,
+        ConvertFormat::Latex => table(converted, TableKind::Latex)?,
+        ConvertFormat::Csv => table(converted, TableKind::Csv)?,
+    })
 }
-
-/// What was written, and what it reads back to.
-type Written = (String, Option<Description>);
 
 /// A robot file by its axes.
 fn axes(robot: &Description, written: AxesAs, arguments: &ConvertArguments) -> Result<Written, Failure> {
@@ -84,7 +112,7 @@ fn axes(robot: &Description, written: AxesAs, arguments: &ConvertArguments) -> R
     if robot.rows.iter().any(|r| r.mass.is_some() || r.inertia.is_some()) {
         note("note: masses and inertias have no place in a file of axes");
     }
-    Ok((text, back))
+    Ok(Written { text, back: Back::Alone(back.map(Box::new)) })
 }
 
 /// All of a tree, written as rows; every chain from its root to an end is read back and compared.
@@ -107,48 +135,44 @@ fn tree(whole: &Tree, arguments: &ConvertArguments) -> Result<(), Failure> {
         _ => (write_tree(&rows), rows.frame_names().into_iter().map(|n| (n.clone(), n)).collect()),
     };
     put(&arguments.output, text.as_bytes())?;
-    let back = match arguments.to {
-        ConvertFormat::Par => read_par(&text, Decimals::Meant).ok().map(|r| r.0),
+    let read = |decimals| match arguments.to {
+        ConvertFormat::Par => read_par(&text, decimals).ok().map(|r| r.0),
         _ => match read_robot(&text) {
             Ok((Described::Tree(tree), _)) => Some(*tree),
             _ => None,
         },
     };
-    let Some(back) = back else {
-        note("note: what was written was not held against the robot: it does not read back as a tree");
-        return Ok(());
+    let compared = |decimals| Some(compare_chains(whole.as_ref(), &read(decimals)?, &named));
+    let meant = (!arguments.robot.as_written).then(|| compared(Decimals::Meant)).flatten();
+    let (chains, is_meant) = match meant {
+        Some(chains) if !chains.differ() => (Some(chains), true),
+        meant => match compared(Decimals::AsWritten) {
+            Some(written) if !written.differ() => (Some(written), arguments.robot.as_written),
+            written => (meant.or(written), true),
+        },
     };
-    let (mut proved, mut sampled, mut most, mut open) = (0, 0, 0.0_f64, 0);
-    for (end, there) in &named {
-        let one = match whole {
-            Tree::Bodies(m) => m.chain(None, Some(end), Convention::Khalil).map(|c| {
-                // What follows a joint beside the way counts by itself there, as that joint in rows.
-                let follows = c.joints.iter().any(|&j| m.joints[j].follows.is_some());
-                (!follows).then_some(c.description)
-            }),
-            Tree::Rows(rows) => rows.chain(None, Some(end), Convention::Khalil).map(|c| Some(c.description)),
-        };
-        let Ok(one) = one else { continue };
-        let Some(one) = one else {
-            open += 1;
-            continue;
-        };
-        match back.chain(None, Some(there), Convention::Khalil).map(|c| compare(&one, &c.description)) {
-            Ok(Comparison::Proved) => proved += 1,
-            Ok(Comparison::Sampled(by)) => (sampled, most) = (sampled + 1, most.max(by)),
-            _ => open += 1,
-        }
+    let Some(chains) = chains else {
+        return Err(Failure::No("what was written does not read back as a tree".into()));
+    };
+    let mut said = format!(
+        "{}, {} of {} chains are proved to be the same",
+        read_back(is_meant),
+        chains.proved,
+        chains.count()
+    );
+    if chains.sampled > 0 {
+        said += &format!(
+            ", {} differ by {:.0e} at most in {COMPARED} configurations",
+            chains.sampled, chains.most
+        );
     }
-    let mut said =
-        format!("note: read back, {proved} of {} chains are proved to be the same", proved + sampled + open);
-    if sampled > 0 {
-        said += &format!(", {sampled} differ by {most:.0e} at most in {COMPARED} configurations");
+    if chains.others > 0 {
+        said += &format!(", {} have other joints", chains.others);
     }
-    if open > 0 {
-        said += &format!(", {open} were not compared");
+    if chains.open > 0 {
+        said += &format!(", {} were not compared", chains.open);
     }
-    note(&said);
-    Ok(())
+    say(said, chains.differ())
 }
 
 fn no_par(why: NoPar) -> Failure {
@@ -176,7 +200,7 @@ fn table(robot: &Description, kind: TableKind) -> Result<Written, Failure> {
         }
     })?;
     let back = read_table(&text, kind, &TableOptions::default()).ok().map(|r| r.0);
-    Ok((text, back))
+    Ok(Written { text, back: Back::Alone(back.map(Box::new)) })
 }
 
 fn no_values(names: impl Iterator<Item = String>) -> Failure {
@@ -184,21 +208,47 @@ fn no_values(names: impl Iterator<Item = String>) -> Failure {
     Failure::Input(format!("error: no value for {}; give it with --set", names.join(", ")))
 }
 
-/// Says how what was written is the robot.
-fn say_same(robot: &Description, back: Option<&Description>) {
-    let Some(back) = back else {
-        return note(
-            "note: what was written was not held against the robot: it does not read back as one chain",
-        );
+/// How a sentence on what was read back begins; `is_meant` if decimals were read as they always are.
+fn read_back(is_meant: bool) -> &'static str {
+    if is_meant { "read back" } else { "read back with --as-written (its decimals are meant so)" }
+}
+
+/// A note, or a failure where what was written is something else.
+fn say(said: String, is_other: bool) -> Result<(), Failure> {
+    if is_other {
+        return Err(Failure::No(format!("error: {said}")));
+    }
+    note(&format!("note: {said}"));
+    Ok(())
+}
+
+/// Says how what was written is the robot; a failure if it is another.
+fn say_same(robot: &Description, back: &Back, as_written: bool) -> Result<(), Failure> {
+    let compared = |back: Option<Description>| back.map(|back| compare(robot, &back));
+    let (comparison, is_meant) = match back {
+        Back::Alone(back) => (compared(back.as_deref().cloned()), true),
+        Back::ByDecimals(read) if as_written => (compared(read(Decimals::AsWritten)), true),
+        Back::ByDecimals(read) => match compared(read(Decimals::Meant)) {
+            Some(meant) if !meant.differs() => (Some(meant), true),
+            meant => match compared(read(Decimals::AsWritten)) {
+                Some(written) if !written.differs() => (Some(written), false),
+                _ => (meant, true),
+            },
+        },
     };
-    note(&match compare(robot, back) {
-        Comparison::Proved => "note: read back, it is proved to be the same robot".to_string(),
+    let Some(comparison) = comparison else {
+        return say("what was written does not read back as one chain".into(), true);
+    };
+    let how = read_back(is_meant);
+    let said = match &comparison {
+        Comparison::Proved => format!("{how}, it is proved to be the same robot"),
         Comparison::Sampled(by) => {
-            format!("note: read back, its poses differ by {by:.0e} at most in {COMPARED} configurations")
+            format!("{how}, its poses differ by {by:.0e} at most in {COMPARED} configurations")
         }
-        Comparison::OtherJoints => "note: read back, it has other joints than the robot".into(),
+        Comparison::OtherJoints => format!("{how}, it has other joints than the robot"),
         Comparison::NoNumbers(missing) => {
-            format!("note: what was written was not held against the robot: {missing}")
+            format!("what was written was not held against the robot: {missing}")
         }
-    });
+    };
+    say(said, comparison.differs())
 }

@@ -136,3 +136,63 @@ fn all_bodies_of_a_tree_at_once() {
     let (code, _, said) = run(&["fk", &file, "--frames", "all", "-q", "1, 2"]);
     assert!(code == 2 && said.contains("2 values given, the tree has 31 joints"), "{said}");
 }
+
+/// What is written is read back as its decimals are: an angle of 1.5708 that is none of 90°.
+#[test]
+fn what_is_written_is_what_was_meant() {
+    let arm = |angle: &str| {
+        format!(
+            "name = \"a\"\nconvention = \"standard\"\n[[joints]]\ntheta = \"q1\"\nd = 0.3\nalpha = \"{angle}\"\n[[joints]]\ntheta = \"q2\"\na = 0.5\n"
+        )
+    };
+    let file = File::new("decimals.toml", &arm("1.5708"));
+    for to in ["urdf", "mjcf", "par"] {
+        let (code, _, said) = run(&["convert", file.name(), "--to", to]);
+        assert!(code == 0 && said.contains("read back"), "{to}: {said}");
+        assert!(to != "urdf" || said.contains("with --as-written"), "{to}: {said}");
+        assert!(!said.contains("e-6 at most"), "{to}: {said}");
+    }
+    let (_, written, _) = run(&["convert", file.name(), "--to", "urdf"]);
+    let back = File::new("decimals.urdf", &written);
+    let (code, _, said) = run(&["convert", back.name(), "--as-written", "--to", "urdf"]);
+    assert!(code == 0 && !said.contains("its decimals are meant so"), "{said}");
+    let exact = File::new("exact.toml", &arm("90 deg"));
+    let (code, _, said) = run(&["convert", exact.name(), "--to", "urdf"]);
+    assert!(code == 0 && said.contains("note: read back, it is proved to be the same robot"), "{said}");
+}
+
+#[test]
+fn a_description_in_xml_is_known_by_its_root() {
+    let text = std::fs::read_to_string(urdf("ur5_robot")).expect("a file");
+    for name in ["arm", "arm.xml", "arm.model", "arm.urdf.in"] {
+        let file = File::new(name, &text);
+        let (code, shown, said) = run(&["show", file.name(), "--tip", "tool0"]);
+        assert!(code == 0 && shown.contains("6 joints"), "{name}: {said}");
+    }
+    let model = "<mujoco><worldbody><body name='a'><joint axis='0 0 1'/></body></worldbody></mujoco>";
+    let file = File::new("model", model);
+    let (code, shown, said) = run(&["fk", file.name(), "--frames", "all", "-q", "0"]);
+    assert!(code == 0 && shown.contains('a'), "{said}");
+    let file = File::new("page", "<html><body/></html>");
+    let (code, _, said) = run(&["show", file.name()]);
+    assert!(code == 3 && said.contains("what is this?"), "{said}");
+}
+
+#[test]
+fn joints_that_follow_others_say_whom() {
+    let joint = |name: &str, parent: &str, child: &str, mimic: &str| {
+        format!(
+            "<joint name='{name}' type='continuous'><parent link='{parent}'/><child link='{child}'/>{mimic}</joint>"
+        )
+    };
+    let text = format!(
+        "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>{}{}</robot>",
+        joint("driver", "a", "b", ""),
+        joint("idler", "b", "c", "<mimic joint='driver' multiplier='-1'/>")
+    );
+    let file = File::new("mimic.urdf", &text);
+    let (code, _, said) = run(&["fk", file.name(), "--frames", "all", "-q", "idler=1"]);
+    assert!(code == 2 && said.contains("`idler` follows `driver`: give that one its value"), "{said}");
+    let (code, _, said) = run(&["fk", file.name(), "-q", "idler=1"]);
+    assert!(code == 2 && said.contains("`idler` does not move by itself: it follows q1 (driver)"), "{said}");
+}

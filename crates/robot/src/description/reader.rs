@@ -18,6 +18,8 @@ const LARGEST: i64 = 1_000_000_000;
 pub(super) struct Reader {
     pub out: Diagnostics,
     pub decimals: Decimals,
+    /// True if a link or a joint could not be read: what hangs on what is not known.
+    pub is_part: bool,
     /// What angles were taken for: by text and multiple, where first, how often.
     angles: BTreeMap<(String, i64), Angles>,
 }
@@ -31,7 +33,7 @@ struct Angles {
 
 impl Reader {
     pub fn new(out: Diagnostics, decimals: Decimals) -> Self {
-        Reader { out, decimals, angles: BTreeMap::new() }
+        Reader { out, decimals, is_part: false, angles: BTreeMap::new() }
     }
 
     /// A decimal.

@@ -10,6 +10,7 @@ use denavit::description::{
 use denavit::geometry::Transform;
 use denavit::mechanism::{Comparison, compare};
 use denavit::robot::Robot;
+use denavit_symbolic::{Expr, Rational};
 
 fn shown(text: &str, findings: &[Diagnostic]) -> Vec<String> {
     let one = |d: &Diagnostic| {
@@ -110,6 +111,21 @@ fn what_is_wrong_with_a_par_file_has_its_place() {
         (
             format!("(* open\n{plain}"),
             &["1:1: this comment does not end", "1:1: there are no geometric parameters"],
+        ),
+        // All at once, though there are loops and a column is short.
+        (
+            changed("NJ = 2", "NJ = 3")
+                .replace("ant = {0,1}", "ant = {0,x}")
+                .replace("d = {0,D2}", "d = {q1+}")
+                + "Z = {1}\nZ = {2}\n",
+            &[
+                "2:6: closed loops: 3 joints for 2 links",
+                "4:10: an antecedent is the number of a frame, 0 for the base",
+                "8:1: `d` has 1 values, others have 2",
+                "8:8: something is missing at the end",
+                "9:1: `Z` has 16 values, not 1",
+                "10:1: `Z` a second time; the first is in line 9",
+            ],
         ),
         (format!("{plain}ant = {{0,1}}\n"), &["9:1: `ant` a second time; the first is in line 4"]),
     ] {
@@ -494,4 +510,55 @@ fn gears_turn_by_their_factor() {
         compared += 1;
     }
     assert!(compared > 20, "{compared}");
+}
+
+/// A joint with a gear that follows another, and masses, as bodies and joints.
+#[test]
+fn rows_become_bodies_with_their_masses() {
+    let text = r#"
+name = "wrist"
+convention = "khalil"
+[parameters]
+l = "100 mm"
+m = 2
+[[joints]]
+name = "first"
+theta = "q1"
+[[joints]]
+name = "second"
+d = "l"
+theta = "q1 - 2*q2"
+mass = "m"
+com = ["l", 0, 0]
+inertia = [1, 0, 0, 2, 0, 3]
+[[joints]]
+name = "plate"
+after = "first"
+alpha = "90 deg"
+mass = 1
+com = [0, 0, "l"]
+inertia = [1, 0, 0, 1, 0, 1]
+[[frames]]
+name = "tip"
+on = "second"
+xyz = ["l", 0, 0]
+"#;
+    let (Described::Tree(tree), _) = read_robot(text).unwrap_or_else(|f| panic!("{f:?}")) else {
+        panic!("a tree");
+    };
+    let m = tree.mechanism().unwrap();
+    let named = |names: Vec<&str>| names.into_iter().map(str::to_string).collect::<Vec<_>>();
+    let bodies: Vec<String> = m.bodies.iter().map(|b| b.name.clone()).collect();
+    assert_eq!(bodies, named(vec!["base", "first", "second (1)", "second (2)", "second", "plate", "tip"]));
+    let mass = |name: &str| m.bodies[m.body(name).unwrap()].mass.clone();
+    let l = Expr::from(Rational::new(1, 10));
+    assert_eq!(mass("second").map(|x| (x.mass, x.com[0])), Some((Expr::int(2), l)));
+    assert_eq!(mass("plate").map(|x| x.com[2]), Some(l));
+    assert!(mass("first").is_none());
+    // The tip by its chain and by its body.
+    let q = [0.3, -0.7];
+    let tip = m.poses(&q)[m.body("tip").unwrap()];
+    let chain = tree.chain(None, Some("tip"), Convention::Khalil).unwrap().description;
+    let by_rows = Robot::numeric(&chain).unwrap().pose(&q);
+    assert!(apart(&tip, &by_rows) < 1e-15, "{tip:?} {by_rows:?}");
 }

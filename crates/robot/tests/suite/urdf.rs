@@ -431,5 +431,5 @@ fn the_catalogue_goes_to_urdf_and_back() {
     }
     assert!(to_the_letter >= 93 && proved >= 93, "{to_the_letter} {proved}");
     let missing = write_urdf(&catalogue::robot("prrrrp").unwrap()).unwrap_err();
-    assert_eq!(missing.len(), 3);
+    assert_eq!(missing.parameters.len(), 3);
 }

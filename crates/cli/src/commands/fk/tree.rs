@@ -94,6 +94,11 @@ fn configuration(m: &Mechanism, text: Option<&str>) -> Result<Vec<f64>, Failure>
             return Err(bad(format!("`{part}`: write NAME=VALUE")));
         };
         let Some(at) = joints.iter().position(|j| j.name == name.trim()) else {
+            let other = m.joints.iter().find(|j| j.name == name.trim());
+            if let Some(follows) = other.and_then(|j| j.follows.as_ref()) {
+                let leader = &m.joints[follows.joint].name;
+                return Err(bad(format!("`{}` follows `{leader}`: give that one its value", name.trim())));
+            }
             return Err(bad(format!("no joint `{}` moves by itself; they are {}", name.trim(), names())));
         };
         if q[at].replace(number(joints[at], text.trim()).map_err(bad)?).is_some() {

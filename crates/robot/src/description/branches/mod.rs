@@ -12,11 +12,8 @@ pub use chain::RowChain;
 pub use par::read_par;
 pub use write_par::{NoPar, ParFile, write_par};
 
-use super::tree::with_gear;
-use super::{
-    Body, Convention, Description, Follows, Joint, JointKind, Mechanism, MissingValue, Parameter, Row,
-};
-use crate::geometry::{Axis, Transform, Vector};
+use super::{Convention, Description, JointKind, Mechanism, MissingValue, Parameter, Row};
+use crate::geometry::Transform;
 use denavit_symbolic::{Angle, Expr, Rational, Symbol};
 
 /// A tree of rows.
@@ -148,99 +145,6 @@ impl RowTree {
     /// # Errors
     /// If a parameter has no value.
     pub fn mechanism(&self) -> Result<Mechanism, MissingValue> {
-        let names: Vec<Symbol> = self.parameters.iter().map(|p| p.symbol).collect();
-        let value = |s: Symbol| self.parameters.iter().find(|p| p.symbol == s)?.value;
-        let used: Vec<Symbol> = self
-            .rows
-            .iter()
-            .flat_map(|r| [r.theta, r.d, r.a, r.alpha, r.gamma, r.b])
-            .chain(self.base.matrix().concat())
-            .chain(self.frames.iter().flat_map(|f| f.pose.matrix().concat()))
-            .flat_map(Expr::symbols)
-            .filter(|s| names.contains(s))
-            .collect();
-        denavit_program::values(&used, |s| value(s)?.eval(|_| None).ok())?;
-        let number = |e: Expr| e.substitute(value);
-
-        let body = |name: String| Body { name, mass: None, looks: vec![] };
-        let mut m =
-            Mechanism { name: self.name.clone(), bodies: vec![body(BASE.into())], joints: vec![], root: 0 };
-        let mut of_row: Vec<usize> = vec![];
-        let mut leader: Vec<usize> = vec![];
-        let variables = self.variables();
-        for (j, row) in self.rows.iter().enumerate() {
-            let parent = self.after[j].map_or(0, |a| of_row[a]);
-            let before = if self.after[j].is_none() { self.base } else { Transform::identity() };
-            let still = |e: Expr| number(e.substitute(|s| variables.contains(&s).then(|| Expr::int(0))));
-            let screws = row.screws(Convention::Khalil);
-            let joint = crate::description::Screw {
-                angle: still(screws.joint.angle),
-                length: still(screws.joint.length),
-                ..screws.joint
-            };
-            let x = screws.before.iter().fold(before, |x, s| x * s.transform()) * joint.transform();
-            let mut origin = x.map(number);
-            let mut parent = parent;
-            let own = row.variable.and_then(|v| variables.iter().position(|s| *s == v.symbol));
-            let motions = with_gear(self.motions(row), own);
-            let steps = motions.len().max(1);
-            for k in 0..steps {
-                let is_last = k + 1 == steps;
-                // The joint that moves by itself has the row's name, and so has the last body, the row's frame.
-                let numbered = |is_own: bool| {
-                    let name = self.frame_name(j);
-                    if is_own { name } else { format!("{name} ({})", k + 1) }
-                };
-                let child = m.bodies.len();
-                m.bodies.push(body(numbered(is_last)));
-                let z = Vector::unit(Axis::Z);
-                let mut joint = Joint {
-                    name: numbered(k == 0),
-                    kind: None,
-                    parent,
-                    child,
-                    origin: std::mem::replace(&mut origin, Transform::identity()),
-                    axis: z,
-                    limits: row.limits.filter(|_| k == 0),
-                    velocity: row.velocity.filter(|_| k == 0),
-                    effort: None,
-                    follows: None,
-                };
-                if let Some((kind, v, factor)) = motions.get(k) {
-                    joint.kind = Some(*kind);
-                    if leader.get(*v).is_some() {
-                        joint.follows =
-                            Some(Follows { joint: leader[*v], factor: factor.clone(), offset: Expr::int(0) });
-                    } else {
-                        leader.push(m.joints.len());
-                        joint.axis = if factor.is_negative() { -z } else { z };
-                    }
-                }
-                m.joints.push(joint);
-                parent = child;
-            }
-            of_row.push(parent);
-        }
-        for frame in &self.frames {
-            let child = m.bodies.len();
-            m.bodies.push(body(frame.name.clone()));
-            let (parent, before) = match frame.on {
-                Some(row) => (of_row[row], Transform::identity()),
-                None => (0, self.base),
-            };
-            m.joints.push(Joint {
-                name: frame.name.clone(),
-                kind: None,
-                parent,
-                child,
-                origin: (before * frame.pose).map(number),
-                axis: Vector::unit(Axis::Z),
-                limits: None,
-                velocity: None,
-                effort: None,
-                follows: None,
-            });
-        }
-        Ok(m)
+        Mechanism::of_rows(self)
     }
 }

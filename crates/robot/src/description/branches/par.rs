@@ -214,11 +214,9 @@ impl<'t> Reader<'t> {
             self.out
                 .error(span.clone(), format!("closed loops: {joints} joints for {links} links"))
                 .hint("trees are read; leave out the columns of the cut joints, and NJ is NL");
-            return None;
         }
         if let Some((2, span)) = kind {
             self.out.error(span, "a mechanism with closed loops").hint("trees are read: Type = 0 or 1");
-            return None;
         }
         let columns = COLUMNS.map(|c| entries.iter().find(|e| plain(e.key) == c));
         let ant = columns[0];
@@ -230,8 +228,8 @@ impl<'t> Reader<'t> {
                 .hint("ant = {0,1,2}, sigma = {0,0,0}, theta = {th1,th2,th3}, …");
             return None;
         }
-        if count > MAX_ROWS {
-            self.out.error(0..0, format!("{count} frames; {MAX_ROWS} are allowed"));
+        if let Some(more) = columns.iter().flatten().find_map(|e| e.items.get(MAX_ROWS)) {
+            self.out.error(more.span.clone(), format!("{count} frames; {MAX_ROWS} are allowed"));
             return None;
         }
         for entry in columns.iter().flatten().filter(|e| e.items.len() != count) {
@@ -243,10 +241,9 @@ impl<'t> Reader<'t> {
             let span = entries.iter().find(|e| e.key == what).map_or(0..0, |e| e.span.clone());
             self.out.error(span, format!("`{what}` is {told}, the columns have {count} values"));
         }
-        if self.out.has_errors() {
-            return None;
-        }
-        let item = |column: usize, j: usize| columns[column].map(|e| &e.items[j]);
+        // What is there is read, so that all findings come at once.
+        let is_whole = !self.out.has_errors();
+        let item = |column: usize, j: usize| columns[column].and_then(|e| e.items.get(j));
         let after = self.antecedents(ant, count);
         let mut parameters: Vec<Parameter> = vec![];
         let mut rows: Vec<Row> = vec![];
@@ -257,12 +254,15 @@ impl<'t> Reader<'t> {
                 item(column, j).map_or(Cell::zero(), |i| self.cell(i, quantity))
             });
             let kind = self.kind(item(1, j), item(2, j));
+            let is_told = columns.iter().flatten().all(|e| j < e.items.len());
+            let kind = kind.filter(|_| is_told);
             rows.push(self.row(j, cells, kind, &rows, &mut parameters));
         }
         self.give_values(&mut parameters, &rows);
         let (base, gravity) = (self.base(entries), self.gravity(entries));
         let title = self.title();
         self.say_left_out(entries);
+        is_whole.then_some(())?;
         Some(RowTree {
             name: title,
             source: None,

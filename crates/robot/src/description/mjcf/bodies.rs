@@ -24,7 +24,6 @@ const TURN: [&str; 6] = ["pos", "quat", "axisangle", "xyaxes", "zaxis", "euler"]
 const BODY: &[&str] = &[
     "name",
     "childclass",
-    "class",
     "mocap",
     "gravcomp",
     "user",
@@ -238,10 +237,11 @@ impl<'a> Mjcf<'a, '_> {
                 (Named::ByFile, Named::ByFile) | (Named::Site, Named::Site) => {
                     let what = if kind == Named::Site { "site" } else { "body" };
                     let message = format!("the {what} `{}` is given twice", shown(&name));
-                    self.reader.out.error(span, message).hint("names are unique");
+                    self.reader.out.error(span.clone(), message).hint("names are unique");
                     let first = self.links.spans[first].clone();
                     self.reader.out.note(first, format!("the first {what} `{}`", shown(&name)));
-                    return None;
+                    // What stands in it is read as well.
+                    name = self.like(&name, kind);
                 }
                 (Named::Site | Named::Made, Named::ByFile) | (Named::Made, Named::Site) => {
                     let other = self.like(&name, self.named[first]);

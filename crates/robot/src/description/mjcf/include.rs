@@ -37,8 +37,8 @@ impl<'s> Opened<'s> {
 
     /// The model of a text, the first one, and all that it attaches.
     pub fn documents(&mut self, name: &str, text: &str) -> Vec<Document> {
-        let mut names = vec![name.to_string()];
-        let mut trees: Vec<Option<Tree>> = vec![self.document(name, text.to_string())];
+        let mut names = vec![self.sources.canonical(name)];
+        let mut trees: Vec<Option<Tree>> = vec![self.document(name, text.to_string(), None)];
         let mut all = vec![];
         while all.len() < trees.len() {
             let at = all.len();
@@ -57,7 +57,7 @@ impl<'s> Opened<'s> {
                 let known = names.iter().position(|n| *n == opened);
                 let number = known.unwrap_or(trees.len());
                 if known.is_none() {
-                    trees.push(self.document(&opened, text));
+                    trees.push(self.document(&opened, text, Some(&file.span)));
                     names.push(opened);
                 }
                 // Without a name of its own it has the one that it gives itself.
@@ -89,10 +89,10 @@ impl<'s> Opened<'s> {
         None
     }
 
-    /// A text with what it includes.
-    fn document(&mut self, name: &str, text: String) -> Option<Tree> {
-        let mut tree = self.parsed(name, text)?;
-        let mut included = HashSet::from([name.to_string()]);
+    /// A text with what it includes; `from` is where it is named.
+    fn document(&mut self, name: &str, text: String, from: Option<&Range<usize>>) -> Option<Tree> {
+        let mut tree = self.parsed(name, text, from)?;
+        let mut included = HashSet::from([self.sources.canonical(name)]);
         // Which file the nodes from a number on are of.
         let mut from = vec![(0, name.to_string())];
         let mut at = 0;
@@ -142,7 +142,7 @@ impl<'s> Opened<'s> {
                 .hint("a file is included once; <replicate> and <attach> repeat what stands in one");
             return None;
         }
-        let other = self.parsed(&name, text)?;
+        let other = self.parsed(&name, text, Some(&span))?;
         let first = tree.nodes.len();
         from.push((first, name));
         let shifted = other.nodes.into_iter().map(|mut n| {
@@ -153,21 +153,19 @@ impl<'s> Opened<'s> {
         Some(first)
     }
 
-    fn parsed(&mut self, name: &str, text: String) -> Option<Tree> {
+    fn parsed(&mut self, name: &str, text: String, from: Option<&Range<usize>>) -> Option<Tree> {
         let length = text.len();
         let (file, start) = self.files.add(name.into(), text);
+        let from = from.cloned().unwrap_or(start..start);
         self.bytes += length;
         if self.bytes > 4 * MAX_XML_BYTES {
-            self.out.error(
-                start..start,
-                format!("the files have more than {} bytes together", 4 * MAX_XML_BYTES),
-            );
+            self.out.error(from, format!("the files have more than {} bytes together", 4 * MAX_XML_BYTES));
             return None;
         }
         let tree = parse_to(MAX_DEPTH, self.files.text(file), start, &mut self.out)?;
         self.nodes += tree.nodes.len();
         if self.nodes > MAX_NODES {
-            self.out.error(start..start, format!("the files have more than {MAX_NODES} elements together"));
+            self.out.error(from, format!("the files have more than {MAX_NODES} elements together"));
             return None;
         }
         Some(tree)

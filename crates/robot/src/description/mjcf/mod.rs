@@ -14,13 +14,13 @@ mod write;
 
 pub use write::write_mjcf;
 
+use super::Decimals;
 use super::diagnostic::{Diagnostics, nearest};
 use super::reader::Reader;
 use super::sources::{Files, Sources};
 use super::tree::Mechanism;
 use super::urdf::{Draft, Links, Reading, plain};
 use super::xml::{Element, shown};
-use super::{Decimals, MAX_ROWS};
 use crate::geometry::Axis;
 use bodies::{Context, Named};
 use defaults::Classes;
@@ -173,13 +173,11 @@ fn robot(documents: &[Document], reader: &mut Reader) -> Option<Mechanism> {
         let places = if count == 1 { String::new() } else { format!(", {count} places") };
         reader.out.note(span, format!("{said}{places}"));
     }
-    let moving = drafts.iter().filter(|d| d.moves()).count();
-    if moving > MAX_ROWS {
-        reader.out.error(root.span(), format!("{moving} moving joints; {MAX_ROWS} are allowed"));
+    if !reader.has_few_joints(&drafts) {
         return None;
     }
     let name = root.attribute("model").map_or_else(|| "robot".to_string(), |n| plain(n.text));
-    reader.tree(root, name, links, drafts)
+    reader.tree(name, links, drafts)
 }
 
 impl<'a> Mjcf<'a, '_> {

@@ -11,7 +11,6 @@ mod program;
 
 pub use chain::{Chain, NoChain};
 pub(super) use chain::{moved, turned};
-pub(super) use of::with_gear;
 
 use super::JointKind;
 use crate::geometry::{Transform, Vector};

@@ -1,97 +1,141 @@
-//! A table's chain as a tree: bodies `base`, `link1`, …, `tool`.
+//! Rows as bodies and joints: a chain as `base`, `link1`, …, `tool`, a tree of rows as its frames.
 //!
-//! A joint's origin is what is constant before its motion, its axis z; rows without a variable are part of the next origin. A row
-//! that adds variables is one joint for each, with bodies between; those that are not its own follow them.
+//! A joint's origin is what is constant before its motion, its axis z. A row that adds variables is one joint for each, with bodies
+//! between; those that are not its own follow them.
 
 use super::{Body, Follows, Joint, Mass, Mechanism};
-use crate::description::{Description, JointKind, Row, Variable};
-use crate::geometry::{Transform, Vector};
+use crate::description::{
+    Convention, Description, JointKind, MissingValue, NamedFrame, Parameter, Row, RowTree, Screw, Variable,
+};
+use crate::geometry::{Axis, Transform, Vector};
 use denavit_symbolic::{Angle, Expr, Rational, Symbol};
 use std::collections::HashSet;
 
+impl Mechanism {
+    /// The chain of a description, with the values of its parameters; rows that do not move are part of the next origin.
+    ///
+    /// # Errors
+    /// If a parameter has no value.
+    pub fn of(d: &Description) -> Result<Self, MissingValue> {
+        has_values(&d.rows, &[d.base, d.tool], &d.parameters)?;
+        let mut growing = Growing::new(&d.name, "base", &d.rows, &d.parameters);
+        let names = named_joints(d);
+        growing.joints.extend(names.iter().cloned());
+        let mut place = Place { on: 0, origin: d.base };
+        for (i, row) in d.rows.iter().enumerate() {
+            let named = |motion: &Motion| {
+                let name = &names[motion.variable];
+                let joint = if motion.is_own { name.clone() } else { format!("{name}_in_{}", i + 1) };
+                (joint, format!("link{}", i + 1))
+            };
+            place = growing.row(row, d.convention, place, &named);
+        }
+        let end = Place { origin: place.origin * d.tool, ..place };
+        growing.still(end, "tool_joint", "tool");
+        Ok(growing.finished())
+    }
+
+    /// A tree of rows, with the values of its parameters; each row's frame is a body, and so is each named frame.
+    ///
+    /// # Errors
+    /// If a parameter has no value.
+    pub fn of_rows(tree: &RowTree) -> Result<Self, MissingValue> {
+        let poses: Vec<Transform<Expr>> =
+            [tree.base].into_iter().chain(tree.frames.iter().map(|f| f.pose)).collect();
+        has_values(&tree.rows, &poses, &tree.parameters)?;
+        let mut growing =
+            Growing::new(&tree.name, crate::description::branches::BASE, &tree.rows, &tree.parameters);
+        let mut of_row: Vec<usize> = vec![];
+        let place = |row: Option<usize>, of_row: &[usize]| match row {
+            Some(row) => Place { on: of_row[row], origin: Transform::identity() },
+            None => Place { on: 0, origin: tree.base },
+        };
+        for (j, row) in tree.rows.iter().enumerate() {
+            let name = tree.frame_name(j);
+            // The joint that moves by itself has the row's name, and so has the last body, the row's frame.
+            let numbered = |is_plain: bool, k: usize| {
+                if is_plain { name.clone() } else { format!("{name} ({})", k + 1) }
+            };
+            let named =
+                |motion: &Motion| (numbered(motion.k == 0, motion.k), numbered(motion.is_last, motion.k));
+            let mut behind = growing.row(row, Convention::Khalil, place(tree.after[j], &of_row), &named);
+            if growing.moves(row).is_empty() {
+                behind = Place { on: growing.still(behind, &name, &name), origin: Transform::identity() };
+                growing.weigh(behind.on, row, &Transform::identity());
+            }
+            of_row.push(behind.on);
+        }
+        for NamedFrame { name, on, pose } in &tree.frames {
+            let on = place(*on, &of_row);
+            growing.still(Place { origin: on.origin * *pose, ..on }, name, name);
+        }
+        Ok(growing.finished())
+    }
+}
+
+/// Where a chain under way has come to: a body, and a frame there.
+#[derive(Clone, Copy)]
+struct Place {
+    on: usize,
+    origin: Transform<Expr>,
+}
+
+/// What one variable moves in a row.
+struct Motion {
+    kind: JointKind,
+    variable: usize,
+    factor: Rational,
+    /// Whether the row has this variable, and moves by it with a factor of 1 or −1.
+    is_own: bool,
+    /// Its number among the row's motions.
+    k: usize,
+    is_last: bool,
+}
+
 /// A tree under way.
-struct Growing {
+struct Growing<'d> {
     tree: Mechanism,
     bodies: HashSet<String>,
     joints: HashSet<String>,
-    /// The body that the next joint stands on, and the next joint's frame there.
-    on: usize,
-    origin: Transform<Expr>,
+    variables: Vec<Symbol>,
+    parameters: &'d [Parameter],
     /// The joint whose value is each variable.
     own: Vec<Option<usize>>,
     /// The joints that follow, the variables that they follow, and their factors.
     following: Vec<(usize, usize, Rational)>,
 }
 
-impl Mechanism {
-    /// The chain of a description, with the values of its parameters.
-    ///
-    /// # Errors
-    /// The parameters without value.
-    pub fn of(d: &Description) -> Result<Self, Vec<Symbol>> {
-        let missing: Vec<Symbol> =
-            d.parameters.iter().filter(|p| p.value.is_none()).map(|p| p.symbol).collect();
-        if !missing.is_empty() {
-            return Err(missing);
-        }
-        let value = |e: Expr| e.substitute(|s| d.exact_value(s));
-        let variables: Vec<Symbol> = d.variables().iter().map(|v| v.symbol).collect();
-        let names = named_joints(d);
-        let tree = Mechanism { name: d.name.clone(), bodies: vec![], joints: vec![], root: 0 };
+/// Fails if a parameter that places frames has no value.
+fn has_values(rows: &[Row], poses: &[Transform<Expr>], parameters: &[Parameter]) -> Result<(), MissingValue> {
+    let cells = rows.iter().flat_map(|r| [r.theta, r.d, r.a, r.alpha, r.gamma, r.b]);
+    let symbols: HashSet<Symbol> =
+        cells.chain(poses.iter().flat_map(|p| p.matrix().concat())).flat_map(Expr::symbols).collect();
+    let used: Vec<Symbol> = parameters.iter().map(|p| p.symbol).filter(|s| symbols.contains(s)).collect();
+    let value = |s: Symbol| parameters.iter().find(|p| p.symbol == s)?.number();
+    denavit_program::values(&used, value).map(|_| ())
+}
+
+impl<'d> Growing<'d> {
+    fn new(name: &str, root: &str, rows: &[Row], parameters: &'d [Parameter]) -> Self {
+        let variables: Vec<Symbol> = rows.iter().filter_map(|r| r.variable).map(|v| v.symbol).collect();
+        let tree = Mechanism { name: name.into(), bodies: vec![], joints: vec![], root: 0 };
         let mut growing = Growing {
             tree,
             bodies: HashSet::new(),
-            joints: names.iter().cloned().collect(),
-            on: 0,
-            origin: d.base.map(value),
+            joints: HashSet::new(),
             own: vec![None; variables.len()],
+            variables,
+            parameters,
             following: vec![],
         };
-        growing.body("base");
-        for (i, row) in d.rows.iter().enumerate() {
-            let screws = row.screws(d.convention);
-            let through = |x: Transform<Expr>, all: &[crate::description::Screw]| {
-                all.iter().fold(x, |x, s| x * s.transform().map(value))
-            };
-            growing.origin = through(growing.origin, &screws.before);
-            let parts =
-                [(JointKind::Revolute, screws.joint.angle), (JointKind::Prismatic, screws.joint.length)];
-            let mut moves: Vec<(JointKind, usize, Rational)> = vec![];
-            for (kind, cell) in parts {
-                let mut rest = Angle::of(value(cell));
-                let is_joint = |e: &Expr| e.as_symbol().and_then(|s| variables.iter().position(|&v| v == s));
-                moves.extend(rest.terms.iter().filter_map(|(e, k)| Some((kind, is_joint(e)?, k.clone()))));
-                rest.terms.retain(|t| is_joint(&t.0).is_none());
-                let still = rest.to_expr();
-                growing.origin = growing.origin
-                    * match kind {
-                        JointKind::Revolute => Transform::rotation_z(still),
-                        JointKind::Prismatic => Transform::translation_z(still),
-                    };
-            }
-            // Its own variable first, so that what follows it stands behind it.
-            let own = row.variable.and_then(|v| variables.iter().position(|&s| s == v.symbol));
-            moves.sort_by_key(|m| (Some(m.1) != own, m.1));
-            let moves = with_gear(moves, own);
-            for (k, (kind, variable, factor)) in moves.iter().enumerate() {
-                let is_own = k == 0 && own == Some(*variable);
-                growing.row(row, i + 1, (*kind, *variable, factor), is_own, &names[*variable]);
-            }
-            if !moves.is_empty() {
-                // The row's frame, in which its mass is given, in the frame of the body.
-                let frame = through(Transform::identity(), &screws.behind);
-                growing.tree.bodies[growing.on].mass = mass(row, &frame, &value);
-            }
-            growing.origin = through(growing.origin, &screws.behind);
-        }
-        growing.origin = growing.origin * d.tool.map(value);
-        let name = growing.unused("tool_joint");
-        growing.joint(name, None, "tool");
-        Ok(growing.finished())
+        growing.body(root);
+        growing
     }
-}
 
-impl Growing {
+    fn value(&self, e: Expr) -> Expr {
+        e.substitute(|s| self.parameters.iter().find(|p| p.symbol == s)?.value)
+    }
+
     fn body(&mut self, name: &str) -> usize {
         let mut name = name.to_string();
         while !self.bodies.insert(name.clone()) {
@@ -109,49 +153,118 @@ impl Growing {
         name
     }
 
-    /// A joint to a new body, at the frame where the last one left off.
-    fn joint(&mut self, name: String, kind: Option<JointKind>, body: &str) -> &mut Joint {
-        let (parent, child) = (self.on, self.body(body));
-        let origin = std::mem::replace(&mut self.origin, Transform::identity());
+    /// A joint to a new body.
+    fn joint(&mut self, place: Place, name: String, kind: Option<JointKind>, body: &str) -> &mut Joint {
+        let child = self.body(body);
+        let origin = place.origin.map(|e| self.value(e));
         self.tree.joints.push(Joint {
             name,
             kind,
-            parent,
+            parent: place.on,
             child,
             origin,
-            axis: Vector([0, 0, 1].map(Expr::int)),
+            axis: Vector::unit(Axis::Z),
             limits: None,
             velocity: None,
             effort: None,
             follows: None,
         });
-        self.on = child;
         self.tree.joints.last_mut().expect("it was just added")
     }
 
-    /// What one variable moves in a row.
+    /// A body that does not move on the one that it stands on.
+    fn still(&mut self, place: Place, name: &str, body: &str) -> usize {
+        let name = self.unused(name);
+        self.joint(place, name, None, body).child
+    }
+
+    /// What moves in a row: its own variable first, so that what follows it stands behind it.
+    fn moves(&self, row: &Row) -> Vec<Motion> {
+        let variable = |s: Symbol| self.variables.iter().position(|&v| v == s);
+        let mut moves: Vec<(JointKind, usize, Rational)> = vec![];
+        for (kind, cell) in [(JointKind::Revolute, row.theta), (JointKind::Prismatic, row.d)] {
+            let terms = Angle::of(self.value(cell)).terms;
+            moves
+                .extend(terms.iter().filter_map(|(e, k)| Some((kind, variable(e.as_symbol()?)?, k.clone()))));
+        }
+        let own = row.variable.and_then(|v| variable(v.symbol));
+        moves.sort_by_key(|m| (Some(m.1) != own, m.1));
+        let moves = with_gear(moves, own);
+        let count = moves.len();
+        let motion = |(k, (kind, variable, factor))| {
+            let is_own = k == 0 && own == Some(variable);
+            Motion { kind, variable, factor, is_own, k, is_last: k + 1 == count }
+        };
+        moves.into_iter().enumerate().map(motion).collect()
+    }
+
+    /// The joints of a row, which `named` names together with their bodies.
     fn row(
         &mut self,
         row: &Row,
-        number: usize,
-        (kind, variable, factor): (JointKind, usize, &Rational),
-        is_own: bool,
-        name: &str,
-    ) {
-        let body = format!("link{number}");
+        convention: Convention,
+        from: Place,
+        named: &dyn Fn(&Motion) -> (String, String),
+    ) -> Place {
+        let screws = row.screws(convention);
+        let through = |x: Transform<Expr>, all: &[Screw]| all.iter().fold(x, |x, s| x * s.transform());
+        let at_rest = |e: Expr| e.substitute(|s| self.variables.contains(&s).then(|| Expr::int(0)));
+        let joint = Screw {
+            angle: at_rest(screws.joint.angle),
+            length: at_rest(screws.joint.length),
+            ..screws.joint
+        };
+        let mut place = Place { origin: through(from.origin, &screws.before) * joint.transform(), ..from };
+        let moves = self.moves(row);
+        for motion in &moves {
+            let (name, body) = named(motion);
+            let on = self.moved(row, motion, place, name, &body);
+            place = Place { on, origin: Transform::identity() };
+        }
+        let behind = through(Transform::identity(), &screws.behind);
+        if !moves.is_empty() {
+            // The row's frame, in which its mass is given, in the frame of the body.
+            self.weigh(place.on, row, &behind);
+        }
+        Place { origin: place.origin * behind, ..place }
+    }
+
+    /// The joint of a motion, and the body that it moves.
+    fn moved(&mut self, row: &Row, motion: &Motion, place: Place, name: String, body: &str) -> usize {
+        let number = self.tree.joints.len();
+        let Motion { kind, variable, ref factor, is_own, .. } = *motion;
         if is_own {
-            let joint = self.joint(name.into(), Some(kind), &body);
-            (joint.limits, joint.velocity) = (row.limits, row.velocity);
+            let limits = row.limits.map(|ends| ends.map(|e| self.value(e)));
+            let velocity = row.velocity.map(|e| self.value(e));
+            self.joints.insert(name.clone());
+            let joint = self.joint(place, name, Some(kind), body);
+            (joint.limits, joint.velocity) = (limits, velocity);
             // A factor of its own is the way round of the axis.
             if factor.is_negative() {
                 joint.axis = -joint.axis;
             }
-            self.own[variable] = Some(self.tree.joints.len() - 1);
-            return;
+            self.own[variable] = Some(number);
+        } else {
+            let name = self.unused(&name);
+            self.joint(place, name, Some(kind), body);
+            self.following.push((number, variable, factor.clone()));
         }
-        let name = self.unused(&format!("{name}_in_{number}"));
-        self.joint(name, Some(kind), &body);
-        self.following.push((self.tree.joints.len() - 1, variable, factor.clone()));
+        self.tree.joints[number].child
+    }
+
+    /// Gives a body the mass of a row's link, the row's frame being this one in its own.
+    fn weigh(&mut self, body: usize, row: &Row, frame: &Transform<Expr>) {
+        let mut row = row.clone();
+        row.move_frame(frame);
+        let Some(mass) = row.weighed() else { return };
+        let mass = Mass {
+            mass: self.value(mass.mass),
+            com: mass.com.map(|e| self.value(e)),
+            inertia: mass.inertia.map(|e| self.value(e)),
+        };
+        let entries = [mass.mass].into_iter().chain(mass.com).chain(mass.inertia);
+        let is_known = entries.into_iter().all(|e| e.symbols().is_empty());
+        self.tree.bodies[body].mass = is_known.then_some(mass);
     }
 
     fn finished(mut self) -> Mechanism {
@@ -166,7 +279,7 @@ impl Growing {
 
 /// The motions of a row, kind, variable and factor, its own first with a factor of 1 or −1: a joint with a gear is one that moves by
 /// its own value and one on the same axis that follows it by the rest.
-pub(in crate::description) fn with_gear(
+fn with_gear(
     mut moves: Vec<(JointKind, usize, Rational)>,
     own: Option<usize>,
 ) -> Vec<(JointKind, usize, Rational)> {
@@ -180,13 +293,6 @@ pub(in crate::description) fn with_gear(
         moves.insert(1, (kind, variable, rest));
     }
     moves
-}
-
-/// The mass of a row's link in the frame of its body, in which the row's frame stands.
-fn mass(row: &Row, frame: &Transform<Expr>, value: &impl Fn(Expr) -> Expr) -> Option<Mass> {
-    let mut row = row.clone();
-    row.move_frame(frame);
-    row.weighed().map(|m| Mass { mass: value(m.mass), com: m.com.map(value), inertia: m.inertia.map(value) })
 }
 
 /// The names of the joints that move by themselves; `q3` where there is none.

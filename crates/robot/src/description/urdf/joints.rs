@@ -1,11 +1,11 @@
 //! `<joint>`: what stands on what, and how it moves.
 
 use super::Links;
-use crate::description::JointKind;
 use crate::description::diagnostic::nearest;
 use crate::description::reader::Reader;
 use crate::description::tree::{Body, Joint};
 use crate::description::xml::{Element, shown};
+use crate::description::{JointKind, MAX_ROWS};
 use crate::geometry::{Transform, Vector};
 use denavit_symbolic::{Expr, Rational};
 use std::collections::HashMap;
@@ -38,16 +38,18 @@ impl Reader {
         let mut seen: HashMap<String, Range<usize>> = HashMap::new();
         for joint in robot.all("joint") {
             joint.only(&["name", "type"], &mut self.out);
-            let Some(name) = self.name_of(joint) else { continue };
-            if let Some(first) = seen.get(&name) {
+            let given = self.name_of(joint);
+            let is_given = given.is_some();
+            let name = given.unwrap_or_else(|| "?".into());
+            if let Some(first) = seen.get(&name).filter(|_| is_given) {
                 let first = first.clone();
                 self.out
                     .error(joint.span(), format!("the joint `{}` is given twice", shown(&name)))
                     .hint("names are unique");
                 self.out.note(first, format!("the first joint `{}`", shown(&name)));
-                continue;
+            } else {
+                seen.insert(name.clone(), joint.span());
             }
-            seen.insert(name.clone(), joint.span());
             self.joint(joint, name, links, &mut drafts);
         }
         drafts
@@ -80,7 +82,12 @@ impl Reader {
             _ => (None, None, None),
         };
         let follows = joint.one("mimic", &mut self.out).filter(|_| moves).and_then(|m| self.mimic(m, kind));
-        let ([Some(parent), Some(child)], Some(kind)) = (ends, kind) else { return };
+        let [Some(parent), Some(child)] = ends else {
+            self.is_part = true;
+            return;
+        };
+        // One of an unknown kind, which was said, joins links as well.
+        let kind = kind.unwrap_or("fixed");
         let moved = match kind {
             "revolute" | "continuous" => Some(JointKind::Revolute),
             "prismatic" => Some(JointKind::Prismatic),
@@ -96,6 +103,16 @@ impl Reader {
         } else {
             drafts.push(Draft { joint: plain, span, follows, is_floating });
         }
+    }
+
+    /// False, and said, if there are too many joints that move.
+    pub(in crate::description) fn has_few_joints(&mut self, drafts: &[Draft]) -> bool {
+        let moving = drafts.iter().filter(|d| d.moves()).count();
+        if let Some(first) = drafts.iter().filter(|d| d.moves()).nth(MAX_ROWS) {
+            let message = format!("{moving} moving joints; {MAX_ROWS} are allowed: this is one more");
+            self.out.error(first.span.clone(), message);
+        }
+        moving <= MAX_ROWS
     }
 
     /// The link at an end of a joint.

@@ -11,14 +11,14 @@ mod write;
 pub(super) use joints::{Draft, FAR};
 pub use write::write_urdf;
 
+use super::Decimals;
 use super::diagnostic::{Diagnostic, Diagnostics};
 use super::reader::Reader;
 use super::sources::{Files, Sources};
 use super::tree::{Body, Mass, Mechanism};
 use super::xacro::{Xacro, expand, is_xacro};
 use super::xml::{Element, parse, shown};
-use super::{Decimals, MAX_ROWS};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
 /// What stands in `<robot>` beside links and joints, and says nothing of kinematics.
@@ -39,6 +39,8 @@ pub(super) struct Links {
     pub bodies: Vec<Body>,
     pub spans: Vec<Range<usize>>,
     pub by_name: HashMap<String, usize>,
+    /// Those whose names are given to others, too.
+    pub doubled: HashSet<usize>,
 }
 
 impl Links {
@@ -135,12 +137,10 @@ impl Reader {
         }
         let drafts = self.joints(robot, &mut links);
         self.beside(robot);
-        let moving = drafts.iter().filter(|d| d.moves()).count();
-        if moving > MAX_ROWS {
-            self.out.error(robot.span(), format!("{moving} moving joints; {MAX_ROWS} are allowed"));
+        if !self.has_few_joints(&drafts) {
             return None;
         }
-        self.tree(robot, name, links, drafts)
+        self.tree(name, links, drafts)
     }
 
     /// True, and said, for a file that xacro has yet to expand.
@@ -156,20 +156,26 @@ impl Reader {
 
     fn links(&mut self, robot: Element) -> Links {
         let materials = self.materials(robot);
-        let mut links = Links { bodies: vec![], spans: vec![], by_name: HashMap::new() };
+        let mut links = Links::default();
         for link in robot.all("link") {
             link.only(&["name", "type"], &mut self.out);
-            let Some(name) = self.name_of(link) else { continue };
+            let name = self.name_of(link);
+            // Everything is read before anything is given up, so that all findings come at once.
+            self.known(link, &["inertial", "visual", "collision", "contact", "self_collision_checking"]);
+            let mass = link.one("inertial", &mut self.out).and_then(|e| self.mass(e));
+            let looks = self.looks(link, &materials);
+            let Some(name) = name else {
+                self.is_part = true;
+                continue;
+            };
             if let Some(&first) = links.by_name.get(&name) {
                 let finding =
                     self.out.error(link.span(), format!("the link `{}` is given twice", shown(&name)));
                 finding.hint("names are unique");
                 self.out.note(links.spans[first].clone(), format!("the first link `{}`", shown(&name)));
+                links.doubled.insert(first);
                 continue;
             }
-            self.known(link, &["inertial", "visual", "collision", "contact", "self_collision_checking"]);
-            let mass = link.one("inertial", &mut self.out).and_then(|e| self.mass(e));
-            let looks = self.looks(link, &materials);
             let number = links.add(name, mass, link.span());
             links.bodies[number].looks = looks;
         }

@@ -5,83 +5,46 @@ use super::joints::Draft;
 use crate::description::diagnostic::nearest;
 use crate::description::reader::Reader;
 use crate::description::tree::{Follows, Joint, Mechanism};
-use crate::description::xml::{Element, shown};
+use crate::description::xml::shown;
 use denavit_symbolic::{Expr, Rational};
 use std::collections::HashMap;
 
 impl Reader {
     pub(in crate::description) fn tree(
         &mut self,
-        robot: Element,
         name: String,
         links: Links,
         mut drafts: Vec<Draft>,
     ) -> Option<Mechanism> {
         let count = links.bodies.len();
-        let label = |b: usize| shown(&links.bodies[b].name);
-        let mut to: Vec<Option<usize>> = vec![None; count];
-        for (k, draft) in drafts.iter().enumerate() {
-            let child = draft.joint.child;
-            if let Some(first) = to[child] {
-                let names = [&drafts[first].joint.name, &draft.joint.name].map(|n| shown(n));
-                self.out
-                    .error(draft.span.clone(), format!("the link `{}` has two parents", label(child)))
-                    .hint(format!(
-                        "it is the child of `{}` and of `{}`: a loop is cut at a joint",
-                        names[0], names[1]
-                    ));
-                self.out.note(drafts[first].span.clone(), format!("the first joint to `{}`", label(child)));
-            } else {
-                to[child] = Some(k);
-            }
-        }
-        if self.out.has_errors() {
-            return None; // what a link hangs on may be among what was not read
-        }
+        let to = self.parents(&links, &drafts);
+        self.say_rings(&links, &drafts, &to);
         let roots: Vec<usize> = (0..count).filter(|&b| to[b].is_none()).collect();
-        let mut root = match roots[..] {
-            [root] => root,
-            [] => {
-                self.out.error(robot.span(), "every link is the child of a joint: the joints form a ring");
-                return None;
-            }
-            _ => {
-                let names: Vec<String> = roots.iter().take(6).map(|&b| label(b)).collect();
-                let more = if roots.len() > 6 { ", …" } else { "" };
-                self.out
-                    .error(
-                        links.spans[roots[1]].clone(),
-                        format!("{} links hang on nothing: {}{more}", roots.len(), names.join(", ")),
-                    )
-                    .hint("a robot is one tree: all links but one are the child of a joint");
-                return None;
-            }
-        };
-        root = self.without_floating(root, &drafts, &links)?;
+        // What a link hangs on may be among what was not read.
+        if roots.len() > 1 && !self.is_part {
+            self.say_roots(&roots, &links);
+        }
+        let first = roots.first().copied().filter(|_| roots.len() == 1 && !self.is_part);
+        let root = first.and_then(|first| self.without_floating(first, &drafts, &links));
         // In depth, children in the order of the file.
         let mut on: Vec<Vec<usize>> = vec![vec![]; count];
-        for (k, draft) in drafts.iter().enumerate() {
+        for (k, draft) in drafts.iter().enumerate().filter(|(k, d)| to[d.joint.child] == Some(*k)) {
             on[draft.joint.parent].push(k);
         }
-        let (mut order, mut open) = (vec![], on[root].iter().rev().copied().collect::<Vec<usize>>());
+        let mut order = vec![];
+        let mut open: Vec<usize> = root.iter().flat_map(|&r| on[r].iter().rev()).copied().collect();
         while let Some(k) = open.pop() {
             order.push(k);
             open.extend(on[drafts[k].joint.child].iter().rev());
         }
-        let left = count - 1 - order.len() - usize::from(roots[0] != root);
-        if left > 0 {
-            let mut reached = vec![false; count];
-            reached[root] = true;
-            order.iter().for_each(|&k| reached[drafts[k].joint.child] = true);
-            let ring: Vec<usize> = (0..count).filter(|&b| !reached[b] && b != roots[0]).collect();
-            let names: Vec<String> = ring.iter().take(6).map(|&b| label(b)).collect();
-            let span = links.spans[ring[0]].clone();
-            self.out
-                .error(span, format!("joints form a ring: {}", names.join(", ")))
-                .hint("a loop is cut at a joint");
-            return None;
+        if self.out.has_errors() {
+            order = (0..drafts.len()).collect();
         }
-        let follows = self.follows(&drafts, &order)?;
+        let follows = self.follows(&drafts, &order);
+        let (Some(root), Some(follows), Some(first), false) = (root, follows, first, self.out.has_errors())
+        else {
+            return None;
+        };
         let mut joints: Vec<Joint> = vec![];
         for (&k, follows) in order.iter().zip(follows) {
             let draft = &mut drafts[k];
@@ -89,8 +52,8 @@ impl Reader {
         }
         // A floating root is left out, so that bodies are those of the tree.
         let mut mechanism = Mechanism { name, bodies: links.bodies, joints, root };
-        if roots[0] != root {
-            let gone = roots[0];
+        if first != root {
+            let gone = first;
             mechanism.bodies.remove(gone);
             let moved = |b: &mut usize| *b -= usize::from(*b > gone);
             mechanism.joints.iter_mut().for_each(|j| {
@@ -102,8 +65,78 @@ impl Reader {
         Some(mechanism)
     }
 
+    /// The joint to each link; a second one is reported.
+    fn parents(&mut self, links: &Links, drafts: &[Draft]) -> Vec<Option<usize>> {
+        let mut to: Vec<Option<usize>> = vec![None; links.bodies.len()];
+        for (k, draft) in drafts.iter().enumerate() {
+            let child = draft.joint.child;
+            let Some(first) = to[child] else {
+                to[child] = Some(k);
+                continue;
+            };
+            // Which of them it hangs on decides what else hangs on nothing.
+            self.is_part = true;
+            let is_double = drafts[first].joint.name == draft.joint.name;
+            if is_double || links.doubled.contains(&child) {
+                continue; // what is doubled was said
+            }
+            let name = shown(&links.bodies[child].name);
+            let names = [&drafts[first].joint.name, &draft.joint.name].map(|n| shown(n));
+            self.out.error(draft.span.clone(), format!("the link `{name}` has two parents")).hint(format!(
+                "it is the child of `{}` and of `{}`: a loop is cut at a joint",
+                names[0], names[1]
+            ));
+            self.out.note(drafts[first].span.clone(), format!("the first joint to `{name}`"));
+        }
+        to
+    }
+
+    /// Links that hang on each other.
+    fn say_rings(&mut self, links: &Links, drafts: &[Draft], to: &[Option<usize>]) {
+        // By the link from which the way up was begun.
+        let mut seen: Vec<Option<usize>> = vec![None; to.len()];
+        for start in 0..to.len() {
+            let mut at = start;
+            while seen[at].is_none() {
+                seen[at] = Some(start);
+                let Some(joint) = to[at] else { break };
+                at = drafts[joint].joint.parent;
+            }
+            let (Some(joint), true) = (to[at], seen[at] == Some(start)) else { continue };
+            let mut ring = vec![at];
+            let mut above = drafts[joint].joint.parent;
+            while above != at {
+                ring.push(above);
+                let Some(joint) = to[above] else { break };
+                above = drafts[joint].joint.parent;
+            }
+            ring.sort_unstable();
+            let names: Vec<String> = ring.iter().take(6).map(|&b| shown(&links.bodies[b].name)).collect();
+            let more = if ring.len() > 6 { ", …" } else { "" };
+            self.out
+                .error(
+                    links.spans[ring[0]].clone(),
+                    format!("joints form a ring: {}{more}", names.join(", ")),
+                )
+                .hint("a loop is cut at a joint");
+        }
+    }
+
+    /// More links than one that hang on nothing.
+    fn say_roots(&mut self, roots: &[usize], links: &Links) {
+        let names: Vec<String> = roots.iter().take(6).map(|&b| shown(&links.bodies[b].name)).collect();
+        let more = if roots.len() > 6 { ", …" } else { "" };
+        self.out
+            .error(
+                links.spans[roots[1]].clone(),
+                format!("{} links hang on nothing: {}{more}", roots.len(), names.join(", ")),
+            )
+            .hint("a robot is one tree: all links but one are the child of a joint");
+    }
+
     /// The root behind a floating joint, which is left out; one elsewhere is an error.
     fn without_floating(&mut self, root: usize, drafts: &[Draft], links: &Links) -> Option<usize> {
+        let mut is_one = true;
         let on_root = drafts.iter().filter(|d| d.joint.parent == root).count();
         let mut found = root;
         for draft in drafts.iter().filter(|d| d.is_floating) {
@@ -112,6 +145,7 @@ impl Reader {
                 self.out.note(draft.span.clone(), format!("the robot floats: `{name}` is taken as its base"));
                 found = draft.joint.child;
             } else {
+                is_one = false;
                 self.out
                     .error(
                         draft.span.clone(),
@@ -123,7 +157,7 @@ impl Reader {
                     .hint("cut the file there: what floats is another robot");
             }
         }
-        (!self.out.has_errors()).then_some(found)
+        is_one.then_some(found)
     }
 
     /// What each joint follows, in the new order; those that follow one that follows another follow the last.

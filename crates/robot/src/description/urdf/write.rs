@@ -6,9 +6,9 @@
 use crate::description::robot_file::exact_rpy;
 use crate::description::tree::{Joint, Mass, Mechanism};
 use crate::description::xml::{escaped, number};
-use crate::description::{Description, JointKind};
+use crate::description::{Description, JointKind, MissingValue};
 use crate::geometry::Rotation;
-use denavit_symbolic::{Expr, Rational, Symbol};
+use denavit_symbolic::{Expr, Rational};
 use std::fmt::Write;
 
 /// Where no slide goes, metres: limits so far away are read as none.
@@ -17,8 +17,8 @@ const NOWHERE: &str = "1e9";
 /// The URDF of a description.
 ///
 /// # Errors
-/// The parameters without value.
-pub fn write_urdf(d: &Description) -> Result<String, Vec<Symbol>> {
+/// If a parameter has no value.
+pub fn write_urdf(d: &Description) -> Result<String, MissingValue> {
     let tree = Mechanism::of(d)?;
     let mut text = format!("<robot name=\"{}\">\n", escaped(&tree.name));
     let link = |text: &mut String, body: usize| {

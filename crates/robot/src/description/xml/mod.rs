@@ -97,7 +97,8 @@ fn refuse(body: &str, start: usize, why: &Error, out: &mut Diagnostics) {
     let at = match why {
         Error::DtdDetected => body.find("<!DOCTYPE").unwrap_or(0),
         Error::UnclosedRootNode | Error::UnexpectedEndOfStream => body.trim_end().len(),
-        Error::NoRootNode | Error::NodesLimitReached => 0,
+        Error::NoRootNode => 0,
+        Error::NodesLimitReached => node(body, MAX_NODES as usize).unwrap_or(0),
         _ => offset(body, why.pos().row as usize, why.pos().col as usize),
     };
     let message = match why {
@@ -129,6 +130,26 @@ fn refuse(body: &str, start: usize, why: &Error, out: &mut Diagnostics) {
         }
         _ => {}
     }
+}
+
+/// Where the element or comment begins before which there are so many, texts between them counted.
+fn node(text: &str, count: usize) -> Option<usize> {
+    let (mut seen, mut at) = (0, 0);
+    while let Some(found) = text[at..].find('<') {
+        let tag = at + found;
+        // The text in front of it.
+        seen += usize::from(found > 0);
+        if !text[tag..].starts_with("</") {
+            seen += 1;
+        }
+        if seen >= count {
+            return Some(tag);
+        }
+        let closed =
+            if text[tag..].starts_with("<!--") { text[tag..].find("-->") } else { text[tag..].find('>') };
+        at = tag + closed? + 1;
+    }
+    None
 }
 
 /// A word of the text as it can be shown.
