@@ -166,8 +166,10 @@ fn is_mentioned(text: &str, name: &str) -> bool {
 }
 
 /// The load that a text gives as a vector, `F = (0, 0, -W)`, `\mathbf f = (10; -5)`: force, and moment if there are six.
+/// Nothing where it gives several: a torque would have to say of which it is.
 fn load_given(text: &str) -> Option<[Expr; 6]> {
     let open = Vocabulary::new().open(true);
+    let mut found: Option<[Expr; 6]> = None;
     for (at, _) in text.match_indices('=').take(2_000) {
         let before = text[..at].trim_end_matches([' ', '}', '&', '$']);
         let Some(stem) = before.strip_suffix(['F', 'f']) else { continue };
@@ -176,6 +178,13 @@ fn load_given(text: &str) -> Option<[Expr; 6]> {
         }
         let rest = text[at + 1..].trim_start_matches([' ', '\n', '&', '$']);
         let rest = rest.strip_prefix("\\left").unwrap_or(rest);
+        // `F = N u`: a size along a direction.
+        let mut words = rest.split_whitespace();
+        let is_letter =
+            |w: Option<&str>| w.is_some_and(|w| w.chars().count() == 1 && w.chars().all(char::is_alphabetic));
+        if is_letter(words.next()) && is_letter(words.next()) {
+            return None;
+        }
         let Some(inner) = rest.strip_prefix(['(', '[']).and_then(|r| r.split([')', ']']).next()) else {
             continue;
         };
@@ -188,10 +197,13 @@ fn load_given(text: &str) -> Option<[Expr; 6]> {
         if is_short && values.iter().any(|e| !e.is_zero()) {
             let mut load = [Expr::int(0); 6];
             load.iter_mut().zip(values).for_each(|(l, v)| *l = v);
-            return Some(load);
+            if found.is_some_and(|other| other != load) {
+                return None;
+            }
+            found = Some(load);
         }
     }
-    None
+    found
 }
 
 /// True for a text that has p_x, p_y for the place of the hand.

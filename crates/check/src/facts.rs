@@ -329,6 +329,8 @@ pub enum Sense {
     },
     /// The components of a load are those along the axes of the hand.
     LoadInHand,
+    /// The place of the hand has the number of the frame in which it is seen.
+    HandInFrames,
     /// The torques hold against the load: τ = −Jᵀ F.
     AgainstLoad,
     /// The hand stands there in the last frame of the table.

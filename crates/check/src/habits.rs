@@ -160,6 +160,8 @@ pub(super) struct Habits {
     pub load_in_hand: bool,
     /// The torques of the joints hold against the load.
     pub against_load: bool,
+    /// P_i is the place of the hand seen from frame i.
+    pub hand_in_frames: bool,
     /// Velocities are those of the Jacobian that was printed last: of its point, along its axes.
     pub velocities_of_jacobian: bool,
     /// Names that are helpers, not entries of the pose.
@@ -185,6 +187,7 @@ impl Habits {
             load: None,
             load_in_hand: false,
             against_load: false,
+            hand_in_frames: false,
             helpers: BTreeSet::new(),
             products: BTreeSet::new(),
         }

@@ -268,7 +268,7 @@ fn matched(rows: usize, part: Part, agreement: &dyn Fn(usize, usize) -> usize) -
 }
 
 /// The derivative of a formula by a symbol; nothing where it is no polynomial of sines and cosines.
-fn derivative(e: Expr, by: Expr) -> Option<Expr> {
+pub(super) fn derivative(e: Expr, by: Expr) -> Option<Expr> {
     let zero = Expr::int(0);
     let mut known: FxHashMap<Expr, Expr> = FxHashMap::default();
     for part in Expr::postorder(&[e]) {

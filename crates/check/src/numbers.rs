@@ -14,9 +14,18 @@ pub(super) struct Configuration {
     values: Vec<Option<(f64, bool)>>,
     /// Those of the configuration before, while the joints are what is asked for.
     before: Vec<Option<(f64, bool)>>,
+    /// Whole ones that were found before, for the same pose or for others.
+    found: Vec<Vec<Option<(f64, bool)>>>,
+    /// What of the next one is found.
+    partly: Vec<Option<(f64, bool)>>,
+    /// The joints are what is asked for.
+    pub is_sought: bool,
     /// Lengths that the document states, metres.
     lengths: Vec<(Symbol, f64)>,
 }
+
+/// No more configurations that were found are kept.
+const MOST_FOUND: usize = 12;
 
 /// How a value without unit is read.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -42,6 +51,9 @@ impl Configuration {
     pub fn set(&mut self, joint: usize, value: Expr) {
         let has_unit = value.as_number().is_none();
         if let Ok(x) = value.eval(|_| None) {
+            if self.is_sought && self.values.get(joint).is_some_and(Option::is_some) {
+                self.keep_found();
+            }
             if self.values.len() <= joint {
                 self.values.resize(joint + 1, None);
             }
@@ -49,8 +61,43 @@ impl Configuration {
         }
     }
 
+    /// Keeps the present configuration among those that were found.
+    fn keep_found(&mut self) {
+        self.keep(self.values.clone());
+    }
+
+    fn keep(&mut self, values: Vec<Option<(f64, bool)>>) {
+        let is_whole = !values.is_empty() && values.iter().all(Option::is_some);
+        if is_whole && self.found.len() < MOST_FOUND && !self.found.contains(&values) {
+            self.found.push(values);
+        }
+    }
+
+    /// A value that one of so many joints has in a solution, and whether it has a unit; a joint that has one begins another
+    /// solution.
+    pub fn find_joint(&mut self, joint: usize, joints: usize, value: (f64, bool)) {
+        if self.partly.len() != joints || self.partly[joint].is_some() {
+            self.partly = vec![None; joints];
+        }
+        self.partly[joint] = Some(value);
+        self.keep(self.partly.clone());
+    }
+
+    /// The same at each of the configurations that were found before.
+    fn earlier(&self) -> impl Iterator<Item = Configuration> + '_ {
+        self.found.iter().map(|values| Configuration { values: values.clone(), ..self.clone() })
+    }
+
+    /// True if all joints that a formula speaks of have values in a configuration that was found before.
+    pub fn knew(&self, e: Expr, subject: &Subject) -> bool {
+        self.earlier().any(|c| c.knows(e, subject))
+    }
+
     /// The joints have no values any more; those that they had were found, or are kept.
     pub fn forget_joints(&mut self, were_found: bool) {
+        if were_found {
+            self.keep_found();
+        }
         let values = std::mem::take(&mut self.values);
         // A part of a configuration is that of another.
         let is_whole = values.iter().all(Option::is_some) && values.len() >= self.before.len();
@@ -344,6 +391,8 @@ pub(super) fn unit_behind(text: &str) -> Option<(&str, Expr, u32)> {
 
 /// Half a unit of the last digit of a printed number: 0.005 for `-0.71`.
 pub(super) fn half_unit(text: &str) -> f64 {
+    let plain = with_exponent(text);
+    let text = plain.as_str();
     let is_part = |c: char| c.is_ascii_digit() || c == '.';
     let literals: Vec<&str> =
         text.split(|c: char| !is_part(c)).filter(|w| w.contains('.') && w.len() > 1).collect();
@@ -361,8 +410,29 @@ pub(super) fn half_unit(text: &str) -> f64 {
     0.5 * 10_f64.powi(power - i32::try_from(decimals.min(300)).unwrap_or(300))
 }
 
-/// The verdict on a number.
+/// `1.195\cdot10^{5}` as `1.195e5`.
+fn with_exponent(text: &str) -> String {
+    let plain = text.replace(['{', '}', ' ', '~'], "");
+    let powers = ["\\cdot10^", "\\times10^", "·10^", "×10^", "*10^"];
+    powers.iter().find(|p| plain.contains(**p)).map_or_else(|| text.into(), |p| plain.replacen(p, "e", 1))
+}
+
+/// The verdict on a number: at the present configuration, or at one that was found before, of which a later part may speak.
 pub(super) fn judge(answer: &Answer, subject: &Subject, tolerance: Option<f64>) -> Finding {
+    let here = judge_here(answer, subject, tolerance);
+    if matches!(here, Finding::Equal { .. }) || answer.at.found.is_empty() {
+        return here;
+    }
+    let there = |at| judge_here(&Answer { at, ..answer.clone() }, subject, tolerance);
+    let others: Vec<Finding> = answer.at.earlier().map(there).collect();
+    let is_right = |f: &Finding| matches!(f, Finding::Equal { .. });
+    let is_wrong = |f: &Finding| matches!(f, Finding::Wrong(_));
+    let right = others.iter().find(|f| is_right(f)).cloned();
+    let other = || others.into_iter().rfind(is_wrong).filter(|_| !is_wrong(&here));
+    right.or_else(other).unwrap_or(here)
+}
+
+fn judge_here(answer: &Answer, subject: &Subject, tolerance: Option<f64>) -> Finding {
     // One unit of the last digit: what was computed from other rounded numbers is off by as much.
     let allowed = tolerance.unwrap_or_else(|| allowed(answer));
     let units = match answer.at.looks_like_degrees() {
@@ -420,7 +490,9 @@ mod tests {
 
     #[test]
     fn the_last_digit_says_how_exact_a_number_is() {
-        for (text, half) in [("0.71", 0.005), ("-12", 0.5), ("1.50e-3", 0.000_005), ("3", 0.5)] {
+        for (text, half) in
+            [("1.195\\cdot10^{5}", 50.0), ("0.71", 0.005), ("-12", 0.5), ("1.50e-3", 0.000_005), ("3", 0.5)]
+        {
             assert!((half_unit(text) - half).abs() < 1e-12, "{text}: {}", half_unit(text));
         }
     }

@@ -19,7 +19,7 @@ use denavit::geometry::{Axis, Vector};
 use denavit_reading::document::{Document, Statement};
 use denavit_reading::slip::Points;
 use denavit_symbolic::vocabulary::plain_name;
-use denavit_symbolic::{Expr, equal};
+use denavit_symbolic::{Expr, Node, equal};
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
@@ -242,6 +242,13 @@ fn candidates(
         let margin = if letters.holds { 1 } else { MARGIN };
         found.push((Habits { against_load: true, ..habits.clone() }, Sense::AgainstLoad, margin));
     }
+    let is_place = |a: &&Assertion| {
+        matches!(&a.about, About::Matrix(Meaning::Origin(_)))
+            && a.name.trim_start_matches(['\\', '{']).contains(['P', 'p'])
+    };
+    if !habits.hand_in_frames && wrong.iter().any(is_place) {
+        found.push((Habits { hand_in_frames: true, ..habits.clone() }, Sense::HandInFrames, 1));
+    }
     let own: BTreeSet<String> = walked.assertions.iter().filter_map(own_link).collect();
     if wrong.iter().any(|a| own_link(a).is_some()) && !own.is_subset(&habits.products) {
         let products = habits.products.union(&own).cloned().collect();
@@ -277,6 +284,17 @@ fn candidates(
     let mut sets: Vec<BTreeSet<String>> =
         families.iter().map(|f| names.iter().filter(|n| family(n) == *f).cloned().collect()).collect();
     sets.push(names);
+    // A coordinate with the distance from an axis in it is none: √(x² + y²) − L.
+    let radial: BTreeSet<String> = wrong
+        .iter()
+        .filter(|a| a.spoken.is_none() && a.pieces.iter().any(is_radial))
+        .map(|a| plain_name(&super::custom::plain(&a.name)))
+        .filter(|n| n.chars().count() <= 4 && may_be_helper(n, letters.tells_hand))
+        .collect();
+    if !radial.is_empty() && !radial.is_subset(&habits.helpers) {
+        let helpers = habits.helpers.union(&radial).cloned().collect();
+        found.push((Habits { helpers, ..habits.clone() }, Sense::Helper, 0));
+    }
     for set in sets.into_iter().filter(|s| !s.is_empty() && !s.is_subset(&habits.helpers)) {
         let helpers = habits.helpers.union(&set).cloned().collect();
         found.push((Habits { helpers, ..habits.clone() }, Sense::Helper, 1));
@@ -339,6 +357,14 @@ fn may_be_helper(name: &str, tells_hand: bool) -> bool {
         ['p' | 'P', 'x' | 'y' | 'z'] => tells_hand,
         _ => true,
     }
+}
+
+/// True for a formula with a root of a sum, where the robot has none.
+fn is_radial(piece: &Piece) -> bool {
+    let Piece::Pair(pair) = piece else { return false };
+    let is_root = |e: Expr| matches!(e.node(), Node::Sqrt(a) if matches!(a.node(), Node::Add(..)));
+    let has_root = |e: Expr| Expr::postorder(&[e]).into_iter().any(is_root);
+    has_root(pair.value) && !has_root(pair.wanted)
 }
 
 /// A name without the letter of its axis.

@@ -334,6 +334,12 @@ impl Subject {
     /// Frames named by letters, `{}^iT_j`, are somewhere if `anywhere`, and have no meaning otherwise.
     pub fn meaning(&self, name: &Name, anywhere: bool, habits: &Habits) -> Option<(Matrix, Meaning)> {
         let (from, to) = frames(name, habits)?;
+        let is_lone = name.left.is_empty() && name.sup.is_empty() && pair(&name.sub).is_none();
+        let is_seen = habits.hand_in_frames && is_lone && matches!(name.base.as_str(), "P" | "p");
+        let (from, to) = match &to {
+            Index::Number(_) if is_seen => (to, Index::End),
+            _ => (from, to),
+        };
         let place = |i: &Index| match i {
             Index::Number(k) => k.checked_sub(self.first).map(Some),
             Index::End => Some(None),

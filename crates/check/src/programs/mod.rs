@@ -77,7 +77,13 @@ pub(super) fn assertions(of: &Source<'_>, subject: &Rc<Subject>, habits: &Rc<Hab
     let Source { text, source, blocks, language, number, .. } = *of;
     let lexis = &Lexis::new(subject, habits, &Rc::from(text));
     let joints: Vec<Expr> = subject.description.variables().iter().map(|v| v.symbol.into()).collect();
-    let meaning = |name: &str| lexis.names.lookup(name).filter(|_| !lexis.is_by_custom(name));
+    // `q.pan`: a member with the name of a joint.
+    let member = |name: &str| {
+        let own = name.split_once('_').map(|n| n.1).filter(|n| n.len() > 1)?;
+        lexis.names.lookup(own).filter(|e| subject.joints().contains(e))
+    };
+    let meaning =
+        |name: &str| lexis.names.lookup(name).filter(|_| !lexis.is_by_custom(name)).or_else(|| member(name));
     let all: String = blocks.iter().filter_map(|b| source.get(b.clone())).collect();
     let stated = Stated::of(&all, subject);
     let joint = |name: &str| {
@@ -217,8 +223,17 @@ fn defined(source: &str, codes: &[Code], assertions: &[Assertion], subject: usiz
 /// Names that scripts give the hand's pose and Jacobian.
 const HANDS: [&str; 4] = ["T", "H", "Tee", "T_ee"];
 const JACOBIANS: [&str; 11] = ["J", "Jac", "jac", "Jv", "J_v", "Jp", "J_p", "Jw", "J_w", "Jo", "J_o"];
-/// Names of the determinant of the Jacobian.
-const DETERMINANTS: [&str; 5] = ["detJ", "det_J", "detj", "det_j", "det"];
+
+/// The rows of the Jacobian whose determinant has a name: `detJ`, `det_Jv`; `det` alone is that of the whole.
+fn determinant_named(name: &str) -> Option<Part> {
+    let rest = name.strip_prefix("det").or_else(|| name.strip_prefix("Det"))?.trim_start_matches('_');
+    match rest {
+        "" | "J" | "j" | "Jac" | "jac" => Some(Part::Any),
+        "Jv" | "J_v" | "Jp" | "J_p" | "JP" => Some(Part::Linear),
+        "Jw" | "J_w" | "Jo" | "J_o" | "JO" => Some(Part::Angular),
+        _ => None,
+    }
+}
 
 /// Lengths of the robot that a program sets to numbers.
 fn given_in(function: &Reading, subject: &Subject, lexis: &Lexis) -> Vec<(Symbol, Expr)> {
@@ -262,12 +277,13 @@ impl Program<'_> {
         // `det` alone is that of J if its formula says so.
         let of_jacobian = |a: &&Assigned| {
             let source = self.text.get(a.span.clone()).unwrap_or_default();
-            DETERMINANTS.contains(&a.name.as_str())
+            determinant_named(&a.name).is_some()
                 && (a.name != "det" || words(source).any(|w| JACOBIANS.contains(&w)))
         };
         let determinants = function.assigned.iter().filter(of_jacobian);
         for a in determinants {
-            if let (Value::Scalar(cell), Some(wanted)) = (&a.value, self.subject.determinant(Part::Any)) {
+            let part = determinant_named(&a.name).unwrap_or(Part::Any);
+            if let (Value::Scalar(cell), Some(wanted)) = (&a.value, self.subject.determinant(part)) {
                 let pieces = vec![self.piece(None, cell, wanted)];
                 found.push(self.assertion(&a.name, About::Equation, &a.span, pieces, None));
             }

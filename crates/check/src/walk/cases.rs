@@ -147,9 +147,16 @@ impl Walk<'_> {
 
     /// True for a joint's value in other joints alone that is not so everywhere.
     pub(super) fn is_told_of_joints(&self, spans: &[Range<usize>], read: &[Scalar]) -> bool {
-        let ([name, value], [Scalar::Formula(_, left), Scalar::Formula(_, right)]) = (spans, read) else {
+        // A number may stand behind: `θ4 = −90° − θ2 − θ3 = −89.93°`.
+        let is_number = |s: &Scalar| matches!(s, Scalar::Formula(_, s) if s.value().symbols().is_empty());
+        let ([name, value, ..], [Scalar::Formula(_, left), Scalar::Formula(_, right), rest @ ..]) =
+            (spans, read)
+        else {
             return false;
         };
+        if !rest.iter().all(is_number) {
+            return false;
+        }
         let joints = self.subject.joints();
         let symbols = right.value().symbols();
         if matches!(left.kind, SyntaxKind::Name(_)) && is_half_turn(right.value() - left.value()) {
@@ -236,7 +243,21 @@ pub(super) fn tells_goal(sentence: &str) -> bool {
 }
 
 /// Words before a place that is to be reached.
-const GOALS: [&str; 27] = [
+const GOALS: [&str; 41] = [
+    "must reach",
+    "should reach",
+    "joint angles for",
+    "joint values for",
+    "find both solutions",
+    "find all solutions",
+    "all solutions for",
+    "back to joint",
+    "to joint angles",
+    "goal",
+    "given pose",
+    "point to reach",
+    "soll erreicht",
+    "alcanzar",
     "for the point",
     "for the position",
     "for the pose",

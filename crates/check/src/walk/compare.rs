@@ -283,7 +283,7 @@ impl Walk<'_> {
         }
         let depends = wanted.0.iter().flatten().flatten().any(|e| !e.symbols().is_empty());
         let all_numbers = depends && cells.iter().flatten().all(is_number);
-        let knows = |e: &Expr| self.at.knows(*e, &self.subject);
+        let knows = |e: &Expr| self.at.knows(*e, &self.subject) || self.at.knew(*e, &self.subject);
         let is_numeric = all_numbers && wanted.0.iter().flatten().flatten().all(knows);
         let is_open = all_numbers && !is_numeric;
         // Beside numbers that somebody computed 0 and 1 are such numbers, too.
@@ -378,7 +378,7 @@ impl Walk<'_> {
     }
 
     /// The unit that stands behind the marks of a formula, `$\dot\theta_1 = -6.17$ °/s`; 1 where there is none.
-    fn unit_outside(&self, span: &Range<usize>) -> f64 {
+    pub(super) fn unit_outside(&self, span: &Range<usize>) -> f64 {
         if crate::numbers::unit_behind(self.source(span)).is_some() {
             return 1.0;
         }
@@ -438,6 +438,15 @@ impl Walk<'_> {
         let unit = self.unit_outside(span);
         let printed = printed.eval(|_| None).ok()? * unit;
         let half = self.half(span) * unit;
+        // `sqrt(14² + 5²) = 14.9 cm`: arithmetic of numbers is in the unit of its result.
+        let in_result = || {
+            let (number, factor, power) = crate::numbers::unit_behind(self.source(span))?;
+            let factor = self.in_unit(factor, power).eval(|_| None).ok().filter(|_| power > 0)?;
+            let value = wanted.eval(|_| None).ok().filter(|_| wanted.symbols().is_empty())?;
+            let own = half_unit(number);
+            ((printed / factor - value).abs() <= 3.0 * own).then_some((printed / factor, own))
+        };
+        let (printed, half) = in_result().unwrap_or((printed, half));
         let answer = Answer { printed, half, wanted, at: self.at.clone(), constant };
         Some(Piece::Number { place, span: span.clone(), answer })
     }

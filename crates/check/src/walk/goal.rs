@@ -2,9 +2,10 @@
 
 use super::{Cell, Scalar, Walk};
 use crate::matrix::Matrix;
+use crate::names::Name;
 use crate::numbers::Configuration;
 use crate::subject::Subject;
-use denavit_reading::document::{Part, Statement};
+use denavit_reading::document::{Part, Place, Statement};
 use denavit_symbolic::parse::Syntax;
 use denavit_symbolic::{Angle, Expr};
 use std::f64::consts::PI;
@@ -120,6 +121,11 @@ impl Walk<'_> {
         let has_unit = is_degree || source.contains(|c: char| c.is_alphabetic() || c == 'π');
         let half = self.half(span);
         let name = self.claim_name(statement);
+        let joints = self.subject.joints();
+        if let (Some(joint), &[value]) = (joints.iter().position(|q| *q == of), &values[..]) {
+            let joints = joints.len();
+            self.at.find_joint(joint, joints, (value, has_unit));
+        }
         self.answered.push(Answered {
             span: statement.span.clone(),
             name,
@@ -170,23 +176,61 @@ impl Walk<'_> {
         self.goal_at = statement.span.end;
     }
 
+    /// True where the word before a statement says that it names a point.
+    fn is_point(&self, statement: &Statement) -> bool {
+        const POINTS: [&str; 12] = [
+            "point",
+            "target",
+            "goal",
+            "punkt",
+            "ziel",
+            "punto",
+            "ponto",
+            "place",
+            "position",
+            "posición",
+            "posizione",
+            "cible",
+        ];
+        let before = self.text.get(..statement.span.start).unwrap_or_default();
+        let line = before.rsplit('\n').next().unwrap_or_default().to_lowercase();
+        let word = line.trim_end_matches([' ', '$', '*']).rsplit([' ', '*', '$']).next().unwrap_or_default();
+        POINTS.contains(&word)
+    }
+
     /// Keeps a pose of numbers that is to be reached: `p = (0.4, 0.2, 0.3)`, `T_06 = […]` above inverse kinematics.
     pub(super) fn aims_at_matrix(&mut self, statement: &Statement) -> bool {
-        let [left, right] = &statement.sides[..] else { return false };
+        let is_told = statement.place == Place::Told;
+        let (left, right) = match &statement.sides[..] {
+            [left, right] => (Some(left), right),
+            [only] if is_told => (None, only),
+            _ => return false,
+        };
         let [Part::Matrix(grid)] = &right.parts[..] else { return false };
-        let Some(name) = self.lone(left).filter(|_| self.in_inverse) else { return false };
+        if !self.in_inverse {
+            return false;
+        }
+        let name = match left.map(|l| self.lone(l)) {
+            Some(Some(name)) => Some(name),
+            None => None,
+            Some(None) => return false,
+        };
         let Some(printed) = self.printed(grid) else { return false };
         let is_number = |e: &Option<Expr>| e.is_some_and(|e| e.symbols().is_empty());
         if !printed.0.iter().flatten().all(is_number) {
             return false;
         }
+        let is_short = matches!(printed.shape(), Some((2 | 3, 1) | (1, 2 | 3)));
         let place = || {
-            let is_place =
-                matches!(name.base.as_str(), "p" | "P" | "x" | "X" | "r" | "o" | "d") && name.left.is_empty();
-            let column = Matrix::column(&self.subject.pose().translation);
-            is_place.then_some(column)
+            let is_letter = |n: &Name| {
+                let is_own = matches!(n.base.as_str(), "p" | "P" | "x" | "X" | "r" | "o" | "d");
+                n.left.is_empty() && (is_own || self.is_point(statement) && n.base.chars().count() == 1)
+            };
+            let is_place = name.as_ref().map_or(is_told && is_short, is_letter);
+            is_place.then(|| Matrix::column(&self.subject.pose().translation))
         };
-        let known = self.lexis.matrix(&self.subject, &name).filter(|m| m.1.is_some()).map(|m| m.0);
+        let named = name.as_ref().and_then(|name| self.lexis.matrix(&self.subject, name));
+        let known = named.filter(|m| m.1.is_some()).map(|m| m.0);
         let Some(wanted) = known.or_else(place) else { return false };
         let is_row = printed.shape().is_some_and(|s| s.0 == 1 && s.1 > 1);
         let wanted = if is_row { wanted.transposed() } else { wanted };
@@ -200,7 +244,8 @@ impl Walk<'_> {
                     return false;
                 }
                 if let (true, Ok(printed)) = (moves, syntax.value().eval(|_| None)) {
-                    targets.push(Target::new(&self.subject, wanted, printed, self.half(span)));
+                    let unit = self.unit_outside(span);
+                    targets.push(Target::new(&self.subject, wanted, printed * unit, self.half(span) * unit));
                 }
             }
         }

@@ -3,6 +3,8 @@
 mod author;
 mod cases;
 mod compare;
+mod defines;
+mod derivatives;
 mod determinants;
 mod goal;
 mod matrices;
@@ -264,7 +266,7 @@ impl<'a> Walk<'a> {
         {
             self.last_heading = heading.clone();
             let words = self.text.get(heading.clone()).unwrap_or_default().to_lowercase();
-            let were_found = std::mem::replace(&mut self.in_inverse, cases::tells_inverse(&words));
+            let were_found = self.seek(cases::tells_inverse(&words));
             if self.in_inverse {
                 self.at.forget_joints(were_found);
             }
@@ -308,9 +310,15 @@ impl<'a> Walk<'a> {
         self.reader = None;
     }
 
+    /// Whether the joints are what is asked for from here on; tells whether they were.
+    fn seek(&mut self, joints: bool) -> bool {
+        self.at.is_sought = joints;
+        std::mem::replace(&mut self.in_inverse, joints)
+    }
+
     /// From here on the joints are what is asked for.
     fn look_for_joints(&mut self) {
-        let were_found = std::mem::replace(&mut self.in_inverse, true);
+        let were_found = self.seek(true);
         self.at.forget_joints(were_found);
     }
 

@@ -10,7 +10,7 @@ use denavit::forward::Reference;
 use denavit_reading::document::Statement;
 use denavit_symbolic::parse::Syntax;
 use denavit_symbolic::readable::literals;
-use denavit_symbolic::{Expr, equal};
+use denavit_symbolic::{Expr, Node, equal};
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -81,7 +81,11 @@ fn claims(point: &[(usize, &Defined)], subject: &Subject) -> Vec<Assertion> {
     if count > 1 || point.len() == 2 || told.is_some() {
         let origin = subject.origin(k);
         let frame = Meaning::Frame { of: Reference::Frame(k), seen_from: Reference::Frame(0) };
-        return point.iter().map(|(axis, d)| assertion(d, origin[*axis], &frame)).collect();
+        // A distance from an axis, `√(x² + y²) - L`, is no coordinate in the base.
+        let is_root = |e: Expr| matches!(e.node(), Node::Sqrt(a) if matches!(a.node(), Node::Add(..)));
+        let is_distance = |d: &Defined| Expr::postorder(&[d.value]).into_iter().any(is_root);
+        let coordinates = point.iter().filter(|(_, d)| !is_distance(d));
+        return coordinates.map(|(axis, d)| assertion(d, origin[*axis], &frame)).collect();
     }
     vec![]
 }

@@ -18,28 +18,25 @@ use std::ops::Range;
 
 impl Walk<'_> {
     pub(super) fn scalar(&self, span: &Range<usize>) -> Scalar {
+        let known = |value: Expr| {
+            let syntax = Syntax { kind: SyntaxKind::Name(value), span: 0..span.len() };
+            Scalar::Formula(span.clone(), syntax)
+        };
+        if let Some(value) = self.derivative_named(span) {
+            return known(value);
+        }
         let errors = match self.lexis.formula(self.text, span) {
             Ok(syntax) => return Scalar::Formula(span.clone(), syntax),
             Err(errors) => errors,
         };
-        if let Some(value) = self.determinant(span).or_else(|| self.norm(span)) {
-            let kind = SyntaxKind::Name(value);
-            return Scalar::Formula(span.clone(), Syntax { kind, span: 0..span.len() });
-        }
         // Numbers with units: `0.433 m`.
-        if let Some(value) = self.constant(self.source(span)) {
-            let kind = SyntaxKind::Name(value);
-            return Scalar::Formula(span.clone(), Syntax { kind, span: 0..span.len() });
+        let other = || self.norm(span).or_else(|| self.constant(self.source(span)));
+        if let Some(value) = self.determinant(span).or_else(other) {
+            return known(value);
         }
         match self.lexis.lone_name(self.text, span) {
             Some(name) if name.left.is_empty() && name.sup.is_empty() && name.arguments.is_empty() => {
-                match self.conventional(&name) {
-                    Some(value) => {
-                        let kind = SyntaxKind::Name(value);
-                        Scalar::Formula(span.clone(), Syntax { kind, span: 0..span.len() })
-                    }
-                    None => Scalar::Lone(name),
-                }
+                self.conventional(&name).map_or(Scalar::Lone(name), known)
             }
             _ => Scalar::Broken(span.clone(), errors.into_iter().map(Unread::from).collect()),
         }
@@ -70,48 +67,6 @@ impl Walk<'_> {
                 Some(pose.rotation.rows()[axis(rest)?][axis(&first)?])
             }
         }
-    }
-
-    /// True if a side defines a name: one without meaning, or a second spelling of a joint whose own formula it would stand in.
-    fn defines(&self, span: &Range<usize>, side: &Scalar, formula: &Syntax) -> bool {
-        match side {
-            Scalar::Lone(_) => true,
-            Scalar::Formula(_, left) => {
-                let joint = left.value().as_symbol().filter(|s| self.subject.joints().contains(&(*s).into()));
-                // A helper may be defined anew: what it was before is not what it should be.
-                if matches!(left.kind, SyntaxKind::Name(_)) && self.lexis.is_helper(self.source(span)) {
-                    // A number for it at a known configuration is its value.
-                    let is_value = formula.value().symbols().is_empty() && !left.value().symbols().is_empty();
-                    if is_value
-                        && self.is_plain_helper(left.value())
-                        && self.at.knows(left.value(), &self.subject)
-                    {
-                        return false;
-                    }
-                    return !denavit_symbolic::equal(left.value(), formula.value()).is_equal();
-                }
-                let is_letter = self.source(span).starts_with('t') && !self.source(span).starts_with("th");
-                joint.is_some_and(|j| {
-                    is_letter && formula.value() != left.value() && formula.value().symbols().contains(&j)
-                })
-            }
-            Scalar::Broken(..) => false,
-        }
-    }
-
-    /// True for `Z = P_z - L`: by custom Z is that entry of the pose, which it cannot be here.
-    fn is_told_of_itself(&self, name: &Range<usize>, formula: &Range<usize>) -> bool {
-        let entry = |span: &Range<usize>| self.lexis.inverse_formula(self.text, span).ok().map(|s| s.value());
-        // By custom, or beside the same in another spelling: `Px = px - d6*ax`.
-        let is_own = |name: &Range<usize>| {
-            let plain = |span: &Range<usize>| plain_name(self.source(span));
-            self.lexis.is_by_custom(self.source(name)) || !plain(formula).contains(&plain(name))
-        };
-        let (Some(name), Some(formula)) = (entry(name).filter(|_| is_own(name)), entry(formula)) else {
-            return false;
-        };
-        let is_entry = |s| (0..3).any(|r| (0..4).any(|c| self.lexis.pose_symbol(r, c) == s));
-        name.as_symbol().is_some_and(|s| is_entry(s) && formula != name && formula.symbols().contains(&s))
     }
 
     /// Reads a statement as one between scalars; false if it is none.
@@ -185,7 +140,9 @@ impl Walk<'_> {
         let is_definition = told.is_none()
             && match &read[..] {
                 [first, Scalar::Formula(span, syntax), ..]
-                    if self.defines(&spans[0], first, syntax) || self.is_told_of_itself(&spans[0], span) =>
+                    if self.defines(&spans[0], first, syntax)
+                        || self.is_told_of_itself(&spans[0], span)
+                        || self.is_own_of_two(&spans[0], &read) =>
                 {
                     let name = match first {
                         Scalar::Lone(name) => {
@@ -258,9 +215,15 @@ impl Walk<'_> {
                 Scalar::Formula(span, syntax)
                     if syntax.value().symbols().is_empty()
                         && (!wanted.symbols().is_empty() || self.is_rounded(span))
-                        && self.at.knows(wanted, &self.subject) =>
+                        && (self.at.knows(wanted, &self.subject) || self.knew(wanted)) =>
                 {
-                    pieces.extend(self.number(None, span, syntax.value(), wanted));
+                    // `±25°` beside a configuration with −25°.
+                    let variants = syntax.variants();
+                    let mut signed = variants.iter().filter(|_| variants.len() > 1).map(|v| v.value());
+                    let is_there =
+                        |v: &Expr| v.eval(|_| None).is_ok_and(|x| self.at.has(wanted, x, &self.subject));
+                    let value = signed.find(is_there).unwrap_or(syntax.value());
+                    pieces.extend(self.number(None, span, value, wanted));
                 }
                 Scalar::Formula(span, syntax)
                     if (is_measured(syntax.value()) || self.is_quantity(span, syntax))
@@ -305,6 +268,14 @@ impl Walk<'_> {
         assertion.reference = formulas().find(|f| f.0 == at).map(|(_, span, s)| (span.clone(), s.clone()));
         self.assertions.push(assertion);
         true
+    }
+
+    /// True for what all joints together give at a configuration that was found before.
+    fn knew(&self, wanted: Expr) -> bool {
+        let is_sum =
+            denavit_symbolic::Angle::of(wanted).terms.iter().all(|t| self.subject.joints().contains(&t.0));
+        let is_place = self.subject.pose().translation.0.contains(&wanted);
+        !is_sum && !is_place && self.at.knew(wanted, &self.subject)
     }
 
     /// The value of a formula, the entries of the pose as symbols.

@@ -108,7 +108,7 @@ impl Walk<'_> {
         }
         if self.in_inverse && SAME.iter().any(|words| lower.contains(words)) {
             self.at.recall_joints();
-            self.in_inverse = false;
+            self.seek(false);
         }
         if ZERO.iter().any(|words| lower.contains(words)) {
             (0..self.subject.joints().len()).for_each(|joint| self.at.set(joint, Expr::int(0)));

@@ -440,6 +440,6 @@ pub(super) fn is_blank(c: char) -> bool {
 
 fn is_word(c: char) -> bool {
     c.is_alphanumeric()
-        || matches!(c, '\'' | '′' | '″' | '°' | '⁺' | '⁻' | '₊' | '₋' | '∞' | '?')
+        || matches!(c, '\'' | '′' | '″' | '°' | '⁺' | '⁻' | '₊' | '₋' | '∞' | '∂' | '?')
         || ('\u{300}'..='\u{36f}').contains(&c)
 }

@@ -153,6 +153,7 @@ impl Check for English {
             Sense::Helper => "read as a helper of the document, not as an entry of the pose",
             Sense::CosineFirst => "read with the cosine as the first argument of atan2",
             Sense::ColumnsSnap => "read with s, n, a, P as the columns of the pose",
+            Sense::HandInFrames => "places with a number are read as those of the hand, seen from that frame",
             Sense::AgainstLoad => "torques are read as those that hold against the load",
             Sense::Tool { place: [x, y, z] } => {
                 return format!("the hand is read as the point ({x}, {y}, {z}) of the last frame");

@@ -167,6 +167,9 @@ impl Check for French {
             }
             Sense::CosineFirst => "lu avec le cosinus comme premier argument de atan2",
             Sense::ColumnsSnap => "lu avec s, n, a, P comme colonnes de la situation",
+            Sense::HandInFrames => {
+                "les positions numérotées sont lues comme celles de la main, vues depuis ce repère"
+            }
             Sense::AgainstLoad => "les couples sont lus comme ceux qui s’opposent à la charge",
             Sense::Tool { place: [x, y, z] } => {
                 return format!("la main est lue comme le point ({x}, {y}, {z}) du dernier repère");

@@ -1,0 +1,69 @@
+//! Derivatives of coordinates by joints and by time: `∂x/∂θ_2`, `dx/dq1`, `\frac{d p_x}{dt}`.
+
+use super::Walk;
+use crate::jacobians::derivative;
+use denavit_symbolic::Expr;
+use std::ops::Range;
+
+impl Walk<'_> {
+    /// The derivative that a side names, of what is known by a joint or by time.
+    pub(super) fn derivative_named(&self, span: &Range<usize>) -> Option<Expr> {
+        let (of, by) = quotient(self.source(span))?;
+        let value = |name: &str| {
+            let own = self.lexis.names.lookup(name);
+            own.or_else(|| self.conventional(&self.lexis.lone_name(name, &(0..name.len()))?)).or_else(|| {
+                let axis = ["x", "y", "z"].iter().position(|a| *a == name)?;
+                Some(self.subject.pose().translation.0[axis])
+            })
+        };
+        let of = value(&of)?;
+        let joints = self.subject.joints();
+        if by == "t" {
+            let rates = self.subject.rates();
+            let mut parts = joints.iter().zip(rates).map(|(&q, rate)| Some(derivative(of, q)? * rate));
+            return parts.try_fold(Expr::int(0), |sum, part| Some(sum + part?));
+        }
+        let by = self.lexis.names.lookup(&by).filter(|q| joints.contains(q))?;
+        derivative(of, by)
+    }
+}
+
+/// The names above and below a quotient of differentials.
+fn quotient(source: &str) -> Option<(String, String)> {
+    let plain: String = source.chars().filter(|c| !c.is_whitespace() && !matches!(c, '$' | '~')).collect();
+    let plain = ["\\,", "\\;", "\\!"].iter().fold(plain, |p, look| p.replace(look, ""));
+    let plain = plain.replace("\\partial", "∂").replace("\\mathrm{d}", "d");
+    let fraction = ["\\frac{", "\\dfrac{", "\\tfrac{"].iter().find_map(|f| plain.strip_prefix(f));
+    let (above, below) = match fraction {
+        Some(rest) => rest.strip_suffix('}')?.split_once("}{")?,
+        None => plain.split_once('/')?,
+    };
+    let sign = above.chars().next().filter(|c| matches!(c, 'd' | '∂'))?;
+    let (of, by) = (above.strip_prefix(sign)?, below.strip_prefix(sign)?);
+    let is_name = |n: &str| {
+        !n.is_empty()
+            && n.len() < 24
+            && n.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '{' | '}' | '\\'))
+    };
+    (is_name(of) && is_name(by)).then(|| (of.to_string(), by.to_string()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::quotient;
+
+    #[test]
+    fn quotients_of_differentials() {
+        for (source, names) in [
+            ("dx/dq1", Some(("x", "q1"))),
+            ("∂x/∂θ2", Some(("x", "θ2"))),
+            ("\\frac{\\partial p_x}{\\partial \\theta_2}", Some(("p_x", "\\theta_2"))),
+            ("\\dfrac{d z}{dt}", Some(("z", "t"))),
+            ("d1/d2", Some(("1", "2"))),
+            ("a/b", None),
+            ("x", None),
+        ] {
+            assert_eq!(quotient(source), names.map(|(a, b)| (a.into(), b.into())), "{source}");
+        }
+    }
+}
