@@ -140,6 +140,10 @@ impl Walk<'_> {
         let before = (!names.is_empty()).then(|| self.lexis.clone());
         names.iter().for_each(|name| self.lexis.declare_arguments(name));
         self.declare_load(statement);
+        if self.is_load_given(statement) {
+            self.taken.push(statement.span.clone());
+            return;
+        }
         let is_named = statement.sides.iter().flat_map(|s| &s.parts).all(|p| matches!(p, Part::Text(_)));
         self.lexis.anywhere.set(is_named && names.is_empty());
         let definitions = self.equate(statement, claim);

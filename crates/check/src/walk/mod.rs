@@ -27,7 +27,7 @@ use super::numbers::{Answer, Configuration};
 use super::subject::Subject;
 use denavit::geometry::orientation::OrientationSet;
 use denavit_reading::document::{Part, Place, Statement};
-use denavit_symbolic::Expr;
+use denavit_symbolic::{Expr, Symbol};
 use denavit_symbolic::parse::{Syntax, whole_word};
 use denavit_symbolic::vocabulary::Vocabulary;
 use rustc_hash::FxHashMap;
@@ -152,6 +152,10 @@ pub(super) struct Walk<'a> {
     goal_at: usize,
     /// What is read is about inverse kinematics.
     in_inverse: bool,
+    /// The components of the load that was given last, where these have names.
+    load: Vec<(Symbol, Expr)>,
+    /// It is one that could not be read.
+    has_other_load: bool,
     /// Names that the document gives matrices: the statement and the name as printed.
     pub named: Vec<(Range<usize>, String)>,
     /// The statement before which another one is read.
@@ -221,6 +225,8 @@ impl<'a> Walk<'a> {
             goal: vec![],
             goal_at: 0,
             in_inverse: false,
+            load: vec![],
+            has_other_load: false,
             named: vec![],
             reader: None,
             last_prose: 0..0,

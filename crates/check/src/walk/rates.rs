@@ -12,9 +12,17 @@ impl Walk<'_> {
     /// The letters of a load that the document gives as a vector, `f = (0, 0, -W)`, stand for themselves.
     pub(super) fn declare_load(&mut self, statement: &Statement) {
         let [left, right] = &statement.sides[..] else { return };
-        let [Part::Matrix(grid), ..] = &right.parts[..] else { return };
         let is_load = self.lone(left).is_some_and(|n| matches!(n.base.as_str(), "f" | "F" | "w" | "W" | "h"));
-        if !is_load || elements(grid) > 6 {
+        if !is_load {
+            return;
+        }
+        let [Part::Matrix(grid), ..] = &right.parts[..] else {
+            // `F = N u`: what follows is about a load that is not known.
+            self.load = vec![];
+            self.has_other_load = true;
+            return;
+        };
+        if elements(grid) > 6 {
             return;
         }
         let cells = self.cells(grid);
@@ -29,13 +37,51 @@ impl Walk<'_> {
                 free.push(format!("{}{}", name.base, name.sub));
             }
         }
-        if free.is_empty() {
-            return;
+        if !free.is_empty() {
+            for name in free {
+                self.lexis.define(&name, Expr::symbol(&name));
+            }
+            self.cells.borrow_mut().clear();
         }
-        for name in free {
-            self.lexis.define(&name, Expr::symbol(&name));
+        // Components that have names of their own are these from here on.
+        let letter = self.lone(left).map(|n| n.base).unwrap_or_default();
+        let Some(values) = self.printed(grid).map(|m| m.0.concat()) else { return };
+        let components = ["x", "y", "z"].map(|axis| Symbol::new(&format!("{letter}{axis}")));
+        let is_same = |(s, v): (&Symbol, &Option<Expr>)| *v == Some((*s).into());
+        if components.iter().zip(&values).any(|pair| !is_same(pair)) {
+            let given = components.iter().zip(values);
+            self.load = given.filter_map(|(s, v)| Some((*s, v?))).collect();
+            self.has_other_load = false;
         }
-        self.cells.borrow_mut().clear();
+    }
+
+    /// True for a statement that only gives a load: `F = (0, 0, -W)`.
+    pub(super) fn is_load_given(&self, statement: &Statement) -> bool {
+        let [left, right] = &statement.sides[..] else { return false };
+        let [Part::Matrix(grid)] = &right.parts[..] else { return false };
+        let is_load = self.lone(left).is_some_and(|n| {
+            matches!(n.base.as_str(), "f" | "F") && [&n.left, &n.sub, &n.sup].iter().all(|i| i.is_empty())
+        });
+        let joints = self.subject.joints();
+        let is_still = |e: &Option<Expr>| {
+            e.is_some_and(|e| e.symbols().iter().all(|s| !joints.contains(&(*s).into())))
+        };
+        is_load && self.printed(grid).is_some_and(|m| m.0.iter().flatten().all(is_still))
+    }
+
+    /// A torque under the load that was given last; nothing where that is not known.
+    pub(super) fn under_load(&self, wanted: Expr) -> Option<Expr> {
+        let is_component = |s: &Symbol| {
+            let name = s.name();
+            matches!(&*name, "Fx" | "Fy" | "Fz" | "fx" | "fy" | "fz")
+        };
+        if !wanted.symbols().iter().any(is_component) {
+            return Some(wanted);
+        }
+        if self.has_other_load {
+            return None;
+        }
+        Some(wanted.substitute(|s| self.load.iter().find(|l| l.0 == s).map(|l| l.1)))
     }
 
     /// The velocity of the hand that the document gives as numbers: `v = (0.1, 0, 0)`.

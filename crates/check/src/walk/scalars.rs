@@ -125,8 +125,11 @@ impl Walk<'_> {
                 // Numbers behind it are those of a pose to be reached.
                 self.look_for_joints();
             }
-            let assertion = Assertion { spoken: Some(spoken), ..self.assertion(statement, about) };
+            let assertion = Assertion { spoken: Some(spoken), ..self.assertion(statement, about.clone()) };
             self.assertions.push(assertion);
+            if let (About::Angle(_), [_, Scalar::Formula(_, formula), numbers @ ..]) = (about, &read[..]) {
+                self.numbers_behind(statement, formula.value(), numbers);
+            }
             return true;
         }
         if self.is_told_of_joints(&spans, &read) {
@@ -198,6 +201,7 @@ impl Walk<'_> {
         };
         let reference = reference.map(|(at, wanted)| (at, self.with_rates(wanted)));
         let reference = reference.map(|(at, wanted)| (at, self.of_moving(statement, &read, wanted)));
+        let reference = reference.and_then(|(at, wanted)| Some((at, self.under_load(wanted)?)));
         let Some((at, wanted)) = reference else {
             for s in &read {
                 if let Scalar::Broken(span, errors) = s {
@@ -268,6 +272,22 @@ impl Walk<'_> {
         assertion.reference = formulas().find(|f| f.0 == at).map(|(_, span, s)| (span.clone(), s.clone()));
         self.assertions.push(assertion);
         true
+    }
+
+    /// Holds numbers against the formula before them, at the present configuration.
+    fn numbers_behind(&mut self, statement: &Statement, formula: Expr, numbers: &[Scalar]) {
+        if !self.at.knows(formula, &self.subject) {
+            return;
+        }
+        let number = |s: &Scalar| match s {
+            Scalar::Formula(span, syntax) => self.number(None, span, syntax.value(), formula),
+            _ => None,
+        };
+        let pieces: Vec<Piece> = numbers.iter().filter_map(number).collect();
+        if !pieces.is_empty() {
+            let assertion = Assertion { pieces, ..self.assertion(statement, About::Equation) };
+            self.assertions.push(assertion);
+        }
     }
 
     /// True for what all joints together give at a configuration that was found before.
@@ -445,7 +465,12 @@ impl Walk<'_> {
             words.into_iter().flatten().find_map(|span| set_in(self.text.get(span.clone())?))
         })?;
         let (side, rest) = statement.sides.split_first()?;
-        let [value] = rest else { return None };
+        // The number that it comes to may stand behind.
+        let [value, numbers @ ..] = rest else { return None };
+        let is_number = |s: &Scalar| matches!(s, Scalar::Formula(_, s) if s.value().symbols().is_empty());
+        if !numbers.is_empty() && !read.iter().skip(2).all(is_number) {
+            return None;
+        }
         let left = self.lexis.lone_name(self.text, &side.span)?;
         let name = match format!("{}{}", left.base, left.sub).as_str() {
             "φ" => "phi".to_string(),
