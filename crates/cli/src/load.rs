@@ -4,7 +4,7 @@ mod files;
 mod rows;
 mod urdf;
 
-pub use urdf::bundle;
+pub use urdf::{bundle, held_joints};
 
 use crate::arguments::{AngleUnit, LengthUnit, RobotArguments};
 use crate::failure::Failure;

@@ -22,6 +22,7 @@ fn main() -> ExitCode {
         Command::Fk(a) => commands::fk::run(&a),
         Command::Ik(a) => commands::ik::run(&a),
         Command::Jacobian(a) => commands::jacobian::run(&a),
+        Command::Dynamics(a) => commands::dynamics::run(&a),
         Command::Path(a) => commands::path::run(&a),
         Command::Derive(a) => commands::derive::run(&a),
         Command::Report(a) => commands::report::run(&a),

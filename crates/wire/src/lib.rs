@@ -11,6 +11,7 @@ pub mod check;
 pub mod class;
 pub mod code;
 pub mod derivation;
+pub mod dynamics;
 pub mod finding;
 pub mod forward;
 pub mod inverse;

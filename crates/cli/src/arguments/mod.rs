@@ -1,6 +1,7 @@
 //! The command line.
 
 mod convert;
+mod dynamics;
 mod path;
 mod report;
 mod view;
@@ -12,6 +13,7 @@ use denavit_emit::Language;
 use std::path::PathBuf;
 
 pub use convert::{ConvertArguments, ConvertFormat};
+pub use dynamics::DynamicsArguments;
 pub use path::{PathArguments, PathFormat};
 pub use report::{ReportArguments, ReportFormat, ReportLanguage, SectionName};
 pub use view::ViewArguments;
@@ -47,6 +49,8 @@ pub enum Command {
     Ik(IkArguments),
     /// Compute Jacobians, velocities, forces and how near a singularity is, or derive the formulas and the singularities
     Jacobian(JacobianArguments),
+    /// Compute torques, inertia and accelerations of an arm with masses, or derive base parameters and the torques as formulas
+    Dynamics(DynamicsArguments),
     /// Plan a path of the joints or the hand: followed on one branch, timed within limits, sampled
     Path(PathArguments),
     /// Derive link transforms, the simplified forward model, and the shortest algorithm for it
@@ -498,6 +502,8 @@ pub enum Format {
     Typst,
     /// A web page with MathML
     Html,
+    /// Markdown with LaTeX formulas
+    Markdown,
     /// JSON with formulas as plain text that parses back
     Json,
 }

@@ -2,6 +2,7 @@
 
 use super::{ConventionName, RobotArguments};
 use clap::{Args, ValueEnum};
+use denavit_report::words::Tongue;
 use std::path::PathBuf;
 
 /// `report`
@@ -52,6 +53,16 @@ pub enum ReportLanguage {
     En,
     /// Français
     Fr,
+}
+
+impl ReportLanguage {
+    /// The words of the language.
+    pub fn tongue(self) -> Tongue {
+        match self {
+            ReportLanguage::En => Tongue::English,
+            ReportLanguage::Fr => Tongue::French,
+        }
+    }
 }
 
 /// A section of a report.

@@ -5,6 +5,7 @@ pub mod check;
 pub mod convert;
 pub mod derive;
 pub mod document;
+pub mod dynamics;
 pub mod fk;
 pub mod generate;
 pub mod ik;

@@ -31,6 +31,32 @@ pub fn from_urdf(arguments: &RobotArguments) -> Result<Description, Failure> {
     Ok(Description { source: Some(format!("{name}: {from} to {to}")), ..chain.description })
 }
 
+/// The joints beside a chain of bodies behind which something weighs that hangs on it.
+///
+/// # Errors
+/// If the file cannot be read.
+pub fn held_joints(arguments: &RobotArguments) -> Result<Vec<String>, Failure> {
+    let name = arguments.robot.as_str();
+    if !super::is_tree(name) {
+        return Ok(vec![]);
+    }
+    let text = super::contents(name, MAX_XML_BYTES);
+    let text = text.map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
+    let packages = pairs(&arguments.package, "--package", "ur_description=../ur_description")?;
+    let packages: Vec<(String, PathBuf)> = packages.into_iter().map(|(n, p)| (n, p.into())).collect();
+    let given = pairs(&arguments.arg, "--arg", "name=ur5")?;
+    let mut folder = Folder::around(name, &packages);
+    let (read, _) = match is_mjcf(&text) {
+        true => read_mjcf(name, &text, &mut folder, Decimals::Meant),
+        false => read_xacro(name, &text, &mut folder, &given, Decimals::Meant),
+    };
+    let Ok((mechanism, _)) = read else { return Ok(vec![]) };
+    let (base, tip) = (arguments.base.as_deref(), arguments.tip.as_deref());
+    let chain = mechanism.chain(base, tip, Convention::Standard);
+    let held = chain.map(|c| c.held.iter().map(|&j| mechanism.joints[j].name.clone()).collect());
+    Ok(held.unwrap_or_default())
+}
+
 /// All of the file that the arguments name.
 ///
 /// # Errors

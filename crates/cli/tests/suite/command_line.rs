@@ -250,7 +250,7 @@ fn what_is_written_is_what_others_read() {
     assert!(urdf.contains("<mass value=\"2\"/>") && urdf.contains("ixx=\"0.1\""), "{urdf}");
     std::fs::write(at("arm.urdf"), &urdf).expect("a file");
     let output = denavit(&["show", &at("arm.urdf"), "--tip", "tool"]);
-    assert!(stderr(&output).contains("links, which a table leaves out"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("links, which its rows have"), "{}", stderr(&output));
     denavit(&["convert", &at("arm.toml"), "--to", "latex", "-o", &at("arm.tex")]);
     let shown = stdout(&denavit(&["show", &at("arm.tex")]));
     assert!(shown.contains("arm_1_joint") && !shown.contains('\\'), "{shown}");

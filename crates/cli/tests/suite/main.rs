@@ -7,6 +7,7 @@ mod class;
 mod command_line;
 mod common;
 mod doors;
+mod dynamics;
 mod generate;
 mod ik;
 mod motion;

@@ -3,9 +3,11 @@
 //! What is to be said is gathered as facts (an [`Explanation`], the singularities of `denavit`) and written in a language
 //! of [`crate::words`] as a tree of [`crate::document`].
 
+mod dynamics;
 mod inverse;
 mod velocity;
 
+pub use dynamics::{dynamics_document, dynamics_vocabulary};
 pub use inverse::{
     Bound, Case, Component, Consequence, Explained, Explanation, Kind, Remark, Source, Statement,
 };

@@ -5,6 +5,7 @@
 //! compiler then asks for.
 
 mod check;
+mod dynamics;
 mod english;
 mod french;
 mod geometry;
@@ -15,6 +16,7 @@ mod terms;
 mod velocity;
 
 pub use check::Check;
+pub use dynamics::Dynamics;
 pub use english::English;
 pub use french::French;
 pub use geometry::{Geometry, Whole};
@@ -35,9 +37,9 @@ pub enum Tongue {
 }
 
 /// All messages.
-pub trait Wording: Terms + Geometry + Inverse + Velocity + Motion + Check + Report {}
+pub trait Wording: Terms + Geometry + Inverse + Velocity + Dynamics + Motion + Check + Report {}
 
-impl<T: Terms + Geometry + Inverse + Velocity + Motion + Check + Report> Wording for T {}
+impl<T: Terms + Geometry + Inverse + Velocity + Dynamics + Motion + Check + Report> Wording for T {}
 
 impl Tongue {
     /// All languages.

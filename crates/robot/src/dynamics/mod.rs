@@ -11,16 +11,18 @@
 //! - [`kinetic_energy`], [`potential_energy`]: the energies.
 //! - [`regressor`]: W with τ = Wχ.
 //! - [`coriolis_matrix`]: C with C q̇ the velocity torques and Ȧ − 2C skew.
-//! - [`BaseModel`]: base parameters, and torques in them.
+//! - [`BaseModel`]: base parameters, and torques in them; [`DynamicModel`]: all as formulas, with the [`Ground`] they rest on.
 //! - [`direct_dynamics`], [`articulated_bodies`]: accelerations.
 
 mod articulated;
 mod base;
 mod coriolis;
 mod direct;
+mod dynamic_model;
 mod energy;
 mod grouping;
 mod inertia;
+mod lagrange;
 mod model;
 mod newton_euler;
 mod regressor;
@@ -29,9 +31,11 @@ pub use articulated::articulated_bodies;
 pub use base::{BaseModel, BaseParameter, Fate, Minimality};
 pub use coriolis::coriolis_matrix;
 pub use direct::{Factored, Singular, direct_dynamics, factored};
+pub use dynamic_model::{DynamicModel, Parts};
 pub use energy::{kinetic_energy, potential_energy};
 pub use grouping::{Grouped, grouped};
 pub use inertia::inertia_matrix;
+pub use lagrange::{Ground, lagrange};
 pub use model::{Drive, Dynamics, Formulas, GRAVITY, Link, NoNumbers, Wrench};
 pub use newton_euler::{friction, gravity_torques, inverse_dynamics, velocity_torques};
 pub use regressor::regressor;

@@ -98,7 +98,7 @@ fn printed(derivation: &Derivation, format: Format) -> String {
     match format {
         Format::Terminal => terminal::document(derivation),
         Format::Json => format!("{}\n", denavit_wire::text(&Derived::of(derivation))),
-        Format::Latex | Format::Typst | Format::Html => {
+        Format::Latex | Format::Typst | Format::Html | Format::Markdown => {
             document::written(&derivation.document(Tongue::English), format)
         }
     }

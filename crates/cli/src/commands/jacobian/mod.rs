@@ -159,7 +159,10 @@ fn questions(
 }
 
 /// Numbers separated by commas or blanks.
-fn numbers(text: &str, option: &str, n: usize) -> Result<Vec<f64>, Failure> {
+///
+/// # Errors
+/// If they are not `n`, or one is no finite number.
+pub fn numbers(text: &str, option: &str, n: usize) -> Result<Vec<f64>, Failure> {
     let parts = parts(text);
     if parts.len() != n {
         return Err(Failure::Usage(format!("{option}: {} given, {n} needed", plural(parts.len(), "value"))));
@@ -193,8 +196,11 @@ fn twist(text: &str) -> Result<([f64; 6], [bool; 6]), Failure> {
     Ok((twist, rows))
 }
 
-/// Joint velocities: radians or metres a second, degrees and millimetres where a value says so.
-fn joint_rates(description: &Description, text: &str, option: &str) -> Result<Vec<f64>, Failure> {
+/// Joint velocities or accelerations: radians or metres a second (squared), degrees and millimetres where a value says so.
+///
+/// # Errors
+/// If they are not one a joint, or one is no value.
+pub fn joint_rates(description: &Description, text: &str, option: &str) -> Result<Vec<f64>, Failure> {
     let variables = description.variables();
     let separated = load::list(text);
     if separated.len() != variables.len() {
@@ -203,7 +209,8 @@ fn joint_rates(description: &Description, text: &str, option: &str) -> Result<Ve
     }
     let mut rates = vec![];
     for (part, variable) in separated.iter().zip(&variables) {
-        let value = part.trim_end_matches("/s");
+        let value =
+            ["/s^2", "/s²", "/s"].into_iter().find_map(|unit| part.strip_suffix(unit)).unwrap_or(part);
         let read = load::value_of(value, variable.kind.into()).and_then(crate::commands::fk::value);
         rates.push(
             read.map_err(|why| Failure::Usage(format!("{option}: {}: {why}", variable.symbol.name())))?,

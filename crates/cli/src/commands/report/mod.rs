@@ -6,14 +6,13 @@ mod embedded;
 mod installed;
 mod pdf;
 
-use crate::arguments::{ReportArguments, ReportFormat, ReportLanguage, SectionName};
+use crate::arguments::{ReportArguments, ReportFormat, SectionName};
 use crate::commands::fk::configuration;
 use crate::failure::Failure;
 use crate::load;
 use denavit::description::Description;
 use denavit_check::{Checked, check};
 use denavit_reading::document::Format;
-use denavit_report::words::Tongue;
 use denavit_report::{Document, Errata, ReportOptions, Topic, render, report};
 use std::fs;
 use std::io::Write;
@@ -32,10 +31,7 @@ pub fn run(arguments: &ReportArguments) -> Result<(), Failure> {
     let errata =
         source.as_ref().map(|(text, checked)| Errata { name: &arguments.robot.robot, text, checked });
     let options = ReportOptions {
-        language: match arguments.language {
-            ReportLanguage::En => Tongue::English,
-            ReportLanguage::Fr => Tongue::French,
-        },
+        language: arguments.language.tongue(),
         topics: topics(arguments),
         conventions: arguments.conventions.iter().map(|&c| c.into()).collect(),
         pose,

@@ -76,7 +76,7 @@ impl Geometry for English {
         };
         let inertias = match heavy {
             0 => "no inertias".to_string(),
-            _ => format!("inertias for {heavy} of {links} links, which a table leaves out"),
+            _ => format!("inertias for {heavy} of {links} links, which its rows have"),
         };
         let joints = counted(joints, "joint", "joints");
         format!(

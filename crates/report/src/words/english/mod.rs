@@ -1,6 +1,7 @@
 //! English.
 
 mod check;
+mod dynamics;
 mod geometry;
 mod inverse;
 mod motion;

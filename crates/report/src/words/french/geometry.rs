@@ -88,7 +88,7 @@ impl Geometry for French {
         };
         let inertias = match heavy {
             0 => "aucune inertie".to_string(),
-            _ => format!("des inerties pour {heavy} corps sur {links}, qu’un tableau laisse de côté"),
+            _ => format!("des inerties pour {heavy} corps sur {links}, que portent ses lignes"),
         };
         let plural = if joints == 1 { "" } else { "s" };
         printed(&format!(

@@ -10,6 +10,7 @@ macro_rules! say {
 }
 
 mod check;
+mod dynamics;
 mod geometry;
 mod inverse;
 mod motion;

@@ -63,6 +63,7 @@ impl Mechanism {
                 (row.mass, row.com, row.inertia) = (Some(mass.mass), Some(mass.com), Some(mass.inertia));
             }
         }
+        held.sort_unstable();
         held
     }
 

@@ -1,0 +1,65 @@
+//! The answer for reading.
+
+use crate::terminal::{Align, FAINT, HEADING, matrix, number, styled, table};
+use denavit::description::{Description, JointKind};
+use denavit::quantity::{rate, reading};
+use denavit_wire::dynamics::Answer;
+
+/// The state, the torques with their parts, the inertia matrix, the energies.
+pub fn text(d: &Description, a: &Answer) -> String {
+    let variables = d.variables();
+    let each = |values: &[f64], of: &dyn Fn(f64, JointKind) -> String| -> String {
+        let all = variables.iter().zip(values);
+        all.map(|(v, &x)| format!("{} = {}", v.symbol.name(), of(x, v.kind))).collect::<Vec<_>>().join(", ")
+    };
+    let mut text = format!("{} at {}\n", styled(&d.name, HEADING), each(&a.q, &reading));
+    if a.qd.iter().any(|&v| v != 0.0) {
+        text += &format!("  velocities {}\n", each(&a.qd, &rate));
+    }
+    let accelerated = |x: f64, kind| {
+        format!("{} {}", number(x, 0.0), if kind == JointKind::Revolute { "rad/s²" } else { "m/s²" })
+    };
+    if let Some(qdd) = &a.qdd {
+        text += &format!("  accelerations {}\n", each(qdd, &accelerated));
+    }
+    let pulled = a.accelerations.as_ref().or(a.qdd.as_ref());
+    let mut columns: Vec<(&str, Vec<f64>)> = vec![("torque", a.torques.clone())];
+    if let Some(qdd) = pulled {
+        let times = |row: &Vec<f64>| row.iter().zip(qdd).map(|(m, x)| m * x).sum();
+        columns.push(("A q̈", a.inertia.iter().map(times).collect()));
+    }
+    columns.push(("C q̇", a.velocity.clone()));
+    columns.push(("gravity", a.gravity.clone()));
+    if a.friction.iter().any(|&x| x != 0.0) {
+        columns.push(("friction", a.friction.clone()));
+    }
+    columns.extend(a.wrench.clone().map(|w| ("wrench", w)));
+    let size = columns.iter().flat_map(|c| &c.1).fold(1.0_f64, |m, x| m.max(x.abs()));
+    let header: Vec<&str> = [""].into_iter().chain(columns.iter().map(|c| c.0)).chain([""]).collect();
+    let mut align = vec![Align::Right; header.len()];
+    (align[0], align[header.len() - 1]) = (Align::Left, Align::Left);
+    let row = |j: usize| -> Vec<String> {
+        let unit = if variables[j].kind == JointKind::Revolute { "N m" } else { "N" };
+        let name = variables[j].symbol.name().to_string();
+        let cells = columns.iter().map(|c| number(c.1[j], 1e-14 * size));
+        [name].into_iter().chain(cells).chain([unit.to_string()]).collect()
+    };
+    text += &format!("\n{}\n", styled("Torques", HEADING));
+    text += &table(&header, &align, &(0..variables.len()).map(row).collect::<Vec<_>>());
+    if let Some(found) = &a.accelerations {
+        text += &format!("\n{}\n  {}\n", styled("Accelerations", HEADING), each(found, &accelerated));
+    }
+    let largest = a.inertia.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let entries: Vec<Vec<String>> =
+        a.inertia.iter().map(|row| row.iter().map(|&x| number(x, 1e-14 * largest)).collect()).collect();
+    let slides = variables.iter().any(|v| v.kind == JointKind::Prismatic);
+    let units = if slides { "kg m²; kg m beside a slide, kg between slides" } else { "kg m²" };
+    text += &format!("\n{}  {}\n", styled("Inertia matrix", HEADING), styled(&format!("({units})"), FAINT));
+    text += &matrix("", &entries, Align::Right);
+    text += &format!(
+        "\n  kinetic energy {} J, potential energy {} J\n",
+        number(a.energy.kinetic, 1e-14),
+        number(a.energy.potential, 1e-14)
+    );
+    text
+}

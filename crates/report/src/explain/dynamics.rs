@@ -1,0 +1,82 @@
+//! The dynamic model: base parameters, torques, inertia.
+
+use crate::document::{Block, Factor, Line, Math, Proof};
+use crate::words::{Tongue, Wording};
+use denavit::description::{Convention, Description};
+use denavit::dynamics::{DynamicModel, Fate, Ground};
+use denavit_symbolic::Expr;
+use denavit_symbolic::vocabulary::Vocabulary;
+
+/// The robot's names, those of masses, base parameters and rates, and those of the program's steps.
+pub fn dynamics_vocabulary(d: &Description, model: &DynamicModel) -> Vocabulary {
+    let formulas = &model.formulas;
+    let own = formulas.parameters.iter().map(|p| p.symbol);
+    let base = model.base.parameters.iter().map(|p| p.symbol);
+    let all = own.chain(base).chain(formulas.qd.iter().chain(&formulas.qdd).copied());
+    let names = all.fold(d.vocabulary(), |v, s| v.symbol(&s.name()));
+    model.torques.steps().into_iter().fold(names, |v, step| v.symbol(&step.name))
+}
+
+/// Base parameters, the torques as a program, and the parts of the torques where they are written out.
+pub fn dynamics_document(d: &Description, model: &DynamicModel, language: Tongue) -> Vec<Block> {
+    let words = language.words();
+    let mut blocks = vec![
+        Block::Heading(1, Line::new(words.dynamics_title(&d.name))),
+        paragraph(words.link_parameters(d.convention == Convention::Standard)),
+        Block::Paragraph(words.gravity_is(model.formulas.dynamics.gravity.0.map(Math::Expr))),
+        Block::Heading(2, Line::new(words.base_title())),
+    ];
+    blocks.extend(base(model, words));
+    blocks.push(Block::Heading(2, Line::new(words.torques_title())));
+    for step in model.torques.steps() {
+        blocks.push(formula(Expr::symbol(&step.name), step.value));
+    }
+    blocks.push(paragraph(words.torques_cost(&model.torques.count(), model.ground)));
+    let proof = (model.ground == Ground::Proved).then_some(Proof::Proved);
+    if let Some(parts) = &model.parts {
+        let column = |all: &[Expr]| all.iter().map(|&e| vec![e]).collect();
+        for (title, name, rows) in [
+            (words.inertia_title(), "A", parts.inertia.clone()),
+            (words.velocity_torques_title(), "h", column(&parts.velocity)),
+            (words.gravity_torques_title(), "Q", column(&parts.gravity)),
+        ] {
+            blocks.push(Block::Heading(2, Line::new(title)));
+            blocks.push(Block::Formula {
+                math: Math::Matrix(Factor::named(name), rows),
+                number: None,
+                proof,
+            });
+        }
+    }
+    blocks
+}
+
+fn base(model: &DynamicModel, words: &dyn Wording) -> Vec<Block> {
+    let base = &model.base;
+    let mut blocks =
+        vec![paragraph(words.base_count(base.fates.len(), base.parameters.len(), base.minimality))];
+    for p in base.parameters.iter().filter(|p| p.is_grouped) {
+        blocks.push(formula(p.symbol.into(), p.value));
+    }
+    let alone: Vec<Math> =
+        base.parameters.iter().filter(|p| !p.is_grouped).map(|p| Math::Expr(p.symbol.into())).collect();
+    let idle: Vec<Math> =
+        base.fates.iter().filter(|f| f.1 == Fate::WithoutEffect).map(|f| Math::Expr(f.0.into())).collect();
+    let mut lines = vec![];
+    if !alone.is_empty() {
+        lines.push(words.base_alone(alone));
+    }
+    if !idle.is_empty() {
+        lines.push(words.without_effect(idle));
+    }
+    blocks.push(Block::List(lines));
+    blocks
+}
+
+fn formula(name: Expr, value: Expr) -> Block {
+    Block::Formula { math: Math::equation(name, value), number: None, proof: None }
+}
+
+fn paragraph(words: String) -> Block {
+    Block::Paragraph(Line::new(words))
+}

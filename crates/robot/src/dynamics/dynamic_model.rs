@@ -1,0 +1,75 @@
+//! The dynamic model of an arm as formulas.
+
+use super::base::BaseModel;
+use super::lagrange::Ground;
+use super::model::Formulas;
+use crate::description::Description;
+use crate::forward::symbol_order;
+use denavit_program::Program;
+use denavit_symbolic::{Expr, Symbol, readable};
+
+/// Joints up to which the matrices are written out.
+const WRITTEN_OUT: usize = 3;
+
+/// The dynamic model as formulas.
+#[derive(Clone, Debug)]
+pub struct DynamicModel {
+    /// The arm and its names.
+    pub formulas: Formulas,
+    /// The base parameters.
+    pub base: BaseModel,
+    /// The joint torques from q, q̇ and q̈, in base parameters.
+    pub torques: Program,
+    /// On what it rests that these are Lagrange's.
+    pub ground: Ground,
+    /// The parts of the torques, entry by entry, of arms with few joints.
+    pub parts: Option<Parts>,
+}
+
+/// τ = A q̈ + C q̇ + Q, each entry as short as it was found.
+#[derive(Clone, Debug)]
+pub struct Parts {
+    /// A(q), row by row.
+    pub inertia: Vec<Vec<Expr>>,
+    /// C(q, q̇) q̇, with viscous friction.
+    pub velocity: Vec<Expr>,
+    /// Q(q).
+    pub gravity: Vec<Expr>,
+}
+
+impl DynamicModel {
+    /// The model of a description: its numbers for masses get Khalil and Dombre's names.
+    pub fn derive(d: &Description) -> Self {
+        let formulas = Formulas::named(d);
+        let base = BaseModel::derive(d, &formulas);
+        let torques = base.inverse.clone();
+        let ground = base.ground(d, &formulas, &torques);
+        let parts = (formulas.q.len() <= WRITTEN_OUT).then(|| Parts::new(d, &formulas, &base, &torques));
+        DynamicModel { formulas, base, torques, ground, parts: parts.flatten() }
+    }
+}
+
+impl Parts {
+    /// The parts of torques; nothing if one is too large.
+    fn new(d: &Description, formulas: &Formulas, base: &BaseModel, torques: &Program) -> Option<Self> {
+        let mut order = symbol_order(d);
+        order.extend(base.parameters.iter().map(|p| p.symbol));
+        order.extend(formulas.qd.iter().chain(&formulas.qdd));
+        let simple = |e: Expr| readable::simplify(e, &order).ok().map(|s| s.expr);
+        let all = torques.formulas();
+        let with = |e: Expr, of: &dyn Fn(Symbol) -> Option<i64>| e.substitute(|s| of(s).map(Expr::int));
+        let is = |all: &[Symbol], s: Symbol| all.contains(&s);
+        let resting = |s: Symbol| (is(&formulas.qd, s) || is(&formulas.qdd, s)).then_some(0);
+        let gravity: Vec<Expr> = all.iter().map(|&e| simple(with(e, &resting))).collect::<Option<_>>()?;
+        let coasting = |s: Symbol| is(&formulas.qdd, s).then_some(0);
+        let velocity =
+            all.iter().map(|&e| simple(with(e, &coasting) - with(e, &resting))).collect::<Option<_>>()?;
+        let entry = |e: Expr, j: usize| {
+            let pulled = |s: Symbol| if s == formulas.qdd[j] { Some(1) } else { resting(s) };
+            simple(with(e, &pulled) - with(e, &resting))
+        };
+        let row = |&e: &Expr| (0..formulas.q.len()).map(|j| entry(e, j)).collect::<Option<Vec<Expr>>>();
+        let inertia = all.iter().map(row).collect::<Option<_>>()?;
+        Some(Parts { inertia, velocity, gravity })
+    }
+}
