@@ -10,6 +10,7 @@ const TARGETS: &[(&str, &str)] = &[
     ("formula", "fuzz/seeds/formula"),
     ("robot_file", "crates/robot/catalogue"),
     ("table", "fuzz/seeds/table"),
+    ("par", "fuzz/seeds/par"),
     ("urdf", "crates/robot/tests/urdf"),
     ("xacro", "fuzz/seeds/xacro"),
     ("mjcf", "crates/robot/tests/mjcf"),
