@@ -36,7 +36,7 @@ pub fn robot(arguments: &RobotArguments) -> Result<Description, Failure> {
 /// If there is no such robot, or its file cannot be read or has errors.
 pub fn robot_file(arguments: &RobotArguments) -> Result<(Description, String), Failure> {
     let name = catalogue_name(&arguments.robot);
-    let listed = name.as_deref().and_then(|n| Some((n, catalogue::text(n)?)));
+    let listed = name.as_deref().and_then(|n| Some((n, listed(n)?)));
     check_options(arguments, listed.is_some())?;
     let (mut description, text) = match listed {
         Some((name, text)) => robot_of_rows(arguments, read(name, text, read_robot(text))?, text)?,
@@ -102,6 +102,11 @@ fn check_options(arguments: &RobotArguments, is_listed: bool) -> Result<(), Fail
 fn catalogue_name(text: &str) -> Option<String> {
     let is_path = text.contains(['/', '\\', '.']) || text == "-";
     (!is_path).then(|| text.to_lowercase().replace([' ', '_'], "-"))
+}
+
+/// The file of an arm of the catalogue, or of a structure beside it.
+fn listed(name: &str) -> Option<&'static str> {
+    catalogue::text(name).or_else(|| catalogue::structure_text(name))
 }
 
 /// The option given that only a URDF can need; `.par` files hold decimals, too.
@@ -173,7 +178,7 @@ pub fn mechanism(arguments: &RobotArguments) -> Result<Option<Tree>, Failure> {
         return Ok(None);
     }
     let name = arguments.robot.as_str();
-    let listed = catalogue_name(name).and_then(|n| catalogue::text(&n).map(str::to_string));
+    let listed = catalogue_name(name).and_then(|n| listed(&n)).map(str::to_string);
     let tree = match Path::new(name).extension().and_then(|e| e.to_str()) {
         _ if listed.is_none() && is_tree(name) => {
             check_options(arguments, false)?;
@@ -274,7 +279,8 @@ fn coloured(finding: &Diagnostic, name: &str, text: &str) -> String {
 }
 
 fn unknown_robot(name: &str) -> Failure {
-    let close: Vec<&str> = catalogue::names().into_iter().filter(|n| similar(n, name)).take(6).collect();
+    let names = catalogue::names().into_iter().chain(catalogue::structures());
+    let close: Vec<&str> = names.filter(|n| similar(n, name)).take(6).collect();
     let hint = match &close[..] {
         [] => {
             "`denavit robots` lists the catalogue; files end in .toml, .urdf, .xml, .par, .md, .csv or .tex"

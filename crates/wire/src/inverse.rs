@@ -32,6 +32,9 @@ pub struct Answer {
     /// What was taken as special.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub idealised: Option<Idealised>,
+    /// What the file calls the joints, where it does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub joints: Option<Vec<String>>,
     /// Where the pose before was followed and this one is not reached by going on: what changes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub jump: Option<Jump>,

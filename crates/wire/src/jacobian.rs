@@ -78,6 +78,9 @@ pub struct Answer {
     /// What gives the twist that was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joint_rates: Option<Rates>,
+    /// What the file calls the joints, where it does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub joints: Option<Vec<String>>,
     /// By how much the wrench can grow.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub largest_wrench: Option<Largest>,

@@ -19,6 +19,10 @@ pub struct ConvertArguments {
     /// The convention of what is written; that of the robot otherwise
     #[arg(long = "as", value_enum)]
     pub written_as: Option<ConventionName>,
+    /// All of a tree as one table, with a column a(j) for the row that each stands on (markdown, latex, csv); par and tree write all of
+    /// it anyway
+    #[arg(long, conflicts_with_all = ["base", "tip"])]
+    pub whole: bool,
     /// Where to write it (- for standard output)
     #[arg(short, long, value_name = "FILE", default_value = "-")]
     pub output: PathBuf,

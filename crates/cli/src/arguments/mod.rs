@@ -37,7 +37,7 @@ pub struct Arguments {
 /// The verbs.
 #[derive(Subcommand)]
 pub enum Command {
-    /// List the robots of the catalogue
+    /// List the robots of the catalogue, and the trees that come with the program
     Robots(RobotsArguments),
     /// Show a robot's table and what is special about its structure, or convert it to another convention
     Show(ShowArguments),

@@ -8,8 +8,9 @@ use crate::load::{self, Tree};
 use crate::terminal::note;
 use denavit::description::{
     Alone, AxesAs, Convention, Decimals, Described, Description, Mechanism, NoPar, NotNamed, RowTree,
-    TableKind, TableOptions, read_mjcf, read_par, read_robot, read_table, read_toml, read_urdf, write_axes,
-    write_mjcf, write_par, write_table, write_toml, write_tree, write_urdf,
+    TableKind, TableOptions, read_mjcf, read_par, read_robot, read_table, read_table_robot, read_toml,
+    read_urdf, write_axes, write_mjcf, write_par, write_table, write_toml, write_tree, write_tree_table,
+    write_urdf,
 };
 use denavit::mechanism::{COMPARED, Comparison, compare, compare_chains};
 
@@ -18,7 +19,11 @@ use denavit::mechanism::{COMPARED, Comparison, compare, compare_chains};
 /// # Errors
 /// If there is no such robot, a parameter has no value, nothing can be written, or what was written is not the robot.
 pub fn run(arguments: &ConvertArguments) -> Result<(), Failure> {
-    if matches!(arguments.to, ConvertFormat::Par | ConvertFormat::Tree)
+    let is_whole = matches!(arguments.to, ConvertFormat::Par | ConvertFormat::Tree);
+    if arguments.whole && !is_whole && table_kind(arguments.to).is_none() {
+        return Err(Failure::Usage("--whole is for tables: markdown, latex and csv".into()));
+    }
+    if (is_whole || arguments.whole)
         && let Some(whole) = load::mechanism(&arguments.robot)?
     {
         return tree(&whole, arguments);
@@ -104,6 +109,16 @@ fn written(
     })
 }
 
+/// The kind of table that is written, if one is.
+fn table_kind(to: ConvertFormat) -> Option<TableKind> {
+    match to {
+        ConvertFormat::Markdown => Some(TableKind::Markdown),
+        ConvertFormat::Latex => Some(TableKind::Latex),
+        ConvertFormat::Csv => Some(TableKind::Csv),
+        _ => None,
+    }
+}
+
 /// A robot file by its axes.
 fn axes(robot: &Description, written: AxesAs, arguments: &ConvertArguments) -> Result<Written, Failure> {
     let text = write_axes(robot, written)
@@ -127,20 +142,26 @@ fn tree(whole: &Tree, arguments: &ConvertArguments) -> Result<(), Failure> {
         Tree::Rows(rows) => rows.clone(),
     };
     // The ends of chains, and what they are called in what is written.
-    let (text, named): (String, Vec<(String, String)>) = match arguments.to {
-        ConvertFormat::Par => {
+    let kind = table_kind(arguments.to);
+    let (text, named): (String, Vec<(String, String)>) = match (arguments.to, kind) {
+        (_, Some(kind)) => write_tree_table(&rows, kind).map_err(not_named)?,
+        (ConvertFormat::Par, _) => {
             let file = write_par(&rows).map_err(no_par)?;
             (file.text, file.frames.into_iter().map(|(name, row)| (name, row.to_string())).collect())
         }
         _ => (write_tree(&rows), rows.frame_names().into_iter().map(|n| (n.clone(), n)).collect()),
     };
     put(&arguments.output, text.as_bytes())?;
-    let read = |decimals| match arguments.to {
-        ConvertFormat::Par => read_par(&text, decimals).ok().map(|r| r.0),
-        _ => match read_robot(&text) {
-            Ok((Described::Tree(tree), _)) => Some(*tree),
-            _ => None,
-        },
+    let read = |decimals| {
+        let described = match (arguments.to, kind) {
+            (ConvertFormat::Par, _) => return read_par(&text, decimals).ok().map(|r| r.0),
+            (_, Some(kind)) => read_table_robot(&text, kind, &TableOptions::default()),
+            _ => read_robot(&text),
+        };
+        match described.ok()?.0 {
+            Described::Tree(tree) => Some(*tree),
+            Described::Chain(_) => None,
+        }
     };
     let compared = |decimals| Some(compare_chains(whole.as_ref(), &read(decimals)?, &named));
     let meant = (!arguments.robot.as_written).then(|| compared(Decimals::Meant)).flatten();
@@ -182,23 +203,22 @@ fn no_par(why: NoPar) -> Failure {
                 "error: `{row}` follows other joints, and a .par file has no words for that\n  = hint: name a chain without it by --base and --tip, or write --to tree"
             )
         }
-        NoPar::NotNamed(NotNamed::NeedsValues(names)) => {
-            return no_values(names.iter().map(|s| s.name().to_string()));
-        }
-        NoPar::NotNamed(NotNamed::NotPlaced(_)) => {
-            "error: base or tool is no rigid transform in numbers".into()
-        }
+        NoPar::NotNamed(why) => return not_named(why),
     })
 }
 
-/// A table for documents.
-fn table(robot: &Description, kind: TableKind) -> Result<Written, Failure> {
-    let text = write_table(robot, kind).map_err(|why| match why {
+fn not_named(why: NotNamed) -> Failure {
+    match why {
         NotNamed::NeedsValues(names) => no_values(names.iter().map(|s| s.name().to_string())),
         NotNamed::NotPlaced(_) => {
             Failure::Input("error: base or tool is no rigid transform in numbers".into())
         }
-    })?;
+    }
+}
+
+/// A table for documents.
+fn table(robot: &Description, kind: TableKind) -> Result<Written, Failure> {
+    let text = write_table(robot, kind).map_err(not_named)?;
     let back = read_table(&text, kind, &TableOptions::default()).ok().map(|r| r.0);
     Ok(Written { text, back: Back::Alone(back.map(Box::new)) })
 }

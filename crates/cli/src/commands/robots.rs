@@ -1,15 +1,15 @@
-//! `denavit robots`: the catalogue.
+//! `denavit robots`: the catalogue, and the structures beside it.
 
 use crate::arguments::RobotsArguments;
 use crate::failure::Failure;
 use crate::terminal::{Align, table};
 use denavit::catalogue;
-use denavit::description::Description;
-use denavit_wire::catalogue::Catalogue;
+use denavit::description::{Description, RowTree};
+use denavit_wire::catalogue::{Catalogue, Structure};
 use denavit_wire::robot::joints;
 use std::io::Write;
 
-/// Lists the catalogue.
+/// Lists the catalogue and the structures.
 ///
 /// # Errors
 /// If nothing can be written.
@@ -19,12 +19,18 @@ pub fn run(arguments: &RobotsArguments) -> Result<(), Failure> {
         .filter_map(|name| Some((name, catalogue::robot(name)?)))
         .filter(|(name, d)| arguments.filter.as_ref().is_none_or(|text| matches(text, name, &d.name)))
         .collect();
+    let structures: Vec<(&str, RowTree)> = catalogue::structures()
+        .into_iter()
+        .filter_map(|name| Some((name, catalogue::structure(name)?)))
+        .filter(|(name, t)| arguments.filter.as_ref().is_none_or(|text| matches(text, name, &t.name)))
+        .collect();
     let mut out = anstream::stdout();
-    if let (true, Some(text)) = (robots.is_empty(), &arguments.filter) {
+    if let (true, Some(text)) = (robots.is_empty() && structures.is_empty(), &arguments.filter) {
         return Err(Failure::No(format!("no robot of the catalogue matches `{text}`")));
     }
     if arguments.json {
-        let list = Catalogue::of(robots.iter().map(|(name, d)| (*name, d)));
+        let trees = structures.iter().map(|(name, tree)| (*name, tree));
+        let list = Catalogue::of(robots.iter().map(|(name, d)| (*name, d)), trees);
         writeln!(out, "{}", denavit_wire::text(&list))?;
         return Ok(());
     }
@@ -32,7 +38,18 @@ pub fn run(arguments: &RobotsArguments) -> Result<(), Failure> {
         .iter()
         .map(|(name, d)| vec![(*name).into(), d.name.clone(), joints(d), d.convention.to_string()])
         .collect();
-    write!(out, "{}", table(&["name", "robot", "joints", "convention"], &[Align::Left; 4], &rows))?;
+    if !rows.is_empty() {
+        write!(out, "{}", table(&["name", "robot", "joints", "convention"], &[Align::Left; 4], &rows))?;
+    }
+    let gap = if rows.is_empty() || structures.is_empty() { "" } else { "\n" };
+    let rows: Vec<Vec<String>> = structures
+        .iter()
+        .map(|(name, tree)| Structure::of(name, tree))
+        .map(|s| vec![s.name, s.title, s.joints.to_string(), s.tips.join(", ")])
+        .collect();
+    if !rows.is_empty() {
+        write!(out, "{gap}{}", table(&["name", "tree", "joints", "tips"], &[Align::Left; 4], &rows))?;
+    }
     Ok(())
 }
 

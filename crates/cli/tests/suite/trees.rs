@@ -196,3 +196,87 @@ fn joints_that_follow_others_say_whom() {
     let (code, _, said) = run(&["fk", file.name(), "-q", "idler=1"]);
     assert!(code == 2 && said.contains("`idler` does not move by itself: it follows q1 (driver)"), "{said}");
 }
+
+#[test]
+fn structures_have_names_like_robots() {
+    let (code, listed, said) = run(&["robots", "arm"]);
+    assert!(
+        code == 0 && listed.contains("left hand, right hand, camera") && listed.contains("mobile-arm"),
+        "{said}{listed}"
+    );
+    let (_, out, _) = run(&["robots", "humanoid", "--json"]);
+    let answer: Value = serde_json::from_str(&out).expect("JSON");
+    let structure = &answer["structures"][0];
+    assert_eq!((&structure["name"], structure["joints"].as_u64()), (&Value::from("humanoid"), Some(31)));
+    assert_eq!(structure["tips"].as_array().map(Vec::len), Some(5));
+    let (code, shown, said) = run(&["show", "Dual_Arm", "--tip", "left hand"]);
+    assert!(code == 0 && shown.contains("7 joints"), "{said}{shown}");
+    let (code, _, said) = run(&["fk", "humanoid", "--frames", "all", "-q", "left elbow=1"]);
+    assert_eq!(code, 0, "{said}");
+    let (code, _, said) = run(&["show", "humanoids"]);
+    assert!(code == 3 && said.contains("did you mean humanoid?"), "{said}");
+    // Frames by their numbers, as a table has them.
+    let (code, _, said) = run(&["show", "dual-arm", "--base", "0", "--tip", "5"]);
+    assert!(code == 0 && said.contains("from `base` to `left forearm`, 5 joints"), "{said}");
+    let (code, _, said) = run(&["show", "dual-arm", "--tip", "17"]);
+    assert!(code == 2 && said.contains("there is no link `17`"), "{said}");
+}
+
+/// All of a tree as one table, which opens again.
+#[test]
+fn whole_trees_are_tables() {
+    for (to, ending) in [("markdown", "md"), ("latex", "tex"), ("csv", "csv")] {
+        for (name, chains) in [("dual-arm", 3), ("gripper", 3), ("humanoid", 5)] {
+            let (code, written, said) = run(&["convert", name, "--to", to, "--whole"]);
+            assert!(
+                code == 0 && said.contains(&format!("of {chains} chains are proved")),
+                "{name} {to}: {said}"
+            );
+            assert!(!said.contains("not compared"), "{name} {to}: {said}");
+            let file = File::new(&format!("whole-{name}.{ending}"), &written);
+            let tip = ["right hand", "left pad", "right palm"]
+                .into_iter()
+                .find(|t| written.contains(t))
+                .expect("a tip");
+            let (code, shown, said) = run(&["show", file.name(), "--tip", tip]);
+            let (_, own, _) = run(&["show", name, "--tip", tip]);
+            assert_eq!(code, 0, "{name} {to}: {said}{own}");
+            let count = |text: &str| {
+                text.lines()
+                    .next()
+                    .and_then(|l| l.split_once(": "))
+                    .map(|l| l.1.split(' ').next().map(str::to_string))
+            };
+            assert_eq!(count(&shown), count(&own), "{name} {to}");
+        }
+    }
+    let (code, _, said) = run(&["convert", &urdf("pr2"), "--to", "markdown", "--whole"]);
+    assert!(code == 0 && said.contains("of 25 chains"), "{said}");
+    let (code, _, said) = run(&["convert", "dual-arm", "--to", "urdf", "--whole"]);
+    assert!(code == 2 && said.contains("--whole is for tables"), "{said}");
+}
+
+#[test]
+fn joints_are_called_as_their_file_calls_them() {
+    let file = urdf("ur5_robot");
+    let chain = |verb: &str, more: &[&str]| {
+        let words = [&[verb, &file, "--tip", "tool0", "-q", "0.1,0.2,0.3,0.4,0.5,0.6"], more].concat();
+        let (code, out, said) = run(&words);
+        assert_eq!(code, 0, "{verb}: {said}");
+        out
+    };
+    for verb in ["fk", "ik", "jacobian"] {
+        let out = chain(verb, &[]);
+        assert!(out.contains("joints: q1 shoulder_pan_joint, q2 shoulder_lift_joint,"), "{verb}: {out}");
+    }
+    for verb in ["ik", "jacobian"] {
+        let answer: Value = serde_json::from_str(&chain(verb, &["--json"])).expect("JSON");
+        assert_eq!(answer["joints"][5], "wrist_3_joint", "{verb}");
+    }
+    let (code, out, said) =
+        run(&["report", &file, "--tip", "tool0", "--sections", "table", "--format", "markdown", "-o", "-"]);
+    assert!(code == 0 && out.contains(r"| wrist\_3\_joint |") && out.contains("| name |"), "{said}{out}");
+    // What has no names says none.
+    let (_, out, _) = run(&["ik", "ur5", "-q", "0.1,0.2,0.3,0.4,0.5,0.6", "--json"]);
+    assert!(!out.contains("\"joints\""), "{out}");
+}

@@ -56,6 +56,10 @@ fn one(s: &Setting, d: &Description, section: &mut Section) {
     if has_limits {
         head.push(Line::new(s.words().column(Heads::Limits)));
     }
+    let has_names = d.rows.iter().any(|r| r.name.is_some());
+    if has_names {
+        head.push(Line::new(s.words().column(Heads::Name)));
+    }
     let rows = (1..).zip(&d.rows).map(|(i, row)| {
         let kind = match row.variable.map(|v| v.kind) {
             Some(JointKind::Revolute) => "R",
@@ -74,6 +78,9 @@ fn one(s: &Setting, d: &Description, section: &mut Section) {
                 line = line.text(if turns { "" } else { " m" });
             }
             cells.push(line);
+        }
+        if has_names {
+            cells.push(Line::new(row.name.clone().unwrap_or_default()));
         }
         cells
     });

@@ -58,6 +58,8 @@ pub enum Glance {
 pub enum Column {
     /// Whether a joint turns or slides.
     Joint,
+    /// What its file calls it.
+    Name,
     /// The limits of a joint, or whether a solution is within them.
     Limits,
     /// The name of a branch.

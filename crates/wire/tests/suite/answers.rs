@@ -36,7 +36,7 @@ pub fn answers(name: &str) -> Vec<(&'static str, String)> {
     let numbers = Robot::numeric(&d).expect("everything has a value");
     let q = regular_configuration(&d, vec![0.1; numbers.joints]);
     let mut all = vec![
-        ("robots", text(&Catalogue::of([(name, &d)]))),
+        ("robots", text(&Catalogue::of([(name, &d)], []))),
         ("show", text(&robot::Robot::of(&d))),
         ("view", text(&view::Served { schema: Schema, url: "http://127.0.0.1/".into() })),
         ("line", text(&finding::BadLine { error: "no JSON", line: 3, schema: Schema })),
@@ -84,6 +84,7 @@ fn solved(d: &Description, q: &[f64]) -> Vec<(&'static str, String)> {
         families: answer.families.iter().map(|f| wire::Family::of(f, &solver.space)).collect(),
         given: given.iter().map(|x| ("q1".to_string(), *x)).collect(),
         idealised: Some(wire::Idealised::from(&ideal)),
+        joints: d.joint_names(),
         jump: None,
         left_out: None,
         method: solver.method(),
@@ -130,6 +131,7 @@ fn moving(d: &Description, numbers: &Robot<f64>, q: &[f64]) -> Vec<(&'static str
         jacobian: j.rows(),
         jacobian_rate: Some(j.rows()),
         joint_rates: Some(Rates::of(&rates, &Damping::default())),
+        joints: d.joint_names(),
         largest_wrench: Some(Largest { factor: 2.0, joint: 1 }),
         length: found.length,
         linear: (&found.linear).into(),

@@ -192,6 +192,14 @@ fn warn_of_limits(name: &str, kind: JointKind, limits: Option<[f64; 2]>, x: f64)
     }
 }
 
+/// What the file calls the joints, as a paragraph; nothing where it has no names.
+pub fn joint_names(d: &Description) -> String {
+    let Some(names) = d.joint_names() else { return String::new() };
+    let variables = d.variables();
+    let named = variables.iter().zip(&names).map(|(v, name)| format!("{} {name}", v.symbol.name()));
+    format!("joints: {}\n\n", named.collect::<Vec<_>>().join(", "))
+}
+
 /// The answer for reading.
 fn report(d: &Description, request: &Request, q: &[f64]) -> String {
     let at: Vec<String> = d
@@ -200,7 +208,7 @@ fn report(d: &Description, request: &Request, q: &[f64]) -> String {
         .zip(q)
         .map(|(v, &x)| format!("{} = {}", v.symbol.name(), reading(x, v.kind)))
         .collect();
-    let mut text = format!("{} at {}\n\n", styled(&d.name, HEADING), at.join(", "));
+    let mut text = format!("{} at {}\n\n{}", styled(&d.name, HEADING), at.join(", "), joint_names(d));
     let last = d.rows.len();
     let poses: Vec<Reference> = (0..=last).map(Reference::Frame).chain([Reference::Tool]).collect();
     let frames: Vec<Transform<f64>> =

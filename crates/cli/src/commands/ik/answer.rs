@@ -1,6 +1,6 @@
 //! The solutions of a pose, as a table and as JSON.
 
-use crate::commands::fk::plural;
+use crate::commands::fk::{joint_names, plural};
 use crate::terminal::{Align, FAINT, HEADING, NAME, matrix, noise, number, styled, table, words};
 use denavit::description::{Description, JointKind, Variable};
 use denavit::geometry::Transform;
@@ -25,6 +25,8 @@ pub struct Question {
     robot: String,
     method: &'static str,
     names: Vec<(String, f64)>,
+    /// What the file calls the joints, where it does.
+    called: Option<Vec<String>>,
     space: JointSpace,
     joints: Vec<(String, JointKind)>,
     ideal: Option<Idealised>,
@@ -69,7 +71,8 @@ impl Question {
         let (robot, method, space) = (description.name.clone(), solver.method(), solver.space.clone());
         let joint = |v: &Variable| (v.symbol.name().to_string(), v.kind);
         let joints = variables.iter().map(joint).collect();
-        Question { given, criterion, wanted, robot, method, names, space, joints, ideal }
+        let called = description.joint_names();
+        Question { given, criterion, wanted, robot, method, names, called, space, joints, ideal }
     }
 
     /// The answer, and the solution that is best by the criterion, if there is one; `at` is a configuration that the pose was
@@ -117,6 +120,7 @@ impl Question {
             families: answer.families.iter().map(|f| wire::Family::of(f, &self.space)).collect(),
             given: self.names.iter().cloned().collect(),
             idealised: self.ideal.clone(),
+            joints: self.called.clone(),
             jump: found.jump.as_ref().map(|j| wire::Jump::of(j, &self.joints)),
             left_out: found.left_out,
             method: self.method,
@@ -219,7 +223,7 @@ impl Report<'_> {
                 if m == 1 { "1 family".into() } else { format!("{m} families") }
             ),
         };
-        let mut text = format!("{}: {count} for\n\n", styled(&d.name, HEADING));
+        let mut text = format!("{}: {count} for\n\n{}", styled(&d.name, HEADING), joint_names(d));
         let noise = noise([self.pose]);
         let rows: Vec<Vec<String>> =
             self.pose.matrix().iter().map(|r| r.iter().map(|&x| number(x, noise)).collect()).collect();

@@ -133,6 +133,7 @@ impl<'a> Answer<'a> {
             jacobian: self.jacobian.rows(),
             jacobian_rate: motion.map(|m| m.1.rows()),
             joint_rates: self.solved.as_ref().map(|s| Rates::of(s, &self.questions.damping)),
+            joints: self.description.joint_names(),
             largest_wrench: held
                 .and_then(|h| h.largest)
                 .map(|(factor, joint)| Largest { factor, joint: joint + 1 }),

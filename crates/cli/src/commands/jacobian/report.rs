@@ -1,6 +1,7 @@
 //! The answer for reading.
 
 use super::answer::{Answer, Held};
+use crate::commands::fk::joint_names;
 use crate::terminal::{Align, FAINT, HEADING, NAME, decimals, number, styled, table};
 use denavit::description::JointKind;
 use denavit::quantity::rate;
@@ -16,6 +17,7 @@ pub fn text(a: &Answer) -> String {
         .map(|(v, &x)| format!("{} = {}", v.symbol.name(), reading(x, v.kind)))
         .collect();
     let mut text = format!("{} at {}\n\n", styled(&a.description.name, HEADING), at.join(", "));
+    text += &joint_names(a.description);
     text += &format!("Jacobian of {}\n", seen(a));
     text += &matrix(a, &a.jacobian);
     text += &quality(a);

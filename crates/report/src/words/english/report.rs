@@ -49,6 +49,7 @@ impl Report for English {
     fn column(&self, column: Column) -> String {
         match column {
             Column::Joint => "joint",
+            Column::Name => "name",
             Column::Limits => "limits",
             Column::Branch => "branch",
             Column::Step => "step",

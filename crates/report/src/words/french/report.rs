@@ -48,6 +48,7 @@ impl Report for French {
     fn column(&self, column: Column) -> String {
         match column {
             Column::Joint => "liaison",
+            Column::Name => "nom",
             Column::Limits => "butées",
             Column::Branch => "branche",
             Column::Step => "étape",

@@ -37,10 +37,10 @@ impl RowTree {
         to: Option<&str>,
         convention: Convention,
     ) -> Result<RowChain, NoChain> {
-        let from = from.unwrap_or(BASE);
-        let start = self.place(from)?;
+        let from = from.map_or_else(|| BASE.into(), |name| self.named(name));
+        let start = self.place(&from)?;
         let to = match to.or(self.tip.as_deref()) {
-            Some(name) => name.to_string(),
+            Some(name) => self.named(name),
             None => self.farthest(start.0)?,
         };
         let end = self.place(&to)?;
@@ -49,23 +49,28 @@ impl RowTree {
             None => Some(&way[..]),
             Some(row) => way.iter().position(|&j| j == row).map(|at| &way[at + 1..]),
         };
-        let base = if from == BASE { self.base } else { start.1.inverse() };
+        let base = if from == *BASE { self.base } else { start.1.inverse() };
         let straight = below.and_then(|rows| self.straight(rows, base, end));
         if let Some(d) = straight {
             let description = d.converted(convention).description;
             if description.variables().is_empty() {
-                return Err(NoChain::Rigid { from: from.into(), to });
+                return Err(NoChain::Rigid { from, to });
             }
-            return Ok(RowChain { description, from: from.into(), to, agreement: None });
+            return Ok(RowChain { description, from, to, agreement: None });
         }
         let mechanism = self.mechanism().map_err(|missing| NoChain::NeedsValues(missing.parameters))?;
-        let chain = mechanism.chain(Some(from), Some(&to), convention)?;
-        Ok(RowChain {
-            description: chain.description,
-            from: from.into(),
-            to,
-            agreement: Some(chain.agreement),
-        })
+        let chain = mechanism.chain(Some(&from), Some(&to), convention)?;
+        Ok(RowChain { description: chain.description, from, to, agreement: Some(chain.agreement) })
+    }
+
+    /// What the frame is called that a word names: by its name, or a row by its number; 0 is the base.
+    fn named(&self, word: &str) -> String {
+        let is_name = self.frame_names().iter().any(|n| n == word);
+        match word.parse::<usize>() {
+            Ok(0) if !is_name => BASE.into(),
+            Ok(n) if !is_name && n <= self.rows.len() => self.frame_name(n - 1),
+            _ => word.into(),
+        }
     }
 
     fn place(&self, name: &str) -> Result<Place, NoChain> {
@@ -93,6 +98,19 @@ impl RowTree {
         way
     }
 
+    /// The frames on which nothing stands, and the rows that they stand on.
+    fn leaves(&self) -> Vec<(Option<usize>, String)> {
+        let is_leaf =
+            |j: &usize| !self.after.contains(&Some(*j)) && self.frames.iter().all(|f| f.on != Some(*j));
+        let rows = (0..self.rows.len()).filter(is_leaf).map(|j| (Some(j), self.frame_name(j)));
+        rows.chain(self.frames.iter().map(|f| (f.on, f.name.clone()))).collect()
+    }
+
+    /// The names of the frames on which nothing stands.
+    pub fn tips(&self) -> Vec<String> {
+        self.leaves().into_iter().map(|leaf| leaf.1).collect()
+    }
+
     /// The frame with the most joints on the way to it, of those on which nothing stands.
     fn farthest(&self, from: Option<usize>) -> Result<String, NoChain> {
         let count = |row: Option<usize>| {
@@ -102,11 +120,8 @@ impl RowTree {
             let rows = way[common..].iter().chain(&shared[common..]);
             rows.filter(|&&j| self.rows[j].variable.is_some()).count()
         };
-        let is_leaf =
-            |j: &usize| !self.after.contains(&Some(*j)) && self.frames.iter().all(|f| f.on != Some(*j));
-        let rows = (0..self.rows.len()).filter(is_leaf).map(|j| (count(Some(j)), self.frame_name(j)));
         let leaves: Vec<(usize, String)> =
-            rows.chain(self.frames.iter().map(|f| (count(f.on), f.name.clone()))).collect();
+            self.leaves().into_iter().map(|(row, name)| (count(row), name)).collect();
         let most = leaves.iter().map(|l| l.0).max().unwrap_or(0);
         let tips: Vec<String> = leaves.into_iter().filter(|l| l.0 == most).map(|l| l.1).collect();
         match &tips[..] {

@@ -10,6 +10,7 @@ mod write_par;
 
 pub use chain::RowChain;
 pub use par::read_par;
+pub(in crate::description) use write_par::with_frames_as_rows;
 pub use write_par::{NoPar, ParFile, write_par};
 
 use super::{Convention, Description, JointKind, Mechanism, MissingValue, Parameter, Row};

@@ -182,7 +182,9 @@ fn with_plain_variables(tree: &RowTree) -> Result<(RowTree, Numbers), NoPar> {
 
 /// The tree with its base in the rows that stand on it, and its frames as rows behind the others; the numbers of the frames, and where
 /// its rows went.
-fn with_frames_as_rows(tree: &RowTree) -> Result<(RowTree, Numbers, Vec<usize>), NoPar> {
+pub(in crate::description) fn with_frames_as_rows(
+    tree: &RowTree,
+) -> Result<(RowTree, Numbers, Vec<usize>), NotNamed> {
     let mut all =
         RowTree { rows: vec![], after: vec![], frames: vec![], base: Transform::identity(), ..tree.clone() };
     let mut moved: Vec<usize> = vec![];
@@ -208,13 +210,16 @@ fn with_frames_as_rows(tree: &RowTree) -> Result<(RowTree, Numbers, Vec<usize>),
         let before = if on.is_none() { tree.base } else { Transform::identity() };
         let rows = fixed_rows(tree, &(before * *pose))?;
         add(&mut all, rows, on.map(|a| moved[a]));
+        if let Some(row) = all.rows.last_mut() {
+            row.name = Some(name.clone());
+        }
         frames.push((name.clone(), all.rows.len()));
     }
     Ok((all, frames, moved))
 }
 
 /// A row behind the base as rows behind nothing.
-fn on_base(tree: &RowTree, row: &Row) -> Result<Vec<Row>, NoPar> {
+fn on_base(tree: &RowTree, row: &Row) -> Result<Vec<Row>, NotNamed> {
     let before = row.screws(Convention::Khalil).before;
     let before = before.iter().fold(tree.base, |x, s| x * s.transform());
     let mut rows = fixed_rows(tree, &before)?;
@@ -234,7 +239,7 @@ fn on_base(tree: &RowTree, row: &Row) -> Result<Vec<Row>, NoPar> {
 }
 
 /// A constant transform as rows: one, or two where the axes are nearly parallel.
-fn fixed_rows(tree: &RowTree, x: &Transform<Expr>) -> Result<Vec<Row>, NoPar> {
+fn fixed_rows(tree: &RowTree, x: &Transform<Expr>) -> Result<Vec<Row>, NotNamed> {
     let turns = Turns::of(x, &tree.parameters)?;
     Ok(rows_of(&turns))
 }

@@ -43,7 +43,7 @@ mod values;
 mod write;
 
 pub use each::{PrintedGrid, PrintedRow, PrintedTable, grids, tables};
-pub use write::write_table;
+pub use write::{write_table, write_tree_table};
 
 use super::diagnostic::{Diagnostic, Diagnostics};
 use super::{Convention, Described, Description, MAX_BYTES, MAX_ROWS, RowTree};

@@ -2,6 +2,7 @@
 //! the convention and the values of names. What is written reads back to the same robot.
 
 use super::TableKind;
+use crate::description::branches::{RowTree, with_frames_as_rows};
 use crate::description::cell::{decimal, write_cell};
 use crate::description::lines::NotNamed;
 use crate::description::units::Quantity;
@@ -16,12 +17,33 @@ use std::fmt::Write;
 /// # Errors
 /// If base or tool have names on which more than lengths depend, without values.
 pub fn write_table(d: &Description, kind: TableKind) -> Result<String, NotNamed> {
-    let table = Table::of(&d.with_ends_in_rows()?, kind);
-    Ok(match kind {
-        TableKind::Markdown => table.markdown(),
-        TableKind::Csv => table.csv(),
-        TableKind::Latex => table.latex(),
-    })
+    Ok(Table::of(&d.with_ends_in_rows()?, kind).written(kind))
+}
+
+/// The table of a whole tree of rows, with a column for the row that each stands on; its frames are rows with their names, and so is
+/// its base. With it come the names of the frames on which nothing stands, and what they are called in the table.
+///
+/// # Errors
+/// If base or frames have names on which more than lengths depend, without values.
+pub fn write_tree_table(
+    tree: &RowTree,
+    kind: TableKind,
+) -> Result<(String, Vec<(String, String)>), NotNamed> {
+    let (mut all, _, moved) = with_frames_as_rows(tree)?;
+    let has_names = all.rows.iter().any(|r| r.name.is_some());
+    // A row without a name is called by its number, which may be another one here.
+    let is_moved = moved.iter().enumerate().any(|(k, &row)| k != row);
+    for (k, &row) in moved.iter().enumerate().filter(|_| has_names || is_moved) {
+        all.rows[row].name = Some(tree.frame_name(k));
+    }
+    let mut table = Table::of(&all.all_rows(), kind);
+    let head = if kind == TableKind::Latex { "$a(j)$" } else { "a(j)" };
+    table.head.insert(1, head.into());
+    for (row, after) in table.rows.iter_mut().zip(&all.after) {
+        row.insert(1, after.map_or(0, |a| a + 1).to_string());
+    }
+    let ends = tree.tips().into_iter().map(|name| (name.clone(), name.replace('|', "/")));
+    Ok((table.written(kind), ends.collect()))
 }
 
 /// A table in words.
@@ -86,6 +108,14 @@ impl Table {
             head,
             rows: d.rows.iter().enumerate().map(row).collect(),
             values: d.parameters.iter().filter_map(value).collect(),
+        }
+    }
+
+    fn written(&self, kind: TableKind) -> String {
+        match kind {
+            TableKind::Markdown => self.markdown(),
+            TableKind::Csv => self.csv(),
+            TableKind::Latex => self.latex(),
         }
     }
 
