@@ -238,7 +238,7 @@ fn pointed(text: &str) -> Option<String> {
 pub(super) fn rates_by_primes(text: &str) -> Option<String> {
     const SPEED: [&str; 9] = ["rad/s", "m/s", "velo", "vitesse", "geschwind", "rates", "ωz", "vx", "v_x"];
     let lower = text.to_lowercase();
-    let has_dots = text.contains("\\dot") || text.contains('\u{307}') || lower.contains("```");
+    let has_dots = text.contains("\\dot") || text.contains('\u{307}');
     if has_dots || !SPEED.iter().any(|w| lower.contains(w)) {
         return None;
     }
@@ -249,6 +249,10 @@ pub(super) fn rates_by_primes(text: &str) -> Option<String> {
             continue;
         }
         let before = &text[..at];
+        // In a program a prime transposes, or begins a text.
+        if before.matches("```").count() % 2 == 1 {
+            continue;
+        }
         let number = before.trim_end_matches(|c: char| c.is_ascii_digit() || ('₀'..='₉').contains(&c));
         let name = number.trim_end_matches(|c: char| c.is_alphabetic());
         let letters = number[name.len()..].chars().count();

@@ -421,6 +421,22 @@ impl Program<'_> {
         let pose = self.subject.pose();
         let columns = rows.first()?.len();
         let joints = self.subject.description.variables().len();
+        // Of a part of the joints, or of names that are no joints: another frame, or a transform of any row.
+        let own = |rows: &[Vec<Cell>]| -> Vec<Symbol> {
+            let symbols = rows.iter().flatten().flat_map(|c| c.value.symbols());
+            symbols.filter(|s| self.subject.joints().contains(&(*s).into())).collect()
+        };
+        let printed = own(rows);
+        let hand = Matrix::of(&pose).0.concat();
+        let of_hand = hand.iter().flatten().flat_map(|e| e.symbols());
+        let mut of_hand = of_hand.filter(|s| self.subject.joints().contains(&(*s).into()));
+        let is_other = rows.len() == 4 && of_hand.any(|s| !printed.contains(&s));
+        if is_other && shown.ends_with("(…)") {
+            let values = rows.iter().map(|r| r.iter().map(|c| Some(in_radians(c.value))).collect()).collect();
+            let ((matrix, about), agreement) = recognised::nearest(self.subject, &Matrix(values))?;
+            let pieces = self.compare(rows, &matrix).filter(|_| agreement.is_whole)?;
+            return Some(self.assertion(shown, About::Matrix(about), span, pieces, Some(matrix)));
+        }
         let is_jacobian = function.name.to_lowercase().contains("jac") || shown.starts_with('J');
         let hand = Meaning::Frame { of: Reference::Tool, seen_from: Reference::Frame(0) };
         let (matrix, about) = match (rows.len(), columns) {

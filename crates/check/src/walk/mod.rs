@@ -27,9 +27,9 @@ use super::numbers::{Answer, Configuration};
 use super::subject::Subject;
 use denavit::geometry::orientation::OrientationSet;
 use denavit_reading::document::{Part, Place, Statement};
-use denavit_symbolic::{Expr, Symbol};
 use denavit_symbolic::parse::{Syntax, whole_word};
 use denavit_symbolic::vocabulary::Vocabulary;
+use denavit_symbolic::{Expr, Symbol};
 use rustc_hash::FxHashMap;
 use std::cell::RefCell;
 use std::ops::Range;
@@ -162,6 +162,8 @@ pub(super) struct Walk<'a> {
     reader: Option<usize>,
     /// The prose and the heading that were looked at last.
     last_prose: Range<usize>,
+    /// How far its values were read.
+    told_to: usize,
     last_heading: Range<usize>,
     /// Where the statements so far end.
     last_end: usize,
@@ -226,6 +228,7 @@ impl<'a> Walk<'a> {
             goal_at: 0,
             in_inverse: false,
             load: vec![],
+            told_to: 0,
             has_other_load: false,
             named: vec![],
             reader: None,
@@ -281,15 +284,21 @@ impl<'a> Walk<'a> {
         let before = self.last_end.min(statement.span.start)..statement.span.start;
         self.last_end = self.last_end.max(statement.span.end);
         self.told_between(&before, statement.prose.as_ref());
-        if let Some(prose) = &statement.prose
-            && *prose != self.last_prose
-        {
-            self.last_prose = prose.clone();
-            let words = self.text.get(prose.clone()).unwrap_or_default().to_lowercase();
-            if words.len() < 60 && cases::tells_inverse(&words) {
-                self.look_for_joints();
+        if let Some(prose) = &statement.prose {
+            if *prose != self.last_prose {
+                self.last_prose = prose.clone();
+                self.told_to = prose.start;
+                let words = self.text.get(prose.clone()).unwrap_or_default().to_lowercase();
+                if words.len() < 60 && cases::tells_inverse(&words) {
+                    self.look_for_joints();
+                }
             }
-            self.told_in(prose);
+            // What later sentences give is not given yet.
+            let end = told::sentence_end(self.text, prose, statement.span.end);
+            if end > self.told_to {
+                self.told_in(&(self.told_to..end));
+                self.told_to = end;
+            }
         }
         if statement.sides.iter().flat_map(|s| &s.parts).all(|p| matches!(p, Part::Text(_)))
             && self.scalars(statement, claim)
@@ -323,7 +332,7 @@ impl<'a> Walk<'a> {
     }
 
     /// From here on the joints are what is asked for.
-    fn look_for_joints(&mut self) {
+    pub(super) fn look_for_joints(&mut self) {
         let were_found = self.seek(true);
         self.at.forget_joints(were_found);
     }

@@ -63,9 +63,8 @@ impl Walk<'_> {
             matches!(n.base.as_str(), "f" | "F") && [&n.left, &n.sub, &n.sup].iter().all(|i| i.is_empty())
         });
         let joints = self.subject.joints();
-        let is_still = |e: &Option<Expr>| {
-            e.is_some_and(|e| e.symbols().iter().all(|s| !joints.contains(&(*s).into())))
-        };
+        let is_still =
+            |e: &Option<Expr>| e.is_some_and(|e| e.symbols().iter().all(|s| !joints.contains(&(*s).into())));
         is_load && self.printed(grid).is_some_and(|m| m.0.iter().flatten().all(is_still))
     }
 

@@ -248,6 +248,8 @@ impl Walk<'_> {
             let is_text = !line.trim_start().starts_with(['|', '%', '!', '#', '\\', '<']);
             if line.contains('=') && is_text && !is_prose {
                 self.told_in(&here);
+            } else if is_text && tells_goal(&line.to_lowercase()) {
+                self.look_for_joints();
             }
         }
     }
@@ -500,4 +502,18 @@ pub(super) fn is_case(line: &str) -> bool {
 fn is_name(text: &str) -> bool {
     let text = text.trim();
     text.starts_with(|c: char| c.is_alphabetic() || c == '\\') && !text.contains(' ')
+}
+
+/// Where the sentence of a line ends in which a statement ends: at the line's end, or at a full stop before a capital.
+pub(super) fn sentence_end(text: &str, line: &Range<usize>, from: usize) -> usize {
+    let Some(rest) = text.get(from..line.end).filter(|_| line.contains(&from)) else { return line.end };
+    let ends = |at: &usize| {
+        let behind = &rest[at + 1..];
+        let begins = behind.trim_start().chars().next().is_some_and(char::is_uppercase);
+        let word = rest[..*at].chars().next_back();
+        behind.starts_with(' ')
+            && begins
+            && word.is_none_or(|c| c.is_alphanumeric() || matches!(c, ')' | '$' | '°'))
+    };
+    rest.match_indices('.').map(|m| m.0).find(ends).map_or(line.end, |at| from + at + 1)
 }

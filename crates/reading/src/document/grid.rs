@@ -166,12 +166,33 @@ pub(super) fn blank_rows(text: &str, rows: &[&[Node]], end: usize) -> Vec<Row> {
     let pairs = || as_operators.iter().zip(&as_cells);
     // A lonely `*`, `.` or `-` is a cell that was left out where the columns of the other rows say so.
     let columns = pairs().filter(|(a, b)| a.len() == b.len()).map(|(a, _)| a.len()).max();
-    pairs()
+    let found: Vec<Row> = pairs()
         .map(|(operators, cells)| match columns {
             Some(n) if operators.len() != n && cells.len() == n => cells.clone(),
             _ => operators.clone(),
         })
-        .collect()
+        .collect();
+    let least = found.iter().map(Vec::len).min().unwrap_or(0);
+    found.into_iter().map(|row| with_products(text, row, least)).collect()
+}
+
+/// A row with more cells than others, `c23  -s23   0   a2 c2`: what one blank parts is a product where that makes it as long.
+fn with_products(text: &str, row: Row, columns: usize) -> Row {
+    let is_product = |pair: &[Range<usize>]| {
+        let is_signed = cut(text, &pair[1]).starts_with(['-', '−', '+', '±', '\\']);
+        cut(text, &(pair[0].end..pair[1].start)) == " " && !is_signed
+    };
+    if columns < 2 || row.len() - row.windows(2).filter(|p| is_product(p)).count() != columns {
+        return row;
+    }
+    let mut merged: Row = vec![];
+    for cell in row {
+        match merged.last_mut() {
+            Some(last) if is_product(&[last.clone(), cell.clone()]) => last.end = cell.end,
+            _ => merged.push(cell),
+        }
+    }
+    merged
 }
 
 fn split(text: &str, nodes: &[Node], end: usize, separates: impl Fn(&Node) -> bool) -> Row {

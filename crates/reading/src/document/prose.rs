@@ -43,9 +43,10 @@ pub(super) fn formulas(text: &str, line: &Range<usize>) -> Vec<Range<usize>> {
 
 /// Values in brackets that the words of a line tell of something: `the tip is at (1.5, 1.2)`, `… of R03 is (s2, 0, c2)`.
 pub(super) fn tuples(text: &str, line: &Range<usize>) -> Vec<Range<usize>> {
-    const BEFORE: [&str; 22] = [
-        "at", "is", "are", "to", "becomes", "reads", "bei", "ist", "lautet", "sind", "est", "en", "vaut",
-        "sont", "es", "son", "vale", "está", "è", "sono", "in", "point",
+    const BEFORE: [&str; 28] = [
+        "target", "goal", "ziel", "punkt", "punto", "ponto", "at", "is", "are", "to", "becomes", "reads",
+        "bei", "ist", "lautet", "sind", "est", "en", "vaut", "sont", "es", "son", "vale", "está", "è",
+        "sono", "in", "point",
     ];
     let shown = cut(text, line);
     if shown.len() > 1_000 {

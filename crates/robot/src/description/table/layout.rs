@@ -42,6 +42,15 @@ impl Layout {
         {
             columns.iter_mut().filter(|c| c.role == Role::B).for_each(|c| c.role = Role::D);
         }
+        // Some call the angles of the joints φ.
+        if !letters.contains(&Role::Theta)
+            && letters.len() == 3
+            && let Some(k) = heads.iter().position(|h| {
+                matches!(plain(&h.text).as_str(), "phi" | "phii" | "phij" | "varphi" | "varphii")
+            })
+        {
+            columns[k].role = Role::Theta;
+        }
         let rows = below_units(&mut columns, rows);
         // Words of any language above the numbers of the rows.
         let counts =
