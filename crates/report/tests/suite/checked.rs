@@ -335,7 +335,7 @@ fn what_is_not_read() {
         Sense::Unit { millimetres: false },
         Sense::Load { letter: 'W', axis: Axis::Z, is_minus: false },
     ] {
-        both(&|w| w.sense(sense));
+        both(&|w| w.sense(&sense));
     }
     expect(
         &|w| w.carried("A_2", 7),

@@ -3,12 +3,13 @@
 use crate::common::{Random, shown};
 use denavit::catalogue;
 use denavit::description::{
-    Agreement, Alone, Convention, Decimals, Mechanism, NoChain, Severity, Sources, read_mjcf, root_element,
-    write_mjcf,
+    Agreement, Alone, Convention, Decimals, Description, Mechanism, NoChain, Severity, Sources, read_mjcf,
+    root_element, write_mjcf,
 };
 use denavit::geometry::Transform;
 use denavit::mechanism::{Comparison, compare};
 use denavit::robot::Robot;
+use denavit_symbolic::{Expr, Rational};
 use serde_json::Value;
 use std::collections::HashMap;
 use std::time::{Duration, Instant};
@@ -424,4 +425,34 @@ fn soup_does_no_harm() {
         }
     }
     assert!(read > 100, "{read}");
+}
+
+/// A configuration with a name goes along every chain, past what floats and what follows, and is written.
+#[test]
+fn keyframes_are_named_configurations() {
+    let text = "<mujoco><worldbody><body name='r'><freejoint/>
+      <body name='b'><joint name='one' axis='0 0 1'/>
+        <body name='c' pos='1 0 0'><joint name='two' axis='0 1 0'/><body name='e' pos='1 0 0'/></body>
+        <body name='d' pos='0 1 0'><joint name='three' type='slide' axis='1 0 0'/><body name='f' pos='1 0 0'/></body>
+      </body></body></worldbody>
+      <equality><joint joint1='two' joint2='one' polycoef='0.5 2'/></equality>
+      <keyframe><key name='home' qpos='9 9 9 1 0 0 0 0.25 1 -0.125'/></keyframe></mujoco>";
+    let (m, _) = read_mjcf("m", text, &mut Alone, Decimals::Meant).0.unwrap();
+    let number = |k: i64, n: i64| Expr::from(Rational::new(k, n));
+    let home = |values: Vec<Expr>| vec![("home".to_string(), values)];
+    assert_eq!(m.poses, home(vec![number(1, 4), number(-1, 8)]));
+    let chain = |to: &str| m.chain(None, Some(to), Convention::Standard).unwrap().description;
+    assert_eq!(chain("f").poses, home(vec![number(1, 4), number(-1, 8)]));
+    assert_eq!(chain("e").poses, home(vec![number(1, 4)]), "what follows has no value of its own");
+    // Alone on the way it counts by itself.
+    let alone = m.chain(Some("b"), Some("e"), Convention::Standard).unwrap().description;
+    assert_eq!(alone.poses, home(vec![number(1, 1)]));
+    let arm = catalogue::names().into_iter().filter_map(catalogue::robot).find(|d| !d.poses.is_empty());
+    let arm = arm.expect("an arm with a named configuration");
+    let written = write_mjcf(&Mechanism::of(&arm).unwrap());
+    let (back, _) = read_mjcf("m", &written, &mut Alone, Decimals::Meant).0.unwrap();
+    let back = back.chain(Some("base"), Some("tool"), arm.convention).unwrap().description;
+    let values =
+        |d: &Description| -> Vec<f64> { d.poses[0].1.iter().map(|e| e.eval(|_| None).unwrap()).collect() };
+    assert_eq!((&back.poses[0].0, values(&back)), (&arm.poses[0].0, values(&arm)));
 }

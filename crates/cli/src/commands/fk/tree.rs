@@ -73,6 +73,9 @@ fn configuration(m: &Mechanism, text: Option<&str>) -> Result<Vec<f64>, Failure>
             names()
         )));
     };
+    if let Some((_, values)) = m.poses.iter().find(|p| p.0 == text.trim()) {
+        return values.iter().map(|&e| value(e)).collect::<Result<_, _>>().map_err(bad);
+    }
     let parts = load::list(text);
     let number = |joint: &Joint, text: &str| {
         load::value_of(text, kind(joint).into())

@@ -6,6 +6,7 @@ use super::super::urdf::{Draft, FAR};
 use super::super::xml::{Element, shown};
 use super::bodies::{Context, Named};
 use super::defaults::Resolved;
+use super::keyframes::Slot;
 use super::{Mjcf, truth};
 use crate::geometry::{Rotation, Transform, Vector};
 use denavit_symbolic::{Expr, Rational};
@@ -51,6 +52,8 @@ pub(super) struct Moving {
     reference: Expr,
     limits: Option<[Expr; 2]>,
     effort: Option<Expr>,
+    /// What a configuration has for it; nothing for what the joint before stands for, too.
+    slot: Option<Slot>,
     span: Range<usize>,
 }
 
@@ -137,6 +140,7 @@ impl<'a> Mjcf<'a, '_> {
             self.reader.out.error(span, "a body with a free joint has no other joints");
         } else {
             self.reader.out.note(span, "a body that floats is taken as fixed where it stands");
+            self.slots.push(Slot::Free);
         }
     }
 
@@ -166,6 +170,7 @@ impl<'a> Mjcf<'a, '_> {
             reference,
             limits,
             effort: effort.map(Expr::from),
+            slot: Some(Slot::Joint(0)),
             span: joint.own.span(),
         })
     }
@@ -184,6 +189,7 @@ impl<'a> Mjcf<'a, '_> {
             reference: Expr::int(0),
             limits: None,
             effort: None,
+            slot: (k == 0).then_some(Slot::Ball),
             span: joint.own.span(),
         };
         [0, 1, 2].map(turn).into()
@@ -244,7 +250,7 @@ impl<'a> Mjcf<'a, '_> {
         let last = joints.len().wrapping_sub(1);
         let mut is_there = false;
         for (k, joint) in joints.into_iter().enumerate() {
-            let Moving { name, kind, point, axis, reference, limits, effort, span } = joint;
+            let Moving { name, kind, point, axis, reference, limits, effort, slot, span } = joint;
             let name = self.joint_name(name, &span);
             // The joint stands at its point; the body, seen from there, is back by it.
             is_there = k == last && point == Vector::zero();
@@ -267,6 +273,7 @@ impl<'a> Mjcf<'a, '_> {
             plain.origin = plain.origin * moved(&plain, kind, -reference);
             self.joints.insert(name, self.drafts.len());
             self.references.insert(self.drafts.len(), reference);
+            self.slots.extend(slot.map(|s| if s == Slot::Ball { s } else { Slot::Joint(self.drafts.len()) }));
             self.drafts.push(Draft { joint: plain, span, follows: None, is_floating: false });
             (parent, origin) = (child, shifted(-point));
         }

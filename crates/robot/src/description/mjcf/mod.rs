@@ -9,6 +9,7 @@ mod defaults;
 mod equality;
 mod include;
 mod joints;
+mod keyframes;
 mod turns;
 mod write;
 
@@ -26,11 +27,12 @@ use bodies::{Context, Named};
 use defaults::Classes;
 use denavit_symbolic::Expr;
 use include::{Document, Opened};
+use keyframes::Slot;
 use std::collections::HashMap;
 use turns::{Compiler, Placing, Quaternions};
 
 /// What stands in `<mujoco>` and says nothing of kinematics.
-const BESIDE: [&str; 14] = [
+const BESIDE: [&str; 13] = [
     "option",
     "size",
     "statistic",
@@ -41,14 +43,13 @@ const BESIDE: [&str; 14] = [
     "tendon",
     "actuator",
     "sensor",
-    "keyframe",
     "custom",
     "extension",
     "skin",
 ];
 
 /// What stands there and does.
-const READ: [&str; 4] = ["compiler", "default", "worldbody", "equality"];
+const READ: [&str; 5] = ["compiler", "default", "worldbody", "equality", "keyframe"];
 
 /// The attributes of `<compiler>`, few of which matter here.
 const COMPILER: [&str; 23] = [
@@ -99,6 +100,8 @@ struct Mjcf<'a, 'r> {
     joints: HashMap<String, usize>,
     /// The value that each joint of `drafts` has where the file shows the model.
     references: HashMap<usize, Expr>,
+    /// What a configuration (`qpos`) has values for, in its order.
+    slots: Vec<Slot>,
     /// The models that are there: which, and what stands before and behind their names.
     parts: Vec<(usize, String, String)>,
     open: Vec<(Element<'a>, Context)>,
@@ -159,6 +162,7 @@ fn robot(documents: &[Document], reader: &mut Reader) -> Option<Mechanism> {
         drafts: vec![],
         joints: HashMap::new(),
         references: HashMap::new(),
+        slots: vec![],
         parts: vec![(0, String::new(), String::new())],
         open: vec![],
         work: 0,
@@ -168,6 +172,7 @@ fn robot(documents: &[Document], reader: &mut Reader) -> Option<Mechanism> {
     mjcf.world(root);
     mjcf.couplings();
     mjcf.name_fixed();
+    let keyed = mjcf.keyframes(root);
     let Mjcf { reader, quaternions, links, drafts, .. } = mjcf;
     for (span, count, said) in quaternions.into_values() {
         let places = if count == 1 { String::new() } else { format!(", {count} places") };
@@ -177,7 +182,14 @@ fn robot(documents: &[Document], reader: &mut Reader) -> Option<Mechanism> {
         return None;
     }
     let name = root.attribute("model").map_or_else(|| "robot".to_string(), |n| plain(n.text));
-    reader.tree(name, links, drafts)
+    let mut mechanism = reader.tree(name, links, drafts)?;
+    let variables = mechanism.variables();
+    for (name, values) in keyed {
+        let value = |&j: &usize| values.iter().find(|v| v.0 == mechanism.joints[j].name).map(|v| v.1);
+        let pose = variables.iter().map(|j| value(j).unwrap_or(Expr::int(0))).collect();
+        mechanism.poses.push((name, pose));
+    }
+    Some(mechanism)
 }
 
 impl<'a> Mjcf<'a, '_> {

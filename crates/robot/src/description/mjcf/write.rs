@@ -40,8 +40,15 @@ pub fn write_mjcf(tree: &Mechanism) -> String {
         })
         .collect();
     let far = tree.joints.iter().map(|j| length(&j.origin)).fold(0.0, f64::max);
-    let mut file =
-        File { tree, on, names, radius: (THICKNESS * far).max(THINNEST), text: String::new(), depth: 2 };
+    let mut file = File {
+        tree,
+        on,
+        names,
+        radius: (THICKNESS * far).max(THINNEST),
+        text: String::new(),
+        depth: 2,
+        moving: vec![],
+    };
     let _ = write!(
         file.text,
         "<mujoco model=\"{}\">\n  <compiler angle=\"radian\" eulerseq=\"XYZ\" autolimits=\"true\"/>\n  \
@@ -70,6 +77,7 @@ pub fn write_mjcf(tree: &Mechanism) -> String {
     }
     file.text.push_str("  </worldbody>\n");
     file.couplings();
+    file.keyframes();
     file.text.push_str("</mujoco>\n");
     file.text
 }
@@ -84,6 +92,8 @@ struct File<'a> {
     radius: f64,
     text: String,
     depth: usize,
+    /// The joints that move, in the order in which they are written.
+    moving: Vec<usize>,
 }
 
 impl File<'_> {
@@ -95,6 +105,19 @@ impl File<'_> {
     fn close(&mut self) {
         self.depth -= 1;
         self.line("</body>");
+    }
+
+    /// Configurations with names: a value for each joint that moves.
+    fn keyframes(&mut self) {
+        if self.tree.poses.is_empty() || self.moving.is_empty() {
+            return;
+        }
+        self.text.push_str("  <keyframe>\n");
+        for (name, values) in &self.tree.poses {
+            let all: Vec<String> = self.moving.iter().map(|&j| number(self.tree.value(j, values))).collect();
+            let _ = writeln!(self.text, "    <key name=\"{}\" qpos=\"{}\"/>", escaped(name), all.join(" "));
+        }
+        self.text.push_str("  </keyframe>\n");
     }
 
     /// A body up to what stands on it; false for a site, on which nothing stands.
@@ -112,6 +135,7 @@ impl File<'_> {
         self.line(&format!("<body name=\"{name}\"{placed}>"));
         self.depth += 1;
         if let Some((j, joint)) = joint.filter(|_| moves) {
+            self.moving.push(j);
             let line = self.joint(j, joint);
             self.line(&line);
         }

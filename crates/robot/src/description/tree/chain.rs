@@ -197,6 +197,10 @@ impl Mechanism {
         });
         let (mut description, agreement) = placed?;
         self.name_rows(&mut description, &of_axis, &joints);
+        let pose = |(name, values): &(String, Vec<Expr>)| {
+            (name.clone(), joints.iter().map(|&j| self.value(j, values)).collect())
+        };
+        description.poses = self.poses.iter().map(pose).collect();
         let held = self.weigh_rows(&mut description, &of_axis, &landings, from);
         Ok(Chain { description, from, to, joints, agreement, held })
     }

@@ -27,6 +27,8 @@ pub struct Mechanism {
     pub joints: Vec<Joint>,
     /// The body that the tree hangs on.
     pub root: usize,
+    /// Configurations with names: values of the [variables](Mechanism::variables).
+    pub poses: Vec<(String, Vec<Expr>)>,
 }
 
 /// A body and its frame.
@@ -129,6 +131,16 @@ impl Mechanism {
     pub fn variables(&self) -> Vec<usize> {
         let moves = |&j: &usize| self.joints[j].kind.is_some() && self.joints[j].follows.is_none();
         (0..self.joints.len()).filter(moves).collect()
+    }
+
+    /// The value of a joint where the variables have these; 0 for one that does not move.
+    pub fn value(&self, joint: usize, values: &[Expr]) -> Expr {
+        let variables = self.variables();
+        let of = |j: usize| variables.iter().position(|&v| v == j).map_or(Expr::int(0), |v| values[v]);
+        match &self.joints[joint].follows {
+            Some(follows) => Expr::from(follows.factor.clone()) * of(follows.joint) + follows.offset,
+            None => of(joint),
+        }
     }
 
     /// The body with a name.

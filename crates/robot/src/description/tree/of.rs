@@ -32,7 +32,15 @@ impl Mechanism {
         }
         let end = Place { origin: place.origin * d.tool, ..place };
         growing.still(end, "tool_joint", "tool");
-        Ok(growing.finished())
+        let own = growing.own.clone();
+        let mut tree = growing.finished();
+        // The variables of the tree are those of the description, in the order of its joints.
+        let place = |joint: usize| own.iter().position(|o| *o == Some(joint));
+        let order: Vec<usize> = tree.variables().into_iter().filter_map(place).collect();
+        let pose =
+            |(name, values): &(String, Vec<Expr>)| (name.clone(), order.iter().map(|&v| values[v]).collect());
+        tree.poses = d.poses.iter().filter(|p| p.1.len() == order.len()).map(pose).collect();
+        Ok(tree)
     }
 
     /// A tree of rows, with the values of its parameters; each row's frame is a body, and so is each named frame.
@@ -118,7 +126,7 @@ fn has_values(rows: &[Row], poses: &[Transform<Expr>], parameters: &[Parameter])
 impl<'d> Growing<'d> {
     fn new(name: &str, root: &str, rows: &[Row], parameters: &'d [Parameter]) -> Self {
         let variables: Vec<Symbol> = rows.iter().filter_map(|r| r.variable).map(|v| v.symbol).collect();
-        let tree = Mechanism { name: name.into(), bodies: vec![], joints: vec![], root: 0 };
+        let tree = Mechanism { name: name.into(), bodies: vec![], joints: vec![], root: 0, poses: vec![] };
         let mut growing = Growing {
             tree,
             bodies: HashSet::new(),
