@@ -333,6 +333,11 @@ pub enum Sense {
     HandInFrames,
     /// The torques hold against the load: τ = −Jᵀ F.
     AgainstLoad,
+    /// Lengths that the table has in numbers have this letter and the number of their row.
+    Lengths {
+        /// Which.
+        letter: char,
+    },
     /// The hand stands there in the last frame of the table.
     Tool {
         /// Its coordinates.

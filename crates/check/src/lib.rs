@@ -13,6 +13,7 @@ mod convention;
 mod custom;
 mod definitions;
 mod directions;
+mod displayed;
 mod edits;
 mod facts;
 mod formula;
@@ -111,6 +112,8 @@ pub fn check(
     let respelled = options.language.is_none().then(|| numbers::alternatives_by_primes(text)).flatten();
     let text = respelled.as_deref().unwrap_or(text);
     let respelled = options.language.is_none().then(|| numbers::words_as_signs(text)).flatten();
+    let text = respelled.as_deref().unwrap_or(text);
+    let respelled = options.language.is_none().then(|| displayed::bracketed(text)).flatten();
     let text = respelled.as_deref().unwrap_or(text);
     let mut document = match options.language {
         Some(_) => Document::default(),

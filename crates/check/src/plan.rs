@@ -345,6 +345,11 @@ impl Plan {
         self.with(&|s| Some(s.with(with_tool_at(&s.description, place))))
     }
 
+    /// The same document, lengths in numbers under a letter with the number of their row.
+    pub fn with_lengths(&self, letter: char) -> Self {
+        self.with(&|s| with_lengths(s, letter))
+    }
+
     /// The same document with names in other senses.
     pub fn with_habits(&self, habits: Habits) -> Self {
         Plan { habits: Rc::new(habits), ..self.with(&|_| None) }
@@ -546,6 +551,29 @@ fn with_names(subject: Subject, mentioned: &BTreeSet<String>) -> Subject {
     }
     d.parameters.extend(parameters);
     subject.with(d)
+}
+
+/// A robot whose rows with one length in numbers have it under a letter with their number: `l1`, `l2`; nothing if no row has.
+fn with_lengths(subject: &Subject, letter: char) -> Option<Subject> {
+    let mut d = subject.description.clone();
+    let mut parameters = vec![];
+    for (i, row) in (1..).zip(&mut d.rows) {
+        let slides = row.variable.is_some_and(|v| v.kind == JointKind::Prismatic);
+        let is_number = |e: &Expr| e.symbols().is_empty() && !e.is_zero();
+        let cell = match (is_number(&row.a), !slides && is_number(&row.d)) {
+            (true, false) => &mut row.a,
+            (false, true) => &mut row.d,
+            _ => continue,
+        };
+        let symbol = Symbol::new(&format!("{letter}{i}"));
+        parameters.push(Parameter { symbol, value: Some(*cell) });
+        *cell = symbol.into();
+    }
+    if parameters.is_empty() || parameters.iter().any(|p| d.parameter(p.symbol).is_some()) {
+        return None;
+    }
+    d.parameters.extend(parameters);
+    Some(subject.with(d))
 }
 
 /// A robot with a tool at `x, y, z`.

@@ -120,7 +120,8 @@ pub(super) fn weighed(
     for _ in 0..ROUNDS {
         let may_load = plan.habits.load.is_none() && !letters.loads.is_empty();
         let tools = super::tools::candidates(text, &plan, &walked);
-        if score.wrong.is_empty() && !may_load && tools.is_empty() {
+        let has_letters = !super::tools::letters_of_lengths(&plan, &walked).is_empty();
+        if score.wrong.is_empty() && !may_load && tools.is_empty() && !has_letters {
             break;
         }
         let mut best: Option<(usize, Plan, Walked, Score, Sense)> = None;
@@ -134,9 +135,12 @@ pub(super) fn weighed(
             let place = place.0.map(|e| Formula::new(e, &names));
             (Habits::clone(&plan.habits), Sense::Tool { place }, MARGIN)
         });
-        for (habits, sense, margin) in found.into_iter().chain(unit).chain(tools) {
+        let lengths = super::tools::letters_of_lengths(&plan, &walked).into_iter();
+        let lengths = lengths.map(|letter| (Habits::clone(&plan.habits), Sense::Lengths { letter }, MARGIN));
+        for (habits, sense, margin) in found.into_iter().chain(unit).chain(tools).chain(lengths) {
             let other = match &sense {
                 Sense::Unit { millimetres } => plan.with_unit(*millimetres),
+                Sense::Lengths { letter } => plan.with_lengths(*letter),
                 Sense::Tool { place } => plan.with_tool(&Vector(place.clone().map(|f| f.value))),
                 _ => plan.with_habits(habits),
             };
@@ -147,7 +151,7 @@ pub(super) fn weighed(
             let is_borne_out = sense != Sense::OwnLinks
                 || own.right_at.iter().any(|at| is_own_chain(text, document, &other, &walked, &score, *at));
             // What could not be read before may be wrong then.
-            let is_load = matches!(sense, Sense::Load { .. } | Sense::Tool { .. });
+            let is_load = matches!(sense, Sense::Load { .. } | Sense::Tool { .. } | Sense::Lengths { .. });
             let is_better = gain >= margin
                 && is_borne_out
                 && (own.wrong.len() < score.wrong.len()

@@ -37,6 +37,23 @@ pub(super) fn candidates(text: &str, plan: &Plan, walked: &Walked) -> Vec<Vector
     found
 }
 
+/// Letters that formulas have with numbers for lengths, and the robot has not: `l1`, `l2` where the table has 0.4 and 0.3.
+pub(super) fn letters_of_lengths(plan: &Plan, walked: &Walked) -> Vec<char> {
+    let names = walked.assertions.iter().flat_map(|a| &a.pieces).filter_map(|p| match p {
+        Piece::Unreadable { errors, .. } => Some(errors),
+        _ => None,
+    });
+    let letter = |name: String| {
+        let mut chars = name.chars();
+        let (first, rest) = (chars.next()?, chars.as_str());
+        let is_row = rest.parse::<usize>().is_ok_and(|n| plan.subjects.iter().all(|s| n <= s.last()));
+        (is_row && first.is_ascii_alphabetic()).then_some(first)
+    };
+    let all = names.flatten().filter_map(|e| letter(plain_name(e.unknown()?)));
+    let found: std::collections::BTreeSet<char> = all.collect();
+    found.into_iter().filter(|_| plan.is_own).take(2).collect()
+}
+
 /// Names of lengths that formulas have and the robot has not, the one first that stands in most of them.
 fn unknown(walked: &Walked) -> Vec<String> {
     let pieces = walked.assertions.iter().flat_map(|a| &a.pieces);

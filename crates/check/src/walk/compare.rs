@@ -329,7 +329,10 @@ impl Walk<'_> {
                             continue;
                         };
                         for (span, syntax) in formulas {
-                            if is_numeric {
+                            // A length or an angle in decimals makes nearly 0 of what is 0.
+                            let is_still =
+                                all_numbers && wanted.symbols().is_empty() && wanted.as_number().is_none();
+                            if is_numeric || is_still {
                                 out.pieces.extend(self.number(place, span, syntax.value(), wanted));
                                 continue;
                             }

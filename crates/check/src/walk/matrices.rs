@@ -172,7 +172,17 @@ impl Walk<'_> {
         let ([Part::Text(name)], [Part::Matrix(grid)]) = (&left.parts[..], &right.parts[..]) else {
             return false;
         };
-        let is_q = |n: &Name| n.is_bare() && matches!(n.base.as_str(), "q" | "θ" | "Θ" | "theta");
+        // `qn` and `q0` name configurations, too.
+        let is_named = |n: &Name| {
+            let plain = format!("{}{}", n.base, n.sub);
+            let mut letters = plain.chars();
+            let is_own = n.left.is_empty() && n.sup.is_empty() && letters.next() == Some('q');
+            is_own
+                && letters.next().is_some_and(|c| c.is_alphabetic() || c == '0')
+                && letters.next().is_none()
+        };
+        let is_q =
+            |n: &Name| is_named(n) || n.is_bare() && matches!(n.base.as_str(), "q" | "θ" | "Θ" | "theta");
         let cells = self.cells(grid);
         let values: Option<Vec<Expr>> = cells
             .iter()

@@ -155,6 +155,9 @@ impl Check for English {
             Sense::ColumnsSnap => "read with s, n, a, P as the columns of the pose",
             Sense::HandInFrames => "places with a number are read as those of the hand, seen from that frame",
             Sense::AgainstLoad => "torques are read as those that hold against the load",
+            Sense::Lengths { letter } => {
+                return format!("{letter}1, {letter}2 … are read as the lengths in the rows of the table");
+            }
             Sense::Tool { place: [x, y, z] } => {
                 return format!("the hand is read as the point ({x}, {y}, {z}) of the last frame");
             }

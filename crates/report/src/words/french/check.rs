@@ -171,6 +171,9 @@ impl Check for French {
                 "les positions numérotées sont lues comme celles de la main, vues depuis ce repère"
             }
             Sense::AgainstLoad => "les couples sont lus comme ceux qui s’opposent à la charge",
+            Sense::Lengths { letter } => {
+                return format!("{letter}1, {letter}2 … sont lus comme les longueurs des lignes du tableau");
+            }
             Sense::Tool { place: [x, y, z] } => {
                 return format!("la main est lue comme le point ({x}, {y}, {z}) du dernier repère");
             }
