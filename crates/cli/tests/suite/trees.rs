@@ -280,3 +280,20 @@ fn joints_are_called_as_their_file_calls_them() {
     let (_, out, _) = run(&["ik", "ur5", "-q", "0.1,0.2,0.3,0.4,0.5,0.6", "--json"]);
     assert!(!out.contains("\"joints\""), "{out}");
 }
+
+#[test]
+fn keyframes_are_configurations_by_name() {
+    let model =
+        "<mujoco><worldbody><body name='b'><joint name='one' axis='0 0 1'/><body name='c' pos='1 0 0'>
+        <joint name='two' axis='0 1 0'/><body name='e' pos='1 0 0'/></body></body></worldbody>
+        <keyframe><key name='home' qpos='0.25 1'/></keyframe></mujoco>";
+    let file = File::new("keyframe.xml", model);
+    for more in [&["--json"][..], &["--frames", "all", "--json"]] {
+        let answer = |q: &str| {
+            let (code, out, said) = run(&[&["fk", file.name(), "-q", q], more].concat());
+            assert_eq!(code, 0, "{said}");
+            out
+        };
+        assert_eq!(answer("home"), answer("0.25, 1"));
+    }
+}
