@@ -30,7 +30,7 @@ cargo xtask test                 all that a change must pass; steps that wait fo
 cargo xtask test --quick         after an edit: format, rules, and tests and lints of the crates that differ from the last
                                  commit and of those that use them, without the tests that run other languages' compilers
 cargo xtask test --full          before a release: all of the above, the page within its limits of size,
-                                 certificates, Miri, soak and benchmarks; hours
+                                 certificates, public robot descriptions, Miri, soak and benchmarks; hours
 cargo xtask tidy [--rules | --sessions]
                                  the rules of the project that a program can check: those of its files, and that the
                                  program prints what its pages show
