@@ -75,6 +75,11 @@ impl BaseModel {
         let live: FxHashSet<Symbol> = inputs(&inverse).collect();
         let order = order(d, formulas);
         parameters.retain(|p| live.contains(&p.symbol));
+        // What no torque reads is 0, so that nobody is asked for its value.
+        let is_read = |e: Expr| e.as_symbol().is_none_or(|s| live.contains(&s));
+        let named: Vec<Grouped> =
+            named.iter().map(|l| l.with(|_, e| if is_read(e) { e } else { Expr::int(0) })).collect();
+        let inverse = torques(formulas, &named, &parameters);
         for p in parameters.iter_mut().filter(|p| p.is_grouped) {
             p.value = readable::simplify(p.value, &order).map_or(p.value, |s| s.expr);
         }
@@ -194,7 +199,7 @@ fn torques(formulas: &Formulas, links: &[Grouped], named: &[BaseParameter]) -> P
 }
 
 /// The inputs that a program reads.
-fn inputs(program: &Program) -> impl Iterator<Item = Symbol> {
+pub(super) fn inputs(program: &Program) -> impl Iterator<Item = Symbol> {
     program.ops().iter().filter_map(|(op, _)| if let Op::Input(s) = op { Some(*s) } else { None })
 }
 

@@ -3,6 +3,7 @@
 use super::base::BaseModel;
 use super::lagrange::Ground;
 use super::model::Formulas;
+use super::short::shortest;
 use crate::description::Description;
 use crate::forward::symbol_order;
 use denavit_program::Program;
@@ -42,21 +43,27 @@ impl DynamicModel {
     pub fn derive(d: &Description) -> Self {
         let formulas = Formulas::named(d);
         let base = BaseModel::derive(d, &formulas);
-        let torques = base.inverse.clone();
+        let torques = shortest(d, &formulas, &base);
         let ground = base.ground(d, &formulas, &torques);
-        let parts = (formulas.q.len() <= WRITTEN_OUT).then(|| Parts::new(d, &formulas, &base, &torques));
+        // What was searched is held against the definition, and left if it is not that.
+        let (torques, ground) = match ground {
+            Ground::Failed => (base.inverse.clone(), base.ground(d, &formulas, &base.inverse)),
+            _ => (torques, ground),
+        };
+        let parts = (formulas.q.len() <= WRITTEN_OUT).then(|| Parts::new(d, &formulas, &base));
         DynamicModel { formulas, base, torques, ground, parts: parts.flatten() }
     }
 }
 
 impl Parts {
     /// The parts of torques; nothing if one is too large.
-    fn new(d: &Description, formulas: &Formulas, base: &BaseModel, torques: &Program) -> Option<Self> {
+    fn new(d: &Description, formulas: &Formulas, base: &BaseModel) -> Option<Self> {
         let mut order = symbol_order(d);
         order.extend(base.parameters.iter().map(|p| p.symbol));
         order.extend(formulas.qd.iter().chain(&formulas.qdd));
         let simple = |e: Expr| readable::simplify(e, &order).ok().map(|s| s.expr);
-        let all = torques.formulas();
+        // The plain recursion: the short program may have lengths in a unit of its own.
+        let all = base.inverse.formulas();
         let with = |e: Expr, of: &dyn Fn(Symbol) -> Option<i64>| e.substitute(|s| of(s).map(Expr::int));
         let is = |all: &[Symbol], s: Symbol| all.contains(&s);
         let resting = |s: Symbol| (is(&formulas.qd, s) || is(&formulas.qdd, s)).then_some(0);

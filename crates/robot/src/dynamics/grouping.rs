@@ -57,7 +57,21 @@ impl Grouped {
 /// The links after grouping, base first.
 pub fn grouped(arm: &Dynamics<Expr>) -> Vec<Grouped> {
     let o = Expr::int(0);
-    let mut all: Vec<Grouped> = arm.links.iter().map(|l| Grouped::of(&l.body)).collect();
+    let bodies = arm.links.iter().map(|l| Grouped::of(&l.body)).collect();
+    grouped_by(arm, bodies, |_, own, _| {
+        let yy = own.inertia[3];
+        let first_moment = Vector([o, o, own.first_moment[2]]);
+        Body { inertia: [yy, o, o, yy, o, o], first_moment, mass: own.mass[0] }
+    })
+}
+
+/// The links, given as these, where each revolute one gives away what is chosen on its axis, for the link and the one before.
+pub(super) fn grouped_by(
+    arm: &Dynamics<Expr>,
+    mut all: Vec<Grouped>,
+    chosen: impl Fn(usize, &Grouped, Option<&Grouped>) -> Body<Expr>,
+) -> Vec<Grouped> {
+    let o = Expr::int(0);
     for j in (0..all.len()).rev() {
         let (own, link) = (all[j].clone(), &arm.links[j]);
         let [xx, xy, xz, yy, yz, zz] = own.inertia;
@@ -65,14 +79,24 @@ pub fn grouped(arm: &Dynamics<Expr>) -> Vec<Grouped> {
         // What is given away, in the frame before the motion, and for which directions its mass is one.
         let (given, mass) = match link.kind {
             JointKind::Revolute if x == y => {
-                let kept = Grouped {
-                    inertia: [if yy.is_zero() { xx } else { xx - yy }, xy, xz, o, yz, zz],
-                    first_moment: Vector([own.first_moment[0], own.first_moment[1], o]),
-                    mass: Vector([o; 3]),
+                let given = chosen(j, &own, j.checked_sub(1).map(|p| &all[p]));
+                let less = |a: Expr, b: Expr| match (b.is_zero(), a == b) {
+                    (true, _) => a,
+                    (_, true) => o,
+                    _ => a - b,
                 };
-                all[j] = kept;
-                let first_moment = Vector([o, o, own.first_moment[2]]);
-                (Body { inertia: [yy, o, o, yy, o, o], first_moment, mass: x }, own.mass)
+                let along = given.inertia[0];
+                // Where it gives all its mass away, that may be one for the plan and another along the axis.
+                let (mass, kept) = match given.mass == x {
+                    true => (own.mass, Vector([o; 3])),
+                    false => (Vector([given.mass; 3]), own.mass.map(|m| less(m, given.mass))),
+                };
+                all[j] = Grouped {
+                    inertia: [less(xx, along), xy, xz, less(yy, along), yz, zz],
+                    first_moment: Vector([own.first_moment[0], own.first_moment[1], o]),
+                    mass: kept,
+                };
+                (given, mass)
             }
             JointKind::Revolute => continue,
             JointKind::Prismatic if is_plan(arm, j) && x == y => {

@@ -26,6 +26,7 @@ mod lagrange;
 mod model;
 mod newton_euler;
 mod regressor;
+mod short;
 
 pub use articulated::articulated_bodies;
 pub use base::{BaseModel, BaseParameter, Fate, Minimality};

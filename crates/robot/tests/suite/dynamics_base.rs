@@ -2,7 +2,7 @@
 
 use crate::common::{Random, robot};
 use denavit::description::{Convention, Description, read_toml};
-use denavit::dynamics::{BaseModel, Fate, Formulas, Ground, Minimality, inverse_dynamics};
+use denavit::dynamics::{BaseModel, DynamicModel, Fate, Formulas, Ground, Minimality, inverse_dynamics};
 use denavit_program::{Program, Residue};
 use denavit_symbolic::{Expr, Rational, Symbol};
 use rustc_hash::FxHashMap;
@@ -244,5 +244,57 @@ fn a_slip_has_no_ground() {
             results.iter().enumerate().map(|(k, &e)| (format!("t{k}"), graph.trace(e))).collect();
         let wrong = Program::new(&graph, &outputs, |_| None, &rustc_hash::FxHashSet::default());
         assert_eq!(model.ground(&d, &formulas, &wrong), Ground::Failed, "{name}");
+    }
+}
+
+/// The search finds programs of at most so many multiplications and additions, never more than the recursion in base parameters has,
+/// which give the torques of Lagrange's equations.
+#[test]
+fn short_programs() {
+    for (name, gravity, most) in [
+        ("planar-2r", [0, -1, 0], (16, 13)),
+        ("planar-3r", [0, -1, 0], (36, 32)),
+        ("scara", [0, 0, -1], (34, 26)),
+        ("articulated-3r", [0, 0, -1], (65, 51)),
+        ("staubli-rx90", [0, 0, -1], (211, 201)),
+        ("puma560", [0, 0, -1], (219, 209)),
+        ("stanford", [0, 0, -1], (195, 189)),
+        ("ur5", [0, 0, -1], (209, 197)),
+        ("franka-panda", [0, 0, -1], (266, 261)),
+        ("parallelogram-5r", [0, 0, -1], (213, 212)),
+    ] {
+        let d = under(robot(name), gravity);
+        let model = DynamicModel::derive(&d);
+        let (count, plain) = (model.torques.count(), model.base.inverse.count());
+        let found = (count.multiplications, count.additions);
+        assert!(found.0 <= most.0 && found.1 <= most.1, "{name}: {found:?}, {most:?}");
+        assert!(count.cost() <= plain.cost(), "{name}: {count} {plain}");
+        let expected = if d.variables().len() <= 4 { Ground::Proved } else { Ground::Modulo(3) };
+        assert_eq!(model.ground, expected, "{name}");
+    }
+}
+
+/// Other values of masses and lengths in the same program: the numbers of the recursion, and of arms with what a formula has not.
+#[test]
+fn short_programs_give_the_numbers() {
+    for (k, name) in crate::dynamics::ARMS.iter().enumerate() {
+        let d = crate::dynamics::random_arm(name, 500 + k as u64);
+        let model = DynamicModel::derive(&d);
+        let base: FxHashMap<Symbol, f64> = model
+            .base
+            .parameters
+            .iter()
+            .map(|p| (p.symbol, model.base.value(&model.formulas, p).unwrap_or_else(|| panic!("{name}"))))
+            .collect();
+        let value = |s: Symbol| base.get(&s).copied().or_else(|| model.formulas.value(s));
+        let function = model.torques.compile_with(value).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let arm = denavit::dynamics::Dynamics::numeric(&d).unwrap();
+        let [q, qd, qdd] = crate::dynamics::state(arm.joints(), &mut Random(k as u64));
+        let wanted = inverse_dynamics(&arm, &q, &qd, &qdd, None);
+        let mut scalar = function.scalar();
+        let found = scalar.eval(&[q, qd, qdd].concat());
+        let size = wanted.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let off = found.iter().zip(&wanted).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / size;
+        assert!(off < 1e-12, "{name}: {off:e}");
     }
 }
