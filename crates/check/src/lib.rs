@@ -8,6 +8,7 @@
 mod blamed;
 mod carried;
 mod causes;
+mod changed;
 mod configurations;
 mod convention;
 mod custom;

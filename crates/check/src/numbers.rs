@@ -337,6 +337,17 @@ fn without_braces(text: &str) -> String {
 /// A number and the factor of the unit behind it, to metres, radians and seconds, and to which power of a length it is
 /// proportional; nothing where there is no unit.
 pub(super) fn unit_behind(text: &str) -> Option<(&str, Expr, u32)> {
+    let plain = text.trim().trim_end_matches(['.', ',', ' ', '$', '}']);
+    // `57956 mm^2`
+    let squares = ["^2", "²", "^{2", "}^2", "}^{2"];
+    let mut squared = squares.iter().filter_map(|s| simple_unit_behind(plain.strip_suffix(s)?));
+    let square =
+        squared.find(|(_, _, power)| *power == 1).map(|(before, factor, _)| (before, factor * factor, 2));
+    square.or_else(|| simple_unit_behind(text))
+}
+
+/// The same for a unit that is no power.
+fn simple_unit_behind(text: &str) -> Option<(&str, Expr, u32)> {
     let degree = Expr::pi() / Expr::int(180);
     let part = |n: i64| Expr::int(1) / Expr::int(n);
     let units: [(&str, Expr); 33] = [
@@ -375,11 +386,6 @@ pub(super) fn unit_behind(text: &str) -> Option<(&str, Expr, u32)> {
         ("m", Expr::int(1)),
     ];
     let plain = text.trim().trim_end_matches(['.', ',', ' ', '$', '}']);
-    // `57956 mm^2`
-    for square in ["^2", "²", "^{2", "}^2", "}^{2"] {
-        let Some((before, factor, 1)) = plain.strip_suffix(square).and_then(unit_behind) else { continue };
-        return Some((before, factor * factor, 2));
-    }
     for (unit, factor) in units {
         let Some(before) = plain.strip_suffix(unit) else { continue };
         let before = ["\\mathrm{", "\\text{", "\\,", "\\;", "~", "\\ ", "\\"]

@@ -106,7 +106,7 @@ fn told(text: &str, plan: &Plan) -> Vec<Vector<Expr>> {
             continue;
         }
         let value = |p: &&str| parse(&p.replace('−', "-"), &names).ok().filter(|e| is_short(*e));
-        let Some(place) = parts.iter().map(|p| value(p)).collect::<Option<Vec<Expr>>>() else { continue };
+        let Some(place) = parts.iter().map(value).collect::<Option<Vec<Expr>>>() else { continue };
         let [x, y, z] = place[..] else { continue };
         let place = Vector([x, y, z]);
         let moves = |s: Symbol| {

@@ -1,6 +1,7 @@
 //! What straight-line code computes, as claims about the robot: matrices and scalars whose names say what they are, and
 //! what a function returns.
 
+mod defined;
 mod followed;
 mod posed;
 mod rows;
@@ -17,12 +18,13 @@ use super::numbers::{Answer, Configuration, half_unit};
 use super::recognised;
 use super::subject::Subject;
 use super::walk::{Assertion, Defined, Pair, Piece, Walk, is_measured};
+use defined::{defined, unsaid};
 use denavit::forward::Reference;
 use denavit_reading::code::{Asked, Assigned, Cell, Code, Dialect, Reading, Value, read_blocks};
-use denavit_symbolic::parse::{ParseError, SyntaxKind};
+use denavit_symbolic::parse::ParseError;
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Expr, Node, Rational, Symbol, equal};
-use followed::{entries_of, followed, mended_by};
+use followed::{followed, mended_by};
 use posed::Telling;
 use rows::row_function;
 use shown::Showing;
@@ -174,50 +176,6 @@ fn lines(text: &str, span: &Range<usize>) -> Vec<Range<usize>> {
 /// The names in a formula.
 pub(super) fn words(formula: &str) -> impl Iterator<Item = &str> {
     formula.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|w| !w.is_empty())
-}
-
-/// What a program computes from the joints.
-fn unsaid(codes: &[Code], subject: &Subject) -> Vec<(Range<usize>, String)> {
-    let moves = |e: &Expr| e.symbols().iter().any(|s| subject.joints().contains(&(*s).into()));
-    let is_plain = |e: &Expr| matches!(e.node(), Node::Symbol(_) | Node::Sin(_) | Node::Cos(_));
-    let tells = |value: &Value| {
-        let entries = entries_of(value);
-        entries.iter().any(moves) && !(entries.len() == 1 && is_plain(&entries[0]))
-    };
-    let functions = codes.iter().flat_map(|c| &c.functions);
-    let assigned = functions.flat_map(|f| &f.assigned).filter(|a| tells(&a.value));
-    assigned.map(|a| (a.span.clone(), a.name.clone())).collect()
-}
-
-/// Scalars with names of the author's own, which later formulas use.
-fn defined(source: &str, codes: &[Code], assertions: &[Assertion], subject: usize) -> Vec<Defined> {
-    let mut found: Vec<Defined> = vec![];
-    for a in codes.iter().flat_map(|c| &c.functions).flat_map(|f| &f.assigned) {
-        let Value::Scalar(cell) = &a.value else { continue };
-        let (Some(printed), false) = (&cell.syntax, cell.value.symbols().is_empty()) else { continue };
-        let is_judged = assertions.iter().any(|x| x.span.start < a.span.end && a.span.start < x.span.end);
-        let is_own = a.span.start <= cell.span.start && cell.span.end <= a.span.end;
-        // `c12 = cos(q1 + q2)` is an abbreviation.
-        let is_plain = matches!(cell.value.node(), Node::Sin(_) | Node::Cos(_));
-        if is_judged || !is_own || is_plain || matches!(printed.kind, SyntaxKind::Name(_)) {
-            continue;
-        }
-        let line = source[..a.span.start].rfind('\n').map_or(0, |i| i + 1);
-        let start = line + (source[line..].len() - source[line..].trim_start().len());
-        found.push(Defined {
-            name: a.name.clone(),
-            by_custom: false,
-            statement: start.min(a.span.start)..a.span.end,
-            shown: a.name.clone(),
-            span: cell.span.clone(),
-            printed: printed.clone(),
-            value: cell.value,
-            subject,
-            from: a.span.end,
-        });
-    }
-    found.dedup_by(|a, b| a.span == b.span);
-    found
 }
 
 /// Names that scripts give the hand's pose and Jacobian.

@@ -11,6 +11,7 @@ mod named;
 mod readings;
 mod scripts;
 mod statements;
+mod strangers;
 mod tables;
 mod told;
 

@@ -87,6 +87,9 @@ pub(super) fn is_unit(word: &str) -> bool {
 
 /// True for nothing but a unit: `m/s`, `N·m`, `\,\mathrm{mm}`.
 pub(super) fn is_unit_alone(text: &str) -> bool {
+    if text.len() > 60 {
+        return false;
+    }
     let looks = ["\\mathrm", "\\text", "\\rm", "\\circ", "\\,", "\\;", "\\:", "\\!"];
     let plain = looks
         .iter()

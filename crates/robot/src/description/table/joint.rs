@@ -67,6 +67,10 @@ fn by_words(rows: &[ReadRow], z: &str, is_given: &dyn Fn(&str) -> bool, out: &mu
         .hint("if that is a constant, say its value, or add a column σ (0 revolute, 1 prismatic, 2 fixed)");
         Some(Joint::Moves(kind, Some(name)))
     };
+    // Without any angle that may turn, a length is more likely one.
+    if !rows.iter().any(|r| open(&r.theta).is_some()) {
+        return vec![Joint::Fixed; rows.len()];
+    }
     rows.iter().map(|r| joint(r).unwrap_or(Joint::Fixed)).collect()
 }
 
