@@ -25,6 +25,13 @@ impl Walk<'_> {
         if let Some(value) = self.derivative_named(span) {
             return known(value);
         }
+        // `6.96°/s`, also where s is a name.
+        let is_rate =
+            |number: &str| number.trim().parse::<f64>().is_ok() && self.source(span).ends_with("/s");
+        let rate = crate::numbers::unit_behind(self.source(span)).filter(|(number, ..)| is_rate(number));
+        if let Some(value) = rate.and_then(|_| self.constant(self.source(span))) {
+            return known(value);
+        }
         let errors = match self.lexis.formula(self.text, span) {
             Ok(syntax) => return Scalar::Formula(span.clone(), syntax),
             Err(errors) => errors,

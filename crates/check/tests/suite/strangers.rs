@@ -144,3 +144,17 @@ fn a_long_power_of_powers_is_no_unit() {
     let text = format!("{PLANAR}\n\nx = {}2\n", "2^".repeat(20_000));
     read(&text, Format::Plain, None);
 }
+
+#[test]
+fn the_function_of_a_row_is_none_of_four_joints() {
+    let text = "# Standard DH\n#  i  theta  d   a   alpha\n#  1  q1     0   L   0\n#  2  q2     0   L   0\n#  3  q3     0   L   0\n#  4  q4     0   L   0\n\
+                def A(th, d, a, al):\n    return Matrix([[cos(th), -sin(th)*cos(al), sin(th)*sin(al), a*cos(th)],\n        \
+                [sin(th), cos(th)*cos(al), -cos(th)*sin(al), a*sin(th)],\n        [0, sin(al), cos(al), d], [0, 0, 0, 1]])\n";
+    let found = read(text, Format::Plain, Some(Dialect::Python));
+    assert_eq!(
+        found.claims.iter().map(|c| c.standing()).collect::<Vec<_>>(),
+        [Standing::Equal],
+        "{:?}",
+        found.claims
+    );
+}

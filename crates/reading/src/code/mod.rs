@@ -285,8 +285,9 @@ fn block<'a>(
         // A script calls `Rz(t)` with what it likes, `fk(q)` with the joints.
         let is_joints = |p: &tree::Parameter| is_vector(&p.name) || (machine.names)(&p.name).is_some();
         let is_of_script = of_script.contains(d.name.as_str()) && !d.parameters.iter().all(is_joints);
-        let is_helper =
-            of_others.contains(d.name.as_str()) || is_of_script && d.parameters.len() < machine.joints.len();
+        let is_helper = of_others.contains(d.name.as_str())
+            || is_of_script && d.parameters.len() < machine.joints.len()
+            || roles_of_row(d).is_some();
         match arguments(d, machine, is_helper) {
             Ok(slots) => code.functions.push(reading(d, slots, machine)),
             Err(_) if is_helper => helpers.push(*d),
@@ -347,8 +348,8 @@ fn reading<'a>(
     Reading { name: d.name.clone(), span: d.span.clone(), assigned, returned, shown }
 }
 
-/// A function whose arguments are named as the parameters of a row are; errors of it are reported where it is called.
-fn row_function<'a>(d: &'a Definition, machine: &mut Machine<'a>) -> Option<RowFunction> {
+/// What the arguments of the function of a row are, if they are named as its parameters are: θ 0, α 1, a length 2.
+fn roles_of_row(d: &Definition) -> Option<Vec<usize>> {
     let role = |name: &str| match name.to_lowercase().trim_end_matches(['_', 'i']) {
         "theta" | "th" | "tht" | "t" | "q" | "θ" => Some(0),
         "alpha" | "alph" | "alfa" | "al" | "alp" | "α" => Some(1),
@@ -357,9 +358,12 @@ fn row_function<'a>(d: &'a Definition, machine: &mut Machine<'a>) -> Option<RowF
     };
     let roles: Vec<usize> = d.parameters.iter().map(|p| role(&p.name)).collect::<Option<_>>()?;
     let count = |k: usize| roles.iter().filter(|r| **r == k).count();
-    if [count(0), count(1), count(2)] != [1, 1, 2] {
-        return None;
-    }
+    ([count(0), count(1), count(2)] == [1, 1, 2]).then_some(roles)
+}
+
+/// A function whose arguments are named as the parameters of a row are; errors of it are reported where it is called.
+fn row_function<'a>(d: &'a Definition, machine: &mut Machine<'a>) -> Option<RowFunction> {
+    let roles = roles_of_row(d)?;
     let symbols: Vec<Expr> = d.parameters.iter().map(|p| Expr::symbol(&format!("{}_i", p.name))).collect();
     let of =
         |k: usize| -> Vec<Expr> { symbols.iter().zip(&roles).filter(|s| *s.1 == k).map(|s| *s.0).collect() };
