@@ -74,3 +74,13 @@ pub(super) fn with_tool_at(d: &Description, place: &Vector<Expr>) -> Description
     d.tool = Transform::translation(x, y, z);
     d
 }
+
+/// The number that a line of C gives a name: `#define H 1.20f`.
+pub(super) fn defined_in<'t>(text: &'t str, name: &str) -> Option<&'t str> {
+    text.lines().find_map(|line| {
+        let mut words = line.trim().strip_prefix("#define")?.split_whitespace();
+        let value = words.next().filter(|n| *n == name).and(words.next())?;
+        let number = value.trim_end_matches(['f', 'F']);
+        number.parse::<f64>().is_ok().then_some(number)
+    })
+}

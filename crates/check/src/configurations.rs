@@ -123,7 +123,8 @@ impl<'a> Listed<'a> {
         }
         let before = walked.assertions.iter().rev().filter(|a| a.span.end <= start && a.subject == number);
         let stated = before.into_iter().find_map(stated);
-        let (mut targets, at) = stated.unwrap_or_default();
+        let lengths = || walked.stated.get(number).cloned().unwrap_or_default();
+        let (mut targets, at) = stated.unwrap_or_else(|| (vec![], lengths()));
         targets.retain(|t: &Target| !is_open(t.wanted));
         if targets.is_empty() {
             targets = goal(before_of(text, start), subject, plan.habits.scaled);

@@ -121,6 +121,11 @@ impl Configuration {
         }
     }
 
+    /// The lengths without the joints.
+    pub fn lengths_alone(&self) -> Self {
+        Configuration { lengths: self.lengths.clone(), ..Configuration::default() }
+    }
+
     /// The length that the document states.
     pub fn length(&self, symbol: Symbol) -> Option<f64> {
         self.lengths.iter().find(|l| l.0 == symbol).map(|l| l.1)

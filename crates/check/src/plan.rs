@@ -1,12 +1,13 @@
 //! Which robot each part of a document is about: tables and directives in their order.
 
 use super::CheckOptions;
-use super::changed::{with_lengths, with_names, with_tool, with_tool_at};
+use super::changed::{self, with_lengths, with_names, with_tool, with_tool_at};
 use super::convention;
 use super::habits::Habits;
 use super::lexis::set_in;
 use super::listing;
 use super::note::{Note, Noted, Notes, Unread, Unreadable};
+use super::numbers::Configuration;
 use super::order;
 use super::programs::{self, Followed, Source};
 use super::subject::Subject;
@@ -21,7 +22,7 @@ use denavit::geometry::{Transform, Vector};
 use denavit_reading::code::Dialect;
 use denavit_reading::document::{CodeBlock, Directive, Document, Format};
 use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
-use denavit_symbolic::{Expr, Rational};
+use denavit_symbolic::{Expr, Rational, Symbol};
 use std::collections::BTreeSet;
 use std::ops::Range;
 use std::rc::Rc;
@@ -73,6 +74,8 @@ pub(super) struct Walked {
     pub names: Vec<Rc<Vocabulary>>,
     /// The same with the entries of the pose as symbols.
     pub inverse_names: Vec<Rc<Vocabulary>>,
+    /// The lengths that each robot's part of the document has stated at its end.
+    pub stated: Vec<Configuration>,
 }
 
 impl Walked {
@@ -118,6 +121,14 @@ impl Plan {
                     Ok(()) => *is_set = true,
                     Err(NotSet::Unknown { .. }) => {}
                     Err(why) => refused.push(unset(name, why)),
+                }
+            }
+            let open: Vec<Symbol> =
+                d.parameters.iter().filter(|p| p.value.is_none()).map(|p| p.symbol).collect();
+            for symbol in open.iter().filter(|_| options.language == Some(Dialect::C)) {
+                // `#define H 1.20` puts the number into every formula.
+                if let Some(value) = changed::defined_in(text, &symbol.name()) {
+                    let _ = d.set(&symbol.name(), value);
                 }
             }
             let d = &d;
@@ -356,7 +367,7 @@ impl Plan {
 
     /// Reads the statements.
     pub fn walk(&self, text: &str, document: &Document, options: &CheckOptions) -> Walked {
-        let (mut names, mut inverse_names) = (vec![], vec![]);
+        let (mut names, mut inverse_names, mut stated) = (vec![], vec![], vec![]);
         let mut walk = Walk::new(text, &self.subjects[0], &self.habits);
         let mut ignored = vec![];
         let mut turns = self.turns.iter().skip(1).peekable();
@@ -367,6 +378,7 @@ impl Plan {
             while let Some(&(_, number)) = turns.next_if(|t| t.0 <= statement.span.start) {
                 names.push(Rc::new(walk.lexis.names.clone()));
                 inverse_names.push(Rc::new(walk.lexis.inverse_names()));
+                stated.push(walk.at.lengths_alone());
                 walk.turn_to(&self.subjects[number], number);
             }
             let mut claim = told.take();
@@ -411,6 +423,7 @@ impl Plan {
         }
         names.push(Rc::new(walk.lexis.names.clone()));
         inverse_names.push(Rc::new(walk.lexis.inverse_names()));
+        stated.push(walk.at.lengths_alone());
         let (mut assertions, mut refused) = (walk.assertions, vec![]);
         let source = self.programs.as_deref().unwrap_or(text);
         let (mut followed, mut unsaid) = (vec![], vec![]);
@@ -448,6 +461,7 @@ impl Plan {
             unsaid,
             names,
             inverse_names,
+            stated,
         }
     }
 }

@@ -45,6 +45,12 @@ pub(super) fn lead(text: &str, line: &Range<usize>) -> Lead {
             lead.rest = start + first.len_utf8();
             continue;
         }
+        // `: x = …` is set in, as wikis do.
+        if first == ':' && second == ' ' && lead.label.is_none() && !lead.bullet {
+            lead.bullet = true;
+            lead.rest = start + 1;
+            continue;
+        }
         if first == '>' && lead.label.is_none() {
             lead.rest = start + 1;
             continue;

@@ -2,10 +2,10 @@
 
 use crate::document::{Block, Factor, Line, Math, Proof};
 use crate::words::{Tongue, Wording};
-use denavit::description::{Convention, Description};
+use denavit::description::{Convention, Description, Row};
 use denavit::dynamics::{DynamicModel, Fate, Ground};
-use denavit_symbolic::Expr;
 use denavit_symbolic::vocabulary::Vocabulary;
+use denavit_symbolic::{Expr, Node};
 
 /// The robot's names, those of masses, base parameters and rates, and those of the program's steps.
 pub fn dynamics_vocabulary(d: &Description, model: &DynamicModel) -> Vocabulary {
@@ -32,6 +32,14 @@ pub fn dynamics_document(d: &Description, model: &DynamicModel, language: Tongue
         blocks.push(formula(Expr::symbol(&step.name), step.value));
     }
     blocks.push(paragraph(words.torques_cost(&model.torques.count(), model.ground)));
+    let divisors = divisors(model);
+    if !divisors.is_empty() {
+        blocks.push(Block::Paragraph(words.divides_by(divisors.into_iter().map(Math::Expr).collect())));
+    }
+    let has = |pick: fn(&Row) -> &Option<Expr>| d.rows.iter().filter_map(|r| *pick(r)).any(|e| !e.is_zero());
+    if has(|r| &r.coulomb) {
+        blocks.push(paragraph(words.without_coulomb()));
+    }
     let proof = (model.ground == Ground::Proved).then_some(Proof::Proved);
     if let Some(parts) = &model.parts {
         let column = |all: &[Expr]| all.iter().map(|&e| vec![e]).collect();
@@ -46,9 +54,31 @@ pub fn dynamics_document(d: &Description, model: &DynamicModel, language: Tongue
                 number: None,
                 proof,
             });
+            if name == "h" && has(|r| &r.viscous) {
+                blocks.push(paragraph(words.with_viscous()));
+            }
         }
     }
     blocks
+}
+
+/// What the steps of the torques and the groupings divide by.
+fn divisors(model: &DynamicModel) -> Vec<Expr> {
+    let steps = model.torques.steps().into_iter().map(|s| s.value);
+    let groupings = model.base.parameters.iter().map(|p| p.value);
+    let all: Vec<Expr> = steps.chain(groupings).collect();
+    let mut found: Vec<Expr> = vec![];
+    for e in Expr::postorder(&all) {
+        let below = match e.node() {
+            Node::Div(_, b) => b,
+            Node::Pow(b, n) if n < 0 => b,
+            _ => continue,
+        };
+        if !below.symbols().is_empty() && !found.contains(&below) {
+            found.push(below);
+        }
+    }
+    found
 }
 
 fn base(model: &DynamicModel, words: &dyn Wording) -> Vec<Block> {

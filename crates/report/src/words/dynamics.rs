@@ -37,6 +37,15 @@ pub trait Dynamics {
     /// What a program costs, and on what it rests that it gives Lagrange's torques.
     fn torques_cost(&self, count: &Count, ground: Ground) -> String;
 
+    /// That the formulas leave Coulomb's friction out, which numbers have.
+    fn without_coulomb(&self) -> String;
+
+    /// That the torques of velocities have the viscous friction in them.
+    fn with_viscous(&self) -> String;
+
+    /// By what a program divides: it holds where that is not 0.
+    fn divides_by(&self, all: Vec<Math>) -> Line;
+
     /// The heading of the inertia matrix.
     fn inertia_title(&self) -> String;
 

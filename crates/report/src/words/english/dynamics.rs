@@ -84,6 +84,18 @@ impl Dynamics for English {
         format!("{}; {ground}.", self.count(count))
     }
 
+    fn without_coulomb(&self) -> String {
+        "Coulomb's friction is not in these formulas; the numbers of `denavit dynamics -q …` have it.".into()
+    }
+
+    fn with_viscous(&self) -> String {
+        "h has the viscous friction of the joints in it.".into()
+    }
+
+    fn divides_by(&self, all: Vec<Math>) -> Line {
+        Line::new("This program divides by ").list(all).text(", and holds where that is not 0.")
+    }
+
     fn inertia_title(&self) -> String {
         "Inertia matrix".into()
     }

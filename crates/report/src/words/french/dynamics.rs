@@ -87,6 +87,18 @@ impl Dynamics for French {
         say!("{} ; {ground}.", self.count(count))
     }
 
+    fn without_coulomb(&self) -> String {
+        "Ces formules ne comprennent pas le frottement sec ; les nombres de `denavit dynamics -q …` le comprennent.".into()
+    }
+
+    fn with_viscous(&self) -> String {
+        "h comprend le frottement visqueux des articulations.".into()
+    }
+
+    fn divides_by(&self, all: Vec<Math>) -> Line {
+        Line::new("Ce programme divise par ").list(all).text(", et vaut là où cela n'est pas nul.")
+    }
+
     fn inertia_title(&self) -> String {
         "Matrice d'inertie".into()
     }

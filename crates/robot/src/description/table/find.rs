@@ -170,6 +170,14 @@ fn headed(text: &str, separator: Separator) -> Vec<Grid> {
             }
             let width = grid.rows.first().map_or(0, Vec::len);
             let has_index = grid.rows[0].iter().any(|c| column(&c.text).role == Role::Index);
+            // `6   0   l2   0   0   tool (fixed)`: words behind the cells.
+            let is_remark = |c: &GridCell| {
+                c.text.chars().filter(|c| c.is_alphabetic()).count() > 3
+                    && c.text.chars().all(|c| c.is_alphabetic() || " ,()-.".contains(c))
+            };
+            if cells.len() == width + 1 && has_index && cells.last().is_some_and(is_remark) {
+                cells.pop();
+            }
             let is_value = |c: &GridCell| {
                 let is_whole = c.text.matches('(').count() == c.text.matches(')').count();
                 c.text.len() < 24 && c.text.split(' ').count() < 4 && is_whole && !c.text.contains(':')

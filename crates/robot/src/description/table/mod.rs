@@ -37,6 +37,7 @@ mod layout;
 mod letters;
 mod limits;
 mod lines;
+mod marks;
 mod read;
 mod told;
 mod values;

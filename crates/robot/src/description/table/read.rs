@@ -7,6 +7,7 @@ use super::joint::{Joint, joints};
 use super::layout::Layout;
 use super::letters::{Letters, check_letters, columns, convention, letters};
 use super::lines::{Around, Lines};
+use super::marks::{with_numbers, without_stars};
 use super::{TableOptions, limits, values};
 use crate::description::cell::{Place, Style, name_of, read_cell, variable_number};
 use crate::description::diagnostic::{Diagnostic, Diagnostics};
@@ -456,6 +457,7 @@ fn read_table_cell(cell: &GridCell, style: &Style, out: &mut Diagnostics) -> Tab
         None => cell,
     };
     let (text, star) = without_stars(&cell.text);
+    let text = with_numbers(&text);
     found.star = star;
     let bare = text.trim_matches(['$', ' ']);
     if matches!(bare.to_lowercase().as_str(), "var" | "var." | "variable" | "variabel")
@@ -475,29 +477,6 @@ fn read_table_cell(cell: &GridCell, style: &Style, out: &mut Diagnostics) -> Tab
         found.bare = value.bare;
     }
     found
-}
-
-/// A cell with its stars blanked out, and whether there were any: `^*` anywhere, `*` at the end or before a sign.
-fn without_stars(cell: &str) -> (String, bool) {
-    let mut text = cell.to_string();
-    for star in ["^{*}", "^{\\ast}", "^{\\star}", "^\\ast", "^\\star", "^*", "^{∗}", "^∗"] {
-        text = text.replace(star, &" ".repeat(star.len()));
-    }
-    let bare = |(at, star): (usize, &str)| {
-        let behind = text[at + star.len()..].trim_start_matches(['$', ' ', '}']);
-        let name = text[..at].trim_end_matches(['$', ' ', '}']);
-        let word =
-            name.rsplit(|c: char| !c.is_alphanumeric() && !matches!(c, '_' | '{')).next().unwrap_or("");
-        let named = word.contains(char::is_alphabetic);
-        let marks = behind.is_empty() || named && behind.starts_with(['+', '-', '−', ')']);
-        marks.then_some(at..at + star.len())
-    };
-    let bare: Vec<Range<usize>> = text.match_indices(['*', '∗']).filter_map(bare).collect();
-    for range in bare {
-        text.replace_range(range.clone(), &" ".repeat(range.len()));
-    }
-    let star = text != cell;
-    (text, star)
 }
 
 /// Calls the variables q1, q2, … wherever they occur.
