@@ -30,15 +30,14 @@ impl Row {
         Some(body)
     }
 
-    /// The link's mass, its centre and the inertia about it, as they are given or as they follow; `None` if one is not known.
+    /// The link's mass, its centre and the inertia about it, as they are given or as they follow; what is not said is 0. `None` without a
+    /// mass.
     pub(super) fn weighed(&self) -> Option<Mass> {
         if let (Some(mass), Some(com), Some(inertia)) = (self.mass, self.com, self.inertia) {
             return Some(Mass { mass, com, inertia });
         }
         let mass = self.mass.filter(|m| !m.is_zero())?;
-        let says_where = self.com.is_some() || self.first_moment.is_some();
-        let says_how = self.inertia.is_some() || self.inertia_at_origin.is_some();
-        let (centre, inertia) = self.body().filter(|_| says_where && says_how)?.at_centre()?;
+        let (centre, inertia) = self.body()?.at_centre()?;
         Some(Mass { mass, com: centre.0, inertia })
     }
 

@@ -135,3 +135,28 @@ fn what_no_body_has_is_said() {
         "{found:?}"
     );
 }
+
+/// Masses of rows that do not move, of points, and of bodies without a place are in what is written.
+#[test]
+fn masses_of_all_rows_are_in_a_urdf() {
+    let text = "convention = 'standard'\n[[joints]]\ntheta = 'q1'\nd = 0.3\nalpha = '90 deg'\nmass = 2\ninertia = [0.1, 0, 0, 0.2, 0, 0.15]\n\
+                [[joints]]\ntheta = 'q2'\na = 0.4\nmass = 3\ncom = [-0.2, 0.01, 0]\n\
+                [[joints]]\na = 0.1\nalpha = '-90 deg'\nmass = 1.5\ncom = [0.05, 0, 0.02]\ninertia = [0.01, 0.001, 0, 0.02, 0, 0.015]\n\
+                [[joints]]\ntheta = 'q3'\nd = 0.2\nmass = 0.5\n[[joints]]\nd = 0.1\nmass = 0.7\ncom = [0.02, 0, 0.03]\n\
+                inertia = [0.01, 0, 0, 0.01, 0, 0.01]\n";
+    let d = read_toml(text).unwrap_or_else(|e| panic!("{}", shown(text, &e).join("\n"))).0;
+    let arm = Dynamics::numeric(&d).unwrap();
+    let urdf = write_urdf(&d).unwrap();
+    let back = read_urdf(&urdf, Decimals::AsWritten).unwrap().0;
+    let back = back.chain(None, None, Convention::Standard).unwrap().description;
+    let other = Dynamics::numeric(&back).unwrap();
+    let mut random = Random(23);
+    for _ in 0..20 {
+        let [q, qd, qdd] = state(arm.joints(), &mut random);
+        let wanted = inverse_dynamics(&arm, &q, &qd, &qdd, None);
+        let found = inverse_dynamics(&other, &q, &qd, &qdd, None);
+        for (a, b) in found.iter().zip(&wanted) {
+            assert!((a - b).abs() < 1e-11, "{found:?} {wanted:?}");
+        }
+    }
+}

@@ -7,7 +7,7 @@ use super::{Body, Follows, Joint, Mass, Mechanism};
 use crate::description::{
     Convention, Description, JointKind, MissingValue, NamedFrame, Parameter, Row, RowTree, Screw, Variable,
 };
-use crate::geometry::{Axis, Transform, Vector};
+use crate::geometry::{self, Axis, Transform, Vector};
 use denavit_symbolic::{Angle, Expr, Rational, Symbol};
 use std::collections::HashSet;
 
@@ -28,7 +28,12 @@ impl Mechanism {
                 let joint = if motion.is_own { name.clone() } else { format!("{name}_in_{}", i + 1) };
                 (joint, format!("link{}", i + 1))
             };
-            place = growing.row(row, d.convention, place, &named);
+            let behind = growing.row(row, d.convention, place, &named);
+            if growing.moves(row).is_empty() {
+                // A row that does not move is fixed to the body before it.
+                growing.weigh(behind.on, row, &behind.origin);
+            }
+            place = behind;
         }
         let end = Place { origin: place.origin * d.tool, ..place };
         growing.still(end, "tool_joint", "tool");
@@ -264,7 +269,16 @@ impl<'d> Growing<'d> {
     fn weigh(&mut self, body: usize, row: &Row, frame: &Transform<Expr>) {
         let mut row = row.clone();
         row.move_frame(frame);
-        let Some(mass) = row.weighed() else { return };
+        let mass = match &self.tree.bodies[body].mass {
+            None => row.weighed(),
+            // With what is fixed to it already.
+            Some(m) => row.body().and_then(|own| {
+                let all = geometry::Body::about_centre(m.mass, Vector(m.com), m.inertia) + own;
+                let (centre, inertia) = all.at_centre()?;
+                Some(Mass { mass: all.mass, com: centre.0, inertia })
+            }),
+        };
+        let Some(mass) = mass else { return };
         let mass = Mass {
             mass: self.value(mass.mass),
             com: mass.com.map(|e| self.value(e)),
