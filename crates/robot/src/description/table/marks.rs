@@ -2,8 +2,14 @@
 
 use std::ops::Range;
 
+/// Longer cells hold no such index.
+const LONGEST: usize = 200;
+
 /// A cell with `q1` for the `q[0]` of programs that count from 0, and for the `q(1)` of those that count from 1.
 pub(super) fn with_numbers(cell: &str) -> String {
+    if cell.len() > LONGEST {
+        return cell.into();
+    }
     let mut text = String::with_capacity(cell.len());
     let mut rest = cell;
     while let Some(at) = rest.find(['[', '(']) {
