@@ -1,5 +1,6 @@
 //! Matrices as interpreters show them: a name with `=` behind it, and rows of numbers below.
 
+use super::lines::lines;
 use std::ops::Range;
 
 /// No more rows belong to one matrix.
@@ -9,15 +10,7 @@ const MOST_ROWS: usize = 12;
 pub(super) fn bracketed(text: &str) -> Option<String> {
     let mut bytes = text.as_bytes().to_vec();
     let mut is_any = false;
-    let mut start = 0;
-    let lines: Vec<Range<usize>> = text
-        .split_inclusive('\n')
-        .map(|line| {
-            let span = start..start + line.len();
-            start = span.end;
-            span
-        })
-        .collect();
+    let lines: Vec<Range<usize>> = lines(text).collect();
     let shown = |k: usize| lines.get(k).map_or("", |l| text[l.clone()].trim());
     for k in 0..lines.len() {
         if !is_head(shown(k)) {

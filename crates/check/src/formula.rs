@@ -1,8 +1,8 @@
 //! A formula beside the names in which its document prints.
 
-use denavit_symbolic::Expr;
 use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::vocabulary::Vocabulary;
+use denavit_symbolic::{Expr, Node};
 use std::fmt;
 use std::rc::Rc;
 
@@ -20,6 +20,12 @@ impl Formula {
     pub fn new(value: Expr, names: &Rc<Vocabulary>) -> Self {
         Formula { value, names: Rc::clone(names) }
     }
+}
+
+/// True for a formula with a root of a sum, as the distance from an axis is one.
+pub(super) fn has_root_of_sum(e: Expr) -> bool {
+    let is_root = |e: Expr| matches!(e.node(), Node::Sqrt(a) if matches!(a.node(), Node::Add(..)));
+    Expr::postorder(&[e]).into_iter().any(is_root)
 }
 
 impl PartialEq for Formula {

@@ -25,6 +25,7 @@ mod jacobians;
 mod judge;
 mod leeway;
 mod lexis;
+mod lines;
 mod listing;
 pub mod marking;
 mod matrix;

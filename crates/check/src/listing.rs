@@ -2,6 +2,7 @@
 //! lists in code, and links of the robot toolboxes. Each is set as a table and read as one.
 
 use super::CheckOptions;
+use super::lines::lines;
 use denavit::description::table::{PrintedTable, tables};
 use denavit::description::{Convention, TableKind, TableOptions};
 use denavit_reading::code::Dialect;
@@ -133,16 +134,6 @@ pub(super) fn comment_mark(language: Dialect) -> &'static str {
     }
 }
 
-fn lines(text: &str) -> Vec<(Range<usize>, &str)> {
-    let mut start = 0;
-    let of = |line| {
-        let span = start..start + str::len(line);
-        start = span.end;
-        (span, line)
-    };
-    text.split_inclusive('\n').map(of).collect()
-}
-
 fn column(word: &str) -> Option<Column> {
     let plain: String = word.to_lowercase().chars().filter(|c| c.is_alphabetic()).collect();
     let plain = plain.strip_suffix('i').filter(|p| !p.is_empty()).unwrap_or(&plain);
@@ -171,7 +162,7 @@ fn order(line: &str) -> Option<Vec<Column>> {
 
 /// Rows below words that tell the order, and rows `theta4, d = 0, a = 0, alpha = -90`.
 fn told_rows(text: &str) -> Option<Listing> {
-    let lines = lines(text);
+    let lines: Vec<(Range<usize>, &str)> = lines(text).map(|l| (l.clone(), &text[l])).collect();
     let mut head: Option<Vec<Column>> = None;
     let mut rows: Vec<[String; 4]> = vec![];
     let mut span = 0..0;
@@ -444,7 +435,7 @@ fn clean(value: &str) -> String {
 
 /// Rows of four in a list, in an order that words above it or the function of a row tell.
 fn lists(text: &str) -> Option<Listing> {
-    let lines = lines(text);
+    let lines: Vec<(Range<usize>, &str)> = lines(text).map(|l| (l.clone(), &text[l])).collect();
     let by_function = lines.iter().map(|l| l.1.trim()).find_map(|l| {
         let rest = l.strip_prefix("def ").or_else(|| l.strip_prefix("function "))?;
         order(rest.split_once('(')?.1)

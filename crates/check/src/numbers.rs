@@ -249,13 +249,16 @@ pub(super) fn rates_by_primes(text: &str) -> Option<String> {
     }
     let mut bytes = text.as_bytes().to_vec();
     let mut is_any = false;
+    let (mut seen, mut is_program) = (0, false);
     for (at, prime) in text.match_indices(['\'', '′']) {
         if prime.len() > 1 {
             continue;
         }
         let before = &text[..at];
         // In a program a prime transposes, or begins a text.
-        if before.matches("```").count() % 2 == 1 {
+        is_program ^= text[seen..at].matches("```").count() % 2 == 1;
+        seen = at;
+        if is_program {
             continue;
         }
         let number = before.trim_end_matches(|c: char| c.is_ascii_digit() || ('₀'..='₉').contains(&c));

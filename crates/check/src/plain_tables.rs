@@ -1,5 +1,6 @@
 //! Tables of numbers that are set with blanks alone, below a line of names: `no.   q1   q2   x   y`, bars between groups of columns.
 
+use super::lines::lines;
 use denavit::description::table::PrintedGrid;
 use std::ops::Range;
 
@@ -12,7 +13,8 @@ type Groups = Vec<Vec<(String, Range<usize>)>>;
 
 /// The tables below lines that `is_head` takes for heads of columns.
 pub(super) fn below(text: &str, is_head: &dyn Fn(&[String]) -> bool) -> Vec<PrintedGrid> {
-    let lines: Vec<Range<usize>> = lines(text).collect();
+    let bare = |l: Range<usize>| l.start..l.start + text[l].trim_end_matches(['\n', '\r']).len();
+    let lines: Vec<Range<usize>> = lines(text).map(bare).collect();
     let mut found = vec![];
     let mut at = 0;
     while at < lines.len() {
@@ -112,15 +114,6 @@ fn groups(text: &str, line: &Range<usize>) -> Groups {
 
 fn is_rule(line: &str) -> bool {
     line.len() > 2 && line.chars().all(|c| matches!(c, '-' | '=' | ' ' | '+' | '_' | '─' | '|'))
-}
-
-fn lines(text: &str) -> impl Iterator<Item = Range<usize>> {
-    let mut start = 0;
-    text.split_inclusive('\n').map(move |line| {
-        let span = start..start + line.trim_end_matches(['\n', '\r']).len();
-        start += line.len();
-        span
-    })
 }
 
 #[cfg(test)]

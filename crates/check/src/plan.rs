@@ -16,7 +16,7 @@ use super::walk::{Answered, Assertion, Defined, Walk, points};
 use denavit::catalogue;
 use denavit::description::table::{PrintedTable, tables};
 use denavit::description::{
-    Convention, Description, Diagnostic, NotSet, Severity, TableKind, TableOptions, line_column,
+    Convention, Description, Diagnostic, Measure, NotSet, Severity, TableKind, TableOptions, line_column,
 };
 use denavit::geometry::{Transform, Vector};
 use denavit_reading::code::Dialect;
@@ -114,6 +114,9 @@ impl Plan {
             let what = Noted::NotSet(name.into(), why);
             Note { severity: Severity::Error, span: 0..0, what }
         };
+        let in_millimetres = options.table.lengths_in_millimetres == Some(true);
+        // Lengths of tables of its own are in the document's unit in the end.
+        let is_scaled = in_millimetres || convention::only_in_millimetres(text).is_some();
         let mut from_table = |d: &Description, table: &PrintedTable| {
             let mut d = d.clone();
             for ((name, value), is_set) in options.set.iter().zip(&mut is_set) {
@@ -127,9 +130,11 @@ impl Plan {
                 d.parameters.iter().filter(|p| p.value.is_none()).map(|p| p.symbol).collect();
             for symbol in open.iter().filter(|_| options.language == Some(Dialect::C)) {
                 // `#define H 1.20` puts the number into every formula.
-                if let Some(value) = changed::defined_in(text, &symbol.name()) {
-                    let _ = d.set(&symbol.name(), value);
-                }
+                let Some(number) = changed::defined_in(text, &symbol.name()) else { continue };
+                let is_length = is_scaled && d.measure(*symbol) == Measure::Length;
+                let value = if is_length { format!("{number} mm") } else { number.to_string() };
+                // What cannot be read so stays a letter.
+                let _ = d.set(&symbol.name(), &value);
             }
             let d = &d;
             let convention = [d.convention.length_x(), d.convention.length_z()];
@@ -143,7 +148,6 @@ impl Plan {
             Some(subject)
         };
         let habits = Habits::of(text).with_products(text, document);
-        let in_millimetres = options.table.lengths_in_millimetres == Some(true);
         let millimetres = in_millimetres && robot.is_some();
         let habits = Rc::new(Habits { millimetres, ..habits });
         let authors = BTreeSet::new();
@@ -275,8 +279,7 @@ impl Plan {
             plan.push(0, Subject::new(nothing(Convention::Standard)));
         }
         failed.into_iter().for_each(|f| notes.add(f.into()));
-        let in_millimetres = in_millimetres || convention::only_in_millimetres(text).is_some();
-        Ok(if in_millimetres && plan.is_own { plan.with_unit(true) } else { plan })
+        Ok(if is_scaled && plan.is_own { plan.with_unit(true) } else { plan })
     }
 
     /// The number of the robot that a place of the text is about.

@@ -4,7 +4,7 @@
 
 use super::CheckOptions;
 use super::facts::{About, Meaning, Sense};
-use super::formula::Formula;
+use super::formula::{Formula, has_root_of_sum};
 use super::habits::{Columns, Habits, Places, with_named_signs};
 use super::matrix::Matrix;
 use super::names::{Name, Token, tokens};
@@ -19,7 +19,7 @@ use denavit::geometry::{Axis, Vector};
 use denavit_reading::document::{Document, Statement};
 use denavit_reading::slip::Points;
 use denavit_symbolic::vocabulary::plain_name;
-use denavit_symbolic::{Expr, Node, equal};
+use denavit_symbolic::{Expr, equal};
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
@@ -366,9 +366,7 @@ fn may_be_helper(name: &str, tells_hand: bool) -> bool {
 /// True for a formula with a root of a sum, where the robot has none.
 fn is_radial(piece: &Piece) -> bool {
     let Piece::Pair(pair) = piece else { return false };
-    let is_root = |e: Expr| matches!(e.node(), Node::Sqrt(a) if matches!(a.node(), Node::Add(..)));
-    let has_root = |e: Expr| Expr::postorder(&[e]).into_iter().any(is_root);
-    has_root(pair.value) && !has_root(pair.wanted)
+    has_root_of_sum(pair.value) && !has_root_of_sum(pair.wanted)
 }
 
 /// A name without the letter of its axis.

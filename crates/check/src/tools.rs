@@ -4,11 +4,12 @@
 use super::note::Unread;
 use super::plan::{Plan, Walked};
 use super::walk::Piece;
-use denavit::geometry::Vector;
+use denavit::description::Description;
+use denavit::geometry::{Transform, Vector};
 use denavit_symbolic::parse::parse;
 use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
 use denavit_symbolic::{Expr, Symbol};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// No more unknown names, and no more told places, are tried.
 const MOST_NAMES: usize = 3;
@@ -20,7 +21,7 @@ const LONGEST: usize = 80;
 
 /// Places of the hand in the last frame that the text may mean, for arms without a tool.
 pub(super) fn candidates(text: &str, plan: &Plan, walked: &Walked) -> Vec<Vector<Expr>> {
-    let is_bare = |d: &denavit::description::Description| d.tool == denavit::geometry::Transform::identity();
+    let is_bare = |d: &Description| d.tool == Transform::identity();
     if !plan.is_own || plan.subjects.is_empty() || !plan.subjects.iter().all(|s| is_bare(&s.description)) {
         return vec![];
     }
@@ -50,7 +51,7 @@ pub(super) fn letters_of_lengths(plan: &Plan, walked: &Walked) -> Vec<char> {
         (is_row && first.is_ascii_alphabetic()).then_some(first)
     };
     let all = names.flatten().filter_map(|e| letter(plain_name(e.unknown()?)));
-    let found: std::collections::BTreeSet<char> = all.collect();
+    let found: BTreeSet<char> = all.collect();
     found.into_iter().filter(|_| plan.is_own).take(2).collect()
 }
 
@@ -91,7 +92,8 @@ fn told(text: &str, plan: &Plan) -> Vec<Vector<Expr>> {
     let mut found: Vec<Vector<Expr>> = vec![];
     for (at, _) in text.match_indices(['(', '[']).take(2_000) {
         let inside = &text[at + 1..];
-        let Some(length) = inside.find([')', ']']).filter(|l| *l <= LONGEST) else { continue };
+        let mut chars = inside.char_indices().take(LONGEST);
+        let Some((length, _)) = chars.find(|c| matches!(c.1, ')' | ']')) else { continue };
         let parts: Vec<&str> = inside[..length].split([',', ';']).map(str::trim).collect();
         if parts.len() != 3 {
             continue;
@@ -109,11 +111,7 @@ fn told(text: &str, plan: &Plan) -> Vec<Vector<Expr>> {
         let Some(place) = parts.iter().map(value).collect::<Option<Vec<Expr>>>() else { continue };
         let [x, y, z] = place[..] else { continue };
         let place = Vector([x, y, z]);
-        let moves = |s: Symbol| {
-            let own = |v: &denavit::description::Variable| v.symbol == s;
-            plan.is_joint(&s.name())
-                || plan.subjects.iter().any(|r| r.description.variables().iter().any(own))
-        };
+        let moves = |s: Symbol| plan.is_joint(&s.name());
         let is_still = place.0.iter().flat_map(|e| e.symbols()).all(|s| !moves(s));
         if is_still && place.0.iter().any(|e| !e.is_zero()) && !found.contains(&place) {
             found.push(place);

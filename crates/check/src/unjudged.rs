@@ -3,6 +3,7 @@
 use super::CheckOptions;
 use super::facts::{About, Condition};
 use super::lexis::read;
+use super::lines::lines;
 use super::note::Unreadable;
 use super::outcome::{Claim, Entry, Finding, Skipped, Standing, Unjudged};
 use super::plan::Walked;
@@ -273,15 +274,6 @@ fn looks_like_formula(line: &str) -> bool {
     let left = sides.next().unwrap_or_default();
     let is_rule = shown.chars().all(|c| matches!(c, '=' | '-' | '+' | '|' | ' '));
     !is_rule && is_side(left) && sides.any(is_side) && !plain_name(shown).is_empty()
-}
-
-fn lines(text: &str) -> impl Iterator<Item = Range<usize>> {
-    let mut start = 0;
-    text.split_inclusive('\n').map(move |line| {
-        let span = start..start + line.len();
-        start += line.len();
-        span
-    })
 }
 
 fn trimmed(text: &str, span: Range<usize>) -> Range<usize> {

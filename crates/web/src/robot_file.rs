@@ -55,7 +55,7 @@ pub struct Frame {
 }
 
 /// The keys of a row, in the order in which they are written.
-const KEYS: [&str; 14] = [
+const KEYS: [&str; 19] = [
     "name",
     "gamma",
     "b",
@@ -70,6 +70,11 @@ const KEYS: [&str; 14] = [
     "mass",
     "com",
     "inertia",
+    "first_moment",
+    "inertia_at_origin",
+    "rotor",
+    "viscous",
+    "coulomb",
 ];
 
 /// A text, and which bytes of it are which cell.

@@ -96,8 +96,19 @@ pub struct Parts {
     pub gravity: Vec<String>,
     /// A(q), row by row.
     pub inertia: Vec<Vec<String>>,
+    /// On what it rests that their sum gives Lagrange's torques: `proved` or `sampled`.
+    pub proof: &'static str,
     /// C(q, q̇) q̇.
     pub velocity: Vec<String>,
+}
+
+/// A word for what torques rest on.
+fn word(ground: Ground) -> &'static str {
+    match ground {
+        Ground::Proved => "proved",
+        Ground::Modulo(_) | Ground::Numbers(..) => "sampled",
+        Ground::Failed => "failed",
+    }
 }
 
 impl Model {
@@ -119,13 +130,10 @@ impl Model {
             parts: model.parts.as_ref().map(|p| Parts {
                 gravity: list(&p.gravity),
                 inertia: p.inertia.iter().map(|row| list(row)).collect(),
+                proof: word(p.ground),
                 velocity: list(&p.velocity),
             }),
-            proof: match model.ground {
-                Ground::Proved => "proved",
-                Ground::Modulo(_) | Ground::Numbers(..) => "sampled",
-                Ground::Failed => "failed",
-            },
+            proof: word(model.ground),
             robot: robot.into(),
             schema: Schema,
             steps: model.torques.steps().iter().map(|s| Step::of(s, &text)).collect(),

@@ -12,6 +12,7 @@ use super::facts::{About, Meaning};
 use super::habits::Habits;
 use super::jacobians::{Part, Told};
 use super::lexis::Lexis;
+use super::lines::lines;
 use super::matrix::Matrix;
 use super::note::{Unread, Unreadable};
 use super::numbers::{Answer, Configuration, half_unit};
@@ -101,7 +102,8 @@ pub(super) fn assertions(of: &Source<'_>, subject: &Rc<Subject>, habits: &Rc<Hab
     let has_links = !subject.description.rows.is_empty();
     for (code, span) in codes.iter().zip(blocks) {
         let mut places = vec![(span.start, comments.at.clone())];
-        for line in lines(text, span) {
+        for line in lines(text.get(span.clone()).unwrap_or_default()) {
+            let line = span.start + line.start..span.start + line.end;
             comments.told_in_comments(&line, language);
             places.push((line.end, comments.at.clone()));
         }
@@ -159,18 +161,6 @@ pub(super) fn assertions(of: &Source<'_>, subject: &Rc<Subject>, habits: &Rc<Hab
     let telling = Telling { subject, habits, lexis, functions: of.posed };
     posed::solutions(of, &telling, &asked, &mut found);
     found
-}
-
-/// The lines of a part of a text.
-fn lines(text: &str, span: &Range<usize>) -> Vec<Range<usize>> {
-    let mut start = span.start;
-    let part = text.get(span.clone()).unwrap_or_default();
-    let of = |line: &str| {
-        let line = start..start + line.len();
-        start = line.end;
-        line
-    };
-    part.split_inclusive('\n').map(of).collect()
 }
 
 /// The names in a formula.

@@ -5,6 +5,9 @@ use crate::jacobians::derivative;
 use denavit_symbolic::Expr;
 use std::ops::Range;
 
+/// The longest quotient, in bytes.
+const LONGEST: usize = 100;
+
 impl Walk<'_> {
     /// The derivative that a side names, of what is known by a joint or by time.
     pub(super) fn derivative_named(&self, span: &Range<usize>) -> Option<Expr> {
@@ -30,6 +33,9 @@ impl Walk<'_> {
 
 /// The names above and below a quotient of differentials.
 fn quotient(source: &str) -> Option<(String, String)> {
+    if source.len() > LONGEST {
+        return None;
+    }
     let plain: String = source.chars().filter(|c| !c.is_whitespace() && !matches!(c, '$' | '~')).collect();
     let plain = ["\\,", "\\;", "\\!"].iter().fold(plain, |p, look| p.replace(look, ""));
     let plain = plain.replace("\\partial", "∂").replace("\\mathrm{d}", "d");

@@ -152,10 +152,8 @@ pub(super) struct Walk<'a> {
     goal_at: usize,
     /// What is read is about inverse kinematics.
     in_inverse: bool,
-    /// The components of the load that was given last, where these have names.
-    load: Vec<(Symbol, Expr)>,
-    /// It is one that could not be read.
-    has_other_load: bool,
+    /// The components of the load that was given last, where these have names; nothing if it could not be read.
+    load: Option<Vec<(Symbol, Expr)>>,
     /// Names that the document gives matrices: the statement and the name as printed.
     pub named: Vec<(Range<usize>, String)>,
     /// The statement before which another one is read.
@@ -227,9 +225,8 @@ impl<'a> Walk<'a> {
             goal: vec![],
             goal_at: 0,
             in_inverse: false,
-            load: vec![],
+            load: Some(vec![]),
             told_to: 0,
-            has_other_load: false,
             named: vec![],
             reader: None,
             last_prose: 0..0,

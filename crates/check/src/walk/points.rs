@@ -5,12 +5,13 @@
 
 use super::{Assertion, Defined, Pair, Piece, Walk, is_measured};
 use crate::facts::{About, Meaning};
+use crate::formula::has_root_of_sum;
 use crate::subject::Subject;
 use denavit::forward::Reference;
 use denavit_reading::document::Statement;
 use denavit_symbolic::parse::Syntax;
 use denavit_symbolic::readable::literals;
-use denavit_symbolic::{Expr, Node, equal};
+use denavit_symbolic::{Expr, equal};
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -82,9 +83,7 @@ fn claims(point: &[(usize, &Defined)], subject: &Subject) -> Vec<Assertion> {
         let origin = subject.origin(k);
         let frame = Meaning::Frame { of: Reference::Frame(k), seen_from: Reference::Frame(0) };
         // A distance from an axis, `√(x² + y²) - L`, is no coordinate in the base.
-        let is_root = |e: Expr| matches!(e.node(), Node::Sqrt(a) if matches!(a.node(), Node::Add(..)));
-        let is_distance = |d: &Defined| Expr::postorder(&[d.value]).into_iter().any(is_root);
-        let coordinates = point.iter().filter(|(_, d)| !is_distance(d));
+        let coordinates = point.iter().filter(|(_, d)| !has_root_of_sum(d.value));
         return coordinates.map(|(axis, d)| assertion(d, origin[*axis], &frame)).collect();
     }
     vec![]

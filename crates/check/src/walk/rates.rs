@@ -18,8 +18,7 @@ impl Walk<'_> {
         }
         let [Part::Matrix(grid), ..] = &right.parts[..] else {
             // `F = N u`: what follows is about a load that is not known.
-            self.load = vec![];
-            self.has_other_load = true;
+            self.load = None;
             return;
         };
         if elements(grid) > 6 {
@@ -50,8 +49,7 @@ impl Walk<'_> {
         let is_same = |(s, v): (&Symbol, &Option<Expr>)| *v == Some((*s).into());
         if components.iter().zip(&values).any(|pair| !is_same(pair)) {
             let given = components.iter().zip(values);
-            self.load = given.filter_map(|(s, v)| Some((*s, v?))).collect();
-            self.has_other_load = false;
+            self.load = Some(given.filter_map(|(s, v)| Some((*s, v?))).collect());
         }
     }
 
@@ -77,10 +75,8 @@ impl Walk<'_> {
         if !wanted.symbols().iter().any(is_component) {
             return Some(wanted);
         }
-        if self.has_other_load {
-            return None;
-        }
-        Some(wanted.substitute(|s| self.load.iter().find(|l| l.0 == s).map(|l| l.1)))
+        let load = self.load.as_ref()?;
+        Some(wanted.substitute(|s| load.iter().find(|l| l.0 == s).map(|l| l.1)))
     }
 
     /// The velocity of the hand that the document gives as numbers: `v = (0.1, 0, 0)`.

@@ -506,7 +506,8 @@ fn is_name(text: &str) -> bool {
 
 /// Where the sentence of a line ends in which a statement ends: at the line's end, or at a full stop before a capital.
 pub(super) fn sentence_end(text: &str, line: &Range<usize>, from: usize) -> usize {
-    let Some(rest) = text.get(from..line.end).filter(|_| line.contains(&from)) else { return line.end };
+    let is_short = line.contains(&from) && line.len() < LONGEST;
+    let Some(rest) = text.get(from..line.end).filter(|_| is_short) else { return line.end };
     let ends = |at: &usize| {
         let behind = &rest[at + 1..];
         let begins = behind.trim_start().chars().next().is_some_and(char::is_uppercase);

@@ -158,3 +158,20 @@ fn the_function_of_a_row_is_none_of_four_joints() {
         found.claims
     );
 }
+
+#[test]
+fn numbers_that_a_program_defines_for_lengths() {
+    let program = |unit: &str, h: &str, height: &str| {
+        format!(
+            "/* Standard DH{unit}, angles in rad\n *  i  theta  d    a    alpha\n *  1  q1     H    0    90\n *  2  q2     0    L    0\n */\n\
+             #define H {h}\n#define L 0.3f\nvoid ik(const double p[3], double q[2])\n{{\n\
+             \x20   double rho = sqrt(p[0]*p[0] + p[1]*p[1]);\n    q[0] = atan2(p[1], p[0]);\n    q[1] = atan2(p[2] - {height}, rho);\n}}\n"
+        )
+    };
+    for (unit, h) in [("", "1.20f"), (", lengths in mm", "120.0f")] {
+        let found = read(&program(unit, h, "H"), Format::Plain, Some(Dialect::C));
+        assert!(found.claims.iter().all(|c| c.standing() != Standing::Wrong), "{unit}: {:?}", found.claims);
+        let found = read(&program(unit, h, "L"), Format::Plain, Some(Dialect::C));
+        assert!(found.claims.iter().any(|c| c.standing() == Standing::Wrong), "{unit}: {:?}", found.claims);
+    }
+}

@@ -250,6 +250,14 @@ fn whole_trees_are_tables() {
             assert_eq!(count(&shown), count(&own), "{name} {to}");
         }
     }
+    // A file without a branch is a tree of one chain.
+    for to in ["markdown", "csv", "latex"] {
+        let (code, written, said) = run(&["convert", &urdf("ur5_robot"), "--tip", "tool0", "--to", "urdf"]);
+        assert_eq!(code, 0, "{said}");
+        let one = File::new("one-chain.urdf", &written);
+        let (code, _, said) = run(&["convert", one.name(), "--to", to, "--whole"]);
+        assert!(code == 0 && said.contains("read back"), "{to}: {said}");
+    }
     let (code, _, said) = run(&["convert", &urdf("pr2"), "--to", "markdown", "--whole"]);
     assert!(code == 0 && said.contains("of 25 chains"), "{said}");
     let (code, _, said) = run(&["convert", "dual-arm", "--to", "urdf", "--whole"]);

@@ -40,8 +40,8 @@ pub fn dynamics_document(d: &Description, model: &DynamicModel, language: Tongue
     if has(|r| &r.coulomb) {
         blocks.push(paragraph(words.without_coulomb()));
     }
-    let proof = (model.ground == Ground::Proved).then_some(Proof::Proved);
     if let Some(parts) = &model.parts {
+        let proof = (parts.ground == Ground::Proved).then_some(Proof::Proved);
         let column = |all: &[Expr]| all.iter().map(|&e| vec![e]).collect();
         for (title, name, rows) in [
             (words.inertia_title(), "A", parts.inertia.clone()),

@@ -1,13 +1,13 @@
 //! The dynamic model of an arm as formulas.
 
 use super::base::BaseModel;
-use super::lagrange::Ground;
+use super::lagrange::{Ground, program};
 use super::model::Formulas;
 use super::short::shortest;
 use crate::description::Description;
 use crate::forward::symbol_order;
 use denavit_program::Program;
-use denavit_symbolic::{Expr, Symbol, readable};
+use denavit_symbolic::{Expr, Symbol, equal, readable};
 
 /// Joints up to which the matrices are written out.
 const WRITTEN_OUT: usize = 3;
@@ -36,6 +36,9 @@ pub struct Parts {
     pub velocity: Vec<Expr>,
     /// Q(q).
     pub gravity: Vec<Expr>,
+    /// On what it rests that their sum gives Lagrange's torques. A and Q have no rates, and C q̇ vanishes with them: each is the
+    /// part that it is called, then.
+    pub ground: Ground,
 }
 
 impl DynamicModel {
@@ -69,14 +72,29 @@ impl Parts {
         let resting = |s: Symbol| (is(&formulas.qd, s) || is(&formulas.qdd, s)).then_some(0);
         let gravity: Vec<Expr> = all.iter().map(|&e| simple(with(e, &resting))).collect::<Option<_>>()?;
         let coasting = |s: Symbol| is(&formulas.qdd, s).then_some(0);
-        let velocity =
+        let velocity: Vec<Expr> =
             all.iter().map(|&e| simple(with(e, &coasting) - with(e, &resting))).collect::<Option<_>>()?;
         let entry = |e: Expr, j: usize| {
             let pulled = |s: Symbol| if s == formulas.qdd[j] { Some(1) } else { resting(s) };
             simple(with(e, &pulled) - with(e, &resting))
         };
         let row = |&e: &Expr| (0..formulas.q.len()).map(|j| entry(e, j)).collect::<Option<Vec<Expr>>>();
-        let inertia = all.iter().map(row).collect::<Option<_>>()?;
-        Some(Parts { inertia, velocity, gravity })
+        let inertia: Vec<Vec<Expr>> = all.iter().map(row).collect::<Option<_>>()?;
+        let moving = |s: &Symbol| is(&formulas.qd, *s) || is(&formulas.qdd, *s);
+        let is_still = |e: &Expr| !e.symbols().iter().any(moving);
+        let are_parts = inertia.iter().flatten().chain(&gravity).all(is_still)
+            && velocity.iter().all(|&e: &Expr| equal(with(e, &resting), Expr::int(0)).is_equal());
+        let [_, _, qdd] = formulas.state();
+        let torque = |j: usize| {
+            let pulled = inertia[j].iter().zip(&qdd).fold(Expr::int(0), |sum, (&a, &x)| sum + a * x);
+            pulled + velocity[j] + gravity[j]
+        };
+        let torques: Vec<Expr> = (0..gravity.len()).map(torque).collect();
+        let ground = match are_parts {
+            true => base.ground(d, formulas, &program(base.inverse.variables(), &torques)),
+            false => Ground::Failed,
+        };
+        // What is not the torque's part is not printed as one.
+        (ground != Ground::Failed).then_some(Parts { inertia, velocity, gravity, ground })
     }
 }

@@ -124,7 +124,7 @@ impl BaseModel {
 }
 
 /// Formulas as they stand, as a program; what is no variable is a parameter.
-fn program(variables: &[Symbol], formulas: &[Expr]) -> Program {
+pub(super) fn program(variables: &[Symbol], formulas: &[Expr]) -> Program {
     let mut graph = Graph::new(variables, &[]);
     let name = |k: usize| format!("t{}", k + 1);
     let results: Vec<(String, Value)> =

@@ -230,6 +230,15 @@ fn torques_are_those_of_lagrange() {
     }
 }
 
+/// What is printed of A, C q̇ and Q is held against the definition itself, after it was simplified.
+#[test]
+fn the_parts_of_torques_have_a_ground_of_their_own() {
+    for name in ["planar-2r", "planar-3r", "articulated-3r", "cylindrical-rpp"] {
+        let model = DynamicModel::derive(&under(robot(name), [0, -1, 0]));
+        assert_eq!(model.parts.map(|p| p.ground), Some(Ground::Proved), "{name}");
+    }
+}
+
 /// A program with a slip is found out: as a canonical form, modulo a prime, and in numbers.
 #[test]
 fn a_slip_has_no_ground() {

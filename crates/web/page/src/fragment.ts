@@ -104,8 +104,9 @@ function readRow(value: unknown): Row | undefined {
   if (!isRecord(value)) return undefined;
   const limits = list(value.limits, text, 2);
   return {
-    ...pick(value, ["name", "theta", "d", "a", "alpha", "r", "gamma", "b", "velocity", "acceleration", "mass"], text),
-    ...pick(value, ["com", "inertia"], (one) => list(one, text)),
+    ...pick(value, ["name", "theta", "d", "a", "alpha", "r", "gamma", "b", "velocity", "acceleration"], text),
+    ...pick(value, ["mass", "rotor", "viscous", "coulomb"], text),
+    ...pick(value, ["com", "inertia", "first_moment", "inertia_at_origin"], (one) => list(one, text)),
     ...(limits?.length === 2 && { limits: limits as [string, string] }),
   };
 }

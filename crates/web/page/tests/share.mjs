@@ -56,6 +56,15 @@ scenario("every change is in the address, and the address can be gone back from"
   await until(async () => Math.abs((await valueOf(page.getByRole("textbox", { name: /^q2\b/ }))) - 14.32) < 0.01, "the page follows its address");
 });
 
+scenario("a link keeps masses and drives", async (page) => {
+  const row = { theta: "q1", mass: "2", first_moment: ["1", "0", "0"], inertia_at_origin: ["1", "0", "0", "2", "0", "2"], rotor: "0.1", viscous: "1", coulomb: "2" };
+  const file = { name: "x", convention: "craig", parameters: [], joints: [row], poses: [] };
+  await open(page, encode({ file, q: [0.5], panel: "joints" }));
+  await enter(page.getByRole("textbox", { name: /^q1\b/ }), "33");
+  const s = await shared(page, (one) => Math.abs(one.q[0] - radians(33)) < 1e-9, "the joint is in the address");
+  assert.deepEqual(s.file.joints, [row]);
+});
+
 const good = encode({ file: { name: "x", convention: "standard", parameters: [], joints: [{ theta: "q1", a: "1" }], poses: [] } });
 const HOSTILE = [
   ["garbage", "#%%%%not-an-address", /carries no robot/],

@@ -6,6 +6,9 @@ use crate::description::cell::name_of;
 use crate::description::diagnostic::Diagnostics;
 use crate::description::{Convention, JointKind};
 
+/// Longer tables are not searched for variables with names of their own.
+const MOST_BY_WORDS: usize = 64;
+
 /// What a row's joint is.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) enum Joint {
@@ -29,7 +32,10 @@ pub(super) fn joints(
         joints.push(found.unwrap_or(Joint::Fixed));
     }
     check_owners(rows, &joints, convention.length_z(), out);
-    let is_silent = !starred && !out.has_errors() && rows.iter().all(|r| !says_what_moves(r));
+    let is_silent = rows.len() <= MOST_BY_WORDS
+        && !starred
+        && !out.has_errors()
+        && rows.iter().all(|r| !says_what_moves(r));
     if is_silent && joints.iter().all(|j| *j == Joint::Fixed) {
         return by_words(rows, convention.length_z(), is_given, out);
     }

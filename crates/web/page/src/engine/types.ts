@@ -38,6 +38,11 @@ export interface Row {
   mass?: string;
   com?: string[];
   inertia?: string[];
+  first_moment?: string[];
+  inertia_at_origin?: string[];
+  rotor?: string;
+  viscous?: string;
+  coulomb?: string;
 }
 
 /** A constant transform: a displacement and roll, pitch, yaw; or a matrix. */
