@@ -2,7 +2,7 @@
 
 use super::inertia::inertia_matrix;
 use super::model::{Dynamics, Wrench};
-use super::newton_euler::{friction, inverse_dynamics};
+use super::newton_euler::drive_torques;
 use crate::scalar::Scalar;
 use std::fmt;
 
@@ -106,9 +106,7 @@ pub fn direct_dynamics(
     if let Some(joint) = (0..n).find(is_lost) {
         return Err(Singular { joint });
     }
-    let at_rest = inverse_dynamics(arm, q, qd, &vec![0.0; n], wrench);
-    // The viscous part of friction is in these torques.
-    let rest: Vec<f64> =
-        (0..n).map(|j| tau[j] - at_rest[j] - friction(arm, qd)[j] + arm.drives[j].viscous * qd[j]).collect();
+    let coasting = drive_torques(arm, q, qd, &vec![0.0; n], wrench);
+    let rest: Vec<f64> = tau.iter().zip(coasting).map(|(t, c)| t - c).collect();
     Ok(factors.solve(&rest))
 }

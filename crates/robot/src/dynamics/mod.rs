@@ -38,5 +38,5 @@ pub use grouping::{Grouped, grouped};
 pub use inertia::inertia_matrix;
 pub use lagrange::{Ground, lagrange};
 pub use model::{Drive, Dynamics, Formulas, GRAVITY, Link, NoNumbers, Wrench};
-pub use newton_euler::{friction, gravity_torques, inverse_dynamics, velocity_torques};
+pub use newton_euler::{drive_torques, friction, gravity_torques, inverse_dynamics, velocity_torques};
 pub use regressor::regressor;

@@ -81,6 +81,23 @@ pub fn friction(arm: &Dynamics<f64>, qd: &[f64]) -> Vec<f64> {
     arm.drives.iter().zip(qd).map(|(d, &v)| d.viscous * v + d.coulomb * sign(v)).collect()
 }
 
+/// The torques of the drives: [`inverse_dynamics`] with Coulomb's friction.
+///
+/// # Panics
+/// If `q`, `qd` or `qdd` does not have one entry per joint.
+pub fn drive_torques(
+    arm: &Dynamics<f64>,
+    q: &[f64],
+    qd: &[f64],
+    qdd: &[f64],
+    wrench: Option<&Wrench<f64>>,
+) -> Vec<f64> {
+    let torques = inverse_dynamics(arm, q, qd, qdd, wrench);
+    let rubbed = torques.into_iter().zip(friction(arm, qd)).zip(arm.drives.iter().zip(qd));
+    // The viscous part is in the torques already.
+    rubbed.map(|((torque, rubbed), (drive, &v))| torque + rubbed - drive.viscous * v).collect()
+}
+
 /// How the links move, base first; the base accelerates by `base`.
 pub(super) fn motions<T: Scalar>(
     arm: &Dynamics<T>,

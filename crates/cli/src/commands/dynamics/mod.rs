@@ -11,8 +11,8 @@ use crate::load;
 use crate::terminal::{note, words};
 use denavit::description::Description;
 use denavit::dynamics::{
-    DynamicModel, Dynamics, GRAVITY, Ground, NoNumbers, Wrench, direct_dynamics, friction, gravity_torques,
-    inertia_matrix, inverse_dynamics, kinetic_energy, potential_energy, velocity_torques,
+    DynamicModel, Dynamics, GRAVITY, Ground, NoNumbers, Wrench, direct_dynamics, drive_torques, friction,
+    gravity_torques, inertia_matrix, inverse_dynamics, kinetic_energy, potential_energy, velocity_torques,
 };
 use denavit::geometry::{Body, Vector};
 use denavit_report::explain::{dynamics_document, dynamics_vocabulary};
@@ -110,12 +110,9 @@ fn answer(
             ))
         })?),
     };
-    let rubbed = friction(arm, &qd);
     let torques = tau.unwrap_or_else(|| {
         let pulled = qdd.clone().unwrap_or_else(|| vec![0.0; n]);
-        let torques = inverse_dynamics(arm, &q, &qd, &pulled, wrench.as_ref());
-        // Viscous friction is in these torques.
-        (0..n).map(|j| torques[j] + rubbed[j] - arm.drives[j].viscous * qd[j]).collect()
+        drive_torques(arm, &q, &qd, &pulled, wrench.as_ref())
     });
     let held = wrench.as_ref().map(|w| {
         let still = vec![0.0; n];
@@ -125,7 +122,7 @@ fn answer(
     Ok(Answer {
         accelerations,
         energy: Energy { kinetic: kinetic_energy(arm, &q, &qd), potential: potential_energy(arm, &q) },
-        friction: rubbed,
+        friction: friction(arm, &qd),
         gravity: gravity_torques(arm, &q),
         inertia: inertia_matrix(arm, &q),
         robot: description.name.clone(),
