@@ -139,6 +139,7 @@ impl Table {
                 Node::Pow(a, n) => of(a).powi(n),
                 Node::Sqrt(a) => of(a).sqrt(),
                 Node::Atan2(a, b) => of(a).atan2(of(b)),
+                Node::Sign(a) => of(a).sign(),
             };
             new.insert(part, built);
         }

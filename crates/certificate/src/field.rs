@@ -235,7 +235,7 @@ impl Field {
             Node::Sqrt(a) => self.root(a).map(Value::from),
             Node::Sin(a) => Ok(self.sine(&Angle::of(a))?.0.into()),
             Node::Cos(a) => Ok(self.sine(&Angle::of(a))?.1.into()),
-            Node::Atan2(..) => Err(Obstacle::Function),
+            Node::Atan2(..) | Node::Sign(_) => Err(Obstacle::Function),
         }
     }
 

@@ -97,6 +97,7 @@ fn written(field: &mut Field, e: Expr, dialect: &dyn Dialect) -> (String, u8) {
         Node::Sin(a) => (dialect.circular(field, a, true), ATOM),
         Node::Cos(a) => (dialect.circular(field, a, false), ATOM),
         Node::Atan2(..) => ("atan2".into(), ATOM),
+        Node::Sign(_) => ("sign".into(), ATOM),
     }
 }
 

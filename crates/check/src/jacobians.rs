@@ -284,7 +284,7 @@ pub(super) fn derivative(e: Expr, by: Expr) -> Option<Expr> {
             Node::Pow(a, n) => Expr::int(i64::from(n)) * a.powi(n - 1) * of(&a)?,
             Node::Sin(a) => a.cos() * of(&a)?,
             Node::Cos(a) => -a.sin() * of(&a)?,
-            Node::Sqrt(_) | Node::Atan2(..) => return None,
+            Node::Sqrt(_) | Node::Atan2(..) | Node::Sign(_) => return None,
         };
         known.insert(part, found);
     }

@@ -166,17 +166,25 @@ impl<'a> Function<'a> {
 
     /// Whether some function of the list takes a root of what is no constant.
     pub fn any_root(functions: &[Self]) -> bool {
-        let is_root = |e: &Expr| matches!(e.node(), Node::Sqrt(_)) && !e.symbols().is_empty();
-        let has_root = |s: &Step| {
+        Self::any_formula(functions, |e| matches!(e.node(), Node::Sqrt(_)) && !e.symbols().is_empty())
+    }
+
+    /// Whether some function of the list takes the sign of a value.
+    pub fn any_sign(functions: &[Self]) -> bool {
+        Self::any_formula(functions, |e| matches!(e.node(), Node::Sign(_)))
+    }
+
+    fn any_formula(functions: &[Self], is: fn(&Expr) -> bool) -> bool {
+        let has = |s: &Step| {
             let formulas = match s {
                 Step::Break => vec![],
                 Step::Pairs(pairs) => pairs.iter().map(|p| p.angle).collect(),
                 Step::Atan2 { y, x, .. } => vec![*y, *x],
                 Step::Let { value, .. } | Step::Result { value, .. } => vec![*value],
             };
-            Expr::postorder(&formulas).iter().any(is_root)
+            Expr::postorder(&formulas).iter().any(is)
         };
-        functions.iter().flat_map(Function::steps).any(has_root)
+        functions.iter().flat_map(Function::steps).any(has)
     }
 
     /// Whether some function of the list has a range in which the routines without branches hold.
@@ -346,6 +354,7 @@ impl Steps<'_> {
                 Node::Div(a, b) => of(a) / of(b),
                 Node::Pow(a, n) => of(a).powi(n),
                 Node::Sqrt(a) => of(a).sqrt(),
+                Node::Sign(a) => of(a).sign(),
                 Node::Atan2(y, x) => {
                     let (y, x) = (of(y), of(x));
                     let name = self.names.fresh("angle");

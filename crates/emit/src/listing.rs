@@ -158,6 +158,7 @@ impl Builder<'_> {
                 Node::Pow(a, n) => of(a).powi(n),
                 Node::Sqrt(a) => of(a).sqrt(),
                 Node::Atan2(a, b) => of(a).atan2(of(b)),
+                Node::Sign(a) => of(a).sign(),
             };
             done.insert(part, new);
         }

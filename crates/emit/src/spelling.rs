@@ -99,6 +99,7 @@ impl Spelling<'_> {
             Node::Sin(a) => call(Op::Sin(0), &[a]),
             Node::Cos(a) => call(Op::Cos(0), &[a]),
             Node::Atan2(y, x) => call(Op::Atan2(any, any), &[y, x]),
+            Node::Sign(a) => call(Op::Sign(0), &[a]),
         }
     }
 
@@ -163,6 +164,10 @@ pub(crate) fn function_name(op: &Op, language: Language, precision: Precision) -
         (Op::Cos(_), Language::Python) => "np.cos",
         (Op::Cos(_), Language::JavaScript) => "Math.cos",
         (Op::Cos(_), Language::Matlab) => "cos",
+        (Op::Sign(_), Language::Rust | Language::C | Language::Cuda) => "sign_of",
+        (Op::Sign(_), Language::Python) => "np.sign",
+        (Op::Sign(_), Language::JavaScript) => "Math.sign",
+        (Op::Sign(_), Language::Matlab) => "sign",
         (Op::Atan2(..), Language::Rust | Language::Matlab) => "atan2",
         (Op::Atan2(..), Language::C | Language::Cuda) if is_single => "atan2f",
         (Op::Atan2(..), Language::C | Language::Cuda) => "atan2",

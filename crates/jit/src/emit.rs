@@ -4,6 +4,7 @@
 //! one rounding, as the program says; Cranelift contracts nothing. It orders arithmetic anew, from the results back.
 
 use crate::routines::{ANGLES, POINTS, Results};
+use cranelift_codegen::ir::condcodes::FloatCC;
 use cranelift_codegen::ir::types::F64;
 use cranelift_codegen::ir::{FuncRef, Function, InstBuilder, MemFlagsData, Value};
 use cranelift_codegen::isa::TargetFrontendConfig;
@@ -140,6 +141,13 @@ impl Body<'_> {
             }
             Opcode::Div => builder.ins().fdiv(a, b),
             Opcode::Sqrt => builder.ins().sqrt(a),
+            Opcode::Sign => {
+                let [zero, one, less] = [0.0, 1.0, -1.0].map(|x| builder.ins().f64const(x));
+                let is_below = builder.ins().fcmp(FloatCC::LessThan, a, zero);
+                let below = builder.ins().select(is_below, less, a);
+                let is_above = builder.ins().fcmp(FloatCC::GreaterThan, a, zero);
+                builder.ins().select(is_above, one, below)
+            }
             Opcode::SinCos | Opcode::Atan2 => unreachable!("routines are called"),
         };
         self.values[instruction.results[0] as usize] = Some(result);

@@ -43,13 +43,15 @@ pub enum Opcode {
     SinCos,
     /// `atan2(a, b)`
     Atan2,
+    /// The sign of `a`
+    Sign,
 }
 
 impl Opcode {
     /// How many operands it reads.
     pub(crate) fn arity(self) -> usize {
         match self {
-            Opcode::Copy | Opcode::Neg | Opcode::Sqrt | Opcode::SinCos => 1,
+            Opcode::Copy | Opcode::Neg | Opcode::Sqrt | Opcode::SinCos | Opcode::Sign => 1,
             Opcode::Add | Opcode::Sub | Opcode::Mul | Opcode::NegMul | Opcode::Div | Opcode::Atan2 => 2,
             Opcode::MulAdd | Opcode::MulSub | Opcode::SubMul | Opcode::NegMulAdd => 3,
             Opcode::MulAddMul | Opcode::MulSubMul => 4,
@@ -179,6 +181,7 @@ impl Code {
                 Opcode::Sqrt => [at(0).sqrt(), 0.0],
                 Opcode::SinCos => at(0).sin_cos().into(),
                 Opcode::Atan2 => [at(0).atan2(at(1)), 0.0],
+                Opcode::Sign => [crate::evaluate::sign(at(0)), 0.0],
             };
             for (&id, x) in instruction.writes().iter().zip(results) {
                 values[id as usize - self.variables] = x;
@@ -322,6 +325,7 @@ impl<'a> Lowering<'a> {
             Op::Div(a, b) => (Opcode::Div, vec![plain(a), plain(b)]),
             Op::Sqrt(a) => (Opcode::Sqrt, vec![a]),
             Op::Atan2(a, b) => (Opcode::Atan2, vec![a, b]),
+            Op::Sign(a) => (Opcode::Sign, vec![plain(a)]),
             Op::Sin(a) | Op::Cos(a) => return self.pair(node, a, list),
         };
         let id = self.emit(opcode, &values, list);

@@ -16,19 +16,24 @@ impl Program {
     /// `∂result/∂variable`, row by row: all variables for the first result, then for the second, and so on.
     /// The outputs are named `d_<result>_<variable>`. The mode is the one that costs less ([`crate::Count::cost`]).
     pub fn jacobian(&self) -> Program {
+        self.jacobian_by(self.variables())
+    }
+
+    /// The same by some of the variables.
+    pub fn jacobian_by(&self, variables: &[Symbol]) -> Program {
         let mut work = Rebuild::new(self, self.variables(), names_of(self));
         let at = work.copy(self);
         let results: Vec<Value> =
             self.outputs().iter().map(|o| signed(at[o.1.node as usize], o.1.negative)).collect();
         let mut names = vec![];
         for (result, _) in self.outputs() {
-            for variable in self.variables() {
+            for variable in variables {
                 names.push(work.unique(&format!("d_{result}_{}", variable.name())));
             }
         }
         let nodes = Nodes::new(&mut work.graph, &results);
-        let by_rates = forward_jacobian(&mut work.graph, &nodes, self.variables(), &results);
-        let by_weights = reverse_jacobian(&mut work.graph, &nodes, self.variables(), &results);
+        let by_rates = forward_jacobian(&mut work.graph, &nodes, variables, &results);
+        let by_weights = reverse_jacobian(&mut work.graph, &nodes, variables, &results);
         let [forward, reverse] = [by_rates, by_weights].map(|values| {
             let outputs: Vec<(String, Value)> = names.iter().cloned().zip(values).collect();
             work.finish(&outputs)

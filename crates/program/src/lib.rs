@@ -7,6 +7,7 @@
 //! This crate knows formulas, not where they come from.
 
 mod code;
+mod compose;
 mod derivative;
 mod domain;
 mod evaluate;
@@ -19,6 +20,7 @@ pub mod solver;
 mod text;
 
 pub use code::{Code, Instruction, NONE, Opcode};
+pub use compose::Composer;
 pub use domain::{Domain, Extended, Interval, Residue};
 pub use evaluate::{Arithmetic, Batch, Block, Function, Isa, MissingValue, Real, Scalar, values};
 pub use graph::{COUNTING_RULE, Count, Graph, Op, Stage, Value, Walk};

@@ -271,7 +271,7 @@ impl Expansion {
                 let divisor = factor(&self.work.graph, *b).and_then(|r| r.recip()).ok_or(refusal)?;
                 Ok(self.scaled(angle, &divisor))
             }
-            Op::Sqrt(_) | Op::Atan2(..) | Op::Number(_) | Op::Pi | Op::Input(_) => Err(refusal),
+            Op::Sqrt(_) | Op::Atan2(..) | Op::Sign(_) | Op::Number(_) | Op::Pi | Op::Input(_) => Err(refusal),
         }
     }
 

@@ -280,6 +280,7 @@ impl Program {
                 Op::Sin(a) => at(a).sin(),
                 Op::Cos(a) => at(a).cos(),
                 Op::Atan2(a, b) => value(a).atan2(value(b)),
+                Op::Sign(a) => at(a).sign(),
             };
             own.push(e);
         }
@@ -293,7 +294,8 @@ impl Program {
             Op::Number(_) | Op::Pi => 0,
             Op::Input(_) => 1,
             Op::Sin(_) | Op::Cos(_) => 2,
-            Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Div(..) | Op::Sqrt(_) | Op::Atan2(..) => 3,
+            Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Div(..) => 3,
+            Op::Sqrt(_) | Op::Atan2(..) | Op::Sign(_) => 3,
         };
         (*stage, kind)
     }
@@ -340,7 +342,7 @@ fn plain_sums(ops: &[(Op, Stage)]) -> Vec<bool> {
             Op::Add(a, b) => plain[*a as usize] && plain[*b as usize],
             Op::Sub(a, b) => is_input(*a) && is_input(*b),
             Op::Number(_) | Op::Pi | Op::Mul(..) | Op::Div(..) => false,
-            Op::Sqrt(_) | Op::Sin(_) | Op::Cos(_) | Op::Atan2(..) => false,
+            Op::Sqrt(_) | Op::Sin(_) | Op::Cos(_) | Op::Atan2(..) | Op::Sign(_) => false,
         };
     }
     plain

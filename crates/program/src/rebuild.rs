@@ -16,7 +16,12 @@ pub(crate) struct Rebuild {
 impl Rebuild {
     /// An empty graph with other variables; `used` starts with all names of the program.
     pub fn new(program: &Program, variables: &[Symbol], used: FxHashSet<String>) -> Self {
-        let graph = Graph::new(variables, program.parameters());
+        Rebuild::over(variables, program.parameters(), used)
+    }
+
+    /// An empty graph over inputs, with names that are taken.
+    pub fn over(variables: &[Symbol], parameters: &[Symbol], used: FxHashSet<String>) -> Self {
+        let graph = Graph::new(variables, parameters);
         Rebuild { graph, names: FxHashMap::default(), used }
     }
 
@@ -95,5 +100,6 @@ pub(crate) fn apply(graph: &mut Graph, op: &Op, at: impl Fn(u32) -> Value) -> Va
         Op::Sin(a) => graph.sin(at(*a)),
         Op::Cos(a) => graph.cos(at(*a)),
         Op::Atan2(a, b) => graph.atan2(moved(a), moved(b)),
+        Op::Sign(a) => graph.sign(at(*a)),
     }
 }

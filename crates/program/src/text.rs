@@ -69,7 +69,7 @@ impl fmt::Display for Program {
                     write!(f, " {} {}", at(a), at(b))?;
                 }
                 Op::Sqrt(a) => write!(f, " {}", Operand(self, *a))?,
-                Op::Sin(a) | Op::Cos(a) => write!(f, " {}", at(a))?,
+                Op::Sin(a) | Op::Cos(a) | Op::Sign(a) => write!(f, " {}", at(a))?,
                 Op::Atan2(a, b) => write!(f, " {} {}", Operand(self, *a), Operand(self, *b))?,
             }
             writeln!(f)?;
@@ -399,6 +399,7 @@ impl Reader {
             "sqrt" => Op::Sqrt(self.value(rest)?),
             "sin" => Op::Sin(self.node(rest)?),
             "cos" => Op::Cos(self.node(rest)?),
+            "sign" => Op::Sign(self.node(rest)?),
             "atan2" => Op::Atan2(self.value(rest)?, self.value(rest)?),
             _ => return Err(rest.error(column, format!("there is no operation `{word}`"))),
         };

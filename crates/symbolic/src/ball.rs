@@ -71,6 +71,10 @@ pub fn evaluate(e: Expr, leaf: impl Fn(Symbol) -> Option<f64>) -> Ball {
                     (true, false) => power,
                 }
             }
+            Node::Sign(a) => match value[&a] {
+                x if x.mid.abs() <= x.radius => Ball::unknown(),
+                x => Ball { mid: x.mid.signum(), radius: 0.0 },
+            },
             Node::Sqrt(a) => match value[&a] {
                 x if x.mid - x.radius <= 0.0 => Ball::unknown(),
                 // |√x − √y| ≤ |x − y| / √(least)

@@ -160,7 +160,7 @@ pub fn literals(e: Expr) -> u64 {
         let n = match part.node() {
             Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Sin(_) | Node::Cos(_) => 1,
             Node::Neg(a) => cost[&a],
-            Node::Sqrt(a) => cost[&a].saturating_add(1),
+            Node::Sqrt(a) | Node::Sign(a) => cost[&a].saturating_add(1),
             Node::Pow(a, n) => cost[&a].saturating_mul(u64::from(n.unsigned_abs()).min(3)),
             Node::Add(a, b) | Node::Sub(a, b) | Node::Mul(a, b) | Node::Div(a, b) | Node::Atan2(a, b) => {
                 cost[&a].saturating_add(cost[&b])
@@ -224,7 +224,7 @@ impl Collector<'_> {
         let rank = |a: Atom| match self.ring.kind(a) {
             AtomKind::Surd(_) => (0, 0, a),
             AtomKind::Pi | AtomKind::Symbol(_) => (1, 0, a),
-            AtomKind::Root(_) | AtomKind::Arctangent(_) => (2, 0, a),
+            AtomKind::Root(_) | AtomKind::Opaque(_) => (2, 0, a),
             AtomKind::Cos(g) | AtomKind::Sin(g) => (3, *g, a),
         };
         let mut factors = m.factors().to_vec();

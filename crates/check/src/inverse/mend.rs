@@ -36,6 +36,7 @@ pub fn rebuilt(e: Expr, change: &mut dyn FnMut(Expr, Expr) -> Expr) -> Expr {
             Node::Sin(a) => of(&a).sin(),
             Node::Cos(a) => of(&a).cos(),
             Node::Atan2(a, b) => of(&a).atan2(of(&b)),
+            Node::Sign(a) => of(&a).sign(),
         };
         let made = change(x, plain);
         new.insert(x, made);

@@ -50,6 +50,9 @@ impl Domain for Rounded {
     fn atan2(&self, x: &Self) -> Self {
         Rounded(self.0.atan2(x.0))
     }
+    fn sign(&self) -> Self {
+        Rounded(if self.0 == 0.0 { self.0 } else { self.0.signum() })
+    }
 }
 
 impl Tape {

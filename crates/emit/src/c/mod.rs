@@ -27,6 +27,7 @@ pub(crate) const RESERVED: &[&str] = &[
     "lane",
     "in_range",
     "sine_cosine",
+    "sign_of",
     "near_sine_cosine",
     "eight_sines_and_cosines",
     "near_atan2",
@@ -369,6 +370,9 @@ impl Source<'_> {
             } else {
                 include_str!("atan2_double.c")
             });
+        }
+        if Function::any_sign(&self.functions) {
+            text.push_str(&self.in_precision(include_str!("sign.c")));
         }
         if let Some(values) = defaults(self.library) {
             let values: Vec<String> = values.into_iter().map(|x| self.number(x)).collect();

@@ -18,8 +18,8 @@ use std::fmt::Write;
 
 /// Words that the emitted code uses, besides those of C.
 const RESERVED: &[&str] = &[
-    "count", "values", "sincos", "sincosf", "sinf", "cosf", "atan2f", "sqrtf", "launch", "run", "must",
-    "size_t", "in", "out", "std", "blocks", "warpsize", "dim3", "uint3",
+    "count", "values", "sign_of", "sincos", "sincosf", "sinf", "cosf", "atan2f", "sqrtf", "launch", "run",
+    "must", "size_t", "in", "out", "std", "blocks", "warpsize", "dim3", "uint3",
 ];
 
 pub(crate) fn emit(library: &Library) -> Vec<File> {
@@ -136,6 +136,14 @@ impl Source<'_> {
                 }
                 text.push_str("    return parameters;\n}\n");
             }
+        }
+        if Function::any_sign(&self.functions) {
+            let _ = write!(
+                text,
+                "\n/* 1, -1, or the number itself where it is 0 or none. */\n\
+                 __device__ inline {real} sign_of({real} x)\n{{\n    \
+                 return x > 0 ? 1 : x < 0 ? -1 : x;\n}}\n"
+            );
         }
         for f in &self.functions {
             let count = format!("{}.", f.routine.program.count());

@@ -279,6 +279,12 @@ impl Source<'_> {
             text.push_str(&format!("\n/// Configurations of a block.\npub const LANES: usize = {LANES};\n"));
         }
         text.push_str(&self.parameters());
+        if Function::any_sign(&self.functions) {
+            text.push_str(
+                "\n/// 1, −1, or the number itself where it is 0 or none.\n#[inline(always)]\nfn sign_of(x: f64) -> f64 {\n    \
+                 if x > 0.0 {\n        1.0\n    } else if x < 0.0 {\n        -1.0\n    } else {\n        x\n    }\n}\n",
+            );
+        }
         for f in &self.functions {
             text.push_str(&self.one(f));
             text.push_str(&self.block(f));

@@ -138,6 +138,7 @@ fn every_operation_has_the_bits_of_the_scalar_evaluator() {
     each(|x| x[0].sin());
     each(|x| x[0].cos());
     each(|x| x[0].atan2(x[1]));
+    each(|x| x[0].sign());
     // Lowering copies results outside the body; there is no instruction for it.
     let all = [
         Opcode::Neg,
@@ -155,6 +156,7 @@ fn every_operation_has_the_bits_of_the_scalar_evaluator() {
         Opcode::Sqrt,
         Opcode::SinCos,
         Opcode::Atan2,
+        Opcode::Sign,
     ];
     assert_eq!(seen, all.into());
 }

@@ -166,6 +166,10 @@ impl Domain for Extended {
         let (hi, lo) = fast_two_sum(s, rest.hi / (2.0 * s));
         Extended { hi, lo }.or(s)
     }
+    fn sign(&self) -> Self {
+        // The low part is smaller than the high one.
+        crate::evaluate::sign(self.hi).into()
+    }
     /// For angles up to 2⁵⁰; not a number beyond.
     fn sin_cos(&self) -> (Self, Self) {
         if self.hi.is_nan() || self.hi.abs() > LARGEST_ANGLE {

@@ -144,6 +144,11 @@ impl Domain for Interval {
         let hi = if self.hi == 0.0 { 0.0 } else { self.hi.sqrt().next_up() };
         Interval { lo, hi }
     }
+    /// From −1 to 1 if 0 may be inside.
+    fn sign(&self) -> Self {
+        let of = |x: f64| if x == 0.0 { 0.0 } else { x.signum() };
+        Interval { lo: of(self.lo), hi: of(self.hi) }
+    }
     fn sin_cos(&self) -> (Self, Self) {
         (self.wave(f64::sin, 0.25, 0.75), self.wave(f64::cos, 0.0, 0.5))
     }

@@ -40,6 +40,9 @@ pub trait Domain: Clone {
     /// `atan2(y, x)` for `y` = self, in [−π, π]
     #[must_use]
     fn atan2(&self, x: &Self) -> Self;
+    /// The sign: 1, −1, or the number itself where it is 0 or none
+    #[must_use]
+    fn sign(&self) -> Self;
 }
 
 /// Numbers of the hardware; constants go by way of the nearest double, as in the evaluators.
@@ -75,6 +78,9 @@ macro_rules! hardware {
             }
             fn atan2(&self, x: &Self) -> Self {
                 $number::atan2(*self, *x)
+            }
+            fn sign(&self) -> Self {
+                crate::evaluate::sign(*self)
             }
         }
     };

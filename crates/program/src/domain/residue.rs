@@ -198,6 +198,20 @@ impl Domain for Residue {
         (Residue::new(s), Residue::new(c))
     }
 
+    /// There is no order modulo a prime: a number that belongs to the value, the opposite one to its opposite, as a sign does.
+    fn sign(&self) -> Self {
+        let of = |x: u64| {
+            let mut mixed = x.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+            mixed ^= mixed >> 29;
+            mixed.wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 3
+        };
+        Residue::plain(self.get().map(|x| match x {
+            0 => 0,
+            x if x <= P / 2 => of(x) % P,
+            x => minus(of(minus(x)) % P),
+        }))
+    }
+
     fn atan2(&self, _: &Self) -> Self {
         Residue::undefined()
     }

@@ -6,6 +6,7 @@
 use crate::code::Opcode;
 use crate::evaluate::machine::{Instructions, Work};
 use crate::evaluate::real::Real;
+use crate::evaluate::sign;
 use crate::evaluate::tape::{Cells, Tape};
 
 /// One register for each configuration of a block.
@@ -90,6 +91,7 @@ fn execute<T: Real, const FUSED: bool, const N: usize>(tape: &Tape, file: &mut [
             Opcode::MulSubMul => each(file, now, |a, b, c, d| a * b - c * d),
             Opcode::Div => each(file, now, |a, b, _, _| a / b),
             Opcode::Sqrt => each(file, now, |a, _, _, _| a.sqrt()),
+            Opcode::Sign => each(file, now, |a, _, _, _| sign(a)),
             Opcode::SinCos => {
                 for cell in now {
                     let [s, c] = cell.writes;

@@ -2,6 +2,7 @@
 
 use crate::code::Opcode;
 use crate::evaluate::machine::{Arithmetic, Instructions, Isa, Work};
+use crate::evaluate::sign;
 use crate::evaluate::tape::{Cells, Run, Tape};
 use crate::kernel;
 
@@ -135,6 +136,7 @@ fn execute<R: Copy, F: File<R> + ?Sized>(
             }
             Opcode::Div => each(file, now, |f, [a, b, ..]| f.get(a) / f.get(b)),
             Opcode::Sqrt => each(file, now, |f, [a, ..]| f.get(a).sqrt()),
+            Opcode::Sign => each(file, now, |f, [a, ..]| sign(f.get(a))),
             Opcode::SinCos => {
                 now.chunks(GROUP).for_each(|group| isa.run(arithmetic, Pairs(&mut *file, group)));
             }

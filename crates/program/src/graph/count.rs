@@ -23,6 +23,8 @@ pub struct Count {
     pub roots: u32,
     /// Arctangents.
     pub arctangents: u32,
+    /// Signs of values, as in Coulomb's friction.
+    pub signs: u32,
     /// Additions of a constant to a variable as it comes in, such as the offset of a slide.
     pub offsets: u32,
     /// Operations on parameters alone, hoisted out of the evaluation.
@@ -59,6 +61,7 @@ impl Count {
                 self.sincos += 1;
             }
             Op::Atan2(..) => self.arctangents += 1,
+            Op::Sign(_) => self.signs += 1,
         }
     }
 
@@ -67,6 +70,7 @@ impl Count {
         self.multiplications
             + self.additions
             + self.offsets
+            + self.signs
             + 20 * (self.sincos + self.arctangents)
             + 10 * (self.divisions + self.roots)
     }
@@ -81,6 +85,7 @@ impl std::iter::Sum for Count {
             divisions: a.divisions + b.divisions,
             roots: a.roots + b.roots,
             arctangents: a.arctangents + b.arctangents,
+            signs: a.signs + b.signs,
             offsets: a.offsets + b.offsets,
             hoisted: a.hoisted + b.hoisted,
         })
@@ -97,9 +102,12 @@ impl fmt::Display for Count {
             plural(self.additions, "addition"),
             plural(self.sincos, "sine/cosine pair"),
         )?;
-        for (n, word) in
-            [(self.divisions, "division"), (self.roots, "root"), (self.arctangents, "arctangent")]
-        {
+        for (n, word) in [
+            (self.divisions, "division"),
+            (self.roots, "root"),
+            (self.arctangents, "arctangent"),
+            (self.signs, "sign function"),
+        ] {
             if n > 0 {
                 write!(f, ", {}", plural(n, word))?;
             }

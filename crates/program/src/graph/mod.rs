@@ -200,6 +200,16 @@ impl Graph {
         self.intern(Op::Atan2(y, x))
     }
 
+    /// The sign of `a`, an odd function.
+    pub fn sign(&mut self, a: Value) -> Value {
+        let sign = match self.as_number(Value { negative: false, ..a }) {
+            Some(r) if r.is_zero() => return a,
+            Some(_) => self.number(&Rational::ONE),
+            None => self.intern(Op::Sign(a.node)),
+        };
+        if a.negative { -sign } else { sign }
+    }
+
     /// `aⁿ`, by repeated squaring.
     pub fn powi(&mut self, a: Value, n: i32) -> Value {
         let mut result = self.number(&Rational::ONE);
@@ -259,6 +269,10 @@ impl Graph {
                 Node::Pow(a, n) => {
                     let a = of(&a);
                     self.powi(a, n)
+                }
+                Node::Sign(a) => {
+                    let a = of(&a);
+                    self.sign(a)
                 }
                 Node::Sqrt(a) => {
                     let a = of(&a);

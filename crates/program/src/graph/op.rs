@@ -56,6 +56,8 @@ pub enum Op {
     Cos(u32),
     /// `atan2(a, b)`
     Atan2(Value, Value),
+    /// The sign of `a`: 1, −1, or `a` itself where it is 0 or no number
+    Sign(u32),
 }
 
 impl Op {
@@ -65,7 +67,7 @@ impl Op {
         let (a, b) = match *self {
             Op::Number(_) | Op::Pi | Op::Input(_) => (None, None),
             Op::Sqrt(a) => (Some(a), None),
-            Op::Sin(a) | Op::Cos(a) => (plain(a), None),
+            Op::Sin(a) | Op::Cos(a) | Op::Sign(a) => (plain(a), None),
             Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b) | Op::Div(a, b) => (plain(a), plain(b)),
             Op::Atan2(a, b) => (Some(a), Some(b)),
         };
@@ -91,6 +93,7 @@ impl Op {
             Op::Sin(a) => Op::Sin(at(a)),
             Op::Cos(a) => Op::Cos(at(a)),
             Op::Atan2(a, b) => Op::Atan2(moved(a), moved(b)),
+            Op::Sign(a) => Op::Sign(at(a)),
         }
     }
 
@@ -109,6 +112,7 @@ impl Op {
             Op::Sin(a) => at(*a).sin_cos().0,
             Op::Cos(a) => at(*a).sin_cos().1,
             Op::Atan2(a, b) => signed(*a).atan2(&signed(*b)),
+            Op::Sign(a) => at(*a).sign(),
         }
     }
 
@@ -131,6 +135,8 @@ impl Op {
                 let twice = graph.add(own, own);
                 vec![graph.div(one, twice)]
             }
+            // 0 on either side; at 0, where it jumps, there is no derivative, and 0 stands for it.
+            Op::Sign(_) => vec![graph.number(&Rational::ZERO)],
             Op::Sin(a) => vec![graph.cos(plain(a))],
             Op::Cos(a) => vec![-graph.sin(plain(a))],
             // ∂atan2(y, x)/∂y = x/(x² + y²),   ∂/∂x = −y/(x² + y²)
@@ -149,6 +155,7 @@ impl Op {
         match self {
             Op::Number(_) | Op::Pi | Op::Input(_) => 0.0,
             Op::Add(..) | Op::Sub(..) | Op::Mul(..) => 0.25,
+            Op::Sign(_) => 0.5,
             Op::Div(..) => 2.0,
             Op::Sqrt(_) => 3.0,
             Op::Sin(_) | Op::Cos(_) => 3.0,
@@ -170,6 +177,7 @@ impl Op {
             Op::Sin(_) => "sin",
             Op::Cos(_) => "cos",
             Op::Atan2(..) => "atan2",
+            Op::Sign(_) => "sign",
         }
     }
 }

@@ -90,6 +90,7 @@ fn programs() -> Vec<(&'static str, Program)> {
                 sums.into_iter().chain(inputs).map(|x| g.sin(x)).collect()
             }),
         ),
+        ("signs", build(|g, [a, b, _, d], _| vec![g.sign(a), -g.sign(b), g.sign(-d)])),
         ("arctangents", build(|g, [a, b, c, d], _| vec![g.atan2(a, b), g.atan2(-c, d), -g.atan2(d, -a)])),
         (
             "sines of sines",
@@ -211,6 +212,7 @@ fn every_operation_occurs() {
         Opcode::Sqrt,
         Opcode::SinCos,
         Opcode::Atan2,
+        Opcode::Sign,
     ];
     let missing: Vec<Opcode> = all.into_iter().filter(|op| !seen.contains(op)).collect();
     assert_eq!(missing, []);

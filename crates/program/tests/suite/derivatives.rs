@@ -73,6 +73,7 @@ fn every_operation_has_its_derivative() {
         ("quotient by a parameter", y / a),
         ("parameter over variable", a / (x * y)),
         ("root", y.sqrt()),
+        ("sign", (x - y).sign() * x * y),
         ("root of a negative", (-x).sqrt()),
         ("root of a sum", (x * x + y * y).sqrt()),
         ("sine", x.sin()),

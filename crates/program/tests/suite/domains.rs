@@ -172,6 +172,7 @@ fn extended_functions_have_thirty_digits() {
 fn extended_numbers_at_the_edges_are_as_doubles() {
     let x = |x: f64| Extended::from(x);
     assert_eq!(x(0.0).sqrt().to_f64(), 0.0);
+    assert_eq!([x(-2.0), x(0.0), x(3.0)].map(|x| x.sign().to_f64()), [-1.0, 0.0, 1.0]);
     assert!(x(-1.0).sqrt().to_f64().is_nan());
     assert_eq!(x(f64::INFINITY).sqrt().to_f64(), f64::INFINITY);
     assert_eq!(x(1.0).div(&x(0.0)).to_f64(), f64::INFINITY);
@@ -212,6 +213,10 @@ fn intervals_know_extrema_and_cuts() {
     assert_eq!(i(-4.0, 0.0).sqrt(), i(0.0, 0.0));
     assert!(i(-4.0, 9.0).sqrt().contains(3.0) && i(-4.0, 9.0).sqrt().lo == 0.0);
     assert_eq!(i(-4.0, -1.0).sqrt(), Interval::WHOLE);
+    assert_eq!(
+        [i(-4.0, -1.0), i(-1.0, 2.0), i(0.0, 3.0)].map(|x| x.sign()),
+        [i(-1.0, -1.0), i(-1.0, 1.0), i(0.0, 1.0)]
+    );
 
     let all = i(-1.0, 1.0).atan2(&i(-2.0, -1.0));
     assert!(all.lo <= -PI && all.hi >= PI);

@@ -165,7 +165,7 @@ fn derivative(e: Expr, by: Symbol) -> Option<Expr> {
     for part in Expr::postorder(&[e]) {
         let of = |x: Expr| known.get(&x).copied().unwrap_or(zero);
         let d = match part.node() {
-            Node::Number(_) | Node::Pi => zero,
+            Node::Number(_) | Node::Pi | Node::Sign(_) => zero,
             Node::Symbol(s) => Expr::int(i64::from(s == by)),
             Node::Neg(a) => -of(a),
             Node::Add(a, b) => of(a) + of(b),

@@ -87,6 +87,7 @@ impl Points {
             Node::Sin(a) => Some(self.circle(a)?.map(|p| p.1)),
             Node::Cos(a) => Some(self.circle(a)?.map(|p| p.0)),
             Node::Atan2(y, x) => Some(arctangent(&self.known_value(y)?, &self.known_value(x)?)),
+            Node::Sign(_) => None,
         }
     }
 

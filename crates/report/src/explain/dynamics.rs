@@ -37,9 +37,6 @@ pub fn dynamics_document(d: &Description, model: &DynamicModel, language: Tongue
         blocks.push(Block::Paragraph(words.divides_by(divisors.into_iter().map(Math::Expr).collect())));
     }
     let has = |pick: fn(&Row) -> &Option<Expr>| d.rows.iter().filter_map(|r| *pick(r)).any(|e| !e.is_zero());
-    if has(|r| &r.coulomb) {
-        blocks.push(paragraph(words.without_coulomb()));
-    }
     if let Some(parts) = &model.parts {
         let proof = (parts.ground == Ground::Proved).then_some(Proof::Proved);
         let column = |all: &[Expr]| all.iter().map(|&e| vec![e]).collect();
@@ -54,8 +51,8 @@ pub fn dynamics_document(d: &Description, model: &DynamicModel, language: Tongue
                 number: None,
                 proof,
             });
-            if name == "h" && has(|r| &r.viscous) {
-                blocks.push(paragraph(words.with_viscous()));
+            if name == "h" && (has(|r| &r.viscous) || has(|r| &r.coulomb)) {
+                blocks.push(paragraph(words.with_friction()));
             }
         }
     }

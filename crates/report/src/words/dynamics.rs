@@ -37,11 +37,8 @@ pub trait Dynamics {
     /// What a program costs, and on what it rests that it gives Lagrange's torques.
     fn torques_cost(&self, count: &Count, ground: Ground) -> String;
 
-    /// That the formulas leave Coulomb's friction out, which numbers have.
-    fn without_coulomb(&self) -> String;
-
-    /// That the torques of velocities have the viscous friction in them.
-    fn with_viscous(&self) -> String;
+    /// That the torques of velocities have the friction in them.
+    fn with_friction(&self) -> String;
 
     /// By what a program divides: it holds where that is not 0.
     fn divides_by(&self, all: Vec<Math>) -> Line;

@@ -312,6 +312,7 @@ fn rare_words() {
         divisions: 1,
         roots: 2,
         arctangents: 1,
+        signs: 0,
         offsets: 2,
         hoisted: 4,
     };

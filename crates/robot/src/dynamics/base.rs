@@ -162,7 +162,7 @@ fn torques(formulas: &Formulas, links: &[Grouped], named: &[BaseParameter]) -> P
     let wrenches: Vec<Wrench<Expr>> = links.iter().zip(&motions).map(|(l, m)| of_link(l, m)).collect();
     let mut torques = arm.at_joints(&backward(arm, &motions, &wrenches));
     for (j, (torque, drive)) in torques.iter_mut().zip(&arm.drives).enumerate() {
-        *torque = *torque + drive.rotor * qdd[j] + drive.viscous * qd[j];
+        *torque = *torque + drive.rotor * qdd[j] + drive.viscous * qd[j] + drive.coulomb * qd[j].sign();
     }
     let variables = [&formulas.q[..], &formulas.qd, &formulas.qdd].concat();
     let own: Vec<Symbol> =

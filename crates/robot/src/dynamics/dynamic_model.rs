@@ -32,7 +32,7 @@ pub struct DynamicModel {
 pub struct Parts {
     /// A(q), row by row.
     pub inertia: Vec<Vec<Expr>>,
-    /// C(q, q̇) q̇, with viscous friction.
+    /// C(q, q̇) q̇, with friction.
     pub velocity: Vec<Expr>,
     /// Q(q).
     pub gravity: Vec<Expr>,

@@ -35,7 +35,7 @@ const STATES: usize = 3;
 /// Rounding, by the size of the torques.
 const ROUNDING: f64 = 1e-9;
 
-/// The torques by Lagrange's equations, rotors and viscous friction with them: `t1` … from q, q̇ and q̈.
+/// The torques by Lagrange's equations, rotors and friction with them: `t1` … from q, q̇ and q̈.
 pub fn lagrange(formulas: &Formulas) -> Program {
     let arm = &formulas.dynamics;
     let n = arm.joints();
@@ -50,7 +50,10 @@ pub fn lagrange(formulas: &Formulas) -> Program {
         .map(|j| {
             let row = &rates[2 * n * j..2 * n * (j + 1)];
             let moving = (0..n).fold(Expr::int(0), |sum, i| sum + row[i] * qd[i] + row[n + i] * qdd[i]);
-            moving - by_q[j] + weight[j] + arm.drives[j].viscous * qd[j]
+            moving - by_q[j]
+                + weight[j]
+                + arm.drives[j].viscous * qd[j]
+                + arm.drives[j].coulomb * qd[j].sign()
         })
         .collect();
     program(&[&state[..], &formulas.qdd].concat(), &torques)

@@ -12,6 +12,7 @@
 //! - [`regressor`]: W with τ = Wχ.
 //! - [`coriolis_matrix`]: C with C q̇ the velocity torques and Ȧ − 2C skew.
 //! - [`BaseModel`]: base parameters, and torques in them; [`DynamicModel`]: all as formulas, with the [`Ground`] they rest on.
+//! - [`DynamicPrograms`]: all of it as programs, with derivatives.
 //! - [`direct_dynamics`], [`articulated_bodies`]: accelerations.
 
 mod articulated;
@@ -25,6 +26,7 @@ mod inertia;
 mod lagrange;
 mod model;
 mod newton_euler;
+mod programs;
 mod regressor;
 mod short;
 
@@ -39,4 +41,5 @@ pub use inertia::inertia_matrix;
 pub use lagrange::{Ground, lagrange};
 pub use model::{Drive, Dynamics, Formulas, GRAVITY, Link, NoNumbers, Wrench};
 pub use newton_euler::{drive_torques, friction, gravity_torques, inverse_dynamics, velocity_torques};
+pub use programs::{DynamicFunction, DynamicPrograms, Masses};
 pub use regressor::regressor;

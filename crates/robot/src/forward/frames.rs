@@ -37,6 +37,7 @@ fn by_rows(program: &Program) -> Program {
             Op::Sin(a) => graph.sin(at(a)),
             Op::Cos(a) => graph.cos(at(a)),
             Op::Atan2(a, b) => graph.atan2(signed(a), signed(b)),
+            Op::Sign(a) => graph.sign(at(a)),
         };
         if let Some(name) = program.name(i as u32) {
             names.insert(v.node, name.to_string());

@@ -55,7 +55,8 @@ impl Angle {
                 | Node::Sqrt(_)
                 | Node::Sin(_)
                 | Node::Cos(_)
-                | Node::Atan2(..) => angle.terms.push((e, k)),
+                | Node::Atan2(..)
+                | Node::Sign(_) => angle.terms.push((e, k)),
             }
         }
         angle.terms.sort_by(|a, b| term_order(a.0, b.0));

@@ -58,10 +58,23 @@ pub enum Node {
     Cos(Expr),
     /// `atan2(y, x)`, in (−π, π]
     Atan2(Expr, Expr),
+    /// The sign of `a`: 1, −1, or 0 where it is 0
+    Sign(Expr),
 }
 
 fn intern(node: Node) -> Expr {
     Expr(store::intern(node), PhantomData)
+}
+
+/// 1, −1, or the number itself where it is 0 or none.
+fn sign(x: f64) -> f64 {
+    if x > 0.0 {
+        1.0
+    } else if x < 0.0 {
+        -1.0
+    } else {
+        x
+    }
 }
 
 impl Symbol {
@@ -127,7 +140,9 @@ impl Expr {
     pub fn children(self) -> impl Iterator<Item = Expr> {
         let (a, b) = match self.node() {
             Node::Number(_) | Node::Pi | Node::Symbol(_) => (None, None),
-            Node::Neg(a) | Node::Pow(a, _) | Node::Sqrt(a) | Node::Sin(a) | Node::Cos(a) => (Some(a), None),
+            Node::Neg(a) | Node::Pow(a, _) | Node::Sqrt(a) | Node::Sin(a) | Node::Cos(a) | Node::Sign(a) => {
+                (Some(a), None)
+            }
             Node::Add(a, b) | Node::Sub(a, b) | Node::Mul(a, b) | Node::Div(a, b) | Node::Atan2(a, b) => {
                 (Some(a), Some(b))
             }
@@ -181,6 +196,17 @@ impl Expr {
         intern(Node::Atan2(self, x))
     }
 
+    /// The sign: 1, −1, or 0 at 0.
+    pub fn sign(self) -> Self {
+        match self.node() {
+            Node::Number(r) if r.is_zero() => self,
+            Node::Number(r) => Expr::int(if r.is_negative() { -1 } else { 1 }),
+            Node::Pi => Expr::int(1),
+            Node::Neg(a) => -a.sign(),
+            _ => intern(Node::Sign(self)),
+        }
+    }
+
     /// All nodes under `roots`, each once, parts before wholes.
     pub fn postorder(roots: &[Expr]) -> Vec<Expr> {
         let mut seen: rustc_hash::FxHashSet<Expr> = roots.iter().copied().collect();
@@ -219,6 +245,7 @@ impl Expr {
                 Node::Sin(a) => new[&a].sin(),
                 Node::Cos(a) => new[&a].cos(),
                 Node::Atan2(a, b) => new[&a].atan2(new[&b]),
+                Node::Sign(a) => new[&a].sign(),
             };
             new.insert(e, built);
         }
@@ -246,6 +273,7 @@ impl Expr {
                 Node::Sin(a) => value[&a].sin(),
                 Node::Cos(a) => value[&a].cos(),
                 Node::Atan2(a, b) => value[&a].atan2(value[&b]),
+                Node::Sign(a) => sign(value[&a]),
             };
             value.insert(e, x);
         }

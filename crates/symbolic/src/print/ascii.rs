@@ -33,6 +33,7 @@ pub(super) const NOTATION: Notation = Notation {
     sine: "sin",
     cosine: "cos",
     arctangent: "atan2",
+    sign: "sign",
     call: ["(", ", ", ")"],
     pi: "pi",
     half_turn: "180 deg",

@@ -17,6 +17,7 @@ pub(super) const NOTATION: Notation = Notation {
     sine: "\\sin",
     cosine: "\\cos",
     arctangent: "\\operatorname{atan2}",
+    sign: "\\operatorname{sign}",
     call: ["\\left(", ", ", "\\right)"],
     pi: "\\pi",
     half_turn: "180^\\circ",

@@ -16,6 +16,7 @@ pub(super) const NOTATION: Notation = Notation {
     sine: "<mi>sin</mi>",
     cosine: "<mi>cos</mi>",
     arctangent: "<mi>atan2</mi>",
+    sign: "<mi>sign</mi>",
     call: ["<mo>&#x2061;</mo><mrow><mo>(</mo>", "<mo>,</mo>", "<mo>)</mo></mrow>"],
     pi: "<mi>π</mi>",
     half_turn: "<mi>π</mi>",

@@ -208,7 +208,7 @@ impl<'a> Printer<'a> {
             Node::Pow(..) => Place::Factor,
             Node::Sqrt(_) if self.notation.short_root.is_some() => Place::Factor,
             Node::Pi | Node::Symbol(_) | Node::Number(_) => Place::Base,
-            Node::Sqrt(_) | Node::Sin(_) | Node::Cos(_) | Node::Atan2(..) => Place::Base,
+            Node::Sqrt(_) | Node::Sin(_) | Node::Cos(_) | Node::Atan2(..) | Node::Sign(_) => Place::Base,
         };
         looseness < place
     }
@@ -293,6 +293,14 @@ impl<'a> Printer<'a> {
                 self.argument(a, tasks);
                 tasks.push(Task::Text(n.call[2]));
             }
+            Node::Sign(a) => tasks.extend([
+                Task::Text(n.sign),
+                Task::Mark(Mark::Call),
+                Task::Text(n.call[0]),
+                Task::Write(a, Place::Whole),
+                Task::Mark(Mark::CallEnd),
+                Task::Text(n.call[2]),
+            ]),
             Node::Atan2(y, x) => tasks.extend([
                 Task::Text(n.arctangent),
                 Task::Mark(Mark::Call),
@@ -431,7 +439,7 @@ impl<'a> Printer<'a> {
                 Node::Pi => return Head::Word(self.notation.pi.into()),
                 Node::Pow(a, _) => (e, place) = (a, Place::Base),
                 Node::Sqrt(_) => return Head::Root,
-                Node::Sin(_) | Node::Cos(_) | Node::Atan2(..) => return Head::Call,
+                Node::Sin(_) | Node::Cos(_) | Node::Atan2(..) | Node::Sign(_) => return Head::Call,
                 Node::Number(_) | Node::Div(..) => return Head::Fraction,
                 Node::Symbol(_) | Node::Neg(_) | Node::Add(..) | Node::Sub(..) | Node::Mul(..) => {
                     return Head::Paren;

@@ -24,6 +24,7 @@ pub(super) struct Notation {
     pub sine: &'static str,
     pub cosine: &'static str,
     pub arctangent: &'static str,
+    pub sign: &'static str,
     /// Before, between and behind the arguments of a function.
     pub call: [&'static str; 3],
     pub pi: &'static str,

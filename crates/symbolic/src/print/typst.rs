@@ -17,6 +17,7 @@ pub(super) const NOTATION: Notation = Notation {
     sine: "sin",
     cosine: "cos",
     arctangent: "op(\"atan2\")",
+    sign: "op(\"sign\")",
     call: ["(", ", ", ")"],
     pi: "pi",
     half_turn: "180 degree",

@@ -20,6 +20,7 @@ pub(super) const NOTATION: Notation = Notation {
     sine: "sin",
     cosine: "cos",
     arctangent: "atan2",
+    sign: "sign",
     call: ["(", ", ", ")"],
     pi: "π",
     half_turn: "180°",

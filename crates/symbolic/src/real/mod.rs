@@ -276,6 +276,8 @@ impl Values {
             Node::Sin(a) => Real::rounded(of(a)?.fixed().sin_cos().0),
             Node::Cos(a) => Real::rounded(of(a)?.fixed().sin_cos().1),
             Node::Atan2(a, b) => of(a)?.atan2(&of(b)?),
+            // Whether a rounded number is 0 is not known here.
+            Node::Sign(_) => return None,
         })
     }
 }

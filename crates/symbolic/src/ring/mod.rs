@@ -33,8 +33,8 @@ pub enum AtomKind {
     Surd(i64),
     /// The square root, not negative, of a polynomial.
     Root(Poly),
-    /// An arctangent of two normalised arguments; nothing is known of it but its identity.
-    Arctangent(Expr),
+    /// An arctangent or a sign of normalised arguments; nothing is known of it but its identity.
+    Opaque(Expr),
 }
 
 /// Why a normal form was not computed.
@@ -166,7 +166,7 @@ impl Ring {
                 let angle = &self.generators[*g].angle;
                 !angle.is_constant() && angle.terms.iter().all(|t| t.0.as_symbol().is_some())
             }
-            AtomKind::Root(_) | AtomKind::Arctangent(_) => false,
+            AtomKind::Root(_) | AtomKind::Opaque(_) => false,
         })
     }
 
@@ -340,7 +340,18 @@ impl Ring {
             Node::Atan2(y, x) => {
                 let (y, x) = (self.normal(y)?, self.normal(x)?);
                 let key = self.fraction_expr(&y).atan2(self.fraction_expr(&x));
-                Poly::atom(self.atom(AtomKind::Arctangent(key), None)).into()
+                Poly::atom(self.atom(AtomKind::Opaque(key), None)).into()
+            }
+            Node::Sign(a) => {
+                let a = self.normal(a)?;
+                // It is odd: of two arguments with opposite signs one has a name.
+                let turned = a.num.terms().first().is_some_and(|t| t.1.is_negative());
+                let by = if turned { -Rational::ONE } else { Rational::ONE };
+                let key = self.fraction_expr(&a.scaled(&by)).sign();
+                match key.as_number() {
+                    Some(known) => Poly::constant(&known * &by).into(),
+                    None => Fraction::from(Poly::atom(self.atom(AtomKind::Opaque(key), None))).scaled(&by),
+                }
             }
         })
     }
@@ -504,7 +515,7 @@ impl Ring {
             AtomKind::Sin(g) => self.generators[*g].angle.to_expr().sin(),
             AtomKind::Surd(n) => Expr::int(*n).sqrt(),
             AtomKind::Root(p) => self.poly_expr(p).sqrt(),
-            AtomKind::Arctangent(e) => *e,
+            AtomKind::Opaque(e) => *e,
         }
     }
 

@@ -88,6 +88,7 @@ pub fn arm() -> Sample {
             ("phi", angle),
             ("s", (angle / Expr::int(2)).sin()),
             ("one", Expr::int(1)),
+            ("way", a * (q2 - q1).sign() + d3.sign()),
         ],
     );
     let many: Vec<Expr> = (1..=9).map(|k| (q1 * Expr::int(k)).sin() * (q2 * Expr::int(k)).cos()).collect();
@@ -102,7 +103,7 @@ pub fn arm() -> Sample {
         name: "arm",
         variables,
         parameters: vec![("a1", Some(0.75)), ("b1", Some(-0.1))],
-        programs: vec![("point", "point", vec![6], point), ("matrices", "matrices", vec![2, 3, 3], matrices)],
+        programs: vec![("point", "point", vec![7], point), ("matrices", "matrices", vec![2, 3, 3], matrices)],
         configurations,
     }
 }

@@ -84,12 +84,8 @@ impl Dynamics for English {
         format!("{}; {ground}.", self.count(count))
     }
 
-    fn without_coulomb(&self) -> String {
-        "Coulomb's friction is not in these formulas; the numbers of `denavit dynamics -q …` have it.".into()
-    }
-
-    fn with_viscous(&self) -> String {
-        "h has the viscous friction of the joints in it.".into()
+    fn with_friction(&self) -> String {
+        "h has the friction of the joints in it.".into()
     }
 
     fn divides_by(&self, all: Vec<Math>) -> Line {

@@ -87,12 +87,8 @@ impl Dynamics for French {
         say!("{} ; {ground}.", self.count(count))
     }
 
-    fn without_coulomb(&self) -> String {
-        "Ces formules ne comprennent pas le frottement sec ; les nombres de `denavit dynamics -q …` le comprennent.".into()
-    }
-
-    fn with_viscous(&self) -> String {
-        "h comprend le frottement visqueux des articulations.".into()
+    fn with_friction(&self) -> String {
+        "h comprend le frottement des articulations.".into()
     }
 
     fn divides_by(&self, all: Vec<Math>) -> Line {

@@ -89,6 +89,7 @@ impl Terms for French {
             (count.divisions, "division", "divisions"),
             (count.roots, "racine", "racines"),
             (count.arctangents, "arc tangente", "arcs tangentes"),
+            (count.signs, "fonction signe", "fonctions signe"),
         ] {
             if n > 0 {
                 parts.push(counted(n, one, many));

@@ -96,6 +96,7 @@ fn write(e: Expr, quantity: Quantity, tight: Tight) -> String {
         Node::Sqrt(a) => format!("sqrt({})", plain(a, Tight::Sum)),
         Node::Sin(a) => format!("sin({})", write(a, Quantity::Angle, Tight::Sum)),
         Node::Cos(a) => format!("cos({})", write(a, Quantity::Angle, Tight::Sum)),
+        Node::Sign(a) => format!("sign({})", plain(a, Tight::Sum)),
         Node::Atan2(y, x) => format!("atan2({}, {})", plain(y, Tight::Sum), plain(x, Tight::Sum)),
     }
 }

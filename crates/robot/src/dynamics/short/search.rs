@@ -112,9 +112,11 @@ impl<'a> Search<'a> {
             }
         }
         for (j, drive) in arm.drives.iter().enumerate() {
-            for (e, rate) in [(drive.rotor, self.formulas.qdd[j]), (drive.viscous, self.formulas.qd[j])] {
-                // The rates themselves, not those in another unit.
-                let (e, rate) = (graph.trace(e), graph.input(rate));
+            // The rates themselves, not those in another unit.
+            let [rate, change] = [self.formulas.qd[j], self.formulas.qdd[j]].map(|s| graph.input(s));
+            let way = if drive.coulomb.is_zero() { rate } else { graph.sign(rate) };
+            for (e, rate) in [(drive.rotor, change), (drive.viscous, rate), (drive.coulomb, way)] {
+                let e = graph.trace(e);
                 let part = graph.mul(e, rate);
                 torques[j] = graph.add(torques[j], part);
             }
