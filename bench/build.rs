@@ -94,7 +94,7 @@ fn write(out: &Path, language: Language, source: &Source) -> PathBuf {
     let (functions, name) = (vec![source.wanted], Some(source.name.into()));
     let inverse = Default::default();
     let options =
-        PackageOptions { language, functions, inverse, precision: source.precision, name, fixed: false };
+        PackageOptions { language, functions, inverse, precision: source.precision, name, masses: None, fixed: false };
     let generated = generate(&description, &options).expect("nothing is fixed");
     let folder = out.join(format!("{}_{language:?}", source.name));
     for file in generated.files {

@@ -38,7 +38,7 @@ impl Forward {
                 let pose = robot.pose(&q);
                 (jacobian_and_pose_program(d, &tool), [derivative(d, &pose), entries(&[pose])].concat())
             }
-            Wanted::Inverse => return None,
+            Wanted::Inverse | Wanted::Dynamic(_) => return None,
         };
         let proof = prove(d, &program, &definition);
         Some(Forward { wanted, program, proof, definition })
@@ -71,7 +71,9 @@ impl Forward {
         let scales: Vec<f64> = match self.wanted {
             Wanted::Jacobian => jacobian.collect(),
             Wanted::JacobianAndPose => jacobian.chain(poses(16)).collect(),
-            Wanted::Pose | Wanted::Frames | Wanted::Inverse => poses(self.program.outputs().len()).collect(),
+            Wanted::Pose | Wanted::Frames | Wanted::Inverse | Wanted::Dynamic(_) => {
+                poses(self.program.outputs().len()).collect()
+            }
         };
         scales.into_iter().map(|s| s * rounding).collect()
     }
@@ -108,7 +110,7 @@ fn words(wanted: Wanted, d: &Description) -> (&'static str, Vec<usize>, Vec<Stri
             );
             ("jacobian_and_pose", vec![entries + 16], vec![what, twist, matrix])
         }
-        Wanted::Pose | Wanted::Inverse => {
+        Wanted::Pose | Wanted::Inverse | Wanted::Dynamic(_) => {
             let what = format!("Forward kinematics: the homogeneous matrix of {to} in {from}.");
             ("pose", vec![4, 4], vec![what, matrix])
         }

@@ -1,5 +1,6 @@
 //! Source code for one robot: what to emit, the words around it, and the vectors that its tests hold.
 
+mod dynamics;
 mod forward;
 mod general;
 mod inverse;
@@ -9,12 +10,14 @@ mod words;
 pub use inverse::Inverse;
 
 use denavit::description::Description;
+use denavit::dynamics::{DynamicFunction, Masses, NoNumbers};
 use denavit::forward::Proof;
 use denavit::inverse as ik;
 use denavit::robot::MissingValue;
-use denavit_emit::{File, Language, Library, Parameter, Precision};
+use denavit_emit::{File, Language, Library, Parameter, Precision, Routine, SolverRoutine};
 use denavit_program::Count;
 use denavit_symbolic::Expr;
+use dynamics::Dynamic;
 use forward::Forward;
 use general::General;
 use inverse::Closed;
@@ -34,12 +37,27 @@ pub enum Wanted {
     JacobianAndPose,
     /// `ik`: all joint variables that bring the tool to a pose.
     Inverse,
+    /// Torques, inertia, accelerations, energies, and derivatives.
+    Dynamic(DynamicFunction),
 }
 
 impl Wanted {
     /// All of them.
-    pub const ALL: [Wanted; 5] =
-        [Wanted::Pose, Wanted::Frames, Wanted::Jacobian, Wanted::JacobianAndPose, Wanted::Inverse];
+    pub const ALL: [Wanted; 13] = [
+        Wanted::Pose,
+        Wanted::Frames,
+        Wanted::Jacobian,
+        Wanted::JacobianAndPose,
+        Wanted::Inverse,
+        Wanted::Dynamic(DynamicFunction::Torque),
+        Wanted::Dynamic(DynamicFunction::Inertia),
+        Wanted::Dynamic(DynamicFunction::Bias),
+        Wanted::Dynamic(DynamicFunction::Gravity),
+        Wanted::Dynamic(DynamicFunction::Acceleration),
+        Wanted::Dynamic(DynamicFunction::Energy),
+        Wanted::Dynamic(DynamicFunction::TorqueDerivatives),
+        Wanted::Dynamic(DynamicFunction::AccelerationDerivatives),
+    ];
 
     /// Its name.
     pub fn name(self) -> &'static str {
@@ -49,11 +67,19 @@ impl Wanted {
             Wanted::Jacobian => "jacobian",
             Wanted::JacobianAndPose => "jacobian_fk",
             Wanted::Inverse => "ik",
+            Wanted::Dynamic(DynamicFunction::Torque) => "torque",
+            Wanted::Dynamic(DynamicFunction::Inertia) => "inertia",
+            Wanted::Dynamic(DynamicFunction::Bias) => "bias",
+            Wanted::Dynamic(DynamicFunction::Gravity) => "gravity",
+            Wanted::Dynamic(DynamicFunction::Acceleration) => "acceleration",
+            Wanted::Dynamic(DynamicFunction::Energy) => "energy",
+            Wanted::Dynamic(DynamicFunction::TorqueDerivatives) => "torque_derivatives",
+            Wanted::Dynamic(DynamicFunction::AccelerationDerivatives) => "acceleration_derivatives",
         }
     }
 
-    /// What a proof says of it.
-    pub fn claim(self, proof: Proof) -> String {
+    /// What a proof says of it, a function of the joints alone.
+    fn claim(self, proof: Proof) -> String {
         match (self, proof) {
             (Wanted::Jacobian, Proof::Proved) => {
                 "proved equal to the derivative of the product of the link transforms".into()
@@ -96,17 +122,53 @@ pub struct PackageOptions {
     pub precision: Precision,
     /// The name of the files and functions; by default that of the robot.
     pub name: Option<String>,
+    /// Which numbers of the links dynamic functions take as parameters; by default none if the description has them, and those
+    /// of each link otherwise.
+    pub masses: Option<Masses>,
     /// Write the values of parameters into the code, instead of taking them as arguments.
     pub fixed: bool,
 }
+
+/// A function that was generated, and what is known of it.
+#[derive(Clone, Debug)]
+pub struct Function {
+    /// Which.
+    pub wanted: Wanted,
+    /// Its operations.
+    pub count: Count,
+    /// Whether it is proved equal to what it stands for.
+    pub is_proved: bool,
+    /// Equal to what, and on what that rests.
+    pub claim: String,
+}
+
+/// Why nothing is generated.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Unable {
+    /// Values are to stand in the code, and a parameter has none.
+    Fixed(MissingValue),
+    /// Numbers of the links are to stand in the code, and there are none.
+    Masses(NoNumbers),
+}
+
+impl fmt::Display for Unable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Unable::Fixed(missing) => missing.fmt(f),
+            Unable::Masses(none) => none.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for Unable {}
 
 /// Generated source code.
 #[derive(Clone, Debug)]
 pub struct Generated {
     /// The files of a folder that builds and tests itself; none if there is no function.
     pub files: Vec<File>,
-    /// For each function of the joints its operations and whether it is proved; [`Wanted::claim`] says equal to what.
-    pub functions: Vec<(Wanted, Count, Proof)>,
+    /// The functions but for the inverse one.
+    pub functions: Vec<Function>,
     /// The inverse function, if it was asked for and there is a closed form, or elimination in the language.
     pub inverse: Option<Inverse>,
     /// Why there is none although it was asked for.
@@ -135,17 +197,18 @@ impl Generated {
 /// left out in other languages. Where `fk` and `jacobian` are both asked for, `jacobian_fk` comes with them.
 ///
 /// # Errors
-/// With `fixed`: if a parameter has no value.
-pub fn generate(description: &Description, options: &PackageOptions) -> Result<Generated, MissingValue> {
+/// With `fixed`: if a parameter has no value. With [`Masses::Numbers`]: if the description says nothing of masses.
+pub fn generate(description: &Description, options: &PackageOptions) -> Result<Generated, Unable> {
     let fixed;
     let d = if options.fixed {
-        fixed = with_values(description)?;
+        fixed = with_values(description).map_err(Unable::Fixed)?;
         &fixed
     } else {
         description
     };
     let programs: Vec<Forward> =
         with_one_pass(&options.functions).into_iter().filter_map(|w| Forward::new(d, w)).collect();
+    let dynamic = Dynamic::new(d, &options.functions, options.masses).map_err(Unable::Masses)?;
     let asked = options.functions.contains(&Wanted::Inverse);
     let (mut closed, mut general, mut refused) = (None, None, None);
     match asked.then(|| Closed::new(d, options)) {
@@ -157,29 +220,55 @@ pub fn generate(description: &Description, options: &PackageOptions) -> Result<G
             Err(None) => refused = Some(why.to_string()),
         },
     }
-    let functions = programs.iter().map(|f| (f.wanted, f.program.count(), f.proof)).collect();
-    if programs.is_empty() && closed.is_none() && general.is_none() {
+    let of_joints = programs.iter().map(|f| Function {
+        wanted: f.wanted,
+        count: f.program.count(),
+        is_proved: f.proof == Proof::Proved,
+        claim: f.wanted.claim(f.proof),
+    });
+    let moving = dynamic.iter().flat_map(Dynamic::functions).map(|(wanted, program, is_proved, claim)| {
+        Function { wanted, count: program.count(), is_proved, claim }
+    });
+    let functions: Vec<Function> = of_joints.chain(moving).collect();
+    if functions.is_empty() && closed.is_none() && general.is_none() {
         return Ok(Generated { files: vec![], functions, inverse: None, refused });
     }
     let samples = samples::samples(d);
     let variables = d.variables();
-    let parameters: Vec<Parameter> =
-        d.parameters.iter().map(|p| words::parameter(d, p.symbol, p.value)).collect();
+    let parameters: Vec<Parameter> = d
+        .parameters
+        .iter()
+        .map(|p| words::parameter(d, p.symbol, p.value))
+        .chain(dynamic.iter().flat_map(Dynamic::parameters))
+        .collect();
     let about: Vec<String> =
         closed.iter().flat_map(Closed::header).chain(general.iter().flat_map(General::header)).collect();
+    let mut routines: Vec<Routine> = programs.iter().map(|f| f.routine(d, &samples)).collect();
+    let mut solvers: Vec<SolverRoutine> = closed.iter().map(Closed::routine).collect();
+    if let Some(dynamic) = &dynamic {
+        // Every function takes all variables and parameters of the library.
+        let values = dynamic.values();
+        for vector in routines.iter_mut().flat_map(|r| &mut r.vectors) {
+            vector.variables.extend(dynamic.variables.iter().map(|_| 0.0));
+            vector.parameters.extend(&values);
+        }
+        solvers.iter_mut().flat_map(|s| &mut s.vectors).for_each(|v| v.parameters.extend(&values));
+        routines.extend(dynamic.routines(d, &samples));
+    }
     let library = Library {
         title: d.name.clone(),
         name: options.name.clone().unwrap_or_else(|| d.name.clone()),
-        header: words::header(description, d, &programs, &about),
+        header: words::header(description, d, &functions, &about),
         // Those of the functions of the joints.
         variables: variables
             .iter()
-            .filter(|_| !programs.is_empty())
+            .filter(|_| !functions.is_empty())
             .map(|v| (v.symbol, words::about_variable(d, v.symbol, v.kind)))
+            .chain(dynamic.iter().flat_map(|x| x.variables.iter().cloned()))
             .collect(),
         parameters,
-        routines: programs.iter().map(|f| f.routine(d, &samples)).collect(),
-        solvers: closed.iter().map(Closed::routine).collect(),
+        routines,
+        solvers,
         attachments: general.iter().map(General::attachment).collect(),
         precision: options.precision,
     };
@@ -212,6 +301,7 @@ pub fn with_values(d: &Description) -> Result<Description, MissingValue> {
             *cell = fixed(*cell);
         }
     }
+    dynamics::fixed(&mut new, fixed);
     (new.base, new.tool) = (d.base.map(fixed), d.tool.map(fixed));
     new.parameters.clear();
     Ok(new)

@@ -82,16 +82,28 @@ fn special_angles(d: &Description) -> Vec<Vec<f64>> {
     [vec![0.0; variables.len()]].into_iter().chain((0..3).map(turned)).collect()
 }
 
+/// Knuth's linear congruential generator, the upper bits.
+pub(super) struct Uniform(u64);
+
+impl Uniform {
+    /// From the beginning.
+    pub fn new() -> Self {
+        Uniform(SEED)
+    }
+
+    /// A number between two.
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        let unit = (self.0 >> 11) as f64 / (1_u64 << 53) as f64;
+        low + (high - low) * unit
+    }
+}
+
 fn random(d: &Description, count: usize) -> Vec<Vec<f64>> {
-    let mut state = SEED;
-    // Knuth's linear congruential generator, the upper bits.
-    let mut random = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 53) as f64
-    };
+    let mut random = Uniform::new();
     let mut value = |kind| match kind {
-        JointKind::Revolute => PI * (2.0 * random() - 1.0),
-        JointKind::Prismatic => 0.5 * random(),
+        JointKind::Revolute => PI * random.between(-1.0, 1.0),
+        JointKind::Prismatic => 0.5 * random.between(0.0, 1.0),
     };
     let variables = d.variables();
     (0..count).map(|_| variables.iter().map(|v| value(v.kind)).collect()).collect()

@@ -102,14 +102,12 @@ pub fn code(subject: &Subject, language: &str, name: Option<String>) -> Result<C
         inverse: inverse::InverseOptions::default(),
         precision: Precision::Double,
         name: Some(name.unwrap_or_else(|| subject.description.name.clone())),
+        masses: None,
         fixed: false,
     };
     let made = generate(&subject.description, &options).map_err(|why| Refusal::new(why.to_string()))?;
-    let mut words: Vec<String> = made
-        .functions
-        .iter()
-        .map(|(wanted, count, proof)| format!("{wanted}: {count}; {}", wanted.claim(*proof)))
-        .collect();
+    let mut words: Vec<String> =
+        made.functions.iter().map(|f| format!("{}: {}; {}", f.wanted, f.count, f.claim)).collect();
     words.extend(made.refused.iter().map(|why| format!("no ik: {why}")));
     let test = made.test_command(language);
     let files = made.files.into_iter().map(|f| File { path: f.path, text: f.text }).collect();

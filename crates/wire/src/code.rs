@@ -2,10 +2,8 @@
 
 use crate::Schema;
 use crate::program::Operations;
-use denavit::forward::Proof;
 use denavit_emit::Language;
-use denavit_generate::{Generated, Inverse, Wanted};
-use denavit_program::Count;
+use denavit_generate::{Generated, Inverse};
 use denavit_symbolic::Symbol;
 use serde::Serialize;
 use std::path::Path;
@@ -32,6 +30,8 @@ pub struct Written {
 /// A function of the joints.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Function {
+    /// Equal to what it is, and on what that rests.
+    pub claim: String,
     /// Its operations.
     pub count: Operations,
     /// Its name: `fk`.
@@ -62,10 +62,11 @@ pub struct Solver {
 impl Written {
     /// Code in a language, in a folder.
     pub fn of(made: &Generated, language: Language, folder: &Path) -> Self {
-        let function = |(wanted, count, proof): &(Wanted, Count, Proof)| Function {
-            count: Operations::from(count),
-            name: wanted.name(),
-            proved: *proof == Proof::Proved,
+        let function = |made: &denavit_generate::Function| Function {
+            claim: made.claim.clone(),
+            count: Operations::from(&made.count),
+            name: made.wanted.name(),
+            proved: made.is_proved,
         };
         Written {
             files: made.files.iter().map(|f| f.path.clone()).collect(),

@@ -8,6 +8,7 @@ mod view;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use denavit::description::Convention;
+use denavit::dynamics::Masses;
 use denavit::inverse::{Criterion, Goal};
 use denavit_emit::Language;
 use std::path::PathBuf;
@@ -407,7 +408,9 @@ pub struct GenerateArguments {
     #[arg(long, short, value_enum)]
     pub language: LanguageName,
     /// Functions, separated by commas: fk (pose of the tool), frames (all link frames), jacobian (of the tool),
-    /// jacobian_fk (both in one pass; comes with `fk,jacobian`), ik (all joint variables for a pose)
+    /// jacobian_fk (both in one pass; comes with `fk,jacobian`), ik (all joint variables for a pose); torque (inverse
+    /// dynamics), inertia, bias, gravity, acceleration (direct dynamics), energy, torque_derivatives,
+    /// acceleration_derivatives
     #[arg(long, short, value_name = "NAMES", default_value = "fk,ik")]
     pub functions: String,
     /// For ik: joint variables to be given beside the pose, as in `--given q3` (names or numbers, separated by commas);
@@ -417,6 +420,10 @@ pub struct GenerateArguments {
     /// For ik: what of the tool is to be met
     #[arg(long, value_enum, default_value_t = GoalName::Pose)]
     pub goal: GoalName,
+    /// For dynamic functions: which numbers of the links they take as parameters. Without it none if the robot has masses, and
+    /// those of its links otherwise
+    #[arg(long, value_enum)]
+    pub masses: Option<MassesName>,
     /// The folder to write to
     #[arg(long, short, value_name = "DIR")]
     pub output: PathBuf,
@@ -454,6 +461,27 @@ impl From<GoalName> for Goal {
             GoalName::Pose => Goal::Pose,
             GoalName::Position => Goal::Position,
             GoalName::PositionAxis => Goal::PositionAndAxis,
+        }
+    }
+}
+
+/// Which numbers of the links are parameters.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum MassesName {
+    /// None: the robot's own stand in the code
+    Numbers,
+    /// Ten a link, XX1 … M1, about the origin of its frame
+    Links,
+    /// Base parameters
+    Base,
+}
+
+impl From<MassesName> for Masses {
+    fn from(name: MassesName) -> Self {
+        match name {
+            MassesName::Numbers => Masses::Numbers,
+            MassesName::Links => Masses::Links,
+            MassesName::Base => Masses::Base,
         }
     }
 }

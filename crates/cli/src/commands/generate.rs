@@ -5,10 +5,9 @@ use crate::failure::Failure;
 use crate::load;
 use crate::terminal::{FAINT, HEADING, NAME, note, styled};
 use denavit::description::Description;
-use denavit::forward::Proof;
 use denavit::inverse;
 use denavit_emit::{Language, Precision};
-use denavit_generate::{Generated, Inverse, PackageOptions, Wanted};
+use denavit_generate::{Generated, Inverse, PackageOptions, Unable, Wanted};
 use denavit_wire::code::Written;
 use std::fs;
 use std::io::Write;
@@ -49,10 +48,16 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
         name: Some(
             arguments.name.clone().unwrap_or_else(|| name_of(&arguments.robot.robot, &description.name)),
         ),
+        masses: arguments.masses.map(Into::into),
         fixed: arguments.fixed,
     };
-    let generated = denavit_generate::generate(&description, &options).map_err(|missing| {
-        Failure::Input(format!("error: --fixed: {missing}\n  = hint: give values with --set"))
+    let generated = denavit_generate::generate(&description, &options).map_err(|why| {
+        Failure::Input(match why {
+            Unable::Fixed(missing) => format!("error: --fixed: {missing}\n  = hint: give values with --set"),
+            Unable::Masses(none) => {
+                format!("error: --masses numbers: {none}\n  = hint: --masses links takes them as parameters")
+            }
+        })
     })?;
     if let Some(why) = &generated.refused {
         if generated.files.is_empty() {
@@ -61,9 +66,9 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
         note(&format!("warning: no ik: {why}"));
     }
     write(&generated, &arguments.output, arguments.force)?;
-    for (wanted, _, proof) in &generated.functions {
-        if *proof != Proof::Proved {
-            note(&format!("warning: {wanted} is {}", wanted.claim(*proof)));
+    for f in &generated.functions {
+        if !f.is_proved && !matches!(f.wanted, Wanted::Dynamic(_)) {
+            note(&format!("warning: {} is {}", f.wanted, f.claim));
         }
     }
     let mut out = anstream::stdout();
@@ -131,8 +136,8 @@ fn report(generated: &Generated, language: Language, folder: &Path) -> String {
             styled(&format!("{} lines", file.text.lines().count()), FAINT)
         );
     }
-    for (wanted, count, proof) in &generated.functions {
-        text += &format!("{}: {count}; {}\n", styled(wanted.name(), NAME), wanted.claim(*proof));
+    for f in &generated.functions {
+        text += &format!("{}: {}; {}\n", styled(f.wanted.name(), NAME), f.count, f.claim);
     }
     if let Some(ik) = &generated.inverse {
         text += &format!("{}: {}\n", styled("ik", NAME), in_words(ik));

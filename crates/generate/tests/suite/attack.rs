@@ -25,6 +25,7 @@ fn attack(kind: Kind, seed: u64, language: Language) -> Result<bool, String> {
         inverse: InverseOptions { goal: Goal::Pose, given: None },
         precision: Precision::Double,
         name: Some("arm".into()),
+        masses: None,
         fixed: false,
     };
     let found = std::panic::catch_unwind(|| generate(&description, &options))

@@ -66,6 +66,7 @@ impl Arm {
             inverse: inverse::InverseOptions { goal: Goal::Pose, given: None },
             precision: Precision::Double,
             name: Some("arm".into()),
+            masses: None,
             fixed: true,
         };
         let generated = generate(d, &options).expect("parameters have values");

@@ -32,6 +32,7 @@ fn generated_as(name: &str, d: &Description, language: Language, functions: &[Wa
         inverse: inverse::InverseOptions { goal: Goal::Pose, given: None },
         precision: Precision::Double,
         name: Some(name.into()),
+        masses: None,
         fixed: false,
     };
     generate(d, &options).expect("nothing is fixed")

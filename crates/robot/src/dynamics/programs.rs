@@ -14,8 +14,10 @@ use super::lagrange::program;
 use super::model::{Formulas, NoNumbers};
 use super::newton_euler::inverse_dynamics;
 use crate::description::{Description, Parameter};
+use crate::geometry::{Body, Transform};
 use crate::mechanism::{MissingValue, Robot};
-use denavit_program::{Composer, Program, Value};
+use crate::random::Random;
+use denavit_program::{Composer, Program, Residue, Value};
 use denavit_symbolic::{Expr, Rational, Symbol};
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -131,7 +133,7 @@ impl DynamicPrograms {
         }
         let drives = driving(formulas);
         let symbols = [formulas.q.clone(), formulas.qd.clone(), formulas.qdd.clone(), drives];
-        let torque = with_values(&model.torques, &values);
+        let torque = with_values(&model.torques, &model.formulas, &values);
         Ok(DynamicPrograms { model, symbols, masses, values, torque })
     }
 
@@ -184,7 +186,7 @@ impl DynamicPrograms {
             DynamicFunction::Energy => return self.energies(),
         };
         let variables = self.variables(function);
-        let plain = with_values(&program(&variables, &formulas), &self.values);
+        let plain = with_values(&program(&variables, &formulas), &self.model.formulas, &self.values);
         match function {
             DynamicFunction::TorqueDerivatives | DynamicFunction::AccelerationDerivatives => plain.jacobian(),
             _ => plain,
@@ -214,6 +216,12 @@ impl DynamicPrograms {
 
     /// A, by whichever of its ways is the shortest.
     fn inertia(&self) -> Program {
+        let all = self.inertias().into_iter();
+        all.min_by_key(|p| p.count().cost()).expect("there are two")
+    }
+
+    /// A, one way and another.
+    fn inertias(&self) -> Vec<Program> {
         let n = self.symbols[0].len();
         let slopes = self.unforced().jacobian_by(&self.symbols[2]);
         let triangle = |is_lower: bool| {
@@ -230,8 +238,24 @@ impl DynamicPrograms {
             let entries: Vec<Value> = entries.into_iter().map(|k| values[k]).collect();
             all.finish(&named("a", entries))
         });
-        let [upper, lower] = ways;
-        if lower.count().cost() < upper.count().cost() { lower } else { upper }
+        // What other ways give is taken where it is the same matrix.
+        let composite = self.composite().filter(|p| same(p, &ways[0]));
+        ways.into_iter().chain(composite).collect()
+    }
+
+    /// A by composite bodies from base parameters; nothing where a link has a mass for each direction.
+    fn composite(&self) -> Option<Program> {
+        let mut arm = self.model.formulas.dynamics.clone();
+        for (link, base) in arm.links.iter_mut().zip(&self.model.base.links) {
+            let [mass, y, z] = base.mass.0;
+            if y != mass || z != mass {
+                return None;
+            }
+            link.body = Body { inertia: base.inertia, first_moment: base.first_moment, mass };
+        }
+        let [q, ..] = self.model.formulas.state();
+        let entries = inertia_matrix(&arm, &q).concat();
+        Some(with_values(&program(&self.symbols[0], &entries), &self.model.formulas, &self.values))
     }
 
     /// The torques of accelerations alone, at rest and without gravity: A q̈.
@@ -246,12 +270,17 @@ impl DynamicPrograms {
         all.finish(&named("t", moving))
     }
 
-    /// q̈ = A⁻¹(τ − h), or its derivatives.
+    /// q̈ = A⁻¹(τ − h), or its derivatives, with the matrix that makes it the shortest.
     fn accelerations(&self, derivatives: bool) -> Program {
+        let all = self.inertias().into_iter().map(|matrix| self.solved(&matrix, derivatives));
+        all.min_by_key(|p| p.count().cost()).expect("there are two")
+    }
+
+    fn solved(&self, matrix: &Program, derivatives: bool) -> Program {
         let [q, qd, qdd, tau] = &self.symbols;
         let n = q.len();
         let mut all = Composer::new(&[&q[..], qd, tau].concat(), self.parameters());
-        let matrix = all.copy(&self.inertia(), |_| None);
+        let matrix = all.copy(matrix, |_| None);
         let bias = all.copy(&self.at_rest(1), |_| None);
         let graph = all.graph();
         let rest: Vec<Value> = (0..n)
@@ -291,20 +320,22 @@ impl DynamicPrograms {
         let [q, qd, _] = formulas.state();
         let arm = &formulas.dynamics;
         let both = [kinetic_energy(arm, &q, &qd), potential_energy(arm, &q)];
-        with_values(&program(&self.symbols[..2].concat(), &both), &self.values)
+        with_values(&program(&self.symbols[..2].concat(), &both), formulas, &self.values)
     }
 }
 
 /// A = LDLᵀ in a graph.
 struct Factors {
     lower: Vec<Vec<Value>>,
-    diagonal: Vec<Value>,
+    /// One over each entry of D.
+    inverse: Vec<Value>,
 }
 
 impl Factors {
     fn new(matrix: &[Value], n: usize, all: &mut Composer) -> Self {
         let graph = all.graph();
-        let zero = graph.number(&Rational::ZERO);
+        let [zero, one] = [Rational::ZERO, Rational::ONE].map(|r| graph.number(&r));
+        let mut inverse = vec![];
         let (mut lower, mut diagonal) = (vec![vec![zero; n]; n], vec![zero; n]);
         for j in 0..n {
             // L D of the row, once for all entries below.
@@ -315,16 +346,18 @@ impl Factors {
                 pivot = graph.sub(pivot, part);
             }
             diagonal[j] = pivot;
+            let over = graph.div(one, pivot);
+            inverse.push(over);
             for i in j + 1..n {
                 let mut entry = matrix[n * i + j];
                 for k in 0..j {
                     let part = graph.mul(lower[i][k], scaled[k]);
                     entry = graph.sub(entry, part);
                 }
-                lower[i][j] = graph.div(entry, pivot);
+                lower[i][j] = graph.mul(entry, over);
             }
         }
-        Factors { lower, diagonal }
+        Factors { lower, inverse }
     }
 
     fn solve(&self, mut x: Vec<Value>, all: &mut Composer) -> Vec<Value> {
@@ -335,8 +368,8 @@ impl Factors {
                 x[i] = graph.sub(x[i], part);
             }
         }
-        for (entry, d) in x.iter_mut().zip(&self.diagonal) {
-            *entry = graph.div(*entry, *d);
+        for (entry, d) in x.iter_mut().zip(&self.inverse) {
+            *entry = graph.mul(*entry, *d);
         }
         for i in (0..n).rev() {
             for k in i + 1..n {
@@ -348,19 +381,35 @@ impl Factors {
     }
 }
 
+/// Whether two programs have the same values at random points modulo a prime.
+fn same(a: &Program, b: &Program) -> bool {
+    let mut random = Random(1982);
+    let mut any = || (random.unit() * (1_u64 << 53) as f64) as u64;
+    (0..3).all(|_| {
+        let mut at: FxHashMap<Symbol, Residue> = FxHashMap::default();
+        for s in inputs(a).chain(inputs(b)).collect::<Vec<_>>() {
+            at.entry(s).or_insert_with(|| Residue::input(any(), any()));
+        }
+        let [a, b] = [a, b].map(|p| p.eval(|s| at.get(&s).cloned()).unwrap_or_default());
+        !a.is_empty()
+            && a.len() == b.len()
+            && a.iter().zip(&b).all(|(x, y)| x.get().is_some() && x.get() == y.get())
+    })
+}
+
 /// `t1`, `t2`, ….
 fn named(letter: &str, values: Vec<Value>) -> Vec<(String, Value)> {
     values.into_iter().enumerate().map(|(k, v)| (format!("{letter}{}", k + 1), v)).collect()
 }
 
 /// A program with formulas in place of parameters, whose own symbols are parameters.
-fn with_values(program: &Program, values: &FxHashMap<Symbol, Expr>) -> Program {
+fn with_values(program: &Program, formulas: &Formulas, values: &FxHashMap<Symbol, Expr>) -> Program {
     let mut parameters: Vec<Symbol> =
         program.parameters().iter().copied().filter(|s| !values.contains_key(s)).collect();
     let read: FxHashSet<Symbol> = inputs(program).collect();
     let mut more: Vec<Symbol> =
         values.iter().filter(|v| read.contains(v.0)).flat_map(|v| v.1.symbols()).collect();
-    more.sort_by_key(|s| s.name());
+    more.sort_by_key(|s| formulas.parameters.iter().position(|p| p.symbol == *s));
     for s in more {
         if !parameters.contains(&s) {
             parameters.push(s);
@@ -383,7 +432,7 @@ fn with_values(program: &Program, values: &FxHashMap<Symbol, Expr>) -> Program {
 fn of_the_table(d: &Description) -> FxHashSet<Symbol> {
     let robot = Robot::symbolic(d);
     let mut all = FxHashSet::default();
-    let entries = |x: &crate::geometry::Transform<Expr>| x.matrix().into_iter().flatten().collect::<Vec<_>>();
+    let entries = |x: &Transform<Expr>| x.matrix().into_iter().flatten().collect::<Vec<_>>();
     for row in &d.rows {
         let cells = [row.theta, row.d, row.a, row.alpha, row.gamma, row.b];
         all.extend(cells.iter().flat_map(|e| e.symbols()));

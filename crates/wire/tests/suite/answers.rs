@@ -193,6 +193,7 @@ fn written(d: &Description) -> String {
         inverse: inverse::InverseOptions::default(),
         precision: Precision::Double,
         name: None,
+        masses: None,
         fixed: false,
     };
     let made = generate(d, &options).expect("everything has a value");

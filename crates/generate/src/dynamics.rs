@@ -1,0 +1,397 @@
+//! Dynamic functions: their programs, words and vectors.
+
+use super::Wanted;
+use super::samples::{self, Sample};
+use super::words::text;
+use denavit::description::{Description, JointKind};
+use denavit::dynamics::{DynamicFunction, DynamicPrograms, Ground, Masses, NoNumbers};
+use denavit_emit::{Parameter, Routine, Vector};
+use denavit_program::{Composer, Extended, Program, Value};
+use denavit_symbolic::{Expr, Symbol};
+use rustc_hash::FxHashMap;
+
+/// All dynamic functions that are asked for.
+pub(super) struct Dynamic {
+    all: DynamicPrograms,
+    functions: Vec<One>,
+    /// The vectors behind q: rates, and accelerations or torques.
+    pub variables: Vec<(Symbol, String)>,
+    /// Those beside the parameters of the table, with a value for tests.
+    parameters: Vec<(Parameter, f64)>,
+}
+
+struct One {
+    function: DynamicFunction,
+    /// Over the variables of the library.
+    program: Program,
+    /// By other ways, from the links as they are.
+    reference: Program,
+}
+
+/// Values for tests where a link has none: those of a body that can be. XX XY XZ YY YZ ZZ, MX MY MZ, M.
+const LINK: [(&str, f64, &str); 10] = [
+    ("XX", 0.4, "kg m^2"),
+    ("XY", 0.02, "kg m^2"),
+    ("XZ", -0.03, "kg m^2"),
+    ("YY", 0.5, "kg m^2"),
+    ("YZ", 0.01, "kg m^2"),
+    ("ZZ", 0.6, "kg m^2"),
+    ("MX", 0.1, "kg m"),
+    ("MY", -0.05, "kg m"),
+    ("MZ", 0.08, "kg m"),
+    ("M", 2.0, "kg"),
+];
+/// Acceleration of gravity for tests.
+const GRAVITY: f64 = 9.81;
+
+impl Dynamic {
+    /// The functions among those that are wanted; nothing if there is none.
+    ///
+    /// # Errors
+    /// If numbers are to stand in the code and the description has none.
+    pub fn new(
+        d: &Description,
+        wanted: &[Wanted],
+        masses: Option<Masses>,
+    ) -> Result<Option<Self>, NoNumbers> {
+        let functions: Vec<DynamicFunction> =
+            wanted.iter().filter_map(|w| if let Wanted::Dynamic(f) = w { Some(*f) } else { None }).collect();
+        if functions.is_empty() {
+            return Ok(None);
+        }
+        let usual = if d.has_masses() { Masses::Numbers } else { Masses::Links };
+        let all = DynamicPrograms::new(d, masses.unwrap_or(usual))?;
+        let variables = variables(d, &all, &functions);
+        let parameters = parameters(d, &all);
+        let symbols: Vec<Symbol> =
+            all.symbols[0].iter().chain(variables.iter().map(|v| &v.0)).copied().collect();
+        let made = |function: DynamicFunction| {
+            let program = over(&all.program(function)?, &symbols);
+            let reference = over(&all.reference(function), &symbols);
+            Some(One { function, program, reference })
+        };
+        let functions = functions.into_iter().filter_map(made).collect();
+        Ok(Some(Dynamic { all, functions, variables, parameters }))
+    }
+
+    /// The functions with their operations, and what they rest on.
+    pub fn functions(&self) -> impl Iterator<Item = (Wanted, &Program, bool, String)> {
+        let ground = self.all.model.ground;
+        self.functions.iter().map(move |one| {
+            (
+                Wanted::Dynamic(one.function),
+                &one.program,
+                ground == Ground::Proved,
+                claim(one.function, ground),
+            )
+        })
+    }
+
+    /// The parameters beside those of the table.
+    pub fn parameters(&self) -> impl Iterator<Item = Parameter> {
+        self.parameters.iter().map(|p| p.0.clone())
+    }
+
+    /// With words and vectors.
+    pub fn routines(&self, d: &Description, configurations: &[Sample]) -> Vec<Routine<'_>> {
+        let states = self.states(d, configurations);
+        self.functions.iter().map(|one| self.routine(one, &states)).collect()
+    }
+
+    /// Values for the parameters beside those of the table.
+    pub fn values(&self) -> Vec<f64> {
+        self.parameters.iter().map(|p| p.1).collect()
+    }
+
+    /// Configurations with rates, and accelerations or torques; the first at rest.
+    fn states(&self, d: &Description, configurations: &[Sample]) -> Vec<Vector> {
+        let mut random = samples::Uniform::new();
+        let of = |k: usize, sample: &Sample, random: &mut samples::Uniform| {
+            let more =
+                self.variables.iter().map(|_| if k == 0 { 0.0 } else { 2.0 * random.between(-1.0, 1.0) });
+            let variables = sample.variables.iter().copied().chain(more).collect();
+            let parameters = samples::parameters(d).into_iter().chain(self.values()).collect();
+            Vector { variables, parameters, results: vec![] }
+        };
+        configurations.iter().enumerate().map(|(k, sample)| of(k, sample, &mut random)).collect()
+    }
+
+    fn routine<'a>(&'a self, one: &'a One, states: &[Vector]) -> Routine<'a> {
+        let vectors: Vec<Vector> = states
+            .iter()
+            .map(|state| {
+                let exact = self.exact(&one.reference, state);
+                Vector { results: exact.iter().map(Extended::to_f64).collect(), ..state.clone() }
+            })
+            .collect();
+        let n = self.all.symbols[0].len();
+        let (result, shape, about) = words(one.function, n);
+        let scales = scales(one, self, &vectors);
+        let name = Wanted::Dynamic(one.function).name().into();
+        Routine { name, about, program: &one.program, result: result.into(), shape, vectors, scales }
+    }
+
+    /// The results of the reference, whose parameters are those of the links: where base parameters are given, those from which
+    /// they come.
+    fn exact(&self, reference: &Program, state: &Vector) -> Vec<Extended> {
+        let values = self.inputs(reference, state);
+        let links = self.links();
+        let value =
+            |s: Symbol| values.get(&s).copied().or_else(|| links.get(&s).copied()).map(Extended::from);
+        reference.eval(value).expect("a value for every input")
+    }
+
+    /// The values of a program's inputs in a state.
+    fn inputs(&self, program: &Program, state: &Vector) -> FxHashMap<Symbol, f64> {
+        let parameters = self.all.model.formulas.parameters.iter().map(|p| p.symbol);
+        let of_table = parameters.take(state.parameters.len() - self.parameters.len());
+        let names = of_table.chain(self.parameters.iter().map(|p| p.0.symbol));
+        program
+            .variables()
+            .iter()
+            .copied()
+            .zip(state.variables.iter().copied())
+            .chain(names.zip(state.parameters.iter().copied()))
+            .collect()
+    }
+
+    /// Values for the numbers of the links, and for gravity.
+    fn links(&self) -> FxHashMap<Symbol, f64> {
+        values_of_links(&self.all)
+    }
+}
+
+/// What a function rests on.
+fn claim(function: DynamicFunction, ground: Ground) -> String {
+    let from = match function {
+        DynamicFunction::Torque => "",
+        DynamicFunction::Energy => return "the energies of the links, written out".into(),
+        DynamicFunction::Bias | DynamicFunction::Gravity => "from the torques, which are ",
+        DynamicFunction::Inertia | DynamicFunction::TorqueDerivatives => {
+            "derivatives of the torques, which are "
+        }
+        DynamicFunction::Acceleration => "by A = LDL^T from the torques, which are ",
+        DynamicFunction::AccelerationDerivatives => {
+            "by A = LDL^T from derivatives of the torques, which are "
+        }
+    };
+    let what = match ground {
+        Ground::Proved => "proved equal to Lagrange's equations".into(),
+        Ground::Modulo(states) => {
+            format!(
+                "equal to Lagrange's equations at {states} random states modulo 2^61 - 1, exactly; not proved"
+            )
+        }
+        Ground::Numbers(states, off) => {
+            format!("equal to Lagrange's equations in {states} random states within {off:.0e}; not proved")
+        }
+        Ground::Failed => "not equal to Lagrange's equations: a defect".into(),
+    };
+    format!("{from}{what}")
+}
+
+/// What the results are called, their shape, and what they are.
+fn words(function: DynamicFunction, n: usize) -> (&'static str, Vec<usize>, Vec<String>) {
+    let units = "N m (N for a joint that slides)";
+    let change = "rad/s^2 (m/s^2 for a joint that slides)";
+    let columns = |last: &str| {
+        format!("Columns 1 to {n}: by q; {} to {}: by qd; {} to {}: {last}.", n + 1, 2 * n, 2 * n + 1, 3 * n)
+    };
+    let at_zero =
+        "Coulomb's friction jumps where a rate is 0: its derivative is 0 on either side, and 0 here."
+            .to_string();
+    match function {
+        DynamicFunction::Torque => {
+            let what = format!(
+                "Inverse dynamics: the torques of the {n} drives that give the accelerations qdd in the state (q, qd), with \
+                 gravity, rotors and friction; {units}."
+            );
+            ("tau", vec![n], vec![what, "At rest Coulomb's friction counts as 0.".into()])
+        }
+        DynamicFunction::Inertia => {
+            let what = format!(
+                "The inertia matrix A, {n} by {n}, symmetric, from q alone; rotors are on its diagonal."
+            );
+            ("inertia", vec![n, n], vec![what, "kg m^2; kg m and kg where joints slide.".into()])
+        }
+        DynamicFunction::Bias => {
+            let what = format!(
+                "The torques without accelerations, from q and qd: centrifugal and Coriolis torques, gravity, friction; {units}."
+            );
+            ("bias", vec![n], vec![what])
+        }
+        DynamicFunction::Gravity => (
+            "gravity",
+            vec![n],
+            vec![format!("The torques that hold the arm at rest, from q alone; {units}.")],
+        ),
+        DynamicFunction::Acceleration => {
+            let what = format!(
+                "Direct dynamics: the accelerations of the {n} joints under the torques tau of the drives in the state (q, qd); \
+                 {change}."
+            );
+            let singular =
+                "A joint that moves nothing with mass makes them infinite or not a number.".to_string();
+            ("qdd", vec![n], vec![what, singular])
+        }
+        DynamicFunction::Energy => {
+            let what = "The kinetic energy, with that of the rotors, and the potential energy, which is 0 with all mass at the \
+                        origin of the base, from q and qd; J.";
+            ("energy", vec![2], vec![what.into()])
+        }
+        DynamicFunction::TorqueDerivatives => {
+            let what = format!("The derivatives of the torques, {n} by {}, a row a joint.", 3 * n);
+            (
+                "derivatives",
+                vec![n, 3 * n],
+                vec![what, columns("by qdd, which is the inertia matrix"), at_zero],
+            )
+        }
+        DynamicFunction::AccelerationDerivatives => {
+            let what = format!("The derivatives of the accelerations, {n} by {}, a row a joint.", 3 * n);
+            ("derivatives", vec![n, 3 * n], vec![what, columns("by tau, which is the inverse of A"), at_zero])
+        }
+    }
+}
+
+/// The vectors behind q that the functions read. One vector stands for accelerations and for torques where functions read either.
+fn variables(d: &Description, all: &DynamicPrograms, functions: &[DynamicFunction]) -> Vec<(Symbol, String)> {
+    let most = functions.iter().map(|f| f.reads()).max().unwrap_or(1);
+    let mut list = vec![];
+    let kinds = d.variables();
+    let unit = |k: usize, turning: &str, sliding: &str| {
+        if kinds[k].kind == JointKind::Revolute { turning.to_string() } else { sliding.to_string() }
+    };
+    let name = |k: usize| kinds[k].symbol.name();
+    if most >= 2 {
+        for (k, &s) in all.symbols[1].iter().enumerate() {
+            list.push((s, format!("rate of {}, in {}", name(k), unit(k, "rad/s", "m/s"))));
+        }
+    }
+    if most >= 3 {
+        let thirds = functions.iter().filter(|f| f.reads() == 3);
+        let (driven, given): (Vec<&DynamicFunction>, Vec<_>) = thirds.partition(|f| f.is_driven());
+        for k in 0..kinds.len() {
+            let rate = format!("acceleration of {}, in {}", name(k), unit(k, "rad/s^2", "m/s^2"));
+            let torque = format!("torque that drives {}, in {}", name(k), unit(k, "N m", "N"));
+            list.push(match (driven.is_empty(), given.is_empty()) {
+                (true, _) => (all.symbols[2][k], rate),
+                (_, true) => (all.symbols[3][k], torque),
+                _ => {
+                    let symbol =
+                        Symbol::new(&format!("u{}", all.symbols[2][k].name().trim_start_matches("qdd")));
+                    (symbol, format!("{rate}; for acceleration and its derivatives the {torque}"))
+                }
+            });
+        }
+    }
+    list
+}
+
+/// A program over the variables of the library: q, rates, and one vector that is either accelerations or torques.
+fn over(program: &Program, symbols: &[Symbol]) -> Program {
+    let mut all = Composer::new(symbols, program.parameters());
+    let mut at: FxHashMap<Symbol, Value> = FxHashMap::default();
+    for (k, &s) in program.variables().iter().enumerate() {
+        let place = symbols.iter().position(|x| *x == s).unwrap_or(k);
+        at.insert(s, all.graph().input(symbols[place]));
+    }
+    let results = all.copy(program, |s| at.get(&s).copied());
+    let outputs: Vec<(String, Value)> = program.outputs().iter().map(|o| o.0.clone()).zip(results).collect();
+    all.finish(&outputs)
+}
+
+/// Values for the numbers of the links that have none, and for gravity.
+fn values_of_links(all: &DynamicPrograms) -> FxHashMap<Symbol, f64> {
+    let formulas = &all.model.formulas;
+    let mut values: FxHashMap<Symbol, f64> = FxHashMap::default();
+    for p in &formulas.parameters {
+        if let Some(value) = p.number() {
+            values.insert(p.symbol, value);
+        }
+    }
+    for (k, link) in formulas.dynamics.links.iter().enumerate() {
+        for (e, (_, value, _)) in link.body.parameters().into_iter().zip(LINK) {
+            if let Some(s) = e.as_symbol() {
+                values.entry(s).or_insert(value * (1.0 + 0.0625 * k as f64));
+            }
+        }
+    }
+    values
+}
+
+/// The parameters of the programs that the table has not.
+fn parameters(d: &Description, all: &DynamicPrograms) -> Vec<(Parameter, f64)> {
+    let formulas = &all.model.formulas;
+    let links = values_of_links(all);
+    let of_table: FxHashMap<Symbol, f64> =
+        d.parameters.iter().map(|p| p.symbol).zip(samples::parameters(d)).collect();
+    let value = |s: Symbol| of_table.get(&s).or_else(|| links.get(&s)).copied();
+    let is_new = |s: &&Symbol| !of_table.contains_key(s);
+    let mut list = vec![];
+    for &symbol in all.parameters().iter().filter(is_new) {
+        let default = formulas.value(symbol);
+        let base = all.model.base.parameters.iter().find(|p| p.symbol == symbol);
+        let of_link = formulas.dynamics.links.iter().enumerate().find_map(|(k, link)| {
+            let place = link.body.parameters().iter().position(|e| e.as_symbol() == Some(symbol))?;
+            Some((k + 1, LINK[place]))
+        });
+        let (about, default, own) = match (base.filter(|b| b.is_grouped), of_link) {
+            (Some(base), _) => {
+                let own = base.value.eval(value).unwrap_or(f64::NAN);
+                let known = base.value.eval(|s| formulas.value(s)).ok();
+                (format!("base parameter of link {}: {}", base.link + 1, text(base.value)), known, own)
+            }
+            (None, Some((link, (letters, _, unit)))) => {
+                let own = value(symbol).unwrap_or(1.0);
+                (format!("{letters} of link {link} about the origin of its frame; {unit}"), default, own)
+            }
+            (None, None) => {
+                let own = value(symbol).unwrap_or(GRAVITY);
+                ("acceleration of gravity; m/s^2".into(), default, own)
+            }
+        };
+        list.push((Parameter { symbol, about, default }, own));
+    }
+    list
+}
+
+/// What each result is worth where rounding is concerned: as much as the largest of its kind, more where the function itself
+/// makes more of rounding, as a solution of equations does.
+fn scales(one: &One, all: &Dynamic, vectors: &[Vector]) -> Vec<f64> {
+    let n = all.all.symbols[0].len();
+    let count = one.program.outputs().len();
+    // Results of one kind: energies each, a matrix column block by column block.
+    let kind = |k: usize| match one.function {
+        DynamicFunction::Energy => k,
+        DynamicFunction::TorqueDerivatives | DynamicFunction::AccelerationDerivatives => (k % (3 * n)) / n,
+        _ => 0,
+    };
+    let kinds = (0..count).map(kind).max().map_or(0, |k| k + 1);
+    let mut sizes = vec![f64::MIN_POSITIVE; kinds];
+    for v in vectors {
+        v.results.iter().enumerate().for_each(|(k, x)| sizes[kind(k)] = sizes[kind(k)].max(x.abs()));
+    }
+    let mut rounding = vec![1.0_f64; kinds];
+    for v in vectors {
+        let inputs = all.inputs(&one.program, v);
+        let own = one.program.eval(|s| inputs.get(&s).copied()).unwrap_or_default();
+        for (k, (x, y)) in own.iter().zip(&v.results).enumerate() {
+            let off = (x - y).abs() / (f64::EPSILON * sizes[kind(k)]);
+            rounding[kind(k)] = rounding[kind(k)].max(off);
+        }
+    }
+    (0..count).map(|k| sizes[kind(k)] * rounding[kind(k)]).collect()
+}
+
+/// The masses of a description with values in place of parameters.
+pub(super) fn fixed(d: &mut Description, value: impl Fn(Expr) -> Expr) {
+    for row in &mut d.rows {
+        let single = [&mut row.mass, &mut row.rotor, &mut row.viscous, &mut row.coulomb];
+        single.into_iter().flatten().for_each(|e| *e = value(*e));
+        let three = [&mut row.com, &mut row.first_moment].into_iter().flatten().flatten();
+        let six = [&mut row.inertia, &mut row.inertia_at_origin].into_iter().flatten().flatten();
+        three.chain(six).for_each(|e| *e = value(*e));
+    }
+    d.gravity.iter_mut().flatten().for_each(|e| *e = value(*e));
+}
