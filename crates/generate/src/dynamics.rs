@@ -1,10 +1,10 @@
 //! Dynamic functions: their programs, words and vectors.
 
-use super::Wanted;
 use super::samples::{self, Sample};
 use super::words::text;
+use super::{Unable, Wanted};
 use denavit::description::{Description, JointKind};
-use denavit::dynamics::{DynamicFunction, DynamicPrograms, Ground, Masses, NoNumbers};
+use denavit::dynamics::{DynamicFunction, DynamicPrograms, Ground, Masses};
 use denavit_emit::{Parameter, Routine, Vector};
 use denavit_program::{Composer, Extended, Program, Value};
 use denavit_symbolic::{Expr, Symbol};
@@ -48,21 +48,20 @@ impl Dynamic {
     /// The functions among those that are wanted; nothing if there is none.
     ///
     /// # Errors
-    /// If numbers are to stand in the code and the description has none.
-    pub fn new(
-        d: &Description,
-        wanted: &[Wanted],
-        masses: Option<Masses>,
-    ) -> Result<Option<Self>, NoNumbers> {
+    /// If numbers are to stand in the code and the description has none, or energies are wanted from base parameters.
+    pub fn new(d: &Description, wanted: &[Wanted], masses: Option<Masses>) -> Result<Option<Self>, Unable> {
         let functions: Vec<DynamicFunction> =
             wanted.iter().filter_map(|w| if let Wanted::Dynamic(f) = w { Some(*f) } else { None }).collect();
         if functions.is_empty() {
             return Ok(None);
         }
         let usual = if d.has_masses() { Masses::Numbers } else { Masses::Links };
-        let all = DynamicPrograms::new(d, masses.unwrap_or(usual))?;
+        let masses = masses.unwrap_or(usual);
+        if masses == Masses::Base && functions.contains(&DynamicFunction::Energy) {
+            return Err(Unable::Energy);
+        }
+        let all = DynamicPrograms::new(d, masses).map_err(Unable::Masses)?;
         let variables = variables(d, &all, &functions);
-        let parameters = parameters(d, &all);
         let symbols: Vec<Symbol> =
             all.symbols[0].iter().chain(variables.iter().map(|v| &v.0)).copied().collect();
         let made = |function: DynamicFunction| {
@@ -70,7 +69,8 @@ impl Dynamic {
             let reference = over(&all.reference(function), &symbols);
             Some(One { function, program, reference })
         };
-        let functions = functions.into_iter().filter_map(made).collect();
+        let functions: Vec<One> = functions.into_iter().filter_map(made).collect();
+        let parameters = parameters(d, &all, &functions);
         Ok(Some(Dynamic { all, functions, variables, parameters }))
     }
 
@@ -321,7 +321,7 @@ fn values_of_links(all: &DynamicPrograms) -> FxHashMap<Symbol, f64> {
 }
 
 /// The parameters of the programs that the table has not.
-fn parameters(d: &Description, all: &DynamicPrograms) -> Vec<(Parameter, f64)> {
+fn parameters(d: &Description, all: &DynamicPrograms, functions: &[One]) -> Vec<(Parameter, f64)> {
     let formulas = &all.model.formulas;
     let links = values_of_links(all);
     let of_table: FxHashMap<Symbol, f64> =
@@ -329,7 +329,17 @@ fn parameters(d: &Description, all: &DynamicPrograms) -> Vec<(Parameter, f64)> {
     let value = |s: Symbol| of_table.get(&s).or_else(|| links.get(&s)).copied();
     let is_new = |s: &&Symbol| !of_table.contains_key(s);
     let mut list = vec![];
-    for &symbol in all.parameters().iter().filter(is_new) {
+    // Those of the links in their order, then base parameters. Energies may read more than torques.
+    let read: Vec<Symbol> = functions.iter().flat_map(|one| one.program.parameters().to_vec()).collect();
+    let own = formulas.parameters.iter().map(|p| p.symbol);
+    let base = all.model.base.parameters.iter().map(|p| p.symbol);
+    let mut symbols: Vec<Symbol> = vec![];
+    for s in own.chain(base).filter(|s| read.contains(s)) {
+        if !symbols.contains(&s) {
+            symbols.push(s);
+        }
+    }
+    for &symbol in symbols.iter().filter(is_new) {
         let default = formulas.value(symbol);
         let base = all.model.base.parameters.iter().find(|p| p.symbol == symbol);
         let of_link = formulas.dynamics.links.iter().enumerate().find_map(|(k, link)| {

@@ -149,6 +149,8 @@ pub enum Unable {
     Fixed(MissingValue),
     /// Numbers of the links are to stand in the code, and there are none.
     Masses(NoNumbers),
+    /// Energies are wanted from base parameters, which do not tell them.
+    Energy,
 }
 
 impl fmt::Display for Unable {
@@ -156,6 +158,7 @@ impl fmt::Display for Unable {
         match self {
             Unable::Fixed(missing) => missing.fmt(f),
             Unable::Masses(none) => none.fmt(f),
+            Unable::Energy => f.write_str("base parameters do not tell energies"),
         }
     }
 }
@@ -197,7 +200,8 @@ impl Generated {
 /// left out in other languages. Where `fk` and `jacobian` are both asked for, `jacobian_fk` comes with them.
 ///
 /// # Errors
-/// With `fixed`: if a parameter has no value. With [`Masses::Numbers`]: if the description says nothing of masses.
+/// With `fixed`: if a parameter has no value. With [`Masses::Numbers`]: if the description says nothing of masses;
+/// with [`Masses::Base`]: if energies are wanted.
 pub fn generate(description: &Description, options: &PackageOptions) -> Result<Generated, Unable> {
     let fixed;
     let d = if options.fixed {
@@ -208,7 +212,7 @@ pub fn generate(description: &Description, options: &PackageOptions) -> Result<G
     };
     let programs: Vec<Forward> =
         with_one_pass(&options.functions).into_iter().filter_map(|w| Forward::new(d, w)).collect();
-    let dynamic = Dynamic::new(d, &options.functions, options.masses).map_err(Unable::Masses)?;
+    let dynamic = Dynamic::new(d, &options.functions, options.masses)?;
     let asked = options.functions.contains(&Wanted::Inverse);
     let (mut closed, mut general, mut refused) = (None, None, None);
     match asked.then(|| Closed::new(d, options)) {

@@ -54,6 +54,9 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
     let generated = denavit_generate::generate(&description, &options).map_err(|why| {
         Failure::Input(match why {
             Unable::Fixed(missing) => format!("error: --fixed: {missing}\n  = hint: give values with --set"),
+            Unable::Energy => {
+                format!("error: --masses base: {why}\n  = hint: leave energy out, or --masses links")
+            }
             Unable::Masses(none) => {
                 format!("error: --masses numbers: {none}\n  = hint: --masses links takes them as parameters")
             }

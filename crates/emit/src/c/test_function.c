@@ -31,7 +31,7 @@ static void test_@f@(void)
         }
 #if FLT_EVAL_METHOD == 0
 
-        /* Where the routines without branches do not hold, the two agree bit by bit. */
+        /* Where the routines without branches do not hold, the two agree bit by bit, or neither is a number. */
         for (int j = 0; j < VARIABLES; j++) {
             variables[j] = (real)1e15;
             q[LANES * j + 1] = variables[j];
@@ -40,7 +40,10 @@ static void test_@f@(void)
         @name@_@f@_block(q, @address@block);
         for (int k = 0; k < @F@_RESULTS; k++) {
             const double value = (double)block[LANES * k + 1];
-            check("@f@_block, huge", v, k, value, (double)one[k], 0.0);
+            const int is_none = value != value && one[k] != one[k];
+            if (value != (double)one[k] && !is_none) {
+                check("@f@_block, huge", v, k, value, (double)one[k], 0.0);
+            }
         }
 #endif
     }
