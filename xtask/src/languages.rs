@@ -27,6 +27,15 @@ const ROBOTS: &[&str] = &[
 ];
 /// Of these also with the values of parameters in the code.
 const FIXED: &[&str] = &["scara", "franka-panda"];
+/// Of these the dynamic functions: of one with masses and friction, and of one that takes the numbers of its links; in Rust of
+/// the first.
+const MOVING: &[(&str, &[&str])] =
+    &[("crates/generate/tests/robots/moving.toml", &[]), ("planar-2r", &["--masses", "links"])];
+/// What is generated of the others.
+const KINEMATIC: &str = "fk,frames,jacobian,ik";
+/// What is generated of those that move.
+const DYNAMIC: &str =
+    "fk,torque,inertia,bias,gravity,acceleration,energy,torque_derivatives,acceleration_derivatives";
 /// What every C file is compiled with, beside what its Makefile says.
 const STRICT: &str = "-O2 -Wall -Wextra -Werror -pedantic";
 const PYTHON_PACKAGES: &[&str] = &["numpy", "nvidia-cuda-nvrtc-cu12"];
@@ -43,11 +52,17 @@ pub fn run() -> Result<()> {
         fs::remove_dir_all(&tools.folder)?;
     }
     // Two at a time: compilers take a core each. All Rust is one of the parts.
-    let parts = Mutex::new(ROBOTS.iter().map(Some).rev().chain([None]).collect::<Vec<_>>());
+    let kinematic = ROBOTS.iter().map(|&robot| (robot, KINEMATIC, &[][..]));
+    let dynamic = MOVING.iter().map(|&(robot, more)| (robot, DYNAMIC, more));
+    let robots = dynamic.chain(kinematic.rev());
+    let parts = Mutex::new(robots.map(Some).chain([None]).collect::<Vec<_>>());
     let next = || parts.lock().ok()?.pop();
     let work = || -> Result<()> {
         while let Some(part) = next() {
-            part.map_or_else(|| tools.rust(), |robot| tools.others(robot))?;
+            part.map_or_else(
+                || tools.rust(),
+                |(robot, functions, more)| tools.others(robot, functions, more),
+            )?;
         }
         Ok(())
     };
@@ -57,7 +72,11 @@ pub fn run() -> Result<()> {
     });
     a?;
     b.unwrap_or_else(|_| bail!("a test thread panicked"))?;
-    println!("{} robots in every language agree with their link transforms, forward and back", ROBOTS.len());
+    println!(
+        "{} robots in every language agree with their link transforms, forward and back, and {} with their torques",
+        ROBOTS.len(),
+        MOVING.len()
+    );
     Ok(())
 }
 
@@ -70,8 +89,15 @@ struct Tools {
 
 impl Tools {
     /// Generates source code into `target`.
-    fn generate(&self, robot: &str, language: &str, extra: &[&str], target: PathBuf) -> Result<PathBuf> {
-        let functions = ["--functions", "fk,frames,jacobian,ik", "--language", language, "--output"];
+    fn generate(
+        &self,
+        robot: &str,
+        functions: &str,
+        language: &str,
+        extra: &[&str],
+        target: PathBuf,
+    ) -> Result<PathBuf> {
+        let functions = ["--functions", functions, "--language", language, "--output"];
         let mut generate = command(&self.program);
         generate.args(["generate", robot]).args(functions).arg(&target).args(extra);
         quietly(&mut generate)?;
@@ -79,11 +105,11 @@ impl Tools {
     }
 
     /// Every language but Rust.
-    fn others(&self, robot: &str) -> Result<()> {
+    fn others(&self, robot: &str, functions: &str, more: &[&str]) -> Result<()> {
         let stem = stem(robot)?;
         let generate = |language: &str, extra: &[&str]| {
             let target = self.folder.join(format!("{stem}-{language}{}", extra.concat()));
-            self.generate(robot, language, extra, target)
+            self.generate(robot, functions, language, &[more, extra].concat(), target)
         };
         for extra in [&[][..], &["--float"]] {
             c(&generate("c", extra)?, stem)?;
@@ -122,13 +148,16 @@ impl Tools {
         for robot in ROBOTS {
             let stem = stem(robot)?;
             members.push(stem.to_string());
-            self.generate(robot, "rust", &[], folder.join(stem))?;
+            self.generate(robot, KINEMATIC, "rust", &[], folder.join(stem))?;
             if FIXED.contains(robot) {
                 let name = format!("{}_fixed", stem.replace('-', "_"));
-                self.generate(robot, "rust", &["--fixed", "--name", &name], folder.join(&name))?;
+                self.generate(robot, KINEMATIC, "rust", &["--fixed", "--name", &name], folder.join(&name))?;
                 members.push(name);
             }
         }
+        let (moving, _) = MOVING[0];
+        members.push(stem(moving)?.to_string());
+        self.generate(moving, DYNAMIC, "rust", &[], folder.join(stem(moving)?))?;
         let manifest = format!("[workspace]\nresolver = \"3\"\nmembers = {members:?}\n");
         fs::write(folder.join("Cargo.toml"), manifest)?;
         let cargo = |folder: &Path, arguments: &[&str], flags: &str| {
@@ -143,7 +172,7 @@ impl Tools {
             cargo(&folder, &["test", "--workspace"], "-C target-cpu=x86-64-v3")?;
         }
         let alone = self.folder.join("rust-alone");
-        cargo(&self.generate(ROBOTS[0], "rust", &[], alone)?, &["test"], "")
+        cargo(&self.generate(ROBOTS[0], KINEMATIC, "rust", &[], alone)?, &["test"], "")
     }
 }
 

@@ -31,7 +31,8 @@ static void test_@f@(void)
         }
 #if FLT_EVAL_METHOD == 0
 
-        /* Where the routines without branches do not hold, the two agree bit by bit, or neither is a number. */
+        /* Where the routines without branches do not hold, the two agree bit by bit, or
+           neither is a number. */
         for (int j = 0; j < VARIABLES; j++) {
             variables[j] = (real)1e15;
             q[LANES * j + 1] = variables[j];

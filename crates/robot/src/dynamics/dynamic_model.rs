@@ -44,7 +44,15 @@ pub struct Parts {
 impl DynamicModel {
     /// The model of a description: its numbers for masses get Khalil and Dombre's names.
     pub fn derive(d: &Description) -> Self {
-        let formulas = Formulas::named(d);
+        Self::of(d, Formulas::named(d))
+    }
+
+    /// The same with the description's numbers as they are, gravity with them: what is 0 or equal among them shortens the program.
+    pub fn with_numbers(d: &Description) -> Self {
+        Self::of(d, Formulas::in_numbers(d))
+    }
+
+    fn of(d: &Description, formulas: Formulas) -> Self {
         let base = BaseModel::derive(d, &formulas);
         let torques = shortest(d, &formulas, &base);
         let ground = base.ground(d, &formulas, &torques);

@@ -224,6 +224,16 @@ impl Formulas {
         Self::with(d, |e, named| e.symbols().is_empty().then(|| named(Some(e))))
     }
 
+    /// The same with the numbers of links and of gravity.
+    pub fn in_numbers(d: &Description) -> Self {
+        let mut formulas = Self::new(d);
+        let own: Vec<Parameter> = formulas.parameters.split_off(d.parameters.len());
+        let value = |s: Symbol| own.iter().find(|p| p.symbol == s)?.value;
+        formulas.dynamics = formulas.dynamics.map(|e| e.substitute(value));
+        formulas.parameters.extend(own.into_iter().filter(|p| p.value.is_none()));
+        formulas
+    }
+
     fn with(
         d: &Description,
         mut instead: impl FnMut(Expr, &mut dyn FnMut(Option<Expr>) -> Expr) -> Option<Expr>,

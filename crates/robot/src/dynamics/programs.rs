@@ -13,9 +13,8 @@ use super::inertia::inertia_matrix;
 use super::lagrange::program;
 use super::model::{Formulas, NoNumbers};
 use super::newton_euler::inverse_dynamics;
-use crate::description::{Description, Parameter};
-use crate::geometry::{Body, Transform};
-use crate::mechanism::{MissingValue, Robot};
+use crate::description::Description;
+use crate::geometry::Body;
 use crate::random::Random;
 use denavit_program::{Composer, Program, Residue, Value};
 use denavit_symbolic::{Expr, Rational, Symbol};
@@ -45,7 +44,7 @@ pub enum DynamicFunction {
 /// Which numbers of the links a program takes as parameters.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Masses {
-    /// None: those of the description stand in the program, with gravity and drives.
+    /// None: those of the description stand in the program, with gravity.
     Numbers,
     /// The ten of each link about the origin of its frame, XX1 … M1.
     Links,
@@ -98,39 +97,27 @@ impl DynamicFunction {
 }
 
 impl DynamicPrograms {
-    /// The functions of an arm. With [`Masses::Numbers`] the lengths of the table stay parameters, where they have names.
+    /// The functions of an arm. With [`Masses::Numbers`] what has a name in the description stays a parameter.
     ///
     /// # Errors
-    /// With [`Masses::Numbers`]: if the description says nothing of masses, or something in them has no value.
+    /// With [`Masses::Numbers`]: if the description says nothing of masses.
     pub fn new(d: &Description, masses: Masses) -> Result<Self, NoNumbers> {
         if masses == Masses::Numbers && !d.has_masses() {
             return Err(NoNumbers::NoMasses);
         }
-        let model = DynamicModel::derive(d);
-        let formulas = &model.formulas;
+        let model = match masses {
+            Masses::Numbers => DynamicModel::with_numbers(d),
+            Masses::Links | Masses::Base => DynamicModel::derive(d),
+        };
         let mut values: FxHashMap<Symbol, Expr> = FxHashMap::default();
-        if masses == Masses::Numbers {
-            let of_the_table = of_the_table(d);
-            let apart = |p: &&Parameter| !of_the_table.contains(&p.symbol);
-            let mut missing = vec![];
-            for p in formulas.parameters.iter().filter(apart) {
-                match p.value {
-                    Some(value) => _ = values.insert(p.symbol, value),
-                    None => missing.push(p.symbol.name().to_string()),
-                }
-            }
-            if !missing.is_empty() {
-                return Err(NoNumbers::Missing(MissingValue { parameters: missing }));
-            }
-        }
         if masses != Masses::Base {
             for p in &model.base.parameters {
-                let value = p.value.substitute(|s| values.get(&s).copied());
-                if value.as_symbol() != Some(p.symbol) {
-                    values.insert(p.symbol, value);
+                if p.is_grouped {
+                    values.insert(p.symbol, p.value);
                 }
             }
         }
+        let formulas = &model.formulas;
         let drives = driving(formulas);
         let symbols = [formulas.q.clone(), formulas.qd.clone(), formulas.qdd.clone(), drives];
         let torque = with_values(&model.torques, &model.formulas, &values);
@@ -381,19 +368,27 @@ impl Factors {
     }
 }
 
-/// Whether two programs have the same values at random points modulo a prime.
+/// Whether two programs have the same values at random points, modulo a prime or, where constants have no value there, in doubles.
 fn same(a: &Program, b: &Program) -> bool {
     let mut random = Random(1982);
     let mut any = || (random.unit() * (1_u64 << 53) as f64) as u64;
     (0..3).all(|_| {
         let mut at: FxHashMap<Symbol, Residue> = FxHashMap::default();
+        let mut near: FxHashMap<Symbol, f64> = FxHashMap::default();
         for s in inputs(a).chain(inputs(b)).collect::<Vec<_>>() {
             at.entry(s).or_insert_with(|| Residue::input(any(), any()));
+            near.entry(s).or_insert_with(|| any() as f64 / (1_u64 << 53) as f64);
         }
-        let [a, b] = [a, b].map(|p| p.eval(|s| at.get(&s).cloned()).unwrap_or_default());
-        !a.is_empty()
-            && a.len() == b.len()
-            && a.iter().zip(&b).all(|(x, y)| x.get().is_some() && x.get() == y.get())
+        let [x, y] = [a, b].map(|p| {
+            let values = p.eval(|s| at.get(&s).cloned()).unwrap_or_default();
+            values.iter().map(Residue::get).collect::<Option<Vec<u64>>>()
+        });
+        if let (Some(x), Some(y)) = (x, y) {
+            return !x.is_empty() && x == y;
+        }
+        let [x, y] = [a, b].map(|p| p.eval(|s| near.get(&s).copied()).unwrap_or_default());
+        let size = x.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        size > 0.0 && x.len() == y.len() && x.iter().zip(&y).all(|(v, w)| (v - w).abs() <= 1e-10 * size)
     })
 }
 
@@ -426,19 +421,6 @@ fn with_values(program: &Program, formulas: &Formulas, values: &FxHashMap<Symbol
     let results = all.copy(program, |s| at.get(&s).copied());
     let outputs: Vec<(String, Value)> = program.outputs().iter().map(|o| o.0.clone()).zip(results).collect();
     all.finish(&outputs)
-}
-
-/// The symbols of the table, the base and the tool.
-fn of_the_table(d: &Description) -> FxHashSet<Symbol> {
-    let robot = Robot::symbolic(d);
-    let mut all = FxHashSet::default();
-    let entries = |x: &Transform<Expr>| x.matrix().into_iter().flatten().collect::<Vec<_>>();
-    for row in &d.rows {
-        let cells = [row.theta, row.d, row.a, row.alpha, row.gamma, row.b];
-        all.extend(cells.iter().flat_map(|e| e.symbols()));
-    }
-    all.extend(entries(&robot.base).iter().chain(&entries(&robot.tool)).flat_map(|e| e.symbols()));
-    all
 }
 
 /// Names for the torques that drive the joints: `tau1` for `q1`.

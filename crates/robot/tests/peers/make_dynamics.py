@@ -60,8 +60,8 @@ def se3(m):
     return pin.SE3(m[:3, :3].copy(), m[:3, 3].copy())
 
 
-def of_rows(robot, rng):
-    """The model with one joint a row that moves, the matrix G, and the bodies."""
+def of_rows(robot, rng, given=None):
+    """The model with one joint a row that moves, the matrix G, and the bodies: those given, or random ones."""
     model, parent, pending, g, bodies = pin.Model(), 0, robot.base, [], []
     for i, row in enumerate(robot.rows):
         pending = pending @ row.before
@@ -71,7 +71,7 @@ def of_rows(robot, rng):
             pending = np.eye(4)
             g.append([float(row.joints.get(f"q{k + 1}", 0)) for k in range(robot.n)])
         pending = pending @ row.after
-        body = random_body(rng) if row.kind != "F" else None
+        body = None if row.kind == "F" else given[i] if given else random_body(rng)
         bodies.append(body)
         if body:
             model.appendBodyToJoint(parent, pinocchio_body(body), se3(pending))

@@ -138,6 +138,24 @@ fn held_against(name: &str, arm: &Dynamics<f64>, sample: &Value, tolerance: f64)
     worst
 }
 
+/// An arm of the catalogue with the bodies, the rotors and the gravity of a stored one.
+pub(crate) fn with_bodies(one: &Value) -> Description {
+    let name = one["name"].as_str().unwrap();
+    let mut d = with_values(robot(name), &one["parameters"]);
+    for (k, body) in one["bodies"].as_array().unwrap().iter().enumerate() {
+        if body.is_array() {
+            weigh(&mut d, k, &numbers(body));
+        }
+    }
+    let gravity = numbers(&one["gravity"]);
+    d.gravity = Some([0, 1, 2].map(|i| exact(gravity[i])));
+    let rotors = numbers(&one["rotors"]);
+    for (row, rotor) in d.rows.iter_mut().filter(|r| r.variable.is_some()).zip(rotors) {
+        row.rotor = Some(exact(rotor));
+    }
+    d
+}
+
 /// The arms of the catalogue with random bodies in the frames of their rows.
 #[test]
 fn arms_of_the_catalogue_move_as_pinocchio_says() {
@@ -145,18 +163,7 @@ fn arms_of_the_catalogue_move_as_pinocchio_says() {
     let (mut count, mut regressors) = (0, 0);
     for one in all["catalogue"].as_array().unwrap() {
         let name = one["name"].as_str().unwrap();
-        let mut d = with_values(robot(name), &one["parameters"]);
-        for (k, body) in one["bodies"].as_array().unwrap().iter().enumerate() {
-            if body.is_array() {
-                weigh(&mut d, k, &numbers(body));
-            }
-        }
-        let gravity = numbers(&one["gravity"]);
-        d.gravity = Some([0, 1, 2].map(|i| exact(gravity[i])));
-        let rotors = numbers(&one["rotors"]);
-        for (row, rotor) in d.rows.iter_mut().filter(|r| r.variable.is_some()).zip(rotors) {
-            row.rotor = Some(exact(rotor));
-        }
+        let d = with_bodies(one);
         let arm = Dynamics::numeric(&d).unwrap_or_else(|e| panic!("{name}: {e}"));
         for sample in one["samples"].as_array().unwrap() {
             held_against(name, &arm, sample, 1e-12);

@@ -2,7 +2,9 @@
 
 use crate::common::{Random, robot};
 use denavit::description::{Convention, Description, read_toml};
-use denavit::dynamics::{BaseModel, DynamicModel, Fate, Formulas, Ground, Minimality, inverse_dynamics};
+use denavit::dynamics::{
+    BaseModel, DynamicModel, Fate, Formulas, Ground, Minimality, drive_torques, inverse_dynamics,
+};
 use denavit_program::{Program, Residue};
 use denavit_symbolic::{Expr, Rational, Symbol};
 use rustc_hash::FxHashMap;
@@ -299,7 +301,7 @@ fn short_programs_give_the_numbers() {
         let function = model.torques.compile_with(value).unwrap_or_else(|e| panic!("{name}: {e}"));
         let arm = denavit::dynamics::Dynamics::numeric(&d).unwrap();
         let [q, qd, qdd] = crate::dynamics::state(arm.joints(), &mut Random(k as u64));
-        let wanted = inverse_dynamics(&arm, &q, &qd, &qdd, None);
+        let wanted = drive_torques(&arm, &q, &qd, &qdd, None);
         let mut scalar = function.scalar();
         let found = scalar.eval(&[q, qd, qdd].concat());
         let size = wanted.iter().fold(0.0_f64, |m, x| m.max(x.abs()));

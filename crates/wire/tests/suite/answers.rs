@@ -3,7 +3,7 @@
 use denavit::Robot;
 use denavit::catalogue;
 use denavit::description::{Description, JointKind};
-use denavit::forward::{Outputs, Proof, Reference};
+use denavit::forward::{Outputs, Reference};
 use denavit::geometry::Vector;
 use denavit::geometry::orientation::{OrientationSet, extract};
 use denavit::idealise::idealised;
@@ -197,7 +197,7 @@ fn written(d: &Description) -> String {
         fixed: false,
     };
     let made = generate(d, &options).expect("everything has a value");
-    assert!(made.functions.iter().all(|f| f.2 == Proof::Proved), "{}", d.name);
+    assert!(made.functions.iter().all(|f| f.is_proved), "{}", d.name);
     text(&code::Written::of(&made, Language::C, Path::new("out")))
 }
 

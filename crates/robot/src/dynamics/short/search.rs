@@ -5,6 +5,7 @@ use super::choices::{Choices, Form, Frame, Gauge};
 use super::generator::Generator;
 use crate::description::{Description, JointKind};
 use crate::dynamics::base::{BaseModel, inputs};
+use crate::dynamics::grouping::Grouped;
 use crate::dynamics::model::Formulas;
 use denavit_program::{Graph, Program, Value};
 use denavit_symbolic::{Angle, Expr, Symbol};
@@ -16,6 +17,8 @@ struct Search<'a> {
     formulas: &'a Formulas,
     base: &'a BaseModel,
     unit: Option<Symbol>,
+    /// Whether links have numbers for names.
+    has_numbers: bool,
     graph: Graph,
     arm: Arm,
     /// Names for values of the last candidate, the first role first.
@@ -89,7 +92,9 @@ impl<'a> Search<'a> {
             bind_lengths(d, formulas, unit, &mut graph);
         }
         let arm = Arm::new(d, formulas, &base.links, &mut graph);
-        Search { d, formulas, base, unit, graph, arm, names: vec![] }
+        let numbers = base.links.iter().flat_map(Grouped::entries).filter_map(Expr::as_number);
+        let has_numbers = unit.is_none() && numbers.into_iter().any(|r| !r.is_zero());
+        Search { d, formulas, base, unit, has_numbers, graph, arm, names: vec![] }
     }
 
     /// The torques at the joints.
@@ -125,9 +130,24 @@ impl<'a> Search<'a> {
     }
 
     fn cost(&mut self, choices: &Choices) -> Cost {
+        if self.has_numbers {
+            self.bind_numbers(choices);
+        }
         let torques = self.torques(choices);
         let count = self.graph.walk(&torques).count;
         (count.cost(), count.multiplications)
+    }
+
+    /// Numbers that links have for the choices, in place of their names: what is 0 is nothing to compute with.
+    fn bind_numbers(&mut self, choices: &Choices) {
+        let named = values(self.d, &self.formulas.dynamics, &self.base.links, choices, &self.arm.slides);
+        for (symbol, value, _) in named {
+            let known = match value.as_number() {
+                Some(_) => self.graph.trace(value),
+                None => self.graph.input(symbol),
+            };
+            self.graph.bind(symbol, known);
+        }
     }
 
     fn run(&mut self) -> (Cost, Choices) {
