@@ -181,7 +181,7 @@ impl Code {
                 Opcode::Sqrt => [at(0).sqrt(), 0.0],
                 Opcode::SinCos => at(0).sin_cos().into(),
                 Opcode::Atan2 => [at(0).atan2(at(1)), 0.0],
-                Opcode::Sign => [crate::evaluate::sign(at(0)), 0.0],
+                Opcode::Sign => [crate::kernel::sign(at(0)), 0.0],
             };
             for (&id, x) in instruction.writes().iter().zip(results) {
                 values[id as usize - self.variables] = x;

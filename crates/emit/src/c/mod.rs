@@ -347,6 +347,7 @@ impl Source<'_> {
         );
         text.push_str(&include_str!("macros.c").replace("@NAME@", &upper));
         let single = self.library.precision == Precision::Single;
+        let either = |of_double, of_single| if single { of_single } else { of_double };
         let pairs = Function::any_pair(&self.functions) || !single && Plan::any_pair(&self.plans);
         let atan2 = Function::any_atan2(&self.functions) || !single && Plan::any_atan2(&self.plans);
         if pairs || atan2 || !self.library.attachments.is_empty() {
@@ -354,22 +355,14 @@ impl Source<'_> {
             text.push_str(&include_str!("class.c").replace("@NAME@", &upper).replace("@FMA@", fma));
         }
         if pairs {
-            text.push_str(if single {
-                include_str!("sine_cosine_single.c")
-            } else {
-                include_str!("sine_cosine_double.c")
-            });
+            text.push_str(either(include_str!("sine_cosine_double.c"), include_str!("sine_cosine_single.c")));
             text.push_str(&self.in_precision(include_str!("sine_cosine.c")));
         }
         if Function::any_eight(&self.functions) {
             text.push_str(&self.in_precision(include_str!("eight.c")));
         }
         if atan2 {
-            text.push_str(if single {
-                include_str!("atan2_single.c")
-            } else {
-                include_str!("atan2_double.c")
-            });
+            text.push_str(either(include_str!("atan2_double.c"), include_str!("atan2_single.c")));
         }
         if Function::any_sign(&self.functions) {
             text.push_str(&self.in_precision(include_str!("sign.c")));

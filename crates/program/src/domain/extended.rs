@@ -168,7 +168,7 @@ impl Domain for Extended {
     }
     fn sign(&self) -> Self {
         // The low part is smaller than the high one.
-        crate::evaluate::sign(self.hi).into()
+        crate::kernel::sign(self.hi).into()
     }
     /// For angles up to 2⁵⁰; not a number beyond.
     fn sin_cos(&self) -> (Self, Self) {

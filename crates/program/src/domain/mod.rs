@@ -80,7 +80,7 @@ macro_rules! hardware {
                 $number::atan2(*self, *x)
             }
             fn sign(&self) -> Self {
-                crate::evaluate::sign(*self)
+                crate::kernel::sign(*self)
             }
         }
     };

@@ -6,8 +6,8 @@
 use crate::code::Opcode;
 use crate::evaluate::machine::{Instructions, Work};
 use crate::evaluate::real::Real;
-use crate::evaluate::sign;
 use crate::evaluate::tape::{Cells, Tape};
+use crate::kernel::sign;
 
 /// One register for each configuration of a block.
 #[derive(Clone, Copy, PartialEq, Debug)]

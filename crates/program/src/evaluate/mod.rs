@@ -12,7 +12,6 @@ pub(crate) mod tape;
 pub use batch::{Batch, Block};
 pub use machine::{Arithmetic, Isa};
 pub use real::Real;
-pub(crate) use real::sign;
 pub use scalar::Scalar;
 
 use crate::code::Code;

@@ -12,6 +12,7 @@ pub trait Real:
     + Debug
     + Default
     + PartialOrd
+    + From<i8>
     + Send
     + Sync
     + 'static
@@ -32,14 +33,6 @@ pub trait Real:
     fn sin_cos_lanes<const FUSED: bool, const N: usize>(x: &[Self; N], s: &mut [Self; N], c: &mut [Self; N]);
     /// `a = atan2(y, x)`, lane by lane.
     fn atan2_lanes<const FUSED: bool, const N: usize>(y: &[Self; N], x: &[Self; N], a: &mut [Self; N]);
-}
-
-/// The sign of a number: 1, −1, or the number itself where it is 0 or none.
-#[inline(always)]
-pub(crate) fn sign<T: Real>(x: T) -> T {
-    let (zero, one) = (T::default(), T::from_f64(1.0));
-    let below = if x < zero { -one } else { x };
-    if x > zero { one } else { below }
 }
 
 impl Real for f64 {

@@ -2,9 +2,8 @@
 
 use crate::code::Opcode;
 use crate::evaluate::machine::{Arithmetic, Instructions, Isa, Work};
-use crate::evaluate::sign;
 use crate::evaluate::tape::{Cells, Run, Tape};
-use crate::kernel;
+use crate::kernel::{self, sign};
 
 /// Registers up to which the small form serves, whose accesses need no check.
 const SMALL: usize = 256;

@@ -155,3 +155,10 @@ fn repair_atan2_f32(y: &[f32], x: &[f32], angle: &mut [f32]) {
         }
     }
 }
+
+/// The sign of a number: 1, −1, or the number itself where it is 0 or none.
+#[inline(always)]
+pub(crate) fn sign<T: Copy + Default + PartialOrd + From<i8>>(x: T) -> T {
+    let below = if x < T::default() { T::from(-1) } else { x };
+    if x > T::default() { T::from(1) } else { below }
+}
