@@ -5,6 +5,7 @@ mod certificates;
 mod counts;
 mod descriptions;
 mod documents;
+mod dynamics_counts;
 mod errata;
 mod languages;
 mod runner;
@@ -36,7 +37,7 @@ cargo xtask tidy [--rules | --sessions]
                                  program prints what its pages show
 cargo xtask index                the index of files, by what each says of itself
 cargo xtask surface              public items that nobody uses, by their names
-cargo xtask bench [--write | --quick] [evaluation] [inverse] [arms] [answers] [derivation] [report]
+cargo xtask bench [--write | --quick] [evaluation] [dynamics] [inverse] [arms] [answers] [derivation] [report]
                                  speed of evaluators and generated code beside peers, forward and inverse, and of
                                  inverse kinematics without a closed form; CPU time from start to a first answer, of
                                  deriving every robot of the catalogue, beside SymPy's, and of writing its report; --write renews docs/performance.md, --quick takes fewer
@@ -44,6 +45,8 @@ cargo xtask bench [--write | --quick] [evaluation] [inverse] [arms] [answers] [d
 cargo xtask languages            builds and runs generated source code in every language
 cargo xtask counts [--check]     writes docs/operation-counts.md; --check fails if it is not up to date,
                                  or if SymPy needs fewer operations for some robot
+cargo xtask counts dynamics [--check]
+                                 the same for docs/dynamics-counts.md
 cargo xtask web [--debug]        builds the page of `denavit view`, which the next build of denavit takes in; fails if it is
                                  above its limits of size; --debug is quick, and limits nothing
 cargo xtask page                 drives the page, as it is built, in a browser
@@ -89,6 +92,8 @@ fn dispatch(arguments: &[String]) -> Result<()> {
         ["miri"] => soak::miri(),
         ["counts"] => counts::run(false),
         ["counts", "--check"] => counts::run(true),
+        ["counts", "dynamics"] => dynamics_counts::run(false),
+        ["counts", "dynamics", "--check"] => dynamics_counts::run(true),
         ["web"] => web::run(false),
         ["web", "--debug"] => web::run(true),
         ["page"] => web::drive(),

@@ -44,7 +44,8 @@ pub fn measured(arguments: &[&str]) -> Result<Value> {
     serde_json::from_slice(last).context("the benchmark prints JSON")
 }
 
-fn table(measured: &Value) -> Result<String> {
+/// A table a group of what `bench` prints.
+pub(super) fn table(measured: &Value) -> Result<String> {
     let figures = measured["figures"].as_array().context("a list of figures")?;
     let unit = measured["unit_ns"].as_f64().context("the unit")?;
     let mut text = format!("\nU = {unit:.1} ns.\n");

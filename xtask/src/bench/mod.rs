@@ -4,6 +4,7 @@ mod answers;
 mod arms;
 mod closed_form;
 mod derivation;
+mod dynamics;
 mod evaluation;
 mod inverse;
 mod report;
@@ -22,6 +23,7 @@ type Part = (&'static str, &'static str, fn(bool) -> Result<String>);
 
 const PARTS: &[Part] = &[
     ("evaluation", "Evaluation", |_| evaluation::run()),
+    ("dynamics", "Dynamics", |_| dynamics::run()),
     ("inverse", "Inverse kinematics", |_| inverse::run()),
     ("arms", "Every arm", arms::run),
     ("answers", "First answers", |_| answers::run()),

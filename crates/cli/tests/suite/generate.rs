@@ -208,3 +208,52 @@ fn an_arm_without_closed_form_has_the_forward_model_only() {
     let module = fs::read_to_string(folder.join("oblique_6r.py")).expect("the module is there");
     assert!(module.contains("def fk(") && !module.contains("def ik("));
 }
+
+/// Functions that move: what they are equal to, what they take, and what cannot be.
+#[test]
+fn dynamics_are_generated() {
+    let moving = concat!(env!("CARGO_MANIFEST_DIR"), "/../generate/tests/robots/moving.toml");
+    let target = folder("moving");
+    let all = "torque,inertia,bias,gravity,acceleration,energy,torque_derivatives,acceleration_derivatives";
+    let answer = generated(moving, "c", &target, &["--functions", all]);
+    let functions = answer["functions"].as_array().expect("a list");
+    assert_eq!(functions.len(), 8);
+    for f in functions {
+        let is_energy = f["name"] == "energy";
+        assert!(
+            is_energy || f["claim"].as_str().unwrap().contains("proved equal to Lagrange's equations"),
+            "{f}"
+        );
+    }
+    // No number of the robot is asked for, and Coulomb's friction is there.
+    let header = fs::read_to_string(target.join("moving.h")).unwrap();
+    assert!(!header.contains("moving_parameters") && header.contains("2 sign functions"), "{header}");
+
+    let target = folder("moving-base");
+    generated("planar-2r", "python", &target, &["--functions", "torque", "--masses", "base"]);
+    let text = fs::read_to_string(target.join("planar_2r.py")).unwrap();
+    assert!(
+        text.contains("base parameter of link 1: M2*a1^2 + ZZ1")
+            || text.contains("base parameter of link 1: a1^2*M2 + ZZ1"),
+        "{text}"
+    );
+
+    let path = target.to_str().unwrap();
+    let generate = |functions: &'static str, masses: &'static str| {
+        vec![
+            "generate",
+            "planar-2r",
+            "-l",
+            "c",
+            "-o",
+            path,
+            "--force",
+            "--functions",
+            functions,
+            "--masses",
+            masses,
+        ]
+    };
+    refused(&generate("energy", "base"), 1, "base parameters do not tell energies");
+    refused(&generate("torque", "numbers"), 1, "the description says nothing of masses");
+}

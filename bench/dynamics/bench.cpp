@@ -1,0 +1,272 @@
+// Generated dynamics beside Pinocchio in C++, in one program: a UR5 and a Panda with the numbers of their URDFs.
+// Prints one JSON object: the unit in ns, and a figure for each entry.
+#include <pinocchio/fwd.hpp>
+#include <pinocchio/multibody.hpp>
+#include <pinocchio/algorithm/aba.hpp>
+#include <pinocchio/algorithm/crba.hpp>
+#include <pinocchio/algorithm/rnea-derivatives.hpp>
+#include <pinocchio/algorithm/rnea.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "ur5v3.h"
+#include "ur5v4.h"
+#include "pandav3.h"
+#include "pandav4.h"
+
+struct Link {
+    double rotation[9], translation[3];
+    int axis;
+    double mass, lever[3], inertia[9];
+};
+#include "ur5.inc"
+#include "panda.inc"
+
+namespace {
+
+const int STATES = 1024, LANES = 64, ROUNDS = 25, RUNS = 5;
+
+pinocchio::Model model_of(const Link *links, int n)
+{
+    typedef Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> Matrix;
+    typedef Eigen::Map<const Eigen::Vector3d> Vector;
+    pinocchio::Model model;
+    pinocchio::JointIndex parent = 0;
+    for (int i = 0; i < n; i++) {
+        const Link &l = links[i];
+        const pinocchio::SE3 place(Matrix(l.rotation), Vector(l.translation));
+        const std::string name = "j" + std::to_string(i);
+        switch (l.axis) {
+        case 0: parent = model.addJoint(parent, pinocchio::JointModelRX(), place, name); break;
+        case 1: parent = model.addJoint(parent, pinocchio::JointModelRY(), place, name); break;
+        default: parent = model.addJoint(parent, pinocchio::JointModelRZ(), place, name);
+        }
+        const pinocchio::Inertia body(l.mass, Vector(l.lever), Matrix(l.inertia));
+        model.appendBodyToJoint(parent, body, pinocchio::SE3::Identity());
+    }
+    return model;
+}
+
+void keep(double x)
+{
+    asm volatile("" : : "x"(x) : "memory");
+}
+
+double seconds(const std::function<void()> &run)
+{
+    const auto start = std::chrono::steady_clock::now();
+    run();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double least(const std::function<void()> &run)
+{
+    double best = 1e9;
+    for (int i = 0; i < RUNS; i++) {
+        best = std::min(best, seconds(run));
+    }
+    return best;
+}
+
+struct Entry {
+    std::string group, name;
+    double limit; // none if 0
+    std::function<void()> run;
+    std::vector<double> ratios, times;
+};
+
+// States of an arm, one by one and side by side, and where results go.
+template <int N> struct Arm {
+    std::vector<double> states, blocks, out;
+    pinocchio::Model model;
+    pinocchio::Data data;
+    std::vector<Eigen::VectorXd> q, v, a;
+
+    Arm(const Link *links, unsigned seed)
+        : states(3 * N * STATES), blocks(3 * N * STATES), out(64 * 3 * N * N), model(model_of(links, N)), data(model)
+    {
+        unsigned long long state = seed;
+        for (int i = 0; i < STATES; i++) {
+            for (int j = 0; j < 3 * N; j++) {
+                state = state * 6364136223846793005ull + 1442695040888963407ull;
+                const double unit = (double)(state >> 11) / 9007199254740992.0;
+                const double x = (j < N ? 3.1 : 2.0) * (2.0 * unit - 1.0);
+                states[3 * N * i + j] = x;
+                blocks[LANES * (3 * N * (i / LANES) + j) + i % LANES] = x;
+            }
+            const double *s = &states[3 * N * i];
+            q.push_back(Eigen::Map<const Eigen::VectorXd>(s, N));
+            v.push_back(Eigen::Map<const Eigen::VectorXd>(s + N, N));
+            a.push_back(Eigen::Map<const Eigen::VectorXd>(s + 2 * N, N));
+        }
+    }
+};
+
+std::vector<Entry> entries;
+double worst;
+
+void hold(const double *ours, const double *theirs, int count)
+{
+    double size = 1e-3;
+    for (int k = 0; k < count; k++) {
+        size = std::max(size, std::fabs(theirs[k]));
+    }
+    for (int k = 0; k < count; k++) {
+        const double off = std::fabs(ours[k] - theirs[k]) / size;
+        worst = off <= worst ? worst : off;
+    }
+}
+
+template <int N, class F> void one(Arm<N> &arm, const char *group, const std::string &name, double limit, F f)
+{
+    entries.push_back({group, name + ", one state", limit,
+                       [&arm, f] {
+                           for (int i = 0; i < STATES; i++) {
+                               f(&arm.states[3 * N * i], &arm.out[0]);
+                               keep(arm.out[0]);
+                           }
+                       },
+                       {},
+                       {}});
+}
+
+template <int N, class F> void block(Arm<N> &arm, const char *group, const std::string &name, double limit, F f)
+{
+    entries.push_back({group, name + ", blocks of 64", limit,
+                       [&arm, f] {
+                           for (int i = 0; i < STATES / LANES; i++) {
+                               f(&arm.blocks[3 * N * LANES * i], &arm.out[0]);
+                               keep(arm.out[0]);
+                           }
+                       },
+                       {},
+                       {}});
+}
+
+template <int N, class F> void peer(Arm<N> &arm, const char *group, const char *name, F f)
+{
+    entries.push_back({group, name, 0,
+                       [&arm, f] {
+                           for (int i = 0; i < STATES; i++) {
+                               f(i);
+                           }
+                       },
+                       {},
+                       {}});
+}
+
+const bool is_wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+
+// Entries of one function, generated for both levels of instructions: limits of one state and of blocks with AVX-512.
+#define BOTH(arm, N, group, prefix, f, RESULT, first, second)                                                          \
+    one<N>(arm, group, "generated C, AVX2", 0, [](const double *x, double *y) { prefix##v3_##f(x, RESULT y); });       \
+    block<N>(arm, group, "generated C, AVX2", 0, [](const double *x, double *y) { prefix##v3_##f##_block(x, y); });    \
+    if (is_wide) {                                                                                                     \
+        one<N>(arm, group, "generated C, AVX-512", first,                                                              \
+               [](const double *x, double *y) { prefix##v4_##f(x, RESULT y); });                                       \
+        block<N>(arm, group, "generated C, AVX-512", second,                                                           \
+                 [](const double *x, double *y) { prefix##v4_##f##_block(x, y); });                                    \
+    }
+
+#define ARM(prefix, N, title, L)                                                                                       \
+    static Arm<N> prefix(prefix##_links, N);                                                                           \
+    {                                                                                                                  \
+        auto &arm = prefix;                                                                                            \
+        double tau[N], inertia[N][N], qdd[N], by[N][3 * N];                                                            \
+        for (int i = 0; i < STATES; i++) {                                                                             \
+            const double *x = &arm.states[3 * N * i];                                                                  \
+            prefix##v3_torque(x, tau);                                                                                 \
+            hold(tau, pinocchio::rnea(arm.model, arm.data, arm.q[i], arm.v[i], arm.a[i]).data(), N);                   \
+            prefix##v3_acceleration(x, qdd);                                                                           \
+            const Eigen::VectorXd theirs = pinocchio::aba(arm.model, arm.data, arm.q[i], arm.v[i], arm.a[i]);          \
+            hold(qdd, theirs.data(), N);                                                                               \
+            pinocchio::computeRNEADerivatives(arm.model, arm.data, arm.q[i], arm.v[i], arm.a[i]);                      \
+            prefix##v3_torque_derivatives(x, by);                                                                      \
+            prefix##v3_inertia(x, inertia);                                                                            \
+            for (int r = 0; r < N; r++) {                                                                              \
+                const Eigen::VectorXd first = arm.data.dtau_dq.row(r), second = arm.data.dtau_dv.row(r);               \
+                hold(by[r], first.data(), N);                                                                          \
+                hold(by[r] + N, second.data(), N);                                                                     \
+                hold(by[r] + 2 * N, inertia[r], N);                                                                    \
+            }                                                                                                          \
+        }                                                                                                              \
+        BOTH(arm, N, title ": torque", prefix, torque, , L[0], L[1])                                                   \
+        peer<N>(arm, title ": torque", "Pinocchio, rnea", [&arm](int i) {                                              \
+            pinocchio::rnea(arm.model, arm.data, arm.q[i], arm.v[i], arm.a[i]);                                        \
+            keep(arm.data.tau[0]);                                                                                     \
+        });                                                                                                            \
+        BOTH(arm, N, title ": inertia matrix", prefix, inertia, (double(*)[N]), L[2], L[3])                            \
+        peer<N>(arm, title ": inertia matrix", "Pinocchio, crba (half of it)", [&arm](int i) {                         \
+            pinocchio::crba(arm.model, arm.data, arm.q[i], pinocchio::Convention::LOCAL);                              \
+            keep(arm.data.M(0, 0));                                                                                    \
+        });                                                                                                            \
+        BOTH(arm, N, title ": acceleration", prefix, acceleration, , L[4], L[5])                                       \
+        peer<N>(arm, title ": acceleration", "Pinocchio, aba", [&arm](int i) {                                         \
+            pinocchio::aba(arm.model, arm.data, arm.q[i], arm.v[i], arm.a[i], pinocchio::Convention::LOCAL);           \
+            keep(arm.data.ddq[0]);                                                                                     \
+        });                                                                                                            \
+        BOTH(arm, N, title ": derivatives of the torque", prefix, torque_derivatives, (double(*)[3 * N]), L[6], L[7])  \
+        peer<N>(arm, title ": derivatives of the torque", "Pinocchio, computeRNEADerivatives", [&arm](int i) {         \
+            pinocchio::computeRNEADerivatives(arm.model, arm.data, arm.q[i], arm.v[i], arm.a[i]);                      \
+            keep(arm.data.dtau_dq(0, 0));                                                                              \
+        });                                                                                                            \
+    }
+
+double quantile(std::vector<double> list, double part)
+{
+    std::sort(list.begin(), list.end());
+    return list[(size_t)(part * (double)(list.size() - 1) + 0.5)];
+}
+
+} // namespace
+
+int main()
+{
+    const double ur5_limits[8] = {0.75, 0.16, 0.75, 0.15, 1.6, 0.3, 2.6, 0.5};
+    const double panda_limits[8] = {1.4, 0.32, 0, 0, 0, 0, 0, 0};
+    ARM(ur5, 6, "UR5", ur5_limits)
+    ARM(panda, 7, "Panda", panda_limits)
+    if (!(worst <= 1e-9)) {
+        fprintf(stderr, "generated code and Pinocchio differ by %g of the size\n", worst);
+        return 1;
+    }
+    std::vector<double> angles;
+    for (int i = 0; i < STATES; i++) {
+        angles.insert(angles.end(), &ur5.states[18 * i], &ur5.states[18 * i] + 6);
+    }
+    std::vector<double> sines(angles.size()), cosines(angles.size());
+    const std::function<void()> unit = [&] {
+        for (size_t k = 0; k < angles.size(); k++) {
+            sincos(angles[k], &sines[k], &cosines[k]);
+        }
+        keep(sines[0]);
+    };
+    std::vector<double> units;
+    for (int round = 0; round < ROUNDS; round++) {
+        for (Entry &entry : entries) {
+            const double u = least(unit), own = least(entry.run);
+            units.push_back(u / STATES * 1e9);
+            entry.times.push_back(own / STATES * 1e9);
+            entry.ratios.push_back(own / u);
+        }
+    }
+    printf("{\"unit_ns\": %.3f, \"worst\": %g, \"figures\": [", quantile(units, 0.5), worst);
+    for (size_t k = 0; k < entries.size(); k++) {
+        const Entry &e = entries[k];
+        printf("%s{\"group\": \"%s\", \"name\": \"%s\", \"ratio\": %.4f, \"quartiles\": [%.4f, %.4f], \"ns\": %.2f", k ? ", " : "",
+               e.group.c_str(), e.name.c_str(), quantile(e.ratios, 0.5), quantile(e.ratios, 0.25), quantile(e.ratios, 0.75),
+               quantile(e.times, 0.5));
+        if (e.limit > 0) {
+            printf(", \"limit\": %g", e.limit);
+        }
+        printf("}");
+    }
+    printf("]}\n");
+    return 0;
+}
