@@ -232,11 +232,7 @@ fn dynamics_are_generated() {
     let target = folder("moving-base");
     generated("planar-2r", "python", &target, &["--functions", "torque", "--masses", "base"]);
     let text = fs::read_to_string(target.join("planar_2r.py")).unwrap();
-    assert!(
-        text.contains("base parameter of link 1: M2*a1^2 + ZZ1")
-            || text.contains("base parameter of link 1: a1^2*M2 + ZZ1"),
-        "{text}"
-    );
+    assert!(text.contains("Base parameter of link 1: a1^2*M2 + ZZ1"), "{text}");
 
     let path = target.to_str().unwrap();
     let generate = |functions: &'static str, masses: &'static str| {
@@ -254,6 +250,6 @@ fn dynamics_are_generated() {
             masses,
         ]
     };
-    refused(&generate("energy", "base"), 1, "base parameters do not tell energies");
-    refused(&generate("torque", "numbers"), 1, "the description says nothing of masses");
+    refused(&generate("energy", "base"), 3, "base parameters do not tell energies");
+    refused(&generate("torque", "numbers"), 3, "the description says nothing of masses");
 }
