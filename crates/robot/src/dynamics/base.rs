@@ -12,7 +12,7 @@ use crate::description::{Description, Parameter};
 use crate::forward::symbol_order;
 use crate::geometry::{PARAMETERS, Vector};
 use crate::random::Random;
-use denavit_program::{Graph, Op, Program, Residue, Value};
+use denavit_program::{Domain, Graph, Op, Program, Residue, Value};
 use denavit_symbolic::{Expr, Symbol, readable};
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -232,16 +232,18 @@ fn minimality(program: &Program, parameters: &[BaseParameter]) -> Minimality {
         for &s in program.variables() {
             at.insert(s, Residue::input(any(), any()));
         }
+        // τ is linear in them, but for what drives add, which is there without any of them.
+        let with = |one: Option<Symbol>| {
+            let input = |s: Symbol| match is_base.contains(&s) {
+                true => Some(Residue::new(u64::from(Some(s) == one))),
+                false => at.get(&s).cloned(),
+            };
+            program.eval(input).ok()
+        };
+        let Some(drives) = with(None) else { return Minimality::Unknown };
         let columns: Option<Vec<Vec<Residue>>> = parameters
             .iter()
-            .map(|p| {
-                // τ is linear in them; drives are left out.
-                let input = |s: Symbol| match is_base.contains(&s) {
-                    true => Some(Residue::new(u64::from(s == p.symbol))),
-                    false => at.get(&s).cloned(),
-                };
-                program.eval(input).ok()
-            })
+            .map(|p| Some(with(Some(p.symbol))?.iter().zip(&drives).map(|(a, b)| a.sub(b)).collect()))
             .collect();
         let Some(columns) = columns else { return Minimality::Unknown };
         for j in 0..program.outputs().len() {
