@@ -93,8 +93,15 @@ fn write(out: &Path, language: Language, source: &Source) -> PathBuf {
     let description = catalogue::robot(source.robot).expect("a robot of the catalogue");
     let (functions, name) = (vec![source.wanted], Some(source.name.into()));
     let inverse = Default::default();
-    let options =
-        PackageOptions { language, functions, inverse, precision: source.precision, name, masses: None, fixed: false };
+    let options = PackageOptions {
+        language,
+        functions,
+        inverse,
+        precision: source.precision,
+        name,
+        masses: None,
+        fixed: false,
+    };
     let generated = generate(&description, &options).expect("nothing is fixed");
     let folder = out.join(format!("{}_{language:?}", source.name));
     for file in generated.files {
