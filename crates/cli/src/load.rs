@@ -131,6 +131,16 @@ fn table_option(arguments: &RobotArguments, is_urdf: bool) -> Option<&'static st
     given.into_iter().find(|g| g.0).map(|g| g.1)
 }
 
+/// The kind of tables in a file with this ending.
+fn table_kind(ending: &str) -> Option<TableKind> {
+    match ending {
+        "md" | "markdown" | "txt" => Some(TableKind::Markdown),
+        "csv" | "tsv" => Some(TableKind::Csv),
+        "tex" => Some(TableKind::Latex),
+        _ => None,
+    }
+}
+
 /// The robot, and the text of its file if that is a robot file.
 fn from_file(arguments: &RobotArguments) -> Result<(Description, Option<String>), Failure> {
     let name = arguments.robot.as_str();
@@ -138,9 +148,7 @@ fn from_file(arguments: &RobotArguments) -> Result<(Description, Option<String>)
     let kind = match path.extension().and_then(|e| e.to_str()) {
         _ if name == "-" => Some(TableKind::Markdown),
         Some("toml") => None,
-        Some("md" | "markdown" | "txt") => Some(TableKind::Markdown),
-        Some("csv" | "tsv") => Some(TableKind::Csv),
-        Some("tex") => Some(TableKind::Latex),
+        Some(ending) if let Some(kind) = table_kind(ending) => Some(kind),
         _ if is_tree(name) => return Ok((urdf::from_urdf(arguments)?, None)),
         Some("par") => return Ok((rows::from_par(arguments)?, None)),
         _ if path.is_file() => {
@@ -195,8 +203,16 @@ pub fn mechanism(arguments: &RobotArguments) -> Result<Option<Tree>, Failure> {
         _ => {
             let is_listed = listed.is_some();
             let is_toml = is_listed || name.ends_with(".toml");
-            let text = listed.map_or_else(|| contents(name, MAX_BYTES).ok(), Some).filter(|_| is_toml);
-            let Some(Ok((Described::Tree(tree), findings))) = text.as_deref().map(read_robot) else {
+            let kind = Path::new(name).extension().and_then(|e| e.to_str()).and_then(table_kind);
+            // Standard input is read once, and as a chain.
+            let text = listed.map_or_else(|| contents(name, MAX_BYTES).ok().filter(|_| name != "-"), Some);
+            let read = |text: &str| match kind {
+                _ if is_toml => Some(read_robot(text)),
+                Some(kind) => Some(read_table_robot(text, kind, &table_options(arguments))),
+                None => None,
+            };
+            let text = text.filter(|_| is_toml || kind.is_some());
+            let Some(Ok((Described::Tree(tree), findings))) = text.as_deref().and_then(read) else {
                 return Ok(None);
             };
             check_options(arguments, is_listed)?;
@@ -323,6 +339,28 @@ pub fn joint(d: &Description, word: &str) -> Result<usize, String> {
         };
         format!("no joint `{word}`; there are {}", moving.iter().map(named).collect::<Vec<_>>().join(", "))
     })
+}
+
+/// The frame that a word names: by its number from 0, or by the name of its row.
+///
+/// # Errors
+/// A sentence that says which there are.
+pub fn frame(d: &Description, word: &str) -> Result<usize, String> {
+    let last = d.rows.len();
+    if let Some(n) = word.parse::<usize>().ok().filter(|n| *n <= last) {
+        return Ok(n);
+    }
+    let named = |row: &Row| row.name.as_deref() == Some(word);
+    let found: Vec<usize> = (0..last).filter(|&i| named(&d.rows[i])).collect();
+    match found[..] {
+        [i] => Ok(i + 1),
+        [] => {
+            let names: Vec<&str> = d.rows.iter().filter_map(|r| r.name.as_deref()).collect();
+            let names = if names.is_empty() { String::new() } else { format!(", or {}", names.join(", ")) };
+            Err(format!("no frame `{word}`: a number from 0 to {last}{names}"))
+        }
+        _ => Err(format!("several rows are called `{word}`: name the frame by its number, from 0 to {last}")),
+    }
 }
 
 /// The variables, with the names of their rows, that move a row which has none of its own.

@@ -155,8 +155,8 @@ pub struct FkArguments {
     /// Read one JSON array of joint variables a line from a file (- for standard input), answer a line each
     #[arg(long, value_name = "FILE", conflicts_with = "q")]
     pub input: Option<PathBuf>,
-    /// Frames to give as well: `all`, or the number of one; `all` of a tree without --tip are those of all its bodies
-    #[arg(long, value_name = "all|N")]
+    /// Frames to give as well: `all`, or some by number or by the name of a row, with commas; `all` of a tree without --tip are those of all its bodies
+    #[arg(long, value_name = "all|N,NAME")]
     pub frames: Option<String>,
     /// The orientation too as: quaternion, axis-angle, rpy, or an Euler set such as zyz (with --symbolic rpy and Euler sets)
     #[arg(long, value_name = "SET")]

@@ -7,12 +7,13 @@ use crate::failure::Failure;
 use crate::load::{self, Tree};
 use crate::terminal::note;
 use denavit::description::{
-    Alone, AxesAs, Convention, Decimals, Described, Description, Mechanism, NoPar, NotNamed, RowTree,
+    Alone, AxesAs, Convention, Decimals, Described, Description, Mechanism, NoPar, NotNamed, Row, RowTree,
     TableKind, TableOptions, read_mjcf, read_par, read_robot, read_table, read_table_robot, read_toml,
     read_urdf, write_axes, write_mjcf, write_par, write_table, write_toml, write_tree, write_tree_table,
     write_urdf,
 };
 use denavit::mechanism::{COMPARED, Comparison, compare, compare_chains};
+use denavit_symbolic::Expr;
 
 /// Writes a robot in another format.
 ///
@@ -33,9 +34,42 @@ pub fn run(arguments: &ConvertArguments) -> Result<(), Failure> {
         Some(to) => robot.converted(to.into()).description,
         None => robot.clone(),
     };
+    say_left(&converted, arguments.to);
     let Written { text, back } = written(&robot, &converted, arguments)?;
     put(&arguments.output, text.as_bytes())?;
     say_same(&robot, &back, arguments.robot.as_written)
+}
+
+/// Says what of masses, drives and gravity has no place in a format.
+fn say_left(d: &Description, to: ConvertFormat) {
+    let any = |of: fn(&Row) -> bool| d.rows.iter().any(of);
+    let is_known = |e: Option<Expr>| e.is_none_or(|e| e.symbols().iter().all(|s| d.value(*s).is_some()));
+    let (masses, rotors, friction) =
+        (d.has_masses(), any(|r| r.rotor.is_some()), any(|r| r.viscous.is_some() || r.coulomb.is_some()));
+    let gravity = d.gravity.is_some();
+    let given = [(masses, "masses"), (rotors, "rotors"), (friction, "friction"), (gravity, "gravity")];
+    let (has_place, what): ([bool; 4], &str) = match to {
+        ConvertFormat::Toml | ConvertFormat::Tree => return,
+        ConvertFormat::Urdf => ([true, false, true, false], "a URDF"),
+        ConvertFormat::Mjcf => ([true; 4], "a model"),
+        ConvertFormat::Axes | ConvertFormat::Poe | ConvertFormat::BodyPoe => ([false; 4], "a file of axes"),
+        ConvertFormat::Par => ([false; 4], "what is written of a .par file"),
+        ConvertFormat::Markdown | ConvertFormat::Latex | ConvertFormat::Csv => ([false; 4], "a table"),
+    };
+    let left: Vec<&str> = given.iter().zip(has_place).filter(|(g, p)| g.0 && !p).map(|(g, _)| g.1).collect();
+    if !left.is_empty() {
+        note(&format!("note: left out, as {what} has no place for it: {}", left.join(", ")));
+    }
+    if matches!(to, ConvertFormat::Urdf | ConvertFormat::Mjcf) {
+        let dynamic = |r: &Row| {
+            let body = r.body().into_iter().flat_map(|b| b.parameters());
+            body.chain([r.rotor, r.viscous, r.coulomb].into_iter().flatten()).map(Some).collect::<Vec<_>>()
+        };
+        let open = d.rows.iter().flat_map(dynamic).any(|e| !is_known(e));
+        if open {
+            note("note: masses and drives without a value are left out");
+        }
+    }
 }
 
 /// What was written, and how it is read back.
@@ -124,9 +158,6 @@ fn axes(robot: &Description, written: AxesAs, arguments: &ConvertArguments) -> R
     let text = write_axes(robot, written)
         .map_err(|missing| without_values(robot, &arguments.robot.robot, &missing))?;
     let back = read_toml(&text).ok().map(|r| r.0);
-    if robot.rows.iter().any(|r| r.mass.is_some() || r.inertia.is_some()) {
-        note("note: masses and inertias have no place in a file of axes");
-    }
     Ok(Written { text, back: Back::Alone(back.map(Box::new)) })
 }
 
@@ -152,6 +183,7 @@ fn tree(whole: &Tree, arguments: &ConvertArguments) -> Result<(), Failure> {
         _ => (write_tree(&rows), rows.frame_names().into_iter().map(|n| (n.clone(), n)).collect()),
     };
     put(&arguments.output, text.as_bytes())?;
+    say_left(&rows.all_rows(), arguments.to);
     let read = |decimals| {
         let described = match (arguments.to, kind) {
             (ConvertFormat::Par, _) => return read_par(&text, decimals).ok().map(|r| r.0),

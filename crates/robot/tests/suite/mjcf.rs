@@ -3,9 +3,10 @@
 use crate::common::{Random, shown};
 use denavit::catalogue;
 use denavit::description::{
-    Agreement, Alone, Convention, Decimals, Description, Mechanism, NoChain, Severity, Sources, read_mjcf,
-    root_element, write_mjcf,
+    Agreement, Alone, Convention, Decimals, Description, Mechanism, NoChain, Row, RowTree, Severity, Sources, read_mjcf,
+    root_element, write_mjcf, write_toml,
 };
+use denavit::dynamics::{Dynamics, inverse_dynamics};
 use denavit::geometry::Transform;
 use denavit::mechanism::{Comparison, compare};
 use denavit::robot::Robot;
@@ -455,4 +456,47 @@ fn keyframes_are_named_configurations() {
     let values =
         |d: &Description| -> Vec<f64> { d.poses[0].1.iter().map(|e| e.eval(|_| None).unwrap()).collect() };
     assert_eq!((&back.poses[0].0, values(&back)), (&arm.poses[0].0, values(&arm)));
+}
+
+/// Drives and gravity go through a model, and through a tree of rows with its masses; gravity is turned with the base of a chain.
+#[test]
+fn drives_gravity_and_masses_are_kept() {
+    let body = |name: &str, pos: &str, joint: &str, more: &str| {
+        format!(
+            "<body name=\"{name}\" {pos}><inertial pos=\"0 0 0.1\" mass=\"2\" diaginertia=\"0.1 0.2 0.15\"/>{joint}{more}</body>"
+        )
+    };
+    let arm = body("arm", "pos=\"0.3 0 0\"", "<joint name=\"j2\" axis=\"0 1 0\" damping=\"0.25\"/>", "");
+    let turn = "<joint name=\"j1\" axis=\"0 0 1\" damping=\"0.5\" armature=\"0.01\" frictionloss=\"0.2\"/>";
+    let mast = body("mast", "euler=\"180 0 0\"", turn, &arm);
+    let text = format!(
+        "<mujoco><option gravity=\"0 0 -1.62\"/><worldbody>{mast}</worldbody></mujoco>"
+    );
+    let m = read(&text, Decimals::Meant);
+    let decimal = |n, d| Expr::from(Rational::new(n, d));
+    let d = m.chain(Some("world"), Some("arm"), Convention::Khalil).expect("a chain").description;
+    assert_eq!(d.gravity, Some([Expr::int(0), Expr::int(0), decimal(-162, 100)]));
+    let drives: Vec<_> = d.rows.iter().map(|r| (r.rotor, r.viscous, r.coulomb)).collect();
+    let first = (Some(decimal(1, 100)), Some(decimal(1, 2)), Some(decimal(1, 5)));
+    assert_eq!(drives, [first, (None, Some(decimal(1, 4)), None)]);
+    // The mast hangs upside down.
+    let beside = m.chain(Some("mast"), Some("arm"), Convention::Khalil).expect("a chain").description;
+    assert_eq!(beside.gravity, Some([Expr::int(0), Expr::int(0), decimal(162, 100)]));
+    // Written and read again.
+    let back = read(&write_mjcf(&m), Decimals::Meant);
+    let again = back.chain(Some("world"), Some("arm"), Convention::Khalil).expect("a chain").description;
+    assert_eq!(write_toml(&again), write_toml(&d));
+    // As a tree of rows, whose chain has the same frames here.
+    let rows = RowTree::of_mechanism(&m).expect("axes have directions");
+    assert_eq!(rows.gravity, d.gravity);
+    let masses = |rows: &[Row]| -> Vec<_> { rows.iter().map(|r| (r.mass, r.viscous, r.rotor)).collect() };
+    assert_eq!(masses(&rows.rows), masses(&d.rows));
+    let torques = |d: &Description| {
+        let arm = Dynamics::numeric(d).expect("numbers");
+        inverse_dynamics(&arm, &[0.4, -0.7], &[0.3, 0.2], &[1.0, -2.0], None)
+    };
+    let chain = rows.chain(None, Some("arm"), Convention::Khalil).expect("a chain").description;
+    for (a, b) in torques(&d).into_iter().zip(torques(&chain)) {
+        assert!((a - b).abs() < 1e-12, "{a} {b}");
+    }
 }

@@ -85,12 +85,12 @@ fn angles(derivation: &Derivation, set: OrientationSet) -> Result<(OrientationSe
 /// # Errors
 /// If the robot has no such frame.
 pub fn reference(d: &Description, text: &str, option: &str) -> Result<Reference, Failure> {
-    let last = d.rows.len();
-    match (text, text.parse::<usize>()) {
-        ("base", _) => Ok(Reference::Base),
-        ("tool", _) => Ok(Reference::Tool),
-        (_, Ok(i)) if i <= last => Ok(Reference::Frame(i)),
-        _ => Err(Failure::Usage(format!("{option} {text}: `base`, `tool`, or a frame from 0 to {last}"))),
+    match text {
+        "base" => Ok(Reference::Base),
+        "tool" => Ok(Reference::Tool),
+        _ => load::frame(d, text)
+            .map(Reference::Frame)
+            .map_err(|why| Failure::Usage(format!("{option} {text}: {why}, or `base` or `tool`"))),
     }
 }
 

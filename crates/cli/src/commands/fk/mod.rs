@@ -88,14 +88,22 @@ impl Request {
         let frames = match arguments.frames.as_deref() {
             None => vec![],
             Some("all") => (0..=last).collect(),
-            Some(text) => match text.parse::<usize>() {
-                Ok(n) if n <= last => vec![n],
-                _ => {
-                    return Err(Failure::Usage(format!(
-                        "--frames {text}: `all`, or a number from 0 to {last}"
-                    )));
-                }
-            },
+            Some(text) => {
+                // A name may hold commas.
+                let one = load::frame(description, text.trim()).map(|n| vec![n]);
+                let all = || text.split(',').map(|word| load::frame(description, word.trim())).collect();
+                let found: Result<Vec<usize>, String> = one.or_else(|_| all());
+                let mut found =
+                    found.map_err(|why| Failure::Usage(format!("--frames {text}: {why}, or `all`")))?;
+                let mut seen = vec![];
+                found.retain(|n| {
+                    !seen.contains(n) && {
+                        seen.push(*n);
+                        true
+                    }
+                });
+                found
+            }
         };
         Ok(Request { frames, orientation: orientation(arguments)? })
     }

@@ -67,7 +67,7 @@ impl RowTree {
     }
 
     /// All rows as if they were a table: for what is said of parameters.
-    pub(in crate::description) fn all_rows(&self) -> Description {
+    pub fn all_rows(&self) -> Description {
         Description {
             name: self.name.clone(),
             source: self.source.clone(),

@@ -6,7 +6,7 @@
 use super::{BASE, NamedFrame, RowTree};
 use crate::description::lines::{NotNamed, Turns, frame_on, settled};
 use crate::description::tree::moved;
-use crate::description::{JointKind, Mechanism, Row, Screw, Variable};
+use crate::description::{JointKind, Mass, Mechanism, Row, Screw, Variable};
 use crate::geometry::Transform;
 use denavit_symbolic::{Angle, Expr, Symbol};
 
@@ -22,7 +22,7 @@ struct Placed {
 impl RowTree {
     /// The rows of a tree of bodies and joints; the bodies at its ends are frames with names.
     ///
-    /// Masses are left out.
+    /// The mass of a row is that of all bodies that stand on its joint; what is fixed to the base has none.
     ///
     /// # Errors
     /// If an axis has no direction.
@@ -43,7 +43,7 @@ impl RowTree {
             base: Transform::identity(),
             frames: vec![],
             tip: None,
-            gravity: None,
+            gravity: m.gravity,
         };
         let mut row_of: Vec<usize> = vec![];
         for (placed, frame) in placed.iter().zip(&frames) {
@@ -71,9 +71,24 @@ impl RowTree {
             last.variable = own.then(|| Variable { symbol: symbol(placed.joint), kind });
             last.name = Some(joint.name.clone());
             (last.limits, last.velocity) = (joint.limits.filter(|_| own), joint.velocity.filter(|_| own));
+            if own {
+                let drive = joint.drive;
+                (last.rotor, last.viscous, last.coulomb) = (drive.rotor, drive.viscous, drive.coulomb);
+            }
             tree.rows.push(last);
             tree.after.push(on);
             row_of.push(tree.rows.len() - 1);
+        }
+        for (k, frame) in frames.iter().enumerate() {
+            let bodies = (0..m.bodies.len()).filter(|&b| on[b] == Some(k));
+            let masses = bodies.filter_map(|b| {
+                let mass = m.bodies[b].mass.as_ref()?;
+                Some(mass.body().seen_from(&settled(&(frame.inverse() * poses[b]))))
+            });
+            if let Some(mass) = masses.reduce(|a, b| a + b).as_ref().and_then(Mass::of_body) {
+                let row = &mut tree.rows[row_of[k]];
+                (row.mass, row.com, row.inertia) = (Some(mass.mass), Some(mass.com), Some(mass.inertia));
+            }
         }
         for body in m.leaves() {
             let (row, before) = match on[body] {

@@ -1,7 +1,7 @@
 //! Bodies, frames, sites, and what repeats them.
 
 use super::super::diagnostic::nearest;
-use super::super::tree::{Joint, Mass};
+use super::super::tree::{Joint, JointDrive, Mass};
 use super::super::urdf::{Draft, plain};
 use super::super::xml::{Element, shown};
 use super::Mjcf;
@@ -293,6 +293,7 @@ impl<'a> Mjcf<'a, '_> {
             limits: None,
             velocity: None,
             effort: None,
+            drive: JointDrive::default(),
             follows: None,
         };
         self.drafts.push(Draft { joint, span, follows: None, is_floating: false });

@@ -1,7 +1,7 @@
 //! `<joint>` and `<freejoint>`: how a body moves on the one that carries it.
 
 use super::super::JointKind;
-use super::super::tree::{Joint, moved};
+use super::super::tree::{Joint, JointDrive, moved};
 use super::super::urdf::{Draft, FAR};
 use super::super::xml::{Element, shown};
 use super::bodies::{Context, Named};
@@ -52,6 +52,7 @@ pub(super) struct Moving {
     reference: Expr,
     limits: Option<[Expr; 2]>,
     effort: Option<Expr>,
+    drive: JointDrive,
     /// What a configuration has for it; nothing for what the joint before stands for, too.
     slot: Option<Slot>,
     span: Range<usize>,
@@ -161,6 +162,7 @@ impl<'a> Mjcf<'a, '_> {
         let limits = self.limits(joint, kind, cx);
         let effort =
             joint.get("actuatorfrcrange").and_then(|r| self.reader.numbers(&r, "actuatorfrcrange", 2));
+        let drive = self.drive(joint);
         let effort = effort.map(|e| e[1].0.clone()).filter(|e| !e.is_negative() && !e.is_zero());
         Some(Moving {
             name: joint.own.attribute("name").map(|n| cx.name(n.text)),
@@ -170,9 +172,29 @@ impl<'a> Mjcf<'a, '_> {
             reference,
             limits,
             effort: effort.map(Expr::from),
+            drive,
             slot: Some(Slot::Joint(0)),
             span: joint.own.span(),
         })
+    }
+
+    /// Rotor and friction of a joint.
+    fn drive(&mut self, joint: &Resolved) -> JointDrive {
+        let [rotor, viscous, coulomb] = ["armature", "damping", "frictionloss"].map(|name| {
+            let text = joint.get(name)?;
+            if text.words().len() > 1 {
+                let message = format!("of `{name}` only one number is read: it is left");
+                self.reader.out.warning(text.span, message);
+                return None;
+            }
+            let x = self.reader.numbers(&text, name, 1)?.remove(0).0;
+            if x.is_negative() {
+                self.reader.out.warning(text.span, format!("`{name}` is negative: it is left"));
+                return None;
+            }
+            Some(Expr::from(x)).filter(|e| !e.is_zero())
+        });
+        JointDrive { rotor, viscous, coulomb }
     }
 
     /// A ball as three turns.
@@ -189,6 +211,7 @@ impl<'a> Mjcf<'a, '_> {
             reference: Expr::int(0),
             limits: None,
             effort: None,
+            drive: JointDrive::default(),
             slot: (k == 0).then_some(Slot::Ball),
             span: joint.own.span(),
         };
@@ -250,7 +273,7 @@ impl<'a> Mjcf<'a, '_> {
         let last = joints.len().wrapping_sub(1);
         let mut is_there = false;
         for (k, joint) in joints.into_iter().enumerate() {
-            let Moving { name, kind, point, axis, reference, limits, effort, slot, span } = joint;
+            let Moving { name, kind, point, axis, reference, limits, effort, drive, slot, span } = joint;
             let name = self.joint_name(name, &span);
             // The joint stands at its point; the body, seen from there, is back by it.
             is_there = k == last && point == Vector::zero();
@@ -268,6 +291,7 @@ impl<'a> Mjcf<'a, '_> {
                 limits,
                 velocity: None,
                 effort,
+                drive,
                 follows: None,
             };
             plain.origin = plain.origin * moved(&plain, kind, -reference);

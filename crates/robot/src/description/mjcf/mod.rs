@@ -172,6 +172,7 @@ fn robot(documents: &[Document], reader: &mut Reader) -> Option<Mechanism> {
     mjcf.world(root);
     mjcf.couplings();
     mjcf.name_fixed();
+    let gravity = gravity(root, mjcf.reader);
     let keyed = mjcf.keyframes(root);
     let Mjcf { reader, quaternions, links, drafts, .. } = mjcf;
     for (span, count, said) in quaternions.into_values() {
@@ -189,6 +190,7 @@ fn robot(documents: &[Document], reader: &mut Reader) -> Option<Mechanism> {
         let pose = variables.iter().map(|j| value(j).unwrap_or(Expr::int(0))).collect();
         mechanism.poses.push((name, pose));
     }
+    mechanism.gravity = gravity;
     Some(mechanism)
 }
 
@@ -259,6 +261,23 @@ fn compiler(root: Element, reader: &mut Reader) -> Compiler {
     compiler
 }
 
+/// The acceleration of gravity in the world, if it is given: the last one that is.
+fn gravity(root: Element, reader: &mut Reader) -> Option<[Expr; 3]> {
+    let mut found = None;
+    for option in root.all("option") {
+        if let Some(text) = option.attribute("gravity") {
+            let numbers = reader.numbers(&text, "gravity", 3);
+            found = numbers
+                .and_then(|n| n.into_iter().map(|x| Expr::from(x.0)).collect::<Vec<_>>().try_into().ok());
+        }
+        let is_off = |f: Element| f.attribute("gravity").is_some_and(|g| g.text == "disable");
+        if option.all("flag").any(is_off) {
+            return Some([0; 3].map(Expr::int));
+        }
+    }
+    found
+}
+
 /// `true` or `false`; anything else is reported.
 fn truth(text: &super::xml::Text, reader: &mut Reader) -> Option<bool> {
     match text.text {
@@ -279,6 +298,7 @@ fn beside(root: Element, out: &mut Diagnostics) {
     for child in root.children() {
         match child.name() {
             Some(name) if READ.contains(&name) => {}
+            Some("option") if child.attribute("gravity").is_some() => {}
             Some(name) if BESIDE.contains(&name) => {
                 if !left.contains(&name) {
                     left.push(name);

@@ -49,10 +49,13 @@ pub fn write_mjcf(tree: &Mechanism) -> String {
         depth: 2,
         moving: vec![],
     };
+    let gravity = tree
+        .gravity
+        .map_or(String::new(), |g| format!("<option gravity=\"{}\"/>\n  ", g.map(number).join(" ")));
     let _ = write!(
         file.text,
         "<mujoco model=\"{}\">\n  <compiler angle=\"radian\" eulerseq=\"XYZ\" autolimits=\"true\"/>\n  \
-         <default>\n    <geom contype=\"0\" conaffinity=\"0\"/>\n  </default>\n  <worldbody>\n",
+         {gravity}<default>\n    <geom contype=\"0\" conaffinity=\"0\"/>\n  </default>\n  <worldbody>\n",
         escaped(&tree.name)
     );
     let mut steps = match tree.bodies[tree.root].name.as_str() {
@@ -155,7 +158,11 @@ impl File<'_> {
             let e = number(e);
             format!(" actuatorfrcrange=\"-{e} {e}\"")
         });
-        format!("<joint name=\"{}\" type=\"{kind}\" axis=\"{axis}\"{range}{force}/>", self.names[j])
+        let drive = joint.drive;
+        let drive = [("armature", drive.rotor), ("damping", drive.viscous), ("frictionloss", drive.coulomb)];
+        let drive =
+            drive.map(|(name, e)| e.map_or(String::new(), |e| format!(" {name}=\"{}\"", number(e)))).concat();
+        format!("<joint name=\"{}\" type=\"{kind}\" axis=\"{axis}\"{range}{force}{drive}/>", self.names[j])
     }
 
     /// Capsules to what a body carries; a ball where there is none and it moves.

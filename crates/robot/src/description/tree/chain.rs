@@ -2,7 +2,7 @@
 
 use super::masses::Landing;
 use super::{Joint, Mechanism};
-use crate::description::lines::{Agreement, AxisAtRest, ChainAtRest, NotPlaced};
+use crate::description::lines::{Agreement, AxisAtRest, ChainAtRest, NotPlaced, settled};
 use crate::description::{Convention, Description, JointKind, MAX_ROWS, diagnostic::nearest};
 use crate::geometry::{Rotation, Transform, Vector};
 use denavit_symbolic::{Expr, Rational};
@@ -147,6 +147,16 @@ impl Mechanism {
         all
     }
 
+    /// A body in the root's frame, all joints at 0.
+    fn at_rest(&self, body: usize) -> Transform<Expr> {
+        let down = self.to_root(body).into_iter().rev().map(|j| &self.joints[j]);
+        down.fold(Transform::identity(), |x, joint| {
+            let rest = joint.follows.as_ref().map_or(Expr::int(0), |f| f.offset);
+            let motion = joint.kind.map_or(Transform::identity(), |kind| moved(joint, kind, rest));
+            x * joint.origin * motion
+        })
+    }
+
     /// The joints on the way to a body from the one whose joints to the root these are.
     fn way(&self, up: &[usize], to: usize) -> Vec<Step> {
         let down = self.to_root(to);
@@ -201,6 +211,10 @@ impl Mechanism {
             (name.clone(), joints.iter().map(|&j| self.value(j, values)).collect())
         };
         description.poses = self.poses.iter().map(pose).collect();
+        description.gravity = self.gravity.map(|g| {
+            let turned = self.at_rest(from).rotation.inverse() * Vector(g);
+            settled(&Transform::from_rotation_translation(Rotation::identity(), turned)).translation.0
+        });
         let held = self.weigh_rows(&mut description, &of_axis, &landings, from);
         Ok(Chain { description, from, to, joints, agreement, held })
     }
@@ -248,6 +262,8 @@ impl Mechanism {
             if row.variable.is_some() {
                 let joint = &self.joints[joints[next]];
                 (row.limits, row.velocity) = (joint.limits, joint.velocity);
+                let drive = joint.drive;
+                (row.rotor, row.viscous, row.coulomb) = (drive.rotor, drive.viscous, drive.coulomb);
                 next += 1;
             }
         }

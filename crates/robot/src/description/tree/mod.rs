@@ -29,6 +29,8 @@ pub struct Mechanism {
     pub root: usize,
     /// Configurations with names: values of the [variables](Mechanism::variables).
     pub poses: Vec<(String, Vec<Expr>)>,
+    /// The acceleration of gravity in the root's frame, m/s², if it is given.
+    pub gravity: Option<[Expr; 3]>,
 }
 
 /// A body and its frame.
@@ -111,8 +113,21 @@ pub struct Joint {
     pub velocity: Option<Expr>,
     /// The highest torque or force.
     pub effort: Option<Expr>,
+    /// What is known of its drive.
+    pub drive: JointDrive,
     /// What it follows, if it does not move by itself.
     pub follows: Option<Follows>,
+}
+
+/// What is known of a joint's drive.
+#[derive(Clone, Copy, Default, PartialEq, Debug)]
+pub struct JointDrive {
+    /// The inertia of its rotor as the joint feels it, kg·m² (kg for a slide).
+    pub rotor: Option<Expr>,
+    /// Its viscous friction, N·m·s/rad (N·s/m for a slide).
+    pub viscous: Option<Expr>,
+    /// Its friction of Coulomb, N·m (N for a slide).
+    pub coulomb: Option<Expr>,
 }
 
 /// A joint that moves as another does.

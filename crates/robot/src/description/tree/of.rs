@@ -3,7 +3,7 @@
 //! A joint's origin is what is constant before its motion, its axis z. A row that adds variables is one joint for each, with bodies
 //! between; those that are not its own follow them.
 
-use super::{Body, Follows, Joint, Mass, Mechanism};
+use super::{Body, Follows, Joint, JointDrive, Mass, Mechanism};
 use crate::description::{
     Convention, Description, JointKind, MissingValue, NamedFrame, Parameter, Row, RowTree, Screw, Variable,
 };
@@ -44,6 +44,7 @@ impl Mechanism {
         let order: Vec<usize> = tree.variables().into_iter().filter_map(place).collect();
         let pose =
             |(name, values): &(String, Vec<Expr>)| (name.clone(), order.iter().map(|&v| values[v]).collect());
+        tree.gravity = d.gravity.map(|g| g.map(|e| known(e, &d.parameters))).filter(|g| is_constant(g));
         tree.poses = d.poses.iter().filter(|p| p.1.len() == order.len()).map(pose).collect();
         Ok(tree)
     }
@@ -82,8 +83,20 @@ impl Mechanism {
             let on = place(*on, &of_row);
             growing.still(Place { origin: on.origin * *pose, ..on }, name, name);
         }
-        Ok(growing.finished())
+        let mut mechanism = growing.finished();
+        let gravity = tree.gravity.map(|g| g.map(|e| known(e, &tree.parameters)));
+        mechanism.gravity = gravity.filter(|g| is_constant(g));
+        Ok(mechanism)
     }
+}
+
+/// A formula with the values of its parameters.
+fn known(e: Expr, parameters: &[Parameter]) -> Expr {
+    e.substitute(|s| parameters.iter().find(|p| p.symbol == s)?.value)
+}
+
+fn is_constant(all: &[Expr]) -> bool {
+    all.iter().all(|e| e.symbols().is_empty())
 }
 
 /// Where a chain under way has come to: a body, and a frame there.
@@ -131,7 +144,14 @@ fn has_values(rows: &[Row], poses: &[Transform<Expr>], parameters: &[Parameter])
 impl<'d> Growing<'d> {
     fn new(name: &str, root: &str, rows: &[Row], parameters: &'d [Parameter]) -> Self {
         let variables: Vec<Symbol> = rows.iter().filter_map(|r| r.variable).map(|v| v.symbol).collect();
-        let tree = Mechanism { name: name.into(), bodies: vec![], joints: vec![], root: 0, poses: vec![] };
+        let tree = Mechanism {
+            name: name.into(),
+            bodies: vec![],
+            joints: vec![],
+            root: 0,
+            poses: vec![],
+            gravity: None,
+        };
         let mut growing = Growing {
             tree,
             bodies: HashSet::new(),
@@ -146,7 +166,7 @@ impl<'d> Growing<'d> {
     }
 
     fn value(&self, e: Expr) -> Expr {
-        e.substitute(|s| self.parameters.iter().find(|p| p.symbol == s)?.value)
+        known(e, self.parameters)
     }
 
     fn body(&mut self, name: &str) -> usize {
@@ -180,6 +200,7 @@ impl<'d> Growing<'d> {
             limits: None,
             velocity: None,
             effort: None,
+            drive: JointDrive::default(),
             follows: None,
         });
         self.tree.joints.last_mut().expect("it was just added")
@@ -249,9 +270,12 @@ impl<'d> Growing<'d> {
         if is_own {
             let limits = row.limits.map(|ends| ends.map(|e| self.value(e)));
             let velocity = row.velocity.map(|e| self.value(e));
+            let [rotor, viscous, coulomb] = [row.rotor, row.viscous, row.coulomb]
+                .map(|e| e.map(|e| self.value(e)).filter(|e| is_constant(&[*e])));
             self.joints.insert(name.clone());
             let joint = self.joint(place, name, Some(kind), body);
             (joint.limits, joint.velocity) = (limits, velocity);
+            joint.drive = JointDrive { rotor, viscous, coulomb };
             // A factor of its own is the way round of the axis.
             if factor.is_negative() {
                 joint.axis = -joint.axis;

@@ -3,7 +3,7 @@
 use super::Links;
 use crate::description::diagnostic::nearest;
 use crate::description::reader::Reader;
-use crate::description::tree::{Body, Joint};
+use crate::description::tree::{Body, Joint, JointDrive};
 use crate::description::xml::{Element, shown};
 use crate::description::{JointKind, MAX_ROWS};
 use crate::geometry::{Transform, Vector};
@@ -81,6 +81,7 @@ impl Reader {
             Some(kind @ ("revolute" | "prismatic" | "continuous")) => self.limits(joint, limit, kind, &name),
             _ => (None, None, None),
         };
+        let drive = if moves && kind != Some("planar") { self.drive(joint) } else { JointDrive::default() };
         let follows = joint.one("mimic", &mut self.out).filter(|_| moves).and_then(|m| self.mimic(m, kind));
         let [Some(parent), Some(child)] = ends else {
             self.is_part = true;
@@ -95,8 +96,19 @@ impl Reader {
         };
         let is_floating = kind == "floating";
         let span = joint.span();
-        let plain =
-            Joint { name, kind: moved, parent, child, origin, axis, limits, velocity, effort, follows: None };
+        let plain = Joint {
+            name,
+            kind: moved,
+            parent,
+            child,
+            origin,
+            axis,
+            limits,
+            velocity,
+            effort,
+            drive,
+            follows: None,
+        };
         if kind == "planar" {
             self.out.note(span.clone(), "a planar joint is read as two slides and a turn");
             planar(&plain, &span, links, drafts);
@@ -213,6 +225,20 @@ impl Reader {
         }
         self.safety(joint, &lower, &upper);
         (Some([lower.into(), upper.into()]), velocity, effort)
+    }
+
+    /// Friction: `damping` is viscous, `friction` is Coulomb's.
+    fn drive(&mut self, joint: Element) -> JointDrive {
+        let Some(dynamics) = joint.one("dynamics", &mut self.out) else { return JointDrive::default() };
+        let [viscous, coulomb] = ["damping", "friction"].map(|name| {
+            let x = self.any_number(&dynamics, name).filter(|x| !x.is_zero())?;
+            if x.is_negative() {
+                self.out.warning(dynamics.span(), format!("`{name}` is negative: it is left"));
+                return None;
+            }
+            Some(Expr::from(x))
+        });
+        JointDrive { rotor: None, viscous, coulomb }
     }
 
     /// Says so where soft limits are narrower than the limits.

@@ -51,7 +51,8 @@ impl Reader {
             joints.push(Joint { follows, ..draft.joint.clone() });
         }
         // A floating root is left out, so that bodies are those of the tree.
-        let mut mechanism = Mechanism { name, bodies: links.bodies, joints, root, poses: vec![] };
+        let mut mechanism =
+            Mechanism { name, bodies: links.bodies, joints, root, poses: vec![], gravity: None };
         if first != root {
             let gone = first;
             mechanism.bodies.remove(gone);

@@ -71,6 +71,10 @@ fn write_joint(text: &mut String, tree: &Mechanism, joint: &Joint) {
     } else if joint.velocity.is_some() || joint.effort.is_some() {
         let _ = writeln!(text, "    <limit {drive}/>");
     }
+    if joint.drive.viscous.is_some() || joint.drive.coulomb.is_some() {
+        let [damping, friction] = [joint.drive.viscous, joint.drive.coulomb].map(known);
+        let _ = writeln!(text, "    <dynamics damping=\"{damping}\" friction=\"{friction}\"/>");
+    }
     text.push_str("  </joint>\n");
 }
 
