@@ -305,3 +305,28 @@ fn keyframes_are_configurations_by_name() {
         assert_eq!(answer("home"), answer("0.25, 1"));
     }
 }
+
+/// A tree in a table has all its frames, rows are frames by their names, and what a format has no place for is said.
+#[test]
+fn frames_have_names_and_losses_are_said() {
+    let rows = "name = \"t\"\nconvention = \"khalil\"\n[[joints]]\nname = \"mast\"\ntheta = \"q1\"\nmass = 2\nrotor = 0.1\n\
+                [[joints]]\nname = \"arm\"\nd = \"300 mm\"\ntheta = \"q2\"\nviscous = 0.5\n\
+                [[joints]]\nname = \"other\"\nafter = \"mast\"\nd = \"-300 mm\"\ntheta = \"q3\"\n";
+    let tree = File::new("named.toml", rows);
+    let (code, csv, said) = run(&["convert", tree.name(), "--to", "csv", "--whole"]);
+    assert_eq!(code, 0, "{said}");
+    assert!(said.contains("no place for it: masses, rotors, friction"), "{said}");
+    let csv = File::new("named.csv", &csv);
+    let all = run(&["fk", csv.name(), "--frames", "all", "-q", "other=1"]);
+    assert!(all.0 == 0 && all.1.contains("other") && all.1.contains("arm"), "{}{}", all.1, all.2);
+    let both = run(&["fk", tree.name(), "--tip", "arm", "--frames", "mast,2", "-q", "0,0"]);
+    assert!(both.0 == 0 && both.1.contains("⁰T₁") && both.1.contains("⁰T₂"), "{}{}", both.1, both.2);
+    let (code, _, said) = run(&["fk", tree.name(), "--tip", "arm", "--frames", "must", "-q", "0,0"]);
+    assert!(code != 0 && said.contains("no frame `must`") && said.contains("mast, arm"), "{said}");
+    let by_name = run(&["derive", tree.name(), "--tip", "arm", "--from", "mast", "--to", "arm"]);
+    let by_number = run(&["derive", tree.name(), "--tip", "arm", "--from", "1", "--to", "2"]);
+    assert!(by_name.0 == 0 && by_name == by_number, "{}", by_name.2);
+    let (_, urdf, said) = run(&["convert", tree.name(), "--tip", "arm", "--to", "urdf"]);
+    assert!(said.contains("a URDF has no place for it: rotors"), "{said}");
+    assert!(urdf.contains("damping=\"0.5\""), "{urdf}");
+}

@@ -3,8 +3,8 @@
 use crate::common::{Random, shown};
 use denavit::catalogue;
 use denavit::description::{
-    Agreement, Alone, Convention, Decimals, Description, Mechanism, NoChain, Row, RowTree, Severity, Sources, read_mjcf,
-    root_element, write_mjcf, write_toml,
+    Agreement, Alone, Convention, Decimals, Description, Mechanism, NoChain, Row, RowTree, Severity, Sources,
+    read_mjcf, root_element, write_mjcf, write_toml,
 };
 use denavit::dynamics::{Dynamics, inverse_dynamics};
 use denavit::geometry::Transform;
@@ -469,9 +469,7 @@ fn drives_gravity_and_masses_are_kept() {
     let arm = body("arm", "pos=\"0.3 0 0\"", "<joint name=\"j2\" axis=\"0 1 0\" damping=\"0.25\"/>", "");
     let turn = "<joint name=\"j1\" axis=\"0 0 1\" damping=\"0.5\" armature=\"0.01\" frictionloss=\"0.2\"/>";
     let mast = body("mast", "euler=\"180 0 0\"", turn, &arm);
-    let text = format!(
-        "<mujoco><option gravity=\"0 0 -1.62\"/><worldbody>{mast}</worldbody></mujoco>"
-    );
+    let text = format!("<mujoco><option gravity=\"0 0 -1.62\"/><worldbody>{mast}</worldbody></mujoco>");
     let m = read(&text, Decimals::Meant);
     let decimal = |n, d| Expr::from(Rational::new(n, d));
     let d = m.chain(Some("world"), Some("arm"), Convention::Khalil).expect("a chain").description;
