@@ -123,6 +123,15 @@ impl<'a> Judge<'a> {
             }
             entries.push(entry);
         }
+        // A number behind a formula that is not read may be this formula's own, with what is not known in it.
+        let is_hidden = |e: &Entry| e.place.is_none() && e.finding.standing() == Standing::Unreadable;
+        if let Some(hidden) = entries.iter().position(is_hidden) {
+            let mut pieces = assertion.pieces.iter().enumerate();
+            entries.retain(|e| {
+                let is_number = matches!(pieces.next(), Some((i, Piece::Number { .. })) if i > hidden);
+                !(is_number && e.finding.standing() == Standing::Wrong)
+            });
+        }
         Claim {
             entries,
             instead,

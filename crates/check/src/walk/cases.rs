@@ -162,6 +162,10 @@ impl Walk<'_> {
         if matches!(left.kind, SyntaxKind::Name(_)) && is_half_turn(right.value() - left.value()) {
             return joints.contains(&left.value());
         }
+        // `θ5' = −θ5`: the same joint in another solution.
+        if self.source(name).trim_end().ends_with(['\'', '′', '’']) && joints.contains(&left.value()) {
+            return symbols.iter().all(|s| joints.contains(&(*s).into()));
+        }
         matches!(left.kind, SyntaxKind::Name(_))
             && joints.contains(&left.value())
             && !self.is_right_name(name)
@@ -214,7 +218,12 @@ impl Walk<'_> {
 
 /// True for ±π.
 fn is_half_turn(turn: Expr) -> bool {
-    [Expr::pi(), -Expr::pi()].iter().any(|p| denavit_symbolic::equal(turn, *p).is_equal())
+    // `θ4' = θ4 + 180`, the degrees told elsewhere or left out.
+    let degrees = || [Expr::int(180), Expr::int(-180)].into_iter();
+    [Expr::pi(), -Expr::pi()]
+        .into_iter()
+        .chain(degrees())
+        .any(|p| denavit_symbolic::equal(turn, p).is_equal())
 }
 
 /// True if a heading, in small letters, is one above inverse kinematics.

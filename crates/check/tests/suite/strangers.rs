@@ -175,3 +175,43 @@ fn numbers_that_a_program_defines_for_lengths() {
         assert!(found.claims.iter().any(|c| c.standing() == Standing::Wrong), "{unit}: {:?}", found.claims);
     }
 }
+
+#[test]
+fn a_number_behind_a_formula_that_is_not_read_is_not_wrong_by_itself() {
+    let text = |formula: &str, number: &str| {
+        format!(
+            "{PLANAR}\n\nWith th1 = 40 deg, th2 = 20 deg and L1 = 0.3 m, L2 = 0.2 m:\n\nx = {formula} = {number} m\n"
+        )
+    };
+    // The point meant may be another one, of which `mystery` tells.
+    let found = read(&text("L1*cos(th1) + mystery(L2)", "0.9"), Format::Plain, None);
+    assert!(all(&found, "x").iter().all(|s| *s != Standing::Wrong), "{:?}", found.claims);
+    let found = read(&text("L1*cos(th1) + L2*cos(th1 + th2)", "0.9"), Format::Plain, None);
+    assert_eq!(all(&found, "x"), [Standing::Wrong], "{:?}", found.claims);
+}
+
+#[test]
+fn an_upright_letter_before_an_angle_is_its_sine_beside_a_name_in_italics() {
+    let text = |look: &str| {
+        format!(
+            "Standard DH\n\n| i | $\\theta$ | d | a | $\\alpha$ |\n|---|---|---|---|---|\n| 1 | $\\theta_1$ | $s$ | $L_1$ | 0 |\n\
+             | 2 | $\\theta_2$ | 0 | $L_2$ | 0 |\n\n$$z = s$$\n\n$$y = L_1\\,{look}\\theta_1 + L_2\\sin(\\theta_1+\\theta_2)$$\n"
+        )
+    };
+    for (look, expected) in [("\\mathrm{s}", Standing::Equal), ("\\mathrm{c}", Standing::Wrong)] {
+        let found = read(&text(look), Format::Markdown, None);
+        assert_eq!(all(&found, "y"), [expected], "{:?}", found.claims);
+    }
+}
+
+#[test]
+fn the_same_joint_in_another_solution() {
+    for prime in ["'", "′"] {
+        let found = read(
+            &format!("{PLANAR}\n\nThe other way: th1{prime} = th1 + 180, th2{prime} = -th2\n"),
+            Format::Plain,
+            None,
+        );
+        assert!(found.claims.iter().all(|c| c.standing() != Standing::Wrong), "{:?}", found.claims);
+    }
+}

@@ -247,8 +247,18 @@ impl Normaliser<'_> {
         } else if matches!(name, "frac" | "dfrac" | "tfrac" | "cfrac") {
             self.marks.push(Mark { glyph: Glyph::Fraction, span });
         } else if WRAPPERS.contains(&name) {
-            self.push(' ', span);
-            self.wrapper();
+            match self.upright_function() {
+                Some((word, length)) => {
+                    self.push(' ', start..start);
+                    let span = start..self.at + length;
+                    word.chars().for_each(|c| self.push(c, span.clone()));
+                    self.at += length;
+                }
+                None => {
+                    self.push(' ', span);
+                    self.wrapper();
+                }
+            }
         } else if name == "dot" {
             // The rate of a name is a name: `\dot{q}_1` is `dotq1`.
             self.push(' ', start..start);
@@ -264,6 +274,19 @@ impl Normaliser<'_> {
                 self.at = self.text.len() - behind.len();
             }
         }
+    }
+
+    /// `{s}` behind a command for upright letters and before a Greek letter is the sine, also where a name is s,
+    /// which is in italics: `s\,\mathrm{c}\theta_2`. The function, and the length of the braces.
+    fn upright_function(&self) -> Option<(&'static str, usize)> {
+        let rest = &self.text[self.at..];
+        let word = match rest.get(..3)? {
+            "{s}" => "sin",
+            "{c}" => "cos",
+            _ => return None,
+        };
+        let behind = rest[3..].trim_start().strip_prefix('\\')?;
+        greek_prefix(behind).map(|_| (word, 3))
     }
 
     /// Goes into the braces of a command whose braces are not part of the formula.
