@@ -162,8 +162,8 @@ impl Walk<'_> {
         if matches!(left.kind, SyntaxKind::Name(_)) && is_half_turn(right.value() - left.value()) {
             return joints.contains(&left.value());
         }
-        // `θ5' = −θ5`: the same joint in another solution.
-        if self.source(name).trim_end().ends_with(['\'', '′', '’']) && joints.contains(&left.value()) {
+        // `θ5' = −θ5`: the same joint in another solution, as a joint that is told by itself can be nothing else.
+        if joints.contains(&left.value()) && left.value().as_symbol().is_some_and(|s| symbols.contains(&s)) {
             return symbols.iter().all(|s| joints.contains(&(*s).into()));
         }
         matches!(left.kind, SyntaxKind::Name(_))
@@ -218,12 +218,7 @@ impl Walk<'_> {
 
 /// True for ±π.
 fn is_half_turn(turn: Expr) -> bool {
-    // `θ4' = θ4 + 180`, the degrees told elsewhere or left out.
-    let degrees = || [Expr::int(180), Expr::int(-180)].into_iter();
-    [Expr::pi(), -Expr::pi()]
-        .into_iter()
-        .chain(degrees())
-        .any(|p| denavit_symbolic::equal(turn, p).is_equal())
+    [Expr::pi(), -Expr::pi()].iter().any(|p| denavit_symbolic::equal(turn, *p).is_equal())
 }
 
 /// True if a heading, in small letters, is one above inverse kinematics.
