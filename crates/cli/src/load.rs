@@ -357,7 +357,7 @@ pub fn frame(d: &Description, word: &str) -> Result<usize, String> {
         [] => {
             let names: Vec<&str> = d.rows.iter().filter_map(|r| r.name.as_deref()).collect();
             let names = if names.is_empty() { String::new() } else { format!(", or {}", names.join(", ")) };
-            Err(format!("no frame `{word}`: a number from 0 to {last}{names}"))
+            Err(format!("no frame `{word}`: name a frame from 0 to {last}{names}"))
         }
         _ => Err(format!("several rows are called `{word}`: name the frame by its number, from 0 to {last}")),
     }

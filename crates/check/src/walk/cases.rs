@@ -162,8 +162,12 @@ impl Walk<'_> {
         if matches!(left.kind, SyntaxKind::Name(_)) && is_half_turn(right.value() - left.value()) {
             return joints.contains(&left.value());
         }
-        // `θ5' = −θ5`: the same joint in another solution, as a joint that is told by itself can be nothing else.
-        if joints.contains(&left.value()) && left.value().as_symbol().is_some_and(|s| symbols.contains(&s)) {
+        // `θ5' = −θ5`: the same joint in another solution, as a joint that is told by another value of itself can be nothing
+        // else; `θ4 = θ234 − θ2 − θ3` tells its own.
+        if joints.contains(&left.value())
+            && !denavit_symbolic::equal(right.value(), left.value()).is_equal()
+            && left.value().as_symbol().is_some_and(|s| symbols.contains(&s))
+        {
             return symbols.iter().all(|s| joints.contains(&(*s).into()));
         }
         matches!(left.kind, SyntaxKind::Name(_))
