@@ -89,7 +89,7 @@ template <int N> struct Arm {
     std::vector<Eigen::VectorXd> q, v, a;
 
     Arm(const Link *links, unsigned seed)
-        : states(3 * N * STATES), blocks(3 * N * STATES), out(64 * 3 * N * N), model(model_of(links, N)), data(model)
+        : states(3 * N * STATES), blocks(3 * N * STATES), out(64 * (3 * N + 1) * N), model(model_of(links, N)), data(model)
     {
         unsigned long long state = seed;
         for (int i = 0; i < STATES; i++) {
@@ -174,6 +174,22 @@ const bool is_wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports
                  [](const double *x, double *y) { prefix##v4_##f##_block(x, y); });                                    \
     }
 
+// The torques and their derivatives, as Pinocchio has them together: one call behind the other.
+#define LEVEL(arm, N, group, own, name, first, second)                                                                 \
+    one<N>(arm, group, name, first, [](const double *x, double *y) {                                                   \
+        own##_torque(x, y);                                                                                            \
+        own##_torque_derivatives(x, (double(*)[3 * N])(y + N));                                                        \
+    });                                                                                                                \
+    block<N>(arm, group, name, second, [](const double *x, double *y) {                                                \
+        own##_torque_block(x, y);                                                                                      \
+        own##_torque_derivatives_block(x, y + LANES * N);                                                              \
+    });
+#define DERIVED(arm, N, group, prefix, first, second)                                                                  \
+    LEVEL(arm, N, group, prefix##v3, "generated C, AVX2", 0, 0)                                                        \
+    if (is_wide) {                                                                                                     \
+        LEVEL(arm, N, group, prefix##v4, "generated C, AVX-512", first, second)                                        \
+    }
+
 #define ARM(prefix, N, title, L)                                                                                       \
     static Arm<N> prefix(prefix##_links, N);                                                                           \
     {                                                                                                                  \
@@ -211,8 +227,8 @@ const bool is_wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports
             pinocchio::aba(arm.model, arm.data, arm.q[i], arm.v[i], arm.a[i], pinocchio::Convention::LOCAL);           \
             keep(arm.data.ddq[0]);                                                                                     \
         });                                                                                                            \
-        BOTH(arm, N, title ": derivatives of the torque", prefix, torque_derivatives, (double(*)[3 * N]), L[6], L[7])  \
-        peer<N>(arm, title ": derivatives of the torque", "Pinocchio, computeRNEADerivatives", [&arm](int i) {         \
+        DERIVED(arm, N, title ": torque with derivatives", prefix, L[6], L[7])                                         \
+        peer<N>(arm, title ": torque with derivatives", "Pinocchio, computeRNEADerivatives", [&arm](int i) {           \
             pinocchio::computeRNEADerivatives(arm.model, arm.data, arm.q[i], arm.v[i], arm.a[i]);                      \
             keep(arm.data.dtau_dq(0, 0));                                                                              \
         });                                                                                                            \

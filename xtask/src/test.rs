@@ -51,6 +51,7 @@ const FULL: &[Step] = &[
     step("limits of size", &["web"]),
     step("page in full", &["page"]),
     step("certificates", &["certificates"]),
+    step("counts of dynamics", &["counts", "dynamics", "--check"]),
     step("descriptions", &["descriptions"]),
     step("miri", &["miri"]),
     step("soak", &["soak"]),

@@ -204,14 +204,16 @@ pub fn mechanism(arguments: &RobotArguments) -> Result<Option<Tree>, Failure> {
             let is_listed = listed.is_some();
             let is_toml = is_listed || name.ends_with(".toml");
             let kind = Path::new(name).extension().and_then(|e| e.to_str()).and_then(table_kind);
-            // Standard input is read once, and as a chain.
-            let text = listed.map_or_else(|| contents(name, MAX_BYTES).ok().filter(|_| name != "-"), Some);
+            // Standard input, which has no ending, can be read but once: it is one chain.
+            let text = match listed {
+                None if is_toml || kind.is_some() => contents(name, MAX_BYTES).ok(),
+                listed => listed,
+            };
             let read = |text: &str| match kind {
                 _ if is_toml => Some(read_robot(text)),
                 Some(kind) => Some(read_table_robot(text, kind, &table_options(arguments))),
                 None => None,
             };
-            let text = text.filter(|_| is_toml || kind.is_some());
             let Some(Ok((Described::Tree(tree), findings))) = text.as_deref().and_then(read) else {
                 return Ok(None);
             };

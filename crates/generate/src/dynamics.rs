@@ -7,7 +7,7 @@ use denavit::description::{Description, JointKind};
 use denavit::dynamics::{DynamicFunction, DynamicPrograms, Ground, Masses};
 use denavit_emit::{Parameter, Routine, Vector};
 use denavit_program::{Composer, Extended, Program, Value};
-use denavit_symbolic::{Expr, Symbol};
+use denavit_symbolic::Symbol;
 use rustc_hash::FxHashMap;
 
 /// All dynamic functions that are asked for.
@@ -24,6 +24,8 @@ struct One {
     function: DynamicFunction,
     /// Over the variables of the library.
     program: Program,
+    /// On what it rests that the inertia matrix in it is the derivative of the torques.
+    inertia: Ground,
     /// By other ways, from the links as they are.
     reference: Program,
 }
@@ -65,9 +67,10 @@ impl Dynamic {
         let symbols: Vec<Symbol> =
             all.symbols[0].iter().chain(variables.iter().map(|v| &v.0)).copied().collect();
         let made = |function: DynamicFunction| {
-            let program = over(&all.program(function)?, &symbols);
+            let made = all.program(function)?;
+            let program = over(&made.program, &symbols);
             let reference = over(&all.reference(function), &symbols);
-            Some(One { function, program, reference })
+            Some(One { function, program, inertia: made.inertia, reference })
         };
         let functions: Vec<One> = functions.into_iter().filter_map(made).collect();
         let parameters = parameters(d, &all, &functions);
@@ -81,8 +84,8 @@ impl Dynamic {
             (
                 Wanted::Dynamic(one.function),
                 &one.program,
-                ground == Ground::Proved,
-                claim(one.function, ground),
+                ground.and(one.inertia) == Ground::Proved,
+                claim(one.function, ground, one.inertia),
             )
         })
     }
@@ -161,8 +164,8 @@ impl Dynamic {
     }
 }
 
-/// What a function rests on.
-fn claim(function: DynamicFunction, ground: Ground) -> String {
+/// What a function rests on: the torques, and the inertia matrix as their derivative.
+fn claim(function: DynamicFunction, ground: Ground, inertia: Ground) -> String {
     let from = match function {
         DynamicFunction::Torque => "",
         DynamicFunction::Energy => return "the energies of the links, written out".into(),
@@ -175,19 +178,24 @@ fn claim(function: DynamicFunction, ground: Ground) -> String {
             "by A = LDL^T from derivatives of the torques, which are "
         }
     };
-    let what = match ground {
-        Ground::Proved => "proved equal to Lagrange's equations".into(),
+    let equal = |to: &str, ground: Ground| match ground {
+        Ground::Proved => format!("proved equal to {to}"),
         Ground::Modulo(states) => {
-            format!(
-                "equal to Lagrange's equations at {states} random states modulo 2^61 - 1, exactly; not proved"
-            )
+            format!("equal to {to} at {states} random states modulo 2^61 - 1, exactly; not proved")
         }
         Ground::Numbers(states, off) => {
-            format!("equal to Lagrange's equations in {states} random states within {off:.0e}; not proved")
+            format!("equal to {to} in {states} random states within {off:.0e}; not proved")
         }
-        Ground::Failed => "not equal to Lagrange's equations: a defect".into(),
+        Ground::Failed => format!("not equal to {to}: a defect"),
     };
-    format!("{from}{what}")
+    let what = equal("Lagrange's equations", ground);
+    match inertia {
+        Ground::Proved => format!("{from}{what}"),
+        _ => format!(
+            "{from}{what}; the inertia matrix by composite bodies, {}",
+            equal("these derivatives", inertia)
+        ),
+    }
 }
 
 /// What the results are called, their shape, and what they are.
@@ -392,16 +400,4 @@ fn scales(one: &One, all: &Dynamic, vectors: &[Vector]) -> Vec<f64> {
         }
     }
     (0..count).map(|k| sizes[kind(k)] * rounding[kind(k)]).collect()
-}
-
-/// The masses of a description with values in place of parameters.
-pub(super) fn fixed(d: &mut Description, value: impl Fn(Expr) -> Expr) {
-    for row in &mut d.rows {
-        let single = [&mut row.mass, &mut row.rotor, &mut row.viscous, &mut row.coulomb];
-        single.into_iter().flatten().for_each(|e| *e = value(*e));
-        let three = [&mut row.com, &mut row.first_moment].into_iter().flatten().flatten();
-        let six = [&mut row.inertia, &mut row.inertia_at_origin].into_iter().flatten().flatten();
-        three.chain(six).for_each(|e| *e = value(*e));
-    }
-    d.gravity.iter_mut().flatten().for_each(|e| *e = value(*e));
 }

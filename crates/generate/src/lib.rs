@@ -305,7 +305,7 @@ pub fn with_values(d: &Description) -> Result<Description, MissingValue> {
             *cell = fixed(*cell);
         }
     }
-    dynamics::fixed(&mut new, fixed);
+    new.substitute_masses(fixed);
     (new.base, new.tool) = (d.base.map(fixed), d.tool.map(fixed));
     new.parameters.clear();
     Ok(new)

@@ -115,15 +115,10 @@ pub(super) fn about_variable(d: &Description, symbol: Symbol, kind: JointKind) -
 fn masses(d: &Description, symbol: Symbol) -> Vec<String> {
     let mut places = vec![];
     for (i, row) in d.rows.iter().enumerate() {
-        let single =
-            [("mass", row.mass), ("rotor", row.rotor), ("viscous", row.viscous), ("coulomb", row.coulomb)];
-        let three = [("com", row.com), ("first_moment", row.first_moment)];
-        let six = [("inertia", row.inertia), ("inertia_at_origin", row.inertia_at_origin)];
-        let all = single.map(|(key, e)| (key, e.into_iter().collect::<Vec<_>>())).into_iter();
-        let all = all.chain(three.map(|(key, e)| (key, e.into_iter().flatten().collect())));
-        let all = all.chain(six.map(|(key, e)| (key, e.into_iter().flatten().collect())));
-        let holds = |cell: &(&str, Vec<Expr>)| cell.1.iter().any(|e| e.symbols().contains(&symbol));
-        places.extend(all.filter(holds).map(|(key, _)| format!("{key} of row {}", i + 1)));
+        let mut keys: Vec<&str> =
+            row.mass_cells().filter(|cell| cell.1.symbols().contains(&symbol)).map(|cell| cell.0).collect();
+        keys.dedup();
+        places.extend(keys.into_iter().map(|key| format!("{key} of row {}", i + 1)));
     }
     let pulls = d.gravity.iter().flatten().any(|e| e.symbols().contains(&symbol));
     places.extend(pulls.then(|| "gravity".to_string()));

@@ -51,7 +51,7 @@ impl Domain for Rounded {
         Rounded(self.0.atan2(x.0))
     }
     fn sign(&self) -> Self {
-        Rounded(if self.0 == 0.0 { self.0 } else { self.0.signum() })
+        Rounded(self.0.sign())
     }
 }
 

@@ -206,12 +206,14 @@ fn an_upright_letter_before_an_angle_is_its_sine_beside_a_name_in_italics() {
 
 #[test]
 fn the_same_joint_in_another_solution() {
+    let table = PLANAR.replace("th1", "θ1").replace("th2", "θ2");
     for prime in ["'", "′"] {
-        let found = read(
-            &format!("{PLANAR}\n\nThe other way: th1{prime} = th1 + 180, th2{prime} = -th2\n"),
-            Format::Plain,
-            None,
-        );
-        assert!(found.claims.iter().all(|c| c.standing() != Standing::Wrong), "{:?}", found.claims);
+        let text = format!("{table}\n\nThe other way (flip: θ1{prime} = θ1 + 180, θ2{prime} = -θ2)\n");
+        let found = read(&text, Format::Plain, None);
+        assert!(found.claims.is_empty(), "{:?}", found.claims);
+        assert_eq!(found.unjudged.len(), 2, "{:?}", found.unjudged);
     }
+    // A sum that is told by itself is none.
+    let found = read(&format!("{table}\n\nWith θ12 = θ1 + θ2, θ2 = θ12 - θ1\n"), Format::Plain, None);
+    assert_eq!(all(&found, "θ2"), [Standing::Equal], "{:?}", found.claims);
 }

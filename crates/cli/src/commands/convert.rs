@@ -43,7 +43,7 @@ pub fn run(arguments: &ConvertArguments) -> Result<(), Failure> {
 /// Says what of masses, drives and gravity has no place in a format.
 fn say_left(d: &Description, to: ConvertFormat) {
     let any = |of: fn(&Row) -> bool| d.rows.iter().any(of);
-    let is_known = |e: Option<Expr>| e.is_none_or(|e| e.symbols().iter().all(|s| d.value(*s).is_some()));
+    let is_known = |e: Expr| e.symbols().iter().all(|s| d.value(*s).is_some());
     let (masses, rotors, friction) =
         (d.has_masses(), any(|r| r.rotor.is_some()), any(|r| r.viscous.is_some() || r.coulomb.is_some()));
     let gravity = d.gravity.is_some();
@@ -60,15 +60,9 @@ fn say_left(d: &Description, to: ConvertFormat) {
     if !left.is_empty() {
         note(&format!("note: left out, as {what} has no place for it: {}", left.join(", ")));
     }
-    if matches!(to, ConvertFormat::Urdf | ConvertFormat::Mjcf) {
-        let dynamic = |r: &Row| {
-            let body = r.body().into_iter().flat_map(|b| b.parameters());
-            body.chain([r.rotor, r.viscous, r.coulomb].into_iter().flatten()).map(Some).collect::<Vec<_>>()
-        };
-        let open = d.rows.iter().flat_map(dynamic).any(|e| !is_known(e));
-        if open {
-            note("note: masses and drives without a value are left out");
-        }
+    let is_open = || d.rows.iter().flat_map(Row::mass_cells).any(|cell| !is_known(cell.1));
+    if matches!(to, ConvertFormat::Urdf | ConvertFormat::Mjcf) && is_open() {
+        note("note: masses and drives without a value are left out");
     }
 }
 

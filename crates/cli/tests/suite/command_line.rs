@@ -407,6 +407,14 @@ fn all_errors_of_a_table_at_once_each_with_its_place() {
 }
 
 #[test]
+fn frames_of_a_table_on_standard_input() {
+    let table = "convention: standard\n\n| j | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | q1 | 0 | 0.5 | 0 |\n| 2 | q2 | 0 | 0.3 | 0 |\n";
+    let output = fed(&["fk", "-", "-q", "0,0", "--frames", "all", "--json"], table);
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert!(stdout(&output).contains("0.8"), "{}", stdout(&output));
+}
+
+#[test]
 fn hostile_names_stay_text() {
     let robot = "name = '''</title><script>alert(1)</script> \\input{x} #panic()'''\nconvention = \"standard\"\n\
                  [[joints]]\ntheta = \"q1\"\na = 1\n";

@@ -146,8 +146,7 @@ impl Domain for Interval {
     }
     /// From −1 to 1 if 0 may be inside.
     fn sign(&self) -> Self {
-        let of = |x: f64| if x == 0.0 { 0.0 } else { x.signum() };
-        Interval { lo: of(self.lo), hi: of(self.hi) }
+        Interval { lo: self.lo.sign(), hi: self.hi.sign() }
     }
     fn sin_cos(&self) -> (Self, Self) {
         (self.wave(f64::sin, 0.25, 0.75), self.wave(f64::cos, 0.0, 0.5))

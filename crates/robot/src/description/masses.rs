@@ -61,9 +61,26 @@ impl Row {
     }
 }
 
+impl Row {
+    /// What the row says of its link's mass and its drive, with the keys of a robot file.
+    pub fn mass_cells(&self) -> impl Iterator<Item = (&'static str, Expr)> {
+        let single = [
+            ("mass", self.mass),
+            ("rotor", self.rotor),
+            ("viscous", self.viscous),
+            ("coulomb", self.coulomb),
+        ];
+        let three = [("com", self.com), ("first_moment", self.first_moment)];
+        let six = [("inertia", self.inertia), ("inertia_at_origin", self.inertia_at_origin)];
+        let three = three.into_iter().flat_map(|(key, e)| e.into_iter().flatten().map(move |e| (key, e)));
+        let six = six.into_iter().flat_map(|(key, e)| e.into_iter().flatten().map(move |e| (key, e)));
+        single.into_iter().filter_map(|(key, e)| Some((key, e?))).chain(three).chain(six)
+    }
+}
+
 impl Description {
-    /// Puts values in the place of symbols in what the rows say of masses and drives.
-    pub(super) fn substitute_masses(&mut self, value: impl Fn(Expr) -> Expr) {
+    /// Puts values in the place of symbols in what the rows say of masses and drives, and in gravity.
+    pub fn substitute_masses(&mut self, value: impl Fn(Expr) -> Expr) {
         for row in &mut self.rows {
             let single = [&mut row.mass, &mut row.rotor, &mut row.viscous, &mut row.coulomb];
             single.into_iter().flatten().for_each(|e| *e = value(*e));

@@ -256,3 +256,26 @@ fn minimality(program: &Program, parameters: &[BaseParameter]) -> Minimality {
         None => Minimality::Unknown,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// One parameter is twice as effective as another: what drives add must not make them independent.
+    #[test]
+    fn drives_make_no_parameters_independent() {
+        let [a, b, friction, rate] = ["a", "b", "fs", "qd"].map(Symbol::new);
+        let torque = |second: i64, by: Symbol| {
+            let own = Expr::from(a) * Expr::from(rate) + Expr::int(second) * Expr::from(b) * Expr::from(by);
+            own + Expr::from(friction) * Expr::from(rate).sign()
+        };
+        let named =
+            [a, b].map(|symbol| BaseParameter { symbol, value: symbol.into(), link: 0, is_grouped: false });
+        let of = |torque: Expr, variables: &[Symbol]| {
+            minimality(&crate::dynamics::lagrange::program(variables, &[torque]), &named)
+        };
+        assert_eq!(of(torque(2, rate), &[rate]), Minimality::AtLeast(1));
+        let other = Symbol::new("qdd");
+        assert_eq!(of(torque(2, other), &[rate, other]), Minimality::Proved);
+    }
+}

@@ -28,12 +28,27 @@ pub enum Ground {
     Failed,
 }
 
+impl Ground {
+    /// What two together rest on.
+    #[must_use]
+    pub fn and(self, other: Ground) -> Ground {
+        match (self, other) {
+            (Ground::Failed, _) | (_, Ground::Failed) => Ground::Failed,
+            (Ground::Numbers(n, x), Ground::Numbers(m, y)) => Ground::Numbers(n.min(m), x.max(y)),
+            (Ground::Numbers(n, x), _) | (_, Ground::Numbers(n, x)) => Ground::Numbers(n, x),
+            (Ground::Modulo(n), Ground::Modulo(m)) => Ground::Modulo(n.min(m)),
+            (Ground::Modulo(n), _) | (_, Ground::Modulo(n)) => Ground::Modulo(n),
+            (Ground::Proved, Ground::Proved) => Ground::Proved,
+        }
+    }
+}
+
 /// Joints up to which the canonical form is asked; beyond, it is too large.
-const EXPANDED: usize = 4;
+pub(super) const EXPANDED: usize = 4;
 /// States in which values are compared.
-const STATES: usize = 3;
+pub(super) const STATES: usize = 3;
 /// Rounding, by the size of the torques.
-const ROUNDING: f64 = 1e-9;
+pub(super) const ROUNDING: f64 = 1e-9;
 
 /// The torques by Lagrange's equations, rotors and friction with them: `t1` … from q, q̇ and q̈.
 pub fn lagrange(formulas: &Formulas) -> Program {

@@ -41,5 +41,5 @@ pub use inertia::inertia_matrix;
 pub use lagrange::{Ground, lagrange};
 pub use model::{Drive, Dynamics, Formulas, GRAVITY, Link, NoNumbers, Wrench};
 pub use newton_euler::{drive_torques, friction, gravity_torques, inverse_dynamics, velocity_torques};
-pub use programs::{DynamicFunction, DynamicPrograms, Masses};
+pub use programs::{DynamicFunction, DynamicProgram, DynamicPrograms, Masses};
 pub use regressor::regressor;

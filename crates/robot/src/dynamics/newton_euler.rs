@@ -8,6 +8,7 @@ use super::model::{Dynamics, Wrench};
 use crate::description::JointKind;
 use crate::geometry::{Axis, Body, Rotation, Transform, Vector};
 use crate::scalar::Scalar;
+use denavit_program::Domain as _;
 
 /// How a link moves.
 #[derive(Clone, Debug)]
@@ -77,8 +78,7 @@ pub fn velocity_torques<T: Scalar>(arm: &Dynamics<T>, q: &[T], qd: &[T]) -> Vec<
 /// If `qd` does not have one entry per joint.
 pub fn friction(arm: &Dynamics<f64>, qd: &[f64]) -> Vec<f64> {
     assert_eq!(qd.len(), arm.joints(), "one entry per joint");
-    let sign = |v: f64| if v == 0.0 { 0.0 } else { v.signum() };
-    arm.drives.iter().zip(qd).map(|(d, &v)| d.viscous * v + d.coulomb * sign(v)).collect()
+    arm.drives.iter().zip(qd).map(|(d, &v)| d.viscous * v + d.coulomb * v.sign()).collect()
 }
 
 /// The torques of the drives: [`inverse_dynamics`] with Coulomb's friction.

@@ -10,14 +10,14 @@ use super::direct::factored;
 use super::dynamic_model::DynamicModel;
 use super::energy::{kinetic_energy, potential_energy};
 use super::inertia::inertia_matrix;
-use super::lagrange::program;
+use super::lagrange::{EXPANDED, Ground, ROUNDING, STATES, program};
 use super::model::{Formulas, NoNumbers};
 use super::newton_euler::inverse_dynamics;
 use crate::description::Description;
 use crate::geometry::Body;
 use crate::random::Random;
 use denavit_program::{Composer, Program, Residue, Value};
-use denavit_symbolic::{Expr, Rational, Symbol};
+use denavit_symbolic::{Expr, Rational, Symbol, equal};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// A dynamic function.
@@ -63,6 +63,22 @@ pub struct DynamicPrograms {
     /// What stands in the place of symbols of the model.
     values: FxHashMap<Symbol, Expr>,
     torque: Program,
+}
+
+/// A dynamic function as a program.
+#[derive(Clone, Debug)]
+pub struct DynamicProgram {
+    /// Its variables are the vectors that the function reads, one behind the other.
+    pub program: Program,
+    /// On what it rests that the inertia matrix in it is the derivative of the torques: proved where it is that derivative, or none
+    /// is needed.
+    pub inertia: Ground,
+}
+
+impl DynamicProgram {
+    fn plain(program: Program) -> Self {
+        DynamicProgram { program, inertia: Ground::Proved }
+    }
 }
 
 impl DynamicFunction {
@@ -129,24 +145,24 @@ impl DynamicPrograms {
         self.torque.parameters()
     }
 
-    /// The program of a function, its variables the vectors that it reads, one behind the other; nothing for the energies from base
-    /// parameters, which do not tell them.
-    pub fn program(&self, function: DynamicFunction) -> Option<Program> {
-        Some(match function {
+    /// The program of a function; nothing for the energies from base parameters, which do not tell them.
+    pub fn program(&self, function: DynamicFunction) -> Option<DynamicProgram> {
+        let plain = match function {
             DynamicFunction::Torque => self.torque.clone(),
             DynamicFunction::Bias => self.at_rest(1),
             DynamicFunction::Gravity => self.at_rest(2),
-            DynamicFunction::Inertia => self.inertia(),
-            DynamicFunction::Acceleration => self.accelerations(false),
-            DynamicFunction::AccelerationDerivatives => self.accelerations(true),
             DynamicFunction::TorqueDerivatives => self.torque.jacobian(),
             DynamicFunction::Energy if self.masses == Masses::Base => return None,
             DynamicFunction::Energy => self.energies(),
-        })
+            DynamicFunction::Inertia => return shortest(self.inertias()),
+            DynamicFunction::Acceleration => return self.accelerations(false),
+            DynamicFunction::AccelerationDerivatives => return self.accelerations(true),
+        };
+        Some(DynamicProgram::plain(plain))
     }
 
     /// The same from the links as they are, by other ways: the plain recursion of Newton and Euler, composite bodies, and derivatives
-    /// of these. For checks.
+    /// of these; the energies have one way only. For checks.
     pub fn reference(&self, function: DynamicFunction) -> Program {
         let arm = &self.model.formulas.dynamics;
         let n = arm.joints();
@@ -201,14 +217,8 @@ impl DynamicPrograms {
         self.symbols[..3].iter().flatten().any(|k| *k == s)
     }
 
-    /// A, by whichever of its ways is the shortest.
-    fn inertia(&self) -> Program {
-        let all = self.inertias().into_iter();
-        all.min_by_key(|p| p.count().cost()).expect("there are two")
-    }
-
     /// A, one way and another.
-    fn inertias(&self) -> Vec<Program> {
+    fn inertias(&self) -> Vec<DynamicProgram> {
         let n = self.symbols[0].len();
         let slopes = self.unforced().jacobian_by(&self.symbols[2]);
         let triangle = |is_lower: bool| {
@@ -225,9 +235,12 @@ impl DynamicPrograms {
             let entries: Vec<Value> = entries.into_iter().map(|k| values[k]).collect();
             all.finish(&named("a", entries))
         });
-        // What other ways give is taken where it is the same matrix.
-        let composite = self.composite().filter(|p| same(p, &ways[0]));
-        ways.into_iter().chain(composite).collect()
+        // What another way gives is taken where it is the same matrix.
+        let composite = self.composite().and_then(|program| {
+            let inertia = same(&program, &ways[0], n <= EXPANDED);
+            (inertia != Ground::Failed).then_some(DynamicProgram { program, inertia })
+        });
+        ways.map(DynamicProgram::plain).into_iter().chain(composite).collect()
     }
 
     /// A by composite bodies from base parameters; nothing where a link has a mass for each direction.
@@ -258,9 +271,12 @@ impl DynamicPrograms {
     }
 
     /// q̈ = A⁻¹(τ − h), or its derivatives, with the matrix that makes it the shortest.
-    fn accelerations(&self, derivatives: bool) -> Program {
-        let all = self.inertias().into_iter().map(|matrix| self.solved(&matrix, derivatives));
-        all.min_by_key(|p| p.count().cost()).expect("there are two")
+    fn accelerations(&self, derivatives: bool) -> Option<DynamicProgram> {
+        let solved = |matrix: DynamicProgram| DynamicProgram {
+            program: self.solved(&matrix.program, derivatives),
+            ..matrix
+        };
+        shortest(self.inertias().into_iter().map(solved))
     }
 
     fn solved(&self, matrix: &Program, derivatives: bool) -> Program {
@@ -368,28 +384,47 @@ impl Factors {
     }
 }
 
-/// Whether two programs have the same values at random points, modulo a prime or, where constants have no value there, in doubles.
-fn same(a: &Program, b: &Program) -> bool {
+/// The program with the fewest operations.
+fn shortest(all: impl IntoIterator<Item = DynamicProgram>) -> Option<DynamicProgram> {
+    all.into_iter().min_by_key(|p| p.program.count().cost())
+}
+
+/// On what it rests that two programs are equal: their canonical forms, if these may be asked for, or values at random points, modulo a
+/// prime or, where constants have no value there, in doubles.
+fn same(a: &Program, b: &Program, expands: bool) -> Ground {
+    if expands && a.formulas().into_iter().zip(b.formulas()).all(|(x, y)| equal(x, y).is_equal()) {
+        return Ground::Proved;
+    }
     let mut random = Random(1982);
     let mut any = || (random.unit() * (1_u64 << 53) as f64) as u64;
-    (0..3).all(|_| {
+    let mut ground = Ground::Modulo(STATES);
+    for _ in 0..STATES {
         let mut at: FxHashMap<Symbol, Residue> = FxHashMap::default();
         let mut near: FxHashMap<Symbol, f64> = FxHashMap::default();
-        for s in inputs(a).chain(inputs(b)).collect::<Vec<_>>() {
+        for s in inputs(a).chain(inputs(b)) {
             at.entry(s).or_insert_with(|| Residue::input(any(), any()));
             near.entry(s).or_insert_with(|| any() as f64 / (1_u64 << 53) as f64);
         }
         let [x, y] = [a, b].map(|p| {
-            let values = p.eval(|s| at.get(&s).cloned()).unwrap_or_default();
+            let values = p.eval(|s| at.get(&s).cloned()).ok()?;
             values.iter().map(Residue::get).collect::<Option<Vec<u64>>>()
         });
         if let (Some(x), Some(y)) = (x, y) {
-            return !x.is_empty() && x == y;
+            if x != y {
+                return Ground::Failed;
+            }
+            continue;
         }
         let [x, y] = [a, b].map(|p| p.eval(|s| near.get(&s).copied()).unwrap_or_default());
-        let size = x.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-        size > 0.0 && x.len() == y.len() && x.iter().zip(&y).all(|(v, w)| (v - w).abs() <= 1e-10 * size)
-    })
+        let size = x.iter().fold(f64::MIN_POSITIVE, |m, v| m.max(v.abs()));
+        let off = x.iter().zip(&y).map(|(v, w)| (v - w).abs() / size);
+        let worst = off.fold(0.0_f64, |m, v| if v.is_nan() { f64::INFINITY } else { m.max(v) });
+        if x.is_empty() || x.len() != y.len() || worst > ROUNDING {
+            return Ground::Failed;
+        }
+        ground = ground.and(Ground::Numbers(STATES, worst));
+    }
+    ground
 }
 
 /// `t1`, `t2`, ….

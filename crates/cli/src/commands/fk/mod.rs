@@ -19,6 +19,7 @@ use denavit::geometry::orientation::{OrientationSet, extract};
 use denavit::quantity::reading;
 use denavit::robot::MissingValue;
 use denavit_symbolic::{Expr, Symbol};
+use std::collections::HashSet;
 use std::io::Write;
 
 /// Computes poses.
@@ -95,13 +96,8 @@ impl Request {
                 let found: Result<Vec<usize>, String> = one.or_else(|_| all());
                 let mut found =
                     found.map_err(|why| Failure::Usage(format!("--frames {text}: {why}, or `all`")))?;
-                let mut seen = vec![];
-                found.retain(|n| {
-                    !seen.contains(n) && {
-                        seen.push(*n);
-                        true
-                    }
-                });
+                let mut seen = HashSet::new();
+                found.retain(|n| seen.insert(*n));
                 found
             }
         };
