@@ -4,15 +4,16 @@ mod files;
 mod rows;
 mod urdf;
 
-pub use urdf::{bundle, held_joints};
+pub use urdf::bundle;
 
 use crate::arguments::{AngleUnit, LengthUnit, RobotArguments};
 use crate::failure::Failure;
 use crate::terminal::{decimals, note};
 use denavit::catalogue;
 use denavit::description::{
-    Described, Description, Diagnostic, MAX_BYTES, MAX_XML_BYTES, Measure, Mechanism, Row, RowTree, Severity,
-    TableKind, TableOptions, Variable, read_robot, read_table_robot, read_value, root_element, write_toml,
+    Chain, Described, Description, Diagnostic, MAX_BYTES, Measure, Mechanism, NamedFrame, Row, RowChain,
+    RowTree, Severity, TableKind, TableOptions, Variable, read_robot, read_table_robot, read_value,
+    root_element, write_toml,
 };
 use denavit_symbolic::Expr;
 use std::f64::consts::TAU;
@@ -29,16 +30,60 @@ pub fn robot(arguments: &RobotArguments) -> Result<Description, Failure> {
     Ok(robot_file(arguments)?.0)
 }
 
+/// What a chain was taken out of.
+pub enum Around {
+    /// It is all that there is.
+    Nothing,
+    /// A tree of bodies.
+    Bodies(Box<(Mechanism, Chain)>),
+    /// A tree of rows.
+    Rows(Box<RowChain>),
+}
+
+impl Around {
+    /// The joints beside the chain behind which something weighs that hangs on it.
+    pub fn held_joints(&self) -> Vec<String> {
+        match self {
+            Around::Nothing => vec![],
+            Around::Bodies(both) => both.1.held.iter().map(|&j| both.0.joints[j].name.clone()).collect(),
+            Around::Rows(chain) => chain.held.clone(),
+        }
+    }
+
+    /// The frames that do not move on those of the chain's table, by their names.
+    pub fn frames(&self) -> Vec<NamedFrame> {
+        match self {
+            Around::Nothing => vec![],
+            Around::Bodies(both) => both.0.frames(&both.1),
+            Around::Rows(chain) => chain.frames.clone(),
+        }
+    }
+}
+
+/// Reads the robot as [`robot`] does, with what its chain was taken out of.
+///
+/// # Errors
+/// If there is no such robot, or its file cannot be read or has errors.
+pub fn robot_and_around(arguments: &RobotArguments) -> Result<(Description, Around), Failure> {
+    let (description, _, around) = all(arguments)?;
+    Ok((description, around))
+}
+
 /// Reads the robot as [`robot`] does, and gives it as the text of a robot file, too: as it was written where that is all
 /// that there is to it, else as it is to be written.
 ///
 /// # Errors
 /// If there is no such robot, or its file cannot be read or has errors.
 pub fn robot_file(arguments: &RobotArguments) -> Result<(Description, String), Failure> {
+    let (description, text, _) = all(arguments)?;
+    Ok((description, text))
+}
+
+fn all(arguments: &RobotArguments) -> Result<(Description, String, Around), Failure> {
     let name = catalogue_name(&arguments.robot);
     let listed = name.as_deref().and_then(|n| Some((n, listed(n)?)));
     check_options(arguments, listed.is_some())?;
-    let (mut description, text) = match listed {
+    let (mut description, text, around) = match listed {
         Some((name, text)) => robot_of_rows(arguments, read(name, text, read_robot(text))?, text)?,
         None => from_file(arguments)?,
     };
@@ -53,8 +98,11 @@ pub fn robot_file(arguments: &RobotArguments) -> Result<(Description, String), F
         description.set(&name, &value).map_err(|why| Failure::Usage(format!("--set {setting}: {why}")))?;
     }
     let text = text.filter(|_| arguments.set.is_empty()).unwrap_or_else(|| write_toml(&description));
-    Ok((description, text))
+    Ok((description, text, around))
 }
+
+/// A chain, its text if it has one, and what it was taken out of.
+type Found = (Description, Option<String>, Around);
 
 /// The endings of files of bodies and joints, and those of others that are known.
 const TREES: [&str; 4] = ["urdf", "xacro", "xml", "mjcf"];
@@ -74,11 +122,6 @@ pub fn is_tree(name: &str) -> bool {
     let read = File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
     let text = String::from_utf8_lossy(&head);
     read.is_ok() && matches!(root_element(&text), Some("robot" | "mujoco" | "mujocoinclude" | "sdf"))
-}
-
-/// True for such a file that the page opens itself.
-pub fn is_for_page(name: &str) -> bool {
-    is_tree(name) && !contents(name, MAX_XML_BYTES).is_ok_and(|text| urdf::is_mjcf(&text))
 }
 
 /// Options that are for other kinds of files are refused.
@@ -142,15 +185,16 @@ fn table_kind(ending: &str) -> Option<TableKind> {
 }
 
 /// The robot, and the text of its file if that is a robot file.
-fn from_file(arguments: &RobotArguments) -> Result<(Description, Option<String>), Failure> {
+fn from_file(arguments: &RobotArguments) -> Result<Found, Failure> {
+    let without_text = |(description, around)| (description, None, around);
     let name = arguments.robot.as_str();
     let path = Path::new(name);
     let kind = match path.extension().and_then(|e| e.to_str()) {
         _ if name == "-" => Some(TableKind::Markdown),
         Some("toml") => None,
         Some(ending) if let Some(kind) = table_kind(ending) => Some(kind),
-        _ if is_tree(name) => return Ok((urdf::from_urdf(arguments)?, None)),
-        Some("par") => return Ok((rows::from_par(arguments)?, None)),
+        _ if is_tree(name) => return urdf::from_urdf(arguments).map(without_text),
+        Some("par") => return rows::from_par(arguments).map(without_text),
         _ if path.is_file() => {
             let hint = "a robot file ends in .toml, .urdf, .xacro, .xml, .mjcf or .par, a table in .md, .txt, .csv, .tsv or .tex";
             return Err(Failure::Input(format!("error: {name}: what is this?\n  = hint: {hint}")));
@@ -162,19 +206,15 @@ fn from_file(arguments: &RobotArguments) -> Result<(Description, Option<String>)
         None => read_robot(&text),
         Some(kind) => read_table_robot(&text, kind, &table_options(arguments)),
     };
-    let (description, written) = robot_of_rows(arguments, read(name, &text, outcome)?, &text)?;
-    Ok((description, written.filter(|_| kind.is_none())))
+    let (description, written, around) = robot_of_rows(arguments, read(name, &text, outcome)?, &text)?;
+    Ok((description, written.filter(|_| kind.is_none()), around))
 }
 
 /// The chain of what was read, and its text if that describes just this chain.
-fn robot_of_rows(
-    arguments: &RobotArguments,
-    described: Described,
-    text: &str,
-) -> Result<(Description, Option<String>), Failure> {
+fn robot_of_rows(arguments: &RobotArguments, described: Described, text: &str) -> Result<Found, Failure> {
     let is_chain = matches!(described, Described::Chain(_));
-    let description = rows::chain(arguments, described)?;
-    Ok((description, is_chain.then(|| text.to_string())))
+    let (description, around) = rows::chain(arguments, described)?;
+    Ok((description, is_chain.then(|| text.to_string()), around))
 }
 
 /// The tree of bodies or rows that the arguments name, if it is one and no chain of it is asked for.
@@ -328,8 +368,13 @@ fn similar(candidate: &str, text: &str) -> bool {
 pub fn joint(d: &Description, word: &str) -> Result<usize, String> {
     let moving: Vec<_> = d.rows.iter().filter_map(|r| Some((r.variable?, r.name.as_deref()))).collect();
     let number = word.parse().ok().filter(|n| (1..=moving.len()).contains(n)).map(|n: usize| n - 1);
-    let variable = || moving.iter().position(|m| *m.0.symbol.name() == *word);
-    let found = number.or_else(variable).or_else(|| moving.iter().position(|m| m.1 == Some(word)));
+    let variable = moving.iter().position(|m| *m.0.symbol.name() == *word);
+    let named = moving.iter().position(|m| m.1 == Some(word));
+    if let (None, Some(v), Some(n)) = (number, variable, named.filter(|n| variable != Some(*n))) {
+        let what = format!("`{word}` is the variable of joint {} and the name of joint {}", v + 1, n + 1);
+        return Err(format!("{what}: name it by its number"));
+    }
+    let found = number.or(variable).or(named);
     found.ok_or_else(|| {
         let follows = d.rows.iter().find(|r| r.variable.is_none() && r.name.as_deref() == Some(word));
         if let Some(leader) = follows.and_then(|row| follows_whom(d, row)) {

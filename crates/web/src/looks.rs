@@ -45,7 +45,8 @@ struct Part {
     file: Option<String>,
     origin: Matrix,
     shape: &'static str,
-    /// Edges of a box; radius and length of a cylinder; radius of a ball; scales of a mesh.
+    /// Edges of a box; radius and length of a cylinder, or of that of a capsule; half the axes of an ellipsoid; radius of a ball;
+    /// scales of a mesh.
     size: [f64; 3],
 }
 
@@ -68,6 +69,8 @@ pub fn looks(mechanism: &Mechanism, chain: &Chain, files: &Dropped, main: &str) 
         let (shape, size, file) = match &look.shape {
             Shape::Box(size) => ("box", *size, None),
             Shape::Cylinder { radius, length } => ("cylinder", [*radius, *length, 0.0], None),
+            Shape::Capsule { radius, length } => ("capsule", [*radius, *length, 0.0], None),
+            Shape::Ellipsoid(half) => ("ellipsoid", *half, None),
             Shape::Sphere { radius } => ("sphere", [*radius, 0.0, 0.0], None),
             Shape::Mesh { file, scale } => match files.mesh(main, file) {
                 Some(path) => ("mesh", *scale, Some(path)),

@@ -1,11 +1,11 @@
-//! Robots out of trees: a URDF, plain or for xacro, with the files that lie around it, and a chain through it.
+//! Robots out of trees: a URDF, plain or for xacro, or a model of MuJoCo's, with the files that lie around it, and a chain through it.
 
 use crate::dropped::{Dropped, Lying};
 use crate::looks::{Looks, Missing, looks};
 use crate::refusal::Refusal;
 use crate::robot_file::RobotFile;
 use denavit::description::{
-    Convention, Decimals, Diagnostic, Files, NoChain, Severity, read_xacro, write_toml,
+    Convention, Decimals, Diagnostic, Files, NoChain, Severity, read_bodies, write_toml,
 };
 use denavit_report::words::Geometry as _;
 use denavit_wire::finding::Finding;
@@ -80,7 +80,7 @@ pub fn tree(wanted: &Wanted) -> Result<Taken, Refusal> {
     };
     let mut dropped = Dropped::new(&wanted.around);
     let mut read =
-        |decimals| read_xacro(&wanted.name, &wanted.text, &mut dropped, &wanted.arguments, decimals);
+        |decimals| read_bodies(&wanted.name, &wanted.text, &mut dropped, &wanted.arguments, decimals);
     let decimals = if wanted.as_written { Decimals::AsWritten } else { Decimals::Meant };
     let (outcome, files) = read(decimals);
     let (mechanism, findings) = match outcome {

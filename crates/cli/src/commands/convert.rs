@@ -9,8 +9,8 @@ use crate::terminal::note;
 use denavit::description::{
     Alone, AxesAs, Convention, Decimals, Described, Description, Mechanism, NoPar, NotNamed, Row, RowTree,
     TableKind, TableOptions, read_mjcf, read_par, read_robot, read_table, read_table_robot, read_toml,
-    read_urdf, write_axes, write_mjcf, write_par, write_table, write_toml, write_tree, write_tree_table,
-    write_urdf,
+    read_urdf, refused_masses, write_axes, write_mjcf, write_par, write_table, write_toml, write_tree,
+    write_tree_table, write_urdf,
 };
 use denavit::mechanism::{COMPARED, Comparison, compare, compare_chains};
 use denavit_symbolic::Expr;
@@ -66,6 +66,21 @@ fn say_left(d: &Description, to: ConvertFormat) {
     }
 }
 
+/// Says which masses MuJoCo refuses.
+fn say_refused(bodies: &Mechanism) {
+    let refused = refused_masses(bodies);
+    if !refused.is_empty() {
+        let names = refused.join(", ");
+        note(&format!(
+            "warning: MuJoCo refuses the masses of {names}, which no bodies have: they are left out"
+        ));
+    }
+    let moves = bodies.joints.iter().any(|j| j.kind.is_some() && bodies.bodies[j.child].mass.is_none());
+    if moves {
+        note("note: a link without a mass has that of its solids in MuJoCo, 1000 kg/m³");
+    }
+}
+
 /// What was written, and how it is read back.
 struct Written {
     text: String,
@@ -106,6 +121,7 @@ fn written(
         ConvertFormat::Mjcf => {
             let bodies =
                 Mechanism::of(converted).map_err(|missing| no_values(missing.parameters.into_iter()))?;
+            say_refused(&bodies);
             let text = write_mjcf(&bodies);
             let copy = text.clone();
             let back = move |decimals| {

@@ -1,6 +1,6 @@
 //! What is described in rows, one chain or a tree, and the chain of it that a command is about.
 
-use super::{contents, render};
+use super::{Around, contents, render};
 use crate::arguments::RobotArguments;
 use crate::failure::Failure;
 use crate::terminal::{note, words};
@@ -9,17 +9,17 @@ use denavit::description::{
 };
 use denavit_report::words::Whole;
 
-/// The chain of what was read; a description that is one already has no `--base` and `--tip`.
+/// The chain of what was read, and what is around it; a description that is one already has no `--base` and `--tip`.
 ///
 /// # Errors
 /// If there is no such chain.
-pub fn chain(arguments: &RobotArguments, described: Described) -> Result<Description, Failure> {
+pub fn chain(arguments: &RobotArguments, described: Described) -> Result<(Description, Around), Failure> {
     let name = arguments.robot.as_str();
     let tree = match described {
         Described::Chain(d) => {
             let given = [(&arguments.base, "--base"), (&arguments.tip, "--tip")];
             return match given.into_iter().find(|g| g.0.is_some()) {
-                None => Ok(*d),
+                None => Ok((*d, Around::Nothing)),
                 Some((_, option)) => Err(Failure::Usage(format!(
                     "{option} is for URDF files and trees, and {name} is one chain"
                 ))),
@@ -31,7 +31,11 @@ pub fn chain(arguments: &RobotArguments, described: Described) -> Result<Descrip
 }
 
 /// The chain of a tree that the arguments name.
-fn of_tree(arguments: &RobotArguments, tree: &RowTree, usual: Convention) -> Result<Description, Failure> {
+fn of_tree(
+    arguments: &RobotArguments,
+    tree: &RowTree,
+    usual: Convention,
+) -> Result<(Description, Around), Failure> {
     let name = arguments.robot.as_str();
     let convention = arguments.convention.map_or(usual, Into::into);
     let (base, tip) = (arguments.base.as_deref(), arguments.tip.as_deref());
@@ -43,7 +47,7 @@ fn of_tree(arguments: &RobotArguments, tree: &RowTree, usual: Convention) -> Res
         Some(agreement) => words().agreement(agreement, Whole::Tree),
     };
     note(&format!("note: from `{}` to `{}`, {joints}; {rows}", chain.from, chain.to));
-    Ok(chain.description)
+    Ok((chain.description.clone(), Around::Rows(Box::new(chain))))
 }
 
 /// Reads the file of `.par` that the arguments name.
@@ -63,13 +67,14 @@ pub fn par(arguments: &RobotArguments) -> Result<RowTree, Failure> {
 ///
 /// # Errors
 /// If the file cannot be read or has errors, or there is no such chain.
-pub fn from_par(arguments: &RobotArguments) -> Result<Description, Failure> {
+pub fn from_par(arguments: &RobotArguments) -> Result<(Description, Around), Failure> {
     let tree = par(arguments)?;
     let given = arguments.base.is_some() || arguments.tip.is_some();
     if tree.is_chain() && !given {
         let convention = arguments.convention.map_or(Convention::Khalil, Into::into);
         let chain = tree.chain(None, None, convention);
-        return chain.map(|c| c.description).map_err(|why| no_chain(&arguments.robot, &why));
+        let chain = chain.map_err(|why| no_chain(&arguments.robot, &why))?;
+        return Ok((chain.description, Around::Nothing));
     }
     of_tree(arguments, &tree, Convention::Khalil)
 }

@@ -1,14 +1,13 @@
 //! A URDF, plain or for xacro to expand, and the chain of it that a command is about.
 
-use super::coloured;
 use super::files::{Folder, plain};
 use super::rows::no_chain;
+use super::{Around, coloured};
 use crate::arguments::RobotArguments;
 use crate::failure::Failure;
 use crate::terminal::{note, words};
 use denavit::description::{
-    Convention, Decimals, Description, Diagnostic, MAX_XML_BYTES, Mechanism, Shape, read_mjcf, read_xacro,
-    root_element,
+    Convention, Decimals, Description, Diagnostic, MAX_XML_BYTES, Mechanism, Shape, is_mjcf, read_bodies,
 };
 use denavit_wire::view::Bundle;
 use std::fs;
@@ -17,44 +16,20 @@ use std::path::PathBuf;
 /// Metres that a person could see.
 const SEEN: f64 = 1e-9;
 
-/// The chain that the arguments name.
+/// The chain that the arguments name, and what is around it.
 ///
 /// # Errors
 /// If the file cannot be read or has errors, or there is no such chain.
-pub fn from_urdf(arguments: &RobotArguments) -> Result<Description, Failure> {
+pub fn from_urdf(arguments: &RobotArguments) -> Result<(Description, Around), Failure> {
     let (name, mechanism) = (arguments.robot.as_str(), mechanism(arguments)?);
     let convention = arguments.convention.map_or(Convention::Standard, Into::into);
     let (base, tip) = (arguments.base.as_deref(), arguments.tip.as_deref());
     let chain = mechanism.chain(base, tip, convention).map_err(|why| no_chain(name, &why))?;
     let [from, to] = [chain.from, chain.to].map(|b| mechanism.bodies[b].name.clone());
     note(&format!("note: {}", words().chain(&chain, &mechanism)));
-    Ok(Description { source: Some(format!("{name}: {from} to {to}")), ..chain.description })
-}
-
-/// The joints beside a chain of bodies behind which something weighs that hangs on it.
-///
-/// # Errors
-/// If the file cannot be read.
-pub fn held_joints(arguments: &RobotArguments) -> Result<Vec<String>, Failure> {
-    let name = arguments.robot.as_str();
-    if !super::is_tree(name) {
-        return Ok(vec![]);
-    }
-    let text = super::contents(name, MAX_XML_BYTES);
-    let text = text.map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
-    let packages = pairs(&arguments.package, "--package", "ur_description=../ur_description")?;
-    let packages: Vec<(String, PathBuf)> = packages.into_iter().map(|(n, p)| (n, p.into())).collect();
-    let given = pairs(&arguments.arg, "--arg", "name=ur5")?;
-    let mut folder = Folder::around(name, &packages);
-    let (read, _) = match is_mjcf(&text) {
-        true => read_mjcf(name, &text, &mut folder, Decimals::Meant),
-        false => read_xacro(name, &text, &mut folder, &given, Decimals::Meant),
-    };
-    let Ok((mechanism, _)) = read else { return Ok(vec![]) };
-    let (base, tip) = (arguments.base.as_deref(), arguments.tip.as_deref());
-    let chain = mechanism.chain(base, tip, Convention::Standard);
-    let held = chain.map(|c| c.held.iter().map(|&j| mechanism.joints[j].name.clone()).collect());
-    Ok(held.unwrap_or_default())
+    let description =
+        Description { source: Some(format!("{name}: {from} to {to}")), ..chain.description.clone() };
+    Ok((description, Around::Bodies(Box::new((mechanism, chain)))))
 }
 
 /// All of the file that the arguments name.
@@ -68,16 +43,12 @@ pub fn mechanism(arguments: &RobotArguments) -> Result<Mechanism, Failure> {
     let packages = pairs(&arguments.package, "--package", "ur_description=../ur_description")?;
     let packages: Vec<(String, PathBuf)> = packages.into_iter().map(|(n, p)| (n, p.into())).collect();
     let given = pairs(&arguments.arg, "--arg", "name=ur5")?;
-    let is_mjcf = is_mjcf(&text);
-    if is_mjcf && !given.is_empty() {
+    if is_mjcf(&text) && !given.is_empty() {
         return Err(Failure::Usage(format!("--arg is for xacro files, and {name} is a model of MuJoCo's")));
     }
     let read = |decimals| {
         let mut folder = Folder::around(name, &packages);
-        match is_mjcf {
-            true => read_mjcf(name, &text, &mut folder, decimals),
-            false => read_xacro(name, &text, &mut folder, &given, decimals),
-        }
+        read_bodies(name, &text, &mut folder, &given, decimals)
     };
     let decimals = if arguments.as_written { Decimals::AsWritten } else { Decimals::Meant };
     let (outcome, files) = read(decimals);
@@ -118,7 +89,7 @@ pub fn bundle(arguments: &RobotArguments) -> Result<(Bundle, Vec<PathBuf>), Fail
     let packages: Vec<(String, PathBuf)> = packages.into_iter().map(|(n, p)| (n, p.into())).collect();
     let given = pairs(&arguments.arg, "--arg", "name=ur5")?;
     let mut folder = Folder::around(&name, &packages);
-    let (outcome, _) = read_xacro(&name, &text, &mut folder, &given, Decimals::Meant);
+    let (outcome, _) = read_bodies(&name, &text, &mut folder, &given, Decimals::Meant);
     let (mechanism, _) = outcome.map_err(|_| Failure::Input(format!("error: {name}: it has errors")))?;
     let mut paths: Vec<PathBuf> = vec![];
     let mut meshes: Vec<(String, String, usize)> = vec![];
@@ -168,11 +139,6 @@ fn with_data(key: String, path: PathBuf) -> Vec<(String, PathBuf)> {
     all.sort();
     all.insert(0, (key, path));
     all
-}
-
-/// True for a model of MuJoCo's.
-pub fn is_mjcf(text: &str) -> bool {
-    matches!(root_element(text), Some("mujoco" | "mujocoinclude"))
 }
 
 /// `NAME=VALUE`, or `NAME:=VALUE` as ROS writes it.

@@ -330,3 +330,61 @@ fn frames_have_names_and_losses_are_said() {
     assert!(said.contains("a URDF has no place for it: rotors"), "{said}");
     assert!(urdf.contains("damping=\"0.5\""), "{urdf}");
 }
+
+/// Links of a file are frames of a chain through it, wherever they stand on it; one that moves by itself is none.
+#[test]
+fn links_are_frames_of_a_chain() {
+    let file = urdf("ur5_gripper");
+    let q = "0.3,-0.4,0.5,0.6,-0.7,0.8";
+    let all = ["fk", &file, "--frames", "all", "--json", "-q"];
+    let joints = ["shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3"];
+    let values: Vec<String> =
+        joints.iter().zip(q.split(',')).map(|(j, x)| format!("{j}_joint={x}")).collect();
+    let (code, whole, said) = run(&[&all[..], &[&values.join(",")]].concat());
+    assert_eq!(code, 0, "{said}");
+    let whole: Value = serde_json::from_str(&whole).expect("an answer");
+    let (code, some, said) =
+        run(&["fk", &file, "--tip", "tool0", "--frames", "forearm_link,tool0,base_link", "-q", q, "--json"]);
+    assert_eq!(code, 0, "{said}");
+    let some: Value = serde_json::from_str(&some).expect("an answer");
+    for (k, name) in ["forearm_link", "tool0", "base_link"].iter().enumerate() {
+        let frames = whole["frames"].as_array().expect("frames");
+        let there = frames.iter().find(|f| f["name"] == *name).expect("a link");
+        let rows = |v: &Value| -> Vec<f64> {
+            let rows = v.as_array().expect("rows").iter().flat_map(|r| r.as_array().expect("a row").clone());
+            rows.map(|x| x.as_f64().expect("a number")).collect()
+        };
+        let (a, b) = (rows(&there["pose"]), rows(&some["frames"][k]));
+        let off = a.iter().zip(&b).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+        assert!(off < 1e-12 && a.len() == b.len(), "{name}: {a:?} {b:?}");
+    }
+    let (_, text, _) = run(&["fk", &file, "--tip", "tool0", "--frames", "forearm_link", "-q", q]);
+    assert!(text.contains("→ forearm_link) ="), "{text}");
+    let (code, _, said) =
+        run(&["fk", &file, "--tip", "tool0", "--frames", "robotiq_85_left_finger_tip_link", "-q", q]);
+    assert!(code == 2 && said.contains("no frame"), "{said}");
+}
+
+/// A word that is the variable of one joint and the name of another names neither.
+#[test]
+fn a_name_that_is_anothers_variable_is_refused() {
+    let rows = "name = \"t\"\nconvention = \"standard\"\n[[joints]]\nname = \"q2\"\ntheta = \"q1\"\na = 1\n\
+                [[joints]]\nname = \"q1\"\ntheta = \"q2\"\na = 1\n";
+    let file = File::new("crossed.toml", rows);
+    let (code, _, said) = run(&["fk", file.name(), "-q", "q2=1"]);
+    assert!(code == 2 && said.contains("`q2` is the variable of joint 2 and the name of joint 1"), "{said}");
+    assert_eq!(run(&["fk", file.name(), "-q", "2=1"]).0, 0);
+}
+
+/// What MuJoCo refuses to be a body is written without its mass, and that is said.
+#[test]
+fn masses_that_no_body_has_are_said() {
+    let rows = "name = \"t\"\nconvention = \"standard\"\n[[joints]]\ntheta = \"q1\"\na = 1\nmass = 1\ncom = [0, 0, 0]\n\
+                inertia = [1, 0, 0, 0.1, 0, 0.1]\n";
+    let file = File::new("impossible.toml", rows);
+    let (_, model, said) = run(&["convert", file.name(), "--to", "mjcf"]);
+    assert!(
+        said.contains("MuJoCo refuses the masses of link1") && !model.contains("<inertial"),
+        "{said}{model}"
+    );
+}

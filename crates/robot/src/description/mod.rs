@@ -3,6 +3,7 @@
 //! A [`Description`] is text made precise: every cell an exact formula in parameters and joint variables. It is
 //! read from a robot file or from a table as it stands in a document, and turned into a `Robot` to compute with.
 
+mod bodies;
 mod branches;
 mod cell;
 pub mod convert;
@@ -32,13 +33,14 @@ mod value;
 mod xacro;
 mod xml;
 
+pub use bodies::{is_mjcf, read_bodies};
 pub use branches::{NamedFrame, NoPar, ParFile, RowChain, RowTree, read_par, write_par};
 pub use cell::MAX_LENGTH as MAX_CELL_BYTES;
 pub use convert::{Conversion, Moved, SameChain, prove_same_chain};
 pub use decimals::Decimals;
 pub use diagnostic::{Diagnostic, Diagnostics, Severity, line_column, render};
 pub use lines::{Agreement, AxisAtRest, ChainAtRest, Named, NotNamed, NotPlaced, Placed, same_screws};
-pub use mjcf::{read_mjcf, write_mjcf};
+pub use mjcf::{read_mjcf, refused_masses, write_mjcf};
 pub use order::{Cell, Screw, Screws};
 pub use parameters::MissingValue;
 pub use robot_file::{

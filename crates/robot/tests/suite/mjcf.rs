@@ -458,6 +458,30 @@ fn keyframes_are_named_configurations() {
     assert_eq!((&back.poses[0].0, values(&back)), (&arm.poses[0].0, values(&arm)));
 }
 
+/// Where no `<inertial>` says what a body weighs, its geoms do.
+#[test]
+fn bodies_weigh_what_mujoco_says() {
+    let all: Value = serde_json::from_str(include_str!("../peers/mjcf_masses.json")).unwrap();
+    let mut compared = 0;
+    for model in all["models"].as_array().unwrap() {
+        let text = model["text"].as_str().unwrap();
+        let m = read(text, Decimals::AsWritten);
+        for (name, peer) in model["bodies"].as_object().unwrap() {
+            let body = &m.bodies[m.body(name).unwrap_or_else(|| panic!("no {name}"))];
+            let mass = body.mass.as_ref().unwrap_or_else(|| panic!("{name} has no mass: {text}"));
+            let own = [mass.mass].into_iter().chain(mass.com).chain(mass.inertia);
+            let own: Vec<f64> = own.map(|e| e.eval(|_| None).unwrap()).collect();
+            let list = |key: &str| peer[key].as_array().unwrap().iter().map(|x| x.as_f64().unwrap());
+            let said = [peer["mass"].as_f64().unwrap()].into_iter().chain(list("com")).chain(list("inertia"));
+            for (x, y) in own.iter().zip(said) {
+                assert!((x - y).abs() < 1e-9 * (1.0 + y.abs()), "{name}: {own:?} {peer} in {text}");
+            }
+            compared += 1;
+        }
+    }
+    assert!(compared > 100, "{compared}");
+}
+
 /// Drives and gravity go through a model, and through a tree of rows with its masses; gravity is turned with the base of a chain.
 #[test]
 fn drives_gravity_and_masses_are_kept() {

@@ -7,6 +7,7 @@ use denavit::description::{
     TableKind, TableOptions, line_column, prove_same_chain, read_mjcf, read_par, read_robot,
     read_table_robot, read_toml, read_urdf, write_mjcf, write_par, write_tree, write_urdf,
 };
+use denavit::dynamics::{Dynamics, inverse_dynamics};
 use denavit::geometry::Transform;
 use denavit::mechanism::{Comparison, compare};
 use denavit::robot::Robot;
@@ -411,6 +412,67 @@ fn trees_of_bodies_become_rows() {
         }
     }
     assert!(files >= 4 && all >= 60 && proved >= all / 2, "{files} files; {proved} of {all}");
+}
+
+/// What hangs beside a chain weighs on it: rows, and the same tree as bodies, have the same torques, and the same joints are held.
+#[test]
+fn branches_weigh_on_the_chain() {
+    let mut random = Random(31);
+    let mut held = 0;
+    for _ in 0..20 {
+        let mut text = String::from("name = \"t\"\nconvention = \"khalil\"\ngravity = [0, 0.5, -9.8]\n");
+        let rows = 7;
+        let cells: Vec<[String; 6]> =
+            (0..rows).map(|_| std::array::from_fn(|_| format!("{:.3}", 2.0 * random.unit() - 1.0))).collect();
+        let mut below = |n: usize| (random.unit() * n as f64) as usize;
+        let mut moving = 0;
+        for (j, [a, b, c, x, y, z]) in cells.iter().enumerate() {
+            let after = if j < 3 { j } else { below(j + 1) };
+            let (theta, d) = match below(4) {
+                0 if j > 0 => (a.clone(), b.clone()),
+                1 => (a.clone(), {
+                    moving += 1;
+                    format!("\"q{moving} + {b}\"")
+                }),
+                _ => (
+                    {
+                        moving += 1;
+                        format!("\"q{moving} + {a}\"")
+                    },
+                    b.clone(),
+                ),
+            };
+            text += &format!(
+                "[[joints]]\nname = \"r{j}\"\nafter = {after}\ntheta = {theta}\nr = {d}\nd = {c}\nalpha = {x}\n"
+            );
+            if below(4) > 0 {
+                text += &format!(
+                    "mass = 1.5\ncom = [{x}, {y}, {z}]\ninertia = [0.3, 0.01, 0.02, 0.25, 0.03, 0.35]\n"
+                );
+            }
+        }
+        let tree = tree(&text);
+        let m = tree.mechanism().unwrap();
+        for tip in tree.tips() {
+            let Ok(by_rows) = tree.chain(None, Some(&tip), Convention::Khalil) else { continue };
+            let by_bodies = m.chain(None, Some(&tip), Convention::Khalil).unwrap();
+            let names: Vec<&String> = by_bodies.held.iter().map(|&j| &m.joints[j].name).collect();
+            assert_eq!(by_rows.held.iter().collect::<Vec<_>>(), names, "{tip} in {text}");
+            held += names.len();
+            let n = by_rows.description.variables().len();
+            let mut list = || -> Vec<f64> { (0..n).map(|_| 2.0 * random.unit() - 1.0).collect() };
+            let [q, qd, qdd] = [list(), list(), list()];
+            let torques = |d: &Description| match Dynamics::numeric(d) {
+                Ok(arm) => inverse_dynamics(&arm, &q, &qd, &qdd, None),
+                Err(_) => vec![0.0; n],
+            };
+            let (rows, bodies) = (torques(&by_rows.description), torques(&by_bodies.description));
+            for (a, b) in rows.iter().zip(&bodies) {
+                assert!((a - b).abs() < 1e-10, "{tip}: {rows:?} {bodies:?} in {text}");
+            }
+        }
+    }
+    assert!(held > 20, "{held}");
 }
 
 /// The structures beside the catalogue: all their frames are where their chains have them.

@@ -27,11 +27,11 @@ use std::io::Write;
 /// # Errors
 /// If the robot or an option cannot be read, masses or values are missing, or nothing can be written.
 pub fn run(arguments: &DynamicsArguments) -> Result<(), Failure> {
-    let mut description = load::robot(&arguments.robot)?;
+    let (mut description, around) = load::robot_and_around(&arguments.robot)?;
     if let Some(text) = &arguments.gravity {
         description.gravity = Some(gravity(text)?);
     }
-    let held = load::held_joints(&arguments.robot)?;
+    let held = around.held_joints();
     if !held.is_empty() {
         note(&format!(
             "note: what hangs on the chain behind {} counts as fixed where these joints are at 0",

@@ -1,6 +1,6 @@
 //! What is answered for a configuration, as JSON.
 
-use crate::commands::fk::{Request, limits};
+use crate::commands::fk::{Frame, Request, limits};
 use denavit::description::{Description, Joint, Mechanism};
 use denavit::forward::{Reference, frames_program};
 use denavit::geometry::orientation::{OrientationSet, extract};
@@ -9,7 +9,7 @@ use denavit_program::{Arithmetic, Function, Program};
 use denavit_symbolic::Expr;
 use denavit_wire::Schema;
 use denavit_wire::forward::{NamedPose, Placed, PlacedTree};
-use denavit_wire::pose::{matrices, matrix_of};
+use denavit_wire::pose::{matrices, matrix, matrix_of};
 
 /// Entries of a pose.
 const POSE: usize = 16;
@@ -52,6 +52,8 @@ pub struct Answers {
     /// For each joint; none if no joint has limits.
     limits: Vec<Option<[f64; 2]>>,
     orientation: Option<OrientationSet>,
+    /// The frames that are asked for.
+    frames: Vec<Frame>,
     /// The bodies and the joints of a tree, where all of it was asked for.
     tree: Option<Names>,
 }
@@ -85,13 +87,14 @@ impl Answers {
             robot: m.name.clone(),
             limits,
             orientation: None,
+            frames: vec![],
             tree: Some(names),
         }
     }
 
     /// For a robot whose parameters have values.
     pub fn new(description: &Description, request: &Request) -> Self {
-        let frames = request.frames.iter().map(|&i| Reference::Frame(i));
+        let frames = request.frames.iter().map(|f| Reference::Frame(f.on));
         let poses: Vec<Reference> = frames.chain([Reference::Tool]).collect();
         let mut limits: Vec<Option<[f64; 2]>> = limits(description).into_iter().map(|l| l.1).collect();
         let joints = limits.len();
@@ -105,6 +108,7 @@ impl Answers {
             robot: description.name.clone(),
             limits,
             orientation: request.orientation,
+            frames: request.frames.clone(),
             tree: None,
         }
     }
@@ -122,8 +126,10 @@ impl Answers {
         }
         let (frames, pose) = results.split_at(self.results - POSE);
         let orientation = self.orientation.zip(transforms(pose).next());
+        let placed: Vec<_> =
+            self.frames.iter().zip(transforms(frames)).map(|(f, x)| matrix(&f.placed(x))).collect();
         let placed = Placed {
-            frames: &matrices(frames),
+            frames: &placed,
             orientation: orientation.map(|(set, x)| extract(&x.rotation, set).into()),
             pose: matrix_of(pose),
             q,

@@ -7,19 +7,18 @@ mod tree;
 use crate::arguments::{FkArguments, Format};
 use crate::commands::derive;
 use crate::failure::Failure;
-use crate::load;
+use crate::load::{self, Around};
 use crate::terminal::{Align, HEADING, NAME, lowered, matrix, noise, note, number, raised, styled};
 use answer::Answers;
 pub use answer::strict;
 use denavit::Robot;
-use denavit::description::{Description, JointKind, Measure, Variable};
+use denavit::description::{Description, JointKind, Measure, NamedFrame, Variable};
 use denavit::forward::Reference;
 use denavit::geometry::Transform;
 use denavit::geometry::orientation::{OrientationSet, extract};
 use denavit::quantity::reading;
 use denavit::robot::MissingValue;
 use denavit_symbolic::{Expr, Symbol};
-use std::collections::HashSet;
 use std::io::Write;
 
 /// Computes poses.
@@ -36,8 +35,8 @@ pub fn run(arguments: &FkArguments) -> Result<(), Failure> {
     {
         return tree::run(arguments, &found);
     }
-    let description = load::robot(&arguments.robot)?;
-    let request = Request::new(&description, arguments)?;
+    let (description, around) = load::robot_and_around(&arguments.robot)?;
+    let request = Request::new(&description, &around, arguments)?;
     let robot = Robot::numeric(&description)
         .map_err(|missing| without_values(&description, &arguments.robot.robot, &missing))?;
     match (&arguments.input, &arguments.q) {
@@ -79,26 +78,63 @@ pub fn without_values(description: &Description, name: &str, missing: &MissingVa
 
 /// What is asked for besides the tool's pose.
 struct Request {
-    frames: Vec<usize>,
+    frames: Vec<Frame>,
     orientation: Option<OrientationSet>,
 }
 
+/// A frame that is asked for: one of the table, or one with a name that does not move there.
+#[derive(Clone, PartialEq)]
+struct Frame {
+    on: usize,
+    named: Option<(String, Transform<f64>)>,
+}
+
+impl Frame {
+    fn of_table(on: usize) -> Self {
+        Frame { on, named: None }
+    }
+
+    /// Its pose, where the table's frame has this one.
+    fn placed(&self, table: Transform<f64>) -> Transform<f64> {
+        self.named.as_ref().map_or(table, |n| table * n.1)
+    }
+
+    /// The frame that a word names.
+    fn find(d: &Description, around: &[NamedFrame], word: &str) -> Result<Self, String> {
+        load::frame(d, word).map(Frame::of_table).or_else(|why| {
+            let named = around.iter().find(|f| f.name == word);
+            let Some(NamedFrame { name, on, pose }) = named else {
+                let names: Vec<&str> = around.iter().map(|f| f.name.as_str()).collect();
+                let also = if names.is_empty() { String::new() } else { format!(", {}", names.join(", ")) };
+                return Err(format!("{why}{also}"));
+            };
+            let pose = pose.map(|e| e.eval(|s| d.value(s)).unwrap_or(f64::NAN));
+            Ok(Frame { on: on.map_or(0, |row| row + 1), named: Some((name.clone(), pose)) })
+        })
+    }
+}
+
 impl Request {
-    fn new(description: &Description, arguments: &FkArguments) -> Result<Self, Failure> {
+    fn new(description: &Description, around: &Around, arguments: &FkArguments) -> Result<Self, Failure> {
         let last = description.rows.len();
         let frames = match arguments.frames.as_deref() {
             None => vec![],
-            Some("all") => (0..=last).collect(),
+            Some("all") => (0..=last).map(Frame::of_table).collect(),
             Some(text) => {
+                let around = around.frames();
+                let find = |word: &str| Frame::find(description, &around, word.trim());
                 // A name may hold commas.
-                let one = load::frame(description, text.trim()).map(|n| vec![n]);
-                let all = || text.split(',').map(|word| load::frame(description, word.trim())).collect();
-                let found: Result<Vec<usize>, String> = one.or_else(|_| all());
-                let mut found =
+                let all = || text.split(',').map(find).collect();
+                let found: Result<Vec<Frame>, String> = find(text).map(|f| vec![f]).or_else(|_| all());
+                let found =
                     found.map_err(|why| Failure::Usage(format!("--frames {text}: {why}, or `all`")))?;
-                let mut seen = HashSet::new();
-                found.retain(|n| seen.insert(*n));
-                found
+                let mut once: Vec<Frame> = vec![];
+                for frame in found {
+                    if !once.contains(&frame) {
+                        once.push(frame);
+                    }
+                }
+                once
             }
         };
         Ok(Request { frames, orientation: orientation(arguments)? })
@@ -230,8 +266,12 @@ fn report(d: &Description, request: &Request, q: &[f64]) -> String {
         true => format!("T(base → {i})"),
         false => format!("{}T{}", raised("0"), lowered(&i.to_string())),
     };
-    for &i in request.frames.iter().filter(|&&i| i != last || has_tool) {
-        text += &show(&label(i), &frames[i]);
+    for frame in request.frames.iter().filter(|f| f.on != last || has_tool || f.named.is_some()) {
+        let label = match &frame.named {
+            None => label(frame.on),
+            Some((name, _)) => format!("T({} → {name})", if has_base { "base" } else { "0" }),
+        };
+        text += &show(&label, &frame.placed(frames[frame.on]));
         text.push('\n');
     }
     let whole = match (has_tool, has_base) {

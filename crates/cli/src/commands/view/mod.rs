@@ -35,7 +35,7 @@ pub fn run(arguments: &ViewArguments) -> Result<(), Failure> {
         None => (Site::embedded().ok_or_else(without_page)?, "the page".into()),
     };
     // The page opens a tree itself, so that another chain can be chosen there.
-    let tree = arguments.robot.as_ref().filter(|r| r.set.is_empty() && load::is_for_page(&r.robot));
+    let tree = arguments.robot.as_ref().filter(|r| r.set.is_empty() && load::is_tree(&r.robot));
     let site = match (tree.map(load::bundle).transpose()?, robot) {
         (Some((bundle, meshes)), _) => site.with_tree(&denavit_wire::text(&bundle), &meshes),
         (None, Some((_, text))) => site.with_robot(&text),

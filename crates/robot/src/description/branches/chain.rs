@@ -1,6 +1,6 @@
 //! A serial chain through a tree of rows.
 
-use super::{BASE, RowTree};
+use super::{BASE, NamedFrame, RowTree};
 use crate::description::diagnostic::nearest;
 use crate::description::{Agreement, Convention, Description, MAX_ROWS, NoChain, Row, Variable};
 use crate::geometry::Transform;
@@ -17,6 +17,10 @@ pub struct RowChain {
     pub to: String,
     /// How the table was found to be the chain; rows that stand as they are need no proof.
     pub agreement: Option<Agreement>,
+    /// Joints beside the chain behind which something weighs that hangs on a link of it: they count as fixed at 0.
+    pub held: Vec<String>,
+    /// Frames with names that do not move on those of its table, where these are known.
+    pub frames: Vec<NamedFrame>,
 }
 
 /// A frame of a tree: its row, and its pose there.
@@ -50,17 +54,39 @@ impl RowTree {
             Some(row) => way.iter().position(|&j| j == row).map(|at| &way[at + 1..]),
         };
         let base = if from == *BASE { self.base } else { start.1.inverse() };
-        let straight = below.and_then(|rows| self.straight(rows, base, end));
-        if let Some(d) = straight {
+        let straight = below.and_then(|rows| Some((rows, self.straight(rows, base, end)?)));
+        if let Some((rows, mut d)) = straight {
+            let held = self.weigh_branches(rows, &mut d.rows);
+            let held = held.into_iter().map(|j| self.frame_name(j)).collect();
             let description = d.converted(convention).description;
             if description.variables().is_empty() {
                 return Err(NoChain::Rigid { from, to });
             }
-            return Ok(RowChain { description, from, to, agreement: None });
+            // In other conventions frames stand elsewhere.
+            let frames = if convention == Convention::Khalil { self.frames_on(rows) } else { vec![] };
+            return Ok(RowChain { description, from, to, agreement: None, held, frames });
         }
         let mechanism = self.mechanism().map_err(|missing| NoChain::NeedsValues(missing.parameters))?;
         let chain = mechanism.chain(Some(&from), Some(&to), convention)?;
-        Ok(RowChain { description: chain.description, from, to, agreement: Some(chain.agreement) })
+        let held = chain.held.iter().map(|&j| mechanism.joints[j].name.clone()).collect();
+        let frames = mechanism.frames(&chain);
+        Ok(RowChain {
+            description: chain.description,
+            from,
+            to,
+            agreement: Some(chain.agreement),
+            held,
+            frames,
+        })
+    }
+
+    /// The frames with names on the rows of a way, which is a table.
+    fn frames_on(&self, way: &[usize]) -> Vec<NamedFrame> {
+        let place = |f: &NamedFrame| {
+            let on = way.iter().position(|j| f.on == Some(*j))?;
+            Some(NamedFrame { on: Some(on), ..f.clone() })
+        };
+        self.frames.iter().filter_map(place).collect()
     }
 
     /// What the frame is called that a word names: by its name, or a row by its number; 0 is the base.
@@ -169,6 +195,9 @@ impl RowTree {
             .flat_map(|r| [r.theta, r.d, r.a, r.alpha, r.gamma, r.b])
             .chain(base.matrix().concat())
             .chain(end.1.matrix().concat())
+            .chain(self.gravity.into_iter().flatten())
+            // What hangs beside the way weighs as well.
+            .chain(self.rows.iter().flat_map(|r| r.mass_cells().map(|cell| cell.1)))
             .flat_map(Expr::symbols)
             .collect();
         Some(Description {

@@ -4,6 +4,7 @@
 //! way, as they stand; other chains go through the [`Mechanism`] of the tree.
 
 mod chain;
+mod masses;
 mod par;
 mod place;
 mod write_par;

@@ -6,6 +6,7 @@ use super::super::urdf::{Draft, plain};
 use super::super::xml::{Element, shown};
 use super::Mjcf;
 use super::defaults::Resolved;
+use super::geoms::FromGeoms;
 use crate::geometry::{Transform, Vector};
 use denavit_symbolic::{Expr, Rational};
 use std::ops::Range;
@@ -134,7 +135,8 @@ impl<'a> Mjcf<'a, '_> {
                         self.reader.out.error(element.span(), format!("{what} moves nothing"));
                     }
                 }
-                Some("geom" | "camera" | "light" | "inertial" | "plugin") => {}
+                Some("geom") => self.geom(element, &cx),
+                Some("camera" | "light" | "inertial" | "plugin") => {}
                 Some(name @ ("composite" | "flexcomp")) => {
                     let message = format!("<{name}> is not read: the bodies that it makes are left out");
                     self.reader.out.warning(element.span(), message);
@@ -192,13 +194,11 @@ impl<'a> Mjcf<'a, '_> {
         element.only(BODY, &mut self.reader.out);
         let inner = self.framed(element, cx);
         let mass = element.one("inertial", &mut self.reader.out).and_then(|e| self.mass(e, cx.model));
-        if mass.is_none() && !self.said_geoms && element.all("geom").next().is_some() {
-            self.said_geoms = true;
-            self.reader.out.note(
-                element.span(),
-                "a body without <inertial> has no mass here: that of its geoms is not computed",
-            );
-        }
+        let from_geoms = match self.models[cx.model].from_geoms {
+            FromGeoms::Never => false,
+            FromGeoms::Missing => element.all("inertial").next().is_none(),
+            FromGeoms::Always => true,
+        };
         let is_mocap = element.attribute("mocap").is_some_and(|m| m.text == "true");
         if is_mocap {
             self.reader
@@ -208,7 +208,9 @@ impl<'a> Mjcf<'a, '_> {
         let name = element.attribute("name").map(|n| cx.name(n.text)).filter(|n| !n.trim().is_empty());
         let kind = if name.is_some() { Named::ByFile } else { Named::Made };
         let name = name.unwrap_or_else(|| format!("body {}", self.links.bodies.len()));
+        let mass = mass.filter(|_| self.models[cx.model].from_geoms != FromGeoms::Always);
         let Some(body) = self.link(name, kind, mass, element.span()) else { return };
+        self.from_geoms.insert(body, from_geoms);
         let joints = self.joints_of(element, &inner);
         self.hang(body, joints, &inner, element.span());
         let identity = Transform::identity();

@@ -11,7 +11,7 @@ const MAX_CLASSES: usize = 2000;
 pub(super) const TURNS: [&str; 5] = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
 
 /// The elements of which defaults are read.
-const WITH_DEFAULTS: [&str; 3] = ["joint", "site", "equality"];
+const WITH_DEFAULTS: [&str; 6] = ["joint", "site", "geom", "mesh", "material", "equality"];
 
 type Attributes<'a> = Vec<(&'a str, Text<'a>)>;
 
@@ -86,6 +86,7 @@ impl<'a> Classes<'a> {
             match kind {
                 "joint" => element.only(super::joints::ATTRIBUTES, out),
                 "site" => element.only(super::bodies::SITE, out),
+                "geom" => element.only(super::geoms::ATTRIBUTES, out),
                 _ => {}
             }
             let own: Attributes = element.attributes().collect();

@@ -2,18 +2,19 @@
 //!
 //! What stands in the world is a tree whose root is the body `world`; sites with a name are bodies without mass. Each joint moves its
 //! body from where the file has it, `ref` being its value there. Lengths are exact decimals, angles in degrees exact, those in
-//! radians, and quaternions, what their digits mean ([`Decimals`]). What a model says of looks, contacts and drives is left.
+//! radians, and quaternions, what their digits mean ([`Decimals`]). What a model says of contacts and actuators is left.
 
 mod bodies;
 mod defaults;
 mod equality;
+mod geoms;
 mod include;
 mod joints;
 mod keyframes;
 mod turns;
 mod write;
 
-pub use write::write_mjcf;
+pub use write::{refused_masses, write_mjcf};
 
 use super::Decimals;
 use super::diagnostic::{Diagnostics, nearest};
@@ -26,17 +27,18 @@ use crate::geometry::Axis;
 use bodies::{Context, Named};
 use defaults::Classes;
 use denavit_symbolic::Expr;
+use geoms::{Assets, FromGeoms, Weight};
 use include::{Document, Opened};
 use keyframes::Slot;
 use std::collections::HashMap;
+use std::ops::RangeInclusive;
 use turns::{Compiler, Placing, Quaternions};
 
 /// What stands in `<mujoco>` and says nothing of kinematics.
-const BESIDE: [&str; 13] = [
+const BESIDE: [&str; 12] = [
     "option",
     "size",
     "statistic",
-    "asset",
     "visual",
     "contact",
     "deformable",
@@ -49,7 +51,7 @@ const BESIDE: [&str; 13] = [
 ];
 
 /// What stands there and does.
-const READ: [&str; 5] = ["compiler", "default", "worldbody", "equality", "keyframe"];
+const READ: [&str; 6] = ["asset", "compiler", "default", "worldbody", "equality", "keyframe"];
 
 /// The attributes of `<compiler>`, few of which matter here.
 const COMPILER: [&str; 23] = [
@@ -83,6 +85,12 @@ struct Model<'a> {
     root: Element<'a>,
     compiler: Compiler,
     classes: Classes<'a>,
+    /// Where its masses come from.
+    from_geoms: FromGeoms,
+    /// The groups of geoms that weigh.
+    groups: RangeInclusive<i64>,
+    /// The folder of its meshes.
+    folder: String,
     /// The models that it may attach.
     parts: &'a HashMap<String, usize>,
 }
@@ -108,8 +116,12 @@ struct Mjcf<'a, 'r> {
     work: usize,
     /// How many elements were repeated.
     repeated: usize,
-    /// True once something was said of geoms that stand for inertias.
-    said_geoms: bool,
+    /// What geoms draw on.
+    assets: Assets,
+    /// Whether the mass of a body is that of its geoms.
+    from_geoms: HashMap<usize, bool>,
+    /// What the geoms of bodies weigh.
+    weights: HashMap<usize, Weight>,
 }
 
 /// Reads a model of MuJoCo's, with the files that it includes and the models that it attaches.
@@ -150,7 +162,9 @@ fn robot(documents: &[Document], reader: &mut Reader) -> Option<Mechanism> {
         let compiler = compiler(root, reader);
         let classes = Classes::of(root, &mut reader.out);
         beside(root, &mut reader.out);
-        models.push(Model { root, compiler, classes, parts: &document.parts });
+        let (from_geoms, groups) = inertias(root, reader);
+        let folder = folder_of_meshes(root);
+        models.push(Model { root, compiler, classes, from_geoms, groups, folder, parts: &document.parts });
     }
     let root = models.first()?.root;
     let mut mjcf = Mjcf {
@@ -167,9 +181,13 @@ fn robot(documents: &[Document], reader: &mut Reader) -> Option<Mechanism> {
         open: vec![],
         work: 0,
         repeated: 0,
-        said_geoms: false,
+        assets: Assets::default(),
+        from_geoms: HashMap::new(),
+        weights: HashMap::new(),
     };
+    mjcf.assets();
     mjcf.world(root);
+    mjcf.weigh_bodies();
     mjcf.couplings();
     mjcf.name_fixed();
     let gravity = gravity(root, mjcf.reader);
@@ -259,6 +277,47 @@ fn compiler(root: Element, reader: &mut Reader) -> Compiler {
         }
     }
     compiler
+}
+
+/// What the `<compiler>` elements of a model say of masses.
+fn inertias(root: Element, reader: &mut Reader) -> (FromGeoms, RangeInclusive<i64>) {
+    let (mut from, mut groups) = (FromGeoms::Missing, 0..=5);
+    for element in root.all("compiler") {
+        if let Some(text) = element.attribute("inertiafromgeom") {
+            match text.text {
+                "true" => from = FromGeoms::Always,
+                "false" => from = FromGeoms::Never,
+                "auto" => from = FromGeoms::Missing,
+                other => {
+                    let message = format!("`{}` is none of `true`, `false` and `auto`", shown(other));
+                    reader.out.error(text.span, message);
+                }
+            }
+        }
+        if let Some(text) = element.attribute("inertiagrouprange") {
+            let ends: Option<Vec<i64>> = text.words().iter().map(|w| w.text.parse().ok()).collect();
+            match ends.as_deref() {
+                Some(&[low, high]) => groups = low..=high,
+                _ => {
+                    reader.out.error(text.span, "`inertiagrouprange` is two whole numbers");
+                }
+            }
+        }
+        for name in ["boundmass", "boundinertia", "settotalmass", "balanceinertia"] {
+            let is_off = |t: &str| matches!(t, "false") || t.trim().parse::<f64>().is_ok_and(|x| x <= 0.0);
+            if let Some(text) = element.attribute(name).filter(|t| !is_off(t.text)) {
+                let message = format!("`{name}` is not read: masses are those of the bodies themselves");
+                reader.out.warning(text.span, message);
+            }
+        }
+    }
+    (from, groups)
+}
+
+/// The folder in which a model has its meshes.
+fn folder_of_meshes(root: Element) -> String {
+    let named = |name: &str| root.all("compiler").filter_map(|c| c.attribute(name)).last();
+    named("meshdir").or(named("assetdir")).map_or(String::new(), |t| plain(t.text))
 }
 
 /// The acceleration of gravity in the world, if it is given: the last one that is.

@@ -85,6 +85,13 @@ pub fn write_mjcf(tree: &Mechanism) -> String {
     file.text
 }
 
+/// The bodies of which a mass is known that MuJoCo refuses: they are written without it.
+pub fn refused_masses(tree: &Mechanism) -> Vec<&str> {
+    let is_refused = |mass: &Mass| inertial(mass).is_none();
+    let refused = tree.bodies.iter().filter(|b| b.mass.as_ref().is_some_and(is_refused));
+    refused.map(|b| b.name.as_str()).collect()
+}
+
 /// A file under way.
 struct File<'a> {
     tree: &'a Mechanism,

@@ -1,7 +1,7 @@
 //! A serial chain through the tree.
 
 use super::masses::Landing;
-use super::{Joint, Mechanism};
+use super::{Joint, JointDrive, Mechanism};
 use crate::description::lines::{Agreement, AxisAtRest, ChainAtRest, NotPlaced, settled};
 use crate::description::{Convention, Description, JointKind, MAX_ROWS, diagnostic::nearest};
 use crate::geometry::{Rotation, Transform, Vector};
@@ -23,6 +23,9 @@ pub struct Chain {
     pub agreement: Agreement,
     /// Joints that are not of the chain and behind which something weighs that hangs on a link of it: they count as fixed at 0.
     pub held: Vec<usize>,
+    /// The joints that move, in order, and the bodies on which they end.
+    pub(super) moving: Vec<usize>,
+    pub(super) landings: Vec<Landing>,
 }
 
 /// Why there is no chain.
@@ -175,6 +178,7 @@ impl Mechanism {
         let mut x = Transform::<Expr>::identity();
         let mut beside = None;
         let mut landings: Vec<Landing> = vec![];
+        let mut ratios: Vec<(usize, Rational)> = vec![];
         for Step { joint: j, is_up } in way.iter().copied() {
             let joint = &self.joints[j];
             let (moves, rest) = self.moves(j, &way, &mut joints);
@@ -185,6 +189,7 @@ impl Mechanism {
             if let (Some(kind), Some(moves)) = (joint.kind, moves) {
                 let direction = x.act_on_vector(joint.axis);
                 let direction = if is_up { -direction } else { direction };
+                ratios.push(moves.clone());
                 axes.push(AxisAtRest { kind, point: x.translation, direction, moves: vec![moves] });
                 of_axis.push(j);
                 beside.get_or_insert(x.rotation);
@@ -206,7 +211,7 @@ impl Mechanism {
             NotPlaced::Symbols => self.rigid(from, to),
         });
         let (mut description, agreement) = placed?;
-        self.name_rows(&mut description, &of_axis, &joints);
+        self.name_rows(&mut description, &of_axis, &joints, &ratios);
         let pose = |(name, values): &(String, Vec<Expr>)| {
             (name.clone(), joints.iter().map(|&j| self.value(j, values)).collect())
         };
@@ -216,7 +221,7 @@ impl Mechanism {
             settled(&Transform::from_rotation_translation(Rotation::identity(), turned)).translation.0
         });
         let held = self.weigh_rows(&mut description, &of_axis, &landings, from);
-        Ok(Chain { description, from, to, joints, agreement, held })
+        Ok(Chain { description, from, to, joints, agreement, held, moving: of_axis, landings })
     }
 
     /// What moves a joint: a variable of the chain with its factor, none if it stands still; and its value at rest.
@@ -250,8 +255,20 @@ impl Mechanism {
         (Some((number, ratio)), rest)
     }
 
-    /// Names and limits of the joints.
-    fn name_rows(&self, d: &mut Description, of_axis: &[usize], joints: &[usize]) {
+    /// Names, limits and drives of the joints; `ratios` says of each axis which variable moves it, and how many times.
+    fn name_rows(
+        &self,
+        d: &mut Description,
+        of_axis: &[usize],
+        joints: &[usize],
+        ratios: &[(usize, Rational)],
+    ) {
+        let drives: Vec<JointDrive> = (0..joints.len())
+            .map(|k| {
+                let of_variable = of_axis.iter().zip(ratios).filter(|(_, r)| r.0 == k);
+                JointDrive::together(of_variable.map(|(&j, r)| (&self.joints[j].drive, &r.1)))
+            })
+            .collect();
         let names: Vec<&str> = of_axis.iter().map(|&j| self.joints[j].name.as_str()).collect();
         let symbols: Vec<_> = d.variables().iter().map(|v| v.symbol).collect();
         let moves = |e: Expr| e.symbols().iter().any(|s| symbols.contains(s));
@@ -262,7 +279,7 @@ impl Mechanism {
             if row.variable.is_some() {
                 let joint = &self.joints[joints[next]];
                 (row.limits, row.velocity) = (joint.limits, joint.velocity);
-                let drive = joint.drive;
+                let drive = drives[next];
                 (row.rotor, row.viscous, row.coulomb) = (drive.rotor, drive.viscous, drive.coulomb);
                 next += 1;
             }

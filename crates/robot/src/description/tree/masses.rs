@@ -1,8 +1,8 @@
 //! The masses of a chain through the tree, on its rows.
 
-use super::{Joint, Mass, Mechanism, moved};
+use super::{Chain, Joint, Mass, Mechanism, moved};
 use crate::description::lines::settled;
-use crate::description::{Description, JointKind};
+use crate::description::{Description, JointKind, NamedFrame};
 use crate::geometry::{Body, Transform, Vector};
 use denavit_symbolic::Expr;
 use denavit_symbolic::real::Values;
@@ -23,7 +23,7 @@ impl Mass {
 }
 
 /// A body on which a moving joint of a chain ends.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Landing {
     /// The body.
     pub body: usize,
@@ -47,15 +47,21 @@ impl Mechanism {
         let mut seen = vec![false; self.bodies.len()];
         let mut held = vec![];
         // What is fixed to the base does not move, but what hangs on it beside the chain is not part of it either.
-        self.fixed_to(first, Transform::identity(), moving, &mut seen, &mut vec![]);
+        self.fixed_to(first, Transform::identity(), moving, &mut seen);
         let rows = frames_at_rest(d);
         let mut rows = rows.into_iter();
         for landing in landings {
-            let bodies = self.fixed_to(landing.body, landing.at_rest, moving, &mut seen, &mut held);
+            let bodies = self.fixed_to(landing.body, landing.at_rest, moving, &mut seen);
             let Some((i, frame)) = rows.next() else { break };
-            let seen_from = |(b, x): &(usize, Transform<Expr>)| {
-                let mass = self.bodies[*b].mass.as_ref()?;
-                Some(mass.body().seen_from(&settled(&(frame.inverse() * *x))))
+            let weighing = bodies.iter().filter(|f| self.bodies[f.body].mass.is_some());
+            for joint in weighing.filter_map(|f| f.held) {
+                if !held.contains(&joint) {
+                    held.push(joint);
+                }
+            }
+            let seen_from = |f: &Fixed| {
+                let mass = self.bodies[f.body].mass.as_ref()?;
+                Some(mass.body().seen_from(&settled(&(frame.inverse() * f.at_rest))))
             };
             let sum = bodies.iter().filter_map(seen_from).reduce(|a, b| a + b);
             if let Some(mass) = sum.as_ref().and_then(Mass::of_body) {
@@ -67,37 +73,64 @@ impl Mechanism {
         held
     }
 
-    /// A body with all that is fixed to it, each with its frame in the base; joints that are held where they are.
+    /// The bodies that do not move on frames of a chain, as frames of its table: those of frame 0 and of the rows that move. What
+    /// hangs behind joints beside the chain is not among them.
+    pub fn frames(&self, chain: &Chain) -> Vec<NamedFrame> {
+        let d = &chain.description;
+        let mut seen = vec![false; self.bodies.len()];
+        let start = Landing { body: chain.from, at_rest: Transform::identity() };
+        let rows =
+            [(None, d.base)].into_iter().chain(frames_at_rest(d).into_iter().map(|(i, x)| (Some(i), x)));
+        let mut found = vec![];
+        for (landing, (on, frame)) in [start].iter().chain(&chain.landings).zip(rows) {
+            let fixed = self.fixed_to(landing.body, landing.at_rest, &chain.moving, &mut seen);
+            found.extend(fixed.into_iter().filter(|f| f.held.is_none()).map(|f| NamedFrame {
+                name: self.bodies[f.body].name.clone(),
+                on,
+                pose: settled(&(frame.inverse() * f.at_rest)),
+            }));
+        }
+        found
+    }
+
+    /// A body with all that is fixed to it, or held where it is behind a joint that is not among the `moving` ones.
     fn fixed_to(
         &self,
         body: usize,
         at_rest: Transform<Expr>,
         moving: &[usize],
         seen: &mut [bool],
-        held: &mut Vec<usize>,
-    ) -> Vec<(usize, Transform<Expr>)> {
-        let (mut found, mut pending) = (vec![], vec![(body, at_rest, false)]);
-        while let Some((b, x, is_held)) = pending.pop() {
-            if std::mem::replace(&mut seen[b], true) {
+    ) -> Vec<Fixed> {
+        let (mut found, mut pending) = (vec![], vec![Fixed { body, at_rest, held: None }]);
+        while let Some(fixed) = pending.pop() {
+            if std::mem::replace(&mut seen[fixed.body], true) {
                 continue;
             }
-            if is_held && self.bodies[b].mass.is_some() {
-                held.extend(self.joint_to(b).filter(|j| !held.contains(j)));
-            }
-            found.push((b, x));
+            found.push(fixed);
             let others = (0..self.joints.len()).filter(|j| !moving.contains(j));
-            for joint in others.map(|j| &self.joints[j]) {
+            for (j, joint) in others.map(|j| (j, &self.joints[j])) {
                 let through = || joint.origin * rest(joint);
-                let is_held = is_held || joint.kind.is_some();
-                if joint.parent == b {
-                    pending.push((joint.child, x * through(), is_held));
-                } else if joint.child == b {
-                    pending.push((joint.parent, x * through().inverse(), is_held));
+                let held = joint.kind.map(|_| j).or(fixed.held);
+                if joint.parent == fixed.body {
+                    pending.push(Fixed { body: joint.child, at_rest: fixed.at_rest * through(), held });
+                } else if joint.child == fixed.body {
+                    let at_rest = fixed.at_rest * through().inverse();
+                    pending.push(Fixed { body: joint.parent, at_rest, held });
                 }
             }
         }
         found
     }
+}
+
+/// A body that moves with another.
+#[derive(Clone, Copy)]
+struct Fixed {
+    body: usize,
+    /// Its frame in the base of the chain with all variables 0.
+    at_rest: Transform<Expr>,
+    /// The last joint before it that could move it.
+    held: Option<usize>,
 }
 
 /// What a joint does where it is held: its value is 0, or that which it has where the joint that it follows is at 0.

@@ -67,6 +67,15 @@ pub enum Shape {
         /// Its length.
         length: f64,
     },
+    /// A cylinder about z with half a ball at each end, metres.
+    Capsule {
+        /// Its radius.
+        radius: f64,
+        /// The length of the cylinder.
+        length: f64,
+    },
+    /// An ellipsoid: half its axes along x, y and z, metres.
+    Ellipsoid([f64; 3]),
     /// A ball.
     Sphere {
         /// Its radius, metres.
@@ -128,6 +137,26 @@ pub struct JointDrive {
     pub viscous: Option<Expr>,
     /// Its friction of Coulomb, N·m (N for a slide).
     pub coulomb: Option<Expr>,
+}
+
+impl JointDrive {
+    /// What drives are together that a value moves, each so many times as fast: inertia and viscous friction as the square of that,
+    /// friction of Coulomb as its size.
+    fn together<'d>(all: impl Iterator<Item = (&'d JointDrive, &'d Rational)>) -> Self {
+        let add = |sum: &mut Option<Expr>, e: Option<Expr>, factor: Rational| {
+            let Some(e) = e else { return };
+            let e = if factor.is_one() { e } else { Expr::from(factor) * e };
+            *sum = Some(sum.map_or(e, |s| s + e));
+        };
+        let mut sum = JointDrive::default();
+        for (drive, ratio) in all {
+            let square = ratio * ratio;
+            add(&mut sum.rotor, drive.rotor, square.clone());
+            add(&mut sum.viscous, drive.viscous, square);
+            add(&mut sum.coulomb, drive.coulomb, ratio.abs());
+        }
+        sum
+    }
 }
 
 /// A joint that moves as another does.

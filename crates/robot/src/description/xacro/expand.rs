@@ -49,14 +49,7 @@ impl Xacro<'_> {
         depth: usize,
     ) -> Result<Vec<usize>, Fault> {
         let Some(name) = element.name.strip_prefix("xacro:") else {
-            let number = self.result.nodes.len();
-            self.result.nodes.push(Node { attributes: vec![], children: vec![], ..element.clone() });
-            let attributes =
-                element.attributes.iter().filter_map(|a| self.attribute(a, scope.names)).collect();
-            let children = self.body(tree, &element.children, scope, depth + 1);
-            let node = &mut self.result.nodes[number];
-            (node.attributes, node.children) = (attributes, children);
-            return Ok(vec![number]);
+            return Ok(vec![self.taken_over((tree, element), scope, depth)]);
         };
         let attribute = |name: &str| element.attributes.iter().find(|a| a.name == name);
         let needs = |name: &str| {
@@ -98,12 +91,52 @@ impl Xacro<'_> {
                 let others = element.attributes.iter().filter(|a| a.name != "macro").cloned().collect();
                 self.call(&name, (tree, &Node { attributes: others, ..element.clone() }), scope, depth)
             }
-            "element" | "attribute" if self.macros.seen(scope.macros, name).is_none() => {
-                Err(Fault::new(format!("<xacro:{name}> is not read"))
-                    .hint("expand the file with xacro first"))
+            "element" if self.macros.seen(scope.macros, name).is_none() => {
+                let name = self.given_name(needs("xacro:name")?, scope)?;
+                let others = element.attributes.iter().filter(|a| a.name != "xacro:name").cloned().collect();
+                let element = Node { name, attributes: others, ..element.clone() };
+                match element.name.starts_with("xacro:") && element.name != "xacro:element" {
+                    true => self.element((tree, index, &element), scope, depth + 1),
+                    false => Ok(vec![self.taken_over((tree, &element), scope, depth)]),
+                }
+            }
+            "attribute" if self.macros.seen(scope.macros, name).is_none() => {
+                let (name, value) = (needs("name")?, needs("value")?);
+                let name = Attribute { name: self.given_name(name, scope)?, ..value.clone() };
+                if let (Some(set), Some(&inside)) = (self.attribute(&name, scope.names), self.inside.last()) {
+                    let attributes = &mut self.result.nodes[inside].attributes;
+                    attributes.retain(|a| a.name != set.name);
+                    attributes.push(set);
+                }
+                Ok(vec![])
             }
             name => self.call(name, (tree, element), scope, depth),
         }
+    }
+
+    /// The name that an attribute gives to an element or attribute.
+    fn given_name(&mut self, attribute: &Attribute, scope: Scope) -> Result<String, Fault> {
+        let name = self.value(&attribute.value, scope.names)?.show();
+        let is_letter = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | '.' | ':');
+        match name.starts_with(|c: char| c.is_alphabetic() || c == '_') && name.chars().all(is_letter) {
+            true => Ok(name),
+            false => {
+                let message = format!("`{}` is no name of an element or attribute", shown(&name));
+                Err(Fault::new(message).at(attribute.value.span.clone()))
+            }
+        }
+    }
+
+    /// An element that is not xacro's, with what stands in it expanded.
+    fn taken_over(&mut self, (tree, element): (&Shared, &Node), scope: Scope, depth: usize) -> usize {
+        let number = self.result.nodes.len();
+        self.result.nodes.push(Node { attributes: vec![], children: vec![], ..element.clone() });
+        let attributes = element.attributes.iter().filter_map(|a| self.attribute(a, scope.names)).collect();
+        self.result.nodes[number].attributes = attributes;
+        self.inside.push(number);
+        self.result.nodes[number].children = self.body(tree, &element.children, scope, depth + 1);
+        self.inside.pop();
+        number
     }
 
     fn include(

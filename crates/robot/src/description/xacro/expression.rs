@@ -1,14 +1,17 @@
 //! xacro's expressions: the part of Python that files have.
 
 use super::scope::Scope;
+use super::sequence::{entry, method, slice};
 use super::value::{Fault, Val, arithmetic, function, real};
-use crate::description::{diagnostic::nearest, xml::shown};
+use crate::description::xml::shown;
 use denavit_symbolic::{Expr, Rational};
 use std::rc::Rc;
 
 /// The longest expression, in bytes, and how deep brackets may stand in brackets.
-const MAX_LENGTH: usize = 4000;
+pub(super) const MAX_LENGTH: usize = 4000;
 const MAX_DEPTH: usize = 60;
+/// How many values an expression works out that goes through lists.
+const MAX_STEPS: usize = 200_000;
 
 #[derive(Clone, PartialEq, Debug)]
 enum Token {
@@ -55,6 +58,9 @@ struct Reader<'n> {
     next: usize,
     depth: usize,
     is_live: bool,
+    /// The names that `for` gives values, the innermost last.
+    locals: Vec<(String, Val)>,
+    steps: usize,
     around: &'n mut Around<'n>,
 }
 
@@ -63,7 +69,8 @@ pub(super) fn evaluate<'n>(text: &str, around: &'n mut Around<'n>) -> Result<Val
     if text.len() > MAX_LENGTH {
         return Err(Fault::new(format!("an expression of {} bytes; {MAX_LENGTH} are allowed", text.len())));
     }
-    let mut reader = Reader { tokens: tokens(text)?, next: 0, depth: 0, is_live: true, around };
+    let tokens = tokens(text)?;
+    let mut reader = Reader { tokens, next: 0, depth: 0, is_live: true, locals: vec![], steps: 0, around };
     let value = reader.choice()?;
     match reader.peek() {
         None => Ok(value),
@@ -150,8 +157,20 @@ impl Reader<'_> {
     }
 
     /// What a part gives that is evaluated; nothing of use otherwise.
-    fn live(&self, value: impl FnOnce() -> Result<Val, Fault>) -> Result<Val, Fault> {
-        if self.is_live { value() } else { Ok(Val::Truth(false)) }
+    fn live(&mut self, value: impl FnOnce() -> Result<Val, Fault>) -> Result<Val, Fault> {
+        match self.is_live {
+            true => value().and_then(|v| self.counted(v)),
+            false => Ok(Val::Truth(false)),
+        }
+    }
+
+    /// A value, with the values that it consists of counted.
+    fn counted(&mut self, value: Val) -> Result<Val, Fault> {
+        self.steps += if let Val::List(all) = &value { 1 + all.len() } else { 1 };
+        match self.steps > MAX_STEPS {
+            true => Err(Fault::new(format!("an expression of more than {MAX_STEPS} values"))),
+            false => Ok(value),
+        }
     }
 
     fn unless(&mut self, dead: bool, part: fn(&mut Self) -> Result<Val, Fault>) -> Result<Val, Fault> {
@@ -299,9 +318,7 @@ impl Reader<'_> {
         let mut value = self.atom()?;
         loop {
             if self.sign(&["["]).is_some() {
-                let index = self.choice()?;
-                self.needs("]")?;
-                value = self.live(|| entry(&value, &index))?;
+                value = self.index(&value)?;
             } else if self.sign(&["."]).is_some() {
                 let Some(Token::Word(name)) = self.peek().cloned() else {
                     return Err(Fault::new("a name is missing"));
@@ -321,7 +338,36 @@ impl Reader<'_> {
         }
     }
 
+    /// What stands behind `[`: an index, or `from:to:step`.
+    fn index(&mut self, value: &Val) -> Result<Val, Fault> {
+        let mut parts: Vec<Option<Val>> = vec![None];
+        while self.sign(&["]"]).is_none() {
+            if self.sign(&[":"]).is_some() {
+                parts.push(None);
+            } else if let Some(last) = parts.last_mut().filter(|l| l.is_none()) {
+                *last = Some(self.choice()?);
+            } else {
+                self.needs("]")?;
+            }
+        }
+        match &parts[..] {
+            [Some(index)] => self.live(|| entry(value, index)),
+            [from, to] => self.live(|| slice(value, [from.as_ref(), to.as_ref(), None])),
+            [from, to, step] => self.live(|| slice(value, [from.as_ref(), to.as_ref(), step.as_ref()])),
+            _ => Err(Fault::new("an index is missing")),
+        }
+    }
+
+    /// The value of a name.
+    fn name(&mut self, name: &str) -> Result<Val, Fault> {
+        match self.locals.iter().rev().find(|l| l.0 == name) {
+            Some((_, value)) => Ok(value.clone()),
+            None => (self.around)(Asked::Name(name)),
+        }
+    }
+
     fn atom(&mut self) -> Result<Val, Fault> {
+        self.counted(Val::Truth(false))?;
         let Some(token) = self.peek().cloned() else {
             return Err(Fault::new("an expression that is not complete"));
         };
@@ -330,9 +376,10 @@ impl Reader<'_> {
             Token::Number(x) => Ok(Val::Number(x.into())),
             Token::Text(t) => Ok(Val::Text(t)),
             Token::Sign("(") => {
-                let value = self.choice()?;
-                self.needs(")")?;
-                Ok(value)
+                let start = self.next;
+                let mut all = self.list(")")?;
+                let is_list = all.len() != 1 || self.comma_in(start);
+                Ok(if is_list { Val::List(Rc::new(all)) } else { all.remove(0) })
             }
             Token::Sign("[") => Ok(Val::List(Rc::new(self.list("]")?))),
             Token::Word(w) if w == "True" || w == "true" => Ok(Val::Truth(true)),
@@ -341,7 +388,7 @@ impl Reader<'_> {
                 // math.sin, xacro.load_yaml; a namespace of the file's own may have such a name.
                 let is_module = MODULES.contains(&w.as_str())
                     && self.peek() == Some(&Token::Sign("."))
-                    && (!self.is_live || (self.around)(Asked::Name(&w)).is_err());
+                    && (!self.is_live || self.name(&w).is_err());
                 if is_module {
                     self.next += 1;
                     let Some(Token::Word(inner)) = self.peek().cloned() else {
@@ -352,9 +399,13 @@ impl Reader<'_> {
                 }
                 if self.sign(&["("]).is_some() {
                     let arguments = self.list(")")?;
-                    return if self.is_live { self.function(&w, &arguments) } else { Ok(Val::Truth(false)) };
+                    if !self.is_live {
+                        return Ok(Val::Truth(false));
+                    }
+                    let value = self.function(&w, &arguments)?;
+                    return self.counted(value);
                 }
-                if self.is_live { (self.around)(Asked::Name(&w)) } else { Ok(Val::Truth(false)) }
+                if self.is_live { self.name(&w) } else { Ok(Val::Truth(false)) }
             }
             other => Err(unexpected(&other)),
         }
@@ -376,8 +427,18 @@ impl Reader<'_> {
         (self.around)(asked(text))
     }
 
+    /// Values between commas, or one for each of others: `a, b`, `2*x for x in list if x > 1`.
     fn list(&mut self, end: &'static str) -> Result<Vec<Val>, Fault> {
-        let mut all = vec![];
+        let (start, mut all) = (self.next, vec![]);
+        if let Some(part) = self.with_for(end) {
+            let locals = self.locals.len();
+            self.next = part;
+            let found = self.each(start, &mut all);
+            self.locals.truncate(locals);
+            found?;
+            self.needs(end)?;
+            return Ok(all);
+        }
         while self.sign(&[end]).is_none() {
             all.push(self.choice()?);
             if self.sign(&[","]).is_none() {
@@ -387,66 +448,104 @@ impl Reader<'_> {
         }
         Ok(all)
     }
+
+    /// How deep each token from `start` on stands in the brackets that open there, up to where the one around them closes.
+    fn depths(&self, start: usize) -> impl Iterator<Item = (usize, usize)> {
+        let depth = |depth: &mut usize, (at, token): (usize, &Token)| {
+            match token {
+                Token::Sign("(" | "[" | "{") => *depth += 1,
+                Token::Sign(")" | "]" | "}") if *depth == 0 => return None,
+                Token::Sign(")" | "]" | "}") => *depth -= 1,
+                _ => {}
+            }
+            Some((at, *depth))
+        };
+        self.tokens.iter().enumerate().skip(start).scan(0, depth)
+    }
+
+    /// Where `for` stands in the list at hand, if it is of such a kind.
+    fn with_for(&self, end: &'static str) -> Option<usize> {
+        let word = Token::Word("for".into());
+        let is_list = end != "}" && self.tokens[self.next..].contains(&word);
+        self.depths(self.next)
+            .filter(|_| is_list)
+            .find(|&(at, d)| d == 0 && self.tokens[at] == word)
+            .map(|f| f.0)
+    }
+
+    /// True if a comma stands between the values of the bracket that opens before `start`.
+    fn comma_in(&self, start: usize) -> bool {
+        self.depths(start).any(|(at, d)| d == 0 && self.tokens[at] == Token::Sign(","))
+    }
+
+    /// `for x in list if c for y in …`, with what stands at `start` for each.
+    fn each(&mut self, start: usize, all: &mut Vec<Val>) -> Result<(), Fault> {
+        self.depth += 1;
+        if self.depth > MAX_DEPTH {
+            return Err(Fault::new(format!("more than {MAX_DEPTH} brackets in brackets")));
+        }
+        if self.word("for") {
+            let mut names = vec![];
+            loop {
+                let Some(Token::Word(name)) = self.peek().cloned() else {
+                    return Err(Fault::new("a name is missing behind `for`"));
+                };
+                self.next += 1;
+                names.push(name);
+                if self.sign(&[","]).is_none() {
+                    break;
+                }
+            }
+            if !self.word("in") {
+                return Err(Fault::new("`in` is missing"));
+            }
+            let values = self.or()?;
+            let inner = self.next;
+            // What is not evaluated is gone through once, with names that mean nothing.
+            let values = if self.is_live { values.items()? } else { vec![] };
+            let is_live = std::mem::replace(&mut self.is_live, false);
+            self.each(start, &mut vec![])?;
+            self.is_live = is_live;
+            let end = self.next;
+            let locals = self.locals.len();
+            for value in values {
+                let parts = if names.len() == 1 { vec![value] } else { value.items()? };
+                if parts.len() != names.len() {
+                    let message = format!("{} values for {} names", parts.len(), names.len());
+                    return Err(Fault::new(message));
+                }
+                self.locals.extend(names.iter().cloned().zip(parts));
+                self.next = inner;
+                self.each(start, all)?;
+                self.locals.truncate(locals);
+            }
+            self.next = end;
+        } else if self.word("if") {
+            let condition = self.or()?;
+            let is_live = self.is_live;
+            self.is_live = is_live && condition.holds()?;
+            self.each(start, all)?;
+            self.is_live = is_live;
+        } else {
+            let end = std::mem::replace(&mut self.next, start);
+            let value = self.choice()?;
+            if !matches!(self.peek(), Some(Token::Word(w)) if w == "for") {
+                return Err(Fault::new("`for` stands behind one value"));
+            }
+            self.next = end;
+            if self.is_live {
+                all.push(value);
+            }
+        }
+        self.depth -= 1;
+        Ok(())
+    }
 }
 
-fn is_same(a: &Val, b: &Val) -> bool {
+pub(super) fn is_same(a: &Val, b: &Val) -> bool {
     let is_text = |v: &Val| matches!(v, Val::Text(_));
     match (a.expr(), b.expr()) {
         (Ok(x), Ok(y)) if !(is_text(a) && is_text(b)) => real(x - y).is_ok_and(|d| d.is_zero()),
         _ => a.show() == b.show(),
-    }
-}
-
-fn entry(value: &Val, index: &Val) -> Result<Val, Fault> {
-    let all = match value {
-        Val::List(all) => all,
-        Val::Map(all) => {
-            let name = index.show();
-            let found = all.iter().find(|e| e.0 == name).map(|e| e.1.clone());
-            return found.ok_or_else(|| {
-                let fault = Fault::new(format!("there is no `{}`", shown(&name)));
-                match nearest(&name, all.iter().map(|e| e.0.as_str())) {
-                    Some(near) => fault.hint(format!("did you mean `{near}`?")),
-                    None => fault,
-                }
-            });
-        }
-        _ => return Err(Fault::new("an index behind what is no list")),
-    };
-    let at = index.index()?;
-    let at = if at < 0 { at + all.len() as i64 } else { at };
-    let found = usize::try_from(at).ok().and_then(|i| all.get(i)).cloned();
-    found.ok_or_else(|| Fault::new(format!("there is no entry {}: the list has {}", index.show(), all.len())))
-}
-
-/// What a value answers to a method.
-fn method(value: &Val, name: &str, arguments: &[Val]) -> Result<Val, Fault> {
-    let list = |all: Vec<Val>| Ok(Val::List(Rc::new(all)));
-    if let Val::Map(all) = value {
-        return match (name, arguments) {
-            ("keys", []) => list(all.iter().map(|e| Val::Text(e.0.clone())).collect()),
-            ("values", []) => list(all.iter().map(|e| e.1.clone()).collect()),
-            ("get", [key]) => entry(value, key),
-            ("get", [key, otherwise]) => Ok(entry(value, key).unwrap_or_else(|_| otherwise.clone())),
-            _ => Err(Fault::new(format!("`.{}` is not read", shown(name)))),
-        };
-    }
-    let text = value.show();
-    let texts: Vec<String> = arguments.iter().map(Val::show).collect();
-    let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
-    match (name, &texts[..]) {
-        ("lower", []) => Ok(Val::Text(text.to_lowercase())),
-        ("upper", []) => Ok(Val::Text(text.to_uppercase())),
-        ("strip", []) => Ok(Val::Text(text.trim().into())),
-        ("startswith", [start]) => Ok(Val::Truth(text.starts_with(start))),
-        ("endswith", [end]) => Ok(Val::Truth(text.ends_with(end))),
-        ("split", []) => list(text.split_whitespace().map(|t| Val::Text(t.into())).collect()),
-        ("split", [at]) if !at.is_empty() => list(text.split(at).map(|t| Val::Text(t.into())).collect()),
-        ("replace", [old, new])
-            if !old.is_empty() && text.len() * new.len().max(1) <= MAX_LENGTH * MAX_LENGTH =>
-        {
-            Ok(Val::Text(text.replace(old, new)))
-        }
-        _ => Err(Fault::new(format!("`.{}` is not read", shown(name)))),
     }
 }

@@ -1,12 +1,12 @@
 //! xacro: properties, macros and conditions of a robot description, expanded without going through text.
 //!
-//! Numbers are exact: `${radians(90)}` is π/2 and `${0.1 + 0.2}` is 3/10. What is left out of the language is refused with its
-//! place: elements and attributes made by xacro, and what of Python no file has.
+//! Numbers are exact: `${radians(90)}` is π/2 and `${0.1 + 0.2}` is 3/10. What is left out of Python is refused with its place.
 
 mod expand;
 mod expression;
 mod macros;
 mod scope;
+mod sequence;
 mod value;
 mod yaml;
 
@@ -40,6 +40,8 @@ pub(super) struct Xacro<'s> {
     values: HashMap<(String, String), Val>,
     result: Tree,
     work: usize,
+    /// The elements of the result that are being filled, the innermost last.
+    inside: Vec<usize>,
     /// The files that are open, the innermost last.
     open: Vec<usize>,
     /// Where the macros under way were called.
@@ -65,9 +67,8 @@ pub(super) fn expand(xacro: &mut Xacro, tree: Tree) -> Option<Tree> {
     let root = tree.nodes[0].clone();
     xacro.result.nodes.push(Node { attributes: vec![], children: vec![], ..root.clone() });
     let attributes = root.attributes.iter().filter_map(|a| xacro.attribute(a, 0)).collect();
-    let children = xacro.body(&tree, &root.children, TOP, 0);
-    let result = &mut xacro.result.nodes[0];
-    (result.attributes, result.children) = (attributes, children);
+    xacro.result.nodes[0].attributes = attributes;
+    xacro.result.nodes[0].children = xacro.body(&tree, &root.children, TOP, 0);
     Some(std::mem::take(&mut xacro.result))
 }
 
@@ -89,6 +90,7 @@ impl<'s> Xacro<'s> {
             values: HashMap::new(),
             result: Tree::default(),
             work: 0,
+            inside: vec![0],
             open: vec![0],
             calls: vec![],
         }

@@ -1,6 +1,7 @@
 //! Values of xacro's expressions: exact numbers, texts, truths, lists.
 
 use super::scope::Scope;
+use super::sequence::{self, MAX_ITEMS, bounded, formatted};
 use crate::description::xml::shown;
 use denavit_symbolic::real::{Real, Values};
 use denavit_symbolic::{Angle, Expr, Rational};
@@ -94,6 +95,16 @@ impl Val {
             .ok_or_else(|| Fault::new("this is no number"))
     }
 
+    /// The values of a list, the names of a map, the letters of a text.
+    pub fn items(&self) -> Result<Vec<Val>, Fault> {
+        match self {
+            Val::List(l) => Ok(l.to_vec()),
+            Val::Map(m) => Ok(m.iter().map(|e| Val::Text(e.0.clone())).collect()),
+            Val::Text(t) => Ok(t.chars().map(|c| Val::Text(c.into())).collect()),
+            _ => Err(Fault::new("this is no list")),
+        }
+    }
+
     pub fn index(&self) -> Result<i64, Fault> {
         self.rational()?.floor().to_integer().ok_or_else(|| Fault::new("a number out of range"))
     }
@@ -136,12 +147,20 @@ impl Val {
             Val::Text(t) => t.clone(),
             Val::Truth(true) => "True".into(),
             Val::Truth(false) => "False".into(),
-            Val::List(l) => format!("[{}]", l.iter().map(Val::show).collect::<Vec<_>>().join(", ")),
+            Val::List(l) => format!("[{}]", l.iter().map(Val::quoted).collect::<Vec<_>>().join(", ")),
             Val::Map(m) => {
-                let entries = m.iter().map(|(name, value)| format!("{name}: {}", value.show()));
+                let entries = m.iter().map(|(name, value)| format!("'{name}': {}", value.quoted()));
                 format!("{{{}}}", entries.collect::<Vec<_>>().join(", "))
             }
             Val::Space(_) => "a namespace".into(),
+        }
+    }
+
+    /// As text inside a list: texts in quotes.
+    fn quoted(&self) -> String {
+        match self {
+            Val::Text(t) => format!("'{t}'"),
+            other => other.show(),
         }
     }
 
@@ -193,6 +212,15 @@ pub(super) fn arithmetic(op: &str, a: &Val, b: &Val) -> Result<Val, Fault> {
         && (a.expr().is_err() || b.expr().is_err())
     {
         return Ok(Val::Text(format!("{x}{y}")));
+    }
+    match (a, b, op) {
+        (Val::List(x), Val::List(y), "+") => return bounded(x.iter().chain(y.iter()).cloned()),
+        (Val::List(x), n @ Val::Number(_), "*") | (n @ Val::Number(_), Val::List(x), "*") => {
+            let times = usize::try_from(n.index()?).unwrap_or(0);
+            return bounded((0..times.min(MAX_ITEMS + 1)).flat_map(|_| x.iter().cloned()));
+        }
+        (Val::Text(form), values, "%") if form.contains('%') => return formatted(form, values),
+        _ => {}
     }
     let (x, y) = (a.expr()?, b.expr()?);
     let zero = || Fault::new("a division by 0");
@@ -253,6 +281,9 @@ pub(super) fn function(name: &str, arguments: &[Val]) -> Result<Val, Fault> {
             };
             return number(Expr::int(length as i64));
         }
+        "max" | "min" if matches!(arguments, [Val::List(_)]) => {
+            return function(name, &arguments[0].items()?);
+        }
         "max" | "min" => {
             let mut best = first()?;
             for other in &arguments[1..] {
@@ -264,6 +295,7 @@ pub(super) fn function(name: &str, arguments: &[Val]) -> Result<Val, Fault> {
             }
             return number(best);
         }
+        _ if sequence::FUNCTIONS.contains(&name) => return sequence::function(name, arguments),
         "atan2" => {
             count(2)?;
             return angle(arguments[0].expr()?, arguments[1].expr()?);

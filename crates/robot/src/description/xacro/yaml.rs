@@ -1,279 +1,220 @@
-//! The part of YAML that files beside robot descriptions have: maps and lists, by indentation or in brackets, and scalars, exactly.
+//! YAML beside robot descriptions: maps, lists and scalars, exactly.
 //!
 //! Scalars are what YAML 1.1 takes them for; `!degrees`, `!radians`, `!meters`, `!millimeters`, `!foot` and `!inches` are an
-//! expression and its unit. Anchors, other tags, texts over several lines and several documents are refused, with their place.
+//! expression and its unit. Other tags than YAML's own, and several documents, are refused, with their place.
 
 use super::expression::{Asked, evaluate};
 use super::value::{Fault, Val, arithmetic};
 use crate::description::xml::shown;
 use denavit_symbolic::{Expr, Rational};
+use saphyr_parser::{Event, Marker, Parser, ScalarStyle, Span, Tag};
+use std::collections::HashMap;
 use std::ops::Range;
 use std::rc::Rc;
 
-/// How deep values may stand in each other, and how many there may be.
+/// How deep values may stand in each other, and how many there may be, what anchors repeat included.
 const MAX_DEPTH: usize = 60;
 const MAX_VALUES: usize = 100_000;
 
-/// A line, or what of one is not read yet.
-struct Line<'t> {
-    indent: usize,
-    text: &'t str,
-}
+/// The name under which a map takes over the entries of others.
+const MERGE: &str = "<<";
 
 /// A text being read.
 struct Reader<'t> {
     whole: &'t str,
     /// Where the text begins in all that is read.
     start: usize,
-    lines: Vec<Line<'t>>,
-    next: usize,
     values: usize,
+    /// The values with anchors, and of how many each consists.
+    anchors: HashMap<usize, (Val, usize)>,
+    open: Vec<Open>,
+}
+
+/// A list or map being read.
+struct Open {
+    kind: Kind,
+    anchor: usize,
+    /// How many values were read before it.
+    before: usize,
+}
+
+enum Kind {
+    List(Vec<Val>),
+    Map(Entries, Option<String>),
+}
+
+/// The entries of a map: the last one of a name counts, and any one before those that are taken over.
+#[derive(Default)]
+struct Entries {
+    all: Vec<(String, Val)>,
+    places: HashMap<String, usize>,
+    merged: Vec<Rc<Vec<(String, Val)>>>,
 }
 
 /// What a text holds that begins at byte `start` of all that is read.
 pub(super) fn read(text: &str, start: usize) -> Result<Val, Fault> {
-    let mut reader = Reader { whole: text, start, lines: vec![], next: 0, values: 0 };
-    reader.split()?;
-    if reader.lines.is_empty() {
-        return Ok(nothing());
+    let mut reader = Reader { whole: text, start, values: 0, anchors: HashMap::new(), open: vec![] };
+    let mut whole = None;
+    let mut documents = 0;
+    for event in Parser::new_from_str(text) {
+        let (event, span) = event.map_err(|why| {
+            let at = reader.byte(why.marker());
+            Fault::new(format!("not YAML: {}", shown(why.info()))).at(at..at)
+        })?;
+        if matches!(event, Event::DocumentStart(_)) {
+            documents += 1;
+            if documents > 1 {
+                return Err(reader.fault("a second document is not read", &span));
+            }
+        }
+        if let Some(value) = reader.event(event, &span)? {
+            whole = Some(value);
+        }
     }
-    let value = reader.block(0, 0)?;
-    match reader.lines.get(reader.next) {
-        None => Ok(value),
-        Some(line) => Err(reader.fault("this stands further left than what it belongs to", line.text)),
-    }
+    Ok(whole.unwrap_or_else(nothing))
 }
 
 fn nothing() -> Val {
     Val::Text("None".into())
 }
 
-impl<'t> Reader<'t> {
-    fn fault(&self, message: impl Into<String>, at: &str) -> Fault {
-        Fault::new(message).at(self.place(at))
+impl Reader<'_> {
+    fn fault(&self, message: impl Into<String>, span: &Span) -> Fault {
+        Fault::new(message).at(self.place(span))
     }
 
-    /// Where a part of the text stands.
-    fn place(&self, part: &str) -> Range<usize> {
-        let from = self.start + (part.as_ptr() as usize - self.whole.as_ptr() as usize);
-        from..from + part.len()
+    fn byte(&self, marker: &Marker) -> usize {
+        self.start + self.whole.char_indices().nth(marker.index()).map_or(self.whole.len(), |c| c.0)
     }
 
-    /// The lines that say something.
-    fn split(&mut self) -> Result<(), Fault> {
-        for line in self.whole.lines() {
-            let text = without_comment(line).trim_end();
-            let inner = text.trim_start_matches(' ');
-            if inner.trim().is_empty() {
-                continue;
-            }
-            if inner.starts_with('\t') {
-                return Err(self.fault("a tab where the line begins", inner).hint("indent with blanks"));
-            }
-            match text {
-                "---" if self.lines.is_empty() => continue,
-                "---" => return Err(self.fault("a second document is not read", inner)),
-                "..." => break,
-                _ if text.starts_with('%') => continue,
-                _ => self.lines.push(Line { indent: text.len() - inner.len(), text: inner }),
-            }
-        }
-        Ok(())
+    fn place(&self, span: &Span) -> Range<usize> {
+        self.byte(&span.start)..self.byte(&span.end)
     }
 
-    fn count(&mut self, depth: usize, at: &str) -> Result<(), Fault> {
-        self.values += 1;
+    fn count(&mut self, values: usize, span: &Span) -> Result<(), Fault> {
+        self.values += values;
         if self.values > MAX_VALUES {
-            return Err(self.fault(format!("more than {MAX_VALUES} values"), at));
+            return Err(self.fault(format!("more than {MAX_VALUES} values"), span));
         }
-        if depth > MAX_DEPTH {
-            return Err(self.fault(format!("values stand in values more than {MAX_DEPTH} deep"), at));
+        if self.open.len() > MAX_DEPTH {
+            return Err(self.fault(format!("values stand in values more than {MAX_DEPTH} deep"), span));
         }
         Ok(())
     }
 
-    /// What stands from the next line on, at its indentation; nothing if that is less than `least`.
-    fn block(&mut self, least: usize, depth: usize) -> Result<Val, Fault> {
-        let Some(&Line { indent, text }) = self.lines.get(self.next).filter(|l| l.indent >= least) else {
-            return Ok(nothing());
+    /// What an event ends that stands in nothing else.
+    fn event(&mut self, event: Event, span: &Span) -> Result<Option<Val>, Fault> {
+        let (value, anchor, before) = match event {
+            Event::Scalar(text, style, anchor, tag) => {
+                let before = self.values;
+                self.count(1, span)?;
+                let is_name = matches!(self.open.last(), Some(Open { kind: Kind::Map(_, None), .. }));
+                let value = match is_name && style == ScalarStyle::Plain && text == MERGE {
+                    true => Val::Text(text.into()),
+                    false => self.scalar(&text, style, tag.as_deref(), span)?,
+                };
+                (value, anchor, before)
+            }
+            Event::Alias(anchor) => {
+                let unknown = || self.fault("this anchor stands for what it stands in", span);
+                let (value, size) = self.anchors.get(&anchor).cloned().ok_or_else(unknown)?;
+                self.count(size, span)?;
+                (value, 0, 0)
+            }
+            Event::SequenceStart(anchor, tag) => {
+                return self.opens(Kind::List(vec![]), anchor, tag.as_deref(), span);
+            }
+            Event::MappingStart(anchor, tag) => {
+                return self.opens(Kind::Map(Entries::default(), None), anchor, tag.as_deref(), span);
+            }
+            Event::SequenceEnd | Event::MappingEnd => {
+                let Some(Open { kind, anchor, before }) = self.open.pop() else { return Ok(None) };
+                let value = match kind {
+                    Kind::List(all) => Val::List(Rc::new(all)),
+                    Kind::Map(entries, _) => Val::Map(Rc::new(entries.closed())),
+                };
+                (value, anchor, before)
+            }
+            Event::Nothing
+            | Event::StreamStart
+            | Event::StreamEnd
+            | Event::DocumentStart(_)
+            | Event::DocumentEnd => return Ok(None),
         };
-        self.count(depth, text)?;
-        if item(text).is_some() {
-            return self.list(indent, depth);
+        if anchor > 0 {
+            self.anchors.insert(anchor, (value.clone(), self.values - before));
         }
-        if key(text).is_some() {
-            return self.map(indent, depth);
-        }
-        self.next += 1;
-        self.scalar_or_flow(text, depth)
+        self.give(value, span)
     }
 
-    fn list(&mut self, indent: usize, depth: usize) -> Result<Val, Fault> {
-        let mut all = vec![];
-        while let Some(line) = self.lines.get(self.next).filter(|l| l.indent == indent) {
-            let Some(rest) = item(line.text) else { break };
-            if rest.is_empty() {
-                self.next += 1;
-                all.push(self.block(indent + 1, depth + 1)?);
-            } else {
-                // What stands behind the dash begins a block of its own.
-                let moved = indent + line.text.len() - rest.len();
-                self.lines[self.next] = Line { indent: moved, text: rest };
-                all.push(self.block(moved, depth + 1)?);
+    fn opens(
+        &mut self,
+        kind: Kind,
+        anchor: usize,
+        tag: Option<&Tag>,
+        span: &Span,
+    ) -> Result<Option<Val>, Fault> {
+        if let Some(tag) = tag.filter(|t| !t.is_yaml_core_schema()) {
+            return Err(self.unknown_tag(tag, span));
+        }
+        self.open.push(Open { kind, anchor, before: self.values });
+        self.count(1, span)?;
+        Ok(None)
+    }
+
+    /// Puts a value where it belongs.
+    fn give(&mut self, value: Val, span: &Span) -> Result<Option<Val>, Fault> {
+        let unfit = match self.open.last_mut().map(|o| &mut o.kind) {
+            None => return Ok(Some(value)),
+            Some(Kind::List(all)) => {
+                all.push(value);
+                return Ok(None);
             }
-            self.ends(indent)?;
-        }
-        Ok(Val::List(Rc::new(all)))
-    }
-
-    fn map(&mut self, indent: usize, depth: usize) -> Result<Val, Fault> {
-        let mut all: Vec<(String, Val)> = vec![];
-        while let Some(&Line { indent: at, text }) = self.lines.get(self.next) {
-            let Some((name, rest)) = key(text).filter(|_| at == indent && item(text).is_none()) else {
-                break;
-            };
-            self.next += 1;
-            let name = match self.scalar(name)? {
-                Val::Text(name) => name,
-                other => other.show(),
-            };
-            let value = if rest.is_empty() {
-                // A list may stand as far left as its name.
-                let is_list =
-                    self.lines.get(self.next).is_some_and(|l| l.indent == indent && item(l.text).is_some());
-                self.block(if is_list { indent } else { indent + 1 }, depth + 1)?
-            } else {
-                self.count(depth + 1, rest)?;
-                self.scalar_or_flow(rest, depth + 1)?
-            };
-            // The last one of a name counts.
-            all.retain(|e| e.0 != name);
-            all.push((name, value));
-            self.ends(indent)?;
-        }
-        Ok(Val::Map(Rc::new(all)))
-    }
-
-    /// What follows an entry stands no further right than its entry began.
-    fn ends(&self, indent: usize) -> Result<(), Fault> {
-        match self.lines.get(self.next).filter(|l| l.indent > indent) {
-            None => Ok(()),
-            Some(line) => Err(self
-                .fault("this belongs to nothing above it", line.text)
-                .hint("values over several lines are not read; write each on one line")),
-        }
-    }
-
-    /// A value on its line; one in brackets may go on on the next ones.
-    fn scalar_or_flow(&mut self, text: &'t str, depth: usize) -> Result<Val, Fault> {
-        if !text.starts_with(['[', '{']) {
-            return self.scalar(text);
-        }
-        let mut rest = text;
-        let value = self.flow(&mut rest, depth)?;
-        match rest.is_empty() {
-            true => Ok(value),
-            false => Err(self.fault("this stands behind a closed bracket", rest)),
-        }
-    }
-
-    /// Goes on on the next line where this one ends, in the bracket that opens `from`.
-    fn more(&mut self, rest: &mut &'t str, from: &str) -> Result<(), Fault> {
-        *rest = rest.trim_start();
-        if rest.is_empty() {
-            let line = self.lines.get(self.next);
-            *rest = line.ok_or_else(|| self.fault("a bracket that is not closed", &from[..1]))?.text;
-            self.next += 1;
-        }
-        Ok(())
-    }
-
-    /// `[a, b]`, `{a: b}` or a scalar between commas.
-    fn flow(&mut self, rest: &mut &'t str, depth: usize) -> Result<Val, Fault> {
-        self.count(depth, rest)?;
-        let from = *rest;
-        if let Some(inner) = rest.strip_prefix('[') {
-            *rest = inner;
-            let mut all = vec![];
-            loop {
-                self.more(rest, from)?;
-                if let Some(behind) = rest.strip_prefix(']') {
-                    *rest = behind.trim_start();
-                    return Ok(Val::List(Rc::new(all)));
+            Some(Kind::Map(_, name @ None)) if !matches!(value, Val::List(_) | Val::Map(_)) => {
+                *name = Some(value.show());
+                return Ok(None);
+            }
+            Some(Kind::Map(_, None)) => "a name that is a list or a map is not read",
+            Some(Kind::Map(entries, name)) => match name.take() {
+                Some(name) if name == MERGE => match entries.merge(&value) {
+                    true => return Ok(None),
+                    false => "`<<` takes a map, or a list of maps",
+                },
+                name => {
+                    entries.set(name.unwrap_or_default(), value);
+                    return Ok(None);
                 }
-                all.push(self.flow(rest, depth + 1)?);
-                self.comma(rest, ']', from)?;
-            }
-        }
-        if let Some(inner) = rest.strip_prefix('{') {
-            *rest = inner;
-            let mut all: Vec<(String, Val)> = vec![];
-            loop {
-                self.more(rest, from)?;
-                if let Some(behind) = rest.strip_prefix('}') {
-                    *rest = behind.trim_start();
-                    return Ok(Val::Map(Rc::new(all)));
-                }
-                let at = *rest;
-                let name = self.scalar(flow_scalar(rest, true))?.show();
-                self.more(rest, from)?;
-                *rest = rest.strip_prefix(':').ok_or_else(|| self.fault("`:` is missing", at))?;
-                self.more(rest, from)?;
-                let value = self.flow(rest, depth + 1)?;
-                all.retain(|e| e.0 != name);
-                all.push((name, value));
-                self.comma(rest, '}', from)?;
-            }
-        }
-        let scalar = flow_scalar(rest, false);
-        if scalar.is_empty() {
-            return Err(self.fault("a value is missing", rest));
-        }
-        self.scalar(scalar)
+            },
+        };
+        Err(self.fault(unfit, span))
     }
 
-    fn comma(&mut self, rest: &mut &'t str, close: char, from: &str) -> Result<(), Fault> {
-        self.more(rest, from)?;
-        match rest.strip_prefix(',') {
-            Some(behind) => *rest = behind,
-            None if rest.starts_with(close) => {}
-            None => return Err(self.fault("a comma is missing", rest)),
-        }
-        Ok(())
+    fn unknown_tag(&self, tag: &Tag, span: &Span) -> Fault {
+        let name = format!("{}{}", tag.handle, tag.suffix);
+        self.fault(format!("the tag `{}` is not read", shown(&name)), span)
     }
 
-    fn scalar(&self, text: &str) -> Result<Val, Fault> {
-        let text = text.trim();
-        if let Some(tagged) = text.strip_prefix('!') {
-            let (tag, value) = tagged.split_once(char::is_whitespace).unwrap_or((tagged, ""));
-            return self.with_unit(tag, unquoted(value.trim()).as_deref().unwrap_or(value), text);
+    fn scalar(&self, text: &str, style: ScalarStyle, tag: Option<&Tag>, span: &Span) -> Result<Val, Fault> {
+        match tag {
+            None if style == ScalarStyle::Plain => Ok(plain(text)),
+            None => Ok(Val::Text(text.into())),
+            Some(tag) if tag.is_yaml_core_schema() && tag.suffix == "str" => Ok(Val::Text(text.into())),
+            Some(tag) if tag.is_yaml_core_schema() => Ok(plain(text)),
+            Some(tag) if tag.handle == "!" && tag.suffix.is_empty() => Ok(Val::Text(text.into())),
+            Some(tag) => self.with_unit(tag, text, span),
         }
-        if text.starts_with(['&', '*', '|', '>', '@', '`']) {
-            return Err(self
-                .fault(format!("`{}` is not read", shown(&text[..1])), text)
-                .hint("anchors and texts over several lines are not read"));
-        }
-        if text.starts_with(['\'', '"']) {
-            let inner = unquoted(text).ok_or_else(|| self.fault("a quote that is not closed", text))?;
-            return Ok(Val::Text(inner));
-        }
-        Ok(match text {
-            "" | "~" | "null" | "Null" | "NULL" => nothing(),
-            "true" | "True" | "TRUE" | "yes" | "Yes" | "YES" | "on" | "On" | "ON" => Val::Truth(true),
-            "false" | "False" | "FALSE" | "no" | "No" | "NO" | "off" | "Off" | "OFF" => Val::Truth(false),
-            _ => number(text).map_or_else(|| Val::Text(text.into()), |x| Val::Number(x.into())),
-        })
     }
 
     /// An expression in a unit.
-    fn with_unit(&self, tag: &str, text: &str, at: &str) -> Result<Val, Fault> {
-        let unit = match tag {
+    fn with_unit(&self, tag: &Tag, text: &str, span: &Span) -> Result<Val, Fault> {
+        let unit = match tag.suffix.as_str() {
+            _ if tag.handle != "!" => return Err(self.unknown_tag(tag, span)),
             "radians" | "meters" => Expr::int(1),
             "degrees" => Expr::pi() * Expr::from(Rational::new(1, 180)),
             "millimeters" => Rational::new(1, 1000).into(),
             "foot" => Rational::new(3048, 10_000).into(),
             "inches" => Rational::new(254, 10_000).into(),
-            other => return Err(self.fault(format!("the tag `!{}` is not read", shown(other)), at)),
+            _ => return Err(self.unknown_tag(tag, span)),
         };
         let value = evaluate(text, &mut |asked| match asked {
             Asked::Name("pi") => Ok(Val::Number(Expr::pi())),
@@ -281,97 +222,61 @@ impl<'t> Reader<'t> {
             _ => Err(Fault::new("this is not read here")),
         });
         let value = value.and_then(|v| arithmetic("*", &v, &Val::Number(unit)));
-        value.map_err(|fault| fault.at(self.place(at)))
+        value.map_err(|fault| fault.at(self.place(span)))
     }
 }
 
-/// What stands behind the dash of an entry of a list.
-fn item(text: &str) -> Option<&str> {
-    let rest = text.strip_prefix('-')?;
-    (rest.is_empty() || rest.starts_with([' ', '\t'])).then(|| rest.trim_start())
-}
+impl Entries {
+    fn set(&mut self, name: String, value: Val) {
+        match self.places.get(&name) {
+            Some(&at) => self.all[at].1 = value,
+            None => {
+                self.places.insert(name.clone(), self.all.len());
+                self.all.push((name, value));
+            }
+        }
+    }
 
-/// The name that a line begins with, and what stands behind its colon.
-fn key(text: &str) -> Option<(&str, &str)> {
-    let mut quote = None;
-    for (at, c) in text.char_indices() {
-        match (quote, c) {
-            (Some(q), c) if q == c => quote = None,
-            (Some(_), _) => {}
-            (None, '\'' | '"') if at == 0 => quote = Some(c),
-            (None, '[' | '{') if at == 0 => return None,
-            (None, ':') => {
-                let rest = &text[at + 1..];
-                if rest.is_empty() || rest.starts_with([' ', '\t']) {
-                    return Some((&text[..at], rest.trim_start()));
+    /// Keeps the entries that are taken over; false for what has none.
+    fn merge(&mut self, value: &Val) -> bool {
+        match value {
+            Val::Map(entries) => self.merged.push(entries.clone()),
+            Val::List(maps) => {
+                for map in maps.iter() {
+                    let Val::Map(entries) = map else { return false };
+                    self.merged.push(entries.clone());
                 }
             }
-            _ => {}
+            _ => return false,
         }
+        true
     }
-    None
+
+    /// All entries: what stands in the map itself counts, then what was taken over first.
+    fn closed(mut self) -> Vec<(String, Val)> {
+        for entries in std::mem::take(&mut self.merged) {
+            for (name, value) in entries.iter() {
+                if !self.places.contains_key(name) {
+                    self.set(name.clone(), value.clone());
+                }
+            }
+        }
+        self.all
+    }
 }
 
-/// The scalar that a text between brackets begins with, which is taken off.
-fn flow_scalar<'t>(rest: &mut &'t str, is_name: bool) -> &'t str {
-    let mut quote = None;
-    let mut end = rest.len();
-    for (at, c) in rest.char_indices() {
-        match (quote, c) {
-            (Some(q), c) if q == c => quote = None,
-            (Some(_), _) => {}
-            (None, '\'' | '"') if rest[..at].trim().is_empty() => quote = Some(c),
-            (None, ',' | ']' | '}' | '[' | '{') => end = at,
-            (None, ':') if is_name => end = at,
-            _ => {}
-        }
-        if end == at {
-            break;
-        }
+/// A scalar without quotes.
+fn plain(text: &str) -> Val {
+    match text {
+        "" | "~" | "null" | "Null" | "NULL" => nothing(),
+        "true" | "True" | "TRUE" | "yes" | "Yes" | "YES" | "on" | "On" | "ON" => Val::Truth(true),
+        "false" | "False" | "FALSE" | "no" | "No" | "NO" | "off" | "Off" | "OFF" => Val::Truth(false),
+        _ => number(text).map_or_else(|| Val::Text(text.into()), |x| Val::Number(x.into())),
     }
-    let (scalar, behind) = rest.split_at(end);
-    *rest = behind;
-    scalar
 }
 
-/// The text between quotes: `''` in single ones is one, and a backslash in double ones says what follows it.
-fn unquoted(text: &str) -> Option<String> {
-    if let Some(inner) = text.strip_prefix('\'').and_then(|t| t.strip_suffix('\'')) {
-        return Some(inner.replace("''", "'"));
-    }
-    let inner = text.strip_prefix('"').and_then(|t| t.strip_suffix('"'))?;
-    let mut plain = String::new();
-    let mut letters = inner.chars();
-    while let Some(c) = letters.next() {
-        plain.push(match c {
-            '\\' => match letters.next()? {
-                'n' => '\n',
-                't' => '\t',
-                other => other,
-            },
-            c => c,
-        });
-    }
-    Some(plain)
-}
-
-/// A line up to the `#` of a comment, which stands behind a blank and in no quotes.
-fn without_comment(line: &str) -> &str {
-    let (mut quote, mut before) = (None, ' ');
-    for (at, c) in line.char_indices() {
-        match (quote, c) {
-            (Some(q), c) if q == c => quote = None,
-            (Some(_), _) => {}
-            (None, '#') if before.is_whitespace() => return &line[..at],
-            (None, '\'' | '"') if matches!(before, ' ' | '\t' | ',' | '[' | '{' | ':') => quote = Some(c),
-            _ => {}
-        }
-        before = c;
-    }
-    line
-}
-
-/// A number as YAML 1.1 has them: decimals, `0x1f`, and octal numbers behind a zero; `1_000` has a line between its digits.
+/// A number as YAML 1.1 has them: decimals, `0x1f`, octal numbers behind a zero, and `1:30` to the base of 60; `1_000` has a line
+/// between its digits.
 fn number(text: &str) -> Option<Rational> {
     let (sign, digits) = match text.strip_prefix(['-', '+']) {
         Some(rest) => (if text.starts_with('-') { -1 } else { 1 }, rest),
@@ -391,6 +296,28 @@ fn number(text: &str) -> Option<Rational> {
     if plain.len() > 1 && plain.starts_with('0') && plain.bytes().all(|b| b.is_ascii_digit()) {
         return in_base(&plain[1..], 8);
     }
-    let x = Rational::from_decimal(&plain)?;
+    let x = match plain.contains(':') {
+        true => sixties(&plain)?,
+        false => Rational::from_decimal(&plain)?,
+    };
     Some(if sign < 0 { -x } else { x })
+}
+
+/// `1:30` is 90, `1:30.5` is 90.5.
+fn sixties(text: &str) -> Option<Rational> {
+    let mut parts = text.split(':');
+    let first = parts.next().filter(|p| !p.is_empty() && p.bytes().all(|b| b.is_ascii_digit()))?;
+    let mut sum = Rational::from_decimal(first)?;
+    let mut parts = parts.peekable();
+    while let Some(part) = parts.next() {
+        let (whole, fraction) = part.split_once('.').unwrap_or((part, ""));
+        let is_last = parts.peek().is_none();
+        let is_digits = |t: &str| t.bytes().all(|b| b.is_ascii_digit());
+        let fits = (1..=2).contains(&whole.len()) && is_digits(whole) && is_digits(fraction);
+        if !fits || whole.len() == 2 && whole > "59" || part.contains('.') && !is_last {
+            return None;
+        }
+        sum = sum * Rational::from(60) + Rational::from_decimal(part.trim_end_matches('.'))?;
+    }
+    Some(sum)
 }

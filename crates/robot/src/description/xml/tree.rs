@@ -71,11 +71,16 @@ impl Tree {
             let tag = node.tag_name();
             let prefix = tag.namespace().and_then(|uri| node.lookup_prefix(uri));
             let name = prefix.map_or_else(|| tag.name().to_string(), |p| format!("{p}:{}", tag.name()));
-            let attributes = node.attributes().filter(|a| a.namespace().is_none()).map(|a| {
+            // `xacro:name` is the only attribute with a prefix that matters, and only there.
+            let is_own = |a: &roxmltree::Attribute| a.namespace().is_none();
+            let is_made = name == "xacro:element";
+            let prefixed = |a: &roxmltree::Attribute| is_made && a.namespace() == tag.namespace();
+            let attributes = node.attributes().filter(|a| is_own(a) || prefixed(a)).map(|a| {
                 let span = shift(a.range_value());
                 let is_plain = a.value().len() == span.len();
                 let value = Value { text: a.value().into(), span, is_plain, exact: vec![] };
-                Attribute { name: a.name().into(), span: shift(a.range_qname()), value }
+                let prefix = if is_own(&a) { "" } else { "xacro:" };
+                Attribute { name: format!("{prefix}{}", a.name()), span: shift(a.range_qname()), value }
             });
             let whole = shift(node.range());
             let span = whole.start..(whole.start + 1 + name.len()).min(whole.end);

@@ -481,8 +481,8 @@ export interface Looks {
 
 export interface LookPart {
   body: number;
-  shape: "box" | "cylinder" | "sphere" | "mesh";
-  /** Edges of a box; radius and length of a cylinder; radius of a ball; scales of a mesh. */
+  shape: "box" | "cylinder" | "capsule" | "ellipsoid" | "sphere" | "mesh";
+  /** Edges of a box; radius and length of a cylinder, or of that of a capsule; half the axes of an ellipsoid; radius of a ball; scales of a mesh. */
   size: Point;
   origin: Matrix;
   colour: [number, number, number, number] | null;

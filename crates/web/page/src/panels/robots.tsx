@@ -65,7 +65,7 @@ function treeIsTaken(taken: boolean): void {
 
 /** A text with its file's name. Where it cannot be read the dialog opens with the text and what is wrong. */
 export function openText(text: string, name: string): void {
-  if (/\.(urdf|xacro)$/i.test(name) || isTree(text)) return openTreeText(text, name);
+  if (/\.(urdf|xacro|mjcf)$/i.test(name) || isTree(text)) return openTreeText(text, name);
   try {
     const { opened, findings } = open(text, kindOf(name));
     if (opened) {
@@ -93,7 +93,7 @@ export async function openFiles(files: Lying[]): Promise<void> {
     const [only] = files;
     if (!only) throw new Error("There is no file in it.");
     if (files.length > 1 || /\.zip$/i.test(only.path)) return treeIsTaken(await openTree(files));
-    const isTreeFile = /\.(urdf|xacro|xml)$/i.test(only.path);
+    const isTreeFile = /\.(urdf|xacro|xml|mjcf)$/i.test(only.path);
     if (only.size > (isTreeFile ? MOST_TREE_BYTES : MOST_BYTES)) {
       throw new Error(`${only.path} is larger than ${isTreeFile ? "16 MiB" : "2 MB"}: it is not a robot description.`);
     }
@@ -106,7 +106,7 @@ export async function openFiles(files: Lying[]): Promise<void> {
 /** Asks for a file. */
 export function chooseFile(): void {
   ask((input) => {
-    input.accept = ".toml,.md,.markdown,.csv,.tsv,.tex,.txt,.urdf,.xacro,.xml,.zip";
+    input.accept = ".toml,.md,.markdown,.csv,.tsv,.tex,.txt,.urdf,.xacro,.xml,.mjcf,.zip";
   });
 }
 

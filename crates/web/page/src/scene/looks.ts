@@ -16,7 +16,7 @@ import { batch, computed, effect, note, q, selected, signal } from "../state.ts"
 import { Meshes } from "../tree/meshes.ts";
 import { tree } from "../tree/open.ts";
 import { measures } from "./measure.ts";
-import { FINE } from "./shapes.ts";
+import { capsule, FINE } from "./shapes.ts";
 import type { Stage } from "./stage.ts";
 import { blend, type Colour, colours, isDark, type Palette } from "./theme.ts";
 
@@ -95,6 +95,10 @@ function primitive(part: LookPart): BufferGeometry | null {
       return FINE.box().scale(a, b, c);
     case "cylinder":
       return FINE.joint().scale(a, a, b);
+    case "capsule":
+      return capsule(a, b);
+    case "ellipsoid":
+      return FINE.ball().scale(a, b, c);
     case "sphere":
       return FINE.ball().scale(a, a, a);
     default:

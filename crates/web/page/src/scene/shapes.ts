@@ -54,6 +54,20 @@ function ball(rings: number, segments: number): BufferGeometry {
   return revolved(pieces, segments);
 }
 
+/** A cylinder about z with half a ball at each end, which adds its radius. */
+export function capsule(radius: number, length: number): BufferGeometry {
+  const half = length / 2;
+  const rings = 8;
+  const point = (k: number): [number, number] => [k === 0 || k === 2 * rings ? 0 : Math.sin((Math.PI * k) / (2 * rings)), -Math.cos((Math.PI * k) / (2 * rings))];
+  const at = ([r, z]: [number, number], rise: number): [number, number] => [radius * r, radius * z + rise];
+  const pieces: Piece[] = [[[radius, -half], [radius, half], [1, 0], [1, 0]]];
+  for (let k = 0; k < 2 * rings; k++) {
+    const rise = k < rings ? -half : half;
+    pieces.push([at(point(k), rise), at(point(k + 1), rise), point(k), point(k + 1)]);
+  }
+  return revolved(pieces, 28);
+}
+
 /** Of what the arm is made; ghosts are of fewer pieces. */
 export const FINE = {
   /** Radius 1, height 1, edges broken. */

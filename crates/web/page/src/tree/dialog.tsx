@@ -27,7 +27,7 @@ export function TreePart({ chooseFile, chooseFolder, done }: Props) {
         <Button label="Open a folder" icon="open" onClick={chooseFolder} />
         <span class="fine">or drop one anywhere on this page. Only a folder or zip brings included files and meshes.</span>
       </div>
-      {opened ? <Choices key={opened.choice.main} done={done} /> : <p class="quiet">A URDF, or one for xacro, is a tree of links: the table is that of a chain through it.</p>}
+      {opened ? <Choices key={opened.choice.main} done={done} /> : <p class="quiet">A URDF, one for xacro, or a model of MuJoCo’s is a tree of links: the table is that of a chain through it.</p>}
     </div>
   );
 }
@@ -37,7 +37,7 @@ function Choices({ done }: { done(): void }) {
   const [given, setGiven] = useState(opened?.choice.given ?? "");
   if (!opened) return null;
   const { source, choice, answer } = opened;
-  const found = descriptions(source.files);
+  const found = descriptions(source.texts);
   const mains = found.includes(choice.main) ? found : [choice.main, ...found];
   const isAsked = answer.tree !== null && answer.tree.tip === null;
 

@@ -84,7 +84,7 @@ export async function unpacked(files: Lying[]): Promise<Lying[]> {
   return entries.map(({ path, bytes }) => ({ path, size: bytes.length, read: async () => bytes }));
 }
 
-const TEXT = /\.(urdf|xacro|xml|ya?ml)$/i;
+const TEXT = /\.(urdf|xacro|xml|mjcf|ya?ml)$/i;
 export const MESH = /\.(stl|obj|dae|gltf|glb)$/i;
 
 function isWanted(path: string): boolean {
@@ -102,10 +102,23 @@ export function decoded(bytes: Uint8Array): string {
   return new TextDecoder().decode(bytes);
 }
 
-/** Descriptions among files, the likeliest first: a URDF before what xacro has yet to expand, the top before what lies below. */
-export function descriptions(files: Lying[]): string[] {
-  const rank = (path: string) => (/\.urdf$/i.test(path) ? 0 : /\.urdf\.xacro$/i.test(path) ? 1 : 2);
+/** The name of the root element of a text of XML. */
+export function root(text: string): string | undefined {
+  return /^\uFEFF?\s*(?:<\?[^>]*\?>\s*|<!--.*?-->\s*)*<([\w.:-]+)/s.exec(text.slice(0, 20_000))?.[1];
+}
+
+/**
+ * Descriptions among texts, the likeliest first: a URDF before a model of MuJoCo's before what xacro has yet to expand, a model that
+ * includes no other one before one that does, the top before what lies below.
+ */
+export function descriptions(texts: [string, string][]): string[] {
+  const models = new Map(texts.filter(([path, text]) => /\.(xml|mjcf)$/i.test(path) && root(text) === "mujoco"));
+  const rank = (path: string) => {
+    const model = models.get(path);
+    if (model !== undefined) return model.includes("<include") ? 2 : 1;
+    return /\.urdf$/i.test(path) ? 0 : /\.urdf\.xacro$/i.test(path) ? 3 : 4;
+  };
   const depth = (path: string) => path.split("/").length;
-  const found = files.map(({ path }) => path).filter((path) => /\.(urdf|xacro)$/i.test(path) && isPlain(path));
+  const found = texts.map(([path]) => path).filter((path) => (/\.(urdf|xacro)$/i.test(path) || models.has(path)) && isPlain(path));
   return found.sort((a, b) => rank(a) - rank(b) || depth(a) - depth(b) || (a < b ? -1 : 1));
 }

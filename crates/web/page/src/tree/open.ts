@@ -1,9 +1,9 @@
-// A robot out of a description of a tree (URDF, xacro): which file, which chain, and what is known of the tree afterwards.
+// A robot out of a description of a tree (URDF, xacro, MJCF): which file, which chain, and what is known of the tree afterwards.
 
 import type { Convention, Output, RobotFile } from "../engine/types.ts";
 import { batch, computed, engine, file, note, replace, said, signal } from "../state.ts";
 import { capital } from "../widgets/words.tsx";
-import { descriptions, type Lying, MESH, texts, unpacked } from "./files.ts";
+import { descriptions, type Lying, MESH, root, texts, unpacked } from "./files.ts";
 
 /** Files in which a description stands, and what lies around it. */
 export interface Source {
@@ -61,7 +61,7 @@ function keep(table: RobotFile, opened: Opened): void {
 
 /** Whether a text is a description of a tree: its root says so. */
 export function isTree(text: string): boolean {
-  return /^\uFEFF?\s*(<\?[^>]*\?>\s*|<!--.*?-->\s*)*<robot[\s/>]/s.test(text.slice(0, 20_000));
+  return ["robot", "mujoco"].includes(root(text) ?? "");
 }
 
 /** A description alone. */
@@ -73,9 +73,9 @@ export function alone(name: string, text: string): Source {
 /** Files, a folder or a zip with a description; whether there is one to be asked about. */
 export async function openTree(dropped: Lying[]): Promise<boolean> {
   const files = await unpacked(dropped);
-  const found = descriptions(files);
-  if (found.length === 0) throw new Error("There is no description of a robot in it: no file ends in .urdf or .xacro.");
   const source: Source = { files, texts: await texts(files), packages: [] };
+  const found = descriptions(source.texts);
+  if (found.length === 0) throw new Error("There is no description of a robot in it: no file ends in .urdf or .xacro, and none is a model of MuJoCo's.");
   return read(source, { main: found[0], given: "", asWritten: false }, isClear(found));
 }
 
@@ -110,7 +110,7 @@ export function openServed(bundle: Bundle): Promise<boolean> {
 
 /** Whether it is clear which of several descriptions is meant: one is the only one that is whole. */
 function isClear(found: string[]): boolean {
-  const plain = found.filter((path) => /\.urdf$/i.test(path));
+  const plain = found.filter((path) => /\.(urdf|xml|mjcf)$/i.test(path));
   const whole = found.filter((path) => /\.urdf\.xacro$/i.test(path));
   return found.length === 1 || plain.length === 1 || (plain.length === 0 && whole.length === 1);
 }
