@@ -59,7 +59,7 @@ def body(depth, name):
 
 
 def model():
-    modes = ["", "", ' inertiafromgeom="true"', ' inertiagrouprange="0 2"', ' inertiafromgeom="auto"']
+    modes = ["", "", ' settotalmass="14"', ' inertiafromgeom="true"', ' inertiagrouprange="0 2"', ' inertiafromgeom="auto"']
     default = f'<default><geom density="{number(500, 2000, 0)}"/><default class="light"><geom density="20"/></default></default>'
     return f"<mujoco><compiler{random.choice(modes)}/>{default}<worldbody><geom type='plane' size='1 1 1'/>{body(3, 'b')}</worldbody></mujoco>"
 

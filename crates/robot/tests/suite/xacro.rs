@@ -554,7 +554,7 @@ fn what_is_wrong_in_yaml_has_its_place() {
         ("a: {<<: 1}\n", "d.a", "v.yaml:1:9: `<<` takes a map, or a list of maps"),
         (&many, "d.a", "v.yaml:5:45: more than 100000 values"),
         ("a: [1, 2\nb: 3", "d.a", "v.yaml:2:2: not YAML: illegal placement of ':' indicator"),
-        ("a: [1,\n", "d.a", "v.yaml:1:7: not YAML: while parsing a node, did not find expected node content"),
+        ("a: [1,\n", "d.a", "v.yaml:2:1: not YAML: while parsing a node, did not find expected node content"),
         (
             "{a: 1",
             "d.a",

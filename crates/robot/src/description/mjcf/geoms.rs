@@ -6,6 +6,7 @@ use super::Mjcf;
 use super::bodies::Context;
 use super::defaults::Resolved;
 use crate::geometry::{Body, Transform, Vector};
+use denavit_symbolic::real::Values;
 use denavit_symbolic::{Expr, Rational};
 use std::collections::HashMap;
 use std::ops::Range;
@@ -304,8 +305,28 @@ impl<'a> Mjcf<'a, '_> {
         });
     }
 
-    /// Gives bodies the masses of their geoms.
-    pub(super) fn weigh_bodies(&mut self) {
+    /// Makes all masses together that of the model, if it says one.
+    pub(super) fn set_total(&mut self, total: Option<&Rational>, is_known: bool, span: Range<usize>) {
+        let Some(total) = total else { return };
+        let masses = || self.links.bodies.iter().filter_map(|b| b.mass.as_ref());
+        let sum = masses().fold(Expr::int(0), |sum, m| sum + m.mass);
+        let mut values = Values::default();
+        let is_there = values.of(sum).is_some_and(|x| !x.is_zero() && !x.is_negative());
+        if !is_known || !is_there {
+            let message = "`settotalmass` is not followed, as not all masses are known";
+            self.reader.out.warning(span, message);
+            return;
+        }
+        let factor = Expr::from(total.clone()) / sum;
+        let mut times = |e: Expr| values.of(e * factor).map_or(e * factor, |x| x.settled());
+        for mass in self.links.bodies.iter_mut().filter_map(|b| b.mass.as_mut()) {
+            mass.mass = times(mass.mass);
+            mass.inertia = mass.inertia.map(&mut times);
+        }
+    }
+
+    /// Gives bodies the masses of their geoms; whether all are known.
+    pub(super) fn weigh_bodies(&mut self) -> bool {
         let mut unknown: Vec<(usize, Range<usize>, &str)> = vec![];
         for (body, Weight { sum, unknown: why }) in std::mem::take(&mut self.weights) {
             if let Some((span, what)) = why {
@@ -325,6 +346,7 @@ impl<'a> Mjcf<'a, '_> {
                 format!("the mass of {what} is not computed: the body `{name}` has none here{others}");
             self.reader.out.note(span.clone(), message).hint("give it an <inertial>");
         }
+        unknown.is_empty()
     }
 
     fn draw(

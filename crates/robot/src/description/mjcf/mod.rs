@@ -26,12 +26,12 @@ use super::xml::{Element, shown};
 use crate::geometry::Axis;
 use bodies::{Context, Named};
 use defaults::Classes;
-use denavit_symbolic::Expr;
+use denavit_symbolic::{Expr, Rational};
 use geoms::{Assets, FromGeoms, Weight};
 use include::{Document, Opened};
 use keyframes::Slot;
 use std::collections::HashMap;
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 use turns::{Compiler, Placing, Quaternions};
 
 /// What stands in `<mujoco>` and says nothing of kinematics.
@@ -89,6 +89,8 @@ struct Model<'a> {
     from_geoms: FromGeoms,
     /// The groups of geoms that weigh.
     groups: RangeInclusive<i64>,
+    /// The mass of all of it, if it is said, and where.
+    total: Option<(Rational, Range<usize>)>,
     /// The folder of its meshes.
     folder: String,
     /// The models that it may attach.
@@ -164,7 +166,9 @@ fn robot(documents: &[Document], reader: &mut Reader) -> Option<Mechanism> {
         beside(root, &mut reader.out);
         let (from_geoms, groups) = inertias(root, reader);
         let folder = folder_of_meshes(root);
-        models.push(Model { root, compiler, classes, from_geoms, groups, folder, parts: &document.parts });
+        let total = total_mass(root, reader);
+        let parts = &document.parts;
+        models.push(Model { root, compiler, classes, from_geoms, groups, total, folder, parts });
     }
     let root = models.first()?.root;
     let mut mjcf = Mjcf {
@@ -187,7 +191,9 @@ fn robot(documents: &[Document], reader: &mut Reader) -> Option<Mechanism> {
     };
     mjcf.assets();
     mjcf.world(root);
-    mjcf.weigh_bodies();
+    let is_known = mjcf.weigh_bodies();
+    let total = mjcf.models[0].total.clone();
+    mjcf.set_total(total.as_ref().map(|t| &t.0), is_known, total.as_ref().map_or(0..0, |t| t.1.clone()));
     mjcf.couplings();
     mjcf.name_fixed();
     let gravity = gravity(root, mjcf.reader);
@@ -303,7 +309,7 @@ fn inertias(root: Element, reader: &mut Reader) -> (FromGeoms, RangeInclusive<i6
                 }
             }
         }
-        for name in ["boundmass", "boundinertia", "settotalmass", "balanceinertia"] {
+        for name in ["boundmass", "boundinertia", "balanceinertia"] {
             let is_off = |t: &str| matches!(t, "false") || t.trim().parse::<f64>().is_ok_and(|x| x <= 0.0);
             if let Some(text) = element.attribute(name).filter(|t| !is_off(t.text)) {
                 let message = format!("`{name}` is not read: masses are those of the bodies themselves");
@@ -312,6 +318,14 @@ fn inertias(root: Element, reader: &mut Reader) -> (FromGeoms, RangeInclusive<i6
         }
     }
     (from, groups)
+}
+
+/// The mass of all of a model, if its `<compiler>` says one.
+fn total_mass(root: Element, reader: &mut Reader) -> Option<(Rational, Range<usize>)> {
+    let said: Vec<_> = root.all("compiler").filter_map(|c| c.attribute("settotalmass")).collect();
+    let text = said.into_iter().next_back()?;
+    let total = reader.numbers(&text, "settotalmass", 1)?.remove(0).0;
+    (!total.is_zero() && !total.is_negative()).then_some((total, text.span))
 }
 
 /// The folder in which a model has its meshes.

@@ -59,7 +59,7 @@ pub(super) fn read(text: &str, start: usize) -> Result<Val, Fault> {
     for event in Parser::new_from_str(text) {
         let (event, span) = event.map_err(|why| {
             let at = reader.byte(why.marker());
-            Fault::new(format!("not YAML: {}", shown(why.info()))).at(at..at)
+            Fault::new(format!("not YAML: {}", why.info())).at(at..at)
         })?;
         if matches!(event, Event::DocumentStart(_)) {
             documents += 1;
