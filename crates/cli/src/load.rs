@@ -11,8 +11,8 @@ use crate::failure::Failure;
 use crate::terminal::{decimals, note};
 use denavit::catalogue;
 use denavit::description::{
-    Chain, Described, Description, Diagnostic, MAX_BYTES, Measure, Mechanism, NamedFrame, Row, RowChain,
-    RowTree, Severity, TableKind, TableOptions, Variable, read_robot, read_table_robot, read_value,
+    Chain, Described, Description, Diagnostic, Language, MAX_BYTES, Measure, Mechanism, NamedFrame, Row,
+    RowChain, RowTree, Severity, TableKind, TableOptions, Variable, read_robot, read_table_robot, read_value,
     root_element, write_toml,
 };
 use denavit_symbolic::Expr;
@@ -106,7 +106,7 @@ type Found = (Description, Option<String>, Around);
 
 /// The endings of files of bodies and joints, and those of others that are known.
 const TREES: [&str; 4] = ["urdf", "xacro", "xml", "mjcf"];
-const OTHERS: [&str; 8] = ["toml", "md", "markdown", "txt", "csv", "tsv", "tex", "par"];
+const OTHERS: [&str; 10] = ["toml", "md", "markdown", "txt", "csv", "tsv", "tex", "par", "m", "py"];
 /// How much of a file is looked at for its root element.
 const HEAD: u64 = 1 << 16;
 
@@ -195,8 +195,10 @@ fn from_file(arguments: &RobotArguments) -> Result<Found, Failure> {
         Some(ending) if let Some(kind) = table_kind(ending) => Some(kind),
         _ if is_tree(name) => return urdf::from_urdf(arguments).map(without_text),
         Some("par") => return rows::from_par(arguments).map(without_text),
+        Some("m") => return rows::from_program(arguments, Language::Matlab).map(without_text),
+        Some("py") => return rows::from_program(arguments, Language::Python).map(without_text),
         _ if path.is_file() => {
-            let hint = "a robot file ends in .toml, .urdf, .xacro, .xml, .mjcf or .par, a table in .md, .txt, .csv, .tsv or .tex";
+            let hint = "a robot file ends in .toml, .urdf, .xacro, .xml, .mjcf or .par, a table in .md, .txt, .csv, .tsv or .tex, a program in .m or .py";
             return Err(Failure::Input(format!("error: {name}: what is this?\n  = hint: {hint}")));
         }
         _ => return Err(unknown_robot(name)),
@@ -341,7 +343,7 @@ fn unknown_robot(name: &str) -> Failure {
     let close: Vec<&str> = names.filter(|n| similar(n, name)).take(6).collect();
     let hint = match &close[..] {
         [] => {
-            "`denavit robots` lists the catalogue; files end in .toml, .urdf, .xml, .par, .md, .csv or .tex"
+            "`denavit robots` lists the catalogue; files end in .toml, .urdf, .xml, .par, .md, .csv, .tex, .m or .py"
                 .to_string()
         }
         names => format!("did you mean {}?", names.join(", ")),

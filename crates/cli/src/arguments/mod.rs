@@ -22,7 +22,8 @@ pub use view::ViewArguments;
 /// Everything about a robot arm from its Denavit-Hartenberg table: exact, proved, in formulas and in numbers.
 ///
 /// A ROBOT is a name from the catalogue (`denavit robots`), a robot file (.toml), a URDF (.urdf, .xacro), a model of MuJoCo
-/// (.xml, .mjcf), a .par file of SYMORO, or a table as it stands in a document (.md, .txt, .csv, .tsv, .tex).
+/// (.xml, .mjcf), a .par file of SYMORO, a table as it stands in a document (.md, .txt, .csv, .tsv, .tex), or a program that
+/// makes a robot with a toolbox (.m, .py: Link, SerialLink, DHRobot, dhparams).
 /// Exit codes: 0 done, 1 the answer is no, 2 usage, 3 bad input, 4 not supported, 5 gave up.
 #[derive(Parser)]
 #[command(name = "denavit", version, max_term_width = 110)]

@@ -5,7 +5,8 @@ use crate::arguments::RobotArguments;
 use crate::failure::Failure;
 use crate::terminal::{note, words};
 use denavit::description::{
-    Convention, Decimals, Described, Description, MAX_BYTES, NoChain, RowTree, read_par,
+    Convention, Decimals, Described, Description, Language, MAX_BYTES, NoChain, RowTree, read_par,
+    read_program,
 };
 use denavit_report::words::Whole;
 
@@ -77,6 +78,33 @@ pub fn from_par(arguments: &RobotArguments) -> Result<(Description, Around), Fai
         return Ok((chain.description, Around::Nothing));
     }
     of_tree(arguments, &tree, Convention::Khalil)
+}
+
+/// The robot that a program makes.
+///
+/// # Errors
+/// If the file cannot be read or has errors.
+pub fn from_program(
+    arguments: &RobotArguments,
+    language: Language,
+) -> Result<(Description, Around), Failure> {
+    let name = arguments.robot.as_str();
+    let given = [
+        (arguments.convention.is_some(), "--convention"),
+        (arguments.angles.is_some(), "--angles"),
+        (arguments.lengths.is_some(), "--lengths"),
+        (arguments.columns.is_some(), "--columns"),
+        (arguments.base.is_some(), "--base"),
+        (arguments.tip.is_some(), "--tip"),
+    ];
+    if let Some((_, option)) = given.into_iter().find(|g| g.0) {
+        return Err(Failure::Usage(format!("{option} is not for programs: {name} says it itself")));
+    }
+    let text = contents(name, MAX_BYTES).map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
+    let read = read_program(&text, language, arguments.table);
+    let (description, findings) = read.map_err(|f| Failure::Input(render(&f, name, &text)))?;
+    note(render(&findings, name, &text).trim_end());
+    Ok((description, Around::Nothing))
 }
 
 /// Why there is no chain, with the option that helps.

@@ -26,6 +26,7 @@ mod rows;
 mod same;
 mod sources;
 pub mod table;
+mod toolbox;
 mod tree;
 mod units;
 mod urdf;
@@ -49,6 +50,7 @@ pub use robot_file::{
 pub use same::{SameMechanism, Sameness, same_mechanism};
 pub use sources::{Alone, Files, Sources};
 pub use table::{TableKind, TableOptions, read_table, read_table_robot, write_table, write_tree_table};
+pub use toolbox::{Language, read_program};
 pub use tree::{Body, Chain, Follows, Joint, JointDrive, Look, Mass, Mechanism, NoChain, Shape};
 pub use urdf::{Reading, read_urdf, read_xacro, write_urdf};
 pub use value::{Measure, NotSet, read_value};

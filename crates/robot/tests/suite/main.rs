@@ -36,6 +36,7 @@ mod singular;
 mod singular_found;
 mod singular_motion;
 mod solver_text;
+mod toolbox;
 mod track;
 mod trees;
 mod urdf;

@@ -569,7 +569,7 @@ fn what_is_wrong_in_yaml_has_its_place() {
             "v.yaml:1:4: not YAML: while scanning a quoted scalar, found unexpected end of stream",
         ),
         (" a: 1\nb: 2\n", "d.a", "v.yaml:2:1: not YAML: did not find expected <document start>"),
-        (&deep, "d.a", "v.yaml:1:64: values stand in values more than 60 deep"),
+        (&deep, "d.a", "v.yaml:1:63: values stand in values more than 60 deep"),
         ("length: 1\n", "d.lenght", "main.xacro:2:70: there is no `lenght` | did you mean `length`?"),
         ("- 1\n", "d[3]", "main.xacro:2:70: there is no entry 3: the list has 1"),
         ("- 1\n", "d + 1", "main.xacro:2:70: a list is no number"),
