@@ -120,7 +120,7 @@ fn what_is_wrong_with_a_program_has_its_place() {
         ("x = 1", "1:1 error: no robot is made in this program"),
         (
             "r = DHRobot([RevoluteDH(a=1), RevoluteMDH(a=1)])",
-            "1:30 error: standard and modified links in one robot",
+            "1:31 error: standard and modified links in one robot",
         ),
         (
             "a = DHRobot([RevoluteDH(a=1)])\nb = DHRobot([RevoluteDH(a=2)])",
