@@ -114,8 +114,10 @@ fn arms_of_the_catalogue_go_to_programs_and_back() {
 
 #[test]
 fn what_is_wrong_with_a_program_has_its_place() {
-    let said =
-        |text: &str| shown(text, &read_program(text, Language::Python, None).expect_err(text)).remove(0);
+    let said = |text: &str| {
+        let found = shown(text, &read_program(text, Language::Python, None).expect_err(text));
+        found.into_iter().find(|f| f.contains(" error: ")).expect("an error")
+    };
     for (text, expected) in [
         ("x = 1", "1:1 error: no robot is made in this program"),
         (
