@@ -48,6 +48,9 @@ fn of_tree(
         Some(agreement) => words().agreement(agreement, Whole::Tree),
     };
     note(&format!("note: from `{}` to `{}`, {joints}; {rows}", chain.from, chain.to));
+    if let Some(why) = &chain.unweighed {
+        note(&format!("warning: {why}"));
+    }
     Ok((chain.description.clone(), Around::Rows(Box::new(chain))))
 }
 

@@ -27,6 +27,9 @@ pub fn from_urdf(arguments: &RobotArguments) -> Result<(Description, Around), Fa
     let chain = mechanism.chain(base, tip, convention).map_err(|why| no_chain(name, &why))?;
     let [from, to] = [chain.from, chain.to].map(|b| mechanism.bodies[b].name.clone());
     note(&format!("note: {}", words().chain(&chain, &mechanism)));
+    if let Some(why) = &chain.unweighed {
+        note(&format!("warning: {why}"));
+    }
     let description =
         Description { source: Some(format!("{name}: {from} to {to}")), ..chain.description.clone() };
     Ok((description, Around::Bodies(Box::new((mechanism, chain)))))

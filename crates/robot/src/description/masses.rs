@@ -41,6 +41,12 @@ impl Row {
         Some(Mass { mass, com: centre.0, inertia })
     }
 
+    /// Takes away what the row says of its link's mass.
+    pub(in crate::description) fn weigh_nothing(&mut self) {
+        (self.mass, self.com, self.inertia) = (None, None, None);
+        (self.first_moment, self.inertia_at_origin) = (None, None);
+    }
+
     /// Writes the link's mass in its new frame, in which the old one stands so.
     pub(super) fn move_frame(&mut self, x_new_old: &Transform<Expr>) {
         let moved = self.body().map(|b| b.seen_from(x_new_old));

@@ -51,7 +51,7 @@ pub use same::{SameMechanism, Sameness, same_mechanism};
 pub use sources::{Alone, Files, Sources};
 pub use table::{TableKind, TableOptions, read_table, read_table_robot, write_table, write_tree_table};
 pub use toolbox::{Language, read_program};
-pub use tree::{Body, Chain, Follows, Joint, JointDrive, Look, Mass, Mechanism, NoChain, Shape};
+pub use tree::{Body, Chain, Follows, Joint, JointDrive, Look, Mass, Mechanism, NoChain, Shape, Unweighed};
 pub use urdf::{Reading, read_urdf, read_xacro, write_urdf};
 pub use value::{Measure, NotSet, read_value};
 pub use xml::{MAX_XML_BYTES, root_element};

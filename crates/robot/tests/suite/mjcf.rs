@@ -4,7 +4,7 @@ use crate::common::{Random, shown};
 use denavit::catalogue;
 use denavit::description::{
     Agreement, Alone, Convention, Decimals, Description, Mechanism, NoChain, Row, RowTree, Severity, Sources,
-    read_mjcf, root_element, write_mjcf, write_toml,
+    Unweighed, read_mjcf, root_element, write_mjcf, write_toml,
 };
 use denavit::dynamics::{Dynamics, inverse_dynamics};
 use denavit::geometry::Transform;
@@ -456,6 +456,22 @@ fn keyframes_are_named_configurations() {
     let values =
         |d: &Description| -> Vec<f64> { d.poses[0].1.iter().map(|e| e.eval(|_| None).unwrap()).collect() };
     assert_eq!((&back.poses[0].0, values(&back)), (&arm.poses[0].0, values(&arm)));
+}
+
+/// An `<inertial>` in a frame of its body is the body's; what is not known is no mass, and chains that move it have none.
+#[test]
+fn masses_in_frames_and_masses_that_are_not_known() {
+    let text = "<mujoco><worldbody><body name='a'><joint name='j' axis='0 0 1'/><frame pos='1 0 0' euler='0 90 0'>
+        <geom type='cylinder' size='0.1' fromto='0 0 0 1 1 1'/><inertial pos='1 0 0' mass='2' diaginertia='1 1 1'/></frame>
+        <body name='b'><joint name='k' axis='0 1 0'/><geom type='mesh' mesh='m' mass='20'/><body name='c'><joint name='l'/><geom size='0.1'/></body>
+        </body></body></worldbody></mujoco>";
+    let m = read(text, Decimals::Meant);
+    let mass = m.bodies[m.body("a").unwrap()].mass.as_ref().unwrap();
+    assert_eq!((mass.mass, mass.com), (Expr::int(2), [1, 0, -1].map(Expr::int)));
+    let chain = |from: &str, to: &str| m.chain(Some(from), Some(to), Convention::Standard).unwrap();
+    assert_eq!(chain("world", "c").unweighed, Some(Unweighed::Body("b".into())));
+    assert!(!chain("world", "c").description.has_masses());
+    assert!(chain("b", "c").unweighed.is_none() && chain("b", "c").description.has_masses());
 }
 
 /// Where no `<inertial>` says what a body weighs, its geoms do.

@@ -68,6 +68,21 @@ fn links_of_python_are_a_table() {
     assert_eq!(d.parameters.len(), 2);
 }
 
+/// In a text or a document a program is read as such where a table does not have what it says.
+#[test]
+fn programs_in_texts_keep_offsets_and_conventions() {
+    use denavit::description::{TableKind, TableOptions, read_table};
+    let read = |text: &str| read_table(text, TableKind::Markdown, &TableOptions::default());
+    let offset = "convention = \"standard\"\n[[joints]]\ntheta = \"q1 + 90 deg\"\nd = 0.5\na = 0.1\nalpha = \"90 deg\"\n[[joints]]\ntheta = \"q2\"\na = 0.4\n";
+    same(&read("L(1) = Link([0 0.5 0.1 pi/2 0 pi/2]);\nL(2) = Link([0 0 0.4 0 0 0]);\n").unwrap().0, offset);
+    let python = "robot = DHRobot([\n    RevoluteDH(d=0.5, a=0.1, alpha=np.pi/2, offset=pi/2),\n    RevoluteDH(a=0.4),\n])";
+    same(&read(python).unwrap().0, offset);
+    let modified = "r = DHRobot([RevoluteMDH(a=0.1), RevoluteMDH(a=0.4)])";
+    assert_eq!(read(modified).unwrap().0.convention, Convention::Craig);
+    let standard = TableOptions { convention: Some(Convention::Standard), ..TableOptions::default() };
+    assert!(read_table(modified, TableKind::Markdown, &standard).is_err());
+}
+
 /// Every arm of the catalogue whose rows a toolbox has goes to Python and back.
 #[test]
 fn arms_of_the_catalogue_go_to_programs_and_back() {
@@ -131,7 +146,7 @@ fn what_is_wrong_with_a_program_has_its_place() {
         ("r = DHRobot([RevoluteDH(1, 2, 3, 4, 5)])", "1:37 error: what does this value say?"),
         ("r = DHRobot([RevoluteDH(a=q2)])", "1:27 error: the joint variable `q2` beside the joint's own"),
         ("r = DHRobot([RevoluteDH(a=1 +)])", "1:27 error: "),
-        ("a = b\nb = a\nr = DHRobot([RevoluteDH(a=[1])])", "3:27 error: "),
+        ("a = b\nb = a\nr = DHRobot([RevoluteDH(a=[1, 2])])", "3:27 error: "),
     ] {
         assert!(said(text).starts_with(expected), "{text}: {}", said(text));
     }

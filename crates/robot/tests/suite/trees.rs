@@ -4,7 +4,7 @@ use crate::common::Random;
 use denavit::catalogue;
 use denavit::description::{
     Alone, Convention, Decimals, Described, Description, Diagnostic, Mechanism, NoChain, RowTree, Severity,
-    TableKind, TableOptions, line_column, prove_same_chain, read_mjcf, read_par, read_robot,
+    TableKind, TableOptions, Unweighed, line_column, prove_same_chain, read_mjcf, read_par, read_robot,
     read_table_robot, read_toml, read_urdf, write_mjcf, write_par, write_tree, write_urdf,
 };
 use denavit::dynamics::{Dynamics, inverse_dynamics};
@@ -473,6 +473,44 @@ fn branches_weigh_on_the_chain() {
         }
     }
     assert!(held > 20, "{held}");
+}
+
+/// What moves with the chain beside it is not counted as if it stood still: the rows have no masses then, and it is said.
+#[test]
+fn what_moves_beside_the_chain_is_not_weighed_as_fixed() {
+    let link = |name: &str| {
+        format!(
+            "<link name='{name}'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link>"
+        )
+    };
+    let joint = |name: &str, on: &str, to: &str, more: &str| {
+        format!(
+            "<joint name='{name}' type='continuous'><parent link='{on}'/><child link='{to}'/><origin xyz='1 0 0'/><axis xyz='0 1 0'/>{more}</joint>"
+        )
+    };
+    let links: String = ["b", "l1", "l2", "l3"].map(link).concat();
+    let arm = joint("j1", "b", "l1", "") + &joint("j2", "l1", "l2", "");
+    let file = |more: &str| format!("<robot name='r'>{links}{arm}{}</robot>", joint("j3", "l1", "l3", more));
+    let mimics = read_urdf(&file("<mimic joint='j2' multiplier='2'/>"), Decimals::Meant).unwrap().0;
+    let chain = mimics.chain(None, Some("l2"), Convention::Standard).unwrap();
+    assert_eq!(chain.unweighed, Some(Unweighed::Joint("j3".into())));
+    assert!(!chain.description.has_masses());
+    // By itself it can be held where it is, and is named.
+    let alone = read_urdf(&file(""), Decimals::Meant).unwrap().0;
+    let chain = alone.chain(None, Some("l2"), Convention::Standard).unwrap();
+    assert!(chain.unweighed.is_none() && chain.description.has_masses());
+    assert_eq!(chain.held.len(), 1);
+    // The same in rows.
+    let rows = |theta: &str| {
+        format!(
+            "name = \"t\"\nconvention = \"khalil\"\n[[joints]]\nname = \"a\"\ntheta = \"q1\"\nmass = 1\n[[joints]]\nname = \"b\"\nd = 1\ntheta = \"q2\"\nmass = 1\n\
+         [[joints]]\nname = \"c\"\nafter = \"a\"\nd = 1\ntheta = \"{theta}\"\nmass = 1\n"
+        )
+    };
+    let chain = |theta: &str| tree(&rows(theta)).chain(None, Some("b"), Convention::Khalil).unwrap();
+    assert_eq!(chain("2*q2").unweighed, Some(Unweighed::Joint("c".into())));
+    assert!(!chain("2*q2").description.has_masses());
+    assert!(chain("q3").unweighed.is_none() && chain("q3").held == ["c"]);
 }
 
 /// The structures beside the catalogue: all their frames are where their chains have them.

@@ -94,7 +94,7 @@ fn numbers_are_exact() {
         ("degrees(atan2(1, 1))", decimal("45")),
         ("degrees(acos(0.5))", decimal("60")),
         ("max(1, 3, 2) + min(4, 5)", decimal("7")),
-        ("abs(-0.5) + int(2.7) + round(0.5)", decimal("3.5")),
+        ("abs(-0.5) + int(2.7) + round(0.5)", decimal("2.5")),
         ("[1, 2, 3][1] + [4, 5][-1]", decimal("7")),
         ("1 if 2 > 3 else 4", decimal("4")),
         ("5 if not (1 == 2 or 'a' != 'a') and 'b' in 'abc' else undefined", decimal("5")),
@@ -491,6 +491,9 @@ tagged: !!str 12
         ("${'%5d' % 3}", "    3"),
         ("${'%+d' % 3}", "+3"),
         ("${d.list[1:]}", "[1, 2]"),
+        ("${round(2.5)} ${round(3.5)} ${round(-2.5)} ${round(0.125, 2)}", "2 4 -2 0.12"),
+        ("${1 if 'False' else 2}", "1"),
+        ("${1 if '10' < '9' else 2}", "1"),
     ] {
         assert_eq!(name(expression).as_deref(), Ok(value), "{expression}");
     }

@@ -76,6 +76,7 @@ impl Geometry for English {
         };
         let inertias = match heavy {
             0 => "no inertias".to_string(),
+            _ if chain.unweighed.is_some() => format!("inertias for {heavy} of {links} links"),
             _ => format!("inertias for {heavy} of {links} links, which its rows have"),
         };
         let joints = counted(joints, "joint", "joints");

@@ -1,6 +1,7 @@
 //! A serial chain through a tree of rows.
 
 use super::{BASE, NamedFrame, RowTree};
+use crate::description::Unweighed;
 use crate::description::diagnostic::nearest;
 use crate::description::{Agreement, Convention, Description, MAX_ROWS, NoChain, Row, Variable};
 use crate::geometry::Transform;
@@ -19,6 +20,8 @@ pub struct RowChain {
     pub agreement: Option<Agreement>,
     /// Joints beside the chain behind which something weighs that hangs on a link of it: they count as fixed at 0.
     pub held: Vec<String>,
+    /// Why its rows have no masses, if rows of the tree weigh.
+    pub unweighed: Option<Unweighed>,
     /// Frames with names that do not move on those of its table, where these are known.
     pub frames: Vec<NamedFrame>,
 }
@@ -56,7 +59,7 @@ impl RowTree {
         let base = if from == *BASE { self.base } else { start.1.inverse() };
         let straight = below.and_then(|rows| Some((rows, self.straight(rows, base, end)?)));
         if let Some((rows, mut d)) = straight {
-            let held = self.weigh_branches(rows, &mut d.rows);
+            let (held, unweighed) = self.weigh_branches(rows, &mut d.rows);
             let held = held.into_iter().map(|j| self.frame_name(j)).collect();
             let description = d.converted(convention).description;
             if description.variables().is_empty() {
@@ -64,18 +67,20 @@ impl RowTree {
             }
             // In other conventions frames stand elsewhere.
             let frames = if convention == Convention::Khalil { self.frames_on(rows) } else { vec![] };
-            return Ok(RowChain { description, from, to, agreement: None, held, frames });
+            return Ok(RowChain { description, from, to, agreement: None, held, unweighed, frames });
         }
         let mechanism = self.mechanism().map_err(|missing| NoChain::NeedsValues(missing.parameters))?;
         let chain = mechanism.chain(Some(&from), Some(&to), convention)?;
         let held = chain.held.iter().map(|&j| mechanism.joints[j].name.clone()).collect();
         let frames = mechanism.frames(&chain);
+        let unweighed = chain.unweighed;
         Ok(RowChain {
             description: chain.description,
             from,
             to,
             agreement: Some(chain.agreement),
             held,
+            unweighed,
             frames,
         })
     }

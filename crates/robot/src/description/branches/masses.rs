@@ -2,14 +2,18 @@
 
 use super::RowTree;
 use crate::description::Row;
-use crate::description::tree::Mass;
+use crate::description::tree::{Mass, Unweighed};
 use crate::geometry::{Body, Transform};
 use denavit_symbolic::{Expr, Symbol};
 
 impl RowTree {
     /// Adds to the rows of a way down the tree the masses of the rows that hang on them beside it, these being where their joints
-    /// are at 0; the rows are returned whose joints could move what weighs.
-    pub(super) fn weigh_branches(&self, way: &[usize], rows: &mut [Row]) -> Vec<usize> {
+    /// are at 0; the rows are returned whose joints could move what weighs. Where one moves with a joint of the way, no row weighs
+    /// anything, and that is returned.
+    pub(super) fn weigh_branches(&self, way: &[usize], rows: &mut [Row]) -> (Vec<usize>, Option<Unweighed>) {
+        let on_way: Vec<usize> =
+            way.iter().flat_map(|&j| self.motions(&self.rows[j])).map(|motion| motion.1).collect();
+        let mut unweighed = None;
         let variables = self.variables();
         let mut held = vec![];
         // Of each row beside the way: the place of the row of the way that it hangs on, its frame there, the last row that moves.
@@ -17,21 +21,27 @@ impl RowTree {
         for (j, row) in self.rows.iter().enumerate() {
             let Some(after) = self.after[j].filter(|_| !way.contains(&j)) else { continue };
             let at = match way.iter().position(|&k| k == after) {
-                Some(at) => Some(Hanging { at, pose: Transform::identity(), held: None }),
+                Some(at) => Some(Hanging { at, pose: Transform::identity(), held: None, follows: false }),
                 None => hangs[after],
             };
-            let Some(Hanging { at, pose, held: before }) = at else { continue };
+            let Some(Hanging { at, pose, held: before, follows: follows_before }) = at else { continue };
             let pose = pose * at_rest(row, &variables);
-            let moves = self.motions(row).first().map(|_| j);
-            let own = Hanging { at, pose, held: moves.or(before) };
+            let motions = self.motions(row);
+            let follows = follows_before || motions.iter().any(|m| on_way.contains(&m.1));
+            let own = Hanging { at, pose, held: motions.first().map(|_| j).or(before), follows };
             if let Some(body) = row.body() {
+                let moves = follows.then(|| Unweighed::Joint(self.frame_name(j)));
+                unweighed = unweighed.or(moves);
                 held.extend(own.held.filter(|h| !held.contains(h)));
                 add(&mut rows[at], &body.seen_from(&pose));
             }
             hangs[j] = Some(own);
         }
         held.sort_unstable();
-        held
+        if unweighed.is_some() {
+            rows.iter_mut().for_each(Row::weigh_nothing);
+        }
+        (held, unweighed)
     }
 }
 
@@ -41,6 +51,8 @@ struct Hanging {
     at: usize,
     pose: Transform<Expr>,
     held: Option<usize>,
+    /// True if a joint of the way moves it.
+    follows: bool,
 }
 
 /// A row's frame in the one before, with all variables at 0.

@@ -6,9 +6,9 @@
 use super::{BASE, NamedFrame, RowTree};
 use crate::description::lines::{NotNamed, Turns, frame_on, settled};
 use crate::description::tree::moved;
-use crate::description::{JointKind, Mass, Mechanism, Row, Screw, Variable};
+use crate::description::{JointDrive, JointKind, Mass, Mechanism, Row, Screw, Variable};
 use crate::geometry::Transform;
-use denavit_symbolic::{Angle, Expr, Symbol};
+use denavit_symbolic::{Angle, Expr, Rational, Symbol};
 
 /// A joint that moves, at rest.
 struct Placed {
@@ -72,7 +72,12 @@ impl RowTree {
             last.name = Some(joint.name.clone());
             (last.limits, last.velocity) = (joint.limits.filter(|_| own), joint.velocity.filter(|_| own));
             if own {
-                let drive = joint.drive;
+                let followers = m.joints.iter().filter_map(|j| {
+                    let follows = j.follows.as_ref().filter(|f| f.joint == placed.joint)?;
+                    Some((&j.drive, &follows.factor))
+                });
+                let drive =
+                    JointDrive::together([(&joint.drive, &Rational::ONE)].into_iter().chain(followers));
                 (last.rotor, last.viscous, last.coulomb) = (drive.rotor, drive.viscous, drive.coulomb);
             }
             tree.rows.push(last);

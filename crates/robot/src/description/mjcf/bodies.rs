@@ -193,10 +193,16 @@ impl<'a> Mjcf<'a, '_> {
     fn body(&mut self, element: Element<'a>, cx: &Context) {
         element.only(BODY, &mut self.reader.out);
         let inner = self.framed(element, cx);
-        let mass = element.one("inertial", &mut self.reader.out).and_then(|e| self.mass(e, cx.model));
+        let given = self.inertial_of(element, cx);
+        let has_inertial = given.is_some();
+        let mass = given.and_then(|(e, frame)| self.mass(e, frame, cx.model));
+        let gravcomp = element.attribute("gravcomp").filter(|g| g.text.trim().parse() != Ok(0.0));
+        if let Some(text) = gravcomp {
+            self.reader.out.warning(text.span, "`gravcomp` is not read: the body has its weight here");
+        }
         let from_geoms = match self.models[cx.model].from_geoms {
             FromGeoms::Never => false,
-            FromGeoms::Missing => element.all("inertial").next().is_none(),
+            FromGeoms::Missing => !has_inertial,
             FromGeoms::Always => true,
         };
         let is_mocap = element.attribute("mocap").is_some_and(|m| m.text == "true");
@@ -444,9 +450,38 @@ impl<'a> Mjcf<'a, '_> {
     }
 
     /// The mass of a body in its frame; nothing where it is not complete, which is said.
-    fn mass(&mut self, inertial: Element<'a>, model: usize) -> Option<Mass> {
+    /// The `<inertial>` of a body, which may stand in a frame of it, and that frame in the body's.
+    fn inertial_of(&mut self, body: Element<'a>, cx: &Context) -> Option<(Element<'a>, Transform<Expr>)> {
+        let start = Context { frame: Transform::identity(), ..cx.clone() };
+        let mut open = vec![(body, start)];
+        let mut found: Option<(Element<'a>, Transform<Expr>)> = None;
+        while let Some((element, cx)) = open.pop() {
+            for inside in element.children() {
+                match inside.name() {
+                    Some("inertial") if found.is_some() => {
+                        self.reader.out.warning(inside.span(), "a second <inertial>; the first one counts");
+                    }
+                    Some("inertial") => found = Some((inside, cx.frame)),
+                    Some("frame")
+                        if inside.children().any(|c| matches!(c.name(), Some("inertial" | "frame"))) =>
+                    {
+                        let inner = self.framed(inside, &cx);
+                        open.push((inside, inner));
+                    }
+                    _ => {}
+                }
+            }
+        }
+        found
+    }
+
+    fn mass(&mut self, inertial: Element<'a>, frame: Transform<Expr>, model: usize) -> Option<Mass> {
         inertial.only(&[&TURN[..], &["mass", "diaginertia", "fullinertia"]].concat(), &mut self.reader.out);
-        let pose = self.placing(model).pose(&Resolved::bare(inertial));
+        let turned = super::defaults::TURNS.iter().find_map(|t| inertial.attribute(t));
+        if let (Some(turned), Some(_)) = (turned, inertial.attribute("fullinertia")) {
+            self.reader.out.error(turned.span, "both a turn and `fullinertia` say the axes of the inertia");
+        }
+        let pose = frame * self.placing(model).pose(&Resolved::bare(inertial));
         let mass = self.reader.number(&inertial, "mass");
         let mut entries = |name: &str, count: usize| -> Option<Vec<Rational>> {
             let value = inertial.attribute(name)?;

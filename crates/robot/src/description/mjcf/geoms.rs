@@ -281,6 +281,10 @@ impl<'a> Mjcf<'a, '_> {
             Some(self.reader.numbers(&text, name, 1)?.remove(0).0)
         };
         let (mass, density) = (number("mass"), number("density").unwrap_or(Rational::from(1000)));
+        if [mass.as_ref(), Some(&density)].into_iter().flatten().any(Rational::is_negative) {
+            self.reader.out.warning(geom.own.span(), "a mass or density that is negative: it is left");
+            return;
+        }
         let none = mass.as_ref().map_or(density.is_zero(), Rational::is_zero);
         if none {
             return;
@@ -330,6 +334,7 @@ impl<'a> Mjcf<'a, '_> {
         let mut unknown: Vec<(usize, Range<usize>, &str)> = vec![];
         for (body, Weight { sum, unknown: why }) in std::mem::take(&mut self.weights) {
             if let Some((span, what)) = why {
+                self.links.bodies[body].is_unweighed = true;
                 unknown.push((body, span, what));
             } else if let Some(mass) = sum.as_ref().and_then(Mass::of_body) {
                 self.links.bodies[body].mass = Some(mass);
@@ -344,7 +349,7 @@ impl<'a> Mjcf<'a, '_> {
             let name = shown(&self.links.bodies[*body].name);
             let message =
                 format!("the mass of {what} is not computed: the body `{name}` has none here{others}");
-            self.reader.out.note(span.clone(), message).hint("give it an <inertial>");
+            self.reader.out.warning(span.clone(), message).hint("give it an <inertial>");
         }
         unknown.is_empty()
     }

@@ -3,7 +3,7 @@
 use super::super::JointKind;
 use super::super::tree::{Joint, JointDrive, moved};
 use super::super::urdf::{Draft, FAR};
-use super::super::xml::{Element, shown};
+use super::super::xml::{Element, Text, shown};
 use super::bodies::{Context, Named};
 use super::defaults::Resolved;
 use super::keyframes::Slot;
@@ -180,6 +180,10 @@ impl<'a> Mjcf<'a, '_> {
 
     /// Rotor and friction of a joint.
     fn drive(&mut self, joint: &Resolved) -> JointDrive {
+        let is_spring = |t: &Text| t.words().iter().any(|w| w.text.parse() != Ok(0.0));
+        if let Some(text) = joint.get("stiffness").filter(is_spring) {
+            self.reader.out.warning(text.span, "springs of joints are not read");
+        }
         let [rotor, viscous, coulomb] = ["armature", "damping", "frictionloss"].map(|name| {
             let text = joint.get(name)?;
             if text.words().len() > 1 {

@@ -372,6 +372,7 @@ fn beside(root: Element, out: &mut Diagnostics) {
         match child.name() {
             Some(name) if READ.contains(&name) => {}
             Some("option") if child.attribute("gravity").is_some() => {}
+            Some("option") if child.all("flag").any(|f| f.attribute("gravity").is_some()) => {}
             Some(name) if BESIDE.contains(&name) => {
                 if !left.contains(&name) {
                     left.push(name);

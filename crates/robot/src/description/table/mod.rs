@@ -46,7 +46,8 @@ mod write;
 pub use each::{PrintedGrid, PrintedRow, PrintedTable, grids, tables};
 pub use write::{write_table, write_tree_table};
 
-use super::diagnostic::{Diagnostic, Diagnostics};
+use super::diagnostic::{Diagnostic, Diagnostics, Severity};
+use super::toolbox::{makes_robot, read_program};
 use super::{Convention, Described, Description, MAX_BYTES, MAX_ROWS, RowTree};
 use find::Grid;
 use layout::Layout;
@@ -111,6 +112,24 @@ pub fn read_table_robot(
     let text = blanked.as_deref().unwrap_or(text);
     let lines = Lines::of(text);
     let layouts = layouts(&grids_of(text, kind), &lines, options, &mut out);
+    if layouts.is_empty()
+        && kind == TableKind::Markdown
+        && let Some(language) = makes_robot(text)
+    {
+        let (d, mut findings) = read_program(text, language, options.table)?;
+        let said = options.convention.filter(|c| *c != d.convention);
+        if let Some(said) = said {
+            let message = format!(
+                "the program's links are in the convention {}, not {}",
+                d.convention.name(),
+                said.name()
+            );
+            let finding = Diagnostic { severity: Severity::Error, span: 0..0, message, hint: None };
+            findings.insert(0, finding);
+            return Err(findings);
+        }
+        return Ok((Described::Chain(Box::new(d)), findings));
+    }
     let chosen = choose(text, &layouts, options.table, &mut out);
     let description = match chosen.as_slice() {
         [] => None,

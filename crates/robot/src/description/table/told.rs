@@ -413,15 +413,27 @@ fn constructed(text: &str) -> Vec<Vec<Told>> {
         }
     }
     found.sort_by_key(|f| f.0);
+    let mut is_plain = true;
     let rows: Vec<Told> = found
         .into_iter()
         .filter_map(|(at, name, slides)| {
             let open = at + name.len();
             let close = closing(text, open)?;
+            is_plain &= is_plain_link(name, &text[open..close]);
             constructed_row(text, open + 1..close, slides, at..close + 1)
         })
         .collect();
-    if rows.len() < 2 { vec![] } else { vec![rows] }
+    if rows.len() < 2 || !is_plain { vec![] } else { vec![rows] }
+}
+
+/// False where a link says more than its row, or what a formula of a table does not have: the program is read then.
+fn is_plain_link(name: &str, arguments: &str) -> bool {
+    let says_more = ["offset", "flip", "mod", "np.", "math.", "deg2rad", "radians", "**"];
+    let has_offset = arguments.split(['[', ']']).nth(1).is_some_and(|row| {
+        let row = row.replace(',', " ");
+        row.split_whitespace().nth(5).is_some_and(|x| x.parse() != Ok(0.0))
+    });
+    !name.contains("MDH") && !has_offset && says_more.iter().all(|word| !arguments.contains(word))
 }
 
 /// Where a bracket closes.

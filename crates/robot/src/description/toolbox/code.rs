@@ -80,9 +80,9 @@ pub(super) fn without_comments(text: &str, language: Language) -> String {
             continue;
         } else {
             at += 1;
-        }
-        if let Some(last) = plain[..at].iter().rev().find(|b| !matches!(b, b' ' | b'\t')) {
-            before = *last;
+            if !matches!(rest[0], b' ' | b'\t') {
+                before = rest[0];
+            }
         }
     }
     String::from_utf8_lossy(&plain).into_owned()

@@ -49,6 +49,15 @@ pub fn read_program(
     out.finish(description)
 }
 
+/// The language of a text in which two links at least are made.
+pub(super) fn makes_robot(text: &str) -> Option<Language> {
+    let is_python = ["import ", "np.", "DHRobot", "rtb."].iter().any(|word| text.contains(word));
+    let language = if is_python { Language::Python } else { Language::Matlab };
+    let plain = without_comments(text, language);
+    let links = calls(&plain, &statements(&plain), &LINKS.map(|l| l.0));
+    (links.len() > 1).then_some(language)
+}
+
 /// A program being read.
 struct Program<'p> {
     /// Without its comments.

@@ -1,6 +1,6 @@
 //! A serial chain through the tree.
 
-use super::masses::Landing;
+use super::masses::{Landing, Unweighed};
 use super::{Joint, JointDrive, Mechanism};
 use crate::description::lines::{Agreement, AxisAtRest, ChainAtRest, NotPlaced, settled};
 use crate::description::{Convention, Description, JointKind, MAX_ROWS, diagnostic::nearest};
@@ -23,6 +23,8 @@ pub struct Chain {
     pub agreement: Agreement,
     /// Joints that are not of the chain and behind which something weighs that hangs on a link of it: they count as fixed at 0.
     pub held: Vec<usize>,
+    /// Why its rows have no masses, if bodies of the file weigh.
+    pub unweighed: Option<Unweighed>,
     /// The joints that move, in order, and the bodies on which they end.
     pub(super) moving: Vec<usize>,
     pub(super) landings: Vec<Landing>,
@@ -220,8 +222,8 @@ impl Mechanism {
             let turned = self.at_rest(from).rotation.inverse() * Vector(g);
             settled(&Transform::from_rotation_translation(Rotation::identity(), turned)).translation.0
         });
-        let held = self.weigh_rows(&mut description, &of_axis, &landings, from);
-        Ok(Chain { description, from, to, joints, agreement, held, moving: of_axis, landings })
+        let (held, unweighed) = self.weigh_rows(&mut description, &of_axis, &landings, from);
+        Ok(Chain { description, from, to, joints, agreement, held, unweighed, moving: of_axis, landings })
     }
 
     /// What moves a joint: a variable of the chain with its factor, none if it stands still; and its value at rest.

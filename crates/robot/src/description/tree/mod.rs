@@ -11,6 +11,7 @@ mod program;
 
 pub use chain::{Chain, NoChain};
 pub(super) use chain::{moved, turned};
+pub use masses::Unweighed;
 
 use super::JointKind;
 use crate::geometry::{Transform, Vector};
@@ -40,6 +41,8 @@ pub struct Body {
     pub name: String,
     /// Its mass, if it is given.
     pub mass: Option<Mass>,
+    /// True if it weighs something of which the mass is not known.
+    pub is_unweighed: bool,
     /// What it looks like: it says nothing of how it moves.
     pub looks: Vec<Look>,
 }
@@ -142,7 +145,9 @@ pub struct JointDrive {
 impl JointDrive {
     /// What drives are together that a value moves, each so many times as fast: inertia and viscous friction as the square of that,
     /// friction of Coulomb as its size.
-    fn together<'d>(all: impl Iterator<Item = (&'d JointDrive, &'d Rational)>) -> Self {
+    pub(in crate::description) fn together<'d>(
+        all: impl Iterator<Item = (&'d JointDrive, &'d Rational)>,
+    ) -> Self {
         let add = |sum: &mut Option<Expr>, e: Option<Expr>, factor: Rational| {
             let Some(e) = e else { return };
             let e = if factor.is_one() { e } else { Expr::from(factor) * e };

@@ -174,7 +174,7 @@ impl<'d> Growing<'d> {
         while !self.bodies.insert(name.clone()) {
             name.push('_');
         }
-        self.tree.bodies.push(Body { name, mass: None, looks: vec![] });
+        self.tree.bodies.push(Body { name, mass: None, is_unweighed: false, looks: vec![] });
         self.tree.bodies.len() - 1
     }
 

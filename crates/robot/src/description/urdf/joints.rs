@@ -286,7 +286,7 @@ fn planar(joint: &Joint, span: &Range<usize>, links: &mut Links, drafts: &mut Ve
         let name = format!("{} {suffix}", joint.name);
         let child = if suffix == "turn" { joint.child } else { links.bodies.len() };
         if suffix != "turn" {
-            links.bodies.push(Body { name: name.clone(), mass: None, looks: vec![] });
+            links.bodies.push(Body { name: name.clone(), mass: None, is_unweighed: false, looks: vec![] });
             links.spans.push(span.clone());
         }
         let origin = if suffix == "x" { joint.origin } else { Transform::identity() };

@@ -48,7 +48,7 @@ impl Links {
     pub fn add(&mut self, name: String, mass: Option<Mass>, span: Range<usize>) -> usize {
         let number = self.bodies.len();
         self.by_name.insert(name.clone(), number);
-        self.bodies.push(Body { name, mass, looks: vec![] });
+        self.bodies.push(Body { name, mass, is_unweighed: false, looks: vec![] });
         self.spans.push(span);
         number
     }

@@ -260,8 +260,13 @@ impl Reader<'_> {
             if matches!(sign, "==" | "!=") {
                 return Ok(Val::Truth(is_same(&a, &b) == (sign == "==")));
             }
-            let difference = real(a.expr()? - b.expr()?)?;
-            let (below, equal) = (difference.is_negative(), difference.is_zero());
+            let (below, equal) = match (&a, &b) {
+                (Val::Text(x), Val::Text(y)) => (x < y, x == y),
+                _ => {
+                    let difference = real(a.expr()? - b.expr()?)?;
+                    (difference.is_negative(), difference.is_zero())
+                }
+            };
             Ok(Val::Truth(match sign {
                 "<" => below && !equal,
                 "<=" => below || equal,

@@ -130,10 +130,10 @@ impl Val {
         })
     }
 
-    /// As Python takes it in `not`, `and`, `or` and a choice: a text that is no number is true unless it is empty.
+    /// As Python takes it in `not`, `and`, `or` and a choice: a text is true unless it is empty.
     pub fn holds(&self) -> Result<bool, Fault> {
         match self {
-            Val::Text(t) => Ok(self.truth().unwrap_or(!t.is_empty())),
+            Val::Text(t) => Ok(!t.is_empty()),
             _ => self.truth(),
         }
     }
@@ -164,11 +164,15 @@ impl Val {
         }
     }
 
-    /// A text in single quotes without them: so a property says that it is a text.
+    /// The value of a property or parameter: a text in single quotes is what stands between them, `true` and `false` are truths.
     pub fn unquoted(self) -> Self {
         let inner = |t: &str| Some(t.strip_prefix('\'')?.strip_suffix('\'')?.to_string());
         match &self {
-            Val::Text(t) => inner(t).map_or(self, Val::Text),
+            Val::Text(t) => match t.as_str() {
+                "true" | "True" => Val::Truth(true),
+                "false" | "False" => Val::Truth(false),
+                t => inner(t).map_or(self, Val::Text),
+            },
             _ => self,
         }
     }
@@ -304,7 +308,8 @@ pub(super) fn function(name: &str, arguments: &[Val]) -> Result<Val, Fault> {
         "round" if arguments.len() == 2 => {
             let places = u32::try_from(arguments[1].index()?).ok().filter(|p| *p <= 40);
             let places = places.ok_or_else(|| Fault::new("a number of places out of range"))?;
-            return number(real(first()?)?.to_decimal(places).into());
+            let scale = Expr::from(Rational::from(10)).powi(places as i32);
+            return number(Expr::from(rounded(first()? * scale)?) / scale);
         }
         _ => count(1)?,
     }
@@ -333,13 +338,21 @@ pub(super) fn function(name: &str, arguments: &[Val]) -> Result<Val, Fault> {
         "float" => number(x),
         "floor" => number(floor(x)?.into()),
         "ceil" => number((-floor(-x)?).into()),
-        "round" => number(floor(x + Expr::from(Rational::new(1, 2)))?.into()),
+        "round" => number(rounded(x)?.into()),
         "int" => number(match real(x)?.is_negative() {
             true => (-floor(-x)?).into(),
             false => floor(x)?.into(),
         }),
         _ => Err(Fault::new(format!("the function `{}` is not read", shown(name)))),
     }
+}
+
+/// The nearest whole number, the even one of two that are as near.
+fn rounded(x: Expr) -> Result<Rational, Fault> {
+    let above = Val::Number(x + Expr::from(Rational::new(1, 2))).rational()?;
+    let nearest = above.floor();
+    let is_even = (nearest.clone() * Rational::new(1, 2)).is_integer();
+    Ok(if above == nearest && !is_even { nearest - Rational::ONE } else { nearest })
 }
 
 /// The angle of the point (x, y).
