@@ -22,8 +22,8 @@ const INTRODUCTION: &str = "\
 
 What the torques τ(q, q̇, q̈) of every arm of the catalogue cost: multiplications and additions of the program that `denavit dynamics
 ARM --symbolic` prints, in base parameters, all masses and lengths symbols, gravity along −z of the base, without rotors and friction;
-what depends on parameters alone is apart. Each is equal to Lagrange's equations: *proved* by canonical form, or compared *at random
-states*, exactly modulo a prime or in doubles where constants of the table have no value there ([more](dynamics.md#formulas)).
+what depends on parameters alone is apart. Each is equal to Lagrange's equations: *proved* by identical canonical forms, or, where these are too
+large or have divisors, compared *at random states*, exactly modulo a prime or in doubles ([more](dynamics.md#formulas)).
 
 *General* is Khalil and Kleinfinger's count for any arm of n joints, all of them revolute: 92n − 127 multiplications and 81n − 117 additions
 (1987), the recursion, customised, with base parameters, before anything is known of the arm.

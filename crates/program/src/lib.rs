@@ -16,6 +16,7 @@ pub mod kernel;
 mod pairs;
 mod program;
 mod rebuild;
+mod shorten;
 pub mod solver;
 mod text;
 

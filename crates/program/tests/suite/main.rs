@@ -7,6 +7,7 @@ mod kernel;
 mod pairs;
 mod residue;
 mod roots;
+mod shorten;
 mod solver;
 mod steps;
 mod support;

@@ -5,6 +5,7 @@
 //! τ = d/dt ∂T/∂q̇ − ∂T/∂q + ∂V/∂q by exact derivatives (Uicker 1965; Khalil and Dombre, ch. 9).
 
 use super::base::BaseModel;
+use super::expansion::are_lagranges;
 use super::model::{Dynamics, Formulas};
 use crate::description::{Description, JointKind};
 use crate::forward::{Proof, prove};
@@ -43,7 +44,7 @@ impl Ground {
     }
 }
 
-/// Joints up to which the canonical form is asked; beyond, it is too large.
+/// Joints up to which the canonical form of the plain product of the links' transforms is asked; beyond, it is too large.
 pub(super) const EXPANDED: usize = 4;
 /// States in which values are compared.
 pub(super) const STATES: usize = 3;
@@ -77,8 +78,11 @@ pub fn lagrange(formulas: &Formulas) -> Program {
 impl BaseModel {
     /// On what it rests that a program, whose results are the torques in base parameters, gives those of Lagrange's equations.
     pub fn ground(&self, d: &Description, formulas: &Formulas, torques: &Program) -> Ground {
-        let wanted = lagrange(formulas);
         let base: FxHashMap<Symbol, Expr> = self.parameters.iter().map(|p| (p.symbol, p.value)).collect();
+        if are_lagranges(formulas, &base, torques) {
+            return Ground::Proved;
+        }
+        let wanted = lagrange(formulas);
         if formulas.dynamics.joints() <= EXPANDED {
             let own: Vec<Expr> =
                 torques.formulas().into_iter().map(|e| e.substitute(|s| base.get(&s).copied())).collect();

@@ -21,6 +21,7 @@ mod coriolis;
 mod direct;
 mod dynamic_model;
 mod energy;
+mod expansion;
 mod grouping;
 mod inertia;
 mod lagrange;

@@ -9,16 +9,21 @@ use super::base::inputs;
 use super::direct::factored;
 use super::dynamic_model::DynamicModel;
 use super::energy::{kinetic_energy, potential_energy};
+use super::expansion::are_equal;
 use super::inertia::inertia_matrix;
 use super::lagrange::{EXPANDED, Ground, ROUNDING, STATES, program};
 use super::model::{Formulas, NoNumbers};
 use super::newton_euler::inverse_dynamics;
+use super::short::shortest_inertia;
 use crate::description::Description;
-use crate::geometry::Body;
 use crate::random::Random;
 use denavit_program::{Composer, Program, Residue, Value};
 use denavit_symbolic::{Expr, Rational, Symbol, equal};
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::cell::OnceCell;
+
+/// Orders at random in which programs are shortened.
+const ORDERS: u64 = 8;
 
 /// A dynamic function.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -60,9 +65,12 @@ pub struct DynamicPrograms {
     /// Joint variables, their rates and accelerations, and the torques that drive the arm.
     pub symbols: [Vec<Symbol>; 4],
     masses: Masses,
+    description: Description,
     /// What stands in the place of symbols of the model.
     values: FxHashMap<Symbol, Expr>,
     torque: Program,
+    /// A, one way and another, once it was asked for.
+    matrices: OnceCell<Vec<DynamicProgram>>,
 }
 
 /// A dynamic function as a program.
@@ -137,7 +145,8 @@ impl DynamicPrograms {
         let drives = driving(formulas);
         let symbols = [formulas.q.clone(), formulas.qd.clone(), formulas.qdd.clone(), drives];
         let torque = with_values(&model.torques, &model.formulas, &values);
-        Ok(DynamicPrograms { model, symbols, masses, values, torque })
+        let (description, matrices) = (d.clone(), OnceCell::new());
+        Ok(DynamicPrograms { model, symbols, masses, description, values, torque, matrices })
     }
 
     /// The parameters of the programs, in order: names of the table, then those of masses.
@@ -151,7 +160,7 @@ impl DynamicPrograms {
             DynamicFunction::Torque => self.torque.clone(),
             DynamicFunction::Bias => self.at_rest(1),
             DynamicFunction::Gravity => self.at_rest(2),
-            DynamicFunction::TorqueDerivatives => self.torque.jacobian(),
+            DynamicFunction::TorqueDerivatives => return self.slopes(),
             DynamicFunction::Energy if self.masses == Masses::Base => return None,
             DynamicFunction::Energy => self.energies(),
             DynamicFunction::Inertia => return shortest(self.inertias()),
@@ -210,7 +219,7 @@ impl DynamicPrograms {
         let is_zero = |s: Symbol| !kept.iter().flatten().any(|k| *k == s) && self.is_state(s);
         let torques = all.copy(&self.torque, |s| is_zero(s).then_some(zero));
         let names: Vec<(String, Value)> = named("t", torques);
-        all.finish(&names)
+        all.finish(&names).shortened(ORDERS)
     }
 
     fn is_state(&self, s: Symbol) -> bool {
@@ -219,6 +228,10 @@ impl DynamicPrograms {
 
     /// A, one way and another.
     fn inertias(&self) -> Vec<DynamicProgram> {
+        self.matrices.get_or_init(|| self.found_inertias()).clone()
+    }
+
+    fn found_inertias(&self) -> Vec<DynamicProgram> {
         let n = self.symbols[0].len();
         let slopes = self.unforced().jacobian_by(&self.symbols[2]);
         let triangle = |is_lower: bool| {
@@ -233,11 +246,14 @@ impl DynamicPrograms {
             let mut all = Composer::new(&self.symbols[0], self.parameters());
             let values = all.copy(&slopes, |_| None);
             let entries: Vec<Value> = entries.into_iter().map(|k| values[k]).collect();
-            all.finish(&named("a", entries))
+            all.finish(&named("a", entries)).shortened(0)
         });
         // What another way gives is taken where it is the same matrix.
         let composite = self.composite().and_then(|program| {
-            let inertia = same(&program, &ways[0], n <= EXPANDED);
+            let inertia = match are_equal(&self.model.formulas, &program, &ways[0]) {
+                true => Ground::Proved,
+                false => same(&program, &ways[0], n <= EXPANDED),
+            };
             (inertia != Ground::Failed).then_some(DynamicProgram { program, inertia })
         });
         ways.map(DynamicProgram::plain).into_iter().chain(composite).collect()
@@ -245,17 +261,29 @@ impl DynamicPrograms {
 
     /// A by composite bodies from base parameters; nothing where a link has a mass for each direction.
     fn composite(&self) -> Option<Program> {
-        let mut arm = self.model.formulas.dynamics.clone();
-        for (link, base) in arm.links.iter_mut().zip(&self.model.base.links) {
-            let [mass, y, z] = base.mass.0;
-            if y != mass || z != mass {
-                return None;
-            }
-            link.body = Body { inertia: base.inertia, first_moment: base.first_moment, mass };
-        }
-        let [q, ..] = self.model.formulas.state();
-        let entries = inertia_matrix(&arm, &q).concat();
-        Some(with_values(&program(&self.symbols[0], &entries), &self.model.formulas, &self.values))
+        let found = shortest_inertia(&self.description, &self.model.formulas, &self.model.base)?;
+        let found = with_values(&found, &self.model.formulas, &self.values);
+        let mut all = Composer::new(&self.symbols[0], self.parameters());
+        let entries = all.copy(&found, |_| None);
+        Some(all.finish(&named("a", entries)))
+    }
+
+    /// ∂τ/∂q, ∂τ/∂q̇ and A: all of them derivatives of the torques, or with the matrix that makes it the shortest.
+    fn slopes(&self) -> Option<DynamicProgram> {
+        let [q, qd, qdd, _] = &self.symbols;
+        let n = q.len();
+        let by_state = self.torque.jacobian_by(&[&q[..], qd].concat());
+        let with = |matrix: DynamicProgram| {
+            let mut all = Composer::new(&[&q[..], qd, qdd].concat(), self.parameters());
+            let slopes = all.copy(&by_state, |_| None);
+            let matrix_entries = all.copy(&matrix.program, |_| None);
+            let rows = slopes.chunks(2 * n).zip(matrix_entries.chunks(n));
+            let entries = rows.flat_map(|(a, b)| [a, b].concat()).collect();
+            DynamicProgram { program: all.finish(&named("d", entries)), ..matrix }
+        };
+        let plain = DynamicProgram::plain(self.torque.jacobian());
+        let all = self.inertias().into_iter().map(with).chain([plain]);
+        shortest(all.map(|p| DynamicProgram { program: p.program.shortened(0), ..p }))
     }
 
     /// The torques of accelerations alone, at rest and without gravity: A q̈.
@@ -295,7 +323,7 @@ impl DynamicPrograms {
         let factors = Factors::new(&matrix, n, &mut all);
         let accelerations = factors.solve(rest, &mut all);
         if !derivatives {
-            return all.finish(&named("qdd", accelerations));
+            return all.finish(&named("qdd", accelerations)).shortened(0);
         }
         let at = |s: Symbol| qdd.iter().position(|k| *k == s).map(|k| accelerations[k]);
         let slopes = all.copy(&self.torque.jacobian_by(&[&q[..], qd].concat()), at);
@@ -315,7 +343,7 @@ impl DynamicPrograms {
             _ => columns[c][i],
         };
         let entries = (0..3 * n * n).map(|k| entry(k / (3 * n), k % (3 * n))).collect();
-        all.finish(&named("d", entries))
+        all.finish(&named("d", entries)).shortened(0)
     }
 
     fn energies(&self) -> Program {

@@ -41,6 +41,46 @@ pub(super) struct Arm {
     pub slides: Vec<Option<[Option<Symbol>; 6]>>,
 }
 
+/// The length that is 1: a symbol or a number; none where lengths stay what they are.
+#[derive(Clone, Copy)]
+pub(super) struct Unit(pub Option<Expr>);
+
+impl Unit {
+    /// One over the unit.
+    pub fn inverse(self, graph: &mut Graph) -> Option<Value> {
+        let unit = graph.trace(self.0?);
+        let one = graph.number(&Rational::ONE);
+        Some(graph.div(one, unit))
+    }
+
+    /// A sum of lengths, or of what is proportional to lengths.
+    pub fn scaled(self, e: Expr, graph: &mut Graph) -> Value {
+        let Some(inverse) = self.inverse(graph) else { return graph.trace(e) };
+        let sum = Angle::of(e);
+        let rest = Expr::from(sum.turns) * Expr::pi() + Expr::from(sum.radians);
+        let rest = graph.trace(rest);
+        let mut all = graph.mul(rest, inverse);
+        for (term, k) in sum.terms {
+            let k = graph.number(&k);
+            let part = if Some(term) == self.0 {
+                k
+            } else {
+                let term = graph.trace(term);
+                let term = graph.mul(term, inverse);
+                graph.mul(k, term)
+            };
+            all = graph.add(all, part);
+        }
+        all
+    }
+
+    /// A value times a power of the unit.
+    pub fn raised(self, value: Value, power: i32, graph: &mut Graph) -> Value {
+        let Some(unit) = self.0.map(|unit| graph.trace(unit)) else { return value };
+        (0..power).fold(value, |value, _| graph.mul(value, unit))
+    }
+}
+
 /// The letters of a link's numbers in the one form and in the other.
 const SECOND: [&str; 5] = ["SXX", "SYY", "SXY", "SXZ", "SYZ"];
 const TENSOR: [&str; 6] = ["XX", "YY", "XY", "XZ", "YZ", "ZZ"];
@@ -53,7 +93,13 @@ pub(super) fn name(letters: &str, link: usize) -> Symbol {
 
 impl Arm {
     /// An arm in a graph, in which symbols may be bound to others.
-    pub fn new(d: &Description, formulas: &Formulas, grouped: &[Grouped], graph: &mut Graph) -> Self {
+    pub fn new(
+        d: &Description,
+        formulas: &Formulas,
+        grouped: &[Grouped],
+        unit: Unit,
+        graph: &mut Graph,
+    ) -> Self {
         let (chain, along) = without_lengths(d);
         let arm = &formulas.dynamics;
         let [_, qd, qdd] = formulas.state();
@@ -68,15 +114,16 @@ impl Arm {
             let continues = k > 0 && before.rotation == Rotation::identity();
             let slides_here = link.kind == JointKind::Prismatic;
             let value = link.value.value(&q);
+            let of_motion = if slides_here { unit } else { Unit(None) };
             angles.push(if slides_here { (Expr::int(0), 0) } else { (value, link.value.quarters) });
             axes.push(Axis {
                 kind: link.kind,
                 turn: before.rotation.rows().map(|row| row.map(|e| graph.trace(e))),
-                across: before.translation.0.map(|e| graph.trace(e)),
-                along: if slides_here { zero } else { graph.trace(along[k]) },
-                slide: if slides_here { graph.trace(value) } else { zero },
-                rate: graph.trace(rates[k]),
-                change: graph.trace(changes[k]),
+                across: before.translation.0.map(|e| unit.scaled(e, graph)),
+                along: if slides_here { zero } else { unit.scaled(along[k], graph) },
+                slide: if slides_here { unit.scaled(value, graph) } else { zero },
+                rate: of_motion.scaled(rates[k], graph),
+                change: of_motion.scaled(changes[k], graph),
                 first: if continues { axes[k - 1].first } else { k },
             });
             slides.push(slides_here.then(|| {
@@ -93,7 +140,7 @@ impl Arm {
                 })
             }));
         }
-        let base = arm.gravity.0.map(|e| graph.trace(-e));
+        let base = arm.gravity.0.map(|e| unit.scaled(-e, graph));
         Arm { axes, base, angles, known: FxHashMap::default(), slides }
     }
 

@@ -23,7 +23,7 @@ struct Motion {
 
 /// In which frame a vector is given.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Place {
+pub(super) enum Place {
     /// That before the group that begins with this link.
     Before(usize),
     /// That of a link.
@@ -37,7 +37,7 @@ pub(super) struct Generator<'a> {
     /// What values are, in the order in which they were met.
     pub names: Vec<(Value, String)>,
     motions: Vec<[Option<Motion>; 4]>,
-    zero: Value,
+    pub(super) zero: Value,
 }
 
 impl<'a> Generator<'a> {
@@ -47,7 +47,7 @@ impl<'a> Generator<'a> {
         Generator { graph, arm, choices, names: vec![], motions: vec![[None; 4]; n], zero }
     }
 
-    fn add(&mut self, a: Value, b: Value) -> Value {
+    pub(super) fn add(&mut self, a: Value, b: Value) -> Value {
         self.graph.add(a, b)
     }
 
@@ -56,15 +56,15 @@ impl<'a> Generator<'a> {
         self.graph.add(a, b)
     }
 
-    fn mul(&mut self, a: Value, b: Value) -> Value {
+    pub(super) fn mul(&mut self, a: Value, b: Value) -> Value {
         self.graph.mul(a, b)
     }
 
-    fn negated(&self, a: Value) -> Value {
+    pub(super) fn negated(&self, a: Value) -> Value {
         if is_zero(self.graph, a) { a } else { -a }
     }
 
-    fn sum(&mut self, a: V3, b: V3) -> V3 {
+    pub(super) fn sum(&mut self, a: V3, b: V3) -> V3 {
         [self.add(a[0], b[0]), self.add(a[1], b[1]), self.add(a[2], b[2])]
     }
 
@@ -74,11 +74,11 @@ impl<'a> Generator<'a> {
         self.add(first, p[2])
     }
 
-    fn times(&mut self, m: &[V3; 3], v: V3) -> V3 {
+    pub(super) fn times(&mut self, m: &[V3; 3], v: V3) -> V3 {
         [self.dot(m[0], v), self.dot(m[1], v), self.dot(m[2], v)]
     }
 
-    fn cross(&mut self, a: V3, b: V3) -> V3 {
+    pub(super) fn cross(&mut self, a: V3, b: V3) -> V3 {
         let mut minor = |i: usize, j: usize| {
             let (x, y) = (self.mul(a[i], b[j]), self.mul(a[j], b[i]));
             self.sub(x, y)
@@ -87,7 +87,7 @@ impl<'a> Generator<'a> {
     }
 
     /// In the frame that is turned by an angle about z, seen from the one before.
-    fn turned(&mut self, angle: Option<(Value, Value)>, v: V3) -> V3 {
+    pub(super) fn turned(&mut self, angle: Option<(Value, Value)>, v: V3) -> V3 {
         let Some((s, c)) = angle else { return v };
         let (cx, sy, sx, cy) = (self.mul(c, v[0]), self.mul(s, v[1]), self.mul(s, v[0]), self.mul(c, v[1]));
         [self.sub(cx, sy), self.add(sx, cy), v[2]]
@@ -107,7 +107,7 @@ impl<'a> Generator<'a> {
         self.times(&columns, v)
     }
 
-    fn angle_of(&mut self, k: usize, frame: Frame) -> Option<(Value, Value)> {
+    pub(super) fn angle_of(&mut self, k: usize, frame: Frame) -> Option<(Value, Value)> {
         let first = self.arm.axes[k].first;
         match frame {
             Frame::Own => None,
@@ -117,7 +117,7 @@ impl<'a> Generator<'a> {
         }
     }
 
-    fn place(&self, k: usize, frame: Frame) -> Place {
+    pub(super) fn place(&self, k: usize, frame: Frame) -> Place {
         let first = self.arm.axes[k].first;
         match frame {
             Frame::Own => Place::Link(k),
@@ -294,7 +294,7 @@ impl<'a> Generator<'a> {
     }
 
     /// A vector of one frame in another.
-    fn convert(&mut self, v: V3, from: Place, to: Place) -> V3 {
+    pub(super) fn convert(&mut self, v: V3, from: Place, to: Place) -> V3 {
         if from == to {
             return v;
         }
@@ -401,7 +401,7 @@ impl<'a> Generator<'a> {
         torques
     }
 
-    fn named(&mut self, letters: &str, k: usize) -> Value {
+    pub(super) fn named(&mut self, letters: &str, k: usize) -> Value {
         self.graph.trace(Expr::from(name(letters, k)))
     }
 
@@ -497,7 +497,12 @@ impl<'a> Generator<'a> {
 
     /// xx, yy, xy, xz, yz of a symmetric matrix (second moments; or a tensor, whose entries off the diagonal turn alike), in the
     /// frame before the turn.
-    fn turned_tensor(&mut self, angle: Option<(Value, Value)>, t: [Value; 5], form: Form) -> [Value; 5] {
+    pub(super) fn turned_tensor(
+        &mut self,
+        angle: Option<(Value, Value)>,
+        t: [Value; 5],
+        form: Form,
+    ) -> [Value; 5] {
         let Some((s, c)) = angle else { return t };
         let [x, y, xy, xz, yz] = t;
         let (p, r) = (self.mul(s, c), self.mul(s, s));

@@ -1,6 +1,6 @@
 //! The search for choices: from a few starts, one link at a time, until nothing improves; once for each length that may be the unit.
 
-use super::arm::{Arm, values};
+use super::arm::{Arm, Unit, values};
 use super::choices::{Choices, Form, Frame, Gauge};
 use super::generator::Generator;
 use crate::description::{Description, JointKind};
@@ -11,12 +11,22 @@ use denavit_program::{Graph, Program, Value};
 use denavit_symbolic::{Angle, Expr, Symbol};
 use rustc_hash::{FxHashMap, FxHashSet};
 
+/// What is searched.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Wanted {
+    /// τ from q, q̇ and q̈.
+    Torques,
+    /// A from q, row by row.
+    Inertia,
+}
+
 /// A search under way, with lengths in one unit.
 struct Search<'a> {
+    wanted: Wanted,
     d: &'a Description,
     formulas: &'a Formulas,
     base: &'a BaseModel,
-    unit: Option<Symbol>,
+    unit: Unit,
     /// Whether links have numbers for names.
     has_numbers: bool,
     graph: Graph,
@@ -37,46 +47,62 @@ enum Move {
 /// What a candidate costs: operations, and multiplications among them.
 type Cost = (u32, u32);
 
+/// Orders at random in which the program that was found is shortened further.
+const ORDERS: u64 = 8;
+
 /// The shortest program found for the torques in base parameters: `t1` ….
 pub(in crate::dynamics) fn shortest(d: &Description, formulas: &Formulas, base: &BaseModel) -> Program {
-    let mut best: Option<(Cost, Program)> = None;
-    for unit in [None].into_iter().chain(units(d, formulas).into_iter().map(Some)) {
-        let mut search = Search::new(d, formulas, base, unit);
-        let (_, choices) = search.run();
-        let Some(program) = search.program(&choices) else { continue };
-        let count = program.count();
-        let cost = (count.cost(), count.multiplications);
-        if best.as_ref().is_none_or(|b| cost < b.0) {
-            best = Some((cost, program));
-        }
-    }
-    let own = base.inverse.count();
-    match best {
-        Some((cost, program)) if cost < (own.cost(), own.multiplications) => program,
-        _ => base.inverse.clone(),
-    }
+    let found = found(Wanted::Torques, d, formulas, base);
+    let all = found.into_iter().chain([base.inverse.clone()]).map(|p| p.shortened(0));
+    all.min_by_key(cost).map_or_else(|| base.inverse.clone(), |best| best.shortened(ORDERS))
 }
 
-/// Lengths that may be the unit: all lengths of the chain are sums of such.
-fn units(d: &Description, formulas: &Formulas) -> Vec<Symbol> {
-    let mut all: Vec<Symbol> = vec![];
+/// The shortest program found for the inertia matrix in base parameters, row by row, by composite bodies; nothing where a link has a
+/// mass for each direction. Whether it is the torques' derivative is not known.
+pub(in crate::dynamics) fn shortest_inertia(
+    d: &Description,
+    formulas: &Formulas,
+    base: &BaseModel,
+) -> Option<Program> {
+    let all = found(Wanted::Inertia, d, formulas, base).into_iter().map(|p| p.shortened(0));
+    all.min_by_key(cost).map(|best| best.shortened(ORDERS))
+}
+
+/// The program that is found in each unit of length.
+fn found(wanted: Wanted, d: &Description, formulas: &Formulas, base: &BaseModel) -> Vec<Program> {
+    let mut search = Search::new(wanted, d, formulas, base, Unit(None));
+    let starts = search.starts();
+    let Some((_, choices)) = search.run(starts) else { return vec![] };
+    let own = search.program(&choices);
+    let in_unit = |unit: Expr| {
+        let mut search = Search::new(wanted, d, formulas, base, Unit(Some(unit)));
+        // What is short in one unit hardly differs in another.
+        let (_, choices) = search.run(vec![choices.clone()])?;
+        search.program(&choices)
+    };
+    let in_units = units(d, formulas).into_iter().filter_map(in_unit);
+    own.into_iter().chain(in_units).collect()
+}
+
+fn cost(program: &Program) -> Cost {
+    let count = program.count();
+    (count.cost(), count.multiplications)
+}
+
+/// Lengths that may be the unit: the symbols and the numbers among those of the chain.
+fn units(d: &Description, formulas: &Formulas) -> Vec<Expr> {
+    let mut all: Vec<Expr> = vec![];
     for link in &formulas.dynamics.links {
-        for e in link.before.translation.0.into_iter().chain([link.value.offset]) {
-            if link.kind == JointKind::Revolute && e == link.value.offset {
-                continue;
-            }
+        let offset = (link.kind == JointKind::Prismatic).then_some(link.value.offset);
+        for e in link.before.translation.0.into_iter().chain(offset) {
             let form = Angle::of(e);
-            if !form.turns.is_zero() {
-                return vec![];
-            }
-            for (term, _) in &form.terms {
-                match term.as_symbol() {
-                    Some(s) if d.parameters.iter().any(|p| p.symbol == s) => {
-                        if !all.contains(&s) {
-                            all.push(s);
-                        }
-                    }
-                    _ => return vec![],
+            let is_number = form.terms.is_empty() && form.turns.is_zero() && !form.radians.is_zero();
+            let number = is_number.then(|| Expr::from(form.radians.abs()));
+            let is_length = |s: Symbol| d.parameters.iter().any(|p| p.symbol == s);
+            let terms = form.terms.iter().map(|t| t.0).filter(|t| t.as_symbol().is_some_and(is_length));
+            for unit in terms.chain(number) {
+                if !all.contains(&unit) {
+                    all.push(unit);
                 }
             }
         }
@@ -85,16 +111,61 @@ fn units(d: &Description, formulas: &Formulas) -> Vec<Symbol> {
 }
 
 impl<'a> Search<'a> {
-    fn new(d: &'a Description, formulas: &'a Formulas, base: &'a BaseModel, unit: Option<Symbol>) -> Self {
+    fn new(
+        wanted: Wanted,
+        d: &'a Description,
+        formulas: &'a Formulas,
+        base: &'a BaseModel,
+        unit: Unit,
+    ) -> Self {
         let variables = [&formulas.q[..], &formulas.qd, &formulas.qdd].concat();
         let mut graph = Graph::new(&variables, base.inverse.parameters());
-        if let Some(unit) = unit {
-            bind_lengths(d, formulas, unit, &mut graph);
-        }
-        let arm = Arm::new(d, formulas, &base.links, &mut graph);
+        let arm = Arm::new(d, formulas, &base.links, unit, &mut graph);
         let numbers = base.links.iter().flat_map(Grouped::entries).filter_map(Expr::as_number);
-        let has_numbers = unit.is_none() && numbers.into_iter().any(|r| !r.is_zero());
-        Search { d, formulas, base, unit, has_numbers, graph, arm, names: vec![] }
+        let has_numbers = numbers.into_iter().any(|r| !r.is_zero());
+        Search { wanted, d, formulas, base, unit, has_numbers, graph, arm, names: vec![] }
+    }
+
+    /// What is searched, for choices.
+    fn results(&mut self, choices: &Choices) -> Option<Vec<Value>> {
+        match self.wanted {
+            Wanted::Torques => Some(self.torques(choices)),
+            Wanted::Inertia => self.inertia(choices),
+        }
+    }
+
+    /// The inertia matrix of the joints, Gᵀ A G + rotors with that of the axes.
+    fn inertia(&mut self, choices: &Choices) -> Option<Vec<Value>> {
+        let mut generator = Generator::new(&mut self.graph, &mut self.arm, choices);
+        let of_axes = generator.inertia()?;
+        self.names = generator.names;
+        let graph = &mut self.graph;
+        let arm = &self.formulas.dynamics;
+        let n = arm.joints();
+        let mut matrix = vec![graph.trace(Expr::int(0)); n * n];
+        for (row, a) in arm.links.iter().zip(&of_axes) {
+            for (column, &entry) in arm.links.iter().zip(a) {
+                let mut entry = entry;
+                for link in [row, column] {
+                    if let (JointKind::Prismatic, Some(over)) = (link.kind, self.unit.inverse(graph)) {
+                        entry = graph.mul(entry, over);
+                    }
+                }
+                for &(i, by_row) in &row.value.terms {
+                    for &(j, by_column) in &column.value.terms {
+                        let (by_row, by_column) = (graph.trace(by_row), graph.trace(by_column));
+                        let by = graph.mul(by_row, by_column);
+                        let part = graph.mul(by, entry);
+                        matrix[n * i + j] = graph.add(matrix[n * i + j], part);
+                    }
+                }
+            }
+        }
+        for (j, drive) in arm.drives.iter().enumerate() {
+            let rotor = graph.trace(drive.rotor);
+            matrix[n * j + j] = graph.add(matrix[n * j + j], rotor);
+        }
+        Some(matrix)
     }
 
     /// The torques at the joints.
@@ -106,8 +177,7 @@ impl<'a> Search<'a> {
         let arm = &self.formulas.dynamics;
         let mut torques = vec![graph.trace(Expr::int(0)); arm.joints()];
         for (link, mut torque) in arm.links.iter().zip(of_axes) {
-            if let (JointKind::Prismatic, Some(unit)) = (link.kind, self.unit) {
-                let over = over(unit, graph);
+            if let (JointKind::Prismatic, Some(over)) = (link.kind, self.unit.inverse(graph)) {
                 torque = graph.mul(torque, over);
             }
             for &(j, k) in &link.value.terms {
@@ -129,31 +199,47 @@ impl<'a> Search<'a> {
         torques
     }
 
-    fn cost(&mut self, choices: &Choices) -> Cost {
+    fn cost(&mut self, choices: &Choices) -> Option<Cost> {
         if self.has_numbers {
             self.bind_numbers(choices);
         }
-        let torques = self.torques(choices);
-        let count = self.graph.walk(&torques).count;
-        (count.cost(), count.multiplications)
+        let results = self.results(choices)?;
+        let count = self.graph.walk(&results).count;
+        Some((count.cost(), count.multiplications))
     }
 
     /// Numbers that links have for the choices, in place of their names: what is 0 is nothing to compute with.
     fn bind_numbers(&mut self, choices: &Choices) {
         let named = values(self.d, &self.formulas.dynamics, &self.base.links, choices, &self.arm.slides);
-        for (symbol, value, _) in named {
-            let known = match value.as_number() {
-                Some(_) => self.graph.trace(value),
-                None => self.graph.input(symbol),
-            };
+        for (symbol, value, power) in named {
+            let mut known = self.graph.input(symbol);
+            if value.as_number().is_some() {
+                let number = self.graph.trace(value);
+                let scaled = self.unit.raised(number, power, &mut self.graph);
+                known = if self.graph.as_number(scaled).is_some() { scaled } else { known };
+            }
             self.graph.bind(symbol, known);
         }
     }
 
-    fn run(&mut self) -> (Cost, Choices) {
+    fn run(&mut self, starts: Vec<Choices>) -> Option<(Cost, Choices)> {
+        let mut best: Option<(Cost, Choices)> = None;
+        for start in starts {
+            let candidate = self.descend(start)?;
+            if best.as_ref().is_none_or(|b| candidate.0 < b.0) {
+                best = Some(candidate);
+            }
+        }
+        best
+    }
+
+    fn starts(&self) -> Vec<Choices> {
         let n = self.arm.axes.len();
-        let mut starts =
-            vec![Choices::all(n, Frame::Own, Form::NoZz), Choices::all(n, Frame::Group, Form::NoYy)];
+        if self.wanted == Wanted::Inertia {
+            // Between links of a group by the angle between them.
+            let all = |frame| Choices { relative: true, ..Choices::all(n, frame, Form::NoZz) };
+            return vec![all(Frame::Own), all(Frame::Group)];
+        }
         let mut relative = Choices::all(n, Frame::Own, Form::NoYy);
         for k in 0..n {
             if self.arm.axes[k].first != k {
@@ -161,26 +247,19 @@ impl<'a> Search<'a> {
             }
         }
         relative.relative = true;
-        starts.push(relative);
-        let found = starts.into_iter().map(|start| self.descend(start));
-        let mut best: Option<(Cost, Choices)> = None;
-        for candidate in found.collect::<Vec<_>>() {
-            if best.as_ref().is_none_or(|b| candidate.0 < b.0) {
-                best = Some(candidate);
-            }
-        }
-        best.unwrap_or_else(|| ((u32::MAX, 0), Choices::all(n, Frame::Own, Form::NoZz)))
+        vec![Choices::all(n, Frame::Own, Form::NoZz), Choices::all(n, Frame::Group, Form::NoYy), relative]
     }
 
-    fn descend(&mut self, start: Choices) -> (Cost, Choices) {
+    /// Nothing where no choices give what is searched.
+    fn descend(&mut self, start: Choices) -> Option<(Cost, Choices)> {
         let n = self.arm.axes.len();
-        let mut best = (self.cost(&start), start);
+        let mut best = (self.cost(&start)?, start);
         loop {
             let mut is_better = false;
             for k in 0..n {
                 for step in self.moves(k) {
                     let Some(choices) = self.moved(&best.1, k, step) else { continue };
-                    let cost = self.cost(&choices);
+                    let cost = self.cost(&choices)?;
                     if cost < best.0 {
                         best = (cost, choices);
                         is_better = true;
@@ -188,13 +267,21 @@ impl<'a> Search<'a> {
                 }
             }
             if !is_better {
-                return best;
+                return Some(best);
             }
         }
     }
 
     /// What may be chosen otherwise for one link.
     fn moves(&self, k: usize) -> Vec<Move> {
+        let slides = !is_nothing(&self.graph, self.arm.axes[k].along);
+        let slid = slides.then_some(Move::Slid);
+        if self.wanted == Wanted::Inertia {
+            let form = Form::NoZz;
+            let steps = [Frame::Group, Frame::Own];
+            let steps = steps.map(|step| Move::Link { wrench: step, step, form, added: true });
+            return steps.into_iter().chain(slid).collect();
+        }
         let frames: &[Frame] = match self.arm.axes[k].first == k {
             true => &[Frame::Group, Frame::Own],
             false => &[Frame::Group, Frame::Own, Frame::First],
@@ -212,9 +299,7 @@ impl<'a> Search<'a> {
             }
         }
         all.extend([Gauge::Nothing, Gauge::X, Gauge::Y].map(Move::Gauge));
-        if !is_nothing(&self.graph, self.arm.axes[k].along) {
-            all.push(Move::Slid);
-        }
+        all.extend(slid);
         if k + 1 == self.arm.axes.len() {
             all.push(Move::Relative);
         }
@@ -243,27 +328,20 @@ impl<'a> Search<'a> {
         (is_legal && c != *from).then_some(c)
     }
 
-    /// The program of choices, its numbers those of the base parameters; nothing if it does not read all of them.
+    /// The program of choices, its numbers those of the base parameters; nothing if torques do not read all of them.
     fn program(&self, choices: &Choices) -> Option<Program> {
         let named = values(self.d, &self.formulas.dynamics, &self.base.links, choices, &self.arm.slides);
-        let mut last = Search::new(self.d, self.formulas, self.base, self.unit);
-        let scale = self.unit.map(Expr::from);
+        let mut last = Search::new(self.wanted, self.d, self.formulas, self.base, self.unit);
         let mut of_links: Vec<(Value, String)> = vec![];
         for (symbol, value, power) in named {
-            // The values are in the robot's own units.
-            let mut value = own_units(value, self.unit, &mut last.graph);
-            if let Some(unit) = scale {
-                for _ in 0..power {
-                    let unit = last.graph.input(unit.as_symbol()?);
-                    value = last.graph.mul(value, unit);
-                }
-            }
+            let value = last.graph.trace(value);
+            let value = self.unit.raised(value, power, &mut last.graph);
             last.graph.bind(symbol, value);
             of_links.push((value, symbol.name().to_string()));
         }
-        let torques = last.torques(choices);
-        let results: Vec<(String, Value)> =
-            torques.into_iter().enumerate().map(|(j, v)| (format!("t{}", j + 1), v)).collect();
+        let letter = if self.wanted == Wanted::Torques { "t" } else { "a" };
+        let results = last.results(choices)?.into_iter().enumerate();
+        let results: Vec<(String, Value)> = results.map(|(j, v)| (format!("{letter}{}", j + 1), v)).collect();
         let variables = last.graph.variables().iter().chain(last.graph.parameters());
         let taken: FxHashSet<String> = variables.map(|s| s.name().to_string()).collect();
         let mut names: FxHashMap<u32, String> = FxHashMap::default();
@@ -272,55 +350,11 @@ impl<'a> Search<'a> {
         }
         let program = Program::new(&last.graph, &results, |node| names.get(&node).cloned(), &taken);
         let read: FxHashSet<Symbol> = inputs(&program).collect();
-        self.base.parameters.iter().all(|p| read.contains(&p.symbol)).then_some(program)
+        let reads_all = || self.base.parameters.iter().all(|p| read.contains(&p.symbol));
+        (self.wanted == Wanted::Inertia || reads_all()).then_some(program)
     }
 }
 
 fn is_nothing(graph: &Graph, v: Value) -> bool {
     graph.as_number(v).is_some_and(|r| r.is_zero())
-}
-
-/// One over the unit.
-fn over(unit: Symbol, graph: &mut Graph) -> Value {
-    let (one, unit) = (graph.trace(Expr::int(1)), graph.input(unit));
-    graph.div(one, unit)
-}
-
-/// A formula in the robot's own units, where lengths are bound to others.
-fn own_units(e: Expr, unit: Option<Symbol>, graph: &mut Graph) -> Value {
-    if unit.is_none() {
-        return graph.trace(e);
-    }
-    // Symbols of its own for lengths, bound to the inputs themselves.
-    let fresh = |s: Symbol| Symbol::new(&format!("{} in its own unit", s.name()));
-    for s in e.symbols() {
-        let input = graph.input(s);
-        graph.bind(fresh(s), input);
-    }
-    graph.trace(e.substitute(|s| Some(fresh(s).into())))
-}
-
-/// Binds lengths, slides and gravity to what they are where one length is 1.
-fn bind_lengths(d: &Description, formulas: &Formulas, unit: Symbol, graph: &mut Graph) {
-    let inverse = over(unit, graph);
-    let scaled = |s: Symbol, graph: &mut Graph| {
-        let input = graph.input(s);
-        let by = graph.mul(input, inverse);
-        graph.bind(s, by);
-    };
-    for s in units(d, formulas).into_iter().filter(|s| *s != unit) {
-        scaled(s, graph);
-    }
-    for s in formulas.dynamics.gravity.0.iter().flat_map(|e| e.symbols()) {
-        scaled(s, graph);
-    }
-    for link in formulas.dynamics.links.iter().filter(|l| l.kind == JointKind::Prismatic) {
-        for &(j, _) in &link.value.terms {
-            for s in [formulas.q[j], formulas.qd[j], formulas.qdd[j]] {
-                scaled(s, graph);
-            }
-        }
-    }
-    let one = graph.trace(Expr::int(1));
-    graph.bind(unit, one);
 }
