@@ -355,7 +355,7 @@ impl DynamicPrograms {
     }
 }
 
-/// A = LDLᵀ in a graph.
+/// A = LDLᵀ in a graph, the joints from the tip to the base: what the last joint has to do with is known first, and is often constant.
 struct Factors {
     lower: Vec<Vec<Value>>,
     /// One over each entry of D.
@@ -365,6 +365,7 @@ struct Factors {
 impl Factors {
     fn new(matrix: &[Value], n: usize, all: &mut Composer) -> Self {
         let graph = all.graph();
+        let matrix: Vec<Value> = matrix.iter().rev().copied().collect();
         let [zero, one] = [Rational::ZERO, Rational::ONE].map(|r| graph.number(&r));
         let mut inverse = vec![];
         let (mut lower, mut diagonal) = (vec![vec![zero; n]; n], vec![zero; n]);
@@ -393,6 +394,7 @@ impl Factors {
 
     fn solve(&self, mut x: Vec<Value>, all: &mut Composer) -> Vec<Value> {
         let (graph, n) = (all.graph(), x.len());
+        x.reverse();
         for i in 0..n {
             for k in 0..i {
                 let part = graph.mul(self.lower[i][k], x[k]);
@@ -408,6 +410,7 @@ impl Factors {
                 x[i] = graph.sub(x[i], part);
             }
         }
+        x.reverse();
         x
     }
 }

@@ -331,7 +331,7 @@ fn expanded(
                 Some(arm.signs[joint].clone())
             }
             Op::Sqrt(a) if !a.negative => match at(&a.node).and_then(Poly::as_constant) {
-                Some(square) => Some(ring.root(square)?),
+                Some(square) => Some(ring.root(&square)?),
                 None => None,
             },
             Op::Pi | Op::Sqrt(_) | Op::Atan2(..) => None,

@@ -7,6 +7,8 @@ use std::collections::BTreeMap;
 
 /// Products of terms up to which expansion goes; beyond, nothing is known.
 const BUDGET: u64 = 2_000_000;
+/// Divisors up to which the square of a root is searched for.
+const PRIMES: i64 = 1000;
 /// How often an angle may count in a sum.
 const MULTIPLE: i64 = 16;
 
@@ -165,9 +167,27 @@ impl Ring {
         Some(all)
     }
 
-    pub fn root(&mut self, square: Rational) -> Option<Poly> {
+    /// The square root of a number, as a multiple of roots of primes: so there is one form of √2·√3 and √6.
+    pub fn root(&mut self, square: &Rational) -> Option<Poly> {
+        let (over, under) = square.to_parts().filter(|p| p.0 >= 0)?;
+        let mut rest = over.checked_mul(under)?;
+        let mut all = Poly::constant(Rational::new(1, under));
+        for p in 2..PRIMES {
+            while rest % (p * p) == 0 && rest > 0 {
+                rest /= p * p;
+                all = all.scaled(&Rational::from(p));
+            }
+            if rest % p == 0 && rest > 0 {
+                rest /= p;
+                all = self.root_of(Rational::from(p), &all)?;
+            }
+        }
+        self.root_of(Rational::from(rest), &all)
+    }
+
+    fn root_of(&mut self, square: Rational, times: &Poly) -> Option<Poly> {
         if let Some(root) = square.sqrt() {
-            return Some(Poly::constant(root));
+            return Some(times.scaled(&root));
         }
         let atom = match self.roots.get(&square) {
             Some(&known) => known,
@@ -177,7 +197,7 @@ impl Ring {
                 atom
             }
         };
-        Some(Poly::atom(atom))
+        self.mul(times, &Poly::atom(atom))
     }
 
     pub fn slope(&mut self, p: &Poly, by: Coordinate) -> Option<Poly> {
@@ -313,7 +333,7 @@ impl Ring {
                     Some(if matches!(part.node(), Node::Sin(_)) { s } else { c })
                 }
                 Node::Sqrt(a) => match of(&a).and_then(|a| a.as_constant()) {
-                    Some(square) => Some(self.root(square)?),
+                    Some(square) => Some(self.root(&square)?),
                     None => None,
                 },
                 Node::Pi | Node::Sign(_) | Node::Atan2(..) => None,
