@@ -1,7 +1,6 @@
 //! Tests of machine code, one program.
 
 mod conformance;
-mod dynamics;
 mod solver;
 
 #[path = "../../../program/tests/suite/support/solvers.rs"]
