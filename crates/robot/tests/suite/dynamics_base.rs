@@ -305,7 +305,7 @@ fn short_programs() {
         ("a panda with one elbow", down, (261, 260)),
         ("smart5-six-rail", down, (243, 227)),
         ("parallelogram-5r", down, (213, 212)),
-        ("any six axes", down, (397, 317)),
+        ("any six axes", down, (390, 318)),
     ] {
         let d = match name {
             "any six axes" => general(),
