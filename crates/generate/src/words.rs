@@ -90,6 +90,7 @@ pub(super) fn parameter(d: &Description, symbol: Symbol, value: Option<Expr>) ->
         _ if is_mass => "SI units",
         Measure::Angle => "rad",
         Measure::Length => "m",
+        Measure::Other(_) => "SI units",
     };
     let about = match &places[..] {
         [] => format!("not used, in {unit}"),

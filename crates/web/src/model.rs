@@ -3,7 +3,7 @@
 use crate::subject::Subject;
 use crate::words;
 use denavit::Robot;
-use denavit::description::{JointKind, Measure};
+use denavit::description::{Description, JointKind, Measure, Parameter as Symbolic};
 use denavit_report::words::Geometry as _;
 use denavit_symbolic::Expr;
 use denavit_wire::robot::{Structure, kind};
@@ -64,6 +64,12 @@ struct Named {
     q: Vec<f64>,
 }
 
+/// The parameters that place something: angles and lengths.
+fn placing(d: &Description) -> impl Iterator<Item = (&Symbolic, Measure)> {
+    let all = d.parameters.iter().map(|p| (p, d.measure(p.symbol)));
+    all.filter(|(_, measure)| !matches!(measure, Measure::Other(_)))
+}
+
 impl Model {
     /// A robot in hand.
     pub fn of(subject: &Subject) -> Self {
@@ -71,18 +77,18 @@ impl Model {
         let structure = denavit::structure::Structure::of(&subject.valued);
         let mut remarks: Vec<String> = structure.nearly.iter().map(|near| words().nearly(near)).collect();
         let missing: Vec<String> =
-            d.parameters.iter().filter(|p| p.value.is_none()).map(|p| p.symbol.name().to_string()).collect();
+            placing(d).filter(|(p, _)| p.value.is_none()).map(|(p, _)| p.symbol.name().to_string()).collect();
         if !missing.is_empty() {
             remarks.push(format!(
                 "no value is known for {}: the picture and all numbers take one that was chosen",
                 missing.join(", ")
             ));
         }
-        let parameters = subject.valued.parameters.iter().zip(&d.parameters).map(|(valued, own)| Parameter {
+        let parameters = placing(d).map(|(own, measure)| Parameter {
             given: own.value.is_some(),
-            measure: if d.measure(own.symbol) == Measure::Angle { "angle" } else { "length" },
+            measure: if measure == Measure::Angle { "angle" } else { "length" },
             name: own.symbol.name().to_string(),
-            value: valued.value.and_then(|v| number(subject, v)),
+            value: subject.valued.value(own.symbol),
         });
         let poses = subject.valued.poses.iter().filter_map(|(name, q)| {
             let q: Option<Vec<f64>> = q.iter().map(|&x| number(subject, x)).collect();

@@ -225,10 +225,7 @@ fn tree(whole: &Tree, arguments: &ConvertArguments) -> Result<(), Failure> {
         chains.count()
     );
     if chains.sampled > 0 {
-        said += &format!(
-            ", {} differ by {:.0e} at most in {COMPARED} configurations",
-            chains.sampled, chains.most
-        );
+        said += &format!(", {} {}", chains.sampled, sampled(chains.most));
     }
     if chains.others > 0 {
         said += &format!(", {} have other joints", chains.others);
@@ -271,6 +268,14 @@ fn no_values(names: impl Iterator<Item = String>) -> Failure {
     Failure::Input(format!("error: no value for {}; give it with --set", names.join(", ")))
 }
 
+/// What is said of poses that were compared in samples.
+fn sampled(most: f64) -> String {
+    match most == 0.0 {
+        true => format!("are equal to the last bit in {COMPARED} configurations, which is no proof"),
+        false => format!("differ by {most:.0e} at most in {COMPARED} configurations"),
+    }
+}
+
 /// How a sentence on what was read back begins; `is_meant` if decimals were read as they always are.
 fn read_back(is_meant: bool) -> &'static str {
     if is_meant { "read back" } else { "read back with --as-written (its decimals are meant so)" }
@@ -306,7 +311,7 @@ fn say_same(robot: &Description, back: &Back, as_written: bool) -> Result<(), Fa
     let said = match &comparison {
         Comparison::Proved => format!("{how}, it is proved to be the same robot"),
         Comparison::Sampled(by) => {
-            format!("{how}, its poses differ by {by:.0e} at most in {COMPARED} configurations")
+            format!("{how}, its poses {}", sampled(*by))
         }
         Comparison::OtherJoints => format!("{how}, it has other joints than the robot"),
         Comparison::NoNumbers(missing) => {

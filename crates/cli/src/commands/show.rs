@@ -135,6 +135,9 @@ pub fn dh_table(d: &Description) -> String {
                 let value = match (p.value, d.measure(p.symbol)) {
                     (Some(v), Measure::Angle) => cell(v, true),
                     (Some(v), Measure::Length) => format!("{} m", cell(v, false)),
+                    (Some(v), Measure::Other(unit)) => {
+                        format!("{} {unit}", cell(v, false)).trim_end().to_string()
+                    }
                     (None, _) => "?".into(),
                 };
                 format!("{} = {value}", styled(&cell(p.symbol.into(), false), NAME))

@@ -143,6 +143,9 @@ impl Writer<'_> {
                     out += &format!("      {name}{}{between}{} = {entry}\n", r + 1, c + 1);
                 }
             }
+            if cells.iter().flatten().all(|entry| entry != "0") {
+                return if tail.is_empty() { out } else { format!("{out}   {tail}\n") };
+            }
             let rest = self.words.other_entries_vanish();
             return format!("{out}      ({rest}){tail}\n");
         }

@@ -200,10 +200,14 @@ impl<'a> Setting<'a> {
 pub fn quantities(mut line: Line, d: &Description, all: &[&Parameter]) -> Line {
     let known = all.iter().filter_map(|p| Some((p.symbol, p.value?)));
     for (k, (symbol, value)) in known.enumerate() {
-        let is_angle = d.measure(symbol) == Measure::Angle;
+        let unit = match d.measure(symbol) {
+            Measure::Angle | Measure::Other("") => String::new(),
+            Measure::Length => " m".into(),
+            Measure::Other(unit) => format!(" {unit}"),
+        };
         line = line.text(if k > 0 { ", " } else { "" }).math(Expr::from(symbol)).text(" = ");
-        line.0.extend(cell(value, is_angle).0);
-        line = line.text(if is_angle { "" } else { " m" });
+        line.0.extend(cell(value, d.measure(symbol) == Measure::Angle).0);
+        line = line.text(unit);
     }
     line.text(".")
 }

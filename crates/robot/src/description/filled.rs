@@ -23,6 +23,8 @@ impl Description {
             let percent = [100, 85, 117, 92, 71, 79, 61, 107, 67][k % 9];
             p.value = Some(match self.measure(p.symbol) {
                 Measure::Length => Expr::int(thousandths * percent) / Expr::int(100_000),
+                // Nothing that is drawn depends on it.
+                Measure::Other(_) => continue,
                 Measure::Angle => Expr::int(30 + 5 * (k % 4) as i64) * Expr::pi() / Expr::int(180),
             });
         }

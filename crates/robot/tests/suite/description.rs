@@ -3,7 +3,8 @@
 use crate::common::{robot, shown};
 use denavit::catalogue;
 use denavit::description::{
-    Convention, Measure, Moved, SameChain, prove_same_chain, read_toml, read_value, render, write_toml,
+    Convention, Description, Measure, Moved, SameChain, prove_same_chain, read_toml, read_value, render,
+    write_toml,
 };
 use denavit_symbolic::{Expr, Rational, equal};
 
@@ -267,6 +268,54 @@ fn values_have_exponents_and_units() {
     assert_eq!(value("2e-3 mm", Measure::Length), Ok(2e-6));
     assert_eq!(value("1E+2mm", Measure::Length), Ok(0.1));
     assert!(value("1erad", Measure::Angle).is_err());
+    for (text, unit, wanted) in [
+        ("4kg", "kg", 4.0),
+        ("250 g", "kg", 0.25),
+        ("0.1 kg m²", "kg m^2", 0.1),
+        ("2e3 g*mm^2", "kg m^2", 2e-6),
+        ("0.4 N·m", "N m", 0.4),
+        ("400 Nmm", "N m", 0.4),
+        ("0.4 kg m² s⁻²", "N m", 0.4),
+        ("0.1 N m s/rad", "N m s/rad", 0.1),
+        ("0.1 N·m·s", "N m s/rad", 0.1),
+        ("3 N s/m + 1 kg/s", "N s/m", 4.0),
+        ("1.62 m / s^2", "m/s^2", 1.62),
+        ("7", "kg", 7.0),
+        ("7 kg", "", 7.0),
+    ] {
+        assert_eq!(value(text, Measure::Other(unit)), Ok(wanted), "{text}");
+    }
+    for (text, unit) in [("4 mm", "kg"), ("4 kg", "kg m^2"), ("4 N m", "N"), ("1e400", "m/s^2"), ("4 s", "")]
+    {
+        assert!(value(text, Measure::Other(unit)).is_err(), "{text}");
+    }
+}
+
+/// A parameter is what the cells are in which it stands.
+#[test]
+fn parameters_of_masses_have_their_units() {
+    let text = "name = 'm'\nconvention = 'craig'\n\
+        [parameters]\nL = ''\nM = ''\nJ = ''\nF = ''\nV = ''\nx = ''\nk = ''\n\
+        [[joints]]\na = 'L'\ntheta = 'q1'\nmass = 'M'\ncom = ['x', 0, 0]\n\
+        inertia = ['J', 0, 0, '0.1 kg m²', 0, 'k*J']\ncoulomb = 'F + 0.1 N·m'\nviscous = 'V'\n\
+        [[joints]]\nd = 'q2'\nmass = 1\n";
+    let mut d = read_toml(text).expect("a robot").0;
+    let measure = |d: &Description, name: &str| d.measure(denavit_symbolic::Symbol::new(name));
+    for (name, wanted) in [
+        ("L", Measure::Length),
+        ("M", Measure::Other("kg")),
+        ("x", Measure::Length),
+        ("J", Measure::Other("kg m^2")),
+        ("F", Measure::Other("N m")),
+        ("V", Measure::Other("N m s/rad")),
+        ("k", Measure::Other("")),
+    ] {
+        assert_eq!(measure(&d, name), wanted, "{name}");
+    }
+    assert!(d.set("M", "4kg").is_ok() && d.set("M", "4").is_ok() && d.set("k", "2").is_ok());
+    assert!(d.set("M", "4mm").is_err() && d.set("J", "4 kg").is_err());
+    let found = read_toml(&text.replace("M = ''", "M = '4 mm'")).expect_err("a mass is no length");
+    assert!(found.iter().any(|f| f.message.contains("this is a mass")), "{found:?}");
 }
 
 #[test]

@@ -153,7 +153,9 @@ impl Parser<'_> {
     /// The product from token `start` on with the unit that stands here.
     pub fn measured(&mut self, product: Value, start: usize, unit: &str, span: Range<usize>) -> Read<Value> {
         let term = Term::new(&product, self.span_from(start));
-        while self.at < self.tokens.len() && self.span_of(self.at).start < span.end {
+        // The brackets around a superscript of Unicode have no bytes of their own.
+        let is_inside = |at: Range<usize>| at.start < span.end || at.start == span.end && at.is_empty();
+        while self.at < self.tokens.len() && is_inside(self.span_of(self.at)) {
             self.at += 1;
         }
         let context = self.context;

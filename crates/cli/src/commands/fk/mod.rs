@@ -71,6 +71,9 @@ pub fn without_values(description: &Description, name: &str, missing: &MissingVa
     let example = |p: &String| match description.measure(Symbol::new(p)) {
         Measure::Angle => format!("--set {p}=30deg"),
         Measure::Length => format!("--set {p}=450mm"),
+        Measure::Other("") => format!("--set {p}=1"),
+        Measure::Other(unit) if unit.contains([' ', '^']) => format!("--set \"{p}=1 {unit}\""),
+        Measure::Other(unit) => format!("--set {p}=1{unit}"),
     };
     let settings: Vec<String> = missing.parameters.iter().map(example).collect();
     Failure::Input(format!("error: {name}: {missing}\n  = hint: give values, as in {}", settings.join(" ")))

@@ -153,7 +153,7 @@ impl Measures for Measure<'_> {
     }
 
     fn unit_at(&self, text: &str) -> Option<usize> {
-        unit_at(text).map(|u| u.name.len())
+        unit_at(text).map(|u| u.length)
     }
 
     fn measured(

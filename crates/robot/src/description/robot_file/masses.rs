@@ -3,6 +3,7 @@
 use super::fields::{Fields, Reader};
 use super::joints::number;
 use super::{Quantity, Style};
+use crate::description::value::quantity_of_key;
 use crate::description::{JointKind, Row};
 use crate::geometry::NoBody;
 use denavit_symbolic::Expr;
@@ -30,12 +31,11 @@ impl Reader<'_> {
     pub fn masses(&mut self, fields: &Fields, row: &mut Row, names: &[String]) {
         let get = |key| fields.get(key);
         row.mass = get("mass").and_then(|v| self.not_negative(v, Quantity::Mass, "the mass", names));
-        row.com = get("com").and_then(|v| self.constants(v, Quantity::Length, "com", names));
-        row.inertia = get("inertia").and_then(|v| self.constants(v, Quantity::Inertia, "inertia", names));
-        row.first_moment =
-            get("first_moment").and_then(|v| self.constants(v, Quantity::FirstMoment, "first_moment", names));
-        row.inertia_at_origin = get("inertia_at_origin")
-            .and_then(|v| self.constants(v, Quantity::Inertia, "inertia_at_origin", names));
+        row.com = get("com").and_then(|v| self.constants(v, "com", names));
+        row.inertia = get("inertia").and_then(|v| self.constants(v, "inertia", names));
+        row.first_moment = get("first_moment").and_then(|v| self.constants(v, "first_moment", names));
+        row.inertia_at_origin =
+            get("inertia_at_origin").and_then(|v| self.constants(v, "inertia_at_origin", names));
         let twice = [("com", "first_moment"), ("inertia", "inertia_at_origin"), ("inertia", "first_moment")];
         for (one, other) in twice {
             if let (Some(_), Some(value)) = (get(one), get(other)) {
@@ -46,16 +46,14 @@ impl Reader<'_> {
         }
         self.check_body(fields, row);
         let slides = row.variable.is_some_and(|v| v.kind == JointKind::Prismatic);
-        let rotor = if slides { Quantity::Mass } else { Quantity::Inertia };
-        let drive = [("rotor", rotor), ("viscous", Quantity::Number), ("coulomb", Quantity::Number)];
-        let [rotor, viscous, coulomb] = drive.map(|(key, quantity)| {
+        let [rotor, viscous, coulomb] = ["rotor", "viscous", "coulomb"].map(|key| {
             let value = get(key)?;
             if row.variable.is_none() {
                 self.out
                     .error(value.span(), format!("`{key}` of a row without a joint variable"))
                     .hint("a drive belongs to the row in which its joint variable first stands");
             }
-            self.not_negative(value, quantity, key, names)
+            self.not_negative(value, quantity_of_key(key, slides), key, names)
         });
         (row.rotor, row.viscous, row.coulomb) = (rotor, viscous, coulomb);
     }
@@ -98,11 +96,10 @@ impl Reader<'_> {
     fn constants<const N: usize>(
         &mut self,
         value: &Spanned<DeValue>,
-        quantity: Quantity,
-        what: &str,
+        key: &str,
         names: &[String],
     ) -> Option<[Expr; N]> {
-        let cells = self.list(value, &Style::plain(quantity), what, N)?;
+        let cells = self.list(value, &Style::plain(quantity_of_key(key, false)), key, N)?;
         cells.iter().for_each(|c| self.constant_of_parameters(c, names, 0));
         cells.iter().map(|c| c.expr).collect::<Vec<Expr>>().try_into().ok()
     }

@@ -20,7 +20,7 @@ use super::cell::{Style, Value};
 use super::diagnostic::{Diagnostic, Diagnostics, nearest};
 use super::rows::{self, Cell};
 use super::units::Quantity;
-use super::{Convention, Description, JointKind};
+use super::{Convention, Description, JointKind, Row};
 use denavit_symbolic::{Expr, Symbol};
 use fields::{Fields, Reader};
 use frames::FrameCells;
@@ -127,10 +127,11 @@ impl Reader<'_> {
         }
         let variables =
             rows::assign_variables(&cells, convention.unwrap_or(Convention::Standard), &mut self.out);
-        let uses = parameters::Uses::of(&cells, &frame_cells);
-        let parameters = self.parameter_values(&declared, &uses);
+        let mut uses = parameters::Uses::of(&cells, &frame_cells);
         let kinds: Vec<JointKind> = variables.iter().flatten().map(|v| v.kind).collect();
         let rows = self.rows(drafts, &variables, &names);
+        uses.others = rows.iter().flat_map(Row::mass_summands).collect();
+        let parameters = self.parameter_values(&declared, &uses);
         let poses = self.poses(fields.get("poses"), &kinds);
         let gravity = self.gravity(fields.get("gravity"), &names, kinds.len());
         Some(Description {

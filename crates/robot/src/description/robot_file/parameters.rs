@@ -7,20 +7,22 @@ use crate::description::Parameter;
 use crate::description::cell::{is_reserved, name_of, variable_number};
 use crate::description::rows::{Cell, Cells};
 use denavit_symbolic::Symbol;
+use rustc_hash::FxHashMap;
 use toml::Spanned;
 use toml::de::DeValue;
 
-/// The names that stand as summands in angles and in lengths.
+/// The names that stand as summands in angles and in lengths, and in what is said of masses and drives.
 pub(super) struct Uses {
     angles: Vec<Symbol>,
     lengths: Vec<Symbol>,
+    pub others: FxHashMap<Symbol, Quantity>,
 }
 
 impl Uses {
     /// What these cells use.
     pub fn of_cells(angles: &[Cell], lengths: &[Cell]) -> Self {
         let summands = |cells: &[Cell]| cells.iter().flat_map(Cell::summands).collect();
-        Uses { angles: summands(angles), lengths: summands(lengths) }
+        Uses { angles: summands(angles), lengths: summands(lengths), others: FxHashMap::default() }
     }
 
     pub fn of(rows: &[Cells], frames: &[&FrameCells]) -> Self {
@@ -30,6 +32,7 @@ impl Uses {
         Uses {
             angles: summands(&mut by.iter().flat_map(|b| b.0).chain(frames.iter().flat_map(|f| &f.angles))),
             lengths: summands(&mut by.iter().flat_map(|b| b.1).chain(frames.iter().flat_map(|f| &f.lengths))),
+            others: FxHashMap::default(),
         }
     }
 }
@@ -101,7 +104,7 @@ impl Reader<'_> {
                 self.out.error(p.value.span(), format!("`{}` is used as an angle and as a length", p.name));
                 return none;
             }
-            (false, false) => Quantity::Open,
+            (false, false) => uses.others.get(&p.symbol).copied().unwrap_or(Quantity::Open),
         };
         let Some(value) = self.value(p.value, &Style { nearly: angle, ..Style::plain(quantity) }) else {
             return none;

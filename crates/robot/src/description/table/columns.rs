@@ -350,8 +350,8 @@ mod tests {
         ] {
             let found = column(head);
             assert_eq!(
-                (found.role, found.previous, found.unit.map_or("", |u| u.name)),
-                (role, previous, unit),
+                (found.role, found.previous, found.unit),
+                (role, previous, unit_named(unit)),
                 "{head}"
             );
         }

@@ -6,7 +6,7 @@ use crate::description::branches::{RowTree, with_frames_as_rows};
 use crate::description::cell::{decimal, write_cell};
 use crate::description::lines::NotNamed;
 use crate::description::units::Quantity;
-use crate::description::{Cell, Convention, Description, JointKind, Measure, Row};
+use crate::description::{Cell, Convention, Description, JointKind, Row};
 use denavit_symbolic::print::{Style, print, print_symbol};
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Angle, Expr, Rational};
@@ -96,11 +96,7 @@ impl Table {
             cells
         };
         let value = |p: &crate::description::Parameter| {
-            let quantity = match d.measure(p.symbol) {
-                Measure::Angle => Quantity::Angle,
-                Measure::Length => Quantity::Length,
-            };
-            Some((p.symbol.name().to_string(), text(p.value?, quantity)))
+            Some((p.symbol.name().to_string(), text(p.value?, d.measure(p.symbol).into())))
         };
         Table {
             name: d.name.replace(|c: char| c.is_control(), " "),
