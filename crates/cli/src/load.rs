@@ -288,8 +288,11 @@ impl Tree {
     }
 }
 
-/// The text of a file or of standard input, bounded, whatever its bytes are.
-fn contents(name: &str, most: usize) -> io::Result<String> {
+/// The text of a file or of standard input, bounded (one byte more says that there are more), whatever its bytes are.
+///
+/// # Errors
+/// If it cannot be read.
+pub fn contents(name: &str, most: usize) -> io::Result<String> {
     let limit = most as u64 + 1;
     let mut bytes = vec![];
     if name == "-" {

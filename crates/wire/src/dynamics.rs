@@ -2,8 +2,10 @@
 
 use crate::Schema;
 use crate::program::{Operations, Step};
-use denavit::dynamics::{BaseParameter, DynamicModel, Fate, Ground, Minimality};
-use denavit_symbolic::Expr;
+use denavit::dynamics::{
+    BaseParameter, DynamicModel, Fate, Ground, Inward, Minimality, Moment, Outward, Recursion, Simulation,
+};
+use denavit_symbolic::{Expr, Symbol};
 use serde::Serialize;
 
 /// An arm in a state: N·m and N by its joints, the state's units radians, metres and seconds.
@@ -20,6 +22,10 @@ pub struct Answer {
     pub gravity: Vec<f64>,
     /// A(q), row by row.
     pub inertia: Vec<Vec<f64>>,
+    /// The momentum.
+    pub momentum: Momentum,
+    /// Work by time.
+    pub power: Power,
     /// The joint variables.
     pub q: Vec<f64>,
     /// Their rates.
@@ -49,6 +55,93 @@ pub struct Energy {
     pub potential: f64,
 }
 
+/// The momentum of all that moves, along the axes of the base; rotors aside.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+pub struct Momentum {
+    /// About the centre of mass, kg·m²/s.
+    pub angular: [f64; 3],
+    /// The centre of mass in the base, metres.
+    pub centre: [f64; 3],
+    /// Kg·m/s.
+    pub linear: [f64; 3],
+    /// Kilograms.
+    pub mass: f64,
+}
+
+/// Work by time, watts: what the torques supply goes into friction, the tool's surroundings and the energies.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+pub struct Power {
+    /// What friction takes.
+    pub dissipated: f64,
+    /// What the tool gives to its surroundings.
+    pub exerted: f64,
+    /// By which the kinetic energy grows.
+    pub kinetic: f64,
+    /// By which the potential energy grows.
+    pub potential: f64,
+    /// What the torques supply.
+    pub supplied: f64,
+}
+
+/// A motion under torques.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Motion {
+    /// The largest imbalance of the energy in size, joules: the error of the integration.
+    pub drift: f64,
+    /// The robot's name.
+    pub robot: String,
+    /// The motion at regular times.
+    pub samples: Vec<Sample>,
+    /// The version.
+    pub schema: Schema,
+    /// Steps that were taken.
+    pub steps: usize,
+}
+
+/// A moment of a motion.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Sample {
+    /// What friction has taken since the start, joules.
+    pub dissipated: f64,
+    /// The energies.
+    pub energy: Energy,
+    /// What the tool has given to its surroundings since the start, joules.
+    pub exerted: f64,
+    /// The joint variables.
+    pub q: Vec<f64>,
+    /// Their rates.
+    pub qd: Vec<f64>,
+    /// What the torques have supplied since the start, joules.
+    pub supplied: f64,
+    /// Seconds.
+    pub t: f64,
+    /// The torques.
+    pub torques: Vec<f64>,
+}
+
+impl Motion {
+    /// A motion of a robot.
+    pub fn of(robot: &str, found: &Simulation) -> Self {
+        let sample = |m: &Moment| Sample {
+            dissipated: m.dissipated,
+            energy: Energy { kinetic: m.kinetic, potential: m.potential },
+            exerted: m.exerted,
+            q: m.q.clone(),
+            qd: m.qd.clone(),
+            supplied: m.supplied,
+            t: m.t,
+            torques: m.torques.clone(),
+        };
+        Motion {
+            drift: found.drift().0,
+            robot: robot.into(),
+            samples: found.moments.iter().map(sample).collect(),
+            schema: Schema,
+            steps: found.steps,
+        }
+    }
+}
+
 /// The model as formulas.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Model {
@@ -65,6 +158,9 @@ pub struct Model {
     pub parts: Option<Parts>,
     /// On what it rests that the torques are Lagrange's: `proved`, `sampled` (equal at random states), `failed`.
     pub proof: &'static str,
+    /// The recursion of Newton and Euler, where it is to be explained.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub recursion: Option<Recursive>,
     /// The robot's name.
     pub robot: String,
     /// The version.
@@ -87,6 +183,51 @@ pub struct Base {
     pub number: Option<f64>,
     /// What it is in the parameters of the links.
     pub value: String,
+}
+
+/// The recursion of Newton and Euler, step by step.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Recursive {
+    /// From the tip to the base: what moves the links, `f` and `n`.
+    pub inward: Vec<OfLink>,
+    /// From the base to the tip: how the links move, `w`, `wd`, `U`, `a`.
+    pub outward: Vec<OfLink>,
+    /// On what it rests that the torques are Lagrange's.
+    pub proof: &'static str,
+    /// The torques.
+    pub torques: Vec<Step>,
+}
+
+/// Quantities of a link.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct OfLink {
+    /// The link, from 1.
+    pub link: usize,
+    /// On what it rests that it moves so.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub proof: Option<&'static str>,
+    /// Each by those before.
+    pub steps: Vec<Step>,
+}
+
+impl Recursive {
+    /// A recursion, its formulas printed by `text`.
+    pub fn of(recursion: &Recursion, text: impl Fn(Expr) -> String) -> Self {
+        let steps = |all: &[(Symbol, Expr)]| -> Vec<Step> {
+            all.iter()
+                .map(|(s, e)| Step { name: s.name().to_string(), output: false, value: text(*e) })
+                .collect()
+        };
+        let outward =
+            |o: &Outward| OfLink { link: o.link + 1, proof: Some(word(o.ground)), steps: steps(&o.steps) };
+        let inward = |i: &Inward| OfLink { link: i.link + 1, proof: None, steps: steps(&i.steps) };
+        Recursive {
+            inward: recursion.inward.iter().map(inward).collect(),
+            outward: recursion.outward.iter().map(outward).collect(),
+            proof: word(recursion.ground),
+            torques: steps(&recursion.torques),
+        }
+    }
 }
 
 /// The parts of the torques.
@@ -134,6 +275,7 @@ impl Model {
                 velocity: list(&p.velocity),
             }),
             proof: word(model.ground),
+            recursion: None,
             robot: robot.into(),
             schema: Schema,
             steps: model.torques.steps().iter().map(|s| Step::of(s, &text)).collect(),

@@ -1,7 +1,9 @@
 //! The arguments of `dynamics`.
 
+use super::path::positive;
 use super::{Format, ReportLanguage, RobotArguments};
 use clap::Args;
+use std::path::PathBuf;
 
 /// `dynamics`
 ///
@@ -15,30 +17,66 @@ pub struct DynamicsArguments {
     /// The joint variables, as in `fk`
     #[arg(short, long = "joints", value_name = "Q", allow_hyphen_values = true)]
     pub q: Option<String>,
+    /// Read a state a line from a file (- for standard input), answer a line each: a JSON object with `q` and `qd`, `qdd` or `tau`,
+    /// `wrench`; or the numbers of q, of q and q̇, or of q, q̇ and q̈, separated by commas
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["q", "simulate"])]
+    pub input: Option<PathBuf>,
     /// The joints' velocities, one a joint; 0 otherwise
-    #[arg(long, value_name = "RATES", allow_hyphen_values = true, requires = "q")]
+    #[arg(long, value_name = "RATES", allow_hyphen_values = true)]
     pub qd: Option<String>,
     /// The joints' accelerations: gives the torques for them; 0 otherwise
-    #[arg(long, value_name = "ACCELERATIONS", allow_hyphen_values = true, requires = "q")]
+    #[arg(long, value_name = "ACCELERATIONS", allow_hyphen_values = true)]
     pub qdd: Option<String>,
-    /// Torques in N m (N for slides), one a joint: gives the accelerations under them
-    #[arg(long, value_name = "TORQUES", allow_hyphen_values = true, requires = "q", conflicts_with = "qdd")]
+    /// Torques in N m (N for slides), one a joint: gives the accelerations under them; with --simulate the motion
+    #[arg(long, value_name = "TORQUES", allow_hyphen_values = true, conflicts_with = "qdd")]
     pub tau: Option<String>,
+    /// Follow the motion for so many seconds from -q and --qd on, under --tau or --tau-file (without: free), with friction; the
+    /// balance of energy is said
+    #[arg(long, value_name = "SECONDS", value_parser = positive, allow_hyphen_values = true, requires = "q",
+        conflicts_with = "qdd")]
+    pub simulate: Option<f64>,
+    /// Torques over time, a line of numbers each: the time and a torque a joint, linear between the lines (- for standard input)
+    #[arg(long, value_name = "FILE.csv", requires = "simulate", conflicts_with = "tau")]
+    pub tau_file: Option<String>,
+    /// Seconds between samples
+    #[arg(long, value_name = "SECONDS", value_parser = positive, allow_hyphen_values = true, requires = "simulate")]
+    pub dt: Option<f64>,
+    /// Symplectic steps of so many seconds, instead of steps by their error
+    #[arg(long, value_name = "SECONDS", value_parser = positive, allow_hyphen_values = true, requires = "simulate")]
+    pub step: Option<f64>,
+    /// Write a plot of joints, velocities and energies over time
+    #[arg(long, value_name = "FILE.svg", requires = "simulate")]
+    pub plot: Option<PathBuf>,
+    /// Print the samples of --simulate as CSV
+    #[arg(long, requires = "simulate", conflicts_with_all = ["json", "format"])]
+    pub csv: bool,
+    /// What the tool carries: a mass, or mass, x, y, z of its centre in the frame of the tool, or these and its inertia about
+    /// the centre, xx, xy, xz, yy, yz, zz
+    #[arg(long, value_name = "MASS", allow_hyphen_values = true)]
+    pub payload: Option<String>,
+    /// Where --wrench is exerted, in place of the tool: a frame by its number or name
+    #[arg(long, value_name = "FRAME", requires = "wrench")]
+    pub at: Option<String>,
     /// What the tool exerts on its surroundings: force and moment about its origin, `fx, fy, fz, mx, my, mz` along the axes of
     /// the base (N and N m)
-    #[arg(long, value_name = "WRENCH", allow_hyphen_values = true, requires = "q")]
+    #[arg(long, value_name = "WRENCH", allow_hyphen_values = true)]
     pub wrench: Option<String>,
-    /// The acceleration of gravity in the base: x, -x, y, -y, z, -z (of 9.81 m/s²), none, or three components
+    /// The acceleration of gravity in the base: x, -x, y, -y, z, -z (of 9.81 m/s²), none, or three components (m/s² where
+    /// none has a unit)
     #[arg(long, value_name = "DIRECTION", allow_hyphen_values = true)]
     pub gravity: Option<String>,
     /// Print formulas: base parameters, a program for the torques with its cost, and of arms with up to three joints A, C q̇ and Q
-    #[arg(long, conflicts_with = "q")]
+    #[arg(long, conflicts_with_all = ["q", "qd", "qdd", "tau", "wrench", "simulate", "input", "payload"])]
     pub symbolic: bool,
-    /// How to print --symbolic
-    #[arg(long, value_enum, default_value_t = Format::Terminal, conflicts_with = "q")]
+    /// Explain the derivation: the bodies, the groupings, the recursion outward and inward with a name for every quantity, and on
+    /// what each rests
+    #[arg(long, conflicts_with_all = ["symbolic", "q", "qd", "qdd", "tau", "wrench", "simulate", "input", "payload"])]
+    pub explain: bool,
+    /// How to print --symbolic and --explain
+    #[arg(long, value_enum, default_value_t = Format::Terminal, conflicts_with_all = ["q", "input"])]
     pub format: Format,
-    /// The language of the words of --symbolic
-    #[arg(long, value_enum, default_value = "en", conflicts_with = "q")]
+    /// The language of the words of --symbolic and --explain
+    #[arg(long, value_enum, default_value = "en", conflicts_with_all = ["q", "input"])]
     pub language: ReportLanguage,
     /// Print JSON
     #[arg(long, conflicts_with = "format")]

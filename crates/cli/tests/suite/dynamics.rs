@@ -81,7 +81,7 @@ fn torques_and_accelerations_of_two_links() {
 #[test]
 fn what_is_missing_is_said() {
     refused(&["ur5", "-q", "0,0,0,0,0,0"], 3, "it says nothing of masses");
-    refused(&["ur5"], 2, "say where the joints are: -q with 6 values; or --symbolic");
+    refused(&["ur5"], 2, "say where the joints are: -q with 6 values; or --symbolic or --explain");
     let arm = file(
         "named.toml",
         "convention = 'craig'\n[parameters]\nM1 = ''\n[[joints]]\ntheta = 'q1'\nmass = 'M1'\n",
@@ -95,12 +95,88 @@ fn what_is_missing_is_said() {
         "wrong.toml",
         "convention = 'craig'\n[[joints]]\nname = 'arm'\ntheta = 'q1'\nmass = 1\ninertia = [1, 0, 0, 1, 0, 3]\n",
     );
-    let output = fed(&["dynamics", &wrong, "-q", "0"], "");
-    assert!(
-        text(&output.stderr).contains("link 1 (arm): one of its principal moments"),
-        "{}",
-        text(&output.stderr)
+    // Once: where the file was read, or here where a name got its value.
+    let said = text(&fed(&["dynamics", &wrong, "-q", "0"], "").stderr);
+    assert!(said.contains("`arm`: no body has this inertia") && !said.contains("link 1"), "{said}");
+    let named = file(
+        "wrong-named.toml",
+        "convention = 'craig'\n[parameters]\nJ = 3\n[[joints]]\nname = 'arm'\ntheta = 'q1'\nmass = 1\n\
+         inertia = [1, 0, 0, 1, 0, 'J']\n",
     );
+    let said = text(&fed(&["dynamics", &named, "-q", "0"], "").stderr);
+    assert!(said.contains("link 1 (arm): one of its principal moments"), "{said}");
+    for option in ["--qd", "--qdd", "--tau", "--wrench", "--simulate"] {
+        refused(&["planar-2r", "--symbolic", option, "1,2"], 2, "cannot be used with");
+    }
+}
+
+/// Masses, friction, torques and gravity have units, and what measures something else is refused.
+#[test]
+fn units_of_dynamics() {
+    let arm = file(
+        "units.toml",
+        "convention = 'craig'\n[parameters]\nM = ''\n[[joints]]\ntheta = 'q1'\nmass = 'M'\ncom = ['500 mm', 0, 0]\n\
+         inertia = [0, 0, 0, '0.1 kg m²', 0, '0.1 kg·m^2']\nviscous = '0.2 N m s/rad'\ncoulomb = '300 N·mm'\n",
+    );
+    let missing = text(&fed(&["dynamics", &arm, "-q", "0"], "").stderr);
+    assert!(missing.contains("--set M=1kg"), "{missing}");
+    let with = |more: &[&str]| json(&[&[&arm, "-q", "0", "--set", "M=4kg"], more].concat());
+    let of = |v: &Value, key: &str| numbers(&v[key])[0];
+    let a = with(&["--qd", "2", "--gravity", "0, -1.62 m/s^2, 0"]);
+    assert!((a["inertia"][0][0].as_f64().unwrap() - 1.1).abs() < 1e-15, "{a}");
+    assert!(
+        (of(&a, "gravity") - 4.0 * 0.5 * 1.62).abs() < 1e-14 && (of(&a, "friction") - 0.7).abs() < 1e-15,
+        "{a}"
+    );
+    let a = with(&["--gravity", "none", "--tau", "2.2 N·m"]);
+    assert!((of(&a, "accelerations") - 2.0).abs() < 1e-15, "{a}");
+    refused(&[&arm, "-q", "0", "--set", "M=4mm"], 2, "this is a mass");
+    refused(&[&arm, "-q", "0", "--set", "M=4", "--gravity", "0,1e400,0"], 2, "finite");
+    refused(&[&arm, "-q", "0", "--set", "M=4", "--gravity", "0,1 kg,0"], 2, "this is an acceleration");
+    refused(&[&arm, "-q", "0", "--set", "M=4", "--tau", "1 N"], 2, "this is a torque");
+}
+
+/// A pendulum falls: as text, CSV, JSON and a plot, with the balance of its energy.
+#[test]
+fn a_motion_is_followed() {
+    let arm = file("fall.toml", TWO_LINKS);
+    let base = ["dynamics", &arm, "-q", "0,0", "--simulate", "0.5"];
+    let of = |more: &[&str], stdin: &str| {
+        let output = fed(&[&base, more].concat(), stdin);
+        assert_eq!(output.status.code(), Some(0), "{more:?}: {}", text(&output.stderr));
+        (text(&output.stdout), text(&output.stderr))
+    };
+    let plot = file("fall.svg", "");
+    let (shown, _) = of(&["--plot", &plot], "");
+    for part in ["motion over 0.5 s", "of order 5", "energy: what is there", "201 samples"] {
+        assert!(shown.contains(part), "{shown}");
+    }
+    assert!(std::fs::read_to_string(&plot).is_ok_and(|svg| svg.contains("lost to friction")));
+    let (csv, said) = of(&["--csv", "--dt", "0.1"], "");
+    let lines: Vec<&str> = csv.lines().collect();
+    assert!(lines.len() == 7 && lines[0].starts_with("t,q1,q2,q1_velocity"), "{csv}");
+    assert!(said.contains("energy: what is there"), "{said}");
+    let motion = json(&[&base[1..], &["--dt", "0.25"]].concat());
+    let last = &motion["samples"][2];
+    assert!(last["q"][0].as_f64().unwrap() < -0.5 && last["dissipated"].as_f64().unwrap() > 0.0, "{motion}");
+    assert!(motion["drift"].as_f64().unwrap() < 1e-7, "{motion}");
+    // Torques that hold it.
+    let hold = json(&[&arm, "-q", "0,0"]);
+    let torques = numbers(&hold["torques"]);
+    let row = |t: f64| format!("{t}, {}, {}\n", torques[0], torques[1]);
+    let table = format!("t, tau1, tau2\n{}{} # the end\n", row(0.0), row(1.0).trim());
+    let (held, _) = of(&["--csv", "--tau-file", "-"], &table);
+    let cells: Vec<f64> = held.lines().last().unwrap().split(',').map(|x| x.parse().unwrap()).collect();
+    assert!(cells[1].abs() < 1e-9 && cells[2].abs() < 1e-9, "{held}");
+    refused(&[&base[1..], &["--step", "0.01"]].concat(), 2, "Coulomb");
+    refused(&[&base[1..], &["--tau-file", "nowhere.csv"]].concat(), 3, "nowhere.csv");
+    for (torques, why) in
+        [("0,1\n", "line 1: 2 numbers"), ("1,2,3\n1,2,3\n", "line 2: times increase"), ("", "no torques")]
+    {
+        let output = fed(&[&base, &["--tau-file", "-"][..]].concat(), torques);
+        assert!(text(&output.stderr).contains(why), "{torques}: {}", text(&output.stderr));
+    }
+    refused(&[&arm, "-q", "0,0", "--simulate", "0"], 2, "a positive number");
 }
 
 /// Formulas in every format; those of JSON read back.
@@ -142,4 +218,89 @@ fn joints_beside_the_chain_are_named() {
     assert_eq!(output.status.code(), Some(0));
     let said = text(&output.stderr);
     assert!(said.contains("behind panda_finger_joint1, panda_finger_joint2 counts as fixed"), "{said}");
+}
+
+/// A line for each line: objects, arrays and plain numbers; a bad line is named and the others are answered.
+#[test]
+fn states_are_streamed() {
+    let arm = file("stream.toml", TWO_LINKS);
+    let lines = "{\"q\": [0.4, -1.1], \"qd\": [0.7, -1.3], \"qdd\": [2, 0.6]}\n[0.4, -1.1, 0.7, -1.3, 2, 0.6]\n\
+                 0.4, -1.1, 0.7, -1.3, 2, 0.6\n\n{\"q\": [0, 0], \"tau\": [1, 2]}\n[1]\n{\"q\": [0, 0], \"t\": [1, 2]}\n";
+    let output = fed(&["dynamics", &arm, "--input", "-"], lines);
+    assert_eq!(output.status.code(), Some(3), "{}", text(&output.stderr));
+    let all: Vec<Value> = text(&output.stdout).lines().map(|l| serde_json::from_str(l).unwrap()).collect();
+    let one = json(&[&arm, "-q", "0.4,-1.1", "--qd", "0.7,-1.3", "--qdd", "2,0.6"]);
+    assert!(all.len() == 6 && all[..3].iter().all(|a| *a == one), "{all:?}");
+    assert_eq!(all[3]["accelerations"], json(&[&arm, "-q", "0,0", "--tau", "1,2"])["accelerations"]);
+    assert!(all[4]["error"].as_str().unwrap().contains("1 number"), "{}", all[4]);
+    assert!(all[5]["error"].as_str().unwrap().contains("`t` is none of"), "{}", all[5]);
+}
+
+/// A load at the tool, a wrench at a frame, momentum and power.
+#[test]
+fn loads_momentum_and_power() {
+    let arm = file("load.toml", TWO_LINKS);
+    let of = |more: &[&str]| json(&[&[&arm, "-q", "0.4,-1.1"], more].concat());
+    let gravity = |a: &Value| numbers(&a["gravity"]);
+    let (bare, loaded) = (gravity(&of(&[])), gravity(&of(&["--payload", "2 kg, 300 mm, 0, 0"])));
+    let moment = 2.0 * 9.81 * 0.3 * 0.7_f64.cos();
+    assert!((loaded[1] - bare[1] - moment).abs() < 1e-12, "{loaded:?}");
+    refused(&[&arm, "-q", "0,0", "--payload", "-1"], 2, "its mass is negative");
+    refused(&[&arm, "-q", "0,0", "--payload", "1,2"], 2, "a mass, or mass, x, y, z");
+    // 10 N down at the first frame, on the axis of the first joint, and a moment about it.
+    let at = |frame: &str| numbers(&of(&["--wrench", "0,-10,0,0,0,3", "--at", frame])["wrench"]);
+    assert_eq!(at("1"), [3.0, 0.0]);
+    assert!((at("2")[0] - (3.0 - 10.0 * 0.5 * 0.4_f64.cos())).abs() < 1e-12);
+    let a = of(&["--qd", "0.7,-1.3", "--qdd", "2,0.6", "--wrench", "1,2,0,0,0,0"]);
+    let p = |key: &str| a["power"][key].as_f64().unwrap();
+    let rest = p("supplied") - p("dissipated") - p("exerted") - p("potential") - p("kinetic");
+    assert!(rest.abs() < 1e-12 && (p("dissipated") - (0.5 * 0.49 + 0.2 * 1.3)).abs() < 1e-12, "{a}");
+    // q̇ᵀ(A q̈ + C q̇)
+    let rates = [0.7, -1.3];
+    let pulled = |k: usize| numbers(&a["inertia"][k]).iter().zip([2.0, 0.6]).map(|(m, x)| m * x).sum::<f64>();
+    let kinetic: f64 = (0..2).map(|k| rates[k] * (pulled(k) + numbers(&a["velocity"])[k])).sum();
+    assert!((p("kinetic") - kinetic).abs() < 1e-12, "{a}");
+    assert!((a["momentum"]["mass"].as_f64().unwrap() - 6.9).abs() < 1e-14, "{a}");
+    let shown = text(&fed(&["dynamics", &arm, "-q", "0,0", "--qd", "1,0"], "").stdout);
+    assert!(shown.contains("6.9 kg that move") && shown.contains("power: the torques supply"), "{shown}");
+}
+
+/// The derivation in words, in two languages and all formats; every link's motion says on what it rests.
+#[test]
+fn the_derivation_is_explained() {
+    let of = |more: &[&str]| {
+        let output = fed(&[&["dynamics", "articulated-3r", "--explain"], more].concat(), "");
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        text(&output.stdout).split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let plain = of(&[]);
+    for part in [
+        "link 3 turns: it gives M3, MZ3 and YY3",
+        "Outward: how the links move",
+        "Proved: w, wd and a are those of the product of the transforms",
+        "Inward: what moves them",
+        "proved equal to Lagrange's equations",
+        "The short program",
+    ] {
+        assert!(plain.contains(part), "{part}: {plain}");
+    }
+    assert_eq!(plain.matches("Proved: w, wd and a").count(), 3, "{plain}");
+    let french = of(&["--language", "fr"]);
+    assert!(
+        french.contains("Démontré : w, wd et a sont ceux du produit") && !french.contains("Link"),
+        "{french}"
+    );
+    assert!(
+        of(&["--format", "latex"]).contains("\\section") || of(&["--format", "latex"]).contains("Outward")
+    );
+    assert!(of(&["--format", "html"]).contains("<math") && of(&["--format", "typst"]).contains("Outward"));
+    let slides = text(&fed(&["dynamics", "scara", "--explain"], "").stdout);
+    assert!(slides.contains("slides along the direction of all turns before it"), "{slides}");
+    // Of six joints equality is sampled, and called so.
+    let model = json(&["staubli-rx90", "--explain"]);
+    let recursion = &model["recursion"];
+    assert_eq!(recursion["proof"], "sampled");
+    let outward = recursion["outward"].as_array().unwrap();
+    assert!(outward.len() == 6 && outward.iter().all(|o| o["proof"] == "sampled"), "{outward:?}");
+    refused(&["ur5", "--explain", "-q", "0,0,0,0,0,0"], 2, "cannot be used with");
 }

@@ -1,9 +1,9 @@
 //! The dynamic model: base parameters, torques, inertia.
 
 use crate::document::{Block, Factor, Line, Math, Proof};
-use crate::words::{Tongue, Wording};
-use denavit::description::{Convention, Description, Row};
-use denavit::dynamics::{DynamicModel, Fate, Ground};
+use crate::words::{Gives, Tongue, Wording};
+use denavit::description::{Convention, Description, JointKind, Row};
+use denavit::dynamics::{DynamicModel, Fate, Ground, Recursion, grouped};
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Expr, Node};
 
@@ -27,7 +27,96 @@ pub fn dynamics_document(d: &Description, model: &DynamicModel, language: Tongue
         Block::Heading(2, Line::new(words.base_title())),
     ];
     blocks.extend(base(model, words));
-    blocks.push(Block::Heading(2, Line::new(words.torques_title())));
+    blocks.extend(torques(d, model, words));
+    blocks
+}
+
+/// The derivation: bodies, groupings, the recursion outward and inward, and the short program, with what each rests on.
+pub fn dynamics_explanation(
+    d: &Description,
+    model: &DynamicModel,
+    recursion: &Recursion,
+    language: Tongue,
+) -> Vec<Block> {
+    let words = language.words();
+    let arm = &model.formulas.dynamics;
+    let title = |title: String| Block::Heading(2, Line::new(title));
+    let mut blocks = vec![
+        Block::Heading(1, Line::new(words.dynamics_title(&d.name))),
+        title(words.bodies_title()),
+        paragraph(words.bodies()),
+    ];
+    for o in &recursion.outward {
+        let frame = Factor::Frame { from: o.link.to_string(), to: (o.link + 1).to_string() };
+        let rows = o.place.matrix().iter().map(|row| row.to_vec()).collect();
+        blocks.push(Block::Formula { math: Math::Matrix(frame, rows), number: None, proof: None });
+    }
+    blocks.push(paragraph(words.link_parameters(d.convention == Convention::Standard)));
+    blocks.push(Block::Paragraph(words.gravity_is(arm.gravity.0.map(Math::Expr))));
+    blocks.push(title(words.base_title()));
+    blocks.push(paragraph(words.grouping()));
+    let left = grouped(arm);
+    let given = arm.links.iter().zip(&left).enumerate().rev().map(|(k, (link, left))| {
+        let gives = match link.kind {
+            JointKind::Revolute => Gives::OnAxis,
+            JointKind::Prismatic if left.mass[0].is_zero() && !left.mass[2].is_zero() => Gives::Plan,
+            JointKind::Prismatic => Gives::Inertia,
+        };
+        Line::new(words.gives(k + 1, gives))
+    });
+    blocks.push(Block::List(given.collect()));
+    blocks.extend(base(model, words));
+    blocks.push(title(words.outward_title()));
+    blocks.push(paragraph(words.outward()));
+    for o in &recursion.outward {
+        blocks.push(Block::Heading(3, Line::new(words.link(o.link + 1))));
+        for &(name, value) in &o.steps {
+            // U is made of the others.
+            let proof = (!name.name().starts_with('U')).then_some(mark(o.ground));
+            blocks.push(Block::Formula { math: Math::equation(name.into(), value), number: None, proof });
+        }
+        blocks.push(paragraph(words.motion_ground(o.ground)));
+    }
+    blocks.push(title(words.inward_title()));
+    blocks.push(paragraph(words.inward()));
+    for i in &recursion.inward {
+        blocks.push(Block::Heading(3, Line::new(words.link(i.link + 1))));
+        blocks.extend(i.steps.iter().map(|&(name, value)| formula(name.into(), value)));
+    }
+    blocks.push(title(words.torques_title()));
+    for &(name, value) in &recursion.torques {
+        let math = Math::equation(name.into(), value);
+        blocks.push(Block::Formula { math, number: None, proof: Some(mark(recursion.ground)) });
+    }
+    blocks.push(paragraph(words.recursion_cost(&model.base.inverse.count(), recursion.ground)));
+    blocks.push(title(words.short_title()));
+    blocks.push(paragraph(words.short()));
+    blocks.push(paragraph(words.torques_cost(&model.torques.count(), model.ground)));
+    let divisors = divisors(model);
+    if !divisors.is_empty() {
+        blocks.push(Block::Paragraph(words.divides_by(divisors.into_iter().map(Math::Expr).collect())));
+    }
+    blocks.extend(parts(d, model, words));
+    blocks
+}
+
+/// The names of [`dynamics_vocabulary`], and those of the recursion.
+pub fn recursion_vocabulary(d: &Description, model: &DynamicModel, recursion: &Recursion) -> Vocabulary {
+    recursion.names().fold(dynamics_vocabulary(d, model), |v, s| v.symbol(&s.name()))
+}
+
+/// The mark of what rests on that.
+fn mark(ground: Ground) -> Proof {
+    match ground {
+        Ground::Proved => Proof::Proved,
+        Ground::Modulo(_) | Ground::Numbers(..) => Proof::Sampled,
+        Ground::Failed => Proof::Wrong,
+    }
+}
+
+/// The program of the torques, and their parts.
+fn torques(d: &Description, model: &DynamicModel, words: &dyn Wording) -> Vec<Block> {
+    let mut blocks = vec![Block::Heading(2, Line::new(words.torques_title()))];
     for step in model.torques.steps() {
         blocks.push(formula(Expr::symbol(&step.name), step.value));
     }
@@ -36,6 +125,13 @@ pub fn dynamics_document(d: &Description, model: &DynamicModel, language: Tongue
     if !divisors.is_empty() {
         blocks.push(Block::Paragraph(words.divides_by(divisors.into_iter().map(Math::Expr).collect())));
     }
+    blocks.extend(parts(d, model, words));
+    blocks
+}
+
+/// The parts of the torques where they are written out.
+fn parts(d: &Description, model: &DynamicModel, words: &dyn Wording) -> Vec<Block> {
+    let mut blocks = vec![];
     let has = |pick: fn(&Row) -> &Option<Expr>| d.rows.iter().filter_map(|r| *pick(r)).any(|e| !e.is_zero());
     if let Some(parts) = &model.parts {
         let proof = (parts.ground == Ground::Proved).then_some(Proof::Proved);

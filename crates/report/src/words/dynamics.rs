@@ -5,6 +5,17 @@ use denavit::dynamics::{Ground, Minimality};
 use denavit::geometry::NoBody;
 use denavit_program::Count;
 
+/// What a link gives to the one before, where mass may be counted with either.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Gives {
+    /// It turns: mass on its axis.
+    OnAxis,
+    /// It slides: its inertia.
+    Inertia,
+    /// It slides along the direction of all turns before it: all but its mass along that.
+    Plan,
+}
+
 /// What is said of dynamics.
 pub trait Dynamics {
     /// The title of a dynamic model.
@@ -51,4 +62,45 @@ pub trait Dynamics {
 
     /// The heading of the torques of gravity.
     fn gravity_torques_title(&self) -> String;
+
+    /// The heading of the bodies.
+    fn bodies_title(&self) -> String;
+
+    /// What bodies are, before the transforms between their frames.
+    fn bodies(&self) -> String;
+
+    /// Why parameters are grouped.
+    fn grouping(&self) -> String;
+
+    /// What a link, from 1, gives to the one before.
+    fn gives(&self, link: usize, gives: Gives) -> String;
+
+    /// The heading of the recursion from the base to the tool.
+    fn outward_title(&self) -> String;
+
+    /// What it computes, and by which equations.
+    fn outward(&self) -> String;
+
+    /// The heading of a link, from 1.
+    fn link(&self, link: usize) -> String;
+
+    /// On what it rests that velocities and accelerations of a link are these.
+    fn motion_ground(&self, ground: Ground) -> String;
+
+    /// The heading of the recursion back to the base.
+    fn inward_title(&self) -> String;
+
+    /// What it computes, and by which equations.
+    fn inward(&self) -> String;
+
+    /// What the recursion costs, and on what it rests that it gives Lagrange's torques.
+    fn recursion_cost(&self, count: &Count, ground: Ground) -> String {
+        self.torques_cost(count, ground)
+    }
+
+    /// The heading of the short program.
+    fn short_title(&self) -> String;
+
+    /// How the short program comes from the recursion.
+    fn short(&self) -> String;
 }

@@ -82,7 +82,18 @@ impl BaseModel {
         if are_lagranges(formulas, &base, torques) {
             return Ground::Proved;
         }
-        let wanted = lagrange(formulas);
+        self.equality(d, formulas, torques, &lagrange(formulas))
+    }
+
+    /// On what it rests that the results of a program, in base parameters, are those of another, from q, q̇ and q̈.
+    pub(super) fn equality(
+        &self,
+        d: &Description,
+        formulas: &Formulas,
+        torques: &Program,
+        wanted: &Program,
+    ) -> Ground {
+        let base: FxHashMap<Symbol, Expr> = self.parameters.iter().map(|p| (p.symbol, p.value)).collect();
         if formulas.dynamics.joints() <= EXPANDED {
             let own: Vec<Expr> =
                 torques.formulas().into_iter().map(|e| e.substitute(|s| base.get(&s).copied())).collect();
@@ -91,7 +102,7 @@ impl BaseModel {
                 Proof::Failed | Proof::Undecided(_) => {}
             }
         }
-        self.modulo(formulas, torques, &wanted).unwrap_or_else(|| self.in_numbers(formulas, torques, &wanted))
+        self.modulo(formulas, torques, wanted).unwrap_or_else(|| self.in_numbers(formulas, torques, wanted))
     }
 
     /// At random states modulo a prime; nothing where constants of the table have no value there.

@@ -9,11 +9,14 @@
 //! - [`inverse_dynamics`]: the recursion of Newton and Euler; gravity and velocity torques are cases of it.
 //! - [`inertia_matrix`]: A(q), by composite bodies.
 //! - [`kinetic_energy`], [`potential_energy`]: the energies.
+//! - [`momentum`]: of all mass, and about its centre.
 //! - [`regressor`]: W with τ = Wχ.
 //! - [`coriolis_matrix`]: C with C q̇ the velocity torques and Ȧ − 2C skew.
 //! - [`BaseModel`]: base parameters, and torques in them; [`DynamicModel`]: all as formulas, with the [`Ground`] they rest on.
+//! - [`Recursion`]: Newton and Euler's, a name for every quantity.
 //! - [`DynamicPrograms`]: all of it as programs, with derivatives.
 //! - [`direct_dynamics`], [`articulated_bodies`]: accelerations.
+//! - [`simulate`]: motion over time, with the balance of energy.
 
 mod articulated;
 mod base;
@@ -26,10 +29,13 @@ mod grouping;
 mod inertia;
 mod lagrange;
 mod model;
+mod momentum;
 mod newton_euler;
 mod programs;
+mod recursion;
 mod regressor;
 mod short;
+mod simulation;
 
 pub use articulated::articulated_bodies;
 pub use base::{BaseModel, BaseParameter, Fate, Minimality};
@@ -41,6 +47,9 @@ pub use grouping::{Grouped, grouped};
 pub use inertia::inertia_matrix;
 pub use lagrange::{Ground, lagrange};
 pub use model::{Drive, Dynamics, Formulas, GRAVITY, Link, NoNumbers, Wrench};
+pub use momentum::{Momentum, momentum};
 pub use newton_euler::{drive_torques, friction, gravity_torques, inverse_dynamics, velocity_torques};
 pub use programs::{DynamicFunction, DynamicProgram, DynamicPrograms, Masses};
+pub use recursion::{Inward, Outward, Recursion};
 pub use regressor::regressor;
+pub use simulation::{Acting, Method, Moment, NoMotion, Simulation, Torques, simulate};

@@ -93,6 +93,15 @@ impl<T: Scalar> Dynamics<T> {
         Dynamics { links, tool, gravity, drives }
     }
 
+    /// The same with a body fixed to the tool, given in its frame. An arm without moving links carries nothing.
+    #[must_use]
+    pub fn carrying(mut self, payload: &Body<T>) -> Self {
+        if let Some(last) = self.links.last_mut() {
+            last.body = last.body + payload.seen_from(&self.tool);
+        }
+        self
+    }
+
     /// The rates of the axes at rates of the joints.
     pub(super) fn rates(&self, joints: &[T]) -> Vec<T> {
         let rate = |value: &Affine<T>| {

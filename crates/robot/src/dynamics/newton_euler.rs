@@ -141,7 +141,7 @@ pub(super) fn motions<T: Scalar>(
 }
 
 /// U = ω̇^ + ω^ω^
-fn spread<T: Scalar>(Vector([x, y, z]): Vector<T>, Vector([a, b, c]): Vector<T>) -> Rotation<T> {
+pub(super) fn spread<T: Scalar>(Vector([x, y, z]): Vector<T>, Vector([a, b, c]): Vector<T>) -> Rotation<T> {
     let (xx, yy, zz) = (x * x, y * y, z * z);
     let (xy, xz, yz) = (x * y, x * z, y * z);
     Rotation::from_rows([

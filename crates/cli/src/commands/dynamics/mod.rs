@@ -1,25 +1,33 @@
 //! `denavit dynamics`: torques, inertia, accelerations in numbers; base parameters and torques as formulas.
 
 mod report;
+mod simulation;
+mod stream;
 
 use crate::arguments::{DynamicsArguments, Format};
+use crate::commands::derive::reference;
 use crate::commands::document;
-use crate::commands::fk::{configuration, plural, without_values};
+use crate::commands::fk::{configuration, plural, value, without_values};
 use crate::commands::jacobian::{joint_rates, numbers};
 use crate::failure::Failure;
 use crate::load;
 use crate::terminal::{note, words};
-use denavit::description::Description;
+use denavit::Robot;
+use denavit::description::{Description, JointKind, Measure, Row, Variable};
 use denavit::dynamics::{
-    DynamicModel, Dynamics, GRAVITY, Ground, NoNumbers, Wrench, direct_dynamics, drive_torques, friction,
-    gravity_torques, inertia_matrix, inverse_dynamics, kinetic_energy, potential_energy, velocity_torques,
+    DynamicModel, Dynamics, GRAVITY, Ground, NoNumbers, Recursion, direct_dynamics, drive_torques, friction,
+    gravity_torques, inertia_matrix, kinetic_energy, momentum, potential_energy, velocity_torques,
 };
+use denavit::forward::Reference;
 use denavit::geometry::{Body, Vector};
-use denavit_report::explain::{dynamics_document, dynamics_vocabulary};
+use denavit::velocity::{Viewpoint, geometric};
+use denavit_report::explain::{
+    dynamics_document, dynamics_explanation, dynamics_vocabulary, recursion_vocabulary,
+};
 use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::{Expr, Rational};
 use denavit_wire::Schema;
-use denavit_wire::dynamics::{Answer, Energy, Model};
+use denavit_wire::dynamics::{Answer, Energy, Model, Momentum, Power, Recursive};
 use std::io::Write;
 
 /// Answers what is asked about dynamics.
@@ -38,26 +46,27 @@ pub fn run(arguments: &DynamicsArguments) -> Result<(), Failure> {
             held.join(", ")
         ));
     }
-    if arguments.symbolic {
+    if arguments.symbolic || arguments.explain {
         return symbolic(&description, arguments);
     }
-    let Some(text) = &arguments.q else {
+    if arguments.q.is_none() && arguments.input.is_none() {
         return Err(Failure::Usage(format!(
-            "say where the joints are: -q with {}; or --symbolic for formulas",
+            "say where the joints are: -q with {}; or --symbolic or --explain for formulas",
             plural(description.variables().len(), "value"),
         )));
+    }
+    let arm = Arm::read(&description, arguments)?;
+    check_bodies(&description, &arm.dynamics, &arguments.robot.robot);
+    let given = Given::read(&description, arguments)?;
+    let text = match (&arguments.input, &arguments.q) {
+        (Some(path), _) => return stream::run(&arm, &given, path),
+        (None, text) => text.as_deref().unwrap_or_default(),
     };
-    let arm = Dynamics::numeric(&description).map_err(|why| match why {
-        NoNumbers::NoMasses => Failure::Input(format!(
-            "error: {}: it says nothing of masses\n  = hint: a URDF does, or mass, com and inertia in a robot file; \
-             --symbolic gives formulas",
-            arguments.robot.robot
-        )),
-        NoNumbers::Missing(missing) => without_values(&description, &arguments.robot.robot, &missing),
-    })?;
-    check_bodies(&description, &arm);
     let q = configuration(&description, text)?;
-    let answer = answer(&description, &arm, arguments, q)?;
+    if let Some(duration) = arguments.simulate {
+        return simulation::run(&description, &arm, arguments, duration, &q, given);
+    }
+    let answer = arm.answer(given, q).map_err(|why| Failure::Input(format!("error: {why}")))?;
     let text = match arguments.json {
         true => format!("{}\n", denavit_wire::text(&answer)),
         false => report::text(&description, &answer),
@@ -66,10 +75,144 @@ pub fn run(arguments: &DynamicsArguments) -> Result<(), Failure> {
     Ok(())
 }
 
+/// An arm in numbers, with the names that are said.
+#[derive(Clone)]
+struct Arm {
+    dynamics: Dynamics<f64>,
+    robot: Robot<f64>,
+    name: String,
+    joints: Vec<String>,
+    /// Where a wrench is exerted.
+    at: Reference,
+}
+
+impl Arm {
+    fn read(d: &Description, arguments: &DynamicsArguments) -> Result<Self, Failure> {
+        let file = &arguments.robot.robot;
+        let dynamics = Dynamics::numeric(d).map_err(|why| match why {
+            NoNumbers::NoMasses => Failure::Input(format!(
+                "error: {file}: it says nothing of masses\n  = hint: a URDF does, or mass, com and inertia in a robot file; \
+                 --symbolic gives formulas"
+            )),
+            NoNumbers::Missing(missing) => without_values(d, file, &missing),
+        })?;
+        let robot = Robot::numeric(d).map_err(|missing| without_values(d, file, &missing))?;
+        let dynamics = match &arguments.payload {
+            Some(text) => dynamics.carrying(&payload(text)?),
+            None => dynamics,
+        };
+        let at = match &arguments.at {
+            Some(text) => reference(d, text, "--at")?,
+            None => Reference::Tool,
+        };
+        let joints = d.variables().iter().map(|v| v.symbol.name().to_string()).collect();
+        Ok(Arm { dynamics, robot, name: d.name.clone(), joints, at })
+    }
+
+    /// Everything about a state.
+    fn answer(&self, given: Given, q: Vec<f64>) -> Result<Answer, String> {
+        let (arm, n) = (&self.dynamics, self.joints.len());
+        let Given { qd, qdd, tau, wrench } = given;
+        // What holds a wrench: Jᵀ w.
+        let held: Option<Vec<f64>> = wrench.map(|w| {
+            let jacobian = geometric(&self.robot, &q, &Viewpoint::of(self.at, Reference::Base));
+            jacobian.columns.iter().map(|c| c.iter().zip(&w).map(|(a, b)| a * b).sum()).collect()
+        });
+        let less = |all: &[f64], sign: f64| -> Vec<f64> {
+            let held = held.iter().flatten().copied().chain(std::iter::repeat(0.0));
+            all.iter().zip(held).map(|(t, h)| t + sign * h).collect()
+        };
+        let accelerations = match &tau {
+            None => None,
+            Some(tau) => {
+                let found = direct_dynamics(arm, &q, &qd, &less(tau, -1.0), None);
+                Some(found.map_err(|singular| self.moves_nothing(singular.joint))?)
+            }
+        };
+        let torques = tau.unwrap_or_else(|| {
+            let pulled = qdd.clone().unwrap_or_else(|| vec![0.0; n]);
+            less(&drive_torques(arm, &q, &qd, &pulled, None), 1.0)
+        });
+        let (friction, gravity) = (friction(arm, &qd), gravity_torques(arm, &q));
+        let by_rates = |all: &[f64]| all.iter().zip(&qd).map(|(t, v)| t * v).sum::<f64>();
+        let (supplied, dissipated) = (by_rates(&torques), by_rates(&friction));
+        let (potential, exerted) = (by_rates(&gravity), held.as_deref().map_or(0.0, by_rates));
+        let momentum = momentum(arm, &q, &qd);
+        Ok(Answer {
+            accelerations,
+            energy: Energy { kinetic: kinetic_energy(arm, &q, &qd), potential: potential_energy(arm, &q) },
+            friction,
+            gravity,
+            inertia: inertia_matrix(arm, &q),
+            momentum: Momentum {
+                angular: momentum.angular.0,
+                centre: momentum.centre.0,
+                linear: momentum.linear.0,
+                mass: momentum.mass,
+            },
+            power: Power {
+                dissipated,
+                exerted,
+                kinetic: supplied - dissipated - exerted - potential,
+                potential,
+                supplied,
+            },
+            robot: self.name.clone(),
+            schema: Schema,
+            torques,
+            velocity: velocity_torques(arm, &q, &qd),
+            wrench: held,
+            q,
+            qd,
+            qdd,
+        })
+    }
+
+    /// Why no acceleration follows from torques.
+    fn moves_nothing(&self, joint: usize) -> String {
+        format!(
+            "{} moves no mass of its own: no acceleration follows from torques\n  = hint: give its link a mass and an \
+             inertia, or the joint a rotor",
+            self.joints[joint]
+        )
+    }
+}
+
+/// What the tool carries: a mass, its centre in the frame of the tool, and the inertia about that.
+fn payload(text: &str) -> Result<Body<f64>, Failure> {
+    let wrong = |why: &str| Failure::Usage(format!("--payload {text}: {why}"));
+    let quantity = |k: usize| match k {
+        0 => Measure::Other("kg"),
+        1..=3 => Measure::Length,
+        _ => Measure::Other("kg m^2"),
+    };
+    // `2 kg` is one value.
+    let is_one = load::value_of(text, quantity(0)).is_ok();
+    let parts = if is_one { vec![text] } else { load::list(text) };
+    if ![1, 4, 10].contains(&parts.len()) {
+        return Err(wrong(
+            "a mass, or mass, x, y, z of its centre, or these and xx, xy, xz, yy, yz, zz about the centre",
+        ));
+    }
+    let mut all = [0.0; 10];
+    for (k, part) in parts.iter().enumerate() {
+        all[k] = load::value_of(part, quantity(k)).and_then(value).map_err(|why| wrong(&why))?;
+    }
+    let [mass, x, y, z, inertia @ ..] = all;
+    let body = Body::about_centre(mass, Vector([x, y, z]), inertia);
+    body.check().map_err(|why| wrong(words().no_body(why)))?;
+    Ok(body)
+}
+
 /// Says which links are no bodies.
-fn check_bodies(description: &Description, arm: &Dynamics<f64>) {
+fn check_bodies(description: &Description, arm: &Dynamics<f64>, file: &str) {
     for (k, link) in arm.links.iter().enumerate() {
-        if let Err(why) = link.body.check() {
+        let end = arm.links.get(k + 1).map_or(description.rows.len(), |next| next.row.max(link.row + 1));
+        // Rows of a robot file that are no body by their numbers were named when they were read.
+        let is_said = file.ends_with(".toml") && description.rows[link.row..end].iter().any(is_no_body);
+        if let Err(why) = link.body.check()
+            && !is_said
+        {
             let name = description.rows[link.row].name.as_ref();
             let name = name.map_or(String::new(), |n| format!(" ({n})"));
             note(&format!("warning: link {}{name}: {}", k + 1, words().no_body(why)));
@@ -80,60 +223,55 @@ fn check_bodies(description: &Description, arm: &Dynamics<f64>) {
     }
 }
 
-fn answer(
-    description: &Description,
-    arm: &Dynamics<f64>,
-    arguments: &DynamicsArguments,
-    q: Vec<f64>,
-) -> Result<Answer, Failure> {
-    let n = arm.joints();
-    let rates = |text: &Option<String>, option: &str| -> Result<Option<Vec<f64>>, Failure> {
-        text.as_deref().map(|t| joint_rates(description, t, option)).transpose()
-    };
-    let qd = rates(&arguments.qd, "--qd")?.unwrap_or_else(|| vec![0.0; n]);
-    let qdd = rates(&arguments.qdd, "--qdd")?;
-    let tau = arguments.tau.as_deref().map(|t| numbers(t, "--tau", n)).transpose()?;
-    let wrench: Option<Wrench<f64>> = match arguments.wrench.as_deref() {
-        None => None,
-        Some(text) => {
-            let w = numbers(text, "--wrench", 6)?;
-            Some([Vector([w[0], w[1], w[2]]), Vector([w[3], w[4], w[5]])])
-        }
-    };
-    let accelerations = match &tau {
-        None => None,
-        Some(tau) => Some(direct_dynamics(arm, &q, &qd, tau, wrench.as_ref()).map_err(|singular| {
-            let name = description.variables()[singular.joint].symbol.name().to_string();
-            Failure::Input(format!(
-                "error: {name} moves no mass of its own: no acceleration follows from torques\n  = hint: give its link a mass \
-                 and an inertia, or the joint a rotor"
-            ))
-        })?),
-    };
-    let torques = tau.unwrap_or_else(|| {
-        let pulled = qdd.clone().unwrap_or_else(|| vec![0.0; n]);
-        drive_torques(arm, &q, &qd, &pulled, wrench.as_ref())
-    });
-    let held = wrench.as_ref().map(|w| {
-        let still = vec![0.0; n];
-        let with = inverse_dynamics(arm, &q, &still, &still, Some(w));
-        with.iter().zip(gravity_torques(arm, &q)).map(|(a, b)| a - b).collect()
-    });
-    Ok(Answer {
-        accelerations,
-        energy: Energy { kinetic: kinetic_energy(arm, &q, &qd), potential: potential_energy(arm, &q) },
-        friction: friction(arm, &qd),
-        gravity: gravity_torques(arm, &q),
-        inertia: inertia_matrix(arm, &q),
-        robot: description.name.clone(),
-        schema: Schema,
-        torques,
-        velocity: velocity_torques(arm, &q, &qd),
-        wrench: held,
-        q,
-        qd,
-        qdd,
+/// Whether a row's numbers, without names among them, are those of no body.
+fn is_no_body(row: &Row) -> bool {
+    row.body().is_some_and(|body| {
+        let numbers = body.parameters().map(|e| e.eval(|_| None).ok());
+        numbers.iter().all(Option::is_some)
+            && Body::of(numbers.map(Option::unwrap_or_default)).check().is_err()
     })
+}
+
+/// What is given besides the configuration.
+#[derive(Clone)]
+struct Given {
+    qd: Vec<f64>,
+    qdd: Option<Vec<f64>>,
+    tau: Option<Vec<f64>>,
+    /// Force and moment along the axes of the base.
+    wrench: Option<[f64; 6]>,
+}
+
+impl Given {
+    fn read(d: &Description, arguments: &DynamicsArguments) -> Result<Self, Failure> {
+        let rates = |text: &Option<String>, option: &str| -> Result<Option<Vec<f64>>, Failure> {
+            text.as_deref().map(|t| joint_rates(d, t, option)).transpose()
+        };
+        let wrench = arguments.wrench.as_deref().map(|text| numbers(text, "--wrench", 6)).transpose()?;
+        Ok(Given {
+            qd: rates(&arguments.qd, "--qd")?.unwrap_or_else(|| vec![0.0; d.variables().len()]),
+            qdd: rates(&arguments.qdd, "--qdd")?,
+            tau: arguments.tau.as_deref().map(|text| torques(d, text)).transpose()?,
+            wrench: wrench.and_then(|w| w.try_into().ok()),
+        })
+    }
+}
+
+/// Torques, newtons for slides, one a joint.
+fn torques(d: &Description, text: &str) -> Result<Vec<f64>, Failure> {
+    let variables = d.variables();
+    // `5 N m` is one value.
+    let parts = if variables.len() == 1 { vec![text] } else { load::list(text) };
+    if parts.len() != variables.len() {
+        let found = plural(parts.len(), "value");
+        return Err(Failure::Usage(format!("--tau: {found} given, {} needed", variables.len())));
+    }
+    let torque = |(part, variable): (&str, &Variable)| {
+        let unit = if variable.kind == JointKind::Revolute { "N m" } else { "N" };
+        let read = load::value_of(part, Measure::Other(unit)).and_then(value);
+        read.map_err(|why| Failure::Usage(format!("--tau: {}: {why}", variable.symbol.name())))
+    };
+    parts.into_iter().zip(&variables).map(torque).collect()
 }
 
 /// A direction, or three components.
@@ -152,13 +290,16 @@ fn gravity(text: &str) -> Result<[Expr; 3], Failure> {
         "z" => along(2, size),
         "-z" => along(2, -&size),
         _ => {
-            let read: Option<Vec<Rational>> =
-                load::list(text).into_iter().map(Rational::from_decimal).collect();
-            read.and_then(|all| <[Rational; 3]>::try_from(all).ok()).ok_or_else(|| {
+            let wrong = |why: String| {
                 Failure::Usage(format!(
-                    "--gravity {text}: x, -x, y, -y, z, -z, none, or three components in m/s², as in 0,-9.81,0"
+                    "--gravity {text}: {why}x, -x, y, -y, z, -z, none, or three components, as in \"0, -9.81, 0\" or \
+                     \"0, 0, -1.62 m/s^2\""
                 ))
-            })?
+            };
+            let acceleration = |part: &str| load::value_of(part, Measure::Other("m/s^2"));
+            let read: Result<Vec<Expr>, String> = load::list(text).into_iter().map(acceleration).collect();
+            let read = read.map_err(|why| wrong(format!("{why}; ")))?;
+            return <[Expr; 3]>::try_from(read).map_err(|_| wrong(String::new()));
         }
     };
     Ok(components.map(Expr::from))
@@ -166,19 +307,30 @@ fn gravity(text: &str) -> Result<[Expr; 3], Failure> {
 
 fn symbolic(description: &Description, arguments: &DynamicsArguments) -> Result<(), Failure> {
     let model = DynamicModel::derive(description);
-    let names = dynamics_vocabulary(description, &model);
+    let recursion = arguments.explain.then(|| Recursion::derive(description, &model.formulas, &model.base));
+    let names = match &recursion {
+        Some(recursion) => recursion_vocabulary(description, &model, recursion),
+        None => dynamics_vocabulary(description, &model),
+    };
     let tongue = arguments.language.tongue();
     let text = if arguments.json || arguments.format == Format::Json {
         let text = |e: Expr| print(e, &names, Style::Ascii);
-        format!("{}\n", denavit_wire::text(&Model::of(&description.name, &model, text)))
+        let mut wire = Model::of(&description.name, &model, text);
+        wire.recursion = recursion.as_ref().map(|r| Recursive::of(r, text));
+        format!("{}\n", denavit_wire::text(&wire))
     } else {
-        let blocks = dynamics_document(description, &model, tongue);
+        let blocks = match &recursion {
+            Some(recursion) => dynamics_explanation(description, &model, recursion, tongue),
+            None => dynamics_document(description, &model, tongue),
+        };
         let title = tongue.words().dynamics_title(&description.name);
         document::document_in(tongue, &title, &names, &blocks, arguments.format)
     };
     write!(anstream::stdout(), "{text}")?;
-    match model.ground {
-        Ground::Failed => Err(Failure::GaveUp("the torques are not Lagrange's".into())),
-        _ => Ok(()),
+    let is_failed =
+        |r: &Recursion| r.outward.iter().any(|o| o.ground == Ground::Failed) || r.ground == Ground::Failed;
+    match model.ground == Ground::Failed || recursion.as_ref().is_some_and(is_failed) {
+        true => Err(Failure::GaveUp("the torques are not Lagrange's".into())),
+        false => Ok(()),
     }
 }

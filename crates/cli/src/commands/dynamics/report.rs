@@ -61,5 +61,30 @@ pub fn text(d: &Description, a: &Answer) -> String {
         number(a.energy.kinetic, 1e-14),
         number(a.energy.potential, 1e-14)
     );
+    let three = |v: &[f64; 3], unit: &str| {
+        let noise = 1e-14 * v.iter().fold(1.0_f64, |m, x| m.max(x.abs()));
+        format!("({}) {unit}", v.map(|x| number(x, noise)).join(", "))
+    };
+    text += &format!(
+        "  {} kg that move, their centre at {}\n",
+        number(a.momentum.mass, 0.0),
+        three(&a.momentum.centre, "m")
+    );
+    if a.qd.iter().any(|&v| v != 0.0) {
+        text += &format!("  momentum {}", three(&a.momentum.linear, "kg m/s"));
+        text += &format!(", about the centre of mass {}\n", three(&a.momentum.angular, "kg m²/s"));
+        let p = &a.power;
+        let all = [
+            ("the torques supply", p.supplied),
+            ("friction takes", p.dissipated),
+            ("the tool gives", p.exerted),
+            ("the potential energy grows by", p.potential),
+            ("the kinetic energy by", p.kinetic),
+        ];
+        let size = all.iter().fold(0.0_f64, |m, x| m.max(x.1.abs()));
+        let shown = all.iter().filter(|x| x.1 != 0.0 || !matches!(x.0, "friction takes" | "the tool gives"));
+        let each = shown.map(|(what, x)| format!("{what} {} W", number(*x, 1e-14 * size)));
+        text += &format!("  power: {}\n", each.collect::<Vec<_>>().join(", "));
+    }
     text
 }

@@ -2,7 +2,7 @@
 
 use super::{French, counted};
 use crate::tree::{Line, Math};
-use crate::words::{Dynamics, Terms};
+use crate::words::{Dynamics, Gives, Terms};
 use denavit::dynamics::{Ground, Minimality};
 use denavit::geometry::NoBody;
 use denavit_program::Count;
@@ -105,5 +105,109 @@ impl Dynamics for French {
 
     fn gravity_torques_title(&self) -> String {
         "Couples de pesanteur".into()
+    }
+
+    fn bodies_title(&self) -> String {
+        "Corps".into()
+    }
+
+    fn bodies(&self) -> String {
+        say!(
+            "Un corps est tout ce que meut un même axe. Son repère a son axe z porté par cet axe ; le repère 0 est la base. Ce qui est \
+             constant entre deux axes et le mouvement du second donnent les matrices de passage :"
+        )
+    }
+
+    fn grouping(&self) -> String {
+        say!(
+            "Une masse sur l'axe d'une liaison rotoïde est fixe dans les deux corps que la liaison réunit : les couples sont les mêmes, \
+             que l'on la compte avec l'un ou avec l'autre. De l'extrémité vers la base, chaque corps cède au précédent tout ce qui peut y \
+             être compté :"
+        )
+    }
+
+    fn gives(&self, link: usize, gives: Gives) -> String {
+        let k = link;
+        let (to, taker) = match link {
+            1 => ("à la base".to_string(), "la base".to_string()),
+            _ => (format!("au corps {}", link - 1), format!("le corps {}", link - 1)),
+        };
+        match gives {
+            Gives::OnAxis => say!(
+                "le corps {k} tourne : il cède {to} M{k}, MZ{k} et YY{k} (comme second moment le long de son axe), et garde \
+                 XX{k} − YY{k}, XY{k}, XZ{k}, YZ{k}, ZZ{k}, MX{k}, MY{k}, avec ce qu'il a reçu"
+            ),
+            Gives::Inertia => say!(
+                "le corps {k} glisse : son inertie, qui tourne avec le précédent, est comptée avec lui ({taker}) ; il garde M{k}, MX{k}, \
+                 MY{k}, MZ{k}, avec ce qu'il a reçu"
+            ),
+            Gives::Plan => say!(
+                "le corps {k} glisse le long de la direction de toutes les rotations qui le précèdent : {taker} prend tout, sauf sa masse \
+                 le long de cette direction"
+            ),
+        }
+    }
+
+    fn outward_title(&self) -> String {
+        "De la base vers l'outil : le mouvement des corps".into()
+    }
+
+    fn outward(&self) -> String {
+        say!(
+            "Dans le repère de chaque corps : w est sa vitesse angulaire, wd la dérivée de celle-ci, a l'accélération de l'origine du \
+             repère moins celle de la pesanteur. R étant la rotation vers ce repère depuis celui du corps précédent, dont les valeurs ont \
+             l'indice p, et r la position de son origine : w = R wp, wd = R wdp, a = R(ap + Up r) ; une liaison rotoïde ajoute z qd à \
+             w, et z qdd + w × z qd (avec w d'avant) à wd ; une liaison prismatique ajoute z qdd + 2 w × z qd à a. \
+             U = [wd]× + [w]×[w]× : un point du corps en r a l'accélération a + U r. Ce qui est nul, ou égal à une autre valeur, n'a pas de nom."
+        )
+    }
+
+    fn link(&self, link: usize) -> String {
+        format!("Corps {link}")
+    }
+
+    fn motion_ground(&self, ground: Ground) -> String {
+        match ground {
+            Ground::Proved => {
+                say!("Démontré : w, wd et a sont ceux du produit des matrices de passage, par ses dérivées.")
+            }
+            Ground::Modulo(states) => say!(
+                "Non démontré en général : w, wd et a sont exactement égaux aux dérivées du produit des matrices de passage en {states} \
+                 états aléatoires modulo un nombre premier de 61 bits."
+            ),
+            Ground::Numbers(states, off) => say!(
+                "Non démontré : w, wd et a sont les dérivées du produit des matrices de passage à {off:.0e} près en {states} états."
+            ),
+            Ground::Failed => {
+                say!(
+                    "Différents des dérivées du produit des matrices de passage : c'est un défaut du programme."
+                )
+            }
+        }
+    }
+
+    fn inward_title(&self) -> String {
+        "De l'outil vers la base : ce qui meut les corps".into()
+    }
+
+    fn inward(&self) -> String {
+        say!(
+            "De l'extrémité vers la base, par rapport à l'origine de chaque repère : f est la force et n le moment qui meuvent le corps et \
+             tous ceux qui le suivent. Pour le corps seul, en paramètres de base, ce sont M a + U MS et J wd + w × J w + MS × a ; on \
+             ajoute ce qui meut les corps suivants, ramené dans ce repère. Le couple d'une liaison rotoïde est le moment autour de son \
+             axe z, l'effort d'une liaison prismatique la force le long de celui-ci."
+        )
+    }
+
+    fn short_title(&self) -> String {
+        "Programme court".into()
+    }
+
+    fn short(&self) -> String {
+        say!(
+            "La même récurrence a bien des formes : axes parallèles pris ensemble, mouvement et efforts d'un corps dans tel ou tel repère, \
+             masse sur les axes comptée ici ou là, une longueur pour unité. La plus courte que la recherche ait trouvée, à la place de celle \
+             d'avant (`--symbolic` l'écrit) :"
+        )
     }
 }

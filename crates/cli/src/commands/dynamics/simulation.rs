@@ -1,0 +1,284 @@
+//! `dynamics --simulate`: the motion under torques, as a table, CSV, JSON and a plot.
+
+use super::{Arm, Given};
+use crate::arguments::DynamicsArguments;
+use crate::commands::fk::plural;
+use crate::failure::Failure;
+use crate::load;
+use crate::terminal::{Align, FAINT, HEADING, decimals, note, number, styled, table};
+use denavit::description::{Description, JointKind};
+use denavit::dynamics::{Acting, Method, Moment, NoMotion, Simulation, Torques, simulate};
+use denavit::forward::Reference;
+use denavit::geometry::Vector;
+use denavit::quantity::reading;
+use denavit_report::figure::drawing::Label;
+use denavit_report::figure::plot::{Curve, Panel, curves};
+use denavit_report::figure::svg::{Palette, svg};
+use denavit_report::figure::symbol;
+use denavit_wire::dynamics::Motion;
+use std::fmt::Write as _;
+use std::io::Write as _;
+
+/// The error of a step where no step is given.
+const TOLERANCE: f64 = 1e-10;
+/// Samples where no time between them is given.
+const USUAL: f64 = 200.0;
+/// Rows of the table.
+const ROWS: usize = 11;
+/// From this line on colours come again, dashed.
+const COLOURS: usize = 8;
+/// The longest file of torques.
+const MAX_BYTES: usize = 1 << 26;
+
+/// Follows the motion from a state, and prints it.
+///
+/// # Errors
+/// If an option or a file cannot be read, the motion cannot be followed to its end, or nothing can be written.
+pub fn run(
+    d: &Description,
+    arm: &Arm,
+    arguments: &DynamicsArguments,
+    duration: f64,
+    q: &[f64],
+    given: Given,
+) -> Result<(), Failure> {
+    if arm.at != Reference::Tool {
+        return Err(Failure::Usage("--at: --simulate has wrenches of the tool; leave it away".into()));
+    }
+    let wrench = given.wrench.map(|[a, b, c, k, m, n]| [Vector([a, b, c]), Vector([k, m, n])]);
+    let n = arm.joints.len();
+    let torques = match (&arguments.tau_file, given.tau) {
+        (Some(file), _) => torques(file, n)?,
+        (None, tau) => Torques::constant(tau.unwrap_or_else(|| vec![0.0; n])),
+    };
+    let method = match arguments.step {
+        Some(step) => Method::Symplectic { step },
+        None => Method::Adaptive { tolerance: TOLERANCE },
+    };
+    let dt = arguments.dt.unwrap_or(duration / USUAL);
+    let found = simulate(&arm.dynamics, (q, &given.qd), &Acting { torques, wrench }, (duration, dt), method);
+    let (found, why) = match found {
+        Ok(found) => (found, None),
+        Err((why, found)) => (found, Some(failure(arm, why)?)),
+    };
+    let mut out = anstream::stdout();
+    if arguments.json {
+        writeln!(out, "{}", denavit_wire::text(&Motion::of(&d.name, &found)))?;
+    } else if arguments.csv {
+        write!(out, "{}", csv(d, &found))?;
+        note(&remarks(d, &found, method, duration));
+    } else {
+        write!(out, "{}", text(d, &found, method, duration))?;
+    }
+    if let Some(file) = &arguments.plot {
+        std::fs::write(file, picture(d, &found))
+            .map_err(|e| Failure::Input(format!("error: --plot {}: {e}", file.display())))?;
+    }
+    why.map_or(Ok(()), Err)
+}
+
+/// What is said where there is no motion (the error), or none to the end (the value).
+fn failure(arm: &Arm, why: NoMotion) -> Result<Failure, Failure> {
+    let usage = |text: &str| Err(Failure::Usage(text.into()));
+    match why {
+        NoMotion::Singular { joint, .. } => {
+            Err(Failure::Input(format!("error: {}", arm.moves_nothing(joint))))
+        }
+        NoMotion::Coulomb => usage(
+            "--step: Coulomb's friction has no derivative at rest, and steps of one length do not find where joints stick; leave \
+             --step away",
+        ),
+        NoMotion::Samples => usage("--dt: too many samples"),
+        NoMotion::NotPositive => usage("--simulate, --dt and --step are positive"),
+        NoMotion::Steps { .. } | NoMotion::NotFinite { .. } | NoMotion::NotSolved { .. } => {
+            Ok(Failure::GaveUp(why.to_string()))
+        }
+    }
+}
+
+/// A time and a torque a joint on each line of a file.
+fn torques(file: &str, joints: usize) -> Result<Torques, Failure> {
+    let wrong = |why: String| Failure::Input(format!("error: {file}: {why}"));
+    let text = load::contents(file, MAX_BYTES).map_err(|e| wrong(e.to_string()))?;
+    if text.len() > MAX_BYTES {
+        return Err(wrong(format!("longer than {MAX_BYTES} bytes")));
+    }
+    let (mut times, mut rows) = (vec![], vec![]);
+    for (k, line) in text.lines().enumerate() {
+        let line = line.split('#').next().unwrap_or_default().trim();
+        let cells: Vec<&str> =
+            line.split([',', ';', ' ', '\t']).map(str::trim).filter(|cell| !cell.is_empty()).collect();
+        let values: Vec<Option<f64>> =
+            cells.iter().map(|c| c.parse().ok().filter(|x: &f64| x.is_finite())).collect();
+        // The head of a table holds no numbers.
+        if cells.is_empty() || times.is_empty() && values.iter().all(Option::is_none) {
+            continue;
+        }
+        let place = format!("line {}", k + 1);
+        let values: Option<Vec<f64>> = values.into_iter().collect();
+        let values = values.ok_or_else(|| wrong(format!("{place}: not all of it are finite numbers")))?;
+        if values.len() != joints + 1 {
+            let there = plural(values.len(), "number");
+            return Err(wrong(format!(
+                "{place}: {there}; a time and {} are needed",
+                plural(joints, "torque")
+            )));
+        }
+        if times.last().is_some_and(|&t| t >= values[0]) {
+            return Err(wrong(format!("{place}: times increase")));
+        }
+        times.push(values[0]);
+        rows.push(values[1..].to_vec());
+    }
+    Torques::over(times, rows).ok_or_else(|| wrong("no torques in it".into()))
+}
+
+/// How it was followed, and how far the energy is out of balance.
+fn remarks(d: &Description, found: &Simulation, method: Method, duration: f64) -> String {
+    let steps = plural(found.steps, "step");
+    let mut text = match method {
+        Method::Adaptive { tolerance } => format!(
+            "  {steps} of order 5 (Dormand and Prince), {} refused; error of a step at most {tolerance:.0e}\n",
+            found.refused
+        ),
+        Method::Symplectic { .. } => format!("  {steps} of order 4 (Gauss, symplectic)\n"),
+    };
+    if found.switched > 0 {
+        let times = if found.switched == 1 { "once".into() } else { format!("{} times", found.switched) };
+        text += &format!("  a joint began to stick or to slide {times}\n");
+    }
+    let (drift, size) = found.drift();
+    let part =
+        if size > 0.0 { format!(", {:.0e} of the largest energy", drift / size) } else { String::new() };
+    text += &format!(
+        "  energy: what is there less what came in and went out is {} J at most{part}\n",
+        if drift == 0.0 { "0".into() } else { format!("{drift:.0e}") }
+    );
+    let reached = found.moments.last().map_or(0.0, |m| m.t);
+    if reached < duration {
+        text += &format!("  it ends at {} s of {}\n", decimals(reached, 4), decimals(duration, 4));
+    }
+    let moving = d.rows.iter().filter_map(|r| Some((r.variable?, r.limits)));
+    for (j, (variable, limits)) in moving.enumerate() {
+        let Some([low, high]) = limits.map(|l| l.map(|e| e.eval(|s| d.value(s)).unwrap_or(f64::NAN))) else {
+            continue;
+        };
+        if let Some(m) = found.moments.iter().find(|m| m.q[j] < low || m.q[j] > high) {
+            let name = variable.symbol.name();
+            text += &format!("  {name} leaves its limits (at {} s): nothing stops it\n", decimals(m.t, 4));
+        }
+    }
+    text
+}
+
+fn text(d: &Description, found: &Simulation, method: Method, duration: f64) -> String {
+    let variables = d.variables();
+    let mut text = format!("{}: motion over {} s\n", styled(&d.name, HEADING), decimals(duration, 4));
+    text += &remarks(d, found, method, duration);
+    let start = &found.moments[0];
+    let mut header = vec!["t / s".to_string()];
+    header.extend(variables.iter().map(|v| v.symbol.name().to_string()));
+    header.extend(["kinetic", "potential", "supplied", "friction"].map(String::from));
+    let has_wrench = found.moments.iter().any(|m| m.exerted != 0.0);
+    header.extend(has_wrench.then(|| "tool".to_string()));
+    header.push("imbalance / J".into());
+    let last = found.moments.len() - 1;
+    let count = ROWS.min(last + 1);
+    let size = found.drift().1;
+    let row = |k: usize| {
+        let m = &found.moments[if count > 1 { k * last / (count - 1) } else { 0 }];
+        let mut cells = vec![decimals(m.t, 4)];
+        cells.extend(variables.iter().zip(&m.q).map(|(v, &x)| match v.kind {
+            JointKind::Revolute => format!("{}°", decimals(x.to_degrees(), 2)),
+            JointKind::Prismatic => reading(x, v.kind),
+        }));
+        let energies = [m.kinetic, m.potential, m.supplied, m.dissipated];
+        cells.extend(energies.map(|x| number(x, 1e-14 * size)));
+        cells.extend(has_wrench.then(|| number(m.exerted, 1e-14 * size)));
+        cells.push(format!("{:.0e}", m.imbalance(start)));
+        cells
+    };
+    let rows: Vec<Vec<String>> = (0..count).map(row).collect();
+    let heads: Vec<&str> = header.iter().map(String::as_str).collect();
+    text += &format!("\n{}", table(&heads, &vec![Align::Right; heads.len()], &rows));
+    let more = "energies in joules, those of torques, friction and tool since the start";
+    text += &format!("  {}\n", styled(&format!("({more})"), FAINT));
+    if last + 1 > count {
+        text += &format!("  {} samples: --csv or --json\n", last + 1);
+    }
+    text
+}
+
+/// A header, and a line a sample.
+fn csv(d: &Description, found: &Simulation) -> String {
+    let names: Vec<String> = d.variables().iter().map(|v| v.symbol.name().to_string()).collect();
+    let mut header = vec!["t".to_string()];
+    for suffix in ["", "_velocity", "_torque"] {
+        header.extend(names.iter().map(|n| format!("{n}{suffix}")));
+    }
+    header
+        .extend(["kinetic", "potential", "supplied", "dissipated", "exerted", "imbalance"].map(String::from));
+    let mut out = header.join(",") + "\n";
+    let start = &found.moments[0];
+    for m in &found.moments {
+        let values = [m.t].into_iter().chain(m.q.iter().copied()).chain(m.qd.iter().copied());
+        let values = values.chain(m.torques.iter().copied()).chain([
+            m.kinetic,
+            m.potential,
+            m.supplied,
+            m.dissipated,
+            m.exerted,
+            m.imbalance(start),
+        ]);
+        // The shortest decimals that read back as the same double.
+        let line: Vec<String> = values.map(|x| denavit_wire::text(&(x + 0.0))).collect();
+        // Writing to memory does not fail.
+        let _ = writeln!(out, "{}", line.join(","));
+    }
+    out
+}
+
+/// Joints, velocities and energies over time, as SVG.
+fn picture(d: &Description, found: &Simulation) -> String {
+    let variables = d.variables();
+    let start = &found.moments[0];
+    let of = |value: &dyn Fn(&Moment) -> f64| found.moments.iter().map(|m| [m.t, value(m)]).collect();
+    let slides = variables.iter().any(|v| v.kind == JointKind::Prismatic);
+    let of_joints = |value: fn(&Moment) -> &[f64]| -> Vec<Curve> {
+        let curve = |(j, v): (usize, &denavit::description::Variable)| {
+            let (unit, behind) = match v.kind {
+                JointKind::Revolute => (180.0 / std::f64::consts::PI, Label::default()),
+                JointKind::Prismatic => (100.0, Label::words(" (cm)")),
+            };
+            let name = symbol(&v.symbol.name()).and(behind);
+            Curve { name, points: of(&|m| value(m)[j] * unit), is_dashed: j >= COLOURS }
+        };
+        variables.iter().enumerate().map(curve).collect()
+    };
+    let label = |turns: &str, slide: &str| {
+        Label::words(if slides { format!("{turns} ({slide})") } else { turns.into() })
+    };
+    let energy = |name: &str, value: &dyn Fn(&Moment) -> f64| Curve {
+        name: Label::words(name),
+        points: of(value),
+        is_dashed: false,
+    };
+    let panels = [
+        Panel { label: label("joints / °", "slides / cm"), curves: of_joints(|m| &m.q) },
+        Panel {
+            label: label("joint velocities / ° per second", "slides / cm per second"),
+            curves: of_joints(|m| &m.qd),
+        },
+        Panel {
+            label: Label::words("energies since the start / J"),
+            curves: vec![
+                energy("kinetic", &|m| m.kinetic - start.kinetic),
+                energy("potential", &|m| m.potential - start.potential),
+                energy("supplied by torques", &|m| m.supplied),
+                energy("lost to friction", &|m| m.dissipated),
+            ],
+        },
+    ];
+    let across = Label::symbol("t", "").and(Label::words(" / s"));
+    svg(&curves(&format!("{}: motion", d.name), &across, &panels, &[]), Palette::File, "motion")
+}
