@@ -271,13 +271,12 @@ fn word_at(text: &str) -> Option<&'static Word> {
 
 /// The power at the beginning of `text` and its bytes: `²`, `^2`, `**2`, `^-1`; 1 if there is none.
 fn power_at(text: &str) -> (i8, usize) {
-    for (sign, power) in [('¹', 1), ('²', 2), ('³', 3)] {
-        if text.starts_with(sign) {
-            return (power, sign.len_utf8());
+    let raised = text.strip_prefix('⁻').unwrap_or(text);
+    let sign = text.len() - raised.len();
+    for (digit, power) in [('¹', 1), ('²', 2), ('³', 3)] {
+        if raised.starts_with(digit) {
+            return (if sign > 0 { -power } else { power }, sign + digit.len_utf8());
         }
-    }
-    if let Some(power) = text.strip_prefix("⁻¹").map(|_| (-1, "⁻¹".len())) {
-        return power;
     }
     let Some(rest) = text.strip_prefix("**").or_else(|| text.strip_prefix('^')) else { return (1, 0) };
     let digits = rest.strip_prefix('-').unwrap_or(rest);
@@ -298,7 +297,7 @@ fn separator_at(text: &str) -> Option<(usize, bool)> {
     let blanks = text.len() - rest.len();
     let sign = rest.chars().next()?;
     match sign {
-        '/' => Some((blanks + 1, true)),
+        '/' => Some((text.len() - rest[1..].trim_start_matches(' ').len(), true)),
         '*' | '·' | '⋅' | '×' if blanks == 0 => Some((sign.len_utf8(), false)),
         _ if blanks > 0 => Some((blanks, false)),
         _ => None,

@@ -5,6 +5,7 @@ use super::diagnostic::{Diagnostic, Diagnostics};
 use super::units::{Quantity, unit_named};
 use super::{Description, JointKind, Row};
 use denavit_symbolic::{Expr, Node, Symbol};
+use rustc_hash::FxHashSet;
 use std::fmt;
 
 /// What a value measures.
@@ -172,8 +173,11 @@ pub(super) fn quantity_of_key(key: &str, slides: bool) -> Quantity {
 
 /// The names that are summands of a formula themselves.
 fn summands(e: Expr) -> Vec<Symbol> {
-    let (mut found, mut open) = (vec![], vec![e]);
+    let (mut found, mut open, mut seen) = (vec![], vec![e], FxHashSet::default());
     while let Some(e) = open.pop() {
+        if !seen.insert(e) {
+            continue;
+        }
         match e.node() {
             Node::Symbol(s) => found.push(s),
             Node::Neg(a) => open.push(a),

@@ -75,11 +75,12 @@ fn energy_stays_to_the_order_of_the_integrator() {
         let mut arm = Dynamics::numeric(&random_arm(name, seed)).unwrap();
         arm.drives.iter_mut().for_each(|d| (d.viscous, d.coulomb) = (0.0, 0.0));
         let [q, qd, _] = state(arm.joints(), &mut Random(seed));
-        let drift = |how| motion(&arm, (&q, &qd), &free(arm.joints()), (0.5, 0.005), how).drift();
-        let [(coarse, size), (fine, _)] = [4e-3, 2e-3].map(|step| drift(Method::Symplectic { step }));
+        let drift = |how, dt| motion(&arm, (&q, &qd), &free(arm.joints()), (0.5, dt), how).drift();
+        let [(coarse, size), (fine, _)] = [0.01, 0.005].map(|step| drift(Method::Symplectic { step }, 0.01));
         assert!(size > 0.1 && coarse > 1e-11 * size, "{name}: {coarse:e} of {size}");
         assert!((10.0..25.0).contains(&(coarse / fine)), "{name}: {coarse:e} {fine:e}");
-        let [(coarse, _), (fine, _)] = [1e-5, 1e-9].map(|tolerance| drift(Method::Adaptive { tolerance }));
+        let [(coarse, _), (fine, _)] =
+            [1e-5, 1e-9].map(|tolerance| drift(Method::Adaptive { tolerance }, 0.25));
         assert!(fine < 1e-7 * size && fine < 1e-2 * coarse, "{name}: {coarse:e} {fine:e}");
     }
 }
