@@ -84,6 +84,8 @@ pub enum SectionName {
     Inverse,
     /// The Jacobian, its determinant and the singularities
     Velocity,
+    /// Base parameters and torques, of a robot with masses
+    Dynamics,
     /// The reachable region and the manipulability in it
     Workspace,
     /// What is wrong in the document that the robot comes from

@@ -105,7 +105,7 @@ fn what_is_missing_is_said() {
     );
     let said = text(&fed(&["dynamics", &named, "-q", "0"], "").stderr);
     assert!(said.contains("link 1 (arm): one of its principal moments"), "{said}");
-    for option in ["--qd", "--qdd", "--tau", "--wrench", "--simulate"] {
+    for option in ["--qd", "--qdd", "--tau", "--wrench", "--input"] {
         refused(&["planar-2r", "--symbolic", option, "1,2"], 2, "cannot be used with");
     }
 }
@@ -303,4 +303,28 @@ fn the_derivation_is_explained() {
     let outward = recursion["outward"].as_array().unwrap();
     assert!(outward.len() == 6 && outward.iter().all(|o| o["proof"] == "sampled"), "{outward:?}");
     refused(&["ur5", "--explain", "-q", "0,0,0,0,0,0"], 2, "cannot be used with");
+}
+
+/// A path within torque limits: one with weak drives takes longer, and one that cannot carry the arm is refused.
+#[test]
+fn paths_keep_torque_limits() {
+    let arm = file("path.toml", TWO_LINKS);
+    let of = |torque: &str| {
+        let path = ["path", &arm, "--joint", "0.9,0", "-q", "1.5,0", "--velocity", "3", "--torque", torque];
+        fed(&[&path[..], &["--json"]].concat(), "")
+    };
+    let duration = |torque: &str| {
+        let output = of(torque);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        let path: Value = serde_json::from_str(&text(&output.stdout)).unwrap();
+        assert_eq!(path["timing"], "time-optimal within velocity, acceleration and torque limits");
+        path["duration"].as_f64().unwrap()
+    };
+    assert!(duration("200 N m") < 0.9 * duration("60,20"), "{} {}", duration("200 N m"), duration("60,20"));
+    let weak = of("5");
+    assert_eq!(weak.status.code(), Some(1), "{}", text(&weak.stderr));
+    assert!(text(&weak.stderr).contains("cannot carry the arm at rest"), "{}", text(&weak.stderr));
+    assert!(text(&of("5 kg").stderr).contains("this is a torque"), "{}", text(&of("5 kg").stderr));
+    let bare = fed(&["path", "ur5", "-q", "0,0,0,0,0,0", "--joint", "1,0,0,0,0,0", "--torque", "10"], "");
+    assert!(text(&bare.stderr).contains("it says nothing of masses"), "{}", text(&bare.stderr));
 }

@@ -1,5 +1,6 @@
 //! The sections of a report, one file each.
 
+mod dynamics;
 mod errata;
 mod example;
 mod forward;
@@ -57,6 +58,7 @@ fn document(setting: &Setting) -> Document {
             Topic::Example => example::section(setting).into_iter().collect(),
             Topic::Inverse => inverse::sections(setting),
             Topic::Velocity => velocity::sections(setting),
+            Topic::Dynamics => dynamics::section(setting).into_iter().collect(),
             Topic::Workspace => workspace::section(setting).into_iter().collect(),
             Topic::Errata => errata::section(setting).into_iter().collect(),
             Topic::References => vec![references::section(setting)],

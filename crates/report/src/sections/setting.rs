@@ -33,6 +33,8 @@ pub enum Topic {
     Inverse,
     /// The Jacobian and its singularities.
     Velocity,
+    /// Base parameters and torques, of an arm with masses.
+    Dynamics,
     /// What is reached.
     Workspace,
     /// What is wrong in the document that the robot comes from.
@@ -43,7 +45,7 @@ pub enum Topic {
 
 impl Topic {
     /// All of them, in their order.
-    pub const ALL: [Topic; 11] = [
+    pub const ALL: [Topic; 12] = [
         Topic::Summary,
         Topic::Figures,
         Topic::Table,
@@ -52,6 +54,7 @@ impl Topic {
         Topic::Example,
         Topic::Inverse,
         Topic::Velocity,
+        Topic::Dynamics,
         Topic::Workspace,
         Topic::Errata,
         Topic::References,

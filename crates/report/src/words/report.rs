@@ -28,6 +28,8 @@ pub enum Heading {
     Solutions,
     /// The Jacobian and its singularities.
     Velocity,
+    /// The dynamic model.
+    Dynamics,
     /// What is reached.
     Workspace,
     /// Errors of a document.
@@ -68,6 +70,10 @@ pub enum Column {
     Step,
     /// Its value.
     Value,
+    /// A torque that holds.
+    Torque,
+    /// The inertia that a joint feels.
+    Inertia,
 }
 
 /// The caption of a table or a picture.
@@ -83,6 +89,8 @@ pub enum Caption {
     Singular,
     /// The line diagram.
     Scheme,
+    /// What holds the arm at rest, before the configuration.
+    AtRest,
 }
 
 /// How many claims of a document are of each kind.

@@ -469,6 +469,7 @@ fn motions_and_axes() {
     let laws = [
         TimingLaw::Still,
         TimingLaw::TimeOptimal,
+        TimingLaw::WithinTorques,
         TimingLaw::JerkLimited,
         TimingLaw::Fastest,
         TimingLaw::Together(Law::Cubic),

@@ -180,7 +180,7 @@ fn reports_in_several_languages_are_those_in_each() {
 #[test]
 fn sections_are_those_asked_for() {
     let d = description("puma560");
-    for topic in Topic::ALL.into_iter().filter(|t| *t != Topic::Errata) {
+    for topic in Topic::ALL.into_iter().filter(|t| !matches!(t, Topic::Errata | Topic::Dynamics)) {
         let document = report(&d, &ReportOptions { topics: vec![topic], ..ReportOptions::default() });
         let parts: usize = document.sections.iter().map(|s| s.parts.len()).sum();
         assert!(parts > 0, "{topic:?}");
@@ -217,6 +217,26 @@ fn words(document: &Document) -> Vec<String> {
         }
     }
     found
+}
+
+/// A robot with masses has a section on dynamics, in either language; one without has none.
+#[test]
+fn masses_have_a_section() {
+    let options = ReportOptions { topics: vec![Topic::Dynamics], ..ReportOptions::default() };
+    assert!(report(&description("puma560"), &options).sections.is_empty());
+    let mut d = description("planar-2r");
+    for (k, row) in d.rows.iter_mut().enumerate() {
+        row.mass = Some(denavit_symbolic::Expr::int(3 - k as i64));
+    }
+    let languages = [Tongue::English, Tongue::French];
+    let [english, french] = &reports(&d, &options, &languages)[..] else { panic!() };
+    let (english, french) = (outline(english), outline(french));
+    for part in
+        ["Dynamics", "Base parameters", "proved equal to Lagrange's equations", "What holds the arm at rest"]
+    {
+        assert!(english.contains(part), "{part}: {english}");
+    }
+    assert!(french.contains("Modèle dynamique") && french.contains("Ce qui maintient le bras"), "{french}");
 }
 
 #[test]

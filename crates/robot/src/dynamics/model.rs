@@ -11,7 +11,7 @@ use std::fmt;
 pub const GRAVITY: (i64, i64) = (981, 100);
 
 /// An arm with masses.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub struct Dynamics<T> {
     /// The links, base first: one for each moving axis.
     pub links: Vec<Link<T>>,
@@ -24,7 +24,7 @@ pub struct Dynamics<T> {
 }
 
 /// What moves about or along one axis.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub struct Link<T> {
     /// What is constant between the frame of the link before (the base, for the first) and the motion.
     pub before: Transform<T>,

@@ -39,7 +39,7 @@ pub struct Link<T> {
 }
 
 /// `offset + quarters·π/2 + Σ kᵢ·q[i]`; the quarter turns are kept apart because their sines are exact.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub struct Affine<T> {
     /// The constant part.
     pub offset: T,

@@ -53,6 +53,13 @@ pub enum MotionError {
         /// The lowest and the highest possible speed.
         possible: [f64; 2],
     },
+    /// At the parameter `s` a joint (from 0) cannot carry the arm at rest within its torque limits.
+    Torque {
+        /// The joint.
+        joint: usize,
+        /// Parameter of the path.
+        s: f64,
+    },
     /// The limits let the path not move at all behind the parameter `s`.
     Stuck {
         /// Parameter of the path.
@@ -172,6 +179,11 @@ impl fmt::Display for MotionError {
             Self::EndSpeed { s, speed, possible: [low, high] } => {
                 write!(f, "the speed {speed} at s = {s} is not possible: the limits allow {low} to {high}")
             }
+            Self::Torque { joint, s } => write!(
+                f,
+                "at s = {s} joint {} cannot carry the arm at rest within its torque limits",
+                joint + 1
+            ),
             Self::Stuck { s } => write!(f, "the limits forbid every motion behind s = {s}"),
             Self::Kink { s } => {
                 write!(

@@ -29,6 +29,7 @@ mod motion_jerk;
 mod motion_plan;
 mod motion_profiles;
 mod motion_timing;
+mod motion_torques;
 mod numeric;
 mod redundant;
 mod same;

@@ -150,6 +150,7 @@ impl From<SectionName> for Topic {
             SectionName::Example => Topic::Example,
             SectionName::Inverse => Topic::Inverse,
             SectionName::Velocity => Topic::Velocity,
+            SectionName::Dynamics => Topic::Dynamics,
             SectionName::Workspace => Topic::Workspace,
             SectionName::Errata => Topic::Errata,
             SectionName::References => Topic::References,

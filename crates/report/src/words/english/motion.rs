@@ -43,6 +43,7 @@ impl Motion for English {
         let words = match timing.by {
             TimingLaw::Still => "it does not start".into(),
             TimingLaw::TimeOptimal => "time-optimal within velocity and acceleration limits".into(),
+            TimingLaw::WithinTorques => "time-optimal within velocity, acceleration and torque limits".into(),
             TimingLaw::JerkLimited => "fast, within velocity, acceleration and jerk limits".into(),
             TimingLaw::Fastest => "the fastest within velocity, acceleration and jerk limits".into(),
             TimingLaw::Together(law) => {

@@ -27,6 +27,7 @@ impl Report for English {
             Heading::Inverse => "Inverse kinematics",
             Heading::Solutions => "The solutions at the example",
             Heading::Velocity => "Jacobian and singularities",
+            Heading::Dynamics => "Dynamics",
             Heading::Workspace => "Workspace",
             Heading::Errata => "Errata",
             Heading::References => "References",
@@ -49,6 +50,8 @@ impl Report for English {
     fn column(&self, column: Column) -> String {
         match column {
             Column::Joint => "joint",
+            Column::Torque => "holding torque",
+            Column::Inertia => "inertia",
             Column::Name => "name",
             Column::Limits => "limits",
             Column::Branch => "branch",
@@ -60,6 +63,9 @@ impl Report for English {
 
     fn caption(&self, caption: Caption) -> String {
         match caption {
+            Caption::AtRest => {
+                "What holds the arm at rest against gravity, and the inertia that each joint feels alone, at"
+            }
             Caption::Steps => "The steps of the forward algorithm in numbers; lengths in metres.",
             Caption::Configurations => "All configurations with this pose.",
             Caption::Pictures => "The configurations of the table, all with the same pose of the tool.",

@@ -47,6 +47,9 @@ impl Motion for French {
             TimingLaw::TimeOptimal => {
                 say!("en temps minimal dans les limites de vitesse et d'accélération")
             }
+            TimingLaw::WithinTorques => {
+                say!("en temps minimal dans les limites de vitesse, d'accélération et de couple")
+            }
             TimingLaw::JerkLimited => {
                 say!("rapide, dans les limites de vitesse, d'accélération et de jerk")
             }

@@ -27,6 +27,7 @@ impl Report for French {
             Heading::Inverse => "Modèle géométrique inverse",
             Heading::Solutions => "Les solutions de l'exemple",
             Heading::Velocity => "Jacobienne et singularités",
+            Heading::Dynamics => "Modèle dynamique",
             Heading::Workspace => "Espace de travail",
             Heading::Errata => "Errata",
             Heading::References => "Références",
@@ -48,6 +49,8 @@ impl Report for French {
     fn column(&self, column: Column) -> String {
         match column {
             Column::Joint => "liaison",
+            Column::Torque => "couple de maintien",
+            Column::Inertia => "inertie",
             Column::Name => "nom",
             Column::Limits => "butées",
             Column::Branch => "branche",
@@ -59,6 +62,9 @@ impl Report for French {
 
     fn caption(&self, caption: Caption) -> String {
         printed(match caption {
+            Caption::AtRest => {
+                "Ce qui maintient le bras au repos contre la pesanteur, et l'inertie que voit chaque liaison seule, à"
+            }
             Caption::Steps => "Les étapes de l'algorithme direct en nombres ; longueurs en mètres.",
             Caption::Configurations => "Toutes les configurations qui donnent cette pose.",
             Caption::Pictures => "Les configurations du tableau, toutes avec la même pose de l'outil.",

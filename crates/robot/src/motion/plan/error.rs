@@ -16,6 +16,10 @@ pub enum PlanError {
     Limits(MotionError),
     /// Jerk limits do not help without velocities and accelerations of all joints.
     NeededForJerk,
+    /// Torque limits do not help without velocities of all joints.
+    NeededForTorque,
+    /// Torque limits are kept by the fastest timing of a path, and neither by laws nor by timings with jerk limits.
+    TorqueAlone,
     /// A time law is asked for, which needs velocities and accelerations of all joints.
     NeededForLaw,
     /// The law's acceleration jumps, which no jerk limit allows.
@@ -67,6 +71,8 @@ impl fmt::Display for PlanError {
             Self::NeededForJerk | Self::NeededForLaw => {
                 write!(f, "velocities and accelerations of all joints are needed too")
             }
+            Self::NeededForTorque => write!(f, "velocities of all joints are needed too"),
+            Self::TorqueAlone => write!(f, "time laws and jerk limits do not go with torque limits"),
             Self::LawJumps(law) => {
                 let law = if *law == Law::Cubic { "cubic" } else { "trapezoidal" };
                 write!(f, "the acceleration of the {law} law jumps, and no jerk limit holds there")

@@ -36,11 +36,13 @@ pub(super) fn plan(
         (Box::new(Still(start)), TimingLaw::Still.into())
     } else {
         match &limits.all {
-            Some(limits) if limits.jerk().is_some() => {
+            Some(all) if all.jerk().is_some() => {
                 let smooth = smooth(robot, path, &mut followed)?;
-                over_duration(fastest(smooth, limits)?, options.duration)?
+                over_duration(fastest(smooth, all, None)?, options.duration)?
             }
-            Some(limits) => over_duration(fastest(followed.joints.clone(), limits)?, options.duration)?,
+            Some(all) => {
+                over_duration(fastest(followed.joints.clone(), all, limits.torque)?, options.duration)?
+            }
             None => {
                 let usual = (path.length() * followed.reached / options.speed).max(0.5);
                 let durations = (usual, options.duration);

@@ -24,8 +24,10 @@ pub(super) fn plan(
     let path = || through(points, options.blend);
     let (trajectory, timing) = match (&limits.all, points) {
         (None, _) => by_quintic(description, path()?, (1.0, options.duration), limits.velocity)?,
-        (Some(limits), [a, b]) => over_duration(between([a, b], limits, options.law)?, options.duration)?,
-        (Some(limits), _) => over_duration(fastest(path()?, limits)?, options.duration)?,
+        (Some(all), [a, b]) if limits.torque.is_none() => {
+            over_duration(between([a, b], all, options.law)?, options.duration)?
+        }
+        (Some(all), _) => over_duration(fastest(path()?, all, limits.torque)?, options.duration)?,
     };
     if let Some(j) = outside(description, points) {
         let joint = description.variables()[j].symbol.name().to_string();

@@ -2,8 +2,8 @@
 
 use super::PlanError;
 use crate::description::{Description, Row};
-use crate::motion::Limits;
 use crate::motion::error::joints;
+use crate::motion::{Limits, MotionError, TorqueLimits};
 use denavit_symbolic::{Expr, Symbol};
 
 /// Limits of the joints as far as they are known, the same in both directions, one entry a joint; a quantity that is not
@@ -16,7 +16,12 @@ pub struct KnownLimits {
     pub acceleration: Option<Vec<f64>>,
     /// Jerks, rad/s³ or m/s³.
     pub jerk: Option<Vec<f64>>,
+    /// Torques, N m or N, of an arm with masses.
+    pub torque: Option<TorqueLimits>,
 }
+
+/// What accelerations are limited to where torques limit them and nothing else does, rad/s² or m/s².
+const BY_TORQUES: f64 = 1e5;
 
 impl KnownLimits {
     /// Those that a description states: velocities and accelerations.
@@ -26,7 +31,12 @@ impl KnownLimits {
             let rows = description.rows.iter().filter(|r| r.variable.is_some());
             rows.map(|r| cell(r)?.eval(value).ok()).collect()
         };
-        KnownLimits { velocity: all(&|r| r.velocity), acceleration: all(&|r| r.acceleration), jerk: None }
+        KnownLimits {
+            velocity: all(&|r| r.velocity),
+            acceleration: all(&|r| r.acceleration),
+            jerk: None,
+            torque: None,
+        }
     }
 
     /// These, and where they say nothing the others.
@@ -36,6 +46,7 @@ impl KnownLimits {
             velocity: self.velocity.or(others.velocity),
             acceleration: self.acceleration.or(others.acceleration),
             jerk: self.jerk.or(others.jerk),
+            torque: self.torque.or(others.torque),
         }
     }
 
@@ -49,7 +60,13 @@ impl KnownLimits {
             list.iter().try_for_each(|l| joints(what, n, l)).map_err(PlanError::Limits)?;
         }
         let (velocity, jerk) = (self.velocity.as_deref(), self.jerk.as_deref());
-        let all = match (velocity, &self.acceleration) {
+        let torque = self.torque.as_ref();
+        if let Some(found) = torque.map(TorqueLimits::dof).filter(|&found| found != n) {
+            let what = "torque limits";
+            return Err(PlanError::Limits(MotionError::Joints { what, expected: n, found }));
+        }
+        let by_torques = torque.map(|_| vec![BY_TORQUES; n]);
+        let all = match (velocity, self.acceleration.as_ref().or(by_torques.as_ref())) {
             (Some(v), Some(a)) if n > 0 => {
                 let limits = Limits::symmetric(v, a);
                 let limits = match jerk {
@@ -60,7 +77,7 @@ impl KnownLimits {
             }
             _ => None,
         };
-        Ok(Known { velocity, jerk, all })
+        Ok(Known { velocity, jerk, torque, all })
     }
 }
 
@@ -68,6 +85,7 @@ impl KnownLimits {
 pub(super) struct Known<'a> {
     pub velocity: Option<&'a [f64]>,
     pub jerk: Option<&'a [f64]>,
+    pub torque: Option<&'a TorqueLimits>,
     /// Velocities and accelerations, perhaps jerks, if velocities and accelerations are known.
     pub all: Option<Limits>,
 }

@@ -5,6 +5,7 @@
 //! |---|---|
 //! | velocity, acceleration, jerk | fast, within all three |
 //! | velocity, acceleration | time-optimal, or by the law that is asked for |
+//! | velocity, torque | time-optimal within these, and accelerations where they are known |
 //! | less | a quintic law, slower where velocities are limited |
 
 mod error;
@@ -113,6 +114,8 @@ pub enum TimingLaw {
     Still,
     /// The fastest along the path within velocity and acceleration limits.
     TimeOptimal,
+    /// The fastest along the path within velocity, acceleration and torque limits.
+    WithinTorques,
     /// Fast along the path within velocity, acceleration and jerk limits.
     JerkLimited,
     /// The fastest between two configurations within velocity, acceleration and jerk limits.
@@ -176,6 +179,11 @@ impl Planned {
         positive("the deviation", &[options.max_deviation])?;
         positive("the duration", options.duration.as_slice())?;
         let limits = limits.of_joints(n)?;
+        match limits.torque {
+            Some(_) if limits.velocity.is_none() => return Err(PlanError::NeededForTorque),
+            Some(_) if limits.jerk.is_some() || options.law.is_some() => return Err(PlanError::TorqueAlone),
+            _ => {}
+        }
         if limits.all.is_none() {
             match (limits.jerk, options.law) {
                 (Some(_), _) => return Err(PlanError::NeededForJerk),

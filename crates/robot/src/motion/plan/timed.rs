@@ -2,7 +2,9 @@
 
 use super::{PlanError, Timing, TimingLaw};
 use crate::description::Description;
-use crate::motion::{InTime, JerkLimited, JointPath, JointState, Limits, Slowed, TimeOptimal, Trajectory};
+use crate::motion::{
+    InTime, JerkLimited, JointPath, JointState, Limits, Slowed, TimeOptimal, TorqueLimits, Trajectory,
+};
 
 /// A motion, and how it was timed.
 pub(super) type Timed = (Box<dyn Trajectory>, Timing);
@@ -14,13 +16,18 @@ impl From<TimingLaw> for Timing {
 }
 
 /// The fastest timing of a path.
-pub(super) fn fastest<P: JointPath + 'static>(path: P, limits: &Limits) -> Result<Timed, PlanError> {
+pub(super) fn fastest<P: JointPath + 'static>(
+    path: P,
+    limits: &Limits,
+    torques: Option<&TorqueLimits>,
+) -> Result<Timed, PlanError> {
     if limits.jerk().is_some() {
         let found = JerkLimited::default().time(path, limits)?;
         return Ok((Box::new(found), TimingLaw::JerkLimited.into()));
     }
-    let found = TimeOptimal::default().time(path, limits)?;
-    Ok((Box::new(found), TimingLaw::TimeOptimal.into()))
+    let found = TimeOptimal::default().time_within(path, limits, torques)?;
+    let law = if torques.is_some() { TimingLaw::WithinTorques } else { TimingLaw::TimeOptimal };
+    Ok((Box::new(found), law.into()))
 }
 
 /// A path by a quintic law: over the duration asked for, or the usual one, longer if velocities are limited.

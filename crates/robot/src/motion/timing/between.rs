@@ -5,6 +5,7 @@
 
 use super::passes;
 use super::stage::Program;
+use super::torques::{Torque, TorqueLimits};
 use crate::motion::limits::Limits;
 use crate::motion::path::{JointPath, PathPoint, Side};
 
@@ -21,12 +22,13 @@ const EXCESS: f64 = 1e-6;
 /// the end stays exceeded: some 10⁻⁶, or more if tighter limits do not admit those speeds.
 pub(super) fn hold<P: JointPath>(
     path: &P,
-    limits: &Limits,
+    (limits, torque_limits): (&Limits, Option<&TorqueLimits>),
     program: &mut Program,
     ends: [f64; 2],
     x: &mut Vec<f64>,
 ) {
-    let measured = measure(path, program);
+    let measured = measure(path, program, torque_limits);
+    let limits = (limits, torque_limits);
     let mut excess = tighten(&measured, limits, program, x);
     for _ in 0..ROUNDS {
         if excess <= EXCESS {
@@ -43,31 +45,45 @@ pub(super) fn hold<P: JointPath>(
     }
 }
 
-/// q' and q'' at the places of all intervals, one after the other.
-fn measure<P: JointPath>(path: &P, program: &Program) -> Vec<f64> {
+/// What is measured at the places of all intervals, one after the other.
+struct Measured {
+    /// q' and q''.
+    derivatives: Vec<f64>,
+    /// The torques, joint by joint; none without limits of them.
+    torques: Vec<Torque>,
+}
+
+fn measure<P: JointPath>(path: &P, program: &Program, limits: Option<&TorqueLimits>) -> Measured {
     let mut point = PathPoint::zeros(path.dof());
-    let mut measured = Vec::with_capacity(program.share.len() * 2 * PLACES.len() * path.dof());
+    let count = program.share.len() * 2 * PLACES.len() * path.dof();
+    let mut measured = Measured { derivatives: Vec::with_capacity(count), torques: vec![] };
     for s in program.s.windows(2) {
         for place in PLACES {
             path.eval_into(s[0] + place * (s[1] - s[0]), Side::Behind, &mut point);
-            measured.extend_from_slice(&point.dq);
-            measured.extend_from_slice(&point.ddq);
+            measured.derivatives.extend_from_slice(&point.dq);
+            measured.derivatives.extend_from_slice(&point.ddq);
+            measured.torques.extend(limits.iter().flat_map(|l| l.along(&point.q, &point.dq, &point.ddq)));
         }
     }
     measured
 }
 
 /// Tightens what is exceeded; by which share at most it is.
-fn tighten(measured: &[f64], limits: &Limits, program: &mut Program, x: &[f64]) -> f64 {
+fn tighten(
+    measured: &Measured,
+    (limits, torque_limits): (&Limits, Option<&TorqueLimits>),
+    program: &mut Program,
+    x: &[f64],
+) -> f64 {
     let dof = limits.dof();
     let mut excess = 0.0f64;
     let inverse =
         |ranges: &[crate::motion::Range]| -> Vec<[f64; 2]> { ranges.iter().map(|r| r.inverse()).collect() };
     let (velocity, acceleration) = (inverse(limits.velocity()), inverse(limits.acceleration()));
-    for (i, places) in measured.chunks_exact(2 * PLACES.len() * dof).enumerate() {
+    for (i, places) in measured.derivatives.chunks_exact(2 * PLACES.len() * dof).enumerate() {
         let u = (x[i + 1] - x[i]) / (2.0 * (program.s[i + 1] - program.s[i]));
         let (mut v, mut a) = (0.0f64, 0.0f64);
-        for (place, derivatives) in PLACES.iter().zip(places.chunks_exact(2 * dof)) {
+        for (k, (place, derivatives)) in PLACES.iter().zip(places.chunks_exact(2 * dof)).enumerate() {
             let x = x[i] + place * (x[i + 1] - x[i]);
             let speed = x.sqrt();
             let (dq, ddq) = derivatives.split_at(dof);
@@ -78,6 +94,10 @@ fn tighten(measured: &[f64], limits: &Limits, program: &mut Program, x: &[f64]) 
                 let [low, high] = acceleration[joint];
                 let qdd = dq[joint] * u + ddq[joint] * x;
                 a = a.max((qdd * low).max(qdd * high));
+            }
+            if let Some(limits) = torque_limits {
+                let first = (i * PLACES.len() + k) * dof;
+                a = a.max(limits.share(&measured.torques[first..first + dof], u, x));
             }
         }
         // Limits of zero are held by standing still.

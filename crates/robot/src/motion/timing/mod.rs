@@ -11,14 +11,20 @@ mod grid;
 mod passes;
 mod stage;
 mod timed;
+mod torques;
 
 pub use grid::{Grid, MIN_INTERVALS};
 pub(super) use grid::{divided, is_corner};
 pub use timed::TimedPath;
+pub use torques::TorqueLimits;
 
 use super::error::{MotionError, finite};
 use super::limits::Limits;
 use super::path::JointPath;
+use torques::Torques;
+
+/// How often tangents are laid anew where friction grows with the speed.
+const TANGENTS: usize = 3;
 
 /// Where the limits are imposed on an interval between two grid points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,9 +72,25 @@ impl TimeOptimal {
     /// If an input is not finite or does not fit; if an end speed is not possible, or no speed at some parameter
     /// leads to the end of the path ([`MotionError::NotControllable`] says at which).
     pub fn time<P: JointPath>(&self, path: P, limits: &Limits) -> Result<TimedPath<P>, MotionError> {
-        if limits.dof() != path.dof() {
-            let (expected, found) = (path.dof(), limits.dof());
-            return Err(MotionError::Joints { what: "limits", expected, found });
+        self.time_within(path, limits, None)
+    }
+
+    /// The same within torque limits, too: at the ends of every interval, and with [`Scheme::Throughout`] as far as is measured
+    /// between. Where the arm stands still it is to be within them all along the path, with Coulomb's friction against it.
+    ///
+    /// # Errors
+    /// As [`time`](Self::time), and if the arm cannot carry itself somewhere ([`MotionError::Torque`]).
+    pub fn time_within<P: JointPath>(
+        &self,
+        path: P,
+        limits: &Limits,
+        torque_limits: Option<&TorqueLimits>,
+    ) -> Result<TimedPath<P>, MotionError> {
+        let dofs = [Some(("limits", limits.dof())), torque_limits.map(|t| ("torque limits", t.dof()))];
+        for (what, found) in dofs.into_iter().flatten() {
+            if found != path.dof() {
+                return Err(MotionError::Joints { what, expected: path.dof(), found });
+            }
         }
         finite("speeds at the ends", &[self.start_speed, self.end_speed])?;
         for (s, speed) in [(0.0, self.start_speed), (path.end(), self.end_speed)] {
@@ -77,11 +99,24 @@ impl TimeOptimal {
             }
         }
         let sampled = grid::sample(&path, &self.grid)?;
-        let mut program = stage::program(&sampled, limits, self.scheme)?;
+        let mut torques = match torque_limits {
+            Some(limit) => Some(Torques::new(limit, &path, &sampled, &stage::highest(&sampled, limits)?)?),
+            None => None,
+        };
+        let mut program = stage::program(&sampled, limits, self.scheme, torques.as_ref())?;
         let ends = [self.start_speed.powi(2), self.end_speed.powi(2)];
         let mut x = passes::solve(&program, ends)?;
+        if let Some(torques) = torques.as_mut().filter(|t| t.has_roots()) {
+            for _ in 0..TANGENTS {
+                torques.lay(&x);
+                let closer = stage::program(&sampled, limits, self.scheme, Some(torques))?;
+                // Other tangents may shut what was open before.
+                let Ok(faster) = passes::solve(&closer, ends) else { break };
+                (program, x) = (closer, faster);
+            }
+        }
         if self.scheme == Scheme::Throughout {
-            between::hold(&path, limits, &mut program, ends, &mut x);
+            between::hold(&path, (limits, torque_limits), &mut program, ends, &mut x);
         }
         TimedPath::new(path, program.s, x)
     }

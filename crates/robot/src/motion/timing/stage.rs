@@ -7,6 +7,7 @@
 
 use super::Scheme;
 use super::grid::Sampled;
+use super::torques::Torques;
 use crate::motion::error::MotionError;
 use crate::motion::limits::{Limits, Range};
 
@@ -14,6 +15,9 @@ use crate::motion::limits::{Limits, Range};
 const NEGLIGIBLE: f64 = 1e-13;
 /// Speeds that nothing limits are at most this times the highest that something limits.
 const UNLIMITED: f64 = 1e3;
+
+/// Slope b/a, lower and upper line at x = 0.
+pub(super) type Strip = [f64; 3];
 
 /// All stages of a path.
 pub(super) struct Program {
@@ -25,14 +29,14 @@ pub(super) struct Program {
     pub(super) share: Vec<f64>,
     /// Greatest x of each stage by strips that bound x alone, at a share of 1.
     flat: Vec<f64>,
-    /// Strips: slope b/a, lower and upper line at x = 0; `rows` of them a stage.
-    strips: Vec<[f64; 3]>,
+    /// `rows` of them a stage.
+    strips: Vec<Strip>,
     rows: usize,
 }
 
 /// One stage with the x of the next grid point between two bounds.
 pub(super) struct Stage<'a> {
-    strips: &'a [[f64; 3]],
+    strips: &'a [Strip],
     share: f64,
     highest: f64,
     /// 1 / 2Δ
@@ -40,13 +44,19 @@ pub(super) struct Stage<'a> {
     next: [f64; 2],
 }
 
-pub(super) fn program(grid: &Sampled, limits: &Limits, scheme: Scheme) -> Result<Program, MotionError> {
+pub(super) fn program(
+    grid: &Sampled,
+    limits: &Limits,
+    scheme: Scheme,
+    torques: Option<&Torques<'_>>,
+) -> Result<Program, MotionError> {
     let (n, dof) = (grid.s.len() - 1, grid.dof);
     let rows = match scheme {
         Scheme::Collocation => dof,
         Scheme::Interpolation => 2 * dof,
         Scheme::Throughout => 4 * dof + 4,
     };
+    let rows = rows + if torques.is_some() { 4 * dof } else { 0 };
     let inverse = inverses(limits);
     let mut program = Program {
         s: grid.s.clone(),
@@ -88,6 +98,9 @@ pub(super) fn program(grid: &Sampled, limits: &Limits, scheme: Scheme) -> Result
                 program.strips.push(strip(a, b, within, reach, &mut flat));
             }
         }
+        if let Some(torques) = torques {
+            torques.strips(i, step, reach, &mut flat, &mut program.strips);
+        }
         program.flat.push(flat);
     }
     Ok(program)
@@ -123,8 +136,12 @@ fn velocities(grid: &Sampled, i: usize, step: f64, limits: &[Range]) -> [[f64; 2
 }
 
 /// The strip of one limit; if it does not depend on u it bounds x, and the strip is the whole plane.
-fn strip(a: f64, b: f64, range: Range, reach: f64, flat: &mut f64) -> [f64; 3] {
-    let width = if range.lower.is_finite() { range.upper - range.lower } else { range.upper };
+pub(super) fn strip(a: f64, b: f64, range: Range, reach: f64, flat: &mut f64) -> Strip {
+    let width = match (range.lower.is_finite(), range.upper.is_finite()) {
+        (true, true) => range.upper - range.lower,
+        (false, _) => range.upper,
+        (true, false) => -range.lower,
+    };
     if (a * reach).abs() > NEGLIGIBLE * width {
         let inverse = 1.0 / a;
         let (p, q) = (range.lower * inverse, range.upper * inverse);
@@ -144,6 +161,11 @@ fn inverses(limits: &Limits) -> Vec<[f64; 2]> {
 /// joint is not to move, which `max` passes over.
 fn longest(dq: &[f64], inverse: &[[f64; 2]]) -> f64 {
     dq.iter().zip(inverse).fold(0.0f64, |m, (d, [low, high])| m.max((d * low).max(d * high)))
+}
+
+/// Greatest x at the grid points by the velocity limits.
+pub(super) fn highest(grid: &Sampled, limits: &Limits) -> Result<Vec<f64>, MotionError> {
+    speeds(grid, &inverses(limits))
 }
 
 /// Greatest x at the grid points by the velocity limits; 0 at corners.

@@ -1,0 +1,112 @@
+//! Timings within torque limits: as fast as can be computed by hand, within the limits at all times, at one of them nearly always.
+
+use crate::common::Random;
+use crate::dynamics::random_arm;
+use denavit::description::read_toml;
+use denavit::dynamics::{Dynamics, drive_torques, gravity_torques};
+use denavit::motion::path::{Ends, cubic_spline};
+use denavit::motion::plan::{KnownLimits, PlanError, PlanOptions, Planned, Wish};
+use denavit::motion::{JointPath, Limits, MotionError, TimeOptimal, TorqueLimits, Trajectory};
+
+/// 3 kg on a level track, pushed with 6 N at most, over one metre.
+fn duration(drive: &str) -> f64 {
+    let text = format!(
+        "name = 'b'\nconvention = 'craig'\ngravity = [0, '-9.81', 0]\n[[joints]]\nd = 'q1'\nmass = 3\n{drive}\n"
+    );
+    let arm = Dynamics::numeric(&read_toml(&text).unwrap().0).unwrap();
+    let limits = Limits::symmetric(&[100.0], &[1e4]).unwrap();
+    let torques = TorqueLimits::symmetric(arm, &[6.0]).unwrap();
+    let path = cubic_spline(&[vec![0.0], vec![1.0]], &Ends::Natural).unwrap();
+    TimeOptimal::default().time_within(path, &limits, Some(&torques)).unwrap().duration()
+}
+
+#[test]
+fn a_block_is_pushed_as_hard_as_can_be() {
+    // v²/2 (1/a + 1/b) = 1, and t = v (1/a + 1/b).
+    let by = |a: f64, b: f64| (2.0 * (1.0 / a + 1.0 / b)).sqrt();
+    assert!((duration("") - by(2.0, 2.0)).abs() < 1e-6, "{}", duration(""));
+    let coulomb = duration("coulomb = 1");
+    assert!((coulomb - by(5.0 / 3.0, 7.0 / 3.0)).abs() < 1e-6, "{coulomb}");
+    let rotor = duration("rotor = 1");
+    assert!((rotor - by(1.5, 1.5)).abs() < 1e-6, "{rotor}");
+    // With 2 N s/m: v' = 2 − 2v/3, then v' = −2, for which the friction that helps is not counted on; step by step.
+    let (mut x, mut v, mut t) = (0.0_f64, 0.0_f64, 0.0_f64);
+    while x + v * v / 4.0 < 1.0 {
+        let h = 1e-6;
+        (x, t) = (x + v * h, t + h);
+        v += h * (2.0 - 2.0 * v / 3.0);
+    }
+    let wanted = t + v / 2.0;
+    let viscous = duration("viscous = 2");
+    assert!(viscous > wanted - 1e-4 && viscous < 1.01 * wanted, "{viscous} {wanted}");
+}
+
+#[test]
+fn torques_stay_within_their_limits_and_reach_them() {
+    for (k, name) in ["articulated-3r", "scara", "staubli-rx90", "franka-panda"].into_iter().enumerate() {
+        let arm = Dynamics::numeric(&random_arm(name, 60 + k as u64)).unwrap();
+        let n = arm.joints();
+        let mut random = Random(k as u64);
+        let points: Vec<Vec<f64>> =
+            (0..4).map(|_| (0..n).map(|_| 2.0 * random.unit() - 1.0).collect()).collect();
+        let path = cubic_spline(&points, &Ends::Natural).unwrap();
+        let mut held = vec![0.0_f64; n];
+        for i in 0..=200 {
+            let q = path.eval(path.end() * f64::from(i) / 200.0).q;
+            let gravity = gravity_torques(&arm, &q);
+            held.iter_mut().zip(gravity).for_each(|(h, g)| *h = h.max(g.abs()));
+        }
+        let limit: Vec<f64> =
+            held.iter().zip(&arm.drives).map(|(h, d)| 1.5 * (h + d.coulomb.abs()) + 2.0).collect();
+        let limits = Limits::symmetric(&vec![20.0; n], &vec![1e4; n]).unwrap();
+        let time = |factor: f64| {
+            let torques: Vec<f64> = limit.iter().map(|t| factor * t).collect();
+            let torques = TorqueLimits::symmetric(arm.clone(), &torques).unwrap();
+            TimeOptimal::default().time_within(path.clone(), &limits, Some(&torques))
+        };
+        let timed = time(1.0).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let (mut most, mut busy) = (0.0_f64, 0);
+        for i in 0..=2000 {
+            let s = timed.eval(timed.duration() * f64::from(i) / 2000.0);
+            let torques = drive_torques(&arm, &s.q, &s.qd, &s.qdd, None);
+            let share = torques.iter().zip(&limit).fold(0.0_f64, |m, (t, l)| m.max(t.abs() / l));
+            let speed = s.qd.iter().fold(0.0_f64, |m, v| m.max(v.abs() / 20.0));
+            most = most.max(share);
+            busy += usize::from(share.max(speed) > 0.9);
+        }
+        assert!(most < 1.0 + 1e-3, "{name}: {most}");
+        // Viscous friction is bounded by tangents, and what it helps to brake is not counted on.
+        assert!(busy > 1400, "{name}: {busy} of 2001");
+        let slack = time(4.0).unwrap();
+        assert!(slack.duration() < timed.duration(), "{name}");
+        if held.iter().any(|&h| h > 1.0) {
+            assert!(matches!(time(1e-3), Err(MotionError::Torque { .. })), "{name}");
+        }
+    }
+}
+
+#[test]
+fn torque_limits_are_planned_with() {
+    let d = random_arm("articulated-3r", 5);
+    let arm = Dynamics::numeric(&d).unwrap();
+    let robot = denavit::Robot::numeric(&d).unwrap();
+    let known = |velocity: Option<Vec<f64>>, jerk: Option<Vec<f64>>| KnownLimits {
+        velocity,
+        jerk,
+        torque: Some(TorqueLimits::symmetric(arm.clone(), &[1e3; 3]).unwrap()),
+        ..KnownLimits::default()
+    };
+    let plan = |known: &KnownLimits| {
+        let wish = Wish::Joints(vec![vec![0.0; 3], vec![0.4, -0.3, 0.2]]);
+        Planned::new(&d, &robot, wish, known, &PlanOptions::default()).map(|p| p.trajectory.duration())
+    };
+    assert!(plan(&known(Some(vec![5.0; 3]), None)).is_ok_and(|t| t > 0.0 && t < 1.0));
+    assert_eq!(plan(&known(None, None)), Err(PlanError::NeededForTorque));
+    assert_eq!(plan(&known(Some(vec![5.0; 3]), Some(vec![1.0; 3]))), Err(PlanError::TorqueAlone));
+    let short = TorqueLimits::symmetric(arm.clone(), &[1.0; 2]);
+    assert!(matches!(short, Err(MotionError::Joints { expected: 3, found: 2, .. })));
+    assert!(matches!(
+        TorqueLimits::symmetric(arm.clone(), &[1.0, 0.0, 1.0]),
+        Err(MotionError::NotPositive(..))
+    ));
+}
