@@ -12,6 +12,7 @@ mod dynamics;
 mod dynamics_base;
 mod dynamics_files;
 mod dynamics_programs;
+mod dynamics_recursion;
 mod dynamics_simulation;
 mod every_arm;
 mod follow;

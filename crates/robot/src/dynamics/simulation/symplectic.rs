@@ -106,9 +106,8 @@ impl Problem<'_> {
         }
         let matrix = inertia_matrix(self.arm, &state[..n]);
         let factors = factored(&matrix);
-        for joint in 0..n {
-            let pivot = factors.diagonal[joint];
-            if pivot.is_nan() || pivot <= ROUNDING * matrix[joint][joint] {
+        for (joint, (&pivot, row)) in factors.diagonal.iter().zip(&matrix).enumerate() {
+            if pivot.is_nan() || pivot <= ROUNDING * row[joint] {
                 return Err(NoMotion::Singular { joint, t });
             }
         }

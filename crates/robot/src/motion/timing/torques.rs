@@ -1,7 +1,7 @@
 //! Torque limits along a path.
 //!
 //! With q̇ = q' ṡ and q̈ = q' u + q'' x the torques are a u + b x + c + k √x: a = A q', b = A q'' + C(q, q') q', c gravity and
-//! Coulomb's friction in the direction of q', k = FV q'. Of the root a tangent x/2ρ + ρ/2 is taken, which is nowhere below it: the
+//! Coulomb's friction f in the direction of q' (in both where that turns round within an interval), k = FV q'. Of the root a tangent x/2ρ + ρ/2 is taken, which is nowhere below it: the
 //! torques are then within the limits, too. The tangents are laid at the speeds that are found, and the passes run again.
 
 use super::grid::Sampled;
@@ -23,12 +23,13 @@ pub struct TorqueLimits {
     ranges: Vec<Range>,
 }
 
-/// The torque of a joint at a point of the path, a u + b x + c + k √x.
+/// The torque of a joint at a point of the path, a u + b x + c + f + k √x.
 #[derive(Clone, Copy)]
 pub(super) struct Torque {
     pub a: f64,
     pub b: f64,
     pub c: f64,
+    pub f: f64,
     pub k: f64,
 }
 
@@ -78,7 +79,7 @@ impl TorqueLimits {
                 let drive = arm.drives[j];
                 let k = drive.viscous * dq[j];
                 let rubbed = if dq[j] == 0.0 { 0.0 } else { drive.coulomb * dq[j].signum() };
-                Torque { a, b: all[j] - gravity[j] - k, c: gravity[j] + rubbed, k }
+                Torque { a, b: all[j] - gravity[j] - k, c: gravity[j], f: rubbed, k }
             })
             .collect()
     }
@@ -87,7 +88,8 @@ impl TorqueLimits {
     pub(super) fn share(&self, torques: &[Torque], u: f64, x: f64) -> f64 {
         let of = |(t, range): (&Torque, &Range)| {
             let moving = t.a * u + t.b * x + t.k * x.sqrt();
-            let left = if moving < 0.0 { range.lower - t.c } else { range.upper - t.c };
+            let resting = t.c + t.f;
+            let left = if moving < 0.0 { range.lower - resting } else { range.upper - resting };
             if moving == 0.0 { 0.0 } else { moving / left }
         };
         torques.iter().zip(&self.ranges).map(of).fold(0.0, f64::max)
@@ -114,8 +116,8 @@ impl<'a> Torques<'a> {
                 let entries = i * dof..(i + 1) * dof;
                 let torques = limits.along(&point.q, &dq[entries.clone()], &ddq[entries]);
                 for (joint, (t, range)) in torques.iter().zip(&limits.ranges).enumerate() {
-                    finite("torques along the path", &[t.a, t.b, t.c, t.k])?;
-                    if !(range.lower < t.c && t.c < range.upper) {
+                    finite("torques along the path", &[t.a, t.b, t.c, t.f, t.k])?;
+                    if !(range.lower < t.c - t.f.abs() && t.c + t.f.abs() < range.upper) {
                         return Err(MotionError::Torque { joint, s });
                     }
                 }
@@ -147,7 +149,7 @@ impl<'a> Torques<'a> {
             let mut most = self.highest[i];
             for (joint, range) in self.limits.ranges.iter().enumerate() {
                 for t in [self.behind[i * dof + joint], self.before[i * dof + joint]] {
-                    let left = if t.k < 0.0 { t.c - range.lower } else { range.upper - t.c };
+                    let left = if t.k < 0.0 { t.c - range.lower } else { range.upper - t.c } - t.f.abs();
                     if t.k != 0.0 {
                         most = most.min(2.0 * MARGIN * left / t.k.abs());
                     }
@@ -162,6 +164,8 @@ impl<'a> Torques<'a> {
         let dof = self.limits.dof();
         for (joint, range) in self.limits.ranges.iter().enumerate() {
             let (start, end) = (self.behind[i * dof + joint], self.before[(i + 1) * dof + joint]);
+            // Where the joint turns round, friction is met in both directions.
+            let (f_most, f_least) = (start.f.max(end.f), start.f.min(end.f));
             for (t, at, step) in [(start, self.at[i], 0.0), (end, self.at[i + 1], step)] {
                 for is_upper in [true, false] {
                     // Friction that helps is not counted on.
@@ -171,7 +175,7 @@ impl<'a> Torques<'a> {
                     } else {
                         (against / (2.0 * at), against * at / 2.0)
                     };
-                    let (b, c) = (t.b + slope, t.c + constant);
+                    let (b, c) = (t.b + slope, t.c + constant + if is_upper { f_most } else { f_least });
                     let range = match is_upper {
                         true => Range { lower: f64::NEG_INFINITY, upper: range.upper - c },
                         false => Range { lower: range.lower - c, upper: f64::INFINITY },
