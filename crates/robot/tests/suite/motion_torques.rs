@@ -66,7 +66,8 @@ fn torques_stay_within_their_limits_and_reach_them() {
         };
         let timed = time(1.0).unwrap_or_else(|e| panic!("{name}: {e}"));
         let (mut most, mut busy) = (0.0_f64, 0);
-        for i in 0..=2000 {
+        // At rest Coulomb's friction is no number: it is left away there.
+        for i in 1..2000 {
             let s = timed.eval(timed.duration() * f64::from(i) / 2000.0);
             let torques = drive_torques(&arm, &s.q, &s.qd, &s.qdd, None);
             let share = torques.iter().zip(&limit).fold(0.0_f64, |m, (t, l)| m.max(t.abs() / l));
