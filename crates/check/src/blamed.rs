@@ -5,6 +5,7 @@
 use super::CheckOptions;
 use super::edits::{Kind, edited, edits, lengths};
 use super::facts::{About, SlipKind};
+use super::lexis::read;
 use super::outcome::{Claim, Entry, Finding, Patch, Slip, Standing, Wrong};
 use super::plan::{Plan, Walked};
 use super::trial::Trial;
@@ -55,15 +56,22 @@ pub(super) fn helpers(
             let search = Search { text, format, plan, options, walked, trial: &trial };
             if let Some((slip, mended)) = search.mended(d, k, *of, claims, &mut left) {
                 seen.insert(d.span.start);
-                blame(d, slip, &mended, claims);
+                // An entry of the pose is given where it is solved for, whatever formula stands for it further up.
+                let pose = plan.subjects[subject].pose().matrix();
+                let names = walked.names_of(subject);
+                let should = read(&slip.formula, &(0..slip.formula.len()), names).ok().map(|s| s.value());
+                let is_entry =
+                    |e: &Expr| !e.symbols().is_empty() && should.is_some_and(|s| equal(s, *e).is_equal());
+                let is_given = pose.iter().take(3).flatten().any(is_entry);
+                blame(d, slip, &mended, is_given, claims);
                 break;
             }
         }
     }
 }
 
-/// The helper is wrong, and what it made wrong is carried.
-fn blame(d: &Defined, slip: Slip, mended: &[usize], claims: &mut Vec<Claim>) {
+/// The helper is wrong, and what it made wrong is carried, or right where the helper is known without its formula.
+fn blame(d: &Defined, slip: Slip, mended: &[usize], is_given: bool, claims: &mut Vec<Claim>) {
     let by = claims.len();
     let wrong = Wrong { correct: vec![slip.formula.clone()], slip: Some(slip), ..Wrong::default() };
     let finding = Finding::Wrong(Box::new(wrong));
@@ -78,8 +86,12 @@ fn blame(d: &Defined, slip: Slip, mended: &[usize], claims: &mut Vec<Claim>) {
     });
     for &k in mended {
         for entry in &mut claims[k].entries {
-            if let Finding::Wrong(wrong) = &entry.finding {
-                entry.finding = Finding::Carried { by, correct: wrong.correct.clone() };
+            match &entry.finding {
+                Finding::Wrong(_) if is_given => entry.finding = Finding::Equal { unless_zero: vec![] },
+                Finding::Wrong(wrong) => {
+                    entry.finding = Finding::Carried { by, correct: wrong.correct.clone() }
+                }
+                _ => {}
             }
         }
     }

@@ -4,6 +4,7 @@
 //! wrong only in a table of which another row is right: then the columns are read as their author means them.
 
 use super::facts::{About, Remark, SlipKind, Unproved};
+use super::heads::{Column, column};
 use super::numbers::{Configuration, decimal, half_unit};
 use super::outcome::{Claim, Entry, Finding, Patch, Slip, Wrong};
 use super::plan::{Plan, Walked};
@@ -12,7 +13,6 @@ use super::walk::{Assertion, Piece};
 use denavit::description::table::{PrintedGrid, grids};
 use denavit::description::{JointKind, TableKind};
 use denavit_reading::slip::Slip as Kind;
-use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
 use denavit_symbolic::{Angle, Expr, Symbol};
 use std::ops::Range;
 
@@ -33,15 +33,13 @@ struct Target {
     is_angle: bool,
 }
 
-/// What a column holds.
-enum Column {
-    /// A joint, with the unit of its head.
-    Joint(usize, Option<f64>),
-    /// A quantity of the pose, with the unit of its head; angles are the same a turn further.
-    Pose(Expr, Option<f64>, bool),
-    /// The number of the row, or words.
-    Number,
-    Other,
+impl Target {
+    /// What a document wants to be reached.
+    fn of(goal: &super::walk::Target) -> Self {
+        let super::walk::Target { wanted, printed, half, is_length } = *goal;
+        let is_angle = !is_length && !Angle::of(wanted).terms.is_empty() && printed.abs() > 1.0;
+        Target { wanted, printed, half, cell: None, is_angle }
+    }
 }
 
 /// A table with a column for each joint.
@@ -64,9 +62,14 @@ struct Row {
     cells: Vec<Option<(Range<usize>, f64, f64)>>,
 }
 
-/// The claims of a document's tables of configurations.
-pub(super) fn judged(text: &str, kind: TableKind, plan: &Plan, walked: &Walked) -> Vec<Claim> {
-    let mut found = vec![];
+/// The claims of a document's tables of configurations, and the rows of numbers of which nothing is said.
+pub(super) fn judged(
+    text: &str,
+    kind: TableKind,
+    plan: &Plan,
+    walked: &Walked,
+) -> (Vec<Claim>, Vec<Range<usize>>) {
+    let (mut found, mut open) = (vec![], vec![]);
     let mut all = grids(text, kind);
     let is_joint = |name: &String| {
         let subject = &*plan.subjects[0];
@@ -83,9 +86,39 @@ pub(super) fn judged(text: &str, kind: TableKind, plan: &Plan, walked: &Walked) 
     for grid in all {
         if let Some(listed) = Listed::of(text, &grid, plan, walked) {
             found.extend(listed.claims());
+            continue;
+        }
+        let side =
+            transposed(&grid).filter(|t| is_head(&t[0].iter().map(|c| c.0.clone()).collect::<Vec<_>>()));
+        if let Some(listed) = side.as_ref().and_then(|t| Listed::of(text, t, plan, walked)) {
+            found.extend(listed.claims_by_joint());
+            continue;
+        }
+        let is_limits = |c: &(String, Range<usize>)| {
+            let head = c.0.to_lowercase();
+            ["min", "max", "limit", "range", "grenz", "bereich"].iter().any(|w| head.contains(w))
+        };
+        let is_named =
+            is_head(&grid[0].iter().map(|c| c.0.clone()).collect::<Vec<String>>()) || side.is_some();
+        if is_named && !grid[0].iter().any(is_limits) {
+            let has_number = |row: &&PrintedRow| read(row).cells.iter().skip(1).any(Option::is_some);
+            open.extend(grid.iter().skip(1).filter(has_number).map(|row| read(row).span));
         }
     }
-    found
+    let is_table = |span: &Range<usize>| plan.tables.iter().any(|t| t.start < span.end && span.start < t.end);
+    open.retain(|span| !span.is_empty() && !is_table(span));
+    (found, open)
+}
+
+/// A row of a grid: cells with their places.
+type PrintedRow = Vec<(String, Range<usize>)>;
+
+/// A grid with its rows as columns; nothing where these are not of one length.
+fn transposed(grid: &PrintedGrid) -> Option<PrintedGrid> {
+    let width = grid.first()?.len();
+    let is_even =
+        (2..=MAX_ROWS).contains(&width) && grid.len() <= MAX_ROWS && grid.iter().all(|r| r.len() == width);
+    is_even.then(|| (0..width).map(|c| grid.iter().map(|row| row[c].clone()).collect()).collect())
 }
 
 impl<'a> Listed<'a> {
@@ -124,12 +157,15 @@ impl<'a> Listed<'a> {
         let before = walked.assertions.iter().rev().filter(|a| a.span.end <= start && a.subject == number);
         let stated = before.into_iter().find_map(stated);
         let lengths = || walked.stated.get(number).cloned().unwrap_or_default();
-        let (mut targets, at) = stated.unwrap_or_else(|| (vec![], lengths()));
-        targets.retain(|t: &Target| !is_open(t.wanted));
-        if targets.is_empty() {
-            targets = goal(before_of(text, start), subject, plan.habits.scaled);
-        }
-        targets.retain(|t: &Target| !is_open(t.wanted));
+        let told = walked.goals.iter().rev().filter(|g| g.end <= start && g.subject == number);
+        let told = told.map(|g| g.targets.iter().map(Target::of).collect()).next();
+        let by_words = || (goal(before_of(text, start), subject, plan.habits.scaled), lengths());
+        // What is to be reached, the likeliest first.
+        let mut tried: Vec<(Vec<Target>, Configuration)> =
+            stated.into_iter().chain(told.map(|t| (t, lengths()))).chain([by_words()]).collect();
+        tried.iter_mut().for_each(|t| t.0.retain(|t| !is_open(t.wanted)));
+        tried.retain(|t| !t.0.is_empty());
+        let (targets, at) = tried.first().cloned().unwrap_or_else(|| (vec![], lengths()));
         // What depends on a joint that the table does not give is not known.
         let columns: Vec<Column> = columns
             .into_iter()
@@ -152,7 +188,21 @@ impl<'a> Listed<'a> {
         }
         listed.settle_units(text, start);
         listed.settle_lengths();
+        for (targets, at) in tried {
+            if listed.is_any_right() {
+                break;
+            }
+            (listed.targets, listed.at) = (targets, at);
+        }
         Some(listed)
+    }
+
+    /// True if a row reaches what it should.
+    fn is_any_right(&self) -> bool {
+        self.rows.iter().any(|row| {
+            let targets = self.targets(row);
+            targets.len() > 1 && self.reaches(&targets, &self.joints(row)) == Some(true)
+        })
     }
 
     /// The units of columns without one: degrees by the words before the table, or by the size of the numbers.
@@ -188,14 +238,8 @@ impl<'a> Listed<'a> {
 
     /// Lengths in the unit of the robot's table, where no row is right in millimetres and one is then.
     fn settle_lengths(&mut self) {
-        let is_any_right = |listed: &Self| {
-            listed.rows.iter().any(|row| {
-                let targets = listed.targets(row);
-                targets.len() > 1 && listed.reaches(&targets, &listed.joints(row)) == Some(true)
-            })
-        };
         let is_length = |c: &Column| matches!(c, Column::Pose(_, Some(unit), false) if *unit < 1.0);
-        if is_any_right(self) || !self.columns.iter().any(is_length) {
+        if self.is_any_right() || !self.columns.iter().any(is_length) {
             return;
         }
         let change = |listed: &mut Self, factor: f64| {
@@ -206,7 +250,7 @@ impl<'a> Listed<'a> {
             }
         };
         change(self, 1000.0);
-        if !is_any_right(self) {
+        if !self.is_any_right() {
             change(self, 0.001);
         }
     }
@@ -277,47 +321,72 @@ impl<'a> Listed<'a> {
         Some(all)
     }
 
-    fn claims(&self) -> Vec<Claim> {
-        let standing: Vec<Option<bool>> = self
-            .rows
-            .iter()
-            .map(|row| {
-                let targets = self.targets(row);
-                if targets.len() < 2 { None } else { self.reaches(&targets, &self.joints(row)) }
-            })
-            .collect();
+    /// For each row whether it reaches what it should.
+    fn standing(&self) -> Vec<Option<bool>> {
+        let of = |row: &Row| {
+            let targets = self.targets(row);
+            if targets.len() < 2 { None } else { self.reaches(&targets, &self.joints(row)) }
+        };
+        self.rows.iter().map(of).collect()
+    }
+
+    /// The verdicts on the cells of each row, or one on the whole.
+    fn entries(&self) -> Vec<Vec<Entry>> {
+        let standing = self.standing();
+        // What a table is about is not known where no row is right.
         let is_meant = standing.contains(&Some(true));
-        let claim = |row: &Row, name: String, entries: Vec<Entry>| Claim {
-            span: row.span.clone(),
-            name,
-            about: About::Configuration,
-            entries,
-            instead: None,
-            remarks: vec![],
-            robot: self.number,
-        };
-        let whole = |span: &Range<usize>, finding: Finding| Entry {
-            place: None,
-            span: span.clone(),
-            finding,
-            identities: vec![],
-        };
-        if !is_meant {
-            // One word for the table: what it is about is not known.
-            let first = &self.rows[0];
-            let undecided = Finding::Undecided { why: Unproved::NoPose };
-            return vec![claim(first, "row 1".into(), vec![whole(&first.span, undecided)])];
-        }
         let rows = self.rows.iter().zip(standing).enumerate();
-        let judged = rows.map(|(r, (row, standing))| {
-            let entries = match standing {
-                Some(true) => self.right(r, row),
-                Some(false) => self.wrong(r, row),
-                None => vec![whole(&row.span, Finding::Undecided { why: Unproved::NoLength })],
-            };
-            claim(row, format!("row {}", r + 1), entries)
-        });
-        judged.collect()
+        let undecided = |row: &Row, why| {
+            let finding = Finding::Undecided { why };
+            vec![Entry { place: None, span: row.span.clone(), finding, identities: vec![] }]
+        };
+        rows.map(|(r, (row, standing))| match standing {
+            _ if !is_meant => undecided(row, Unproved::NoPose),
+            Some(true) => self.right(r, row),
+            Some(false) => self.wrong(r, row),
+            None => undecided(row, Unproved::NoLength),
+        })
+        .collect()
+    }
+
+    fn claim(&self, span: Range<usize>, name: String, entries: Vec<Entry>) -> Claim {
+        let (about, robot) = (About::Configuration, self.number);
+        Claim { span, name, about, entries, instead: None, remarks: vec![], robot }
+    }
+
+    fn claims(&self) -> Vec<Claim> {
+        let rows = self.rows.iter().zip(self.entries()).enumerate();
+        rows.map(|(r, (row, entries))| self.claim(row.span.clone(), format!("row {}", r + 1), entries))
+            .collect()
+    }
+
+    /// A claim for each printed row of a table that has a configuration in each column.
+    fn claims_by_joint(&self) -> Vec<Claim> {
+        let entries = self.entries();
+        let mut found = vec![];
+        for (c, column) in self.columns.iter().enumerate() {
+            if matches!(column, Column::Number | Column::Other) {
+                continue;
+            }
+            let cells = self.rows.iter().zip(&entries).filter_map(|(row, said)| {
+                let span = row.cells.get(c)?.as_ref()?.0.clone();
+                let own = said.iter().find(|e| e.span == span);
+                let whole = said.iter().find(|e| e.place.is_none());
+                let finding = match (own, whole.map(|w| &w.finding)) {
+                    (Some(own), _) => own.finding.clone(),
+                    // That something is wrong, but not where.
+                    (None, Some(Finding::Wrong(_))) => Finding::Undecided { why: Unproved::NotFound },
+                    (None, Some(finding)) => finding.clone(),
+                    (None, None) => Finding::Equal { unless_zero: vec![] },
+                };
+                Some(Entry { place: None, span, finding, identities: vec![] })
+            });
+            let cells: Vec<Entry> = cells.filter(|e| !e.span.is_empty()).collect();
+            if let (Some(first), Some(last)) = (cells.first(), cells.last()) {
+                found.push(self.claim(first.span.start..last.span.end, format!("row {c}"), cells));
+            }
+        }
+        found
     }
 
     /// A row that is right as far as its columns are known.
@@ -461,66 +530,6 @@ fn goal(text: &str, subject: &Subject, scaled: bool) -> Vec<Target> {
     let open = text.char_indices().rev().filter(|(_, c)| matches!(c, '(' | '['));
     let inner = open.map(|(at, _)| text[at + 1..].split([')', ']']).next().unwrap_or_default());
     inner.filter_map(point).next().unwrap_or_default()
-}
-
-/// A head: a joint, or an entry of the pose, with its unit.
-fn column(head: &str, subject: &Subject, names: &Vocabulary, places_first: bool) -> Column {
-    let found = column_of(head, subject, names, places_first);
-    // `x berechnet`, `y measured`.
-    match head.split_once(' ').filter(|_| matches!(found, Column::Other)) {
-        Some((name, rest)) if rest.chars().all(|c| c.is_alphabetic() || c == ' ') => {
-            column_of(name, subject, names, places_first)
-        }
-        _ => found,
-    }
-}
-
-/// A head without further words.
-fn column_of(head: &str, subject: &Subject, names: &Vocabulary, places_first: bool) -> Column {
-    let plain = plain_name(&head.replace(['$', '*'], "").replace("^\\circ", "°").replace("\\circ", "°"));
-    let cut = plain.find(['(', '[', '/', ',']).unwrap_or(plain.len());
-    let (name, unit) = plain.split_at(cut);
-    let name = name.trim_end_matches('°').replace("mathrm", "");
-    let unit = match unit.trim_matches(['(', ')', '[', ']', '/', ',', ' ']) {
-        "deg" | "°" | "degree" | "degrees" | "Grad" | "grad" => Some(1_f64.to_radians()),
-        "rad" | "m" => Some(1.0),
-        "mm" => Some(0.001),
-        "cm" => Some(0.01),
-        _ if plain[..cut].ends_with('°') => Some(1_f64.to_radians()),
-        _ => None,
-    };
-    let found = names.lookup(&name).or_else(|| names.lookup(&super::custom::plain(&name)));
-    let joint = found.and_then(|e| subject.joints().iter().position(|q| *q == e));
-    let axis = |c: &str| ["x", "y", "z"].iter().position(|a| *a == c.to_lowercase());
-    let place = name.strip_prefix('p').or(name.strip_prefix('P')).and_then(axis).or_else(|| axis(&name));
-    match (joint, place) {
-        (Some(joint), None) => Column::Joint(joint, unit),
-        (Some(joint), Some(_)) if !places_first => Column::Joint(joint, unit),
-        (_, Some(r)) => Column::Pose(subject.pose().translation.0[r], unit, false),
-        // What the document gives a formula, or what the pose is known by.
-        (None, None) => match found.filter(|e| depends(*e, subject)) {
-            Some(e) => {
-                let is_angle = Angle::of(e).terms.iter().all(|t| subject.joints().contains(&t.0));
-                Column::Pose(e, unit, is_angle)
-            }
-            None if is_number_of_row(&name) => Column::Number,
-            None => Column::Other,
-        },
-    }
-}
-
-/// True if a joint occurs.
-fn depends(e: Expr, subject: &Subject) -> bool {
-    e.symbols().iter().any(|s| subject.joints().contains(&(*s).into()))
-}
-
-/// True for the head of a column that counts rows.
-fn is_number_of_row(head: &str) -> bool {
-    const HEADS: [&str; 16] = [
-        "", "i", "j", "k", "n", "#", "no", "no.", "nr", "nr.", "case", "pose", "row", "solution", "sol",
-        "test",
-    ];
-    HEADS.contains(&head.to_lowercase().as_str())
 }
 
 /// The numbers of a row.

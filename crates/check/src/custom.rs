@@ -92,7 +92,9 @@ fn rates(subject: &Subject, plain: &str, add: &mut Add<'_>) {
     }
     let names = subject.vocabulary();
     for (v, rate) in subject.description.variables().iter().zip(subject.rates()) {
-        let number = v.symbol.name().trim_start_matches('q').to_string();
+        let counted = v.symbol.name().trim_start_matches('q').to_string();
+        // Rows that are numbered on from another table.
+        let number = counted.parse::<usize>().map_or(counted, |n| (n + subject.first).to_string());
         let mut spellings = vec![v.symbol.name().to_string()];
         let letters: &[&str] = match v.kind {
             JointKind::Revolute => &["θ", "t", "th", "theta", "q"],
@@ -242,12 +244,15 @@ fn torque_letters(text: &str) -> Vec<&'static str> {
     // M is a moment where a text says so and names a force.
     let lower = text.to_lowercase();
     let says = ["torque", "moment", "couple", "drehmoment", "coppie"].iter().any(|w| lower.contains(w));
-    let has_force = ["Fx", "Fy", "Fz", "fx", "fy", "fz"].iter().any(|f| is_mentioned(text, f));
+    let has_force = || {
+        let is_named = ["Fx", "Fy", "Fz", "fx", "fy", "fz"].iter().any(|f| is_mentioned(text, f));
+        is_named || load_given(text).is_some()
+    };
     let is_told = |k: usize| {
         let name = format!("M{k}");
         is_mentioned(text, &name) && ["=", "&="].iter().any(|e| all.contains(&format!("{name}{e}")))
     };
-    if found.is_empty() && says && has_force && (1..=6).filter(|k| is_told(*k)).count() > 0 {
+    if found.is_empty() && says && has_force() && (1..=6).filter(|k| is_told(*k)).count() > 0 {
         found.push("M");
     }
     found

@@ -71,6 +71,8 @@ pub(super) fn parallel_sum(subject: &Subject) -> Option<Expr> {
         let (mut sum, mut count) = (joints[start], 1);
         for k in start + 1..joints.len() {
             sum = match () {
+                // A slide between them turns nothing.
+                () if variables.get(k).is_some_and(|v| v.kind == JointKind::Prismatic) => continue,
                 () if axes[k].as_ref() == Some(first) => sum + joints[k],
                 () if opposite[k].as_ref() == Some(first) => sum - joints[k],
                 () => break,
@@ -125,7 +127,8 @@ pub(super) fn direction(
 }
 
 /// Names that programs give the direction of the hand.
-pub(super) const DIRECTIONS: [&str; 6] = ["phi", "pitch", "gamma", "zeta", "psi", "beta"];
+pub(super) const DIRECTIONS: [&str; 9] =
+    ["phi", "pitch", "gamma", "zeta", "psi", "beta", "gam", "orient", "heading"];
 
 /// Names that a robot gives their meaning; those of the direction of the hand, if its arm is planar.
 pub(super) struct Known {
@@ -146,6 +149,6 @@ impl Known {
     }
 
     pub fn has(&self, name: &str) -> bool {
-        self.names.lookup(name).is_some() || self.is_planar && DIRECTIONS.contains(&name)
+        self.names.lookup(name).is_some() || self.is_planar && name == "phi"
     }
 }

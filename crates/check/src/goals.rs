@@ -84,6 +84,8 @@ struct Search<'a> {
     subject: &'a Subject,
     group: &'a [Answered],
     is_angle: Vec<bool>,
+    /// The joints on which the pose depends, as far as it is given.
+    moving: Vec<usize>,
     size: f64,
 }
 
@@ -93,10 +95,18 @@ impl<'a> Search<'a> {
         let kinds = subject.description.variables();
         let is_angle: Vec<bool> = kinds.iter().map(|v| v.kind == JointKind::Revolute).collect();
         let targets = &group.first()?.targets;
-        let search = Search { subject, group, is_angle, size: 1.0 };
+        let joints = subject.joints();
+        let depends = |e: Expr, k: usize| e.symbols().iter().any(|s| joints[k] == (*s).into());
+        let moving: Vec<usize> =
+            (0..joints.len()).filter(|&k| targets.iter().any(|t| depends(t.wanted, k))).collect();
+        let asked = |k: &usize| moving.contains(k) || !group.iter().any(|a| depends(a.of, *k));
+        if !(0..joints.len()).all(|k| asked(&k)) {
+            return None;
+        }
+        let search = Search { subject, group, is_angle, moving, size: 1.0 };
         let is_known =
             targets.iter().all(|t| search.value(t.wanted, &vec![0.1; search.is_angle.len()]).is_some());
-        if targets.len() < search.is_angle.len() || !is_known {
+        if targets.len() < search.moving.len() || search.moving.is_empty() || !is_known {
             return None;
         }
         let lengths = targets.iter().filter(|t| t.is_length).map(|t| t.printed.abs());
@@ -204,11 +214,11 @@ impl<'a> Search<'a> {
 
     /// True where the pose determines the joints.
     fn is_isolated(&self, q: &[f64]) -> bool {
-        let n = q.len();
+        let n = self.moving.len();
         let Some(r) = self.residuals(&[], q) else { return false };
         let mut normal = vec![vec![0.0; n]; n];
         let mut columns = vec![];
-        for k in 0..n {
+        for &k in &self.moving {
             let step = 1e-6 * if self.is_angle[k] { 1.0 } else { self.size };
             let mut there = q.to_vec();
             there[k] += step;

@@ -20,6 +20,7 @@ mod facts;
 mod formula;
 mod goals;
 mod habits;
+mod heads;
 pub mod inverse;
 mod jacobians;
 mod judge;
@@ -115,6 +116,10 @@ pub fn check(
     let text = respelled.as_deref().unwrap_or(text);
     let respelled = options.language.is_none().then(|| numbers::words_as_signs(text)).flatten();
     let text = respelled.as_deref().unwrap_or(text);
+    let respelled = options.language.is_none().then(|| numbers::commas_in_calls(text)).flatten();
+    let text = respelled.as_deref().unwrap_or(text);
+    let respelled = options.language.is_none().then(|| numbers::names_behind(text)).flatten();
+    let text = respelled.as_deref().unwrap_or(text);
     let respelled = options.language.is_none().then(|| displayed::bracketed(text)).flatten();
     let text = respelled.as_deref().unwrap_or(text);
     let mut document = match options.language {
@@ -199,12 +204,13 @@ pub fn check(
         claims.extend(table.claims);
     }
     claims.extend(goals::judged(text, &plan, &walked));
-    claims.extend(configurations::judged(text, plan::kind_of_tables(format), &plan, &walked));
+    let (listed, open_rows) = configurations::judged(text, plan::kind_of_tables(format), &plan, &walked);
+    claims.extend(listed);
     causes.retain(|c| {
         let finding = |at: &(usize, usize)| Some(claims.get(at.0)?.entries.get(at.1)?.finding.standing());
         c.turns_right.iter().any(|at| matches!(finding(at), Some(Standing::Wrong | Standing::Carried)))
     });
-    let unjudged = unjudged::listed(text, &document, &walked, &mut claims, options);
+    let unjudged = unjudged::listed(text, &document, &walked, &open_rows, &mut claims, options);
     let mut checked = Checked {
         claims,
         causes,

@@ -328,6 +328,56 @@ pub(super) fn words_as_signs(text: &str) -> Option<String> {
     String::from_utf8(bytes).ok()
 }
 
+/// A text with commas for the semicolons between the arguments of `atan2(y; x)`, byte for byte; nothing for other texts.
+pub(super) fn commas_in_calls(text: &str) -> Option<String> {
+    const LONGEST: usize = 400;
+    let mut bytes = text.as_bytes().to_vec();
+    let mut is_any = false;
+    let mut until = 0;
+    for (at, name) in ["tan2", "TAN2"].iter().flat_map(|n| text.match_indices(n)) {
+        let rest = &text[at + name.len()..];
+        let inside =
+            rest.trim_start_matches(|c: char| matches!(c, ' ' | '}') || c.is_ascii_alphabetic() || c == '\\');
+        let Some(arguments) = inside.strip_prefix('(').filter(|_| at >= until || at + LONGEST < until) else {
+            continue;
+        };
+        let start = text.len() - arguments.len();
+        let mut depth = 0_usize;
+        until = start + LONGEST;
+        for (i, c) in arguments.char_indices().take(LONGEST) {
+            match c {
+                '(' | '[' => depth += 1,
+                ')' | ']' if depth > 0 => depth -= 1,
+                ')' | ']' | '\n' => {
+                    until = start + i;
+                    break;
+                }
+                ';' if depth == 0 => {
+                    bytes[start + i] = b',';
+                    is_any = true;
+                }
+                _ => {}
+            }
+        }
+    }
+    if is_any { String::from_utf8(bytes).ok() } else { None }
+}
+
+/// A text with `= D` for `=: D`, byte for byte; nothing for other texts.
+pub(super) fn names_behind(text: &str) -> Option<String> {
+    let mut bytes = text.as_bytes().to_vec();
+    let mut is_any = false;
+    for (at, _) in text.match_indices("=:") {
+        let rest = text[at + 2..].trim_start_matches([' ', '~']);
+        let is_name = rest.starts_with(|c: char| c.is_alphabetic() || c == '\\');
+        if is_name && !text[..at].ends_with([':', '=']) {
+            bytes[at + 1] = b' ';
+            is_any = true;
+        }
+    }
+    if is_any { String::from_utf8(bytes).ok() } else { None }
+}
+
 /// A text with `{,}` between digits as a point, byte for byte.
 fn without_braces(text: &str) -> String {
     let mut bytes = text.as_bytes().to_vec();
@@ -358,7 +408,7 @@ pub(super) fn unit_behind(text: &str) -> Option<(&str, Expr, u32)> {
 fn simple_unit_behind(text: &str) -> Option<(&str, Expr, u32)> {
     let degree = Expr::pi() / Expr::int(180);
     let part = |n: i64| Expr::int(1) / Expr::int(n);
-    let units: [(&str, Expr); 33] = [
+    let units: [(&str, Expr); 35] = [
         ("rad/s", Expr::int(1)),
         ("deg/s", degree),
         ("°/s", degree),
@@ -382,6 +432,8 @@ fn simple_unit_behind(text: &str) -> Option<(&str, Expr, u32)> {
         ("rad", Expr::int(1)),
         ("grad", degree),
         ("grados", degree),
+        ("gradi", degree),
+        ("graus", degree),
         ("degrees", degree),
         ("degree", degree),
         ("degrés", degree),

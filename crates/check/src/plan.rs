@@ -12,7 +12,7 @@ use super::order;
 use super::programs::{self, Followed, Source};
 use super::subject::Subject;
 use super::tables::OwnTable;
-use super::walk::{Answered, Assertion, Defined, Walk, points};
+use super::walk::{Answered, Assertion, Defined, Goal, Walk, points};
 use denavit::catalogue;
 use denavit::description::table::{PrintedTable, tables};
 use denavit::description::{
@@ -58,6 +58,8 @@ pub(super) struct Walked {
     pub taken: Vec<Range<usize>>,
     /// Numbers that joints are said to have where a pose is given.
     pub answered: Vec<Answered>,
+    /// The poses that are to be reached.
+    pub goals: Vec<Goal>,
     /// What the document tells not to judge.
     pub ignored: Vec<Range<usize>>,
     /// Names that the document gives matrices: the statement and the name as printed.
@@ -456,6 +458,7 @@ impl Plan {
             skipped: walk.skipped,
             taken: walk.taken,
             answered: walk.answered,
+            goals: walk.goals,
             ignored,
             named: walk.named,
             defined: walk.defined,

@@ -246,12 +246,33 @@ impl Subject {
         of_frames(&frames, &hand.unwrap_or_else(Transform::identity), &is_revolute)
     }
 
+    /// True if the table calls its joints q0, q1, …: the first has the number 0.
+    fn counts_from_zero(&self) -> bool {
+        let number = |name: &str| -> Option<usize> {
+            let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
+            name[stem.len()..].parse().ok().filter(|_| !stem.is_empty())
+        };
+        self.variables.len() > 1
+            && self.first == 0
+            && (0..).zip(&self.variables).all(|(k, v)| v.as_deref().and_then(number) == Some(k))
+    }
+
     /// The names of the robot's quantities: parameters, joint variables, the table's own names for them, cells of
     /// the table (`d_3`), sums of angles (`θ_{234}`), the letters of a general row (`θ_j`).
     pub fn vocabulary(&self) -> Vocabulary {
         let d = &self.description;
-        let mut names = d.vocabulary();
         let variables = d.variables();
+        let counts_from_zero = self.counts_from_zero();
+        let mut names = match counts_from_zero {
+            false => d.vocabulary(),
+            true => {
+                let names = d.parameters.iter().fold(Vocabulary::new(), |v, p| v.symbol(&p.symbol.name()));
+                (0..).zip(&variables).fold(names, |v, (n, variable)| match variable.kind {
+                    JointKind::Revolute => v.angle(n, variable.symbol),
+                    JointKind::Prismatic => v.sliding(n, variable.symbol),
+                })
+            }
+        };
         let declare = |names: Vocabulary, name: &str, meaning: Expr| match names.lookup(name) {
             None => names.alias(name, meaning),
             Some(_) => names,
@@ -286,9 +307,13 @@ impl Subject {
                 Some(v) if v.kind == JointKind::Revolute => v.symbol.into(),
                 _ => row.theta,
             };
+            if counts_from_zero {
+                continue;
+            }
             names = declare(names, &format!("θ{i}"), theta);
         }
-        let angles: Vec<(usize, Symbol)> = (self.first + 1..)
+        let begin = if counts_from_zero { 0 } else { self.first + 1 };
+        let angles: Vec<(usize, Symbol)> = (begin..)
             .zip(&variables)
             .filter(|(i, v)| *i <= 9 && v.kind == JointKind::Revolute)
             .map(|(i, v)| (i, v.symbol))
@@ -330,9 +355,33 @@ impl Subject {
         }
     }
 
+    /// `{}^iω_j` and `{}^iv_j`: how frame j moves, along the axes of frame i.
+    fn velocity_named(&self, name: &Name) -> Option<(Matrix, Meaning)> {
+        let is_angular = match name.base.as_str() {
+            "ω" | "Ω" => true,
+            "v" | "V" => false,
+            _ => return None,
+        };
+        if !name.sup.is_empty() || !name.arguments.is_empty() {
+            return None;
+        }
+        let place = |s: &str| s.parse::<usize>().ok()?.checked_sub(self.first).filter(|k| *k <= self.last());
+        let [of, along] = [place(&name.sub)?, place(&name.left)?].map(Reference::Frame);
+        let rates = self.rates();
+        let first = if is_angular { 3 } else { 0 };
+        let rows = self.geometric_rows(of, along);
+        let sum =
+            |row: &Vec<Expr>| row.iter().zip(&rates).fold(Expr::int(0), |sum, (&e, &rate)| sum + e * rate);
+        let entries = rows.get(first..first + 3)?.iter().map(|row| vec![Some(sum(row))]).collect();
+        Some((Matrix(entries), Meaning::Velocity { of, along, is_angular }))
+    }
+
     /// What a matrix's name means, and what that is.
     /// Frames named by letters, `{}^iT_j`, are somewhere if `anywhere`, and have no meaning otherwise.
     pub fn meaning(&self, name: &Name, anywhere: bool, habits: &Habits) -> Option<(Matrix, Meaning)> {
+        if let Some(found) = self.velocity_named(name) {
+            return Some(found);
+        }
         let (from, to) = frames(name, habits)?;
         let is_lone = name.left.is_empty() && name.sup.is_empty() && pair(&name.sub).is_none();
         let is_seen = habits.hand_in_frames && is_lone && matches!(name.base.as_str(), "P" | "p");

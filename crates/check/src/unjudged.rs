@@ -25,6 +25,7 @@ pub(super) fn listed(
     text: &str,
     document: &Document,
     walked: &Walked,
+    rows: &[Range<usize>],
     claims: &mut Vec<Claim>,
     options: &CheckOptions,
 ) -> Vec<Unjudged> {
@@ -47,6 +48,9 @@ pub(super) fn listed(
         if !touches(&covered, span) && !touches(&walked.taken, span) {
             found.push(Unjudged { span: span.clone(), why: Skipped::Unused(name.clone()) });
         }
+    }
+    for row in rows.iter().filter(|row| !touches(&covered, row)) {
+        found.push(Unjudged { span: row.clone(), why: Skipped::SaysNothing });
     }
     for error in &walked.refused {
         if !touches(&judged, &error.span) {

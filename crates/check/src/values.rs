@@ -1,12 +1,12 @@
 //! Printed values of joint variables and of orientation angles: from statements to the judges, and from their answers to
 //! verdicts.
 
-use super::edits::{Kind, edited, edits, lengths};
+use super::edits::{Edit, Kind, edited, edits, lengths};
 use super::facts::SlipKind;
 use super::facts::{Condition, Remark, Unproved, Zeros};
 use super::formula::Formula;
 use super::habits::{Columns, Habits, Places, pose_symbol};
-use super::inverse::{Composed, Fault, Inverse, Judgement, Values, Verdict, Where, orientation};
+use super::inverse::{Composed, Fault, Inverse, Judgement, Undecided, Values, Verdict, Where, orientation};
 use super::lexis::read;
 use super::outcome::{Claim, Counterexample, Entry, Finding, Patch, Slip, Standing, Wrong};
 use super::plan::{Plan, Walked};
@@ -132,6 +132,15 @@ impl Judge<'_> {
             let place =
                 sides.first().map_or(assertion.span.clone(), |s| s.0.start..sides[sides.len() - 1].0.end);
             let mut finding = self.finding(&judgement, sides);
+            // A formula of what itself depends on the joint, as of a point of the arm: it is asked of its own value.
+            if judgement.verdict == Verdict::Undecided(Undecided::Circular)
+                && self.trial.shares(own, &values.branches.concat())[0] >= LEAST_SHARE
+            {
+                let (condition, remarks) = (Condition::Configurations(vec![]), vec![Remark::Sampled]);
+                finding = Finding::Conditional { condition, correct: vec![], remarks };
+            } else if judgement.verdict == Verdict::Undecided(Undecided::Circular) {
+                finding = self.never_own(own, values, sides).unwrap_or(finding);
+            }
             let identities = judgement.identities.clone();
             if let (Standing::Wrong, [(span, syntax)]) = (finding.standing(), &sides[..])
                 && let Finding::Wrong(wrong) = &mut finding
@@ -155,6 +164,27 @@ impl Judge<'_> {
         {
             notes.push((span, composed));
         }
+    }
+
+    /// A formula that gives another value than the joint's own wherever it gives one, and one change from which it gives that.
+    fn never_own(&self, of: Expr, values: &Values, sides: &[(Range<usize>, Syntax)]) -> Option<Finding> {
+        let [(span, syntax)] = sides else { return None };
+        let [own, any] = self.trial.shares(of, &values.branches.concat());
+        if own > 0.0 || any < 0.9 {
+            return None;
+        }
+        let source = self.text.get(span.clone())?;
+        let found = edits(source, syntax, &lengths(source, &self.subject.description)).into_iter().find_map(
+            |edit| {
+                let formula = edited(source, &edit)?;
+                let changed = self.habits.ordered(read(&formula, &(0..formula.len()), self.names).ok()?);
+                let branches: Vec<Expr> = changed.variants().iter().map(Syntax::value).collect();
+                (self.trial.shares(of, &branches)[0] >= 2.0 * LEAST_SHARE)
+                    .then(|| slip_of(edit, formula, span.start))
+            },
+        )?;
+        let (correct, remarks) = (vec![found.formula.clone()], vec![Remark::Sampled]);
+        Some(Finding::Wrong(Box::new(Wrong { correct, slip: Some(found), remarks, ..Wrong::default() })))
     }
 
     fn shown(&self, e: Expr) -> Option<Formula> {
@@ -202,15 +232,7 @@ impl Judge<'_> {
             if matches!(inverse.values(&values, known).verdict, Verdict::Wrong | Verdict::Undecided(_)) {
                 continue;
             }
-            let moved = |p: &Patch| Patch {
-                span: p.span.start + span.start..p.span.end + span.start,
-                now: p.now.clone(),
-            };
-            let kind = match edit.kind {
-                Kind::Arguments => SlipKind::Arguments,
-                Kind::Slip(slip) => SlipKind::Formula(slip),
-            };
-            return Some(Slip { kind, patches: edit.patches.iter().map(moved).collect(), formula });
+            return Some(slip_of(edit, formula, span.start));
         }
         None
     }
@@ -308,6 +330,16 @@ impl Judge<'_> {
         let at = variables.iter().zip(&c.q).map(|(v, &x)| (v.symbol.name().to_string(), x)).collect();
         Some(Counterexample { at, printed: *c.printed.first()?.first()?, right: *c.right.first()?.first()? })
     }
+}
+
+/// A change of a formula that begins at a place of the text.
+fn slip_of(edit: Edit, formula: String, start: usize) -> Slip {
+    let moved = |p: &Patch| Patch { span: p.span.start + start..p.span.end + start, now: p.now.clone() };
+    let kind = match edit.kind {
+        Kind::Arguments => SlipKind::Arguments,
+        Kind::Slip(slip) => SlipKind::Formula(slip),
+    };
+    Slip { kind, patches: edit.patches.iter().map(moved).collect(), formula }
 }
 
 /// What each formula needs of the joints, directly and through the formulas for those.

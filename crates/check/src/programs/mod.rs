@@ -1,6 +1,7 @@
 //! What straight-line code computes, as claims about the robot: matrices and scalars whose names say what they are, and
 //! what a function returns.
 
+mod called;
 mod defined;
 mod followed;
 mod posed;
@@ -8,8 +9,10 @@ mod rows;
 mod shown;
 mod stated;
 
+use super::custom;
+use super::directions::sum_in_pose;
 use super::facts::{About, Meaning};
-use super::habits::Habits;
+use super::habits::{Habits, Places};
 use super::jacobians::{Part, Told};
 use super::lexis::Lexis;
 use super::lines::lines;
@@ -19,6 +22,7 @@ use super::numbers::{Answer, Configuration, half_unit};
 use super::recognised;
 use super::subject::Subject;
 use super::walk::{Assertion, Defined, Pair, Piece, Walk, is_measured};
+use called::{axis_of, is_of_part};
 use defined::{defined, unsaid};
 use denavit::forward::Reference;
 use denavit_reading::code::{Asked, Assigned, Cell, Code, Dialect, Reading, Value, read_blocks};
@@ -85,8 +89,15 @@ pub(super) fn assertions(of: &Source<'_>, subject: &Rc<Subject>, habits: &Rc<Hab
         let own = name.split_once('_').map(|n| n.1).filter(|n| n.len() > 1)?;
         lexis.names.lookup(own).filter(|e| subject.joints().contains(e))
     };
-    let meaning =
-        |name: &str| lexis.names.lookup(name).filter(|_| !lexis.is_by_custom(name)).or_else(|| member(name));
+    // The components of a load are known by custom alone.
+    let load = |name: &str, e: &Expr| {
+        let is_component = name.len() == 2 && name.starts_with(['F', 'f']) && name.ends_with(['x', 'y', 'z']);
+        is_component && e.as_symbol().is_some_and(|s| *s.name() == *name)
+    };
+    let meaning = |name: &str| {
+        let found = lexis.names.lookup(name).filter(|e| !lexis.is_by_custom(name) || load(name, e));
+        found.or_else(|| member(name))
+    };
     let all: String = blocks.iter().filter_map(|b| source.get(b.clone())).collect();
     let stated = Stated::of(&all, subject);
     let joint = |name: &str| {
@@ -236,7 +247,16 @@ impl Program<'_> {
                 found.push(self.assertion(&a.name, About::Equation, &a.span, pieces, None));
             }
         }
+        let places = Places(self.lexis.habits.columns);
         for (i, a) in function.assigned.iter().enumerate() {
+            // A sum of joints that is an angle of the hand is what it is.
+            if let Value::Scalar(cell) = &a.value
+                && sum_in_pose(self.subject, &places, cell.value).is_some()
+            {
+                let pieces = vec![self.piece(None, cell, cell.value)];
+                found.push(self.assertion(&a.name, About::Equation, &a.span, pieces, None));
+                continue;
+            }
             let is_last = !function.assigned[i + 1..].iter().any(|b| b.name == a.name);
             // What is returned under that name is judged there.
             let is_returned = function.returned.iter().any(|r| r.name.as_deref() == Some(a.name.as_str()));
@@ -326,6 +346,14 @@ impl Program<'_> {
         match value {
             // A name for another one says nothing.
             Value::Scalar(cell) if cell.value.as_symbol().is_some() => {
+                // The force of a slide may be a component of the load.
+                let told = self.lexis.names.lookup(&custom::plain(name)).filter(|e| *e == cell.value);
+                if let Some(wanted) =
+                    told.filter(|_| custom::plain(name) != custom::plain(&self.written(cell)))
+                {
+                    let pieces = vec![self.piece(None, cell, wanted)];
+                    return Some(self.assertion(shown, About::Entry, span, pieces, None));
+                }
                 let axis = ["x", "y", "z"].iter().position(|a| *a == name.to_lowercase())?;
                 let wanted = self.subject.pose().translation.0[axis];
                 let pieces = vec![self.piece(None, cell, wanted)];
@@ -338,7 +366,12 @@ impl Program<'_> {
                     .filter(|_| shown.ends_with("(…)") || self.lexis.names.lookup(name).is_none());
                 let wanted = match axis.or(told).filter(|_| self.lexis.names.lookup(name).is_none()) {
                     Some(r) => self.subject.pose().translation.0[r],
-                    None => self.lexis.names.lookup(name).filter(|_| self.lexis.is_right(name))?,
+                    None => {
+                        let plain = custom::plain(name);
+                        let own = self.lexis.names.lookup(name).filter(|_| self.lexis.is_right(name));
+                        let is_torque = plain.starts_with('τ') && self.lexis.is_right(&plain);
+                        own.or_else(|| self.lexis.names.lookup(&plain).filter(|_| is_torque))?
+                    }
                 };
                 let pieces = vec![self.piece(None, cell, wanted)];
                 Some(self.assertion(shown, About::Entry, span, pieces, None))
@@ -353,6 +386,11 @@ impl Program<'_> {
                 Some(self.assertion(shown, About::Matrix(about?), span, pieces, Some(matrix)))
             }
         }
+    }
+
+    /// A cell as it is written.
+    fn written(&self, cell: &Cell) -> String {
+        self.text.get(cell.span.clone()).unwrap_or_default().trim().to_string()
     }
 
     /// What a function gives back without a telling name: by its shape the hand's pose, rotation, position or Jacobian.
@@ -540,41 +578,4 @@ impl Program<'_> {
             spoken: None,
         }
     }
-}
-
-/// The coordinate of the hand that a function is called after: `fk_x`, `get_y`, `px`.
-fn axis_of(name: &str) -> Option<usize> {
-    let lower = name.to_lowercase();
-    let (rest, last) = lower.split_at(lower.len() - lower.chars().next_back()?.len_utf8());
-    let axis = ["x", "y", "z"].iter().position(|a| *a == last)?;
-    let of_hand =
-        ["fk", "get", "p", "pos", "forward", "fwd", "tcp", "ee", "hand", "tip", "end", "calc", "compute", ""];
-    let words: Vec<&str> = rest.split('_').filter(|w| !w.is_empty()).collect();
-    words.iter().all(|w| of_hand.contains(w)).then_some(axis)
-}
-
-/// True for a function whose name says that it is about a part of the arm, not about the hand.
-fn is_of_part(function: &Reading) -> bool {
-    const PARTS: [&str; 18] = [
-        "wrist",
-        "elbow",
-        "shoulder",
-        "knee",
-        "ankle",
-        "hip",
-        "axis",
-        "axes",
-        "center",
-        "centre",
-        "poignet",
-        "coude",
-        "epaule",
-        "handgelenk",
-        "ellbogen",
-        "schulter",
-        "muneca",
-        "codo",
-    ];
-    let name = function.name.to_lowercase();
-    PARTS.iter().any(|part| name.contains(part))
 }

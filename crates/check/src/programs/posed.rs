@@ -48,7 +48,11 @@ pub(super) fn solutions(of: &Source<'_>, telling: &Telling<'_>, asked: &Asked<'_
         // A number that the table has stays what the program says.
         found.as_symbol().filter(|s| d.parameter(*s).is_some() && d.exact_value(*s).is_none()).map(Expr::from)
     };
-    let given = |name: &str| given(name, lexis, &places, pitch).or_else(|| Some(vec![vec![length(name)?]]));
+    // `H` is a pose, unless it is a length of the table.
+    let own = |name: &str| lexis.names.lookup(name).and_then(|_| length(name)).map(|e| vec![vec![e]]);
+    let given = |name: &str| {
+        own(name).or_else(|| given(name, lexis, &places, pitch)).or_else(|| Some(vec![vec![length(name)?]]))
+    };
     let in_degrees = blocks.iter().any(|b| {
         let source = text.get(b.clone()).unwrap_or_default();
         ["atan2d(", "acosd(", "asind(", "cosd("].iter().any(|f| source.contains(f))

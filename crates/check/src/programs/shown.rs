@@ -186,8 +186,14 @@ impl Showing<'_> {
             if !line.trim_start().starts_with(comment) {
                 break;
             }
+            let own = at..at + line.trim_end().len();
             at += line.len();
             regions.push(below..at.min(text.len()));
+            // `# y = 0.42` among the comments of several names.
+            let named = line.trim_start().trim_start_matches(comment).split_once('=');
+            if named.is_some_and(|(name, _)| name.trim() == item.name) {
+                regions.insert(0, own);
+            }
         }
         for region in regions {
             if let Some(shown) = self.values(&region, count, item, Some(comment)) {

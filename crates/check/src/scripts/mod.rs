@@ -38,6 +38,9 @@ const KNOWN: [&str; 30] = [
     "hypot", "sind", "cosd", "tand", "atan2d", "acosd", "asind", "atand", "deg2rad", "radians", "pow",
     "sqrtf", "atan2f", "acosf", "sinf", "cosf", "abs", "if",
 ];
+/// Parts of the names of parameters that are 1 or −1.
+const SIGNS: [&str; 10] =
+    ["sign", "sgn", "elbow", "flip", "sigma", "branch", "ellbogen", "coude", "codo", "gomito"];
 /// The most statements of a line.
 const MAX_BESIDE: usize = 12;
 /// The longest line.
@@ -84,6 +87,7 @@ pub(super) fn inverse(
         // Numbers that the program gives names beside the functions.
         let own: Vec<String> =
             all.iter().take(1).flat_map(|r| &r.lines).flat_map(|l| &l.parts).map(|p| p.0.clone()).collect();
+        let functions: Vec<Range<usize>> = all.iter().filter_map(|r| r.function.clone()).collect();
         for region in all {
             let solves = |line: &Line| {
                 let has = |part: &(String, Range<usize>)| {
@@ -94,8 +98,17 @@ pub(super) fn inverse(
             };
             let whole = region.function.clone().unwrap_or(span.clone());
             if !region.lines.iter().any(solves) {
-                let source = &text[whole.clone()];
-                if INVERSE.iter().any(|f| source.contains(f)) {
+                let tells = |source: &str| INVERSE.iter().any(|f| source.contains(f));
+                // Functions are regions of their own.
+                let is_inverse = match &region.function {
+                    Some(function) => tells(&text[function.clone()]),
+                    None => {
+                        let starts = functions.iter().map(|f| f.start).chain([span.end]);
+                        let ends = std::iter::once(span.start).chain(functions.iter().map(|f| f.end));
+                        ends.zip(starts).any(|(a, b)| a < b && tells(&text[a..b]))
+                    }
+                };
+                if is_inverse {
                     is_any = true;
                     posed.push(whole);
                 }
@@ -203,7 +216,7 @@ fn regions(text: &str, span: &Range<usize>, language: Dialect) -> Vec<Region> {
         vec![Region { function: None, parameters: vec![], signs: vec![], lines: vec![], renamed: vec![] }];
     // The function that is open, and how far it is set in.
     let mut open: Option<(usize, usize)> = None;
-    let (mut is_quoted, mut is_other, mut braces) = (false, false, 0_i32);
+    let (mut is_quoted, mut is_other, mut braces, mut was_open) = (false, false, 0_i32, false);
     let mut at = span.start;
     while at < span.end {
         let (line, next) = logical(text, at, span.end, language);
@@ -220,7 +233,7 @@ fn regions(text: &str, span: &Range<usize>, language: Dialect) -> Vec<Region> {
         if let Some((_, depth)) = open
             && (language == Dialect::Python && indent <= depth
                 || language == Dialect::Matlab && trimmed.starts_with("function")
-                || language == Dialect::C && braces <= 0)
+                || language == Dialect::C && braces <= 0 && was_open)
         {
             open = None;
         }
@@ -228,13 +241,15 @@ fn regions(text: &str, span: &Range<usize>, language: Dialect) -> Vec<Region> {
         if let Some((parameters, signs)) =
             head(trimmed, language).filter(|_| open.is_none() || language != Dialect::C)
         {
-            braces = opened;
+            (braces, was_open) = (opened, source.contains('{'));
             let function = Some(line.start..line.end);
             found.push(Region { function, parameters, signs, lines: vec![], renamed: vec![] });
             open = Some((found.len() - 1, indent));
             continue;
         }
         braces += opened;
+        // The bracket may stand on a line of its own.
+        was_open |= source.contains('{');
         let region = &mut found[open.map_or(0, |o| o.0)];
         if let Some(function) = &mut region.function {
             function.end = line.end;
@@ -304,7 +319,9 @@ fn head(line: &str, language: Dialect) -> Option<(Vec<String>, Vec<String>)> {
             _ => Some(name),
         };
         let name = name.unwrap_or_default().to_string();
-        if matches!(default.trim(), "1" | "-1" | "+1" | "1.0" | "-1.0") {
+        let lower = name.to_lowercase();
+        let is_called = || SIGNS.iter().any(|s| lower.contains(s)) && default.trim().is_empty();
+        if matches!(default.trim(), "1" | "-1" | "+1" | "1.0" | "-1.0") || is_called() {
             signs.push(name.clone());
         }
         parameters.push(name);

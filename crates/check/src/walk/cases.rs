@@ -179,6 +179,30 @@ impl Walk<'_> {
             && !self.speaks_of_pose(value)
     }
 
+    /// True for a rate in the rates of other joints, `\\dot q_3 = w c_5 \\dot q_5`: it says how to move.
+    pub(super) fn is_told_of_rates(&self, read: &[Scalar]) -> bool {
+        let [Scalar::Formula(_, left), Scalar::Formula(_, right)] = read else { return false };
+        let rates = self.subject.rates();
+        let is_rate = |e: &Expr| rates.contains(e);
+        let mut only = true;
+        let mut any = false;
+        let mut next = vec![right];
+        while let Some(syntax) = next.pop() {
+            if let SyntaxKind::Name(e) = syntax.kind {
+                let has = e.symbols().iter().any(|s| is_rate(&(*s).into()));
+                any |= has;
+                only &= !has || is_rate(&e);
+            }
+            next.extend(syntax.children());
+        }
+        matches!(left.kind, SyntaxKind::Name(_))
+            && is_rate(&left.value())
+            && any
+            && only
+            && self.velocity_given().is_none()
+            && !denavit_symbolic::equal(left.value(), right.value()).is_equal()
+    }
+
     /// True for an equation to be solved: `det J = 0`, `s_5 = 0` in a sentence, `s_5 = 0` without the pose anywhere.
     pub(super) fn is_condition(&self, statement: &Statement, read: &[Scalar]) -> bool {
         let [Scalar::Formula(span, left), Scalar::Formula(_, right)] = read else { return false };
@@ -187,8 +211,11 @@ impl Walk<'_> {
         }
         let is_constant = right.value().symbols().is_empty() && !is_measured(right.value());
         let is_entry = self.is_right_name(span) && self.lexis.lone_name(self.text, span).is_some();
+        // At a known configuration it is a number like others.
+        let is_number = is_entry && self.at.knows(left.value(), &self.subject);
         statement.place == Place::Inline
             && is_constant
+            && !is_number
             && !left.value().symbols().is_empty()
             && (!is_entry || !denavit_symbolic::equal(left.value(), right.value()).is_equal())
     }
@@ -227,7 +254,15 @@ fn is_half_turn(turn: Expr) -> bool {
 
 /// True if a heading, in small letters, is one above inverse kinematics.
 pub(super) fn tells_inverse(heading: &str) -> bool {
-    const WORDS: [&str; 12] = [
+    const WORDS: [&str; 20] = [
+        "reaching",
+        "given point",
+        "erreich",
+        "rückrechnung",
+        "alcanzar",
+        "atteindre",
+        "raggiung",
+        "to joint angles",
         "inverse",
         "inversa",
         "inverso",

@@ -5,6 +5,7 @@ use super::{Assertion, Cell, Pair, Piece, Reference, Walk};
 use crate::facts::{Meaning, Remark, ShortRow};
 use crate::jacobians::{frames_told, told_of_jacobian};
 use crate::matrix::Matrix;
+use crate::names::Name;
 use crate::note::{Unread, Unreadable};
 use crate::numbers::{Answer, half_unit, judge};
 use crate::outcome::Finding;
@@ -109,6 +110,9 @@ impl Walk<'_> {
             [] => return None,
         };
         let printed = self.printed(grid)?;
+        if let Some(found) = name.as_ref().and_then(|name| self.screw_named(name, &printed)) {
+            return Some(found);
+        }
         let is_number = |e: &Option<Expr>| e.is_some_and(|e| e.symbols().is_empty());
         if printed.0.iter().flatten().all(is_number) {
             let (matrix, about) = self.recognised_number(grid, &printed)?;
@@ -131,6 +135,20 @@ impl Walk<'_> {
         let is_place = is_place || is_velocity;
         let is_certain = is_whole && (telling >= 2 || telling == 1 && (is_place || !is_vector));
         (is_certain || is_near).then_some(Reference { matrix, about: Some(about) })
+    }
+
+    /// The screw of a joint at rest, `ξ_1 = (0, 0, 0, 0, 0, 1)`, where it is that.
+    fn screw_named(&self, name: &Name, printed: &Matrix) -> Option<Reference> {
+        let is_screw = matches!(name.base.as_str(), "ξ" | "Ξ" | "S" | "$") && name.left.is_empty();
+        let shape = printed.shape().filter(|s| is_screw && matches!(s, (6, 1) | (1, 6)))?;
+        let number: usize = name.sub.parse().ok()?;
+        let is_same = |(m, about): &(Matrix, Meaning)| {
+            let pairs = || m.0.iter().flatten().zip(printed.0.iter().flatten());
+            matches!(about, Meaning::Screw { joint, .. } if *joint == number)
+                && pairs().all(|(a, b)| matches!((a, b), (Some(a), Some(b)) if equal(*a, *b).is_equal()))
+        };
+        let (matrix, about) = candidates(&self.subject, shape).into_iter().find(is_same)?;
+        Some(Reference { matrix, about: Some(about) })
     }
 
     /// What a matrix of numbers is by the robot at the present configuration.

@@ -1,9 +1,14 @@
 //! Which statements define a name of the document's own.
 
-use super::{Scalar, Walk};
+use super::{Defined, Pair, Piece, Scalar, Walk};
+use crate::directions::sum_in_pose;
+use crate::facts::About;
+use crate::habits::Places;
+use crate::lexis::read;
+use denavit_reading::document::Statement;
 use denavit_symbolic::Expr;
-use denavit_symbolic::parse::{Syntax, SyntaxKind};
-use denavit_symbolic::vocabulary::plain_name;
+use denavit_symbolic::parse::{Function, Syntax, SyntaxKind};
+use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
 use std::ops::Range;
 
 impl Walk<'_> {
@@ -24,6 +29,14 @@ impl Walk<'_> {
                         return false;
                     }
                     return !denavit_symbolic::equal(left.value(), formula.value()).is_equal();
+                }
+                // `d2 = a² + b²` where the table has 0 for d2: the name is the author's own.
+                let is_empty_cell = matches!(left.kind, SyntaxKind::Name(_))
+                    && left.value().is_zero()
+                    && !formula.value().is_zero()
+                    && formula.value().symbols().iter().any(|s| self.subject.joints().contains(&(*s).into()));
+                if is_empty_cell {
+                    return true;
                 }
                 let is_letter = self.source(span).starts_with('t') && !self.source(span).starts_with("th");
                 joint.is_some_and(|j| {
@@ -62,5 +75,87 @@ impl Walk<'_> {
             && !self.speaks_of_pose(b)
             && is_same(posed.value(), moved.value())
             && !is_same(left.value(), moved.value())
+    }
+
+    /// Keeps a name that a statement defines, with its value, and that with the entries of the pose as symbols.
+    pub(super) fn defined_here(
+        &mut self,
+        statement: &Statement,
+        name: String,
+        [value, inverse]: [Expr; 2],
+        span: &Range<usize>,
+        syntax: &Syntax,
+    ) {
+        if self.is_held_there(statement, &name, span, syntax) {
+            return;
+        }
+        let by_custom = self.lexis.is_by_custom(&name);
+        // φ = θ2 + θ3 + θ4 is told with the pose.
+        let is_angle = name.ends_with(|c: char| c.is_alphabetic());
+        let places = Places(self.lexis.habits.columns);
+        let shown = is_angle.then(|| sum_in_pose(&self.subject, &places, inverse)).flatten();
+        let of_hand = sum_in_pose(&self.subject, &places, value).filter(|_| shown.is_some());
+        let inverse = shown.unwrap_or(inverse);
+        if of_hand.is_some() {
+            // What the name means is seen: an angle of the hand.
+            let mut assertion = self.assertion(statement, About::Equation);
+            assertion.pieces = vec![Piece::Pair(Pair {
+                place: None,
+                span: span.clone(),
+                printed: Some(syntax.clone()),
+                value,
+                wanted: value,
+                also: vec![],
+            })];
+            self.assertions.push(assertion);
+        }
+        self.lexis.define(&name, value);
+        self.lexis.define_inverse(&name, inverse);
+        self.defined.push(Defined {
+            name,
+            by_custom,
+            statement: statement.span.clone(),
+            shown: self.claim_name(statement),
+            span: span.clone(),
+            printed: syntax.clone(),
+            value: syntax.value(),
+            subject: self.number,
+            from: self.reader.unwrap_or(statement.span.start),
+        });
+    }
+
+    /// What a name is whose function a side is: `cos ε = …`, `r² = …`; with the value that the name has then.
+    pub(super) fn implied(&self, span: &Range<usize>, value: Expr) -> Option<(String, Expr)> {
+        let open = Vocabulary::new().open(true);
+        let syntax = read(self.text, span, &open).ok()?;
+        let mut inner = &syntax;
+        while let SyntaxKind::Bracket(next) = &inner.kind {
+            inner = next;
+        }
+        let whole = inner.value();
+        let [symbol] = whole.symbols()[..] else { return None };
+        let name = symbol.name().to_string();
+        if self.lexis.names.lookup(&name).is_some() {
+            return None;
+        }
+        let e = Expr::from(symbol);
+        let value = match () {
+            () if whole == e.cos() => Function::Arccos.of(&[value]),
+            () if whole == e.sin() => Function::Arcsin.of(&[value]),
+            () if whole == e.powi(2) => value.sqrt(),
+            () => return None,
+        };
+        Some((name, value))
+    }
+
+    /// A name with a letter as its argument, `f_{11}(p)`: as a whole it is a name.
+    pub(super) fn name_with_argument(&self, span: &Range<usize>) -> Option<String> {
+        let plain = plain_name(&self.source(span).replace("\\left", "").replace("\\right", ""));
+        let (name, rest) = plain.split_once('(')?;
+        let argument = rest.strip_suffix(')')?;
+        let is_name = name.chars().next().is_some_and(char::is_alphabetic) && name.chars().count() <= 4;
+        let is_letter = argument.chars().count() == 1 && argument.chars().all(char::is_alphabetic);
+        let is_function = matches!(name, "cos" | "sin" | "tan" | "atan" | "sqrt" | "det" | "c" | "s");
+        (is_name && is_letter && !is_function && self.lexis.names.lookup(name).is_none()).then_some(plain)
     }
 }

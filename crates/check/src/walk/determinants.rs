@@ -22,7 +22,12 @@ impl Walk<'_> {
             return self.minor(&columns);
         }
         let inner = bare.replace(['|', '(', ')'], " ");
+        // `det(3J)`: the axes along which it is written do not matter.
         let inner = inner.trim();
+        let inner = inner
+            .strip_suffix('J')
+            .filter(|s| s.len() == 1 && s.starts_with(|c: char| c.is_ascii_digit()))
+            .map_or(inner, |_| "J");
         let name = self.lexis.lone_name(inner, &(0..inner.len()))?;
         let told = crate::jacobians::told_of_jacobian(&name)?;
         // Rows that vanish are left out.
@@ -53,7 +58,7 @@ impl Walk<'_> {
             let line = line.trim_start_matches([' ', '\t', '$', '-', '*', '&']);
             let sides = line.strip_prefix(name.base.as_str()).and_then(|rest| rest.split_once('='));
             sides.is_some_and(|(left, right)| {
-                let goes_on = left.starts_with(|c: char| c.is_alphabetic());
+                let goes_on = crate::custom::plain(left.trim_end_matches([' ', '&'])) != name.sub;
                 !goes_on && (right.contains("matrix") || right.trim_start().starts_with(['[', '|', '(']))
             })
         })

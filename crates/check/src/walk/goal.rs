@@ -50,6 +50,17 @@ pub(in super::super) struct Answered {
     pub at: Configuration,
 }
 
+/// A pose that is to be reached, as it is known from a place on.
+#[derive(Clone, Debug)]
+pub(in super::super) struct Goal {
+    pub end: usize,
+    pub subject: usize,
+    pub targets: Vec<Target>,
+}
+
+/// No pose has more numbers.
+const MAX_TARGETS: usize = 16;
+
 /// Numbers of one pose stand no farther from each other, in bytes.
 const FAR: usize = 300;
 
@@ -114,6 +125,13 @@ impl Walk<'_> {
             return false;
         }
         let Some((of, span, syntax)) = self.numbers_of_joint(read) else { return false };
+        // `With θ1 = 30°, θ2 = 45°:` begins what is computed from them.
+        let rest = self.text.get(statement.span.end..).unwrap_or_default();
+        let line = rest.split('\n').next().unwrap_or_default();
+        if line.trim_end().ends_with(':') && line.len() < FAR {
+            self.seek(false);
+            return false;
+        }
         let values: Vec<f64> =
             syntax.variants().iter().filter_map(|v| v.value().eval(|_| None).ok()).collect();
         let source = self.source(span);
@@ -156,7 +174,17 @@ impl Walk<'_> {
         let moves = wanted.symbols().iter().any(|s| self.subject.joints().contains(&(*s).into()));
         let is_place = self.is_right_name(name) || self.numbers_of_joint(read).is_some();
         let is_known = self.at.knows(wanted, &self.subject);
-        if !self.in_inverse || !moves || is_known || !right.value().symbols().is_empty() || !is_place {
+        // Torques, velocities and determinants are asked for themselves.
+        let plain = crate::custom::plain(self.source(name));
+        let is_other =
+            plain.starts_with(['τ', 'Γ', 'M', 'F', 'f', 'v', 'ω', 'J', '|']) || plain.starts_with("det");
+        if !self.in_inverse
+            || !moves
+            || is_known
+            || is_other
+            || !right.value().symbols().is_empty()
+            || !is_place
+        {
             return false;
         }
         let Ok(printed) = right.value().eval(|_| None) else { return false };
@@ -174,6 +202,10 @@ impl Walk<'_> {
         }
         self.goal.extend(targets);
         self.goal_at = statement.span.end;
+        if self.goal.len() <= MAX_TARGETS {
+            let (end, subject) = (self.goal_at, self.number);
+            self.goals.push(Goal { end, subject, targets: self.goal.clone() });
+        }
     }
 
     /// True where the word before a statement says that it names a point.

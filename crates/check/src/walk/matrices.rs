@@ -157,6 +157,7 @@ impl Walk<'_> {
             match definition {
                 Definition::Matrix(name, matrix, about) => {
                     self.named.push((statement.span.clone(), name.key()));
+                    self.name_entries(&name, &matrix);
                     self.lexis.define_matrix(&name, matrix, about);
                 }
                 Definition::Entry(name, value, posed) => self.lexis.define_right(&name, value, posed),

@@ -6,6 +6,7 @@ mod compare;
 mod defines;
 mod derivatives;
 mod determinants;
+mod entries;
 mod goal;
 mod matrices;
 mod points;
@@ -13,7 +14,7 @@ mod rates;
 mod scalars;
 mod told;
 
-pub(super) use goal::{Answered, Target};
+pub(super) use goal::{Answered, Goal, Target};
 pub(super) use points::points;
 pub(super) use scalars::is_measured;
 
@@ -150,6 +151,8 @@ pub(super) struct Walk<'a> {
     /// The pose that is to be reached, as far as the text has given it in numbers, and where it did last.
     goal: Vec<Target>,
     goal_at: usize,
+    /// The poses that were to be reached so far, each as it stood behind a statement.
+    pub goals: Vec<Goal>,
     /// What is read is about inverse kinematics.
     in_inverse: bool,
     /// The components of the load that was given last, where these have names; nothing if it could not be read.
@@ -224,6 +227,7 @@ impl<'a> Walk<'a> {
             answered: vec![],
             goal: vec![],
             goal_at: 0,
+            goals: vec![],
             in_inverse: false,
             load: Some(vec![]),
             told_to: 0,

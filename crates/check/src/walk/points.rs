@@ -9,14 +9,18 @@ use crate::formula::has_root_of_sum;
 use crate::subject::Subject;
 use denavit::forward::Reference;
 use denavit_reading::document::Statement;
-use denavit_symbolic::parse::Syntax;
+use denavit_reading::slip::{Points, Value};
+use denavit_symbolic::parse::{Syntax, SyntaxKind};
 use denavit_symbolic::readable::literals;
 use denavit_symbolic::{Expr, equal};
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::rc::Rc;
 
 /// Longer formulas are not compared.
 const LONGEST: u64 = 4_000;
+/// No more frames are looked at, each from each other.
+const MAX_FRAMES: usize = 8;
 /// So many definitions of a document are looked at.
 const MOST: usize = 300;
 
@@ -53,7 +57,75 @@ pub(in super::super) fn points(
         let Some(subject) = subjects.get(first.subject).filter(|_| point.len() > 1) else { continue };
         found.extend(claims(&point, subject));
     }
+    let is_told = |d: &Defined| found.iter().any(|a| a.span == d.statement);
+    let open: Vec<&Defined> = defined.iter().take(MOST).filter(is_free).filter(|d| !is_told(d)).collect();
+    found.extend(distances(&open, subjects));
     found
+}
+
+/// Names whose values are distances of the arm, or their squares: between origins of frames, and of an origin from the first axis.
+fn distances(open: &[&Defined], subjects: &[Rc<Subject>]) -> Vec<Assertion> {
+    let mut points = Points::new(61);
+    let mut known: BTreeMap<usize, Vec<(Value, Expr)>> = BTreeMap::new();
+    let mut found = vec![];
+    for d in open {
+        let Some(subject) = subjects.get(d.subject) else { continue };
+        let joints = subject.joints();
+        let moves = |e: Expr| e.symbols().iter().any(|s| joints.contains(&(*s).into()));
+        // What is a multiple of a sine is no distance.
+        if !moves(d.value) || !matches!(d.printed.kind, SyntaxKind::Sum(_) | SyntaxKind::Root(_)) {
+            continue;
+        }
+        let squares = known.entry(d.subject).or_insert_with(|| {
+            let all = squares(subject).into_iter().filter(|e| moves(*e));
+            all.filter_map(|e| Some((points.value(e)?, e))).collect()
+        });
+        let is_root = matches!(d.printed.kind, SyntaxKind::Root(_));
+        let square = if is_root { d.value.powi(2) } else { d.value };
+        let Some(value) = points.value(square) else { continue };
+        let same = squares.iter().find(|(v, e)| *v == value && equal(square, *e).is_equal());
+        if let Some((_, e)) = same {
+            let pair = Pair {
+                place: None,
+                span: d.span.clone(),
+                printed: None,
+                value: square,
+                wanted: *e,
+                also: vec![],
+            };
+            found.push(equation(d, pair));
+        }
+    }
+    found
+}
+
+/// The squares of distances of an arm.
+fn squares(subject: &Subject) -> Vec<Expr> {
+    let origins: Vec<_> = (0..=subject.last().min(MAX_FRAMES)).map(|k| subject.origin(k).0).collect();
+    let origins: Vec<_> = origins.into_iter().chain([subject.pose().translation.0]).collect();
+    let square = |parts: &[Expr]| parts.iter().fold(Expr::int(0), |sum, e| sum + e.powi(2));
+    let mut found: Vec<Expr> = origins.iter().map(|o| square(&o[..2])).collect();
+    for (k, a) in origins.iter().enumerate() {
+        for b in &origins[..k] {
+            found.push(square(&[a[0] - b[0], a[1] - b[1], a[2] - b[2]]));
+        }
+    }
+    found
+}
+
+fn equation(d: &Defined, pair: Pair) -> Assertion {
+    Assertion {
+        span: d.statement.clone(),
+        name: d.shown.clone(),
+        about: About::Equation,
+        pieces: vec![Piece::Pair(pair)],
+        remarks: vec![],
+        subject: d.subject,
+        names: None,
+        whole: None,
+        reference: None,
+        spoken: None,
+    }
 }
 
 /// The claims that a point makes.
@@ -127,18 +199,7 @@ fn assertion(d: &Defined, wanted: Expr, frame: &Meaning) -> Assertion {
         wanted,
         also: vec![],
     };
-    Assertion {
-        span: d.statement.clone(),
-        name: d.shown.clone(),
-        about: About::Matrix(Meaning::Origin(Box::new(frame.clone()))),
-        pieces: vec![Piece::Pair(pair)],
-        remarks: vec![],
-        subject: d.subject,
-        names: None,
-        whole: None,
-        reference: None,
-        spoken: None,
-    }
+    Assertion { about: About::Matrix(Meaning::Origin(Box::new(frame.clone()))), ..equation(d, pair) }
 }
 
 /// The rest of a name and its axis: `xw`, `wx`, `p_{cx}`.

@@ -17,8 +17,10 @@ impl Walk<'_> {
             return;
         }
         let [Part::Matrix(grid), ..] = &right.parts[..] else {
-            // `F = N u`: what follows is about a load that is not known.
-            self.load = None;
+            // `F = N u`: what follows is about a load that is not known, but for one in brackets that is read with the torques.
+            if !self.source(&right.span).starts_with('(') {
+                self.load = None;
+            }
             return;
         };
         if elements(grid) > 6 {

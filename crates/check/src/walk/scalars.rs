@@ -1,18 +1,17 @@
 //! Equations between scalars: entries, definitions, identities, values of joints and angles.
 
 use super::cases::is_choice_of_sign;
-use super::{Assertion, Defined, Pair, Piece, Reference, Scalar, Spoken, Walk};
-use crate::directions::sum_in_pose;
+use super::{Assertion, Pair, Piece, Reference, Scalar, Spoken, Walk};
 use crate::facts::About;
-use crate::habits::{Places, with_named_signs};
-use crate::lexis::{read, set_in};
+use crate::habits::with_named_signs;
+use crate::lexis::set_in;
 use crate::names::Name;
 use crate::note::{Unread, Unreadable};
 use denavit::forward::Reference as Frame;
 use denavit::geometry::orientation::OrientationSet;
 use denavit_reading::document::Statement;
 use denavit_symbolic::parse::{Function, Syntax, SyntaxKind};
-use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
+use denavit_symbolic::vocabulary::plain_name;
 use denavit_symbolic::{Angle, Expr, Node};
 use std::ops::Range;
 
@@ -57,7 +56,19 @@ impl Walk<'_> {
             return None;
         }
         let digits: Vec<u32> = name.sub.chars().filter_map(|c| c.to_digit(10)).collect();
+        // `J_{11} = […]` is a block.
+        let is_block = || {
+            let given = ["J_{11}", "J_{11} ", "J11", "J11 "].iter().flat_map(|n| self.text.match_indices(n));
+            given.into_iter().take(20).any(|(at, n)| {
+                let rest = self.text[at + n.len()..].trim_start_matches([' ', '&']);
+                let rest = rest.strip_prefix('=').unwrap_or_default().trim_start_matches([' ', '&', '\n']);
+                rest.starts_with(['[', '(']) || rest.starts_with("\\begin") || rest.starts_with("\\left")
+            })
+        };
         if let ("J", [r, c]) = (name.base.as_str(), &digits[..]) {
+            if is_block() {
+                return None;
+            }
             let j = self.subject.geometric_rows(Frame::Tool, Frame::Frame(0));
             return j.get((*r as usize).checked_sub(1)?)?.get((*c as usize).checked_sub(1)?).copied();
         }
@@ -79,7 +90,7 @@ impl Walk<'_> {
     /// Reads a statement as one between scalars; false if it is none.
     pub(super) fn scalars(&mut self, statement: &Statement, claim: Option<&str>) -> bool {
         let spans: Vec<Range<usize>> = statement.sides.iter().map(|s| s.span.clone()).collect();
-        let read: Vec<Scalar> = spans.iter().map(|s| self.scalar(s)).collect();
+        let mut read: Vec<Scalar> = spans.iter().map(|s| self.scalar(s)).collect();
         let is_matrix = |s: &Scalar| match s {
             Scalar::Lone(name) => self.lexis.matrix(&self.subject, name).is_some(),
             Scalar::Broken(span, _) => self.is_product(span),
@@ -139,7 +150,7 @@ impl Walk<'_> {
             }
             return true;
         }
-        if self.is_told_of_joints(&spans, &read) {
+        if self.is_told_of_joints(&spans, &read) || self.is_told_of_rates(&read) {
             // `θ4 = −θ2` keeps the hand level: it says how to move, nothing of the robot.
             self.skipped.push((statement.span.clone(), Unreadable::NeitherFormulaNorProduct));
             return true;
@@ -186,6 +197,15 @@ impl Walk<'_> {
             };
         if is_definition && matches!(read.first(), Some(Scalar::Formula(..))) {
             return true;
+        }
+        // `cos θ3 = … = D` gives what stands before it a name.
+        if let [.., Scalar::Formula(span, syntax), Scalar::Lone(name)] = &read[..]
+            && !is_definition
+        {
+            let name = plain_name(&format!("{}{}", name.base, name.sub));
+            let inverse = self.inverse_value(span, syntax);
+            self.defined_here(statement, name, [syntax.value(), inverse], span, syntax);
+            read.pop();
         }
         let formulas = || {
             read.iter().enumerate().filter_map(|(i, s)| match s {
@@ -308,74 +328,6 @@ impl Walk<'_> {
     /// The value of a formula, the entries of the pose as symbols.
     fn inverse_value(&self, span: &Range<usize>, syntax: &Syntax) -> Expr {
         self.lexis.inverse_formula(self.text, span).map_or(syntax.value(), |s| s.value())
-    }
-
-    /// Keeps a name that a statement defines, with its value, and that with the entries of the pose as symbols.
-    fn defined_here(
-        &mut self,
-        statement: &Statement,
-        name: String,
-        [value, inverse]: [Expr; 2],
-        span: &Range<usize>,
-        syntax: &Syntax,
-    ) {
-        if self.is_held_there(statement, &name, span, syntax) {
-            return;
-        }
-        let by_custom = self.lexis.is_by_custom(&name);
-        // φ = θ2 + θ3 + θ4 is told with the pose.
-        let is_angle = name.ends_with(|c: char| c.is_alphabetic());
-        let places = Places(self.lexis.habits.columns);
-        let shown = is_angle.then(|| sum_in_pose(&self.subject, &places, inverse)).flatten();
-        let inverse = shown.unwrap_or(inverse);
-        self.lexis.define(&name, value);
-        self.lexis.define_inverse(&name, inverse);
-        self.defined.push(Defined {
-            name,
-            by_custom,
-            statement: statement.span.clone(),
-            shown: self.claim_name(statement),
-            span: span.clone(),
-            printed: syntax.clone(),
-            value: syntax.value(),
-            subject: self.number,
-            from: self.reader.unwrap_or(statement.span.start),
-        });
-    }
-
-    /// What a name is whose function a side is: `cos ε = …`, `r² = …`; with the value that the name has then.
-    fn implied(&self, span: &Range<usize>, value: Expr) -> Option<(String, Expr)> {
-        let open = Vocabulary::new().open(true);
-        let syntax = read(self.text, span, &open).ok()?;
-        let mut inner = &syntax;
-        while let SyntaxKind::Bracket(next) = &inner.kind {
-            inner = next;
-        }
-        let whole = inner.value();
-        let [symbol] = whole.symbols()[..] else { return None };
-        let name = symbol.name().to_string();
-        if self.lexis.names.lookup(&name).is_some() {
-            return None;
-        }
-        let e = Expr::from(symbol);
-        let value = match () {
-            () if whole == e.cos() => Function::Arccos.of(&[value]),
-            () if whole == e.sin() => Function::Arcsin.of(&[value]),
-            () if whole == e.powi(2) => value.sqrt(),
-            () => return None,
-        };
-        Some((name, value))
-    }
-
-    /// A name with a letter as its argument, `f_{11}(p)`: as a whole it is a name.
-    fn name_with_argument(&self, span: &Range<usize>) -> Option<String> {
-        let plain = plain_name(&self.source(span).replace("\\left", "").replace("\\right", ""));
-        let (name, rest) = plain.split_once('(')?;
-        let argument = rest.strip_suffix(')')?;
-        let is_name = name.chars().next().is_some_and(char::is_alphabetic) && name.chars().count() <= 4;
-        let is_letter = argument.chars().count() == 1 && argument.chars().all(char::is_alphabetic);
-        let is_function = matches!(name, "cos" | "sin" | "tan" | "atan" | "sqrt" | "det" | "c" | "s");
-        (is_name && is_letter && !is_function && self.lexis.names.lookup(name).is_none()).then_some(plain)
     }
 
     /// Keeps what is printed for the sine or cosine of a joint: `c_3 = D`, `s_3 = ±√(1 − D²)`.

@@ -45,7 +45,21 @@ const RATES: [&str; 8] = [
 ];
 
 /// Words that put all joints to zero.
-const ZERO: [&str; 12] = [
+const ZERO: [&str; 26] = [
+    "in der nullstellung",
+    "in nullstellung",
+    "in the home position",
+    "in the home configuration",
+    "in the zero position",
+    "in the zero configuration",
+    "at the zero configuration",
+    "at the zero position",
+    "in its zero position",
+    "all joints at 0",
+    "dans la configuration zéro",
+    "en la posición cero",
+    "nella posizione zero",
+    "na posição zero",
     "all joints zero",
     "all joints at zero",
     "all joints are zero",
@@ -61,7 +75,14 @@ const ZERO: [&str; 12] = [
 ];
 
 /// Words for the configuration that stands further up.
-const SAME: [&str; 17] = [
+const SAME: [&str; 24] = [
+    "zahlenwerten aus",
+    "zahlenwerte aus",
+    "values of part",
+    "values from part",
+    "numbers of part",
+    "numbers from part",
+    "valeurs de la question",
     "same configuration",
     "same posture",
     "configuration of part",
@@ -133,7 +154,9 @@ impl Walk<'_> {
             let before = pair[0].trim_end().strip_suffix(name).unwrap_or_default().trim_end();
             let word = before.rsplit([' ', '(', '$', '\\']).next().unwrap_or_default();
             let is_argument = matches!(word, "cos" | "sin" | "tan" | "sen" | "tg" | "det");
-            if name.is_empty() || is_argument {
+            // `a1 − a2 = 0.2` says nothing of a2 itself.
+            let is_term = before.ends_with(['+', '-', '−', '·', '*', '/', '±', '×', '^', '|']);
+            if name.is_empty() || is_argument || is_term {
                 names.clear();
                 continue;
             }
@@ -154,7 +177,11 @@ impl Walk<'_> {
             }
             if is_given {
                 let end = prose.start + (at + pair[1].len() - rest.len() + value.len()).min(line.len());
-                self.taken.push(prose.start + start.min(line.len())..end);
+                // Numbers of joints behind a pose are answers, which are not passed over.
+                let is_answer = self.in_inverse && !self.goal.is_empty();
+                if !is_answer {
+                    self.taken.push(prose.start + start.min(line.len())..end);
+                }
                 names.clear();
             } else if plain_name(value) != value.replace(['_', '{', '}', '\\', ' '], "") || !is_name(value) {
                 names.clear();
@@ -386,7 +413,8 @@ impl Walk<'_> {
 
     /// Gives a joint or a length a value; false if that is not what is written.
     fn assign(&mut self, name: &str, value: &str) -> bool {
-        let name = name.trim_matches(['*', '`']);
+        let letters = name.trim_matches(['*', '`']).replace("\\ell", "l").replace('ℓ', "l");
+        let name = letters.as_str();
         let plain: String =
             name.chars().map(|c| denavit_symbolic::parse::subscript(c).unwrap_or(c)).collect();
         let found = self.lexis.names.lookup(name).or_else(|| self.lexis.names.lookup(&plain));
@@ -411,9 +439,13 @@ impl Walk<'_> {
         if d.parameter(symbol).is_none() {
             // A component of a load: `Fx = -18 kN`.
             let name = symbol.name();
-            let is_load =
-                name.len() == 2 && name.starts_with(['F', 'f', 'M', 'm']) && name.ends_with(['x', 'y', 'z'])
-                    || self.lexis.habits.load.is_some_and(|l| *name == *l.0.to_string());
+            // `f2` may have it as its value, but is not its name.
+            let is_own = crate::custom::plain(&plain) == crate::custom::plain(&name);
+            let is_load = is_own
+                && (name.len() == 2
+                    && name.starts_with(['F', 'f', 'M', 'm'])
+                    && name.ends_with(['x', 'y', 'z'])
+                    || self.lexis.habits.load.is_some_and(|l| *name == *l.0.to_string()));
             return match self.constant(value).filter(|_| is_load) {
                 Some(constant) => {
                     self.at.give(symbol, constant);

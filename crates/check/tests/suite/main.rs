@@ -14,6 +14,7 @@ mod statements;
 mod strangers;
 mod tables;
 mod told;
+mod wild;
 
 #[path = "../../../robot/tests/suite/common/mod.rs"]
 mod common;

@@ -138,7 +138,12 @@ impl Reader<'_> {
     /// True for a word that multiplies what follows, or takes it as its argument.
     fn is_factor(&self, at: usize) -> bool {
         let word = self.shown(at);
+        // `X S2 + Y C2 = Z`; `A` and `I` are words.
+        let mut letters = word.chars();
+        let is_letter = letters.next().is_some_and(|c| c.is_ascii_uppercase() && !matches!(c, 'A' | 'I'))
+            && letters.next().is_none();
         words::is_function(word)
+            || is_letter
             || matches!(word, "det" | "\\det")
             || word.contains(|c: char| c.is_ascii_digit() || c == '_')
     }

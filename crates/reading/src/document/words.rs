@@ -1,7 +1,7 @@
 //! What tells a formula from prose, by its words alone.
 
 use super::cut;
-use super::lexer::{Bracket, Kind, Token, lex};
+use super::lexer::{Bracket, Gap, Kind, Token, lex};
 use std::ops::Range;
 
 /// Words that join or close statements: `x = a and y = b`, `x = a if …`.
@@ -101,10 +101,11 @@ pub(super) fn is_unit_alone(text: &str) -> bool {
 
 /// Short words that no formula has.
 pub(super) fn is_filler(word: &str) -> bool {
-    const FILLERS: [&str; 44] = [
+    const FILLERS: [&str; 60] = [
         "is", "in", "of", "to", "if", "for", "the", "and", "with", "are", "at", "on", "we", "or", "as", "by",
         "be", "an", "so", "it", "si", "et", "de", "la", "le", "les", "des", "du", "est", "en", "un", "une",
-        "pour", "und", "der", "die", "das", "ist", "von", "zu", "im", "el", "los", "es",
+        "pour", "und", "der", "die", "das", "ist", "von", "zu", "im", "el", "los", "es", "bei", "aus", "auf",
+        "für", "gilt", "per", "con", "para", "por", "em", "il", "lo", "gli", "voor", "bij", "dla",
     ];
     FILLERS.contains(&word.to_lowercase().as_str())
 }
@@ -142,6 +143,15 @@ pub(super) fn is_prose(text: &str, span: &Range<usize>) -> bool {
     }
     if tokens.iter().any(|t| t.kind == Kind::Mark && matches!(cut(text, &t.span), "\"" | "“" | "”" | "@"))
     {
+        return true;
+    }
+    // `*Example.* w`: a sentence ends before the formula.
+    let is_label = |k: usize| {
+        let ends = tokens.get(k + 1).is_some_and(|t| t.kind == Kind::Operator && cut(text, &t.span) == ".");
+        let goes_on = tokens.get(k + 2).is_some_and(|t| t.gap != Gap::None || cut(text, &t.span) == "*");
+        ends && goes_on && words[k].is_some_and(|w| is_plain(w) && w.chars().count() >= 4)
+    };
+    if (0..tokens.len()).any(is_label) {
         return true;
     }
     words.windows(2).any(|pair| match pair {

@@ -139,6 +139,7 @@ impl Lexer<'_> {
         match self.marks.get(at).map(|m| &m.glyph) {
             Some(Glyph::Char('(' | '[' | '{')) => Next::Bracket,
             Some(Glyph::Char('√' | '0'..='9') | Glyph::Fraction) => Next::Argument,
+            Some(Glyph::Char(c)) if c.is_alphabetic() => Next::Letter,
             _ => Next::Other,
         }
     }

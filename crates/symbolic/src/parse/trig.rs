@@ -26,7 +26,9 @@ pub(super) fn edges(letters: &[Letter], from: usize, next: Next, names: &Names) 
         }
         let after = from + length;
         if after == letters.len() {
-            if next == Next::Bracket || next == Next::Argument && length > 1 {
+            let is_arc = function.is_inverse() && name.starts_with("arc");
+            if next == Next::Bracket || next == Next::Argument && length > 1 || next == Next::Letter && is_arc
+            {
                 // Where `a` is itself a known symbol, `acos` is as well the product a·cos: both cost the same.
                 let cost = if matches!(name, "asin" | "acos" | "atan") { KNOWN + TRIG } else { TRIG };
                 found.push(Edge { to: after, cost, meaning: Ok(Piece::Function(function)) });
@@ -58,7 +60,9 @@ fn arguments(letters: &[Letter], from: usize, after: usize, function: Function, 
         let indices = spelled(&letters[at..to]);
         if let Some(angle) = subscript(&indices, span(to), &spelled(&letters[from..to]), names) {
             let angle = match angle {
-                Ok(_) if is_angle_letter(letters, to) => Err(factor_or_index(letters, from, at, to)),
+                Ok(_) if is_angle_letter(letters, to) && !is_known_length(letters, to, names) => {
+                    Err(factor_or_index(letters, from, at, to))
+                }
                 other => other,
             };
             let cost = if angle.is_ok() { TRIG } else { REFUSED };
@@ -195,6 +199,16 @@ fn angle(n: u32, names: &Names) -> Result<Expr, String> {
         None if names.vocabulary.is_sliding(n) => Err(format!("variable {n} is a length, not an angle")),
         None => Err(format!("there is no angle number {n}")),
     }
+}
+
+/// True if a name begins here that stands for what is no angle: `c_1ρ` where ρ is a length with a formula.
+fn is_known_length(letters: &[Letter], from: usize, names: &Names) -> bool {
+    let is_linear = |e: Expr| {
+        let angle = crate::expr::Angle::of(e);
+        angle.terms.iter().all(|(term, _)| term.as_symbol().is_some())
+    };
+    let ends = ends(letters, from).take_while(|to| to - from <= names.longest);
+    ends.filter_map(|to| names.known(&spelled(&letters[from..to]))).last().is_some_and(|e| !is_linear(e))
 }
 
 /// `cos2θ1`: cos(2·θ1), or cos(θ2)·θ1?

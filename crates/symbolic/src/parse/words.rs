@@ -27,6 +27,8 @@ pub(super) enum Next {
     Bracket,
     /// A fraction, a root or a number, likewise: the argument of a function with a full name.
     Argument,
+    /// A letter: the argument of an arc that is written out, `\arctan t`.
+    Letter,
     Other,
 }
 

@@ -365,10 +365,11 @@ fn is_framed(line: &str) -> bool {
     line.len() > 1 && line.starts_with('|') && line.ends_with('|')
 }
 
-/// `+---+-------+`
+/// `+---+-------+`, `---+-------`
 fn is_frame(line: &str) -> bool {
+    let is_open = line.starts_with('-') && line.contains('+') && line.len() > 8;
     line.len() > 4
-        && line.starts_with(['+', '├', '┌', '└', '╞'])
+        && (is_open || line.starts_with(['+', '├', '┌', '└', '╞']))
         && line.chars().all(|c| {
             matches!(
                 c,

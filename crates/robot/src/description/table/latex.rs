@@ -70,7 +70,10 @@ fn grid(text: &str, body: Range<usize>) -> Grid {
     while start <= blanked.len() {
         let end = blanked[start..].find("\\\\").map_or(blanked.len(), |e| start + e);
         let row = cells(&blanked, start..end, body.start);
-        if row.iter().any(|c| !c.text.is_empty()) {
+        // A cell that goes across all columns is a title or a remark.
+        let is_across =
+            row.len() == 1 && text[body.start + start..body.start + end].contains("\\multicolumn");
+        if !is_across && row.iter().any(|c| !c.text.is_empty()) {
             rows.push(row);
         }
         start = end + 2;
