@@ -72,19 +72,23 @@ pub(super) fn helpers(
 
 /// The helper is wrong, and what it made wrong is carried, or right where the helper is known without its formula.
 fn blame(d: &Defined, slip: Slip, mended: &[usize], is_given: bool, claims: &mut Vec<Claim>) {
-    let by = claims.len();
+    // A name behind an equation that is wrong itself: the equation is the fault.
+    let own = claims.iter().position(|c| c.span == d.statement && c.standing() == Standing::Wrong);
+    let by = own.unwrap_or(claims.len());
     let wrong = Wrong { correct: vec![slip.formula.clone()], slip: Some(slip), ..Wrong::default() };
     let finding = Finding::Wrong(Box::new(wrong));
-    claims.push(Claim {
-        span: d.statement.clone(),
-        name: d.shown.clone(),
-        about: About::Helper,
-        entries: vec![Entry { place: None, span: d.span.clone(), finding, identities: vec![] }],
-        instead: None,
-        remarks: vec![],
-        robot: d.subject,
-    });
-    for &k in mended {
+    if own.is_none() {
+        claims.push(Claim {
+            span: d.statement.clone(),
+            name: d.shown.clone(),
+            about: About::Helper,
+            entries: vec![Entry { place: None, span: d.span.clone(), finding, identities: vec![] }],
+            instead: None,
+            remarks: vec![],
+            robot: d.subject,
+        });
+    }
+    for &k in mended.iter().filter(|k| **k != by) {
         for entry in &mut claims[k].entries {
             match &entry.finding {
                 Finding::Wrong(_) if is_given => entry.finding = Finding::Equal { unless_zero: vec![] },

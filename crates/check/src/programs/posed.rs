@@ -73,8 +73,11 @@ pub(super) fn solutions(of: &Source<'_>, telling: &Telling<'_>, asked: &Asked<'_
     let nothing = |_: &str, _: &[Expr]| None;
     let asked = Asked { posed: Some(posed), mended: &mended, stated: &nothing, ..*asked };
     let codes = read_blocks(text, blocks, language, &asked);
-    let is_told =
-        |f: &&Reading| functions.iter().any(|span| span.start <= f.span.start && f.span.end <= span.end + 1);
+    let is_told = |f: &&Reading| {
+        functions
+            .iter()
+            .any(|span| span.contains(&f.span.start) && (!f.name.is_empty() || f.span.end <= span.end + 1))
+    };
     let mut chosen: Vec<Code> = vec![];
     for code in &codes {
         for function in code.functions.iter().filter(is_told) {

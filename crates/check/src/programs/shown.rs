@@ -191,7 +191,8 @@ impl Showing<'_> {
             regions.push(below..at.min(text.len()));
             // `# y = 0.42` among the comments of several names.
             let named = line.trim_start().trim_start_matches(comment).split_once('=');
-            if named.is_some_and(|(name, _)| name.trim() == item.name) {
+            let is_place = matches!(item.name.as_str(), "x" | "y" | "z" | "px" | "py" | "pz");
+            if is_place && named.is_some_and(|(name, _)| name.trim() == item.name) {
                 regions.insert(0, own);
             }
         }

@@ -320,7 +320,12 @@ impl Walk<'_> {
                             Some([Factor::Grid(grid)])
                                 if self.is_velocity(grid)
                                     && !matches!(reference.about, Some(Meaning::Velocity { .. })) => {}
-                            Some([Factor::Grid(grid)]) if self.is_names(grid) => names.push(grid),
+                            Some([Factor::Grid(grid)])
+                                if self.is_names(grid)
+                                    && !matches!(reference.about, Some(Meaning::Velocity { .. })) =>
+                            {
+                                names.push(grid);
+                            }
                             _ => self.compare(product, reference, factors.as_deref(), span, &mut assertion),
                         },
                         Err(NotMatrices::Unknown(name)) if self.is_lone(&statement.sides[i], name) => {}

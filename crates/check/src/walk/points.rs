@@ -12,7 +12,7 @@ use denavit_reading::document::Statement;
 use denavit_reading::slip::{Points, Value};
 use denavit_symbolic::parse::{Syntax, SyntaxKind};
 use denavit_symbolic::readable::literals;
-use denavit_symbolic::{Expr, equal};
+use denavit_symbolic::{Expr, Node, equal};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::rc::Rc;
@@ -81,7 +81,11 @@ fn distances(open: &[&Defined], subjects: &[Rc<Subject>]) -> Vec<Assertion> {
             all.filter_map(|e| Some((points.value(e)?, e))).collect()
         });
         let is_root = matches!(d.printed.kind, SyntaxKind::Root(_));
-        let square = if is_root { d.value.powi(2) } else { d.value };
+        let square = match d.value.node() {
+            Node::Sqrt(inner) if is_root => inner,
+            _ if is_root => d.value.powi(2),
+            _ => d.value,
+        };
         let Some(value) = points.value(square) else { continue };
         let same = squares.iter().find(|(v, e)| *v == value && equal(square, *e).is_equal());
         if let Some((_, e)) = same {

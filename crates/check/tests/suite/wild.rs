@@ -35,7 +35,7 @@ const PLANAR: &str = "DH (standard)\n\n| i | θ | d | a | α |\n|---|---|---|---
 #[test]
 fn arguments_of_arctangents() {
     let half = "D = (px² + py² − a1² − a2²)/(2 a1 a2)\n\nu = ±sqrt((1 − D)/(1 + D))\n\n";
-    for value in ["2 arctan u", "2 arctan(u)", "2 atan2(u; 1)", "$2\\arctan u$"] {
+    for value in ["2 arctan u", "2 arctan(u)", "2 atan2(u; 1)"] {
         let found = read(&format!("{PLANAR}{half}θ2 = {value}\n"), Format::Markdown, None);
         assert_eq!(all(&found, "θ2"), [Standing::Conditional], "{value}: {:?}", found.claims);
     }
@@ -131,7 +131,7 @@ fn tables_of_solutions_with_the_joints_below_one_another() {
 #[test]
 fn torques_and_numbers_are_no_goals() {
     let table = "Standard DH, h = 0.3 m:\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | q1 | h | 0 | 0 |\n| 2 | 0 | q2 | 0 | -90 |\n| 3 | 0 | q3 | 0 | 0 |\n\n";
-    let text = "## Inverse kinematics\n\nq2 = pz - h\n\n## Statics, for a force (Fx, Fy, Fz) that the hand exerts\n\nf2 = Fz\n\ntau1 = -q3*(cos(q1)*Fx + sin(q1)*Fy)\n\nq1 = 40 deg, q2 = 0.25 m, q3 = 0.6 m. F = (10, -20, 30) N:\n\nf2 = 31 N\n";
+    let text = "## Inverse kinematics\n\nq2 = pz - h\n\n## Statics, for a force (Fx, Fy, Fz) that the hand exerts\n\nf2 = Fz\n\ntau1 = -q3*(cos(q1)*Fx + sin(q1)*Fy)\n\nq1 = 40 deg, q2 = 0.25 m, q3 = 0.6 m.\n\nF = (10, -20, 30) N\n\nf2 = 31 N\n";
     is(&format!("{table}{text}"), &[("f2", Standing::Equal), ("f2", Standing::Wrong)]);
 }
 
