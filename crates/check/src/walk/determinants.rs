@@ -58,7 +58,9 @@ impl Walk<'_> {
             let line = line.trim_start_matches([' ', '\t', '$', '-', '*', '&']);
             let sides = line.strip_prefix(name.base.as_str()).and_then(|rest| rest.split_once('='));
             sides.is_some_and(|(left, right)| {
-                let goes_on = crate::custom::plain(left.trim_end_matches([' ', '&'])) != name.sub;
+                // `J_v` is another name, `J(q)` is not.
+                let index = left.split('(').next().unwrap_or_default().trim_end_matches([' ', '&']);
+                let goes_on = crate::custom::plain(index) != name.sub;
                 !goes_on && (right.contains("matrix") || right.trim_start().starts_with(['[', '|', '(']))
             })
         })
