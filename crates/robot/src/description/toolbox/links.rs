@@ -88,7 +88,7 @@ impl Program<'_> {
         let names: Vec<&str> = rows.iter().flatten().map(|e| self.text[e.clone()].trim()).collect();
         let of_name = |name: &str| {
             let plain: String = name.split_whitespace().collect();
-            all.iter().filter(|c| c.target == plain && c.span.start < value.start).next_back()
+            all.iter().rfind(|c| c.target == plain && c.span.start < value.start)
         };
         let named: Option<Vec<&Call>> = names.iter().map(|n| of_name(n)).collect();
         match named.filter(|n| !n.is_empty()) {

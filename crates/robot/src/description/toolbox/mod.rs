@@ -139,8 +139,8 @@ impl Program<'_> {
 
     /// What the name of a table or a list is said to be, if it is one.
     fn defined(&self, name: &str, before: usize) -> Option<Range<usize>> {
-        let found = self.definitions.iter().filter(|d| d.name == name && d.value.start < before);
-        found.last().map(|d| d.value.clone())
+        let found = self.definitions.iter().rfind(|d| d.name == name && d.value.start < before);
+        found.map(|d| d.value.clone())
     }
 
     fn description(&mut self, robot: Robot) -> Option<Description> {
