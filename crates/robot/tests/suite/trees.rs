@@ -10,7 +10,6 @@ use denavit::description::{
 use denavit::geometry::Transform;
 use denavit::mechanism::{Comparison, compare};
 use denavit::robot::Robot;
-use denavit_symbolic::{Expr, Rational};
 
 fn shown(text: &str, findings: &[Diagnostic]) -> Vec<String> {
     let one = |d: &Diagnostic| {
