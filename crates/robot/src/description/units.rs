@@ -281,7 +281,8 @@ fn power_at(text: &str) -> (i8, usize) {
     let Some(rest) = text.strip_prefix("**").or_else(|| text.strip_prefix('^')) else { return (1, 0) };
     let digits = rest.strip_prefix('-').unwrap_or(rest);
     let digit = digits.bytes().next().filter(u8::is_ascii_digit);
-    let is_one = !digits.as_bytes().get(1).is_some_and(|b| b.is_ascii_alphanumeric() || *b == b'.');
+    let is_one =
+        !digits.as_bytes().get(1).is_some_and(|b| b.is_ascii_alphanumeric() || matches!(*b, b'.' | b'_'));
     match digit.filter(|_| is_one) {
         Some(digit) => {
             let size = (digit - b'0') as i8;
