@@ -100,11 +100,15 @@ scenario("a model for MuJoCo is opened with its geoms and meshes, the one that i
   const model =
     '<mujoco model="arm"><compiler angle="radian" meshdir="assets"/><asset><mesh name="m" file="m.stl" scale="0.1 0.1 0.1"/></asset><worldbody>' +
     '<body name="a"><geom type="capsule" size="0.1" fromto="0 0 0 0 0 1"/><geom type="box" size="5 5 5" group="3"/>' +
-    '<body name="b" pos="0 0 1"><joint name="turn" axis="0 0 1"/><geom type="ellipsoid" size="0.3 0.1 0.2"/><geom type="mesh" mesh="m" pos="1 0 0"/></body></body></worldbody></mujoco>';
+    '<body name="b" pos="0 0 1"><joint name="turn" axis="0 0 1"/><geom type="ellipsoid" size="0.05 0.04 0.2"/><geom type="mesh" mesh="m" pos="1 0 0"/></body></body></worldbody></mujoco>';
   await drop(page, { "arm/arm.xml": model, "arm/scene.xml": '<mujoco><include file="arm.xml"/><worldbody><geom type="box" size="3 3 3"/></worldbody></mujoco>', "arm/assets/m.stl": STL });
   assert.equal(await page.evaluate(() => window.denavit.bodies), 3, "what collides is not drawn");
-  // The ellipsoid reaches to x = -0.3, the mesh to x = 1.3 and y = 0.2; the capsule begins at z = -0.1, the ellipsoid ends at 1.2.
-  near(await box(page), [[-0.3, -0.1, -0.1], [1.3, 0.2, 1.2]], "geoms");
+  await tab(page, "Joints").click();
+  await page.getByRole("textbox", { name: /^q1\b/ }).fill("0");
+  await page.keyboard.press("Enter");
+  await until(async () => Math.abs((await box(page))[1][0] - 1.3) < 1e-4, "the mesh is at x = 1 m");
+  // The mesh reaches to x = 1.3 and y = 0.2; the capsule begins at z = -0.1, the ellipsoid ends at 1.2.
+  near(await box(page), [[-0.1, -0.1, -0.1], [1.3, 0.2, 1.2]], "geoms");
 });
 
 // How Chromium says that XML is broken has a style that no page with this policy may have.

@@ -76,7 +76,9 @@ export async function openTree(dropped: Lying[]): Promise<boolean> {
   const source: Source = { files, texts: await texts(files), packages: [] };
   const found = descriptions(source.texts);
   if (found.length === 0) throw new Error("There is no description of a robot in it: no file ends in .urdf or .xacro, and none is a model of MuJoCo's.");
-  return read(source, { main: found[0], given: "", asWritten: false }, isClear(found));
+  // A model that includes others stands beside one that is whole.
+  const whole = found.filter((path) => !/\.(xml|mjcf)$/i.test(path) || !source.texts.some(([name, text]) => name === path && text.includes("<include")));
+  return read(source, { main: found[0], given: "", asWritten: false }, isClear(whole.length > 0 ? whole : found));
 }
 
 /** A description as `denavit view` serves it (`Bundle` of `crates/wire`). */
