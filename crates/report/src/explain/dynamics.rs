@@ -91,12 +91,7 @@ pub fn dynamics_explanation(
     blocks.push(paragraph(words.recursion_cost(&model.base.inverse.count(), recursion.ground)));
     blocks.push(title(words.short_title()));
     blocks.push(paragraph(words.short()));
-    blocks.push(paragraph(words.torques_cost(&model.torques.count(), model.ground)));
-    let divisors = divisors(model);
-    if !divisors.is_empty() {
-        blocks.push(Block::Paragraph(words.divides_by(divisors.into_iter().map(Math::Expr).collect())));
-    }
-    blocks.extend(parts(d, model, words));
+    blocks.extend(told(d, model, words));
     blocks
 }
 
@@ -120,7 +115,13 @@ fn torques(d: &Description, model: &DynamicModel, words: &dyn Wording) -> Vec<Bl
     for step in model.torques.steps() {
         blocks.push(formula(Expr::symbol(&step.name), step.value));
     }
-    blocks.push(paragraph(words.torques_cost(&model.torques.count(), model.ground)));
+    blocks.extend(told(d, model, words));
+    blocks
+}
+
+/// What the program of the torques costs and rests on, by what it divides, and the parts of the torques.
+fn told(d: &Description, model: &DynamicModel, words: &dyn Wording) -> Vec<Block> {
+    let mut blocks = vec![paragraph(words.torques_cost(&model.torques.count(), model.ground))];
     let divisors = divisors(model);
     if !divisors.is_empty() {
         blocks.push(Block::Paragraph(words.divides_by(divisors.into_iter().map(Math::Expr).collect())));

@@ -1,8 +1,7 @@
 //! Kinetic and potential energy.
 
-use super::model::Dynamics;
-use crate::description::JointKind;
-use crate::geometry::{Axis, Transform, Vector};
+use super::model::{Dynamics, Moved};
+use crate::geometry::{Transform, Vector};
 use crate::scalar::Scalar;
 
 /// The kinetic energy, joules, with that of the rotors as the joints feel them.
@@ -11,18 +10,9 @@ use crate::scalar::Scalar;
 /// If `q` or `qd` does not have one entry per joint.
 pub fn kinetic_energy<T: Scalar>(arm: &Dynamics<T>, q: &[T], qd: &[T]) -> T {
     assert_eq!([q.len(), qd.len()], [arm.joints(); 2], "one entry per joint");
-    let (z, half) = (Vector::unit(Axis::Z), T::one() / T::int(2));
-    let (mut turning, mut velocity) = (Vector::zero(), Vector::zero());
+    let half = T::one() / T::int(2);
     let mut twice = T::zero();
-    for (link, rate) in arm.links.iter().zip(arm.rates(qd)) {
-        let place = link.place(q);
-        let back = place.rotation.inverse();
-        velocity = back * (velocity + turning.cross(place.translation));
-        turning = back * turning;
-        match link.kind {
-            JointKind::Revolute => turning = turning + z.scale(rate),
-            JointKind::Prismatic => velocity = velocity + z.scale(rate),
-        }
+    for (link, Moved { turning, velocity, .. }) in arm.links.iter().zip(arm.velocities(q, qd)) {
         // 2T = ωᵀJω + 2 MS·(V × ω) + M V²
         let (body, crossed) = (&link.body, link.body.first_moment.dot(velocity.cross(turning)));
         let spin = turning.dot(body.tensor() * turning);

@@ -112,6 +112,26 @@ impl<T: Scalar> Dynamics<T> {
         self.links.iter().map(|l| rate(&l.value)).collect()
     }
 
+    /// How each link moves: its frame in that of the one before, and its angular velocity and the velocity of its origin along its own
+    /// axes.
+    pub(super) fn velocities(&self, q: &[T], qd: &[T]) -> Vec<Moved<T>> {
+        let z = Vector::unit(Axis::Z);
+        let (mut turning, mut velocity) = (Vector::zero(), Vector::zero());
+        let mut all = vec![];
+        for (link, rate) in self.links.iter().zip(self.rates(qd)) {
+            let place = link.place(q);
+            let back = place.rotation.inverse();
+            velocity = back * (velocity + turning.cross(place.translation));
+            turning = back * turning;
+            match link.kind {
+                JointKind::Revolute => turning = turning + z.scale(rate),
+                JointKind::Prismatic => velocity = velocity + z.scale(rate),
+            }
+            all.push(Moved { place, turning, velocity });
+        }
+        all
+    }
+
     /// What torques at the axes are at the joints: τ = Gᵀ τ of the axes, with the rates of the axes G q̇.
     pub(super) fn at_joints(&self, axes: &[T]) -> Vec<T> {
         let mut torques = vec![T::zero(); self.joints()];
@@ -142,6 +162,17 @@ impl<T: Scalar> Dynamics<T> {
         let (tool, gravity) = (self.tool.map(&mut f), self.gravity.map(&mut f));
         Dynamics { links, tool, gravity, drives }
     }
+}
+
+/// How a link moves.
+#[derive(Clone, Copy)]
+pub(super) struct Moved<T> {
+    /// Its frame in that of the one before.
+    pub place: Transform<T>,
+    /// Its angular velocity along its own axes.
+    pub turning: Vector<T>,
+    /// The velocity of its origin along its own axes.
+    pub velocity: Vector<T>,
 }
 
 impl<T: Scalar> Link<T> {

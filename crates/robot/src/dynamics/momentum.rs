@@ -1,8 +1,7 @@
 //! The momentum of an arm: of its mass, and about its centre of mass.
 
-use super::model::Dynamics;
-use crate::description::JointKind;
-use crate::geometry::{Axis, Transform, Vector};
+use super::model::{Dynamics, Moved};
+use crate::geometry::{Transform, Vector};
 
 /// Mass, centre of mass and momentum, along the axes of the base; rotors aside.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -23,21 +22,10 @@ pub struct Momentum {
 /// If `q` or `qd` does not have one entry per joint.
 pub fn momentum(arm: &Dynamics<f64>, q: &[f64], qd: &[f64]) -> Momentum {
     assert_eq!([q.len(), qd.len()], [arm.joints(); 2], "one entry per joint");
-    let z = Vector::unit(Axis::Z);
     let mut x = Transform::identity();
-    // Of the link, along the axes of its frame.
-    let (mut turning, mut velocity) = (Vector::zero(), Vector::zero());
     let (mut mass, mut moment) = (0.0, Vector::zero());
     let (mut linear, mut about_base) = (Vector::zero(), Vector::zero());
-    for (link, rate) in arm.links.iter().zip(arm.rates(qd)) {
-        let place = link.place(q);
-        let back = place.rotation.inverse();
-        velocity = back * (velocity + turning.cross(place.translation));
-        turning = back * turning;
-        match link.kind {
-            JointKind::Revolute => turning = turning + z.scale(rate),
-            JointKind::Prismatic => velocity = velocity + z.scale(rate),
-        }
+    for (link, Moved { place, turning, velocity }) in arm.links.iter().zip(arm.velocities(q, qd)) {
         x = x * place;
         // P = M V + ω × MS, and J ω + MS × V about the origin of the frame.
         let body = &link.body;

@@ -1,7 +1,7 @@
 //! `<geom>`: what a body weighs where nothing else says it, and what it looks like.
 
 use super::super::tree::{Look, Mass, Shape};
-use super::super::xml::{Element, Text, shown};
+use super::super::xml::{Element, shown};
 use super::Mjcf;
 use super::bodies::Context;
 use super::defaults::Resolved;
@@ -153,7 +153,7 @@ impl<'a> Mjcf<'a, '_> {
                 let asset = model.classes.resolve(element, None, &mut self.reader.out);
                 let name = element.attribute("name").map(|n| n.text.to_string());
                 if kind == "material" {
-                    let colour = asset.get("rgba").and_then(|t| doubles::<4>(&t));
+                    let colour = asset.get("rgba").and_then(|t| self.reader.colour_of(&t));
                     self.assets.colours.extend(name.zip(colour).map(|(n, c)| ((m, n), c)));
                     continue;
                 }
@@ -162,7 +162,8 @@ impl<'a> Mjcf<'a, '_> {
                 let Some(file) = asset.get("file").filter(|_| !is_moved) else { continue };
                 let stem = file.text.rsplit(['/', '\\']).next().unwrap_or_default();
                 let stem = stem.rsplit_once('.').map_or(stem, |s| s.0);
-                let scale = asset.get("scale").and_then(|t| doubles::<3>(&t)).unwrap_or([1.0; 3]);
+                let scale =
+                    asset.get("scale").and_then(|t| self.reader.doubles(&t, "scale")).unwrap_or([1.0; 3]);
                 let folder = model.folder.trim_end_matches('/');
                 let file = match folder {
                     "" => file.text.to_string(),
@@ -186,7 +187,6 @@ impl<'a> Mjcf<'a, '_> {
             "ellipsoid" => Some(Solid::Ellipsoid),
             "cylinder" => Some(Solid::Cylinder),
             "box" => Some(Solid::Box),
-            // A solid about a mesh.
             "plane" | "hfield" => return,
             "mesh" | "sdf" => None,
             other => {
@@ -195,6 +195,7 @@ impl<'a> Mjcf<'a, '_> {
                 return;
             }
         };
+        // A solid that names a mesh is fitted about it.
         let solid = solid.filter(|_| mesh.is_none());
         let is_fitted = solid.is_none() && kind != "mesh" && kind != "sdf";
         let Some((pose, half)) = self.placed_geom(&geom, solid, cx) else { return };
@@ -381,19 +382,11 @@ impl<'a> Mjcf<'a, '_> {
             (None, None) => return,
         };
         let material = geom.get("material").map(|t| (cx.model, t.text.to_string()));
-        let own = geom.get("rgba").and_then(|t| doubles::<4>(&t));
+        let own = geom.get("rgba").and_then(|t| self.reader.colour_of(&t));
         let colour = own.or_else(|| self.assets.colours.get(&material?).copied());
         if colour.is_some_and(|c| c[3] <= 0.0) {
             return;
         }
-        let colour = colour.map(|c| c.map(|x| x.clamp(0.0, 1.0)));
         self.links.bodies[cx.body].looks.push(Look { shape, origin: pose.map(number), colour });
     }
-}
-
-/// Numbers that only a drawing needs.
-fn doubles<const N: usize>(text: &Text) -> Option<[f64; N]> {
-    let numbers: Option<Vec<f64>> =
-        text.words().iter().map(|w| w.text.parse().ok().filter(|x: &f64| x.abs() <= 1e6)).collect();
-    numbers?.try_into().ok()
 }

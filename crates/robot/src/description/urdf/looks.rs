@@ -59,15 +59,15 @@ impl Reader {
             return None;
         };
         match element.name().unwrap_or_default() {
-            "box" => {
-                let size = self.sizes(element, "size", 3)?;
-                Some(Shape::Box([size[0], size[1], size[2]]))
-            }
+            "box" => Some(Shape::Box(self.sizes(element, "size")?)),
             "cylinder" => {
-                let (radius, length) = (self.sizes(element, "radius", 1)?, self.sizes(element, "length", 1)?);
-                Some(Shape::Cylinder { radius: radius[0], length: length[0] })
+                let ([radius], [length]) = (self.sizes(element, "radius")?, self.sizes(element, "length")?);
+                Some(Shape::Cylinder { radius, length })
             }
-            "sphere" => Some(Shape::Sphere { radius: self.sizes(element, "radius", 1)?[0] }),
+            "sphere" => {
+                let [radius] = self.sizes(element, "radius")?;
+                Some(Shape::Sphere { radius })
+            }
             "mesh" => self.mesh(element),
             other => {
                 let message = format!("<{}> is no shape that is known: it is not drawn", shown(other));
@@ -88,11 +88,8 @@ impl Reader {
         };
         let scale = match mesh.attribute("scale") {
             // One number scales all three directions.
-            Some(value) if value.words().len() == 1 => [self.doubles(&value, "scale", 1)?[0]; 3],
-            Some(value) => {
-                let scale = self.doubles(&value, "scale", 3)?;
-                [scale[0], scale[1], scale[2]]
-            }
+            Some(value) if value.words().len() == 1 => [self.doubles::<1>(&value, "scale")?[0]; 3],
+            Some(value) => self.doubles(&value, "scale")?,
             None => [1.0; 3],
         };
         Some(Shape::Mesh { file, scale })
@@ -101,8 +98,8 @@ impl Reader {
     /// `<origin xyz rpy>` in doubles.
     fn place(&mut self, origin: Element) -> Option<Transform<f64>> {
         let mut three = |name: &str| match origin.attribute(name) {
-            Some(value) => self.doubles(&value, name, 3),
-            None => Some(vec![0.0; 3]),
+            Some(value) => self.doubles(&value, name),
+            None => Some([0.0; 3]),
         };
         let (xyz, rpy) = (three("xyz")?, three("rpy")?);
         let rotation = Rotation::from_rpy(rpy[0], rpy[1], rpy[2]);
@@ -112,18 +109,22 @@ impl Reader {
     /// `<color rgba>` of a material.
     fn colour(&mut self, material: Element) -> Option<[f64; 4]> {
         let value = material.all("color").next()?.attribute("rgba")?;
-        let parts = self.doubles(&value, "rgba", 4)?;
-        Some([0, 1, 2, 3].map(|k| parts[k].clamp(0.0, 1.0)))
+        self.colour_of(&value)
+    }
+
+    /// Red, green, blue and how opaque.
+    pub(in crate::description) fn colour_of(&mut self, value: &Text) -> Option<[f64; 4]> {
+        self.doubles::<4>(value, "rgba").map(|parts| parts.map(|x| x.clamp(0.0, 1.0)))
     }
 
     /// Lengths that are not negative.
-    fn sizes(&mut self, element: Element, name: &'static str, count: usize) -> Option<Vec<f64>> {
+    fn sizes<const N: usize>(&mut self, element: Element, name: &'static str) -> Option<[f64; N]> {
         let Some(value) = element.attribute(name) else {
             let message = format!("a <{}> without `{name}`: it is not drawn", element.full_name());
             self.out.warning(element.span(), message);
             return None;
         };
-        let sizes = self.doubles(&value, name, count)?;
+        let sizes = self.doubles(&value, name)?;
         if sizes.iter().any(|x| *x < 0.0) {
             self.out.warning(value.span, format!("`{name}` is negative: it is not drawn"));
             return None;
@@ -132,7 +133,11 @@ impl Reader {
     }
 
     /// Numbers as doubles; nothing where they are none, which is said.
-    fn doubles(&mut self, value: &Text, name: &str, count: usize) -> Option<Vec<f64>> {
+    pub(in crate::description) fn doubles<const N: usize>(
+        &mut self,
+        value: &Text,
+        name: &str,
+    ) -> Option<[f64; N]> {
         let number = |word: &Text| match word.exact {
             Some(exact) => exact.eval(|_| None).ok(),
             None => word.text.parse::<f64>().ok(),
@@ -140,10 +145,10 @@ impl Reader {
         let words = value.words();
         let numbers: Option<Vec<f64>> =
             words.iter().map(|w| number(w).filter(|x| x.abs() <= LARGEST)).collect();
-        let numbers = numbers.filter(|n| n.len() == count);
+        let numbers = numbers.and_then(|n| n.try_into().ok());
         if numbers.is_none() && !self.out.is_full() {
-            let plural = if count == 1 { "number" } else { "numbers" };
-            let message = format!("`{name}` is not {count} {plural}: it is not drawn");
+            let plural = if N == 1 { "number" } else { "numbers" };
+            let message = format!("`{name}` is not {N} {plural}: it is not drawn");
             self.out.warning(value.span.clone(), message);
         }
         numbers
