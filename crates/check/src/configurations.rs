@@ -83,7 +83,8 @@ pub(super) fn judged(
             all.push(grid);
         }
     }
-    for grid in all {
+    // A table in a document may have no row.
+    for grid in all.into_iter().filter(|g| !g.is_empty()) {
         if let Some(listed) = Listed::of(text, &grid, plan, walked) {
             found.extend(listed.claims());
             continue;

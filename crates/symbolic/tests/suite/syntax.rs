@@ -306,6 +306,8 @@ fn inverse_functions() {
     check_value(&v, &["arccos(0)", "asin(1)"], n(1).atan2(n(0)));
     check_value(&v, &["arctan^2(X)", "(arctan(X))^2"], x.atan2(n(1)).powi(2));
     check_value(&v, &["2Xarccos(X)"], n(2) * x * root.atan2(x));
+    // The arcs that are written out take what follows them, as sines do.
+    check_value(&v, &[r"\arctan\theta_1", "arctan θ1"], q(1).atan2(n(1)));
     // `parse` reads the same, but for the power with two readings.
     assert_eq!(parse(r"\arctan\frac{Y}{X}", &v), Ok(quotient.atan2(n(1))));
     assert_eq!(
@@ -314,7 +316,6 @@ fn inverse_functions() {
     );
     check_error("arccos(2)", "no real angle has this sine or cosine");
     check_error("tan(90 deg)", "the value is not a finite number");
-    check_error(r"\arctan\theta_1", "`arctan` takes its argument in brackets");
     check_error("arctan(Y, X)", "unexpected `,`; a decimal point is `.`");
     check_error(
         r"\arctan\frac{Y}{X}^2",
@@ -322,7 +323,14 @@ fn inverse_functions() {
     );
     check_error("arctan^{-1}(X)", "a negative power of a function has two readings; write `1/arctan(…)`");
     check_error(&format!("{}X{}", "tan(".repeat(30), ")".repeat(30)), "the formula becomes too large");
-    assert!(parse_syntax("arctan θ", &Vocabulary::new().open(true)).is_err());
+    for unclear in [r"\arctan\theta_1^2", r"\arctan\theta_1\theta_2", "arctan θ1 X"] {
+        check_error(
+            unclear,
+            "it is not clear where the argument ends; `arctan` takes its argument in brackets",
+        );
+    }
+    assert!(parse_syntax("arctan θ", &Vocabulary::new().open(true)).is_ok());
+    assert!(parse_syntax("atan θ", &Vocabulary::new().open(true)).is_err());
     let a = robot().symbol("a");
     assert_eq!(
         parse("acos(θ1)", &a).unwrap_err()[0].to_string(),
