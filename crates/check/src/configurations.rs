@@ -83,22 +83,27 @@ pub(super) fn judged(
             all.push(grid);
         }
     }
+    let is_table = |span: &Range<usize>| plan.tables.iter().any(|t| t.start < span.end && span.start < t.end);
     // A table in a document may have no row.
     for grid in all.into_iter().filter(|g| !g.is_empty()) {
         if let Some(listed) = Listed::of(text, &grid, plan, walked) {
             found.extend(listed.claims());
             continue;
         }
-        let side =
-            transposed(&grid).filter(|t| is_head(&t[0].iter().map(|c| c.0.clone()).collect::<Vec<_>>()));
-        if let Some(listed) = side.as_ref().and_then(|t| Listed::of(text, t, plan, walked)) {
-            found.extend(listed.claims_by_joint());
-            continue;
-        }
         let is_limits = |c: &(String, Range<usize>)| {
             let head = c.0.to_lowercase();
             ["min", "max", "limit", "range", "grenz", "bereich"].iter().any(|w| head.contains(w))
         };
+        let span = place(&grid)..grid.last().and_then(|r| r.last()).map_or(0, |c| c.1.end);
+        let is_other =
+            grid[0].iter().chain(grid.iter().filter_map(|r| r.first())).any(is_limits) || is_table(&span);
+        let side = transposed(&grid)
+            .filter(|_| !is_other)
+            .filter(|t| is_head(&t[0].iter().map(|c| c.0.clone()).collect::<Vec<_>>()));
+        if let Some(listed) = side.as_ref().and_then(|t| Listed::of(text, t, plan, walked)) {
+            found.extend(listed.claims_by_joint());
+            continue;
+        }
         let is_named =
             is_head(&grid[0].iter().map(|c| c.0.clone()).collect::<Vec<String>>()) || side.is_some();
         if is_named && !grid[0].iter().any(is_limits) {
@@ -106,7 +111,6 @@ pub(super) fn judged(
             open.extend(grid.iter().skip(1).filter(has_number).map(|row| read(row).span));
         }
     }
-    let is_table = |span: &Range<usize>| plan.tables.iter().any(|t| t.start < span.end && span.start < t.end);
     open.retain(|span| !span.is_empty() && !is_table(span));
     (found, open)
 }

@@ -92,15 +92,19 @@ fn rates(subject: &Subject, plain: &str, add: &mut Add<'_>) {
     }
     let names = subject.vocabulary();
     for (v, rate) in subject.description.variables().iter().zip(subject.rates()) {
-        let counted = v.symbol.name().trim_start_matches('q').to_string();
-        // Rows that are numbered on from another table.
-        let number = counted.parse::<usize>().map_or(counted, |n| (n + subject.first).to_string());
-        let mut spellings = vec![v.symbol.name().to_string()];
+        let is_own = |name: &str| names.lookup(name).is_none_or(|e| e.as_symbol() == Some(v.symbol));
+        // By its own name, unless the document gives that to another joint.
+        let mut spellings: Vec<String> =
+            Some(v.symbol.name().to_string()).filter(|n| is_own(n)).into_iter().collect();
+        // Rows that are numbered on from another table, or from 0.
+        let counted =
+            v.symbol.name().trim_start_matches('q').parse::<usize>().map_or(0, |n| n + subject.first);
         let letters: &[&str] = match v.kind {
             JointKind::Revolute => &["θ", "t", "th", "theta", "q"],
             JointKind::Prismatic => &["d", "r", "q", "l"],
         };
-        for letter in letters {
+        let numbers = [counted, counted.saturating_sub(1)];
+        for (letter, number) in letters.iter().flat_map(|l| numbers.map(|n| (l, n))) {
             let name = format!("{letter}{number}");
             if names.lookup(&name).is_some_and(|e| e.as_symbol() == Some(v.symbol)) {
                 spellings.push(name);

@@ -416,6 +416,8 @@ pub enum Unproved {
     NotOfSet,
     /// Nothing says for which pose values of the joints are.
     NoPose,
+    /// It is refuted as the robot, or what is given, is read, and nothing in the document bears that reading out.
+    Unsupported,
     /// A column of a table has a head that is not known.
     UnknownColumn,
     /// A table has other joints than the robot.

@@ -85,9 +85,10 @@ impl Subject {
     fn jacobian_of_first_joints(&self, printed: &Matrix) -> Option<(Matrix, Jacobian)> {
         let (rows, columns) = printed.shape().filter(|s| (2..=3).contains(&s.0))?;
         let axes = self.ground();
-        let mut best: Option<(usize, usize, Vec<Vec<Expr>>)> = None;
-        for k in columns..self.last() {
-            let full = self.geometric_rows(Reference::Frame(k), axes);
+        let mut best: Option<(usize, Reference, Vec<Vec<Expr>>)> = None;
+        let bodies = (columns..=self.last()).map(Reference::Frame).chain([Reference::Tool]);
+        for body in bodies {
+            let full = self.geometric_rows(body, axes);
             let still = |e: &Expr| e.is_zero() || equal(*e, Expr::int(0)).is_equal();
             if !full[..3].iter().all(|row| row[columns..].iter().all(still)) {
                 continue;
@@ -98,17 +99,17 @@ impl Subject {
             };
             let count = (0..rows).flat_map(|r| (0..columns).map(move |c| (r, c))).filter(agrees).count();
             if best.as_ref().is_none_or(|b| count > b.0) {
-                best = Some((count, k, full));
+                best = Some((count, body, full));
             }
         }
-        let (count, k, full) = best?;
+        let (count, body, full) = best?;
         let told = printed.0.iter().flatten().flatten().filter(|e| !e.is_zero()).count();
         if 2 * count <= told {
             return None;
         }
         let rows_of = |r: &Vec<Expr>| r[..columns].iter().map(|e| Some(*e)).collect();
         let matrix = Matrix(full[..rows].iter().map(rows_of).collect());
-        let (body, order) = (Reference::Frame(k), [0, 1, 2, 3, 4, 5]);
+        let order = [0, 1, 2, 3, 4, 5];
         Some((matrix, Jacobian { body, at: None, axes, is_angular_first: false, rows, order }))
     }
 

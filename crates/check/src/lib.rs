@@ -5,6 +5,7 @@
 //! (`judge`). For what is wrong, the smallest change that mends it is looked for, first of the robot's table (`causes`),
 //! then of the formula (`denavit_reading::slip`).
 
+mod apart;
 mod blamed;
 mod carried;
 mod causes;
@@ -41,6 +42,7 @@ mod product;
 mod programs;
 mod readings;
 mod recognised;
+mod respelling;
 mod scripts;
 mod subject;
 mod supported;
@@ -48,6 +50,7 @@ mod tables;
 mod tools;
 mod trial;
 mod unjudged;
+mod unsupported;
 mod values;
 mod walk;
 mod whole;
@@ -108,20 +111,8 @@ pub fn check(
         notes.error(0..0, Noted::TooLong { bytes: text.len(), most: MAX_BYTES });
         return Err(notes.found());
     }
-    let respelled = numbers::decimal_points(text);
-    let text = respelled.as_deref().unwrap_or(text);
-    let respelled = options.language.is_none().then(|| numbers::rates_by_primes(text)).flatten();
-    let text = respelled.as_deref().unwrap_or(text);
-    let respelled = options.language.is_none().then(|| numbers::alternatives_by_primes(text)).flatten();
-    let text = respelled.as_deref().unwrap_or(text);
-    let respelled = options.language.is_none().then(|| numbers::words_as_signs(text)).flatten();
-    let text = respelled.as_deref().unwrap_or(text);
-    let respelled = options.language.is_none().then(|| numbers::commas_in_calls(text)).flatten();
-    let text = respelled.as_deref().unwrap_or(text);
-    let respelled = options.language.is_none().then(|| numbers::names_behind(text)).flatten();
-    let text = respelled.as_deref().unwrap_or(text);
-    let respelled = options.language.is_none().then(|| displayed::bracketed(text)).flatten();
-    let text = respelled.as_deref().unwrap_or(text);
+    let respelled = respelling::respelled(text, options.language.is_some());
+    let text = &*respelled;
     let mut document = match options.language {
         Some(_) => Document::default(),
         None => document::read(text, format),
@@ -203,6 +194,7 @@ pub fn check(
         }
         claims.extend(table.claims);
     }
+    unsupported::withdraw(text, &plan, &walked, &mut claims);
     claims.extend(goals::judged(text, &plan, &walked));
     let (listed, open_rows) = configurations::judged(text, plan::kind_of_tables(format), &plan, &walked);
     claims.extend(listed);
@@ -211,6 +203,7 @@ pub fn check(
         c.turns_right.iter().any(|at| matches!(finding(at), Some(Standing::Wrong | Standing::Carried)))
     });
     let unjudged = unjudged::listed(text, &document, &walked, &open_rows, &mut claims, options);
+    let claims = apart::split(text, claims, &mut causes);
     let mut checked = Checked {
         claims,
         causes,

@@ -224,6 +224,12 @@ fn is_cell(cell: &str) -> bool {
 fn row(line: &str, head: &[Column]) -> Option<[String; 4]> {
     let line = line.replace(" deg", "°").replace(" rad", "");
     let line = line.split_once(':').map_or(line.as_str(), |l| l.1).trim();
+    // `q1, H, E, -90 deg   (E: the tilt axis sits beside the pan axis)`
+    let is_remark = |r: &str| r.ends_with(')') && r.trim_matches(['(', ')', ' ']).contains(' ');
+    let line = match line.find(" (").filter(|&at| is_remark(&line[at..])) {
+        Some(at) => line[..at].trim_end(),
+        None => line,
+    };
     let line = match line.split_once('=') {
         Some((name, rest)) if matches!(name.trim(), "i" | "j" | "link" | "joint") => rest.trim(),
         _ => line,

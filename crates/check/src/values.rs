@@ -132,13 +132,9 @@ impl Judge<'_> {
             let place =
                 sides.first().map_or(assertion.span.clone(), |s| s.0.start..sides[sides.len() - 1].0.end);
             let mut finding = self.finding(&judgement, sides);
-            // A formula of what itself depends on the joint, as of a point of the arm: it is asked of its own value.
-            if judgement.verdict == Verdict::Undecided(Undecided::Circular)
-                && self.trial.shares(own, &values.branches.concat())[0] >= LEAST_SHARE
-            {
-                let (condition, remarks) = (Condition::Configurations(vec![]), vec![Remark::Sampled]);
-                finding = Finding::Conditional { condition, correct: vec![], remarks };
-            } else if judgement.verdict == Verdict::Undecided(Undecided::Circular) {
+            // A formula of what itself depends on the joint, as of a point of the arm: that it gives the joint's own value proves
+            // nothing, that it gives another one does.
+            if judgement.verdict == Verdict::Undecided(Undecided::Circular) {
                 finding = self.never_own(own, values, sides).unwrap_or(finding);
             }
             let identities = judgement.identities.clone();

@@ -1,6 +1,8 @@
 //! What the name of a function says of what it gives back.
 
-use denavit_reading::code::Reading;
+use crate::matrix::Matrix;
+use denavit_reading::code::{Cell, Reading};
+use denavit_reading::slip::Points;
 
 /// The coordinate of the hand that a function is called after: `fk_x`, `get_y`, `px`.
 pub(super) fn axis_of(name: &str) -> Option<usize> {
@@ -37,4 +39,47 @@ pub(super) fn is_of_part(function: &Reading) -> bool {
     ];
     let name = function.name.to_lowercase();
     PARTS.iter().any(|part| name.contains(part))
+}
+
+/// True for a function whose name says that it gives something else than a place: a velocity, torques.
+pub(super) fn gives_another(function: &Reading) -> bool {
+    const OTHERS: [&str; 16] = [
+        "vel", "speed", "rate", "torque", "tau", "force", "effort", "grav", "accel", "power", "energy",
+        "inertia", "mass", "hold", "static", "det",
+    ];
+    let is_jacobian = function.name.to_lowercase().contains("jac");
+    !is_jacobian && words(&function.name).any(|w| OTHERS.iter().any(|other| w.starts_with(other)))
+}
+
+/// True for a function that is called after a determinant: `arm_det`.
+pub(super) fn is_determinant(function: &Reading) -> bool {
+    words(&function.name).any(|w| matches!(w.as_str(), "det" | "detj" | "determinant" | "determinante"))
+}
+
+fn words(name: &str) -> impl Iterator<Item = String> + '_ {
+    name.split('_').filter(|w| !w.is_empty()).map(str::to_lowercase)
+}
+
+/// Nine or sixteen entries one behind the other as a rotation or a pose, by rows or by columns as they agree with the hand's.
+pub(super) fn as_square(rows: &[Vec<Cell>], hand: &Matrix) -> Option<Vec<Vec<Cell>>> {
+    let n = match rows.len() {
+        9 => 3,
+        16 => 4,
+        _ => return None,
+    };
+    let all: Vec<&Cell> = rows.iter().map(|r| r.first()).collect::<Option<_>>()?;
+    let mut points = Points::new(3);
+    let mut agreement = |by_columns: bool| {
+        let places = (0..n).flat_map(|r| (0..n).map(move |c| (r, c)));
+        places
+            .filter(|&(r, c)| {
+                let cell = all[if by_columns { c * n + r } else { r * n + c }];
+                let own = points.value(cell.value);
+                own.is_some() && own == hand.entry(r, c).and_then(|e| points.value(e))
+            })
+            .count()
+    };
+    let by_columns = agreement(true) > agreement(false);
+    let at = |r: usize, c: usize| all[if by_columns { c * n + r } else { r * n + c }].clone();
+    Some((0..n).map(|r| (0..n).map(|c| at(r, c)).collect()).collect())
 }

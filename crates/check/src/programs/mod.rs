@@ -10,9 +10,9 @@ mod shown;
 mod stated;
 
 use super::custom;
-use super::directions::sum_in_pose;
+use super::directions::parallel_sum;
 use super::facts::{About, Meaning};
-use super::habits::{Habits, Places};
+use super::habits::Habits;
 use super::jacobians::{Part, Told};
 use super::lexis::Lexis;
 use super::lines::lines;
@@ -22,7 +22,7 @@ use super::numbers::{Answer, Configuration, half_unit};
 use super::recognised;
 use super::subject::Subject;
 use super::walk::{Assertion, Defined, Pair, Piece, Walk, is_measured};
-use called::{axis_of, is_of_part};
+use called::{as_square, axis_of, gives_another, is_determinant, is_of_part};
 use defined::{defined, unsaid};
 use denavit::forward::Reference;
 use denavit_reading::code::{Asked, Assigned, Cell, Code, Dialect, Reading, Value, read_blocks};
@@ -247,16 +247,8 @@ impl Program<'_> {
                 found.push(self.assertion(&a.name, About::Equation, &a.span, pieces, None));
             }
         }
-        let places = Places(self.lexis.habits.columns);
+        let of_hand = parallel_sum(self.subject);
         for (i, a) in function.assigned.iter().enumerate() {
-            // A sum of joints that is an angle of the hand is what it is.
-            if let Value::Scalar(cell) = &a.value
-                && sum_in_pose(self.subject, &places, cell.value).is_some()
-            {
-                let pieces = vec![self.piece(None, cell, cell.value)];
-                found.push(self.assertion(&a.name, About::Equation, &a.span, pieces, None));
-                continue;
-            }
             let is_last = !function.assigned[i + 1..].iter().any(|b| b.name == a.name);
             // What is returned under that name is judged there.
             let is_returned = function.returned.iter().any(|r| r.name.as_deref() == Some(a.name.as_str()));
@@ -275,6 +267,14 @@ impl Program<'_> {
             {
                 // What a script calls so is the hand's.
                 found.extend(self.pose(function, &a.name, &a.span, rows));
+            } else if is_last
+                && !is_returned
+                && let (Value::Scalar(cell), Some(sum)) = (&a.value, of_hand)
+                && equal(cell.value, sum).is_equal()
+            {
+                // A name of its own for the angle of the hand.
+                let pieces = vec![self.piece(None, cell, sum)];
+                found.push(self.assertion(&a.name, About::Equation, &a.span, pieces, None));
             }
         }
         found
@@ -401,10 +401,12 @@ impl Program<'_> {
         span: &Range<usize>,
         rows: &[Vec<Cell>],
     ) -> Option<Assertion> {
-        if is_of_part(function) {
+        if is_of_part(function) || gives_another(function) {
             return None;
         }
         let pose = self.subject.pose();
+        let square = as_square(rows, &Matrix::of(&pose));
+        let rows = square.as_deref().unwrap_or(rows);
         let columns = rows.first()?.len();
         let joints = self.subject.description.variables().len();
         // Of a part of the joints, or of names that are no joints: another frame, or a transform of any row.
@@ -457,6 +459,16 @@ impl Program<'_> {
         cell: &Cell,
         shown: &str,
     ) -> Option<Assertion> {
+        if is_determinant(function) && function.returned.len() == 1 {
+            let wanted = [Part::Any, Part::Linear].into_iter().find_map(|p| self.subject.determinant(p))?;
+            return Some(self.assertion(
+                shown,
+                About::Equation,
+                span,
+                vec![self.piece(None, cell, wanted)],
+                None,
+            ));
+        }
         let axis =
             axis_of(&function.name).filter(|_| !is_of_part(function) && function.returned.len() == 1)?;
         let pieces = vec![self.piece(None, cell, self.subject.pose().translation.0[axis])];

@@ -9,7 +9,7 @@ mod spelling;
 
 use super::directions::DIRECTIONS;
 use super::listing::comment_mark;
-use denavit_reading::code::Dialect;
+use denavit_reading::code::{Dialect, is_sign_name};
 use denavit_reading::document::{self, Document, Format, Statement};
 use spelling::{branches, roots, spelled, squeezed};
 use std::collections::BTreeSet;
@@ -38,9 +38,6 @@ const KNOWN: [&str; 30] = [
     "hypot", "sind", "cosd", "tand", "atan2d", "acosd", "asind", "atand", "deg2rad", "radians", "pow",
     "sqrtf", "atan2f", "acosf", "sinf", "cosf", "abs", "if",
 ];
-/// Parts of the names of parameters that are 1 or −1.
-const SIGNS: [&str; 10] =
-    ["sign", "sgn", "elbow", "flip", "sigma", "branch", "ellbogen", "coude", "codo", "gomito"];
 /// The most statements of a line.
 const MAX_BESIDE: usize = 12;
 /// The longest line.
@@ -122,7 +119,7 @@ pub(super) fn inverse(
                 parameters: known,
                 lines: vec![],
                 function: None,
-                signs: region.signs.clone(),
+                signs: region.signs.iter().filter(|n| !is_known(n)).cloned().collect(),
                 renamed: vec![],
             };
             let mut lost: BTreeSet<String> = BTreeSet::new();
@@ -320,7 +317,7 @@ fn head(line: &str, language: Dialect) -> Option<(Vec<String>, Vec<String>)> {
         };
         let name = name.unwrap_or_default().to_string();
         let lower = name.to_lowercase();
-        let is_called = || SIGNS.iter().any(|s| lower.contains(s)) && default.trim().is_empty();
+        let is_called = || is_sign_name(&lower) && default.trim().is_empty();
         if matches!(default.trim(), "1" | "-1" | "+1" | "1.0" | "-1.0") || is_called() {
             signs.push(name.clone());
         }

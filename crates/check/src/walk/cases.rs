@@ -254,14 +254,15 @@ fn is_half_turn(turn: Expr) -> bool {
 
 /// True if a heading, in small letters, is one above inverse kinematics.
 pub(super) fn tells_inverse(heading: &str) -> bool {
-    const WORDS: [&str; 20] = [
-        "reaching",
+    const WORDS: [&str; 21] = [
+        "reaching a ",
+        "reaching the ",
         "given point",
-        "erreich",
+        "erreichen",
         "rückrechnung",
         "alcanzar",
         "atteindre",
-        "raggiung",
+        "raggiungere",
         "to joint angles",
         "inverse",
         "inversa",

@@ -1,7 +1,7 @@
 //! Which statements define a name of the document's own.
 
 use super::{Defined, Pair, Piece, Scalar, Walk};
-use crate::directions::sum_in_pose;
+use crate::directions::{parallel_sum, sum_in_pose};
 use crate::facts::About;
 use crate::habits::Places;
 use crate::lexis::read;
@@ -10,6 +10,12 @@ use denavit_symbolic::Expr;
 use denavit_symbolic::parse::{Function, Syntax, SyntaxKind};
 use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
 use std::ops::Range;
+
+/// True for the name of a length of a table: `d2`, `a3`, `r1`.
+fn is_cell(name: &str) -> bool {
+    let number = name.strip_prefix(['a', 'd', 'r', 'b']).unwrap_or_default();
+    !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit())
+}
 
 impl Walk<'_> {
     /// True if a side defines a name: one without meaning, or a second spelling of a joint whose own formula it would stand in.
@@ -31,7 +37,8 @@ impl Walk<'_> {
                     return !denavit_symbolic::equal(left.value(), formula.value()).is_equal();
                 }
                 // `d2 = a² + b²` where the table has 0 for d2: the name is the author's own.
-                let is_empty_cell = matches!(left.kind, SyntaxKind::Name(_))
+                let is_empty_cell = is_cell(&plain_name(self.source(span)))
+                    && matches!(left.kind, SyntaxKind::Name(_))
                     && left.value().is_zero()
                     && !formula.value().is_zero()
                     && formula.value().symbols().iter().any(|s| self.subject.joints().contains(&(*s).into()));
@@ -94,17 +101,18 @@ impl Walk<'_> {
         let is_angle = name.ends_with(|c: char| c.is_alphabetic());
         let places = Places(self.lexis.habits.columns);
         let shown = is_angle.then(|| sum_in_pose(&self.subject, &places, inverse)).flatten();
-        let of_hand = sum_in_pose(&self.subject, &places, value).filter(|_| shown.is_some());
+        let is_sum = |sum: &Expr| shown.is_some() && denavit_symbolic::equal(value, *sum).is_equal();
+        let of_hand = parallel_sum(&self.subject).filter(is_sum);
         let inverse = shown.unwrap_or(inverse);
-        if of_hand.is_some() {
-            // What the name means is seen: an angle of the hand.
+        if let Some(wanted) = of_hand {
+            // What the name means is seen: the angle of the hand.
             let mut assertion = self.assertion(statement, About::Equation);
             assertion.pieces = vec![Piece::Pair(Pair {
                 place: None,
                 span: span.clone(),
                 printed: Some(syntax.clone()),
                 value,
-                wanted: value,
+                wanted,
                 also: vec![],
             })];
             self.assertions.push(assertion);

@@ -8,6 +8,7 @@ use crate::matrix::Matrix;
 use crate::names::Name;
 use crate::recognised::nearest;
 use denavit::forward::Reference as Frame;
+use denavit::geometry::Rotation;
 use denavit_symbolic::Expr;
 
 impl Walk<'_> {
@@ -35,6 +36,11 @@ impl Walk<'_> {
         let Some(((_, about), agreement)) = nearest(&self.subject, &Matrix(rows.clone())) else { return };
         let Meaning::Rotation(frame) = about else { return };
         let (Meaning::Frame { of, seen_from }, true) = (*frame, agreement.is_whole) else { return };
+        // The tool's turn is no part of the last frame.
+        let turns = self.subject.description.tool.rotation != Rotation::identity();
+        if turns && [of, seen_from].contains(&Frame::Tool) {
+            return;
+        }
         let number = |r: Frame| match r {
             Frame::Base => 0,
             Frame::Frame(k) => k,

@@ -58,6 +58,12 @@ pub(in super::super) struct Goal {
     pub targets: Vec<Target>,
 }
 
+/// Words that begin what joints are given as.
+const GIVEN: [&str; 15] = [
+    "with ", "for ", "at ", "example", "bei ", "für ", "mit ", "beispiel", "pour ", "avec ", "para ", "con ",
+    "per ", "com ", "exemp",
+];
+
 /// No pose has more numbers.
 const MAX_TARGETS: usize = 16;
 
@@ -121,14 +127,22 @@ impl Walk<'_> {
 
     /// Keeps the numbers that a joint is said to have for the pose that is to be reached; false if there is more to judge.
     pub(super) fn answer(&mut self, statement: &Statement, read: &[Scalar]) -> bool {
-        if !self.in_inverse || self.goal.is_empty() {
+        let Some((of, span, syntax)) = self.numbers_of_joint(read) else { return false };
+        let targets = match self.in_inverse && !self.goal.is_empty() {
+            true => self.goal.clone(),
+            false => self.pose_of_other_solution(statement),
+        };
+        if targets.is_empty() {
             return false;
         }
-        let Some((of, span, syntax)) = self.numbers_of_joint(read) else { return false };
         // `With θ1 = 30°, θ2 = 45°:` begins what is computed from them.
         let rest = self.text.get(statement.span.end..).unwrap_or_default();
         let line = rest.split('\n').next().unwrap_or_default();
-        if line.trim_end().ends_with(':') && line.len() < FAR {
+        let before = self.text.get(..statement.span.start).unwrap_or_default();
+        let begins = before.rsplit('\n').next().unwrap_or_default();
+        let begins = begins.trim_start_matches(|c: char| !c.is_alphabetic()).to_lowercase();
+        let is_given = GIVEN.iter().any(|word| begins.starts_with(word));
+        if is_given && line.trim_end().ends_with(':') && line.len() < FAR {
             self.seek(false);
             return false;
         }
@@ -153,10 +167,55 @@ impl Walk<'_> {
             half,
             has_unit,
             subject: self.number,
-            targets: self.goal.clone(),
+            targets,
             at: self.at.clone(),
         });
         self.only_numbers(read)
+    }
+
+    /// The pose of the configuration that the document states, where the words before a statement speak of another solution:
+    /// `the elbow-down solution has q2 = 40°`.
+    fn pose_of_other_solution(&self, statement: &Statement) -> Vec<Target> {
+        const SOLUTIONS: [&str; 6] = ["solution", "soluzion", "lösung", "solucion", "solución", "solução"];
+        const OTHERS: [&str; 18] = [
+            "other",
+            "second",
+            "flip",
+            "elbow",
+            "altr",
+            "gomito",
+            "andere",
+            "zweite",
+            "ellbogen",
+            "otra",
+            "codo",
+            "autre",
+            "coude",
+            "deuxième",
+            "outra",
+            "cotovelo",
+            "mirror",
+            "alternativ",
+        ];
+        let before = self.text.get(..statement.span.start).unwrap_or_default();
+        let line = before.rsplit('\n').next().unwrap_or_default();
+        if line.len() > FAR {
+            return vec![];
+        }
+        let line = line.to_lowercase();
+        let says = |words: &[&str]| words.iter().any(|w| line.contains(w));
+        if !says(&SOLUTIONS) || !says(&OTHERS) {
+            return vec![];
+        }
+        let pose = self.subject.pose().matrix();
+        let columns = if self.subject.joints().len() > 3 { 0..4 } else { 3..4 };
+        let entries = pose.iter().take(3).flat_map(|row| row[columns.clone()].iter().copied());
+        let moves = |e: &Expr| e.symbols().iter().any(|s| self.subject.joints().contains(&(*s).into()));
+        let target = |wanted: Expr| {
+            let printed = self.at.number(wanted, &self.subject)?;
+            Some(Target::new(&self.subject, wanted, printed, 0.0))
+        };
+        entries.filter(moves).map(target).collect::<Option<Vec<_>>>().unwrap_or_default()
     }
 
     /// Keeps a number for an entry of the pose that is to be reached: `x = 516.8 mm` above inverse kinematics.

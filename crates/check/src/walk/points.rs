@@ -72,6 +72,18 @@ fn distances(open: &[&Defined], subjects: &[Rc<Subject>]) -> Vec<Assertion> {
         let Some(subject) = subjects.get(d.subject) else { continue };
         let joints = subject.joints();
         let moves = |e: Expr| e.symbols().iter().any(|s| joints.contains(&(*s).into()));
+        // What is told of the hand's own place is that by definition.
+        let place = subject.pose().translation.0;
+        let is_place = |e: Expr| place.iter().any(|p| !p.symbols().is_empty() && equal(e, *p).is_equal());
+        let mut parts = vec![&d.printed];
+        let mut speaks_of_hand = false;
+        while let Some(part) = parts.pop() {
+            speaks_of_hand |= matches!(part.kind, SyntaxKind::Name(e) if is_place(e));
+            parts.extend(part.children());
+        }
+        if speaks_of_hand {
+            continue;
+        }
         // What is a multiple of a sine is no distance.
         if !moves(d.value) || !matches!(d.printed.kind, SyntaxKind::Sum(_) | SyntaxKind::Root(_)) {
             continue;

@@ -59,10 +59,10 @@ impl Walk<'_> {
         // `J_{11} = […]` is a block.
         let is_block = || {
             let given = ["J_{11}", "J_{11} ", "J11", "J11 "].iter().flat_map(|n| self.text.match_indices(n));
-            given.into_iter().take(20).any(|(at, n)| {
+            given.take(20).any(|(at, n)| {
                 let rest = self.text[at + n.len()..].trim_start_matches([' ', '&']);
                 let rest = rest.strip_prefix('=').unwrap_or_default().trim_start_matches([' ', '&', '\n']);
-                rest.starts_with(['[', '(']) || rest.starts_with("\\begin") || rest.starts_with("\\left")
+                rest.starts_with('[') || ["\\begin", "\\left["].iter().any(|b| rest.starts_with(b))
             })
         };
         if let ("J", [r, c]) = (name.base.as_str(), &digits[..]) {
@@ -101,6 +101,10 @@ impl Walk<'_> {
             if all_matrices || read.iter().any(is_matrix) {
                 return false;
             }
+        }
+        if self.is_numbered_word(statement) {
+            self.skipped.push((statement.span.clone(), Unreadable::NeitherFormulaNorProduct));
+            return true;
         }
         if self.tells_goal(statement) {
             self.look_for_joints();
@@ -199,8 +203,11 @@ impl Walk<'_> {
             return true;
         }
         // `cos θ3 = … = D` gives what stands before it a name.
+        let tells = |sides: usize| sides > 2 || self.source(&statement.span).contains("=:");
         if let [.., Scalar::Formula(span, syntax), Scalar::Lone(name)] = &read[..]
             && !is_definition
+            && name.is_bare()
+            && tells(read.len())
         {
             let name = plain_name(&format!("{}{}", name.base, name.sub));
             let inverse = self.inverse_value(span, syntax);
@@ -328,6 +335,17 @@ impl Walk<'_> {
     /// The value of a formula, the entries of the pose as symbols.
     fn inverse_value(&self, span: &Range<usize>, syntax: &Syntax) -> Expr {
         self.lexis.inverse_formula(self.text, span).map_or(syntax.value(), |s| s.value())
+    }
+
+    /// True for `2 = 78.5` of `motor 2 = 78.5`: the number belongs to the word before it.
+    fn is_numbered_word(&self, statement: &Statement) -> bool {
+        let Some(first) = statement.sides.first() else { return false };
+        let before = self.text.get(..first.span.start).unwrap_or_default();
+        let number = self.source(&first.span).trim();
+        !number.is_empty()
+            && number.bytes().all(|b| b.is_ascii_digit())
+            && before.ends_with(' ')
+            && before.trim_end_matches(' ').ends_with(char::is_alphabetic)
     }
 
     /// Keeps what is printed for the sine or cosine of a joint: `c_3 = D`, `s_3 = ±√(1 − D²)`.

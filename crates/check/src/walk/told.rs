@@ -45,11 +45,9 @@ const RATES: [&str; 8] = [
 ];
 
 /// Words that put all joints to zero.
-const ZERO: [&str; 26] = [
+const ZERO: [&str; 24] = [
     "in der nullstellung",
     "in nullstellung",
-    "in the home position",
-    "in the home configuration",
     "in the zero position",
     "in the zero configuration",
     "at the zero configuration",
@@ -75,9 +73,11 @@ const ZERO: [&str; 26] = [
 ];
 
 /// Words for the configuration that stands further up.
-const SAME: [&str; 24] = [
-    "zahlenwerten aus",
-    "zahlenwerte aus",
+const SAME: [&str; 26] = [
+    "zahlenwerten aus a",
+    "zahlenwerten aus teil",
+    "zahlenwerte aus a",
+    "zahlenwerte aus teil",
     "values of part",
     "values from part",
     "numbers of part",
@@ -155,7 +155,10 @@ impl Walk<'_> {
             let word = before.rsplit([' ', '(', '$', '\\']).next().unwrap_or_default();
             let is_argument = matches!(word, "cos" | "sin" | "tan" | "sen" | "tg" | "det");
             // `a1 − a2 = 0.2` says nothing of a2 itself.
-            let is_term = before.ends_with(['+', '-', '−', '·', '*', '/', '±', '×', '^', '|']);
+            let signs = ['+', '-', '−', '·', '*', '/', '±', '×', '^', '|'];
+            let operand = before.strip_suffix(signs).map(str::trim_end);
+            let is_term =
+                operand.is_some_and(|o| o.ends_with(|c: char| c.is_alphanumeric() || ")}]".contains(c)));
             if name.is_empty() || is_argument || is_term {
                 names.clear();
                 continue;

@@ -8,12 +8,14 @@ mod inverse;
 mod marking;
 mod mutations;
 mod named;
+mod programs;
 mod readings;
 mod scripts;
 mod statements;
 mod strangers;
 mod tables;
 mod told;
+mod unsupported;
 mod wild;
 
 #[path = "../../../robot/tests/suite/common/mod.rs"]

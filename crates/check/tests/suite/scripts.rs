@@ -214,9 +214,13 @@ fn programs_in_c() {
         )
     };
     let right = standings(&text("theta1 + theta2"), Format::Plain, Some(Dialect::C));
-    assert_eq!(["x", "y", "J"].map(|n| of(&right, n)), [Standing::Equal; 3]);
+    let names = ["x", "y", "J[0][0]", "J[0][1]", "J[1][0]", "J[1][1]"];
+    assert_eq!(names.map(|n| of(&right, n)), [Standing::Equal; 6]);
     let wrong = standings(&text("theta2"), Format::Plain, Some(Dialect::C));
-    assert_eq!(["x", "y", "J"].map(|n| of(&wrong, n)), [Standing::Equal, Standing::Wrong, Standing::Equal]);
+    assert_eq!(
+        ["x", "y", "J[1][0]"].map(|n| of(&wrong, n)),
+        [Standing::Equal, Standing::Wrong, Standing::Equal]
+    );
 }
 
 #[test]

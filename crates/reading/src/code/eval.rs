@@ -147,6 +147,9 @@ impl<'a> Machine<'a> {
             }
             _ => {}
         }
+        if let Some(coordinate) = self.coordinate(name, span) {
+            return Ok(coordinate);
+        }
         if let Some(meaning) = (self.names)(name) {
             return Ok(Object::Scalar(Scalar::of(meaning, span).named(span)));
         }
@@ -170,7 +173,7 @@ impl<'a> Machine<'a> {
     }
 
     /// The value of a variable: of the function, of those around it, or of the script.
-    fn variable(&self, name: &str) -> Option<Read<Object<'a>>> {
+    pub fn variable(&self, name: &str) -> Option<Read<Object<'a>>> {
         let mut at = self.frames.len().checked_sub(1);
         while let Some(index) = at {
             let frame = &self.frames[index];

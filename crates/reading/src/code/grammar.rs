@@ -141,6 +141,15 @@ impl Parser<'_> {
                 return p.lambda();
             }
             let value = p.climb(0)?;
+            // `c ? a : b` of C
+            if p.eat("?") {
+                let first = p.expression()?;
+                if !p.eat(":") {
+                    return Err(p.unexpected("`:`"));
+                }
+                let other = p.expression()?;
+                return Ok(p.node(Kind::Choice(Box::new([value, first, other])), start));
+            }
             if !p.eat_word("if") {
                 return Ok(value);
             }

@@ -33,7 +33,7 @@ mod value;
 use denavit_symbolic::Expr;
 use denavit_symbolic::parse::{ParseError, Syntax};
 use machine::Machine;
-pub use posed::Posed;
+pub use posed::{Posed, is_sign_name};
 use scalar::Scalar;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -387,9 +387,12 @@ fn arguments<'a>(
     }
     let mut slots = BTreeMap::new();
     let mut unknown = vec![];
+    // Beside a joint by its name, another one has a name, too.
+    let mut has_joint = false;
     for p in &d.parameters {
         match (machine.names)(&p.name) {
             Some(meaning) => {
+                has_joint |= machine.joints.contains(&meaning);
                 slots.insert(p.name.as_str(), Object::Scalar(Scalar::of(meaning, &p.span)));
             }
             None if p.default.is_none() => unknown.push(p),
@@ -399,10 +402,10 @@ fn arguments<'a>(
     match unknown.as_slice() {
         [] => {}
         // One name stands for all joints; a helper has meaning only where it is called.
-        [p] if !is_helper || (d.parameters.len() == 1 && is_vector(&p.name)) => {
+        [p] if !has_joint && !is_helper || (d.parameters.len() == 1 && is_vector(&p.name)) => {
             slots.insert(p.name.as_str(), machine.joint_vector(&p.span));
         }
-        several if several.len() == machine.joints.len() && !is_helper => {
+        several if several.len() == machine.joints.len() && !has_joint && !is_helper => {
             for (p, joint) in several.iter().zip(machine.joints) {
                 slots.insert(p.name.as_str(), Object::Scalar(Scalar::of(*joint, &p.span)));
             }

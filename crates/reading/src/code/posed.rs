@@ -33,6 +33,11 @@ const SIGNS: [&str; 12] = [
     "gomito",
 ];
 
+/// True if an argument of this name, in small letters, is 1 or −1 by its name.
+pub fn is_sign_name(name: &str) -> bool {
+    SIGNS.iter().any(|s| name.contains(s))
+}
+
 impl<'a> Machine<'a> {
     /// The arguments of a function that is told of a pose.
     pub fn posed_arguments(&self, parameters: &'a [Parameter]) -> BTreeMap<&'a str, Object<'a>> {
@@ -43,7 +48,7 @@ impl<'a> Machine<'a> {
             let is_one = p.default.as_ref().is_some_and(is_plus_or_minus_one);
             let has_number = p.default.as_ref().is_some_and(|d| matches!(d.kind, Kind::Number(..)));
             let lower = p.name.to_lowercase();
-            let is_sign = || p.default.is_none() && (SIGNS.iter().any(|s| lower.contains(s)) || lower == "s");
+            let is_sign = || p.default.is_none() && (is_sign_name(&lower) || lower == "s");
             let value = match () {
                 () if is_one => scalar((posed.sign)(&p.name)),
                 () if has_number => continue,
@@ -123,6 +128,19 @@ impl<'a> Machine<'a> {
         }
         let meaning = (self.names)(name).map(|e| Object::Scalar(Scalar::of(e, span)));
         meaning.or_else(|| self.entries_of_pose(name, span))
+    }
+
+    /// `p.x` of C, here `p_x`, where p is a point that a function is told.
+    pub fn coordinate(&mut self, name: &'a str, span: &Span) -> Option<Object<'a>> {
+        self.posed?;
+        let (base, axis) = name.rsplit_once('_')?;
+        let k = ["x", "y", "z"].iter().position(|a| *a == axis)?;
+        match self.variable(base)?.ok()? {
+            Object::Matrix(m) if m.entries.len() == 3 => {
+                Some(Object::Scalar(m.entries[k].clone().named(span)))
+            }
+            _ => None,
+        }
     }
 
     /// An entry of the joints that gets a value, `q[0] = atan2(…)`: it is put down, and stands for the joint from here on.

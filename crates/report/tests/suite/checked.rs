@@ -219,6 +219,7 @@ fn conditions_and_doubts() {
         Unproved::NotFound,
         Unproved::NotOfSet,
         Unproved::NoPose,
+        Unproved::Unsupported,
         Unproved::UnknownColumn,
         Unproved::OtherJoints,
         Unproved::OtherNames,

@@ -24,6 +24,10 @@ pub(super) trait Field: Clone + PartialEq {
     fn one() -> Self {
         Self::int(1)
     }
+    /// What an operation with it costs, in operations with short numbers.
+    fn cost(&self) -> usize {
+        1
+    }
     /// A small power.
     fn power(&self, n: u16) -> Self {
         (0..n).fold(Self::one(), |x, _| x.times(self))
@@ -68,6 +72,12 @@ impl Gauss {
 impl Field for Gauss {
     fn zero() -> Self {
         Gauss::real(Rational::ZERO)
+    }
+    fn cost(&self) -> usize {
+        // A fraction is shortened after each operation: in the square of its length.
+        let words = self.re.bits().max(self.im.bits()) / 64;
+        let words = usize::try_from(words).unwrap_or(usize::MAX);
+        words.saturating_mul(words).max(1)
     }
     fn int(n: i64) -> Self {
         Gauss::real(n.into())

@@ -124,7 +124,9 @@ fn pseudo_remainder(u: &Poly, v: &Poly, x: usize, work: &mut Work) -> Result<Pol
         shift.iter_mut().for_each(|e| *e = 0);
         shift[x] = rest.degree(x) - degree;
         let top = rest.leading(x).times_monomial(&shift);
-        rest = rest.times(&lead, work)?.minus(&v.times(&top, work)?).monic();
+        rest = rest.times(&lead, work)?.minus(&v.times(&top, work)?);
+        work.spend(rest.terms().len().saturating_mul(rest.cost()))?;
+        rest = rest.monic();
     }
     Ok(rest)
 }

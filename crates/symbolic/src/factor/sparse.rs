@@ -100,10 +100,16 @@ impl<K: Field> Sparse<K> {
 
     /// The product.
     pub fn times(&self, o: &Self, work: &mut Work) -> Result<Self, Exhausted> {
-        work.spend(self.terms.len() * o.terms.len())?;
+        let cost = self.cost().max(o.cost());
+        work.spend((self.terms.len() * o.terms.len()).saturating_mul(cost))?;
         let products =
             self.terms.iter().flat_map(|(a, x)| o.terms.iter().map(|(b, y)| (product(a, b), x.times(y))));
         Ok(Self::from_terms(self.variables, products))
+    }
+
+    /// What an operation with its dearest coefficient costs.
+    pub fn cost(&self) -> usize {
+        self.terms.iter().map(|t| t.1.cost()).max().unwrap_or(1)
     }
 
     /// The multiple `k·self`.
@@ -156,7 +162,7 @@ impl<K: Field> Sparse<K> {
         while let Some((e, c)) = rest.pop_last() {
             let Some(q) = quotient(&e, lead) else { return Ok(None) };
             let c = c.times(&inverse);
-            work.spend(2 * d.terms.len())?;
+            work.spend((2 * d.terms.len()).saturating_mul(c.cost()))?;
             for (m, k) in &d.terms[1..] {
                 let at = product(m, &q);
                 let change = K::zero().minus(&k.times(&c));

@@ -358,7 +358,7 @@ impl Writer {
                     self.at += 1;
                     continue;
                 }
-                "++" | "--" | "?" | "<<" | ">>" | "<<=" | ">>=" => {
+                "++" | "--" | "<<" | ">>" | "<<=" | ">>=" => {
                     let bad = Mark::Bad(format!("`{op}` is not read"));
                     self.out.push(Token { mark: bad, ..self.tokens[self.at].clone() });
                     self.at += 1;

@@ -234,6 +234,9 @@ impl Check for English {
             }
             Unproved::NotOfSet => "these are no angles of that set",
             Unproved::NoPose => "nothing says for which pose these values of the joints are",
+            Unproved::Unsupported => {
+                "it does not agree with the robot as it is read here, and nothing in the document bears that reading out"
+            }
             Unproved::UnknownColumn => "what the column holds is not known",
             Unproved::OtherJoints => "it has not the joints of the robot",
             Unproved::OtherNames => "it has lengths that are not known of the robot",

@@ -251,6 +251,9 @@ impl Check for French {
             }
             Unproved::NotOfSet => "ce ne sont pas des angles de ce triplet",
             Unproved::NoPose => "rien ne dit pour quelle pose sont ces valeurs des articulations",
+            Unproved::Unsupported => {
+                "en désaccord avec le robot tel qu'il est lu ici, et rien dans le document ne confirme cette lecture"
+            }
             Unproved::UnknownColumn => "la colonne n'est pas connue",
             Unproved::OtherJoints => "il n'a pas les articulations du robot",
             Unproved::OtherNames => "il a des longueurs inconnues du robot",

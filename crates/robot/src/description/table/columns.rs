@@ -198,6 +198,11 @@ pub(super) fn column(text: &str) -> Column {
         let letter = beside.find(|s| s.0.is_letter() && words().count() > 1);
         if let Some(letter) = letter.filter(|_| words().count() <= 4) {
             (role, previous) = letter;
+        } else if words().count() <= 5
+            && words().any(|w| plain(w) == "offset")
+            && !words().any(|w| matches!(plain(w).as_str(), "joint" | "link"))
+        {
+            role = Role::Offset; // `offset added to q`; a joint's or a link's is a length with many
         }
     }
     if let (Role::Other, Some(inside)) = (role, &qualifier) {
@@ -345,6 +350,8 @@ mod tests {
             ("", Role::Index, false, ""),
             ("Link $i$", Role::Index, false, ""),
             ("\\textbf{Joint}", Role::Index, false, ""),
+            ("offset added to q", Role::Offset, false, ""),
+            ("joint offset", Role::Other, false, ""),
             ("mass", Role::Other, false, ""),
             ("R", Role::R, false, ""),
         ] {

@@ -147,6 +147,11 @@ fn joint(row: &ReadRow, z: &str, starred: bool, above: &[Joint], out: &mut Diagn
     if let Some(joint) = own_angle() {
         return Some(joint);
     }
+    // Offsets of angles for which the table has no column: they are the variables.
+    let has_offset = row.source(Role::Offset).is_some_and(|c| !matches!(c.text.trim(), "" | "-" | "–" | "—"));
+    if has_offset && row.source(Role::Theta).is_none() && row.z.cell.symbols.is_empty() {
+        return Some(Joint::Moves(JointKind::Revolute, None));
+    }
     // Some count all joint variables as θ.
     let name = own_symbol(&row.z, row.number, &["d", "r", "q", "theta"])?;
     let (number, span) = (row.number, row.z.cell.span.clone());

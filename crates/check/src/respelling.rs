@@ -1,0 +1,274 @@
+//! Ways of writing that are turned into those that are read, byte for byte: each place stays where it is.
+
+use super::displayed;
+use std::borrow::Cow;
+
+/// The most blanks between a word and the number behind it.
+const MAX_BLANKS: usize = 3;
+
+/// A text as it is read.
+pub(super) fn respelled(text: &str, is_program: bool) -> Cow<'_, str> {
+    let mut text = Cow::Borrowed(text);
+    let of_all: [fn(&str) -> Option<String>; 1] = [decimal_points];
+    let of_prose: [fn(&str) -> Option<String>; 7] = [
+        rates_by_primes,
+        alternatives_by_primes,
+        words_as_signs,
+        commas_in_calls,
+        names_behind,
+        torques_by_words,
+        displayed::bracketed,
+    ];
+    let count = if is_program { 0 } else { of_prose.len() };
+    for respell in of_all.iter().chain(&of_prose[..count]) {
+        if let Some(now) = respell(&text) {
+            text = Cow::Owned(now);
+        }
+    }
+    text
+}
+
+/// A text with `τ_2` for the words of `force 2 = 78 N` at the beginning of a line; nothing for other texts.
+fn torques_by_words(text: &str) -> Option<String> {
+    const WORDS: [&str; 14] = [
+        "torque",
+        "moment",
+        "force",
+        "couple",
+        "effort",
+        "drehmoment",
+        "kraft",
+        "coppia",
+        "forza",
+        "par",
+        "fuerza",
+        "binário",
+        "força",
+        "koppel",
+    ];
+    let mut bytes = text.as_bytes().to_vec();
+    let mut is_any = false;
+    for line in super::lines::lines(text) {
+        let source = text.get(line.clone()).unwrap_or_default();
+        let own = source.trim_start_matches([' ', '\t', '-', '*', '•']);
+        let word: String = own.chars().take_while(|c| c.is_alphabetic()).take(12).collect();
+        let behind = &own[word.len()..];
+        let number = behind.trim_start_matches(' ');
+        let blanks = behind.len() - number.len();
+        let is_word = WORDS.contains(&word.to_lowercase().as_str()) && (1..=MAX_BLANKS).contains(&blanks);
+        let is_told = number.starts_with(|c: char| ('1'..='9').contains(&c))
+            && number[1..].trim_start_matches(' ').starts_with('=');
+        if !is_word || !is_told {
+            continue;
+        }
+        let start = line.end - own.len();
+        let end = start + word.len() + blanks + 1;
+        let name = format!("τ_{}", &number[..1]);
+        if name.len() <= end - start {
+            bytes[start..end].fill(b' ');
+            bytes[start..start + name.len()].copy_from_slice(name.as_bytes());
+            is_any = true;
+        }
+    }
+    if is_any { String::from_utf8(bytes).ok() } else { None }
+}
+
+/// A text that writes a half as `0,5` or `0{,}5` with points instead, byte for byte; nothing for other texts.
+fn decimal_points(text: &str) -> Option<String> {
+    let pointed = pointed(text);
+    let source = pointed.as_deref().unwrap_or(text);
+    if source.contains("{,}") { Some(without_braces(source)) } else { pointed }
+}
+
+/// A text with points for the commas between digits, where these are those of numbers.
+fn pointed(text: &str) -> Option<String> {
+    let bytes = text.as_bytes();
+    let is_digit = |k: usize| bytes.get(k).is_some_and(u8::is_ascii_digit);
+    let mut commas = vec![];
+    // `0,45 m` is a number.
+    let mut has_unit = false;
+    for (k, b) in bytes.iter().enumerate() {
+        if k == 0 || !is_digit(k - 1) || !is_digit(k + 1) {
+            continue;
+        }
+        match b {
+            b'.' => return None,
+            b',' => {
+                let start = (0..k).rev().take_while(|&i| is_digit(i)).last().unwrap_or(k);
+                let end = (k + 1..bytes.len()).take_while(|&i| is_digit(i)).last().unwrap_or(k);
+                let before = start.checked_sub(1).and_then(|i| bytes.get(i));
+                // `T_{0,6}`, `r(1,2)`, `1,2,3`
+                let is_index = matches!(before, Some(b'{' | b'_' | b','))
+                    || bytes.get(end + 1) == Some(&b',') && is_digit(end + 2);
+                let is_pair = before == Some(&b'(') && bytes.get(end + 1) == Some(&b')');
+                if is_index || is_pair {
+                    return None;
+                }
+                let unit = text.get(end + 1..).unwrap_or_default().trim_start_matches(' ');
+                let word = unit.split(|c: char| !c.is_alphanumeric() && c != '°').next().unwrap_or_default();
+                has_unit |= matches!(word, "m" | "mm" | "cm" | "rad" | "°" | "kg" | "N" | "Nm");
+                commas.push(k);
+            }
+            _ => {}
+        }
+    }
+    if commas.len() < 3 && !has_unit {
+        return None;
+    }
+    let mut bytes = text.as_bytes().to_vec();
+    commas.into_iter().for_each(|k| bytes[k] = b'.');
+    String::from_utf8(bytes).ok()
+}
+
+/// A text that writes joint rates as `θ1'`, with `dθ1` instead, byte for byte; nothing for other texts.
+fn rates_by_primes(text: &str) -> Option<String> {
+    const SPEED: [&str; 9] = ["rad/s", "m/s", "velo", "vitesse", "geschwind", "rates", "ωz", "vx", "v_x"];
+    let lower = text.to_lowercase();
+    let has_dots = text.contains("\\dot") || text.contains('\u{307}');
+    if has_dots || !SPEED.iter().any(|w| lower.contains(w)) {
+        return None;
+    }
+    let mut bytes = text.as_bytes().to_vec();
+    let mut is_any = false;
+    let (mut seen, mut is_program) = (0, false);
+    for (at, prime) in text.match_indices(['\'', '′']) {
+        if prime.len() > 1 {
+            continue;
+        }
+        let before = &text[..at];
+        // In a program a prime transposes, or begins a text.
+        is_program ^= text[seen..at].matches("```").count() % 2 == 1;
+        seen = at;
+        if is_program {
+            continue;
+        }
+        let number = before.trim_end_matches(|c: char| c.is_ascii_digit() || ('₀'..='₉').contains(&c));
+        let name = number.trim_end_matches(|c: char| c.is_alphabetic());
+        let letters = number[name.len()..].chars().count();
+        let is_word = name.ends_with(|c: char| c.is_alphanumeric() || c == '_');
+        if number.len() == before.len() || !(1..=5).contains(&letters) || is_word {
+            continue;
+        }
+        let start = name.len();
+        bytes.copy_within(start..at, start + 1);
+        bytes[start] = b'd';
+        is_any = true;
+    }
+    if is_any { String::from_utf8(bytes).ok() } else { None }
+}
+
+/// A text in which the other value of a joint has a prime, `θ_1' = θ_1 + π`, without these, byte for byte: both are values of the
+/// joint; nothing for other texts.
+fn alternatives_by_primes(text: &str) -> Option<String> {
+    const LETTERS: [&str; 5] = ["theta", "θ", "ϑ", "q", "t"];
+    let mut bytes = text.as_bytes().to_vec();
+    let mut is_any = false;
+    for (at, prime) in text.match_indices(['\'', '′']) {
+        let before = text[..at].trim_end_matches('}');
+        let number = before.trim_end_matches(|c: char| c.is_ascii_digit() || ('₀'..='₉').contains(&c));
+        let stem = number.trim_end_matches(['{', '_']);
+        let Some(rest) = LETTERS.iter().find_map(|l| stem.strip_suffix(l)) else { continue };
+        let rest = rest.strip_suffix("\\var").or(rest.strip_suffix('\\')).unwrap_or(rest);
+        let is_part = rest.ends_with(|c: char| c.is_alphanumeric() || matches!(c, '_' | '\'' | '"' | '\\'));
+        let goes_on = text[at + prime.len()..].starts_with(|c: char| c.is_alphanumeric() || c == '\'');
+        if number.len() == before.len() || before.len() - number.len() > 3 || is_part || goes_on {
+            continue;
+        }
+        bytes[at..at + prime.len()].fill(b' ');
+        is_any = true;
+    }
+    if is_any { String::from_utf8(bytes).ok() } else { None }
+}
+
+/// A text with the words that other languages have for a root, and with `dx/dt`, as formulas are written, byte for byte; nothing
+/// for other texts.
+fn words_as_signs(text: &str) -> Option<String> {
+    const WORDS: [(&str, &str); 7] = [
+        ("racine(", "sqrt  ("),
+        ("radice(", "sqrt  ("),
+        ("Wurzel(", "sqrt  ("),
+        ("wurzel(", "sqrt  ("),
+        ("dx/dt", "xdot "),
+        ("dy/dt", "ydot "),
+        ("dz/dt", "zdot "),
+    ];
+    if !WORDS.iter().any(|w| text.contains(w.0)) {
+        return None;
+    }
+    let is_part = |c: char| c.is_alphanumeric();
+    let mut bytes = text.as_bytes().to_vec();
+    for (word, now) in WORDS {
+        for (at, _) in text.match_indices(word) {
+            if !text[..at].ends_with(is_part) && !text[at + word.len()..].starts_with(is_part)
+                || word.ends_with('(')
+            {
+                bytes[at..at + word.len()].copy_from_slice(now.as_bytes());
+            }
+        }
+    }
+    String::from_utf8(bytes).ok()
+}
+
+/// A text with commas for the semicolons between the arguments of `atan2(y; x)`, byte for byte; nothing for other texts.
+fn commas_in_calls(text: &str) -> Option<String> {
+    const LONGEST: usize = 400;
+    let mut bytes = text.as_bytes().to_vec();
+    let mut is_any = false;
+    let mut until = 0;
+    for (at, name) in ["tan2", "TAN2"].iter().flat_map(|n| text.match_indices(n)) {
+        let rest = &text[at + name.len()..];
+        let inside =
+            rest.trim_start_matches(|c: char| matches!(c, ' ' | '}') || c.is_ascii_alphabetic() || c == '\\');
+        let Some(arguments) = inside.strip_prefix('(').filter(|_| at >= until || at + LONGEST < until) else {
+            continue;
+        };
+        let start = text.len() - arguments.len();
+        let mut depth = 0_usize;
+        until = start + LONGEST;
+        for (i, c) in arguments.char_indices().take(LONGEST) {
+            match c {
+                '(' | '[' => depth += 1,
+                ')' | ']' if depth > 0 => depth -= 1,
+                ')' | ']' | '\n' => {
+                    until = start + i;
+                    break;
+                }
+                ';' if depth == 0 => {
+                    bytes[start + i] = b',';
+                    is_any = true;
+                }
+                _ => {}
+            }
+        }
+    }
+    if is_any { String::from_utf8(bytes).ok() } else { None }
+}
+
+/// A text with `= D` for `=: D`, byte for byte; nothing for other texts.
+fn names_behind(text: &str) -> Option<String> {
+    let mut bytes = text.as_bytes().to_vec();
+    let mut is_any = false;
+    for (at, _) in text.match_indices("=:") {
+        let rest = text[at + 2..].trim_start_matches([' ', '~']);
+        let is_name = rest.starts_with(|c: char| c.is_alphabetic() || c == '\\');
+        if is_name && !text[..at].ends_with([':', '=']) {
+            bytes[at + 1] = b' ';
+            is_any = true;
+        }
+    }
+    if is_any { String::from_utf8(bytes).ok() } else { None }
+}
+
+/// A text with `{,}` between digits as a point, byte for byte.
+fn without_braces(text: &str) -> String {
+    let mut bytes = text.as_bytes().to_vec();
+    for (at, _) in text.match_indices("{,}") {
+        let start = (0..at).rev().take_while(|&i| bytes[i].is_ascii_digit()).last();
+        let is_number = bytes.get(at + 3).is_some_and(u8::is_ascii_digit);
+        let Some(start) = start.filter(|_| is_number) else { continue };
+        bytes.copy_within(start..at, start + 2);
+        bytes[start..start + 2].fill(b' ');
+        bytes[at + 2] = b'.';
+    }
+    String::from_utf8(bytes).unwrap_or_else(|_| text.to_string())
+}

@@ -1,0 +1,104 @@
+//! Programs in C as they stand in firmware: entries set one by one, structures, choices by `?`, flat matrices, and functions that
+//! give something else than a place.
+
+use denavit_check::{CheckOptions, Checked, Standing, check};
+use denavit_reading::code::Dialect;
+use denavit_reading::document::Format;
+
+const HEAD: &str = "/* DH (standard), metres:\n *   joint  theta  d   a   alpha\n *   1      q1     D1  A1  +90 deg\n *   2      q2     0   A2  0\n\
+                     *   3      q3     0   A3  0\n */\n#define D1 0.09\n#define A1 0.03\n#define A2 0.14\n#define A3 0.16\n\
+                     typedef struct { double x, y, z; } vec3;\n\n";
+
+fn read(body: &str) -> Checked {
+    let options = CheckOptions { language: Some(Dialect::C), ..CheckOptions::default() };
+    let text = format!("{HEAD}{body}");
+    check(&text, Format::Plain, None, &options).unwrap_or_else(|e| panic!("{e:?}\n{text}"))
+}
+
+#[track_caller]
+fn is(found: &Checked, name: &str, standing: Standing) {
+    let said: Vec<Standing> = found.claims.iter().filter(|c| c.name == name).map(|c| c.standing()).collect();
+    assert_eq!(said, [standing], "{name}: {:?}", found.claims);
+}
+
+#[test]
+fn entries_that_are_set_one_by_one_have_a_verdict_each() {
+    let body = |last: &str| {
+        format!(
+            "void jacobian(double q1, double q2, double q3, double J[3][3])\n{{\n  double c1 = cos(q1), s1 = sin(q1);\n\
+             double w = A1 + A2*cos(q2) + A3*cos(q2 + q3), v = A2*sin(q2) + A3*sin(q2 + q3);\n\
+             J[0][0] = -s1*w;  J[0][1] = -c1*v;  J[0][2] = -A3*c1*sin(q2 + q3);\n\
+             J[1][0] = c1*w;   J[1][1] = -s1*v;  J[1][2] = {last};\n\
+             J[2][0] = 0.0;    J[2][1] = A2*cos(q2) + A3*cos(q2 + q3);\n  J[2][2] = A3*cos(q2 + q3);\n}}\n"
+        )
+    };
+    let found = read(&body("A3*s1*sin(q2 + q3)"));
+    is(&found, "J[1][2]", Standing::Wrong);
+    for name in ["J[0][0]", "J[0][1]", "J[0][2]", "J[1][0]", "J[1][1]", "J[2][1]", "J[2][2]"] {
+        is(&found, name, Standing::Equal);
+    }
+    is(&read(&body("-A3*s1*sin(q2 + q3)")), "J[1][2]", Standing::Equal);
+}
+
+#[test]
+fn structures_and_choices() {
+    let body = |first: &str| {
+        format!(
+            "int ik(vec3 p, int up, double q[3])\n{{\n  double w, h, D;\n  q[0] = atan2({first});\n\
+             w = sqrt(p.x*p.x + p.y*p.y) - A1;\n  h = p.z - D1;\n\
+             D = (w*w + h*h - A2*A2 - A3*A3) / (2.0*A2*A3);\n  q[2] = up ? -acos(D)\n            : acos(D);\n\
+             q[1] = atan2(h, w) - atan2(A3*sin(q[2]), A2 + A3*cos(q[2]));\n  return 1;\n}}\n"
+        )
+    };
+    // The shoulder forwards only: right as far as it goes.
+    let found = read(&body("p.y, p.x"));
+    for name in ["q[0]", "q[2]", "q[1]"] {
+        is(&found, name, Standing::Conditional);
+    }
+    is(&read(&body("p.x, p.y")), "q[0]", Standing::Wrong);
+}
+
+#[test]
+fn flat_matrices_and_determinants() {
+    let body = |entry: &str, factor: &str| {
+        format!(
+            "void rot(double q1, double q2, double q3, double R[9])\n{{\n\
+             R[0] = cos(q1)*cos(q2 + q3);  R[1] = -cos(q1)*sin(q2 + q3);  R[2] = sin(q1);\n\
+             R[3] = sin(q1)*cos(q2 + q3);  R[4] = -sin(q1)*sin(q2 + q3);  R[5] = {entry};\n\
+             R[6] = sin(q2 + q3);          R[7] = cos(q2 + q3);           R[8] = 0.0;\n}}\n\n\
+             double arm_det(double q2, double q3)\n{{\n  double w = A1 + A2*cos(q2) + A3*cos(q2 + q3);\n\
+             return {factor}*A3*w*sin(q3);\n}}\n"
+        )
+    };
+    let right = read(&body("-cos(q1)", "-A2"));
+    is(&right, "R[5]", Standing::Equal);
+    is(&right, "arm_det(…)", Standing::Equal);
+    let wrong = read(&body("cos(q1)", "A2"));
+    is(&wrong, "R[5]", Standing::Wrong);
+    is(&wrong, "R[0]", Standing::Equal);
+    is(&wrong, "arm_det(…)", Standing::Wrong);
+}
+
+#[test]
+fn what_is_no_place_is_not_called_a_wrong_one() {
+    // An argument beside named joints is no joint; a velocity and a torque are no positions.
+    let found = read(
+        "double hold(double q2, double q3, double G) { return -G*(A2*cos(q2) + A3*cos(q2 + q3)); }\n\
+         void tip_vel(double q1, double q2, double q3, double u1, double u2, double u3, double v[3])\n{\n\
+         v[0] = u1;\n  v[1] = u2;\n  v[2] = u3;\n}\n",
+    );
+    assert!(found.claims.iter().all(|c| c.standing() != Standing::Wrong), "{:?}", found.claims);
+    assert!(!found.unjudged.is_empty());
+}
+
+#[test]
+fn remarks_behind_rows_of_a_table() {
+    let text = "// DH table, standard:  theta, d, a, alpha\n//   pan   :  q1, H, E, -90 deg     (E: the tilt axis sits beside the pan axis)\n\
+                //   tilt  :  q2, 0, 0, +90 deg\n//   boom  :  0,  q3, 0, 0\n#define H 1.25\n#define E 0.18\n\n\
+                void pos(double q1, double q2, double q3, double out[3])\n{\n    double r = E + q3*sin(q2);\n\
+                out[0] = r*cos(q1);\n    out[1] = r*sin(q1);\n    out[2] = H - q3*cos(q2);\n}\n";
+    let options = CheckOptions { language: Some(Dialect::C), ..CheckOptions::default() };
+    let found = check(text, Format::Plain, None, &options).unwrap();
+    is(&found, "out[0]", Standing::Equal);
+    is(&found, "out[2]", Standing::Wrong);
+}
