@@ -27,10 +27,12 @@ const ROBOTS: &[&str] = &[
 ];
 /// Of these also with the values of parameters in the code.
 const FIXED: &[&str] = &["scara", "franka-panda"];
-/// Of these the dynamic functions: of one with masses and friction, and of one that takes the numbers of its links; in Rust of
-/// the first.
-const MOVING: &[(&str, &[&str])] =
-    &[("crates/generate/tests/robots/moving.toml", &[]), ("planar-2r", &["--masses", "links"])];
+/// Of these the dynamic functions: of one with masses and friction, and of one that takes the numbers of its links, with loads; in Rust
+/// of the first.
+const MOVING: &[(&str, &[&str])] = &[
+    ("crates/generate/tests/robots/moving.toml", &["--wrench"]),
+    ("planar-2r", &["--masses", "links", "--wrench", "--payload"]),
+];
 /// What is generated of the others.
 const KINEMATIC: &str = "fk,frames,jacobian,ik";
 /// What is generated of those that move.
@@ -155,9 +157,9 @@ impl Tools {
                 members.push(name);
             }
         }
-        let (moving, _) = MOVING[0];
+        let (moving, more) = MOVING[0];
         members.push(stem(moving)?.to_string());
-        self.generate(moving, DYNAMIC, "rust", &[], folder.join(stem(moving)?))?;
+        self.generate(moving, DYNAMIC, "rust", more, folder.join(stem(moving)?))?;
         let manifest = format!("[workspace]\nresolver = \"3\"\nmembers = {members:?}\n");
         fs::write(folder.join("Cargo.toml"), manifest)?;
         let cargo = |folder: &Path, arguments: &[&str], flags: &str| {

@@ -50,6 +50,16 @@ impl Around {
         }
     }
 
+    /// What the drives of the chain's joints can do by the file, newton metres or newtons, one a joint variable; nothing where it is
+    /// no tree of bodies.
+    pub fn efforts(&self) -> Option<Vec<Option<f64>>> {
+        let Around::Bodies(both) = self else { return None };
+        let (mechanism, chain) = &**both;
+        let value = |s| chain.description.value(s);
+        let of = |&j: &usize| mechanism.joints[j].effort.and_then(|e| e.eval(value).ok());
+        Some(chain.joints.iter().map(of).collect())
+    }
+
     /// The frames that do not move on those of the chain's table, by their names.
     pub fn frames(&self) -> Vec<NamedFrame> {
         match self {

@@ -2,9 +2,10 @@
 
 use super::samples::{self, Sample};
 use super::words::text;
-use super::{Unable, Wanted};
+use super::{Function, Unable, Wanted};
 use denavit::description::{Description, JointKind};
-use denavit::dynamics::{DynamicFunction, DynamicPrograms, Ground, Masses};
+use denavit::dynamics::{DynamicFunction, DynamicProgram, DynamicPrograms, Ground, Loads, Masses, NoProgram};
+use denavit::quantity::torque_unit;
 use denavit_emit::{Parameter, Routine, Vector};
 use denavit_program::{Composer, Extended, Program, Value};
 use denavit_symbolic::Symbol;
@@ -24,8 +25,8 @@ struct One {
     function: DynamicFunction,
     /// Over the variables of the library.
     program: Program,
-    /// On what it rests that the inertia matrix in it is the derivative of the torques.
-    inertia: Ground,
+    /// As it was made.
+    made: DynamicProgram,
     /// By other ways, from the links as they are.
     reference: Program,
 }
@@ -50,43 +51,55 @@ impl Dynamic {
     /// The functions among those that are wanted; nothing if there is none.
     ///
     /// # Errors
-    /// If numbers are to stand in the code and the description has none, or energies are wanted from base parameters.
-    pub fn new(d: &Description, wanted: &[Wanted], masses: Option<Masses>) -> Result<Option<Self>, Unable> {
+    /// If numbers are to stand in the code and the description has none; if energies are wanted from base parameters, or a payload
+    /// beside them; if a joint moves no mass and accelerations are wanted; if a load is wanted and no function feels it.
+    pub fn new(
+        d: &Description,
+        wanted: &[Wanted],
+        masses: Option<Masses>,
+        loads: Loads,
+    ) -> Result<Option<Self>, Unable> {
         let functions: Vec<DynamicFunction> =
             wanted.iter().filter_map(|w| if let Wanted::Dynamic(f) = w { Some(*f) } else { None }).collect();
+        if loads.payload && functions.is_empty()
+            || loads.wrench && !functions.iter().any(|f| f.feels_wrench())
+        {
+            return Err(Unable::Loads);
+        }
         if functions.is_empty() {
             return Ok(None);
         }
         let usual = if d.has_masses() { Masses::Numbers } else { Masses::Links };
         let masses = masses.unwrap_or(usual);
         if masses == Masses::Base && functions.contains(&DynamicFunction::Energy) {
-            return Err(Unable::Energy);
+            return Err(Unable::Program(NoProgram::Energy));
         }
-        let all = DynamicPrograms::new(d, masses).map_err(Unable::Masses)?;
+        if masses == Masses::Base && loads.payload {
+            return Err(Unable::Payload);
+        }
+        let all = DynamicPrograms::with_loads(d, masses, loads).map_err(Unable::Masses)?;
         let variables = variables(d, &all, &functions);
         let symbols: Vec<Symbol> =
             all.symbols[0].iter().chain(variables.iter().map(|v| &v.0)).copied().collect();
         let made = |function: DynamicFunction| {
-            let made = all.program(function)?;
+            let made = all.program(function).map_err(Unable::Program)?;
             let program = over(&made.program, &symbols);
             let reference = over(&all.reference(function), &symbols);
-            Some(One { function, program, inertia: made.inertia, reference })
+            Ok(One { function, program, made, reference })
         };
-        let functions: Vec<One> = functions.into_iter().filter_map(made).collect();
+        let functions = functions.into_iter().map(made).collect::<Result<Vec<One>, Unable>>()?;
         let parameters = parameters(d, &all, &functions);
         Ok(Some(Dynamic { all, functions, variables, parameters }))
     }
 
     /// The functions with their operations, and what they rest on.
-    pub fn functions(&self) -> impl Iterator<Item = (Wanted, &Program, bool, String)> {
-        let ground = self.all.model.ground;
-        self.functions.iter().map(move |one| {
-            (
-                Wanted::Dynamic(one.function),
-                &one.program,
-                ground.and(one.inertia) == Ground::Proved,
-                claim(one.function, ground, one.inertia),
-            )
+    pub fn functions(&self) -> impl Iterator<Item = Function> {
+        self.functions.iter().map(|one| Function {
+            wanted: Wanted::Dynamic(one.function),
+            count: one.program.count(),
+            is_proved: self.all.ground(one.function, &one.made) == Ground::Proved,
+            claim: claim(one.function, &self.all, &one.made),
+            divides_by: one.made.program.divisors().into_iter().map(text).collect(),
         })
     }
 
@@ -128,7 +141,10 @@ impl Dynamic {
             })
             .collect();
         let n = self.all.symbols[0].len();
-        let (result, shape, about) = words(one.function, n);
+        let (result, shape, mut about) = words(one.function, n);
+        if one.function.feels_wrench() && !self.all.wrench.is_empty() {
+            about.push("The tool exerts the force FX, FY, FZ and the moment CX, CY, CZ on its surroundings, about its origin.".into());
+        }
         let scales = scales(one, self, &vectors);
         let name = Wanted::Dynamic(one.function).name().into();
         Routine { name, about, program: &one.program, result: result.into(), shape, vectors, scales }
@@ -164,8 +180,9 @@ impl Dynamic {
     }
 }
 
-/// What a function rests on: the torques, and the inertia matrix as their derivative.
-fn claim(function: DynamicFunction, ground: Ground, inertia: Ground) -> String {
+/// What a function rests on: the torques, the wrench, the inertia matrix as the torques' derivative, and what was shortened; and what it
+/// divides by.
+fn claim(function: DynamicFunction, all: &DynamicPrograms, made: &DynamicProgram) -> String {
     let from = match function {
         DynamicFunction::Torque => "",
         DynamicFunction::Energy => return "the energies of the links, written out".into(),
@@ -188,14 +205,27 @@ fn claim(function: DynamicFunction, ground: Ground, inertia: Ground) -> String {
         }
         Ground::Failed => format!("not equal to {to}: a defect"),
     };
-    let what = equal("Lagrange's equations", ground);
-    match inertia {
-        Ground::Proved => format!("{from}{what}"),
-        _ => format!(
-            "{from}{what}; the inertia matrix by composite bodies, {}",
-            equal("these derivatives", inertia)
-        ),
+    let mut text = format!("{from}{}", equal("Lagrange's equations", all.model.ground));
+    if made.by_bodies {
+        text += &format!(
+            "; the inertia matrix by composite bodies, {}",
+            equal("these derivatives", made.inertia)
+        );
     }
+    if function.feels_wrench() && !all.wrench.is_empty() {
+        text += &format!(
+            "; what holds the wrench {}",
+            equal("J^T w with the derivative of the product of the link transforms", all.wrench_ground)
+        );
+    }
+    if made.shortening != Ground::Proved {
+        text += &format!("; made shorter, and {}", equal("what it was before", made.shortening));
+    }
+    let divisors: Vec<String> = made.program.divisors().into_iter().map(super::words::text).collect();
+    if !divisors.is_empty() {
+        text += &format!("; it divides by {}, and holds where that is not 0", divisors.join(", "));
+    }
+    text
 }
 
 /// What the results are called, their shape, and what they are.
@@ -266,6 +296,12 @@ fn words(function: DynamicFunction, n: usize) -> (&'static str, Vec<usize>, Vec<
 fn variables(d: &Description, all: &DynamicPrograms, functions: &[DynamicFunction]) -> Vec<(Symbol, String)> {
     let most = functions.iter().map(|f| f.reads()).max().unwrap_or(1);
     let mut list = vec![];
+    let wrench = all.wrench.iter().enumerate().map(|(k, &s)| {
+        let what = if k < 3 { "force" } else { "moment about the tool's origin" };
+        let unit = if k < 3 { "N" } else { "N m" };
+        let axis = ["x", "y", "z"][k % 3];
+        (s, format!("{what} that the tool exerts, along {axis} of the base, in {unit}"))
+    });
     let kinds = d.variables();
     let unit = |k: usize, turning: &str, sliding: &str| {
         if kinds[k].kind == JointKind::Revolute { turning.to_string() } else { sliding.to_string() }
@@ -281,7 +317,7 @@ fn variables(d: &Description, all: &DynamicPrograms, functions: &[DynamicFunctio
         let (driven, given): (Vec<&DynamicFunction>, Vec<_>) = thirds.partition(|f| f.is_driven());
         for k in 0..kinds.len() {
             let rate = format!("acceleration of {}, in {}", name(k), unit(k, "rad/s^2", "m/s^2"));
-            let torque = format!("torque that drives {}, in {}", name(k), unit(k, "N m", "N"));
+            let torque = format!("torque that drives {}, in {}", name(k), torque_unit(kinds[k].kind));
             list.push(match (driven.is_empty(), given.is_empty()) {
                 (true, _) => (all.symbols[2][k], rate),
                 (_, true) => (all.symbols[3][k], torque),
@@ -293,6 +329,7 @@ fn variables(d: &Description, all: &DynamicPrograms, functions: &[DynamicFunctio
             });
         }
     }
+    list.extend(wrench);
     list
 }
 
@@ -318,9 +355,13 @@ fn values_of_links(all: &DynamicPrograms) -> FxHashMap<Symbol, f64> {
             values.insert(p.symbol, value);
         }
     }
+    for (&s, (_, value, _)) in formulas.payload.iter().zip(LINK) {
+        values.insert(s, 0.5 * value);
+    }
     for (k, link) in formulas.dynamics.links.iter().enumerate() {
         for (e, (_, value, _)) in link.body.parameters().into_iter().zip(LINK) {
-            if let Some(s) = e.as_symbol() {
+            // Those of the last link are sums with a payload.
+            for s in e.symbols() {
                 values.entry(s).or_insert(value * (1.0 + 0.0625 * k as f64));
             }
         }
@@ -351,10 +392,16 @@ fn parameters(d: &Description, all: &DynamicPrograms, functions: &[One]) -> Vec<
         let default = formulas.value(symbol);
         let base = all.model.base.parameters.iter().find(|p| p.symbol == symbol);
         let of_link = formulas.dynamics.links.iter().enumerate().find_map(|(k, link)| {
-            let place = link.body.parameters().iter().position(|e| e.as_symbol() == Some(symbol))?;
+            let place = link.body.parameters().iter().position(|e| e.symbols().contains(&symbol))?;
             Some((k + 1, LINK[place]))
         });
+        let of_payload = formulas.payload.iter().position(|s| *s == symbol).map(|k| LINK[k]);
         let (about, default, own) = match (base.filter(|b| b.is_grouped), of_link) {
+            _ if let Some((letters, value, unit)) = of_payload => (
+                format!("{letters} of what the tool carries, about the tool's origin; {unit}"),
+                None,
+                0.5 * value,
+            ),
             (Some(base), _) => {
                 let own = base.value.eval(value).unwrap_or(f64::NAN);
                 let known = base.value.eval(|s| formulas.value(s)).ok();

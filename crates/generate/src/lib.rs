@@ -10,7 +10,7 @@ mod words;
 pub use inverse::Inverse;
 
 use denavit::description::Description;
-use denavit::dynamics::{DynamicFunction, Masses, NoNumbers};
+use denavit::dynamics::{DynamicFunction, Loads, Masses, NoNumbers, NoProgram};
 use denavit::forward::Proof;
 use denavit::inverse as ik;
 use denavit::robot::MissingValue;
@@ -125,6 +125,8 @@ pub struct PackageOptions {
     /// Which numbers of the links dynamic functions take as parameters; by default none if the description has them, and those
     /// of each link otherwise.
     pub masses: Option<Masses>,
+    /// Loads that dynamic functions take: a wrench among the variables, a payload among the parameters.
+    pub loads: Loads,
     /// Write the values of parameters into the code, instead of taking them as arguments.
     pub fixed: bool,
 }
@@ -140,6 +142,8 @@ pub struct Function {
     pub is_proved: bool,
     /// Equal to what, and on what that rests.
     pub claim: String,
+    /// What it divides by that depends on parameters alone.
+    pub divides_by: Vec<String>,
 }
 
 /// Why nothing is generated.
@@ -149,8 +153,12 @@ pub enum Unable {
     Fixed(MissingValue),
     /// Numbers of the links are to stand in the code, and there are none.
     Masses(NoNumbers),
-    /// Energies are wanted from base parameters, which do not tell them.
-    Energy,
+    /// There is no program of a function.
+    Program(NoProgram),
+    /// A payload is wanted beside base parameters, of which it would be a part.
+    Payload,
+    /// A load is wanted, and no function feels it.
+    Loads,
 }
 
 impl fmt::Display for Unable {
@@ -158,7 +166,9 @@ impl fmt::Display for Unable {
         match self {
             Unable::Fixed(missing) => missing.fmt(f),
             Unable::Masses(none) => none.fmt(f),
-            Unable::Energy => f.write_str("base parameters do not tell energies"),
+            Unable::Program(none) => none.fmt(f),
+            Unable::Payload => f.write_str("base parameters have what the tool carries in them"),
+            Unable::Loads => f.write_str("no function that is asked for feels it"),
         }
     }
 }
@@ -201,7 +211,8 @@ impl Generated {
 ///
 /// # Errors
 /// With `fixed`: if a parameter has no value. With [`Masses::Numbers`]: if the description says nothing of masses;
-/// with [`Masses::Base`]: if energies are wanted.
+/// with [`Masses::Base`]: if energies are wanted, or a payload. If accelerations are wanted and a joint moves no mass; if a load is
+/// wanted that no function feels.
 pub fn generate(description: &Description, options: &PackageOptions) -> Result<Generated, Unable> {
     let fixed;
     let d = if options.fixed {
@@ -212,7 +223,7 @@ pub fn generate(description: &Description, options: &PackageOptions) -> Result<G
     };
     let programs: Vec<Forward> =
         with_one_pass(&options.functions).into_iter().filter_map(|w| Forward::new(d, w)).collect();
-    let dynamic = Dynamic::new(d, &options.functions, options.masses)?;
+    let dynamic = Dynamic::new(d, &options.functions, options.masses, options.loads)?;
     let asked = options.functions.contains(&Wanted::Inverse);
     let (mut closed, mut general, mut refused) = (None, None, None);
     match asked.then(|| Closed::new(d, options)) {
@@ -229,10 +240,9 @@ pub fn generate(description: &Description, options: &PackageOptions) -> Result<G
         count: f.program.count(),
         is_proved: f.proof == Proof::Proved,
         claim: f.wanted.claim(f.proof),
+        divides_by: vec![],
     });
-    let moving = dynamic.iter().flat_map(Dynamic::functions).map(|(wanted, program, is_proved, claim)| {
-        Function { wanted, count: program.count(), is_proved, claim }
-    });
+    let moving = dynamic.iter().flat_map(Dynamic::functions);
     let functions: Vec<Function> = of_joints.chain(moving).collect();
     if functions.is_empty() && closed.is_none() && general.is_none() {
         return Ok(Generated { files: vec![], functions, inverse: None, refused });

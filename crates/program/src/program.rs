@@ -200,6 +200,21 @@ impl Program {
         self.outputs.iter().map(|o| signed(values[o.1.node as usize], o.1.negative)).collect()
     }
 
+    /// What it divides by that depends on parameters alone: where one of these is 0 the results are no numbers.
+    pub fn divisors(&self) -> Vec<Expr> {
+        let values = self.expressions(&vec![None; self.ops.len()]);
+        let mut found: Vec<Expr> = vec![];
+        for (op, _) in &self.ops {
+            if let Op::Div(_, below) = op
+                && self.ops[*below as usize].1 == Stage::Parameter
+                && !found.contains(&values[*below as usize])
+            {
+                found.push(values[*below as usize]);
+            }
+        }
+        found
+    }
+
     /// The program line by line: what depends on parameters alone, then the intermediates, then the results in
     /// the order in which they become known. Sines and cosines of angle sums stand in the formulas.
     pub fn steps(&self) -> Vec<Step> {

@@ -27,3 +27,8 @@ pub fn rate(x: f64, kind: JointKind) -> String {
         JointKind::Prismatic => format!("{} m/s", decimals(x, 6)),
     }
 }
+
+/// The unit of what drives a joint.
+pub fn torque_unit(kind: JointKind) -> &'static str {
+    if kind == JointKind::Revolute { "N m" } else { "N" }
+}

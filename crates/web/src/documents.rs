@@ -103,6 +103,7 @@ pub fn code(subject: &Subject, language: &str, name: Option<String>) -> Result<C
         precision: Precision::Double,
         name: Some(name.unwrap_or_else(|| subject.description.name.clone())),
         masses: None,
+        loads: denavit::dynamics::Loads::default(),
         fixed: false,
     };
     let made = generate(&subject.description, &options).map_err(|why| Refusal::new(why.to_string()))?;

@@ -34,6 +34,9 @@ pub struct Function {
     pub claim: String,
     /// Its operations.
     pub count: Operations,
+    /// What it divides by that depends on parameters alone: where one of these is 0 it does not hold.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub divides_by: Vec<String>,
     /// Its name: `fk`.
     pub name: &'static str,
     /// Whether it is proved equal to what it stands for.
@@ -65,6 +68,7 @@ impl Written {
         let function = |made: &denavit_generate::Function| Function {
             claim: made.claim.clone(),
             count: Operations::from(&made.count),
+            divides_by: made.divides_by.clone(),
             name: made.wanted.name(),
             proved: made.is_proved,
         };

@@ -83,11 +83,24 @@ pub struct Power {
     pub supplied: f64,
 }
 
+impl From<denavit::dynamics::Power> for Power {
+    fn from(p: denavit::dynamics::Power) -> Self {
+        let denavit::dynamics::Power { dissipated, exerted, kinetic, potential, supplied } = p;
+        Power { dissipated, exerted, kinetic, potential, supplied }
+    }
+}
+
 /// A motion under torques.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Motion {
     /// The largest imbalance of the energy in size, joules: the error of the integration.
     pub drift: f64,
+    /// Why it ends before it was to, at the last sample.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ends: Option<String>,
+    /// Joints that leave their limits: nothing stops them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub leaves: Vec<Left>,
     /// The robot's name.
     pub robot: String,
     /// The motion at regular times.
@@ -96,6 +109,15 @@ pub struct Motion {
     pub schema: Schema,
     /// Steps that were taken.
     pub steps: usize,
+}
+
+/// A joint that leaves its limits.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Left {
+    /// Its name.
+    pub joint: String,
+    /// The first sample beyond, seconds.
+    pub t: f64,
 }
 
 /// A moment of a motion.
@@ -120,8 +142,8 @@ pub struct Sample {
 }
 
 impl Motion {
-    /// A motion of a robot.
-    pub fn of(robot: &str, found: &Simulation) -> Self {
+    /// A motion of a robot; why it ends before it was to; the joints that leave their limits.
+    pub fn of(robot: &str, found: &Simulation, ends: Option<String>, leaves: Vec<Left>) -> Self {
         let sample = |m: &Moment| Sample {
             dissipated: m.dissipated,
             energy: Energy { kinetic: m.kinetic, potential: m.potential },
@@ -134,6 +156,8 @@ impl Motion {
         };
         Motion {
             drift: found.drift().0,
+            ends,
+            leaves,
             robot: robot.into(),
             samples: found.moments.iter().map(sample).collect(),
             schema: Schema,
@@ -149,6 +173,9 @@ pub struct Model {
     pub base_parameters: Vec<Base>,
     /// What the steps cost.
     pub count: Operations,
+    /// What the steps and the groupings divide by: where one of these is 0 they do not hold.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub divides_by: Vec<String>,
     /// Gravity by its components in the base, as formulas.
     pub gravity: [String; 3],
     /// Whether the base parameters are proved to be the fewest.
@@ -266,6 +293,7 @@ impl Model {
         Model {
             base_parameters: model.base.parameters.iter().map(base).collect(),
             count: (&model.torques.count()).into(),
+            divides_by: list(&model.divisors()),
             gravity: model.formulas.dynamics.gravity.0.map(&text),
             minimal: model.base.minimality == Minimality::Proved,
             parts: model.parts.as_ref().map(|p| Parts {

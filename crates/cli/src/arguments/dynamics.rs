@@ -54,8 +54,8 @@ pub struct DynamicsArguments {
     /// the centre, xx, xy, xz, yy, yz, zz
     #[arg(long, value_name = "MASS", allow_hyphen_values = true)]
     pub payload: Option<String>,
-    /// Where --wrench is exerted, in place of the tool: a frame by its number or name
-    #[arg(long, value_name = "FRAME", requires = "wrench")]
+    /// Where wrenches, of --wrench or --input, are exerted, in place of the tool: a frame by its number or name
+    #[arg(long, value_name = "FRAME")]
     pub at: Option<String>,
     /// What the tool exerts on its surroundings: force and moment about its origin, `fx, fy, fz, mx, my, mz` along the axes of
     /// the base (N and N m)
@@ -66,11 +66,11 @@ pub struct DynamicsArguments {
     #[arg(long, value_name = "DIRECTION", allow_hyphen_values = true)]
     pub gravity: Option<String>,
     /// Print formulas: base parameters, a program for the torques with its cost, and of arms with up to three joints A, C q̇ and Q
-    #[arg(long, conflicts_with_all = ["q", "qd", "qdd", "tau", "wrench", "simulate", "input", "payload"])]
+    #[arg(long, conflicts_with_all = ["q", "qd", "qdd", "tau", "wrench", "at", "simulate", "input", "payload"])]
     pub symbolic: bool,
     /// Explain the derivation: the bodies, the groupings, the recursion outward and inward with a name for every quantity, and on
     /// what each rests
-    #[arg(long, conflicts_with_all = ["symbolic", "q", "qd", "qdd", "tau", "wrench", "simulate", "input", "payload"])]
+    #[arg(long, conflicts_with_all = ["symbolic", "q", "qd", "qdd", "tau", "wrench", "at", "simulate", "input", "payload"])]
     pub explain: bool,
     /// How to print --symbolic and --explain
     #[arg(long, value_enum, default_value_t = Format::Terminal, conflicts_with_all = ["q", "input"])]

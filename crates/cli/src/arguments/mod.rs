@@ -425,6 +425,13 @@ pub struct GenerateArguments {
     /// those of its links otherwise
     #[arg(long, value_enum)]
     pub masses: Option<MassesName>,
+    /// For dynamic functions: take a wrench that the tool exerts (the force FX, FY, FZ and the moment CX, CY, CZ, along the axes of
+    /// the base), behind the other variables
+    #[arg(long)]
+    pub wrench: bool,
+    /// For dynamic functions: take what the tool carries as parameters, XXL … ML about the tool's origin
+    #[arg(long)]
+    pub payload: bool,
     /// The folder to write to
     #[arg(long, short, value_name = "DIR")]
     pub output: PathBuf,

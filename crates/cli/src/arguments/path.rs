@@ -59,7 +59,8 @@ pub struct PathArguments {
     /// Largest joint jerks, without unit rad/s³ or m/s³
     #[arg(long, value_name = "LIMITS")]
     pub jerk: Option<String>,
-    /// Largest drive torques, in N m (N for slides), of a robot with masses: one for all or one each; velocities are needed, too
+    /// Largest drive torques, in N m (N for slides), of a robot with masses: one for all or one each, or `file` for the efforts of a
+    /// URDF; velocities are needed, too
     #[arg(long, value_name = "LIMITS", conflicts_with_all = ["jerk", "law"])]
     pub torque: Option<String>,
     /// The time law of a move from one configuration to another; needs velocities and accelerations

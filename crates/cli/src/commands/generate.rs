@@ -5,6 +5,7 @@ use crate::failure::Failure;
 use crate::load;
 use crate::terminal::{FAINT, HEADING, NAME, note, styled};
 use denavit::description::Description;
+use denavit::dynamics::{Loads, NoProgram};
 use denavit::inverse;
 use denavit_emit::{Language, Precision};
 use denavit_generate::{Generated, Inverse, PackageOptions, Unable, Wanted};
@@ -49,13 +50,24 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
             arguments.name.clone().unwrap_or_else(|| name_of(&arguments.robot.robot, &description.name)),
         ),
         masses: arguments.masses.map(Into::into),
+        loads: Loads { wrench: arguments.wrench, payload: arguments.payload },
         fixed: arguments.fixed,
     };
     let generated = denavit_generate::generate(&description, &options).map_err(|why| {
         Failure::Input(match why {
             Unable::Fixed(missing) => format!("error: --fixed: {missing}\n  = hint: give values with --set"),
-            Unable::Energy => {
+            Unable::Program(NoProgram::Energy) => {
                 format!("error: --masses base: {why}\n  = hint: leave energy out, or --masses links")
+            }
+            Unable::Program(NoProgram::Singular(_)) => format!(
+                "error: {why}\n  = hint: give its link a mass and an inertia, or the joint a rotor, or leave acceleration out"
+            ),
+            Unable::Payload => {
+                format!("error: --payload: {why}\n  = hint: --masses links takes its numbers beside those of the links")
+            }
+            Unable::Loads => {
+                let load = if arguments.payload { "--payload" } else { "--wrench" };
+                format!("error: {load}: {why}\n  = hint: torque, bias and acceleration do")
             }
             Unable::Masses(none) => {
                 format!("error: --masses numbers: {none}\n  = hint: --masses links takes them as parameters")

@@ -204,6 +204,11 @@ fn work(worker: &mut impl Worker, input: &Receiver<Chunk>, output: &SyncSender<A
     }
 }
 
+/// A line without the byte order mark that some editors put before the first one.
+pub fn without_mark(line: &[u8]) -> &[u8] {
+    line.strip_prefix(b"\xef\xbb\xbf").unwrap_or(line)
+}
+
 /// What is read from a line of JSON.
 ///
 /// # Errors
@@ -212,9 +217,7 @@ pub fn parsed<T>(line: &[u8], what: &str, read: fn(&[u8]) -> serde_json::Result<
     if line.len() > LONGEST {
         return Err(format!("longer than {LONGEST} bytes"));
     }
-    // Some editors put a byte order mark before the first line.
-    let line = line.strip_prefix(b"\xef\xbb\xbf").unwrap_or(line);
-    read(line).map_err(|e| {
+    read(without_mark(line)).map_err(|e| {
         let why = match e.classify() {
             Category::Data => "",
             Category::Io | Category::Syntax | Category::Eof => ": no JSON",

@@ -148,7 +148,13 @@ fn a_motion_is_followed() {
     };
     let plot = file("fall.svg", "");
     let (shown, _) = of(&["--plot", &plot], "");
-    for part in ["motion over 0.5 s", "of order 5", "energy: what is there", "201 samples"] {
+    for part in [
+        "motion over 0.5 s",
+        "of order 5",
+        "estimated error of a step",
+        "energy: what is there",
+        "201 samples",
+    ] {
         assert!(shown.contains(part), "{shown}");
     }
     assert!(std::fs::read_to_string(&plot).is_ok_and(|svg| svg.contains("lost to friction")));
@@ -236,6 +242,63 @@ fn states_are_streamed() {
     assert!(all[5]["error"].as_str().unwrap().contains("`t` is none of"), "{}", all[5]);
 }
 
+/// A byte order mark before the first line is none of its numbers; an arm without joints has states without numbers.
+#[test]
+fn lines_of_states_may_be_odd() {
+    let arm = file("marked.toml", TWO_LINKS);
+    for line in ["\u{feff}{\"q\": [0.4, -1.1]}\n", "\u{feff}0.4, -1.1\n", "\u{feff}[0.4, -1.1]\n"] {
+        let output = fed(&["dynamics", &arm, "--input", "-"], line);
+        assert_eq!(output.status.code(), Some(0), "{line}: {}", text(&output.stdout));
+        let found: Value = serde_json::from_str(&text(&output.stdout)).unwrap();
+        assert_eq!(found, json(&[&arm, "-q", "0.4,-1.1"]));
+    }
+    let fixed = file("fixed.toml", "convention = 'craig'\n[[joints]]\ntheta = '30 deg'\nmass = 1\n");
+    let output = fed(&["dynamics", &fixed, "--input", "-"], "[]\n[1]\n1, 2\n");
+    let said = text(&output.stderr);
+    assert!(!said.contains("panicked") && [1, 2, 3].contains(&output.status.code().unwrap()), "{said}");
+}
+
+/// What is said of a motion in words stands in JSON, too: limits that are left, and why it ends.
+#[test]
+fn motions_in_json_say_what_befell_them() {
+    let arm =
+        file("left.toml", &TWO_LINKS.replace("mass = '4.6'", "limits = ['-45 deg', '45 deg']\nmass = '4.6'"));
+    let motion = json(&[&arm, "-q", "0,0", "--simulate", "1", "--dt", "0.1"]);
+    assert_eq!(motion["leaves"][0]["joint"], "q1", "{motion}");
+    assert!(
+        motion["leaves"][0]["t"].as_f64().is_some_and(|t| t > 0.1) && motion.get("ends").is_none(),
+        "{motion}"
+    );
+    let output = fed(&["dynamics", &arm, "-q", "0,0", "--simulate", "1", "--qd", "1e160,0", "--json"], "");
+    assert_eq!(output.status.code(), Some(5), "{}", text(&output.stderr));
+    let broken: Value = serde_json::from_str(&text(&output.stdout)).unwrap();
+    assert!(broken["ends"].as_str().is_some_and(|why| !why.is_empty()), "{broken}");
+}
+
+/// A wrench may be that of a line, at a frame; and a frame of a file of bodies that the table has not.
+#[test]
+fn wrenches_at_frames() {
+    let arm = file("at.toml", TWO_LINKS);
+    let output = fed(
+        &["dynamics", &arm, "--input", "-", "--at", "1"],
+        "{\"q\": [0.4, -1.1], \"wrench\": [0, -10, 0, 0, 0, 3]}\n",
+    );
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let found: Value = serde_json::from_str(&text(&output.stdout)).unwrap();
+    assert_eq!(numbers(&found["wrench"]), [3.0, 0.0]);
+    let panda = concat!(env!("CARGO_MANIFEST_DIR"), "/../robot/tests/urdf/panda.urdf");
+    let q = "0.1,-0.5,0.3,-1.7,0.2,1.4,0.6";
+    let held = |tip: &str, at: &[&str]| {
+        numbers(
+            &json(&[&[panda, "--tip", tip, "-q", q, "--wrench", "3,-2,5,0.5,0.1,-0.3"], at].concat())["wrench"],
+        )
+    };
+    let (named, tip) = (held("panda_hand_tcp", &["--at", "panda_hand"]), held("panda_hand", &[]));
+    assert!(named.iter().zip(&tip).all(|(a, b)| (a - b).abs() < 1e-9), "{named:?} {tip:?}");
+    assert_ne!(named, held("panda_hand_tcp", &[]));
+    refused(&[&arm, "-q", "0,0", "--at", "nowhere"], 2, "no frame `nowhere`");
+}
+
 /// A load at the tool, a wrench at a frame, momentum and power.
 #[test]
 fn loads_momentum_and_power() {
@@ -317,10 +380,31 @@ fn paths_keep_torque_limits() {
         let output = of(torque);
         assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
         let path: Value = serde_json::from_str(&text(&output.stdout)).unwrap();
-        assert_eq!(path["timing"], "time-optimal within velocity, acceleration and torque limits");
+        // The first joint has viscous friction.
+        assert_eq!(path["timing"], "fast, within velocity and torque limits");
         path["duration"].as_f64().unwrap()
     };
     assert!(duration("200 N m") < 0.9 * duration("60,20"), "{} {}", duration("200 N m"), duration("60,20"));
+    // The efforts of a URDF; a robot file has none.
+    let panda = concat!(env!("CARGO_MANIFEST_DIR"), "/../robot/tests/urdf/panda.urdf");
+    let motion = |torque: &str| {
+        let path = [
+            "path",
+            panda,
+            "--tip",
+            "panda_hand",
+            "-q",
+            "0,-0.5,0,-1.7,0,1.4,0.6",
+            "--joint",
+            "0.4,-0.2,0.3,-1.4,0.2,1.6,0",
+        ];
+        let output = fed(&[&path[..], &["--torque", torque, "--json"]].concat(), "");
+        assert_eq!(output.status.code(), Some(0), "{torque}: {}", text(&output.stderr));
+        let path: Value = serde_json::from_str(&text(&output.stdout)).unwrap();
+        path["duration"].as_f64().unwrap()
+    };
+    assert_eq!(motion("file"), motion("87,87,87,87,12,12,12"));
+    assert!(text(&of("file").stderr).contains("it has no efforts"), "{}", text(&of("file").stderr));
     let weak = of("5");
     assert_eq!(weak.status.code(), Some(1), "{}", text(&weak.stderr));
     assert!(text(&weak.stderr).contains("cannot carry the arm at rest"), "{}", text(&weak.stderr));

@@ -253,3 +253,67 @@ fn dynamics_are_generated() {
     refused(&generate("energy", "base"), 3, "base parameters do not tell energies");
     refused(&generate("torque", "numbers"), 3, "the description says nothing of masses");
 }
+
+/// Loads as arguments, and what a program divides by.
+#[test]
+fn loads_are_arguments() {
+    let folder = folder("loads");
+    fs::create_dir_all(&folder).unwrap();
+    let arm = folder.join("two.toml");
+    let rows = "[[joints]]\na = 'a1'\ntheta = 'q1'\n[[joints]]\na = 'a2'\ntheta = 'q2'\n";
+    let table = format!(
+        "name = 'two'\nconvention = 'standard'\ngravity = [0, '-9.81', 0]\n[parameters]\na1 = ''\na2 = ''\n{rows}"
+    );
+    fs::write(&arm, table).unwrap();
+    let arm = arm.to_str().unwrap();
+    let functions = ["--functions", "torque,inertia,acceleration", "--wrench", "--payload"];
+    let answer = generated(arm, "c", &folder.join("c"), &functions);
+    let of = |name: &str| {
+        let all = answer["functions"].as_array().unwrap();
+        all.iter().find(|f| f["name"] == name).unwrap_or_else(|| panic!("{answer}"))
+    };
+    let claim = |name: &str| of(name)["claim"].as_str().unwrap();
+    assert!(claim("torque").contains("what holds the wrench proved equal to J^T w"), "{}", claim("torque"));
+    assert!(!claim("inertia").contains("wrench"), "{}", claim("inertia"));
+    assert_eq!(
+        (&of("torque")["proved"], &of("acceleration")["proved"]),
+        (&true.into(), &false.into()),
+        "{answer}"
+    );
+    assert!(
+        claim("acceleration").contains("made shorter, and equal to what it was before at 3 random states"),
+        "{answer}"
+    );
+    let divisors = of("torque")["divides_by"].as_array().cloned().unwrap_or_default();
+    let is_said = claim("torque").contains("it divides by");
+    assert_eq!(divisors.is_empty(), !is_said, "{answer}");
+    let header = fs::read_to_string(folder.join("c/two.h")).unwrap();
+    for part in
+        ["force that the tool exerts, along x of the base, in N", "M of what the tool carries", "ML", "FX"]
+    {
+        assert!(header.contains(part), "{part}: {header}");
+    }
+    let bare = generated(arm, "python", &folder.join("bare"), &["--functions", "torque"]);
+    assert_eq!(bare["functions"][0]["divides_by"][0], "a1", "{bare}");
+    assert!(
+        bare["functions"][0]["claim"]
+            .as_str()
+            .unwrap()
+            .ends_with("it divides by a1, and holds where that is not 0")
+    );
+    let out = folder.join("none");
+    let refuse = |more: &[&'static str], why: &str| {
+        let base = ["generate", arm, "-l", "c", "-o", out.to_str().unwrap(), "--functions"];
+        refused(&[&base[..], more].concat(), 3, why);
+    };
+    refuse(
+        &["torque", "--masses", "base", "--payload"],
+        "base parameters have what the tool carries in them",
+    );
+    refuse(&["inertia", "--wrench"], "no function that is asked for feels it");
+    refuse(&["fk", "--payload"], "no function that is asked for feels it");
+    let light = folder.join("light.toml");
+    fs::write(&light, "convention = 'craig'\n[[joints]]\ntheta = 'q1'\nmass = 1\n").unwrap();
+    let base = ["generate", light.to_str().unwrap(), "-l", "c", "-o", out.to_str().unwrap(), "--functions"];
+    refused(&[&base[..], &["acceleration"]].concat(), 3, "joint 1 moves no mass of its own");
+}

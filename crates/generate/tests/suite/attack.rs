@@ -26,6 +26,7 @@ fn attack(kind: Kind, seed: u64, language: Language) -> Result<bool, String> {
         precision: Precision::Double,
         name: Some("arm".into()),
         masses: None,
+        loads: denavit::dynamics::Loads::default(),
         fixed: false,
     };
     let found = std::panic::catch_unwind(|| generate(&description, &options))

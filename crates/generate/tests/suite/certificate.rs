@@ -67,6 +67,7 @@ impl Arm {
             precision: Precision::Double,
             name: Some("arm".into()),
             masses: None,
+            loads: denavit::dynamics::Loads::default(),
             fixed: true,
         };
         let generated = generate(d, &options).expect("parameters have values");

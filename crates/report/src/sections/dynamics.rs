@@ -8,6 +8,7 @@ use crate::explain::{dynamics_document, dynamics_vocabulary};
 use crate::words::{Caption, Column, Heading};
 use denavit::description::JointKind;
 use denavit::dynamics::{DynamicModel, Dynamics, gravity_torques, inertia_matrix};
+use denavit::quantity::torque_unit;
 use denavit_symbolic::Expr;
 
 /// Nothing for a robot that says nothing of masses.
@@ -28,7 +29,7 @@ fn at_rest(s: &Setting) -> Option<Part> {
     let arm = Dynamics::numeric(&s.valued).ok()?;
     let (gravity, inertia) = (gravity_torques(&arm, &s.q), inertia_matrix(&arm, &s.q));
     let row = |(j, v): (usize, &denavit::description::Variable)| {
-        let units = if v.kind == JointKind::Revolute { ["N m", "kg m²"] } else { ["N", "kg"] };
+        let units = [torque_unit(v.kind), if v.kind == JointKind::Revolute { "kg m²" } else { "kg" }];
         vec![
             Line::default().math(Expr::from(v.symbol)),
             Line::new(format!("{} {}", decimals(gravity[j], 4), units[0])),

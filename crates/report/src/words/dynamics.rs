@@ -1,20 +1,9 @@
 //! What is said of dynamics.
 
 use crate::tree::{Line, Math};
-use denavit::dynamics::{Ground, Minimality};
+use denavit::dynamics::{Gives, Ground, Minimality};
 use denavit::geometry::NoBody;
 use denavit_program::Count;
-
-/// What a link gives to the one before, where mass may be counted with either.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Gives {
-    /// It turns: mass on its axis.
-    OnAxis,
-    /// It slides: its inertia.
-    Inertia,
-    /// It slides along the direction of all turns before it: all but its mass along that.
-    Plan,
-}
 
 /// What is said of dynamics.
 pub trait Dynamics {

@@ -16,7 +16,7 @@ mod terms;
 mod velocity;
 
 pub use check::Check;
-pub use dynamics::{Dynamics, Gives};
+pub use dynamics::Dynamics;
 pub use english::English;
 pub use french::French;
 pub use geometry::{Geometry, Whole};

@@ -469,7 +469,8 @@ fn motions_and_axes() {
     let laws = [
         TimingLaw::Still,
         TimingLaw::TimeOptimal,
-        TimingLaw::WithinTorques,
+        TimingLaw::WithinTorques { accelerations: true, fastest: true },
+        TimingLaw::WithinTorques { accelerations: false, fastest: false },
         TimingLaw::JerkLimited,
         TimingLaw::Fastest,
         TimingLaw::Together(Law::Cubic),

@@ -149,7 +149,7 @@ fn named(links: &[Grouped], formulas: &Formulas) -> (Vec<Grouped>, Vec<BaseParam
 }
 
 /// The wrench that moves a grouped link.
-fn of_link(link: &Grouped, m: &Motion<Expr>) -> Wrench<Expr> {
+pub(super) fn of_link(link: &Grouped, m: &Motion<Expr>) -> Wrench<Expr> {
     let inertial = Vector([0, 1, 2].map(|i| link.mass[i] * m.acceleration[i]));
     [inertial + m.spread * link.first_moment, moment(&link.inertia, link.first_moment, m)]
 }
@@ -162,13 +162,17 @@ fn torques(formulas: &Formulas, links: &[Grouped], named: &[BaseParameter]) -> P
     let wrenches: Vec<Wrench<Expr>> = links.iter().zip(&motions).map(|(l, m)| of_link(l, m)).collect();
     let mut torques = arm.at_joints(&backward(arm, &motions, &wrenches));
     for (j, (torque, drive)) in torques.iter_mut().zip(&arm.drives).enumerate() {
-        *torque = *torque + drive.rotor * qdd[j] + drive.viscous * qd[j] + drive.coulomb * qd[j].sign();
+        *torque = *torque + drive.torque(qd[j], qdd[j]) + drive.coulomb * qd[j].sign();
     }
     let variables = [&formulas.q[..], &formulas.qd, &formulas.qdd].concat();
-    let own: Vec<Symbol> =
+    let own: FxHashSet<Symbol> =
         arm.links.iter().flat_map(|l| l.body.parameters()).flat_map(|e| e.symbols()).collect();
+    // Lengths may be among what makes the links' numbers, too.
+    let is_named = |s: &Symbol| named.iter().any(|p| p.symbol == *s);
+    let read: FxHashSet<Symbol> = Expr::postorder(&torques).into_iter().filter_map(Expr::as_symbol).collect();
+    let is_input = |s: &Symbol| !own.contains(s) || read.contains(s) && !is_named(s);
     let mut parameters: Vec<Symbol> =
-        formulas.parameters.iter().map(|p: &Parameter| p.symbol).filter(|s| !own.contains(s)).collect();
+        formulas.parameters.iter().map(|p: &Parameter| p.symbol).filter(is_input).collect();
     parameters.extend(named.iter().map(|p| p.symbol).filter(|s| !parameters.contains(s)).collect::<Vec<_>>());
     let taken: FxHashSet<String> =
         variables.iter().chain(&parameters).map(|s| s.name().to_string()).collect();

@@ -77,6 +77,14 @@ impl<T: Scalar> Factored<T> {
     }
 }
 
+impl Factored<f64> {
+    /// The first row, from 0, whose pivot is rounding beside the diagonal entry of the matrix.
+    pub fn lost(&self, matrix: &[Vec<f64>]) -> Option<usize> {
+        let is_lost = |&j: &usize| self.diagonal[j].is_nan() || self.diagonal[j] <= ROUNDING * matrix[j][j];
+        (0..self.diagonal.len()).find(is_lost)
+    }
+}
+
 /// Pivots below this part of a diagonal entry are rounding.
 pub(super) const ROUNDING: f64 = 1e-13;
 
@@ -99,11 +107,7 @@ pub fn direct_dynamics(
     assert_eq!(tau.len(), n, "one entry per joint");
     let matrix = inertia_matrix(arm, q);
     let factors = factored(&matrix);
-    let is_lost = |&j: &usize| {
-        let pivot = factors.diagonal[j];
-        pivot.is_nan() || pivot <= ROUNDING * matrix[j][j]
-    };
-    if let Some(joint) = (0..n).find(is_lost) {
+    if let Some(joint) = factors.lost(&matrix) {
         return Err(Singular { joint });
     }
     let coasting = drive_torques(arm, q, qd, &vec![0.0; n], wrench);

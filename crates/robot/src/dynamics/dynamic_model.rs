@@ -7,7 +7,7 @@ use super::short::shortest;
 use crate::description::Description;
 use crate::forward::symbol_order;
 use denavit_program::Program;
-use denavit_symbolic::{Expr, Symbol, equal, readable};
+use denavit_symbolic::{Expr, Node, Symbol, equal, readable};
 
 /// Joints up to which the matrices are written out.
 const WRITTEN_OUT: usize = 3;
@@ -52,7 +52,8 @@ impl DynamicModel {
         Self::of(d, Formulas::in_numbers(d))
     }
 
-    fn of(d: &Description, formulas: Formulas) -> Self {
+    /// The model of formulas.
+    pub(super) fn of(d: &Description, formulas: Formulas) -> Self {
         let base = BaseModel::derive(d, &formulas);
         let torques = shortest(d, &formulas, &base);
         let ground = base.ground(d, &formulas, &torques);
@@ -63,6 +64,25 @@ impl DynamicModel {
         };
         let parts = (formulas.q.len() <= WRITTEN_OUT).then(|| Parts::new(d, &formulas, &base));
         DynamicModel { formulas, base, torques, ground, parts: parts.flatten() }
+    }
+}
+
+impl DynamicModel {
+    /// What the program of the torques and the groupings divide by: where one of these is 0 they do not hold.
+    pub fn divisors(&self) -> Vec<Expr> {
+        let mut found = self.torques.divisors();
+        let groupings: Vec<Expr> = self.base.parameters.iter().map(|p| p.value).collect();
+        for e in Expr::postorder(&groupings) {
+            let below = match e.node() {
+                Node::Div(_, b) => b,
+                Node::Pow(b, n) if n < 0 => b,
+                _ => continue,
+            };
+            if !below.symbols().is_empty() && !found.contains(&below) {
+                found.push(below);
+            }
+        }
+        found
     }
 }
 

@@ -22,6 +22,19 @@ pub struct Grouped {
     pub mass: Vector<Expr>,
 }
 
+/// What a link gives to the one before, where mass may be counted with either.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Gives {
+    /// It turns: mass on its axis.
+    OnAxis,
+    /// It slides: its inertia.
+    Inertia,
+    /// It slides along the direction of all turns before it: all but its mass along that.
+    Plan,
+    /// It turns, and has a mass for each direction: nothing.
+    Nothing,
+}
+
 impl Grouped {
     /// A body as it is.
     pub(super) fn of(body: &Body<Expr>) -> Self {
@@ -56,19 +69,40 @@ impl Grouped {
 
 /// The links after grouping, base first.
 pub fn grouped(arm: &Dynamics<Expr>) -> Vec<Grouped> {
+    with_gifts(arm).0
+}
+
+/// What each link gives to the one before, base first.
+pub fn given(arm: &Dynamics<Expr>) -> Vec<Gives> {
+    with_gifts(arm).1
+}
+
+fn with_gifts(arm: &Dynamics<Expr>) -> (Vec<Grouped>, Vec<Gives>) {
     let o = Expr::int(0);
     let bodies = arm.links.iter().map(|l| Grouped::of(&l.body)).collect();
-    grouped_by(arm, bodies, |_, own, _| {
+    let mut gives = vec![Gives::Nothing; arm.links.len()];
+    let all = told_by(arm, bodies, &mut gives, |_, own, _| {
         let yy = own.inertia[3];
         let first_moment = Vector([o, o, own.first_moment[2]]);
         Body { inertia: [yy, o, o, yy, o, o], first_moment, mass: own.mass[0] }
-    })
+    });
+    (all, gives)
 }
 
 /// The links, given as these, where each revolute one gives away what is chosen on its axis, for the link and the one before.
 pub(super) fn grouped_by(
     arm: &Dynamics<Expr>,
+    all: Vec<Grouped>,
+    chosen: impl Fn(usize, &Grouped, Option<&Grouped>) -> Body<Expr>,
+) -> Vec<Grouped> {
+    told_by(arm, all, &mut vec![Gives::Nothing; arm.links.len()], chosen)
+}
+
+/// The same, saying what each gives.
+fn told_by(
+    arm: &Dynamics<Expr>,
     mut all: Vec<Grouped>,
+    gives: &mut [Gives],
     chosen: impl Fn(usize, &Grouped, Option<&Grouped>) -> Body<Expr>,
 ) -> Vec<Grouped> {
     let o = Expr::int(0);
@@ -79,6 +113,7 @@ pub(super) fn grouped_by(
         // What is given away, in the frame before the motion, and for which directions its mass is one.
         let (given, mass) = match link.kind {
             JointKind::Revolute if x == y => {
+                gives[j] = Gives::OnAxis;
                 let given = chosen(j, &own, j.checked_sub(1).map(|p| &all[p]));
                 let less = |a: Expr, b: Expr| match (b.is_zero(), a == b) {
                     (true, _) => a,
@@ -100,11 +135,13 @@ pub(super) fn grouped_by(
             }
             JointKind::Revolute => continue,
             JointKind::Prismatic if is_plan(arm, j) && x == y => {
+                gives[j] = Gives::Plan;
                 all[j] = Grouped { inertia: [o; 6], first_moment: Vector([o; 3]), mass: Vector([o, o, z]) };
                 let first_moment = Vector([own.first_moment[0], own.first_moment[1], o]);
                 (Body { inertia: own.inertia, first_moment, mass: x }, Vector([x, y, o]))
             }
             JointKind::Prismatic => {
+                gives[j] = Gives::Inertia;
                 all[j].inertia = [o; 6];
                 let first_moment = Vector([o; 3]);
                 (Body { inertia: own.inertia, first_moment, mass: o }, Vector([o; 3]))

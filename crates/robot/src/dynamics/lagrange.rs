@@ -76,13 +76,18 @@ pub fn lagrange(formulas: &Formulas) -> Program {
 }
 
 impl BaseModel {
-    /// On what it rests that a program, whose results are the torques in base parameters, gives those of Lagrange's equations.
+    /// On what it rests that a program, whose results are the torques in base parameters, gives those of Lagrange's equations. Where
+    /// polynomials prove it, which are had from velocities in the links' frames, the values are those of [`lagrange`], too.
     pub fn ground(&self, d: &Description, formulas: &Formulas, torques: &Program) -> Ground {
         let base: FxHashMap<Symbol, Expr> = self.parameters.iter().map(|p| (p.symbol, p.value)).collect();
-        if are_lagranges(formulas, &base, torques) {
-            return Ground::Proved;
+        let wanted = lagrange(formulas);
+        if !are_lagranges(formulas, &base, torques) {
+            return self.equality(d, formulas, torques, &wanted);
         }
-        self.equality(d, formulas, torques, &lagrange(formulas))
+        match self.at_states(formulas, torques, &wanted) {
+            Ground::Failed => Ground::Failed,
+            _ => Ground::Proved,
+        }
     }
 
     /// On what it rests that the results of a program, in base parameters, are those of another, from q, q̇ and q̈.
@@ -102,6 +107,11 @@ impl BaseModel {
                 Proof::Failed | Proof::Undecided(_) => {}
             }
         }
+        self.at_states(formulas, torques, wanted)
+    }
+
+    /// By values at random states.
+    fn at_states(&self, formulas: &Formulas, torques: &Program, wanted: &Program) -> Ground {
         self.modulo(formulas, torques, wanted).unwrap_or_else(|| self.in_numbers(formulas, torques, wanted))
     }
 

@@ -9,7 +9,7 @@
 //! - [`inverse_dynamics`]: the recursion of Newton and Euler; gravity and velocity torques are cases of it.
 //! - [`inertia_matrix`]: A(q), by composite bodies.
 //! - [`kinetic_energy`], [`potential_energy`]: the energies.
-//! - [`momentum`]: of all mass, and about its centre.
+//! - [`momentum`]: of all mass, and about its centre; [`holding_torques`]: what holds a wrench; [`power`]: where it goes.
 //! - [`regressor`]: W with τ = Wχ.
 //! - [`coriolis_matrix`]: C with C q̇ the velocity torques and Ȧ − 2C skew.
 //! - [`BaseModel`]: base parameters, and torques in them; [`DynamicModel`]: all as formulas, with the [`Ground`] they rest on.
@@ -31,6 +31,7 @@ mod lagrange;
 mod model;
 mod momentum;
 mod newton_euler;
+mod power;
 mod programs;
 mod recursion;
 mod regressor;
@@ -43,13 +44,14 @@ pub use coriolis::coriolis_matrix;
 pub use direct::{Factored, Singular, direct_dynamics, factored};
 pub use dynamic_model::{DynamicModel, Parts};
 pub use energy::{kinetic_energy, potential_energy};
-pub use grouping::{Grouped, grouped};
+pub use grouping::{Gives, Grouped, given, grouped};
 pub use inertia::inertia_matrix;
 pub use lagrange::{Ground, lagrange};
 pub use model::{Drive, Dynamics, Formulas, GRAVITY, Link, NoNumbers, Wrench};
 pub use momentum::{Momentum, momentum};
 pub use newton_euler::{drive_torques, friction, gravity_torques, inverse_dynamics, velocity_torques};
-pub use programs::{DynamicFunction, DynamicProgram, DynamicPrograms, Masses};
+pub use power::{Power, holding_torques, power};
+pub use programs::{DynamicFunction, DynamicProgram, DynamicPrograms, Loads, Masses, NoProgram};
 pub use recursion::{Inward, Outward, Recursion};
 pub use regressor::regressor;
 pub use simulation::{Acting, Method, Moment, NoMotion, Simulation, Torques, simulate};

@@ -194,6 +194,11 @@ impl<T: Scalar> Link<T> {
 }
 
 impl<T: Scalar> Drive<T> {
+    /// IA q̈ + FV q̇; Coulomb's friction is apart.
+    pub(super) fn torque(&self, rate: T, change: T) -> T {
+        self.rotor * change + self.viscous * rate
+    }
+
     /// A joint without any.
     pub fn nothing() -> Self {
         Drive { rotor: T::zero(), viscous: T::zero(), coulomb: T::zero() }
@@ -215,6 +220,8 @@ pub struct Formulas {
     pub parameters: Vec<Parameter>,
     /// Whether the masses are symbols of Khalil and Dombre's names, because the description says nothing of them.
     pub is_generic: bool,
+    /// The ten numbers of a payload, in the order of [`PARAMETERS`]; none without one.
+    pub payload: Vec<Symbol>,
 }
 
 /// Why there is no dynamic model in numbers.
@@ -311,7 +318,17 @@ impl Formulas {
             q.iter().map(|s| Symbol::new(&format!("{prefix}{}", behind(s)))).collect()
         };
         let (qd, qdd) = (rates("qd"), rates("qdd"));
-        Formulas { dynamics, qd, qdd, q, parameters: names.parameters, is_generic }
+        Formulas { dynamics, qd, qdd, q, parameters: names.parameters, is_generic, payload: vec![] }
+    }
+
+    /// The same with a body fixed to the tool: its numbers about the tool's origin along the tool's axes are parameters, XXL … ML.
+    #[must_use]
+    pub fn carrying(mut self) -> Self {
+        let mut names = Names { parameters: std::mem::take(&mut self.parameters) };
+        let numbers = PARAMETERS.map(|letters| names.symbol(&format!("{letters}L"), None));
+        let payload = numbers.iter().filter_map(|e| e.as_symbol()).collect();
+        let dynamics = self.dynamics.carrying(&Body::of(numbers));
+        Formulas { dynamics, parameters: names.parameters, payload, ..self }
     }
 
     /// The variables as formulas: q, q̇, q̈.

@@ -47,7 +47,7 @@ pub fn inverse_dynamics<T: Scalar>(
     }
     let mut torques = arm.at_joints(&backward(arm, &motions, &wrenches));
     for (j, (torque, drive)) in torques.iter_mut().zip(&arm.drives).enumerate() {
-        *torque = *torque + drive.rotor * qdd[j] + drive.viscous * qd[j]; // + IA q̈ + FV q̇
+        *torque = *torque + drive.torque(qd[j], qdd[j]);
     }
     torques
 }
@@ -107,37 +107,44 @@ pub(super) fn motions<T: Scalar>(
     base: Vector<T>,
 ) -> Vec<Motion<T>> {
     assert_eq!([q.len(), qd.len(), qdd.len()], [arm.joints(); 3], "one entry per joint");
-    let (rates, accelerations) = (arm.rates(qd), arm.rates(qdd));
-    let z = Vector::unit(Axis::Z);
+    let (rates, changes) = (arm.rates(qd), arm.rates(qdd));
     let mut all: Vec<Motion<T>> = vec![];
-    for (link, (&rate, &change)) in arm.links.iter().zip(rates.iter().zip(&accelerations)) {
+    for (link, (&rate, &change)) in arm.links.iter().zip(rates.iter().zip(&changes)) {
         let place = link.place(q);
-        let back = place.rotation.inverse();
-        let still = [Vector::zero(); 2];
-        let (turning, turning_rate, origin) = match all.last() {
-            None => (still[0], still[1], base),
-            // V̇ₚ + Uₚ p
-            Some(p) => {
-                (back * p.turning, back * p.turning_rate, p.acceleration + p.spread * place.translation)
-            }
-        };
-        let mut acceleration = back * origin;
-        let (turning, turning_rate) = match link.kind {
-            // ω = ωₚ + z q̇,   ω̇ = ω̇ₚ + z q̈ + ωₚ × z q̇
-            JointKind::Revolute => {
-                (turning + z.scale(rate), turning_rate + z.scale(change) + turning.cross(z.scale(rate)))
-            }
-            // V̇ += z q̈ + 2 ω × z q̇
-            JointKind::Prismatic => {
-                let across = turning.cross(z.scale(rate));
-                acceleration = acceleration + z.scale(change) + across + across;
-                (turning, turning_rate)
-            }
-        };
+        let carried = carried_on(link.kind, &place, all.last(), (rate, change), base);
+        let [turning, turning_rate, acceleration] = carried;
         let spread = spread(turning, turning_rate);
         all.push(Motion { place, turning, turning_rate, spread, acceleration });
     }
     all
+}
+
+/// ω, ω̇ and V̇ of a link from those of the link before, in their own frames, at a rate and an acceleration of its axis; `base` is the
+/// acceleration of the first origin.
+pub(super) fn carried_on<T: Scalar>(
+    kind: JointKind,
+    place: &Transform<T>,
+    before: Option<&Motion<T>>,
+    (rate, change): (T, T),
+    base: Vector<T>,
+) -> [Vector<T>; 3] {
+    let z = Vector::unit(Axis::Z);
+    let back = place.rotation.inverse();
+    let (turning, turning_rate, origin) = match before {
+        None => (Vector::zero(), Vector::zero(), base),
+        // V̇ₚ + Uₚ p
+        Some(p) => (back * p.turning, back * p.turning_rate, p.acceleration + p.spread * place.translation),
+    };
+    let acceleration = back * origin;
+    let across = turning.cross(z.scale(rate));
+    match kind {
+        // ω = ωₚ + z q̇,   ω̇ = ω̇ₚ + z q̈ + ωₚ × z q̇
+        JointKind::Revolute => {
+            [turning + z.scale(rate), turning_rate + z.scale(change) + across, acceleration]
+        }
+        // V̇ += z q̈ + 2 ω × z q̇
+        JointKind::Prismatic => [turning, turning_rate, acceleration + z.scale(change) + across + across],
+    }
 }
 
 /// U = ω̇^ + ω^ω^

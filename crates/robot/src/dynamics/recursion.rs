@@ -4,15 +4,15 @@
 //! The links' velocities and accelerations are held against the derivatives by time of the plain product of the transforms, the
 //! torques against Lagrange's equations.
 
-use super::base::BaseModel;
-use super::grouping::Grouped;
+use super::base::{BaseModel, of_link};
 use super::lagrange::{Ground, program};
 use super::model::{Formulas, Link, Wrench};
-use super::newton_euler::{Motion, carried, moment, spread};
+use super::newton_euler::{Motion, carried, carried_on, spread};
 use crate::description::{Description, JointKind};
-use crate::geometry::{Axis, Rotation, Transform, Vector};
+use crate::geometry::{Rotation, Transform, Vector};
 use denavit_program::Program;
 use denavit_symbolic::{Expr, Symbol};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// A quantity with the formula that gives it.
 pub type Named = (Symbol, Expr);
@@ -59,7 +59,7 @@ pub struct Inward {
 /// Names quantities.
 struct Steps {
     all: Vec<Named>,
-    taken: Vec<Symbol>,
+    taken: FxHashSet<Symbol>,
 }
 
 impl Steps {
@@ -70,13 +70,18 @@ impl Steps {
         if is_plain(e) || is_negative {
             return e;
         }
-        let mut symbol = Symbol::new(&name);
-        while self.taken.contains(&symbol) {
-            symbol = Symbol::new(&format!("{}_", symbol.name()));
-        }
-        self.taken.push(symbol);
+        let symbol = self.free(name);
         self.all.push((symbol, e));
         symbol.into()
+    }
+
+    /// A name that nothing else has, an underscore behind it where another has it.
+    fn free(&mut self, name: String) -> Symbol {
+        let mut symbol = Symbol::new(&name);
+        while !self.taken.insert(symbol) {
+            symbol = Symbol::new(&format!("{}_", symbol.name()));
+        }
+        symbol
     }
 
     fn vector(&mut self, letter: &str, link: usize, v: Vector<Expr>) -> Vector<Expr> {
@@ -127,11 +132,11 @@ impl Recursion {
         }
         let mut all = arm.at_joints(&axes);
         for (j, (torque, drive)) in all.iter_mut().zip(&arm.drives).enumerate() {
-            *torque = *torque + drive.rotor * qdd[j] + drive.viscous * qd[j] + drive.coulomb * qd[j].sign();
+            *torque = *torque + drive.torque(qd[j], qdd[j]) + drive.coulomb * qd[j].sign();
         }
         let ground = base.ground(d, formulas, &traced(formulas, &known, &all));
-        let named = |(j, &e): (usize, &Expr)| (Symbol::new(&format!("t{}", j + 1)), e);
-        Recursion { outward, inward, torques: all.iter().enumerate().map(named).collect(), ground }
+        let torques = all.iter().enumerate().map(|(j, &e)| (steps.free(format!("t{}", j + 1)), e)).collect();
+        Recursion { outward, inward, torques, ground }
     }
 
     /// The names of all quantities.
@@ -148,27 +153,11 @@ fn moved(
     link: &Link<Expr>,
     before: Option<&Motion<Expr>>,
     q: &[Expr],
-    (rate, change): (Expr, Expr),
+    rates: (Expr, Expr),
     base: Vector<Expr>,
 ) -> Motion<Expr> {
-    let z = Vector::unit(Axis::Z);
     let place = link.place(q);
-    let back = place.rotation.inverse();
-    let (mut turning, mut turning_rate, origin) = match before {
-        None => (Vector::zero(), Vector::zero(), base),
-        Some(p) => (back * p.turning, back * p.turning_rate, p.acceleration + p.spread * place.translation),
-    };
-    let mut acceleration = back * origin;
-    match link.kind {
-        JointKind::Revolute => {
-            turning_rate = turning_rate + z.scale(change) + turning.cross(z.scale(rate));
-            turning = turning + z.scale(rate);
-        }
-        JointKind::Prismatic => {
-            let across = turning.cross(z.scale(rate));
-            acceleration = acceleration + z.scale(change) + across + across;
-        }
-    }
+    let [turning, turning_rate, acceleration] = carried_on(link.kind, &place, before, rates, base);
     let turning = steps.vector("w", k, turning);
     let turning_rate = steps.vector("wd", k, turning_rate);
     let rows = spread(turning, turning_rate).rows();
@@ -179,15 +168,9 @@ fn moved(
     Motion { place, turning, turning_rate, spread, acceleration }
 }
 
-/// The wrench that moves a grouped link.
-fn of_link(link: &Grouped, m: &Motion<Expr>) -> Wrench<Expr> {
-    let inertial = Vector([0, 1, 2].map(|i| link.mass[i] * m.acceleration[i]));
-    [inertial + m.spread * link.first_moment, moment(&link.inertia, link.first_moment, m)]
-}
-
 /// Formulas of named quantities as a program from q, q̇ and q̈.
 fn traced(formulas: &Formulas, known: &[Named], shown: &[Expr]) -> Program {
-    let mut values: rustc_hash::FxHashMap<Symbol, Expr> = rustc_hash::FxHashMap::default();
+    let mut values: FxHashMap<Symbol, Expr> = FxHashMap::default();
     for &(symbol, e) in known {
         let value = e.substitute(|s| values.get(&s).copied());
         values.insert(symbol, value);

@@ -54,6 +54,16 @@ impl Limits {
         Self::new(ranges(velocity), ranges(acceleration))
     }
 
+    /// Limits of velocities alone, the same in both directions: for timings that something else bounds.
+    ///
+    /// # Errors
+    /// If a limit is not a positive finite number, or there is none.
+    pub(crate) fn of_velocity(velocity: &[f64]) -> Result<Self, MotionError> {
+        let limits = Self::symmetric(velocity, &vec![1.0; velocity.len()])?;
+        let acceleration = vec![Range::symmetric(f64::INFINITY); velocity.len()];
+        Ok(Self { acceleration, ..limits })
+    }
+
     /// Limits that may differ between the directions.
     ///
     /// # Errors

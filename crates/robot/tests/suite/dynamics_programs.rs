@@ -2,8 +2,12 @@
 
 use crate::common::{Random, numbers, robot};
 use crate::dynamics::{ARMS, random_arm, state, with_bodies};
-use denavit::description::Description;
-use denavit::dynamics::{DynamicFunction as F, DynamicProgram, DynamicPrograms, Ground, Masses};
+use denavit::description::{Description, read_toml};
+use denavit::dynamics::{
+    DynamicFunction as F, DynamicPrograms, Dynamics, Ground, Loads, Masses, NoProgram, direct_dynamics,
+    drive_torques,
+};
+use denavit::geometry::{Body, PARAMETERS, Vector};
 use denavit_program::Program;
 use serde_json::Value;
 
@@ -108,9 +112,12 @@ fn numbers_may_be_arguments() {
                 grouped.map_or_else(|| formulas.value(*s), |p| base.value(formulas, p)).expect("a value")
             };
             for function in F::ALL {
-                let Some(DynamicProgram { program, .. }) = all.program(function) else {
-                    assert_eq!((masses, function), (Masses::Base, F::Energy));
-                    continue;
+                let program = match all.program(function) {
+                    Ok(found) => found.program,
+                    Err(why) => {
+                        assert_eq!((why, masses, function), (NoProgram::Energy, Masses::Base, F::Energy));
+                        continue;
+                    }
                 };
                 let values: Vec<f64> = program.parameters().iter().map(value).collect();
                 let of_numbers = plain.program(function).unwrap().program;
@@ -196,13 +203,127 @@ fn every_evaluator_runs_them() {
     }
 }
 
-/// A that is not the derivative of the torques itself is proved to be it.
+/// A that is not the derivative of the torques itself is proved to be it, and there is such a one.
 #[test]
 fn the_inertia_matrix_says_on_what_it_rests() {
+    let mut by_bodies = 0;
     for name in ["planar-2r", "planar-3r", "scara", "staubli-rx90", "ur5"] {
         let all = DynamicPrograms::new(&robot(name), Masses::Base).unwrap();
         for f in [F::Inertia, F::Acceleration, F::TorqueDerivatives] {
-            assert_eq!(all.program(f).unwrap().inertia, Ground::Proved, "{name}, {f:?}");
+            let found = all.program(f).unwrap();
+            assert_eq!(found.inertia, Ground::Proved, "{name}, {f:?}");
+            by_bodies += usize::from(found.by_bodies);
         }
     }
+    assert!(by_bodies > 0);
+}
+
+/// What was shortened is held against what it was: polynomials are proved to be equal, quotients are equal at random states.
+#[test]
+fn shortened_programs_say_on_what_they_rest() {
+    for name in ["stanford", "ur5"] {
+        let all = DynamicPrograms::new(&robot(name), Masses::Base).unwrap();
+        for f in [F::Torque, F::Inertia, F::Bias, F::Gravity] {
+            let found = all.program(f).unwrap();
+            assert_eq!(
+                (found.shortening, all.ground(f, &found)),
+                (Ground::Proved, Ground::Proved),
+                "{name}, {f:?}"
+            );
+        }
+        for f in [F::Acceleration, F::AccelerationDerivatives] {
+            let found = all.program(f).unwrap();
+            assert_eq!(found.shortening, Ground::Modulo(3), "{name}, {f:?}");
+            assert_eq!(all.ground(f, &found), Ground::Modulo(3), "{name}, {f:?}");
+        }
+    }
+}
+
+/// A wrench and a payload as arguments: as the plain algorithms have them, and the references; what holds the wrench is proved.
+#[test]
+fn loads_may_be_arguments() {
+    for (name, masses) in [
+        ("scara", Masses::Numbers),
+        ("stanford", Masses::Links),
+        ("ur5", Masses::Numbers),
+        ("ur5", Masses::Base),
+    ] {
+        let d = random_arm(name, 12);
+        let loads = Loads { wrench: true, payload: masses != Masses::Base };
+        let all = DynamicPrograms::with_loads(&d, masses, loads).unwrap();
+        assert_eq!(all.wrench_ground, Ground::Proved, "{name}");
+        let n = all.symbols[0].len();
+        let mut random = Random(21);
+        let [q, qd, third] = state(n, &mut random);
+        let w: Vec<f64> = (0..6).map(|_| 10.0 * random.unit() - 5.0).collect();
+        let numbers: [f64; 10] =
+            Body::about_centre(2.5, Vector([0.02, -0.03, 0.1]), [0.1, 0.01, 0.0, 0.2, 0.02, 0.15])
+                .parameters();
+        let payload = Body::of(if loads.payload { numbers } else { [0.0; 10] });
+        let arm = Dynamics::numeric(&d).unwrap().carrying(&payload);
+        let wrench = [Vector([w[0], w[1], w[2]]), Vector([w[3], w[4], w[5]])];
+        let (base, formulas) = (&all.model.base, &all.model.formulas);
+        let of_payload = |s: &denavit_symbolic::Symbol| {
+            PARAMETERS.iter().position(|p| format!("{p}L") == *s.name()).map(|k| numbers[k])
+        };
+        let value = |s: &denavit_symbolic::Symbol| {
+            let grouped = base.parameters.iter().find(|p| p.is_grouped && p.symbol == *s);
+            let own = grouped.map_or_else(|| formulas.value(*s), |p| base.value(formulas, p));
+            own.or_else(|| of_payload(s)).unwrap_or_else(|| panic!("{name}: {}", s.name()))
+        };
+        for f in F::ALL {
+            let Ok(found) = all.program(f) else { continue };
+            let [program, reference] = [found.program, all.reference(f)];
+            assert_eq!(program.variables(), all.variables(f), "{name}, {f:?}");
+            let state = [&q[..], &qd, &third][..f.reads()].concat();
+            let x = if f.feels_wrench() { [&state[..], &w].concat() } else { state };
+            let of = |p: &Program| {
+                let values: Vec<f64> = p.parameters().iter().map(value).collect();
+                p.compile(&values).scalar().eval(&x).to_vec()
+            };
+            let found = of(&program);
+            if masses != Masses::Base {
+                close(&format!("{name}, {f:?}"), &found, &of(&reference), 1e-10 * is_conditioned(f));
+            }
+            let wanted = match f {
+                F::Torque => drive_torques(&arm, &q, &qd, &third, Some(&wrench)),
+                F::Bias => drive_torques(&arm, &q, &qd, &vec![0.0; n], Some(&wrench)),
+                F::Acceleration => direct_dynamics(&arm, &q, &qd, &third, Some(&wrench)).unwrap(),
+                _ => continue,
+            };
+            close(&format!("{name}, {f:?}"), &found, &wanted, 1e-10 * is_conditioned(f));
+        }
+    }
+}
+
+/// A joint that moves no mass: no program divides by the 0 that its pivot is, seen at once or only when values are put in.
+#[test]
+fn accelerations_of_joints_without_mass_are_refused() {
+    let light = "convention = 'craig'\n[[joints]]\ntheta = 'q1'\nmass = 1\ncom = ['1', 0, 0]\n[[joints]]\na = 1\ntheta = 'q2'\n";
+    let twice = "convention = 'craig'\n[parameters]\nJ = ''\n[[joints]]\ntheta = 'q1'\n[[joints]]\ntheta = 'q2'\nmass = 1\n\
+                 inertia = ['J', 0, 0, 'J', 0, 'J']\n";
+    for (text, joint) in [(light, 1), (twice, 0)] {
+        let d = read_toml(text).unwrap().0;
+        let all = DynamicPrograms::new(&d, Masses::Numbers).unwrap();
+        for f in [F::Acceleration, F::AccelerationDerivatives] {
+            assert_eq!(all.program(f).map(|_| ()), Err(NoProgram::Singular(joint)), "{f:?}");
+        }
+        assert!(all.program(F::Inertia).is_ok());
+    }
+}
+
+/// What programs divide by is said, parameter by parameter; the pivots of A are none of these.
+#[test]
+fn divisors_are_known() {
+    let all = DynamicPrograms::new(&robot("planar-2r"), Masses::Links).unwrap();
+    let of = |f| -> Vec<String> {
+        all.program(f).unwrap().program.divisors().iter().map(ToString::to_string).collect()
+    };
+    let model = |d: &Description| -> Vec<String> {
+        denavit::dynamics::DynamicModel::derive(d).divisors().iter().map(ToString::to_string).collect()
+    };
+    let mut flat = robot("planar-2r");
+    flat.gravity = Some([0, -10, 0].map(denavit_symbolic::Expr::int));
+    assert_eq!(model(&flat), ["a1"]);
+    assert!(of(F::Acceleration).iter().all(|d| !d.contains("q2")), "{:?}", of(F::Acceleration));
 }

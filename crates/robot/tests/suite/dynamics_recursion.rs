@@ -29,11 +29,7 @@ fn steps_compute_the_torques() {
         }
         let mut give = |symbol: Symbol, e: Expr| {
             let value = e.eval(|s| at.get(&s).copied()).unwrap_or_else(|s| panic!("{name}: {}", s.name()));
-            assert!(
-                at.insert(symbol, value).is_none() || symbol.name().starts_with('t'),
-                "{name}: {}",
-                symbol.name()
-            );
+            assert!(at.insert(symbol, value).is_none(), "{name}: {}", symbol.name());
             value
         };
         let outward = recursion.outward.iter().flat_map(|o| &o.steps);
@@ -57,4 +53,21 @@ fn steps_compute_the_torques() {
         );
         assert!(are_right, "{name}: {grounds:?}");
     }
+}
+
+/// A parameter that has the name of a torque, or of a moment, keeps it.
+#[test]
+fn names_of_parameters_are_no_names_of_steps() {
+    let text = "convention = 'craig'\n[parameters]\nt1 = 1\nn1z = ''\n[[joints]]\ntheta = 'q1'\nmass = 1\ncom = ['t1', 0, 0]\n\
+                [[joints]]\na = 'n1z'\ntheta = 'q2'\nmass = 2\ncom = ['1', 0, 0]\n";
+    let d = denavit::description::read_toml(text).unwrap().0;
+    let formulas = Formulas::named(&d);
+    let base = BaseModel::derive(&d, &formulas);
+    let recursion = Recursion::derive(&d, &formulas, &base);
+    let own = formulas.parameters.iter().map(|p| p.symbol);
+    let mut names: Vec<String> = recursion.names().chain(own).map(|s| s.name().to_string()).collect();
+    let count = names.len();
+    names.sort();
+    names.dedup();
+    assert_eq!(names.len(), count, "{names:?}");
 }

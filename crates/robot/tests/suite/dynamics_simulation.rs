@@ -145,6 +145,21 @@ fn coulombs_friction_stops_and_holds() {
     assert!(at.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-7), "{at:?}");
 }
 
+/// A block that comes to rest and is pulled away again within what would be one step: v = 3.3 − 3t + 2t²/3 until it is 0, then it
+/// sticks until 4t − 4 is 5.
+#[test]
+fn a_joint_that_sticks_within_a_step_is_seen() {
+    let torques = Torques::over(vec![0.0, 5.0], vec![vec![-4.0], vec![16.0]]).unwrap();
+    let acting = Acting { torques, wrench: None };
+    let found = motion(&block("coulomb = 5"), (&[0.0], &[3.3]), &acting, (5.0, 5.0), FINE);
+    let t = (3.0 - (9.0_f64 - 8.0 / 3.0 * 3.3).sqrt()) / (4.0 / 3.0);
+    let stopped = 3.3 * t - 1.5 * t * t + 2.0 / 9.0 * t.powi(3);
+    let last = found.moments.last().unwrap();
+    assert!((last.qd[0] - 2.0 / 3.0 * 2.75 * 2.75).abs() < 1e-8, "{last:?}");
+    assert!((last.q[0] - (stopped + 2.0 / 9.0 * 2.75_f64.powi(3))).abs() < 1e-7, "{last:?} {stopped}");
+    assert_eq!(found.switched, 2);
+}
+
 /// An arm with Coulomb's friction in all joints comes to rest, its energy balanced through all that sticks and slides on the way.
 #[test]
 fn an_arm_comes_to_rest() {
@@ -174,6 +189,8 @@ fn refusals() {
     assert_eq!(why(&arm, 0.0, (1.0, f64::NAN), FINE).0, NoMotion::NotPositive);
     assert_eq!(why(&arm, 0.0, (1.0, 1.0), step(f64::INFINITY)).0, NoMotion::NotPositive);
     assert_eq!(why(&arm, 0.0, (1.0, 1e-9), FINE).0, NoMotion::Samples);
+    // Each sample ends a step, and of these there are no more.
+    assert_eq!(why(&arm, 0.0, (1.0, 1.0 / 600_000.0), FINE).0, NoMotion::Samples);
     assert!(matches!(why(&arm, 0.0, (1.0, 0.5), step(1e-9)), (NoMotion::Steps { .. }, 2)));
     assert!(matches!(
         why(&arm, 1e200, (1.0, 0.5), FINE).0,

@@ -5,7 +5,8 @@ use crate::dynamics::random_arm;
 use denavit::description::read_toml;
 use denavit::dynamics::{Dynamics, drive_torques, gravity_torques};
 use denavit::motion::path::{Ends, cubic_spline};
-use denavit::motion::plan::{KnownLimits, PlanError, PlanOptions, Planned, Wish};
+use denavit::motion::plan::{KnownLimits, PlanError, PlanOptions, Planned, TimingLaw, Wish};
+use denavit::motion::timing::Grid;
 use denavit::motion::{JointPath, Limits, MotionError, TimeOptimal, TorqueLimits, Trajectory};
 
 /// 3 kg on a level track, pushed with 6 N at most, over one metre.
@@ -84,6 +85,55 @@ fn torques_stay_within_their_limits_and_reach_them() {
             assert!(matches!(time(1e-3), Err(MotionError::Torque { .. })), "{name}");
         }
     }
+}
+
+/// A pendulum that can be held at all grid points of its way and not between them.
+#[test]
+fn an_arm_that_cannot_carry_itself_between_grid_points_is_refused() {
+    let text = "name = 'p'\nconvention = 'craig'\ngravity = [0, '-10', 0]\n[[joints]]\ntheta = 'q1'\nmass = 1\ncom = ['1', 0, 0]\n";
+    let arm = Dynamics::numeric(&read_toml(text).unwrap().0).unwrap();
+    let limits = Limits::symmetric(&[100.0], &[1e4]).unwrap();
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let path = cubic_spline(&[vec![-quarter], vec![3.0 * quarter]], &Ends::Natural).unwrap();
+    let points = vec![0.0, path.end() / 2.0, path.end()];
+    let ends = TimeOptimal { grid: Grid::Points(points), ..TimeOptimal::default() };
+    // 10 cos q is 0 at all three, and 7.5 at 0.27 of the way between them.
+    let time = |torque: f64| {
+        let torques = TorqueLimits::symmetric(arm.clone(), &[torque]).unwrap();
+        ends.time_within(path.clone(), &limits, Some(&torques)).map(|timed| timed.duration())
+    };
+    assert!(time(12.0).is_ok_and(|t| t > 0.0), "{:?}", time(12.0));
+    assert!(matches!(time(7.0), Err(MotionError::Torque { joint: 0, s }) if s > 0.0), "{:?}", time(7.0));
+}
+
+/// What is called time-optimal: with viscous friction, which is bounded by tangents, nothing is. Nothing but torques bounds accelerations:
+/// a light block takes as short as its mass says.
+#[test]
+fn timings_within_torques_say_what_they_are() {
+    let law = |drive: &str, mass: f64, acceleration: Option<Vec<f64>>| {
+        let text = format!(
+            "name = 'b'\nconvention = 'craig'\ngravity = [0, '-9.81', 0]\n[[joints]]\nd = 'q1'\nmass = '{mass}'\n{drive}\n"
+        );
+        let d = read_toml(&text).unwrap().0;
+        let arm = Dynamics::numeric(&d).unwrap();
+        let known = KnownLimits {
+            velocity: Some(vec![1e6]),
+            acceleration,
+            torque: Some(TorqueLimits::symmetric(arm, &[6.0]).unwrap()),
+            ..KnownLimits::default()
+        };
+        let robot = denavit::Robot::numeric(&d).unwrap();
+        let wish = Wish::Joints(vec![vec![0.0], vec![1.0]]);
+        let planned = Planned::new(&d, &robot, wish, &known, &PlanOptions::default()).unwrap();
+        (planned.timing.by, planned.trajectory.duration())
+    };
+    let within = |accelerations, fastest| TimingLaw::WithinTorques { accelerations, fastest };
+    assert_eq!(law("", 3.0, None).0, within(false, true));
+    assert_eq!(law("", 3.0, Some(vec![1.0])).0, within(true, true));
+    assert_eq!(law("viscous = 1", 3.0, None).0, within(false, false));
+    // 6 N on 6 mg: 10⁶ m/s², and 2 ms over a metre.
+    let light = law("", 6e-6, None).1;
+    assert!((light - 2e-3).abs() < 1e-6, "{light}");
 }
 
 #[test]

@@ -194,6 +194,7 @@ fn written(d: &Description) -> String {
         precision: Precision::Double,
         name: None,
         masses: None,
+        loads: denavit::dynamics::Loads::default(),
         fixed: false,
     };
     let made = generate(d, &options).expect("everything has a value");

@@ -5,29 +5,30 @@ mod simulation;
 mod stream;
 
 use crate::arguments::{DynamicsArguments, Format};
-use crate::commands::derive::reference;
 use crate::commands::document;
-use crate::commands::fk::{configuration, plural, value, without_values};
+use crate::commands::fk::{Frame, configuration, plural, value, without_values};
 use crate::commands::jacobian::{joint_rates, numbers};
 use crate::failure::Failure;
-use crate::load;
+use crate::load::{self, Around};
 use crate::terminal::{note, words};
 use denavit::Robot;
-use denavit::description::{Description, JointKind, Measure, Row, Variable};
+use denavit::description::{Description, Measure, Row, Variable};
 use denavit::dynamics::{
     DynamicModel, Dynamics, GRAVITY, Ground, NoNumbers, Recursion, direct_dynamics, drive_torques, friction,
-    gravity_torques, inertia_matrix, kinetic_energy, momentum, potential_energy, velocity_torques,
+    gravity_torques, holding_torques, inertia_matrix, kinetic_energy, momentum, potential_energy, power,
+    velocity_torques,
 };
 use denavit::forward::Reference;
 use denavit::geometry::{Body, Vector};
-use denavit::velocity::{Viewpoint, geometric};
+use denavit::quantity::torque_unit;
+use denavit::velocity::Viewpoint;
 use denavit_report::explain::{
     dynamics_document, dynamics_explanation, dynamics_vocabulary, recursion_vocabulary,
 };
 use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::{Expr, Rational};
 use denavit_wire::Schema;
-use denavit_wire::dynamics::{Answer, Energy, Model, Momentum, Power, Recursive};
+use denavit_wire::dynamics::{Answer, Energy, Model, Momentum, Recursive};
 use std::io::Write;
 
 /// Answers what is asked about dynamics.
@@ -55,7 +56,7 @@ pub fn run(arguments: &DynamicsArguments) -> Result<(), Failure> {
             plural(description.variables().len(), "value"),
         )));
     }
-    let arm = Arm::read(&description, arguments)?;
+    let arm = Arm::read(&description, &around, arguments)?;
     check_bodies(&description, &arm.dynamics, &arguments.robot.robot);
     let given = Given::read(&description, arguments)?;
     let text = match (&arguments.input, &arguments.q) {
@@ -83,18 +84,30 @@ struct Arm {
     name: String,
     joints: Vec<String>,
     /// Where a wrench is exerted.
-    at: Reference,
+    at: Viewpoint<f64>,
+}
+
+/// An arm with masses in numbers.
+///
+/// # Errors
+/// If the description says nothing of masses, or a parameter has no value.
+pub fn numeric(d: &Description, file: &str) -> Result<Dynamics<f64>, Failure> {
+    Dynamics::numeric(d).map_err(|why| match why {
+        NoNumbers::NoMasses => Failure::Input(format!(
+            "error: {file}: it says nothing of masses\n  = hint: a URDF does, or mass, com and inertia in a robot file"
+        )),
+        NoNumbers::Missing(missing) => without_values(d, file, &missing),
+    })
 }
 
 impl Arm {
-    fn read(d: &Description, arguments: &DynamicsArguments) -> Result<Self, Failure> {
+    fn read(d: &Description, around: &Around, arguments: &DynamicsArguments) -> Result<Self, Failure> {
         let file = &arguments.robot.robot;
-        let dynamics = Dynamics::numeric(d).map_err(|why| match why {
-            NoNumbers::NoMasses => Failure::Input(format!(
-                "error: {file}: it says nothing of masses\n  = hint: a URDF does, or mass, com and inertia in a robot file; \
-                 --symbolic gives formulas"
-            )),
-            NoNumbers::Missing(missing) => without_values(d, file, &missing),
+        let dynamics = numeric(d, file).map_err(|why| match why {
+            Failure::Input(why) if !d.has_masses() => {
+                Failure::Input(format!("{why}; --symbolic gives formulas"))
+            }
+            other => other,
         })?;
         let robot = Robot::numeric(d).map_err(|missing| without_values(d, file, &missing))?;
         let dynamics = match &arguments.payload {
@@ -102,8 +115,8 @@ impl Arm {
             None => dynamics,
         };
         let at = match &arguments.at {
-            Some(text) => reference(d, text, "--at")?,
-            None => Reference::Tool,
+            Some(text) => exerted_at(d, around, text)?,
+            None => Viewpoint::tool(),
         };
         let joints = d.variables().iter().map(|v| v.symbol.name().to_string()).collect();
         Ok(Arm { dynamics, robot, name: d.name.clone(), joints, at })
@@ -113,11 +126,7 @@ impl Arm {
     fn answer(&self, given: Given, q: Vec<f64>) -> Result<Answer, String> {
         let (arm, n) = (&self.dynamics, self.joints.len());
         let Given { qd, qdd, tau, wrench } = given;
-        // What holds a wrench: Jᵀ w.
-        let held: Option<Vec<f64>> = wrench.map(|w| {
-            let jacobian = geometric(&self.robot, &q, &Viewpoint::of(self.at, Reference::Base));
-            jacobian.columns.iter().map(|c| c.iter().zip(&w).map(|(a, b)| a * b).sum()).collect()
-        });
+        let held = wrench.map(|w| holding_torques(&self.robot, &q, &self.at, &w));
         let less = |all: &[f64], sign: f64| -> Vec<f64> {
             let held = held.iter().flatten().copied().chain(std::iter::repeat(0.0));
             all.iter().zip(held).map(|(t, h)| t + sign * h).collect()
@@ -134,9 +143,7 @@ impl Arm {
             less(&drive_torques(arm, &q, &qd, &pulled, None), 1.0)
         });
         let (friction, gravity) = (friction(arm, &qd), gravity_torques(arm, &q));
-        let by_rates = |all: &[f64]| all.iter().zip(&qd).map(|(t, v)| t * v).sum::<f64>();
-        let (supplied, dissipated) = (by_rates(&torques), by_rates(&friction));
-        let (potential, exerted) = (by_rates(&gravity), held.as_deref().map_or(0.0, by_rates));
+        let power = power(arm, &q, &qd, &torques, held.as_deref());
         let momentum = momentum(arm, &q, &qd);
         Ok(Answer {
             accelerations,
@@ -150,13 +157,7 @@ impl Arm {
                 linear: momentum.linear.0,
                 mass: momentum.mass,
             },
-            power: Power {
-                dissipated,
-                exerted,
-                kinetic: supplied - dissipated - exerted - potential,
-                potential,
-                supplied,
-            },
+            power: power.into(),
             robot: self.name.clone(),
             schema: Schema,
             torques,
@@ -176,6 +177,18 @@ impl Arm {
             self.joints[joint]
         )
     }
+}
+
+/// The frame that a word names, as the body that exerts a wrench at its origin.
+fn exerted_at(d: &Description, around: &Around, word: &str) -> Result<Viewpoint<f64>, Failure> {
+    let body = match word {
+        "base" => return Ok(Viewpoint::of(Reference::Base, Reference::Base)),
+        "tool" => return Ok(Viewpoint::tool()),
+        _ => Frame::find(d, &around.frames(), word),
+    };
+    let body = body.map_err(|why| Failure::Usage(format!("--at {word}: {why}, or `base` or `tool`")))?;
+    let (on, offset) = body.point();
+    Ok(Viewpoint { offset, ..Viewpoint::of(Reference::Frame(on), Reference::Base) })
 }
 
 /// What the tool carries: a mass, its centre in the frame of the tool, and the inertia about that.
@@ -267,8 +280,7 @@ fn torques(d: &Description, text: &str) -> Result<Vec<f64>, Failure> {
         return Err(Failure::Usage(format!("--tau: {found} given, {} needed", variables.len())));
     }
     let torque = |(part, variable): (&str, &Variable)| {
-        let unit = if variable.kind == JointKind::Revolute { "N m" } else { "N" };
-        let read = load::value_of(part, Measure::Other(unit)).and_then(value);
+        let read = load::value_of(part, Measure::Other(torque_unit(variable.kind))).and_then(value);
         read.map_err(|why| Failure::Usage(format!("--tau: {}: {why}", variable.symbol.name())))
     };
     parts.into_iter().zip(&variables).map(torque).collect()

@@ -2,7 +2,7 @@
 
 use crate::terminal::{Align, FAINT, HEADING, matrix, number, styled, table};
 use denavit::description::{Description, JointKind};
-use denavit::quantity::{rate, reading};
+use denavit::quantity::{rate, reading, torque_unit};
 use denavit_wire::dynamics::Answer;
 
 /// The state, the torques with their parts, the inertia matrix, the energies.
@@ -39,7 +39,7 @@ pub fn text(d: &Description, a: &Answer) -> String {
     let mut align = vec![Align::Right; header.len()];
     (align[0], align[header.len() - 1]) = (Align::Left, Align::Left);
     let row = |j: usize| -> Vec<String> {
-        let unit = if variables[j].kind == JointKind::Revolute { "N m" } else { "N" };
+        let unit = torque_unit(variables[j].kind);
         let name = variables[j].symbol.name().to_string();
         let cells = columns.iter().map(|c| number(c.1[j], 1e-14 * size));
         [name].into_iter().chain(cells).chain([unit.to_string()]).collect()

@@ -8,18 +8,19 @@ use crate::load;
 use crate::terminal::{Align, FAINT, HEADING, decimals, note, number, styled, table};
 use denavit::description::{Description, JointKind};
 use denavit::dynamics::{Acting, Method, Moment, NoMotion, Simulation, Torques, simulate};
-use denavit::forward::Reference;
 use denavit::geometry::Vector;
 use denavit::quantity::reading;
+use denavit::space::JointSpace;
+use denavit::velocity::Viewpoint;
 use denavit_report::figure::drawing::Label;
 use denavit_report::figure::plot::{Curve, Panel, curves};
 use denavit_report::figure::svg::{Palette, svg};
 use denavit_report::figure::symbol;
-use denavit_wire::dynamics::Motion;
+use denavit_wire::dynamics::{Left, Motion};
 use std::fmt::Write as _;
 use std::io::Write as _;
 
-/// The error of a step where no step is given.
+/// The estimated error of a step where no step is given.
 const TOLERANCE: f64 = 1e-10;
 /// Samples where no time between them is given.
 const USUAL: f64 = 200.0;
@@ -42,7 +43,7 @@ pub fn run(
     q: &[f64],
     given: Given,
 ) -> Result<(), Failure> {
-    if arm.at != Reference::Tool {
+    if arm.at != Viewpoint::tool() {
         return Err(Failure::Usage("--at: --simulate has wrenches of the tool; leave it away".into()));
     }
     let wrench = given.wrench.map(|[a, b, c, k, m, n]| [Vector([a, b, c]), Vector([k, m, n])]);
@@ -57,13 +58,19 @@ pub fn run(
     };
     let dt = arguments.dt.unwrap_or(duration / USUAL);
     let found = simulate(&arm.dynamics, (q, &given.qd), &Acting { torques, wrench }, (duration, dt), method);
-    let (found, why) = match found {
-        Ok(found) => (found, None),
-        Err((why, found)) => (found, Some(failure(arm, why)?)),
+    let (found, why, ends) = match found {
+        Ok(found) => (found, None, None),
+        Err((why, found)) => {
+            let ends = why.to_string();
+            (found, Some(failure(arm, why)?), Some(ends))
+        }
     };
     let mut out = anstream::stdout();
     if arguments.json {
-        writeln!(out, "{}", denavit_wire::text(&Motion::of(&d.name, &found)))?;
+        let names = d.variables();
+        let left = |(j, t): (usize, f64)| Left { joint: names[j].symbol.name().to_string(), t };
+        let leaves = leaves(d, &found).into_iter().map(left).collect();
+        writeln!(out, "{}", denavit_wire::text(&Motion::of(&d.name, &found, ends, leaves)))?;
     } else if arguments.csv {
         write!(out, "{}", csv(d, &found))?;
         note(&remarks(d, &found, method, duration));
@@ -133,12 +140,17 @@ fn torques(file: &str, joints: usize) -> Result<Torques, Failure> {
     Torques::over(times, rows).ok_or_else(|| wrong("no torques in it".into()))
 }
 
+/// The joints that leave their limits, and when.
+fn leaves(d: &Description, found: &Simulation) -> Vec<(usize, f64)> {
+    found.leaves(&JointSpace::without_lengths(d).limits)
+}
+
 /// How it was followed, and how far the energy is out of balance.
 fn remarks(d: &Description, found: &Simulation, method: Method, duration: f64) -> String {
     let steps = plural(found.steps, "step");
     let mut text = match method {
         Method::Adaptive { tolerance } => format!(
-            "  {steps} of order 5 (Dormand and Prince), {} refused; error of a step at most {tolerance:.0e}\n",
+            "  {steps} of order 5 (Dormand and Prince), {} refused; estimated error of a step at most {tolerance:.0e}\n",
             found.refused
         ),
         Method::Symplectic { .. } => format!("  {steps} of order 4 (Gauss, symplectic)\n"),
@@ -158,15 +170,10 @@ fn remarks(d: &Description, found: &Simulation, method: Method, duration: f64) -
     if reached < duration {
         text += &format!("  it ends at {} s of {}\n", decimals(reached, 4), decimals(duration, 4));
     }
-    let moving = d.rows.iter().filter_map(|r| Some((r.variable?, r.limits)));
-    for (j, (variable, limits)) in moving.enumerate() {
-        let Some([low, high]) = limits.map(|l| l.map(|e| e.eval(|s| d.value(s)).unwrap_or(f64::NAN))) else {
-            continue;
-        };
-        if let Some(m) = found.moments.iter().find(|m| m.q[j] < low || m.q[j] > high) {
-            let name = variable.symbol.name();
-            text += &format!("  {name} leaves its limits (at {} s): nothing stops it\n", decimals(m.t, 4));
-        }
+    let variables = d.variables();
+    for (j, t) in leaves(d, found) {
+        let name = variables[j].symbol.name();
+        text += &format!("  {name} leaves its limits (at {} s): nothing stops it\n", decimals(t, 4));
     }
     text
 }

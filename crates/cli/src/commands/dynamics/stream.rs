@@ -2,7 +2,7 @@
 
 use super::{Arm, Given};
 use crate::commands::fk::plural;
-use crate::commands::stream::{self, Chunk, Worker, complaint, parsed};
+use crate::commands::stream::{self, Chunk, Worker, complaint, parsed, without_mark};
 use crate::failure::Failure;
 use serde_json::Value;
 use std::path::Path;
@@ -43,6 +43,7 @@ impl States {
     fn state(&self, line: &[u8]) -> Result<(Vec<f64>, Given), String> {
         const WHAT: &str = "a state";
         let n = self.arm.joints.len();
+        let line = without_mark(line);
         let is_json = line.trim_ascii_start().first().is_some_and(|c| matches!(c, b'[' | b'{'));
         let read = |l: &[u8]| parsed(l, WHAT, |l| serde_json::from_slice::<Value>(l));
         let value = if is_json { read(line)? } else { read(&[b"[", line.trim_ascii(), b"]"].concat())? };
@@ -50,11 +51,12 @@ impl States {
         match value {
             Value::Array(all) => {
                 let all = numbers(&all)?;
-                if all.len() % n.max(1) != 0 || !(1..=3).contains(&(all.len() / n.max(1))) {
+                let fits = if n == 0 { all.is_empty() } else { (1..=3).any(|k| all.len() == k * n) };
+                if !fits {
                     let there = plural(all.len(), "number");
                     return Err(format!("{there}; {n}, {} or {} are needed", 2 * n, 3 * n));
                 }
-                let mut blocks = all.chunks(n).map(<[f64]>::to_vec);
+                let mut blocks = all.chunks(n.max(1)).map(<[f64]>::to_vec);
                 let q = blocks.next().unwrap_or_default();
                 if let Some(qd) = blocks.next() {
                     given.qd = qd;

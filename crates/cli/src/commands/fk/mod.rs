@@ -14,8 +14,8 @@ pub use answer::strict;
 use denavit::Robot;
 use denavit::description::{Description, JointKind, Measure, NamedFrame, Variable};
 use denavit::forward::Reference;
-use denavit::geometry::Transform;
 use denavit::geometry::orientation::{OrientationSet, extract};
+use denavit::geometry::{Transform, Vector};
 use denavit::quantity::reading;
 use denavit::robot::MissingValue;
 use denavit_symbolic::{Expr, Symbol};
@@ -87,7 +87,7 @@ struct Request {
 
 /// A frame that is asked for: one of the table, or one with a name that does not move there.
 #[derive(Clone, PartialEq)]
-struct Frame {
+pub struct Frame {
     on: usize,
     named: Option<(String, Transform<f64>)>,
 }
@@ -102,8 +102,13 @@ impl Frame {
         self.named.as_ref().map_or(table, |n| table * n.1)
     }
 
+    /// The row's frame that it stands on, and its origin there.
+    pub fn point(&self) -> (usize, Vector<f64>) {
+        (self.on, self.named.as_ref().map_or_else(Vector::zero, |n| n.1.translation))
+    }
+
     /// The frame that a word names.
-    fn find(d: &Description, around: &[NamedFrame], word: &str) -> Result<Self, String> {
+    pub fn find(d: &Description, around: &[NamedFrame], word: &str) -> Result<Self, String> {
         load::frame(d, word).map(Frame::of_table).or_else(|why| {
             let named = around.iter().find(|f| f.name == word);
             let Some(NamedFrame { name, on, pose }) = named else {

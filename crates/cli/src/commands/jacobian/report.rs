@@ -4,8 +4,7 @@ use super::answer::{Answer, Held};
 use crate::commands::fk::joint_names;
 use crate::terminal::{Align, FAINT, HEADING, NAME, decimals, number, styled, table};
 use denavit::description::JointKind;
-use denavit::quantity::rate;
-use denavit::quantity::reading;
+use denavit::quantity::{rate, reading, torque_unit};
 use denavit::velocity::{Jacobian, ROWS};
 
 /// Everything that was asked.
@@ -45,7 +44,7 @@ pub fn text(a: &Answer) -> String {
             .iter()
             .zip(torques)
             .map(|(v, &t)| {
-                let unit = if v.kind == JointKind::Revolute { "N m" } else { "N" };
+                let unit = torque_unit(v.kind);
                 format!("{} {} {unit}", v.symbol.name(), decimals(t, 4))
             })
             .collect();

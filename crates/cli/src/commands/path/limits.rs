@@ -1,42 +1,63 @@
 //! What the joints can do: from the command line, else from the robot file.
 
 use crate::arguments::PathArguments;
-use crate::commands::fk::{value, without_values};
+use crate::commands::dynamics::numeric;
+use crate::commands::fk::value;
 use crate::failure::Failure;
-use crate::load;
+use crate::load::{self, Around};
 use denavit::description::{Description, JointKind, Measure};
-use denavit::dynamics::{Dynamics, NoNumbers};
 use denavit::motion::TorqueLimits;
 use denavit::motion::plan::KnownLimits;
+use denavit::quantity::torque_unit;
 
 /// The limits that are known.
 ///
 /// # Errors
 /// If an option cannot be read.
-pub fn read(description: &Description, arguments: &PathArguments) -> Result<KnownLimits, Failure> {
+pub fn read(
+    description: &Description,
+    around: &Around,
+    arguments: &PathArguments,
+) -> Result<KnownLimits, Failure> {
     let given = |text: &Option<String>, option: &str| given(description, text, option, |kind| kind.into());
     let asked = KnownLimits {
         velocity: given(&arguments.velocity, "--velocity")?,
         acceleration: given(&arguments.acceleration, "--acceleration")?,
         jerk: given(&arguments.jerk, "--jerk")?,
-        torque: torques(description, arguments)?,
+        torque: torques(description, around, arguments)?,
     };
     Ok(asked.or(KnownLimits::of(description)))
 }
 
-/// What the drives of an arm with masses can do.
-fn torques(description: &Description, arguments: &PathArguments) -> Result<Option<TorqueLimits>, Failure> {
-    let unit = |kind| Measure::Other(if kind == JointKind::Revolute { "N m" } else { "N" });
-    let Some(limits) = given(description, &arguments.torque, "--torque", unit)? else { return Ok(None) };
-    let arm = Dynamics::numeric(description).map_err(|why| match why {
-        NoNumbers::NoMasses => Failure::Input(format!(
-            "error: {}: it says nothing of masses\n  = hint: a URDF does, or mass, com and inertia in a robot file",
-            arguments.robot.robot
-        )),
-        NoNumbers::Missing(missing) => without_values(description, &arguments.robot.robot, &missing),
-    })?;
-    let limits = TorqueLimits::symmetric(arm, &limits);
+/// What the drives of an arm with masses can do: as it is given, or as its file has it.
+fn torques(
+    description: &Description,
+    around: &Around,
+    arguments: &PathArguments,
+) -> Result<Option<TorqueLimits>, Failure> {
+    let limits = match arguments.torque.as_deref().map(str::trim) {
+        Some("file") => Some(efforts(description, around, &arguments.robot.robot)?),
+        _ => given(description, &arguments.torque, "--torque", |kind| Measure::Other(torque_unit(kind)))?,
+    };
+    let Some(limits) = limits else { return Ok(None) };
+    let limits = TorqueLimits::symmetric(numeric(description, &arguments.robot.robot)?, &limits);
     limits.map(Some).map_err(|why| Failure::Usage(format!("--torque: {why}")))
+}
+
+/// The efforts of a file of bodies and joints.
+fn efforts(description: &Description, around: &Around, file: &str) -> Result<Vec<f64>, Failure> {
+    let wrong = |why: String| Failure::Input(format!("error: --torque file: {file}: {why}"));
+    let efforts = around.efforts().ok_or_else(|| wrong("it has no efforts; a URDF may".into()))?;
+    let named = efforts.into_iter().zip(description.variables());
+    let one = |(effort, v): (Option<f64>, denavit::description::Variable)| {
+        effort.filter(|e| e.is_finite() && *e > 0.0).ok_or_else(|| {
+            wrong(format!(
+                "it says nothing of the effort of {}\n  = hint: --torque with a value each",
+                v.symbol.name()
+            ))
+        })
+    };
+    named.map(one).collect()
 }
 
 /// One value for all joints, or one each; `100deg/s` or a plain number.

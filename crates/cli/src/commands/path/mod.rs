@@ -23,11 +23,11 @@ use std::io::Write;
 /// If the robot, a way-point or an option cannot be read; if the path cannot be followed to its end; if nothing can be
 /// written.
 pub fn run(arguments: &PathArguments) -> Result<(), Failure> {
-    let description = load::robot(&arguments.robot)?;
+    let (description, around) = load::robot_and_around(&arguments.robot)?;
     let robot = Robot::numeric(&description)
         .map_err(|missing| without_values(&description, &arguments.robot.robot, &missing))?;
     let wish = request::read(&description, &robot, arguments)?;
-    let limits = limits::read(&description, arguments)?;
+    let limits = limits::read(&description, &around, arguments)?;
     let planned = motion::plan(&description, &robot, wish, &limits, arguments)?;
     let sampled = Sampled::new(&description, &robot, &planned, arguments.dt)?;
     let format = if arguments.json { PathFormat::Json } else { arguments.format };

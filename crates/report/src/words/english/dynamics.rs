@@ -2,8 +2,8 @@
 
 use super::{English, counted};
 use crate::tree::{Line, Math};
-use crate::words::{Dynamics, Gives, Terms};
-use denavit::dynamics::{Ground, Minimality};
+use crate::words::{Dynamics, Terms};
+use denavit::dynamics::{Gives, Ground, Minimality};
 use denavit::geometry::NoBody;
 use denavit_program::Count;
 
@@ -126,6 +126,9 @@ impl Dynamics for English {
             Gives::OnAxis => format!(
                 "link {k} turns: it gives M{k}, MZ{k} and YY{k} (as a second moment along its axis) to {to}, and keeps XX{k} − YY{k}, \
                  XY{k}, XZ{k}, YZ{k}, ZZ{k}, MX{k}, MY{k}, with what it was given"
+            ),
+            Gives::Nothing => format!(
+                "link {k} turns, and has a mass for each direction: it gives nothing, and keeps what it was given"
             ),
             Gives::Inertia => format!(
                 "link {k} slides: it turns with {to}, which takes its inertia; it keeps M{k}, MX{k}, MY{k}, MZ{k}, with what it was given"

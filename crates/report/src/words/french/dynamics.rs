@@ -2,8 +2,8 @@
 
 use super::{French, counted};
 use crate::tree::{Line, Math};
-use crate::words::{Dynamics, Gives, Terms};
-use denavit::dynamics::{Ground, Minimality};
+use crate::words::{Dynamics, Terms};
+use denavit::dynamics::{Gives, Ground, Minimality};
 use denavit::geometry::NoBody;
 use denavit_program::Count;
 
@@ -136,6 +136,9 @@ impl Dynamics for French {
             Gives::OnAxis => say!(
                 "le corps {k} tourne : il cède {to} M{k}, MZ{k} et YY{k} (comme second moment le long de son axe), et garde \
                  XX{k} − YY{k}, XY{k}, XZ{k}, YZ{k}, ZZ{k}, MX{k}, MY{k}, avec ce qu'il a reçu"
+            ),
+            Gives::Nothing => say!(
+                "le corps {k} tourne, avec une masse par direction : il ne cède rien, et garde ce qu'il a reçu"
             ),
             Gives::Inertia => say!(
                 "le corps {k} glisse : son inertie, qui tourne avec le précédent, est comptée avec lui ({taker}) ; il garde M{k}, MX{k}, \

@@ -13,7 +13,7 @@ use crate::geometry::Rotation;
 use denavit_program::{Op, Program, Value};
 use denavit_symbolic::poly::{Atom, Poly};
 use denavit_symbolic::{Expr, Rational, Symbol};
-use ring::{Coordinate, Ring, Sum, sum, transposed};
+use ring::{Coordinate, MULTIPLE, Ring, Sum, sum, transposed};
 use rustc_hash::FxHashMap;
 
 /// Whether the torques of a program in base parameters are proved to be those of Lagrange's equations. Not, if a value has no such
@@ -96,16 +96,16 @@ impl Arm {
                         let times = by.to_integer().filter(|k| k.abs() == 1)?;
                         let angle = ring.angle()?;
                         let mut own = Sum::of(angle);
-                        own.add(&group, -1);
+                        own.add(&group, -1)?;
                         let mut rest = ring.sum(link.value.offset, &arm.angles)?;
                         rest.add_quarters(link.value.quarters);
                         for &(i, k) in link.value.terms.iter().filter(|t| t.0 != j) {
-                            let k = k.as_number()?.to_integer()?;
-                            rest.add(arm.angles.get(&formulas.q[i])?, k);
+                            let k = whole(k)?;
+                            rest.add(arm.angles.get(&formulas.q[i])?, k)?;
                         }
-                        own.add(&rest, -1);
+                        own.add(&rest, -1)?;
                         let mut joint = Sum::default();
-                        joint.add(&own, times);
+                        joint.add(&own, times)?;
                         arm.angles.insert(formulas.q[j], joint);
                         arm.coordinates.push(Coordinate::Angle(angle));
                     } else {
@@ -144,9 +144,9 @@ impl Arm {
                 turn = ring.sum(link.value.offset, &arm.angles)?;
                 turn.add_quarters(link.value.quarters);
                 for &(j, k) in &link.value.terms {
-                    turn.add(arm.angles.get(&formulas.q[j])?, k.as_number()?.to_integer()?);
+                    turn.add(arm.angles.get(&formulas.q[j])?, whole(k)?)?;
                 }
-                group.add(&turn, 1);
+                group.add(&turn, 1)?;
                 for (all, own) in group_slopes.iter_mut().zip(&own_slopes) {
                     *all = all.plus(own);
                 }
@@ -166,6 +166,11 @@ impl Arm {
         }
         (arm.coordinates.len() == n).then_some(arm)
     }
+}
+
+/// How often a joint's angle counts in an axis' one.
+fn whole(k: Expr) -> Option<i64> {
+    k.as_number()?.to_integer().filter(|k| k.unsigned_abs() <= MULTIPLE)
 }
 
 /// The torques at the joints by Lagrange's equations, from the energies of the links, whose frames are carried from the base.
@@ -307,8 +312,14 @@ fn expanded(
                 (None, None) if arm.angles.contains_key(s) => None,
                 (None, None) => Some(ring.parameter(*s)?),
             },
-            Op::Add(a, b) => pair(a, b).map(|(a, b)| a.plus(b)),
-            Op::Sub(a, b) => pair(a, b).map(|(a, b)| a.minus(b)),
+            Op::Add(a, b) => match pair(a, b) {
+                Some((a, b)) => Some(ring.plus(a, b)?),
+                None => None,
+            },
+            Op::Sub(a, b) => match pair(a, b) {
+                Some((a, b)) => Some(ring.minus(a, b)?),
+                None => None,
+            },
             Op::Mul(a, b) => match pair(a, b) {
                 Some((a, b)) => Some(ring.mul(a, b)?),
                 None => None,

@@ -1,16 +1,25 @@
 //! Polynomials in atoms with C² + S² = 1 for angles, a·(1/a) = 1 for parameters and √r² = r, reduced by these.
+//!
+//! The canonical form of the crate `symbolic` chooses its atoms by the formulas at hand, and is had from formulas. Here coordinates are
+//! given beforehand, so that no sine of a sum of angles is written out, a quotient by a parameter is an atom and no denominator, and
+//! values are had operation by operation: torques of six joints have tens of thousands of terms so, and would have millions there.
+//! What is too large for the bounds below has no form: a caller takes it as not decided.
 
 use denavit_symbolic::poly::{Atom, Monomial, Poly};
 use denavit_symbolic::{Angle, Expr, Node, Rational, Symbol};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
 
-/// Products of terms up to which expansion goes; beyond, nothing is known.
+/// Products of terms up to which expansion goes, those of long numbers counted by the square of their length; beyond, nothing is known.
 const BUDGET: u64 = 2_000_000;
+/// Terms of all values that are kept, counted likewise.
+const KEPT: u64 = 4_000_000;
+/// Powers of an atom.
+const EXPONENT: u16 = u16::MAX / 4;
 /// Divisors up to which the square of a root is searched for.
 const PRIMES: i64 = 1000;
 /// How often an angle may count in a sum.
-const MULTIPLE: i64 = 16;
+pub(super) const MULTIPLE: u64 = 16;
 
 /// What a polynomial is differentiated by.
 #[derive(Clone, Copy)]
@@ -35,14 +44,17 @@ impl Sum {
         Sum { terms: BTreeMap::from([(angle, 1)]), ..Sum::default() }
     }
 
-    pub fn add(&mut self, o: &Sum, times: i64) {
+    /// Nothing if an angle counts more often than has a form.
+    pub fn add(&mut self, o: &Sum, times: i64) -> Option<()> {
         let k = Rational::from(times);
         self.turns = &self.turns + &(&o.turns * &k);
         self.radians = &self.radians + &(&o.radians * &k);
         for (&angle, k) in &o.terms {
-            *self.terms.entry(angle).or_default() += times * k;
+            let sum = self.terms.entry(angle).or_default();
+            *sum = times.checked_mul(*k).and_then(|k| sum.checked_add(k))?;
         }
         self.terms.retain(|_, k| *k != 0);
+        Some(())
     }
 
     pub fn add_quarters(&mut self, quarters: u8) {
@@ -61,7 +73,10 @@ pub(super) struct Ring {
     constants: FxHashMap<Expr, usize>,
     inverses: FxHashMap<Atom, Atom>,
     roots: FxHashMap<Rational, Atom>,
+    /// By what may be divided.
+    divisible: FxHashSet<Atom>,
     spent: u64,
+    kept: u64,
 }
 
 #[derive(Clone)]
@@ -70,6 +85,11 @@ enum Rule {
     Inverse(Atom),
     /// The square root of a number.
     Root(Rational),
+}
+
+/// The length of the longest number, in machine words: the time of a product goes by its square.
+fn words(p: &Poly) -> u64 {
+    p.terms().iter().map(|t| t.1.bits() / 64).max().unwrap_or(0)
 }
 
 impl Ring {
@@ -90,6 +110,7 @@ impl Ring {
         }
         let atom = self.atom(None)?;
         self.parameters.insert(s, atom);
+        self.divisible.insert(atom);
         Some(Poly::atom(atom))
     }
 
@@ -100,14 +121,14 @@ impl Ring {
         Some(self.angles.len() - 1)
     }
 
-    /// A term in its normal form.
-    fn reduced(&self, m: Monomial, r: Rational, into: &mut Vec<(Monomial, Rational)>) {
+    /// A term in its normal form; nothing if that has more terms than there may be.
+    fn reduced(&self, m: Monomial, r: Rational, into: &mut Vec<(Monomial, Rational)>) -> Option<()> {
         for &(atom, exponent) in m.factors() {
             match &self.rules[usize::from(atom)] {
                 Some(Rule::Sine(cosine)) if exponent > 1 => {
                     let rest = m.over(&Monomial::power(atom, 2));
                     let by_cosine = rest.times(&Monomial::power(*cosine, 2));
-                    self.reduced(by_cosine, -&r, into);
+                    self.reduced(by_cosine, -&r, into)?;
                     return self.reduced(rest, r, into);
                 }
                 Some(Rule::Root(square)) if exponent > 1 => {
@@ -123,20 +144,46 @@ impl Ring {
             }
         }
         into.push((m, r));
+        (into.len() as u64 <= BUDGET).then_some(())
+    }
+
+    /// Takes note of work; nothing if it is too much.
+    fn spend(&mut self, work: u64) -> Option<()> {
+        self.spent = self.spent.saturating_add(work);
+        (self.spent <= BUDGET).then_some(())
+    }
+
+    /// Takes note of a value.
+    fn keep(&mut self, p: Poly) -> Option<Poly> {
+        self.kept = self.kept.saturating_add((p.terms().len() as u64).saturating_mul(words(&p).pow(2)));
+        (self.kept <= KEPT).then_some(p)
+    }
+
+    /// The sum.
+    pub fn plus(&mut self, a: &Poly, b: &Poly) -> Option<Poly> {
+        self.keep(a.plus(b))
+    }
+
+    /// The difference.
+    pub fn minus(&mut self, a: &Poly, b: &Poly) -> Option<Poly> {
+        self.keep(a.minus(b))
     }
 
     pub fn mul(&mut self, a: &Poly, b: &Poly) -> Option<Poly> {
-        self.spent += (a.terms().len() * b.terms().len()) as u64;
-        if self.spent > BUDGET {
+        let power = |p: &Poly| p.terms().iter().flat_map(|t| t.0.factors()).map(|f| f.1).max().unwrap_or(0);
+        if power(a).max(power(b)) > EXPONENT {
             return None;
         }
-        let mut all = Vec::with_capacity(a.terms().len() * b.terms().len());
+        let count = a.terms().len() * b.terms().len();
+        self.spend((count as u64).saturating_mul((words(a) + words(b)).pow(2).div_ceil(4)))?;
+        let mut all = Vec::with_capacity(count);
         for (m, r) in a.terms() {
             for (n, t) in b.terms() {
-                self.reduced(m.times(n), r * t, &mut all);
+                self.reduced(m.times(n), r * t, &mut all)?;
             }
         }
-        Some(Poly::from_terms(all))
+        self.spend((all.len() - count.min(all.len())) as u64)?;
+        self.keep(Poly::from_terms(all))
     }
 
     /// One over a product of powers of parameters.
@@ -152,7 +199,7 @@ impl Ring {
                     atom
                 }
                 Some(Rule::Sine(_)) => return None,
-                None if !self.parameters.values().any(|p| *p == atom) => return None,
+                None if !self.divisible.contains(&atom) => return None,
                 None => match self.inverses.get(&atom) {
                     Some(&known) => known,
                     None => {
@@ -201,13 +248,10 @@ impl Ring {
     }
 
     pub fn slope(&mut self, p: &Poly, by: Coordinate) -> Option<Poly> {
-        self.spent += p.terms().len() as u64;
-        if self.spent > BUDGET {
-            return None;
-        }
+        self.spend(p.terms().len() as u64)?;
         let mut all = vec![];
         for (m, r) in p.terms() {
-            let mut add = |atom: Atom, inner: Option<(Atom, i64)>| {
+            let mut add = |atom: Atom, inner: Option<(Atom, i64)>| -> Option<()> {
                 let exponent = m.exponent(atom);
                 if exponent > 0 {
                     let mut rest = m.over(&Monomial::power(atom, 1));
@@ -216,30 +260,31 @@ impl Ring {
                         rest = rest.times(&Monomial::power(other, 1));
                         k *= sign;
                     }
-                    self.reduced(rest, r * &Rational::from(k), &mut all);
+                    self.reduced(rest, r * &Rational::from(k), &mut all)?;
                 }
+                Some(())
             };
             match by {
-                Coordinate::Length(atom) => add(atom, None),
+                Coordinate::Length(atom) => add(atom, None)?,
                 Coordinate::Angle(angle) => {
                     let [cosine, sine] = self.angles[angle];
-                    add(cosine, Some((sine, -1)));
-                    add(sine, Some((cosine, 1)));
+                    add(cosine, Some((sine, -1)))?;
+                    add(sine, Some((cosine, 1)))?;
                 }
             }
         }
-        Some(Poly::from_terms(all))
+        self.keep(Poly::from_terms(all))
     }
 
     pub fn pair(&mut self, sum: &Sum) -> Option<Pair> {
         let (mut s, mut c) = (Poly::zero(), Poly::one());
         for (&angle, &k) in &sum.terms {
-            if k.abs() > MULTIPLE {
+            if k.unsigned_abs() > MULTIPLE {
                 return None;
             }
             let [cosine, sine] = self.angles[angle].map(Poly::atom);
             let sine = if k < 0 { Poly::zero().minus(&sine) } else { sine };
-            for _ in 0..k.abs() {
+            for _ in 0..k.unsigned_abs() {
                 (s, c) = self.turned((s, c), (sine.clone(), cosine.clone()))?;
             }
         }
@@ -282,10 +327,10 @@ impl Ring {
         let form = Angle::of(e);
         let mut all = Sum::default();
         for (term, k) in form.terms {
-            let k = k.to_integer().filter(|k| k.abs() <= MULTIPLE)?;
+            let k = k.to_integer().filter(|k| k.unsigned_abs() <= MULTIPLE)?;
             match term.as_symbol().and_then(|s| joints.get(&s)) {
-                Some(own) => all.add(own, k),
-                None => all.add(&Sum::of(self.named(term)?), k),
+                Some(own) => all.add(own, k)?,
+                None => all.add(&Sum::of(self.named(term)?), k)?,
             }
         }
         all.turns = &all.turns + &form.turns;
@@ -303,8 +348,14 @@ impl Ring {
                 Node::Number(r) => Some(Poly::constant(r)),
                 Node::Symbol(s) => Some(self.parameter(s)?),
                 Node::Neg(a) => of(&a).map(|a| Poly::zero().minus(&a)),
-                Node::Add(a, b) => of(&a).zip(of(&b)).map(|(a, b)| a.plus(&b)),
-                Node::Sub(a, b) => of(&a).zip(of(&b)).map(|(a, b)| a.minus(&b)),
+                Node::Add(a, b) => match of(&a).zip(of(&b)) {
+                    Some((a, b)) => Some(self.plus(&a, &b)?),
+                    None => None,
+                },
+                Node::Sub(a, b) => match of(&a).zip(of(&b)) {
+                    Some((a, b)) => Some(self.minus(&a, &b)?),
+                    None => None,
+                },
                 Node::Mul(a, b) => match of(&a).zip(of(&b)) {
                     Some((a, b)) => Some(self.mul(&a, &b)?),
                     None => None,
@@ -377,4 +428,46 @@ pub(super) fn sum(a: &V3, b: &V3) -> V3 {
 
 pub(super) fn transposed(m: &[V3; 3]) -> [V3; 3] {
     [0, 1, 2].map(|i| [0, 1, 2].map(|j| m[j][i].clone()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is too large has no form, and takes neither time nor memory: powers, numbers, sums, squares of many sines.
+    #[test]
+    fn what_is_too_large_has_no_form() {
+        let squared = |ring: &mut Ring, start: Poly| {
+            let mut p = Some(start);
+            for _ in 0..64 {
+                p = p.and_then(|p| ring.mul(&p, &p));
+            }
+            p
+        };
+        let mut ring = Ring::default();
+        let x = ring.parameter(Symbol::new("x")).unwrap();
+        assert_eq!(squared(&mut ring, x.clone()), None);
+        let mut ring = Ring::default();
+        assert_eq!(squared(&mut ring, Poly::constant(Rational::new(3, 7))), None);
+        let mut ring = Ring::default();
+        let mut product = Poly::one();
+        for _ in 0..40 {
+            let angle = ring.angle().unwrap();
+            let (s, _) = ring.pair(&Sum::of(angle)).unwrap();
+            product = ring.mul(&product, &s).unwrap();
+        }
+        assert_eq!(ring.mul(&product, &product), None);
+        let mut ring = Ring::default();
+        let mut sum = Sum::of(ring.angle().unwrap());
+        let double = |sum: &mut Sum| {
+            let own = sum.clone();
+            sum.add(&own, 16)
+        };
+        assert_eq!((0..64).try_for_each(|_| double(&mut sum)), None);
+        // A sum that is kept over and over.
+        let mut ring = Ring::default();
+        let many = Poly::from_terms((0..2000).map(|k| (Monomial::power(k, 1), Rational::ONE)));
+        let kept = (0..1_000_000).try_fold(many.clone(), |all, _| ring.plus(&all, &many));
+        assert_eq!(kept, None);
+    }
 }

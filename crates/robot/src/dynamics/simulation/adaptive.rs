@@ -36,6 +36,8 @@ pub(super) struct Adaptive {
 struct End {
     y: Vec<f64>,
     slope: Slope,
+    /// What friction has to hold within the step, by part of the step.
+    held: Vec<(f64, Vec<f64>)>,
     /// The estimated error by the tolerance.
     error: f64,
 }
@@ -81,9 +83,18 @@ impl Adaptive {
             counts.steps += 1;
             let is_over =
                 |e: &End| (0..contacts.len()).any(|j| problem.is_over(j, contacts[j], &e.y, &e.slope.held));
-            if is_over(&reached) {
+            let mut high = 1.0;
+            let mut ends = is_over(&reached);
+            if !ends
+                && let Some(place) = within(problem, h, y, (&slope, &reached), &contacts)
+                && let Ok(part) = self.step(problem, t, h * place, y, &slope, &contacts)
+                && is_over(&part)
+            {
+                (ends, high, reached) = (true, place, part);
+            }
+            if ends {
                 // The first moment at which a contact is over.
-                let (mut low, mut high) = (0.0, 1.0);
+                let mut low = 0.0;
                 for _ in 0..HALVINGS {
                     let middle = 0.5 * (low + high);
                     let part = self.step(problem, t, h * middle, y, &slope, &contacts);
@@ -129,12 +140,16 @@ impl Adaptive {
     ) -> Result<End, NoMotion> {
         let mut rates: Vec<Vec<f64>> = vec![first.rate.clone()];
         let (mut here, mut slope) = (y.to_vec(), None);
+        let mut held = vec![];
         for (node, parts) in NODES.iter().zip(&SLOPES) {
             for (k, x) in here.iter_mut().enumerate() {
                 *x = y[k] + h * rates.iter().zip(parts).map(|(rate, part)| part * rate[k]).sum::<f64>();
             }
             let found = problem.slope(t + node * h, &here, contacts)?;
             rates.push(found.rate.clone());
+            if *node < 1.0 {
+                held.push((*node, found.held.clone()));
+            }
             slope = Some(found);
         }
         let error = (0..y.len())
@@ -144,6 +159,45 @@ impl Adaptive {
             })
             .fold(0.0, f64::max);
         // The last slope stands at the result.
-        Ok(End { y: here, slope: slope.unwrap_or_else(|| first.clone()), error })
+        Ok(End { y: here, slope: slope.unwrap_or_else(|| first.clone()), held, error })
     }
+}
+
+/// Where within a step, by part of it, a contact seems to be over although it is not at its end: a joint that slides back by the cubic
+/// through its velocities and accelerations at both ends, or one that sticks and is pulled too hard at a stage. The first of them.
+fn within(
+    problem: &Problem,
+    h: f64,
+    y: &[f64],
+    (first, last): (&Slope, &End),
+    contacts: &[Contact],
+) -> Option<f64> {
+    let n = contacts.len();
+    let of = |(j, contact): (usize, &Contact)| match *contact {
+        Contact::Slides(direction) => {
+            let v = [y[n + j], last.y[n + j]].map(|v| v * direction);
+            let slope = [&first.rate, &last.slope.rate].map(|rate| rate[n + j] * direction * h);
+            lowest(v, slope).filter(|&(_, v)| v < 0.0).map(|(place, _)| place)
+        }
+        Contact::Sticks => {
+            let is_over = |held: &[f64]| problem.is_over(j, *contact, &last.y, held);
+            last.held.iter().find(|(_, held)| is_over(held)).map(|(place, _)| *place)
+        }
+    };
+    contacts.iter().enumerate().filter_map(of).min_by(f64::total_cmp)
+}
+
+/// Where the cubic with these values and slopes at 0 and 1 is lowest between them, and its value there; nothing if at an end.
+fn lowest([a, b]: [f64; 2], [c, d]: [f64; 2]) -> Option<(f64, f64)> {
+    // a + c s + p s² + q s³
+    let (p, q) = (3.0 * (b - a) - 2.0 * c - d, c + d - 2.0 * (b - a));
+    let value = |s: f64| a + s * (c + s * (p + s * q));
+    // c + 2 p s + 3 q s² = 0, where it grows: the root with the plus.
+    let square = p * p - 3.0 * q * c;
+    if square < 0.0 {
+        return None;
+    }
+    let root = square.sqrt();
+    let place = if p >= 0.0 { -c / (p + root) } else { (root - p) / (3.0 * q) };
+    (place > 0.0 && place < 1.0).then(|| (place, value(place)))
 }

@@ -1,7 +1,8 @@
 //! The motion of an arm under torques, over time.
 //!
 //! Two integrators: Dormand and Prince's pair of orders 5 and 4 with steps by its error, for which Coulomb's friction is what it is
-//! (joints slide, or stick until something overcomes the friction; where one turns into the other is found), and Gauss's method of
+//! (joints slide, or stick until something overcomes the friction; where one turns into the other is found, at the ends of steps and within
+//! them, as far as a cubic through the velocities and the friction at the stages of a step show it), and Gauss's method of
 //! order 4 with steps of one length, in joint variables and momenta, which is symplectic: without friction and with constant
 //! torques the energy does not drift, it oscillates by the fourth power of the step.
 //!
@@ -20,17 +21,17 @@ use super::model::{Dynamics, Wrench};
 use problem::{Problem, Stop};
 use std::fmt;
 
-/// Samples that are given at most.
-const MAX_SAMPLES: usize = 1_000_000;
 /// Steps that a simulation takes at most.
 const MAX_STEPS: usize = 500_000;
+/// Samples that are given at most: each ends a step.
+const MAX_SAMPLES: usize = MAX_STEPS;
 
 /// How a motion is integrated.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Method {
-    /// Dormand and Prince's, with steps for this error by step, relative and absolute (radians, metres, seconds, joules).
+    /// Dormand and Prince's, with steps for this estimated error of each, relative and absolute (radians, metres, seconds, joules).
     Adaptive {
-        /// The error of a step.
+        /// The estimated error of a step.
         tolerance: f64,
     },
     /// Gauss's of order 4, with steps of at most so many seconds.
@@ -148,6 +149,16 @@ impl Moment {
 }
 
 impl Simulation {
+    /// The joints, from 0, that leave these limits, with the first sample's time at which they are beyond: nothing stops them.
+    pub fn leaves(&self, limits: &[Option<[f64; 2]>]) -> Vec<(usize, f64)> {
+        let of = |(j, limits): (usize, &Option<[f64; 2]>)| {
+            let [low, high] = (*limits)?;
+            let m = self.moments.iter().find(|m| m.q[j] < low || m.q[j] > high)?;
+            Some((j, m.t))
+        };
+        limits.iter().enumerate().filter_map(of).collect()
+    }
+
     /// The largest imbalance of the energy in size, and the largest of the energies that it is to be compared with: kinetic,
     /// and potential less that of the start.
     pub fn drift(&self) -> (f64, f64) {

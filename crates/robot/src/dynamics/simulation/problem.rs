@@ -1,7 +1,7 @@
 //! The equations of motion: A q̈ = τ − C q̇ − Q − friction − Jᵀ w, where joints that stick do not move.
 
 use super::{Acting, NoMotion};
-use crate::dynamics::direct::{ROUNDING, factored};
+use crate::dynamics::direct::factored;
 use crate::dynamics::inertia::inertia_matrix;
 use crate::dynamics::model::Dynamics;
 use crate::dynamics::newton_euler::{gravity_torques, inverse_dynamics};
@@ -62,11 +62,8 @@ impl Problem<'_> {
         let part: Vec<Vec<f64>> =
             free.iter().map(|&i| free.iter().map(|&j| matrix[i][j]).collect()).collect();
         let factors = factored(&part);
-        for (k, &joint) in free.iter().enumerate() {
-            let pivot = factors.diagonal[k];
-            if pivot.is_nan() || pivot <= ROUNDING * matrix[joint][joint] {
-                return Err(NoMotion::Singular { joint, t });
-            }
+        if let Some(k) = factors.lost(&part) {
+            return Err(NoMotion::Singular { joint: free[k], t });
         }
         let solved = factors.solve(&free.iter().map(|&j| rest[j]).collect::<Vec<f64>>());
         let mut accelerations = still.clone();

@@ -4,7 +4,7 @@
 use super::problem::{Problem, Stop};
 use super::{MAX_STEPS, NoMotion, Simulation};
 use crate::dynamics::coriolis::coriolis_matrix;
-use crate::dynamics::direct::{ROUNDING, factored};
+use crate::dynamics::direct::factored;
 use crate::dynamics::inertia::inertia_matrix;
 use crate::dynamics::newton_euler::{gravity_torques, inverse_dynamics};
 
@@ -106,10 +106,8 @@ impl Problem<'_> {
         }
         let matrix = inertia_matrix(self.arm, &state[..n]);
         let factors = factored(&matrix);
-        for (joint, (&pivot, row)) in factors.diagonal.iter().zip(&matrix).enumerate() {
-            if pivot.is_nan() || pivot <= ROUNDING * row[joint] {
-                return Err(NoMotion::Singular { joint, t });
-            }
+        if let Some(joint) = factors.lost(&matrix) {
+            return Err(NoMotion::Singular { joint, t });
         }
         let rates = factors.solve(&state[n..2 * n]);
         Ok(state[..n].iter().copied().chain(rates).chain(state[2 * n..].iter().copied()).collect())

@@ -20,9 +20,6 @@ pub struct KnownLimits {
     pub torque: Option<TorqueLimits>,
 }
 
-/// What accelerations are limited to where torques limit them and nothing else does, rad/s² or m/s².
-const BY_TORQUES: f64 = 1e5;
-
 impl KnownLimits {
     /// Those that a description states: velocities and accelerations.
     pub fn of(description: &Description) -> Self {
@@ -65,9 +62,8 @@ impl KnownLimits {
             let what = "torque limits";
             return Err(PlanError::Limits(MotionError::Joints { what, expected: n, found }));
         }
-        let by_torques = torque.map(|_| vec![BY_TORQUES; n]);
-        let all = match (velocity, self.acceleration.as_ref().or(by_torques.as_ref())) {
-            (Some(v), Some(a)) if n > 0 => {
+        let all = match (velocity, self.acceleration.as_ref(), torque) {
+            (Some(v), Some(a), _) if n > 0 => {
                 let limits = Limits::symmetric(v, a);
                 let limits = match jerk {
                     Some(jerk) => limits.and_then(|l| l.with_jerk(jerk)),
@@ -75,6 +71,8 @@ impl KnownLimits {
                 };
                 Some(limits.map_err(PlanError::Limits)?)
             }
+            // Torques bound accelerations.
+            (Some(v), None, Some(_)) if n > 0 => Some(Limits::of_velocity(v).map_err(PlanError::Limits)?),
             _ => None,
         };
         Ok(Known { velocity, jerk, torque, all })
@@ -86,6 +84,6 @@ pub(super) struct Known<'a> {
     pub velocity: Option<&'a [f64]>,
     pub jerk: Option<&'a [f64]>,
     pub torque: Option<&'a TorqueLimits>,
-    /// Velocities and accelerations, perhaps jerks, if velocities and accelerations are known.
+    /// Velocities and accelerations, perhaps jerks, if velocities and accelerations are known; velocities alone with torques.
     pub all: Option<Limits>,
 }

@@ -26,7 +26,13 @@ pub(super) fn fastest<P: JointPath + 'static>(
         return Ok((Box::new(found), TimingLaw::JerkLimited.into()));
     }
     let found = TimeOptimal::default().time_within(path, limits, torques)?;
-    let law = if torques.is_some() { TimingLaw::WithinTorques } else { TimingLaw::TimeOptimal };
+    let law = match torques {
+        None => TimingLaw::TimeOptimal,
+        Some(torques) => TimingLaw::WithinTorques {
+            accelerations: limits.acceleration().iter().all(|a| a.upper.is_finite()),
+            fastest: !torques.is_viscous(),
+        },
+    };
     Ok((Box::new(found), law.into()))
 }
 

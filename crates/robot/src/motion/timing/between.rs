@@ -1,11 +1,12 @@
 //! What exceeds the limits between grid points.
 //!
 //! Some points of each interval are measured, and where a limit is exceeded the limits of the interval are tightened
-//! and the passes run again.
+//! and the passes run again. Where the arm cannot carry itself at one of these points, no timing helps.
 
 use super::passes;
 use super::stage::Program;
 use super::torques::{Torque, TorqueLimits};
+use crate::motion::error::MotionError;
 use crate::motion::limits::Limits;
 use crate::motion::path::{JointPath, PathPoint, Side};
 
@@ -20,14 +21,17 @@ const EXCESS: f64 = 1e-6;
 
 /// Tightens limits until they hold between grid points too. Where path speeds are given at the ends, what is left in
 /// the end stays exceeded: some 10⁻⁶, or more if tighter limits do not admit those speeds.
+///
+/// # Errors
+/// If the arm cannot carry itself at a point that is measured.
 pub(super) fn hold<P: JointPath>(
     path: &P,
     (limits, torque_limits): (&Limits, Option<&TorqueLimits>),
     program: &mut Program,
     ends: [f64; 2],
     x: &mut Vec<f64>,
-) {
-    let measured = measure(path, program, torque_limits);
+) -> Result<(), MotionError> {
+    let measured = measure(path, program, torque_limits)?;
     let limits = (limits, torque_limits);
     let mut excess = tighten(&measured, limits, program, x);
     for _ in 0..ROUNDS {
@@ -35,7 +39,7 @@ pub(super) fn hold<P: JointPath>(
             break;
         }
         // Only speeds at the ends can be too much for tighter limits.
-        let Ok(slower) = passes::solve(program, ends) else { return };
+        let Ok(slower) = passes::solve(program, ends) else { return Ok(()) };
         *x = slower;
         excess = tighten(&measured, limits, program, x);
     }
@@ -43,6 +47,7 @@ pub(super) fn hold<P: JointPath>(
         let slower = (1.0 + INFLATION * excess).powi(-2);
         x.iter_mut().for_each(|x| *x *= slower);
     }
+    Ok(())
 }
 
 /// What is measured at the places of all intervals, one after the other.
@@ -53,19 +58,28 @@ struct Measured {
     torques: Vec<Torque>,
 }
 
-fn measure<P: JointPath>(path: &P, program: &Program, limits: Option<&TorqueLimits>) -> Measured {
+fn measure<P: JointPath>(
+    path: &P,
+    program: &Program,
+    limits: Option<&TorqueLimits>,
+) -> Result<Measured, MotionError> {
     let mut point = PathPoint::zeros(path.dof());
     let count = program.share.len() * 2 * PLACES.len() * path.dof();
     let mut measured = Measured { derivatives: Vec::with_capacity(count), torques: vec![] };
     for s in program.s.windows(2) {
         for place in PLACES {
-            path.eval_into(s[0] + place * (s[1] - s[0]), Side::Behind, &mut point);
+            let at = s[0] + place * (s[1] - s[0]);
+            path.eval_into(at, Side::Behind, &mut point);
             measured.derivatives.extend_from_slice(&point.dq);
             measured.derivatives.extend_from_slice(&point.ddq);
-            measured.torques.extend(limits.iter().flat_map(|l| l.along(&point.q, &point.dq, &point.ddq)));
+            if let Some(limits) = limits {
+                let torques = limits.along(&point.q, &point.dq, &point.ddq);
+                limits.carried(at, &torques)?;
+                measured.torques.extend(torques);
+            }
         }
     }
-    measured
+    Ok(measured)
 }
 
 /// Tightens what is exceeded; by which share at most it is.

@@ -76,7 +76,8 @@ impl TimeOptimal {
     }
 
     /// The same within torque limits, too: at the ends of every interval, and with [`Scheme::Throughout`] as far as is measured
-    /// between. Where the arm stands still it is to be within them all along the path, with Coulomb's friction against it.
+    /// between. Where the arm stands still it is to be within them all along the path, with Coulomb's friction against it. Of joints with
+    /// viscous friction it need not be the fastest: their friction is bounded by tangents, and where it helps to brake not counted on.
     ///
     /// # Errors
     /// As [`time`](Self::time), and if the arm cannot carry itself somewhere ([`MotionError::Torque`]).
@@ -116,7 +117,7 @@ impl TimeOptimal {
             }
         }
         if self.scheme == Scheme::Throughout {
-            between::hold(&path, (limits, torque_limits), &mut program, ends, &mut x);
+            between::hold(&path, (limits, torque_limits), &mut program, ends, &mut x)?;
         }
         TimedPath::new(path, program.s, x)
     }

@@ -1,8 +1,9 @@
 //! Torque limits along a path.
 //!
 //! With q̇ = q' ṡ and q̈ = q' u + q'' x the torques are a u + b x + c + k √x: a = A q', b = A q'' + C(q, q') q', c gravity and
-//! Coulomb's friction f in the direction of q' (in both where that turns round within an interval), k = FV q'. Of the root a tangent x/2ρ + ρ/2 is taken, which is nowhere below it: the
-//! torques are then within the limits, too. The tangents are laid at the speeds that are found, and the passes run again.
+//! Coulomb's friction f in the direction of q' (in both where that turns round within an interval), k = FV q'. Of the root a tangent
+//! x/2ρ + ρ/2 is taken, which is nowhere below it: the torques are then within the limits, too. The tangents are laid at the speeds that
+//! are found, and the passes run again. With viscous friction the timing is fast, then, and not proved to be the fastest.
 
 use super::grid::Sampled;
 use super::stage::{Strip, strip};
@@ -84,6 +85,25 @@ impl TorqueLimits {
             .collect()
     }
 
+    /// Whether the arm stands still at the parameter `s` within the limits, Coulomb's friction against it.
+    ///
+    /// # Errors
+    /// If not, or a torque is not finite.
+    pub(super) fn carried(&self, s: f64, torques: &[Torque]) -> Result<(), MotionError> {
+        for (joint, (t, range)) in torques.iter().zip(&self.ranges).enumerate() {
+            finite("torques along the path", &[t.a, t.b, t.c, t.f, t.k])?;
+            if !(range.lower < t.c - t.f.abs() && t.c + t.f.abs() < range.upper) {
+                return Err(MotionError::Torque { joint, s });
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether a joint has viscous friction, which is bounded by tangents.
+    pub(crate) fn is_viscous(&self) -> bool {
+        self.arm.drives.iter().any(|d| d.viscous != 0.0)
+    }
+
     /// By how much torques exceed their limits at a point, as a part of what is left beside those at rest; 1 at the limit.
     pub(super) fn share(&self, torques: &[Torque], u: f64, x: f64) -> f64 {
         let of = |(t, range): (&Torque, &Range)| {
@@ -115,12 +135,7 @@ impl<'a> Torques<'a> {
             for (all, [dq, ddq, _]) in [(&mut behind, &grid.behind), (&mut before, &grid.before)] {
                 let entries = i * dof..(i + 1) * dof;
                 let torques = limits.along(&point.q, &dq[entries.clone()], &ddq[entries]);
-                for (joint, (t, range)) in torques.iter().zip(&limits.ranges).enumerate() {
-                    finite("torques along the path", &[t.a, t.b, t.c, t.f, t.k])?;
-                    if !(range.lower < t.c - t.f.abs() && t.c + t.f.abs() < range.upper) {
-                        return Err(MotionError::Torque { joint, s });
-                    }
-                }
+                limits.carried(s, &torques)?;
                 all.extend(torques);
             }
         }

@@ -1,9 +1,14 @@
 //! Dynamic functions as programs: torques, inertia, accelerations, energies and their derivatives.
 //!
 //! All come from one program, the short one for the torques, by substitution and exact differentiation: the bias is the torque
-//! without accelerations, A its derivative by them, the accelerations A⁻¹(τ − h) by A = LDLᵀ, and their derivatives
-//! −A⁻¹ ∂τ/∂q, −A⁻¹ ∂τ/∂q̇ and A⁻¹, with ∂τ/∂q at these accelerations. What parts have in common is computed once. Energies are
-//! those of the plain links.
+//! without accelerations, A its derivative by them, the accelerations A⁻¹(τ − h) by A = LDLᵀ ([`solve`]), and their derivatives
+//! −A⁻¹ ∂τ/∂q, −A⁻¹ ∂τ/∂q̇ and A⁻¹, with ∂τ/∂q at these accelerations. A may come from composite bodies, too, where that is shorter
+//! and the same. What parts have in common is computed once; then each program is shortened, and held against what it was before
+//! ([`held`]). A wrench that the tool exerts adds Jᵀ w to the torques ([`wrench`]). Energies are those of the plain links.
+
+mod held;
+mod solve;
+mod wrench;
 
 use super::base::inputs;
 use super::direct::factored;
@@ -11,16 +16,18 @@ use super::dynamic_model::DynamicModel;
 use super::energy::{kinetic_energy, potential_energy};
 use super::expansion::are_equal;
 use super::inertia::inertia_matrix;
-use super::lagrange::{EXPANDED, Ground, ROUNDING, STATES, program};
+use super::lagrange::{EXPANDED, Ground, program};
 use super::model::{Formulas, NoNumbers};
 use super::newton_euler::inverse_dynamics;
 use super::short::shortest_inertia;
 use crate::description::Description;
-use crate::random::Random;
-use denavit_program::{Composer, Program, Residue, Value};
-use denavit_symbolic::{Expr, Rational, Symbol, equal};
+use crate::geometry::Vector;
+use denavit_program::{Composer, Program, Value};
+use denavit_symbolic::{Expr, Rational, Symbol};
+use held::{Held, same};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::cell::OnceCell;
+use std::fmt;
 
 /// Orders at random in which programs are shortened.
 const ORDERS: u64 = 8;
@@ -32,7 +39,7 @@ pub enum DynamicFunction {
     Torque,
     /// A from q, row by row.
     Inertia,
-    /// h = C q̇ + Q + friction from q and q̇: the torque without accelerations.
+    /// h = C q̇ + Q + friction, and what holds a wrench, from q and q̇: the torque without accelerations.
     Bias,
     /// Q from q.
     Gravity,
@@ -57,6 +64,15 @@ pub enum Masses {
     Base,
 }
 
+/// What acts on the arm beside gravity, as arguments of programs.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub struct Loads {
+    /// A wrench that the tool exerts on its surroundings, about the tool's origin along the axes of the base: FX … CZ.
+    pub wrench: bool,
+    /// A body fixed to the tool, by its ten numbers about the tool's origin along the tool's axes: XXL … ML.
+    pub payload: bool,
+}
+
 /// The dynamic functions of an arm.
 #[derive(Clone, Debug)]
 pub struct DynamicPrograms {
@@ -64,13 +80,20 @@ pub struct DynamicPrograms {
     pub model: DynamicModel,
     /// Joint variables, their rates and accelerations, and the torques that drive the arm.
     pub symbols: [Vec<Symbol>; 4],
+    /// The components of the wrench; none without one.
+    pub wrench: Vec<Symbol>,
+    /// On what it rests that what holds the wrench is Jᵀ w: proved where there is none.
+    pub wrench_ground: Ground,
     masses: Masses,
     description: Description,
     /// What stands in the place of symbols of the model.
     values: FxHashMap<Symbol, Expr>,
+    /// With the wrench.
     torque: Program,
     /// A, one way and another, once it was asked for.
     matrices: OnceCell<Vec<DynamicProgram>>,
+    /// The torque without accelerations, once it was asked for.
+    bias: OnceCell<DynamicProgram>,
 }
 
 /// A dynamic function as a program.
@@ -81,11 +104,39 @@ pub struct DynamicProgram {
     /// On what it rests that the inertia matrix in it is the derivative of the torques: proved where it is that derivative, or none
     /// is needed.
     pub inertia: Ground,
+    /// Whether that matrix is one of composite bodies.
+    pub by_bodies: bool,
+    /// On what it rests that it computes what it did before it was shortened.
+    pub shortening: Ground,
 }
+
+/// Why there is no program of a function.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum NoProgram {
+    /// Base parameters do not tell energies.
+    Energy,
+    /// The joint, from 0, moves no mass of its own in any state: no acceleration follows from torques.
+    Singular(usize),
+}
+
+impl fmt::Display for NoProgram {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NoProgram::Energy => f.write_str("base parameters do not tell energies"),
+            NoProgram::Singular(joint) => write!(
+                f,
+                "joint {} moves no mass of its own: no acceleration follows from torques",
+                joint + 1
+            ),
+        }
+    }
+}
+
+impl std::error::Error for NoProgram {}
 
 impl DynamicProgram {
     fn plain(program: Program) -> Self {
-        DynamicProgram { program, inertia: Ground::Proved }
+        DynamicProgram { program, inertia: Ground::Proved, by_bodies: false, shortening: Ground::Proved }
     }
 }
 
@@ -114,6 +165,18 @@ impl DynamicFunction {
         }
     }
 
+    /// Whether a wrench of the tool is among what it computes or reads.
+    pub fn feels_wrench(self) -> bool {
+        match self {
+            DynamicFunction::Inertia | DynamicFunction::Gravity | DynamicFunction::Energy => false,
+            DynamicFunction::Torque
+            | DynamicFunction::Bias
+            | DynamicFunction::Acceleration
+            | DynamicFunction::TorqueDerivatives
+            | DynamicFunction::AccelerationDerivatives => true,
+        }
+    }
+
     /// Whether the third vector is that of the torques.
     pub fn is_driven(self) -> bool {
         matches!(self, DynamicFunction::Acceleration | DynamicFunction::AccelerationDerivatives)
@@ -126,13 +189,24 @@ impl DynamicPrograms {
     /// # Errors
     /// With [`Masses::Numbers`]: if the description says nothing of masses.
     pub fn new(d: &Description, masses: Masses) -> Result<Self, NoNumbers> {
+        Self::with_loads(d, masses, Loads::default())
+    }
+
+    /// The same with loads as arguments. The numbers of a payload are parameters, grouped with those of the last link in base
+    /// parameters.
+    ///
+    /// # Errors
+    /// With [`Masses::Numbers`]: if the description says nothing of masses.
+    pub fn with_loads(d: &Description, masses: Masses, loads: Loads) -> Result<Self, NoNumbers> {
         if masses == Masses::Numbers && !d.has_masses() {
             return Err(NoNumbers::NoMasses);
         }
-        let model = match masses {
-            Masses::Numbers => DynamicModel::with_numbers(d),
-            Masses::Links | Masses::Base => DynamicModel::derive(d),
+        let formulas = match masses {
+            Masses::Numbers => Formulas::in_numbers(d),
+            Masses::Links | Masses::Base => Formulas::named(d),
         };
+        let formulas = if loads.payload { formulas.carrying() } else { formulas };
+        let model = DynamicModel::of(d, formulas);
         let mut values: FxHashMap<Symbol, Expr> = FxHashMap::default();
         if masses != Masses::Base {
             for p in &model.base.parameters {
@@ -144,9 +218,24 @@ impl DynamicPrograms {
         let formulas = &model.formulas;
         let drives = driving(formulas);
         let symbols = [formulas.q.clone(), formulas.qd.clone(), formulas.qdd.clone(), drives];
-        let torque = with_values(&model.torques, &model.formulas, &values);
-        let (description, matrices) = (d.clone(), OnceCell::new());
-        Ok(DynamicPrograms { model, symbols, masses, description, values, torque, matrices })
+        let plain = with_values(&model.torques, &model.formulas, &values);
+        let names = if loads.wrench { wrench::names(formulas, &symbols) } else { vec![] };
+        let (torque, wrench_ground) = match loads.wrench {
+            true => wrench::added(d, formulas, &plain, &names),
+            false => (plain, Ground::Proved),
+        };
+        Ok(DynamicPrograms {
+            model,
+            symbols,
+            wrench: names,
+            wrench_ground,
+            masses,
+            description: d.clone(),
+            values,
+            torque,
+            matrices: OnceCell::new(),
+            bias: OnceCell::new(),
+        })
     }
 
     /// The parameters of the programs, in order: names of the table, then those of masses.
@@ -154,20 +243,29 @@ impl DynamicPrograms {
         self.torque.parameters()
     }
 
-    /// The program of a function; nothing for the energies from base parameters, which do not tell them.
-    pub fn program(&self, function: DynamicFunction) -> Option<DynamicProgram> {
-        let plain = match function {
-            DynamicFunction::Torque => self.torque.clone(),
-            DynamicFunction::Bias => self.at_rest(1),
-            DynamicFunction::Gravity => self.at_rest(2),
-            DynamicFunction::TorqueDerivatives => return self.slopes(),
-            DynamicFunction::Energy if self.masses == Masses::Base => return None,
-            DynamicFunction::Energy => self.energies(),
-            DynamicFunction::Inertia => return shortest(self.inertias()),
-            DynamicFunction::Acceleration => return self.accelerations(false),
-            DynamicFunction::AccelerationDerivatives => return self.accelerations(true),
-        };
-        Some(DynamicProgram::plain(plain))
+    /// The program of a function.
+    ///
+    /// # Errors
+    /// Of the energies from base parameters, which do not tell them; of accelerations where a joint moves no mass.
+    pub fn program(&self, function: DynamicFunction) -> Result<DynamicProgram, NoProgram> {
+        match function {
+            DynamicFunction::Torque => Ok(DynamicProgram::plain(self.torque.clone())),
+            DynamicFunction::Bias => Ok(self.bias().clone()),
+            DynamicFunction::Gravity => Ok(self.at_rest(2)),
+            DynamicFunction::TorqueDerivatives => Ok(self.slopes()),
+            DynamicFunction::Energy if self.masses == Masses::Base => Err(NoProgram::Energy),
+            DynamicFunction::Energy => Ok(DynamicProgram::plain(self.energies())),
+            DynamicFunction::Inertia => Ok(self.shortest(self.inertias().to_vec())),
+            DynamicFunction::Acceleration => self.accelerations(false),
+            DynamicFunction::AccelerationDerivatives => self.accelerations(true),
+        }
+    }
+
+    /// On what it rests that a program of these computes what the function is: the torques' equality with Lagrange's, that of the
+    /// wrench where the function reads it, and the program's own.
+    pub fn ground(&self, function: DynamicFunction, program: &DynamicProgram) -> Ground {
+        let own = self.model.ground.and(program.inertia).and(program.shortening);
+        if function.feels_wrench() { own.and(self.wrench_ground) } else { own }
     }
 
     /// The same from the links as they are, by other ways: the plain recursion of Newton and Euler, composite bodies, and derivatives
@@ -178,8 +276,11 @@ impl DynamicPrograms {
         let [q, qd, qdd] = self.model.formulas.state();
         let tau: Vec<Expr> = self.symbols[3].iter().map(|&s| s.into()).collect();
         let still = vec![Expr::int(0); n];
+        let w: Vec<Expr> = self.wrench.iter().map(|&s| s.into()).collect();
+        let exerted = (function.feels_wrench() && w.len() == 6)
+            .then(|| [Vector([w[0], w[1], w[2]]), Vector([w[3], w[4], w[5]])]);
         let torque = |qd: &[Expr], qdd: &[Expr]| -> Vec<Expr> {
-            let smooth = inverse_dynamics(arm, &q, qd, qdd, None);
+            let smooth = inverse_dynamics(arm, &q, qd, qdd, exerted.as_ref());
             smooth
                 .into_iter()
                 .zip(arm.drives.iter().zip(qd))
@@ -200,35 +301,48 @@ impl DynamicPrograms {
         let variables = self.variables(function);
         let plain = with_values(&program(&variables, &formulas), &self.model.formulas, &self.values);
         match function {
-            DynamicFunction::TorqueDerivatives | DynamicFunction::AccelerationDerivatives => plain.jacobian(),
+            DynamicFunction::TorqueDerivatives | DynamicFunction::AccelerationDerivatives => {
+                plain.jacobian_by(&variables[..3 * n])
+            }
             _ => plain,
         }
     }
 
-    /// The variables that a function reads.
+    /// The variables that a function reads: the wrench, where there is one and the function feels it, behind the others.
     pub fn variables(&self, function: DynamicFunction) -> Vec<Symbol> {
         let third = if function.is_driven() { 3 } else { 2 };
-        [0, 1, third][..function.reads()].iter().flat_map(|&k| self.symbols[k].iter().copied()).collect()
+        let read = [0, 1, third].into_iter().take(function.reads());
+        let state = read.flat_map(|k| self.symbols[k].iter().copied());
+        let wrench = self.wrench.iter().copied().filter(|_| function.feels_wrench());
+        state.chain(wrench).collect()
     }
 
-    /// The torques with the last `vectors` of q, q̇ and q̈ zero, from the others.
-    fn at_rest(&self, vectors: usize) -> Program {
-        let kept = &self.symbols[..3 - vectors];
-        let mut all = Composer::new(&kept.concat(), self.parameters());
+    /// The torque without accelerations.
+    fn bias(&self) -> &DynamicProgram {
+        self.bias.get_or_init(|| self.at_rest(1))
+    }
+
+    /// The torques with the last `vectors` of q, q̇ and q̈ zero, from the others; with the wrench where the arm moves.
+    fn at_rest(&self, vectors: usize) -> DynamicProgram {
+        let kept = self.symbols[..3 - vectors].concat();
+        let wrench = if vectors == 1 { &self.wrench[..] } else { &[] };
+        let kept = [&kept[..], wrench].concat();
+        let mut all = Composer::new(&kept, self.parameters());
         let zero = all.graph().number(&Rational::ZERO);
-        let is_zero = |s: Symbol| !kept.iter().flatten().any(|k| *k == s) && self.is_state(s);
+        let is_zero = |s: Symbol| !kept.contains(&s) && self.is_state(s);
         let torques = all.copy(&self.torque, |s| is_zero(s).then_some(zero));
-        let names: Vec<(String, Value)> = named("t", torques);
-        all.finish(&names).shortened(ORDERS)
+        let long = DynamicProgram::plain(all.finish(&named("t", torques)));
+        self.shortened(vec![long], ORDERS, Held::Expanded)
     }
 
+    /// What a program reads beside parameters.
     fn is_state(&self, s: Symbol) -> bool {
-        self.symbols[..3].iter().flatten().any(|k| *k == s)
+        self.symbols[..3].iter().flatten().chain(&self.wrench).any(|k| *k == s)
     }
 
     /// A, one way and another.
-    fn inertias(&self) -> Vec<DynamicProgram> {
-        self.matrices.get_or_init(|| self.found_inertias()).clone()
+    fn inertias(&self) -> &[DynamicProgram] {
+        self.matrices.get_or_init(|| self.found_inertias())
     }
 
     fn found_inertias(&self) -> Vec<DynamicProgram> {
@@ -242,21 +356,23 @@ impl DynamicPrograms {
             let entries: Vec<usize> = (0..n * n).map(|k| entry(k / n, k % n)).collect();
             entries
         };
-        let ways = [triangle(false), triangle(true)].map(|entries| {
+        let long = [triangle(false), triangle(true)].map(|entries| {
             let mut all = Composer::new(&self.symbols[0], self.parameters());
             let values = all.copy(&slopes, |_| None);
             let entries: Vec<Value> = entries.into_iter().map(|k| values[k]).collect();
-            all.finish(&named("a", entries)).shortened(0)
+            all.finish(&named("a", entries))
         });
         // What another way gives is taken where it is the same matrix.
         let composite = self.composite().and_then(|program| {
-            let inertia = match are_equal(&self.model.formulas, &program, &ways[0]) {
+            let inertia = match are_equal(&self.model.formulas, &program, &long[0]) {
                 true => Ground::Proved,
-                false => same(&program, &ways[0], n <= EXPANDED),
+                false => same(&program, &long[0], n <= EXPANDED),
             };
-            (inertia != Ground::Failed).then_some(DynamicProgram { program, inertia })
+            let plain = DynamicProgram::plain(program);
+            (inertia != Ground::Failed).then_some(DynamicProgram { inertia, by_bodies: true, ..plain })
         });
-        ways.map(DynamicProgram::plain).into_iter().chain(composite).collect()
+        let ways = long.map(|p| self.shortened(vec![DynamicProgram::plain(p)], 0, Held::Expanded));
+        ways.into_iter().chain(composite).collect()
     }
 
     /// A by composite bodies from base parameters; nothing where a link has a mass for each direction.
@@ -269,21 +385,24 @@ impl DynamicPrograms {
     }
 
     /// ∂τ/∂q, ∂τ/∂q̇ and A: all of them derivatives of the torques, or with the matrix that makes it the shortest.
-    fn slopes(&self) -> Option<DynamicProgram> {
+    fn slopes(&self) -> DynamicProgram {
         let [q, qd, qdd, _] = &self.symbols;
         let n = q.len();
         let by_state = self.torque.jacobian_by(&[&q[..], qd].concat());
-        let with = |matrix: DynamicProgram| {
-            let mut all = Composer::new(&[&q[..], qd, qdd].concat(), self.parameters());
+        let with = |matrix: &DynamicProgram| {
+            let mut all =
+                Composer::new(&self.variables(DynamicFunction::TorqueDerivatives), self.parameters());
             let slopes = all.copy(&by_state, |_| None);
             let matrix_entries = all.copy(&matrix.program, |_| None);
-            let rows = slopes.chunks(2 * n).zip(matrix_entries.chunks(n));
+            // Two of nothing side by side are nothing.
+            let rows = slopes.chunks((2 * n).max(1)).zip(matrix_entries.chunks(n.max(1)));
             let entries = rows.flat_map(|(a, b)| [a, b].concat()).collect();
-            DynamicProgram { program: all.finish(&named("d", entries)), ..matrix }
+            DynamicProgram { program: all.finish(&named("d", entries)), ..matrix.clone() }
         };
-        let plain = DynamicProgram::plain(self.torque.jacobian());
-        let all = self.inertias().into_iter().map(with).chain([plain]);
-        shortest(all.map(|p| DynamicProgram { program: p.program.shortened(0), ..p }))
+        let plain = DynamicProgram::plain(self.torque.jacobian_by(&[&q[..], qd, qdd].concat()));
+        let all = self.inertias().iter().map(with).chain([plain]);
+        let held = if n <= EXPANDED { Held::Expanded } else { Held::AtStates };
+        self.shortened(all.collect(), 0, held)
     }
 
     /// The torques of accelerations alone, at rest and without gravity: A q̈.
@@ -291,59 +410,12 @@ impl DynamicPrograms {
         let [q, qd, qdd, _] = &self.symbols;
         let mut all = Composer::new(&[&q[..], qdd].concat(), self.parameters());
         let zero = all.graph().number(&Rational::ZERO);
-        let torques = all.copy(&self.torque, |s| qd.contains(&s).then_some(zero));
-        let weight = all.copy(&self.torque, |s| (qd.contains(&s) || qdd.contains(&s)).then_some(zero));
+        let is_rest = |s: Symbol| qd.contains(&s) || self.wrench.contains(&s);
+        let torques = all.copy(&self.torque, |s| is_rest(s).then_some(zero));
+        let weight = all.copy(&self.torque, |s| (is_rest(s) || qdd.contains(&s)).then_some(zero));
         let graph = all.graph();
         let moving = torques.into_iter().zip(weight).map(|(t, w)| graph.sub(t, w)).collect();
         all.finish(&named("t", moving))
-    }
-
-    /// q̈ = A⁻¹(τ − h), or its derivatives, with the matrix that makes it the shortest.
-    fn accelerations(&self, derivatives: bool) -> Option<DynamicProgram> {
-        let solved = |matrix: DynamicProgram| DynamicProgram {
-            program: self.solved(&matrix.program, derivatives),
-            ..matrix
-        };
-        shortest(self.inertias().into_iter().map(solved))
-    }
-
-    fn solved(&self, matrix: &Program, derivatives: bool) -> Program {
-        let [q, qd, qdd, tau] = &self.symbols;
-        let n = q.len();
-        let mut all = Composer::new(&[&q[..], qd, tau].concat(), self.parameters());
-        let matrix = all.copy(matrix, |_| None);
-        let bias = all.copy(&self.at_rest(1), |_| None);
-        let graph = all.graph();
-        let rest: Vec<Value> = (0..n)
-            .map(|j| {
-                let drive = graph.input(tau[j]);
-                graph.sub(drive, bias[j])
-            })
-            .collect();
-        let factors = Factors::new(&matrix, n, &mut all);
-        let accelerations = factors.solve(rest, &mut all);
-        if !derivatives {
-            return all.finish(&named("qdd", accelerations)).shortened(0);
-        }
-        let at = |s: Symbol| qdd.iter().position(|k| *k == s).map(|k| accelerations[k]);
-        let slopes = all.copy(&self.torque.jacobian_by(&[&q[..], qd].concat()), at);
-        let [zero, one] = [Rational::ZERO, Rational::ONE].map(|r| all.graph().number(&r));
-        let mut columns: Vec<Vec<Value>> = vec![];
-        for c in 0..2 * n {
-            let column = (0..n).map(|i| -slopes[2 * n * i + c]).collect();
-            columns.push(factors.solve(column, &mut all));
-        }
-        for c in 0..n {
-            let unit = (0..n).map(|i| if i == c { one } else { zero }).collect();
-            columns.push(factors.solve(unit, &mut all));
-        }
-        // A⁻¹ is symmetric: what of it is below the diagonal is what is above.
-        let entry = |i: usize, c: usize| match c.checked_sub(2 * n) {
-            Some(j) if j > i => columns[2 * n + i][j],
-            _ => columns[c][i],
-        };
-        let entries = (0..3 * n * n).map(|k| entry(k / (3 * n), k % (3 * n))).collect();
-        all.finish(&named("d", entries)).shortened(0)
     }
 
     fn energies(&self) -> Program {
@@ -353,109 +425,6 @@ impl DynamicPrograms {
         let both = [kinetic_energy(arm, &q, &qd), potential_energy(arm, &q)];
         with_values(&program(&self.symbols[..2].concat(), &both), formulas, &self.values)
     }
-}
-
-/// A = LDLᵀ in a graph, the joints from the tip to the base: what the last joint has to do with is known first, and is often constant.
-struct Factors {
-    lower: Vec<Vec<Value>>,
-    /// One over each entry of D.
-    inverse: Vec<Value>,
-}
-
-impl Factors {
-    fn new(matrix: &[Value], n: usize, all: &mut Composer) -> Self {
-        let graph = all.graph();
-        let matrix: Vec<Value> = matrix.iter().rev().copied().collect();
-        let [zero, one] = [Rational::ZERO, Rational::ONE].map(|r| graph.number(&r));
-        let mut inverse = vec![];
-        let (mut lower, mut diagonal) = (vec![vec![zero; n]; n], vec![zero; n]);
-        for j in 0..n {
-            // L D of the row, once for all entries below.
-            let scaled: Vec<Value> = (0..j).map(|k| graph.mul(lower[j][k], diagonal[k])).collect();
-            let mut pivot = matrix[n * j + j];
-            for k in 0..j {
-                let part = graph.mul(lower[j][k], scaled[k]);
-                pivot = graph.sub(pivot, part);
-            }
-            diagonal[j] = pivot;
-            let over = graph.div(one, pivot);
-            inverse.push(over);
-            for i in j + 1..n {
-                let mut entry = matrix[n * i + j];
-                for k in 0..j {
-                    let part = graph.mul(lower[i][k], scaled[k]);
-                    entry = graph.sub(entry, part);
-                }
-                lower[i][j] = graph.mul(entry, over);
-            }
-        }
-        Factors { lower, inverse }
-    }
-
-    fn solve(&self, mut x: Vec<Value>, all: &mut Composer) -> Vec<Value> {
-        let (graph, n) = (all.graph(), x.len());
-        x.reverse();
-        for i in 0..n {
-            for k in 0..i {
-                let part = graph.mul(self.lower[i][k], x[k]);
-                x[i] = graph.sub(x[i], part);
-            }
-        }
-        for (entry, d) in x.iter_mut().zip(&self.inverse) {
-            *entry = graph.mul(*entry, *d);
-        }
-        for i in (0..n).rev() {
-            for k in i + 1..n {
-                let part = graph.mul(self.lower[k][i], x[k]);
-                x[i] = graph.sub(x[i], part);
-            }
-        }
-        x.reverse();
-        x
-    }
-}
-
-/// The program with the fewest operations.
-fn shortest(all: impl IntoIterator<Item = DynamicProgram>) -> Option<DynamicProgram> {
-    all.into_iter().min_by_key(|p| p.program.count().cost())
-}
-
-/// On what it rests that two programs are equal: their canonical forms, if these may be asked for, or values at random points, modulo a
-/// prime or, where constants have no value there, in doubles.
-fn same(a: &Program, b: &Program, expands: bool) -> Ground {
-    if expands && a.formulas().into_iter().zip(b.formulas()).all(|(x, y)| equal(x, y).is_equal()) {
-        return Ground::Proved;
-    }
-    let mut random = Random(1982);
-    let mut any = || (random.unit() * (1_u64 << 53) as f64) as u64;
-    let mut ground = Ground::Modulo(STATES);
-    for _ in 0..STATES {
-        let mut at: FxHashMap<Symbol, Residue> = FxHashMap::default();
-        let mut near: FxHashMap<Symbol, f64> = FxHashMap::default();
-        for s in inputs(a).chain(inputs(b)) {
-            at.entry(s).or_insert_with(|| Residue::input(any(), any()));
-            near.entry(s).or_insert_with(|| any() as f64 / (1_u64 << 53) as f64);
-        }
-        let [x, y] = [a, b].map(|p| {
-            let values = p.eval(|s| at.get(&s).cloned()).ok()?;
-            values.iter().map(Residue::get).collect::<Option<Vec<u64>>>()
-        });
-        if let (Some(x), Some(y)) = (x, y) {
-            if x != y {
-                return Ground::Failed;
-            }
-            continue;
-        }
-        let [x, y] = [a, b].map(|p| p.eval(|s| near.get(&s).copied()).unwrap_or_default());
-        let size = x.iter().fold(f64::MIN_POSITIVE, |m, v| m.max(v.abs()));
-        let off = x.iter().zip(&y).map(|(v, w)| (v - w).abs() / size);
-        let worst = off.fold(0.0_f64, |m, v| if v.is_nan() { f64::INFINITY } else { m.max(v) });
-        if x.is_empty() || x.len() != y.len() || worst > ROUNDING {
-            return Ground::Failed;
-        }
-        ground = ground.and(Ground::Numbers(STATES, worst));
-    }
-    ground
 }
 
 /// `t1`, `t2`, ….

@@ -1,0 +1,42 @@
+//! What holds a wrench that the arm exerts, and where power goes.
+
+use super::model::Dynamics;
+use super::newton_euler::{friction, gravity_torques};
+use crate::mechanism::Robot;
+use crate::velocity::{Viewpoint, geometric};
+
+/// Work by time, watts: what the torques supply goes into friction, the surroundings of the tool and the energies.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Power {
+    /// What the torques supply.
+    pub supplied: f64,
+    /// What friction takes.
+    pub dissipated: f64,
+    /// What a wrench gives to the surroundings.
+    pub exerted: f64,
+    /// By which the potential energy grows.
+    pub potential: f64,
+    /// By which the kinetic energy grows.
+    pub kinetic: f64,
+}
+
+/// The torques that hold a wrench, force and moment along the axes of the viewpoint, which the body exerts at its point: Jᵀ w.
+///
+/// # Panics
+/// If `q` does not have one entry per joint, or the robot has no such frame.
+pub fn holding_torques(robot: &Robot<f64>, q: &[f64], view: &Viewpoint<f64>, wrench: &[f64; 6]) -> Vec<f64> {
+    let by = |column: &[f64; 6]| column.iter().zip(wrench).map(|(a, b)| a * b).sum();
+    geometric(robot, q, view).columns.iter().map(by).collect()
+}
+
+/// Where the power of `torques` goes in the state `(q, qd)`; `held` is what of them holds a wrench.
+///
+/// # Panics
+/// If `q` or `qd` does not have one entry per joint.
+pub fn power(arm: &Dynamics<f64>, q: &[f64], qd: &[f64], torques: &[f64], held: Option<&[f64]>) -> Power {
+    let by_rates = |all: &[f64]| all.iter().zip(qd).map(|(t, v)| t * v).sum::<f64>();
+    let (supplied, dissipated) = (by_rates(torques), by_rates(&friction(arm, qd)));
+    let (potential, exerted) = (by_rates(&gravity_torques(arm, q)), held.map_or(0.0, by_rates));
+    let kinetic = supplied - dissipated - exerted - potential;
+    Power { supplied, dissipated, exerted, potential, kinetic }
+}
