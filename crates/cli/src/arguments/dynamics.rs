@@ -69,7 +69,7 @@ pub struct DynamicsArguments {
     #[arg(long, conflicts_with_all = ["q", "qd", "qdd", "tau", "wrench", "at", "simulate", "input", "payload"])]
     pub symbolic: bool,
     /// Explain the derivation: the bodies, the groupings, the recursion outward and inward with a name for every quantity, and on
-    /// what each rests
+    /// what the links' motions and the torques rest
     #[arg(long, conflicts_with_all = ["symbolic", "q", "qd", "qdd", "tau", "wrench", "at", "simulate", "input", "payload"])]
     pub explain: bool,
     /// How to print --symbolic and --explain
