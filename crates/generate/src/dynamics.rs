@@ -315,9 +315,9 @@ fn variables(d: &Description, all: &DynamicPrograms, functions: &[DynamicFunctio
     if most >= 3 {
         let thirds = functions.iter().filter(|f| f.reads() == 3);
         let (driven, given): (Vec<&DynamicFunction>, Vec<_>) = thirds.partition(|f| f.is_driven());
-        for k in 0..kinds.len() {
+        for (k, v) in kinds.iter().enumerate() {
             let rate = format!("acceleration of {}, in {}", name(k), unit(k, "rad/s^2", "m/s^2"));
-            let torque = format!("torque that drives {}, in {}", name(k), torque_unit(kinds[k].kind));
+            let torque = format!("torque that drives {}, in {}", name(k), torque_unit(v.kind));
             list.push(match (driven.is_empty(), given.is_empty()) {
                 (true, _) => (all.symbols[2][k], rate),
                 (_, true) => (all.symbols[3][k], torque),

@@ -46,12 +46,16 @@ impl Moves {
             if pairs != self.pairs[id as usize] {
                 for pair in std::mem::replace(&mut self.pairs[id as usize], pairs.clone()) {
                     self.place(pair, |all| {
-                        all.binary_search(&id).ok().map(|k| all.remove(k));
+                        if let Ok(place) = all.binary_search(&id) {
+                            all.remove(place);
+                        }
                     });
                 }
                 for pair in pairs {
                     self.place(pair, |all| {
-                        all.binary_search(&id).err().map(|k| all.insert(k, id));
+                        if let Err(place) = all.binary_search(&id) {
+                            all.insert(place, id);
+                        }
                     });
                 }
             }
