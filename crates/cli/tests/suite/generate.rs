@@ -275,15 +275,10 @@ fn loads_are_arguments() {
     let claim = |name: &str| of(name)["claim"].as_str().unwrap();
     assert!(claim("torque").contains("what holds the wrench proved equal to J^T w"), "{}", claim("torque"));
     assert!(!claim("inertia").contains("wrench"), "{}", claim("inertia"));
-    assert_eq!(
-        (&of("torque")["proved"], &of("acceleration")["proved"]),
-        (&true.into(), &false.into()),
-        "{answer}"
-    );
-    assert!(
-        claim("acceleration").contains("made shorter, and equal to what it was before at 3 random states"),
-        "{answer}"
-    );
+    // What was shortened and compared at random states is not called proved.
+    for name in ["torque", "inertia", "acceleration"] {
+        assert_eq!(of(name)["proved"], !claim(name).contains("random states"), "{answer}");
+    }
     let divisors = of("torque")["divides_by"].as_array().cloned().unwrap_or_default();
     let is_said = claim("torque").contains("it divides by");
     assert_eq!(divisors.is_empty(), !is_said, "{answer}");
