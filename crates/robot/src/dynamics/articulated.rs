@@ -40,17 +40,18 @@ pub fn articulated_bodies(
     let places: Vec<Transform<f64>> = arm.links.iter().map(|l| l.place(q)).collect();
     let axis = |k: usize| if arm.links[k].kind == JointKind::Revolute { 2 } else { 5 };
     let (mut inertia, mut bias, mut drift) = (vec![], vec![], vec![]);
-    let mut velocity: Six = [0.0; 6];
+    let mut velocities: Vec<Six> = vec![];
     for (k, link) in arm.links.iter().enumerate() {
         let mut own: Six = [0.0; 6];
         own[axis(k)] = of_axis[k].1 * qd[of_axis[k].0];
-        let carried = moved(&places[k], &velocity);
-        velocity = std::array::from_fn(|i| carried[i] + own[i]);
+        let carried = moved(&places[k], &link.parent.map_or([0.0; 6], |p| velocities[p]));
+        let velocity: Six = std::array::from_fn(|i| carried[i] + own[i]);
         let spatial = spatial(&link.body);
         // p = v ×* I v,   c = v × S q̇
         bias.push(cross_force(&velocity, &times(&spatial, &velocity)));
         drift.push(cross_motion(&velocity, &own));
         inertia.push(spatial);
+        velocities.push(velocity);
     }
     let mut pivots = vec![0.0; m];
     let mut rests = vec![0.0; m];
@@ -65,7 +66,7 @@ pub fn articulated_bodies(
         }
         let rest = (tau[joint] - friction[joint]) / factor - bias[k][s];
         (pivots[k], rests[k]) = (pivot, rest);
-        if k > 0 {
+        if let Some(parent) = arm.links[k].parent {
             let mut articulated = inertia[k];
             for (row, &a) in articulated.iter_mut().zip(&column) {
                 for (entry, &b) in row.iter_mut().zip(&column) {
@@ -76,23 +77,25 @@ pub fn articulated_bodies(
             let push: Six = std::array::from_fn(|i| bias[k][i] + pushed[i] + column[i] * rest / pivot);
             let (back, force) = (carried_inertia(&places[k], &articulated), carried(&places[k], &push));
             for i in 0..6 {
-                bias[k - 1][i] += force[i];
+                bias[parent][i] += force[i];
                 for j in 0..6 {
-                    inertia[k - 1][i][j] += back[i][j];
+                    inertia[parent][i][j] += back[i][j];
                 }
             }
         }
     }
     let g = arm.gravity;
-    let mut acceleration: Six = [0.0, 0.0, 0.0, -g[0], -g[1], -g[2]];
+    let base: Six = [0.0, 0.0, 0.0, -g[0], -g[1], -g[2]];
+    let mut accelerations: Vec<Six> = vec![];
     let mut qdd = vec![0.0; n];
     for k in 0..m {
-        let before = moved(&places[k], &acceleration);
-        acceleration = std::array::from_fn(|i| before[i] + drift[k][i]);
+        let before = moved(&places[k], &arm.links[k].parent.map_or(base, |p| accelerations[p]));
+        let mut acceleration: Six = std::array::from_fn(|i| before[i] + drift[k][i]);
         let s = axis(k);
         let pulled: f64 = (0..6).map(|i| inertia[k][i][s] * acceleration[i]).sum();
         let rate = (rests[k] - pulled) / pivots[k];
         acceleration[s] += rate;
+        accelerations.push(acceleration);
         qdd[of_axis[k].0] = rate / of_axis[k].1;
     }
     Some(Ok(qdd))

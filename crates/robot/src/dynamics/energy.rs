@@ -1,7 +1,7 @@
 //! Kinetic and potential energy.
 
 use super::model::{Dynamics, Moved};
-use crate::geometry::{Transform, Vector};
+use crate::geometry::Vector;
 use crate::scalar::Scalar;
 
 /// The kinetic energy, joules, with that of the rotors as the joints feel them.
@@ -30,10 +30,8 @@ pub fn kinetic_energy<T: Scalar>(arm: &Dynamics<T>, q: &[T], qd: &[T]) -> T {
 /// If `q` does not have one entry per joint.
 pub fn potential_energy<T: Scalar>(arm: &Dynamics<T>, q: &[T]) -> T {
     assert_eq!(q.len(), arm.joints(), "one entry per joint");
-    let mut x = Transform::identity();
     let mut moment = Vector::zero();
-    for link in &arm.links {
-        x = x * link.place(q);
+    for (link, x) in arm.links.iter().zip(arm.frames(arm.links.iter().map(|l| l.place(q)))) {
         moment = moment + x.translation.scale(link.body.mass) + x.rotation * link.body.first_moment;
     }
     -arm.gravity.dot(moment)

@@ -15,21 +15,25 @@ pub fn inertia_matrix<T: Scalar>(arm: &Dynamics<T>, q: &[T]) -> Vec<Vec<T>> {
     let places: Vec<_> = arm.links.iter().map(|l| l.place(q)).collect();
     let m = arm.links.len();
     let mut of_axes = vec![vec![T::zero(); m]; m];
-    let mut behind = Body::nothing();
+    let mut bodies: Vec<Body<T>> = arm.links.iter().map(|l| l.body).collect();
     for (k, link) in arm.links.iter().enumerate().rev() {
-        let body = link.body + behind;
+        let body = bodies[k];
         let mut wrench = of_unit(&body, link.kind);
-        for i in (0..=k).rev() {
+        let mut next = Some(k);
+        while let Some(i) = next {
             of_axes[i][k] = match arm.links[i].kind {
                 JointKind::Revolute => wrench[1][2],
                 JointKind::Prismatic => wrench[0][2],
             };
             of_axes[k][i] = of_axes[i][k];
-            if i > 0 {
+            next = arm.links[i].parent;
+            if next.is_some() {
                 wrench = carried(&places[i], wrench);
             }
         }
-        behind = body.seen_from(&places[k]);
+        if let Some(parent) = link.parent {
+            bodies[parent] = bodies[parent] + body.seen_from(&places[k]);
+        }
     }
     // A = Gᵀ A of the axes G + rotors
     let columns: Vec<Vec<T>> = (0..m).map(|i| arm.at_joints(&of_axes[i])).collect();

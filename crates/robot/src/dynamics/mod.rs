@@ -5,7 +5,7 @@
 //! along axis k, in every convention alike, and what is fixed to a link is part of it. Torques are newton metres, newtons for
 //! joints that slide; the joint variables radians and metres, their rates per second.
 //!
-//! - [`Dynamics`]: the links with their masses, the drives, gravity; over numbers or formulas.
+//! - [`Dynamics`]: the links with their masses, the drives, gravity; over numbers or formulas; [`OfTree`]: of a whole tree, in numbers.
 //! - [`inverse_dynamics`]: the recursion of Newton and Euler; gravity and velocity torques are cases of it.
 //! - [`inertia_matrix`]: A(q), by composite bodies.
 //! - [`kinetic_energy`], [`potential_energy`]: the energies.
@@ -37,6 +37,7 @@ mod recursion;
 mod regressor;
 mod short;
 mod simulation;
+mod tree;
 
 pub use articulated::articulated_bodies;
 pub use base::{BaseModel, BaseParameter, Fate, Minimality};
@@ -55,3 +56,4 @@ pub use programs::{DynamicFunction, DynamicProgram, DynamicPrograms, Loads, Mass
 pub use recursion::{Inward, Outward, Recursion};
 pub use regressor::regressor;
 pub use simulation::{Acting, Method, Moment, NoMotion, Simulation, Torques, simulate};
+pub use tree::{OfTree, Unknown};

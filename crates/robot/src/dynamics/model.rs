@@ -10,10 +10,10 @@ use std::fmt;
 /// The acceleration of gravity where a description says nothing of it, along −z of the base, m/s²: as a decimal.
 pub const GRAVITY: (i64, i64) = (981, 100);
 
-/// An arm with masses.
+/// An arm with masses, or a tree.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Dynamics<T> {
-    /// The links, base first: one for each moving axis.
+    /// The links, each behind the one that it stands on: one for each moving axis.
     pub links: Vec<Link<T>>,
     /// The tool in the frame of the last link.
     pub tool: Transform<T>,
@@ -26,7 +26,9 @@ pub struct Dynamics<T> {
 /// What moves about or along one axis.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Link<T> {
-    /// What is constant between the frame of the link before (the base, for the first) and the motion.
+    /// The link that it stands on, an earlier one: of an arm the one before; none on the base.
+    pub parent: Option<usize>,
+    /// What is constant between the frame of that link, or the base, and the motion.
     pub before: Transform<T>,
     /// Whether it turns about z or slides along it.
     pub kind: JointKind,
@@ -68,7 +70,9 @@ impl<T: Scalar> Dynamics<T> {
             .moving
             .into_iter()
             .zip(constants.by_ref())
-            .map(|(a, before)| Link {
+            .enumerate()
+            .map(|(k, (a, before))| Link {
+                parent: k.checked_sub(1),
                 before,
                 kind: a.kind,
                 value: a.value,
@@ -116,18 +120,28 @@ impl<T: Scalar> Dynamics<T> {
     /// axes.
     pub(super) fn velocities(&self, q: &[T], qd: &[T]) -> Vec<Moved<T>> {
         let z = Vector::unit(Axis::Z);
-        let (mut turning, mut velocity) = (Vector::zero(), Vector::zero());
-        let mut all = vec![];
+        let mut all: Vec<Moved<T>> = vec![];
         for (link, rate) in self.links.iter().zip(self.rates(qd)) {
             let place = link.place(q);
             let back = place.rotation.inverse();
-            velocity = back * (velocity + turning.cross(place.translation));
-            turning = back * turning;
+            let of = |k: usize| (all[k].turning, all[k].velocity);
+            let (turning, velocity) = link.parent.map_or((Vector::zero(), Vector::zero()), of);
+            let mut velocity = back * (velocity + turning.cross(place.translation));
+            let mut turning = back * turning;
             match link.kind {
                 JointKind::Revolute => turning = turning + z.scale(rate),
                 JointKind::Prismatic => velocity = velocity + z.scale(rate),
             }
             all.push(Moved { place, turning, velocity });
+        }
+        all
+    }
+
+    /// The frames of the links in the base.
+    pub(super) fn frames(&self, places: impl Iterator<Item = Transform<T>>) -> Vec<Transform<T>> {
+        let mut all: Vec<Transform<T>> = vec![];
+        for (link, place) in self.links.iter().zip(places) {
+            all.push(link.parent.map_or(place, |k| all[k] * place));
         }
         all
     }
@@ -150,6 +164,7 @@ impl<T: Scalar> Dynamics<T> {
             let terms = l.value.terms.iter().map(|&(j, k)| (j, f(k))).collect();
             let value = Affine { offset: f(l.value.offset), quarters: l.value.quarters, terms };
             links.push(Link {
+                parent: l.parent,
                 before: l.before.map(&mut f),
                 kind: l.kind,
                 value,

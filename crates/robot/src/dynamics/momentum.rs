@@ -1,7 +1,7 @@
 //! The momentum of an arm: of its mass, and about its centre of mass.
 
 use super::model::{Dynamics, Moved};
-use crate::geometry::{Transform, Vector};
+use crate::geometry::Vector;
 
 /// Mass, centre of mass and momentum, along the axes of the base; rotors aside.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -22,11 +22,11 @@ pub struct Momentum {
 /// If `q` or `qd` does not have one entry per joint.
 pub fn momentum(arm: &Dynamics<f64>, q: &[f64], qd: &[f64]) -> Momentum {
     assert_eq!([q.len(), qd.len()], [arm.joints(); 2], "one entry per joint");
-    let mut x = Transform::identity();
+    let moving = arm.velocities(q, qd);
+    let frames = arm.frames(moving.iter().map(|m| m.place));
     let (mut mass, mut moment) = (0.0, Vector::zero());
     let (mut linear, mut about_base) = (Vector::zero(), Vector::zero());
-    for (link, Moved { place, turning, velocity }) in arm.links.iter().zip(arm.velocities(q, qd)) {
-        x = x * place;
+    for ((link, x), Moved { turning, velocity, .. }) in arm.links.iter().zip(frames).zip(moving) {
         // P = M V + ω × MS, and J ω + MS × V about the origin of the frame.
         let body = &link.body;
         let own = x.rotation * (velocity.scale(body.mass) + turning.cross(body.first_moment));

@@ -41,7 +41,8 @@ pub fn inverse_dynamics<T: Scalar>(
     let mut wrenches: Vec<Wrench<T>> =
         arm.links.iter().zip(&motions).map(|(l, m)| of_body(&l.body, m)).collect();
     if let (Some(of_tool), Some(last)) = (wrench, wrenches.last_mut()) {
-        let x_0n = motions.iter().fold(Rotation::identity(), |x, m| x * m.place.rotation);
+        let frames = arm.frames(motions.iter().map(|m| m.place));
+        let x_0n = frames.last().map_or_else(Rotation::identity, |x| x.rotation);
         let [force, moment] = of_tool.map(|v| x_0n.inverse() * v);
         *last = [last[0] + force, last[1] + moment + arm.tool.translation.cross(force)];
     }
@@ -98,7 +99,7 @@ pub fn drive_torques(
     rubbed.map(|((torque, rubbed), (drive, &v))| torque + rubbed - drive.viscous * v).collect()
 }
 
-/// How the links move, base first; the base accelerates by `base`.
+/// How the links move; the base accelerates by `base`.
 pub(super) fn motions<T: Scalar>(
     arm: &Dynamics<T>,
     q: &[T],
@@ -111,7 +112,7 @@ pub(super) fn motions<T: Scalar>(
     let mut all: Vec<Motion<T>> = vec![];
     for (link, (&rate, &change)) in arm.links.iter().zip(rates.iter().zip(&changes)) {
         let place = link.place(q);
-        let carried = carried_on(link.kind, &place, all.last(), (rate, change), base);
+        let carried = carried_on(link.kind, &place, link.parent.map(|k| &all[k]), (rate, change), base);
         let [turning, turning_rate, acceleration] = carried;
         let spread = spread(turning, turning_rate);
         all.push(Motion { place, turning, turning_rate, spread, acceleration });
@@ -185,15 +186,17 @@ pub(super) fn backward<T: Scalar>(
     wrenches: &[Wrench<T>],
 ) -> Vec<T> {
     let mut torques = vec![T::zero(); arm.links.len()];
-    let mut behind: Wrench<T> = [Vector::zero(); 2];
+    let mut all = wrenches.to_vec();
     for (k, link) in arm.links.iter().enumerate().rev() {
-        let [force, moment] = wrenches[k];
-        let [force, moment] = [force + behind[0], moment + behind[1]];
+        let [force, moment] = all[k];
         torques[k] = match link.kind {
             JointKind::Revolute => moment[2],
             JointKind::Prismatic => force[2],
         };
-        behind = carried(&motions[k].place, [force, moment]);
+        if let Some(parent) = link.parent {
+            let behind = carried(&motions[k].place, [force, moment]);
+            all[parent] = [all[parent][0] + behind[0], all[parent][1] + behind[1]];
+        }
     }
     torques
 }

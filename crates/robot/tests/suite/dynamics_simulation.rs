@@ -237,10 +237,12 @@ fn momentum_is_that_of_all_mass() {
             let place = Transform::from_rotation_translation(turned, Vector::zero());
             let mut longer = arm.clone();
             longer.links[0].before = place.inverse() * longer.links[0].before;
-            for link in &mut longer.links {
+            for (k, link) in longer.links.iter_mut().enumerate() {
+                link.parent = Some(k);
                 link.value.terms.iter_mut().for_each(|t| t.0 += 1);
             }
             let first = Link {
+                parent: None,
                 before: place,
                 kind: JointKind::Revolute,
                 value: Affine { offset: 0.0, quarters: 0, terms: vec![(0, 1.0)] },

@@ -14,6 +14,7 @@ mod dynamics_files;
 mod dynamics_programs;
 mod dynamics_recursion;
 mod dynamics_simulation;
+mod dynamics_trees;
 mod every_arm;
 mod follow;
 mod forward;
