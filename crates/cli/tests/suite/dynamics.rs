@@ -412,3 +412,29 @@ fn paths_keep_torque_limits() {
     let bare = fed(&["path", "ur5", "-q", "0,0,0,0,0,0", "--joint", "1,0,0,0,0,0", "--torque", "10"], "");
     assert!(text(&bare.stderr).contains("it says nothing of masses"), "{}", text(&bare.stderr));
 }
+
+/// All joints of a tree at once: two arms, what one of them does not move has no torque of it.
+#[test]
+fn a_whole_tree_is_answered() {
+    let baxter = concat!(env!("CARGO_MANIFEST_DIR"), "/../robot/tests/urdf/baxter.urdf");
+    let found = json(&[baxter, "--whole", "-q", "left_s0=0.3, left_s1=-0.4, right_s1=0.2"]);
+    let n = numbers(&found["q"]).len();
+    assert!(n > 14 && numbers(&found["torques"]).len() == n, "{found}");
+    assert_eq!(found["torques"], found["gravity"]);
+    let torques: Vec<String> = numbers(&found["torques"]).iter().map(f64::to_string).collect();
+    // What holds it accelerates it by nothing.
+    let back = json(&[
+        baxter,
+        "--whole",
+        "-q",
+        "left_s0=0.3, left_s1=-0.4, right_s1=0.2",
+        "--tau",
+        &torques.join(","),
+    ]);
+    assert!(numbers(&back["accelerations"]).iter().all(|a| a.abs() < 1e-6), "{}", back["accelerations"]);
+    let shown = text(&fed(&["dynamics", baxter, "--whole", "-q", "left_s0=0.3"], "").stdout);
+    assert!(shown.contains("left_s0 = ") && shown.contains("Inertia matrix"), "{shown}");
+    refused(&[baxter, "--whole"], 2, "say where the joints are");
+    refused(&[baxter, "--whole", "-q", "left_s0=0", "--qd", "1,2"], 2, "--qd: 2 values given");
+    refused(&["ur5", "--whole", "-q", "0,0,0,0,0,0"], 2, "is no tree");
+}

@@ -3,6 +3,7 @@
 mod report;
 mod simulation;
 mod stream;
+mod tree;
 
 use crate::arguments::{DynamicsArguments, Format};
 use crate::commands::document;
@@ -12,7 +13,7 @@ use crate::failure::Failure;
 use crate::load::{self, Around};
 use crate::terminal::{note, words};
 use denavit::Robot;
-use denavit::description::{Description, Measure, Row, Variable};
+use denavit::description::{Description, JointKind, Measure, Row, Variable};
 use denavit::dynamics::{
     DynamicModel, Dynamics, GRAVITY, Ground, NoNumbers, Recursion, direct_dynamics, drive_torques, friction,
     gravity_torques, holding_torques, inertia_matrix, kinetic_energy, momentum, potential_energy, power,
@@ -36,6 +37,9 @@ use std::io::Write;
 /// # Errors
 /// If the robot or an option cannot be read, masses or values are missing, or nothing can be written.
 pub fn run(arguments: &DynamicsArguments) -> Result<(), Failure> {
+    if arguments.whole {
+        return tree::run(arguments);
+    }
     let (mut description, around) = load::robot_and_around(&arguments.robot)?;
     if let Some(text) = &arguments.gravity {
         description.gravity = Some(gravity(text)?);
@@ -70,7 +74,11 @@ pub fn run(arguments: &DynamicsArguments) -> Result<(), Failure> {
     let answer = arm.answer(given, q).map_err(|why| Failure::Input(format!("error: {why}")))?;
     let text = match arguments.json {
         true => format!("{}\n", denavit_wire::text(&answer)),
-        false => report::text(&description, &answer),
+        false => {
+            let joint = |v: Variable| (v.symbol.name().to_string(), v.kind);
+            let joints: Vec<(String, JointKind)> = description.variables().into_iter().map(joint).collect();
+            report::text(&description.name, &joints, &answer)
+        }
     };
     write!(anstream::stdout(), "{text}")?;
     Ok(())
@@ -80,7 +88,8 @@ pub fn run(arguments: &DynamicsArguments) -> Result<(), Failure> {
 #[derive(Clone)]
 struct Arm {
     dynamics: Dynamics<f64>,
-    robot: Robot<f64>,
+    /// Its chain; none of a whole tree, which exerts no wrench.
+    robot: Option<Robot<f64>>,
     name: String,
     joints: Vec<String>,
     /// Where a wrench is exerted.
@@ -119,14 +128,14 @@ impl Arm {
             None => Viewpoint::tool(),
         };
         let joints = d.variables().iter().map(|v| v.symbol.name().to_string()).collect();
-        Ok(Arm { dynamics, robot, name: d.name.clone(), joints, at })
+        Ok(Arm { dynamics, robot: Some(robot), name: d.name.clone(), joints, at })
     }
 
     /// Everything about a state.
     fn answer(&self, given: Given, q: Vec<f64>) -> Result<Answer, String> {
         let (arm, n) = (&self.dynamics, self.joints.len());
         let Given { qd, qdd, tau, wrench } = given;
-        let held = wrench.map(|w| holding_torques(&self.robot, &q, &self.at, &w));
+        let held = wrench.zip(self.robot.as_ref()).map(|(w, robot)| holding_torques(robot, &q, &self.at, &w));
         let less = |all: &[f64], sign: f64| -> Vec<f64> {
             let held = held.iter().flatten().copied().chain(std::iter::repeat(0.0));
             all.iter().zip(held).map(|(t, h)| t + sign * h).collect()

@@ -1,18 +1,17 @@
 //! The answer for reading.
 
 use crate::terminal::{Align, FAINT, HEADING, matrix, number, styled, table};
-use denavit::description::{Description, JointKind};
+use denavit::description::JointKind;
 use denavit::quantity::{rate, reading, torque_unit};
 use denavit_wire::dynamics::Answer;
 
 /// The state, the torques with their parts, the inertia matrix, the energies.
-pub fn text(d: &Description, a: &Answer) -> String {
-    let variables = d.variables();
+pub fn text(robot: &str, joints: &[(String, JointKind)], a: &Answer) -> String {
     let each = |values: &[f64], of: &dyn Fn(f64, JointKind) -> String| -> String {
-        let all = variables.iter().zip(values);
-        all.map(|(v, &x)| format!("{} = {}", v.symbol.name(), of(x, v.kind))).collect::<Vec<_>>().join(", ")
+        let all = joints.iter().zip(values);
+        all.map(|((name, kind), &x)| format!("{name} = {}", of(x, *kind))).collect::<Vec<_>>().join(", ")
     };
-    let mut text = format!("{} at {}\n", styled(&d.name, HEADING), each(&a.q, &reading));
+    let mut text = format!("{} at {}\n", styled(robot, HEADING), each(&a.q, &reading));
     if a.qd.iter().any(|&v| v != 0.0) {
         text += &format!("  velocities {}\n", each(&a.qd, &rate));
     }
@@ -39,20 +38,20 @@ pub fn text(d: &Description, a: &Answer) -> String {
     let mut align = vec![Align::Right; header.len()];
     (align[0], align[header.len() - 1]) = (Align::Left, Align::Left);
     let row = |j: usize| -> Vec<String> {
-        let unit = torque_unit(variables[j].kind);
-        let name = variables[j].symbol.name().to_string();
+        let (name, kind) = joints[j].clone();
+        let unit = torque_unit(kind);
         let cells = columns.iter().map(|c| number(c.1[j], 1e-14 * size));
         [name].into_iter().chain(cells).chain([unit.to_string()]).collect()
     };
     text += &format!("\n{}\n", styled("Torques", HEADING));
-    text += &table(&header, &align, &(0..variables.len()).map(row).collect::<Vec<_>>());
+    text += &table(&header, &align, &(0..joints.len()).map(row).collect::<Vec<_>>());
     if let Some(found) = &a.accelerations {
         text += &format!("\n{}\n  {}\n", styled("Accelerations", HEADING), each(found, &accelerated));
     }
     let largest = a.inertia.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
     let entries: Vec<Vec<String>> =
         a.inertia.iter().map(|row| row.iter().map(|&x| number(x, 1e-14 * largest)).collect()).collect();
-    let slides = variables.iter().any(|v| v.kind == JointKind::Prismatic);
+    let slides = joints.iter().any(|j| j.1 == JointKind::Prismatic);
     let units = if slides { "kg m²; kg m beside a slide, kg between slides" } else { "kg m²" };
     text += &format!("\n{}  {}\n", styled("Inertia matrix", HEADING), styled(&format!("({units})"), FAINT));
     text += &matrix("", &entries, Align::Right);

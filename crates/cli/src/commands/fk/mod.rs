@@ -2,7 +2,7 @@
 
 mod answer;
 mod stream;
-mod tree;
+pub mod tree;
 
 use crate::arguments::{FkArguments, Format};
 use crate::commands::derive;

@@ -21,12 +21,7 @@ pub fn run(arguments: &FkArguments, tree: &Tree) -> Result<(), Failure> {
     if arguments.orientation.is_some() {
         return Err(Failure::Usage("--orientation is for one chain: name its end with --tip".into()));
     }
-    let mechanism = match tree {
-        Tree::Bodies(m) => m.clone(),
-        Tree::Rows(rows) => {
-            rows.mechanism().map_err(|missing| Failure::Input(format!("error: {name}: {missing}")))?
-        }
-    };
+    let mechanism = bodies(tree, name)?;
     let answers = Answers::of_tree(&mechanism);
     match (&arguments.input, &arguments.q) {
         (Some(path), _) => stream::run(answers, path),
@@ -51,17 +46,34 @@ pub fn run(arguments: &FkArguments, tree: &Tree) -> Result<(), Failure> {
     }
 }
 
-fn kind(joint: &Joint) -> JointKind {
+/// A tree as bodies.
+///
+/// # Errors
+/// If a parameter of its rows has no value.
+pub fn bodies(tree: &Tree, name: &str) -> Result<Mechanism, Failure> {
+    match tree {
+        Tree::Bodies(m) => Ok(m.clone()),
+        Tree::Rows(rows) => {
+            rows.mechanism().map_err(|missing| Failure::Input(format!("error: {name}: {missing}")))
+        }
+    }
+}
+
+/// How a joint that moves does.
+pub fn kind(joint: &Joint) -> JointKind {
     joint.kind.unwrap_or(JointKind::Revolute)
 }
 
 /// The joints that move by themselves.
-fn joints(m: &Mechanism) -> Vec<&Joint> {
+pub fn joints(m: &Mechanism) -> Vec<&Joint> {
     m.variables().into_iter().map(|j| &m.joints[j]).collect()
 }
 
 /// Values of all joints in order, or `NAME=VALUE` for some, the others at 0.
-fn configuration(m: &Mechanism, text: Option<&str>) -> Result<Vec<f64>, Failure> {
+///
+/// # Errors
+/// If they cannot be read.
+pub fn configuration(m: &Mechanism, text: Option<&str>) -> Result<Vec<f64>, Failure> {
     let joints = joints(m);
     let names = || joints.iter().map(|j| j.name.as_str()).collect::<Vec<_>>().join(", ");
     let bad = |why: String| Failure::Usage(format!("-q: {why}"));
