@@ -112,6 +112,13 @@ impl Sources for Dropped<'_> {
         }
     }
 
+    fn files(&mut self, from: &str, folder: &str) -> Vec<String> {
+        let Some(folder) = within(parent(from), folder) else { return vec![] };
+        let top = if folder.is_empty() { folder } else { format!("{folder}/") };
+        let name = |path: &String| path.strip_prefix(&top).filter(|n| !n.contains('/')).map(str::to_string);
+        self.texts.keys().filter_map(name).collect()
+    }
+
     fn package(&mut self, name: &str) -> Option<String> {
         // An absolute path is one from the top of what was dropped.
         self.packages.get(name).map(|folder| format!("/{folder}"))

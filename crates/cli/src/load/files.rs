@@ -4,6 +4,8 @@ use denavit::description::{MAX_XML_BYTES, Sources};
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
+/// How many files of a folder are looked at.
+const MOST_FILES: usize = 10_000;
 /// How many folders above a file are looked through for packages.
 const MOST_ABOVE: usize = 12;
 
@@ -73,6 +75,16 @@ impl Sources for Folder {
             }
         }
         Ok((path.to_string_lossy().into_owned(), text))
+    }
+
+    fn files(&mut self, from: &str, folder: &str) -> Vec<String> {
+        let beside = Path::new(from).parent().unwrap_or(Path::new("."));
+        let folder = fs::canonicalize(beside.join(folder.strip_prefix("file://").unwrap_or(folder))).ok();
+        let inside = folder.filter(|f| self.roots.iter().any(|root| f.starts_with(root)));
+        let entries = inside.and_then(|f| fs::read_dir(f).ok());
+        let file =
+            |entry: fs::DirEntry| entry.file_name().into_string().ok().filter(|_| entry.path().is_file());
+        entries.into_iter().flatten().filter_map(Result::ok).filter_map(file).take(MOST_FILES).collect()
     }
 
     fn package(&mut self, name: &str) -> Option<String> {

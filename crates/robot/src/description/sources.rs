@@ -14,6 +14,11 @@ pub trait Sources {
     /// A sentence that says why there is none.
     fn open(&mut self, from: &str, wanted: &str) -> Result<(String, String), String>;
 
+    /// The names of the files in a folder that is named by a path from the folder of another file, or an absolute one.
+    fn files(&mut self, _from: &str, _folder: &str) -> Vec<String> {
+        vec![]
+    }
+
     /// The folder of a package.
     fn package(&mut self, name: &str) -> Option<String>;
 

@@ -18,6 +18,12 @@ impl Sources for Shelf {
         Ok((self.canonical(wanted), text.clone()))
     }
 
+    fn files(&mut self, _: &str, folder: &str) -> Vec<String> {
+        let top = if folder == "." { String::new() } else { folder.to_string() };
+        let name = |n: &String| n.strip_prefix(top.as_str()).filter(|n| !n.contains('/')).map(str::to_string);
+        self.0.keys().filter_map(name).collect()
+    }
+
     fn package(&mut self, name: &str) -> Option<String> {
         (name == "arms").then(|| "/arms".into())
     }
@@ -525,4 +531,29 @@ fn soup_does_no_harm() {
             list.iter().for_each(|d| assert!(!files.render(d).is_empty()));
         }
     }
+}
+
+/// `*` in the name of a file that is included stands for any letters; the files come in the order of their names.
+#[test]
+fn files_are_included_by_a_pattern() {
+    let files = [
+        ("parts/b.xacro", "<link name='b'/>"),
+        ("parts/a.xacro", "<link name='a'/>"),
+        ("parts/.hidden.xacro", "<link name='hidden'/>"),
+        ("parts/c.urdf", "<link name='c'/>"),
+        ("parts/deep/d.xacro", "<link name='d'/>"),
+    ];
+    let joint = "<joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint>";
+    let include = |pattern: &str| format!("<xacro:include filename='{pattern}'/>{joint}");
+    let (reading, files_read) = with(&include("parts/*.xacro"), &files, &[]);
+    let (m, _) =
+        reading.unwrap_or_else(|f| panic!("{}", f.iter().map(|d| files_read.render(d)).collect::<String>()));
+    assert_eq!(m.bodies.iter().map(|b| b.name.as_str()).collect::<Vec<_>>(), ["a", "b"]);
+    let said = |pattern: &str| {
+        let (reading, read) = with(&include(pattern), &files, &[]);
+        reading.unwrap_err().iter().map(|d| read.render(d)).collect::<String>()
+    };
+    assert!(said("parts/x*.xacro").contains("`parts/x*.xacro` is the name of no file"));
+    assert!(said("p*/a.xacro").contains("a pattern is read in the name of a file"));
+    assert!(said("*.xacro").contains("includes itself"));
 }

@@ -76,6 +76,15 @@ tagged: !!str 12
         ("${d.list[1:]}", "[1, 2]"),
         ("${round(2.5)} ${round(3.5)} ${round(-2.5)} ${round(0.125, 2)}", "2 4 -2 0.12"),
         ("${1 if 'False' else 2}", "1"),
+        ("${1 < 2 <= 2 < 3} ${1 < 2 > 5} ${3 > 2 == 2}", "True False True"),
+        ("${5 not in l} ${3 not in l} ${'x' not in side}", "True False True"),
+        ("${not 5 in l}", "True"),
+        ("${1 in l != [1]}", "True"),
+        ("${dict(a=1, b='two')}", "{'a': 1, 'b': 'two'}"),
+        ("${dict(a=1)['a'] + dict([('a', 2), ('b', 3)])['b']}", "4"),
+        ("${len(dict())} ${dict(dict(a=1), a=2)}", "0 {'a': 2}"),
+        ("${hypot(3, 4)} ${fmod(-7, 3)} ${fmod(7.5, -2)}", "5.0 -1.0 1.5"),
+        ("${[k for k in dict(x=1, y=2)]}", "['x', 'y']"),
         ("${1 if '10' < '9' else 2}", "1"),
     ] {
         assert_eq!(name(expression).as_deref(), Ok(value), "{expression}");

@@ -167,13 +167,52 @@ impl Xacro<'_> {
         let is_optional =
             attribute("optional").is_some_and(|a| matches!(a.value.text.as_str(), "true" | "True" | "1"));
         let wanted = self.value(filename, scope.names)?.show();
-        let (name, text) = match self.open_file(&wanted) {
+        if wanted.contains(['*', '?', '[']) {
+            let matching = self.matching(&wanted).map_err(|why| why.at(filename.span.clone()))?;
+            if matching.is_empty() {
+                self.out
+                    .warning(filename.span.clone(), format!("`{}` is the name of no file", shown(&wanted)));
+            }
+            let mut all = vec![];
+            for wanted in matching {
+                all.extend(self.included(&wanted, (filename, is_optional), inner, depth)?);
+            }
+            return Ok(all);
+        }
+        self.included(&wanted, (filename, is_optional), inner, depth)
+    }
+
+    /// The files whose names a pattern matches, in the order of their names.
+    fn matching(&mut self, pattern: &str) -> Result<Vec<String>, Fault> {
+        let (folder, last) =
+            pattern.rsplit_once('/').map_or(("", pattern), |(f, l)| (&pattern[..=f.len()], l));
+        if folder.contains(['*', '?', '[']) {
+            return Err(Fault::new("a pattern is read in the name of a file, not in that of its folder"));
+        }
+        let from = self.files.name(self.open.last().copied().unwrap_or(0)).to_string();
+        let mut names = self.sources.files(&from, if folder.is_empty() { "." } else { folder });
+        // A name that begins with a point is matched by one that does.
+        names.retain(|n| matches(last, n) && (last.starts_with('.') || !n.starts_with('.')));
+        names.sort();
+        names.dedup();
+        Ok(names.into_iter().map(|name| format!("{folder}{name}")).collect())
+    }
+
+    /// What stands in a file.
+    fn included(
+        &mut self,
+        wanted: &str,
+        (filename, is_optional): (&Value, bool),
+        inner: Scope,
+        depth: usize,
+    ) -> Result<Vec<usize>, Fault> {
+        let (name, text) = match self.open_file(wanted) {
             Ok(found) => found,
             Err(_) if is_optional => return Ok(vec![]),
             Err(why) => return Err(why.at(filename.span.clone())),
         };
         if self.open.iter().any(|&f| self.sources.canonical(self.files.name(f)) == name) {
-            let message = format!("`{}` includes itself", shown(&wanted));
+            let message = format!("`{}` includes itself", shown(wanted));
             return Err(Fault::new(message).at(filename.span.clone()));
         }
         let (file, start) = self.files.add(name, text);
@@ -283,5 +322,83 @@ impl Xacro<'_> {
                 None
             }
         }
+    }
+}
+
+/// Whether a pattern of the shell matches a name: `*` stands for any letters, `?` for one, `[a-c]` and `[!a-c]` for one of these or of the
+/// others.
+fn matches(pattern: &str, name: &str) -> bool {
+    let (pattern, name): (Vec<char>, Vec<char>) = (pattern.chars().collect(), name.chars().collect());
+    let (mut p, mut n) = (0, 0);
+    // Where the last `*` stands, and how far it reaches.
+    let mut star: Option<(usize, usize)> = None;
+    while n < name.len() {
+        let one = match pattern.get(p) {
+            Some('*') => {
+                star = Some((p, n));
+                p += 1;
+                continue;
+            }
+            Some('[') => bracket(&pattern[p..], name[n]),
+            Some('?') => Some((true, 1)),
+            Some(c) => Some((*c == name[n], 1)),
+            None => None,
+        };
+        match (one, star) {
+            (Some((true, length)), _) => (p, n) = (p + length, n + 1),
+            (_, Some((at, reach))) => {
+                star = Some((at, reach + 1));
+                (p, n) = (at + 1, reach + 1);
+            }
+            (_, None) => return false,
+        }
+    }
+    pattern[p..].iter().all(|c| *c == '*')
+}
+
+/// Whether the letters in a bracket have one, and the length of the bracket; one that is not closed is a letter.
+fn bracket(pattern: &[char], c: char) -> Option<(bool, usize)> {
+    let is_not = pattern.get(1) == Some(&'!');
+    let start = if is_not { 2 } else { 1 };
+    let Some(end) = (start + 1..pattern.len()).find(|&k| pattern[k] == ']') else {
+        return Some((c == '[', 1));
+    };
+    let (mut k, mut found) = (start, false);
+    while k < end {
+        if k + 2 < end && pattern[k + 1] == '-' {
+            found |= (pattern[k]..=pattern[k + 2]).contains(&c);
+            k += 3;
+        } else {
+            found |= pattern[k] == c;
+            k += 1;
+        }
+    }
+    Some((found != is_not, end + 1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::matches;
+
+    /// As Python's `fnmatch` has it.
+    #[test]
+    fn patterns_match_names() {
+        for (pattern, name, is_one) in [
+            ("*.xacro", "arm.xacro", true),
+            ("*.xacro", "arm.urdf", false),
+            ("a*b*c", "aXbYbZc", true),
+            ("a*b*c", "acb", false),
+            ("?.xacro", "a.xacro", true),
+            ("?.xacro", "ab.xacro", false),
+            ("[a-c]1", "b1", true),
+            ("[!a-c]1", "b1", false),
+            ("[]]", "]", true),
+            ("a[b", "a[b", true),
+            ("*", "", true),
+        ] {
+            assert_eq!(matches(pattern, name), is_one, "{pattern} {name}");
+        }
+        let long = "a".repeat(4000);
+        assert!(!matches(&"a*".repeat(1000), &format!("b{long}")));
     }
 }

@@ -1,8 +1,8 @@
 //! xacro's expressions: the part of Python that files have.
 
 use super::scope::Scope;
-use super::sequence::{entry, method, slice};
-use super::value::{Fault, Val, arithmetic, function, real};
+use super::sequence::{self, entry, method, slice};
+use super::value::{Fault, Val, arithmetic, compared, function};
 use crate::description::xml::shown;
 use denavit_symbolic::{Expr, Rational};
 use std::rc::Rc;
@@ -24,7 +24,7 @@ enum Token {
 /// Signs, longer ones first.
 const SIGNS: &[&str] = &[
     "**", "//", "==", "!=", "<=", ">=", "-", "+", "*", "/", "%", "(", ")", "[", "]", ".", ",", "<", ">", "{",
-    "}", ":",
+    "}", ":", "=",
 ];
 
 /// What an expression asks of what is around it.
@@ -244,36 +244,32 @@ impl Reader<'_> {
         self.live(|| Ok(Val::Truth(value.holds()? == (times % 2 == 0))))
     }
 
+    /// `a < b`, `a not in b`, and chains of them: `a < b <= c` is `a < b and b <= c`.
     fn comparison(&mut self) -> Result<Val, Fault> {
-        let a = self.sum()?;
-        if self.word("in") {
-            let b = self.sum()?;
-            return self.live(|| match &b {
-                Val::List(l) => Ok(Val::Truth(l.iter().any(|x| is_same(&a, x)))),
-                Val::Map(m) => Ok(Val::Truth(m.iter().any(|x| x.0 == a.show()))),
-                other => Ok(Val::Truth(other.show().contains(&a.show()))),
-            });
+        let mut a = self.sum()?;
+        let mut holds: Option<bool> = None;
+        while let Some(sign) = self.compares() {
+            // What stands behind a comparison that fails is not evaluated.
+            let is_over = holds == Some(false);
+            let b = self.unless(is_over, Self::sum)?;
+            holds = Some(self.is_live && !is_over && compared(sign, &a, &b)?);
+            a = b;
         }
-        let Some(sign) = self.sign(&["==", "!=", "<=", ">=", "<", ">"]) else { return Ok(a) };
-        let b = self.sum()?;
-        self.live(|| {
-            if matches!(sign, "==" | "!=") {
-                return Ok(Val::Truth(is_same(&a, &b) == (sign == "==")));
-            }
-            let (below, equal) = match (&a, &b) {
-                (Val::Text(x), Val::Text(y)) => (x < y, x == y),
-                _ => {
-                    let difference = real(a.expr()? - b.expr()?)?;
-                    (difference.is_negative(), difference.is_zero())
-                }
-            };
-            Ok(Val::Truth(match sign {
-                "<" => below && !equal,
-                "<=" => below || equal,
-                ">" => !below && !equal,
-                _ => !below || equal,
-            }))
-        })
+        match holds {
+            None => Ok(a),
+            Some(holds) => self.live(|| Ok(Val::Truth(holds))),
+        }
+    }
+
+    /// What compares the value before it with the one behind.
+    fn compares(&mut self) -> Option<&'static str> {
+        let start = self.next;
+        let is_not = self.word("not");
+        if self.word("in") {
+            return Some(if is_not { "not in" } else { "in" });
+        }
+        self.next = start;
+        self.sign(&["==", "!=", "<=", ">=", "<", ">"])
     }
 
     fn sum(&mut self) -> Result<Val, Fault> {
@@ -403,6 +399,9 @@ impl Reader<'_> {
                     w = inner;
                 }
                 if self.sign(&["("]).is_some() {
+                    if w == "dict" {
+                        return self.dict();
+                    }
                     let arguments = self.list(")")?;
                     if !self.is_live {
                         return Ok(Val::Truth(false));
@@ -414,6 +413,37 @@ impl Reader<'_> {
             }
             other => Err(unexpected(&other)),
         }
+    }
+
+    /// `dict(a=1, b=2)`, `dict([("a", 1)])`: values by name.
+    fn dict(&mut self) -> Result<Val, Fault> {
+        let mut all: Vec<(String, Val)> = vec![];
+        while self.sign(&[")"]).is_none() {
+            let name = match (self.peek(), self.tokens.get(self.next + 1)) {
+                (Some(Token::Word(name)), Some(Token::Sign("="))) => Some(name.clone()),
+                _ => None,
+            };
+            self.next += if name.is_some() { 2 } else { 0 };
+            let value = self.choice()?;
+            let entries = match (name, &value) {
+                _ if !self.is_live => vec![],
+                (Some(name), _) => vec![(name, value)],
+                (None, Val::Map(map)) => map.to_vec(),
+                (None, pairs) => {
+                    let pair = |pair: Val| match &pair.items()?[..] {
+                        [name, value] => Ok((name.show(), value.clone())),
+                        _ => Err(Fault::new("`dict` takes pairs of a name and a value")),
+                    };
+                    pairs.items()?.into_iter().map(pair).collect::<Result<_, _>>()?
+                }
+            };
+            all = sequence::united(all, entries)?;
+            if self.sign(&[","]).is_none() {
+                self.needs(")")?;
+                break;
+            }
+        }
+        self.counted(Val::Map(Rc::new(all)))
     }
 
     /// The value of a function; some ask for what is around the expression.
@@ -544,13 +574,5 @@ impl Reader<'_> {
         }
         self.depth -= 1;
         Ok(())
-    }
-}
-
-pub(super) fn is_same(a: &Val, b: &Val) -> bool {
-    let is_text = |v: &Val| matches!(v, Val::Text(_));
-    match (a.expr(), b.expr()) {
-        (Ok(x), Ok(y)) if !(is_text(a) && is_text(b)) => real(x - y).is_ok_and(|d| d.is_zero()),
-        _ => a.show() == b.show(),
     }
 }

@@ -1,10 +1,11 @@
 //! Lists, maps and texts of xacro's expressions: their entries and parts, and functions of them.
 
-use super::expression::{MAX_LENGTH, is_same};
-use super::value::{Fault, Val, arithmetic, real};
+use super::expression::MAX_LENGTH;
+use super::value::{Fault, Val, arithmetic, is_same, real};
 use crate::description::{diagnostic::nearest, xml::shown};
 use denavit_symbolic::Expr;
 use std::cmp::Ordering;
+use std::collections::HashMap;
 use std::rc::Rc;
 
 /// The longest list that an expression makes.
@@ -16,6 +17,28 @@ pub(super) fn bounded(values: impl Iterator<Item = Val>) -> Result<Val, Fault> {
     match all.len() > MAX_ITEMS {
         true => Err(Fault::new(format!("a list of more than {MAX_ITEMS} values"))),
         false => Ok(Val::List(Rc::new(all))),
+    }
+}
+
+/// Values by name with others, which count where a name is given twice.
+pub(super) fn united(
+    mut all: Vec<(String, Val)>,
+    others: Vec<(String, Val)>,
+) -> Result<Vec<(String, Val)>, Fault> {
+    let mut places: HashMap<String, usize> =
+        all.iter().enumerate().map(|(at, entry)| (entry.0.clone(), at)).collect();
+    for (name, value) in others {
+        match places.get(&name) {
+            Some(&at) => all[at].1 = value,
+            None => {
+                places.insert(name.clone(), all.len());
+                all.push((name, value));
+            }
+        }
+    }
+    match all.len() > MAX_ITEMS {
+        true => Err(Fault::new(format!("more than {MAX_ITEMS} values by name"))),
+        false => Ok(all),
     }
 }
 

@@ -304,6 +304,26 @@ pub(super) fn function(name: &str, arguments: &[Val]) -> Result<Val, Fault> {
             count(2)?;
             return angle(arguments[0].expr()?, arguments[1].expr()?);
         }
+        "hypot" => {
+            let sum = arguments.iter().try_fold(Expr::int(0), |sum, a| a.expr().map(|x| sum + x * x))?;
+            real(sum.sqrt())?;
+            return number(sum.sqrt());
+        }
+        // The rest has the sign of what is divided.
+        "fmod" => {
+            count(2)?;
+            let (x, y) = (arguments[0].expr()?, arguments[1].expr()?);
+            if real(y)?.is_zero() {
+                return Err(Fault::new("a division by 0"));
+            }
+            return number(x - y * Expr::from(whole(x / y)?));
+        }
+        "copysign" => {
+            count(2)?;
+            let (x, y) = (arguments[0].expr()?, arguments[1].expr()?);
+            let is_other = real(x)?.is_negative() != real(y)?.is_negative();
+            return number(if is_other { -x } else { x });
+        }
         "pow" => return count(2).and_then(|()| power(arguments[0].expr()?, arguments[1].expr()?)),
         "round" if arguments.len() == 2 => {
             let places = u32::try_from(arguments[1].index()?).ok().filter(|p| *p <= 40);
@@ -339,12 +359,15 @@ pub(super) fn function(name: &str, arguments: &[Val]) -> Result<Val, Fault> {
         "floor" => number(floor(x)?.into()),
         "ceil" => number((-floor(-x)?).into()),
         "round" => number(rounded(x)?.into()),
-        "int" => number(match real(x)?.is_negative() {
-            true => (-floor(-x)?).into(),
-            false => floor(x)?.into(),
-        }),
+        "int" | "trunc" => number(whole(x)?.into()),
         _ => Err(Fault::new(format!("the function `{}` is not read", shown(name)))),
     }
+}
+
+/// The whole number of a number, towards 0.
+fn whole(x: Expr) -> Result<Rational, Fault> {
+    let floor = |e: Expr| -> Result<Rational, Fault> { Ok(Val::Number(e).rational()?.floor()) };
+    if real(x)?.is_negative() { Ok(-floor(-x)?) } else { floor(x) }
 }
 
 /// The nearest whole number, the even one of two that are as near.
@@ -362,5 +385,41 @@ fn angle(y: Expr, x: Expr) -> Result<Val, Fault> {
     match length.and_then(|l| l.recip()) {
         Some(over) => number((y * over.clone()).angle(&(x * over))),
         None => number(Expr::int(0)),
+    }
+}
+
+/// Whether `a sign b` holds.
+pub(super) fn compared(sign: &str, a: &Val, b: &Val) -> Result<bool, Fault> {
+    let is_in = || match b {
+        Val::List(l) => l.iter().any(|x| is_same(a, x)),
+        Val::Map(m) => m.iter().any(|x| x.0 == a.show()),
+        other => other.show().contains(&a.show()),
+    };
+    match sign {
+        "in" => return Ok(is_in()),
+        "not in" => return Ok(!is_in()),
+        "==" | "!=" => return Ok(is_same(a, b) == (sign == "==")),
+        _ => {}
+    }
+    let (below, equal) = match (a, b) {
+        (Val::Text(x), Val::Text(y)) => (x < y, x == y),
+        _ => {
+            let difference = real(a.expr()? - b.expr()?)?;
+            (difference.is_negative(), difference.is_zero())
+        }
+    };
+    Ok(match sign {
+        "<" => below && !equal,
+        "<=" => below || equal,
+        ">" => !below && !equal,
+        _ => !below || equal,
+    })
+}
+
+pub(super) fn is_same(a: &Val, b: &Val) -> bool {
+    let is_text = |v: &Val| matches!(v, Val::Text(_));
+    match (a.expr(), b.expr()) {
+        (Ok(x), Ok(y)) if !(is_text(a) && is_text(b)) => real(x - y).is_ok_and(|d| d.is_zero()),
+        _ => a.show() == b.show(),
     }
 }
