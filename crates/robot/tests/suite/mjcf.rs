@@ -538,3 +538,58 @@ fn drives_gravity_and_masses_are_kept() {
         assert!((a - b).abs() < 1e-12, "{a} {b}");
     }
 }
+
+/// What bodies weigh with `boundmass`, `boundinertia` and `balanceinertia`: mass and inertia as MuJoCo 4.0.0 has them.
+#[test]
+fn masses_have_bounds() {
+    let inertial = |mass: &str, inertia: &str| {
+        format!("<inertial pos='0 0 0.1' mass='{mass}' {inertia}/><geom size='0.1'/>")
+    };
+    let bounds =
+        |balance: &str| format!("<compiler boundmass='0.5' boundinertia='0.02' balanceinertia='{balance}'/>");
+    let diagonal = |d: &str| format!("diaginertia='{d}'");
+    for (compiler, body, mass, moments) in [
+        (bounds("false"), inertial("0.1", &diagonal("0.01 0.03 0.03")), 0.5, [0.02, 0.03, 0.03]),
+        (bounds("true"), inertial("1", &diagonal("0.1 0.03 0.03")), 1.0, [0.16 / 3.0; 3]),
+        (bounds("true"), inertial("1", &diagonal("0.1 0.03 0.01")), 1.0, [0.05; 3]),
+        (bounds("true"), inertial("1", "fullinertia='0.1 0.09 0.012 0.01 0 0'"), 1.0, [0.07; 3]),
+        ("<compiler boundmass='0.5' boundinertia='0.02'/>".into(), String::new(), 0.5, [0.02; 3]),
+        (
+            "<compiler boundmass='0.5' boundinertia='0.02'/>".into(),
+            "<geom size='0.01'/>".into(),
+            0.5,
+            [0.02; 3],
+        ),
+    ] {
+        let text = format!(
+            "<mujoco>{compiler}<worldbody><body name='a'><joint type='hinge'/>{body}</body></worldbody></mujoco>"
+        );
+        let m = read(&text, Decimals::Meant);
+        let found = m.bodies[m.body("a").unwrap()].mass.as_ref().expect("a mass");
+        let number = |e: Expr| e.eval(|_| None).unwrap();
+        assert!((number(found.mass) - mass).abs() < 1e-12, "{text}");
+        let [xx, xy, xz, yy, yz, zz] = found.inertia.map(number);
+        for (x, expected) in
+            [(xx, moments[0]), (yy, moments[1]), (zz, moments[2]), (xy, 0.0), (xz, 0.0), (yz, 0.0)]
+        {
+            assert!((x - expected).abs() < 1e-12, "{text}: {x} {expected}");
+        }
+    }
+    // About other axes the moments are bounded there: those of MuJoCo are 0.02, 0.0838 and 0.1062.
+    let text = format!(
+        "<mujoco><compiler boundinertia='0.02'/><worldbody><body name='a'><joint/>{}</body></worldbody></mujoco>",
+        inertial("1", "fullinertia='0.1 0.09 0.012 0.01 0 0'")
+    );
+    let m = read(&text, Decimals::Meant);
+    let found = m.bodies[1].mass.as_ref().unwrap().inertia.map(|e| e.eval(|_| None).unwrap());
+    for (x, expected) in found.into_iter().zip([0.1, 0.01, 0.0, 0.09, 0.0, 0.02]) {
+        assert!((x - expected).abs() < 1e-12, "{found:?}");
+    }
+    // What all weighs together is said of what is bounded.
+    let text = "<mujoco><compiler boundmass='0.5' boundinertia='0.02' settotalmass='3'/><worldbody><body name='a'><joint/>\
+                <body name='b'><geom size='0.1'/></body><geom size='0.01'/></body></worldbody></mujoco>";
+    let m = read(text, Decimals::Meant);
+    let masses =
+        ["a", "b"].map(|n| m.bodies[m.body(n).unwrap()].mass.as_ref().unwrap().mass.eval(|_| None).unwrap());
+    assert!((masses[0] - 0.31991).abs() < 1e-5 && (masses[1] - 2.68009).abs() < 1e-5, "{masses:?}");
+}

@@ -217,6 +217,7 @@ impl<'a> Mjcf<'a, '_> {
         let mass = mass.filter(|_| self.models[cx.model].from_geoms != FromGeoms::Always);
         let Some(body) = self.link(name, kind, mass, element.span()) else { return };
         self.from_geoms.insert(body, from_geoms);
+        self.model_of.insert(body, cx.model);
         let joints = self.joints_of(element, &inner);
         self.hang(body, joints, &inner, element.span());
         let identity = Transform::identity();
@@ -254,7 +255,7 @@ impl<'a> Mjcf<'a, '_> {
                 (Named::Site | Named::Made, Named::ByFile) | (Named::Made, Named::Site) => {
                     let other = self.like(&name, self.named[first]);
                     if self.named[first] == Named::Site {
-                        self.say_site(self.links.spans[first].clone(), &name, &other);
+                        self.renamed.push((self.links.spans[first].clone(), name.clone(), other.clone()));
                     }
                     self.links.by_name.remove(&name);
                     self.links.by_name.insert(other.clone(), first);
@@ -263,7 +264,7 @@ impl<'a> Mjcf<'a, '_> {
                 _ => {
                     let other = self.like(&name, kind);
                     if kind == Named::Site {
-                        self.say_site(span.clone(), &name, &other);
+                        self.renamed.push((span.clone(), name.clone(), other.clone()));
                     }
                     name = other;
                 }
@@ -273,11 +274,22 @@ impl<'a> Mjcf<'a, '_> {
         Some(self.links.add(name, mass, span))
     }
 
-    fn say_site(&mut self, span: Range<usize>, name: &str, other: &str) {
-        let [name, other] = [name, other].map(shown);
-        self.reader
-            .out
-            .note(span, format!("the site `{name}` is called `{other}` here: a body has its name"));
+    /// Says what sites are called otherwise here, once for all of them.
+    pub(super) fn say_renamed(&mut self) {
+        let renamed = std::mem::take(&mut self.renamed);
+        let Some((span, name, other)) = renamed.first() else { return };
+        let message = match &renamed[..] {
+            [_] => {
+                format!("the site `{}` is called `{}` here: a body has its name", shown(name), shown(other))
+            }
+            all => {
+                let names = all.iter().take(4).map(|r| format!("`{}`", shown(&r.2)));
+                let more = if all.len() > 4 { ", …" } else { "" };
+                let names = names.collect::<Vec<_>>().join(", ");
+                format!("{} sites have the names of bodies: they are called {names}{more} here", all.len())
+            }
+        };
+        self.reader.out.note(span.clone(), message);
     }
 
     /// A name like one that is taken.
@@ -449,7 +461,6 @@ impl<'a> Mjcf<'a, '_> {
         None
     }
 
-    /// The mass of a body in its frame; nothing where it is not complete, which is said.
     /// The `<inertial>` of a body, which may stand in a frame of it, and that frame in the body's.
     fn inertial_of(&mut self, body: Element<'a>, cx: &Context) -> Option<(Element<'a>, Transform<Expr>)> {
         let start = Context { frame: Transform::identity(), ..cx.clone() };
@@ -475,6 +486,7 @@ impl<'a> Mjcf<'a, '_> {
         found
     }
 
+    /// The mass of a body in its frame; nothing where it is not complete, which is said.
     fn mass(&mut self, inertial: Element<'a>, frame: Transform<Expr>, model: usize) -> Option<Mass> {
         inertial.only(&[&TURN[..], &["mass", "diaginertia", "fullinertia"]].concat(), &mut self.reader.out);
         let turned = super::defaults::TURNS.iter().find_map(|t| inertial.attribute(t));
@@ -495,7 +507,11 @@ impl<'a> Mjcf<'a, '_> {
         };
         let is_given = inertial.attribute("fullinertia").or(inertial.attribute("diaginertia")).is_some();
         let Some(mass) = mass.filter(|_| is_given) else {
-            self.reader.out.warning(inertial.span(), "the inertia is not complete, and is left");
+            let missing = match inertial.attribute("mass") {
+                Some(_) => "`diaginertia` and `fullinertia`",
+                None => "`mass`",
+            };
+            self.reader.out.warning(inertial.span(), format!("<inertial> has no {missing}: it is left"));
             return None;
         };
         self.reader.say_inertia(&mass, &tensor, inertial.span());

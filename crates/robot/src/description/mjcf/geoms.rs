@@ -226,6 +226,12 @@ impl<'a> Mjcf<'a, '_> {
         let Some(ends) = geom.get("fromto").filter(|_| solid.is_some_and(|s| s != Solid::Sphere)) else {
             return Some((self.placing(cx.model).pose(geom), None));
         };
+        if let Some(pos) = geom.get("pos") {
+            self.reader
+                .out
+                .error(pos.span, "both `pos` and `fromto` say where a geom is")
+                .hint("those that a class gives count as well: MuJoCo refuses the model, too");
+        }
         let pose = self.placing(cx.model).between(&ends)?;
         let points = self.reader.numbers(&ends, "fromto", 6)?;
         let difference = |k: usize| Expr::from(points[k].0.clone() - points[k + 3].0.clone());
@@ -352,6 +358,7 @@ impl<'a> Mjcf<'a, '_> {
                 format!("the mass of {what} is not computed: the body `{name}` has none here{others}");
             self.reader.out.warning(span.clone(), message).hint("give it an <inertial>");
         }
+        self.bound_bodies();
         unknown.is_empty()
     }
 

@@ -5,6 +5,7 @@
 //! radians, and quaternions, what their digits mean ([`Decimals`]). What a model says of contacts and actuators is left.
 
 mod bodies;
+mod bounds;
 mod defaults;
 mod equality;
 mod geoms;
@@ -25,6 +26,7 @@ use super::urdf::{Draft, Links, Reading, plain};
 use super::xml::{Element, shown};
 use crate::geometry::Axis;
 use bodies::{Context, Named};
+use bounds::Bounds;
 use defaults::Classes;
 use denavit_symbolic::{Expr, Rational};
 use geoms::{Assets, FromGeoms, Weight};
@@ -89,6 +91,8 @@ struct Model<'a> {
     from_geoms: FromGeoms,
     /// The groups of geoms that weigh.
     groups: RangeInclusive<i64>,
+    /// What no body of it is below.
+    bounds: Bounds,
     /// The mass of all of it, if it is said, and where.
     total: Option<(Rational, Range<usize>)>,
     /// The folder of its meshes.
@@ -124,6 +128,10 @@ struct Mjcf<'a, 'r> {
     from_geoms: HashMap<usize, bool>,
     /// What the geoms of bodies weigh.
     weights: HashMap<usize, Weight>,
+    /// The model that each body is of; sites are of none.
+    model_of: HashMap<usize, usize>,
+    /// Sites that have other names here, by where they stand: what they are called in the file and here.
+    renamed: Vec<(Range<usize>, String, String)>,
 }
 
 /// Reads a model of MuJoCo's, with the files that it includes and the models that it attaches.
@@ -166,9 +174,10 @@ fn robot(documents: &[Document], reader: &mut Reader) -> Option<Mechanism> {
         beside(root, &mut reader.out);
         let (from_geoms, groups) = inertias(root, reader);
         let folder = folder_of_meshes(root);
+        let bounds = Bounds::of(root, reader);
         let total = total_mass(root, reader);
         let parts = &document.parts;
-        models.push(Model { root, compiler, classes, from_geoms, groups, total, folder, parts });
+        models.push(Model { root, compiler, classes, from_geoms, groups, bounds, total, folder, parts });
     }
     let root = models.first()?.root;
     let mut mjcf = Mjcf {
@@ -188,6 +197,8 @@ fn robot(documents: &[Document], reader: &mut Reader) -> Option<Mechanism> {
         assets: Assets::default(),
         from_geoms: HashMap::new(),
         weights: HashMap::new(),
+        model_of: HashMap::new(),
+        renamed: vec![],
     };
     mjcf.assets();
     mjcf.world(root);
@@ -196,6 +207,7 @@ fn robot(documents: &[Document], reader: &mut Reader) -> Option<Mechanism> {
     mjcf.set_total(total.as_ref().map(|t| &t.0), is_known, total.as_ref().map_or(0..0, |t| t.1.clone()));
     mjcf.couplings();
     mjcf.name_fixed();
+    mjcf.say_renamed();
     let gravity = gravity(root, mjcf.reader);
     let keyed = mjcf.keyframes(root);
     let Mjcf { reader, quaternions, links, drafts, .. } = mjcf;
@@ -210,7 +222,8 @@ fn robot(documents: &[Document], reader: &mut Reader) -> Option<Mechanism> {
     let mut mechanism = reader.tree(name, links, drafts)?;
     let variables = mechanism.variables();
     for (name, values) in keyed {
-        let value = |&j: &usize| values.iter().find(|v| v.0 == mechanism.joints[j].name).map(|v| v.1);
+        let values: HashMap<String, Expr> = values.into_iter().collect();
+        let value = |&j: &usize| values.get(&mechanism.joints[j].name).copied();
         let pose = variables.iter().map(|j| value(j).unwrap_or(Expr::int(0))).collect();
         mechanism.poses.push((name, pose));
     }
@@ -307,13 +320,6 @@ fn inertias(root: Element, reader: &mut Reader) -> (FromGeoms, RangeInclusive<i6
                 _ => {
                     reader.out.error(text.span, "`inertiagrouprange` is two whole numbers");
                 }
-            }
-        }
-        for name in ["boundmass", "boundinertia", "balanceinertia"] {
-            let is_off = |t: &str| matches!(t, "false") || t.trim().parse::<f64>().is_ok_and(|x| x <= 0.0);
-            if let Some(text) = element.attribute(name).filter(|t| !is_off(t.text)) {
-                let message = format!("`{name}` is not read: masses are those of the bodies themselves");
-                reader.out.warning(text.span, message);
             }
         }
     }
