@@ -188,6 +188,9 @@ pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
     (before.matches('\n').count() + 1, in_line.chars().count() + 1)
 }
 
+/// Of very many names only the first ones are compared.
+const MAX_CANDIDATES: usize = 5000;
+
 /// The one of `candidates` that `word` was probably meant to be: about a third of its letters differ at most.
 pub(super) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let plain =
@@ -195,6 +198,7 @@ pub(super) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a s
     let word: Vec<char> = plain(word).into_iter().take(40).collect();
     candidates
         .into_iter()
+        .take(MAX_CANDIDATES)
         .filter(|c| c.len() <= 40)
         .map(|c| (edit_distance(&word, &plain(c)), c))
         .filter(|&(distance, c)| distance <= (word.len().max(c.len()) + 1) / 3 && word.len() > 1)

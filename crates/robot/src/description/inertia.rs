@@ -18,11 +18,22 @@ impl Reader {
         let names = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
         let entries = inertia.map(|e| names.map(|n| self.number(&e, n)));
         let (Some(mass), Some([Some(xx), Some(xy), Some(xz), Some(yy), Some(yz), Some(zz)])) =
-            (mass, entries)
+            (mass.clone(), &entries)
         else {
-            self.out.warning(inertial.span(), "the inertia is not complete, and is left");
+            // What is there and no number was said.
+            let given = |n: &&str| inertia.is_none_or(|e| e.attribute(n).is_none());
+            let entries: Vec<&str> = names.iter().filter(|n| given(n)).copied().collect();
+            let missing = match (mass, inertia, &entries[..]) {
+                (_, None, _) => "no <inertia>".into(),
+                (None, ..) => "no <mass value=\"…\"/>".into(),
+                (.., [only]) => format!("no `{only}` in <inertia>"),
+                (.., [all @ .., last]) => format!("no `{}` and `{last}` in <inertia>", all.join("`, `")),
+                (.., []) => "no numbers in <inertia>".into(),
+            };
+            self.out.warning(inertial.span(), format!("<inertial> has {missing}: it is left"));
             return None;
         };
+        let [xx, xy, xz, yy, yz, zz] = [xx, xy, xz, yy, yz, zz].map(Rational::clone);
         let entries = [xx, xy, xz, yy, yz, zz];
         self.say_inertia(&mass, &entries, inertial.span());
         Some(Mass::about(mass, &origin, entries))

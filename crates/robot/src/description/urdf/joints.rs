@@ -147,7 +147,11 @@ impl Reader {
                 .warning(link.span.clone(), "the link `world` is not declared; it is taken as the ground");
             return Some(links.add(known, None, link.span));
         }
+        let is_full = self.out.is_full();
         let finding = self.out.error(link.span.clone(), format!("there is no link `{}`", shown(link.text)));
+        if is_full {
+            return None;
+        }
         if let Some(near) = nearest(&known, links.bodies.iter().map(|b| b.name.as_str())) {
             finding.hint(format!("did you mean `{near}`?"));
         }

@@ -185,14 +185,16 @@ impl Reader {
                 let leader = by_name.get(name.as_str()).copied().filter(|&l| drafts[l].moves());
                 let Some(leader) = leader else {
                     if at == k {
-                        let message = format!(
-                            "`{}` is no joint that moves; `{}` moves by itself",
-                            shown(name),
-                            shown(&drafts[k].joint.name)
-                        );
+                        let (leader, own) = (shown(name), shown(&drafts[k].joint.name));
+                        let is_fixed = by_name.contains_key(name.as_str());
+                        let what = if is_fixed { "does not move" } else { "is no joint" };
+                        let message = format!("`{leader}` {what}; `{own}` moves by itself");
                         let finding = self.out.warning(span.clone(), message);
-                        let names = drafts.iter().filter(|d| d.moves()).map(|d| d.joint.name.as_str());
-                        if let Some(near) = nearest(name, names) {
+                        let others =
+                            drafts.iter().filter(|d| d.moves() && d.joint.name != drafts[k].joint.name);
+                        let near = nearest(name, others.map(|d| d.joint.name.as_str()));
+                        // A name that is that of a joint was meant.
+                        if let Some(near) = near.filter(|_| !is_fixed) {
                             finding.hint(format!("did you mean `{near}`?"));
                         }
                     }
