@@ -66,7 +66,10 @@ impl RowTree {
                 return Err(NoChain::Rigid { from, to });
             }
             // In other conventions frames stand elsewhere.
-            let frames = if convention == Convention::Khalil { self.frames_on(rows) } else { vec![] };
+            let frames = match convention {
+                Convention::Khalil => self.frames_on(rows, start.0.is_none()),
+                _ => vec![],
+            };
             return Ok(RowChain { description, from, to, agreement: None, held, unweighed, frames });
         }
         let mechanism = self.mechanism().map_err(|missing| NoChain::NeedsValues(missing.parameters))?;
@@ -85,17 +88,20 @@ impl RowTree {
         })
     }
 
-    /// The frames with names on the rows of a way, which is a table.
-    fn frames_on(&self, way: &[usize]) -> Vec<NamedFrame> {
-        let place = |f: &NamedFrame| {
-            let on = way.iter().position(|j| f.on == Some(*j))?;
-            Some(NamedFrame { on: Some(on), ..f.clone() })
+    /// The frames with names on the rows of a way, which is a table, and, if it begins there, on frame 0.
+    fn frames_on(&self, way: &[usize], from_0: bool) -> Vec<NamedFrame> {
+        let place = |f: &NamedFrame| match f.on {
+            None => from_0.then(|| f.clone()),
+            Some(row) => {
+                let on = way.iter().position(|j| row == *j)?;
+                Some(NamedFrame { on: Some(on), ..f.clone() })
+            }
         };
         self.frames.iter().filter_map(place).collect()
     }
 
     /// What the frame is called that a word names: by its name, or a row by its number; 0 is the base.
-    fn named(&self, word: &str) -> String {
+    pub(crate) fn named(&self, word: &str) -> String {
         let is_name = self.frame_names().iter().any(|n| n == word);
         match word.parse::<usize>() {
             Ok(0) if !is_name => BASE.into(),
@@ -168,6 +174,7 @@ impl RowTree {
             return None;
         }
         let all = self.variables();
+        // The variables that move the rows before, in the order in which they come.
         let mut known: Vec<Symbol> = vec![];
         let mut rows: Vec<Row> = vec![];
         for &j in way {
@@ -201,10 +208,17 @@ impl RowTree {
             .chain(base.matrix().concat())
             .chain(end.1.matrix().concat())
             .chain(self.gravity.into_iter().flatten())
+            .chain(self.frames.iter().flat_map(|f| f.pose.matrix().concat()))
             // What hangs beside the way weighs as well.
             .chain(self.rows.iter().flat_map(|r| r.mass_cells().map(|cell| cell.1)))
             .flat_map(Expr::symbols)
             .collect();
+        let number = |s: &Symbol| all.iter().position(|x| x == s);
+        let pose = |(name, values): &(String, Vec<Expr>)| {
+            let values = known.iter().map(|s| values.get(number(s)?).copied());
+            Some((name.clone(), values.collect::<Option<Vec<Expr>>>()?))
+        };
+        let poses = self.poses.iter().filter_map(pose).collect();
         Some(Description {
             name: self.name.clone(),
             source: self.source.clone(),
@@ -213,7 +227,7 @@ impl RowTree {
             rows,
             base,
             tool: end.1,
-            poses: vec![],
+            poses,
             gravity: self.gravity,
         })
     }

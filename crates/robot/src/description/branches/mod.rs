@@ -37,6 +37,8 @@ pub struct RowTree {
     pub frames: Vec<NamedFrame>,
     /// The frame at which a chain ends if no other is asked for.
     pub tip: Option<String>,
+    /// Configurations with names: values of all joint variables, q1 first.
+    pub poses: Vec<(String, Vec<Expr>)>,
     /// The acceleration of gravity in the base, m/s².
     pub gravity: Option<[Expr; 3]>,
 }
@@ -77,7 +79,7 @@ impl RowTree {
             rows: self.rows.clone(),
             base: self.base,
             tool: self.frames.first().map_or(Transform::identity(), |f| f.pose),
-            poses: vec![],
+            poses: self.poses.clone(),
             gravity: self.gravity,
         }
     }
@@ -98,6 +100,7 @@ impl RowTree {
             base: d.base,
             frames: vec![],
             tip: None,
+            poses: d.poses,
             gravity: d.gravity,
         }
     }
@@ -111,6 +114,7 @@ impl RowTree {
             after: (0..khalil.rows.len()).map(|j| j.checked_sub(1)).collect(),
             frames: [tool].into_iter().filter(|f| f.pose != Transform::identity()).collect(),
             tip: None,
+            poses: khalil.poses,
             name: khalil.name,
             source: khalil.source,
             parameters: khalil.parameters,

@@ -272,6 +272,7 @@ impl<'t> Reader<'t> {
             base: base?,
             frames: vec![],
             tip: None,
+            poses: vec![],
             gravity,
         })
     }

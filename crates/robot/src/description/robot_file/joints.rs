@@ -82,13 +82,16 @@ impl Reader<'_> {
         &mut self,
         value: Option<&'a Spanned<DeValue<'a>>>,
         convention: Option<Convention>,
+        are_needed: bool,
     ) -> Vec<Draft<'a>> {
         let Some(value) = value else {
-            self.out.error(0..0, "there are no joints").hint("each row of the table is a [[joints]]");
+            if are_needed {
+                self.out.error(0..0, "there are no joints").hint("each row of the table is a [[joints]]");
+            }
             return vec![];
         };
         let Some(array) = self.array(value, "[[joints]]") else { return vec![] };
-        if array.is_empty() {
+        if array.is_empty() && are_needed {
             self.out.error(value.span(), "there are no joints").hint("each row of the table is a [[joints]]");
         }
         if array.len() > MAX_ROWS {

@@ -114,7 +114,9 @@ impl Reader<'_> {
 
         let declared = self.parameter_names(fields.get("parameters"));
         let names: Vec<String> = declared.iter().map(|p| p.name.clone()).collect();
-        let drafts = self.joints(fields.get("joints"), convention);
+        // Frames alone are a tree, too.
+        let needs_joints = fields.get("frames").is_none();
+        let drafts = self.joints(fields.get("joints"), convention, needs_joints);
         let cells: Vec<rows::Cells> = drafts.iter().map(|d| d.cells.clone()).collect();
         let pieces = self.branches(&fields, &drafts, convention);
         let (base, base_cells) = self.frame(fields.get("base"), "base");

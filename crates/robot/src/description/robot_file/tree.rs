@@ -74,12 +74,10 @@ impl Reader<'_> {
             }
             return vec![];
         }
-        for key in ["tool", "poses"] {
-            if let Some(value) = fields.get(key) {
-                self.out
-                    .error(value.span(), format!("`{key}` in a tree"))
-                    .hint("frames with names are [[frames]]: name, on, xyz, rpy");
-            }
+        if let Some(value) = fields.get("tool") {
+            self.out
+                .error(value.span(), "`tool` in a tree")
+                .hint("frames with names are [[frames]]: name, on, xyz, rpy");
         }
         let names: Vec<Option<String>> = drafts.iter().map(|d| self.string(d.fields.get("name"))).collect();
         let mut after = vec![];

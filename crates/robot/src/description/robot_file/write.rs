@@ -57,6 +57,7 @@ pub fn write_tree(tree: &RowTree) -> String {
         out.push_str("\n[base]\n");
         write_frame(&mut out, &tree.base);
     }
+    write_poses(&mut out, &d);
     out
 }
 

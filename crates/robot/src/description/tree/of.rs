@@ -9,7 +9,7 @@ use crate::description::{
 };
 use crate::geometry::{self, Axis, Transform, Vector};
 use denavit_symbolic::{Angle, Expr, Rational, Symbol};
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 impl Mechanism {
     /// The chain of a description, with the values of its parameters; rows that do not move are part of the next origin.
@@ -37,15 +37,8 @@ impl Mechanism {
         }
         let end = Place { origin: place.origin * d.tool, ..place };
         growing.still(end, "tool_joint", "tool");
-        let own = growing.own.clone();
-        let mut tree = growing.finished();
-        // The variables of the tree are those of the description, in the order of its joints.
-        let place = |joint: usize| own.iter().position(|o| *o == Some(joint));
-        let order: Vec<usize> = tree.variables().into_iter().filter_map(place).collect();
-        let pose =
-            |(name, values): &(String, Vec<Expr>)| (name.clone(), order.iter().map(|&v| values[v]).collect());
+        let mut tree = growing.finished(&d.poses);
         tree.gravity = d.gravity.map(|g| g.map(|e| known(e, &d.parameters))).filter(|g| is_constant(g));
-        tree.poses = d.poses.iter().filter(|p| p.1.len() == order.len()).map(pose).collect();
         Ok(tree)
     }
 
@@ -83,7 +76,7 @@ impl Mechanism {
             let on = place(*on, &of_row);
             growing.still(Place { origin: on.origin * *pose, ..on }, name, name);
         }
-        let mut mechanism = growing.finished();
+        let mut mechanism = growing.finished(&tree.poses);
         let gravity = tree.gravity.map(|g| g.map(|e| known(e, &tree.parameters)));
         mechanism.gravity = gravity.filter(|g| is_constant(g));
         Ok(mechanism)
@@ -313,12 +306,21 @@ impl<'d> Growing<'d> {
         self.tree.bodies[body].mass = is_known.then_some(mass);
     }
 
-    fn finished(mut self) -> Mechanism {
+    /// The tree, with configurations that are given by the variables of the rows.
+    fn finished(mut self, poses: &[(String, Vec<Expr>)]) -> Mechanism {
+        // The variables of the tree are those of the rows, in the order of its joints.
+        let numbers: HashMap<usize, usize> =
+            self.own.iter().enumerate().filter_map(|(v, joint)| Some(((*joint)?, v))).collect();
         for (joint, variable, factor) in self.following {
             let offset = Expr::int(0);
             self.tree.joints[joint].follows =
                 self.own[variable].map(|joint| Follows { joint, factor, offset });
         }
+        let variables = self.tree.variables();
+        let order: Vec<usize> = variables.iter().filter_map(|j| numbers.get(j).copied()).collect();
+        let pose =
+            |(name, values): &(String, Vec<Expr>)| (name.clone(), order.iter().map(|&v| values[v]).collect());
+        self.tree.poses = poses.iter().filter(|p| p.1.len() == order.len()).map(pose).collect();
         self.tree
     }
 }
