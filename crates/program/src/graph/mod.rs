@@ -240,10 +240,7 @@ impl Graph {
         if let Some(&v) = self.traced.get(&e) {
             return v;
         }
-        for part in Expr::postorder(&[e]) {
-            if self.traced.contains_key(&part) {
-                continue;
-            }
+        for part in Expr::postorder_of_new(&[e], |e| self.traced.contains_key(&e)) {
             let of = |x: &Expr| self.traced[x];
             let v = match part.node() {
                 Node::Number(r) => self.number(&r),

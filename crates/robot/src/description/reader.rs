@@ -6,7 +6,7 @@ use super::diagnostic::{Diagnostics, Severity};
 use super::xml::{Element, Text, shown};
 use crate::geometry::{Rotation, Transform, Vector};
 use denavit_symbolic::{Expr, Rational};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
 
 /// Lengths below this (metres) are noise of a program.
@@ -22,6 +22,8 @@ pub(super) struct Reader {
     pub is_part: bool,
     /// What angles were taken for: by text and multiple, where first, how often.
     angles: BTreeMap<(String, i64), Angles>,
+    /// Rotations by roll, pitch and yaw: most are those of many joints.
+    rotations: HashMap<[Expr; 3], Rotation<Expr>>,
 }
 
 struct Angles {
@@ -33,7 +35,7 @@ struct Angles {
 
 impl Reader {
     pub fn new(out: Diagnostics, decimals: Decimals) -> Self {
-        Reader { out, decimals, is_part: false, angles: BTreeMap::new() }
+        Reader { out, decimals, is_part: false, angles: BTreeMap::new(), rotations: HashMap::new() }
     }
 
     /// A decimal.
@@ -171,8 +173,10 @@ impl Reader {
             });
             [0, 1, 2].map(|_| read.next().unwrap_or(Expr::int(0)))
         };
-        let (xyz, [roll, pitch, yaw]) = (three("xyz", false), three("rpy", true));
-        Transform::from_rotation_translation(Rotation::from_rpy(roll, pitch, yaw), Vector(xyz))
+        let (xyz, rpy) = (three("xyz", false), three("rpy", true));
+        let [roll, pitch, yaw] = rpy;
+        let rotation = self.rotations.entry(rpy).or_insert_with(|| Rotation::from_rpy(roll, pitch, yaw));
+        Transform::from_rotation_translation(*rotation, Vector(xyz))
     }
 
     /// `<axis xyz>`, x where there is none.

@@ -1,7 +1,9 @@
 //! The chains of two descriptions of a tree, held against each other.
 
-use super::compared::{Comparison, compare};
-use crate::description::{Convention, Description, Mechanism, RowTree};
+use super::compared::{COMPARED, Comparison, apart, compare, range};
+use crate::description::{Convention, Description, Joint, JointKind, Likeness, Mechanism, RowTree};
+use crate::random::Random;
+use std::borrow::Cow;
 
 /// A tree as it was described.
 #[derive(Clone, Copy, Debug)]
@@ -54,9 +56,74 @@ impl Tree<'_> {
     }
 }
 
+/// So many rows on chains are compared chain by chain: with the names of their parameters, or where numbers are not exact.
+const FEW: usize = 2000;
+
 /// Compares the chains from the root of a tree to these ends with those of rows, in which the ends have their second names. What has
 /// no joint is no chain.
 pub fn compare_chains(tree: Tree, rows: &RowTree, ends: &[(String, String)]) -> Chains {
+    let is_named = |r: &RowTree| !r.parameters.is_empty() && r.rows.len() * ends.len() <= FEW;
+    let bodies = match tree {
+        Tree::Bodies(m) => Some(Cow::Borrowed(m)),
+        Tree::Rows(r) if is_named(r) => None,
+        Tree::Rows(r) => r.mechanism().ok().map(Cow::Owned),
+    };
+    let whole = bodies.and_then(|m| compare_whole(&m, rows, ends));
+    whole.unwrap_or_else(|| compare_each(tree, rows, ends))
+}
+
+/// All chains at once, in numbers; nothing where there are none.
+fn compare_whole<'a>(tree: &Mechanism, rows: &RowTree, ends: &'a [(String, String)]) -> Option<Chains> {
+    let other = rows.mechanism().ok()?;
+    let known = |(end, there): &'a (String, String)| {
+        Some(((tree.body(end)?, other.body(&rows.named(there))), there.as_str()))
+    };
+    let (pairs, names): (Vec<_>, Vec<&str>) = ends.iter().filter_map(known).unzip();
+    let mut alike = tree.alikeness(&other, &pairs)?;
+    let close: Vec<usize> = (0..pairs.len()).filter(|&k| alike.ends[k] == Likeness::Close).collect();
+    if close.len() * rows.rows.len() <= FEW {
+        for k in close {
+            let [end, there] = [tree.bodies[pairs[k].0].name.as_str(), names[k]];
+            let one = tree.chain(None, Some(end), Convention::Khalil).ok();
+            let two = rows.chain(None, Some(there), Convention::Khalil).ok();
+            let both = one.zip(two).map(|(a, b)| compare(&a.description, &b.description));
+            if both == Some(Comparison::Proved) {
+                alike.ends[k] = Likeness::Proved;
+            }
+        }
+    }
+    let is_open = |l: &Likeness| matches!(l, Likeness::Open | Likeness::Close);
+    let count = |of: Likeness| alike.ends.iter().filter(|l| **l == of).count();
+    let sampled = alike.ends.iter().filter(|l| is_open(l)).count();
+    let (proved, others) = (count(Likeness::Proved), count(Likeness::OtherJoints));
+    let mut found = Chains { proved, sampled, others, ..Chains::default() };
+    if sampled == 0 {
+        return Some(found);
+    }
+    let joints: Vec<&Joint> = tree.variables().into_iter().map(|j| &tree.joints[j]).collect();
+    let ranges: Vec<[f64; 2]> =
+        joints.iter().map(|j| range(j.kind.unwrap_or(JointKind::Revolute), j.limits)).collect();
+    let (here, there) = (tree.placing(), other.placing());
+    let mut random = Random(20);
+    for _ in 0..COMPARED {
+        let q: Vec<f64> = ranges.iter().map(|[low, high]| low + (high - low) * random.unit()).collect();
+        let mut other_q = vec![0.0; other.variables().len()];
+        for (x, v) in q.iter().zip(&alike.variables) {
+            if let Some(v) = v {
+                other_q[*v] = *x;
+            }
+        }
+        let (x, y) = (here.poses(&q), there.poses(&other_q));
+        let open = pairs.iter().zip(&alike.ends).filter(|(_, l)| is_open(l));
+        for (a, b) in open.filter_map(|((a, b), _)| Some((*a, (*b)?))) {
+            found.most = apart(found.most, &x[a], &y[b]);
+        }
+    }
+    Some(found)
+}
+
+/// Each chain by itself.
+fn compare_each(tree: Tree, rows: &RowTree, ends: &[(String, String)]) -> Chains {
     let mut found = Chains::default();
     for (end, there) in ends {
         let Some(one) = tree.chain(end) else { continue };

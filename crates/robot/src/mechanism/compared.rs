@@ -4,8 +4,10 @@
 //! what can be said is by how much poses differ in configurations that look random.
 
 use super::{MissingValue, Robot};
-use crate::description::{Description, JointKind, prove_same_chain};
+use crate::description::{Description, JointKind, compare_screws, prove_same_chain};
+use crate::geometry::Transform;
 use crate::random::Random;
+use denavit_symbolic::Expr;
 use std::f64::consts::PI;
 
 /// How many configurations are compared.
@@ -49,7 +51,11 @@ pub fn compare(a: &Description, b: &Description) -> Comparison {
     if kinds(a) != kinds(b) {
         return Comparison::OtherJoints;
     }
-    if prove_same_chain(a, b).is_equal() || prove_same_chain(&a.in_numbers(), &b.in_numbers()).is_equal() {
+    let (a_numbers, b_numbers) = (a.in_numbers(), b.in_numbers());
+    let is_proved =
+        || prove_same_chain(a, b).is_equal() || prove_same_chain(&a_numbers, &b_numbers).is_equal();
+    // What is another function by its axes need not be multiplied out.
+    if compare_screws(&a_numbers, &b_numbers).unwrap_or_else(is_proved) {
         return Comparison::Proved;
     }
     let (one, other) = match (Robot::numeric(a), Robot::numeric(b)) {
@@ -57,22 +63,25 @@ pub fn compare(a: &Description, b: &Description) -> Comparison {
         (Err(missing), _) | (_, Err(missing)) => return Comparison::NoNumbers(missing),
     };
     let ranges: Vec<[f64; 2]> =
-        a.rows.iter().filter_map(|r| Some((r.variable?, r.limits))).map(range).collect();
+        a.rows.iter().filter_map(|r| Some(range(r.variable?.kind, r.limits))).collect();
     let mut random = Random(20);
     let mut most = 0.0_f64;
     for _ in 0..COMPARED {
         let q: Vec<f64> = ranges.iter().map(|[low, high]| low + (high - low) * random.unit()).collect();
-        let [x, y] = [&one, &other].map(|r| r.pose(&q).matrix().concat());
-        most = x.iter().zip(y).fold(most, |most, (x, y)| largest(most, (x - y).abs()));
+        most = apart(most, &one.pose(&q), &other.pose(&q));
     }
     Comparison::Sampled(most)
 }
 
+/// The largest difference of entries, or what was larger before.
+pub(super) fn apart(most: f64, x: &Transform<f64>, y: &Transform<f64>) -> f64 {
+    let (x, y) = (x.matrix().concat(), y.matrix().concat());
+    x.iter().zip(y).fold(most, |most, (x, y)| largest(most, (x - y).abs()))
+}
+
 /// Where values of a variable are taken from.
-fn range(
-    (variable, limits): (crate::description::Variable, Option<[denavit_symbolic::Expr; 2]>),
-) -> [f64; 2] {
-    let all = match variable.kind {
+pub(super) fn range(kind: JointKind, limits: Option<[Expr; 2]>) -> [f64; 2] {
+    let all = match kind {
         JointKind::Revolute => [-PI, PI],
         JointKind::Prismatic => [-FAR, FAR],
     };

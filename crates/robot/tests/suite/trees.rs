@@ -8,8 +8,10 @@ use denavit::description::{
     read_table_robot, read_toml, read_urdf, write_mjcf, write_par, write_tree, write_urdf,
 };
 use denavit::geometry::Transform;
-use denavit::mechanism::{Comparison, compare};
+use denavit::mechanism::{Comparison, Tree, compare, compare_chains};
 use denavit::robot::Robot;
+use denavit_symbolic::{Expr, Rational};
+use std::time::Instant;
 
 fn shown(text: &str, findings: &[Diagnostic]) -> Vec<String> {
     let one = |d: &Diagnostic| {
@@ -509,4 +511,89 @@ fn gears_turn_by_their_factor() {
         compared += 1;
     }
     assert!(compared > 20, "{compared}");
+}
+
+/// Configurations of a tree have a value for each variable of it; those of a chain the values of its own.
+#[test]
+fn a_tree_has_poses() {
+    let text = "convention = \"khalil\"\ntip = \"c\"\n[[joints]]\nname = \"a\"\ntheta = \"q1\"\n[[joints]]\nname = \"b\"\nd = 1\n\
+                theta = \"q2\"\n[[joints]]\nname = \"c\"\nafter = \"a\"\nd = 2\nr = \"q3\"\n[poses]\nhome = [\"30 deg\", 1, 0.5]\n";
+    let read = tree(text);
+    let again = tree(&write_tree(&read));
+    let degrees = |n| Expr::from(Rational::new(n, 180)) * Expr::pi();
+    let all = vec![("home".to_string(), vec![degrees(30), Expr::int(1), Rational::new(1, 2).into()])];
+    assert_eq!((&read.poses, &again.poses), (&all, &all));
+    let chain = again.chain(None, None, Convention::Khalil).unwrap().description;
+    assert_eq!(chain.poses, [("home".to_string(), vec![all[0].1[0], all[0].1[2]])]);
+    let bodies = again.mechanism().unwrap();
+    assert_eq!(bodies.poses, all);
+    assert_eq!(RowTree::of_mechanism(&bodies).unwrap().poses, all);
+    let wrong = text.replace(", 0.5]", "]");
+    assert_eq!(
+        shown(&wrong, &read_robot(&wrong).unwrap_err()),
+        ["16:8: the pose `home` has 2 values for 3 joint variables"]
+    );
+}
+
+/// Frames alone, of which none moves, are a tree.
+#[test]
+fn a_tree_may_stand_still() {
+    let text = "<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='fixed'><origin xyz='1 2 3'/>\
+                <parent link='a'/><child link='b'/></joint></robot>";
+    let (m, _) = read_urdf(text, Decimals::Meant).unwrap();
+    let again = tree(&write_tree(&RowTree::of_mechanism(&m).unwrap()));
+    assert_eq!((again.rows.len(), again.frames.len()), (0, 1));
+    assert_eq!(again.frames[0].pose.translation.0, [1, 2, 3].map(Expr::int));
+    assert!(matches!(again.chain(None, None, Convention::Khalil), Err(NoChain::Rigid { .. })));
+    let empty = "convention = \"khalil\"\n";
+    assert_eq!(shown(empty, &read_robot(empty).unwrap_err()), ["1:1: there are no joints"]);
+}
+
+/// Frames with names on frame 0 are frames of the chains that begin there, and their parameters are parameters of these.
+#[test]
+fn frames_of_a_chain_keep_their_parameters() {
+    let text = "convention = \"khalil\"\ntip = \"a\"\n[parameters]\nL = 0.5\nK = 0.25\n[[joints]]\nname = \"a\"\ntheta = \"q1\"\n\
+                [[joints]]\nname = \"b\"\nd = 1\ntheta = \"q2\"\n[[frames]]\nname = \"f\"\non = \"a\"\nxyz = [\"L\", 0, 0]\n\
+                [[frames]]\nname = \"g\"\non = \"base\"\nxyz = [\"K\", 0, 0]\n";
+    let chain = tree(text).chain(None, None, Convention::Khalil).unwrap();
+    let names: Vec<(&str, Option<usize>)> = chain.frames.iter().map(|f| (f.name.as_str(), f.on)).collect();
+    assert_eq!(names, [("f", Some(0)), ("g", None)]);
+    for frame in &chain.frames {
+        let x = frame.pose.translation[0].eval(|s| chain.description.value(s));
+        assert!(x.is_ok_and(|x| x > 0.2), "{}", frame.name);
+    }
+}
+
+/// A tree of many joints is written as rows and held against them at once: by its joints, not by its chains.
+#[test]
+fn a_tree_of_many_joints_is_compared_soon() {
+    let mut random = Random(499);
+    let mut text = String::from("<robot name='r'><link name='l0'/>");
+    for i in 1..500 {
+        let parent = if i < 250 { i - 1 } else { i - 249 };
+        let axis = ["1 0 0", "0 1 0", "0 0 1"][(random.unit() * 3.0) as usize % 3];
+        let turn =
+            ["0 0 0", "1.5707963267948966 0 0", "0 0.7853981633974483 0"][(random.unit() * 3.0) as usize % 3];
+        text += &format!(
+            "<link name='l{i}'/><joint name='j{i}' type='continuous'><origin xyz='0.1 0.02 0.3' rpy='{turn}'/>\
+             <parent link='l{parent}'/><child link='l{i}'/><axis xyz='{axis}'/></joint>"
+        );
+    }
+    text += "</robot>";
+    let start = Instant::now();
+    let (m, _) = read_urdf(&text, Decimals::Meant).unwrap();
+    let rows = RowTree::of_mechanism(&m).unwrap();
+    let back = tree(&write_tree(&rows));
+    let ends: Vec<(String, String)> = rows.frames.iter().map(|f| (f.name.clone(), f.name.clone())).collect();
+    let same = compare_chains(Tree::Bodies(&m), &back, &ends);
+    assert_eq!((same.count(), same.others, same.open), (ends.len(), 0, 0));
+    assert!(!same.differ() && same.proved > 0, "{same:?}");
+    // A link that is longer is seen in the chains over it, a joint that counts otherwise as well.
+    let longer = text.replacen("xyz='0.1 0.02 0.3'", "xyz='0.1 0.02 0.4'", 1);
+    let other = compare_chains(Tree::Bodies(&read_urdf(&longer, Decimals::Meant).unwrap().0), &back, &ends);
+    assert!(other.proved < same.proved && other.most > 0.05, "{other:?}");
+    let sliding = text.replacen("continuous", "prismatic", 1);
+    let other = compare_chains(Tree::Bodies(&read_urdf(&sliding, Decimals::Meant).unwrap().0), &back, &ends);
+    assert!(other.others > 200, "{other:?}");
+    assert!(start.elapsed().as_secs() < 100, "{:?}", start.elapsed());
 }

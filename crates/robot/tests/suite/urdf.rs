@@ -7,6 +7,7 @@ use denavit::description::{
     prove_same_chain, read_urdf, write_toml, write_urdf,
 };
 use denavit::geometry::{Rotation, Transform};
+use denavit::mechanism::{Comparison, compare};
 use denavit::robot::Robot;
 use denavit_symbolic::{Angle, Expr, Rational};
 use serde_json::Value;
@@ -410,6 +411,69 @@ fn a_large_robot_is_read_soon() {
     assert!(m.bodies.len() > 80);
     // 20 ms in a release build; tests share their processor.
     assert!(start.elapsed() < Duration::from_millis(500), "{:?}", start.elapsed());
+}
+
+/// Very many links that do not move, beside each other or on each other, and as many names that are not there.
+#[test]
+fn very_many_links_are_read_soon() {
+    const MANY: usize = 20_000;
+    let fixed = |name: usize, parent: usize| {
+        format!(
+            "<link name='l{name}'/><joint name='j{name}' type='fixed'><origin xyz='0.01 0 0.02' rpy='0 0 0.3'/>\
+             <parent link='l{parent}'/><child link='l{name}'/></joint>"
+        )
+    };
+    let moving = "<link name='l0'/><link name='tip'/><joint name='j' type='continuous'><parent link='l0'/><child link='tip'/></joint>";
+    let of = |parent: fn(usize) -> usize| -> String {
+        let all: String = (1..MANY).map(|i| fixed(i, parent(i))).collect();
+        format!("<robot name='r'>{moving}{all}</robot>")
+    };
+    for parent in
+        [(|_| 0) as fn(usize) -> usize, |i| i - 1, |i| if i % 2 == 0 { i - 1 } else { i.saturating_sub(2) }]
+    {
+        let text = of(parent);
+        let start = Instant::now();
+        let m = read_urdf(&text, Decimals::Meant).unwrap().0;
+        assert_eq!(m.apart(&read_urdf(&text, Decimals::AsWritten).unwrap().0), 0.0);
+        let chain = m.chain(None, Some("tip"), Convention::Standard).unwrap();
+        assert_eq!(m.frames(&chain).len(), MANY + 1);
+        // What is said of the others is that they have no joints.
+        assert_eq!(m.chain(None, None, Convention::Standard).unwrap().to, m.body("tip").unwrap());
+        // 4 s and less in a release build.
+        assert!(start.elapsed() < Duration::from_secs(60), "{:?}", start.elapsed());
+    }
+    let text = of(|_| 0).replace("<parent link='l0'/>", "<parent link='lost'/>");
+    let start = Instant::now();
+    assert!(read_urdf(&text, Decimals::Meant).is_err());
+    assert!(start.elapsed() < Duration::from_secs(30), "{:?}", start.elapsed());
+}
+
+/// A chain of many joints whose angles are no multiples of 15° is made, written and held against itself soon.
+#[test]
+fn a_long_chain_is_converted_soon() {
+    let joint = |i: usize| {
+        format!(
+            "<link name='l{i}'/><joint name='j{i}' type='continuous'><origin xyz='0.1 0.02 0.3' rpy='0.3 0 0.7'/>\
+             <parent link='l{}'/><child link='l{i}'/><axis xyz='{}'/></joint>",
+            i - 1,
+            ["1 0 0", "0 1 0", "0 0 1"][i % 3]
+        )
+    };
+    let text =
+        format!("<robot name='r'><link name='l0'/>{}</robot>", (1..=120).map(joint).collect::<String>());
+    let start = Instant::now();
+    let m = read_urdf(&text, Decimals::Meant).unwrap().0;
+    let d = m.chain(None, None, Convention::Standard).unwrap().description;
+    let back = read_urdf(&write_urdf(&d).unwrap(), Decimals::Meant).unwrap().0;
+    let back = back.chain(Some("base"), Some("tool"), Convention::Standard).unwrap().description;
+    let compared = compare(&d, &back);
+    assert!(
+        matches!(compared, Comparison::Proved) || matches!(compared, Comparison::Sampled(by) if by < 1e-12),
+        "{compared:?}"
+    );
+    let all: Vec<usize> = (0..m.bodies.len()).collect();
+    assert_eq!(m.frames_program(&all).compile(&[]).scalar().eval(&[0.1; 120]).len(), 16 * 121);
+    assert!(start.elapsed() < Duration::from_secs(100), "{:?}", start.elapsed());
 }
 
 /// Each robot of the catalogue as a URDF and back: the rows that its axes have, to the letter, and proved the same. Angles that are no

@@ -209,11 +209,18 @@ impl Expr {
 
     /// All nodes under `roots`, each once, parts before wholes.
     pub fn postorder(roots: &[Expr]) -> Vec<Expr> {
-        let mut seen: rustc_hash::FxHashSet<Expr> = roots.iter().copied().collect();
+        Expr::postorder_of_new(roots, |_| false)
+    }
+
+    /// The nodes under `roots` that are not known, each once, parts before wholes; what only known ones hold is not looked at.
+    pub fn postorder_of_new(roots: &[Expr], is_known: impl Fn(Expr) -> bool) -> Vec<Expr> {
+        let mut seen: rustc_hash::FxHashSet<Expr> = roots.iter().copied().filter(|&e| !is_known(e)).collect();
         let mut order: Vec<Expr> = seen.iter().copied().collect();
         let mut next = 0;
         while next < order.len() {
-            order.extend(order[next].children().filter(|&c| seen.insert(c)).collect::<Vec<_>>());
+            order.extend(
+                order[next].children().filter(|&c| !is_known(c) && seen.insert(c)).collect::<Vec<_>>(),
+            );
             next += 1;
         }
         order.sort_unstable(); // a node is always newer than its parts

@@ -163,6 +163,11 @@ impl Real {
         angle.to_decimal(PLACES).into()
     }
 
+    /// As a formula that has this value again: exactly where it is exact, else the binary fraction that it is.
+    pub fn formula(&self) -> Expr {
+        self.to_expr().unwrap_or_else(|| self.fixed().to_rational().into())
+    }
+
     /// As a formula: exactly where it is exact, else a decimal with 18 places.
     pub fn settled(&self) -> Expr {
         self.to_expr().unwrap_or_else(|| self.to_decimal(PLACES).into())
@@ -236,6 +241,8 @@ impl Neg for Real {
 #[derive(Default, Debug)]
 pub struct Values {
     known: FxHashMap<Expr, Option<Real>>,
+    /// Sines and cosines of angles.
+    turns: FxHashMap<Expr, (Fixed, Fixed)>,
 }
 
 impl Values {
@@ -244,16 +251,25 @@ impl Values {
         if let Some(known) = self.known.get(&e) {
             return known.clone();
         }
-        for part in Expr::postorder(&[e]) {
-            if !self.known.contains_key(&part) {
-                let value = self.value(part);
-                self.known.insert(part, value);
-            }
+        for part in Expr::postorder_of_new(&[e], |e| self.known.contains_key(&e)) {
+            let value = self.value(part);
+            self.known.insert(part, value);
         }
         self.known.get(&e).cloned().flatten()
     }
 
-    fn value(&self, e: Expr) -> Option<Real> {
+    /// Sine and cosine of an angle that is known.
+    fn sin_cos(&mut self, angle: Expr) -> Option<&(Fixed, Fixed)> {
+        let value = self.known.get(&angle)?.as_ref()?.fixed();
+        Some(self.turns.entry(angle).or_insert_with(|| value.sin_cos()))
+    }
+
+    fn value(&mut self, e: Expr) -> Option<Real> {
+        match e.node() {
+            Node::Sin(a) => return Some(Real::rounded(self.sin_cos(a)?.0.clone())),
+            Node::Cos(a) => return Some(Real::rounded(self.sin_cos(a)?.1.clone())),
+            _ => {}
+        }
         let of = |e: Expr| self.known.get(&e).cloned().flatten();
         Some(match e.node() {
             Node::Number(x) => Real::from(x),
@@ -273,11 +289,9 @@ impl Values {
                 if n < 0 { power.recip()? } else { power }
             }
             Node::Sqrt(a) => of(a)?.sqrt()?,
-            Node::Sin(a) => Real::rounded(of(a)?.fixed().sin_cos().0),
-            Node::Cos(a) => Real::rounded(of(a)?.fixed().sin_cos().1),
             Node::Atan2(a, b) => of(a)?.atan2(&of(b)?),
             // Whether a rounded number is 0 is not known here.
-            Node::Sign(_) => return None,
+            Node::Sign(_) | Node::Sin(_) | Node::Cos(_) => return None,
         })
     }
 }

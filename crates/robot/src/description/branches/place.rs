@@ -4,11 +4,13 @@
 //! so every way along main children reads as an ordinary table, and the other children begin with γ and b.
 
 use super::{BASE, NamedFrame, RowTree};
-use crate::description::lines::{NotNamed, Turns, frame_on, settled};
-use crate::description::tree::moved;
+use crate::description::lines::{NotNamed, NotPlaced, Pose, Turns, frame_on};
+use crate::description::tree::rest;
 use crate::description::{JointDrive, JointKind, Mass, Mechanism, Row, Screw, Variable};
 use crate::geometry::Transform;
+use denavit_symbolic::real::Values;
 use denavit_symbolic::{Angle, Expr, Rational, Symbol};
+use std::collections::{HashMap, HashSet};
 
 /// A joint that moves, at rest.
 struct Placed {
@@ -16,7 +18,7 @@ struct Placed {
     /// The moving joint that it stands on.
     after: Option<usize>,
     /// A frame on its axis.
-    frame: Transform<Expr>,
+    frame: Pose,
 }
 
 impl RowTree {
@@ -30,10 +32,16 @@ impl RowTree {
         let (placed, on, poses) = at_rest(m)?;
         let frames = along_normals(&placed)?;
         let numbers: Vec<usize> = m.variables();
+        // Variables stand in the order of the joints.
         let symbol = |joint: usize| {
-            let at = numbers.iter().position(|&v| v == joint);
-            Symbol::new(&format!("q{}", at.unwrap_or_default() + 1))
+            Symbol::new(&format!("q{}", numbers.binary_search(&joint).unwrap_or_default() + 1))
         };
+        let mut followers: HashMap<usize, Vec<(&JointDrive, &Rational)>> = HashMap::new();
+        for joint in &m.joints {
+            if let Some(f) = &joint.follows {
+                followers.entry(f.joint).or_default().push((&joint.drive, &f.factor));
+            }
+        }
         let mut tree = RowTree {
             name: m.name.clone(),
             source: None,
@@ -43,12 +51,13 @@ impl RowTree {
             base: Transform::identity(),
             frames: vec![],
             tip: None,
+            poses: m.poses.clone(),
             gravity: m.gravity,
         };
         let mut row_of: Vec<usize> = vec![];
         for (placed, frame) in placed.iter().zip(&frames) {
-            let before = placed.after.map_or(Transform::identity(), |a| frames[a]);
-            let turns = Turns::of(&settled(&(before.inverse() * *frame)), &[])?;
+            let seen = placed.after.map_or_else(|| frame.clone(), |a| frames[a].seen(frame));
+            let turns = Turns::of(&seen.settled(), &[])?;
             let joint = &m.joints[placed.joint];
             let mut on = placed.after.map(|a| row_of[a]);
             let mut rows = rows_of(&turns);
@@ -72,10 +81,7 @@ impl RowTree {
             last.name = Some(joint.name.clone());
             (last.limits, last.velocity) = (joint.limits.filter(|_| own), joint.velocity.filter(|_| own));
             if own {
-                let followers = m.joints.iter().filter_map(|j| {
-                    let follows = j.follows.as_ref().filter(|f| f.joint == placed.joint)?;
-                    Some((&j.drive, &follows.factor))
-                });
+                let followers = followers.get(&placed.joint).into_iter().flatten().copied();
                 let drive =
                     JointDrive::together([(&joint.drive, &Rational::ONE)].into_iter().chain(followers));
                 (last.rotor, last.viscous, last.coulomb) = (drive.rotor, drive.viscous, drive.coulomb);
@@ -84,26 +90,31 @@ impl RowTree {
             tree.after.push(on);
             row_of.push(tree.rows.len() - 1);
         }
+        let mut bodies_on: Vec<Vec<usize>> = vec![vec![]; frames.len()];
+        for (body, k) in on.iter().enumerate().filter_map(|(b, k)| Some((b, (*k)?))) {
+            bodies_on[k].push(body);
+        }
         for (k, frame) in frames.iter().enumerate() {
-            let bodies = (0..m.bodies.len()).filter(|&b| on[b] == Some(k));
-            let masses = bodies.filter_map(|b| {
+            let masses = bodies_on[k].iter().filter_map(|&b| {
                 let mass = m.bodies[b].mass.as_ref()?;
-                Some(mass.body().seen_from(&settled(&(frame.inverse() * poses[b]))))
+                Some(mass.body().seen_from(&frame.seen(&poses[b]).settled()))
             });
             if let Some(mass) = masses.reduce(|a, b| a + b).as_ref().and_then(Mass::of_body) {
                 let row = &mut tree.rows[row_of[k]];
                 (row.mass, row.com, row.inertia) = (Some(mass.mass), Some(mass.com), Some(mass.inertia));
             }
         }
+        let mut taken: HashSet<String> = (0..tree.rows.len()).map(|j| tree.frame_name(j)).collect();
+        taken.insert(BASE.into());
         for body in m.leaves() {
-            let (row, before) = match on[body] {
-                Some(k) => (Some(row_of[k]), frames[k]),
-                None => (None, Transform::identity()),
+            let pose = &poses[body];
+            let (row, pose) = match on[body] {
+                Some(k) => (Some(row_of[k]), frames[k].seen(pose)),
+                None => (None, pose.clone()),
             };
             let name = m.bodies[body].name.clone();
-            let is_taken = name == BASE || (0..tree.rows.len()).any(|j| tree.frame_name(j) == name);
-            let name = if is_taken { format!("{name} body") } else { name };
-            tree.frames.push(NamedFrame { name, on: row, pose: settled(&(before.inverse() * poses[body])) });
+            let name = if taken.contains(&name) { format!("{name} body") } else { name };
+            tree.frames.push(NamedFrame { name, on: row, pose: pose.settled() });
         }
         Ok(tree)
     }
@@ -111,46 +122,53 @@ impl RowTree {
 
 /// The moving joints at rest; for each body the one that it stands on, and its pose.
 #[expect(clippy::type_complexity, reason = "three lists that belong together once")]
-fn at_rest(m: &Mechanism) -> Result<(Vec<Placed>, Vec<Option<usize>>, Vec<Transform<Expr>>), NotNamed> {
+fn at_rest(m: &Mechanism) -> Result<(Vec<Placed>, Vec<Option<usize>>, Vec<Pose>), NotNamed> {
     let mut placed: Vec<Placed> = vec![];
     let mut on: Vec<Option<usize>> = vec![None; m.bodies.len()];
-    let mut poses = vec![Transform::<Expr>::identity(); m.bodies.len()];
+    let mut poses = vec![Pose::identity(); m.bodies.len()];
+    let mut values = Values::default();
     for (j, joint) in m.joints.iter().enumerate() {
-        let before = settled(&(poses[joint.parent] * joint.origin));
-        let follows = joint.follows.as_ref();
-        let rest = follows.map_or(Expr::int(0), |f| f.offset);
-        let motion = joint.kind.map_or(Transform::identity(), |kind| moved(joint, kind, rest));
-        poses[joint.child] = settled(&(before * motion));
+        let symbols = || NotNamed::NotPlaced(NotPlaced::Symbols);
+        let origin = Pose::of(&joint.origin, &mut values).ok_or_else(symbols)?;
+        let before = poses[joint.parent].times(&origin);
         on[joint.child] = on[joint.parent];
-        if joint.kind.is_some() && follows.is_none_or(|f| !f.factor.is_zero()) {
-            let frame = frame_on(&before, joint.axis)
-                .ok_or(NotNamed::NotPlaced(crate::description::NotPlaced::NoDirection(j)))?;
+        if joint.kind.is_some() && joint.follows.as_ref().is_none_or(|f| !f.factor.is_zero()) {
+            let frame = frame_on(&before, joint.axis, &mut values)
+                .ok_or(NotNamed::NotPlaced(NotPlaced::NoDirection(j)))?;
             placed.push(Placed { joint: j, after: on[joint.parent], frame });
             on[joint.child] = Some(placed.len() - 1);
         }
+        poses[joint.child] = before.times(&rest(joint, &mut values).ok_or_else(symbols)?);
     }
     Ok((placed, on, poses))
 }
 
 /// The frames, turned and moved along their axes so that x is the normal to the main child.
-fn along_normals(placed: &[Placed]) -> Result<Vec<Transform<Expr>>, NotNamed> {
+fn along_normals(placed: &[Placed]) -> Result<Vec<Pose>, NotNamed> {
     let mut behind = vec![1_usize; placed.len()];
     for k in (0..placed.len()).rev() {
         if let Some(a) = placed[k].after {
             behind[a] = behind[a].max(behind[k] + 1);
         }
     }
-    let main = |k: usize| {
-        let children = (0..placed.len()).filter(|&c| placed[c].after == Some(k));
-        children.max_by_key(|&c| (behind[c], std::cmp::Reverse(c)))
+    // The child with the most joints behind it, of several the first.
+    let mut main: Vec<Option<usize>> = vec![None; placed.len()];
+    for (c, child) in placed.iter().enumerate() {
+        let Some(a) = child.after else { continue };
+        if main[a].is_none_or(|m| behind[c] > behind[m]) {
+            main[a] = Some(c);
+        }
+    }
+    let frame = |(k, own): (usize, &Placed)| {
+        let Some(child) = main[k] else { return Ok(own.frame.clone()) };
+        let turns = Turns::of(&own.frame.seen(&placed[child].frame).settled(), &[])?;
+        if turns.x.is_empty() {
+            return Ok(own.frame.clone());
+        }
+        let along = Pose::of(&turns.z[0].transform(), &mut Values::default());
+        Ok(along.map_or_else(|| own.frame.clone(), |z| own.frame.times(&z)))
     };
-    let frame = |k: usize| {
-        let own = placed[k].frame;
-        let Some(child) = main(k) else { return Ok(own) };
-        let turns = Turns::of(&settled(&(own.inverse() * placed[child].frame)), &[])?;
-        Ok(if turns.x.is_empty() { own } else { settled(&(own * turns.z[0].transform())) })
-    };
-    (0..placed.len()).map(frame).collect()
+    placed.iter().enumerate().map(frame).collect()
 }
 
 /// A constant transform as rows.

@@ -1,12 +1,12 @@
 //! Base and tool as rows: a rigid transform is `Rz·Tz·Tx·Rx` and a motion about and along z behind it, so that a table alone can say
 //! where its base and its tool are.
 
-use super::space::{Frame, V, cleaned, dot, minus, scaled, unit};
+use super::space::{Frame, Pose, V, cleaned, dot, minus, scaled, unit};
 use super::{AxisAtRest, ChainAtRest, NotNamed};
 use crate::description::{Convention, Description, JointKind, Parameter, Row, Screw};
 use crate::geometry::{Axis, Transform, Vector};
 use denavit_symbolic::real::Values;
-use denavit_symbolic::{Angle, Expr, Rational};
+use denavit_symbolic::{Angle, Expr, Rational, Symbol};
 
 /// A transform as motions about and along z and x in turn: the first and the last are those of z.
 pub(in crate::description) struct Turns {
@@ -37,20 +37,26 @@ impl Turns {
             tip: *x,
             beside: x.rotation,
         };
-        let d = chain.named_description("", Convention::Standard, parameters)?.description;
-        let still = |e: Expr| {
-            let all = d.variables();
-            Angle::of(e.substitute(|s| all.iter().any(|v| v.symbol == s).then(|| Expr::int(0)))).to_expr()
+        let is_named = || chain.symbols().iter().any(|s| parameters.iter().any(|p| p.symbol == *s));
+        let (rows, tool) = if parameters.is_empty() || !is_named() {
+            let placed = chain.rows()?;
+            (placed.rows, placed.tool)
+        } else {
+            let d = chain.named_description("", Convention::Standard, parameters)?.description;
+            (d.rows, d.tool)
         };
+        let variables: Vec<Symbol> = rows.iter().filter_map(|r| Some(r.variable?.symbol)).collect();
+        let still =
+            |e: Expr| Angle::of(e.substitute(|s| variables.contains(&s).then(|| Expr::int(0)))).to_expr();
         let mut turns = Turns { z: vec![], x: vec![] };
-        for row in &d.rows {
+        for row in &rows {
             turns.z.push(screw(Axis::Z, still(row.theta), still(row.d)));
             turns.x.push(screw(Axis::X, row.alpha, row.a));
         }
         // The last row turns about the other z, and what is left is a turn about it.
         turns.x.pop();
         let mut values = Values::default();
-        let m = d.tool.rotation;
+        let m = tool.rotation;
         if let (Some(last), Some(s), Some(c)) =
             (turns.z.last_mut(), values.of(m[(1, 0)]), values.of(m[(0, 0)]))
         {
@@ -82,18 +88,14 @@ pub(in crate::description) fn settled(x: &Transform<Expr>) -> Transform<Expr> {
 }
 
 /// A frame in the place of another, its z along an axis that is given there; nothing if that has no direction.
-pub(in crate::description) fn frame_on(x: &Transform<Expr>, axis: Vector<Expr>) -> Option<Transform<Expr>> {
-    let mut values = Values::default();
-    let at = Frame::of(x, &mut values)?;
-    let turned = x.rotation * axis;
-    let [a, b, c] = turned.0.map(|e| values.of(e));
-    let z = unit(&cleaned([a?, b?, c?]))?.0;
-    let choices = [at.x.clone(), at.y(), at.z.clone()];
+pub(in crate::description) fn frame_on(at: &Pose, axis: Vector<Expr>, values: &mut Values) -> Option<Pose> {
+    let [a, b, c] = axis.0.map(|e| values.of(e));
+    let z = unit(&cleaned(at.turned(&[a?, b?, c?])))?.0;
     // The axis of the frame that is the farthest from z, made perpendicular to it.
     let along = |v: &V| dot(v, &z).to_f64().abs();
-    let x = choices.into_iter().min_by(|a, b| along(a).total_cmp(&along(b)))?;
-    let x = unit(&minus(&x, &scaled(&z, &dot(&x, &z))))?.0;
-    Some(Frame { x, z, origin: at.origin }.settled())
+    let x = at.axes().iter().min_by(|a, b| along(a).total_cmp(&along(b)))?;
+    let x = unit(&minus(x, &scaled(&z, &dot(x, &z))))?.0;
+    Some(Pose::with_axes(x, z, at.origin().clone()))
 }
 
 fn fixed(z: Screw, x: Screw) -> Row {

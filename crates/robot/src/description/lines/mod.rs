@@ -14,7 +14,8 @@ mod space;
 mod symbols;
 
 pub(super) use ends::{Turns, frame_on, settled};
-pub use screws::{Agreement, same_screws};
+pub use screws::{Agreement, compare_screws, same_screws};
+pub(super) use space::{Alike, Pose};
 pub use symbols::{Named, NotNamed};
 
 use super::{Convention, Description, JointKind, Row, Variable};

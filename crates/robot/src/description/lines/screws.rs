@@ -7,6 +7,7 @@ use crate::description::{Description, JointKind, Screw};
 use crate::geometry::{Axis, Rotation, Transform, Vector};
 use denavit_symbolic::real::{Real, Values};
 use denavit_symbolic::{Angle, Expr, Rational, Ring, Symbol};
+use std::collections::HashSet;
 
 /// How two chains were found to be one.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -158,11 +159,19 @@ impl Description {
 /// True if two descriptions are proved to be one function of the joint variables, by their axes and their tip at rest; no answer
 /// means nothing: one mechanism can be more than one sequence of axes.
 pub fn same_screws(a: &Description, b: &Description) -> bool {
+    compare_screws(a, b) == Some(true)
+}
+
+/// True if two descriptions are proved to be one function of the joint variables, by their axes and their tip at rest, false if they
+/// are proved to be two: where each variable moves one axis, what changes with it at rest is that axis.
+pub fn compare_screws(a: &Description, b: &Description) -> Option<bool> {
     let (a, b) = (Rest::of(a), Rest::of(b));
     let moves = |r: &Rest| r.screws.iter().map(|s| (s.kind, s.form.clone())).collect::<Vec<_>>();
     if moves(&a) != moves(&b) {
-        return false;
+        return None;
     }
+    let mut moved: HashSet<Expr> = HashSet::new();
+    let is_one_each = a.screws.iter().all(|s| s.form.len() == 1 && moved.insert(s.form[0].0));
     let mut zero: Vec<Expr> = vec![];
     for (a, b) in a.screws.iter().zip(&b.screws) {
         let (za, zb) = (a.frame.rotation.z(), b.frame.rotation.z());
@@ -173,7 +182,7 @@ pub fn same_screws(a: &Description, b: &Description) -> bool {
     }
     let (m, n) = (a.tip.matrix(), b.tip.matrix());
     zero.extend((0..12).map(|k| m[k / 4][k % 4] - n[k / 4][k % 4]));
-    are_zero(&zero)
+    are_zero(&zero).filter(|is_same| *is_same || is_one_each)
 }
 
 /// True if a description is proved to be a chain whose points may hold names, as polynomials in them; the directions are numbers.
@@ -204,22 +213,22 @@ pub(super) fn is_chain(chain: &ChainAtRest, d: &Description) -> bool {
     }
     let (m, n) = (rest.tip.matrix(), chain.tip.matrix());
     zero.extend((0..12).map(|k| m[k / 4][k % 4] - n[k / 4][k % 4]));
-    are_zero(&zero)
+    are_zero(&zero) == Some(true)
 }
 
-/// True if all are proved to be 0.
-fn are_zero(all: &[Expr]) -> bool {
+/// True if all are proved to be 0, false if one is a number that is not.
+fn are_zero(all: &[Expr]) -> Option<bool> {
     let mut values = Values::default();
     let mut open: Vec<Expr> = vec![];
     for &e in all.iter().filter(|e| !e.is_zero()) {
         match values.of(e) {
             Some(x) if x.is_exact() && x.is_zero() => {}
-            Some(x) if !x.is_zero() => return false,
+            Some(x) if !x.is_zero() => return Some(false),
             _ => open.push(e),
         }
     }
     let mut ring = Ring::new(&open, &[]);
-    open.iter().all(|&e| ring.normal(e).is_ok_and(|form| form.num.is_zero()))
+    open.iter().all(|&e| ring.normal(e).is_ok_and(|form| form.num.is_zero())).then_some(true)
 }
 
 /// How the axes of a chain are those of a description.

@@ -120,7 +120,7 @@ impl ChainAtRest {
     }
 
     /// The symbols in it.
-    fn symbols(&self) -> Vec<Symbol> {
+    pub(super) fn symbols(&self) -> Vec<Symbol> {
         let axes = self.axes.iter().flat_map(|a| a.point.0.into_iter().chain(a.direction.0));
         let tip = self.tip.translation.0.into_iter().chain(self.tip.rotation.rows().concat());
         axes.chain(tip).flat_map(Expr::symbols).collect()

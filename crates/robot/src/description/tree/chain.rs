@@ -2,9 +2,10 @@
 
 use super::masses::{Landing, Unweighed};
 use super::{Joint, JointDrive, Mechanism};
-use crate::description::lines::{Agreement, AxisAtRest, ChainAtRest, NotPlaced, settled};
+use crate::description::lines::{Agreement, AxisAtRest, ChainAtRest, NotPlaced, Pose};
 use crate::description::{Convention, Description, JointKind, MAX_ROWS, diagnostic::nearest};
 use crate::geometry::{Rotation, Transform, Vector};
+use denavit_symbolic::real::Values;
 use denavit_symbolic::{Expr, Rational};
 use std::fmt;
 
@@ -118,14 +119,27 @@ impl Mechanism {
 
     /// The leaf with the most joints on the way to it.
     fn tip(&self, from: usize) -> Result<usize, NoChain> {
-        let up = self.to_root(from);
-        let count = |leaf: usize| {
-            let moves =
-                |s: &Step| self.joints[s.joint].kind.is_some() && self.joints[s.joint].follows.is_none();
-            self.way(&up, leaf).iter().filter(|s| moves(s)).count()
-        };
-        let leaves: Vec<(usize, usize)> =
-            self.leaves().into_iter().filter(|&l| l != from).map(|l| (count(l), l)).collect();
+        let mut is_above = vec![false; self.bodies.len()];
+        is_above[from] = true;
+        for &joint in &self.to_root(from, &self.joints_to()) {
+            is_above[self.joints[joint].parent] = true;
+        }
+        // The joints that move by themselves between the root and a body, and between the root and where its way joins that of the
+        // beginning: the joint to a body stands before those behind it.
+        let mut count = vec![0_usize; self.bodies.len()];
+        let mut shared = count.clone();
+        for joint in &self.joints {
+            let moves = joint.kind.is_some() && joint.follows.is_none();
+            count[joint.child] = count[joint.parent] + usize::from(moves);
+            shared[joint.child] =
+                if is_above[joint.child] { count[joint.child] } else { shared[joint.parent] };
+        }
+        let leaves: Vec<(usize, usize)> = self
+            .leaves()
+            .into_iter()
+            .filter(|&l| l != from)
+            .map(|l| (count[l] + count[from] - 2 * shared[l], l))
+            .collect();
         let most = leaves.iter().map(|l| l.0).max().unwrap_or(0);
         let tips: Vec<usize> = leaves.iter().filter(|l| l.0 == most).map(|l| l.1).collect();
         match tips[..] {
@@ -141,11 +155,11 @@ impl Mechanism {
         NoChain::Rigid { from: name(from), to: name(to) }
     }
 
-    /// The joints from a body to the root.
-    fn to_root(&self, body: usize) -> Vec<usize> {
+    /// The joints from a body to the root, where these are the joints to bodies.
+    fn to_root(&self, body: usize, to: &[Option<usize>]) -> Vec<usize> {
         let mut all = vec![];
         let mut body = body;
-        while let Some(joint) = self.joint_to(body).filter(|_| all.len() <= self.joints.len()) {
+        while let Some(joint) = to[body].filter(|_| all.len() <= self.joints.len()) {
             all.push(joint);
             body = self.joints[joint].parent;
         }
@@ -153,18 +167,15 @@ impl Mechanism {
     }
 
     /// A body in the root's frame, all joints at 0.
-    fn at_rest(&self, body: usize) -> Transform<Expr> {
-        let down = self.to_root(body).into_iter().rev().map(|j| &self.joints[j]);
-        down.fold(Transform::identity(), |x, joint| {
-            let rest = joint.follows.as_ref().map_or(Expr::int(0), |f| f.offset);
-            let motion = joint.kind.map_or(Transform::identity(), |kind| moved(joint, kind, rest));
-            x * joint.origin * motion
+    fn at_rest(&self, up: &[usize], values: &mut Values) -> Option<Pose> {
+        up.iter().rev().try_fold(Pose::identity(), |x, &joint| {
+            let joint = &self.joints[joint];
+            Some(x.times(&Pose::of(&joint.origin, values)?).times(&rest(joint, values)?))
         })
     }
 
-    /// The joints on the way to a body from the one whose joints to the root these are.
-    fn way(&self, up: &[usize], to: usize) -> Vec<Step> {
-        let down = self.to_root(to);
+    /// The joints on the way between two bodies whose joints to the root these are.
+    fn way(up: &[usize], down: &[usize]) -> Vec<Step> {
         let common = up.iter().rev().zip(down.iter().rev()).take_while(|(a, b)| a == b).count();
         let upward = up[..up.len() - common].iter().map(|&joint| Step { joint, is_up: true });
         let downward = down[..down.len() - common].iter().rev().map(|&joint| Step { joint, is_up: false });
@@ -172,33 +183,48 @@ impl Mechanism {
     }
 
     fn between(&self, from: usize, to: usize, convention: Convention) -> Result<Chain, NoChain> {
-        let way = self.way(&self.to_root(from), to);
+        let joints_to = self.joints_to();
+        let up = self.to_root(from, &joints_to);
+        let way = Self::way(&up, &self.to_root(to, &joints_to));
         // Each moving joint on the way as a variable's factor and an offset.
         let mut joints: Vec<usize> = vec![];
         let mut axes: Vec<AxisAtRest> = vec![];
         let mut of_axis: Vec<usize> = vec![];
-        let mut x = Transform::<Expr>::identity();
+        let mut values = Values::default();
+        let mut x = Pose::identity();
         let mut beside = None;
         let mut landings: Vec<Landing> = vec![];
         let mut ratios: Vec<(usize, Rational)> = vec![];
         for Step { joint: j, is_up } in way.iter().copied() {
             let joint = &self.joints[j];
             let (moves, rest) = self.moves(j, &way, &mut joints);
-            let motion = joint.kind.map_or(Transform::identity(), |kind| moved(joint, kind, rest));
+            let mut frame = |x: &Transform<Expr>| Pose::of(x, &mut values).ok_or(self.rigid(from, to));
+            let motion = match joint.kind.filter(|_| !rest.is_zero()) {
+                Some(kind) => Some(frame(&moved(joint, kind, rest))?),
+                None => None,
+            };
+            let origin = frame(&joint.origin)?;
             if !is_up {
-                x = x * joint.origin;
+                x = x.times(&origin);
             }
             if let (Some(kind), Some(moves)) = (joint.kind, moves) {
-                let direction = x.act_on_vector(joint.axis);
+                let here = x.formula();
+                let direction = here.act_on_vector(joint.axis);
                 let direction = if is_up { -direction } else { direction };
                 ratios.push(moves.clone());
-                axes.push(AxisAtRest { kind, point: x.translation, direction, moves: vec![moves] });
+                axes.push(AxisAtRest { kind, point: here.translation, direction, moves: vec![moves] });
                 of_axis.push(j);
-                beside.get_or_insert(x.rotation);
+                beside.get_or_insert(here.rotation);
             }
-            x = if is_up { x * motion.inverse() * joint.origin.inverse() } else { x * motion };
+            if let Some(motion) = motion {
+                x = x.times(&if is_up { motion.inverse() } else { motion });
+            }
+            if is_up {
+                x = x.times(&origin.inverse());
+            }
             if of_axis.last() == Some(&j) {
-                landings.push(Landing { body: if is_up { joint.parent } else { joint.child }, at_rest: x });
+                let body = if is_up { joint.parent } else { joint.child };
+                landings.push(Landing { body, at_rest: x.clone() });
             }
         }
         if axes.is_empty() {
@@ -207,20 +233,22 @@ impl Mechanism {
         if axes.len() > MAX_ROWS / 2 {
             return Err(NoChain::TooLong(axes.len()));
         }
-        let chain = ChainAtRest { axes, tip: x, beside: beside.unwrap_or_else(Rotation::identity) };
+        let chain = ChainAtRest { axes, tip: x.formula(), beside: beside.unwrap_or_else(Rotation::identity) };
         let placed = chain.description(&self.name, convention).map_err(|why| match why {
             NotPlaced::NoDirection(k) => NoChain::NoDirection(self.joints[of_axis[k]].name.clone()),
             NotPlaced::Symbols => self.rigid(from, to),
         });
         let (mut description, agreement) = placed?;
         self.name_rows(&mut description, &of_axis, &joints, &ratios);
+        let variables = self.variables();
         let pose = |(name, values): &(String, Vec<Expr>)| {
-            (name.clone(), joints.iter().map(|&j| self.value(j, values)).collect())
+            (name.clone(), joints.iter().map(|&j| self.value_of(j, &variables, values)).collect())
         };
         description.poses = self.poses.iter().map(pose).collect();
-        description.gravity = self.gravity.map(|g| {
-            let turned = self.at_rest(from).rotation.inverse() * Vector(g);
-            settled(&Transform::from_rotation_translation(Rotation::identity(), turned)).translation.0
+        description.gravity = self.gravity.and_then(|g| {
+            let there = self.at_rest(&up, &mut values)?.inverse();
+            let turned = there.formula().act_on_vector(Vector(g));
+            Some(turned.0.map(|e| values.of(e).map_or(e, |x| x.settled())))
         });
         let (held, unweighed) = self.weigh_rows(&mut description, &of_axis, &landings, from);
         Ok(Chain { description, from, to, joints, agreement, held, unweighed, moving: of_axis, landings })
@@ -286,6 +314,15 @@ impl Mechanism {
                 next += 1;
             }
         }
+    }
+}
+
+/// What a joint does where it is held: its value is 0, or that which it has where the joint that it follows is at 0.
+pub(in crate::description) fn rest(joint: &Joint, values: &mut Values) -> Option<Pose> {
+    let value = joint.follows.as_ref().map_or(Expr::int(0), |f| f.offset);
+    match joint.kind.filter(|_| !value.is_zero()) {
+        Some(kind) => Pose::of(&moved(joint, kind, value), values),
+        None => Some(Pose::identity()),
     }
 }
 

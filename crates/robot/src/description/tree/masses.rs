@@ -1,8 +1,8 @@
 //! The masses of a chain through the tree, on its rows.
 
-use super::{Body, Chain, Joint, Mass, Mechanism, moved};
-use crate::description::lines::settled;
-use crate::description::{Description, JointKind, NamedFrame, Row};
+use super::{Body, Chain, Mass, Mechanism, rest};
+use crate::description::lines::{Pose, settled};
+use crate::description::{Description, NamedFrame, Row};
 use crate::geometry;
 use crate::geometry::{Transform, Vector};
 use denavit_symbolic::Expr;
@@ -49,12 +49,12 @@ impl fmt::Display for Unweighed {
 }
 
 /// A body on which a moving joint of a chain ends.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Landing {
     /// The body.
     pub body: usize,
     /// Its frame in the base of the chain with all variables 0.
-    pub at_rest: Transform<Expr>,
+    pub at_rest: Pose,
 }
 
 impl Mechanism {
@@ -77,13 +77,15 @@ impl Mechanism {
         let mut seen = vec![false; self.bodies.len()];
         let mut held = vec![];
         // What is fixed to the base does not move, but what hangs on it beside the chain is not part of it either.
-        let at = self.joints_at();
-        self.fixed_to(first, Transform::identity(), (&at, moving), &mut seen);
+        let hanging = self.hanging(moving);
+        let mut values = Values::default();
+        self.fixed_to(&Landing::first(first), &hanging, &mut seen, &mut values);
         let rows = frames_at_rest(d);
         let mut rows = rows.into_iter();
         for landing in landings {
-            let bodies = self.fixed_to(landing.body, landing.at_rest, (&at, moving), &mut seen);
+            let bodies = self.fixed_to(landing, &hanging, &mut seen, &mut values);
             let Some((i, frame)) = rows.next() else { break };
+            let frame = Pose::of(&frame, &mut values);
             for Fixed { body, held, .. } in &bodies {
                 let Body { name, mass, is_unweighed, .. } = &self.bodies[*body];
                 let moves = held.filter(|&j| mass.is_some() && leaders.contains(&leader(j)));
@@ -99,7 +101,7 @@ impl Mechanism {
             }
             let seen_from = |f: &Fixed| {
                 let mass = self.bodies[f.body].mass.as_ref()?;
-                Some(mass.body().seen_from(&settled(&(frame.inverse() * f.at_rest))))
+                Some(mass.body().seen_from(&frame.as_ref()?.seen(&f.at_rest).settled()))
             };
             let sum = bodies.iter().filter_map(seen_from).reduce(|a, b| a + b);
             if let Some(mass) = sum.as_ref().and_then(Mass::of_body) {
@@ -119,77 +121,89 @@ impl Mechanism {
     pub fn frames(&self, chain: &Chain) -> Vec<NamedFrame> {
         let d = &chain.description;
         let mut seen = vec![false; self.bodies.len()];
-        let start = Landing { body: chain.from, at_rest: Transform::identity() };
+        let start = Landing::first(chain.from);
+        let mut values = Values::default();
         let rows =
             [(None, d.base)].into_iter().chain(frames_at_rest(d).into_iter().map(|(i, x)| (Some(i), x)));
-        let at = self.joints_at();
+        let hanging = self.hanging(&chain.moving);
         let mut found = vec![];
         for (landing, (on, frame)) in [start].iter().chain(&chain.landings).zip(rows) {
-            let fixed = self.fixed_to(landing.body, landing.at_rest, (&at, &chain.moving), &mut seen);
+            let fixed = self.fixed_to(landing, &hanging, &mut seen, &mut values);
+            let Some(frame) = Pose::of(&frame, &mut values) else { continue };
             found.extend(fixed.into_iter().filter(|f| f.held.is_none()).map(|f| NamedFrame {
                 name: self.bodies[f.body].name.clone(),
                 on,
-                pose: settled(&(frame.inverse() * f.at_rest)),
+                pose: frame.seen(&f.at_rest).settled(),
             }));
         }
         found
     }
 
-    /// The joints at each body.
-    fn joints_at(&self) -> Vec<Vec<usize>> {
+    /// What hangs on what beside these joints.
+    fn hanging(&self, moving: &[usize]) -> Hanging {
         let mut at = vec![vec![]; self.bodies.len()];
         for (j, joint) in self.joints.iter().enumerate() {
             at[joint.parent].push(j);
             at[joint.child].push(j);
         }
-        at
+        let mut is_moving = vec![false; self.joints.len()];
+        moving.iter().for_each(|&j| is_moving[j] = true);
+        Hanging { at, is_moving }
     }
 
-    /// A body with all that is fixed to it, or held where it is behind a joint that is not among the `moving` ones.
+    /// A body with all that is fixed to it, or held where it is behind a joint that is not among those that move.
     fn fixed_to(
         &self,
-        body: usize,
-        at_rest: Transform<Expr>,
-        (at, moving): (&[Vec<usize>], &[usize]),
+        landing: &Landing,
+        hanging: &Hanging,
         seen: &mut [bool],
+        values: &mut Values,
     ) -> Vec<Fixed> {
-        let (mut found, mut pending) = (vec![], vec![Fixed { body, at_rest, held: None }]);
+        let first = Fixed { body: landing.body, at_rest: landing.at_rest.clone(), held: None };
+        let (mut found, mut pending) = (vec![], vec![first]);
         while let Some(fixed) = pending.pop() {
             if std::mem::replace(&mut seen[fixed.body], true) {
                 continue;
             }
-            found.push(fixed);
-            let others = at[fixed.body].iter().filter(|j| !moving.contains(j));
+            let others = hanging.at[fixed.body].iter().filter(|j| !hanging.is_moving[**j]);
             for (j, joint) in others.map(|&j| (j, &self.joints[j])) {
-                let through = || joint.origin * rest(joint);
-                let held = joint.kind.map(|_| j).or(fixed.held);
-                if joint.parent == fixed.body {
-                    pending.push(Fixed { body: joint.child, at_rest: fixed.at_rest * through(), held });
-                } else if joint.child == fixed.body {
-                    let at_rest = fixed.at_rest * through().inverse();
-                    pending.push(Fixed { body: joint.parent, at_rest, held });
+                let other = if joint.parent == fixed.body { joint.child } else { joint.parent };
+                if seen[other] {
+                    continue;
                 }
+                let mut through = || Some(Pose::of(&joint.origin, values)?.times(&rest(joint, values)?));
+                let Some(through) = through() else { continue };
+                let through = if joint.parent == fixed.body { through } else { through.inverse() };
+                let held = joint.kind.map(|_| j).or(fixed.held);
+                pending.push(Fixed { body: other, at_rest: fixed.at_rest.times(&through), held });
             }
+            found.push(fixed);
         }
         found
     }
 }
 
+impl Landing {
+    /// Where a chain begins.
+    fn first(body: usize) -> Self {
+        Landing { body, at_rest: Pose::identity() }
+    }
+}
+
+/// The joints at each body, and which of all are those of a chain that move.
+struct Hanging {
+    at: Vec<Vec<usize>>,
+    is_moving: Vec<bool>,
+}
+
 /// A body that moves with another.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 struct Fixed {
     body: usize,
     /// Its frame in the base of the chain with all variables 0.
-    at_rest: Transform<Expr>,
+    at_rest: Pose,
     /// The last joint before it that could move it.
     held: Option<usize>,
-}
-
-/// What a joint does where it is held: its value is 0, or that which it has where the joint that it follows is at 0.
-fn rest(joint: &Joint) -> Transform<Expr> {
-    let value = joint.follows.as_ref().map_or(Expr::int(0), |f| f.offset);
-    let kind: Option<JointKind> = joint.kind;
-    kind.map_or_else(Transform::identity, |kind| moved(joint, kind, value))
 }
 
 /// The rows that move and the frames behind them, in the base, with all variables 0.

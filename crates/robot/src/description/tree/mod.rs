@@ -4,14 +4,17 @@
 //! chain through the tree is a [`Description`] like any other ([`Mechanism::chain`]).
 
 mod chain;
+mod compared;
 mod masses;
 mod of;
 mod poses;
 mod program;
 
 pub use chain::{Chain, NoChain};
-pub(super) use chain::{moved, turned};
+pub(super) use chain::{moved, rest, turned};
+pub use compared::{Alikeness, Likeness};
 pub use masses::Unweighed;
+pub use poses::Placing;
 
 use super::JointKind;
 use crate::geometry::{Transform, Vector};
@@ -165,7 +168,7 @@ impl JointDrive {
 }
 
 /// A joint that moves as another does.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub struct Follows {
     /// The other, which moves by itself.
     pub joint: usize,
@@ -184,8 +187,13 @@ impl Mechanism {
 
     /// The value of a joint where the variables have these; 0 for one that does not move.
     pub fn value(&self, joint: usize, values: &[Expr]) -> Expr {
-        let variables = self.variables();
-        let of = |j: usize| variables.iter().position(|&v| v == j).map_or(Expr::int(0), |v| values[v]);
+        self.value_of(joint, &self.variables(), values)
+    }
+
+    /// The same, where these are the variables.
+    fn value_of(&self, joint: usize, variables: &[usize], values: &[Expr]) -> Expr {
+        // Variables stand in the order of the joints.
+        let of = |j: usize| variables.binary_search(&j).map_or(Expr::int(0), |v| values[v]);
         match &self.joints[joint].follows {
             Some(follows) => Expr::from(follows.factor.clone()) * of(follows.joint) + follows.offset,
             None => of(joint),
@@ -202,9 +210,19 @@ impl Mechanism {
         self.joints.iter().position(|j| j.child == body)
     }
 
+    /// The joint that moves each body; none for the root.
+    fn joints_to(&self) -> Vec<Option<usize>> {
+        let mut to = vec![None; self.bodies.len()];
+        for (j, joint) in self.joints.iter().enumerate() {
+            to[joint.child] = Some(j);
+        }
+        to
+    }
+
     /// The bodies on which nothing stands.
     pub fn leaves(&self) -> Vec<usize> {
-        let is_leaf = |&b: &usize| self.joints.iter().all(|j| j.parent != b);
-        (0..self.bodies.len()).filter(is_leaf).collect()
+        let mut is_leaf = vec![true; self.bodies.len()];
+        self.joints.iter().for_each(|j| is_leaf[j.parent] = false);
+        (0..self.bodies.len()).filter(|&b| is_leaf[b]).collect()
     }
 }

@@ -1,10 +1,11 @@
 //! Where the bodies of a mechanism are, in numbers.
 
-use super::Mechanism;
+use super::{Joint, Mechanism};
 use crate::description::JointKind;
 use crate::geometry::{Rotation, Transform, Vector};
 use crate::random::Random;
 use denavit_symbolic::Expr;
+use rustc_hash::FxHashMap;
 use std::f64::consts::PI;
 
 fn number(e: Expr) -> f64 {
@@ -22,35 +23,22 @@ struct Numbers {
     moves: Option<(usize, f64, f64)>,
 }
 
-impl Mechanism {
-    /// The frame of each body in that of the root, with these values of its [variables](Mechanism::variables).
+/// A tree in numbers: where its bodies are.
+pub struct Placing {
+    joints: Vec<Numbers>,
+    bodies: usize,
+    variables: usize,
+}
+
+impl Placing {
+    /// The frame of each body in that of the root, with these values of the [variables](Mechanism::variables).
     ///
     /// # Panics
     /// If there is not one value for each variable.
     pub fn poses(&self, q: &[f64]) -> Vec<Transform<f64>> {
-        assert_eq!(q.len(), self.variables().len(), "one value for each variable");
-        self.placed(&self.numbers(), q)
-    }
-
-    fn numbers(&self) -> Vec<Numbers> {
-        let variables = self.variables();
-        let index = |joint: usize| variables.iter().position(|&v| v == joint);
-        let joints = self.joints.iter().enumerate().map(|(j, joint)| {
-            let axis = joint.axis.map(number);
-            let moves = match &joint.follows {
-                Some(f) => index(f.joint).map(|v| (v, f.factor.to_f64(), number(f.offset))),
-                None => index(j).map(|v| (v, 1.0, 0.0)),
-            };
-            let (kind, parent, child) = (joint.kind, joint.parent, joint.child);
-            let (origin, axis) = (joint.origin.map(number), axis.scale(1.0 / axis.norm()));
-            Numbers { kind, parent, child, origin, axis, moves }
-        });
-        joints.collect()
-    }
-
-    fn placed(&self, joints: &[Numbers], q: &[f64]) -> Vec<Transform<f64>> {
-        let mut poses = vec![Transform::identity(); self.bodies.len()];
-        for joint in joints {
+        assert_eq!(q.len(), self.variables, "one value for each variable");
+        let mut poses = vec![Transform::identity(); self.bodies];
+        for joint in &self.joints {
             let value = joint.moves.map_or(0.0, |(v, factor, offset)| factor * q[v] + offset);
             let motion = match joint.kind {
                 None => Transform::identity(),
@@ -63,18 +51,59 @@ impl Mechanism {
         }
         poses
     }
+}
+
+impl Mechanism {
+    /// The frame of each body in that of the root, with these values of its [variables](Mechanism::variables).
+    ///
+    /// # Panics
+    /// If there is not one value for each variable.
+    pub fn poses(&self, q: &[f64]) -> Vec<Transform<f64>> {
+        self.placing().poses(q)
+    }
+
+    /// The tree in numbers.
+    pub fn placing(&self) -> Placing {
+        // Variables stand in the order of the joints.
+        let variables = self.variables();
+        let index = |joint: usize| variables.binary_search(&joint).ok();
+        // Most numbers of a tree are those of many of its joints.
+        let mut known: FxHashMap<Expr, f64> = FxHashMap::default();
+        let mut number = |e: Expr| *known.entry(e).or_insert_with(|| number(e));
+        let joints = self.joints.iter().enumerate().map(|(j, joint)| {
+            let axis = joint.axis.map(&mut number);
+            let moves = match &joint.follows {
+                Some(f) => index(f.joint).map(|v| (v, f.factor.to_f64(), number(f.offset))),
+                None => index(j).map(|v| (v, 1.0, 0.0)),
+            };
+            let (kind, parent, child) = (joint.kind, joint.parent, joint.child);
+            let (origin, axis) = (joint.origin.map(&mut number), axis.scale(1.0 / axis.norm()));
+            Numbers { kind, parent, child, origin, axis, moves }
+        });
+        let joints = joints.collect();
+        Placing { joints, bodies: self.bodies.len(), variables: variables.len() }
+    }
 
     /// By how much the bodies of two readings of one file lie apart at most, metres, over configurations that look random: no bound, but near to one.
     pub fn apart(&self, other: &Mechanism) -> f64 {
         const SAMPLES: usize = 256;
+        /// So many frames are compared at most, in fewer configurations where there are very many bodies.
+        const WORK: usize = 1 << 19;
         let variables = self.variables();
         if self.bodies.len() != other.bodies.len() || variables != other.variables() {
             return f64::INFINITY;
         }
+        let is_same = |(a, b): (&Joint, &Joint)| {
+            (a.kind, a.origin, a.axis) == (b.kind, b.origin, b.axis) && a.follows == b.follows
+        };
+        if self.joints.iter().zip(&other.joints).all(is_same) {
+            return 0.0;
+        }
+        let samples = (WORK / self.joints.len().max(1)).clamp(16, SAMPLES);
         let mut random = Random(20);
         let mut most = 0.0_f64;
-        let (a, b) = (self.numbers(), other.numbers());
-        for _ in 0..SAMPLES {
+        let (a, b) = (self.placing(), other.placing());
+        for _ in 0..samples {
             let value = |&j: &usize| {
                 let joint = &self.joints[j];
                 let ends = joint
@@ -88,7 +117,7 @@ impl Mechanism {
                 low + (high - low) * random.unit()
             };
             let q: Vec<f64> = variables.iter().map(value).collect();
-            for (a, b) in self.placed(&a, &q).iter().zip(other.placed(&b, &q)) {
+            for (a, b) in a.poses(&q).iter().zip(b.poses(&q)) {
                 most = most.max((a.translation - b.translation).norm());
             }
         }

@@ -16,8 +16,7 @@ impl Mechanism {
         let joints = self.variables();
         let symbols: Vec<Symbol> = (1..=joints.len()).map(|i| Symbol::new(&format!("q{i}"))).collect();
         let value = |joint: usize| {
-            let leader =
-                |j: usize| joints.iter().position(|&v| v == j).map_or(Expr::int(0), |v| symbols[v].into());
+            let leader = |j: usize| joints.binary_search(&j).map_or(Expr::int(0), |v| symbols[v].into());
             match &self.joints[joint].follows {
                 Some(f) => Expr::from(f.factor.clone()) * leader(f.joint) + f.offset,
                 None => leader(joint),
