@@ -157,6 +157,12 @@ fn catalogue_name(text: &str) -> Option<String> {
     (!is_path).then(|| text.to_lowercase().replace([' ', '_'], "-"))
 }
 
+/// True for what is read as a robot file, the catalogue's among them: its reader says which rows are no body.
+pub fn is_robot_file(name: &str) -> bool {
+    let is_listed = catalogue_name(name).is_some_and(|n| listed(&n).is_some());
+    is_listed || Path::new(name).extension().is_some_and(|ending| ending == "toml")
+}
+
 /// The file of an arm of the catalogue, or of a structure beside it.
 fn listed(name: &str) -> Option<&'static str> {
     catalogue::text(name).or_else(|| catalogue::structure_text(name))
@@ -356,7 +362,7 @@ fn unknown_robot(name: &str) -> Failure {
     let close: Vec<&str> = names.filter(|n| similar(n, name)).take(6).collect();
     let hint = match &close[..] {
         [] => {
-            "`denavit robots` lists the catalogue; files end in .toml, .urdf, .xml, .par, .md, .csv, .tex, .m or .py"
+            "`denavit robots` lists the catalogue; files end in .toml, .par, .urdf, .xacro, .xml, .mjcf, .md, .txt, .csv, .tsv, .tex, .m or .py"
                 .to_string()
         }
         names => format!("did you mean {}?", names.join(", ")),

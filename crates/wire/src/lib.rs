@@ -10,6 +10,7 @@ pub mod catalogue;
 pub mod check;
 pub mod class;
 pub mod code;
+pub mod convert;
 pub mod derivation;
 pub mod dynamics;
 pub mod finding;

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 /// `convert`
 ///
-/// What is written is read back and held against the robot: proved the same, or the difference of the poses is said. Exit code 1 if
+/// What of the robot has no place in the format is said. What is written is read back and held against the robot: proved the same, or the difference of the poses is said. Exit code 1 if
 /// it is another robot: if poses differ by more than doubles round by.
 #[derive(Args)]
 pub struct ConvertArguments {
@@ -23,6 +23,9 @@ pub struct ConvertArguments {
     /// it anyway
     #[arg(long, conflicts_with_all = ["base", "tip"])]
     pub whole: bool,
+    /// Print JSON: the text, what is left out, and how it is the robot
+    #[arg(long)]
+    pub json: bool,
     /// Where to write it (- for standard output)
     #[arg(short, long, value_name = "FILE", default_value = "-")]
     pub output: PathBuf,

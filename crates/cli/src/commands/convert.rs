@@ -4,16 +4,18 @@ use crate::arguments::{ConvertArguments, ConvertFormat};
 use crate::commands::fk::without_values;
 use crate::commands::report::put;
 use crate::failure::Failure;
-use crate::load::{self, Tree};
-use crate::terminal::note;
+use crate::load::{self, Around, Tree};
+use crate::terminal::{note, words};
 use denavit::description::{
-    Alone, AxesAs, Convention, Decimals, Described, Description, Mechanism, NoPar, NotNamed, Row, RowTree,
-    TableKind, TableOptions, read_mjcf, read_par, read_robot, read_table, read_table_robot, read_toml,
-    read_urdf, refused_masses, write_axes, write_mjcf, write_par, write_table, write_toml, write_tree,
-    write_tree_table, write_urdf,
+    Alone, AxesAs, Convention, Decimals, Described, Description, Format, Joint, Mechanism, NoPar, NotNamed,
+    Part, Row, RowTree, TableKind, TableOptions, read_mjcf, read_par, read_robot, read_table,
+    read_table_robot, read_toml, read_urdf, refused_masses, write_axes, write_mjcf, write_par, write_table,
+    write_toml, write_tree, write_tree_table, write_urdf,
 };
-use denavit::mechanism::{COMPARED, Comparison, compare, compare_chains};
+use denavit::mechanism::{COMPARED, Chains, Comparison, compare, compare_chains};
 use denavit_symbolic::Expr;
+use denavit_wire::Schema;
+use denavit_wire::convert::Converted;
 
 /// Writes a robot in another format.
 ///
@@ -29,41 +31,92 @@ pub fn run(arguments: &ConvertArguments) -> Result<(), Failure> {
     {
         return tree(&whole, arguments);
     }
-    let robot = load::robot(&arguments.robot)?;
+    let (robot, around) = load::robot_and_around(&arguments.robot)?;
     let converted = match arguments.written_as {
         Some(to) => robot.converted(to.into()).description,
         None => robot.clone(),
     };
-    say_left(&converted, arguments.to);
+    let efforts = match &around {
+        Around::Bodies(both) => has_efforts(both.1.joints.iter().map(|&j| &both.0.joints[j])),
+        Around::Nothing | Around::Rows(_) => false,
+    };
+    let left = left_out(&converted, efforts, arguments.to);
     let Written { text, back } = written(&robot, &converted, arguments)?;
-    put(&arguments.output, text.as_bytes())?;
-    say_same(&robot, &back, arguments.robot.as_written)
+    if !arguments.json {
+        put(&arguments.output, text.as_bytes())?;
+        return said(how_same(&robot, &back, arguments.robot.as_written));
+    }
+    let how = how_same(&robot, &back, arguments.robot.as_written);
+    answer(arguments, &robot.name, &text, &left, &how)?;
+    said(how)
 }
 
-/// Says what of masses, drives and gravity has no place in a format.
-fn say_left(d: &Description, to: ConvertFormat) {
-    let any = |of: fn(&Row) -> bool| d.rows.iter().any(of);
-    let is_known = |e: Expr| e.symbols().iter().all(|s| d.value(*s).is_some());
-    let (masses, rotors, friction) =
-        (d.has_masses(), any(|r| r.rotor.is_some()), any(|r| r.viscous.is_some() || r.coulomb.is_some()));
-    let gravity = d.gravity.is_some();
-    let given = [(masses, "masses"), (rotors, "rotors"), (friction, "friction"), (gravity, "gravity")];
-    let (has_place, what): ([bool; 4], &str) = match to {
-        ConvertFormat::Toml | ConvertFormat::Tree => return,
-        ConvertFormat::Urdf => ([true, false, true, false], "a URDF"),
-        ConvertFormat::Mjcf => ([true; 4], "a model"),
-        ConvertFormat::Axes | ConvertFormat::Poe | ConvertFormat::BodyPoe => ([false; 4], "a file of axes"),
-        ConvertFormat::Par => ([false; 4], "what is written of a .par file"),
-        ConvertFormat::Markdown | ConvertFormat::Latex | ConvertFormat::Csv => ([false; 4], "a table"),
-    };
-    let left: Vec<&str> = given.iter().zip(has_place).filter(|(g, p)| g.0 && !p).map(|(g, _)| g.1).collect();
-    if !left.is_empty() {
-        note(&format!("note: left out, as {what} has no place for it: {}", left.join(", ")));
+/// How what was written is what it was made of.
+struct How {
+    sentence: String,
+    is_other: bool,
+    /// How many chains were compared, and how many of them are proved to be the same.
+    chains: usize,
+    proved: usize,
+    /// By how much the poses of the others differ at most.
+    difference: Option<f64>,
+}
+
+/// Prints the answer as JSON.
+fn answer(
+    arguments: &ConvertArguments,
+    robot: &str,
+    text: &str,
+    left: &[Part],
+    how: &How,
+) -> Result<(), Failure> {
+    let How { chains, proved, difference, .. } = *how;
+    let left_out = left.iter().map(|p| words().left_part(*p)).collect();
+    let converted = Converted { chains, difference, left_out, proved, robot, schema: Schema, text };
+    let mut line = vec![];
+    denavit_wire::line(&converted, &mut line);
+    put(&arguments.output, &line)
+}
+
+/// The format of what is written.
+fn format(to: ConvertFormat) -> Format {
+    match to {
+        ConvertFormat::Toml | ConvertFormat::Tree => Format::RobotFile,
+        ConvertFormat::Urdf => Format::Urdf,
+        ConvertFormat::Mjcf => Format::Mjcf,
+        ConvertFormat::Axes | ConvertFormat::Poe | ConvertFormat::BodyPoe => Format::Axes,
+        ConvertFormat::Par => Format::Par,
+        ConvertFormat::Markdown | ConvertFormat::Latex | ConvertFormat::Csv => Format::Table,
     }
+}
+
+/// What of a robot has no place in a format; it is said.
+fn left_out(d: &Description, has_efforts: bool, to: ConvertFormat) -> Vec<Part> {
+    let efforts = [Part::Efforts].into_iter().filter(|_| has_efforts);
+    let left: Vec<Part> = d.parts().into_iter().chain(efforts).filter(|p| !format(to).holds(*p)).collect();
+    if !left.is_empty() {
+        let what = match format(to) {
+            Format::RobotFile => "a robot file",
+            Format::Urdf => "a URDF as it is written here",
+            Format::Mjcf => "a model as it is written here",
+            Format::Axes => "a file of axes",
+            Format::Par => "a .par file as it is written here",
+            Format::Table => "a table",
+        };
+        let names: Vec<&str> = left.iter().map(|p| words().left_part(*p)).collect();
+        note(&format!("note: left out, as {what} has no place for it: {}", names.join(", ")));
+    }
+    let is_known = |e: Expr| e.symbols().iter().all(|s| d.value(*s).is_some());
     let is_open = || d.rows.iter().flat_map(Row::mass_cells).any(|cell| !is_known(cell.1));
     if matches!(to, ConvertFormat::Urdf | ConvertFormat::Mjcf) && is_open() {
         note("note: masses and drives without a value are left out");
     }
+    left
+}
+
+/// Whether joints of a tree, or of a chain of it, have limits of torque or force.
+fn has_efforts<'j>(mut joints: impl Iterator<Item = &'j Joint>) -> bool {
+    joints.any(|j| j.effort.is_some())
 }
 
 /// Says which masses MuJoCo refuses.
@@ -192,8 +245,14 @@ fn tree(whole: &Tree, arguments: &ConvertArguments) -> Result<(), Failure> {
         }
         _ => (write_tree(&rows), rows.frame_names().into_iter().map(|n| (n.clone(), n)).collect()),
     };
-    put(&arguments.output, text.as_bytes())?;
-    say_left(&rows.all_rows(), arguments.to);
+    let efforts = match whole {
+        Tree::Bodies(m) => has_efforts(m.joints.iter()),
+        Tree::Rows(_) => false,
+    };
+    let left = left_out(&rows.all_rows(), efforts, arguments.to);
+    if !arguments.json {
+        put(&arguments.output, text.as_bytes())?;
+    }
     let read = |decimals| {
         let described = match (arguments.to, kind) {
             (ConvertFormat::Par, _) => return read_par(&text, decimals).ok().map(|r| r.0),
@@ -215,25 +274,46 @@ fn tree(whole: &Tree, arguments: &ConvertArguments) -> Result<(), Failure> {
             written => (meant.or(written), true),
         },
     };
-    let Some(chains) = chains else {
-        return say("what was written does not read back as a tree".into(), true);
+    let how = match chains {
+        None => How::unread("what was written does not read back as a tree"),
+        Some(chains) => how_chains(&chains, is_meant),
     };
-    let mut said = format!(
-        "{}, {} of {} chains are proved to be the same",
-        read_back(is_meant),
-        chains.proved,
-        chains.count()
-    );
+    if arguments.json {
+        answer(arguments, &rows.name, &text, &left, &how)?;
+    }
+    said(how)
+}
+
+/// How the chains of a tree are those of what was written.
+fn how_chains(chains: &Chains, is_meant: bool) -> How {
+    let mut sentence = match chains.count() {
+        0 => format!("{}, no joint moves in it", read_back(is_meant)),
+        all => {
+            format!("{}, {} of {all} chains are proved to be the same", read_back(is_meant), chains.proved)
+        }
+    };
     if chains.sampled > 0 {
-        said += &format!(", {} {}", chains.sampled, sampled(chains.most));
+        sentence += &format!(", {} {}", chains.sampled, sampled(chains.most));
     }
     if chains.others > 0 {
-        said += &format!(", {} have other joints", chains.others);
+        sentence += &format!(", {} have other joints", chains.others);
     }
     if chains.open > 0 {
-        said += &format!(", {} were not compared", chains.open);
+        sentence += &format!(", {} were not compared", chains.open);
     }
-    say(said, chains.differ())
+    How {
+        sentence,
+        is_other: chains.differ(),
+        chains: chains.count(),
+        proved: chains.proved,
+        difference: (chains.sampled > 0).then_some(chains.most),
+    }
+}
+
+impl How {
+    fn unread(sentence: &str) -> Self {
+        How { sentence: sentence.into(), is_other: true, chains: 1, proved: 0, difference: None }
+    }
 }
 
 fn no_par(why: NoPar) -> Failure {
@@ -282,16 +362,16 @@ fn read_back(is_meant: bool) -> &'static str {
 }
 
 /// A note, or a failure where what was written is something else.
-fn say(said: String, is_other: bool) -> Result<(), Failure> {
-    if is_other {
-        return Err(Failure::No(format!("error: {said}")));
+fn said(how: How) -> Result<(), Failure> {
+    if how.is_other {
+        return Err(Failure::No(format!("error: {}", how.sentence)));
     }
-    note(&format!("note: {said}"));
+    note(&format!("note: {}", how.sentence));
     Ok(())
 }
 
-/// Says how what was written is the robot; a failure if it is another.
-fn say_same(robot: &Description, back: &Back, as_written: bool) -> Result<(), Failure> {
+/// How what was written is the robot.
+fn how_same(robot: &Description, back: &Back, as_written: bool) -> How {
     let compared = |back: Option<Description>| back.map(|back| compare(robot, &back));
     let (comparison, is_meant) = match back {
         Back::Alone(back) => (compared(back.as_deref().cloned()), true),
@@ -305,18 +385,16 @@ fn say_same(robot: &Description, back: &Back, as_written: bool) -> Result<(), Fa
         },
     };
     let Some(comparison) = comparison else {
-        return say("what was written does not read back as one chain".into(), true);
+        return How::unread("what was written does not read back as one chain");
     };
     let how = read_back(is_meant);
-    let said = match &comparison {
-        Comparison::Proved => format!("{how}, it is proved to be the same robot"),
-        Comparison::Sampled(by) => {
-            format!("{how}, its poses {}", sampled(*by))
-        }
-        Comparison::OtherJoints => format!("{how}, it has other joints than the robot"),
+    let (sentence, proved, difference) = match &comparison {
+        Comparison::Proved => (format!("{how}, it is proved to be the same robot"), 1, None),
+        Comparison::Sampled(by) => (format!("{how}, its poses {}", sampled(*by)), 0, Some(*by)),
+        Comparison::OtherJoints => (format!("{how}, it has other joints than the robot"), 0, None),
         Comparison::NoNumbers(missing) => {
-            format!("what was written was not held against the robot: {missing}")
+            (format!("what was written was not held against the robot: {missing}"), 0, None)
         }
     };
-    say(said, comparison.differs())
+    How { sentence, is_other: comparison.differs(), chains: 1, proved, difference }
 }

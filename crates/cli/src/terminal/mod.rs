@@ -6,6 +6,7 @@ use anstyle::{AnsiColor, Style};
 use denavit::geometry::Transform;
 use denavit_report::words::{Tongue, Wording};
 use std::io::Write;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use unicode_width::UnicodeWidthStr;
 
@@ -23,9 +24,18 @@ pub fn be_quiet() {
     IS_QUIET.store(true, Ordering::Relaxed);
 }
 
-/// A note or a warning on standard error, unless it is to be quiet.
+/// What was said.
+static SAID: Mutex<Vec<String>> = Mutex::new(vec![]);
+
+/// A note or a warning on standard error, unless it is to be quiet; the same is said but once.
 pub fn note(text: &str) {
     if !IS_QUIET.load(Ordering::Relaxed) && !text.is_empty() {
+        if let Ok(mut said) = SAID.lock() {
+            if said.iter().any(|t| t == text) {
+                return;
+            }
+            said.push(text.into());
+        }
         // There is nobody to tell that nobody listens.
         let _ = writeln!(anstream::stderr(), "{}", text.trim_end());
     }

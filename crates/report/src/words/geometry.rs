@@ -1,6 +1,6 @@
 //! What is said of axes and tables.
 
-use denavit::description::{Agreement, Chain, Mechanism, Moved};
+use denavit::description::{Agreement, Chain, Mechanism, Moved, Part};
 use denavit::idealise::Measured;
 use denavit::structure::{NearlySpecial, Relation};
 
@@ -26,6 +26,9 @@ pub trait Geometry {
 
     /// By how many metres the reading of decimals moves the links, in configurations that were tried.
     fn read_apart(&self, metres: f64) -> String;
+
+    /// What a part of a description is called where it has no place in a format.
+    fn left_part(&self, part: Part) -> &'static str;
 }
 
 /// What a chain is a part of.

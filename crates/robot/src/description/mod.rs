@@ -10,6 +10,7 @@ pub mod convert;
 mod decimals;
 pub mod diagnostic;
 mod filled;
+mod held;
 mod inertia;
 mod joints;
 mod lines;
@@ -40,7 +41,10 @@ pub use cell::MAX_LENGTH as MAX_CELL_BYTES;
 pub use convert::{Conversion, Moved, SameChain, prove_same_chain};
 pub use decimals::Decimals;
 pub use diagnostic::{Diagnostic, Diagnostics, Severity, line_column, render};
-pub use lines::{Agreement, AxisAtRest, ChainAtRest, Named, NotNamed, NotPlaced, Placed, same_screws};
+pub use held::{Format, Part};
+pub use lines::{
+    Agreement, AxisAtRest, ChainAtRest, Named, NotNamed, NotPlaced, Placed, compare_screws, same_screws,
+};
 pub use mjcf::{read_mjcf, refused_masses, write_mjcf};
 pub use order::{Cell, Screw, Screws};
 pub use parameters::MissingValue;
@@ -51,7 +55,10 @@ pub use same::{SameMechanism, Sameness, same_mechanism};
 pub use sources::{Alone, Files, Sources};
 pub use table::{TableKind, TableOptions, read_table, read_table_robot, write_table, write_tree_table};
 pub use toolbox::{Language, read_program};
-pub use tree::{Body, Chain, Follows, Joint, JointDrive, Look, Mass, Mechanism, NoChain, Shape, Unweighed};
+pub use tree::{
+    Alikeness, Body, Chain, Follows, Joint, JointDrive, Likeness, Look, Mass, Mechanism, NoChain, Placing,
+    Shape, Unweighed,
+};
 pub use urdf::{Reading, read_urdf, read_xacro, write_urdf};
 pub use value::{Measure, NotSet, read_value};
 pub use xml::{MAX_XML_BYTES, root_element};

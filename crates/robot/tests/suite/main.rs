@@ -21,6 +21,7 @@ mod forward;
 mod frames;
 mod geared;
 mod geometry;
+mod held;
 mod idealise;
 mod inverse;
 mod lines;

@@ -231,7 +231,7 @@ fn check_bodies(description: &Description, arm: &Dynamics<f64>, file: &str) {
     for (k, link) in arm.links.iter().enumerate() {
         let end = arm.links.get(k + 1).map_or(description.rows.len(), |next| next.row.max(link.row + 1));
         // Rows of a robot file that are no body by their numbers were named when they were read.
-        let is_said = file.ends_with(".toml") && description.rows[link.row..end].iter().any(is_no_body);
+        let is_said = load::is_robot_file(file) && description.rows[link.row..end].iter().any(is_no_body);
         if let Err(why) = link.body.check()
             && !is_said
         {

@@ -65,10 +65,9 @@ struct Names {
 }
 
 impl Answers {
-    /// For all bodies of a tree.
-    pub fn of_tree(m: &Mechanism) -> Self {
-        let all: Vec<usize> = (0..m.bodies.len()).collect();
-        let function = m.frames_program(&all).compile(&[]);
+    /// For these bodies of a tree.
+    pub fn of_tree(m: &Mechanism, bodies: &[usize]) -> Self {
+        let function = m.frames_program(bodies).compile(&[]);
         let joints: Vec<&Joint> = m.variables().into_iter().map(|j| &m.joints[j]).collect();
         let number = |e: Expr| e.eval(|_| None).ok();
         let limits = joints.iter().map(|j| j.limits.and_then(|[a, b]| Some([number(a)?, number(b)?])));
@@ -77,13 +76,13 @@ impl Answers {
             limits.clear();
         }
         let names = Names {
-            bodies: m.bodies.iter().map(|b| b.name.clone()).collect(),
+            bodies: bodies.iter().map(|&b| m.bodies[b].name.clone()).collect(),
             joints: joints.iter().map(|j| j.name.clone()).collect(),
         };
         Answers {
             function: function.on(function.target().0, Arithmetic::Strict),
             joints: joints.len(),
-            results: POSE * all.len(),
+            results: POSE * bodies.len(),
             robot: m.name.clone(),
             limits,
             orientation: None,

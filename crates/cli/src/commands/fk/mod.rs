@@ -7,12 +7,12 @@ pub mod tree;
 use crate::arguments::{FkArguments, Format};
 use crate::commands::derive;
 use crate::failure::Failure;
-use crate::load::{self, Around};
+use crate::load::{self, Around, Tree};
 use crate::terminal::{Align, HEADING, NAME, lowered, matrix, noise, note, number, raised, styled};
 use answer::Answers;
 pub use answer::strict;
 use denavit::Robot;
-use denavit::description::{Description, JointKind, Measure, NamedFrame, Variable};
+use denavit::description::{Convention, Description, JointKind, Measure, NamedFrame, Variable};
 use denavit::forward::Reference;
 use denavit::geometry::orientation::{OrientationSet, extract};
 use denavit::geometry::{Transform, Vector};
@@ -30,10 +30,13 @@ pub fn run(arguments: &FkArguments) -> Result<(), Failure> {
         let format = if arguments.json { Format::Json } else { Format::Terminal };
         return derive::matrix_only(&arguments.robot, orientation(arguments)?, format);
     }
-    if arguments.frames.as_deref() == Some("all")
+    if let Some(frames) = arguments.frames.as_deref()
+        && (frames == "all" || arguments.robot.set.is_empty())
         && let Some(found) = load::mechanism(&arguments.robot)?
+        && (frames == "all" || !is_on_chain(arguments, &found, frames))
+        && let Some(answer) = tree::run(arguments, &found, frames)
     {
-        return tree::run(arguments, &found);
+        return answer;
     }
     let (description, around) = load::robot_and_around(&arguments.robot)?;
     let request = Request::new(&description, &around, arguments)?;
@@ -79,6 +82,37 @@ pub fn without_values(description: &Description, name: &str, missing: &MissingVa
     Failure::Input(format!("error: {name}: {missing}\n  = hint: give values, as in {}", settings.join(" ")))
 }
 
+/// Whether the chain of a tree that is taken where none is named has all of these frames.
+fn is_on_chain(arguments: &FkArguments, tree: &Tree, frames: &str) -> bool {
+    let convention = |usual| arguments.robot.convention.map_or(usual, Into::into);
+    let found = match tree {
+        Tree::Bodies(m) => {
+            let chain = m.chain(None, None, convention(Convention::Standard)).ok();
+            chain.map(|c| (m.frames(&c), c.description))
+        }
+        Tree::Rows(rows) => {
+            let chain = rows.chain(None, None, convention(Convention::Khalil)).ok();
+            chain.map(|c| (c.frames, c.description))
+        }
+    };
+    found.is_some_and(|(around, d)| named_frames(&d, &around, frames).is_ok())
+}
+
+/// The frames that a list names, each once.
+fn named_frames(d: &Description, around: &[NamedFrame], text: &str) -> Result<Vec<Frame>, String> {
+    let find = |word: &str| Frame::find(d, around, word.trim());
+    // A name may hold commas.
+    let all = || text.split(',').map(find).collect();
+    let found: Result<Vec<Frame>, String> = find(text).map(|f| vec![f]).or_else(|_| all());
+    let mut once: Vec<Frame> = vec![];
+    for frame in found? {
+        if !once.contains(&frame) {
+            once.push(frame);
+        }
+    }
+    Ok(once)
+}
+
 /// What is asked for besides the tool's pose.
 struct Request {
     frames: Vec<Frame>,
@@ -116,7 +150,17 @@ impl Frame {
                 let also = if names.is_empty() { String::new() } else { format!(", {}", names.join(", ")) };
                 return Err(format!("{why}{also}"));
             };
+            let open = || {
+                let symbols = pose.matrix().concat().into_iter().flat_map(Expr::symbols);
+                let mut names: Vec<String> =
+                    symbols.filter(|s| d.value(*s).is_none()).map(|s| s.name().to_string()).collect();
+                names.dedup();
+                format!("where `{name}` stands has no value: {}", names.join(", "))
+            };
             let pose = pose.map(|e| e.eval(|s| d.value(s)).unwrap_or(f64::NAN));
+            if pose.matrix().as_flattened().iter().any(|x| !x.is_finite()) {
+                return Err(open());
+            }
             Ok(Frame { on: on.map_or(0, |row| row + 1), named: Some((name.clone(), pose)) })
         })
     }
@@ -128,22 +172,8 @@ impl Request {
         let frames = match arguments.frames.as_deref() {
             None => vec![],
             Some("all") => (0..=last).map(Frame::of_table).collect(),
-            Some(text) => {
-                let around = around.frames();
-                let find = |word: &str| Frame::find(description, &around, word.trim());
-                // A name may hold commas.
-                let all = || text.split(',').map(find).collect();
-                let found: Result<Vec<Frame>, String> = find(text).map(|f| vec![f]).or_else(|_| all());
-                let found =
-                    found.map_err(|why| Failure::Usage(format!("--frames {text}: {why}, or `all`")))?;
-                let mut once: Vec<Frame> = vec![];
-                for frame in found {
-                    if !once.contains(&frame) {
-                        once.push(frame);
-                    }
-                }
-                once
-            }
+            Some(text) => named_frames(description, &around.frames(), text)
+                .map_err(|why| Failure::Usage(format!("--frames {text}: {why}, or `all`")))?,
         };
         Ok(Request { frames, orientation: orientation(arguments)? })
     }

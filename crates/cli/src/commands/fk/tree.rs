@@ -1,4 +1,4 @@
-//! `fk --frames all` of a tree: where all its bodies are.
+//! `fk --frames` of a tree: where all its bodies are, or those that are named.
 
 use super::answer::{Answers, transforms};
 use super::{plural, stream, value, warn_of_limits};
@@ -12,24 +12,47 @@ use denavit::geometry::orientation::{OrientationSet, extract};
 use denavit::quantity::reading;
 use std::io::Write;
 
-/// Answers for all bodies.
+/// Answers for the bodies that a list names, or for all of them; nothing if they are named and one is not there.
 ///
 /// # Errors
 /// If a parameter has no value, the configuration cannot be read, or nothing can be written.
-pub fn run(arguments: &FkArguments, tree: &Tree) -> Result<(), Failure> {
+pub fn run(arguments: &FkArguments, tree: &Tree, frames: &str) -> Option<Result<(), Failure>> {
     let name = &arguments.robot.robot;
+    let mechanism = match bodies(tree, name) {
+        Ok(mechanism) => mechanism,
+        Err(failure) => return Some(Err(failure)),
+    };
+    let bodies: Vec<usize> = match frames {
+        "all" => (0..mechanism.bodies.len()).collect(),
+        text => named(&mechanism, text)?,
+    };
+    Some(answer(arguments, &mechanism, &bodies))
+}
+
+/// The bodies that a list names, each once; a name may hold commas.
+fn named(m: &Mechanism, text: &str) -> Option<Vec<usize>> {
+    let all = || text.split(',').map(|word| m.body(word.trim())).collect::<Option<Vec<usize>>>();
+    let mut once: Vec<usize> = vec![];
+    for body in m.body(text.trim()).map(|b| vec![b]).or_else(all)? {
+        if !once.contains(&body) {
+            once.push(body);
+        }
+    }
+    Some(once)
+}
+
+fn answer(arguments: &FkArguments, mechanism: &Mechanism, bodies: &[usize]) -> Result<(), Failure> {
     if arguments.orientation.is_some() {
         return Err(Failure::Usage("--orientation is for one chain: name its end with --tip".into()));
     }
-    let mechanism = bodies(tree, name)?;
-    let answers = Answers::of_tree(&mechanism);
+    let answers = Answers::of_tree(mechanism, bodies);
     match (&arguments.input, &arguments.q) {
         (Some(path), _) => stream::run(answers, path),
         (None, text) => {
-            let q = configuration(&mechanism, text.as_deref())?;
+            let q = configuration(mechanism, text.as_deref())?;
             let ends =
                 |j: &Joint| j.limits.and_then(|[low, high]| Some([value(low).ok()?, value(high).ok()?]));
-            for (joint, &x) in joints(&mechanism).into_iter().zip(&q) {
+            for (joint, &x) in joints(mechanism).into_iter().zip(&q) {
                 warn_of_limits(&joint.name, kind(joint), ends(joint), x);
             }
             let results = answers.function.scalar().eval(&q).to_vec();
@@ -39,7 +62,7 @@ pub fn run(arguments: &FkArguments, tree: &Tree) -> Result<(), Failure> {
                 answers.write(&q, &results, &mut text);
                 out.write_all(&text)?;
             } else {
-                write!(out, "{}", report(&mechanism, &q, &results))?;
+                write!(out, "{}", report(mechanism, bodies, &q, &results))?;
             }
             Ok(())
         }
@@ -77,7 +100,7 @@ pub fn configuration(m: &Mechanism, text: Option<&str>) -> Result<Vec<f64>, Fail
     let joints = joints(m);
     let names = || joints.iter().map(|j| j.name.as_str()).collect::<Vec<_>>().join(", ");
     let bad = |why: String| Failure::Usage(format!("-q: {why}"));
-    let Some(text) = text else {
+    let Some(text) = text.or(joints.is_empty().then_some("")) else {
         let example = joints.first().map_or("joint", |j| j.name.as_str());
         return Err(Failure::Usage(format!(
             "say where the joints are: -q with {}, or with some by name, as in -q \"{example}=0.5\" (the others are at 0): {}",
@@ -124,10 +147,14 @@ pub fn configuration(m: &Mechanism, text: Option<&str>) -> Result<Vec<f64>, Fail
 }
 
 /// The answer for reading: a line a body.
-fn report(m: &Mechanism, q: &[f64], results: &[f64]) -> String {
+fn report(m: &Mechanism, bodies: &[usize], q: &[f64], results: &[f64]) -> String {
     let moved = joints(m).into_iter().zip(q).filter(|(_, x)| **x != 0.0);
     let at: Vec<String> = moved.map(|(j, &x)| format!("{} = {}", j.name, reading(x, kind(j)))).collect();
-    let at = if at.is_empty() { "all joints at 0".to_string() } else { at.join(", ") };
+    let at = match (at.is_empty(), q.is_empty()) {
+        (_, true) => " (no joint moves)".to_string(),
+        (true, false) => " at all joints at 0".to_string(),
+        (false, false) => format!(" at {}", at.join(", ")),
+    };
     let poses: Vec<Transform<f64>> = transforms(results).collect();
     let rounding = noise(&poses);
     let row = |(body, x): (&denavit::description::Body, &Transform<f64>)| {
@@ -136,9 +163,9 @@ fn report(m: &Mechanism, q: &[f64], results: &[f64]) -> String {
         let place = x.translation.0.map(|e| number(e, rounding));
         [vec![body.name.clone()], place.to_vec(), rpy.into_iter().map(angle).collect()].concat()
     };
-    let rows: Vec<Vec<String>> = m.bodies.iter().zip(&poses).map(row).collect();
+    let rows: Vec<Vec<String>> = bodies.iter().map(|&b| &m.bodies[b]).zip(&poses).map(row).collect();
     let header = ["frame", "x", "y", "z", "roll", "pitch", "yaw"];
     let mut align = vec![Align::Right; header.len()];
     align[0] = Align::Left;
-    format!("{} at {at}\n\n{}", styled(&m.name, HEADING), table(&header, &align, &rows))
+    format!("{}{at}\n\n{}", styled(&m.name, HEADING), table(&header, &align, &rows))
 }

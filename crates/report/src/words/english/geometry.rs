@@ -3,7 +3,7 @@
 use super::{English, counted};
 use crate::words::Geometry;
 use crate::words::geometry::{Given, Whole};
-use denavit::description::{Agreement, Chain, Mechanism, Moved};
+use denavit::description::{Agreement, Chain, Mechanism, Moved, Part};
 use denavit::idealise::Measured;
 use denavit::structure::{NearlySpecial, Relation};
 
@@ -83,6 +83,21 @@ impl Geometry for English {
         format!(
             "from `{from}` to `{to}`, {joints}; {agreement}{follows}. The file gives {limits}, {inertias}"
         )
+    }
+
+    fn left_part(&self, part: Part) -> &'static str {
+        match part {
+            Part::Names => "names of joints",
+            Part::Limits => "limits",
+            Part::Velocities => "limits of speed",
+            Part::Accelerations => "limits of acceleration",
+            Part::Efforts => "limits of torque and force",
+            Part::Poses => "named poses",
+            Part::Masses => "masses",
+            Part::Rotors => "rotors",
+            Part::Friction => "friction",
+            Part::Gravity => "gravity",
+        }
     }
 
     fn read_apart(&self, metres: f64) -> String {

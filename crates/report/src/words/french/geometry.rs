@@ -3,7 +3,7 @@
 use super::{French, printed};
 use crate::words::Geometry;
 use crate::words::geometry::{Given, Whole};
-use denavit::description::{Agreement, Chain, Mechanism, Moved};
+use denavit::description::{Agreement, Chain, Mechanism, Moved, Part};
 use denavit::idealise::Measured;
 use denavit::structure::{NearlySpecial, Relation, Special};
 
@@ -94,6 +94,21 @@ impl Geometry for French {
         printed(&format!(
             "de `{from}` à `{to}`, {joints} articulation{plural} ; {agreement}{follows}. Le fichier donne {limits}, {inertias}"
         ))
+    }
+
+    fn left_part(&self, part: Part) -> &'static str {
+        match part {
+            Part::Names => "noms des articulations",
+            Part::Limits => "butées",
+            Part::Velocities => "limites de vitesse",
+            Part::Accelerations => "limites d’accélération",
+            Part::Efforts => "limites de couple et de force",
+            Part::Poses => "poses nommées",
+            Part::Masses => "masses",
+            Part::Rotors => "rotors",
+            Part::Friction => "frottement",
+            Part::Gravity => "gravité",
+        }
     }
 
     fn read_apart(&self, metres: f64) -> String {
