@@ -107,6 +107,11 @@ export function root(text: string): string | undefined {
   return /^\uFEFF?\s*(?:<\?[^>]*\?>\s*|<!--.*?-->\s*)*<([\w.:-]+)/s.exec(text.slice(0, 20_000))?.[1];
 }
 
+/** Whether a model of MuJoCo's includes others: it stands beside one that is whole. */
+export function includesOthers([path, text]: [string, string]): boolean {
+  return /\.(xml|mjcf)$/i.test(path) && root(text) === "mujoco" && text.includes("<include");
+}
+
 /**
  * Descriptions among texts, the likeliest first: a URDF before a model of MuJoCo's before what xacro has yet to expand, a model that
  * includes no other one before one that does, the top before what lies below.
@@ -115,7 +120,7 @@ export function descriptions(texts: [string, string][]): string[] {
   const models = new Map(texts.filter(([path, text]) => /\.(xml|mjcf)$/i.test(path) && root(text) === "mujoco"));
   const rank = (path: string) => {
     const model = models.get(path);
-    if (model !== undefined) return model.includes("<include") ? 2 : 1;
+    if (model !== undefined) return includesOthers([path, model]) ? 2 : 1;
     return /\.urdf$/i.test(path) ? 0 : /\.urdf\.xacro$/i.test(path) ? 3 : 4;
   };
   const depth = (path: string) => path.split("/").length;

@@ -3,7 +3,7 @@
 import type { Convention, Output, RobotFile } from "../engine/types.ts";
 import { batch, computed, engine, file, note, replace, said, signal } from "../state.ts";
 import { capital } from "../widgets/words.tsx";
-import { descriptions, type Lying, MESH, root, texts, unpacked } from "./files.ts";
+import { descriptions, includesOthers, type Lying, MESH, root, texts, unpacked } from "./files.ts";
 
 /** Files in which a description stands, and what lies around it. */
 export interface Source {
@@ -76,8 +76,8 @@ export async function openTree(dropped: Lying[]): Promise<boolean> {
   const source: Source = { files, texts: await texts(files), packages: [] };
   const found = descriptions(source.texts);
   if (found.length === 0) throw new Error("There is no description of a robot in it: no file ends in .urdf or .xacro, and none is a model of MuJoCo's.");
-  // A model that includes others stands beside one that is whole.
-  const whole = found.filter((path) => !/\.(xml|mjcf)$/i.test(path) || !source.texts.some(([name, text]) => name === path && text.includes("<include")));
+  const parts = new Set(source.texts.filter(includesOthers).map(([path]) => path));
+  const whole = found.filter((path) => !parts.has(path));
   return read(source, { main: found[0], given: "", asWritten: false }, isClear(whole.length > 0 ? whole : found));
 }
 
