@@ -401,13 +401,16 @@ fn links_are_named_without_a_tip() {
         let found = all.iter().find(|f| f["name"] == name).map(|f| f["pose"].clone());
         (all.len(), found.expect("the frame"))
     };
-    let two = "robotiq_85_left_finger_tip_link,robotiq_85_right_finger_tip_link";
+    let two = "ee_link,tool0";
     let q = "elbow_joint=0.5, shoulder_pan_joint=0.2";
-    let (count, left) = pose(two, "robotiq_85_left_finger_tip_link", q);
-    let (all, whole) = pose("all", "robotiq_85_left_finger_tip_link", q);
+    let (count, left) = pose(two, "ee_link", q);
+    let (all, whole) = pose("all", "ee_link", q);
     assert!(count == 2 && all > 10 && left == whole);
-    let (code, _, said) = run(&["fk", &file, "--frames", "robotiq_85_left_finger_tip_lnk,tool0", "-q", q]);
-    assert!(code == 2, "{said}");
+    let (code, _, said) = run(&["fk", &file, "--frames", "forearm_lnk,tool0", "-q", q]);
+    assert!(
+        code == 2 && said.contains("there is no link `forearm_lnk`; did you mean `forearm_link`?"),
+        "{said}"
+    );
     let still = "<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='fixed'><origin xyz='1 2 3'/>\
                  <parent link='a'/><child link='b'/></joint></robot>";
     let still = File::new("still.urdf", still);

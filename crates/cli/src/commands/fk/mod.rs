@@ -33,10 +33,16 @@ pub fn run(arguments: &FkArguments) -> Result<(), Failure> {
     if let Some(frames) = arguments.frames.as_deref()
         && (frames == "all" || arguments.robot.set.is_empty())
         && let Some(found) = load::mechanism(&arguments.robot)?
-        && (frames == "all" || !is_on_chain(arguments, &found, frames))
-        && let Some(answer) = tree::run(arguments, &found, frames)
+        && (frames == "all" || is_on_chain(arguments, &found, frames) != Some(true))
     {
-        return answer;
+        match tree::run(arguments, &found, frames) {
+            Some(answer) => return answer,
+            // Where there is a chain, what is said of its frames says more.
+            None if is_on_chain(arguments, &found, frames).is_none() => {
+                return Err(tree::unknown(&found, frames));
+            }
+            None => {}
+        }
     }
     let (description, around) = load::robot_and_around(&arguments.robot)?;
     let request = Request::new(&description, &around, arguments)?;
@@ -82,8 +88,8 @@ pub fn without_values(description: &Description, name: &str, missing: &MissingVa
     Failure::Input(format!("error: {name}: {missing}\n  = hint: give values, as in {}", settings.join(" ")))
 }
 
-/// Whether the chain of a tree that is taken where none is named has all of these frames.
-fn is_on_chain(arguments: &FkArguments, tree: &Tree, frames: &str) -> bool {
+/// Whether the chain of a tree that is taken where none is named has all of these frames; nothing where there is no such chain.
+fn is_on_chain(arguments: &FkArguments, tree: &Tree, frames: &str) -> Option<bool> {
     let convention = |usual| arguments.robot.convention.map_or(usual, Into::into);
     let found = match tree {
         Tree::Bodies(m) => {
@@ -95,7 +101,7 @@ fn is_on_chain(arguments: &FkArguments, tree: &Tree, frames: &str) -> bool {
             chain.map(|c| (c.frames, c.description))
         }
     };
-    found.is_some_and(|(around, d)| named_frames(&d, &around, frames).is_ok())
+    found.map(|(around, d)| named_frames(&d, &around, frames).is_ok())
 }
 
 /// The frames that a list names, each once.

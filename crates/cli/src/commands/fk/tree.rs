@@ -6,7 +6,7 @@ use crate::arguments::FkArguments;
 use crate::failure::Failure;
 use crate::load::{self, Tree};
 use crate::terminal::{Align, HEADING, noise, number, styled, table};
-use denavit::description::{Joint, JointKind, Mechanism};
+use denavit::description::{Convention, Joint, JointKind, Mechanism, NoChain};
 use denavit::geometry::Transform;
 use denavit::geometry::orientation::{OrientationSet, extract};
 use denavit::quantity::reading;
@@ -39,6 +39,22 @@ fn named(m: &Mechanism, text: &str) -> Option<Vec<usize>> {
         }
     }
     Some(once)
+}
+
+/// That a list names what is not there.
+pub fn unknown(tree: &Tree, text: &str) -> Failure {
+    let missing = |word: &str| {
+        let why = match tree {
+            Tree::Bodies(m) => m.chain(None, Some(word), Convention::Standard).err(),
+            Tree::Rows(rows) => rows.chain(None, Some(word), Convention::Khalil).err(),
+        };
+        why.filter(|why| matches!(why, NoChain::Unknown { .. }))
+    };
+    let why = text.split(',').find_map(|word| missing(word.trim()));
+    Failure::Usage(format!(
+        "--frames {text}: {}",
+        why.map_or("there is no such link".into(), |w| w.to_string())
+    ))
 }
 
 fn answer(arguments: &FkArguments, mechanism: &Mechanism, bodies: &[usize]) -> Result<(), Failure> {
