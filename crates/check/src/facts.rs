@@ -418,6 +418,8 @@ pub enum Unproved {
     NoPose,
     /// It is refuted as the robot, or what is given, is read, and nothing in the document bears that reading out.
     Unsupported,
+    /// It is right at another configuration that the document states.
+    OtherConfiguration,
     /// A column of a table has a head that is not known.
     UnknownColumn,
     /// A table has other joints than the robot.

@@ -16,6 +16,8 @@ pub(super) struct Configuration {
     before: Vec<Option<(f64, bool)>>,
     /// Whole ones that were found before, for the same pose or for others.
     found: Vec<Vec<Option<(f64, bool)>>>,
+    /// Whole ones that were stated before the present one.
+    stated: Vec<Vec<Option<(f64, bool)>>>,
     /// What of the next one is found.
     partly: Vec<Option<(f64, bool)>>,
     /// The joints are what is asked for.
@@ -53,6 +55,11 @@ impl Configuration {
         if let Ok(x) = value.eval(|_| None) {
             if self.is_sought && self.values.get(joint).is_some_and(Option::is_some) {
                 self.keep_found();
+            }
+            let is_whole = !self.values.is_empty() && self.values.iter().all(Option::is_some);
+            if joint == 0 && is_whole && self.stated.len() < MOST_FOUND && !self.stated.contains(&self.values)
+            {
+                self.stated.push(self.values.clone());
             }
             if self.values.len() <= joint {
                 self.values.resize(joint + 1, None);
@@ -296,10 +303,25 @@ fn with_exponent(text: &str) -> String {
 /// The verdict on a number: at the present configuration, or at one that was found before, of which a later part may speak.
 pub(super) fn judge(answer: &Answer, subject: &Subject, tolerance: Option<f64>) -> Finding {
     let here = judge_here(answer, subject, tolerance);
+    let there = |at| judge_here(&Answer { at, ..answer.clone() }, subject, tolerance);
+    // What is right at another configuration of the document may be said of that one.
+    let is_told = || {
+        let all = answer
+            .at
+            .stated
+            .iter()
+            .map(|values| Configuration { values: values.clone(), ..answer.at.clone() });
+        all.map(there).any(|f| matches!(f, Finding::Equal { .. }))
+    };
+    let here = match here {
+        Finding::Wrong(_) if answer.printed != 0.0 && is_told() => {
+            Finding::Undecided { why: Unproved::OtherConfiguration }
+        }
+        here => here,
+    };
     if matches!(here, Finding::Equal { .. }) || answer.at.found.is_empty() {
         return here;
     }
-    let there = |at| judge_here(&Answer { at, ..answer.clone() }, subject, tolerance);
     let others: Vec<Finding> = answer.at.earlier().map(there).collect();
     let is_right = |f: &Finding| matches!(f, Finding::Equal { .. });
     let is_wrong = |f: &Finding| matches!(f, Finding::Wrong(_));

@@ -1,8 +1,14 @@
 //! What the name of a function says of what it gives back.
 
+use crate::jacobians::Part;
+use crate::lexis::Lexis;
 use crate::matrix::Matrix;
+use crate::note::{Unread, Unreadable};
+use crate::subject::Subject;
+use crate::walk::{Pair, Piece};
 use denavit_reading::code::{Cell, Reading};
 use denavit_reading::slip::Points;
+use denavit_symbolic::{Expr, Symbol, equal};
 
 /// The coordinate of the hand that a function is called after: `fk_x`, `get_y`, `px`.
 pub(super) fn axis_of(name: &str) -> Option<usize> {
@@ -82,4 +88,39 @@ pub(super) fn as_square(rows: &[Vec<Cell>], hand: &Matrix) -> Option<Vec<Vec<Cel
     let by_columns = agreement(true) > agreement(false);
     let at = |r: usize, c: usize| all[if by_columns { c * n + r } else { r * n + c }].clone();
     Some((0..n).map(|r| (0..n).map(|c| at(r, c)).collect()).collect())
+}
+
+/// The joints that a function does not take where it takes others by their names: what it gives holds at values of them that it does
+/// not tell.
+pub(super) fn lacking(function: &Reading, source: &str, lexis: &Lexis, subject: &Subject) -> Vec<Symbol> {
+    let text = source.get(function.span.clone()).unwrap_or_default();
+    let head = text.split_once('(').and_then(|h| h.1.split_once(')')).map_or("", |h| h.0);
+    if function.name.is_empty() || head.is_empty() {
+        return vec![];
+    }
+    let names: Vec<&str> = super::words(head).collect();
+    let taken: Vec<Expr> = names.iter().filter_map(|n| lexis.names.lookup(n)).collect();
+    let joints = subject.joints();
+    if !joints.iter().any(|q| taken.contains(q)) {
+        return vec![];
+    }
+    joints.iter().filter(|q| !taken.contains(q)).filter_map(|q| q.as_symbol()).collect()
+}
+
+/// A pair whose right side holds a joint that the function does not take is not judged, unless it is right.
+pub(super) fn without(piece: &mut Piece, lacking: &[Symbol]) {
+    let Piece::Pair(Pair { place, span, value, wanted, .. }) = piece else { return };
+    let Some(name) = wanted.symbols().into_iter().find(|s| lacking.contains(s)) else { return };
+    if !equal(*value, *wanted).is_equal() {
+        let errors = vec![Unread::new(span.clone(), Unreadable::Unknown(name.name().to_string()))];
+        *piece = Piece::Unreadable { place: *place, span: span.clone(), errors };
+    }
+}
+
+/// The determinant that the arm has by nature; in which order the rows of a task of more than a place are is not told, so that
+/// of more than three joints it has the sign of the printed one.
+pub(super) fn determinant_like(subject: &Subject, printed: Expr) -> Option<Expr> {
+    let wanted = [Part::Any, Part::Linear].into_iter().find_map(|p| subject.determinant(p))?;
+    let is_turned = subject.joints().len() > 3 && equal(printed, -wanted).is_equal();
+    Some(if is_turned { -wanted } else { wanted })
 }

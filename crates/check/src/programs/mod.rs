@@ -22,7 +22,9 @@ use super::numbers::{Answer, Configuration, half_unit};
 use super::recognised;
 use super::subject::Subject;
 use super::walk::{Assertion, Defined, Pair, Piece, Walk, is_measured};
-use called::{as_square, axis_of, gives_another, is_determinant, is_of_part};
+use called::{
+    as_square, axis_of, determinant_like, gives_another, is_determinant, is_of_part, lacking, without,
+};
 use defined::{defined, unsaid};
 use denavit::forward::Reference;
 use denavit_reading::code::{Asked, Assigned, Cell, Code, Dialect, Reading, Value, read_blocks};
@@ -138,8 +140,13 @@ pub(super) fn assertions(of: &Source<'_>, subject: &Rc<Subject>, habits: &Rc<Hab
             let at = &places;
             let program = Program { text: source, subject, lexis, number, names, given, functions: &own, at };
             let count = found.assertions.len();
-            found.assertions.extend(program.assigned(function));
-            found.assertions.extend(program.returned(function));
+            let lacking = lacking(function, source, lexis, subject);
+            let of_others = |mut a: Assertion| {
+                a.pieces.iter_mut().for_each(|p| without(p, &lacking));
+                a
+            };
+            found.assertions.extend(program.assigned(function).into_iter().map(of_others));
+            found.assertions.extend(program.returned(function).into_iter().map(of_others));
             let judged = found.assertions[count..].to_vec();
             found.assertions.extend(program.recognised(function, &judged));
             if found.assertions.len() == count && !function.returned.is_empty() {
@@ -460,7 +467,7 @@ impl Program<'_> {
         shown: &str,
     ) -> Option<Assertion> {
         if is_determinant(function) && function.returned.len() == 1 {
-            let wanted = [Part::Any, Part::Linear].into_iter().find_map(|p| self.subject.determinant(p))?;
+            let wanted = determinant_like(self.subject, in_radians(cell.value))?;
             return Some(self.assertion(
                 shown,
                 About::Equation,

@@ -5,13 +5,55 @@ use super::{Pair, Piece, Scalar, Spoken, Walk};
 use crate::facts::About;
 use crate::habits::is_named_sign;
 use crate::jacobians::Part;
+use crate::note::Unreadable;
 use denavit_reading::document::{Place, Statement};
-use denavit_symbolic::Expr;
 use denavit_symbolic::parse::{Syntax, SyntaxKind};
 use denavit_symbolic::vocabulary::plain_name;
+use denavit_symbolic::{Expr, Node, Symbol, equal};
 use std::ops::Range;
 
 impl Walk<'_> {
+    /// `sin θ2 = −e/d3`, of no pose: where something is so, as singular. True if it is no identity; then it is a claim only if
+    /// the arm is singular there.
+    pub(super) fn is_sine_there(&mut self, statement: &Statement, read: &[Scalar]) -> bool {
+        let [Scalar::Formula(_, left), Scalar::Formula(span, right)] = read else { return false };
+        let (sine, value) = (left.value(), right.value());
+        let (Node::Sin(angle) | Node::Cos(angle)) = sine.node() else { return false };
+        let Some(joint) = angle.as_symbol().filter(|s| self.subject.joints().contains(&(*s).into())) else {
+            return false;
+        };
+        let d = &self.subject.description;
+        let symbols = value.symbols();
+        let is_known = |s: &Symbol| d.parameter(*s).is_some() || self.subject.joints().contains(&(*s).into());
+        if symbols.is_empty()
+            || symbols.contains(&joint)
+            || !symbols.iter().all(is_known)
+            || self.speaks_of_pose(span)
+            || equal(sine, value).is_equal()
+        {
+            return false;
+        }
+        let other = (Expr::int(1) - value.powi(2)).sqrt();
+        let there = match sine.node() {
+            Node::Sin(_) => value.atan2(other),
+            _ => other.atan2(value),
+        };
+        let determinants = [Part::Any, Part::Linear].into_iter().filter_map(|p| self.subject.determinant(p));
+        let at = |e: Expr| e.substitute(|s| (s == joint).then_some(there));
+        let singular = determinants.map(at).find(|e| equal(*e, Expr::int(0)).is_equal());
+        match singular {
+            Some(value) => {
+                let (place, span, wanted, also) = (None, span.clone(), Expr::int(0), vec![]);
+                let pair = Pair { place, span, printed: None, value, wanted, also };
+                let mut assertion = self.assertion(statement, About::Singularity);
+                assertion.pieces = vec![Piece::Pair(pair)];
+                self.assertions.push(assertion);
+            }
+            None => self.skipped.push((statement.span.clone(), Unreadable::NoConfiguration)),
+        }
+        true
+    }
+
     /// A joint's value in a sentence that tells a case: a singular configuration, if the sentence says so.
     pub(super) fn case(&mut self, statement: &Statement, read: &[Scalar]) -> bool {
         let [Scalar::Formula(_, left), Scalar::Formula(span, right)] = read else { return false };

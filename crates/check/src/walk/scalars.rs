@@ -159,6 +159,9 @@ impl Walk<'_> {
             self.skipped.push((statement.span.clone(), Unreadable::NeitherFormulaNorProduct));
             return true;
         }
+        if self.is_sine_there(statement, &read) {
+            return true;
+        }
         self.record_sine(&spans, &read);
         let told = claim.and_then(|words| self.told_entry(words));
         // A name that the document defines here.

@@ -102,3 +102,20 @@ fn remarks_behind_rows_of_a_table() {
     is(&found, "out[0]", Standing::Equal);
     is(&found, "out[2]", Standing::Wrong);
 }
+
+#[test]
+fn functions_of_a_part_of_the_joints() {
+    let text = |level: &str| {
+        format!(
+            "# DH (standard)\n# | i | theta | d | a | alpha |\n# | 1 | q1 | 0 | L1 | 0 |\n# | 2 | q2 | 0 | L2 | 0 |\n# | 3 | q3 | 0 | L3 | 0 |\n\
+             # Rods keep the hand level.\nimport numpy as np\n\ndef forward(q1, q2):\n    x = L1*np.cos(q1) + L2*np.cos(q1 + q2) + {level}\n    return x\n"
+        )
+    };
+    let options = CheckOptions { language: Some(Dialect::Python), ..CheckOptions::default() };
+    let found = check(&text("L3"), Format::Plain, None, &options).unwrap();
+    assert!(found.claims.iter().all(|c| c.standing() != Standing::Wrong), "{:?}", found.claims);
+    // One that takes all joints says what it says.
+    let all = text("L3").replace("forward(q1, q2)", "forward(q1, q2, q3)");
+    let found = check(&all, Format::Plain, None, &options).unwrap();
+    assert!(found.claims.iter().any(|c| c.standing() == Standing::Wrong), "{:?}", found.claims);
+}

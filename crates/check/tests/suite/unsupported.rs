@@ -114,3 +114,27 @@ fn a_proof_that_takes_too_long_is_given_up() {
     let found = read(&text, Some(Dialect::Python));
     assert_eq!(all(&found, "q2"), [Standing::Conditional], "{:?}", found.claims);
 }
+
+#[test]
+fn where_the_sine_of_a_joint_is_something() {
+    let table = "DH (standard)\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | θ1 | L1 | e | −90° |\n| 2 | θ2 | 0 | 0 | 90° |\n\
+                 | 3 | 0 | d3 | 0 | 0 |\n\n";
+    let of = |value: &str| {
+        let found =
+            read(&format!("{table}The determinant vanishes for\n\n$$\\sin\\theta_2 = {value}$$\n"), None);
+        found.claims.iter().map(|c| (c.about.clone(), c.standing())).collect::<Vec<_>>()
+    };
+    assert_eq!(of("-\\frac{e}{d_3}"), [(About::Singularity, Standing::Equal)]);
+    assert_eq!(of("\\frac{e}{d_3}"), []);
+}
+
+#[test]
+fn numbers_of_another_configuration() {
+    let text = |x: &str| {
+        format!(
+            "{PLANAR}a1 = 0.5 m, a2 = 0.4 m.\n\nR1: q = (30°, 60°)\n\nR2: q = (90°, 0°)\n\nIn these poses\n\n- R1: x = {x}\n"
+        )
+    };
+    assert_eq!(all(&read(&text("0.4330"), None), "x"), [Standing::Undecided]);
+    assert_eq!(all(&read(&text("0.4210"), None), "x"), [Standing::Wrong]);
+}

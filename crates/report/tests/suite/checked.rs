@@ -220,6 +220,7 @@ fn conditions_and_doubts() {
         Unproved::NotOfSet,
         Unproved::NoPose,
         Unproved::Unsupported,
+        Unproved::OtherConfiguration,
         Unproved::UnknownColumn,
         Unproved::OtherJoints,
         Unproved::OtherNames,

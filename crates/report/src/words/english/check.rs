@@ -237,6 +237,7 @@ impl Check for English {
             Unproved::Unsupported => {
                 "it does not agree with the robot as it is read here, and nothing in the document bears that reading out"
             }
+            Unproved::OtherConfiguration => "right at another configuration that the document states, not at the last one",
             Unproved::UnknownColumn => "what the column holds is not known",
             Unproved::OtherJoints => "it has not the joints of the robot",
             Unproved::OtherNames => "it has lengths that are not known of the robot",

@@ -254,6 +254,9 @@ impl Check for French {
             Unproved::Unsupported => {
                 "en désaccord avec le robot tel qu'il est lu ici, et rien dans le document ne confirme cette lecture"
             }
+            Unproved::OtherConfiguration => {
+                "juste en une autre configuration que le document donne, non en la dernière"
+            }
             Unproved::UnknownColumn => "la colonne n'est pas connue",
             Unproved::OtherJoints => "il n'a pas les articulations du robot",
             Unproved::OtherNames => "il a des longueurs inconnues du robot",
