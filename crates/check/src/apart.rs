@@ -11,22 +11,26 @@ const LONGEST: usize = 80;
 pub(super) fn split(text: &str, claims: Vec<Claim>, causes: &mut [Cause]) -> Vec<Claim> {
     let mut found: Vec<Claim> = vec![];
     // For each claim the new places of its entries.
-    let mut places: Vec<Vec<(usize, usize)>> = vec![];
+    let mut places: Vec<Vec<Option<(usize, usize)>>> = vec![];
+    // The entry for which a claim is called the cause of others.
+    let mut faults: Vec<usize> = vec![];
     for claim in claims {
+        let is = |s: Standing| claim.entries.iter().position(|e| e.finding.standing() == s);
+        faults.push(is(Standing::Wrong).or_else(|| is(Standing::Carried)).unwrap_or(0));
         let own: Vec<Option<Range<usize>>> =
             claim.entries.iter().map(|e| e.place.and_then(|_| left_side(text, &e.span))).collect();
         if own.iter().flatten().count() < 2 {
-            places.push((0..claim.entries.len()).map(|k| (found.len(), k)).collect());
+            places.push((0..claim.entries.len()).map(|k| Some((found.len(), k))).collect());
             found.push(claim);
             continue;
         }
-        let mut at = vec![(found.len(), 0); claim.entries.len()];
+        let mut at = vec![None; claim.entries.len()];
         let mut rest = Claim { entries: vec![], ..claim.clone() };
         let mut others = vec![];
         for (k, (entry, left)) in claim.entries.into_iter().zip(own).enumerate() {
             match left {
                 Some(left) => {
-                    at[k] = (found.len(), 0);
+                    at[k] = Some((found.len(), 0));
                     found.push(Claim {
                         span: left.start..entry.span.end,
                         name: text[left].to_string(),
@@ -45,7 +49,7 @@ pub(super) fn split(text: &str, claims: Vec<Claim>, causes: &mut [Cause]) -> Vec
         }
         // What is left of the matrix, as its zeros, is worth a word where it is not right.
         if rest.standing() != Standing::Equal {
-            others.iter().enumerate().for_each(|(n, &k)| at[k] = (found.len(), n));
+            others.iter().enumerate().for_each(|(n, &k)| at[k] = Some((found.len(), n)));
             rest.instead = None;
             found.push(rest);
         }
@@ -53,13 +57,14 @@ pub(super) fn split(text: &str, claims: Vec<Claim>, causes: &mut [Cause]) -> Vec
     }
     for entry in found.iter_mut().flat_map(|c| &mut c.entries) {
         if let Finding::Carried { by, .. } = &mut entry.finding {
-            *by = places.get(*by).and_then(|p| p.first()).map_or(*by, |p| p.0);
+            let new = places.get(*by).and_then(|p| p.get(faults[*by]).copied().flatten());
+            *by = new.map_or(*by, |p| p.0);
         }
     }
     for cause in causes {
-        let all = [&mut cause.turns_right, &mut cause.turns_wrong, &mut cause.stays_wrong];
-        for at in all.into_iter().flatten() {
-            *at = places.get(at.0).and_then(|p| p.get(at.1)).copied().unwrap_or(*at);
+        for all in [&mut cause.turns_right, &mut cause.turns_wrong, &mut cause.stays_wrong] {
+            let new = |at: &(usize, usize)| places.get(at.0)?.get(at.1).copied().flatten();
+            *all = all.iter().filter_map(new).collect();
         }
     }
     found

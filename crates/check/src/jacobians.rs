@@ -8,7 +8,7 @@ use super::subject::Subject;
 use denavit::forward::Reference;
 use denavit_reading::slip::{Points, Value};
 use denavit_symbolic::readable::simplify;
-use denavit_symbolic::{Expr, Node, equal};
+use denavit_symbolic::{Expr, Node, Symbol, equal};
 use rustc_hash::FxHashMap;
 
 /// Which rows the name of a Jacobian tells.
@@ -185,6 +185,24 @@ impl Subject {
 
     /// The determinant of the Jacobian that the arm has by nature.
     pub fn determinant(&self, part: Part) -> Option<Expr> {
+        if let Some((_, known)) = self.determinants.0.borrow().iter().find(|d| d.0 == part) {
+            return *known;
+        }
+        let found = self.worked_out(part);
+        self.determinants.0.borrow_mut().push((part, found));
+        found
+    }
+
+    /// What a determinant that does not vanish everywhere becomes where a joint has a value, if it vanishes there.
+    pub fn singular_at(&self, joint: Symbol, value: Expr) -> Option<Expr> {
+        let zero = Expr::int(0);
+        let all = [Part::Any, Part::Linear].into_iter().filter_map(|part| self.determinant(part));
+        let at = |e: Expr| e.substitute(|s| (s == joint).then_some(value));
+        let vanishes = |e: Expr| equal(e, zero).is_equal();
+        all.filter(|d| !vanishes(*d)).map(at).find(|e| vanishes(*e))
+    }
+
+    fn worked_out(&self, part: Part) -> Option<Expr> {
         let rows = self.task(part)?;
         // Along which axes it is written does not matter for blocks that turn together; the middle is short.
         let is_whole = |block: [usize; 3]| {

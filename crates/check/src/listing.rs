@@ -220,21 +220,32 @@ fn is_cell(cell: &str) -> bool {
         && words.iter().all(is_known)
 }
 
-/// The cells of a row under a head, without what names it.
+/// The cells of a row under a head, without what names it, and without a remark behind it.
 fn row(line: &str, head: &[Column]) -> Option<[String; 4]> {
+    plain_row(line, head).or_else(|| plain_row(without_remark(line)?, head))
+}
+
+/// `q1, H, E, -90 deg   (E: the tilt axis sits beside the pan axis)` without what stands in brackets at its end.
+fn without_remark(line: &str) -> Option<&str> {
+    let inner = line.trim_end().strip_suffix(')')?;
+    let open = inner.rfind(" (")?;
+    let (before, remark) = (line[..open].trim_end(), &inner[open + 2..]);
+    let is_remark = remark.trim().contains(' ') && !remark.contains(['(', ')']);
+    (is_remark && !before.ends_with([',', '|', ';'])).then_some(before)
+}
+
+fn plain_row(line: &str, head: &[Column]) -> Option<[String; 4]> {
     let line = line.replace(" deg", "°").replace(" rad", "");
     let line = line.split_once(':').map_or(line.as_str(), |l| l.1).trim();
-    // `q1, H, E, -90 deg   (E: the tilt axis sits beside the pan axis)`
-    let is_remark = |r: &str| r.ends_with(')') && r.trim_matches(['(', ')', ' ']).contains(' ');
-    let line = match line.find(" (").filter(|&at| is_remark(&line[at..])) {
-        Some(at) => line[..at].trim_end(),
-        None => line,
-    };
     let line = match line.split_once('=') {
         Some((name, rest)) if matches!(name.trim(), "i" | "j" | "link" | "joint") => rest.trim(),
         _ => line,
     };
-    let line = line.trim_matches(['[', ']', '(', ')', ',', ';', '|']);
+    let inner = line.trim_matches(['[', ']', '(', ')', ',', ';', '|']);
+    // The bracket of the last cell is its own.
+    let open = inner.matches('(').count().saturating_sub(inner.matches(')').count());
+    let line = format!("{inner}{}", ")".repeat(open));
+    let line = line.as_str();
     let by = |c: char| line.split(c).map(str::trim).filter(|c| !c.is_empty()).collect::<Vec<&str>>();
     let cells = match () {
         () if line.contains('|') => by('|'),

@@ -46,9 +46,13 @@ fn torques_by_words(text: &str) -> Option<String> {
         "força",
         "koppel",
     ];
+    // A force may be any; beside a torque it is that of a slide.
+    const TORQUES: [&str; 6] = ["torque", "couple", "drehmoment", "coppia", "binário", "koppel"];
+    let lower = text.to_lowercase();
+    let speaks = TORQUES.iter().any(|w| lower.contains(w));
     let mut bytes = text.as_bytes().to_vec();
     let mut is_any = false;
-    for line in super::lines::lines(text) {
+    for line in super::lines::lines(text).filter(|_| speaks) {
         let source = text.get(line.clone()).unwrap_or_default();
         let own = source.trim_start_matches([' ', '\t', '-', '*', '•']);
         let word: String = own.chars().take_while(|c| c.is_alphabetic()).take(12).collect();

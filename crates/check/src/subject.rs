@@ -2,6 +2,7 @@
 
 use super::facts::Meaning;
 use super::habits::Habits;
+use super::jacobians::Part;
 use super::matrix::Matrix;
 use super::names::{Index, Name, index, pair};
 use denavit::description::{Convention, Description, JointKind, Measure, Screw};
@@ -11,6 +12,7 @@ use denavit::robot::Robot;
 use denavit::velocity::{Viewpoint, geometric};
 use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
 use denavit_symbolic::{Angle, Expr, Rational, Symbol};
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 /// A robot as formulas name it.
@@ -31,6 +33,18 @@ pub(super) struct Subject {
     printed: Printed,
     robot: Robot<Expr>,
     q: Vec<Expr>,
+    /// Determinants that were asked for.
+    pub determinants: Known,
+}
+
+/// What is known of one subject, and of no other that is made from it.
+#[derive(Debug, Default)]
+pub(super) struct Known(pub RefCell<Vec<(Part, Option<Expr>)>>);
+
+impl Clone for Known {
+    fn clone(&self) -> Self {
+        Known::default()
+    }
 }
 
 /// Frames and entries of the pose as an author has them.
@@ -71,7 +85,19 @@ impl Subject {
         let robot = Robot::symbolic(&description);
         let q = description.variables().iter().map(|v| v.symbol.into()).collect();
         let printed = Printed::default();
-        Some(Subject { description, line: None, letters, variables, previous, first: 0, printed, robot, q })
+        let determinants = Known::default();
+        Some(Subject {
+            description,
+            line: None,
+            letters,
+            variables,
+            previous,
+            first: 0,
+            printed,
+            robot,
+            q,
+            determinants,
+        })
     }
 
     /// The same with another table.

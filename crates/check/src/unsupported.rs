@@ -5,12 +5,11 @@
 
 use super::blamed::used;
 use super::facts::{About, Unproved};
-use super::jacobians::Part;
 use super::outcome::{Claim, Finding, Standing};
 use super::plan::{Plan, Walked};
 use super::unjudged::mentions;
-use super::walk::Spoken;
-use denavit_symbolic::{Expr, equal};
+use super::walk::{Spoken, speaks_of_singularity};
+use denavit_symbolic::Expr;
 
 /// A matrix with so many wrong entries is off as a whole.
 const MANY_ENTRIES: usize = 3;
@@ -22,7 +21,9 @@ pub(super) fn withdraw(text: &str, plan: &Plan, walked: &Walked, claims: &mut [C
             && let Some(Spoken::Joint { of, branches, .. }) = &walked.assertions[k].spoken
             && is_constant(plan, claim.robot, branches)
         {
-            let is_singular = branches.iter().all(|b| is_singular(plan, claim.robot, *of, *b));
+            let subject = &plan.subjects[claim.robot];
+            let loses = |b: &Expr| of.as_symbol().and_then(|joint| subject.singular_at(joint, *b)).is_some();
+            let is_singular = speaks_of_singularity(text, claim.span.start) && branches.iter().all(loses);
             let finding = match is_singular {
                 true => Finding::Equal { unless_zero: vec![] },
                 false => Finding::Undecided { why: Unproved::NoPose },
@@ -33,13 +34,13 @@ pub(super) fn withdraw(text: &str, plan: &Plan, walked: &Walked, claims: &mut [C
             claim.entries.iter_mut().for_each(|e| e.finding = finding.clone());
         }
     }
+    let helped: Vec<usize> = (0..walked.assertions.len())
+        .filter(|&k| has_helper(text, walked, k))
+        .map(|k| walked.assertions[k].span.start)
+        .collect();
+    let is_helped = |c: &Claim| helped.contains(&c.span.start);
     for robot in 0..plan.subjects.len() {
         let of_joints = |c: &Claim| c.robot == robot && c.about == About::Joint;
-        let helped: Vec<bool> = (0..walked.assertions.len()).map(|k| has_helper(text, walked, k)).collect();
-        let is_helped = |c: &Claim| {
-            let at = walked.assertions.iter().position(|a| a.span == c.span);
-            at.is_some_and(|k| helped[k])
-        };
         undecided(claims, &of_joints, &|c| {
             let source = text.get(c.span.clone()).unwrap_or_default();
             is_helped(c) && !names_entries(source) && c.entries.iter().all(|e| has_no_slip(&e.finding))
@@ -117,12 +118,4 @@ fn is_bare_wrong(claim: &Claim) -> bool {
 fn is_constant(plan: &Plan, robot: usize, branches: &[Expr]) -> bool {
     let d = &plan.subjects[robot].description;
     branches.iter().all(|b| b.symbols().iter().all(|s| d.parameter(*s).is_some()))
-}
-
-/// True if the Jacobian that the arm has by nature loses its rank where a joint has a value.
-fn is_singular(plan: &Plan, robot: usize, of: Expr, value: Expr) -> bool {
-    let Some(joint) = of.as_symbol() else { return false };
-    let determinants = [Part::Any, Part::Linear].into_iter();
-    let mut determinants = determinants.filter_map(|part| plan.subjects[robot].determinant(part));
-    determinants.any(|d| equal(d.substitute(|s| (s == joint).then_some(value)), Expr::int(0)).is_equal())
 }

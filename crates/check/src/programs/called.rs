@@ -66,8 +66,9 @@ fn words(name: &str) -> impl Iterator<Item = String> + '_ {
     name.split('_').filter(|w| !w.is_empty()).map(str::to_lowercase)
 }
 
-/// Nine or sixteen entries one behind the other as a rotation or a pose, by rows or by columns as they agree with the hand's.
-pub(super) fn as_square(rows: &[Vec<Cell>], hand: &Matrix) -> Option<Vec<Vec<Cell>>> {
+/// Nine or sixteen entries one behind the other as a rotation or a pose, by rows, or by columns where the program says so and they
+/// agree with the hand's.
+pub(super) fn as_square(rows: &[Vec<Cell>], hand: &Matrix, text: &str) -> Option<Vec<Vec<Cell>>> {
     let n = match rows.len() {
         9 => 3,
         16 => 4,
@@ -85,7 +86,7 @@ pub(super) fn as_square(rows: &[Vec<Cell>], hand: &Matrix) -> Option<Vec<Vec<Cel
             })
             .count()
     };
-    let by_columns = agreement(true) > agreement(false);
+    let by_columns = text.to_lowercase().contains("column") && agreement(true) > agreement(false);
     let at = |r: usize, c: usize| all[if by_columns { c * n + r } else { r * n + c }].clone();
     Some((0..n).map(|r| (0..n).map(|c| at(r, c)).collect()).collect())
 }

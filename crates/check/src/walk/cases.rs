@@ -6,11 +6,25 @@ use crate::facts::About;
 use crate::habits::is_named_sign;
 use crate::jacobians::Part;
 use crate::note::Unreadable;
+use denavit::description::JointKind;
 use denavit_reading::document::{Place, Statement};
 use denavit_symbolic::parse::{Syntax, SyntaxKind};
 use denavit_symbolic::vocabulary::plain_name;
 use denavit_symbolic::{Expr, Node, Symbol, equal};
 use std::ops::Range;
+
+/// Words so many letters before a statement speak of it.
+const NEAR: usize = 400;
+
+/// True if the words before a place speak of where the arm is singular.
+pub(in super::super) fn speaks_of_singularity(text: &str, at: usize) -> bool {
+    const WORDS: [&str; 10] =
+        ["singul", "vanish", "determin", "det", "rank", "rang", "anul", "annul", "degener", "verschwind"];
+    let before = text.get(..at).unwrap_or_default();
+    let start = before.char_indices().rev().take(NEAR).last().map_or(0, |c| c.0);
+    let before = before[start..].to_lowercase();
+    WORDS.iter().any(|w| before.contains(w))
+}
 
 impl Walk<'_> {
     /// `sin θ2 = −e/d3`, of no pose: where something is so, as singular. True if it is no identity; then it is a claim only if
@@ -24,9 +38,11 @@ impl Walk<'_> {
         };
         let d = &self.subject.description;
         let symbols = value.symbols();
-        let is_known = |s: &Symbol| d.parameter(*s).is_some() || self.subject.joints().contains(&(*s).into());
+        // `s_1 = sin θ2` is a slip of an index.
+        let slides =
+            |s: &Symbol| d.variables().iter().any(|v| v.symbol == *s && v.kind == JointKind::Prismatic);
+        let is_known = |s: &Symbol| d.parameter(*s).is_some() || slides(s);
         if symbols.is_empty()
-            || symbols.contains(&joint)
             || !symbols.iter().all(is_known)
             || self.speaks_of_pose(span)
             || equal(sine, value).is_equal()
@@ -38,9 +54,8 @@ impl Walk<'_> {
             Node::Sin(_) => value.atan2(other),
             _ => other.atan2(value),
         };
-        let determinants = [Part::Any, Part::Linear].into_iter().filter_map(|p| self.subject.determinant(p));
-        let at = |e: Expr| e.substitute(|s| (s == joint).then_some(there));
-        let singular = determinants.map(at).find(|e| equal(*e, Expr::int(0)).is_equal());
+        let is_told = speaks_of_singularity(self.text, statement.span.start);
+        let singular = self.subject.singular_at(joint, there).filter(|_| is_told);
         match singular {
             Some(value) => {
                 let (place, span, wanted, also) = (None, span.clone(), Expr::int(0), vec![]);

@@ -14,6 +14,7 @@ mod rates;
 mod scalars;
 mod told;
 
+pub(super) use cases::speaks_of_singularity;
 pub(super) use goal::{Answered, Goal, Target};
 pub(super) use points::points;
 pub(super) use scalars::is_measured;

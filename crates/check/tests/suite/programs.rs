@@ -41,6 +41,25 @@ fn entries_that_are_set_one_by_one_have_a_verdict_each() {
 }
 
 #[test]
+fn the_cause_of_what_is_carried_is_the_entry_at_fault() {
+    let found = read(
+        "void jac(double q1, double q2, double q3, double J[3][3])\n{\n  double w = A1 + A2*cos(q2) + A3*cos(q2 + q3);\n\
+         J[0][0] = -sin(q1)*w;  J[0][1] = -cos(q1)*(A2*sin(q2) + A3*sin(q2 + q3));  J[0][2] = -A3*cos(q1)*sin(q2 + q3);\n\
+         J[1][0] = cos(q1)*w;   J[1][1] = sin(q1)*(A2*sin(q2) + A3*sin(q2 + q3));   J[1][2] = -A3*sin(q1)*sin(q2 + q3);\n\
+         J[2][0] = 0.0;  J[2][1] = A2*cos(q2) + A3*cos(q2 + q3);  J[2][2] = A3*cos(q2 + q3);\n}\n",
+    );
+    is(&found, "J[1][1]", Standing::Wrong);
+    is(&found, "J[0][0]", Standing::Equal);
+    for claim in &found.claims {
+        for entry in &claim.entries {
+            if let denavit_check::Finding::Carried { by, .. } = entry.finding {
+                assert!(matches!(found.claims[by].standing(), Standing::Wrong | Standing::Carried));
+            }
+        }
+    }
+}
+
+#[test]
 fn structures_and_choices() {
     let body = |first: &str| {
         format!(
@@ -77,6 +96,12 @@ fn flat_matrices_and_determinants() {
     is(&wrong, "R[5]", Standing::Wrong);
     is(&wrong, "R[0]", Standing::Equal);
     is(&wrong, "arm_det(…)", Standing::Wrong);
+    // Rows, as C has them: a transposed rotation is another one.
+    let turned = body("-cos(q1)", "-A2")
+        .replace("R[1] =", "R[x] =")
+        .replace("R[3] =", "R[1] =")
+        .replace("R[x] =", "R[3] =");
+    is(&read(&turned), "R[1]", Standing::Wrong);
 }
 
 #[test]
@@ -101,6 +126,10 @@ fn remarks_behind_rows_of_a_table() {
     let found = check(text, Format::Plain, None, &options).unwrap();
     is(&found, "out[0]", Standing::Equal);
     is(&found, "out[2]", Standing::Wrong);
+    // Brackets of a cell are no remark.
+    let bracketed = text.replace("0,  q3, 0, 0\n", "0,  q3, 0, (pi / 2)\n");
+    let found = check(&bracketed, Format::Plain, None, &options).unwrap();
+    is(&found, "out[0]", Standing::Equal);
 }
 
 #[test]

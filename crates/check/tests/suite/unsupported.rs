@@ -28,6 +28,38 @@ fn a_value_in_lengths_alone_is_a_configuration() {
     };
     assert_eq!(of("-\\operatorname{atan2}(f, a_3)"), (About::Singularity, Standing::Equal));
     assert_eq!(of("\\operatorname{atan2}(f, a_3)").1, Standing::Undecided);
+    // Where no word speaks of singularities it is a value for nobody knows which pose.
+    let inverse = format!(
+        "{table}Inverse kinematics of the wrist centre:\n\n$$q_3 = -\\operatorname{{atan2}}(f, a_3)$$\n"
+    );
+    assert_eq!(all(&read(&inverse, None), "q_3"), [Standing::Undecided]);
+}
+
+#[test]
+fn a_determinant_that_vanishes_everywhere_says_nothing() {
+    let text = "DH (standard)\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | θ1 | d1 | 0 | 90° |\n| 2 | θ2 | 0 | a2 | 90° |\n\
+                | 3 | θ3 | d3 | 0 | 0 |\n\nThe arm is singular at\n\n$$\\theta_2 = \\operatorname{atan2}(5 d_1, 3 a_2)$$\n";
+    assert_eq!(all(&read(text, None), "\\theta_2"), [Standing::Undecided]);
+}
+
+#[test]
+fn the_sine_of_another_joint_is_a_slip() {
+    let found = read(&format!("{PLANAR}$$s_1 = \\sin\\theta_2$$\n"), None);
+    assert_eq!(all(&found, "s_1"), [Standing::Wrong], "{:?}", found.claims);
+}
+
+#[test]
+fn offsets_that_are_lengths() {
+    for head in ["axis offset", "z offset", "offset along z"] {
+        let text = format!(
+            "DH (standard)\n\n| i | θ | {head} | a | α |\n|---|---|---|---|---|\n| 1 | θ1 | 0.3 | 0.1 | 90° |\n| 2 | θ2 | 0.2 | 0.4 | 0 |\n\n\
+             $$z = 0.4 \\sin\\theta_2$$\n"
+        );
+        let options = CheckOptions::default();
+        let wrong =
+            check(&text, Format::Markdown, None, &options).map(|c| all(&c, "z").contains(&Standing::Wrong));
+        assert_ne!(wrong.ok(), Some(true), "{head}: no angle is shifted by a length");
+    }
 }
 
 #[test]

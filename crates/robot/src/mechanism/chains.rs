@@ -80,9 +80,11 @@ fn compare_whole<'a>(tree: &Mechanism, rows: &RowTree, ends: &'a [(String, Strin
     };
     let (pairs, names): (Vec<_>, Vec<&str>) = ends.iter().filter_map(known).unzip();
     let mut alike = tree.alikeness(&other, &pairs)?;
-    let close: Vec<usize> = (0..pairs.len()).filter(|&k| alike.ends[k] == Likeness::Close).collect();
-    if close.len() * rows.rows.len() <= FEW {
-        for k in close {
+    // Decimals of rows in place of roots are what they are in the chains of both.
+    let is_open = |l: &Likeness| matches!(l, Likeness::Open | Likeness::Close);
+    let open: Vec<usize> = (0..pairs.len()).filter(|&k| is_open(&alike.ends[k])).collect();
+    if open.len() * rows.rows.len() <= FEW {
+        for k in open {
             let [end, there] = [tree.bodies[pairs[k].0].name.as_str(), names[k]];
             let one = tree.chain(None, Some(end), Convention::Khalil).ok();
             let two = rows.chain(None, Some(there), Convention::Khalil).ok();
@@ -92,7 +94,6 @@ fn compare_whole<'a>(tree: &Mechanism, rows: &RowTree, ends: &'a [(String, Strin
             }
         }
     }
-    let is_open = |l: &Likeness| matches!(l, Likeness::Open | Likeness::Close);
     let count = |of: Likeness| alike.ends.iter().filter(|l| **l == of).count();
     let sampled = alike.ends.iter().filter(|l| is_open(l)).count();
     let (proved, others) = (count(Likeness::Proved), count(Likeness::OtherJoints));

@@ -200,9 +200,12 @@ pub(super) fn column(text: &str) -> Column {
             (role, previous) = letter;
         } else if words().count() <= 5
             && words().any(|w| plain(w) == "offset")
-            && !words().any(|w| matches!(plain(w).as_str(), "joint" | "link"))
+            && words().any(|w| {
+                matches!(symbol(&plain(w)).0, Role::Theta | Role::Variable)
+                    || matches!(plain(w).as_str(), "angle" | "angular" | "variable")
+            })
         {
-            role = Role::Offset; // `offset added to q`; a joint's or a link's is a length with many
+            role = Role::Offset; // `offset added to q`; a joint's or a link's is a length
         }
     }
     if let (Role::Other, Some(inside)) = (role, &qualifier) {
@@ -352,6 +355,8 @@ mod tests {
             ("\\textbf{Joint}", Role::Index, false, ""),
             ("offset added to q", Role::Offset, false, ""),
             ("joint offset", Role::Other, false, ""),
+            ("axis offset", Role::Other, false, ""),
+            ("offset along z", Role::Other, false, ""),
             ("mass", Role::Other, false, ""),
             ("R", Role::R, false, ""),
         ] {
