@@ -185,11 +185,11 @@ impl Subject {
 
     /// The determinant of the Jacobian that the arm has by nature.
     pub fn determinant(&self, part: Part) -> Option<Expr> {
-        if let Some((_, known)) = self.determinants.0.borrow().iter().find(|d| d.0 == part) {
+        if let Some((_, known)) = self.determinants.0.borrow().iter().find(|d| d.0 == part as usize) {
             return *known;
         }
         let found = self.worked_out(part);
-        self.determinants.0.borrow_mut().push((part, found));
+        self.determinants.0.borrow_mut().push((part as usize, found));
         found
     }
 

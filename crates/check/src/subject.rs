@@ -2,7 +2,6 @@
 
 use super::facts::Meaning;
 use super::habits::Habits;
-use super::jacobians::Part;
 use super::matrix::Matrix;
 use super::names::{Index, Name, index, pair};
 use denavit::description::{Convention, Description, JointKind, Measure, Screw};
@@ -33,13 +32,13 @@ pub(super) struct Subject {
     printed: Printed,
     robot: Robot<Expr>,
     q: Vec<Expr>,
-    /// Determinants that were asked for.
+    /// Determinants that were asked for, by the number of their part.
     pub determinants: Known,
 }
 
 /// What is known of one subject, and of no other that is made from it.
 #[derive(Debug, Default)]
-pub(super) struct Known(pub RefCell<Vec<(Part, Option<Expr>)>>);
+pub(super) struct Known(pub RefCell<Vec<(usize, Option<Expr>)>>);
 
 impl Clone for Known {
     fn clone(&self) -> Self {
