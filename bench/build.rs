@@ -100,6 +100,7 @@ fn write(out: &Path, language: Language, source: &Source) -> PathBuf {
         precision: source.precision,
         name,
         masses: None,
+        loads: Default::default(),
         fixed: false,
     };
     let generated = generate(&description, &options).expect("nothing is fixed");

@@ -61,8 +61,11 @@ pub(super) fn helpers(
             Some((by, mended))
         });
         if let Some((by, mended)) = found {
-            // The name is one that the robot gives: the formula is right with it, whatever stands for it further up.
-            as_found(by, &mended, claims);
+            // The name is one that the robot gives: a value is right with it, whatever stands for it further up.
+            let (values, others): (Vec<Mended>, Vec<Mended>) =
+                mended.into_iter().partition(|m| walked.assertions[m.at].spoken.is_some());
+            as_found(by, &values, claims);
+            carry(by, &others, claims);
             continue;
         }
         for d in used(text, walked, k) {
@@ -115,10 +118,10 @@ fn blame(d: &Defined, slip: Slip, mended: &[Mended], is_given: bool, claims: &mu
 
 /// What a claim made wrong is what was found of it without that.
 fn as_found(by: usize, mended: &[Mended], claims: &mut [Claim]) {
-    for Mended { at, findings } in mended.iter().filter(|m| m.at != by) {
-        for (entry, finding) in claims[*at].entries.iter_mut().zip(findings) {
+    for Mended { at, found } in mended.iter().filter(|m| m.at != by) {
+        for (entry, (finding, identities)) in claims[*at].entries.iter_mut().zip(found) {
             if matches!(entry.finding, Finding::Wrong(_)) {
-                entry.finding = finding.clone();
+                (entry.finding, entry.identities) = (finding.clone(), identities.clone());
             }
         }
     }
@@ -153,10 +156,10 @@ fn mended_before(text: &str, walked: &Walked, claim: usize, claims: &[Claim]) ->
     (0..walked.assertions.len().min(claims.len())).rev().filter(is_used).take(MOST_BEFORE).collect()
 }
 
-/// A claim that a mended helper makes right, and what is found of its entries then.
+/// A claim that a mended helper makes right, and what is found of its entries then, with what that rests on.
 struct Mended {
     at: usize,
-    findings: Vec<Finding>,
+    found: Vec<(Finding, Vec<[Expr; 2]>)>,
 }
 
 /// The helpers that a claim uses, directly or through another one, the nearest first.
@@ -264,13 +267,14 @@ impl Search<'_> {
             let found = |k: usize| {
                 let at = same(k);
                 let judged = judged.iter().find(|j| Some(j.0) == at).map(|j| &j.1);
-                judged.map(|c| c.entries.iter().map(|e| e.finding.clone()).collect()).unwrap_or_default()
+                let of = |e: &Entry| (e.finding.clone(), e.identities.clone());
+                judged.map(|c| c.entries.iter().map(of).collect()).unwrap_or_default()
             };
-            let of_values = mended.into_iter().map(|at| Mended { at, findings: found(at) });
+            let of_values = mended.into_iter().map(|at| Mended { at, found: found(at) });
             // These are equal by canonical form.
             let equal = |at: usize| {
-                let finding = Finding::Equal { unless_zero: vec![] };
-                Mended { at, findings: vec![finding; claims[at].entries.len()] }
+                let finding = (Finding::Equal { unless_zero: vec![] }, vec![]);
+                Mended { at, found: vec![finding; claims[at].entries.len()] }
             };
             let mended: Vec<Mended> = of_values.chain(equations.map(equal)).collect();
             let breaks = (0..count).any(|k| {

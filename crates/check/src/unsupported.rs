@@ -22,16 +22,21 @@ pub(super) fn withdraw(text: &str, plan: &Plan, walked: &Walked, claims: &mut [C
             && is_constant(plan, claim.robot, branches)
         {
             let subject = &plan.subjects[claim.robot];
-            let loses = |b: &Expr| of.as_symbol().and_then(|joint| subject.singular_at(joint, *b)).is_some();
-            let is_singular = speaks_of_singularity(text, claim.span.start) && branches.iter().all(loses);
-            let finding = match is_singular {
-                true => Finding::Equal { unless_zero: vec![] },
-                false => Finding::Undecided { why: Unproved::NoPose },
-            };
-            if is_singular {
+            let at = |b: &Expr| subject.singular_at(of.as_symbol()?, *b);
+            let is_told = speaks_of_singularity(text, claim.span.start);
+            let there = is_told.then(|| branches.iter().map(at).collect::<Option<Vec<Expr>>>()).flatten();
+            if there.is_some() {
                 claim.about = About::Singularity;
             }
-            claim.entries.iter_mut().for_each(|e| e.finding = finding.clone());
+            for entry in &mut claim.entries {
+                (entry.finding, entry.identities) = match &there {
+                    Some(vanishing) => (
+                        Finding::Equal { unless_zero: vec![] },
+                        vanishing.iter().map(|e| [*e, Expr::int(0)]).collect(),
+                    ),
+                    None => (Finding::Undecided { why: Unproved::NoPose }, vec![]),
+                };
+            }
         }
     }
     let helped: Vec<usize> = (0..walked.assertions.len())

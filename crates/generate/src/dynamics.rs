@@ -61,10 +61,11 @@ impl Dynamic {
     ) -> Result<Option<Self>, Unable> {
         let functions: Vec<DynamicFunction> =
             wanted.iter().filter_map(|w| if let Wanted::Dynamic(f) = w { Some(*f) } else { None }).collect();
-        if loads.payload && functions.is_empty()
-            || loads.wrench && !functions.iter().any(|f| f.feels_wrench())
-        {
-            return Err(Unable::Loads);
+        if loads.payload && functions.is_empty() {
+            return Err(Unable::Loads { is_wrench: false });
+        }
+        if loads.wrench && !functions.iter().any(|f| f.feels_wrench()) {
+            return Err(Unable::Loads { is_wrench: true });
         }
         if functions.is_empty() {
             return Ok(None);

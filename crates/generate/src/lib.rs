@@ -157,8 +157,11 @@ pub enum Unable {
     Program(NoProgram),
     /// A payload is wanted beside base parameters, of which it would be a part.
     Payload,
-    /// A load is wanted, and no function feels it.
-    Loads,
+    /// A wrench of the tool, or a payload, is wanted, and no function feels it.
+    Loads {
+        /// It is the wrench.
+        is_wrench: bool,
+    },
 }
 
 impl fmt::Display for Unable {
@@ -168,7 +171,7 @@ impl fmt::Display for Unable {
             Unable::Masses(none) => none.fmt(f),
             Unable::Program(none) => none.fmt(f),
             Unable::Payload => f.write_str("base parameters have what the tool carries in them"),
-            Unable::Loads => f.write_str("no function that is asked for feels it"),
+            Unable::Loads { .. } => f.write_str("no function that is asked for feels it"),
         }
     }
 }

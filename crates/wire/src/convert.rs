@@ -12,6 +12,10 @@ pub struct Converted<'a> {
     pub difference: Option<f64>,
     /// What of the robot has no place in the format.
     pub left_out: Vec<&'static str>,
+    /// How many more chains were not compared, as what was written does not read back or parameters have no values.
+    pub not_compared: usize,
+    /// How many of the chains that were compared have other joints.
+    pub others: usize,
     /// How many chains are proved to be the same.
     pub proved: usize,
     /// The robot's name.

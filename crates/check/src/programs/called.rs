@@ -1,4 +1,4 @@
-//! What the name of a function says of what it gives back.
+//! What a function gives back by its name, its arguments and its shape.
 
 use crate::jacobians::Part;
 use crate::lexis::Lexis;
@@ -66,9 +66,16 @@ fn words(name: &str) -> impl Iterator<Item = String> + '_ {
     name.split('_').filter(|w| !w.is_empty()).map(str::to_lowercase)
 }
 
-/// Nine or sixteen entries one behind the other as a rotation or a pose, by rows, or by columns where the program says so and they
-/// agree with the hand's.
-pub(super) fn as_square(rows: &[Vec<Cell>], hand: &Matrix, text: &str) -> Option<Vec<Vec<Cell>>> {
+/// The words before a function that speak of it, in bytes.
+const WORDS_BEFORE: usize = 300;
+
+/// Nine or sixteen entries one behind the other as a rotation or a pose, by rows, or by columns where the function or the words
+/// before it say so and they agree with the hand's.
+pub(super) fn as_square(
+    rows: &[Vec<Cell>],
+    hand: &Matrix,
+    (function, text): (&Reading, &str),
+) -> Option<Vec<Vec<Cell>>> {
     let n = match rows.len() {
         9 => 3,
         16 => 4,
@@ -86,7 +93,10 @@ pub(super) fn as_square(rows: &[Vec<Cell>], hand: &Matrix, text: &str) -> Option
             })
             .count()
     };
-    let by_columns = text.to_lowercase().contains("column") && agreement(true) > agreement(false);
+    let start =
+        (0..=function.span.start.saturating_sub(WORDS_BEFORE)).rev().find(|&i| text.is_char_boundary(i));
+    let told = text.get(start.unwrap_or(0)..function.span.end).unwrap_or_default();
+    let by_columns = told.to_lowercase().contains("column") && agreement(true) > agreement(false);
     let at = |r: usize, c: usize| all[if by_columns { c * n + r } else { r * n + c }].clone();
     Some((0..n).map(|r| (0..n).map(|c| at(r, c)).collect()).collect())
 }

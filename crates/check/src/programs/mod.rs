@@ -412,7 +412,7 @@ impl Program<'_> {
             return None;
         }
         let pose = self.subject.pose();
-        let square = as_square(rows, &Matrix::of(&pose), self.text);
+        let square = as_square(rows, &Matrix::of(&pose), (function, self.text));
         let rows = square.as_deref().unwrap_or(rows);
         let columns = rows.first()?.len();
         let joints = self.subject.description.variables().len();

@@ -18,12 +18,25 @@ const NEAR: usize = 400;
 
 /// True if the words before a place speak of where the arm is singular.
 pub(in super::super) fn speaks_of_singularity(text: &str, at: usize) -> bool {
-    const WORDS: [&str; 10] =
-        ["singul", "vanish", "determin", "det", "rank", "rang", "anul", "annul", "degener", "verschwind"];
+    const WORDS: [&str; 13] = [
+        "singul",
+        "vanish",
+        "determinant",
+        "déterminant",
+        "det j",
+        "det(",
+        "\\det",
+        "rank",
+        "rang ",
+        "annul",
+        "se anula",
+        "degenera",
+        "verschwind",
+    ];
     let before = text.get(..at).unwrap_or_default();
     let start = before.char_indices().rev().take(NEAR).last().map_or(0, |c| c.0);
     let before = before[start..].to_lowercase();
-    WORDS.iter().any(|w| before.contains(w))
+    WORDS.iter().any(|w| before.contains(w)) && !is_denied(&before)
 }
 
 impl Walk<'_> {
@@ -390,7 +403,12 @@ const GOALS: [&str; 41] = [
 
 /// True if a sentence says that the arm is singular somewhere.
 fn is_singular(said: &str) -> bool {
-    let denials = [
+    said.contains("singul") && !is_denied(said)
+}
+
+/// True if words say that something is not so, or not there.
+fn is_denied(said: &str) -> bool {
+    const DENIALS: [&str; 21] = [
         "not singul",
         "nicht singul",
         "non singul",
@@ -405,8 +423,15 @@ fn is_singular(said: &str) -> bool {
         "non per ",
         "not when",
         "not if",
+        "not vanish",
+        "never",
+        "annule pas",
+        "no se anula",
+        "non si annulla",
+        "verschwindet nicht",
+        "nirgends",
     ];
-    said.contains("singul") && !denials.iter().any(|d| said.contains(d))
+    DENIALS.iter().any(|d| said.contains(d))
 }
 
 /// True for `σ = +1`, where the document names a sign.

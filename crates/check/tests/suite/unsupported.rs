@@ -24,6 +24,7 @@ fn a_value_in_lengths_alone_is_a_configuration() {
     let of = |value: &str| {
         let found = read(&format!("{table}So the bracket vanishes:\n\n$$q_3 = {value}$$\n"), None);
         let claim = found.claims.into_iter().find(|c| c.name == "q_3").unwrap();
+        assert_eq!(claim.is_proved(), claim.standing() == Standing::Equal);
         (claim.about.clone(), claim.standing())
     };
     assert_eq!(of("-\\operatorname{atan2}(f, a_3)"), (About::Singularity, Standing::Equal));
@@ -33,6 +34,10 @@ fn a_value_in_lengths_alone_is_a_configuration() {
         "{table}Inverse kinematics of the wrist centre:\n\n$$q_3 = -\\operatorname{{atan2}}(f, a_3)$$\n"
     );
     assert_eq!(all(&read(&inverse, None), "q_3"), [Standing::Undecided]);
+    // Nor where they deny it.
+    let denied =
+        format!("{table}The determinant does not vanish for\n\n$$q_3 = -\\operatorname{{atan2}}(f, a_3)$$\n");
+    assert_eq!(all(&read(&denied, None), "q_3"), [Standing::Undecided]);
 }
 
 #[test]
@@ -70,6 +75,7 @@ fn a_wrong_cosine_leaves_the_angle_right() {
     assert_eq!(all(&read(&text("2"), None), "θ2"), [Standing::Equal]);
     let wrong = read(&text("1"), None);
     assert_eq!((all(&wrong, "c2"), all(&wrong, "θ2")), (vec![Standing::Wrong], vec![Standing::Equal]));
+    assert!(wrong.claims.iter().filter(|c| c.name == "θ2").all(|c| c.is_proved()));
 }
 
 #[test]

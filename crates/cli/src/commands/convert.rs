@@ -16,6 +16,7 @@ use denavit::mechanism::{COMPARED, Chains, Comparison, compare, compare_chains};
 use denavit_symbolic::Expr;
 use denavit_wire::Schema;
 use denavit_wire::convert::Converted;
+use std::collections::HashMap;
 
 /// Writes a robot in another format.
 ///
@@ -44,10 +45,11 @@ pub fn run(arguments: &ConvertArguments) -> Result<(), Failure> {
     let Written { text, back } = written(&robot, &converted, arguments)?;
     if !arguments.json {
         put(&arguments.output, text.as_bytes())?;
-        return said(how_same(&robot, &back, arguments.robot.as_written));
     }
     let how = how_same(&robot, &back, arguments.robot.as_written);
-    answer(arguments, &robot.name, &text, &left, &how)?;
+    if arguments.json {
+        answer(arguments, &robot.name, &text, &left, &how)?;
+    }
     said(how)
 }
 
@@ -58,6 +60,9 @@ struct How {
     /// How many chains were compared, and how many of them are proved to be the same.
     chains: usize,
     proved: usize,
+    /// How many of them have other joints, and how many more were not compared.
+    others: usize,
+    not_compared: usize,
     /// By how much the poses of the others differ at most.
     difference: Option<f64>,
 }
@@ -72,7 +77,9 @@ fn answer(
 ) -> Result<(), Failure> {
     let How { chains, proved, difference, .. } = *how;
     let left_out = left.iter().map(|p| words().left_part(*p)).collect();
-    let converted = Converted { chains, difference, left_out, proved, robot, schema: Schema, text };
+    let (others, not_compared) = (how.others, how.not_compared);
+    let converted =
+        Converted { chains, difference, left_out, not_compared, others, proved, robot, schema: Schema, text };
     let mut line = vec![];
     denavit_wire::line(&converted, &mut line);
     put(&arguments.output, &line)
@@ -245,6 +252,19 @@ fn tree(whole: &Tree, arguments: &ConvertArguments) -> Result<(), Failure> {
         }
         _ => (write_tree(&rows), rows.frame_names().into_iter().map(|n| (n.clone(), n)).collect()),
     };
+    // Rows have frames of their own; the others are those of bodies, which may be called otherwise where a name is taken.
+    let named = match whole {
+        Tree::Rows(_) => named,
+        Tree::Bodies(m) => {
+            let bodies = m.leaves().into_iter().map(|b| &m.bodies[b].name);
+            let body: HashMap<&str, &String> =
+                rows.frames.iter().map(|f| f.name.as_str()).zip(bodies).collect();
+            named
+                .into_iter()
+                .filter_map(|(end, there)| Some((body.get(end.as_str())?.to_string(), there)))
+                .collect()
+        }
+    };
     let efforts = match whole {
         Tree::Bodies(m) => has_efforts(m.joints.iter()),
         Tree::Rows(_) => false,
@@ -304,15 +324,26 @@ fn how_chains(chains: &Chains, is_meant: bool) -> How {
     How {
         sentence,
         is_other: chains.differ(),
-        chains: chains.count(),
+        chains: chains.count() - chains.open,
         proved: chains.proved,
+        others: chains.others,
+        not_compared: chains.open,
         difference: (chains.sampled > 0).then_some(chains.most),
     }
 }
 
 impl How {
     fn unread(sentence: &str) -> Self {
-        How { sentence: sentence.into(), is_other: true, chains: 1, proved: 0, difference: None }
+        let (chains, proved, others, not_compared) = (0, 0, 0, 1);
+        How {
+            sentence: sentence.into(),
+            is_other: true,
+            chains,
+            proved,
+            others,
+            not_compared,
+            difference: None,
+        }
     }
 }
 
@@ -396,5 +427,8 @@ fn how_same(robot: &Description, back: &Back, as_written: bool) -> How {
             (format!("what was written was not held against the robot: {missing}"), 0, None)
         }
     };
-    How { sentence, is_other: comparison.differs(), chains: 1, proved, difference }
+    let not_compared = usize::from(matches!(comparison, Comparison::NoNumbers(_)));
+    let others = usize::from(matches!(comparison, Comparison::OtherJoints));
+    let (is_other, chains) = (comparison.differs(), 1 - not_compared);
+    How { sentence, is_other, chains, proved, others, not_compared, difference }
 }

@@ -65,8 +65,8 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
             Unable::Payload => {
                 format!("error: --payload: {why}\n  = hint: --masses links takes its numbers beside those of the links")
             }
-            Unable::Loads => {
-                let load = if arguments.payload { "--payload" } else { "--wrench" };
+            Unable::Loads { is_wrench } => {
+                let load = if is_wrench { "--wrench" } else { "--payload" };
                 format!("error: {load}: {why}\n  = hint: torque, bias and acceleration do")
             }
             Unable::Masses(none) => {

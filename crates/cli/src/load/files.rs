@@ -4,8 +4,8 @@ use denavit::description::{MAX_XML_BYTES, Sources};
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
-/// How many files of a folder are looked at.
-const MOST_FILES: usize = 10_000;
+/// A folder with more files is not looked through.
+const MOST_FILES: usize = 100_000;
 /// How many folders above a file are looked through for packages.
 const MOST_ABOVE: usize = 12;
 
@@ -84,7 +84,10 @@ impl Sources for Folder {
         let entries = inside.and_then(|f| fs::read_dir(f).ok());
         let file =
             |entry: fs::DirEntry| entry.file_name().into_string().ok().filter(|_| entry.path().is_file());
-        entries.into_iter().flatten().filter_map(Result::ok).filter_map(file).take(MOST_FILES).collect()
+        let files = entries.into_iter().flatten().filter_map(Result::ok).filter_map(file);
+        let files: Vec<String> = files.take(MOST_FILES + 1).collect();
+        // In which order they come is chance: all, or none.
+        if files.len() > MOST_FILES { vec![] } else { files }
     }
 
     fn package(&mut self, name: &str) -> Option<String> {

@@ -5,6 +5,7 @@ pub use denavit_report::decimals;
 use anstyle::{AnsiColor, Style};
 use denavit::geometry::Transform;
 use denavit_report::words::{Tongue, Wording};
+use std::collections::BTreeSet;
 use std::io::Write;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -24,17 +25,21 @@ pub fn be_quiet() {
     IS_QUIET.store(true, Ordering::Relaxed);
 }
 
-/// What was said.
-static SAID: Mutex<Vec<String>> = Mutex::new(vec![]);
+/// What was said, the first of it.
+static SAID: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+/// So many texts are kept of what was said.
+const MOST_SAID: usize = 1_000;
 
-/// A note or a warning on standard error, unless it is to be quiet; the same is said but once.
+/// A note or a warning on standard error, unless it is to be quiet; of the first ones the same is said but once.
 pub fn note(text: &str) {
     if !IS_QUIET.load(Ordering::Relaxed) && !text.is_empty() {
         if let Ok(mut said) = SAID.lock() {
-            if said.iter().any(|t| t == text) {
+            if said.contains(text) {
                 return;
             }
-            said.push(text.into());
+            if said.len() < MOST_SAID {
+                said.insert(text.into());
+            }
         }
         // There is nobody to tell that nobody listens.
         let _ = writeln!(anstream::stderr(), "{}", text.trim_end());

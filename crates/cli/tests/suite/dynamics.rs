@@ -437,4 +437,14 @@ fn a_whole_tree_is_answered() {
     refused(&[baxter, "--whole"], 2, "say where the joints are");
     refused(&[baxter, "--whole", "-q", "left_s0=0", "--qd", "1,2"], 2, "--qd: 2 values given");
     refused(&["ur5", "--whole", "-q", "0,0,0,0,0,0"], 2, "is no tree");
+    // A quotient is one, and per second goes without saying.
+    let one = file(
+        "whole.urdf",
+        "<robot name='r'><link name='a'/><link name='b'><inertial><mass value='1'/>\
+         <inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link>\
+         <joint name='j' type='continuous'><parent link='a'/><child link='b'/><axis xyz='0 0 1'/></joint></robot>",
+    );
+    let found = json(&[&one, "--whole", "-q", "j=0", "--qd", "pi/2", "--qdd", "1/2"]);
+    assert!((numbers(&found["qd"])[0] - std::f64::consts::FRAC_PI_2).abs() < 1e-15, "{found}");
+    assert!((numbers(&found["qdd"])[0] - 0.5).abs() < 1e-15, "{found}");
 }

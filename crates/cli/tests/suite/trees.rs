@@ -455,3 +455,28 @@ fn what_convert_does_is_told_in_json() {
     let answer: Value = serde_json::from_str(&out).expect("JSON");
     assert!(code == 0 && answer["chains"].as_u64() > Some(1) && said.contains("chains are proved"), "{said}");
 }
+
+/// Bodies with names that rows have already, or the base has, are compared by the names that they get.
+#[test]
+fn bodies_that_are_called_as_the_base_is() {
+    let joint = |name: &str, parent: &str, child: &str, kind: &str, x: &str| {
+        format!(
+            "<joint name='{name}' type='{kind}'><origin xyz='{x} 0 0'/><parent link='{parent}'/><child link='{child}'/>\
+             <axis xyz='0 0 1'/><limit lower='-1' upper='1' effort='1' velocity='1'/></joint>"
+        )
+    };
+    let links: String =
+        ["world", "base", "base body", "arm", "still"].map(|n| format!("<link name='{n}'/>")).concat();
+    let text = format!(
+        "<robot name='r'>{links}{}{}{}{}</robot>",
+        joint("rail", "world", "base", "prismatic", "0.1"),
+        joint("arm", "world", "arm", "revolute", "0.2"),
+        joint("turn", "world", "base body", "revolute", "0.3"),
+        joint("fixed", "world", "still", "fixed", "0.4"),
+    );
+    let file = File::new("called.urdf", &text);
+    for to in ["tree", "par", "markdown"] {
+        let (code, out, said) = run(&["convert", file.name(), "--whole", "--to", to]);
+        assert!(code == 0 && said.contains("3 of 3 chains are proved to be the same"), "{to}: {said}\n{out}");
+    }
+}

@@ -50,7 +50,7 @@ impl OfTree {
     /// # Errors
     /// If masses or values are missing, or an axis has no direction.
     pub fn new(m: &Mechanism) -> Result<Self, Unknown> {
-        if m.bodies.iter().all(|b| b.mass.is_none()) {
+        if m.bodies.iter().all(|b| b.mass.is_none() && !b.is_unweighed) {
             return Err(Unknown::NoMasses);
         }
         let joints = m.variables();
@@ -140,11 +140,7 @@ fn onto_z(axis: Vector<f64>) -> Option<Rotation<f64>> {
         return None;
     }
     let z = axis.scale(1.0 / length);
-    // Whichever axis is furthest from it.
-    let least = (0..3).min_by(|&a, &b| z[a].abs().total_cmp(&z[b].abs()))?;
-    let other = Vector([0, 1, 2].map(|i| if i == least { 1.0 } else { 0.0 }));
-    let across = other.cross(z);
-    let x = across.scale(1.0 / across.dot(across).sqrt());
+    let x = z.any_across();
     let y = z.cross(x);
     Some(Rotation::from_rows([0, 1, 2].map(|i| [x[i], y[i], z[i]])))
 }

@@ -92,6 +92,17 @@ impl<T: Scalar> Vector<T> {
     }
 }
 
+impl Vector<f64> {
+    /// A unit vector across one of length 1: towards the axis that is farthest from it.
+    pub fn any_across(self) -> Self {
+        let least =
+            Axis::ALL.into_iter().min_by(|a, b| self[a.index()].abs().total_cmp(&self[b.index()].abs()));
+        let e = Vector::unit(least.unwrap_or(Axis::X));
+        let across = e - self.scale(e.dot(self));
+        across.scale(1.0 / across.norm())
+    }
+}
+
 /// # Panics
 /// If the index is not below 3.
 impl<T> Index<usize> for Vector<T> {

@@ -56,7 +56,8 @@ impl Tree<'_> {
     }
 }
 
-/// So many rows on chains are compared chain by chain: with the names of their parameters, or where numbers are not exact.
+/// So many rows on chains are compared chain by chain: for all values of their parameters (trees with more are compared at the values that
+/// they have), or where numbers are not exact.
 const FEW: usize = 2000;
 
 /// Compares the chains from the root of a tree to these ends with those of rows, in which the ends have their second names. What has

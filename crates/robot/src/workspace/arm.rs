@@ -1,7 +1,7 @@
 //! The arm as its workspace needs it: ranges of the joints, the section, damped steps in it.
 
 use super::NoWorkspace;
-use super::section::{Section, across, any_across, upwards};
+use super::section::{Section, across, upwards};
 use super::walk::Walk;
 use crate::geometry::{Axis, Vector};
 use crate::mechanism::{Line, Robot};
@@ -265,7 +265,7 @@ impl Arm {
                     .map(Vector::unit)
                     .into_iter()
                     .find(|e| e.dot(*first).abs() <= 1e-9)
-                    .unwrap_or_else(|| any_across(*first)),
+                    .unwrap_or_else(|| first.any_across()),
             };
             self.section = Section::Plane { directions: across(normal) };
             self.shoulder = movers.iter().copied().find(|&j| is_angle[j]).and_then(|j| {

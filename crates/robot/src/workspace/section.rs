@@ -54,7 +54,7 @@ impl Section {
                 let distance = across.norm();
                 // On the axis itself every direction leads away from it.
                 let away =
-                    if distance > 1e-12 { across.scale(1.0 / distance) } else { any_across(*direction) };
+                    if distance > 1e-12 { across.scale(1.0 / distance) } else { direction.any_across() };
                 [away, *direction]
             }
             Section::Plane { directions } | Section::Projection { directions } => *directions,
@@ -84,14 +84,6 @@ fn along(v: Vector<f64>) -> Option<&'static str> {
     }
 }
 
-/// A unit vector across another.
-pub(super) fn any_across(v: Vector<f64>) -> Vector<f64> {
-    let least = Axis::ALL.into_iter().min_by(|a, b| v[a.index()].abs().total_cmp(&v[b.index()].abs()));
-    let e = Vector::unit(least.unwrap_or(Axis::X));
-    let across = e - v.scale(e.dot(v));
-    across.scale(1.0 / across.norm())
-}
-
 /// The plane across a normal: two axes of the base where the normal is the third, else any two directions.
 pub(super) fn across(normal: Vector<f64>) -> [Vector<f64>; 2] {
     let [x, y, z] = Axis::ALL.map(Vector::unit);
@@ -103,7 +95,7 @@ pub(super) fn across(normal: Vector<f64>) -> [Vector<f64>; 2] {
     } else if is(x) {
         [y, z]
     } else {
-        let u = any_across(normal);
+        let u = normal.any_across();
         [u, normal.cross(u)]
     }
 }

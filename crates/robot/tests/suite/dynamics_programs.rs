@@ -328,5 +328,6 @@ fn divisors_are_known() {
     let mut flat = robot("planar-2r");
     flat.gravity = Some([0, -10, 0].map(denavit_symbolic::Expr::int));
     assert_eq!(model(&flat), ["a1"]);
-    assert!(of(F::Acceleration).iter().all(|d| !d.contains("q2")), "{:?}", of(F::Acceleration));
+    // The first pivot, from the tip, depends on parameters alone, here on one that is grouped.
+    assert_eq!(of(F::Acceleration), ["ZZ2"]);
 }

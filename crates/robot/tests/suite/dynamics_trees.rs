@@ -30,6 +30,7 @@ fn trees_agree_with_pinocchio() {
     let peers: Value = serde_json::from_str(include_str!("../peers/dynamics_trees.json")).unwrap();
     let trees = peers["trees"].as_array().unwrap();
     assert_eq!(trees.len(), 7);
+    let mut bodies = 0;
     for tree in trees {
         let name = tree["name"].as_str().unwrap();
         let m = mechanism(name);
@@ -68,12 +69,14 @@ fn trees_agree_with_pinocchio() {
             1e-7,
         );
         if let Some(by_bodies) = articulated_bodies(arm, &q, &qd, &pulled) {
+            bodies += 1;
             close(&format!("{name}, by bodies"), &by_bodies.unwrap(), &of("direct"), 1e-7);
         }
         let energy = |key: &str| tree["sample"][key].as_f64().unwrap();
         close(&format!("{name}, T"), &[kinetic_energy(arm, &q, &qd)], &[energy("T")], 1e-10);
         close(&format!("{name}, V"), &[potential_energy(arm, &q)], &[energy("V")], 1e-10);
     }
+    assert!(bodies > 0, "articulated bodies are compared");
 }
 
 /// A tree that is a chain is the chain; the regressor, C and the momentum fit the rest on one with branches.
@@ -82,13 +85,12 @@ fn models_of_a_tree_fit_together() {
     let m = mechanism("z1");
     let tip = m.bodies[*m.leaves().last().unwrap()].name.clone();
     let of_tree = OfTree::new(&m).unwrap().dynamics;
-    if let Ok(chain) = m.chain(None, Some(&tip), Convention::Khalil) {
-        let arm = Dynamics::numeric(&chain.description).unwrap();
-        if arm.joints() == of_tree.joints() {
-            let q = vec![0.3; arm.joints()];
-            close("z1", &gravity_torques(&of_tree, &q), &gravity_torques(&arm, &q), 1e-10);
-        }
-    }
+    let chain = m.chain(None, Some(&tip), Convention::Khalil).unwrap();
+    let chain = Dynamics::numeric(&chain.description).unwrap();
+    assert_eq!(chain.joints(), of_tree.joints());
+    let [q, qd, qdd] = [0.3, -0.7, 1.1].map(|x| vec![x; chain.joints()]);
+    let both = [&of_tree, &chain].map(|arm| inverse_dynamics(arm, &q, &qd, &qdd, None));
+    close("z1", &both[0], &both[1], 1e-10);
     let arm = OfTree::new(&mechanism("solo12")).unwrap().dynamics;
     let n = arm.joints();
     assert!(arm.links.iter().enumerate().any(|(k, l)| l.parent != k.checked_sub(1)), "it has branches");
@@ -156,4 +158,8 @@ fn trees_without_numbers_are_refused() {
         "<link name='b'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link>",
     );
     assert_eq!(of(&format!("<robot name='r'>{heavy}</robot>")), Ok(1));
+    // What weighs, but not how much.
+    let mut m = read_urdf(&format!("<robot name='r'>{links}</robot>"), Decimals::AsWritten).unwrap().0;
+    m.bodies.iter_mut().filter(|b| b.name == "b").for_each(|b| b.is_unweighed = true);
+    assert_eq!(OfTree::new(&m).map(|t| t.joints.len()), Err(Unknown::Unweighed("b".into())));
 }

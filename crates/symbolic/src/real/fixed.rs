@@ -20,6 +20,11 @@ impl Fixed {
         Fixed((n << PLACES) / d)
     }
 
+    /// The least number above 0.
+    pub fn smallest() -> Self {
+        Fixed(BigInt::one())
+    }
+
     pub fn to_rational(&self) -> Rational {
         Rational::from_parts(self.0.clone(), BigInt::one() << PLACES)
     }

@@ -160,22 +160,44 @@ impl Real {
                 return turns(quarters, 2) + Expr::from(decimal);
             }
         }
-        angle.to_decimal(PLACES).into()
+        // What the rounding of the numbers before it has left beside a quarter turn is none.
+        let near = |q: &i64| {
+            let quarter = pi.clone() * Real::from(Rational::new(*q, 2));
+            (angle.clone() - quarter).to_decimal(PLACES).abs() <= leftover()
+        };
+        match [0, 1, -1, 2, -2].into_iter().find(near) {
+            Some(-2) => turns(1, 1),
+            Some(quarters) => turns(quarters, 2),
+            None => angle.to_decimal(PLACES).into(),
+        }
     }
 
-    /// As a formula that has this value again: exactly where it is exact, else the binary fraction that it is.
+    /// As a formula that has this value again: exactly where it is exact, else a multiple of π, of which nothing that is computed is
+    /// taken for exact.
     pub fn formula(&self) -> Expr {
-        self.to_expr().unwrap_or_else(|| self.fixed().to_rational().into())
+        self.to_expr().unwrap_or_else(|| {
+            let part = self.fixed().over(&fixed::pi()).map_or(Rational::ZERO, |x| x.to_rational());
+            let part = if part.is_zero() { Fixed::smallest().to_rational() } else { part };
+            Expr::from(part) * Expr::pi()
+        })
     }
 
-    /// As a formula: exactly where it is exact, else a decimal with 18 places.
+    /// As a formula: exactly where it is exact, else a decimal with 18 places; 0 where those hold only what rounding leaves.
     pub fn settled(&self) -> Expr {
-        self.to_expr().unwrap_or_else(|| self.to_decimal(PLACES).into())
+        self.to_expr().unwrap_or_else(|| {
+            let decimal = self.to_decimal(PLACES);
+            if decimal.abs() <= leftover() { Expr::int(0) } else { decimal.into() }
+        })
     }
 }
 
 /// The decimals that are kept of what is not exact.
 const PLACES: u32 = 18;
+
+/// What numbers leave of nothing that are made of some that were rounded to the decimals that are kept, at most.
+fn leftover() -> Rational {
+    Rational::new(4, 1_000_000_000_000_000_000)
+}
 
 fn round(x: &Surd) -> Fixed {
     let parts = x.0.iter().zip([1, 2, 3, 6]).filter(|p| !p.0.is_zero());

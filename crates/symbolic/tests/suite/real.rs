@@ -79,3 +79,35 @@ fn angles_come_back_as_they_were_written() {
         assert!(value(found - angle).is_zero());
     }
 }
+
+/// What is rounded is not exact again by way of a formula, nor is what is made of it.
+#[test]
+fn formulas_of_rounded_numbers_are_rounded() {
+    let x = value(Expr::from(Rational::new(7, 10)).sin());
+    let again = value(x.formula());
+    assert!(!again.is_exact() && (again.clone() - x.clone()).is_zero());
+    let product = value(x.formula() * Expr::from(Rational::new(3, 5)) + x.formula() * x.formula());
+    assert!(!product.is_exact());
+    let nothing = x.clone() - x;
+    assert!(nothing.is_zero() && !nothing.is_exact());
+    assert!(value(nothing.formula()).is_zero() && !value(nothing.formula()).is_exact());
+    let half = value(Expr::from(Rational::new(1, 2)).sqrt());
+    assert!(half.is_exact() && value(half.formula()).is_exact());
+}
+
+/// What rounding to 18 places leaves of 0 and of a quarter turn is not written; what is written as small as that stays.
+#[test]
+fn leftovers_of_rounding_are_not_written() {
+    let small = || Expr::from(Rational::new(1, 1_000_000_000_000_000_000));
+    let rounded = |x: Expr| {
+        value(x + Expr::from(Rational::new(7, 10)).sin()) - value(Expr::from(Rational::new(7, 10)).sin())
+    };
+    assert_eq!(rounded(small()).settled().to_string(), "0");
+    assert!((value(value(small()).settled()).to_f64() - 1e-18).abs() < 1e-30);
+    let (s, c) = (rounded(small()), value(Expr::int(1)));
+    assert_eq!(s.angle(&c).to_string(), "0");
+    assert_eq!((-c.clone()).angle(&s).to_string(), "-pi/2");
+    assert_eq!(s.angle(&-c).to_string(), "pi");
+    let angle = rounded(Expr::from(Rational::new(1, 1_000_000))).angle(&value(Expr::int(1)));
+    assert!(!angle.is_zero());
+}

@@ -8,7 +8,7 @@ mod tree;
 use crate::arguments::{DynamicsArguments, Format};
 use crate::commands::document;
 use crate::commands::fk::{Frame, configuration, plural, value, without_values};
-use crate::commands::jacobian::{joint_rates, numbers};
+use crate::commands::jacobian::{joint_rates, joints_of, numbers};
 use crate::failure::Failure;
 use crate::load::{self, Around};
 use crate::terminal::{note, words};
@@ -88,12 +88,10 @@ pub fn run(arguments: &DynamicsArguments) -> Result<(), Failure> {
 #[derive(Clone)]
 struct Arm {
     dynamics: Dynamics<f64>,
-    /// Its chain; none of a whole tree, which exerts no wrench.
-    robot: Option<Robot<f64>>,
     name: String,
     joints: Vec<String>,
-    /// Where a wrench is exerted.
-    at: Viewpoint<f64>,
+    /// Its chain, and where on it a wrench is exerted; a whole tree exerts none.
+    exerts: Option<(Robot<f64>, Viewpoint<f64>)>,
 }
 
 /// An arm with masses in numbers.
@@ -128,14 +126,15 @@ impl Arm {
             None => Viewpoint::tool(),
         };
         let joints = d.variables().iter().map(|v| v.symbol.name().to_string()).collect();
-        Ok(Arm { dynamics, robot: Some(robot), name: d.name.clone(), joints, at })
+        Ok(Arm { dynamics, name: d.name.clone(), joints, exerts: Some((robot, at)) })
     }
 
     /// Everything about a state.
     fn answer(&self, given: Given, q: Vec<f64>) -> Result<Answer, String> {
         let (arm, n) = (&self.dynamics, self.joints.len());
         let Given { qd, qdd, tau, wrench } = given;
-        let held = wrench.zip(self.robot.as_ref()).map(|(w, robot)| holding_torques(robot, &q, &self.at, &w));
+        let held =
+            wrench.zip(self.exerts.as_ref()).map(|(w, (robot, at))| holding_torques(robot, &q, at, &w));
         let less = |all: &[f64], sign: f64| -> Vec<f64> {
             let held = held.iter().flatten().copied().chain(std::iter::repeat(0.0));
             all.iter().zip(held).map(|(t, h)| t + sign * h).collect()
@@ -266,33 +265,38 @@ struct Given {
 
 impl Given {
     fn read(d: &Description, arguments: &DynamicsArguments) -> Result<Self, Failure> {
-        let rates = |text: &Option<String>, option: &str| -> Result<Option<Vec<f64>>, Failure> {
-            text.as_deref().map(|t| joint_rates(d, t, option)).transpose()
-        };
         let wrench = arguments.wrench.as_deref().map(|text| numbers(text, "--wrench", 6)).transpose()?;
+        let given = Given::at_rest(&joints_of(d), arguments)?;
+        Ok(Given { wrench: wrench.and_then(|w| w.try_into().ok()), ..given })
+    }
+
+    /// All but a wrench.
+    fn at_rest(joints: &[(String, JointKind)], arguments: &DynamicsArguments) -> Result<Self, Failure> {
+        let rates = |text: &Option<String>, option: &str| -> Result<Option<Vec<f64>>, Failure> {
+            text.as_deref().map(|t| joint_rates(joints, t, option)).transpose()
+        };
         Ok(Given {
-            qd: rates(&arguments.qd, "--qd")?.unwrap_or_else(|| vec![0.0; d.variables().len()]),
+            qd: rates(&arguments.qd, "--qd")?.unwrap_or_else(|| vec![0.0; joints.len()]),
             qdd: rates(&arguments.qdd, "--qdd")?,
-            tau: arguments.tau.as_deref().map(|text| torques(d, text)).transpose()?,
-            wrench: wrench.and_then(|w| w.try_into().ok()),
+            tau: arguments.tau.as_deref().map(|text| torques(joints, text)).transpose()?,
+            wrench: None,
         })
     }
 }
 
 /// Torques, newtons for slides, one a joint.
-fn torques(d: &Description, text: &str) -> Result<Vec<f64>, Failure> {
-    let variables = d.variables();
+fn torques(joints: &[(String, JointKind)], text: &str) -> Result<Vec<f64>, Failure> {
     // `5 N m` is one value.
-    let parts = if variables.len() == 1 { vec![text] } else { load::list(text) };
-    if parts.len() != variables.len() {
+    let parts = if joints.len() == 1 { vec![text] } else { load::list(text) };
+    if parts.len() != joints.len() {
         let found = plural(parts.len(), "value");
-        return Err(Failure::Usage(format!("--tau: {found} given, {} needed", variables.len())));
+        return Err(Failure::Usage(format!("--tau: {found} given, {} needed", joints.len())));
     }
-    let torque = |(part, variable): (&str, &Variable)| {
-        let read = load::value_of(part, Measure::Other(torque_unit(variable.kind))).and_then(value);
-        read.map_err(|why| Failure::Usage(format!("--tau: {}: {why}", variable.symbol.name())))
+    let torque = |(part, (name, kind)): (&str, &(String, JointKind))| {
+        let read = load::value_of(part, Measure::Other(torque_unit(*kind))).and_then(value);
+        read.map_err(|why| Failure::Usage(format!("--tau: {name}: {why}")))
     };
-    parts.into_iter().zip(&variables).map(torque).collect()
+    parts.into_iter().zip(joints).map(torque).collect()
 }
 
 /// A direction, or three components.

@@ -43,7 +43,7 @@ pub fn run(
     q: &[f64],
     given: Given,
 ) -> Result<(), Failure> {
-    if arm.at != Viewpoint::tool() {
+    if arm.exerts.as_ref().is_some_and(|(_, at)| *at != Viewpoint::tool()) {
         return Err(Failure::Usage("--at: --simulate has wrenches of the tool; leave it away".into()));
     }
     let wrench = given.wrench.map(|[a, b, c, k, m, n]| [Vector([a, b, c]), Vector([k, m, n])]);

@@ -12,7 +12,7 @@ use crate::failure::Failure;
 use crate::load;
 use answer::{Answer, Questions};
 use denavit::Robot;
-use denavit::description::{Description, Measure};
+use denavit::description::{Description, JointKind, Measure};
 use denavit::forward::Reference;
 use denavit::geometry::Vector;
 use denavit::geometry::orientation::OrientationSet;
@@ -140,11 +140,11 @@ fn questions(
     }
     let rates = match &arguments.rates {
         None => None,
-        Some(text) => Some(joint_rates(description, text, "--rates")?),
+        Some(text) => Some(joint_rates(&joints_of(description), text, "--rates")?),
     };
     let wish = match &arguments.wish {
         None => vec![],
-        Some(text) => joint_rates(description, text, "--wish")?,
+        Some(text) => joint_rates(&joints_of(description), text, "--wish")?,
     };
     Ok(Questions {
         orientation,
@@ -200,21 +200,22 @@ fn twist(text: &str) -> Result<([f64; 6], [bool; 6]), Failure> {
 ///
 /// # Errors
 /// If they are not one a joint, or one is no value.
-pub fn joint_rates(description: &Description, text: &str, option: &str) -> Result<Vec<f64>, Failure> {
-    let variables = description.variables();
+pub fn joint_rates(joints: &[(String, JointKind)], text: &str, option: &str) -> Result<Vec<f64>, Failure> {
     let separated = load::list(text);
-    if separated.len() != variables.len() {
+    if separated.len() != joints.len() {
         let found = plural(separated.len(), "value");
-        return Err(Failure::Usage(format!("{option}: {found} given, one a joint: {}", variables.len())));
+        return Err(Failure::Usage(format!("{option}: {found} given, one a joint: {}", joints.len())));
     }
-    let mut rates = vec![];
-    for (part, variable) in separated.iter().zip(&variables) {
+    let rate = |(part, (name, kind)): (&&str, &(String, JointKind))| {
         let value =
             ["/s^2", "/s²", "/s"].into_iter().find_map(|unit| part.strip_suffix(unit)).unwrap_or(part);
-        let read = load::value_of(value, variable.kind.into()).and_then(crate::commands::fk::value);
-        rates.push(
-            read.map_err(|why| Failure::Usage(format!("{option}: {}: {why}", variable.symbol.name())))?,
-        );
-    }
-    Ok(rates)
+        let read = load::value_of(value, (*kind).into()).and_then(crate::commands::fk::value);
+        read.map_err(|why| Failure::Usage(format!("{option}: {name}: {why}")))
+    };
+    separated.iter().zip(joints).map(rate).collect()
+}
+
+/// The joints of a chain by the names of their variables.
+pub fn joints_of(description: &Description) -> Vec<(String, JointKind)> {
+    description.variables().iter().map(|v| (v.symbol.name().to_string(), v.kind)).collect()
 }

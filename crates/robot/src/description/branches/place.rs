@@ -112,8 +112,10 @@ impl RowTree {
                 Some(k) => (Some(row_of[k]), frames[k].seen(pose)),
                 None => (None, pose.clone()),
             };
-            let name = m.bodies[body].name.clone();
-            let name = if taken.contains(&name) { format!("{name} body") } else { name };
+            let mut name = m.bodies[body].name.clone();
+            while !taken.insert(name.clone()) {
+                name += " body";
+            }
             tree.frames.push(NamedFrame { name, on: row, pose: pose.settled() });
         }
         Ok(tree)

@@ -152,6 +152,13 @@ impl Pose {
         nothing([x, y, z, minus(&self.origin, &other.origin)].iter().flatten())
     }
 
+    /// By how much this frame is not another at most: directions, and the unit of its origin.
+    pub fn apart(&self, other: &Pose) -> f64 {
+        let [x, y, z] = [0, 1, 2].map(|k| minus(&self.axes[k], &other.axes[k]));
+        let all = [x, y, z, minus(&self.origin, &other.origin)];
+        all.iter().flatten().map(|e| e.to_f64().abs()).fold(0.0, f64::max)
+    }
+
     /// How z of this frame is z of another, as a line or, of a slide, as a direction.
     pub fn axis_alike(&self, other: &Pose, slides: bool) -> Alike {
         let direction = minus(&self.axes[2], &other.axes[2]);

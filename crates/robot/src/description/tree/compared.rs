@@ -2,7 +2,7 @@
 //!
 //! A body moves as the joints on the way to it do, one behind the other. So it moves as a body of another tree does if these joints
 //! have the same axes at rest, count by the same values, and the two have the same pose at rest: each joint and each end is compared
-//! once, however many ways go over it.
+//! once in its numbers, however many ways go over it.
 
 use super::{Mechanism, rest};
 use crate::description::JointKind;
@@ -11,10 +11,13 @@ use denavit_symbolic::Rational;
 use denavit_symbolic::real::Values;
 use std::collections::HashMap;
 
+/// What stands still stands elsewhere where it is as far apart (directions, and metres).
+const STILL: f64 = 1e-12;
+
 /// How a body of one tree moves as one of another.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Likeness {
-    /// Nothing moves it.
+    /// Nothing moves it, and it stands where the other does, up to rounding.
     Still,
     /// It is proved to move as the other.
     Proved,
@@ -99,20 +102,34 @@ impl Mechanism {
             let way: Vec<usize> = a.way(end).collect();
             let other_way: Vec<usize> = other_end.into_iter().flat_map(|e| b.way(e)).collect();
             if way.is_empty() && other_way.is_empty() {
-                all.push(Likeness::Still);
+                let is_elsewhere = other_end.is_some_and(|e| a.frames[end].apart(&b.frames[e]) > STILL);
+                all.push(if is_elsewhere { Likeness::Open } else { Likeness::Still });
                 continue;
             }
-            let same_joints = way.len() == other_way.len()
-                && way.iter().zip(&other_way).all(|(&i, &j)| {
-                    let (Some((v, k)), Some((w, l))) = (&a.moves[i], &b.moves[j]) else { return false };
-                    let is_one = *there[*v].get_or_insert(*w) == *w && *here[*w].get_or_insert(*v) == *v;
-                    is_one && k == l && self.joints[i].kind == other.joints[j].kind
-                });
-            let Some(other_end) = other_end.filter(|_| same_joints) else {
+            let both = || way.iter().zip(&other_way);
+            let pair = |(&i, &j): (&usize, &usize)| {
+                let (Some((v, k)), Some((w, l))) = (&a.moves[i], &b.moves[j]) else { return None };
+                let is_free = there[*v].is_none_or(|t| t == *w) && here[*w].is_none_or(|t| t == *v);
+                (is_free && k == l && self.joints[i].kind == other.joints[j].kind).then_some((*v, *w))
+            };
+            let pairs: Option<Vec<(usize, usize)>> = both().map(pair).collect();
+            // One variable may move several joints of the way.
+            let is_one = |pairs: &Vec<(usize, usize)>| {
+                let mut known: HashMap<usize, usize> = HashMap::new();
+                let mut back: HashMap<usize, usize> = HashMap::new();
+                pairs
+                    .iter()
+                    .all(|&(v, w)| *known.entry(v).or_insert(w) == w && *back.entry(w).or_insert(v) == v)
+            };
+            let pairs = pairs.filter(|p| way.len() == other_way.len() && is_one(p));
+            let (Some(other_end), Some(pairs)) = (other_end, pairs) else {
                 all.push(Likeness::OtherJoints);
                 continue;
             };
-            let axes = way.iter().zip(&other_way).map(|(&i, &j)| axes(i, j));
+            for (v, w) in pairs {
+                (there[v], here[w]) = (Some(w), Some(v));
+            }
+            let axes = both().map(|(&i, &j)| axes(i, j));
             let worst = axes.chain([a.frames[end].alike(&b.frames[other_end])]).max();
             all.push(match worst {
                 Some(Alike::Exactly) => Likeness::Proved,

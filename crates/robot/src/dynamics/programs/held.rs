@@ -19,19 +19,11 @@ pub(super) enum Held {
 }
 
 impl DynamicPrograms {
-    /// The program with the fewest operations.
-    pub(super) fn shortest(&self, all: Vec<DynamicProgram>) -> DynamicProgram {
-        let shortest = all.into_iter().min_by_key(|p| p.program.count().cost());
-        shortest.unwrap_or_else(|| DynamicProgram::plain(self.torque.only(&[])))
-    }
-
     /// The one that is the shortest once all are shortened, in so many orders at random, with what that rests on; as it was, where
-    /// it is not the same.
+    /// it is not the same. There must be one.
     pub(super) fn shortened(&self, all: Vec<DynamicProgram>, orders: u64, held: Held) -> DynamicProgram {
         let pairs = all.into_iter().map(|long| (long.program.shortened(orders), long));
-        let Some((program, long)) = pairs.min_by_key(|(short, _)| short.count().cost()) else {
-            return self.shortest(vec![]);
-        };
+        let (program, long) = pairs.min_by_key(|(short, _)| short.count().cost()).expect("there is one");
         if program.count() == long.program.count() {
             return long;
         }

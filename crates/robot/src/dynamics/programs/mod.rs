@@ -115,7 +115,8 @@ pub struct DynamicProgram {
 pub enum NoProgram {
     /// Base parameters do not tell energies.
     Energy,
-    /// The joint, from 0, moves no mass of its own in any state: no acceleration follows from torques.
+    /// The joint, from 0, moves no mass of its own, in no state or in none of three random ones modulo a prime: no acceleration
+    /// follows from torques.
     Singular(usize),
 }
 
@@ -255,7 +256,10 @@ impl DynamicPrograms {
             DynamicFunction::TorqueDerivatives => Ok(self.slopes()),
             DynamicFunction::Energy if self.masses == Masses::Base => Err(NoProgram::Energy),
             DynamicFunction::Energy => Ok(DynamicProgram::plain(self.energies())),
-            DynamicFunction::Inertia => Ok(self.shortest(self.inertias().to_vec())),
+            DynamicFunction::Inertia => {
+                let shortest = self.inertias().iter().min_by_key(|p| p.program.count().cost());
+                Ok(shortest.expect("there is the derivative").clone())
+            }
             DynamicFunction::Acceleration => self.accelerations(false),
             DynamicFunction::AccelerationDerivatives => self.accelerations(true),
         }

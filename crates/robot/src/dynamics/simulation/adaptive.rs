@@ -85,12 +85,13 @@ impl Adaptive {
                 |e: &End| (0..contacts.len()).any(|j| problem.is_over(j, contacts[j], &e.y, &e.slope.held));
             let mut high = 1.0;
             let mut ends = is_over(&reached);
-            if !ends
-                && let Some(place) = within(problem, h, y, (&slope, &reached), &contacts)
-                && let Ok(part) = self.step(problem, t, h * place, y, &slope, &contacts)
-                && is_over(&part)
-            {
-                (ends, high, reached) = (true, place, part);
+            if !ends {
+                let places = within(problem, h, y, (&slope, &reached), &contacts);
+                let part =
+                    |place: f64| Some((place, self.step(problem, t, h * place, y, &slope, &contacts).ok()?));
+                if let Some((place, part)) = places.into_iter().filter_map(part).find(|(_, p)| is_over(p)) {
+                    (ends, high, reached) = (true, place, part);
+                }
             }
             if ends {
                 // The first moment at which a contact is over.
@@ -164,14 +165,14 @@ impl Adaptive {
 }
 
 /// Where within a step, by part of it, a contact seems to be over although it is not at its end: a joint that slides back by the cubic
-/// through its velocities and accelerations at both ends, or one that sticks and is pulled too hard at a stage. The first of them.
+/// through its velocities and accelerations at both ends, or one that sticks and is pulled too hard at a stage. The first of them first.
 fn within(
     problem: &Problem,
     h: f64,
     y: &[f64],
     (first, last): (&Slope, &End),
     contacts: &[Contact],
-) -> Option<f64> {
+) -> Vec<f64> {
     let n = contacts.len();
     let of = |(j, contact): (usize, &Contact)| match *contact {
         Contact::Slides(direction) => {
@@ -184,7 +185,9 @@ fn within(
             last.held.iter().find(|(_, held)| is_over(held)).map(|(place, _)| *place)
         }
     };
-    contacts.iter().enumerate().filter_map(of).min_by(f64::total_cmp)
+    let mut places: Vec<f64> = contacts.iter().enumerate().filter_map(of).collect();
+    places.sort_by(f64::total_cmp);
+    places
 }
 
 /// Where the cubic with these values and slopes at 0 and 1 is lowest between them, and its value there; nothing if at an end.
