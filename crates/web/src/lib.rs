@@ -10,6 +10,7 @@ mod catalogue;
 mod definitions;
 mod documents;
 mod dropped;
+mod falling;
 mod formulas;
 mod looks;
 mod model;
@@ -60,6 +61,7 @@ enum Request {
     Angles { pose: Vec<Vec<f64>>, set: String },
     Pose { xyz: [f64; 3], set: String, values: Vec<f64> },
     Jacobian { q: Vec<f64>, frame: String },
+    Hold { q: Vec<f64> },
 }
 
 /// What can be asked for that is derived first.
@@ -71,6 +73,7 @@ enum MoreRequest {
     Singular {},
     Workspace {},
     Path(motion::Wish),
+    Fall(falling::Wish),
 }
 
 /// What can be asked about documents, source code, and descriptions of trees.
@@ -105,6 +108,7 @@ pub fn answer(request: &str) -> String {
         Request::Angles { pose, set } => told(orientation::angles(&pose, &set)),
         Request::Pose { xyz, set, values } => told(orientation::pose(xyz, &set, &values)),
         Request::Jacobian { q, frame } => velocity::jacobian(session.robot()?, &q, &frame),
+        Request::Hold { q } => told(falling::hold(session.robot()?, &q)),
     })
 }
 
@@ -116,6 +120,7 @@ pub fn answer_more(request: &str) -> String {
         MoreRequest::Singular {} => told(velocity::singular(session.robot()?)),
         MoreRequest::Workspace {} => told(reach::workspace(session.robot()?)),
         MoreRequest::Path(wish) => told(motion::path(session.robot()?, &wish)),
+        MoreRequest::Fall(wish) => told(falling::fall(session.robot()?, &wish)),
     })
 }
 

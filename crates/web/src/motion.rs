@@ -4,6 +4,7 @@ use crate::refusal::Refusal;
 use crate::solve;
 use crate::subject::Subject;
 use crate::words;
+use denavit::dynamics::{Dynamics, drive_torques};
 use denavit::geometry::{Transform, Vector};
 use denavit::motion::follow::Event;
 use denavit::motion::hand::{Arc, HandChain, HandPath, Line, Orientation};
@@ -40,31 +41,55 @@ const MOST: [usize; 2] = [5_000, 200];
 #[derive(Serialize)]
 pub struct Path {
     /// Seconds.
-    duration: f64,
-    events: Vec<Met>,
-    manipulability: Vec<f64>,
+    pub duration: f64,
+    /// Of an arm that falls.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub energy: Option<Energies>,
+    /// What is met on the way.
+    pub events: Vec<Met>,
+    /// Lengths by the reach.
+    pub manipulability: Vec<f64>,
     /// What path it is, in words.
-    path: String,
-    pose: Vec<Matrix>,
-    q: Vec<Vec<f64>>,
+    pub path: String,
+    /// Of the tool.
+    pub pose: Vec<Matrix>,
+    /// The joints.
+    pub q: Vec<Vec<f64>>,
     /// The part of the way that could be followed, 1 if all.
-    reached: f64,
+    pub reached: f64,
     /// Where the first stretch of the hand can start.
-    starts: Vec<Start>,
+    pub starts: Vec<Start>,
     /// Seconds.
-    t: Vec<f64>,
+    pub t: Vec<f64>,
     /// How it was timed, in words.
-    timing: String,
-    velocity: Vec<Vec<f64>>,
+    pub timing: String,
+    /// Of the drives, N·m and N; nothing where no masses are known, or nothing drives.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub torque: Option<Vec<Vec<f64>>>,
+    /// The joints' rates.
+    pub velocity: Vec<Vec<f64>>,
+}
+
+/// Energies sample by sample, joules.
+#[derive(Serialize)]
+pub struct Energies {
+    /// Of the motion.
+    pub kinetic: Vec<f64>,
+    /// What friction has taken since the start.
+    pub lost: Vec<f64>,
+    /// Of the height, since the start.
+    pub potential: Vec<f64>,
 }
 
 /// What is met on the way.
 #[derive(Serialize)]
-struct Met {
-    kind: &'static str,
+pub struct Met {
+    /// Which: a singular configuration, a limit.
+    pub kind: &'static str,
     /// Seconds.
-    t: f64,
-    words: String,
+    pub t: f64,
+    /// What.
+    pub words: String,
 }
 
 /// What the stretches of a path come to.
@@ -73,6 +98,7 @@ struct Sampled {
     times: Vec<f64>,
     q: Vec<Vec<f64>>,
     velocity: Vec<Vec<f64>>,
+    acceleration: Vec<Vec<f64>>,
     events: Vec<Met>,
     starts: Vec<Start>,
     words: Vec<String>,
@@ -169,6 +195,7 @@ impl Sampled {
             self.times.push(start + t);
             self.q.push(state.q);
             self.velocity.push(state.qd);
+            self.acceleration.push(state.qdd);
         }
         for event in planned.followed.iter().flat_map(|f| &f.events) {
             let near = |k: &usize| subject.space.distance(&self.q[*k], &event.q);
@@ -187,14 +214,15 @@ impl Sampled {
     }
 
     fn told(self, subject: &Subject) -> Path {
-        let whole = |q: &Vec<f64>| {
-            let jacobian = geometric(&subject.robot, q, &Viewpoint::tool());
-            Whole::new(&jacobian, &subject.space.is_angle, subject.robot.reach().max(1e-9)).manipulability
-        };
+        let torque = Dynamics::numeric(&subject.valued).ok().map(|arm| {
+            let rates = self.velocity.iter().zip(&self.acceleration);
+            self.q.iter().zip(rates).map(|(q, (qd, qdd))| drive_torques(&arm, q, qd, qdd, None)).collect()
+        });
         Path {
             duration: self.times.last().copied().unwrap_or(0.0),
+            energy: None,
             events: self.events,
-            manipulability: self.q.iter().map(whole).collect(),
+            manipulability: self.q.iter().map(|q| manipulability(subject, q)).collect(),
             path: self.words.join(", then "),
             pose: self.q.iter().map(|q| matrix(&subject.robot.pose(q))).collect(),
             q: self.q,
@@ -202,9 +230,16 @@ impl Sampled {
             starts: self.starts,
             t: self.times,
             timing: self.timing.join("; then "),
+            torque,
             velocity: self.velocity,
         }
     }
+}
+
+/// How well the tool moves, lengths by the arm's reach.
+pub fn manipulability(subject: &Subject, q: &[f64]) -> f64 {
+    let jacobian = geometric(&subject.robot, q, &Viewpoint::tool());
+    Whole::new(&jacobian, &subject.space.is_angle, subject.robot.reach().max(1e-9)).manipulability
 }
 
 fn told(subject: &Subject, event: &Event, t: f64) -> Met {

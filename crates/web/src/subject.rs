@@ -1,6 +1,7 @@
 //! A robot in hand, and what was derived for it.
 
 use crate::definitions::Definitions;
+use crate::falling::Heavy;
 use crate::refusal::Refusal;
 use crate::steps::Step;
 use denavit::Robot;
@@ -30,6 +31,8 @@ pub struct Subject {
     pub formulas: Vec<(String, Definitions)>,
     /// The texts of its cells, row by row.
     pub steps: OnceCell<Vec<Vec<Step>>>,
+    /// With masses; or why they have no values.
+    pub heavy: OnceCell<Result<Heavy, String>>,
 }
 
 impl Subject {
@@ -58,6 +61,7 @@ impl Subject {
             solver: None,
             formulas: vec![],
             steps: OnceCell::new(),
+            heavy: OnceCell::new(),
         })
     }
 

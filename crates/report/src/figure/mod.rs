@@ -4,6 +4,7 @@
 //! do. A [`Drawing`] becomes text in [`svg`], [`tikz`] or [`typst`].
 
 pub mod arm;
+mod bars;
 pub mod drawing;
 pub mod labels;
 mod naming;
@@ -22,6 +23,7 @@ pub mod typst;
 pub mod view;
 
 pub use arm::isometric;
+pub use bars::BAR;
 pub use drawing::Drawing;
 pub use naming::symbol;
 pub use options::FigureOptions;

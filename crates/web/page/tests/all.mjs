@@ -8,6 +8,7 @@ import "./joints.mjs";
 import "./hand.mjs";
 import "./formulas.mjs";
 import "./path.mjs";
+import "./weight.mjs";
 import "./check.mjs";
 import "./share.mjs";
 import "./input.mjs";

@@ -5,7 +5,9 @@ use serde_json::{Value, json};
 pub fn ask(op: &str, input: Value) -> Value {
     let request = json!({ "op": op, "input": input }).to_string();
     let text = match op {
-        "formulas" | "values" | "singular" | "workspace" | "path" => denavit_web::answer_more(&request),
+        "formulas" | "values" | "singular" | "workspace" | "path" | "fall" => {
+            denavit_web::answer_more(&request)
+        }
         "check" | "report" | "code" | "figure" | "tree" => denavit_web::answer_documents(&request),
         _ => denavit_web::answer(&request),
     };

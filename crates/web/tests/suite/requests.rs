@@ -326,3 +326,88 @@ fn names_are_those_of_the_command_line() {
         scene["within_limits"]
     );
 }
+
+/// A bar of 1 m on a level axis, whose ends are the joint and the tool.
+fn pendulum(more: &str) -> Value {
+    let text = format!(
+        "name = \"p\"\nconvention = \"standard\"\n[[joints]]\na = \"1 m\"\ntheta = \"q1\"\n{more}\n[base]\nrpy = [\"90 deg\", 0, 0]\n"
+    );
+    let file = told("open", json!({ "text": text, "kind": "toml" }))["file"].clone();
+    assert!(told("edit", json!({ "file": file }))["robot"].is_object(), "{text}");
+    file
+}
+
+/// Torques and falls of a pendulum are what textbooks say of one, with its own mass and as a bar.
+#[test]
+fn an_arm_is_held_and_falls() {
+    const G: f64 = 9.81;
+    let torque = |q: f64| numbers(&told("hold", json!({ "q": [q] }))["torques"])[0];
+    pendulum("");
+    assert_eq!(told("hold", json!({ "q": [0.0] }))["bars"], json!(1.0));
+    // A bar of 1 kg and 1 m: its weight acts at half of its length. The ball stands on the axis.
+    assert!((torque(0.0) - 0.5 * G).abs() < 1e-9 && torque(std::f64::consts::FRAC_PI_2).abs() < 1e-9);
+    pendulum("mass = \"2 kg\"\ncom = [\"-0.25 m\", 0, 0]\ninertia = [0, 0, 0, 0, 0, 0]\nviscous = 0.1");
+    let held = told("hold", json!({ "q": [0.0] }));
+    assert!(held["bars"].is_null() && held["mass"] == json!(2.0), "{held}");
+    assert!((torque(0.0) - 1.5 * G).abs() < 1e-9);
+    // A point 0.75 m from the axis, let go level: what it has lost of height is in its motion and in friction.
+    let path = told("fall", json!({ "q": [0.0], "seconds": 2.0 }));
+    let [q, velocity]: [Vec<f64>; 2] =
+        ["q", "velocity"].map(|k| path[k].as_array().into_iter().flatten().map(|x| numbers(x)[0]).collect());
+    let energy = |name: &str| numbers(&path["energy"][name]);
+    let (kinetic, potential, lost) = (energy("kinetic"), energy("potential"), energy("lost"));
+    assert!(q.len() > 100 && path["t"].as_array().map(Vec::len) == Some(q.len()));
+    for k in 0..q.len() {
+        assert!((potential[k] - 2.0 * G * 0.75 * q[k].sin()).abs() < 1e-6, "{k}");
+        assert!((kinetic[k] - 0.75 * 0.75 * velocity[k] * velocity[k]).abs() < 1e-6, "{k}");
+        assert!((kinetic[k] + potential[k] + lost[k]).abs() < 1e-5, "{k}");
+    }
+    assert!(q.iter().copied().fold(0.0, f64::min) < -2.0 && lost[lost.len() - 1] > 0.5);
+    // Drives that follow a path need torques: at rest at its ends those that hold the arm.
+    let path =
+        told("path", json!({ "start": [0.0], "points": [{ "kind": "joint", "q": [1.0] }], "samples": 51 }));
+    let torques: Vec<f64> = path["torque"].as_array().into_iter().flatten().map(|x| numbers(x)[0]).collect();
+    assert!(torques.len() > 50 && torques.iter().all(|x| x.is_finite()));
+    let reference = |k: usize, q: f64| {
+        let motion = path["velocity"][k][0].as_f64().expect("a number");
+        torques[k] - 1.5 * G * q.cos() - 0.1 * motion
+    };
+    // What is left beside weight and friction accelerates: it changes its sign on the way.
+    let of = |k: usize| reference(k, path["q"][k][0].as_f64().expect("a number"));
+    assert!((0..torques.len()).any(|k| of(k) > 1e-3) && (0..torques.len()).any(|k| of(k) < -1e-3));
+}
+
+/// Every arm of the catalogue falls, as bars; its energy is kept.
+#[test]
+fn arms_without_masses_fall_as_bars() {
+    for name in ["ur5", "scara", "stanford", "planar-2r", "franka-panda"] {
+        let (_, model) = taken(name);
+        let held = told("hold", json!({ "q": model["q"] }));
+        assert_eq!(held["bars"], json!(1.0), "{name}");
+        assert!(held["mass"].as_f64() > Some(0.0), "{name}: {held}");
+        let path = told("fall", json!({ "q": model["q"], "seconds": 1.0 }));
+        let sum = |k: usize| -> f64 {
+            ["kinetic", "potential", "lost"].iter().filter_map(|n| path["energy"][n][k].as_f64()).sum()
+        };
+        let all = path["t"].as_array().map_or(0, Vec::len);
+        let largest = numbers(&path["energy"]["kinetic"]).into_iter().fold(1e-9, f64::max);
+        assert!(all > 50 && (0..all).all(|k| sum(k).abs() < 1e-6 * largest), "{name}");
+        assert!(path["torque"].is_null());
+    }
+}
+
+/// What cannot fall says why.
+#[test]
+fn falls_that_are_refused() {
+    pendulum("");
+    for (input, words) in [
+        (json!({ "q": [0.0, 1.0], "seconds": 1.0 }), "2 values for 1 joints"),
+        (json!({ "q": [0.0], "seconds": 0.0 }), "more than 0 s"),
+        (json!({ "q": [0.0], "seconds": 1e9 }), "60 s at most"),
+    ] {
+        assert!(ask("fall", input)["error"].as_str().is_some_and(|e| e.contains(words)), "{words}");
+    }
+    pendulum("mass = 0\ncom = [0, 0, 0]\ninertia = [0, 0, 0, 0, 0, 0]\nrotor = 0");
+    let answer = ask("fall", json!({ "q": [0.0], "seconds": 1.0 }));
+    assert!(answer["error"].as_str().is_some_and(|e| e.contains("q1 moves no mass of its own")), "{answer}");
+}

@@ -22,6 +22,7 @@ const LATER: Partial<Record<Op, 1 | 2>> = {
   singular: 1,
   workspace: 1,
   path: 1,
+  fall: 1,
   check: 2,
   report: 2,
   code: 2,

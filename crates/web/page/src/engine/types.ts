@@ -322,6 +322,10 @@ export interface Path {
   pose: Matrix[];
   /** Singular configurations and limits on the way. */
   events: PathEvent[];
+  /** Of the drives, N·m and N; nothing where no masses are known, or nothing drives. */
+  torque?: number[][];
+  /** Of an arm that falls, joules. */
+  energy?: { kinetic: number[]; potential: number[]; lost: number[] };
   /** Configurations in which it can start. */
   starts: { q: number[]; branch: string; reached: number; singular: number; within_limits: boolean }[];
 }
@@ -419,6 +423,16 @@ export interface Workspace {
   area: number;
 }
 
+/** `hold`: what holds the arm at rest. */
+export interface Held {
+  /** No masses are known: those of bars were taken, kg/m. */
+  bars?: number;
+  /** Of all that moves, kg. */
+  mass: number;
+  /** N·m, and N of slides. */
+  torques: number[];
+}
+
 /** Everything that can be asked, by name. */
 export interface Requests {
   catalogue: [Record<string, never>, { robots: Listed[] }];
@@ -439,6 +453,9 @@ export interface Requests {
   singular: [Record<string, never>, { singularities: Singularity[]; complete: boolean }];
   workspace: [Record<string, never>, Workspace];
   path: [PathRequest, Path];
+  hold: [{ q: number[] }, Held];
+  /** A path of an arm that falls from rest. */
+  fall: [{ q: number[]; seconds: number }, Path];
   check: [{ text: string; name: string }, Checked];
   report: [{ format: "html" | "typst" | "latex" | "markdown"; language: "en" | "fr"; q: number[] }, { text: string; files?: { path: string; text: string }[] }];
   code: [{ language: "rust" | "c" | "python" | "matlab" | "javascript" | "cuda"; name?: string }, { files: { path: string; text: string }[]; words: string; test: string }];

@@ -8,6 +8,7 @@ import { forFile, formatWithUnit, type Measure, short, unitOf, format } from "..
 import { Button } from "../widgets/button.tsx";
 import { NumberField } from "../widgets/number.tsx";
 import { Slider } from "../widgets/slider.tsx";
+import { Weight } from "./weight.tsx";
 
 export function measureOf(joint: Joint): Measure {
   return joint.kind === "R" ? "angle" : "length";
@@ -41,6 +42,7 @@ export function JointsPanel() {
       </p>
       <Poses />
       <Measures />
+      <Weight />
     </>
   );
 }

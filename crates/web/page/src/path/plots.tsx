@@ -1,4 +1,4 @@
-// The plots of a path: joints, their speeds, manipulability, with events and the time.
+// The plots of a path: joints, their speeds, torques and energies where there are masses, manipulability, with events and the time.
 
 import { useMemo, useState } from "preact/hooks";
 import type { Joint, Path } from "../engine/types.ts";
@@ -27,9 +27,18 @@ export function Plots({ path }: { path: Path }) {
   const kinds = useMemo(() => {
     return (["R", "P"] as const)
       .filter((kind) => joints.some((joint) => joint.kind === kind))
-      .map((kind) => ({ kind, positions: curves(path.q, joints, kind, units, hidden), speeds: curves(path.velocity, joints, kind, units, hidden) }));
+      .map((kind) => {
+        const factor = kind === "R" ? (units.angles === "deg" ? 180 / Math.PI : 1) : units.lengths === "mm" ? 1000 : 1;
+        const of = (samples: number[][], by: number) => curves(samples, joints, kind, by, hidden);
+        return { kind, positions: of(path.q, factor), speeds: of(path.velocity, factor), torques: path.torque && of(path.torque, 1) };
+      });
   }, [path, joints, units, hidden]);
   const manipulability = useMemo<Series[]>(() => [{ name: "manipulability", joint: null, values: path.manipulability }], [path]);
+  const energies = useMemo<Series[]>(() => {
+    const { kinetic, potential, lost } = path.energy ?? { kinetic: [], potential: [], lost: [] };
+    const all = [{ name: "kinetic", values: kinetic }, { name: "potential", values: potential }, { name: "lost to friction", values: lost }];
+    return all.filter(({ values }) => values.some((x) => x !== 0)).map((one, k) => ({ ...one, joint: null, colour: k }));
+  }, [path]);
   const common = { times: path.t, events: path.events };
   const mixed = kinds.length > 1;
   return (
@@ -41,6 +50,8 @@ export function Plots({ path }: { path: Path }) {
       {kinds.map(({ kind, speeds }) => (
         <Plot key={kind} title={mixed ? (kind === "R" ? "Angular speeds" : "Linear speeds") : "Joint speeds"} unit={`${unit(kind, units)}/s`} degrees={unit(kind, units) === "°"} series={speeds} {...common} />
       ))}
+      {kinds.map(({ kind, torques }) => torques && <Plot key={kind} title={mixed ? (kind === "R" ? "Torques" : "Forces") : kind === "R" ? "Joint torques" : "Joint forces"} unit={kind === "R" ? "N m" : "N"} series={torques} {...common} />)}
+      {path.energy && <Plot title={`Energies since the start: ${energies.map(({ name }) => name).join(", ")}`} unit="J" series={energies} {...common} />}
       <Plot title="Manipulability" unit="lengths by the arm’s reach" fromZero series={manipulability} {...common} />
     </div>
   );
@@ -50,10 +61,8 @@ function unit(kind: Joint["kind"], units: Units): string {
   return unitOf(kind === "R" ? "angle" : "length", units);
 }
 
-/** The curves of one kind of joint in the unit shown. */
-function curves(samples: number[][], joints: Joint[], kind: Joint["kind"], units: Units, hidden: ReadonlySet<number>): Series[] {
-  const isDegrees = kind === "R" && units.angles === "deg";
-  const factor = isDegrees ? 180 / Math.PI : kind === "P" && units.lengths === "mm" ? 1000 : 1;
+/** The curves of one kind of joint, in a unit that is so much of the other one. */
+function curves(samples: number[][], joints: Joint[], kind: Joint["kind"], factor: number, hidden: ReadonlySet<number>): Series[] {
   return joints.flatMap((joint, k) => {
     if (joint.kind !== kind || hidden.has(k)) return [];
     return [{ name: joint.name, joint: k, values: samples.map((sample) => (sample[k] ?? NaN) * factor) }];

@@ -12,6 +12,8 @@ export interface Series {
   name: string;
   /** The joint that it is about; its number also picks colour and dashes. */
   joint: number | null;
+  /** Which colour, where it is about none. */
+  colour?: number;
   values: number[];
 }
 
@@ -122,7 +124,7 @@ export function Plot(props: Props) {
           {series.map((one, k) => (
             <path
               key={k}
-              class={`curve ${seriesClass(one.joint)}${anyLit ? (lit.value[k] ? " lit" : " faint") : ""}`}
+              class={`curve ${seriesClass(one.joint ?? one.colour ?? null)}${anyLit ? (lit.value[k] ? " lit" : " faint") : ""}`}
               d={curve(times, one.values, x, y)}
               onPointerEnter={() => one.joint !== null && highlight([one.joint])}
               onPointerLeave={() => highlight([])}
@@ -131,7 +133,7 @@ export function Plot(props: Props) {
           <g ref={cursor} class="cursor">
             <line y1={MARGIN.top} y2={HEIGHT - MARGIN.bottom} />
             {series.map((one, k) => (
-              <circle key={k} r={3} class={seriesClass(one.joint)} />
+              <circle key={k} r={3} class={seriesClass(one.joint ?? one.colour ?? null)} />
             ))}
           </g>
         </svg>
