@@ -159,18 +159,22 @@ fn parallel_runs(joints: &[JointKind], relations: &[Relation]) -> Vec<Vec<usize>
     runs
 }
 
-/// The constant transform from the frame behind joint k's motion to the frame before joint k+1's.
+/// The transform from the frame behind joint k's motion to the frame before joint k+1's; axes between them that follow other joints
+/// make it depend on these.
 fn between_joints(description: &Description) -> Vec<Transform<Expr>> {
     let axes = MovingAxes::new(&Robot::symbolic(description), Lengths::Behind);
     let mut found: Vec<Transform<Expr>> = vec![];
     let mut current: Option<Transform<Expr>> = None;
+    let q: Vec<Expr> = description.variables().iter().map(|v| v.symbol.into()).collect();
     for (axis, constant) in axes.moving.iter().zip(&axes.constants) {
         let before = current.map(|x| x * *constant);
-        // An axis that only follows other joints counts as at rest.
         let is_own = description.rows[axis.row].variable.is_some_and(|v| v.kind == axis.kind);
         found.extend(before.filter(|_| is_own));
-        let start = if is_own { Some(Transform::identity()) } else { before };
-        current = start.map(|x| x * axis.at_rest());
+        // Its own motion leaves a joint's axis where it is.
+        current = match is_own {
+            true => Some(axis.at_rest()),
+            false => before.map(|x| x * axis.at(&q)),
+        };
     }
     found.iter().map(|x| x.map(readable::settled)).collect()
 }

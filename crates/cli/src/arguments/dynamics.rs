@@ -62,7 +62,7 @@ pub struct DynamicsArguments {
     #[arg(long, value_name = "WRENCH", allow_hyphen_values = true)]
     pub wrench: Option<String>,
     /// All joints of a tree of bodies (a URDF, an MJCF or a tree of rows) and not one chain through it: the root stands still. -q, --qd,
-    /// --qdd and --tau have a value a joint, in the order of the file; -q takes names, too, as in -q "elbow=0.5"
+    /// --qdd and --tau have a value a joint, branch after branch as `fk --frames all` has them; -q takes names, too, as in -q "elbow=0.5"
     #[arg(long, conflicts_with_all = ["input", "simulate", "payload", "at", "wrench", "symbolic", "explain", "base", "tip"])]
     pub whole: bool,
     /// The acceleration of gravity in the base: x, -x, y, -y, z, -z (of 9.81 m/s²), none, or three components (m/s² where

@@ -15,6 +15,6 @@ pub mod vector;
 
 pub use body::{Body, NoBody, PARAMETERS};
 pub use orientation::{EulerSet, Orientation, OrientationError, OrientationSet};
-pub use rotation::{NotRigid, Rotation};
+pub use rotation::{NotRigid, RIGID_TOLERANCE, Rotation};
 pub use transform::Transform;
 pub use vector::{Axis, Vector};

@@ -79,6 +79,17 @@ impl<T: Scalar> MovingAxis<T> {
             JointKind::Prismatic => Transform::translation_z(self.value.offset),
         }
     }
+
+    /// Its motion where the joints are.
+    pub fn at(&self, q: &[T]) -> Transform<T> {
+        match self.kind {
+            JointKind::Revolute => {
+                let (s, c) = self.value.sin_cos(q);
+                Transform::from_rotation_translation(Rotation::from_sin_cos(Axis::Z, s, c), Vector::zero())
+            }
+            JointKind::Prismatic => Transform::translation_z(self.value.value(q)),
+        }
+    }
 }
 
 /// Rz by the constant part of an angle.

@@ -189,6 +189,19 @@ fn files_say_what_is_wrong_with_them() {
             format!("convention = \"craig\"\n{joint}[base]\nmatrix = [[1,0,0,0],[0,1,0,0],[0,0,-1,0],[0,0,0,1]]\n"),
             vec!["5:10 error: not a rigid transform: the rotation has determinant −1"],
         ),
+        // A name in a place says nothing for the rotation.
+        (
+            format!("convention = \"craig\"\n[parameters]\nL = 1\n{joint}[tool]\nmatrix = [[1,0,0,\"L\"],[0,1,0,0],[0,0,-1,0],[0,0,0,1]]\n"),
+            vec!["7:10 error: not a rigid transform: the rotation has determinant −1"],
+        ),
+        (
+            format!("convention = \"craig\"\n[parameters]\nL = 1\n{joint}[tool]\nmatrix = [[2,0,0,\"L\"],[0,1,0,0],[0,0,0.5,0],[0,0,0,1]]\n"),
+            vec!["7:10 error: not a rigid transform: the columns of the rotation are not orthogonal unit vectors"],
+        ),
+        (
+            format!("convention = \"craig\"\n[parameters]\ng = {{ kind = \"angle\" }}\n{joint}[tool]\nmatrix = [[\"cos(g)\",\"-sin(g)\",0,0],[\"sin(g)\",\"cos(g)\",0,0],[0,0,-1,0],[0,0,0,1]]\n"),
+            vec!["7:10 error: not a rigid transform: the columns are not proved to be orthogonal unit vectors"],
+        ),
         (
             "convention = \"khalil\"\n[[joints]]\na = 1\ntheta = \"q1\"\n".into(),
             vec!["3:1 error: unknown key `a` | Khalil writes `d` for the length along x"],

@@ -6,6 +6,7 @@ use crate::attack::poses;
 use crate::common::{Random, share};
 use denavit::description::read_toml;
 use denavit::inverse::{InverseKinematics, InverseOptions};
+use denavit::structure::Structure;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -83,4 +84,31 @@ fn geared_arms_are_solved() {
     tally.iter().for_each(|(name, n)| println!("{n:5} {name}"));
     assert!(lies.is_empty(), "{}: {}", lies.len(), lies.join("\n"));
     assert!(100 * complete >= 97 * regular, "{complete} of {regular} regular poses are complete");
+}
+
+/// What lies between two axes is special only if it is so wherever the joints are that a row between them follows.
+#[test]
+fn axes_behind_coupled_rows_are_special_for_all_values() {
+    let of = |rows: &str| {
+        let text =
+            format!("convention = \"standard\"\n{}", rows.replace("| ", "[[joints]]\n").replace("; ", "\n"));
+        Structure::of(&read_toml(&text).unwrap().0)
+    };
+    // Between the first axis and the next one of its own lies a turn by twice the first one's value.
+    let turned = of(
+        "| theta = \"q1\"; a = 0.2; alpha = \"-90 deg\"\n| theta = \"2*q1\"; a = 0.3; alpha = \"90 deg\"\n\
+         | theta = \"q2\"; a = 0.3\n| theta = \"q3\"; a = 0.1\n",
+    );
+    assert_eq!(turned.parallel, [vec![2, 3]]);
+    // Between them lies a slide: the third axis stands that far from where the others meet.
+    let slides = of(
+        "| theta = \"q1\"; alpha = \"90 deg\"\n| d = \"q1\"\n| theta = \"q2\"; alpha = \"90 deg\"\n| theta = \"q3\"\n",
+    );
+    assert!(slides.spherical.is_empty(), "{:?}", slides.spherical);
+    // A turn about the axis itself, and one about a parallel axis, leave what is special as it is.
+    let about = of(
+        "| theta = \"q1\"; a = 0.2\n| theta = \"-q1\"; a = 0.3\n| theta = \"q2\"; a = 0.3\n| theta = \"q3\"; alpha = \"90 deg\"\n\
+         | theta = \"q4\"; alpha = \"-90 deg\"\n| theta = \"q5\"\n",
+    );
+    assert_eq!((about.parallel, about.spherical), (vec![vec![1, 2, 3]], vec![3]));
 }

@@ -43,6 +43,7 @@ mod singular_motion;
 mod solver_text;
 mod toolbox;
 mod track;
+mod tree_chains;
 mod tree_masses;
 mod trees;
 mod urdf;

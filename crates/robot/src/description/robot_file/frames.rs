@@ -2,7 +2,7 @@
 
 use super::fields::{Fields, Reader};
 use super::{Cell, Quantity, Style};
-use crate::geometry::{Rotation, Transform, Vector};
+use crate::geometry::{RIGID_TOLERANCE, Rotation, Transform, Vector};
 use denavit_symbolic::{Expr, equal};
 use toml::Spanned;
 use toml::de::DeValue;
@@ -83,7 +83,9 @@ impl Reader<'_> {
             }
         }
         let e = |i: usize, j: usize| entries[4 * i + j];
-        let numbers: Result<Vec<f64>, _> = entries.iter().map(|e| e.eval(|_| None)).collect();
+        // Where it is has no part in whether it is rigid.
+        let at = |i: usize, j: usize| if j == 3 && i < 3 { Expr::int(0) } else { e(i, j) };
+        let numbers: Result<Vec<f64>, _> = (0..16).map(|k| at(k / 4, k % 4).eval(|_| None)).collect();
         if let Ok(n) = numbers {
             let m = [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| n[4 * i + j]));
             if let Err(why) = Transform::from_matrix(m) {
@@ -109,7 +111,11 @@ impl Reader<'_> {
         if pairs.iter().all(|&(a, b)| equal(a, b).is_equal()) {
             return true;
         }
-        let constant = pairs.iter().all(|p| p.0.symbols().is_empty());
+        let near = |(a, b): &(Expr, Expr)| {
+            let apart = a.eval(|_| None).ok().zip(b.eval(|_| None).ok()).map(|(a, b)| (a - b).abs());
+            apart.is_some_and(|x| x <= RIGID_TOLERANCE)
+        };
+        let constant = pairs.iter().all(near);
         if constant {
             self.out
                 .note(value.span(), "the matrix is a rotation up to rounding only")

@@ -6,7 +6,7 @@ use crate::description::lines::{Agreement, AxisAtRest, ChainAtRest, NotPlaced, P
 use crate::description::{Convention, Description, JointKind, MAX_ROWS, diagnostic::nearest};
 use crate::geometry::{Rotation, Transform, Vector};
 use denavit_symbolic::real::Values;
-use denavit_symbolic::{Expr, Rational};
+use denavit_symbolic::{Angle, Expr, Rational};
 use std::fmt;
 
 /// A chain through a mechanism.
@@ -94,8 +94,8 @@ struct Step {
 impl Mechanism {
     /// The chain between two bodies, by their names: from the root, and to the leaf with the most joints, where none is given.
     ///
-    /// Its joint variables are the joints on the way in order, each counting as in the mechanism. Of joints that follow others
-    /// the one on the way that is followed is the variable, else the first in the mechanism that follows.
+    /// Its joint variables are the joints on the way in order, each counting as in the mechanism. Of joints that follow one, and this
+    /// itself, the first on the way is the variable.
     ///
     /// # Errors
     /// If there is no such body, several ends, or nothing that moves.
@@ -268,12 +268,12 @@ impl Mechanism {
         if factor.is_zero() {
             return (None, offset);
         }
-        // The variable is the leader's value if that is on the way, else that of the first in the file which follows it.
-        let follows = |s: &&Step| self.joints[s.joint].kind.is_some() && of(s.joint).0 == leader;
-        let is_there = way.iter().any(|s| s.joint == leader);
-        let followers = way.iter().filter(follows).map(|s| s.joint).filter(|&k| !of(k).1.is_zero());
-        let first = followers.min().unwrap_or(j);
-        let own = if is_there { leader } else { first };
+        // The variable is that of the row which introduces it: it has the row's name.
+        let is_one = |s: &&Step| {
+            let (other, factor, _) = of(s.joint);
+            self.joints[s.joint].kind.is_some() && other == leader && !factor.is_zero()
+        };
+        let own = way.iter().find(is_one).map_or(j, |s| s.joint);
         let (_, own_factor, own_offset) = of(own);
         let ratio = &factor / &own_factor;
         let rest = offset - Expr::from(ratio.clone()) * own_offset;
@@ -307,13 +307,30 @@ impl Mechanism {
         for (row, name) in rows.zip(names) {
             row.name = Some(name.into());
             if row.variable.is_some() {
-                let joint = &self.joints[joints[next]];
-                (row.limits, row.velocity) = (joint.limits, joint.velocity);
+                (row.limits, row.velocity) = self.limits_on(joints[next], of_axis);
                 let drive = drives[next];
                 (row.rotor, row.viscous, row.coulomb) = (drive.rotor, drive.viscous, drive.coulomb);
                 next += 1;
             }
         }
+    }
+
+    /// The limits of a joint and of its rate on a way on which these joints move: those of the joint that it follows, if this moves
+    /// there as well and has any.
+    fn limits_on(&self, joint: usize, way: &[usize]) -> (Option<[Expr; 2]>, Option<Expr>) {
+        let own = &self.joints[joint];
+        let Some(follows) = own.follows.as_ref().filter(|f| way.contains(&f.joint)) else {
+            return (own.limits, own.velocity);
+        };
+        let leader = &self.joints[follows.joint];
+        let factor = Expr::from(follows.factor.clone());
+        let there = |x: Expr| Angle::of(factor * x + follows.offset).to_expr();
+        let limits = leader.limits.map(|[low, high]| match follows.factor < Rational::ZERO {
+            true => [there(high), there(low)],
+            false => [there(low), there(high)],
+        });
+        let velocity = leader.velocity.map(|v| Expr::from(follows.factor.abs()) * v);
+        (limits.or(own.limits), velocity.or(own.velocity))
     }
 }
 
