@@ -1,8 +1,9 @@
 //! Chains through trees: what is proved of them, what stands still in them, and joints that follow others.
 
 use denavit::Robot;
-use denavit::description::{Agreement, Convention, Decimals, Mechanism, RowTree, read_urdf};
+use denavit::description::{Agreement, Convention, Decimals, Mechanism, RowTree, read_urdf, write_tree};
 use denavit::mechanism::{Tree, compare_chains};
+use denavit_symbolic::Expr;
 
 /// Numbers that are rounded on the way along a chain are not taken for exact behind it: not for a proof, not for 0, and not in print.
 #[test]
@@ -106,4 +107,36 @@ fn the_first_joint_on_the_way_is_the_variable() {
     let [k, drive] = ["k", "drive"].map(|n| all[m.body(n).unwrap()]);
     let apart = (k.inverse() * drive).matrix().concat().into_iter().zip(found.matrix().concat());
     assert!(apart.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) < 1e-12);
+}
+
+/// A joint that follows one of a later branch comes behind it in the rows, with its variable and the named poses.
+#[test]
+fn rows_of_followers_come_behind_those_they_follow() {
+    let joint = |name: &str, links: [&str; 2], more: &str| {
+        format!(
+            "<joint name='{name}' type='continuous'><parent link='{}'/><child link='{}'/><origin xyz='0.1 0 0'/><axis xyz='0 0 1'/>\
+             {more}</joint>",
+            links[0], links[1]
+        )
+    };
+    let text = format!(
+        "<robot name='r'><link name='a'/><link name='b'/><link name='c'/><link name='d'/><link name='e'/>{}{}{}{}</robot>",
+        joint("one", ["a", "b"], ""),
+        joint("slave", ["b", "c"], "<mimic joint='master' multiplier='-2'/>"),
+        joint("two", ["c", "d"], ""),
+        joint("master", ["a", "e"], ""),
+    );
+    let mut m = read_urdf(&text, Decimals::AsWritten).unwrap().0;
+    let name = |j: usize| m.joints[j].name.clone();
+    assert_eq!(m.variables().into_iter().map(name).collect::<Vec<_>>(), ["one", "two", "master"]);
+    m.poses = vec![("home".into(), [1, 2, 3].map(Expr::int).to_vec())];
+    let rows = RowTree::of_mechanism(&m).unwrap();
+    let back = crate::trees::tree(&write_tree(&rows));
+    let names: Vec<&str> = back.rows.iter().filter_map(|r| r.name.as_deref()).collect();
+    assert_eq!(names, ["one", "master", "slave", "two"]);
+    let home: Vec<String> = back.poses[0].1.iter().map(|e| e.to_string()).collect();
+    assert_eq!(home, ["1", "3", "2"]);
+    let ends = ["d", "e"].map(|n| (n.to_string(), n.to_string()));
+    let same = compare_chains(Tree::Bodies(&m), &back, &ends);
+    assert_eq!((same.proved, same.count()), (2, 2), "{same:?}");
 }

@@ -10,7 +10,7 @@ use crate::description::{JointDrive, JointKind, Mass, Mechanism, Row, Screw, Var
 use crate::geometry::Transform;
 use denavit_symbolic::real::Values;
 use denavit_symbolic::{Angle, Expr, Rational, Symbol};
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// A joint that moves, at rest.
 struct Placed {
@@ -31,10 +31,18 @@ impl RowTree {
     pub fn of_mechanism(m: &Mechanism) -> Result<RowTree, NotNamed> {
         let (placed, on, poses) = at_rest(m)?;
         let frames = along_normals(&placed)?;
-        let numbers: Vec<usize> = m.variables();
-        // Variables stand in the order of the joints.
-        let symbol = |joint: usize| {
-            Symbol::new(&format!("q{}", numbers.binary_search(&joint).unwrap_or_default() + 1))
+        // Variables stand in the order of the rows.
+        let own = placed.iter().map(|p| p.joint).filter(|&j| m.joints[j].follows.is_none());
+        let numbers: HashMap<usize, usize> = own.zip(1..).collect();
+        let symbol = |joint: usize| Symbol::new(&format!("q{}", numbers.get(&joint).copied().unwrap_or(1)));
+        let pose = |(name, values): &(String, Vec<Expr>)| {
+            let mut ordered = vec![Expr::int(0); values.len()];
+            for (joint, value) in m.variables().into_iter().zip(values) {
+                if let Some(k) = numbers.get(&joint) {
+                    ordered[k - 1] = *value;
+                }
+            }
+            (name.clone(), ordered)
         };
         let mut followers: HashMap<usize, Vec<(&JointDrive, &Rational)>> = HashMap::new();
         for joint in &m.joints {
@@ -51,7 +59,7 @@ impl RowTree {
             base: Transform::identity(),
             frames: vec![],
             tip: None,
-            poses: m.poses.clone(),
+            poses: m.poses.iter().map(pose).collect(),
             gravity: m.gravity,
         };
         let mut row_of: Vec<usize> = vec![];
@@ -122,6 +130,42 @@ impl RowTree {
     }
 }
 
+/// The joints, each behind that to its parent and, where that can be, behind the one that it follows; else in their order.
+fn leaders_first(m: &Mechanism) -> Vec<usize> {
+    let mut behind: Vec<Vec<usize>> = vec![vec![]; m.bodies.len()];
+    let mut followers: HashMap<usize, Vec<usize>> = HashMap::new();
+    for (j, joint) in m.joints.iter().enumerate() {
+        behind[joint.parent].push(j);
+        if let Some(f) = &joint.follows {
+            followers.entry(f.joint).or_default().push(j);
+        }
+    }
+    let mut is_there = vec![false; m.joints.len()];
+    // Joints whose parents are placed: those whose leaders are, too, and those that wait.
+    let (mut ready, mut waiting) = (BTreeSet::new(), BTreeSet::new());
+    let mut all = Vec::with_capacity(m.joints.len());
+    let mut body = m.root;
+    loop {
+        for &j in &behind[body] {
+            let has_leader = m.joints[j].follows.as_ref().is_none_or(|f| is_there[f.joint]);
+            if has_leader {
+                ready.insert(j)
+            } else {
+                waiting.insert(j)
+            };
+        }
+        let Some(next) = ready.pop_first().or_else(|| waiting.pop_first()) else { return all };
+        is_there[next] = true;
+        all.push(next);
+        for &j in followers.get(&next).into_iter().flatten() {
+            if waiting.remove(&j) {
+                ready.insert(j);
+            }
+        }
+        body = m.joints[next].child;
+    }
+}
+
 /// The moving joints at rest; for each body the one that it stands on, and its pose.
 #[expect(clippy::type_complexity, reason = "three lists that belong together once")]
 fn at_rest(m: &Mechanism) -> Result<(Vec<Placed>, Vec<Option<usize>>, Vec<Pose>), NotNamed> {
@@ -129,7 +173,8 @@ fn at_rest(m: &Mechanism) -> Result<(Vec<Placed>, Vec<Option<usize>>, Vec<Pose>)
     let mut on: Vec<Option<usize>> = vec![None; m.bodies.len()];
     let mut poses = vec![Pose::identity(); m.bodies.len()];
     let mut values = Values::default();
-    for (j, joint) in m.joints.iter().enumerate() {
+    for j in leaders_first(m) {
+        let joint = &m.joints[j];
         let symbols = || NotNamed::NotPlaced(NotPlaced::Symbols);
         let origin = Pose::of(&joint.origin, &mut values).ok_or_else(symbols)?;
         let before = poses[joint.parent].times(&origin);

@@ -59,6 +59,8 @@ const DECIMALS: f64 = 1e-3;
 
 /// ω and v may be as much off a right angle as decimals make them.
 const PITCH: f64 = 1e-6;
+/// What rounding leaves of a length that is 0, metres.
+const THROUGH: f64 = 1e-15;
 
 fn number(e: Expr) -> f64 {
     e.eval(|_| None).unwrap_or(0.0)
@@ -310,7 +312,8 @@ impl Reader<'_> {
         let value = |s: Symbol| names.contains(&s.name().to_string()).then_some(1.0);
         let largest = v.0.iter().map(|e| e.eval(value).unwrap_or(0.0).abs()).fold(0.0, f64::max);
         let pitch = along.eval(value).unwrap_or(0.0).abs();
-        if pitch > PITCH * largest {
+        // An axis that is no farther from the origin than this goes through it.
+        if pitch > PITCH * largest && largest > THROUGH {
             self.out
                 .error(v_at.span(), "v is not perpendicular to ω: the screw has a pitch")
                 .hint("a joint turns or slides: v = −ω × p for an axis through p");
