@@ -199,7 +199,7 @@ fn files_say_what_is_wrong_with_them() {
             vec!["7:10 error: not a rigid transform: the columns of the rotation are not orthogonal unit vectors"],
         ),
         (
-            format!("convention = \"craig\"\n[parameters]\ng = {{ kind = \"angle\" }}\n{joint}[tool]\nmatrix = [[\"cos(g)\",\"-sin(g)\",0,0],[\"sin(g)\",\"cos(g)\",0,0],[0,0,-1,0],[0,0,0,1]]\n"),
+            format!("convention = \"craig\"\n[parameters]\ng = {{}}\n{joint}[tool]\nmatrix = [[\"cos(g)\",\"-sin(g)\",0,0],[\"sin(g)\",\"cos(g)\",0,0],[0,0,-1,0],[0,0,0,1]]\n"),
             vec!["7:10 error: not a rigid transform: the columns are not proved to be orthogonal unit vectors"],
         ),
         (
