@@ -1,11 +1,10 @@
 //! Weight: the torques that hold an arm where it is, and the arm as it falls when nothing holds it.
 
+use crate::heavy::Heavy;
 use crate::motion::{Energies, Met, Path, manipulability};
 use crate::refusal::Refusal;
 use crate::subject::Subject;
-use denavit::dynamics::{
-    Acting, Dynamics, Method, Moment, NoMotion, NoNumbers, Torques, gravity_torques, simulate,
-};
+use denavit::dynamics::{Acting, Method, Moment, NoMotion, Torques, gravity_torques, simulate};
 use denavit_report::figure::BAR;
 use denavit_wire::pose::matrix;
 use serde::{Deserialize, Serialize};
@@ -37,38 +36,13 @@ pub struct Held {
     torques: Vec<f64>,
 }
 
-/// An arm with masses.
-pub struct Heavy {
-    arm: Dynamics<f64>,
-    /// Whether the masses are the robot's own, and not those of bars.
-    is_known: bool,
-}
-
-/// The arm with its masses, those of bars where none are known.
-fn heavy(subject: &Subject) -> Result<&Heavy, Refusal> {
-    subject.heavy.get_or_init(|| weighed(subject)).as_ref().map_err(|why| Refusal::new(why.clone()))
-}
-
-fn weighed(subject: &Subject) -> Result<Heavy, String> {
-    let is_known = subject.valued.has_masses();
-    let arm = match is_known {
-        true => Dynamics::numeric(&subject.valued),
-        false => Dynamics::numeric(&subject.arm.as_bars(&subject.valued)),
-    };
-    let why = |why| match why {
-        NoNumbers::NoMasses => "it says nothing of masses".into(),
-        NoNumbers::Missing(missing) => missing.to_string(),
-    };
-    Ok(Heavy { arm: arm.map_err(why)?, is_known })
-}
-
 /// The torques that hold an arm against its weight.
 ///
 /// # Errors
 /// If the configuration does not fit, or a mass has no value.
 pub fn hold(subject: &Subject, q: &[f64]) -> Result<Held, Refusal> {
     let q = subject.configuration(q)?;
-    let Heavy { arm, is_known } = heavy(subject)?;
+    let Heavy { arm, is_known } = subject.heavy()?;
     Ok(Held {
         bars: (!is_known).then_some(BAR),
         mass: arm.links.iter().map(|link| link.body.mass).sum(),
@@ -85,7 +59,7 @@ pub fn fall(subject: &Subject, wish: &Wish) -> Result<Path, Refusal> {
     if !(wish.seconds > 0.0 && wish.seconds <= LONGEST) {
         return Err(Refusal::new(format!("an arm is followed for more than 0 s and {LONGEST} s at most")));
     }
-    let arm = &heavy(subject)?.arm;
+    let arm = &subject.heavy()?.arm;
     let still = vec![0.0; q.len()];
     let acting = Acting { torques: Torques::constant(still.clone()), wrench: None };
     let samples = (wish.seconds * SAMPLES[0]).clamp(2.0, SAMPLES[1]).ceil();

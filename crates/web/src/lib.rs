@@ -12,6 +12,7 @@ mod documents;
 mod dropped;
 mod falling;
 mod formulas;
+mod heavy;
 mod looks;
 mod model;
 mod motion;

@@ -1,7 +1,7 @@
 //! A robot in hand, and what was derived for it.
 
 use crate::definitions::Definitions;
-use crate::falling::Heavy;
+use crate::heavy::Heavy;
 use crate::refusal::Refusal;
 use crate::steps::Step;
 use denavit::Robot;
@@ -32,7 +32,7 @@ pub struct Subject {
     /// The texts of its cells, row by row.
     pub steps: OnceCell<Vec<Vec<Step>>>,
     /// With masses; or why they have no values.
-    pub heavy: OnceCell<Result<Heavy, String>>,
+    heavy: OnceCell<Result<Heavy, String>>,
 }
 
 impl Subject {
@@ -75,6 +75,15 @@ impl Subject {
             self.solver = Some(made.map_err(|why| Refusal::new(why.to_string()))?);
         }
         self.solver.as_mut().ok_or_else(|| Refusal::new("there is no solver"))
+    }
+
+    /// The arm with its masses, those of bars where none are known.
+    ///
+    /// # Errors
+    /// If a mass has no value.
+    pub fn heavy(&self) -> Result<&Heavy, Refusal> {
+        let heavy = self.heavy.get_or_init(|| Heavy::new(&self.valued, &self.arm));
+        heavy.as_ref().map_err(|why| Refusal::new(why.clone()))
     }
 
     /// A configuration with a finite value for every joint.
