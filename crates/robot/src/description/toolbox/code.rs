@@ -1,10 +1,6 @@
-//! Programs as far as constructors of links need them: comments, definitions, calls and their arguments, rows of numbers.
+//! The words of a program: names, numbers, texts, signs, ends of lines; comments are left out.
 
 use std::ops::Range;
-
-/// How deep calls are looked for in calls, and how many.
-const MAX_NESTED: usize = 4;
-const MAX_CALLS: usize = 1000;
 
 /// Whose language a program is in.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -15,277 +11,260 @@ pub enum Language {
     Python,
 }
 
-/// A call of a function, and what it is assigned to.
+/// What a word of a program is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Kind {
+    Name,
+    Number,
+    /// In quotes, which `span` has.
+    Text,
+    /// A text with values in it.
+    Filled,
+    Sign,
+    /// The end of a line or `;` in no bracket; a row's end in MATLAB's brackets.
+    Line,
+    /// A block of Python begins, ends.
+    Indent,
+    Dedent,
+    End,
+}
+
+/// A word of a program.
 #[derive(Clone, Debug)]
-pub(super) struct Call {
-    pub name: String,
-    /// The left side of its statement, without blanks: `L(1)`, `links`.
-    pub target: String,
+pub(super) struct Token {
+    pub kind: Kind,
     pub span: Range<usize>,
-    pub arguments: Vec<Argument>,
+    /// Blanks stand before it.
+    pub apart: bool,
 }
 
-/// An argument of a call.
-#[derive(Clone, Debug)]
-pub(super) struct Argument {
-    /// `d=…`, or `'d', …`
-    pub key: Option<String>,
-    pub value: Range<usize>,
+/// Signs of more than one letter, the longest first.
+const SIGNS: [&str; 24] = [
+    "**=", "//=", "**", "//", "==", "~=", "!=", "<=", ">=", "&&", "||", ".*", "./", ".^", ".'", "+=", "-=",
+    "*=", "/=", "->", ":=", "<<", ">>", "@=",
+];
+
+/// The words of a program, `End` last.
+pub(super) fn tokens(text: &str, language: Language) -> Vec<Token> {
+    let mut lexer =
+        Lexer { text, language, at: 0, found: vec![], open: vec![], indents: vec![0], begins: true };
+    lexer.all();
+    lexer.found
 }
 
-/// What a name is said to be.
-#[derive(Clone, Debug)]
-pub(super) struct Definition {
-    pub name: String,
-    pub value: Range<usize>,
+struct Lexer<'t> {
+    text: &'t str,
+    language: Language,
+    at: usize,
+    found: Vec<Token>,
+    /// Brackets under way.
+    open: Vec<u8>,
+    indents: Vec<usize>,
+    /// Nothing of the line stands before this place.
+    begins: bool,
 }
 
-/// The text with blanks where comments and Python's long texts stand; places stay where they are.
-pub(super) fn without_comments(text: &str, language: Language) -> String {
-    let bytes = text.as_bytes();
-    let mut plain = bytes.to_vec();
-    let mut at = 0;
-    let mut before = b' ';
-    while at < bytes.len() {
-        let rest = &bytes[at..];
-        let is_comment = match language {
-            Language::Python => rest[0] == b'#',
-            Language::Matlab => rest[0] == b'%' || rest[0] == b'#' || rest.starts_with(b"..."),
-        };
-        let long = [&b"\"\"\""[..], b"'''"]
-            .into_iter()
-            .find(|q| language == Language::Python && rest.starts_with(q));
-        // A quote behind a value is MATLAB's transpose.
-        let is_transposed = language == Language::Matlab
-            && rest[0] == b'\''
-            && (before.is_ascii_alphanumeric() || matches!(before, b')' | b']' | b'}' | b'\'' | b'_' | b'.'));
-        if is_comment {
-            // `...` goes on on the next line.
-            let goes_on = rest.starts_with(b"...");
-            let end = rest.iter().position(|&b| b == b'\n').unwrap_or(rest.len());
-            plain[at..at + end].fill(b' ');
-            at += end;
-            if goes_on && at < bytes.len() {
-                plain[at] = b' ';
+impl Lexer<'_> {
+    fn push(&mut self, kind: Kind, length: usize, apart: bool) {
+        self.found.push(Token { kind, span: self.at..self.at + length, apart });
+        self.at += length;
+    }
+
+    fn all(&mut self) {
+        let bytes = self.text.as_bytes();
+        let is_python = self.language == Language::Python;
+        let mut apart = false;
+        while self.at < bytes.len() {
+            let rest = &bytes[self.at..];
+            let first = rest[0];
+            if self.begins && self.open.is_empty() {
+                self.begins = false;
+                if is_python {
+                    self.indent();
+                } else if let Some(length) = block_comment(&self.text[self.at..]) {
+                    self.at += length;
+                    self.begins = true;
+                }
+                continue;
             }
-        } else if let Some(quote) = long {
-            let end = rest[3..].windows(3).position(|w| w == quote).map_or(rest.len(), |e| e + 6);
-            plain[at..at + end].iter_mut().filter(|b| **b != b'\n').for_each(|b| *b = b' ');
-            at += end;
-        } else if matches!(rest[0], b'\'' | b'"') && !is_transposed {
-            let end =
-                rest[1..].iter().position(|&b| b == rest[0] || b == b'\n').map_or(rest.len(), |e| e + 2);
-            at += end;
-            before = b'"';
-            continue;
-        } else {
-            at += 1;
-            if !matches!(rest[0], b' ' | b'\t') {
-                before = rest[0];
+            let line = rest.iter().position(|&b| b == b'\n').unwrap_or(rest.len());
+            match first {
+                b'\n' => {
+                    self.begins = true;
+                    let is_row = !is_python && matches!(self.open.last(), Some(b'[' | b'{'));
+                    if self.open.is_empty() || is_row {
+                        self.push(Kind::Line, 1, apart);
+                    } else {
+                        self.at += 1;
+                    }
+                    apart = true;
+                    continue;
+                }
+                b' ' | b'\t' | b'\r' => {
+                    self.at += 1;
+                    apart = true;
+                    continue;
+                }
+                b'#' => self.at += line,
+                b'%' if !is_python => self.at += line,
+                b'.' if !is_python && rest.starts_with(b"...") => self.at += (line + 1).min(rest.len()),
+                b'\\' if is_python && line <= 2 => self.at += (line + 1).min(rest.len()),
+                _ => {
+                    self.word(apart);
+                    apart = false;
+                    continue;
+                }
             }
+            apart = true;
+        }
+        self.at = bytes.len();
+        self.push(Kind::Line, 0, true);
+        for _ in 1..self.indents.len() {
+            self.push(Kind::Dedent, 0, true);
+        }
+        self.push(Kind::End, 0, true);
+    }
+
+    /// How far a line of Python is moved in begins or ends blocks.
+    fn indent(&mut self) {
+        let rest = &self.text[self.at..];
+        let blanks = rest.bytes().take_while(|b| matches!(b, b' ' | b'\t' | b'\r')).count();
+        // Lines without words do not count.
+        if rest[blanks..].starts_with(['\n', '#']) || rest.len() == blanks {
+            return;
+        }
+        self.at += blanks;
+        let last = self.indents.last().copied().unwrap_or(0);
+        if blanks > last {
+            self.indents.push(blanks);
+            self.push(Kind::Indent, 0, true);
+        }
+        while self.indents.last().is_some_and(|&i| i > blanks) {
+            self.indents.pop();
+            self.push(Kind::Dedent, 0, true);
         }
     }
-    String::from_utf8_lossy(&plain).into_owned()
-}
 
-/// Goes through a part of a program, with how deep each letter stands in brackets; letters of texts in quotes are left out.
-fn letters(text: &str, span: Range<usize>) -> impl Iterator<Item = (usize, char, usize)> {
-    let (mut depth, mut quote) = (0_usize, None);
-    let mut before = ' ';
-    text[span.clone()].char_indices().filter_map(move |(i, c)| {
-        let at = span.start + i;
-        let is_transposed = c == '\'' && (before.is_alphanumeric() || matches!(before, ')' | ']'));
-        before = c;
-        match (quote, c) {
-            (Some(q), c) if q == c || c == '\n' => quote = None,
-            (Some(_), _) => {}
-            (None, '\'' | '"') if !is_transposed => quote = Some(c),
-            (None, '(' | '[' | '{') => {
-                depth += 1;
-                return Some((at, c, depth));
-            }
-            (None, ')' | ']' | '}') => {
-                let inside = depth;
-                depth = depth.saturating_sub(1);
-                return Some((at, c, inside));
-            }
-            (None, _) => return Some((at, c, depth)),
+    fn word(&mut self, apart: bool) {
+        let rest = &self.text[self.at..];
+        let first = rest.as_bytes()[0];
+        let is_digit = |b: Option<&u8>| b.is_some_and(u8::is_ascii_digit);
+        if first.is_ascii_digit() || first == b'.' && is_digit(rest.as_bytes().get(1)) {
+            return self.push(Kind::Number, number(rest), apart);
         }
-        None
-    })
-}
-
-/// The statements of a program: between ends of lines and semicolons that stand in no bracket.
-pub(super) fn statements(text: &str) -> Vec<Range<usize>> {
-    let mut found = vec![];
-    let mut start = 0;
-    for (at, c, depth) in letters(text, 0..text.len()) {
-        if depth == 0 && matches!(c, '\n' | ';') {
-            found.push(start..at);
-            start = at + 1;
+        if let Some(quote) = self.quote(apart) {
+            let prefix = rest.bytes().position(|b| b == quote).unwrap_or(0);
+            let is_filled = rest[..prefix].contains(['f', 'F']);
+            let kind = if is_filled { Kind::Filled } else { Kind::Text };
+            return self.push(kind, prefix + quoted_length(&rest[prefix..], self.language), apart);
         }
-    }
-    found.push(start..text.len());
-    found.retain(|r| !text[r.clone()].trim().is_empty());
-    found
-}
-
-/// The left side of a statement, and where what it is said to be begins.
-fn assigned(text: &str, statement: &Range<usize>) -> Option<(String, usize)> {
-    let mut all = letters(text, statement.clone()).filter(|l| l.2 == 0).peekable();
-    while let Some((at, c, _)) = all.next() {
-        match c {
-            '=' if all.peek().is_none_or(|n| n.1 != '=' || n.0 != at + 1) => {
-                let left: String = text[statement.start..at].split_whitespace().collect();
-                return (!left.is_empty()).then_some((left, at + 1));
-            }
-            '=' | '<' | '>' | '!' | '~' => return None,
+        let c = rest.chars().next().unwrap_or(' ');
+        if c.is_alphabetic() || c == '_' {
+            let length = rest.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(rest.len());
+            return self.push(Kind::Name, length, apart);
+        }
+        match first {
+            b'(' | b'[' | b'{' => self.open.push(first),
+            b')' | b']' | b'}' => drop(self.open.pop()),
+            b';' => return self.push(Kind::Line, 1, apart),
             _ => {}
         }
+        let known = SIGNS.iter().find(|s| rest.starts_with(**s));
+        self.push(Kind::Sign, known.map_or(c.len_utf8(), |s| s.len()), apart);
     }
-    None
+
+    /// The quote that begins here, if one does: behind a value it is MATLAB's transpose.
+    fn quote(&self, apart: bool) -> Option<u8> {
+        let bytes = &self.text.as_bytes()[self.at..];
+        if self.language == Language::Python {
+            let prefix = bytes.iter().take(2).take_while(|b| b"rbfuRBFU".contains(b)).count();
+            return bytes.get(prefix).copied().filter(|q| matches!(q, b'\'' | b'"'));
+        }
+        let behind_value = self.found.last().is_some_and(|t| match t.kind {
+            Kind::Name | Kind::Number => true,
+            Kind::Sign => [")", "]", "}", "'", ".'"].contains(&&self.text[t.span.clone()]),
+            _ => false,
+        });
+        let in_row = matches!(self.open.last(), Some(b'[' | b'{'));
+        match bytes[0] {
+            b'"' => Some(b'"'),
+            b'\'' if !behind_value || (apart && in_row) => Some(b'\''),
+            _ => None,
+        }
+    }
 }
 
-/// What names are said to be, in the order of the program.
-pub(super) fn definitions(text: &str, statements: &[Range<usize>]) -> Vec<Definition> {
-    let one = |statement: &Range<usize>| {
-        let (name, value) = assigned(text, statement)?;
-        let is_name = name.starts_with(|c: char| c.is_alphabetic() || c == '_')
-            && name.chars().all(|c| c.is_alphanumeric() || c == '_');
-        is_name.then_some(Definition { name, value: trimmed(text, value..statement.end) })
-    };
-    statements.iter().filter_map(one).collect()
+/// The length of `%{ … %}` where it begins a line, blocks in it counted.
+fn block_comment(text: &str) -> Option<usize> {
+    let is = |line: &str, marks: [&str; 2]| marks.contains(&line.trim());
+    let mut depth = 0_usize;
+    let mut length = 0;
+    for line in text.split_inclusive('\n') {
+        length += line.len();
+        if is(line, ["%{", "#{"]) {
+            depth += 1;
+        } else if depth > 0 && is(line, ["%}", "#}"]) {
+            depth -= 1;
+        }
+        if depth == 0 {
+            return (length > line.len()).then_some(length);
+        }
+    }
+    Some(length)
 }
 
-/// The span without blanks around it.
-pub(super) fn trimmed(text: &str, span: Range<usize>) -> Range<usize> {
-    let part = &text[span.clone()];
-    let start = span.start + (part.len() - part.trim_start().len());
-    start..start.max(span.start + part.trim_end().len())
+/// The length of a number: `1`, `.5`, `1_000`, `1e-3`; `1.*x` has no fraction.
+fn number(text: &str) -> usize {
+    let bytes = text.as_bytes();
+    let digits = |from: usize| bytes[from..].iter().take_while(|b| b.is_ascii_digit() || **b == b'_').count();
+    let mut length = digits(0);
+    if bytes.get(length) == Some(&b'.')
+        && !matches!(bytes.get(length + 1), Some(b'*' | b'/' | b'^' | b'\'' | b'.'))
+    {
+        length += 1 + digits(length + 1);
+    }
+    if matches!(bytes.get(length), Some(b'e' | b'E')) {
+        let sign = usize::from(matches!(bytes.get(length + 1), Some(b'+' | b'-')));
+        let exponent = bytes.get(length + 1 + sign).map_or(0, |_| digits(length + 1 + sign));
+        if exponent > 0 {
+            length += 1 + sign + exponent;
+        }
+    }
+    length
 }
 
-/// The calls of these functions, in the order of the program.
-pub(super) fn calls(text: &str, statements: &[Range<usize>], names: &[&str]) -> Vec<Call> {
-    let mut found = vec![];
-    for statement in statements {
-        let target = assigned(text, statement).map_or(String::new(), |a| a.0);
-        let mut word = statement.start;
-        // Where calls under way began, by how deep their brackets are.
-        let mut open: Vec<(usize, usize, String)> = vec![];
-        for (at, c, depth) in letters(text, statement.clone()) {
-            if c == '(' {
-                let name = &text[word..at];
-                // What is nested deeper makes no link.
-                if names.contains(&name) && open.len() < MAX_NESTED && found.len() < MAX_CALLS {
-                    open.push((depth, word, name.to_string()));
-                }
-            } else if c == ')' && open.last().is_some_and(|o| o.0 == depth) {
-                let Some((_, start, name)) = open.pop() else { continue };
-                let inside = start + name.len() + 1..at;
-                let (target, span) = (target.clone(), start..at + 1);
-                found.push(Call { name, target, span, arguments: arguments(text, inside) });
+/// The length of a text in quotes; one without end ends with its line.
+fn quoted_length(text: &str, language: Language) -> usize {
+    let bytes = text.as_bytes();
+    let quote = bytes[0];
+    let triple = [quote; 3];
+    if language == Language::Python && bytes.starts_with(&triple) {
+        let end = bytes[3..].windows(3).position(|w| w == triple);
+        return end.map_or(bytes.len(), |e| e + 6);
+    }
+    let mut at = 1;
+    while at < bytes.len() && bytes[at] != b'\n' {
+        if bytes[at] == quote {
+            if language == Language::Matlab && bytes.get(at + 1) == Some(&quote) {
+                at += 2;
+                continue;
             }
-            if !(c.is_alphanumeric() || c == '_') {
-                word = at + c.len_utf8();
-            }
+            return at + 1;
         }
+        let escapes = language == Language::Python && bytes[at] == b'\\';
+        at += if escapes {
+            1 + usize::from(bytes.get(at + 1).is_some_and(|b| b.is_ascii() && *b != b'\n'))
+        } else {
+            1
+        };
     }
-    found.sort_by_key(|c| c.span.start);
-    found
-}
-
-/// The parts of a span between commas that stand in no bracket.
-fn parts(text: &str, span: Range<usize>, is_cut: impl Fn(char) -> bool) -> Vec<Range<usize>> {
-    let mut found = vec![];
-    let mut start = span.start;
-    for (at, c, depth) in letters(text, span.clone()) {
-        if depth == 0 && is_cut(c) {
-            found.push(trimmed(text, start..at));
-            start = at + c.len_utf8();
-        }
-    }
-    found.push(trimmed(text, start..span.end));
-    found.retain(|r| !r.is_empty());
-    found
-}
-
-fn arguments(text: &str, inside: Range<usize>) -> Vec<Argument> {
-    let mut found: Vec<Argument> = vec![];
-    let mut waiting: Option<String> = None;
-    for value in parts(text, inside, |c| c == ',') {
-        if let Some(key) = waiting.take() {
-            found.push(Argument { key: Some(key), value });
-            continue;
-        }
-        if let Some((key, start)) = assigned(text, &value) {
-            found.push(Argument { key: Some(key), value: trimmed(text, start..value.end) });
-            continue;
-        }
-        match quoted(&text[value.clone()]) {
-            // Words that stand alone.
-            Some(
-                "standard" | "modified" | "std" | "mod" | "revolute" | "prismatic" | "fixed" | "dh" | "mdh"
-                | "sym",
-            )
-            | None => {
-                found.push(Argument { key: None, value });
-            }
-            Some(key) => waiting = Some(key.to_string()),
-        }
-    }
-    found
+    at
 }
 
 /// The text between quotes.
 pub(super) fn quoted(text: &str) -> Option<&str> {
-    let inner = |q: char| text.strip_prefix(q)?.strip_suffix(q);
-    inner('\'').or_else(|| inner('"'))
-}
-
-/// The rows of `[1 2; 3 4]` or `[[1, 2], [3, 4]]`, each with its entries; `np.array(…)` is what it holds.
-pub(super) fn matrix(text: &str, span: Range<usize>) -> Option<Vec<Vec<Range<usize>>>> {
-    let span = trimmed(text, span);
-    let part = &text[span.clone()];
-    if let Some(open) =
-        part.find('(').filter(|&o| part[..o].chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '.')))
-        && part.ends_with(')')
-        && !part.starts_with('[')
-    {
-        return matrix(text, span.start + open + 1..span.end - 1);
-    }
-    if !(part.starts_with('[') && part.ends_with(']')) || part.len() < 2 {
-        return None;
-    }
-    let inside = span.start + 1..span.end - 1;
-    let first = text[inside.clone()].trim_start();
-    if first.starts_with('[') {
-        let rows = parts(text, inside, |c| c == ',');
-        return rows.into_iter().map(|row| matrix(text, row)?.into_iter().next()).collect();
-    }
-    let has_cuts = letters(text, inside.clone()).any(|(_, c, depth)| depth == 0 && matches!(c, ';' | '\n'));
-    let rows =
-        if has_cuts { parts(text, inside, |c| matches!(c, ';' | '\n')) } else { vec![trimmed(text, inside)] };
-    Some(rows.into_iter().map(|row| entries(text, row)).collect())
-}
-
-/// The entries of a row: between commas, or else between blanks, where no sign stands between blanks.
-fn entries(text: &str, row: Range<usize>) -> Vec<Range<usize>> {
-    if letters(text, row.clone()).any(|(_, c, depth)| depth == 0 && c == ',') {
-        return parts(text, row, |c| c == ',');
-    }
-    let words = parts(text, row, char::is_whitespace);
-    let is_sign = |t: &str| matches!(t, "+" | "-" | "*" | "/" | ".*" | "./");
-    let mut found: Vec<Range<usize>> = vec![];
-    for word in words {
-        let shown = &text[word.clone()];
-        let joins = found.last().is_some_and(|last| {
-            let before = &text[last.clone()];
-            before.ends_with(['+', '-', '*', '/']) || shown.starts_with(['*', '/']) || is_sign(shown)
-        });
-        match found.last_mut() {
-            Some(last) if joins => last.end = word.end,
-            _ => found.push(word),
-        }
-    }
-    found
+    let open = text.find(['\'', '"'])?;
+    let text = &text[open..];
+    let inner = |q: &str| text.strip_prefix(q)?.strip_suffix(q);
+    inner("\"\"\"").or_else(|| inner("'''")).or_else(|| inner("'")).or_else(|| inner("\""))
 }

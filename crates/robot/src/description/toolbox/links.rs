@@ -1,8 +1,11 @@
-//! Links as their constructors say them.
+//! Links as their constructors say them, and what is set of them later.
 
-use super::code::{Argument, Call, calls, matrix, quoted};
-use super::{Cells, Program, Robot};
-use crate::description::{Convention, MAX_ROWS};
+use super::parse::{Argument, Form};
+use super::run::Run;
+use super::value::{Formula, Lost, Value, formula};
+use crate::description::Convention;
+use crate::description::diagnostic::Severity;
+use std::collections::HashMap;
 use std::ops::Range;
 
 /// What a cell of a link is.
@@ -26,13 +29,37 @@ pub(super) enum Moves {
 /// A link.
 #[derive(Clone, Debug)]
 pub(super) struct Link {
-    pub cells: Cells,
+    pub cells: HashMap<Role, Formula>,
     pub moves: Moves,
     pub convention: Convention,
     pub is_flipped: bool,
-    pub limits: Option<[Range<usize>; 2]>,
+    pub limits: Option<[Formula; 2]>,
     pub span: Range<usize>,
+    /// Something said of it is not followed.
+    pub lost: Option<Lost>,
 }
+
+/// A robot that the program makes.
+#[derive(Clone, Debug)]
+pub(super) struct Made {
+    pub name: Option<String>,
+    pub links: Vec<usize>,
+    pub span: Range<usize>,
+    pub lost: Option<Lost>,
+}
+
+/// A joint of a `rigidBodyTree`.
+#[derive(Clone, Debug)]
+pub(super) struct Joint {
+    pub moves: Moves,
+    pub row: Option<(Vec<Formula>, Convention)>,
+    pub limits: Option<[Formula; 2]>,
+    pub span: Range<usize>,
+    pub lost: Option<Lost>,
+}
+
+/// The functions that make a robot of links.
+pub(super) const ROBOTS: [&str; 2] = ["SerialLink", "DHRobot"];
 
 /// Functions that make a link: how it moves and in which convention it is, if the name says so.
 pub(super) const LINKS: [(&str, Option<Moves>, Option<Convention>); 8] = [
@@ -48,101 +75,174 @@ pub(super) const LINKS: [(&str, Option<Moves>, Option<Convention>); 8] = [
 
 /// The order of a row of Corke's toolboxes, and of MATLAB's own.
 const CORKE: [Role; 4] = [Role::Theta, Role::D, Role::A, Role::Alpha];
-const TREE: [Role; 4] = [Role::A, Role::Alpha, Role::D, Role::Theta];
+pub(super) const TREE: [Role; 4] = [Role::A, Role::Alpha, Role::D, Role::Theta];
 
 /// What of a link says nothing of where it is.
-const BESIDE: [&str; 14] =
-    ["m", "r", "I", "Jm", "B", "Tc", "G", "name", "mesh", "inertia", "mass", "com", "friction", "jtype"];
+const BESIDE: [&str; 15] = [
+    "m", "r", "I", "Jm", "B", "Tc", "G", "name", "mesh", "inertia", "mass", "com", "friction", "jtype",
+    "geometry",
+];
 
-impl Program<'_> {
-    /// The links that the first argument of a robot is: a list of constructors or names, one name, or a table of numbers.
-    pub(super) fn links_of(&mut self, value: &Range<usize>, all: &[Call]) -> Vec<Link> {
-        let inside: Vec<&Call> =
-            all.iter().filter(|c| value.start <= c.span.start && c.span.end <= value.end).collect();
-        if !inside.is_empty() {
-            return inside.into_iter().filter_map(|c| self.link(c)).collect();
-        }
-        let text = self.text[value.clone()].trim();
-        let is_name = |t: &str| !t.is_empty() && t.chars().all(|c| c.is_alphanumeric() || c == '_');
-        if is_name(text) {
-            // Constructors in a list of this name, or of its entries.
-            let begins = |target: &str| {
-                target == text
-                    || target.strip_prefix(text).is_some_and(|rest| rest.starts_with(['(', '[', '{', '.']))
-            };
-            let own: Vec<&Call> =
-                all.iter().filter(|c| begins(&c.target) && c.span.start < value.start).collect();
-            if !own.is_empty() {
-                return own.into_iter().filter_map(|c| self.link(c)).collect();
+/// Words of MATLAB's constructors that stand alone.
+const WORDS: [&str; 11] =
+    ["standard", "modified", "std", "mod", "revolute", "prismatic", "fixed", "dh", "mdh", "sym", "flip"];
+
+/// What a robot is given beside its links: where it stands and what it holds.
+const NOT_READ: [&str; 3] = ["base", "tool", "gravity"];
+
+/// What is said with a name, or without: its value and place.
+type Said = (Option<String>, Value, Range<usize>);
+
+fn role(name: &str) -> Option<Role> {
+    Some(match name {
+        "theta" => Role::Theta,
+        "d" => Role::D,
+        "a" => Role::A,
+        "alpha" => Role::Alpha,
+        "offset" => Role::Offset,
+        _ => return None,
+    })
+}
+
+impl Run<'_> {
+    /// The arguments of a constructor; of MATLAB's, words in quotes name what follows them.
+    fn said(&mut self, arguments: &[Argument]) -> Vec<Said> {
+        let mut found: Vec<Said> = vec![];
+        let mut key: Option<(String, Range<usize>)> = None;
+        for argument in arguments {
+            let span = argument.value.span.clone();
+            if matches!(&argument.value.form, Form::Unary(s, _) if s.starts_with('*')) {
+                let unknown = self.unknown(&span);
+                found.push((None, unknown, span));
+                continue;
             }
-            return match self.defined(text, value.start) {
-                Some(value) if !is_name(self.text[value.clone()].trim()) => self.links_of(&value, all),
-                _ => vec![],
-            };
+            let value = self.value(&argument.value);
+            if let Some((key, _)) = key.take() {
+                found.push((Some(key), value, span));
+                continue;
+            }
+            match &value {
+                _ if argument.key.is_some() => found.push((argument.key.clone(), value, span)),
+                Value::Text(word) if !self.is_python() && !WORDS.contains(&&**word) => {
+                    key = Some((word.to_string(), span));
+                }
+                _ => found.push((None, value, span)),
+            }
         }
-        let Some(rows) = matrix(self.text, value.clone()) else { return vec![] };
-        if rows.len() > MAX_ROWS {
-            self.out.error(value.clone(), format!("more than {MAX_ROWS} rows"));
-            return vec![];
+        if let Some((_, span)) = key {
+            let unknown = self.unknown(&span);
+            found.push((None, unknown, span));
         }
-        let names: Vec<&str> = rows.iter().flatten().map(|e| self.text[e.clone()].trim()).collect();
-        let of_name = |name: &str| {
-            let plain: String = name.split_whitespace().collect();
-            all.iter().rfind(|c| c.target == plain && c.span.start < value.start)
+        found
+    }
+
+    /// The number that is said, with the place where it is.
+    fn cell(&self, value: &Value, span: &Range<usize>) -> Result<Formula, Lost> {
+        match value {
+            Value::Unknown(lost) => Err(lost.clone()),
+            Value::None => Ok(Formula::integer(0, span.clone())),
+            other => match formula(other) {
+                Some(f) => Ok(Formula { span: span.clone(), ..f }),
+                None => Err(self.lost(span, "is no number that is followed")),
+            },
+        }
+    }
+
+    /// The two ends of a range.
+    pub(super) fn ends(&self, value: &Value, span: &Range<usize>) -> Result<Option<[Formula; 2]>, Lost> {
+        let items = match value {
+            Value::None => return Ok(None),
+            Value::Matrix(rows) if rows.iter().all(Vec::is_empty) => return Ok(None),
+            other => self.store.items(other),
         };
-        let named: Option<Vec<&Call>> = names.iter().map(|n| of_name(n)).collect();
-        match named.filter(|n| !n.is_empty()) {
-            Some(named) => named.into_iter().filter_map(|c| self.link(c)).collect(),
-            None => rows.iter().filter_map(|row| self.of_row(row, None, None)).collect(),
+        let items =
+            items.map_err(|lost| lost.unwrap_or_else(|| self.lost(span, "is no range that is followed")))?;
+        match items.as_slice() {
+            [low, high] => Ok(Some([self.cell(low, span)?, self.cell(high, span)?])),
+            _ => Err(self.lost(span, "is no range of two ends")),
         }
     }
 
     /// The link of a row of numbers: θ d a α, then 1 where it slides, then an offset.
-    fn of_row(
-        &mut self,
-        row: &[Range<usize>],
-        moves: Option<Moves>,
-        convention: Option<Convention>,
-    ) -> Option<Link> {
-        let span = row.first()?.start..row.last()?.end;
+    fn of_row(&mut self, row: &[Value], span: &Range<usize>, convention: Convention) -> Link {
+        let mut link = Link {
+            cells: HashMap::new(),
+            moves: Moves::Turns,
+            convention,
+            is_flipped: false,
+            limits: None,
+            span: span.clone(),
+            lost: None,
+        };
         if !(4..=6).contains(&row.len()) {
             let message = format!("a row of {} values: theta d a alpha, sigma, offset", row.len());
-            self.out.error(span, message);
-            return None;
+            link.lost = Some(Lost { span: span.clone(), message: message.into() });
+            return link;
         }
-        let mut cells: Cells = CORKE.into_iter().zip(row.iter().cloned()).collect();
-        let slides = row.get(4).is_some_and(|v| self.text[v.clone()].trim().trim_end_matches(".0") == "1");
-        cells.extend(row.get(5).map(|v| (Role::Offset, v.clone())));
-        let moves = moves.unwrap_or(if slides { Moves::Slides } else { Moves::Turns });
-        let convention = convention.unwrap_or(Convention::Standard);
-        Some(Link { cells, moves, convention, is_flipped: false, limits: None, span })
+        let roles = CORKE.into_iter().map(Some).chain([None, Some(Role::Offset)]);
+        for (role, value) in roles.zip(row) {
+            let place = match value {
+                Value::Number(f) if span.start <= f.span.start && f.span.end <= span.end => f.span.clone(),
+                _ => span.clone(),
+            };
+            let cell = self.cell(value, &place);
+            match (role, cell) {
+                (Some(role), Ok(cell)) => drop(link.cells.insert(role, cell)),
+                (None, Ok(cell)) => match cell.number {
+                    Some(sigma) if sigma == 1.0 => link.moves = Moves::Slides,
+                    Some(sigma) if sigma == 0.0 => {}
+                    _ => link.lost = Some(self.lost(&place, "is neither 0 nor 1")),
+                },
+                (_, Err(lost)) => drop(link.lost.get_or_insert(lost)),
+            }
+        }
+        link
     }
 
     /// The link that a constructor makes.
-    pub(super) fn link(&mut self, call: &Call) -> Option<Link> {
-        let (_, moves, convention) = *LINKS.iter().find(|l| l.0 == call.name)?;
-        let word = |a: &Argument| quoted(&self.text[a.value.clone()]).filter(|_| a.key.is_none());
-        let has =
-            |wanted: &[&str]| call.arguments.iter().any(|a| word(a).is_some_and(|w| wanted.contains(&w)));
-        let is = |key: &str, value: &str| {
-            call.arguments
-                .iter()
-                .any(|a| a.key.as_deref() == Some(key) && self.text[a.value.clone()].trim() == value)
+    pub fn link_made(&mut self, name: &str, arguments: &[Argument], span: &Range<usize>) -> Value {
+        let (_, moves, convention) = LINKS.iter().find(|l| l.0 == name).copied().unwrap_or(LINKS[0]);
+        let said = self.said(arguments);
+        let has = |words: &[&str]| {
+            said.iter().any(|(key, value, _)| {
+                key.is_none() && matches!(value, Value::Text(t) if words.contains(&&**t))
+            })
         };
-        let is_modified =
-            has(&["modified", "mod"]) || is("mdh", "1") || is("mdh", "True") || is("modified", "True");
-        let convention = convention.or(is_modified.then_some(Convention::Craig));
+        let truth = |key: &str| {
+            let found = said.iter().find(|s| s.0.as_deref() == Some(key));
+            found.map(|s| self.store.truth(&s.1).ok_or_else(|| self.lost(&s.2, "is not followed")))
+        };
+        let mut lost: Option<Lost> = None;
+        let mut flag = |found: Option<Result<bool, Lost>>| match found {
+            Some(Ok(b)) => Some(b),
+            Some(Err(e)) => {
+                lost.get_or_insert(e);
+                None
+            }
+            None => None,
+        };
+        let modified = [flag(truth("mdh")), flag(truth("modified"))];
+        let is_modified = has(&["modified", "mod"]) || modified.contains(&Some(true));
+        let sigma = flag(truth("sigma"));
+        let is_flipped = has(&["flip"]) || flag(truth("flip")) == Some(true);
+        let convention =
+            convention.or(is_modified.then_some(Convention::Craig)).unwrap_or(Convention::Standard);
         let moves = moves
             .or(has(&["prismatic"]).then_some(Moves::Slides))
             .or(has(&["revolute"]).then_some(Moves::Turns))
-            .or((is("sigma", "1")).then_some(Moves::Slides))
-            .or((is("sigma", "0")).then_some(Moves::Turns));
-        let mut cells = Cells::new();
-        let mut link = None;
-        let mut limits = None;
-        let mut is_flipped = false;
+            .or(sigma.map(|slides| if slides { Moves::Slides } else { Moves::Turns }));
+        let mut link = Link {
+            cells: HashMap::new(),
+            moves: Moves::Turns,
+            convention,
+            is_flipped,
+            limits: None,
+            span: span.clone(),
+            lost,
+        };
+        let mut is_row = false;
         // Values without names, in the order of the constructors of Python.
-        let mut order = match call.name.as_str() {
+        let mut order = match name {
             "DHLink" => vec![Role::D, Role::Alpha, Role::Theta, Role::A],
             "PrismaticDH" | "PrismaticMDH" | "Prismatic" => {
                 vec![Role::Theta, Role::A, Role::Alpha, Role::Offset]
@@ -151,91 +251,263 @@ impl Program<'_> {
             _ => vec![],
         }
         .into_iter();
-        for argument in &call.arguments {
-            let text = self.text[argument.value.clone()].trim();
-            match argument.key.as_deref() {
-                Some("theta") => drop(cells.insert(Role::Theta, argument.value.clone())),
-                Some("d") => drop(cells.insert(Role::D, argument.value.clone())),
-                Some("a") => drop(cells.insert(Role::A, argument.value.clone())),
-                Some("alpha") => drop(cells.insert(Role::Alpha, argument.value.clone())),
-                Some("offset") => drop(cells.insert(Role::Offset, argument.value.clone())),
-                Some("qlim") => {
-                    let ends = matrix(self.text, argument.value.clone()).map(|rows| rows.concat());
-                    limits = ends.and_then(|ends| <[Range<usize>; 2]>::try_from(ends).ok());
-                }
-                Some("flip") => is_flipped = matches!(text, "True" | "true" | "1"),
-                Some("sigma" | "mdh" | "modified") => {}
-                Some(key) if BESIDE.contains(&key) => {
-                    let message = "masses and drives of a program are not read";
-                    let is_said = self.out.list().iter().any(|d| d.message == message);
-                    if !is_said && key != "name" && key != "mesh" {
-                        self.out.note(argument.value.clone(), message);
+        let is_python = self.is_python();
+        for (key, value, place) in said {
+            match key.as_deref() {
+                Some("flip" | "sigma" | "mdh" | "modified") => {}
+                Some(key) => self.say_of_link(&mut link, key, &value, &place),
+                None => match &value {
+                    Value::Unknown(lost) => drop(link.lost.get_or_insert(lost.clone())),
+                    Value::Matrix(_) | Value::List(_) if name == "Link" => {
+                        let row = self.store.items(&value).unwrap_or_default();
+                        let row = self.of_row(&row, &place, convention);
+                        is_row = true;
+                        link.cells = row.cells;
+                        link.moves = moves.unwrap_or(row.moves);
+                        link.lost = link.lost.or(row.lost);
                     }
-                }
-                Some(key) => {
-                    self.out.warning(argument.value.clone(), format!("`{key}` is unknown here: it is left"));
-                }
-                None if text.starts_with('[') && call.name == "Link" => {
-                    let row = matrix(self.text, argument.value.clone())?.concat();
-                    link = Some(self.of_row(&row, moves, convention)?);
-                }
-                None if quoted(text).is_some() => {}
-                None => match order.next() {
-                    Some(role) => drop(cells.insert(role, argument.value.clone())),
-                    None => {
-                        self.out
-                            .error(argument.value.clone(), "what does this value say?")
-                            .hint("give it a name, as in d=0.3");
-                    }
+                    Value::Text(_) if !is_python || WORDS.contains(&&*self.text_of(&value)) => {}
+                    _ => match order.next() {
+                        Some(role) => match self.cell(&value, &place) {
+                            Ok(cell) => drop(link.cells.insert(role, cell)),
+                            Err(lost) => drop(link.lost.get_or_insert(lost)),
+                        },
+                        None => {
+                            let message = "what does this value say?";
+                            self.find(Severity::Error, &place, message);
+                        }
+                    },
                 },
             }
         }
-        if let Some(link) = link {
-            return Some(Link { limits, is_flipped, span: call.span.clone(), ..link });
+        if !is_row {
+            // A link that says θ and no d slides.
+            let slides = link.cells.contains_key(&Role::Theta) && !link.cells.contains_key(&Role::D);
+            link.moves = moves.unwrap_or(if slides { Moves::Slides } else { Moves::Turns });
         }
-        // A link that says θ and no d slides.
-        let slides = cells.contains_key(&Role::Theta) && !cells.contains_key(&Role::D);
-        let moves = moves.unwrap_or(if slides { Moves::Slides } else { Moves::Turns });
-        let convention = convention.unwrap_or(Convention::Standard);
-        Some(Link { cells, moves, convention, is_flipped, limits, span: call.span.clone() })
+        self.store.links.push(link);
+        Value::Link(self.store.links.len() - 1)
     }
 
-    /// The rows of `dhparams` that joints of a `rigidBodyTree` are set by.
-    pub(super) fn rigid_body_tree(&mut self) -> Option<Robot> {
-        let set = calls(self.text, &self.statements, &["setFixedTransform"]);
-        let first = set.iter().find(|c| c.arguments.len() >= 3)?;
-        let last = quoted(&self.text[first.arguments.last()?.value.clone()])?;
-        let convention = match last {
-            "dh" => Convention::Standard,
-            "mdh" => Convention::Craig,
-            _ => return None,
-        };
-        let used = &self.text[first.arguments[1].value.clone()];
-        let rows = self.defined(used.split('(').next()?.trim(), first.span.start)?;
-        let rows = matrix(self.text, rows)?;
-        let joints = calls(self.text, &self.statements, &["rigidBodyJoint"]);
-        let kind = |c: &Call| match c.arguments.get(1).and_then(|a| quoted(&self.text[a.value.clone()])) {
-            Some("revolute" | "continuous") => Moves::Turns,
-            Some("prismatic") => Moves::Slides,
-            _ => Moves::Nothing,
-        };
-        let kinds: Vec<Moves> = joints.iter().map(kind).collect();
-        let mut links = vec![];
-        for (k, row) in rows.iter().enumerate() {
-            let span = row.first()?.start..row.last()?.end;
-            if row.len() != 4 {
-                self.out.error(span, format!("a row of {} values: a alpha d theta", row.len()));
-                return None;
-            }
-            // In a loop one call stands for all.
-            let moves = if kinds.len() == 1 { kinds.first() } else { kinds.get(k) };
-            let Some(&moves) = moves else {
-                self.out.error(span, "no `rigidBodyJoint` belongs to this row");
-                return None;
-            };
-            let cells = TREE.into_iter().zip(row.iter().cloned()).collect();
-            links.push(Link { cells, moves, convention, is_flipped: false, limits: None, span });
+    fn text_of(&self, value: &Value) -> String {
+        match value {
+            Value::Text(t) => t.to_string(),
+            _ => String::new(),
         }
-        Some(Robot { name: None, links, span: first.span.clone() })
+    }
+
+    /// What a name says of a link.
+    fn say_of_link(&mut self, link: &mut Link, key: &str, value: &Value, place: &Range<usize>) {
+        if let Some(role) = role(key) {
+            match self.cell(value, place) {
+                Ok(cell) => drop(link.cells.insert(role, cell)),
+                Err(lost) => drop(link.lost.get_or_insert(lost)),
+            }
+        } else if key == "qlim" {
+            match self.ends(value, place) {
+                Ok(ends) => link.limits = ends,
+                Err(lost) => drop(link.lost.get_or_insert(lost)),
+            }
+        } else if BESIDE.contains(&key) {
+            let message = "masses and drives of a program are not read";
+            if !["name", "mesh", "geometry"].contains(&key)
+                && !self.findings.iter().any(|d| d.message == message)
+            {
+                self.find(Severity::Note, place, message);
+            }
+        } else {
+            self.find(Severity::Warning, place, &format!("`{key}` is unknown here: it is left"));
+        }
+    }
+
+    /// What is known of a link.
+    pub fn of_link(&self, k: usize, name: &str, span: &Range<usize>) -> Value {
+        let link = &self.store.links[k];
+        match (&link.lost, role(name)) {
+            (Some(lost), _) => Value::Unknown(lost.clone()),
+            (None, Some(role)) => {
+                let cell =
+                    link.cells.get(&role).cloned().unwrap_or_else(|| Formula::integer(0, span.clone()));
+                Value::Number(Formula { span: span.clone(), ..cell })
+            }
+            _ => self.unknown(span),
+        }
+    }
+
+    /// `L(2).offset = value`
+    pub fn set_of_link(&mut self, k: usize, name: &str, value: Value, span: &Range<usize>) {
+        self.change(&Value::Link(k));
+        let mut link = self.store.links[k].clone();
+        match name {
+            "flip" | "mdh" | "sigma" => match self.store.truth(&value) {
+                Some(b) if name == "flip" => link.is_flipped = b,
+                Some(b) if name == "mdh" => {
+                    link.convention = if b { Convention::Craig } else { Convention::Standard };
+                }
+                Some(b) => link.moves = if b { Moves::Slides } else { Moves::Turns },
+                None => drop(link.lost.get_or_insert(self.lost(span, "is not followed"))),
+            },
+            _ if role(name).is_some() || name == "qlim" || BESIDE.contains(&name) => {
+                self.say_of_link(&mut link, name, &value, span);
+            }
+            _ => drop(link.lost.get_or_insert(self.lost(span, "is not followed"))),
+        }
+        self.store.links[k] = link;
+    }
+
+    /// `robot.base = value`
+    pub fn set_of_robot(&mut self, k: usize, name: &str, value: Value, span: &Range<usize>) {
+        match name {
+            _ if NOT_READ.contains(&name) => self.not_read(name, &value, span),
+            "name" => {
+                if let Value::Text(text) = value {
+                    self.store.robots[k].name = Some(text.to_string());
+                }
+            }
+            "links" | "offset" | "mdh" => {
+                self.change(&Value::Robot(k));
+                let lost = self.lost(span, "is not followed");
+                self.store.lose(&Value::Robot(k), &lost);
+            }
+            _ => {}
+        }
+    }
+
+    fn not_read(&mut self, name: &str, value: &Value, span: &Range<usize>) {
+        if *value != Value::None {
+            self.find(Severity::Warning, span, &format!("`{name}` is not read"));
+        }
+    }
+
+    /// The robot that a constructor makes, or that of a class in its own.
+    pub fn robot_made(&mut self, arguments: &[Argument], span: &Range<usize>, of_class: bool) -> Value {
+        let mut said = self.said(arguments);
+        if of_class && said.first().is_some_and(|s| matches!(&s.1, Value::Number(f) if &*f.text == "self")) {
+            said.remove(0);
+        }
+        let is_links = |s: &Said| s.0.is_none() || matches!(s.0.as_deref(), Some("links"));
+        let first = said.iter().position(is_links);
+        let Some(first) = first.map(|k| said.remove(k)) else { return Value::None };
+        if of_class && !self.holds_links(&first.1) {
+            // Of another class.
+            return Value::None;
+        }
+        let is_modified = said
+            .iter()
+            .any(|s| s.0.is_none() && matches!(&s.1, Value::Text(t) if ["modified", "mdh"].contains(&&**t)));
+        let convention = if is_modified { Convention::Craig } else { Convention::Standard };
+        let robot = self.robot_in(&first.1, &first.2, convention, span);
+        let Value::Robot(k) = robot else { return robot };
+        for (key, value, place) in said {
+            match key.as_deref() {
+                Some("name") => {
+                    if let Value::Text(text) = &value {
+                        self.store.robots[k].name = Some(text.to_string());
+                    }
+                }
+                Some(key) if NOT_READ.contains(&key) => self.not_read(key, &value, &place),
+                Some("offset" | "qlim") => {
+                    let lost = self.lost(&place, "is not followed");
+                    self.store.lose(&Value::Robot(k), &lost);
+                }
+                _ => {}
+            }
+        }
+        if of_class {
+            self.assign("self", Value::Robot(k));
+        }
+        Value::Robot(k)
+    }
+
+    /// True for what may be a list of links.
+    fn holds_links(&self, value: &Value) -> bool {
+        match value {
+            Value::Link(_) | Value::Robot(_) | Value::Unknown(_) => true,
+            Value::List(k) => {
+                let list = &self.store.lists[*k];
+                list.lost.is_some() || list.items.iter().any(|v| self.is_link(v))
+            }
+            Value::Matrix(rows) => rows.iter().flatten().any(|v| self.is_link(v)),
+            _ => false,
+        }
+    }
+
+    fn is_link(&self, value: &Value) -> bool {
+        matches!(value, Value::Link(_) | Value::Robot(_) | Value::Unknown(_))
+    }
+
+    /// The robot of a value.
+    pub fn robot_of(&mut self, value: &Value, span: &Range<usize>) -> Value {
+        self.robot_in(value, span, Convention::Standard, span)
+    }
+
+    fn robot_in(
+        &mut self,
+        value: &Value,
+        place: &Range<usize>,
+        convention: Convention,
+        span: &Range<usize>,
+    ) -> Value {
+        let found = self.links_of(value, place, convention, 0);
+        let (links, lost) = match found {
+            Ok(links) => (links, None),
+            Err(lost) => (vec![], Some(lost)),
+        };
+        let lost = self.lost_here().or(lost);
+        self.store.robots.push(Made { name: None, links, span: span.clone(), lost });
+        Value::Robot(self.store.robots.len() - 1)
+    }
+
+    /// The links that a value holds.
+    pub fn links_of(
+        &mut self,
+        value: &Value,
+        place: &Range<usize>,
+        convention: Convention,
+        depth: usize,
+    ) -> Result<Vec<usize>, Lost> {
+        let not_followed = |run: &Self| run.lost(place, "is no list of links that is followed");
+        let is_number = |v: &Value| formula(v).is_some();
+        match value {
+            Value::Unknown(lost) => Err(lost.clone()),
+            Value::Link(k) => Ok(vec![*k]),
+            Value::Robot(k) => match &self.store.robots[*k].lost {
+                Some(lost) => Err(lost.clone()),
+                None => Ok(self.store.robots[*k].links.clone()),
+            },
+            Value::Matrix(rows)
+                if rows.iter().flatten().all(is_number) && rows.iter().any(|r| !r.is_empty()) =>
+            {
+                let rows = std::rc::Rc::clone(rows);
+                Ok(rows.iter().map(|row| self.pushed_row(row, place, convention)).collect())
+            }
+            Value::Matrix(_) | Value::List(_) if depth < 3 => {
+                let items =
+                    self.store.items(value).map_err(|lost| lost.unwrap_or_else(|| not_followed(self)))?;
+                if !items.is_empty() && items.iter().all(is_number) {
+                    return Ok(vec![self.pushed_row(&items, place, convention)]);
+                }
+                let mut found = vec![];
+                for item in items {
+                    found.extend(self.links_of(&item, place, convention, depth + 1)?);
+                    if self.step(found.len() / 8 + 1, place) {
+                        return Err(not_followed(self));
+                    }
+                }
+                Ok(found)
+            }
+            _ => Err(not_followed(self)),
+        }
+    }
+
+    fn pushed_row(&mut self, row: &[Value], place: &Range<usize>, convention: Convention) -> usize {
+        let inside: Vec<&Range<usize>> =
+            row.iter().filter_map(|v| if let Value::Number(f) = v { Some(&f.span) } else { None }).collect();
+        let start = inside.iter().map(|s| s.start).min();
+        let end = inside.iter().map(|s| s.end).max();
+        let span = start.zip(end).map_or(place.clone(), |(start, end)| start..end);
+        let link = self.of_row(row, &span, convention);
+        self.store.links.push(link);
+        self.store.links.len() - 1
     }
 }

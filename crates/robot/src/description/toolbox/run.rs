@@ -1,0 +1,588 @@
+//! Follows a program as far as its robots need it: assignments, loops over known values, conditions that are known, functions of the
+//! program. What is not followed is kept as a value that says so, with its place, and is an error only where a robot needs it.
+
+use super::code::Language;
+use super::parse::{Act, Form, Function, Node, Round, Statement};
+use super::value::{Formula, Lost, MAX_ITEMS, Store, Value, integer};
+use crate::description::diagnostic::{Diagnostic, Severity};
+use std::collections::{HashMap, HashSet};
+use std::ops::Range;
+use std::rc::Rc;
+
+/// So many steps are followed.
+const MAX_STEPS: usize = 200_000;
+/// How deep values, blocks and calls stand in one another while they are followed.
+const MAX_DEPTH: usize = 150;
+/// How deep functions of the program call one another.
+const MAX_CALLS: usize = 8;
+
+/// How a block ended.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) enum Flow {
+    Goes,
+    Breaks,
+    Continues,
+    Returns(Value),
+}
+
+/// A run of a program.
+pub(super) struct Run<'p> {
+    pub text: &'p str,
+    pub language: Language,
+    pub store: Store,
+    /// Names of the program, then those of each function under way.
+    scopes: Vec<HashMap<String, Value>>,
+    pub functions: HashMap<&'p str, &'p Function>,
+    pub classes: HashMap<&'p str, &'p [Statement]>,
+    pub findings: Vec<Diagnostic>,
+    /// Nothing that is made from here on is known.
+    pub lost: Option<Lost>,
+    /// Bodies added to a `rigidBodyTree`, with the names of those they stand on.
+    pub added: Vec<(usize, Value, Range<usize>)>,
+    /// Joints whose rows were set, in order.
+    pub set: Vec<usize>,
+    pub tree_lost: Option<Lost>,
+    /// True where the program is run, not imported.
+    pub is_main: bool,
+    /// Where it is unsure that the program gets there: names that are assigned.
+    unsure: Vec<HashSet<String>>,
+    /// What `end` is in an index.
+    pub ends: Vec<usize>,
+    steps: usize,
+    depth: usize,
+}
+
+impl<'p> Run<'p> {
+    pub fn new(text: &'p str, language: Language, is_main: bool) -> Self {
+        Run {
+            text,
+            language,
+            store: Store::default(),
+            scopes: vec![HashMap::new()],
+            functions: HashMap::new(),
+            classes: HashMap::new(),
+            findings: vec![],
+            lost: None,
+            added: vec![],
+            set: vec![],
+            tree_lost: None,
+            is_main,
+            unsure: vec![],
+            ends: vec![],
+            steps: 0,
+            depth: 0,
+        }
+    }
+
+    pub fn is_python(&self) -> bool {
+        self.language == Language::Python
+    }
+
+    /// What is not followed, shown as it is written.
+    pub fn lost(&self, span: &Range<usize>, why: &str) -> Lost {
+        let source = self.text.get(span.clone()).unwrap_or("");
+        let line: String = source.lines().next().unwrap_or("").chars().take(40).collect();
+        let dots = if line.len() < source.len() { "…" } else { "" };
+        Lost { span: span.clone(), message: format!("`{}{dots}` {why}", line.trim()).into() }
+    }
+
+    pub fn unknown(&self, span: &Range<usize>) -> Value {
+        Value::Unknown(self.lost(span, "is not followed"))
+    }
+
+    pub fn find(&mut self, severity: Severity, span: &Range<usize>, message: &str) {
+        let finding = Diagnostic { severity, span: span.clone(), message: message.into(), hint: None };
+        if self.findings.len() < 200 && !self.findings.contains(&finding) {
+            self.findings.push(finding);
+        }
+    }
+
+    /// Counts steps; true once there are too many.
+    pub fn step(&mut self, count: usize, span: &Range<usize>) -> bool {
+        self.steps = self.steps.saturating_add(count);
+        let is_over = self.steps > MAX_STEPS;
+        if is_over && self.lost.is_none() {
+            self.lost = Some(self.lost(span, "is not followed: the program takes too many steps"));
+        }
+        is_over
+    }
+
+    pub fn named(&self, name: &str) -> Option<&Value> {
+        let local = self.scopes.last().and_then(|s| s.get(name));
+        local.or_else(|| self.scopes.first().and_then(|s| s.get(name)))
+    }
+
+    pub fn assign(&mut self, name: &str, value: Value) {
+        if let Some(names) = self.unsure.last_mut() {
+            names.insert(name.to_string());
+        }
+        if let Some(scope) = self.scopes.last_mut() {
+            scope.insert(name.to_string(), value);
+        }
+    }
+
+    /// All values of names, for links that no robot is made of.
+    pub fn values(&self) -> impl Iterator<Item = (&String, &Value)> {
+        self.scopes.first().into_iter().flatten()
+    }
+
+    /// Notes that something is changed.
+    pub fn change(&mut self, value: &Value) {
+        if !self.unsure.is_empty() {
+            self.store.changed.push(value.clone());
+        }
+    }
+
+    // Statements -----------------------------------------------------------------------------------------------------
+
+    pub fn block(&mut self, statements: &'p [Statement]) -> Flow {
+        for statement in statements {
+            if self.step(1, &statement.span) {
+                return Flow::Goes;
+            }
+            if self.depth >= MAX_DEPTH {
+                self.lost = self
+                    .lost
+                    .take()
+                    .or_else(|| Some(self.lost(&statement.span, "is not followed: too deep")));
+                return Flow::Goes;
+            }
+            self.depth += 1;
+            let flow = self.statement(statement);
+            self.depth -= 1;
+            if flow != Flow::Goes {
+                return flow;
+            }
+        }
+        Flow::Goes
+    }
+
+    fn statement(&mut self, statement: &'p Statement) -> Flow {
+        match &statement.act {
+            Act::Value(node) => {
+                self.value(node);
+            }
+            Act::Assign(targets, sign, value) => {
+                let mut found = self.value(value);
+                if !sign.is_empty() {
+                    let Some(target) = targets.first() else { return Flow::Goes };
+                    let before = self.value(target);
+                    if let (Value::List(k), "+") = (&before, sign.as_str())
+                        && !self.store.lists[*k].is_array
+                    {
+                        self.extend(*k, &found, &statement.span);
+                        return Flow::Goes;
+                    }
+                    found = self.binary(sign, before, found, &statement.span);
+                }
+                for target in targets {
+                    self.set(target, found.clone());
+                }
+            }
+            Act::For(round, body) => return self.repeat(round, body, &statement.span),
+            Act::If(blocks) => return self.choose(blocks, &statement.span),
+            Act::Unsure(blocks) => {
+                let blocks: Vec<&'p [Statement]> = blocks.iter().map(Vec::as_slice).collect();
+                self.perhaps(&blocks, &statement.span, true);
+            }
+            Act::Try(blocks) => {
+                let Some((first, others)) = blocks.split_first() else { return Flow::Goes };
+                let flow = self.block(first);
+                let others: Vec<&'p [Statement]> = others.iter().map(Vec::as_slice).collect();
+                self.perhaps(&others, &statement.span, true);
+                return flow;
+            }
+            Act::Block(body) => return self.block(body),
+            Act::Function(function) => {
+                self.functions.insert(&function.name, function);
+            }
+            Act::Class(name, body) => {
+                self.classes.insert(name, body);
+            }
+            Act::Import(names) => {
+                for (name, original) in names {
+                    if name != original {
+                        self.assign(name, Value::Known(original.as_str().into()));
+                    }
+                }
+            }
+            Act::Free(names) => {
+                for name in names {
+                    self.forget(name);
+                }
+            }
+            Act::Return(node) => {
+                let value = node.as_ref().map_or(Value::None, |n| self.value(n));
+                return Flow::Returns(value);
+            }
+            Act::Break => return Flow::Breaks,
+            Act::Continue => return Flow::Continues,
+            Act::Nothing => {}
+            Act::Other(names) => {
+                let lost = self.lost(&statement.span, "is not followed");
+                for name in names {
+                    if let Some(known) = self.named(name).cloned() {
+                        self.store.lose(&known, &lost);
+                        self.assign(name, Value::Unknown(lost.clone()));
+                    }
+                }
+            }
+            Act::Unread => {
+                self.lost = self.lost.take().or_else(|| Some(self.lost(&statement.span, "is not followed")));
+            }
+        }
+        Flow::Goes
+    }
+
+    fn forget(&mut self, name: &str) {
+        let unsure = self.unsure.last_mut();
+        if let Some(names) = unsure {
+            names.insert(name.to_string());
+        }
+        if let Some(scope) = self.scopes.last_mut() {
+            if name == "all" {
+                scope.clear();
+            } else {
+                scope.remove(name);
+            }
+        }
+    }
+
+    fn repeat(&mut self, round: &'p Round, body: &'p [Statement], span: &Range<usize>) -> Flow {
+        let values = self.value(&round.values);
+        let Ok(items) = self.rounds(&values) else {
+            self.perhaps(&[body], &(span.start..round.values.span.end), true);
+            return Flow::Goes;
+        };
+        for item in items {
+            if self.step(1, span) {
+                break;
+            }
+            self.set(&round.target, item);
+            match self.block(body) {
+                Flow::Breaks => break,
+                Flow::Returns(value) => return Flow::Returns(value),
+                Flow::Goes | Flow::Continues => {}
+            }
+        }
+        Flow::Goes
+    }
+
+    /// What a loop goes through: MATLAB's goes through columns.
+    fn rounds(&self, values: &Value) -> Result<Vec<Value>, Option<Lost>> {
+        match values {
+            Value::Matrix(rows) if rows.len() != 1 => match rows.first() {
+                None => Ok(vec![]),
+                Some(_) => Err(None),
+            },
+            Value::Number(_) if !self.is_python() => Ok(vec![values.clone()]),
+            _ => self.store.items(values),
+        }
+    }
+
+    fn choose(&mut self, blocks: &'p [(Option<Node>, Vec<Statement>)], span: &Range<usize>) -> Flow {
+        for (k, (condition, block)) in blocks.iter().enumerate() {
+            let is_true = condition.as_ref().map_or(Some(true), |c| {
+                let value = self.value(c);
+                self.store.truth(&value)
+            });
+            match is_true {
+                Some(true) => return self.block(block),
+                Some(false) => {}
+                None => {
+                    let rest: Vec<&'p [Statement]> = blocks[k..].iter().map(|b| b.1.as_slice()).collect();
+                    let head = condition.as_ref().map_or(span.end, |c| c.span.end);
+                    self.perhaps(&rest, &(span.start..head), false);
+                    return Flow::Goes;
+                }
+            }
+        }
+        Flow::Goes
+    }
+
+    /// Follows blocks of which it is unsure that they run: what they say is not known behind them. What is made in blocks that may run
+    /// often is not known either.
+    fn perhaps(&mut self, blocks: &[&'p [Statement]], span: &Range<usize>, is_vague: bool) {
+        let lost = self.lost(span, "is not followed: what it does depends on what is not known");
+        let changed = std::mem::take(&mut self.store.changed);
+        let (robots, sets, added) = (self.store.robots.len(), self.set.len(), self.added.len());
+        let mut names = HashSet::new();
+        for block in blocks {
+            let before = self.scopes.last().cloned().unwrap_or_default();
+            if self.step(before.len(), span) {
+                return;
+            }
+            self.unsure.push(HashSet::new());
+            let flow = self.block(block);
+            names.extend(self.unsure.pop().unwrap_or_default());
+            if let Some(scope) = self.scopes.last_mut() {
+                *scope = before;
+            }
+            if matches!(flow, Flow::Returns(_)) || (flow != Flow::Goes && !is_vague) {
+                self.lost.get_or_insert_with(|| lost.clone());
+            }
+        }
+        let mut all = std::mem::replace(&mut self.store.changed, changed);
+        if is_vague {
+            all.extend((robots..self.store.robots.len()).map(Value::Robot));
+        }
+        if self.set.len() > sets || self.added.len() > added {
+            self.tree_lost.get_or_insert_with(|| lost.clone());
+        }
+        for value in all {
+            self.store.lose(&value, &lost);
+            self.change(&value);
+        }
+        for name in names {
+            self.assign(&name, Value::Unknown(lost.clone()));
+        }
+    }
+
+    // Functions of the program -----------------------------------------------------------------------------------------
+
+    /// Calls a function of the program; what it is not given has its default.
+    pub fn call_own(
+        &mut self,
+        function: &'p Function,
+        given: Vec<(Option<String>, Value)>,
+        span: &Range<usize>,
+    ) -> Value {
+        if self.scopes.len() > MAX_CALLS {
+            return Value::Unknown(self.lost(span, "is not followed: calls too deep"));
+        }
+        let mut scope = HashMap::new();
+        for (name, default) in &function.parameters {
+            if let Some(default) = default {
+                let value = self.value(default);
+                scope.insert(name.clone(), value);
+            }
+        }
+        let count = given.len();
+        for (k, (key, value)) in given.into_iter().enumerate() {
+            let name = key.or_else(|| function.parameters.get(k).map(|p| p.0.clone()));
+            match name {
+                Some(name) if function.parameters.iter().any(|p| p.0 == name) => {
+                    drop(scope.insert(name, value))
+                }
+                _ => return self.unknown(span),
+            }
+        }
+        if !self.is_python() {
+            let number = |n: usize| Value::Number(Formula::integer(i64::try_from(n).unwrap_or(0), 0..0));
+            scope.insert("nargin".into(), number(count));
+            scope.insert("nargout".into(), number(usize::from(self.scopes.len() > 1 || count > 0)));
+        }
+        self.scopes.push(scope);
+        self.unsure.push(HashSet::new());
+        let is_sure = self.unsure.len() == 1;
+        if is_sure {
+            self.unsure.clear();
+        }
+        let flow = self.block(&function.body);
+        let result = match (flow, function.results.as_slice()) {
+            (Flow::Returns(value), []) => value,
+            (_, [one, ..]) => self.named_here(one).unwrap_or(Value::None),
+            _ => Value::None,
+        };
+        if !is_sure {
+            self.unsure.pop();
+        }
+        self.scopes.pop();
+        result
+    }
+
+    fn named_here(&self, name: &str) -> Option<Value> {
+        self.scopes.last().and_then(|s| s.get(name)).cloned()
+    }
+
+    // Values ---------------------------------------------------------------------------------------------------------
+
+    pub fn value(&mut self, node: &Node) -> Value {
+        if self.depth >= MAX_DEPTH || self.step(1, &node.span) {
+            return self.unknown(&node.span);
+        }
+        self.depth += 1;
+        let value = self.evaluated(node);
+        self.depth -= 1;
+        value
+    }
+
+    fn evaluated(&mut self, node: &Node) -> Value {
+        let span = &node.span;
+        match &node.form {
+            Form::Number => {
+                let text: String =
+                    self.text[span.clone()].chars().filter(|c| *c != '_' && !c.is_whitespace()).collect();
+                let text = text.trim_matches(['(', ')']);
+                match text.parse::<f64>() {
+                    Ok(number) => Value::Number(Formula::new(text, Some(number), span.clone())),
+                    Err(_) => self.unknown(span),
+                }
+            }
+            Form::Text(text) => Value::Text(text.as_str().into()),
+            Form::Name(name) => self.of_name(name, span),
+            Form::Attribute(inner, name) => self.attribute(node, inner, name),
+            Form::Call(inner, arguments) => self.call(node, inner, arguments),
+            Form::Unary(sign, inner) => {
+                let value = self.value(inner);
+                match (sign.as_str(), &value) {
+                    (_, Value::Unknown(_)) | ("+", _) => value,
+                    ("-", _) => self.each_number(&value, span, &|f| f.negated(f.span.clone())),
+                    ("not" | "~" | "!", value) => match self.store.truth(value) {
+                        Some(b) => Value::Bool(!b),
+                        None => self.unknown(span),
+                    },
+                    _ => self.unknown(span),
+                }
+            }
+            Form::Binary(sign, left, right) => {
+                let left = self.value(left);
+                match (sign.as_str(), self.store.truth(&left)) {
+                    ("and" | "&&", Some(false)) | ("or" | "||", Some(true)) => left,
+                    ("and" | "&&" | "or" | "||", Some(_)) => self.value(right),
+                    _ => {
+                        let right = self.value(right);
+                        self.binary(sign, left, right, span)
+                    }
+                }
+            }
+            Form::Matrix(rows, is_cell) => self.matrix(rows, *is_cell, span),
+            Form::List(all) => {
+                let mut items = vec![];
+                for one in all {
+                    if let Form::Unary(sign, inner) = &one.form
+                        && sign == "*"
+                    {
+                        let value = self.value(inner);
+                        match self.store.items(&value) {
+                            Ok(more) => items.extend(more),
+                            Err(_) => return self.unknown(&one.span),
+                        }
+                    } else {
+                        items.push(self.value(one));
+                    }
+                }
+                if items.len() > MAX_ITEMS { self.unknown(span) } else { self.store.list(items, false) }
+            }
+            Form::Each(body, rounds) => {
+                let mut items = vec![];
+                match self.each(body, rounds, &mut items) {
+                    Some(()) => self.store.list(items, false),
+                    None => self.unknown(span),
+                }
+            }
+            Form::Range(ends) => self.range(ends, span),
+            Form::Choice(three) => {
+                let [yes, condition, no] = three.as_ref();
+                let value = self.value(condition);
+                match self.store.truth(&value) {
+                    Some(true) => self.value(yes),
+                    Some(false) => self.value(no),
+                    None => self.unknown(span),
+                }
+            }
+            Form::Transposed(inner) => match self.value(inner) {
+                Value::Matrix(rows) => {
+                    let width = rows.first().map_or(0, Vec::len);
+                    let turned = (0..width).map(|k| rows.iter().map(|r| r[k].clone()).collect()).collect();
+                    Value::Matrix(Rc::new(turned))
+                }
+                other @ (Value::Number(_) | Value::Unknown(_) | Value::Link(_)) => other,
+                _ => self.unknown(span),
+            },
+            Form::Other => self.unknown(span),
+        }
+    }
+
+    /// `[value for names in values if all]`
+    fn each(&mut self, body: &Node, rounds: &[Round], items: &mut Vec<Value>) -> Option<()> {
+        let Some((first, rest)) = rounds.split_first() else {
+            if items.len() >= MAX_ITEMS {
+                return None;
+            }
+            items.push(self.value(body));
+            return Some(());
+        };
+        let values = self.value(&first.values);
+        let all = self.store.items(&values).ok()?;
+        let kept = self.scopes.last().cloned()?;
+        if self.step(kept.len(), &body.span) {
+            return None;
+        }
+        let mut found = Some(());
+        for one in all {
+            if self.step(1, &body.span) {
+                return None;
+            }
+            self.set(&first.target, one);
+            let mut holds = true;
+            for condition in &first.conditions {
+                let value = self.value(condition);
+                match self.store.truth(&value) {
+                    Some(b) => holds &= b,
+                    None => found = None,
+                }
+            }
+            if holds && found.is_some() {
+                found = self.each(body, rest, items);
+            }
+            if found.is_none() {
+                break;
+            }
+        }
+        *self.scopes.last_mut()? = kept;
+        found
+    }
+
+    /// `1:n`, `a:step:b`
+    fn range(&mut self, ends: &[Option<Node>], span: &Range<usize>) -> Value {
+        let mut numbers = vec![];
+        for end in ends {
+            let Some(end) = end else { return self.unknown(span) };
+            match integer(&self.value(end)) {
+                Some(n) => numbers.push(n),
+                None => return self.unknown(span),
+            }
+        }
+        let (first, step, last) = match numbers[..] {
+            [first, last] => (first, 1, last),
+            [first, step, last] if step != 0 => (first, step, last),
+            _ => return self.unknown(span),
+        };
+        match self.counted(first, step, last, span) {
+            Some(items) => Value::Matrix(Rc::new(vec![items])),
+            None => self.unknown(span),
+        }
+    }
+
+    /// The numbers from the first to the last, which is among them.
+    pub fn counted(&mut self, first: i64, step: i64, last: i64, span: &Range<usize>) -> Option<Vec<Value>> {
+        let count =
+            if step == 0 { return None } else { usize::try_from((last - first) / step + 1).unwrap_or(0) };
+        let count = if (last - first).signum() * step.signum() < 0 { 0 } else { count };
+        if count > MAX_ITEMS || self.step(count, span) {
+            return None;
+        }
+        let at = |k: usize| first + step * i64::try_from(k).unwrap_or(0);
+        Some((0..count).map(|k| Value::Number(Formula::integer(at(k), span.clone()))).collect())
+    }
+
+    /// What `end` is in an index under way.
+    pub fn with_end(&mut self, end: usize, node: &Node) -> Value {
+        self.ends.push(end);
+        let value = self.value(node);
+        self.ends.pop();
+        value
+    }
+
+    pub fn end(&self) -> Option<usize> {
+        self.ends.last().copied()
+    }
+}
+
+/// The place of an index of Python, which counts from the end where it is negative.
+pub(super) fn position(index: i64, length: usize) -> Option<usize> {
+    let length_signed = i64::try_from(length).ok()?;
+    let index = if index < 0 { index + length_signed } else { index };
+    usize::try_from(index).ok().filter(|i| *i < length)
+}

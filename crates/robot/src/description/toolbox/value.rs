@@ -1,0 +1,208 @@
+//! What values of a program are: formulas as text, lists, links, robots, and what is not followed.
+
+use super::links::Joint;
+use super::{Link, Made};
+use crate::description::cell::MAX_LENGTH;
+use std::ops::Range;
+use std::rc::Rc;
+
+/// No list has more entries.
+pub(super) const MAX_ITEMS: usize = 10_000;
+
+/// What is not followed, and where.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Lost {
+    pub span: Range<usize>,
+    pub message: Rc<str>,
+}
+
+/// A formula as a cell of a table has it, and its number if it has one without names.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Formula {
+    pub text: Rc<str>,
+    pub number: Option<f64>,
+    pub span: Range<usize>,
+}
+
+impl Formula {
+    pub fn new(text: &str, number: Option<f64>, span: Range<usize>) -> Formula {
+        Formula { text: text.into(), number, span }
+    }
+
+    pub fn integer(n: i64, span: Range<usize>) -> Formula {
+        #[expect(clippy::cast_precision_loss, reason = "numbers of rows are small")]
+        Formula::new(&n.to_string(), Some(n as f64), span)
+    }
+
+    /// In brackets where it is more than a word.
+    fn wrapped(&self) -> String {
+        let is_word = self.text.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '.'));
+        if is_word { self.text.to_string() } else { format!("({})", self.text) }
+    }
+
+    /// Two formulas with a sign between them, unless that is too long or no formula.
+    pub fn joined(&self, sign: &str, other: &Formula, span: Range<usize>) -> Option<Formula> {
+        let sign = sign.trim_start_matches('.');
+        let sign = if sign == "**" { "^" } else { sign };
+        let both = self.number.zip(other.number);
+        let number = match sign {
+            "+" => both.map(|(a, b)| a + b),
+            "-" => both.map(|(a, b)| a - b),
+            "*" => both.map(|(a, b)| a * b),
+            "/" => both.map(|(a, b)| a / b),
+            "^" => both.map(|(a, b)| a.powf(b)),
+            "//" | "%" => {
+                let (a, b) = both?;
+                let value = if sign == "%" { a - b * (a / b).floor() } else { (a / b).floor() };
+                return whole(value).map(|n| Formula::integer(n, span));
+            }
+            _ => return None,
+        };
+        let text = format!("{}{sign}{}", self.wrapped(), other.wrapped());
+        (text.len() <= MAX_LENGTH).then(|| Formula::new(&text, number, span))
+    }
+
+    pub fn negated(&self, span: Range<usize>) -> Option<Formula> {
+        let text = format!("-{}", self.wrapped());
+        (text.len() <= MAX_LENGTH).then(|| Formula::new(&text, self.number.map(|n| -n), span))
+    }
+
+    /// The function of this name of it.
+    pub fn of(&self, function: &str) -> Option<Formula> {
+        let text = format!("{function}({})", self.text);
+        (text.len() <= MAX_LENGTH).then(|| Formula::new(&text, None, self.span.clone()))
+    }
+
+    pub fn in_radians(&self) -> Option<Formula> {
+        let text = format!("{}*pi/180", self.wrapped());
+        let number = self.number.map(f64::to_radians);
+        (text.len() <= MAX_LENGTH).then(|| Formula::new(&text, number, self.span.clone()))
+    }
+
+    pub fn in_degrees(&self) -> Option<Formula> {
+        let text = format!("{}*180/pi", self.wrapped());
+        let number = self.number.map(f64::to_degrees);
+        (text.len() <= MAX_LENGTH).then(|| Formula::new(&text, number, self.span.clone()))
+    }
+}
+
+/// The whole number that a number is.
+#[expect(clippy::cast_possible_truncation, reason = "the range is looked at before")]
+pub(super) fn whole(value: f64) -> Option<i64> {
+    (value.fract() == 0.0 && value.abs() < 1e9).then_some(value as i64)
+}
+
+/// A value of a program.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) enum Value {
+    Number(Formula),
+    Bool(bool),
+    Text(Rc<str>),
+    /// `None`, and what stands in no place of a list of MATLAB.
+    None,
+    /// Of MATLAB; of one row, or one column, where it is a list.
+    Matrix(Rc<Vec<Vec<Value>>>),
+    /// Of Python, by its number: names may stand for the same list.
+    List(usize),
+    Link(usize),
+    Robot(usize),
+    Joint(usize),
+    Body(usize),
+    Tree,
+    /// A function that is known by this name.
+    Known(Rc<str>),
+    Unknown(Lost),
+}
+
+/// A list of Python.
+#[derive(Clone, Debug)]
+pub(super) struct List {
+    pub items: Vec<Value>,
+    /// Of numpy: sums and multiples go entry by entry.
+    pub is_array: bool,
+    pub lost: Option<Lost>,
+}
+
+/// A body of a `rigidBodyTree`.
+#[derive(Clone, Debug)]
+pub(super) struct Body {
+    pub name: Value,
+    pub joint: Option<usize>,
+    pub lost: Option<Lost>,
+}
+
+/// All that values stand for by a number.
+#[derive(Default, Debug)]
+pub(super) struct Store {
+    pub lists: Vec<List>,
+    pub links: Vec<Link>,
+    pub robots: Vec<Made>,
+    pub joints: Vec<Joint>,
+    pub bodies: Vec<Body>,
+    /// What was changed where it is unsure that the program gets there.
+    pub changed: Vec<Value>,
+}
+
+impl Store {
+    pub fn list(&mut self, items: Vec<Value>, is_array: bool) -> Value {
+        self.lists.push(List { items, is_array, lost: None });
+        Value::List(self.lists.len() - 1)
+    }
+
+    /// Says that this is not known any more.
+    pub fn lose(&mut self, value: &Value, lost: &Lost) {
+        let place = match *value {
+            Value::List(k) => &mut self.lists[k].lost,
+            Value::Link(k) => &mut self.links[k].lost,
+            Value::Robot(k) => &mut self.robots[k].lost,
+            Value::Joint(k) => &mut self.joints[k].lost,
+            Value::Body(k) => &mut self.bodies[k].lost,
+            _ => return,
+        };
+        place.get_or_insert_with(|| lost.clone());
+    }
+
+    /// The entries of a list, row or column.
+    pub fn items(&self, value: &Value) -> Result<Vec<Value>, Option<Lost>> {
+        match value {
+            Value::List(k) => match &self.lists[*k].lost {
+                Some(lost) => Err(Some(lost.clone())),
+                None => Ok(self.lists[*k].items.clone()),
+            },
+            Value::Matrix(rows) if rows.len() == 1 => Ok(rows[0].clone()),
+            Value::Matrix(rows) if rows.iter().all(|r| r.len() == 1) => Ok(rows.concat()),
+            Value::Unknown(lost) => Err(Some(lost.clone())),
+            _ => Err(None),
+        }
+    }
+
+    /// Whether a value counts as true, if that is known.
+    pub fn truth(&self, value: &Value) -> Option<bool> {
+        match value {
+            Value::Bool(b) => Some(*b),
+            Value::None => Some(false),
+            Value::Number(f) => f.number.map(|n| n != 0.0),
+            Value::Text(t) => Some(!t.is_empty()),
+            Value::List(k) if self.lists[*k].lost.is_none() => Some(!self.lists[*k].items.is_empty()),
+            _ => None,
+        }
+    }
+}
+
+/// The number that a value is; true counts as 1.
+pub(super) fn formula(value: &Value) -> Option<Formula> {
+    match value {
+        Value::Number(f) => Some(f.clone()),
+        Value::Bool(b) => Some(Formula::integer(i64::from(*b), 0..0)),
+        Value::Matrix(rows) => match rows.as_slice() {
+            [row] if row.len() == 1 => formula(&row[0]),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// The whole number that a value is.
+pub(super) fn integer(value: &Value) -> Option<i64> {
+    whole(formula(value)?.number?)
+}
