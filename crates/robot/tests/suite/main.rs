@@ -34,6 +34,7 @@ mod motion_profiles;
 mod motion_timing;
 mod motion_torques;
 mod numeric;
+mod programs;
 mod redundant;
 mod same;
 mod scope;

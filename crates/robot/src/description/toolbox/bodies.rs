@@ -129,6 +129,6 @@ impl Run<'_> {
             self.store.links.push(link);
             links.push(self.store.links.len() - 1);
         }
-        Some(Made { name: None, links, span, lost })
+        Some(Made { name: None, links, span, lost, is_part: false })
     }
 }

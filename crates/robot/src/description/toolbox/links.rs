@@ -46,6 +46,8 @@ pub(super) struct Made {
     pub links: Vec<usize>,
     pub span: Range<usize>,
     pub lost: Option<Lost>,
+    /// Another robot is made of it.
+    pub is_part: bool,
 }
 
 /// A joint of a `rigidBodyTree`.
@@ -454,7 +456,7 @@ impl Run<'_> {
             Err(lost) => (vec![], Some(lost)),
         };
         let lost = self.lost_here().or(lost);
-        self.store.robots.push(Made { name: None, links, span: span.clone(), lost });
+        self.store.robots.push(Made { name: None, links, span: span.clone(), lost, is_part: false });
         Value::Robot(self.store.robots.len() - 1)
     }
 
@@ -473,7 +475,10 @@ impl Run<'_> {
             Value::Link(k) => Ok(vec![*k]),
             Value::Robot(k) => match &self.store.robots[*k].lost {
                 Some(lost) => Err(lost.clone()),
-                None => Ok(self.store.robots[*k].links.clone()),
+                None => {
+                    self.store.robots[*k].is_part = true;
+                    Ok(self.store.robots[*k].links.clone())
+                }
             },
             Value::Matrix(rows)
                 if rows.iter().flatten().all(is_number) && rows.iter().any(|r| !r.is_empty()) =>

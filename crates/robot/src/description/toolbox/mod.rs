@@ -88,11 +88,13 @@ fn robots(
         [(false, Calls::None), (false, Calls::Ready), (true, Calls::None), (true, Calls::All)]
     {
         let mut run = Run::new(text, language, is_main);
+        run.define(statements);
         run.block(statements);
         run.call_definitions(statements, calls);
         let tree = run.tree();
         run.store.robots.extend(tree);
         if !run.store.robots.is_empty() {
+            run.store.robots.retain(|r| !r.is_part);
             return (run.store.robots, run.store.links, run.findings);
         }
         last = Some(run);
@@ -116,6 +118,7 @@ impl<'p> Run<'p> {
         if calls == Calls::None {
             return;
         }
+        self.is_asked = false;
         let used = self.names_called();
         for statement in statements {
             match &statement.act {
@@ -163,7 +166,7 @@ impl<'p> Run<'p> {
                 Ok(links) => (links, None),
                 Err(lost) => (vec![], Some(lost)),
             };
-            Some(Made { name: None, links, span: first.clone(), lost })
+            Some(Made { name: None, links, span: first.clone(), lost, is_part: false })
         };
         if let Some(lost) = self.lost.clone() {
             return made(Err(lost));

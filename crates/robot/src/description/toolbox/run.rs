@@ -42,6 +42,8 @@ pub(super) struct Run<'p> {
     /// Joints whose rows were set, in order.
     pub set: Vec<usize>,
     pub tree_lost: Option<Lost>,
+    /// True where the values of functions are asked for.
+    pub is_asked: bool,
     /// True where the program is run, not imported.
     pub is_main: bool,
     /// Where it is unsure that the program gets there: names that are assigned.
@@ -66,6 +68,7 @@ impl<'p> Run<'p> {
             added: vec![],
             set: vec![],
             tree_lost: None,
+            is_asked: true,
             is_main,
             unsure: vec![],
             ends: vec![],
@@ -130,6 +133,15 @@ impl<'p> Run<'p> {
     pub fn change(&mut self, value: &Value) {
         if !self.unsure.is_empty() {
             self.store.changed.push(value.clone());
+        }
+    }
+
+    /// Functions of the program are known before they stand in it.
+    pub fn define(&mut self, statements: &'p [Statement]) {
+        for statement in statements {
+            if let Act::Function(function) = &statement.act {
+                self.functions.insert(&function.name, function);
+            }
         }
     }
 
@@ -370,8 +382,9 @@ impl<'p> Run<'p> {
         if !self.is_python() {
             let number = |n: usize| Value::Number(Formula::integer(i64::try_from(n).unwrap_or(0), 0..0));
             scope.insert("nargin".into(), number(count));
-            scope.insert("nargout".into(), number(usize::from(self.scopes.len() > 1 || count > 0)));
+            scope.insert("nargout".into(), number(usize::from(self.is_asked)));
         }
+        let is_asked = std::mem::replace(&mut self.is_asked, true);
         self.scopes.push(scope);
         self.unsure.push(HashSet::new());
         let is_sure = self.unsure.len() == 1;
@@ -388,6 +401,7 @@ impl<'p> Run<'p> {
             self.unsure.pop();
         }
         self.scopes.pop();
+        self.is_asked = is_asked;
         result
     }
 

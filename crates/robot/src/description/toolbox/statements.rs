@@ -148,6 +148,7 @@ impl Parser<'_> {
     /// A block of MATLAB, up to `end`.
     fn body(&mut self, ends: &[&str]) -> Option<Vec<Statement>> {
         self.deeper(|p| {
+            p.take(",");
             let all: Vec<&str> = ["end", "endfor", "endif", "endwhile", "endfunction", "function"]
                 .iter()
                 .chain(ends)
