@@ -77,7 +77,7 @@ impl Lexer<'_> {
         while self.at < bytes.len() {
             let rest = &bytes[self.at..];
             let first = rest[0];
-            if self.begins && self.open.is_empty() {
+            if self.begins && (self.open.is_empty() || !is_python) {
                 self.begins = false;
                 if is_python {
                     self.indent();
@@ -90,7 +90,7 @@ impl Lexer<'_> {
             let line = rest.iter().position(|&b| b == b'\n').unwrap_or(rest.len());
             match first {
                 b'\n' => {
-                    self.begins = true;
+                    self.begins = self.open.is_empty() || !is_python;
                     let is_row = !is_python && matches!(self.open.last(), Some(b'[' | b'{'));
                     if self.open.is_empty() || is_row {
                         self.push(Kind::Line, 1, apart);
@@ -110,8 +110,14 @@ impl Lexer<'_> {
                 b'.' if !is_python && rest.starts_with(b"...") => self.at += (line + 1).min(rest.len()),
                 b'\\' if is_python && line <= 2 => self.at += (line + 1).min(rest.len()),
                 _ => {
-                    self.word(apart);
-                    apart = false;
+                    let c = self.text[self.at..].chars().next().unwrap_or(' ');
+                    if c.is_whitespace() || c == '\u{feff}' {
+                        self.at += c.len_utf8();
+                        apart = true;
+                    } else {
+                        self.word(apart);
+                        apart = false;
+                    }
                     continue;
                 }
             }

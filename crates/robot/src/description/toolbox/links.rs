@@ -308,7 +308,10 @@ impl Run<'_> {
         } else if key == "qlim" {
             match self.ends(value, place) {
                 Ok(ends) => link.limits = ends,
-                Err(lost) => drop(link.lost.get_or_insert(lost)),
+                Err(lost) => {
+                    let message = format!("{}: the limits are not read", lost.message);
+                    self.find(Severity::Warning, &lost.span, &message);
+                }
             }
         } else if BESIDE.contains(&key) {
             let message = "masses and drives of a program are not read";

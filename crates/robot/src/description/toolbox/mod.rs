@@ -192,10 +192,7 @@ impl<'p> Run<'p> {
             })
             .collect();
         numbers.sort_unstable();
-        let unknown = self
-            .values()
-            .find_map(|(_, v)| if let Value::Unknown(lost) = v { Some(lost.clone()) } else { None });
-        match unknown {
+        match self.links_lost.clone() {
             Some(lost) => made(Err(lost)),
             None if is_sorted
                 && spans.len() == self.store.links.len()

@@ -1,7 +1,6 @@
 //! Names, attributes, methods and entries of lists.
 
 use super::functions::{HARMLESS, is_known};
-use super::links::LINKS;
 use super::parse::{Argument, Form, Node};
 use super::run::{Run, position};
 use super::value::{Formula, MAX_ITEMS, Value, integer};
@@ -29,7 +28,6 @@ impl<'p> Run<'p> {
             "__name__" => Value::Text(if self.is_main { "__main__".into() } else { "module".into() }),
             "nargin" | "nargout" if !self.is_python() => number("0", 0.0),
             "rigidBodyTree" => Value::Tree,
-            _ if LINKS.iter().any(|l| l.0 == name) && !self.is_python() => self.link_made(name, &[], span),
             _ if is_known(name) || self.classes.contains_key(name) => Value::Known(name.into()),
             _ if self.functions.contains_key(name) => match self.is_python() {
                 true => Value::Known(name.into()),

@@ -42,6 +42,8 @@ pub(super) struct Run<'p> {
     /// Joints whose rows were set, in order.
     pub set: Vec<usize>,
     pub tree_lost: Option<Lost>,
+    /// Links are made where it is unsure that the program gets there.
+    pub links_lost: Option<Lost>,
     /// True where the values of functions are asked for.
     pub is_asked: bool,
     /// True where the program is run, not imported.
@@ -68,6 +70,7 @@ impl<'p> Run<'p> {
             added: vec![],
             set: vec![],
             tree_lost: None,
+            links_lost: None,
             is_asked: true,
             is_main,
             unsure: vec![],
@@ -232,6 +235,11 @@ impl<'p> Run<'p> {
             Act::Nothing => {}
             Act::Other(names) => {
                 let lost = self.lost(&statement.span, "is not followed");
+                // What it may say of a name that has no value yet.
+                let first = names.first().filter(|_| self.text[statement.span.clone()].contains('='));
+                if let Some(name) = first.filter(|name| self.named(name).is_none()) {
+                    self.assign(name, Value::Unknown(lost.clone()));
+                }
                 for name in names {
                     if let Some(known) = self.named(name).cloned() {
                         self.store.lose(&known, &lost);
@@ -318,6 +326,7 @@ impl<'p> Run<'p> {
         let lost = self.lost(span, "is not followed: what it does depends on what is not known");
         let changed = std::mem::take(&mut self.store.changed);
         let (robots, sets, added) = (self.store.robots.len(), self.set.len(), self.added.len());
+        let links = self.store.links.len();
         let mut names = HashSet::new();
         for block in blocks {
             let before = self.scopes.last().cloned().unwrap_or_default();
@@ -337,6 +346,9 @@ impl<'p> Run<'p> {
         let mut all = std::mem::replace(&mut self.store.changed, changed);
         if is_vague {
             all.extend((robots..self.store.robots.len()).map(Value::Robot));
+        }
+        if self.store.links.len() > links {
+            self.links_lost.get_or_insert_with(|| lost.clone());
         }
         if self.set.len() > sets || self.added.len() > added {
             self.tree_lost.get_or_insert_with(|| lost.clone());
