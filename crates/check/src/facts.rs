@@ -34,6 +34,35 @@ pub enum About {
     TableRow,
     /// Values of all joints in a table, for a pose that the document gives or that stands beside them.
     Configuration,
+    /// A quantity of dynamics.
+    Dynamics(Dynamic),
+}
+
+/// The quantities of dynamics.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Dynamic {
+    /// A torque, or the force of a joint that slides.
+    Torque,
+    /// What of a torque does not depend on accelerations.
+    Bias,
+    /// The inertia matrix.
+    Inertia,
+    /// Centrifugal and Coriolis torques.
+    Velocity,
+    /// The matrix of these, or Christoffel's symbols.
+    Coriolis,
+    /// Torques of gravity.
+    Gravity,
+    /// The kinetic energy.
+    Kinetic,
+    /// The potential energy.
+    Potential,
+    /// Their difference.
+    Lagrangian,
+    /// Their sum.
+    Energy,
+    /// A derivative of an energy.
+    Derivative,
 }
 
 /// What a matrix or a vector is by the robot. Frames are numbered by rows; the tool is the hand.
@@ -420,6 +449,8 @@ pub enum Unproved {
     Unsupported,
     /// It is right at another configuration that the document states.
     OtherConfiguration,
+    /// Nothing says how the masses of the links, or gravity, are meant so that it could be refuted.
+    OpenReading,
     /// A column of a table has a head that is not known.
     UnknownColumn,
     /// A table has other joints than the robot.

@@ -16,6 +16,7 @@ mod custom;
 mod definitions;
 mod directions;
 mod displayed;
+mod dynamics;
 mod edits;
 mod facts;
 mod formula;
@@ -56,8 +57,8 @@ mod walk;
 mod whole;
 
 pub use facts::{
-    About, Change, Condition, Instead, Jacobian, Meaning, Placement, Remark, Sense, ShortRow, SlipKind,
-    TableCell, Unproved, Zeros,
+    About, Change, Condition, Dynamic, Instead, Jacobian, Meaning, Placement, Remark, Sense, ShortRow,
+    SlipKind, TableCell, Unproved, Zeros,
 };
 pub use formula::Formula;
 pub use note::{Note, Noted, Unread, Unreadable};
@@ -69,10 +70,10 @@ pub use outcome::{
 
 use denavit::description::{Convention, Description, TableOptions};
 use denavit_reading::code::Dialect;
-use denavit_reading::document::{self, Document, Format};
+use denavit_reading::document::{self, Document, Format, Statement};
 use judge::Judge;
 use note::Notes;
-use plan::Plan;
+use plan::{Plan, Walked};
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -142,6 +143,7 @@ pub fn check(
     }
     let options = &options;
     let mut plan = Plan::of(text, format, &document, robot, options, &mut notes)?;
+    let of_dynamics = dynamics::taken(text, &mut document, &plan.tables);
     let programs = plan::programs(text, &document, options);
     let known = directions::Known::of(&plan.subjects);
     let scripts = scripts::inverse(text, &programs, &|name| plan.is_joint(name), &|name| known.has(name));
@@ -202,7 +204,10 @@ pub fn check(
         let finding = |at: &(usize, usize)| Some(claims.get(at.0)?.entries.get(at.1)?.finding.standing());
         c.turns_right.iter().any(|at| matches!(finding(at), Some(Standing::Wrong | Standing::Carried)))
     });
-    let unjudged = unjudged::listed(text, &document, &walked, &open_rows, &mut claims, options);
+    let of_dynamics = dynamics_judged(text, &of_dynamics, &plan, &mut walked, &mut claims);
+    let mut unjudged = unjudged::listed(text, &document, &walked, &open_rows, &mut claims, options);
+    unjudged.extend(of_dynamics);
+    unjudged.sort_by_key(|u| (u.span.start, u.span.end));
     let claims = apart::split(text, claims, &mut causes);
     let mut checked = Checked {
         claims,
@@ -213,4 +218,18 @@ pub fn check(
     };
     checked.sort();
     Ok(checked)
+}
+
+/// Adds what is said of formulas of dynamics, and gives what of them was not judged.
+fn dynamics_judged(
+    text: &str,
+    taken: &[Statement],
+    plan: &Plan,
+    walked: &mut Walked,
+    claims: &mut Vec<Claim>,
+) -> Vec<Unjudged> {
+    let judged = dynamics::judged(text, taken, plan, claims.len());
+    walked.taken.extend(taken.iter().map(|s| s.span.clone()));
+    claims.extend(judged.claims);
+    judged.unjudged
 }

@@ -3,6 +3,7 @@
 mod allowed;
 mod configurations;
 mod documents;
+mod dynamics;
 mod hostile;
 mod inverse;
 mod marking;

@@ -176,7 +176,16 @@ impl Normaliser<'_> {
                 Some(true) => {}
                 _ => self.push(c, span),
             },
-            '\u{307}' => self.dotted(),
+            '\u{307}' => self.dotted("dot"),
+            '\u{308}' => self.dotted("ddot"),
+            '½' | '⅓' | '¼' => {
+                let fraction = match c {
+                    '½' => "(1/2)",
+                    '⅓' => "(1/3)",
+                    _ => "(1/4)",
+                };
+                fraction.chars().for_each(|c| self.push(c, span.clone()));
+            }
             '\u{ad}'
             | '\u{200b}'..='\u{200f}'
             | '\u{202a}'..='\u{202e}'
@@ -246,6 +255,7 @@ impl Normaliser<'_> {
             name.chars().for_each(|c| self.push(c, span.clone()));
         } else if matches!(name, "frac" | "dfrac" | "tfrac" | "cfrac") {
             self.marks.push(Mark { glyph: Glyph::Fraction, span });
+            self.digits_of_fraction();
         } else if WRAPPERS.contains(&name) {
             match self.upright_function() {
                 Some((word, length)) => {
@@ -259,10 +269,10 @@ impl Normaliser<'_> {
                     self.wrapper();
                 }
             }
-        } else if name == "dot" {
+        } else if matches!(name, "dot" | "ddot") {
             // The rate of a name is a name: `\dot{q}_1` is `dotq1`.
             self.push(' ', start..start);
-            "dot".chars().for_each(|c| self.push(c, span.clone()));
+            name.chars().for_each(|c| self.push(c, span.clone()));
             self.at += self.text[self.at..].len() - self.text[self.at..].trim_start().len();
             self.wrapper();
         } else if !IGNORED.contains(&name) {
@@ -273,6 +283,20 @@ impl Normaliser<'_> {
             if let Some(behind) = rest.strip_prefix('.') {
                 self.at = self.text.len() - behind.len();
             }
+        }
+    }
+
+    /// `\frac12`: a digit without braces is the whole of what is above, and one behind it of what is below.
+    fn digits_of_fraction(&mut self) {
+        for _ in 0..2 {
+            let rest = &self.text[self.at..];
+            let blank = rest.len() - rest.trim_start().len();
+            let Some(digit) = rest[blank..].chars().next().filter(char::is_ascii_digit) else { return };
+            let start = self.at + blank;
+            self.push('{', start..start);
+            self.push(digit, start..start + 1);
+            self.push('}', start + 1..start + 1);
+            self.at = start + 1;
         }
     }
 
@@ -299,10 +323,10 @@ impl Normaliser<'_> {
         }
     }
 
-    /// `q̇`: the dot stands behind its letter.
-    fn dotted(&mut self) {
+    /// `q̇`, `q̈`: the dots stand behind their letter.
+    fn dotted(&mut self, dots: &str) {
         let Some(letter) = self.marks.pop_if(|m| m.char().is_some_and(char::is_alphabetic)) else { return };
-        "dot".chars().for_each(|c| self.push(c, letter.span.clone()));
+        dots.chars().for_each(|c| self.push(c, letter.span.clone()));
         self.marks.push(letter);
     }
 

@@ -6,8 +6,8 @@ use crate::words::check::{ROUNDING, percent, positive, rows_of};
 use denavit::forward::Reference;
 use denavit_check::inverse::{Cause, Composed, Undecided};
 use denavit_check::{
-    About, Change, Condition, Formula, Instead, Jacobian, Meaning, Noted, Placement, Remark, Sense, ShortRow,
-    Skipped, SlipKind, TableCell, Unproved, Unreadable, Zeros, decimal,
+    About, Change, Condition, Dynamic, Formula, Instead, Jacobian, Meaning, Noted, Placement, Remark, Sense,
+    ShortRow, Skipped, SlipKind, TableCell, Unproved, Unreadable, Zeros, decimal,
 };
 use denavit_reading::slip::Slip;
 
@@ -25,6 +25,7 @@ impl Check for English {
             About::Configuration => "a configuration of the robot",
             About::TableRow => "a row of the table",
             About::Angle(set) => return format!("an angle of the set {set}"),
+            About::Dynamics(what) => dynamic(*what),
         }
         .into()
     }
@@ -238,6 +239,9 @@ impl Check for English {
                 "it does not agree with the robot as it is read here, and nothing in the document bears that reading out"
             }
             Unproved::OtherConfiguration => "right at another configuration that the document states, not at the last one",
+            Unproved::OpenReading => {
+                "nothing says how masses, inertias and gravity are meant so that it could be refuted"
+            }
             Unproved::UnknownColumn => "what the column holds is not known",
             Unproved::OtherJoints => "it has not the joints of the robot",
             Unproved::OtherNames => "it has lengths that are not known of the robot",
@@ -490,4 +494,20 @@ fn placed(placement: &Placement) -> String {
         said.push("frame 0 or the last frame is turned".into());
     }
     said.join("; ")
+}
+
+fn dynamic(what: Dynamic) -> &'static str {
+    match what {
+        Dynamic::Torque => "a torque",
+        Dynamic::Bias => "a torque at constant rates",
+        Dynamic::Inertia => "the inertia matrix",
+        Dynamic::Velocity => "the centrifugal and Coriolis torques",
+        Dynamic::Coriolis => "the matrix of the centrifugal and Coriolis torques",
+        Dynamic::Gravity => "the torques of gravity",
+        Dynamic::Kinetic => "the kinetic energy",
+        Dynamic::Potential => "the potential energy",
+        Dynamic::Lagrangian => "the Lagrangian",
+        Dynamic::Energy => "the energy",
+        Dynamic::Derivative => "a derivative of an energy",
+    }
 }

@@ -7,8 +7,8 @@ use denavit::description::NotSet;
 use denavit::forward::Reference;
 use denavit_check::inverse::{Cause, Composed, Missing, Undecided};
 use denavit_check::{
-    About, Change, Condition, Formula, Instead, Jacobian, Meaning, Noted, Placement, Remark, Sense, ShortRow,
-    Skipped, SlipKind, TableCell, Unproved, Unreadable, Zeros, decimal,
+    About, Change, Condition, Dynamic, Formula, Instead, Jacobian, Meaning, Noted, Placement, Remark, Sense,
+    ShortRow, Skipped, SlipKind, TableCell, Unproved, Unreadable, Zeros, decimal,
 };
 use denavit_reading::slip::Slip;
 
@@ -26,6 +26,7 @@ impl Check for French {
             About::Configuration => "une configuration du robot",
             About::TableRow => "une ligne du tableau",
             About::Angle(set) => return format!("un angle du triplet {set}"),
+            About::Dynamics(what) => dynamic(*what),
         })
     }
 
@@ -256,6 +257,9 @@ impl Check for French {
             }
             Unproved::OtherConfiguration => {
                 "juste en une autre configuration que le document donne, non en la dernière"
+            }
+            Unproved::OpenReading => {
+                "rien ne dit comment les masses, les inerties et la pesanteur s'entendent, ce qu'il faudrait pour la réfuter"
             }
             Unproved::UnknownColumn => "la colonne n'est pas connue",
             Unproved::OtherJoints => "il n'a pas les articulations du robot",
@@ -550,4 +554,20 @@ fn placed(placement: &Placement) -> String {
         said.push("le repère 0 ou le dernier repère est tourné".into());
     }
     printed(&said.join(" ; "))
+}
+
+fn dynamic(what: Dynamic) -> &'static str {
+    match what {
+        Dynamic::Torque => "un couple",
+        Dynamic::Bias => "un couple à vitesses constantes",
+        Dynamic::Inertia => "la matrice d'inertie",
+        Dynamic::Velocity => "les couples centrifuges et de Coriolis",
+        Dynamic::Coriolis => "la matrice des couples centrifuges et de Coriolis",
+        Dynamic::Gravity => "les couples de pesanteur",
+        Dynamic::Kinetic => "l'énergie cinétique",
+        Dynamic::Potential => "l'énergie potentielle",
+        Dynamic::Lagrangian => "le lagrangien",
+        Dynamic::Energy => "l'énergie",
+        Dynamic::Derivative => "une dérivée d'une énergie",
+    }
 }

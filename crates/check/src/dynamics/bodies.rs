@@ -1,0 +1,279 @@
+//! What the mass of a link may look like: where its centre is, and about which point its inertia is meant, in the symbols that the
+//! document has for them. The first are the more usual ones.
+
+use super::model::Ten;
+use super::words::Role;
+use denavit::description::{Description, JointKind};
+use denavit::geometry::{Body, Transform, Vector};
+use denavit_symbolic::{Expr, Rational, Symbol};
+use std::collections::BTreeMap;
+
+/// Where a body is and what it weighs, in the frame of its row.
+struct Place {
+    /// The centre of mass.
+    centre: Vector<Expr>,
+    /// How far the body reaches, and along which direction, where it is a rod.
+    rod: Option<(Expr, Vector<Expr>)>,
+}
+
+/// The most bodies of a link that are tried.
+const MAX_BODIES: usize = 600;
+
+fn half() -> Expr {
+    Expr::from(Rational::new(1, 2))
+}
+
+fn is_zero(v: &Vector<Expr>) -> bool {
+    v.0.iter().all(|e| e.is_zero())
+}
+
+/// The points that a link has: where its joint is (along the axis, and at the common normal), and where it ends.
+struct Points {
+    joints: Vec<Vector<Expr>>,
+    ends: Vec<Vector<Expr>>,
+    /// The direction of its own axis.
+    axis: Vector<Expr>,
+}
+
+fn points(d: &Description, row: usize) -> Points {
+    let (o, one) = (Expr::int(0), Expr::int(1));
+    let origin = Vector([o; 3]);
+    let r = &d.rows[row];
+    let is_slide = r.variable.is_some_and(|v| v.kind == JointKind::Prismatic);
+    let (mut joints, mut ends, axis);
+    if d.convention.begins_with_joint() {
+        let (s, c) = r.alpha.sin_cos();
+        axis = Vector([o, s, c]);
+        let normal = Vector([-r.a, o, o]);
+        ends = vec![origin];
+        joints = vec![normal];
+        if !is_slide && !r.d.is_zero() {
+            joints.insert(0, normal - axis.scale(r.d));
+        }
+        let mut x = Transform::identity();
+        for next in d.rows[row + 1..].iter().take_while(|r| r.variable.is_none()) {
+            x = x * link(d, next);
+        }
+        if row + 1 == d.rows.len() || d.rows[row + 1..].iter().all(|r| r.variable.is_none()) {
+            x = x * d.tool;
+        }
+        ends.insert(0, x.translation);
+    } else {
+        axis = Vector([o, o, one]);
+        joints = vec![origin];
+        if !is_slide && !r.d.is_zero() {
+            joints.insert(0, Vector([o, o, -r.d]));
+        }
+        ends = vec![];
+        match d.rows.get(row + 1) {
+            Some(next) => {
+                let normal = Vector([next.a, o, o]);
+                let (s, c) = next.alpha.sin_cos();
+                let slides = next.variable.is_some_and(|v| v.kind == JointKind::Prismatic);
+                if !slides && !next.d.is_zero() {
+                    ends.push(normal + Vector([o, -s, c]).scale(next.d));
+                }
+                ends.push(normal);
+            }
+            None => ends.push(d.tool.translation),
+        }
+    }
+    joints.dedup_by(|a, b| a == b);
+    ends.dedup_by(|a, b| a == b);
+    Points { joints, ends, axis }
+}
+
+/// The transform of a row that does not move.
+fn link(d: &Description, row: &denavit::description::Row) -> Transform<Expr> {
+    let screw =
+        |x: Transform<Expr>, z: Transform<Expr>| if d.convention.begins_with_joint() { z * x } else { x * z };
+    let turn = |axis, angle| Transform::rotation_about(axis, angle);
+    let x = turn(denavit::geometry::Axis::X, row.alpha) * Transform::translation_x(row.a);
+    let z = turn(denavit::geometry::Axis::Z, row.theta) * Transform::translation_z(row.d);
+    screw(x, z)
+}
+
+/// The places of a link's centre of mass.
+fn places(d: &Description, row: usize, lengths: &[Expr]) -> Vec<Place> {
+    let (o, one) = (Expr::int(0), Expr::int(1));
+    let points = points(d, row);
+    let mut directions: Vec<Vector<Expr>> = vec![];
+    let add = |v: Vector<Expr>, all: &mut Vec<Vector<Expr>>| {
+        if !all.contains(&v) {
+            all.push(v);
+        }
+    };
+    // From the joint to the end, where that is along an axis of the frame.
+    for (from, to) in points.joints.iter().flat_map(|a| points.ends.iter().map(move |b| (*a, *b))) {
+        let way = to - from;
+        for (k, e) in way.0.iter().enumerate() {
+            if way.0.iter().enumerate().all(|(i, e)| (i == k) != e.is_zero()) {
+                let is_back = e.as_number().is_some_and(|r| r.is_negative())
+                    || matches!(e.node(), denavit_symbolic::Node::Neg(_));
+                let mut unit = [o; 3];
+                unit[k] = if is_back { -one } else { one };
+                add(Vector(unit), &mut directions);
+            }
+        }
+    }
+    for k in [0, 2, 1] {
+        for sign in [one, -one] {
+            let mut unit = [o; 3];
+            unit[k] = sign;
+            add(Vector(unit), &mut directions);
+        }
+    }
+    add(points.axis, &mut directions);
+    add(points.axis.scale(-one), &mut directions);
+    let mut found: Vec<Place> = vec![];
+    let mut push = |centre: Vector<Expr>, rod: Option<(Expr, Vector<Expr>)>| {
+        let is_known = found.iter().any(|p| p.centre == centre && p.rod == rod);
+        if !is_known && found.len() < MAX_BODIES {
+            found.push(Place { centre, rod });
+        }
+    };
+    for &length in lengths {
+        for u in &directions {
+            for base in points.joints.iter().chain(&points.ends) {
+                push(*base + u.scale(length), None);
+            }
+        }
+    }
+    for &end in &points.ends {
+        push(end, None);
+    }
+    for (&a, &b) in points.joints.iter().flat_map(|a| points.ends.iter().map(move |b| (a, b))) {
+        let way = b - a;
+        if !is_zero(&way) {
+            let along = directions.iter().copied().find(|u| is_zero(&way.cross(*u)));
+            let rod = along.map(|u| (way.dot(u), u));
+            push((a + b).scale(half()), rod);
+            push((a + b).scale(half()), None);
+        }
+    }
+    for &length in lengths {
+        for u in &directions {
+            for base in points.joints.iter().chain(&points.ends) {
+                push(*base + u.scale(length * half()), Some((length, *u)));
+            }
+        }
+    }
+    for &joint in &points.joints {
+        push(joint, None);
+    }
+    found
+}
+
+/// The bodies that link `k` may have, in the frame of its row: `meaning` is what a symbol of the document stands for there.
+pub(super) fn bodies(
+    d: &Description,
+    row: usize,
+    k: usize,
+    is_last: bool,
+    roles: &BTreeMap<Symbol, Role>,
+    meaning: &dyn Fn(Symbol) -> Expr,
+) -> Vec<Ten> {
+    let o = Expr::int(0);
+    if let Some(body) = d.rows[row].body() {
+        return vec![body.parameters()];
+    }
+    let of = |wanted: &dyn Fn(Role) -> bool| -> Vec<Expr> {
+        roles.iter().filter(|(_, r)| wanted(**r)).map(|(s, _)| meaning(*s)).collect()
+    };
+    if roles.values().any(|r| matches!(r, Role::Ten(..))) {
+        // Khalil's numbers, those that the document does not mention with names of their own.
+        let ten: Ten = std::array::from_fn(|at| {
+            let own = of(&|r| r == Role::Ten(k, at) || at == 9 && r == Role::Mass(Some(k)));
+            own.first().copied().unwrap_or(o)
+        });
+        return vec![ten];
+    }
+    let prefer = |own: Vec<Expr>, shared: Vec<Expr>| if own.is_empty() { shared } else { own };
+    let mut masses = prefer(of(&|r| r == Role::Mass(Some(k))), of(&|r| r == Role::Mass(None)));
+    let inertias = prefer(of(&|r| r == Role::Inertia(Some(k))), of(&|r| r == Role::Inertia(None)));
+    // `I = m l²/12` beside m_1, m_2 says what is so of each.
+    let is_general = |e: &Expr| {
+        e.symbols().iter().any(|s| matches!(roles.get(s), Some(Role::Mass(None) | Role::Length(None))))
+    };
+    let has_own = roles.values().any(|r| matches!(r, Role::Mass(Some(_))));
+    let inertias: Vec<Expr> = inertias.into_iter().filter(|e| !(has_own && is_general(e))).collect();
+    let own_lengths = of(&|r| r == Role::Length(Some(k)));
+    let lengths = prefer(own_lengths, of(&|r| r == Role::Length(None)));
+    let axes: [Option<Expr>; 3] = [0, 1, 2].map(|axis| of(&|r| r == Role::About(k, axis)).first().copied());
+    let has_axes = axes.iter().any(Option::is_some);
+    if masses.is_empty() {
+        masses.push(o);
+    }
+    let points = points(d, row);
+    let loads: Vec<Expr> = if is_last { of(&|r| r == Role::Payload) } else { vec![] };
+    let mut found: Vec<Ten> = vec![];
+    let mut add = |body: Body<Expr>, mass_at_end: &dyn Fn(Body<Expr>) -> Vec<Body<Expr>>| {
+        for body in mass_at_end(body) {
+            let ten = body.parameters();
+            if found.len() < MAX_BODIES && !found.contains(&ten) {
+                found.push(ten);
+            }
+        }
+    };
+    let loaded = |body: Body<Expr>| -> Vec<Body<Expr>> {
+        match loads[..] {
+            [load] => {
+                let ends = points.ends.iter().copied();
+                let ends = ends.chain(
+                    lengths.iter().flat_map(|l| points.joints.iter().map(|p| *p + Vector([*l, o, o]))),
+                );
+                ends.map(|end| body + Body::about_centre(load, end, [o; 6])).collect()
+            }
+            _ => vec![body],
+        }
+    };
+    for &mass in &masses {
+        for place in places(d, row, &lengths) {
+            let c = place.centre;
+            let with = |tensor: [Expr; 6]| Body::about_centre(mass, c, tensor);
+            if has_axes {
+                let [x, y, z] = axes.map(|e| e.unwrap_or(o));
+                add(with([x, o, o, y, o, z]), &loaded);
+                // About the joint.
+                for &joint in &points.joints {
+                    let mut body = Body::about_centre(mass, c - joint, [o; 6]);
+                    body.inertia = [x, o, o, y, o, z];
+                    add(body.seen_from(&Transform::translation(joint[0], joint[1], joint[2])), &loaded);
+                }
+                continue;
+            }
+            for &inertia in &inertias {
+                add(with([inertia, o, o, inertia, o, inertia]), &loaded);
+            }
+            for &inertia in &inertias {
+                for &joint in &points.joints {
+                    let mut body = Body::about_centre(mass, c - joint, [o; 6]);
+                    body.inertia = [inertia, o, o, inertia, o, inertia];
+                    add(body.seen_from(&Transform::translation(joint[0], joint[1], joint[2])), &loaded);
+                }
+                if let Some((_, u)) = place.rod {
+                    add(with(slender(inertia, &u)), &loaded);
+                }
+                add(with(slender(inertia, &Vector([Expr::int(1), o, o]))), &loaded);
+            }
+            if inertias.is_empty() {
+                add(with([o; 6]), &loaded);
+                if let Some((length, u)) = place.rod {
+                    let twelfth = Expr::from(Rational::new(1, 12));
+                    add(with(slender(twelfth * mass * length.powi(2), &u)), &loaded);
+                }
+            }
+        }
+    }
+    found
+}
+
+/// The inertia of a thin rod along a direction.
+fn slender(inertia: Expr, u: &Vector<Expr>) -> [Expr; 6] {
+    let one = Expr::int(1);
+    let at = |i: usize, j: usize| {
+        let own = if i == j { one } else { Expr::int(0) };
+        inertia * (own - u[i] * u[j])
+    };
+    [at(0, 0), at(0, 1), at(0, 2), at(1, 1), at(1, 2), at(2, 2)]
+}

@@ -1,0 +1,211 @@
+//! Formulas of dynamics: torques, inertia matrices, Coriolis and centrifugal torques, gravity, energies, held against the robot with
+//! masses.
+//!
+//! The statements that speak of dynamics are taken out of a document (`taken`), names get their meaning (`words`), statements become
+//! formulas with what they may be (`statements`, `matrices`, `quantity`). Where centres of mass are, about which point inertias are meant and along what
+//! gravity acts is read as most of the document is right (`bodies`, `vote`, `attempt`); what is right then is proved by the robot's own
+//! dynamics (`model`), what is wrong in every such reading has its slip looked for (`repair`), unless it follows from what is
+//! wrong before it (`author`, `verdict`).
+
+mod attempt;
+mod author;
+mod bodies;
+mod matrices;
+mod model;
+mod quantity;
+mod repair;
+mod statements;
+mod taken;
+mod verdict;
+mod vote;
+mod words;
+
+use crate::facts::{About, Dynamic};
+use crate::note::Unreadable;
+use crate::outcome::{Claim, Entry, Finding, Skipped, Unjudged};
+use crate::plan::Plan;
+use denavit_reading::document::{Document, Side, Statement};
+use quantity::Quantity;
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::rc::Rc;
+use verdict::{By, Said};
+
+/// What is said of a document's dynamics.
+#[derive(Default)]
+pub(super) struct Judged {
+    pub claims: Vec<Claim>,
+    pub unjudged: Vec<Unjudged>,
+}
+
+/// Takes the statements about dynamics out of a document.
+pub(super) fn taken(text: &str, document: &mut Document, rows: &[Range<usize>]) -> Vec<Statement> {
+    taken::taken(text, document, rows)
+}
+
+/// Judges the statements about dynamics; the first of its claims has the number `first` among all.
+pub(super) fn judged(text: &str, taken: &[Statement], plan: &Plan, first: usize) -> Judged {
+    let mut by_subject: BTreeMap<usize, Vec<Statement>> = BTreeMap::new();
+    for statement in taken {
+        by_subject.entry(plan.at(statement.span.start)).or_default().push(statement.clone());
+    }
+    let mut judged = Judged::default();
+    for (number, statements) in by_subject {
+        of_robot(text, &statements, plan, number, first, &mut judged);
+    }
+    judged
+}
+
+fn of_robot(text: &str, all: &[Statement], plan: &Plan, number: usize, first: usize, judged: &mut Judged) {
+    let subject = &plan.subjects[number];
+    let silent = |s: &Statement| Unjudged { span: s.span.clone(), why: Skipped::SaysNothing };
+    let attempt = attempt::best(text, subject, all);
+    let Some((attempt, (said, helpers))) =
+        attempt.and_then(|a| verdict::verdicts(text, subject, &a).map(|v| (a, v)))
+    else {
+        judged.unjudged.extend(all.iter().filter(|s| !is_general(text, s)).map(silent));
+        return;
+    };
+    let read = &attempt.read;
+    let names = Rc::new(read.vocabulary.clone());
+    // Claims in the order of the statements: those of pieces, and those of helpers that are wrong or used.
+    let mut claim_of_statement: BTreeMap<usize, usize> = BTreeMap::new();
+    let base = first + judged.claims.len();
+    let is_used = |h: usize| {
+        let helper = &read.helpers[h];
+        let uses = |k: usize| {
+            let piece = &read.pieces[k];
+            let source = text.get(piece.span.clone()).unwrap_or_default();
+            matches!(said[k], Said::Right { .. }) && words::words(source).contains(&helper.name)
+        };
+        (0..read.pieces.len()).any(uses)
+    };
+    let mut of_helpers: BTreeMap<usize, usize> = BTreeMap::new();
+    let used: Vec<bool> = (0..read.helpers.len()).map(is_used).collect();
+    // A helper of a helper that is used is used.
+    let mut used = used;
+    for h in (0..read.helpers.len()).rev() {
+        let by = |k: usize| {
+            let source = text.get(read.helpers[k].span.clone()).unwrap_or_default();
+            used[k] && words::words(source).contains(&read.helpers[h].name)
+        };
+        if !used[h] && (0..read.helpers.len()).any(by) {
+            used[h] = true;
+        }
+    }
+    for (at, _) in all.iter().enumerate() {
+        let has_piece = read.pieces.iter().any(|p| p.statement == at);
+        let helper = read.helpers.iter().position(|h| h.statement == at);
+        let is_claim = helper.is_some_and(|h| used[h] || helpers.iter().any(|x| x.0 == h));
+        if has_piece || is_claim {
+            let number = claim_of_statement.len();
+            claim_of_statement.insert(at, number);
+            if let Some(h) = helper.filter(|_| !has_piece) {
+                of_helpers.insert(h, number);
+            }
+        }
+    }
+    let claim_of = |by: By| {
+        base + match by {
+            By::Piece(k) => claim_of_statement.get(&read.pieces[k].statement).copied().unwrap_or(0),
+            By::Helper(h) => claim_of_statement.get(&read.helpers[h].statement).copied().unwrap_or(0),
+        }
+    };
+    for (at, statement) in all.iter().enumerate() {
+        if !claim_of_statement.contains_key(&at) {
+            if is_general(text, statement) {
+                continue;
+            }
+            if let Some((_, errors)) = read.unread.iter().find(|u| u.0 == at) {
+                let why = errors.first().map_or(Unreadable::NeitherFormulaNorProduct, |e| e.why.clone());
+                judged
+                    .unjudged
+                    .push(Unjudged { span: statement.span.clone(), why: Skipped::Unreadable(why) });
+            } else if let Some(h) = read.helpers.iter().find(|h| h.statement == at) {
+                let why = Skipped::Unused(h.name.clone());
+                judged.unjudged.push(Unjudged { span: statement.span.clone(), why });
+            } else if !is_given(text, statement, read) {
+                judged.unjudged.push(silent(statement));
+            }
+            continue;
+        }
+        let pieces: Vec<usize> = (0..read.pieces.len()).filter(|k| read.pieces[*k].statement == at).collect();
+        let mut entries: Vec<Entry> = pieces
+            .iter()
+            .map(|&k| verdict::entry(&read.pieces[k], &said[k], subject, &names, &claim_of))
+            .collect();
+        let about = match pieces.first() {
+            Some(&k) => About::Dynamics(kind(read.pieces[k].candidates[0])),
+            None => About::Helper,
+        };
+        if let (true, Some(h)) = (pieces.is_empty(), read.helpers.iter().position(|h| h.statement == at)) {
+            let helper = &read.helpers[h];
+            let finding = match helpers.iter().find(|x| x.0 == h) {
+                Some((_, wanted, slips)) => {
+                    Finding::Wrong(Box::new(verdict::wrong(helper.value, *wanted, slips, subject, &names)))
+                }
+                None => Finding::Equal { unless_zero: vec![] },
+            };
+            entries.push(Entry { place: None, span: helper.span.clone(), finding, identities: vec![] });
+        }
+        let name = name_of(text, statement);
+        judged.claims.push(Claim {
+            span: statement.span.clone(),
+            name,
+            about,
+            entries,
+            instead: None,
+            remarks: vec![],
+            robot: number,
+        });
+    }
+}
+
+/// The left side as printed; of one that holds matrices another side that is short.
+fn name_of(text: &str, statement: &Statement) -> String {
+    let shown = |s: &Side| text.get(s.span.clone()).unwrap_or_default().trim().to_string();
+    let is_plain = |s: &&Side| statements::formula_span(s).is_some();
+    let first = statement.sides.first().filter(is_plain).or(statement.sides.iter().find(is_plain));
+    match first.or(statement.sides.last()) {
+        Some(side) => shown(side),
+        None => String::new(),
+    }
+}
+
+/// True for what only says what torques are made of: `τ = M(q) q̈ + C(q, q̇) q̇ + g(q)`.
+fn is_general(text: &str, statement: &Statement) -> bool {
+    let source = text.get(statement.span.clone()).unwrap_or_default();
+    let has_number = words::words(source).iter().any(|w| w.chars().any(|c| c.is_ascii_digit()));
+    !has_number && source.len() < 300
+}
+
+/// True for what says what a mass, an inertia or a length is.
+fn is_given(text: &str, statement: &Statement, read: &statements::Read) -> bool {
+    let name = statement.sides.first().and_then(statements::formula_span);
+    let name = name.and_then(|span| statements::lone_name(text, &span));
+    name.is_some_and(|n| read.given.contains_key(&denavit_symbolic::Symbol::new(&statements::word(&n))))
+}
+
+/// What a quantity is called.
+fn kind(quantity: Quantity) -> Dynamic {
+    match quantity {
+        Quantity::Torque(_) | Quantity::Inertial(_) | Quantity::Moving(_) => Dynamic::Torque,
+        Quantity::Bias(_) => Dynamic::Bias,
+        Quantity::Inertia(..) | Quantity::InertiaRate(..) => Dynamic::Inertia,
+        Quantity::Velocity(_) => Dynamic::Velocity,
+        Quantity::Centrifugal(..)
+        | Quantity::Coriolis(..)
+        | Quantity::Christoffel(..)
+        | Quantity::Asada(..)
+        | Quantity::CoriolisEntry(..) => Dynamic::Coriolis,
+        Quantity::Gravity(_) => Dynamic::Gravity,
+        Quantity::Kinetic(_) => Dynamic::Kinetic,
+        Quantity::Potential(_) => Dynamic::Potential,
+        Quantity::Lagrangian => Dynamic::Lagrangian,
+        Quantity::Energy => Dynamic::Energy,
+        Quantity::Momentum(_)
+        | Quantity::MomentumRate(_)
+        | Quantity::KineticSlope(_)
+        | Quantity::LagrangianSlope(_) => Dynamic::Derivative,
+    }
+}

@@ -1,0 +1,406 @@
+//! From the statements of a document to formulas with what they may be: scalars, vectors and matrices entry by entry, and sums of
+//! products of matrices term by term.
+
+use super::model::State;
+use super::quantity::{Content, Quantity, of_scalar};
+use super::words::{Names, Role, words};
+use crate::lexis::read;
+use crate::names::{Name, Token, tokens};
+use crate::note::Unread;
+use denavit_reading::document::{Part, Relation, Side, Statement};
+use denavit_symbolic::parse::Syntax;
+use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
+use denavit_symbolic::{Expr, Symbol};
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+
+/// A formula with what it may be.
+#[derive(Clone, Debug)]
+pub(super) struct Piece {
+    /// The number of its statement among those that are read.
+    pub statement: usize,
+    pub place: Option<(usize, usize)>,
+    pub span: Range<usize>,
+    /// Nothing where it is worked out.
+    pub syntax: Option<Syntax>,
+    pub value: Expr,
+    pub candidates: Vec<Quantity>,
+    /// The row of C in which it stands, as a number among those read.
+    pub row: Option<usize>,
+    /// Nothing names it, as an equation of motion without a force: it may be right, and is never called wrong.
+    pub is_nameless: bool,
+}
+
+/// A row of a matrix C: what it gives with the rates.
+#[derive(Clone, Debug)]
+pub(super) struct Row {
+    pub pieces: Vec<usize>,
+    pub value: Expr,
+    pub joint: usize,
+}
+
+/// A name that a statement defines.
+#[derive(Clone, Debug)]
+pub(super) struct Helper {
+    pub statement: usize,
+    pub name: String,
+    pub span: Range<usize>,
+    pub syntax: Syntax,
+    pub value: Expr,
+}
+
+/// What was read.
+pub(super) struct Read {
+    pub pieces: Vec<Piece>,
+    pub rows: Vec<Row>,
+    pub helpers: Vec<Helper>,
+    /// Statements that could not be read, and why.
+    pub unread: Vec<(usize, Vec<Unread>)>,
+    pub vocabulary: Vocabulary,
+    /// What the document says that masses, inertias and lengths are.
+    pub given: BTreeMap<Symbol, Expr>,
+}
+
+/// The name that a text is, if it is one; of what it is a function, `M(\Theta)`, is left aside.
+pub(super) fn lone_name(text: &str, span: &Range<usize>) -> Option<Name> {
+    let source = text.get(span.clone())?;
+    let end = match source.find('(') {
+        Some(at) if source.trim_end().ends_with(')') && !source[..at].trim().is_empty() => {
+            let before = source[..at].trim_end();
+            let before = before.strip_suffix("\\left").unwrap_or(before);
+            let inner = &source[at..];
+            let is_one = inner.matches('(').count() == 1 && !inner.contains(['+', '=', '/']);
+            if is_one { span.start + before.trim_end().len() } else { span.end }
+        }
+        _ => span.end,
+    };
+    const WORDS: [&str; 11] = ["tau", "Tau", "Gamma", "Ekin", "Epot", "Ek", "Ep", "Ec", "KE", "PE", "Ecin"];
+    match &tokens(text, &(span.start..end), &|word| WORDS.contains(&word))?[..] {
+        [Token::Name(name)] => {
+            let mut name = name.clone();
+            match name.base.as_str() {
+                "tau" | "Tau" => name.base = "τ".into(),
+                "Gamma" => name.base = "Γ".into(),
+                _ => {}
+            }
+            Some(name)
+        }
+        _ => None,
+    }
+}
+
+/// No more formulas are read.
+const MAX_PIECES: usize = 500;
+
+/// The word of a name as formulas use it.
+pub(super) fn word(name: &Name) -> String {
+    plain_name(&format!("{}{}{}", name.base, name.sub, name.sup)).replace(',', "")
+}
+
+/// The place of a side that is one formula.
+pub(super) fn formula_span(side: &Side) -> Option<Range<usize>> {
+    let is_text = side.parts.iter().all(|p| matches!(p, Part::Text(_)));
+    (is_text && !side.span.is_empty()).then(|| side.span.clone())
+}
+
+pub(super) struct Reader<'a> {
+    pub text: &'a str,
+    pub statements: &'a [Statement],
+    names: Names,
+    pub state: &'a State,
+    pub n: usize,
+    pub read: Read,
+    /// Entries of C by row: the pieces of each column, and the statement.
+    pub entries: BTreeMap<(usize, usize), Vec<Option<usize>>>,
+}
+
+/// Reads statements about an arm.
+pub(super) fn statements(text: &str, statements: &[Statement], names: Names, state: &State) -> Read {
+    let order = in_order(text, statements);
+    let read = Read {
+        pieces: vec![],
+        rows: vec![],
+        helpers: vec![],
+        unread: vec![],
+        vocabulary: names.vocabulary.clone(),
+        given: BTreeMap::new(),
+    };
+    let n = state.q.len();
+    let mut reader = Reader { text, statements, names, state, n, read, entries: BTreeMap::new() };
+    for at in order {
+        reader.statement(at);
+    }
+    reader.rows();
+    reader.read
+}
+
+/// The statements so that names are defined before they are used.
+fn in_order(text: &str, statements: &[Statement]) -> Vec<usize> {
+    let mut defines: BTreeMap<String, Vec<usize>> = BTreeMap::new();
+    let mut own: Vec<Vec<String>> = vec![];
+    for (at, statement) in statements.iter().enumerate() {
+        let sides = statement.sides.iter().map(|s| formula_span(s).and_then(|span| lone_name(text, &span)));
+        let names: Vec<Option<String>> = sides.map(|n| n.map(|n| word(&n))).collect();
+        // Of `c_{221} = h` the first.
+        let count = if names.iter().all(Option::is_some) { 1 } else { names.len() };
+        let names: Vec<String> = names.into_iter().take(count).flatten().collect();
+        for name in &names {
+            defines.entry(name.clone()).or_default().push(at);
+        }
+        own.push(names);
+    }
+    let needs: Vec<Vec<usize>> = statements
+        .iter()
+        .enumerate()
+        .map(|(at, statement)| {
+            let sides = statement.sides.iter().map(|s| text.get(s.span.clone()).unwrap_or_default());
+            let used: BTreeSet<String> = sides.flat_map(words).filter(|w| !own[at].contains(w)).collect();
+            let places = used.iter().filter_map(|w| defines.get(w));
+            let nearest = |all: &Vec<usize>| {
+                let before = all.iter().rev().find(|k| **k < at);
+                before.or_else(|| all.iter().find(|k| **k > at)).copied()
+            };
+            places.filter_map(nearest).collect()
+        })
+        .collect();
+    let mut done = vec![false; statements.len()];
+    let mut order = vec![];
+    for start in 0..statements.len() {
+        // Depth first, with a stack of its own; what needs itself is taken as it comes.
+        let mut stack = vec![(start, 0_usize)];
+        let mut open: BTreeSet<usize> = BTreeSet::new();
+        while let Some((at, next)) = stack.pop() {
+            if done[at] {
+                continue;
+            }
+            open.insert(at);
+            match needs[at].get(next) {
+                Some(&k) => {
+                    stack.push((at, next + 1));
+                    if !done[k] && !open.contains(&k) {
+                        stack.push((k, 0));
+                    }
+                }
+                None => {
+                    done[at] = true;
+                    order.push(at);
+                }
+            }
+        }
+    }
+    order
+}
+
+/// What formulas without accelerations may speak of.
+const KINDS: [Content; 3] = [
+    Content { accelerations: false, rates: false, gravity: false },
+    Content { accelerations: false, rates: true, gravity: false },
+    Content { accelerations: false, rates: false, gravity: true },
+];
+
+impl Reader<'_> {
+    pub(super) fn content(&self, e: Expr) -> Content {
+        let mut content = Content::default();
+        for s in e.symbols() {
+            content.accelerations |= self.state.qdd.contains(&s);
+            content.rates |= self.state.qd.contains(&s);
+            content.gravity |= self.names.roles.get(&s) == Some(&Role::Gravity);
+        }
+        content
+    }
+
+    fn define(&mut self, name: &str, value: Expr) {
+        // Powers of powers are no formulas that people print.
+        if denavit_symbolic::readable::literals(value) < 20_000 {
+            self.read.vocabulary = std::mem::take(&mut self.read.vocabulary).alias(name, value);
+        }
+    }
+
+    fn statement(&mut self, at: usize) {
+        let statement = &self.statements[at];
+        let is_rounded = statement.relations.contains(&Relation::Approximate);
+        if statement.sides.len() < 2 || is_rounded || self.read.pieces.len() > MAX_PIECES {
+            return;
+        }
+        let has_grid = |s: &Side| s.parts.iter().any(|p| matches!(p, Part::Matrix(_)));
+        if statement.sides.iter().any(has_grid) {
+            self.matrices(at);
+        } else {
+            self.scalars(at);
+        }
+    }
+
+    fn scalars(&mut self, at: usize) {
+        let statement = &self.statements[at];
+        let mut names: Vec<(usize, Name)> = vec![];
+        let mut known: Option<Quantity> = None;
+        let mut formulas: Vec<(usize, Range<usize>, Syntax)> = vec![];
+        let mut errors = vec![];
+        for (i, side) in statement.sides.iter().enumerate() {
+            let Some(span) = formula_span(side) else { continue };
+            let name = lone_name(self.text, &span);
+            let is_mentioned = |name: &Name| {
+                !of_scalar(name, self.n, Content { accelerations: true, rates: false, gravity: true })
+                    .is_empty()
+            };
+            // `c_{121} = … = h`: a name that is defined there.
+            let is_new = |name: &Name| {
+                i > 0 && name.arguments.is_empty() && read(self.text, &span, &self.read.vocabulary).is_err()
+            };
+            if let Some(name) = name
+                && (i == 0 || is_mentioned(&name) || is_new(&name))
+            {
+                names.push((i, name));
+                continue;
+            }
+            if let Some(quantity) = self.derivative(&span) {
+                known = Some(quantity);
+                continue;
+            }
+            match read(self.text, &span, &self.read.vocabulary) {
+                Ok(syntax) if syntax.sign_choices() == 0 => formulas.push((i, span, syntax)),
+                Ok(_) => {}
+                Err(e) => errors.extend(e.into_iter().map(Unread::from)),
+            }
+        }
+        if formulas.is_empty() {
+            if !errors.is_empty() && (!names.is_empty() || known.is_some()) {
+                self.read.unread.push((at, errors));
+            }
+            return;
+        }
+        let is_number = formulas.iter().all(|f| f.2.value().symbols().is_empty());
+        // Zeros are entries and symbols; other numbers are values at a configuration.
+        let is_zero = formulas.iter().all(|f| f.2.value().is_zero());
+        if is_number && !is_zero {
+            return;
+        }
+        let first = names.iter().find(|(i, _)| *i == 0).map(|(_, n)| n.clone());
+        if let Some(name) = &first
+            && let Some(role) = self.names.roles.get(&Symbol::new(&word(name)))
+            && matches!(
+                role,
+                Role::Mass(_) | Role::Inertia(_) | Role::About(..) | Role::Length(_) | Role::Payload
+            )
+            && !self.content(formulas[0].2.value()).rates
+            && !self.content(formulas[0].2.value()).gravity
+        {
+            let (name, value) = (word(name), formulas[0].2.value());
+            self.read.given.insert(Symbol::new(&name), value);
+            self.define(&name, value);
+            return;
+        }
+        let mut is_judged = false;
+        let is_force =
+            |name: &Name| matches!(word(name).as_str(), "F" | "f" | "u" | "τ" | "T" | "M" | "Γ" | "Q");
+        let is_zero = |f: &(usize, Range<usize>, Syntax)| f.2.value().is_zero();
+        let is_nameless = known.is_none()
+            && (names.is_empty() && formulas.len() == 2 && formulas.iter().any(is_zero)
+                || names.len() == 1 && is_force(&names[0].1));
+        for (_, span, syntax) in &formulas {
+            let value = syntax.value();
+            let content = self.content(value);
+            let mut candidates: Vec<Quantity> = known.into_iter().collect();
+            // Zero may be of any kind.
+            let contents: &[Content] = if value.is_zero() { &KINDS } else { &[content] };
+            for (_, name) in &names {
+                for found in contents.iter().flat_map(|c| of_scalar(name, self.n, *c)) {
+                    if !candidates.contains(&found) {
+                        candidates.push(found);
+                    }
+                }
+            }
+            // `(M + m) \ddot x + … = F`, `… = 0`: the equation of some joint.
+            let names_quantity = !candidates.is_empty();
+            if candidates.is_empty() && is_nameless && content.accelerations {
+                candidates.extend((0..self.n).map(Quantity::Torque));
+            }
+            if candidates.is_empty() {
+                continue;
+            }
+            is_judged = true;
+            let entry = match candidates[..] {
+                [Quantity::CoriolisEntry(i, j)] => Some((i, j)),
+                _ => None,
+            };
+            self.read.pieces.push(Piece {
+                statement: at,
+                place: None,
+                span: span.clone(),
+                syntax: Some(syntax.clone()),
+                value,
+                candidates,
+                row: None,
+                is_nameless: is_nameless && !names_quantity,
+            });
+            if let Some((i, j)) = entry {
+                let row = self.entries.entry((usize::MAX, i)).or_insert_with(|| vec![None; self.n]);
+                row[j] = Some(self.read.pieces.len() - 1);
+            }
+        }
+        let (_, span, syntax) = &formulas[0];
+        for (_, name) in &names {
+            let (name, value) = (word(name), syntax.value());
+            if !is_judged && first.as_ref().is_some_and(|f| word(f) == name) {
+                let (name, span, syntax) = (name.clone(), span.clone(), syntax.clone());
+                self.read.helpers.push(Helper { statement: at, name, span, syntax, value });
+            }
+            self.define(&name, value);
+        }
+    }
+
+    /// The derivative of an energy that a side names: `\frac{d}{dt}\frac{\partial L}{\partial \dot\theta_1}`.
+    fn derivative(&self, span: &Range<usize>) -> Option<Quantity> {
+        let source = self.text.get(span.clone())?;
+        if source.len() > 200 {
+            return None;
+        }
+        let mut plain: String = source.chars().filter(|c| !c.is_whitespace()).collect();
+        for (look, now) in [
+            ("\\partial", "∂"),
+            ("\\mathrm{d}", "d"),
+            ("\\dfrac", "\\frac"),
+            ("\\tfrac", "\\frac"),
+            ("\\left", ""),
+            ("\\right", ""),
+            ("\\bigl", ""),
+            ("\\bigr", ""),
+            ("\\Bigl", ""),
+            ("\\Bigr", ""),
+            ("\\mathcal{L}", "L"),
+            ("\\mathcal{T}", "T"),
+            ("\\mathcal{K}", "K"),
+            ("\\mathcal{U}", "U"),
+            ("\\mathcal{P}", "P"),
+            ("\\,", ""),
+            ("\\;", ""),
+            ("\\!", ""),
+        ] {
+            plain = plain.replace(look, now);
+        }
+        let rate = ["\\frac{d}{dt}", "d/dt"].iter().find_map(|r| plain.strip_prefix(r));
+        let (is_rate, rest) = match rate {
+            Some(rest) => (true, rest),
+            None => (false, plain.as_str()),
+        };
+        let rest = rest.strip_prefix(['(', '[']).and_then(|r| r.strip_suffix([')', ']'])).unwrap_or(rest);
+        let (above, below) = match rest.strip_prefix("\\frac{∂") {
+            Some(rest) => rest.strip_suffix('}')?.split_once("}{∂")?,
+            None => rest.strip_prefix('∂')?.split_once("/∂")?,
+        };
+        let by = read(below, &(0..below.len()), &self.read.vocabulary).ok()?.value().as_symbol()?;
+        let place = |all: &[Symbol]| all.iter().position(|s| *s == by);
+        let is_kinetic = matches!(above, "T" | "K" | "E_c" | "E_k" | "E_{c}" | "E_{k}" | "k");
+        let is_potential = matches!(above, "U" | "V" | "P" | "E_p" | "E_{p}" | "u");
+        Some(match (above, place(&self.state.qd), place(&self.state.q)) {
+            ("L", Some(i), _) if is_rate => Quantity::MomentumRate(i),
+            (_, Some(i), _) if is_rate && is_kinetic => Quantity::MomentumRate(i),
+            ("L", Some(i), _) => Quantity::Momentum(i),
+            (_, Some(i), _) if is_kinetic => Quantity::Momentum(i),
+            ("L", None, Some(i)) if !is_rate => Quantity::LagrangianSlope(i),
+            (_, None, Some(i)) if is_kinetic && !is_rate => Quantity::KineticSlope(i),
+            (_, None, Some(i)) if is_potential && !is_rate => Quantity::Gravity(i),
+            _ => return None,
+        })
+    }
+}

@@ -1,0 +1,219 @@
+//! Which statements of a document are about dynamics.
+
+use super::quantity::{Content, is_coriolis, is_inertia, key, of_scalar};
+use super::statements::{formula_span, lone_name, word};
+use super::words::{Role, role, words};
+use denavit_reading::document::{Document, Part, Statement};
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+/// No more statements of dynamics are judged.
+const MAX_TAKEN: usize = 400;
+/// Longer statements are no formulas that people print.
+const LONGEST: usize = 20_000;
+/// Arms have no more joints here than an index has digits.
+const JOINTS: usize = 9;
+
+/// Words that speak of dynamics.
+const SAYS: [&str; 32] = [
+    "mass",
+    "masa",
+    "gravit",
+    "gravedad",
+    "gravidade",
+    "schwer",
+    "pesanteur",
+    "torque",
+    "couple",
+    "coppi",
+    "kinetic",
+    "kinetisch",
+    "cinétique",
+    "cinetique",
+    "cinetic",
+    "cinétic",
+    "inertia matri",
+    "mass matri",
+    "massenmatrix",
+    "trägheit",
+    "inertie",
+    "inerzia",
+    "inercia",
+    "inércia",
+    "coriolis",
+    "lagrang",
+    "dynami",
+    "dynamik",
+    "dinámic",
+    "dinamic",
+    "dinâmic",
+    "equations of motion",
+];
+
+/// True for a text that may have formulas of dynamics.
+fn may_be(text: &str) -> bool {
+    let lower = text.to_lowercase();
+    has_accelerations(text) || SAYS.iter().any(|w| lower.contains(w))
+}
+
+fn has_accelerations(source: &str) -> bool {
+    let spelled = ["\\ddot", "\u{308}", "ddq", "qdd", "ddtheta", "thetadd", "ddθ", "θdd", "ddot"];
+    spelled.iter().any(|s| source.contains(s)) || source.contains("dd(")
+}
+
+fn has_rates(source: &str) -> bool {
+    let spelled = ["\\dot", "\u{307}", "dq", "qd", "dtheta", "thetad", "dθ", "θd", "dot"];
+    spelled.iter().any(|s| source.contains(s))
+}
+
+/// What a statement mentions of dynamics.
+struct Spoken {
+    is_certain: bool,
+    words: BTreeSet<String>,
+    has_rates: bool,
+}
+
+fn spoken(source: &str, has_jacobians: bool) -> Spoken {
+    let words = words(source);
+    let has_rates = has_rates(source);
+    let has = |w: &str| words.contains(w);
+    let is_body = |w: &String| {
+        let is_jacobian = has_jacobians && w.starts_with('J');
+        let numbered = matches!(
+            role(w, JOINTS),
+            Some(Role::Mass(Some(_)) | Role::Inertia(Some(_)) | Role::About(..) | Role::Ten(..))
+        );
+        // `Ml`, `ml` and the like are products.
+        numbered && !is_jacobian && !w.starts_with("M_")
+    };
+    let lone = ["m", "M", "I", "J"].iter().any(|w| has(w));
+    let is_certain = has_accelerations(source)
+        || words.iter().any(is_body)
+        || has("m") && has("g")
+        || has("M") && has("g")
+        || lone && has_rates && !has_jacobians;
+    Spoken { is_certain, words, has_rates }
+}
+
+/// Takes the statements about dynamics out of a document; those within `rows` are of tables.
+pub(in crate::dynamics) fn taken(
+    text: &str,
+    document: &mut Document,
+    rows: &[Range<usize>],
+) -> Vec<Statement> {
+    if !may_be(text) {
+        return vec![];
+    }
+    let has_jacobians = text.to_lowercase().contains("jacob");
+    let mut is_off = false;
+    let mut found: Vec<(usize, Spoken)> = vec![];
+    let mut is_taken = vec![false; document.statements.len()];
+    let mut is_free = vec![true; document.statements.len()];
+    for (at, statement) in document.statements.iter().enumerate() {
+        for directive in &statement.directives {
+            match directive.words.trim() {
+                "off" => is_off = true,
+                "on" => is_off = false,
+                _ => {}
+            }
+        }
+        let is_row = rows.iter().any(|t| t.start <= statement.span.start && statement.span.end <= t.end);
+        if is_off || !statement.directives.is_empty() || is_row || statement.span.len() > LONGEST {
+            is_free[at] = false;
+            continue;
+        }
+        if found.len() >= 20 * MAX_TAKEN {
+            break;
+        }
+        let source = text.get(statement.span.clone()).unwrap_or_default();
+        let spoken = spoken(source, has_jacobians);
+        let is_number = statement.sides.len() < 2;
+        let is_inertia = || {
+            let name = statement.sides.first().and_then(formula_span).and_then(|s| lone_name(text, &s));
+            let role = name.and_then(|n| role(&word(&n), JOINTS));
+            matches!(role, Some(Role::Inertia(_) | Role::About(..))) && spoken.words.contains("m")
+        };
+        if (spoken.is_certain || is_inertia()) && !is_number && !is_measure(text, statement) {
+            is_taken[at] = true;
+        }
+        found.push((at, spoken));
+    }
+    if !is_taken.contains(&true) {
+        return vec![];
+    }
+    // What uses a name that is defined there, as `C` does below `h = …`.
+    for _ in 0..4 {
+        let defined: BTreeSet<String> = (0..is_taken.len())
+            .filter(|at| is_taken[*at])
+            .filter_map(|at| {
+                let side = formula_span(document.statements[at].sides.first()?)?;
+                Some(word(&lone_name(text, &side)?))
+            })
+            .collect();
+        // `c_{222} = 0` beside other symbols of the same name.
+        let family = |at: usize| {
+            let side = formula_span(document.statements[at].sides.first()?)?;
+            let (letters, digits) = key(&lone_name(text, &side)?);
+            (!digits.is_empty()).then_some((letters, digits.len()))
+        };
+        let families: BTreeSet<(String, usize)> =
+            (0..is_taken.len()).filter(|at| is_taken[*at]).filter_map(family).collect();
+        let mut is_new = false;
+        for (at, spoken) in &found {
+            if is_taken[*at] || document.statements[*at].sides.len() < 2 {
+                continue;
+            }
+            let statement = &document.statements[*at];
+            let uses = spoken.words.iter().any(|w| defined.contains(w) && !is_common(w));
+            let is_kin = || family(*at).is_some_and(|f| families.contains(&f));
+            if (uses || is_kin()) && is_of_dynamics(text, statement, spoken) {
+                is_taken[*at] = true;
+                is_new = true;
+            }
+        }
+        if !is_new {
+            break;
+        }
+    }
+    let mut taken = vec![];
+    let mut at = 0;
+    document.statements.retain(|statement| {
+        let is_here = is_taken.get(at).copied().unwrap_or(false) && is_free[at] && taken.len() < MAX_TAKEN;
+        at += 1;
+        if is_here {
+            taken.push(statement.clone());
+        }
+        !is_here
+    });
+    taken
+}
+
+/// Names of kinematics, which say nothing of dynamics.
+fn is_common(word: &str) -> bool {
+    matches!(word, "T" | "J" | "x" | "y" | "z" | "q" | "θ")
+}
+
+/// True for a statement whose left side may be a quantity of dynamics.
+fn is_of_dynamics(text: &str, statement: &Statement, spoken: &Spoken) -> bool {
+    let Some(side) = statement.sides.first().and_then(formula_span) else { return spoken.has_rates };
+    let Some(name) = lone_name(text, &side) else { return spoken.has_rates };
+    let is_grid = statement.sides.iter().flat_map(|s| &s.parts).any(|p| matches!(p, Part::Matrix(_)));
+    let kinds = [(false, true, false), (false, false, true), (false, false, false), (true, true, true)];
+    let is_scalar = kinds.iter().any(|&(accelerations, rates, gravity)| {
+        !of_scalar(&name, JOINTS, Content { accelerations, rates, gravity }).is_empty()
+    });
+    is_scalar || is_grid && (is_inertia(&name) || is_coriolis(&name) || spoken.has_rates)
+}
+
+/// True for a value in numbers, `m_1 = 2 kg`.
+fn is_measure(text: &str, statement: &Statement) -> bool {
+    let is_value =
+        |s: &str| s.trim().trim_start_matches(['-', '−']).starts_with(|c: char| c.is_ascii_digit());
+    let sides = statement.sides.iter().skip(1);
+    let is_short = |s: &str| s.split_whitespace().count() <= 2 && !s.contains(['\\', '(', '_']);
+    let shown: Vec<&str> = sides.map(|s| text.get(s.span.clone()).unwrap_or_default()).collect();
+    !shown.is_empty()
+        && shown
+            .iter()
+            .all(|s| is_value(s) && is_short(s) && words(s).iter().all(|w| role(w, 9).is_none() || w == "m"))
+}

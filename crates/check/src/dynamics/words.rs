@@ -1,0 +1,307 @@
+//! The names in formulas of dynamics: rates and accelerations in all their spellings, masses, inertias, places of centres of mass.
+
+use crate::subject::Subject;
+use denavit::description::JointKind;
+use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
+use denavit_symbolic::{Expr, Symbol, greek};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What a name of the document stands for, of a body counted from 0; nothing where it is for all bodies.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Role {
+    Mass(Option<usize>),
+    /// An inertia about some point of the body.
+    Inertia(Option<usize>),
+    /// A moment of inertia about an axis of the body's frame.
+    About(usize, usize),
+    /// A length to a centre of mass, or to an end that the table does not have.
+    Length(Option<usize>),
+    /// One of Khalil's ten numbers.
+    Ten(usize, usize),
+    /// The mass that the hand carries.
+    Payload,
+    Gravity,
+}
+
+/// The most names that are taken from a document.
+const MAX_WORDS: usize = 400;
+/// Bases of names of more than one letter.
+const BASES: [&str; 34] = [
+    "lc", "Lc", "rc", "ac", "dc", "lg", "LG", "lG", "Ic", "Jc", "IG", "JG", "Izz", "Ixx", "Iyy", "Jzz",
+    "Jxx", "Jyy", "Iz", "Ix", "Iy", "Jz", "Jx", "Jy", "MX", "MY", "MZ", "XX", "YY", "ZZ", "XY", "XZ", "YZ",
+    "IA",
+];
+
+/// The names of a text of formulas, marks of subscripts left aside.
+pub(super) fn words(source: &str) -> BTreeSet<String> {
+    let chars: Vec<char> = source.chars().collect();
+    let mut found = BTreeSet::new();
+    let mut at = 0;
+    while at < chars.len() && found.len() < MAX_WORDS {
+        let c = chars[at];
+        let base = if c == '\\' {
+            let name: String = chars[at + 1..].iter().take_while(|c| c.is_ascii_alphabetic()).collect();
+            at += 1 + name.chars().count();
+            match name.as_str() {
+                "ell" => "l".to_string(),
+                _ => match greek::letter(&name) {
+                    Some(letter) => letter.to_string(),
+                    None => {
+                        at += usize::from(name.is_empty());
+                        continue;
+                    }
+                },
+            }
+        } else if c.is_alphabetic() {
+            let run: String = chars[at..].iter().take_while(|c| c.is_alphabetic()).collect();
+            at += run.chars().count();
+            if ["sin", "cos", "sen", "tan"].iter().any(|f| run.ends_with(f)) {
+                continue;
+            }
+            run
+        } else {
+            at += 1;
+            continue;
+        };
+        let script = script(&chars, &mut at);
+        let last: String = base.chars().rev().take(1).collect();
+        let long = BASES.iter().find(|b| base.ends_with(**b)).map(|b| (*b).to_string());
+        if script.is_empty() {
+            if matches!(base.as_str(), "mL" | "ML" | "mp" | "Mp" | "mt") {
+                found.insert(base.clone());
+            }
+            base.chars().for_each(|c| {
+                found.insert(c.to_string());
+            });
+            continue;
+        }
+        for base in
+            [Some(last), long, (base.chars().count() <= 4).then(|| base.clone())].into_iter().flatten()
+        {
+            found.insert(format!("{base}{script}"));
+        }
+    }
+    found
+}
+
+/// The index behind a name: digits, small letters below the line, or what stands behind `_`.
+fn script(chars: &[char], at: &mut usize) -> String {
+    let mut script = String::new();
+    // `\bar{I}_1`
+    while chars.get(*at) == Some(&'}') && chars.get(*at + 1).is_some_and(|c| matches!(c, '_' | '}')) {
+        *at += 1;
+    }
+    loop {
+        match chars.get(*at) {
+            Some(c) if c.is_ascii_digit() => {
+                script.push(*c);
+                *at += 1;
+            }
+            Some(&c) if denavit_symbolic::parse::subscript(c).is_some() => {
+                script.extend(denavit_symbolic::parse::subscript(c));
+                *at += 1;
+            }
+            Some('_') => {
+                *at += 1;
+                if chars.get(*at) == Some(&'{') {
+                    let mut depth = 0_usize;
+                    let mut inner = String::new();
+                    for &c in chars[*at..].iter().take(40) {
+                        *at += 1;
+                        match c {
+                            '{' => depth += 1,
+                            '}' => depth -= 1,
+                            c => inner.push(c),
+                        }
+                        if depth == 0 {
+                            break;
+                        }
+                    }
+                    script += &plain_name(&without_looks(&inner));
+                } else if let Some(c) = chars.get(*at).filter(|c| c.is_alphanumeric()) {
+                    script.push(*c);
+                    *at += 1;
+                    // `l_c1`
+                    while c.is_alphabetic() && chars.get(*at).is_some_and(char::is_ascii_digit) {
+                        script.push(chars[*at]);
+                        *at += 1;
+                    }
+                }
+            }
+            _ => return script,
+        }
+    }
+}
+
+fn without_looks(inner: &str) -> String {
+    ["\\mathrm", "\\text", "\\rm", "\\ell", "\\,"]
+        .iter()
+        .fold(inner.to_string(), |s, look| s.replace(look, if *look == "\\ell" { "l" } else { "" }))
+}
+
+/// What a name may stand for, in an arm of `n` bodies.
+pub(super) fn role(word: &str, n: usize) -> Option<Role> {
+    let digits = word.chars().filter(char::is_ascii_digit).count();
+    let index = word.chars().find(char::is_ascii_digit).and_then(|c| (c as usize).checked_sub('1' as usize));
+    if digits > 1 || digits == 1 && index.is_none() {
+        return None;
+    }
+    let index = match index {
+        Some(k) if k < n => Some(k),
+        // A further mass is that of the load.
+        Some(k) if k == n => {
+            return matches!(word.trim_end_matches(char::is_numeric), "m" | "M").then_some(Role::Payload);
+        }
+        Some(_) => return None,
+        None => None,
+    };
+    let letters: String = word.chars().filter(|c| !c.is_ascii_digit() && *c != ',').collect();
+    let letters = letters.as_str();
+    const TEN: [&str; 10] = ["XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M"];
+    if let (Some(k), Some(at)) = (index, TEN.iter().position(|t| *t == letters))
+        && letters.len() == 2
+    {
+        return Some(Role::Ten(k, at));
+    }
+    if matches!(letters, "mp" | "mL" | "ML" | "Mp" | "mt" | "mload" | "mc" | "me") && index.is_none() {
+        return Some(Role::Payload);
+    }
+    match letters {
+        "m" | "M" | "ml" | "mG" => return Some(Role::Mass(index)),
+        "g" | "g0" if index.is_none() => return Some(Role::Gravity),
+        _ => {}
+    }
+    let mut marks = letters.chars();
+    match marks.next()? {
+        'I' | 'J' => {
+            let rest: &str = marks.as_str();
+            let axis = match rest {
+                "xx" | "x" | "cxx" | "cx" => Some(0),
+                "yy" | "y" | "cyy" | "cy" => Some(1),
+                "zz" | "z" | "czz" | "cz" => Some(2),
+                _ => None,
+            };
+            match (rest, axis, index) {
+                (_, Some(axis), Some(k)) => Some(Role::About(k, axis)),
+                ("" | "c" | "C" | "G" | "g" | "o" | "O" | "l" | "L" | "s" | "S" | "cm" | "zz" | "z", ..) => {
+                    Some(Role::Inertia(index))
+                }
+                _ => None,
+            }
+        }
+        'l' | 'L' | 'r' | 'a' | 'd' | 'ρ' | 'λ' | 'R' => {
+            let rest: &str = marks.as_str();
+            matches!(rest, "" | "c" | "C" | "g" | "G" | "m" | "cm" | "s" | "S").then_some(Role::Length(index))
+        }
+        _ => None,
+    }
+}
+
+/// The names of a document's dynamics.
+pub(super) struct Names {
+    pub vocabulary: Vocabulary,
+    pub roles: BTreeMap<Symbol, Role>,
+}
+
+/// Names for an arm: `state` are the symbols of joints, rates and accelerations, `rows` the rows that move. With `lengths` names
+/// `l_1, l_2` of one letter that the table does not have are the lengths in its rows.
+pub(super) fn names(
+    subject: &Subject,
+    state: &super::model::State,
+    rows: &[usize],
+    mentioned: &BTreeSet<String>,
+    lengths: Option<char>,
+) -> Names {
+    let mut vocabulary = subject.vocabulary();
+    let own = vocabulary.clone();
+    let n = rows.len();
+    let mut roles = BTreeMap::new();
+    let mut spellings: Vec<(usize, String)> = vec![];
+    let variables = subject.description.variables();
+    for (k, v) in variables.iter().enumerate() {
+        let letters: &[&str] = match v.kind {
+            JointKind::Revolute => &["θ", "t", "th", "theta", "q", "φ", "phi"],
+            JointKind::Prismatic => &["d", "r", "q", "l", "x", "s", "ρ"],
+        };
+        let is_own = |name: &str| own.lookup(name).is_some_and(|e| e.as_symbol() == Some(v.symbol));
+        let number = v.symbol.name().trim_start_matches('q').to_string();
+        let mut of: Vec<String> =
+            letters.iter().map(|l| format!("{l}{number}")).filter(|s| is_own(s)).collect();
+        of.push(v.symbol.name().to_string());
+        of.extend(subject.variables.iter().flatten().filter(|p| is_own(p)).map(|p| plain_name(p)));
+        if let Some(number) = of.iter().find_map(|s| s.strip_prefix("theta")).map(str::to_string) {
+            of.push(format!("θ{number}"));
+        }
+        of.sort();
+        of.dedup();
+        spellings.extend(of.into_iter().map(|s| (k, s)));
+    }
+    let mut rate = |name: String, value: Expr| {
+        if own.lookup(&name).is_none() {
+            vocabulary = std::mem::take(&mut vocabulary).alias(&name, value);
+        }
+    };
+    for (k, name) in &spellings {
+        let cut = name.find(|c: char| c.is_ascii_digit()).unwrap_or(name.len());
+        let (letters, number) = name.split_at(cut);
+        let [qd, qdd] = [state.qd[*k], state.qdd[*k]].map(Expr::from);
+        for (marks, value) in [("d", qd), ("dot", qd), ("dd", qdd), ("ddot", qdd)] {
+            rate(format!("{marks}{name}"), value);
+            rate(format!("{name}{marks}"), value);
+            rate(format!("{letters}{marks}{number}"), value);
+        }
+        rate(format!("{name}p"), qd);
+        rate(format!("{name}pp"), qdd);
+        rate(format!("{letters}p{number}"), qd);
+        rate(format!("{letters}pp{number}"), qdd);
+    }
+    // `\dot\theta_{12}`
+    for from in 0..n {
+        let mut digits = (from + 1).to_string();
+        let mut sums = [state.qd[from], state.qdd[from]].map(Expr::from);
+        for to in from + 1..n {
+            digits += &(to + 1).to_string();
+            sums = [sums[0] + Expr::from(state.qd[to]), sums[1] + Expr::from(state.qdd[to])];
+            for letter in ["θ", "q"] {
+                rate(format!("dot{letter}{digits}"), sums[0]);
+                rate(format!("ddot{letter}{digits}"), sums[1]);
+            }
+        }
+    }
+    for word in mentioned {
+        let Some(role) = role(word, n) else { continue };
+        let known = own.lookup(word);
+        // `d_1`, a length that the table has not, may be that to a centre of mass.
+        let is_free = match known {
+            None => true,
+            Some(e) => e.is_zero() && matches!(role, Role::Length(_)),
+        };
+        if !is_free {
+            if let (Role::Gravity, Some(symbol)) = (role, known.and_then(Expr::as_symbol)) {
+                roles.insert(symbol, role);
+            }
+            continue;
+        }
+        if let (Some(letter), Role::Length(Some(k))) = (lengths, role)
+            && word.starts_with(letter)
+            && word.chars().count() == 2
+        {
+            let row = length_of(subject, rows, k);
+            if let Some(length) = row {
+                vocabulary = std::mem::take(&mut vocabulary).alias(word, length);
+                continue;
+            }
+        }
+        vocabulary = std::mem::take(&mut vocabulary).symbol(word);
+        roles.insert(Symbol::new(word), role);
+    }
+    Names { vocabulary, roles }
+}
+
+/// The length of a link, by the row that holds it.
+fn length_of(subject: &Subject, rows: &[usize], k: usize) -> Option<Expr> {
+    let d = &subject.description;
+    let row = d.rows.get(rows[k] + usize::from(!d.convention.begins_with_joint()))?;
+    let is_slide = row.variable.is_some_and(|v| v.kind == JointKind::Prismatic);
+    [row.a, row.d].into_iter().find(|e| !e.is_zero() && !(is_slide && *e == row.d))
+}
