@@ -44,6 +44,21 @@ impl Attempt {
         self.vote.best.first().map_or(0, |b| b.score)
     }
 
+    /// The tests that are right in some reading, whatever the rest of the document says; each by itself.
+    pub fn right_alone(&self, subject: &Subject, tests: &[usize]) -> Vec<usize> {
+        let n = self.rows.len();
+        let symbols = Symbols::new(n);
+        let generic: Vec<Ten> = symbols.bodies.iter().map(|b| b.map(Expr::from)).collect();
+        let gravity = symbols.gravity.map(Expr::from);
+        let model = Model::new(&subject.description, &self.rows, &generic, gravity, self.coordinates);
+        let Some(model) = model else { return vec![] };
+        let is_right = |t: &usize| {
+            let test = std::slice::from_ref(&self.tests[*t]);
+            vote(&model, &symbols, test, &self.bodies, &self.gravities).is_some_and(|v| v.is_any_right)
+        };
+        tests.iter().copied().filter(is_right).collect()
+    }
+
     fn is_perfect(&self) -> bool {
         self.vote.best.first().is_some_and(|b| b.right.iter().all(|r| *r)) && self.read.unread.is_empty()
     }

@@ -142,6 +142,10 @@ impl Reader<'_> {
 
     /// One matrix with a name.
     fn single(&mut self, at: usize, cells: &Cells, name: &Name) -> Option<()> {
+        // `{}^2J`, `M^{-1}` are no quantities of dynamics.
+        if !name.left.is_empty() || name.is_inverse {
+            return None;
+        }
         let n = self.n;
         let content = self.content_of(cells);
         let columns = cells.first()?.len();

@@ -61,7 +61,7 @@ fn of_robot(text: &str, all: &[Statement], plan: &Plan, number: usize, first: us
     let silent = |s: &Statement| Unjudged { span: s.span.clone(), why: Skipped::SaysNothing };
     let attempt = attempt::best(text, subject, all);
     let Some((attempt, (said, helpers))) =
-        attempt.and_then(|a| verdict::verdicts(text, subject, &a).map(|v| (a, v)))
+        attempt.and_then(|a| verdict::verdicts(text, all, subject, &a).map(|v| (a, v)))
     else {
         judged.unjudged.extend(all.iter().filter(|s| !is_general(text, s)).map(silent));
         return;
@@ -175,8 +175,11 @@ fn name_of(text: &str, statement: &Statement) -> String {
 /// True for what only says what torques are made of: `τ = M(q) q̈ + C(q, q̇) q̇ + g(q)`.
 fn is_general(text: &str, statement: &Statement) -> bool {
     let source = text.get(statement.span.clone()).unwrap_or_default();
-    let has_number = words::words(source).iter().any(|w| w.chars().any(|c| c.is_ascii_digit()));
-    !has_number && source.len() < 300
+    let words = words::words(source);
+    let has_number = words.iter().any(|w| w.chars().any(|c| c.is_ascii_digit()));
+    // `m`, `I`, `l`, `g` are those of a formula.
+    let has_body = ["m", "I", "l", "g"].iter().any(|w| words.contains(*w));
+    !has_number && !has_body && source.len() < 300
 }
 
 /// True for what says what a mass, an inertia or a length is.

@@ -130,6 +130,8 @@ pub(in crate::dynamics) fn taken(
         let is_number = statement.sides.len() < 2;
         let is_inertia = || {
             let name = statement.sides.first().and_then(formula_span).and_then(|s| lone_name(text, &s));
+            let name =
+                name.filter(|n| n.left.is_empty() && !n.is_inverse && !(has_jacobians && n.base == "J"));
             let role = name.and_then(|n| role(&word(&n), JOINTS));
             matches!(role, Some(Role::Inertia(_) | Role::About(..))) && spoken.words.contains("m")
         };
@@ -209,6 +211,10 @@ fn is_of_dynamics(text: &str, statement: &Statement, spoken: &Spoken) -> bool {
 fn is_measure(text: &str, statement: &Statement) -> bool {
     let is_value =
         |s: &str| s.trim().trim_start_matches(['-', '−']).starts_with(|c: char| c.is_ascii_digit());
+    let first = statement.sides.first().and_then(formula_span);
+    if first.and_then(|s| lone_name(text, &s)).is_none() {
+        return false;
+    }
     let sides = statement.sides.iter().skip(1);
     let is_short = |s: &str| s.split_whitespace().count() <= 2 && !s.contains(['\\', '(', '_']);
     let shown: Vec<&str> = sides.map(|s| text.get(s.span.clone()).unwrap_or_default()).collect();

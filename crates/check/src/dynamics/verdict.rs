@@ -13,6 +13,7 @@ use crate::formula::Formula;
 use crate::judge::counterexample;
 use crate::outcome::{Entry, Finding, Slip, Wrong};
 use crate::subject::Subject;
+use denavit_reading::document::Statement;
 use denavit_symbolic::readable::literals;
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Equality, Expr, Symbol, equal};
@@ -51,16 +52,18 @@ const MAX_SHOWN: u64 = 300;
 /// Judges the pieces of an attempt; and of helpers those that are wrong, with what they should be.
 pub(super) fn verdicts(
     text: &str,
+    statements: &[Statement],
     subject: &Subject,
     attempt: &Attempt,
 ) -> Option<(Vec<Said>, Vec<(usize, Expr, Vec<Slip>)>)> {
     let model = attempt.model(subject, 0)?;
-    let judge = Verdicts { text, subject, attempt, model };
+    let judge = Verdicts { text, statements, subject, attempt, model };
     Some(judge.all())
 }
 
 struct Verdicts<'a> {
     text: &'a str,
+    statements: &'a [Statement],
     subject: &'a Subject,
     attempt: &'a Attempt,
     model: Model,
@@ -203,7 +206,11 @@ impl Verdicts<'_> {
         if self.fared(test) == Fared::Either || !self.attempt.vote.is_any_right && !self.attempt.is_given {
             return Said::Open(Unproved::OpenReading);
         }
-        if piece.is_nameless || self.has_foreign(piece) || self.is_special(piece) {
+        if piece.is_nameless
+            || self.has_foreign(piece)
+            || self.is_special(piece)
+            || self.is_elsewhere(k, test)
+        {
             return Said::Open(Unproved::OpenReading);
         }
         let wrong = wrongs(said);
@@ -239,6 +246,26 @@ impl Verdicts<'_> {
             },
             None => Said::Open(Unproved::OpenReading),
         }
+    }
+
+    /// True for what is right of other bodies, where the document may have turned to such: it prints the same quantity twice, or a heading
+    /// stands between.
+    fn is_elsewhere(&self, k: usize, test: usize) -> bool {
+        let (read, vote) = (&self.attempt.read, &self.attempt.vote);
+        let piece = &read.pieces[k];
+        let heading = |p: &Piece| self.statements[p.statement].heading.clone();
+        let others: Vec<(&Piece, usize)> = read
+            .pieces
+            .iter()
+            .zip(&self.attempt.test_of_piece)
+            .filter_map(|(p, t)| Some((p, (*t)?)))
+            .filter(|(_, t)| *t != test && vote.best[0].right[*t])
+            .collect();
+        let is_twice = others.iter().any(|(p, _)| p.candidates == piece.candidates);
+        let mut kin =
+            others.iter().filter(|(_, t)| vote.links[*t].iter().any(|l| vote.links[test].contains(l)));
+        let is_apart = kin.all(|(p, _)| heading(p) != heading(piece));
+        (is_twice || is_apart) && !self.attempt.right_alone(self.subject, &[test]).is_empty()
     }
 
     /// True for a formula with names that mean nothing as the document is read: friction, equal masses, another arm.

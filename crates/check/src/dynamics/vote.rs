@@ -204,8 +204,17 @@ pub(super) fn vote(
             let is_same = |other: &[[f64; 10]; POINTS]| {
                 [0, 2].iter().all(|&at| felt.iter().all(|&p| (other[at][p] - values[at][p]).abs() < 1e-9))
             };
-            if !kept.iter().any(|(_, other)| is_same(other)) {
-                kept.push((number, values));
+            // Of those that have the same effect the one that needs fewest names.
+            let names = |number: usize| -> usize {
+                let mut all: Vec<Symbol> = bodies[k][number].iter().flat_map(|e| e.symbols()).collect();
+                all.sort();
+                all.dedup();
+                all.len()
+            };
+            match kept.iter_mut().find(|(_, other)| is_same(other)) {
+                Some(known) if names(number) < names(known.0) => known.0 = number,
+                Some(_) => {}
+                None => kept.push((number, values)),
             }
         }
         chosen.push(kept);

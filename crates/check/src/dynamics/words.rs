@@ -44,6 +44,11 @@ pub(super) fn words(source: &str) -> BTreeSet<String> {
             at += 1 + name.chars().count();
             match name.as_str() {
                 "ell" => "l".to_string(),
+                "begin" | "end" => {
+                    // The name of an environment is none of the formula.
+                    at += chars[at..].iter().take_while(|c| **c != '}').take(40).count();
+                    continue;
+                }
                 _ => match greek::letter(&name) {
                     Some(letter) => letter.to_string(),
                     None => {

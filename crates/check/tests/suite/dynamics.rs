@@ -158,6 +158,31 @@ fn masses_of_a_robot_file_are_those_of_the_formulas() {
     assert_eq!(of("$$G_2 = \\frac12 m_2 g l_2 \\sin(q_1 + q_2)$$"), [Standing::Wrong]);
 }
 
+/// An arm of two links, their masses at the ends.
+const ARM: &str = "# Arm\n\nStandard DH\n\n| i | theta | d | a | alpha |\n|---|---|---|---|---|\n| 1 | θ1 | 0 | l1 | 0 |\n\
+                   | 2 | θ2 | 0 | l2 | 0 |\n\nPoint masses.\n\n$$M_{22} = m_2 l_2^2$$\n\n$$M_{12} = m_2 l_2^2 + m_2 l_1 l_2 c_2$$\n\n";
+
+#[test]
+fn what_may_be_meant_otherwise_is_not_accused() {
+    let of = |text: &str| {
+        let text = format!("{ARM}{text}\n");
+        let all = check(&text, Format::Markdown, None, &CheckOptions::default()).expect("claims");
+        let rest = all.claims.iter().skip(2).map(denavit_check::Claim::standing).collect::<Vec<_>>();
+        (rest, all.unjudged.len())
+    };
+    // Damping.
+    let torque = "m_2 l_2^2 (\\ddot\\theta_1 + \\ddot\\theta_2) + m_2 l_1 l_2 c_2 \\ddot\\theta_1 + m_2 l_1 l_2 s_2 \\dot\\theta_1^2";
+    assert_eq!(of(&format!("$$\\tau_2 = {torque}$$")).0, [Standing::Equal]);
+    assert_eq!(of(&format!("$$\\tau_2 = {torque} + d_2 \\dot\\theta_2$$")).0, [Standing::Undecided]);
+    // Equal masses, a right angle, another arm.
+    assert_eq!(of("For equal links $$M_{22} = m l^2$$").0, [Standing::Undecided]);
+    assert_eq!(of("For $\\theta_2 = 90°$ $$M_{12} = m_2 l_2^2$$").0, [Standing::Undecided]);
+    assert_eq!(of("For rods instead $$M_{22} = \\frac13 m_2 l_2^2$$").0, [Standing::Undecided]);
+    // What is none of these is wrong.
+    assert_eq!(of("$$G_2 = m_2 g l_2 c_{12}$$").0, [Standing::Equal]);
+    assert_eq!(of("$$M_{21} = m_2 l_2^2 - m_2 l_1 l_2 c_2$$").0, [Standing::Wrong]);
+}
+
 #[test]
 fn documents_without_dynamics_are_as_they_were() {
     let text = "DH parameters (standard)\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | θ1 | 0 | a1 | 0 |\n\
