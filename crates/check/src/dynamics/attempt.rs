@@ -226,9 +226,17 @@ fn told(text: &str) -> Option<(usize, bool)> {
     let mut found: Option<(usize, bool)> = None;
     for word in WORDS {
         for (at, _) in lower.match_indices(word).take(50) {
-            let start = lower[..at].rfind(['.', '\n']).map_or(0, |k| k + 1);
-            let rest = &lower[at..];
-            let end = at + rest.find(['.', '\n']).unwrap_or(rest.len());
+            // No sentence is longer that says it.
+            let mut first = at.saturating_sub(300);
+            while !lower.is_char_boundary(first) {
+                first += 1;
+            }
+            let start = lower[first..at].rfind(['.', '\n']).map_or(first, |k| first + k + 1);
+            let mut last = (at + 300).min(lower.len());
+            while !lower.is_char_boundary(last) {
+                last -= 1;
+            }
+            let end = lower[at..last].find(['.', '\n']).map_or(last, |k| at + k);
             let sentence: String =
                 lower[start..end].chars().filter(|c| !matches!(c, '$' | '{' | '}' | '\\' | '_')).collect();
             let sentence = ["hat", "vec", "mathbf"].iter().fold(sentence, |s, look| s.replace(look, ""));

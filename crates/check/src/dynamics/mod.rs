@@ -26,7 +26,7 @@ use crate::outcome::{Claim, Entry, Finding, Skipped, Unjudged};
 use crate::plan::Plan;
 use denavit_reading::document::{Document, Side, Statement};
 use quantity::Quantity;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::rc::Rc;
 use verdict::{By, Said};
@@ -71,24 +71,19 @@ fn of_robot(text: &str, all: &[Statement], plan: &Plan, number: usize, first: us
     // Claims in the order of the statements: those of pieces, and those of helpers that are wrong or used.
     let mut claim_of_statement: BTreeMap<usize, usize> = BTreeMap::new();
     let base = first + judged.claims.len();
+    let words_at = |span: &Range<usize>| words::words(text.get(span.clone()).unwrap_or_default());
+    let of_pieces: Vec<BTreeSet<String>> = read.pieces.iter().map(|p| words_at(&p.span)).collect();
+    let in_helpers: Vec<BTreeSet<String>> = read.helpers.iter().map(|h| words_at(&h.span)).collect();
     let is_used = |h: usize| {
-        let helper = &read.helpers[h];
-        let uses = |k: usize| {
-            let piece = &read.pieces[k];
-            let source = text.get(piece.span.clone()).unwrap_or_default();
-            matches!(said[k], Said::Right { .. }) && words::words(source).contains(&helper.name)
-        };
+        let uses =
+            |k: usize| matches!(said[k], Said::Right { .. }) && of_pieces[k].contains(&read.helpers[h].name);
         (0..read.pieces.len()).any(uses)
     };
     let mut of_helpers: BTreeMap<usize, usize> = BTreeMap::new();
-    let used: Vec<bool> = (0..read.helpers.len()).map(is_used).collect();
+    let mut used: Vec<bool> = (0..read.helpers.len()).map(is_used).collect();
     // A helper of a helper that is used is used.
-    let mut used = used;
     for h in (0..read.helpers.len()).rev() {
-        let by = |k: usize| {
-            let source = text.get(read.helpers[k].span.clone()).unwrap_or_default();
-            used[k] && words::words(source).contains(&read.helpers[h].name)
-        };
+        let by = |k: usize| used[k] && in_helpers[k].contains(&read.helpers[h].name);
         if !used[h] && (0..read.helpers.len()).any(by) {
             used[h] = true;
         }

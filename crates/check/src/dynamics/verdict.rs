@@ -17,6 +17,7 @@ use denavit_reading::document::Statement;
 use denavit_symbolic::readable::literals;
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Equality, Expr, Symbol, equal};
+use std::cell::Cell;
 use std::rc::Rc;
 
 /// What is said of a piece.
@@ -44,6 +45,8 @@ pub(super) enum By {
     Helper(usize),
 }
 
+/// No more formulas are refuted.
+const MAX_REFUTED: usize = 60;
 /// No more readings are asked for a slip.
 const MAX_READINGS: usize = 6;
 /// No formula with more literals is shown.
@@ -57,7 +60,7 @@ pub(super) fn verdicts(
     attempt: &Attempt,
 ) -> Option<(Vec<Said>, Vec<(usize, Expr, Vec<Slip>)>)> {
     let model = attempt.model(subject, 0)?;
-    let judge = Verdicts { text, statements, subject, attempt, model };
+    let judge = Verdicts { text, statements, subject, attempt, model, refuted: Cell::new(0) };
     Some(judge.all())
 }
 
@@ -67,6 +70,8 @@ struct Verdicts<'a> {
     subject: &'a Subject,
     attempt: &'a Attempt,
     model: Model,
+    /// The formulas that were refuted so far.
+    refuted: Cell<usize>,
 }
 
 /// How a test fared in the readings that are as good as the best.
@@ -203,6 +208,10 @@ impl Verdicts<'_> {
     fn refuted(&self, k: usize, said: &[Option<Said>], repairer: &mut Repairer, author: &Author) -> Said {
         let piece = &self.attempt.read.pieces[k];
         let Some(test) = self.attempt.test_of_piece[k] else { return Said::Open(Unproved::NotFound) };
+        self.refuted.set(self.refuted.get() + 1);
+        if self.refuted.get() > MAX_REFUTED {
+            return Said::Open(Unproved::NotFound);
+        }
         if self.fared(test) == Fared::Either || !self.attempt.vote.is_any_right && !self.attempt.is_given {
             return Said::Open(Unproved::OpenReading);
         }
