@@ -145,12 +145,11 @@ pub(in crate::dynamics) fn taken(
     }
     // What uses a name that is defined there, as `C` does below `h = …`.
     for _ in 0..4 {
+        // `c_{121} = … = h` defines both.
         let defined: BTreeSet<String> = (0..is_taken.len())
             .filter(|at| is_taken[*at])
-            .filter_map(|at| {
-                let side = formula_span(document.statements[at].sides.first()?)?;
-                Some(word(&lone_name(text, &side)?))
-            })
+            .flat_map(|at| &document.statements[at].sides)
+            .filter_map(|side| Some(word(&lone_name(text, &formula_span(side)?)?)))
             .collect();
         // `c_{222} = 0` beside other symbols of the same name.
         let family = |at: usize| {
