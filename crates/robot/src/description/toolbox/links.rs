@@ -191,8 +191,8 @@ impl Run<'_> {
             match (role, cell) {
                 (Some(role), Ok(cell)) => drop(link.cells.insert(role, cell)),
                 (None, Ok(cell)) => match cell.number {
-                    Some(sigma) if sigma == 1.0 => link.moves = Moves::Slides,
-                    Some(sigma) if sigma == 0.0 => {}
+                    Some(1.0) => link.moves = Moves::Slides,
+                    Some(0.0) => {}
                     _ => link.lost = Some(self.lost(&place, "is neither 0 nor 1")),
                 },
                 (_, Err(lost)) => drop(link.lost.get_or_insert(lost)),

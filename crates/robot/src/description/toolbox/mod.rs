@@ -13,6 +13,7 @@ mod links;
 mod names;
 mod parse;
 mod places;
+mod ranges;
 mod run;
 mod signs;
 mod statements;

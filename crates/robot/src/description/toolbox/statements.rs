@@ -262,24 +262,26 @@ impl Parser<'_> {
     fn matlab_function(&mut self) -> Option<Act> {
         self.at += 1;
         let mut results = vec![];
-        let name;
-        if self.take("[") {
-            while !matches!(self.word(), "]") && !matches!(self.kind(), Kind::End) {
-                results.extend(self.name());
-                self.take(",");
+        let name = if self.take("[") {
+            while self.word() != "]" && !matches!(self.kind(), Kind::End | Kind::Line) {
+                match self.name() {
+                    Some(name) => results.push(name),
+                    None => self.at += 1,
+                }
             }
             self.take("]");
             self.take("=");
-            name = self.name()?;
+            self.name()?
         } else {
             let first = self.name()?;
-            name = if self.take("=") {
-                results.push(first);
-                self.name()?
-            } else {
-                first
-            };
-        }
+            match self.take("=") {
+                true => {
+                    results.push(first);
+                    self.name()?
+                }
+                false => first,
+            }
+        };
         let mut parameters = vec![];
         if self.take("(") {
             while self.word() != ")" && !matches!(self.kind(), Kind::End | Kind::Line) {
