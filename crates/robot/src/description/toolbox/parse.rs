@@ -107,7 +107,7 @@ pub(super) struct Function {
 /// The statements of a program.
 pub(super) fn program(text: &str, language: Language) -> Vec<Statement> {
     let mut parser =
-        Parser { text, language, tokens: tokens(text, language), at: 0, depth: 0, brackets: vec![] };
+        Parser { text, language, tokens: tokens(text, language), at: 0, depth: 0, work: 0, brackets: vec![] };
     let mut found = vec![];
     while parser.kind() != Kind::End {
         let before = parser.at;
@@ -115,6 +115,10 @@ pub(super) fn program(text: &str, language: Language) -> Vec<Statement> {
         if parser.at == before {
             parser.at += 1;
         }
+    }
+    // Blocks in blocks that do not end as they begin are read again and again.
+    if parser.is_too_much() {
+        found.push(Statement { act: Act::Unread, span: 0..0 });
     }
     found
 }
@@ -125,6 +129,8 @@ pub(super) struct Parser<'t> {
     pub(super) tokens: Vec<Token>,
     pub(super) at: usize,
     pub(super) depth: usize,
+    /// Statements and words that were read, those that were read again among them.
+    pub(super) work: usize,
     /// Brackets under way: in `[` and `{` of MATLAB blanks part values.
     pub(super) brackets: Vec<char>,
 }

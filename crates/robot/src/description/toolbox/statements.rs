@@ -3,6 +3,9 @@
 use super::code::Kind;
 use super::parse::{Act, Form, Function, MAX_DEPTH, Node, Parser, Round, Statement};
 
+/// How often each word may be read.
+const MAX_WORK: usize = 200;
+
 impl Parser<'_> {
     /// Statements up to a dedent, or to one of these words.
     pub(super) fn block(&mut self, ends: &[&str]) -> Vec<Statement> {
@@ -19,6 +22,7 @@ impl Parser<'_> {
                 Kind::Line => self.at += 1,
                 Kind::Indent => self.at += 1,
                 _ if ends.contains(&self.word()) => break,
+                _ if self.is_too_much() => self.at = self.tokens.len() - 1,
                 _ => {
                     let (start, before) = (self.start(), self.at);
                     let act = self.statement();
@@ -27,11 +31,17 @@ impl Parser<'_> {
                         Some(act) if self.is_ended(before) => act,
                         _ => self.left(before),
                     };
+                    self.work += 1 + self.at.saturating_sub(before);
                     found.push(Statement { act, span: start..self.end().max(start) });
                 }
             }
         }
         found
+    }
+
+    /// Whether so much was read that the rest is left.
+    pub(super) fn is_too_much(&self) -> bool {
+        self.work > MAX_WORK * self.tokens.len()
     }
 
     /// True at the end of a statement, which `,` ends too in MATLAB.
