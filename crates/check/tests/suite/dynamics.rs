@@ -174,6 +174,11 @@ fn what_may_be_meant_otherwise_is_not_accused() {
     let torque = "m_2 l_2^2 (\\ddot\\theta_1 + \\ddot\\theta_2) + m_2 l_1 l_2 c_2 \\ddot\\theta_1 + m_2 l_1 l_2 s_2 \\dot\\theta_1^2";
     assert_eq!(of(&format!("$$\\tau_2 = {torque}$$")).0, [Standing::Equal]);
     assert_eq!(of(&format!("$$\\tau_2 = {torque} + d_2 \\dot\\theta_2$$")).0, [Standing::Undecided]);
+    // The first link is spoken of nowhere else: d_1 might be a distance to its centre of mass.
+    let first = "(m_1 + m_2) l_1^2 \\ddot\\theta_1 + m_2 l_2^2 (\\ddot\\theta_1 + \\ddot\\theta_2) + m_2 l_1 l_2 c_2 (2\\ddot\\theta_1 + \\ddot\\theta_2) \
+                 - m_2 l_1 l_2 s_2 (2\\dot\\theta_1\\dot\\theta_2 + \\dot\\theta_2^2)";
+    assert_eq!(of(&format!("$$\\tau_1 = {first}$$")).0, [Standing::Equal]);
+    assert_eq!(of(&format!("$$\\tau_1 = {first} + d_1 \\dot\\theta_1$$")).0, [Standing::Undecided]);
     // Equal masses, a right angle, another arm.
     assert_eq!(of("For equal links $$M_{22} = m l^2$$").0, [Standing::Undecided]);
     assert_eq!(of("For $\\theta_2 = 90°$ $$M_{12} = m_2 l_2^2$$").0, [Standing::Undecided]);
