@@ -303,7 +303,7 @@ impl Reader<'_> {
     fn sum(&mut self, at: usize, terms: &[(bool, Vec<Factor<'_>>)], errors: &mut Vec<Unread>) -> Option<()> {
         let n = self.n;
         let mut columns: BTreeMap<Kind, Vec<Expr>> = BTreeMap::new();
-        let mut printed: BTreeMap<Kind, Vec<(Range<usize>, Option<Syntax>)>> = BTreeMap::new();
+        let mut printed: BTreeMap<Kind, Vec<Printed>> = BTreeMap::new();
         let before = self.read.pieces.len();
         for (is_minus, factors) in terms {
             let mut scale = if *is_minus { Expr::int(-1) } else { Expr::int(1) };
@@ -350,17 +350,17 @@ impl Reader<'_> {
                 && let ([(last, _)], Some(cells)) = (rest, &first.1)
                 && cells.len() == n
                 && cells.iter().all(|r| r.len() == n)
+                && kind == Kind::Inertial
+                && is_column_of(last, &self.state.qdd)
             {
-                if kind == Kind::Inertial && is_column_of(last, &self.state.qdd) {
-                    for (i, row) in cells.iter().enumerate() {
-                        for (j, cell) in row.iter().enumerate() {
-                            self.push(at, (i, j), cell, vec![Quantity::Inertia(i, j)]);
-                        }
+                for (i, row) in cells.iter().enumerate() {
+                    for (j, cell) in row.iter().enumerate() {
+                        self.push(at, (i, j), cell, vec![Quantity::Inertia(i, j)]);
                     }
-                    continue;
                 }
+                continue;
             }
-            let spans: Vec<(Range<usize>, Option<Syntax>)> = match (&first.1, is_plain && rest.is_empty()) {
+            let spans: Vec<Printed> = match (&first.1, is_plain && rest.is_empty()) {
                 (Some(cells), true) => {
                     entries(cells).into_iter().map(|(_, (span, s))| (span, Some(s))).collect()
                 }
@@ -416,8 +416,13 @@ impl Reader<'_> {
     }
 }
 
+/// Where a part of a sum stands, and how it is printed.
+type Printed = (Range<usize>, Option<Syntax>);
+/// A place in a matrix, and what stands there.
+type Entry = ((usize, usize), (Range<usize>, Syntax));
+
 /// The entries of a column or of a row, with their places.
-fn entries(cells: &Cells) -> Vec<((usize, usize), (Range<usize>, Syntax))> {
+fn entries(cells: &Cells) -> Vec<Entry> {
     let rows = cells.iter().enumerate();
     rows.flat_map(|(i, row)| row.iter().enumerate().map(move |(j, cell)| ((i, j), cell.clone()))).collect()
 }

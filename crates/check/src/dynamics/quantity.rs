@@ -166,17 +166,17 @@ pub(super) fn of_scalar(name: &Name, n: usize, content: Content) -> Vec<Quantity
                 found.push(Quantity::InertiaRate(i, j));
             }
         }
-        Some(&[i, j, k]) => {
-            if !accelerations && !rates && !gravity && is(&["c", "C", "Γ", "γ", "b", "h", "H", "B", "D"]) {
-                found.push(Quantity::Christoffel(k, i, j));
-                found.push(Quantity::Christoffel(i, j, k));
-                found.push(Quantity::Asada(i, j, k));
-                if j < k {
-                    found.push(Quantity::Coriolis(i, j, k));
-                }
-                if j == k {
-                    found.push(Quantity::Centrifugal(i, j));
-                }
+        Some(&[i, j, k])
+            if !accelerations && !rates && !gravity && is(&["c", "C", "Γ", "γ", "b", "h", "H", "B", "D"]) =>
+        {
+            found.push(Quantity::Christoffel(k, i, j));
+            found.push(Quantity::Christoffel(i, j, k));
+            found.push(Quantity::Asada(i, j, k));
+            if j < k {
+                found.push(Quantity::Coriolis(i, j, k));
+            }
+            if j == k {
+                found.push(Quantity::Centrifugal(i, j));
             }
         }
         _ => {}

@@ -52,13 +52,16 @@ const MAX_READINGS: usize = 6;
 /// No formula with more literals is shown.
 const MAX_SHOWN: u64 = 300;
 
+/// A helper that is wrong, by its number, with what it should be and the slips that explain it.
+pub(super) type WrongHelper = (usize, Expr, Vec<Slip>);
+
 /// Judges the pieces of an attempt; and of helpers those that are wrong, with what they should be.
 pub(super) fn verdicts(
     text: &str,
     statements: &[Statement],
     subject: &Subject,
     attempt: &Attempt,
-) -> Option<(Vec<Said>, Vec<(usize, Expr, Vec<Slip>)>)> {
+) -> Option<(Vec<Said>, Vec<WrongHelper>)> {
     let model = attempt.model(subject, 0)?;
     let judge = Verdicts { text, statements, subject, attempt, model, refuted: Cell::new(0) };
     Some(judge.all())
@@ -83,7 +86,7 @@ enum Fared {
 }
 
 impl Verdicts<'_> {
-    fn all(&self) -> (Vec<Said>, Vec<(usize, Expr, Vec<Slip>)>) {
+    fn all(&self) -> (Vec<Said>, Vec<WrongHelper>) {
         let read = &self.attempt.read;
         let mut said: Vec<Option<Said>> = read.pieces.iter().map(|_| None).collect();
         let mut repairer = Repairer::new(self.text, self.subject, read, &self.model.state);
@@ -289,25 +292,6 @@ impl Verdicts<'_> {
         let state = &self.model.state;
         known.extend(state.q.iter().chain(&state.qd).chain(&state.qdd));
         piece.value.symbols().iter().any(|s| !known.contains(s))
-    }
-
-    /// True for a formula with a coefficient of damping: what it stands in changes its sign with the rates, which nothing does in the
-    /// equations of bodies.
-    fn has_damping(&self, piece: &Piece) -> bool {
-        let state = &self.model.state;
-        let symbols = piece.value.symbols();
-        let backwards = |e: Expr| e.substitute(|s| state.qd.contains(&s).then(|| -Expr::from(s)));
-        let is_damping = |s: &Symbol| {
-            let without = piece.value.substitute(|x| (x == *s).then(|| Expr::int(0)));
-            let part = piece.value - without;
-            !equal(part, Expr::int(0)).is_equal() && equal(part, -backwards(part)).is_equal()
-        };
-        let moves = |s: &&Symbol| [&state.q, &state.qd, &state.qdd].iter().any(|all| all.contains(s));
-        let is_own = |s: &&Symbol| self.subject.description.parameters.iter().any(|p| p.symbol == **s);
-        let has_rates = symbols.iter().any(|s| state.qd.contains(s));
-        let is_even =
-            !matches!(piece.candidates.first(), Some(Quantity::Momentum(_) | Quantity::CoriolisEntry(..)));
-        has_rates && is_even && symbols.iter().filter(|s| !moves(s) && !is_own(s)).any(is_damping)
     }
 
     /// True for what is right in a special case that is not spoken of here: without gravity or at rest, where no torque of the document has
@@ -542,7 +526,7 @@ pub(super) fn entry(
             identities.extend(*identity);
             Finding::Equal { unless_zero: unless_zero.iter().map(|e| Formula::new(*e, names)).collect() }
         }
-        Said::Open(why) => Finding::Undecided { why: why.clone() },
+        Said::Open(why) => Finding::Undecided { why: *why },
         Said::Carried { by, wanted } => {
             let correct = shown(*wanted, names).iter().map(ToString::to_string).collect();
             Finding::Carried { by: claim_of(*by), correct }

@@ -308,5 +308,5 @@ fn length_of(subject: &Subject, rows: &[usize], k: usize) -> Option<Expr> {
     let d = &subject.description;
     let row = d.rows.get(rows[k] + usize::from(!d.convention.begins_with_joint()))?;
     let is_slide = row.variable.is_some_and(|v| v.kind == JointKind::Prismatic);
-    [row.a, row.d].into_iter().find(|e| !e.is_zero() && !(is_slide && *e == row.d))
+    [row.a, row.d].into_iter().find(|e| !(e.is_zero() || is_slide && *e == row.d))
 }
