@@ -235,13 +235,13 @@ fn what_is_not_followed_is_an_error_with_its_place() {
 /// Blocks in blocks that do not end as they begin are read again and again: that has a bound, beyond which nothing is taken for read.
 #[test]
 fn blocks_that_do_not_end_are_bounded() {
-    let robot = "L(1) = Link([0 0 1 0]);\nr = SerialLink(L);\n";
-    let matlab = format!("{robot}{}x = 1;\n{}", "if a\n".repeat(40), "elseif )\nend\n".repeat(40));
+    let robot = "L(1) = Link([0 0 1 0]);\nr = SerialLink(L);";
+    let matlab = format!("{}x = 1;\n{}{robot}", "if a\n".repeat(40), "elseif )\nend\n".repeat(40));
     let indent = |n: usize| " ".repeat(n);
     let heads: String = (0..40).map(|k| format!("{}if a:\n", indent(k))).collect();
     let ends: String = (0..40).rev().map(|k| format!("{0}elif ):\n{0} y = 1\n", indent(k))).collect();
     let python = format!(
-        "from roboticstoolbox import *\nr = DHRobot([RevoluteDH(a=1)])\n{heads}{}x = 1\n{ends}",
+        "from roboticstoolbox import *\n{heads}{}x = 1\n{ends}r = DHRobot([RevoluteDH(a=1)])\n",
         indent(40)
     );
     for (text, language) in [(matlab, Language::Matlab), (python, Language::Python)] {
