@@ -220,6 +220,7 @@ impl Verdicts<'_> {
         }
         if piece.is_nameless
             || self.has_foreign(piece)
+            || self.has_damping(piece)
             || self.is_special(piece)
             || self.is_elsewhere(k, test)
         {
@@ -292,6 +293,25 @@ impl Verdicts<'_> {
         let state = &self.model.state;
         known.extend(state.q.iter().chain(&state.qd).chain(&state.qdd));
         piece.value.symbols().iter().any(|s| !known.contains(s))
+    }
+
+    /// True for a formula with a coefficient of damping: what it stands in changes its sign with the rates, which nothing does in the
+    /// equations of bodies.
+    fn has_damping(&self, piece: &Piece) -> bool {
+        let state = &self.model.state;
+        let symbols = piece.value.symbols();
+        let backwards = |e: Expr| e.substitute(|s| state.qd.contains(&s).then(|| -Expr::from(s)));
+        let is_damping = |s: &Symbol| {
+            let without = piece.value.substitute(|x| (x == *s).then(|| Expr::int(0)));
+            let part = piece.value - without;
+            !equal(part, Expr::int(0)).is_equal() && equal(part, -backwards(part)).is_equal()
+        };
+        let moves = |s: &&Symbol| [&state.q, &state.qd, &state.qdd].iter().any(|all| all.contains(s));
+        let is_own = |s: &&Symbol| self.subject.description.parameters.iter().any(|p| p.symbol == **s);
+        let has_rates = symbols.iter().any(|s| state.qd.contains(s));
+        let is_even =
+            !matches!(piece.candidates.first(), Some(Quantity::Momentum(_) | Quantity::CoriolisEntry(..)));
+        has_rates && is_even && symbols.iter().filter(|s| !moves(s) && !is_own(s)).any(is_damping)
     }
 
     /// True for what is right in a special case that is not spoken of here: without gravity or at rest, where no torque of the document has
