@@ -89,7 +89,7 @@ pub fn fall(subject: &Subject, wish: &Wish) -> Result<Path, Refusal> {
     let of = |value: &dyn Fn(&Moment) -> f64| moments.iter().map(value).collect();
     let duration = moments.last().map_or(0.0, |m| m.t);
     let exact = match size > 0.0 {
-        true => format!("energy is kept to {:.0e} of its largest change", drift / size),
+        true => format!("energy is kept to {:.0e} of the largest", drift / size),
         false => "it stands still".into(),
     };
     Ok(Path {

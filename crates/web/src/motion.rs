@@ -4,7 +4,7 @@ use crate::refusal::Refusal;
 use crate::solve;
 use crate::subject::Subject;
 use crate::words;
-use denavit::dynamics::{Dynamics, drive_torques};
+use denavit::dynamics::drive_torques;
 use denavit::geometry::{Transform, Vector};
 use denavit::motion::follow::Event;
 use denavit::motion::hand::{Arc, HandChain, HandPath, Line, Orientation};
@@ -214,9 +214,10 @@ impl Sampled {
     }
 
     fn told(self, subject: &Subject) -> Path {
-        let torque = Dynamics::numeric(&subject.valued).ok().map(|arm| {
+        let heavy = subject.heavy().ok().filter(|h| h.is_known);
+        let torque = heavy.map(|h| {
             let rates = self.velocity.iter().zip(&self.acceleration);
-            self.q.iter().zip(rates).map(|(q, (qd, qdd))| drive_torques(&arm, q, qd, qdd, None)).collect()
+            self.q.iter().zip(rates).map(|(q, (qd, qdd))| drive_torques(&h.arm, q, qd, qdd, None)).collect()
         });
         Path {
             duration: self.times.last().copied().unwrap_or(0.0),

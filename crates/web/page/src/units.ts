@@ -21,7 +21,7 @@ export function unitWords(measure: Measure, units: Units): string {
 }
 
 /** How many of the shown unit one SI unit is. */
-function factor(measure: Measure, units: Units): number {
+export function factor(measure: Measure, units: Units): number {
   if (measure === "angle") return units.angles === "deg" ? 180 / Math.PI : 1;
   return measure === "length" && units.lengths === "mm" ? 1000 : 1;
 }

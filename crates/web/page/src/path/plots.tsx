@@ -5,7 +5,7 @@ import type { Joint, Path } from "../engine/types.ts";
 import { type Entry, Legend } from "../plot/legend.tsx";
 import { Plot, type Series } from "../plot/plot.tsx";
 import { look, robot } from "../state.ts";
-import { formatWithUnit, type Units, unitOf } from "../units.ts";
+import { factor, formatWithUnit, type Measure, type Units, unitOf } from "../units.ts";
 
 export function Plots({ path }: { path: Path }) {
   const joints = robot.value!.joints;
@@ -21,16 +21,15 @@ export function Plots({ path }: { path: Path }) {
       joint: k,
       name: joint.name,
       values: path.q.map((q) => q[k] ?? NaN),
-      write: (value) => formatWithUnit(value, joint.kind === "R" ? "angle" : "length", units, units.angles === "deg" && joint.kind === "R" ? 1 : undefined),
+      write: (value) => formatWithUnit(value, measure(joint.kind), units, units.angles === "deg" && joint.kind === "R" ? 1 : undefined),
     }));
   }, [path, joints, units]);
   const kinds = useMemo(() => {
     return (["R", "P"] as const)
       .filter((kind) => joints.some((joint) => joint.kind === kind))
       .map((kind) => {
-        const factor = kind === "R" ? (units.angles === "deg" ? 180 / Math.PI : 1) : units.lengths === "mm" ? 1000 : 1;
-        const of = (samples: number[][], by: number) => curves(samples, joints, kind, by, hidden);
-        return { kind, positions: of(path.q, factor), speeds: of(path.velocity, factor), torques: path.torque && of(path.torque, 1) };
+        const of = (samples: number[][], by = factor(measure(kind), units)) => curves(samples, joints, kind, by, hidden);
+        return { kind, positions: of(path.q), speeds: of(path.velocity), torques: path.torque && of(path.torque, 1) };
       });
   }, [path, joints, units, hidden]);
   const manipulability = useMemo<Series[]>(() => [{ name: "manipulability", joint: null, values: path.manipulability }], [path]);
@@ -58,7 +57,11 @@ export function Plots({ path }: { path: Path }) {
 }
 
 function unit(kind: Joint["kind"], units: Units): string {
-  return unitOf(kind === "R" ? "angle" : "length", units);
+  return unitOf(measure(kind), units);
+}
+
+function measure(kind: Joint["kind"]): Measure {
+  return kind === "R" ? "angle" : "length";
 }
 
 /** The curves of one kind of joint, in a unit that is so much of the other one. */
