@@ -49,7 +49,8 @@ cargo xtask counts dynamics [--check]
                                  the same for docs/dynamics-counts.md
 cargo xtask web [--debug]        builds the page of `denavit view`, which the next build of denavit takes in; fails if it is
                                  above its limits of size; --debug is quick, and limits nothing
-cargo xtask page                 drives the page, as it is built, in a browser
+cargo xtask page [--timed]       drives the page, as it is built, in a browser; timed: fails if it is three times slower than its
+                                 budgets
 cargo xtask certificates         certificates of the whole catalogue and of the documents, held by their checker; six by Coq
 cargo xtask descriptions         every URDF and xacro file of example-robot-data, pybullet_data and rtb-data: read, links where
                                  Pinocchio has them, chains proved
@@ -96,7 +97,8 @@ fn dispatch(arguments: &[String]) -> Result<()> {
         ["counts", "dynamics", "--check"] => dynamics_counts::run(true),
         ["web"] => web::run(false),
         ["web", "--debug"] => web::run(true),
-        ["page"] => web::drive(),
+        ["page"] => web::drive(false),
+        ["page", "--timed"] => web::drive(true),
         ["certificates"] => certificates::run(),
         ["descriptions"] => descriptions::run(),
         ["documents"] => documents::run(),

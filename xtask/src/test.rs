@@ -49,7 +49,7 @@ const QUICK: &[Step] = &[
 /// Before a release, behind all of the above.
 const FULL: &[Step] = &[
     step("limits of size", &["web"]),
-    step("page in full", &["page"]),
+    step("page in full", &["page", "--timed"]),
     step("certificates", &["certificates"]),
     step("counts of dynamics", &["counts", "dynamics", "--check"]),
     step("descriptions", &["descriptions"]),

@@ -1,15 +1,18 @@
 //! A document's dynamics read in one way: its names, its formulas, and how its bodies and its gravity are read for most of them to be right.
 
 use super::bodies::bodies;
-use super::model::{Coordinates, Model, Ten, moving_rows};
+use super::model::{Coordinates, Model, Numbers, moving_rows};
+use super::quantity::{Quantity, STYLES};
 use super::statements::{Read, statements};
-use super::vote::{Symbols, Test, Vote, vote};
+use super::told::{Told, told};
+use super::vote::{Bounds, Candidates, Reading, Symbols, Test, Vote, Voter};
 use super::words::{Role, names, words};
 use crate::subject::Subject;
 use denavit::description::JointKind;
 use denavit_reading::document::Statement;
 use denavit_symbolic::{Expr, Symbol};
 use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 
 /// Arms with more joints are not judged: their formulas are no ones that people print.
 const MAX_JOINTS: usize = 4;
@@ -23,38 +26,40 @@ pub(super) struct Attempt {
     pub test_of_row: Vec<usize>,
     pub tests: Vec<Test>,
     pub vote: Vote,
-    pub bodies: Vec<Vec<Ten>>,
+    pub candidates: Candidates,
+    /// The arm with symbols for all numbers.
+    model: Rc<Model>,
+    symbols: Rc<Symbols>,
     pub gravities: Vec<[Expr; 3]>,
     /// The bodies are the robot's own.
     pub is_given: bool,
     pub rows: Vec<usize>,
+    /// Not all ways to read the document were tried.
+    pub is_cut: bool,
 }
 
 impl Attempt {
     /// The arm of a reading.
     pub fn model(&self, subject: &Subject, reading: usize) -> Option<Model> {
         let reading = &self.vote.best[reading];
-        let bodies: Vec<Ten> = reading.bodies.iter().zip(&self.bodies).map(|(k, all)| all[*k]).collect();
+        let bodies: Vec<Numbers> =
+            reading.bodies.iter().zip(&self.candidates.bodies).map(|(k, all)| all[*k]).collect();
         let gravity = self.gravities[reading.gravity];
         Model::new(&subject.description, &self.rows, &bodies, gravity, self.coordinates)
     }
 
     /// How many tests are right.
     pub fn score(&self) -> usize {
-        self.vote.best.first().map_or(0, |b| b.score)
+        self.vote.score()
     }
 
     /// The tests that are right in some reading, whatever the rest of the document says; each by itself.
-    pub fn right_alone(&self, subject: &Subject, tests: &[usize]) -> Vec<usize> {
-        let n = self.rows.len();
-        let symbols = Symbols::new(n);
-        let generic: Vec<Ten> = symbols.bodies.iter().map(|b| b.map(Expr::from)).collect();
-        let gravity = symbols.gravity.map(Expr::from);
-        let model = Model::new(&subject.description, &self.rows, &generic, gravity, self.coordinates);
-        let Some(model) = model else { return vec![] };
+    pub fn right_alone(&self, tests: &[usize]) -> Vec<usize> {
+        let bounds = Bounds::default();
+        let voter = Voter::new(&self.model, &self.symbols, &bounds);
         let is_right = |t: &usize| {
             let test = std::slice::from_ref(&self.tests[*t]);
-            vote(&model, &symbols, test, &self.bodies, &self.gravities).is_some_and(|v| v.is_any_right)
+            voter.vote(test, &self.candidates, &self.gravities).is_some_and(|v| v.score() > 0)
         };
         tests.iter().copied().filter(is_right).collect()
     }
@@ -74,9 +79,11 @@ pub(super) fn best(text: &str, subject: &Subject, all: &[Statement]) -> Option<A
     }
     let sources = all.iter().map(|s| text.get(s.span.clone()).unwrap_or_default());
     let mentioned: BTreeSet<String> = sources.flat_map(words).collect();
-    let symbols = Symbols::new(n);
-    let generic: Vec<Ten> = symbols.bodies.iter().map(|b| b.map(Expr::from)).collect();
+    let symbols = Rc::new(Symbols::new(n));
+    let generic: Vec<Numbers> = symbols.bodies.iter().map(|b| b.map(Expr::from)).collect();
     let gravity = symbols.gravity.map(Expr::from);
+    let told = told(text);
+    let bounds = Bounds::default();
     let own = subject.vocabulary();
     let letters = ['l', 'L', 'a', 'd', 'r'].into_iter().filter(|letter| {
         let named = |k: usize| format!("{letter}{}", k + 1);
@@ -94,13 +101,13 @@ pub(super) fn best(text: &str, subject: &Subject, all: &[Statement]) -> Option<A
     };
     let mut found: Option<Attempt> = None;
     for &coordinates in coordinates {
-        let model = Model::new(d, &rows, &generic, gravity, coordinates)?;
+        let model = Rc::new(Model::new(d, &rows, &generic, gravity, coordinates)?);
+        let voter = Voter::new(&model, &symbols, &bounds);
         for &letter in &lengths {
             let names = names(subject, &model.state, &rows, &mentioned, letter);
             let roles = names.roles.clone();
             let read = statements(text, all, names, &model.state);
-            let Some(attempt) = attempted(text, subject, &rows, &symbols, &model, coordinates, read, &roles)
-            else {
+            let Some(attempt) = attempted(subject, &rows, &voter, coordinates, read, &roles, &told) else {
                 continue;
             };
             if found.as_ref().is_none_or(|f| attempt.score() > f.score()) {
@@ -111,36 +118,39 @@ pub(super) fn best(text: &str, subject: &Subject, all: &[Statement]) -> Option<A
             }
         }
     }
-    found
+    found.map(|f| Attempt { is_cut: bounds.is_cut.get(), ..f })
 }
 
-#[expect(clippy::too_many_arguments, reason = "what one way to read rests on")]
 fn attempted(
-    text: &str,
     subject: &Subject,
     rows: &[usize],
-    symbols: &Symbols,
-    model: &Model,
+    voter: &Voter<'_>,
     coordinates: Coordinates,
-    read: Read,
+    mut read: Read,
     roles: &BTreeMap<Symbol, Role>,
+    told: &Told,
 ) -> Option<Attempt> {
     let d = &subject.description;
     let n = rows.len();
-    let meaning = |s: Symbol| read.given.get(&s).copied().unwrap_or(s.into());
     let is_given = d.has_masses();
-    let bodies: Vec<Vec<Ten>> = rows
-        .iter()
-        .enumerate()
-        .map(|(k, &row)| {
-            let nothing = [Expr::int(0); 10];
-            match is_given {
-                true => vec![d.rows[row].body().map_or(nothing, |b| b.parameters())],
-                false => bodies(d, row, k, k + 1 == n, roles, &meaning),
+    let given = read.given.clone();
+    let meaning = |s: Symbol| given.get(&s).copied().unwrap_or(s.into());
+    let all_bodies = |told: &Told| -> Vec<Vec<Numbers>> {
+        let of = |(k, &row): (usize, &usize)| match is_given {
+            true => vec![given_numbers(&d.rows[row])],
+            false => {
+                let (all, is_cut) = bodies(d, row, k, k + 1 == n, roles, &meaning, told.inertia);
+                if is_cut {
+                    voter.bounds.is_cut.set(true);
+                }
+                all
             }
-        })
-        .collect();
-    let (gravities, told) = gravities(text, subject, roles);
+        };
+        rows.iter().enumerate().map(of).collect()
+    };
+    let state = &voter.model.state;
+    let candidates = Candidates::new(all_bodies(&Told::default()), state);
+    let strict = told.inertia.is_some().then(|| Candidates::new(all_bodies(told), state));
     let mut tests: Vec<Test> = vec![];
     let mut test_of_piece = vec![None; read.pieces.len()];
     for (k, piece) in read.pieces.iter().enumerate() {
@@ -152,16 +162,31 @@ fn attempted(
     let mut test_of_row = vec![];
     for row in &read.rows {
         test_of_row.push(tests.len());
-        tests.push(Test {
-            value: row.value,
-            candidates: vec![super::quantity::Quantity::Velocity(row.joint)],
-        });
+        tests.push(Test { value: row.value, candidates: vec![Quantity::Velocity(row.joint)] });
     }
-    let mut vote = vote(model, symbols, &tests, &bodies, &gravities)?;
-    // Among readings that are as good, the words decide.
-    if vote.best.iter().any(|b| b.gravity < told) {
-        vote.best.retain(|b| b.gravity < told);
-    }
+    let (gravities, count) = gravities(subject, roles, told, &tests);
+    let of_link = |s: Symbol| match roles.get(&s) {
+        Some(Role::Mass(Some(k))) => Some((s, *k)),
+        _ => None,
+    };
+    let masses: BTreeSet<(Symbol, usize)> =
+        tests.iter().flat_map(|t| t.value.symbols()).filter_map(of_link).collect();
+    let is_told = |s: &Symbol| match roles.get(s) {
+        Some(Role::Gravity) => told.gravity.is_some(),
+        Some(Role::Inertia(_) | Role::About(..)) => told.inertia.is_some(),
+        _ => false,
+    };
+    let tells = tests.iter().map(|t| t.value.symbols().iter().any(is_told)).collect();
+    let ways = Ways {
+        voter,
+        candidates: &candidates,
+        strict: strict.as_ref(),
+        gravities: &gravities,
+        told: count,
+        masses,
+        tells,
+    };
+    let (vote, tests) = ways.styled(tests, &mut read, &test_of_piece)?;
     let rows = rows.to_vec();
     Some(Attempt {
         coordinates,
@@ -170,15 +195,154 @@ fn attempted(
         test_of_row,
         tests,
         vote,
-        bodies,
+        candidates,
+        model: Rc::clone(voter.model),
+        symbols: Rc::clone(voter.symbols),
         gravities,
         is_given,
         rows,
+        is_cut: voter.bounds.is_cut.get(),
     })
 }
 
+/// The numbers of a link that the robot's own file gives.
+fn given_numbers(row: &denavit::description::Row) -> Numbers {
+    let o = Expr::int(0);
+    let body = row.body().map_or([o; 10], |b| b.parameters());
+    let rotor = row.rotor.unwrap_or(o);
+    std::array::from_fn(|p| body.get(p).copied().unwrap_or(rotor))
+}
+
+/// In which ways the bodies and gravity of a document may be read: all, and those that its words tell.
+struct Ways<'a> {
+    voter: &'a Voter<'a>,
+    candidates: &'a Candidates,
+    strict: Option<&'a Candidates>,
+    gravities: &'a [[Expr; 3]],
+    /// So many of them, the first, are those that are told.
+    told: usize,
+    /// The masses that formulas have, and their links.
+    masses: BTreeSet<(Symbol, usize)>,
+    /// Of each test, whether it has something of which the words tell.
+    tells: Vec<bool>,
+}
+
+impl Ways<'_> {
+    /// What the words tell counts, if as much is right so; else it is open which of the two is meant.
+    fn vote(&self, tests: &[Test]) -> Option<Vote> {
+        let is_told = self.told < self.gravities.len() || self.strict.is_some();
+        let told = self.strict.unwrap_or(self.candidates);
+        let strict = match is_told {
+            true => self.voter.vote(tests, told, &self.gravities[..self.told]),
+            false => None,
+        };
+        let strict = strict.map(|mut vote| {
+            for reading in &mut vote.best {
+                for (k, number) in reading.bodies.iter_mut().enumerate() {
+                    let own = told.bodies[k][*number];
+                    *number = self.candidates.bodies[k].iter().position(|b| *b == own).unwrap_or(0);
+                }
+            }
+            vote
+        });
+        let any = self.voter.vote(tests, self.candidates, self.gravities);
+        let (strict, any) = (strict.map(|v| self.effective(v)), any.map(|v| self.effective(v)));
+        match (strict, any) {
+            (Some(strict), Some(any)) if strict.score() < any.score() => {
+                let mut any = any;
+                // Against the words nothing is right of which they tell.
+                let mut told = any.best[0].clone();
+                told.right.iter_mut().zip(&self.tells).for_each(|(right, tells)| *right &= !tells);
+                any.is_many |= strict.is_many;
+                any.best.extend(strict.best);
+                any.best.push(told);
+                Some(any)
+            }
+            (Some(strict), _) => Some(strict),
+            (None, any) => any,
+        }
+    }
+
+    /// A mass that formulas have has an effect, where that is so in a reading that is as good.
+    fn effective(&self, mut vote: Vote) -> Vote {
+        let state = &self.voter.model.state;
+        let has = |reading: &Reading| {
+            self.masses.iter().all(|&(symbol, k)| {
+                vote.has_effect(reading, k, &self.candidates.bodies[k][reading.bodies[k]], symbol, state)
+            })
+        };
+        let effects: Vec<bool> = vote.best.iter().map(has).collect();
+        if effects.contains(&true) {
+            let mut effects = effects.into_iter();
+            vote.best.retain(|_| effects.next() == Some(true));
+        }
+        vote
+    }
+
+    /// With one meaning for each letter with three indices: that with which most is right, all of those that are as good.
+    fn styled(
+        &self,
+        tests: Vec<Test>,
+        read: &mut Read,
+        test_of_piece: &[Option<usize>],
+    ) -> Option<(Vote, Vec<Test>)> {
+        let mut families: BTreeMap<String, Vec<(usize, [usize; 3])>> = BTreeMap::new();
+        for (k, piece) in read.pieces.iter().enumerate() {
+            if let Some((letters, indices)) = &piece.symbol {
+                families.entry(letters.clone()).or_default().push((k, *indices));
+            }
+        }
+        let mut tests = tests;
+        let mut found: Option<Vote> = None;
+        for (letters, pieces) in families.iter().take(MAX_FAMILIES) {
+            let mut best: Option<(usize, Vote, Vec<Test>)> = None;
+            for style in STYLES {
+                if read.styles.get(letters).is_some_and(|told| *told != style) {
+                    continue;
+                }
+                let mut styled = tests.clone();
+                for &(k, indices) in pieces {
+                    if let Some(test) = test_of_piece[k] {
+                        styled[test].candidates = style.quantity(indices).into_iter().collect();
+                    }
+                }
+                let Some(mut vote) = self.vote(&styled) else { continue };
+                let score = vote.score();
+                match &mut best {
+                    Some((top, _, _)) if *top > score => {}
+                    Some((top, known, _)) if *top == score => {
+                        known.is_many |= vote.is_many;
+                        known.best.append(&mut vote.best);
+                    }
+                    _ => best = Some((score, vote, styled)),
+                }
+            }
+            let (_, vote, styled) = best?;
+            (found, tests) = (Some(vote), styled);
+        }
+        for (piece, test) in read.pieces.iter_mut().zip(test_of_piece) {
+            if let (Some(test), true) = (test, piece.symbol.is_some()) {
+                piece.candidates = tests[*test].candidates.clone();
+            }
+        }
+        let vote = match found {
+            Some(vote) => vote,
+            None => self.vote(&tests)?,
+        };
+        Some((vote, tests))
+    }
+}
+
+/// No document has more letters with three indices.
+const MAX_FAMILIES: usize = 3;
+
 /// The accelerations of gravity that a document may mean, the more usual ones first, and how many of them its words or the robot tell.
-fn gravities(text: &str, subject: &Subject, roles: &BTreeMap<Symbol, Role>) -> (Vec<[Expr; 3]>, usize) {
+fn gravities(
+    subject: &Subject,
+    roles: &BTreeMap<Symbol, Role>,
+    told: &Told,
+    tests: &[Test],
+) -> (Vec<[Expr; 3]>, usize) {
     let o = Expr::int(0);
     let g = roles.iter().find(|(_, r)| **r == Role::Gravity).map(|(s, _)| Expr::from(*s));
     if let Some(given) = subject.description.gravity {
@@ -194,9 +358,8 @@ fn gravities(text: &str, subject: &Subject, roles: &BTreeMap<Symbol, Role>) -> (
         return (vec![given], 1);
     }
     let Some(g) = g else { return (vec![[o; 3]], 1) };
-    let told = told(text);
     let mut axes: [(usize, bool); 6] = [(1, true), (2, true), (0, true), (0, false), (1, false), (2, false)];
-    axes.sort_by_key(|a| Some(*a) != told);
+    axes.sort_by_key(|a| Some(*a) != told.gravity);
     let mut found: Vec<[Expr; 3]> = axes
         .iter()
         .map(|&(axis, is_down)| {
@@ -205,56 +368,10 @@ fn gravities(text: &str, subject: &Subject, roles: &BTreeMap<Symbol, Role>) -> (
             v
         })
         .collect();
-    found.push([o; 3]);
-    (found, usize::from(told.is_some()))
-}
-
-/// The direction in which a sentence says that gravity acts: the axis, and whether against it.
-fn told(text: &str) -> Option<(usize, bool)> {
-    const WORDS: [&str; 9] = [
-        "gravit",
-        "schwerkraft",
-        "schwerebeschl",
-        "erdbeschl",
-        "pesanteur",
-        "gravedad",
-        "gravidade",
-        "gravità",
-        "weight",
-    ];
-    let lower = text.to_lowercase();
-    let mut found: Option<(usize, bool)> = None;
-    for word in WORDS {
-        for (at, _) in lower.match_indices(word).take(50) {
-            // No sentence is longer that says it.
-            let mut first = at.saturating_sub(300);
-            while !lower.is_char_boundary(first) {
-                first += 1;
-            }
-            let start = lower[first..at].rfind(['.', '\n']).map_or(first, |k| first + k + 1);
-            let mut last = (at + 300).min(lower.len());
-            while !lower.is_char_boundary(last) {
-                last -= 1;
-            }
-            let end = lower[at..last].find(['.', '\n']).map_or(last, |k| at + k);
-            let sentence: String =
-                lower[start..end].chars().filter(|c| !matches!(c, '$' | '{' | '}' | '\\' | '_')).collect();
-            let sentence = ["hat", "vec", "mathbf"].iter().fold(sentence, |s, look| s.replace(look, ""));
-            for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
-                for minus in ["-", "−", "–"] {
-                    for (k, _) in sentence.match_indices(&format!("{minus}{letter}")) {
-                        let behind = sentence[k + minus.len() + 1..].chars().next();
-                        if behind.is_some_and(char::is_alphabetic) {
-                            continue;
-                        }
-                        match found {
-                            Some(other) if other != (axis, true) => return None,
-                            _ => found = Some((axis, true)),
-                        }
-                    }
-                }
-            }
-        }
+    // There is some where a formula has it.
+    if !tests.iter().any(|t| g.symbols().iter().all(|s| t.value.symbols().contains(s))) {
+        found.push([o; 3]);
     }
-    found
+    let count = if told.gravity.is_some() { 1 } else { found.len() };
+    (found, count)
 }

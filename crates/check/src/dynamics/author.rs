@@ -115,7 +115,6 @@ impl Asked<'_, '_> {
                 sum(vec![self.of(Quantity::Velocity(i), depth)?, self.of(Quantity::Gravity(i), depth)?])
             }
             Quantity::Inertial(i) => inertial(i)?,
-            Quantity::Moving(i) => sum(vec![inertial(i)?, self.of(Quantity::Velocity(i), depth)?]),
             Quantity::Velocity(i) => {
                 let mut parts = vec![];
                 for j in 0..n {

@@ -1,11 +1,13 @@
 //! What the mass of a link may look like: where its centre is, and about which point its inertia is meant, in the symbols that the
 //! document has for them. The first are the more usual ones.
 
-use super::model::Ten;
+use super::model::{NUMBERS, Numbers};
+use super::told::Point;
 use super::words::Role;
 use denavit::description::{Description, JointKind};
 use denavit::geometry::{Body, Transform, Vector};
 use denavit_symbolic::{Expr, Rational, Symbol};
+use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 
 /// Where a body is and what it weighs, in the frame of its row.
@@ -18,6 +20,8 @@ struct Place {
 
 /// The most bodies of a link that are tried.
 const MAX_BODIES: usize = 600;
+/// The most of them that are worked out: many are the same.
+const MAX_TRIED: usize = 6_000;
 
 fn half() -> Expr {
     Expr::from(Rational::new(1, 2))
@@ -164,7 +168,8 @@ fn places(d: &Description, row: usize, lengths: &[Expr]) -> Vec<Place> {
     found
 }
 
-/// The bodies that link `k` may have, in the frame of its row: `meaning` is what a symbol of the document stands for there.
+/// The bodies that link `k` may have, in the frame of its row, each with the inertia of the rotor that turns it: `meaning` is what a
+/// symbol of the document stands for there, `told` the point about which its words say that inertias are. And whether there are more.
 pub(super) fn bodies(
     d: &Description,
     row: usize,
@@ -172,21 +177,29 @@ pub(super) fn bodies(
     is_last: bool,
     roles: &BTreeMap<Symbol, Role>,
     meaning: &dyn Fn(Symbol) -> Expr,
-) -> Vec<Ten> {
+    told: Option<Point>,
+) -> (Vec<Numbers>, bool) {
     let o = Expr::int(0);
+    let with_rotor = |ten: [Expr; 10], rotor: Expr| -> Numbers {
+        std::array::from_fn(|p| if p < 10 { ten[p] } else { rotor })
+    };
     if let Some(body) = d.rows[row].body() {
-        return vec![body.parameters()];
+        return (vec![with_rotor(body.parameters(), o)], false);
     }
     let of = |wanted: &dyn Fn(Role) -> bool| -> Vec<Expr> {
         roles.iter().filter(|(_, r)| wanted(**r)).map(|(s, _)| meaning(*s)).collect()
     };
     if roles.values().any(|r| matches!(r, Role::Ten(..))) {
         // Khalil's numbers, those that the document does not mention with names of their own.
-        let ten: Ten = std::array::from_fn(|at| {
-            let own = of(&|r| r == Role::Ten(k, at) || at == 9 && r == Role::Mass(Some(k)));
-            own.first().copied().unwrap_or(o)
+        let ten = std::array::from_fn(|at| {
+            let is_it = |r| match r {
+                Role::Mass(of) => at == 9 && of == Some(k),
+                Role::Rotor(of) => at + 1 == NUMBERS && of == Some(k),
+                r => r == Role::Ten(k, at),
+            };
+            of(&is_it).first().copied().unwrap_or(o)
         });
-        return vec![ten];
+        return (vec![ten], false);
     }
     let prefer = |own: Vec<Expr>, shared: Vec<Expr>| if own.is_empty() { shared } else { own };
     let mut masses = prefer(of(&|r| r == Role::Mass(Some(k))), of(&|r| r == Role::Mass(None)));
@@ -206,12 +219,30 @@ pub(super) fn bodies(
     }
     let points = points(d, row);
     let loads: Vec<Expr> = if is_last { of(&|r| r == Role::Payload) } else { vec![] };
-    let mut found: Vec<Ten> = vec![];
-    let mut add = |body: Body<Expr>, mass_at_end: &dyn Fn(Body<Expr>) -> Vec<Body<Expr>>| {
+    let rotors = prefer(of(&|r| r == Role::Rotor(Some(k))), of(&|r| r == Role::Rotor(None)));
+    // Where none is named so, `J` beside `I`, or the only inertia that there is, may be that of a rotor.
+    let mut ways: Vec<(Expr, Vec<Expr>)> = rotors.iter().map(|r| (*r, inertias.clone())).collect();
+    ways.push((o, inertias.clone()));
+    if rotors.is_empty() {
+        for (at, &rotor) in inertias.iter().enumerate() {
+            let others = inertias.iter().enumerate().filter(|(i, _)| *i != at).map(|(_, e)| *e);
+            ways.push((rotor, others.collect()));
+        }
+    }
+    let found: RefCell<Vec<Numbers>> = RefCell::default();
+    let tried = Cell::new(0);
+    let is_full = || found.borrow().len() >= MAX_BODIES || tried.get() >= MAX_TRIED;
+    let rotor_now = Cell::new(o);
+    let add = |body: Body<Expr>, mass_at_end: &dyn Fn(Body<Expr>) -> Vec<Body<Expr>>| {
+        if is_full() {
+            return;
+        }
+        tried.set(tried.get() + 1);
         for body in mass_at_end(body) {
-            let ten = body.parameters();
-            if found.len() < MAX_BODIES && !found.contains(&ten) {
-                found.push(ten);
+            let numbers = with_rotor(body.parameters(), rotor_now.get());
+            let mut found = found.borrow_mut();
+            if found.len() < MAX_BODIES && !found.contains(&numbers) {
+                found.push(numbers);
             }
         }
     };
@@ -227,34 +258,46 @@ pub(super) fn bodies(
             _ => vec![body],
         }
     };
-    for &mass in &masses {
-        for place in places(d, row, &lengths) {
+    let [is_centre, is_joint] = [Point::Centre, Point::Joint].map(|p| told.is_none_or(|t| t == p));
+    // About the joint.
+    let about_joint = |mass: Expr, c: Vector<Expr>, joint: Vector<Expr>, tensor: [Expr; 6]| {
+        let mut body = Body::about_centre(mass, c - joint, [o; 6]);
+        body.inertia = tensor;
+        body.seen_from(&Transform::translation(joint[0], joint[1], joint[2]))
+    };
+    let places = places(d, row, &lengths);
+    for (rotor, inertias) in &ways {
+        rotor_now.set(*rotor);
+        for (&mass, place) in masses.iter().flat_map(|m| places.iter().map(move |p| (m, p))) {
+            if is_full() {
+                break;
+            }
             let c = place.centre;
             let with = |tensor: [Expr; 6]| Body::about_centre(mass, c, tensor);
             if has_axes {
                 let [x, y, z] = axes.map(|e| e.unwrap_or(o));
-                add(with([x, o, o, y, o, z]), &loaded);
-                // About the joint.
-                for &joint in &points.joints {
-                    let mut body = Body::about_centre(mass, c - joint, [o; 6]);
-                    body.inertia = [x, o, o, y, o, z];
-                    add(body.seen_from(&Transform::translation(joint[0], joint[1], joint[2])), &loaded);
+                let tensor = [x, o, o, y, o, z];
+                if is_centre {
+                    add(with(tensor), &loaded);
+                }
+                for &joint in points.joints.iter().filter(|_| is_joint) {
+                    add(about_joint(mass, c, joint, tensor), &loaded);
                 }
                 continue;
             }
-            for &inertia in &inertias {
+            for &inertia in inertias.iter().filter(|_| is_centre) {
                 add(with([inertia, o, o, inertia, o, inertia]), &loaded);
             }
-            for &inertia in &inertias {
-                for &joint in &points.joints {
-                    let mut body = Body::about_centre(mass, c - joint, [o; 6]);
-                    body.inertia = [inertia, o, o, inertia, o, inertia];
-                    add(body.seen_from(&Transform::translation(joint[0], joint[1], joint[2])), &loaded);
+            for &inertia in inertias {
+                for &joint in points.joints.iter().filter(|_| is_joint) {
+                    add(about_joint(mass, c, joint, [inertia, o, o, inertia, o, inertia]), &loaded);
                 }
-                if let Some((_, u)) = place.rod {
+                if let (Some((_, u)), true) = (place.rod, is_centre) {
                     add(with(slender(inertia, &u)), &loaded);
                 }
-                add(with(slender(inertia, &Vector([Expr::int(1), o, o]))), &loaded);
+                if is_centre {
+                    add(with(slender(inertia, &Vector([Expr::int(1), o, o]))), &loaded);
+                }
             }
             if inertias.is_empty() {
                 add(with([o; 6]), &loaded);
@@ -265,7 +308,8 @@ pub(super) fn bodies(
             }
         }
     }
-    found
+    let is_cut = is_full();
+    (found.into_inner(), is_cut)
 }
 
 /// The inertia of a thin rod along a direction.

@@ -126,6 +126,8 @@ impl Reader<'_> {
             candidates,
             row: None,
             is_nameless: false,
+            symbol: None,
+            uses: vec![],
         });
     }
 
@@ -409,6 +411,8 @@ impl Reader<'_> {
                     candidates,
                     row,
                     is_nameless: false,
+                    symbol: None,
+                    uses: vec![],
                 });
             }
         }

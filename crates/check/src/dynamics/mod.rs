@@ -2,10 +2,11 @@
 //! masses.
 //!
 //! The statements that speak of dynamics are taken out of a document (`taken`), names get their meaning (`words`), statements become
-//! formulas with what they may be (`statements`, `matrices`, `quantity`). Where centres of mass are, about which point inertias are meant and along what
-//! gravity acts is read as most of the document is right (`bodies`, `vote`, `attempt`); what is right then is proved by the robot's own
-//! dynamics (`model`), what is wrong in every such reading has its slip looked for (`repair`), unless it follows from what is
-//! wrong before it (`author`, `verdict`).
+//! formulas with what they may be (`statements`, `matrices`, `quantity`). Where centres of mass are, about which point inertias are
+//! meant and along what gravity acts is read as most of the document is right (`bodies`, `vote`, `attempt`); where its sentences say
+//! it (`told`) and another reading makes more of it right, what differs is left open. What is right in the readings that are left is
+//! proved by the robot's own dynamics (`model`), what is wrong in every such reading has its slip looked for (`repair`, `together`),
+//! unless it follows from what is wrong before it (`author`, `verdict`).
 
 mod attempt;
 mod author;
@@ -16,17 +17,20 @@ mod quantity;
 mod repair;
 mod statements;
 mod taken;
+mod together;
+mod told;
 mod verdict;
 mod vote;
 mod words;
 
-use crate::facts::{About, Dynamic};
+use crate::facts::{About, Dynamic, Unproved};
+use crate::formula::Formula;
 use crate::note::Unreadable;
 use crate::outcome::{Claim, Entry, Finding, Skipped, Unjudged};
 use crate::plan::Plan;
 use denavit_reading::document::{Document, Side, Statement};
 use quantity::Quantity;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::rc::Rc;
 use verdict::{By, Said};
@@ -71,19 +75,15 @@ fn of_robot(text: &str, all: &[Statement], plan: &Plan, number: usize, first: us
     // Claims in the order of the statements: those of pieces, and those of helpers that are wrong or used.
     let mut claim_of_statement: BTreeMap<usize, usize> = BTreeMap::new();
     let base = first + judged.claims.len();
-    let words_at = |span: &Range<usize>| words::words(text.get(span.clone()).unwrap_or_default());
-    let of_pieces: Vec<BTreeSet<String>> = read.pieces.iter().map(|p| words_at(&p.span)).collect();
-    let in_helpers: Vec<BTreeSet<String>> = read.helpers.iter().map(|h| words_at(&h.span)).collect();
     let is_used = |h: usize| {
-        let uses =
-            |k: usize| matches!(said[k], Said::Right { .. }) && of_pieces[k].contains(&read.helpers[h].name);
+        let uses = |k: usize| matches!(said[k], Said::Right { .. }) && read.pieces[k].uses.contains(&h);
         (0..read.pieces.len()).any(uses)
     };
     let mut of_helpers: BTreeMap<usize, usize> = BTreeMap::new();
     let mut used: Vec<bool> = (0..read.helpers.len()).map(is_used).collect();
     // A helper of a helper that is used is used.
     for h in (0..read.helpers.len()).rev() {
-        let by = |k: usize| used[k] && in_helpers[k].contains(&read.helpers[h].name);
+        let by = |k: usize| used[k] && read.helpers[k].uses.contains(&h);
         if !used[h] && (0..read.helpers.len()).any(by) {
             used[h] = true;
         }
@@ -130,7 +130,9 @@ fn of_robot(text: &str, all: &[Statement], plan: &Plan, number: usize, first: us
             .map(|&k| verdict::entry(&read.pieces[k], &said[k], subject, &names, &claim_of))
             .collect();
         let about = match pieces.first() {
-            Some(&k) => About::Dynamics(kind(read.pieces[k].candidates[0])),
+            Some(&k) => {
+                read.pieces[k].candidates.first().map_or(About::Helper, |&q| About::Dynamics(kind(q)))
+            }
             None => About::Helper,
         };
         if let (true, Some(h)) = (pieces.is_empty(), read.helpers.iter().position(|h| h.statement == at)) {
@@ -142,6 +144,18 @@ fn of_robot(text: &str, all: &[Statement], plan: &Plan, number: usize, first: us
                 None => Finding::Equal { unless_zero: vec![] },
             };
             entries.push(Entry { place: None, span: helper.span.clone(), finding, identities: vec![] });
+            let truth = helpers.iter().find(|x| x.0 == h).map_or(helper.value, |x| x.1);
+            for (span, value) in &helper.also {
+                let finding = match denavit_symbolic::equal(*value, truth) {
+                    denavit_symbolic::Equality::Equal { conditions } => Finding::Equal {
+                        unless_zero: conditions.iter().map(|e| Formula::new(*e, &names)).collect(),
+                    },
+                    // A value in numbers is one at a configuration.
+                    _ if value.symbols().is_empty() => Finding::Undecided { why: Unproved::NotFound },
+                    _ => Finding::Wrong(Box::new(verdict::wrong(*value, truth, &[], subject, &names))),
+                };
+                entries.push(Entry { place: None, span: span.clone(), finding, identities: vec![] });
+            }
         }
         let name = name_of(text, statement);
         judged.claims.push(Claim {
@@ -187,7 +201,7 @@ fn is_given(text: &str, statement: &Statement, read: &statements::Read) -> bool 
 /// What a quantity is called.
 fn kind(quantity: Quantity) -> Dynamic {
     match quantity {
-        Quantity::Torque(_) | Quantity::Inertial(_) | Quantity::Moving(_) => Dynamic::Torque,
+        Quantity::Torque(_) | Quantity::Inertial(_) => Dynamic::Torque,
         Quantity::Bias(_) => Dynamic::Bias,
         Quantity::Inertia(..) | Quantity::InertiaRate(..) => Dynamic::Inertia,
         Quantity::Velocity(_) => Dynamic::Velocity,

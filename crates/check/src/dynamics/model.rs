@@ -1,5 +1,5 @@
 //! What the robot's own dynamics make of a quantity, for bodies and a gravity that are given, or that are symbols: all is linear in
-//! the ten numbers of each body, and affine in gravity.
+//! the numbers of each body, and affine in gravity.
 
 use super::quantity::Quantity;
 use crate::jacobians::derivative;
@@ -12,8 +12,11 @@ use denavit_symbolic::{Expr, Rational, Symbol};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
-/// The ten numbers of a body about the origin of its row's frame.
-pub(super) type Ten = [Expr; 10];
+/// How many numbers a link has.
+pub(super) const NUMBERS: usize = 11;
+
+/// The ten numbers of a body about the origin of its row's frame, and the inertia of the rotor that turns it.
+pub(super) type Numbers = [Expr; NUMBERS];
 
 /// The coordinates in which a document has its formulas.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -59,7 +62,7 @@ impl Model {
     pub fn new(
         d: &Description,
         rows: &[usize],
-        bodies: &[Ten],
+        bodies: &[Numbers],
         gravity: [Expr; 3],
         in_coordinates: Coordinates,
     ) -> Option<Model> {
@@ -69,9 +72,10 @@ impl Model {
             (row.first_moment, row.inertia_at_origin) = (None, None);
             (row.rotor, row.viscous, row.coulomb) = (None, None, None);
         }
-        for (&k, &[xx, xy, xz, yy, yz, zz, mx, my, mz, m]) in rows.iter().zip(bodies) {
+        for (&k, &[xx, xy, xz, yy, yz, zz, mx, my, mz, m, rotor]) in rows.iter().zip(bodies) {
             let row = &mut d.rows[k];
             row.mass = Some(m);
+            row.rotor = Some(rotor);
             row.first_moment = Some([mx, my, mz]);
             row.inertia_at_origin = Some([xx, xy, xz, yy, yz, zz]);
         }
@@ -88,6 +92,7 @@ impl Model {
             for (i, link) in arm.links.iter_mut().enumerate() {
                 if i != k {
                     link.body = Body::nothing();
+                    arm.drives[i].rotor = Expr::int(0);
                 }
             }
             arm
@@ -176,7 +181,6 @@ impl Model {
             Quantity::Torque(i) => row(i, qdd) + self.velocity[i] + self.gravity[i],
             Quantity::Bias(i) => self.velocity[i] + self.gravity[i],
             Quantity::Inertial(i) => row(i, qdd),
-            Quantity::Moving(i) => row(i, qdd) + self.velocity[i],
             Quantity::Inertia(i, j) => self.inertia[i][j],
             Quantity::Velocity(i) => self.velocity[i],
             Quantity::Centrifugal(i, j) => self.christoffel(i, j, j)?,

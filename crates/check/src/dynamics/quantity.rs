@@ -11,8 +11,6 @@ pub(super) enum Quantity {
     Bias(usize),
     /// A q̈
     Inertial(usize),
-    /// A q̈ + h
-    Moving(usize),
     /// An entry of the inertia matrix.
     Inertia(usize, usize),
     /// An entry of Ȧ.
@@ -100,12 +98,50 @@ pub(super) fn key(name: &Name) -> (String, String) {
 }
 
 const TORQUES: [&str; 9] = ["τ", "Γ", "Q", "u", "T", "F", "f", "M", "N"];
-const INERTIAS: [&str; 14] = ["M", "D", "A", "H", "B", "m", "d", "a", "h", "b", "J", "I", "Mm", "Λ"];
+const INERTIAS: [&str; 13] = ["M", "D", "A", "H", "B", "m", "d", "a", "h", "b", "J", "I", "Mm"];
 const VELOCITIES: [&str; 12] = ["C", "c", "h", "H", "V", "v", "b", "B", "N", "n", "S", "ν"];
 const GRAVITIES: [&str; 9] = ["G", "g", "N", "φ", "Φ", "Q", "e", "τg", "γ"];
 const KINETIC: [&str; 14] =
     ["T", "K", "k", "Ek", "Ec", "KE", "W", "E", "Ekin", "Ecin", "Wk", "Tkin", "𝒯", "𝒦"];
 const POTENTIAL: [&str; 14] = ["U", "V", "P", "u", "Ep", "PE", "E", "W", "Epot", "Wp", "Eg", "Up", "𝒰", "Π"];
+
+/// Names with three indices.
+const SYMBOLS: [&str; 9] = ["c", "C", "Γ", "γ", "b", "h", "H", "B", "D"];
+
+/// What a name with three indices means: a document has one meaning for each letter.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Style {
+    /// Christoffel's symbol whose row is the last index.
+    RowLast,
+    /// Christoffel's symbol whose row is the first index.
+    RowFirst,
+    /// ∂H_ij/∂q_k − ½ ∂H_jk/∂q_i
+    Slopes,
+    /// The factor of q̇_j q̇_k in row i.
+    Factors,
+}
+
+pub(super) const STYLES: [Style; 4] = [Style::RowLast, Style::RowFirst, Style::Slopes, Style::Factors];
+
+impl Style {
+    pub fn quantity(self, [i, j, k]: [usize; 3]) -> Option<Quantity> {
+        Some(match self {
+            Style::RowLast => Quantity::Christoffel(k, i, j),
+            Style::RowFirst => Quantity::Christoffel(i, j, k),
+            Style::Slopes => Quantity::Asada(i, j, k),
+            Style::Factors if j < k => Quantity::Coriolis(i, j, k),
+            Style::Factors if j == k => Quantity::Centrifugal(i, j),
+            Style::Factors => return None,
+        })
+    }
+}
+
+/// The letters and the indices of a name with three of them.
+pub(super) fn symbol(name: &Name, n: usize) -> Option<(String, [usize; 3])> {
+    let (letters, digits) = key(name);
+    let all = indices(&digits, n)?.try_into().ok()?;
+    SYMBOLS.contains(&letters.as_str()).then_some((letters, all))
+}
 
 /// What a scalar with a name may be, by its letters and what its formula speaks of.
 pub(super) fn of_scalar(name: &Name, n: usize, content: Content) -> Vec<Quantity> {
@@ -123,12 +159,6 @@ pub(super) fn of_scalar(name: &Name, n: usize, content: Content) -> Vec<Quantity
             if is(&TORQUES) || letters.starts_with('τ') || letters.starts_with('Γ') {
                 if accelerations {
                     found.push(Quantity::Torque(i));
-                    if !gravity {
-                        found.push(Quantity::Moving(i));
-                    }
-                    if !gravity && !rates {
-                        found.push(Quantity::Inertial(i));
-                    }
                 } else if rates && gravity {
                     found.push(Quantity::Bias(i));
                 } else if gravity && !is(&["T", "M", "F"]) {
@@ -159,25 +189,15 @@ pub(super) fn of_scalar(name: &Name, n: usize, content: Content) -> Vec<Quantity
             if is_still && is(&INERTIAS) {
                 found.push(Quantity::Inertia(i, j));
             }
-            if !accelerations && !gravity && rates && is(&["C", "c", "S", "h", "b", "V", "N"]) {
+            if !accelerations && !gravity && rates && is(&["C", "c", "h", "b", "V"]) {
                 found.push(Quantity::CoriolisEntry(i, j));
             }
             if !accelerations && rates && is(&["dotM", "dotD", "dotA", "dotH", "dotB", "dotm", "dotd"]) {
                 found.push(Quantity::InertiaRate(i, j));
             }
         }
-        Some(&[i, j, k])
-            if !accelerations && !rates && !gravity && is(&["c", "C", "Γ", "γ", "b", "h", "H", "B", "D"]) =>
-        {
-            found.push(Quantity::Christoffel(k, i, j));
-            found.push(Quantity::Christoffel(i, j, k));
-            found.push(Quantity::Asada(i, j, k));
-            if j < k {
-                found.push(Quantity::Coriolis(i, j, k));
-            }
-            if j == k {
-                found.push(Quantity::Centrifugal(i, j));
-            }
+        Some(&[i, j, k]) if !accelerations && !rates && !gravity && is(&SYMBOLS) => {
+            found.extend(STYLES.iter().filter_map(|style| style.quantity([i, j, k])));
         }
         _ => {}
     }
@@ -208,9 +228,6 @@ pub(super) fn of_vector(name: &Name, content: Content) -> Vec<fn(usize) -> Quant
     if accelerations {
         if is(&TORQUES) {
             found.push(Quantity::Torque);
-            if !gravity {
-                found.push(Quantity::Moving);
-            }
         }
     } else if rates && gravity {
         if is(&VELOCITIES) || is(&TORQUES) {
@@ -235,5 +252,5 @@ pub(super) fn is_inertia(name: &Name) -> bool {
 /// True for a name of the matrix of the velocity torques, or of one part of it.
 pub(super) fn is_coriolis(name: &Name) -> bool {
     let (letters, digits) = key(name);
-    digits.is_empty() && ["C", "c", "V", "S", "B", "N", "b", "Vm", "Cm", "D", "H"].contains(&letters.as_str())
+    digits.is_empty() && ["C", "c", "V", "B", "b", "Vm", "Cm", "D", "H"].contains(&letters.as_str())
 }

@@ -2,7 +2,7 @@
 //! products of matrices term by term.
 
 use super::model::State;
-use super::quantity::{Content, Quantity, of_scalar};
+use super::quantity::{Content, Quantity, STYLES, Style, key, of_scalar, symbol};
 use super::words::{Names, Role, words};
 use crate::lexis::read;
 use crate::names::{Name, Token, tokens};
@@ -27,8 +27,13 @@ pub(super) struct Piece {
     pub candidates: Vec<Quantity>,
     /// The row of C in which it stands, as a number among those read.
     pub row: Option<usize>,
-    /// Nothing names it, as an equation of motion without a force: it may be right, and is never called wrong.
+    /// It may be right, and is never called wrong: nothing names it, as an equation of motion without a force, or its name may be that of a
+    /// force at a link.
     pub is_nameless: bool,
+    /// The letters and the indices of a name with three.
+    pub symbol: Option<(String, [usize; 3])>,
+    /// The helpers that it uses.
+    pub uses: Vec<usize>,
 }
 
 /// A row of a matrix C: what it gives with the rates.
@@ -47,6 +52,10 @@ pub(super) struct Helper {
     pub span: Range<usize>,
     pub syntax: Syntax,
     pub value: Expr,
+    /// What else it is said to be there: `h = … = …`.
+    pub also: Vec<(Range<usize>, Expr)>,
+    /// The helpers that it uses.
+    pub uses: Vec<usize>,
 }
 
 /// What was read.
@@ -59,6 +68,8 @@ pub(super) struct Read {
     pub vocabulary: Vocabulary,
     /// What the document says that masses, inertias and lengths are.
     pub given: BTreeMap<Symbol, Expr>,
+    /// What letters with three indices mean, by symmetries that the document prints: `c_{121} = c_{211}`.
+    pub styles: BTreeMap<String, Style>,
 }
 
 /// The name that a text is, if it is one; of what it is a function, `M(\Theta)`, is left aside.
@@ -112,6 +123,8 @@ pub(super) struct Reader<'a> {
     pub read: Read,
     /// Entries of C by row: the pieces of each column, and the statement.
     pub entries: BTreeMap<(usize, usize), Vec<Option<usize>>>,
+    /// The helper that a name is at present.
+    helpers: BTreeMap<String, usize>,
 }
 
 /// Reads statements about an arm.
@@ -124,12 +137,23 @@ pub(super) fn statements(text: &str, statements: &[Statement], names: Names, sta
         unread: vec![],
         vocabulary: names.vocabulary.clone(),
         given: BTreeMap::new(),
+        styles: BTreeMap::new(),
     };
     let n = state.q.len();
-    let mut reader = Reader { text, statements, names, state, n, read, entries: BTreeMap::new() };
+    let mut reader = Reader {
+        text,
+        statements,
+        names,
+        state,
+        n,
+        read,
+        entries: BTreeMap::new(),
+        helpers: BTreeMap::new(),
+    };
     for at in order {
         reader.statement(at);
     }
+    reader.zeros();
     reader.rows();
     reader.read
 }
@@ -223,10 +247,55 @@ impl Reader<'_> {
             return;
         }
         let has_grid = |s: &Side| s.parts.iter().any(|p| matches!(p, Part::Matrix(_)));
+        let (pieces, helpers) = (self.read.pieces.len(), self.read.helpers.len());
         if statement.sides.iter().any(has_grid) {
             self.matrices(at);
         } else {
             self.scalars(at);
+        }
+        // What it uses are the helpers as they were before it.
+        let uses = |span: &Range<usize>| -> Vec<usize> {
+            let words = words(self.text.get(span.clone()).unwrap_or_default());
+            words.iter().filter_map(|w| self.helpers.get(w).copied()).collect()
+        };
+        let of_pieces: Vec<Vec<usize>> = self.read.pieces[pieces..].iter().map(|p| uses(&p.span)).collect();
+        let of_helpers: Vec<Vec<usize>> =
+            self.read.helpers[helpers..].iter().map(|h| uses(&h.span)).collect();
+        for (piece, uses) in self.read.pieces[pieces..].iter_mut().zip(of_pieces) {
+            piece.uses = uses;
+        }
+        for (k, uses) in of_helpers.into_iter().enumerate() {
+            let helper = &mut self.read.helpers[helpers + k];
+            helper.uses = uses;
+            self.helpers.insert(helper.name.clone(), helpers + k);
+        }
+    }
+
+    /// A zero is of the kind that the other formulas under its letters have: `V_2 = 0` below `V_1 = …`.
+    fn zeros(&mut self) {
+        let family = |piece: &Piece| {
+            let side = self.statements[piece.statement].sides.first()?;
+            let (letters, digits) = key(&lone_name(self.text, &formula_span(side)?)?);
+            Some((letters, digits.len()))
+        };
+        let families: Vec<Option<(String, usize)>> = self.read.pieces.iter().map(family).collect();
+        let kinds = |k: usize| -> Vec<std::mem::Discriminant<Quantity>> {
+            let kin = (0..families.len()).filter(|&i| {
+                families[i].is_some() && families[i] == families[k] && !self.read.pieces[i].value.is_zero()
+            });
+            kin.flat_map(|i| &self.read.pieces[i].candidates).map(std::mem::discriminant).collect()
+        };
+        let wanted: Vec<Option<Vec<_>>> = (0..families.len())
+            .map(|k| {
+                let piece = &self.read.pieces[k];
+                (piece.place.is_none() && piece.value.is_zero() && piece.candidates.len() > 1)
+                    .then(|| kinds(k))
+            })
+            .collect();
+        for (piece, kinds) in self.read.pieces.iter_mut().zip(wanted) {
+            if let Some(kinds) = kinds {
+                piece.candidates.retain(|q| kinds.contains(&std::mem::discriminant(q)));
+            }
         }
     }
 
@@ -297,9 +366,33 @@ impl Reader<'_> {
         let is_nameless = known.is_none()
             && (names.is_empty() && formulas.len() == 2 && formulas.iter().any(is_zero)
                 || names.len() == 1 && is_force(&names[0].1));
+        let symbols: Vec<(String, [usize; 3])> =
+            names.iter().filter_map(|(_, n)| symbol(n, self.n)).collect();
+        self.learn_style(&symbols);
+        let is_link_force = names.iter().any(|(_, name)| {
+            let (letters, digits) = key(name);
+            let joint = digits.parse::<usize>().ok().and_then(|d| d.checked_sub(1));
+            let slides = joint.is_some_and(|k| self.names.slides.get(k) == Some(&true));
+            matches!(letters.as_str(), "F" | "f" | "N" | "n") && !slides
+        });
         for (_, span, syntax) in &formulas {
             let value = syntax.value();
             let content = self.content(value);
+            if !(symbols.is_empty() || content.accelerations || content.rates || content.gravity) {
+                is_judged = true;
+                for (letters, all) in &symbols {
+                    self.read.pieces.push(Piece {
+                        symbol: Some((letters.clone(), *all)),
+                        ..self.piece(
+                            at,
+                            span,
+                            syntax,
+                            STYLES.iter().filter_map(|s| s.quantity(*all)).collect(),
+                        )
+                    });
+                }
+                continue;
+            }
             let mut candidates: Vec<Quantity> = known.into_iter().collect();
             // Zero may be of any kind.
             let contents: &[Content] = if value.is_zero() { &KINDS } else { &[content] };
@@ -324,14 +417,8 @@ impl Reader<'_> {
                 _ => None,
             };
             self.read.pieces.push(Piece {
-                statement: at,
-                place: None,
-                span: span.clone(),
-                syntax: Some(syntax.clone()),
-                value,
-                candidates,
-                row: None,
-                is_nameless: is_nameless && !names_quantity,
+                is_nameless: is_nameless && !names_quantity || is_link_force && content.accelerations,
+                ..self.piece(at, span, syntax, candidates)
             });
             if let Some((i, j)) = entry {
                 let row = self.entries.entry((usize::MAX, i)).or_insert_with(|| vec![None; self.n]);
@@ -343,9 +430,47 @@ impl Reader<'_> {
             let (name, value) = (word(name), syntax.value());
             if !is_judged && first.as_ref().is_some_and(|f| word(f) == name) {
                 let (name, span, syntax) = (name.clone(), span.clone(), syntax.clone());
-                self.read.helpers.push(Helper { statement: at, name, span, syntax, value });
+                let also = formulas[1..].iter().map(|f| (f.1.clone(), f.2.value())).collect();
+                self.read.helpers.push(Helper {
+                    statement: at,
+                    name,
+                    span,
+                    syntax,
+                    value,
+                    also,
+                    uses: vec![],
+                });
             }
             self.define(&name, value);
+        }
+    }
+
+    /// A formula that is read.
+    fn piece(&self, at: usize, span: &Range<usize>, syntax: &Syntax, candidates: Vec<Quantity>) -> Piece {
+        Piece {
+            statement: at,
+            place: None,
+            span: span.clone(),
+            syntax: Some(syntax.clone()),
+            value: syntax.value(),
+            candidates,
+            row: None,
+            is_nameless: false,
+            symbol: None,
+            uses: vec![],
+        }
+    }
+
+    /// `c_{121} = c_{211} = …` says which index is the row's.
+    fn learn_style(&mut self, symbols: &[(String, [usize; 3])]) {
+        for ((letters, a), (other, b)) in symbols.iter().zip(symbols.iter().skip(1)) {
+            let style = match (a, b) {
+                _ if letters != other || a == b => continue,
+                (&[i, j, k], &[x, y, z]) if [i, j, k] == [y, x, z] => Style::RowLast,
+                (&[i, j, k], &[x, y, z]) if [i, j, k] == [x, z, y] => Style::RowFirst,
+                _ => continue,
+            };
+            self.read.styles.entry(letters.clone()).or_insert(style);
         }
     }
 

@@ -1,6 +1,6 @@
 //! Which statements of a document are about dynamics.
 
-use super::quantity::{Content, is_coriolis, is_inertia, key, of_scalar};
+use super::quantity::{Content, Quantity, is_coriolis, is_inertia, key, of_scalar};
 use super::statements::{formula_span, lone_name, word};
 use super::words::{Role, role, words};
 use denavit_reading::document::{Document, Part, Statement};
@@ -73,7 +73,7 @@ struct Spoken {
     has_rates: bool,
 }
 
-fn spoken(source: &str, has_jacobians: bool) -> Spoken {
+fn spoken(source: &str, has_jacobians: bool, matrices: &BTreeSet<String>) -> Spoken {
     let words = words(source);
     let has_rates = has_rates(source);
     let has = |w: &str| words.contains(w);
@@ -83,8 +83,9 @@ fn spoken(source: &str, has_jacobians: bool) -> Spoken {
             role(w, JOINTS),
             Some(Role::Mass(Some(_)) | Role::Inertia(Some(_)) | Role::About(..) | Role::Ten(..))
         );
-        // `Ml`, `ml` and the like are products.
-        numbered && !is_jacobian && !w.starts_with("M_")
+        // `M_1 = [4 × 4]` is a matrix of this name.
+        let is_matrix = matches!(role(w, JOINTS), Some(Role::Mass(_))) && matrices.contains(w);
+        numbered && !is_jacobian && !is_matrix
     };
     let lone = ["m", "M", "I", "J"].iter().any(|w| has(w));
     let is_certain = has_accelerations(source)
@@ -105,6 +106,11 @@ pub(in crate::dynamics) fn taken(
         return vec![];
     }
     let has_jacobians = text.to_lowercase().contains("jacob");
+    // Names of matrices, which are no masses.
+    let is_grid = |s: &Statement| s.sides.iter().flat_map(|s| &s.parts).any(|p| matches!(p, Part::Matrix(_)));
+    let grids = document.statements.iter().filter(|s| is_grid(s)).flat_map(|s| &s.sides);
+    let matrices: BTreeSet<String> =
+        grids.filter_map(|side| Some(word(&lone_name(text, &formula_span(side)?)?))).collect();
     let mut is_off = false;
     let mut found: Vec<(usize, Spoken)> = vec![];
     let mut is_taken = vec![false; document.statements.len()];
@@ -126,14 +132,20 @@ pub(in crate::dynamics) fn taken(
             break;
         }
         let source = text.get(statement.span.clone()).unwrap_or_default();
-        let spoken = spoken(source, has_jacobians);
+        let spoken = spoken(source, has_jacobians, &matrices);
         let is_number = statement.sides.len() < 2;
         let is_inertia = || {
             let name = statement.sides.first().and_then(formula_span).and_then(|s| lone_name(text, &s));
             let name =
                 name.filter(|n| n.left.is_empty() && !n.is_inverse && !(has_jacobians && n.base == "J"));
+            // `M_{11} = m l^2`
+            let is_entry = name.as_ref().is_some_and(|n| {
+                let still = of_scalar(n, JOINTS, Content::default());
+                matches!(still[..], [Quantity::Inertia(..)])
+            });
             let role = name.and_then(|n| role(&word(&n), JOINTS));
-            matches!(role, Some(Role::Inertia(_) | Role::About(..))) && spoken.words.contains("m")
+            (matches!(role, Some(Role::Inertia(_) | Role::About(..))) || is_entry)
+                && spoken.words.contains("m")
         };
         if (spoken.is_certain || is_inertia()) && !is_number && !is_measure(text, statement) {
             is_taken[at] = true;

@@ -7,8 +7,8 @@ use super::model::Model;
 use super::quantity::Quantity;
 use super::repair::Repairer;
 use super::statements::Piece;
-use super::vote::agree;
-use crate::facts::Unproved;
+use super::vote::{agree, values};
+use crate::facts::{SlipKind, Unproved};
 use crate::formula::Formula;
 use crate::judge::counterexample;
 use crate::outcome::{Entry, Finding, Slip, Wrong};
@@ -16,7 +16,7 @@ use crate::subject::Subject;
 use denavit_reading::document::Statement;
 use denavit_symbolic::readable::literals;
 use denavit_symbolic::vocabulary::Vocabulary;
-use denavit_symbolic::{Equality, Expr, Symbol, equal};
+use denavit_symbolic::{Equality, Expr, Rational, Symbol, equal};
 use std::cell::Cell;
 use std::rc::Rc;
 
@@ -67,19 +67,19 @@ pub(super) fn verdicts(
     Some(judge.all())
 }
 
-struct Verdicts<'a> {
-    text: &'a str,
+pub(super) struct Verdicts<'a> {
+    pub(super) text: &'a str,
     statements: &'a [Statement],
     subject: &'a Subject,
-    attempt: &'a Attempt,
-    model: Model,
+    pub(super) attempt: &'a Attempt,
+    pub(super) model: Model,
     /// The formulas that were refuted so far.
     refuted: Cell<usize>,
 }
 
 /// How a test fared in the readings that are as good as the best.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Fared {
+pub(super) enum Fared {
     Right,
     Wrong,
     Either,
@@ -134,7 +134,7 @@ impl Verdicts<'_> {
         (said.into_iter().map(|s| s.unwrap_or_else(open)).collect(), helpers)
     }
 
-    fn fared(&self, test: usize) -> Fared {
+    pub(super) fn fared(&self, test: usize) -> Fared {
         let best = &self.attempt.vote.best;
         let right = best.iter().filter(|b| b.right[test]).count();
         match right {
@@ -171,16 +171,17 @@ impl Verdicts<'_> {
     }
 
     /// True if all readings that are as good want the same of a test.
-    fn is_pinned(&self, test: usize) -> bool {
+    pub(super) fn is_pinned(&self, test: usize) -> bool {
         let best = &self.attempt.vote.best;
-        let quantity = self.attempt.tests[test].candidates[0];
-        best.iter().all(|b| agree(&b.wanted[test], &best[0].wanted[test], quantity))
+        let Some(&quantity) = self.attempt.tests[test].candidates.first() else { return false };
+        !self.attempt.vote.is_many
+            && best.iter().all(|b| agree(&b.wanted[test], &best[0].wanted[test], quantity))
     }
 
     /// What the readings that are as good want of a quantity, each once.
     fn all_wanted(&self, test: usize, quantity: Quantity) -> Vec<Expr> {
         let best = &self.attempt.vote.best;
-        let first = self.attempt.tests[test].candidates[0];
+        let first = quantity;
         let mut seen: Vec<usize> = vec![];
         for k in 0..best.len() {
             if seen.len() < MAX_READINGS
@@ -215,7 +216,10 @@ impl Verdicts<'_> {
         if self.refuted.get() > MAX_REFUTED {
             return Said::Open(Unproved::NotFound);
         }
-        if self.fared(test) == Fared::Either || !self.attempt.vote.is_any_right && !self.attempt.is_given {
+        if self.fared(test) == Fared::Either
+            || self.attempt.score() == 0 && !self.attempt.is_given
+            || self.attempt.is_cut
+        {
             return Said::Open(Unproved::OpenReading);
         }
         if piece.is_nameless
@@ -248,7 +252,13 @@ impl Verdicts<'_> {
                 }
             }
         }
+        // Printed right elsewhere it may be meant for a special case here, unless it is a small slip away.
+        let is_twice = self.is_right_elsewhere(k, test);
         match best {
+            Some((_, _, slips)) if is_twice && !slips.iter().all(is_small) => {
+                Said::Open(Unproved::OpenReading)
+            }
+            None if is_twice => Said::Open(Unproved::OpenReading),
             Some((_, wanted, slips)) => Said::Wrong { wanted, slips },
             None if is_pinned && piece.candidates.len() == 1 => match self.model.value(piece.candidates[0]) {
                 Some(wanted) => {
@@ -259,6 +269,16 @@ impl Verdicts<'_> {
             },
             None => Said::Open(Unproved::OpenReading),
         }
+    }
+
+    /// True where the document prints the same quantity again, right.
+    fn is_right_elsewhere(&self, k: usize, test: usize) -> bool {
+        let read = &self.attempt.read;
+        let right = &self.attempt.vote.best[0].right;
+        let mut others = read.pieces.iter().zip(&self.attempt.test_of_piece);
+        others.any(|(p, t)| {
+            t.is_some_and(|t| t != test && right[t]) && p.candidates == read.pieces[k].candidates
+        })
     }
 
     /// True for what is right of other bodies, where the document may have turned to such: it prints the same quantity twice, or a heading
@@ -274,11 +294,11 @@ impl Verdicts<'_> {
             .filter_map(|(p, t)| Some((p, (*t)?)))
             .filter(|(_, t)| *t != test && vote.best[0].right[*t])
             .collect();
-        let is_twice = others.iter().any(|(p, _)| p.candidates == piece.candidates);
+        let is_twice = self.is_right_elsewhere(k, test);
         let mut kin =
             others.iter().filter(|(_, t)| vote.links[*t].iter().any(|l| vote.links[test].contains(l)));
         let is_apart = kin.all(|(p, _)| heading(p) != heading(piece));
-        (is_twice || is_apart) && !self.attempt.right_alone(self.subject, &[test]).is_empty()
+        (is_twice || is_apart) && !self.attempt.right_alone(&[test]).is_empty()
     }
 
     /// True for a formula with names that mean nothing as the document is read: friction, equal masses, another arm.
@@ -286,7 +306,7 @@ impl Verdicts<'_> {
         let attempt = self.attempt;
         let reading = &attempt.vote.best[0];
         let mut known: Vec<Symbol> = attempt.gravities.iter().flatten().flat_map(|e| e.symbols()).collect();
-        for (k, all) in reading.bodies.iter().zip(&attempt.bodies) {
+        for (k, all) in reading.bodies.iter().zip(&attempt.candidates.bodies) {
             known.extend(all[*k].iter().flat_map(|e| e.symbols()));
         }
         known.extend(self.subject.description.parameters.iter().map(|p| p.symbol));
@@ -314,8 +334,8 @@ impl Verdicts<'_> {
         has_rates && is_even && symbols.iter().filter(|s| !moves(s) && !is_own(s)).any(is_damping)
     }
 
-    /// True for what is right in a special case that is not spoken of here: without gravity or at rest, where no torque of the document has
-    /// gravity or rates; with a joint at a right angle that does not occur.
+    /// True for what is right in a special case that is not spoken of here: without gravity or at rest, where no torque of the document and nothing
+    /// of its kind has gravity or rates; with a joint at a right angle that does not occur.
     fn is_special(&self, piece: &Piece) -> bool {
         let &[quantity] = &piece.candidates[..] else { return false };
         let Some(wanted) = self.model.value(quantity) else { return false };
@@ -323,9 +343,12 @@ impl Verdicts<'_> {
         let state = &self.model.state;
         let gravity: Vec<Symbol> =
             self.attempt.gravities.iter().flatten().flat_map(|e| e.symbols()).collect();
-        let torques =
-            self.attempt.read.pieces.iter().filter(|p| matches!(p.candidates[..], [Quantity::Torque(_)]));
-        let spoken: Vec<Symbol> = torques.flat_map(|p| p.value.symbols()).collect();
+        // Torques, and others of its kind: `V_2 = 0` below `V_1` with its rates.
+        let is_kin = |q: &Quantity| {
+            matches!(q, Quantity::Torque(_)) || std::mem::discriminant(q) == std::mem::discriminant(&quantity)
+        };
+        let kin = self.attempt.read.pieces.iter().filter(|p| matches!(&p.candidates[..], [q] if is_kin(q)));
+        let spoken: Vec<Symbol> = kin.flat_map(|p| p.value.symbols()).collect();
         let mut zero: Vec<Symbol> = vec![];
         for group in [&gravity, &state.qd, &state.qdd] {
             let is_missing =
@@ -338,192 +361,35 @@ impl Verdicts<'_> {
         if !zero.is_empty() && equal(piece.value, still).is_equal() {
             return true;
         }
-        let quarter = Expr::pi() / Expr::int(2);
+        // Multiples of 15°, in numbers.
         let is_fixed = |q: &Symbol| {
-            let values = [Expr::int(0), quarter, -quarter, Expr::pi()];
-            values
-                .into_iter()
-                .any(|v| equal(piece.value, still.substitute(|s| (s == *q).then_some(v))).is_equal())
+            let printed = values(piece.value, state);
+            (-11..=12).any(|k| {
+                let angle = Expr::pi() * Expr::from(Rational::new(k, 12));
+                let held = values(still.substitute(|s| (s == *q).then_some(angle)), state);
+                matches!((printed, held), (Some(a), Some(b)) if agree(&a, &b, quantity))
+            })
         };
-        state.q.iter().filter(|q| !printed.contains(q) && right.contains(q)).any(is_fixed)
-    }
-
-    /// A row of C that does not give the velocity torque.
-    fn row(&self, r: usize, said: &mut [Option<Said>], repairer: &mut Repairer, author: &Author) {
-        let read = &self.attempt.read;
-        let (row, test) = (&read.rows[r], self.attempt.test_of_row[r]);
-        let n = row.pieces.len();
-        let is_open = self.fared(test) == Fared::Either
-            || !self.attempt.vote.is_any_right && !self.attempt.is_given
-            || !self.is_pinned(test);
-        let truth: Option<Vec<Expr>> =
-            (0..n).map(|j| self.model.value(Quantity::CoriolisEntry(row.joint, j))).collect();
-        let (Some(truth), Some(whole)) = (truth, self.model.value(Quantity::Velocity(row.joint))) else {
-            return row.pieces.iter().for_each(|&p| said[p] = Some(Said::Open(Unproved::NotFound)));
-        };
-        if is_open {
-            return row.pieces.iter().for_each(|&p| said[p] = Some(Said::Open(Unproved::OpenReading)));
-        }
-        let wrong = wrongs(said);
-        let follows = author.wants(Quantity::Velocity(row.joint), row.pieces[0], &wrong);
-        if let Some((_, by)) = follows.into_iter().find(|(wanted, _)| equal(row.value, *wanted).is_equal()) {
-            for (j, &p) in row.pieces.iter().enumerate() {
-                said[p] = Some(Said::Carried { by: By::Piece(by), wanted: truth[j] });
-            }
-            return;
-        }
-        let rates = &self.model.state.qd;
-        let mut off: Vec<usize> = vec![];
-        for (j, &p) in row.pieces.iter().enumerate() {
-            let value = read.pieces[p].value;
-            if equal(value, truth[j]).is_equal() {
-                said[p] = Some(Said::Right { identity: Some([value, truth[j]]), unless_zero: vec![] });
-            } else {
-                off.push(j);
-            }
-        }
-        // One entry that makes the row right, if the others are as printed; or each by its own symbol.
-        let mut best: Option<(u32, usize, Expr, Vec<Slip>)> = None;
-        let mut each: Vec<(u32, usize, Vec<Slip>)> = vec![];
-        for &j in &off {
-            let p = row.pieces[j];
-            let rest = row
-                .pieces
-                .iter()
-                .enumerate()
-                .filter(|(i, _)| *i != j)
-                .fold(Expr::int(0), |sum, (i, &p)| sum + read.pieces[p].value * Expr::from(rates[i]));
-            let by_row = (whole - rest) / Expr::from(rates[j]);
-            if let Some((cost, slips, value)) = repairer.slips(&read.pieces[p], by_row)
-                && best.as_ref().is_none_or(|b| cost < b.0)
-            {
-                best = Some((cost, j, value, slips));
-            }
-            if let Some((cost, slips, _)) = repairer.slips(&read.pieces[p], truth[j]) {
-                each.push((cost, j, slips));
-            }
-        }
-        let all: u32 = each.iter().map(|e| e.0).sum();
-        if each.len() == off.len() && best.as_ref().is_none_or(|b| all <= b.0) {
-            for (_, j, slips) in each {
-                said[row.pieces[j]] = Some(Said::Wrong { wanted: truth[j], slips });
-            }
-            return;
-        }
-        if let Some((_, at, wanted, slips)) = best {
-            said[row.pieces[at]] = Some(Said::Wrong { wanted, slips });
-            for &j in off.iter().filter(|j| **j != at) {
-                // Right with the others as they should be.
-                said[row.pieces[j]] = Some(Said::Right { identity: None, unless_zero: vec![] });
-            }
-            return;
-        }
-        // The row is wrong, whichever entry is.
-        for (k, &j) in off.iter().enumerate() {
-            said[row.pieces[j]] = Some(match k {
-                0 => Said::Wrong { wanted: truth[j], slips: vec![] },
-                _ => Said::Open(Unproved::NotFound),
-            });
-        }
-    }
-
-    /// Blames a helper if one change of it makes all right that is wrong and uses it.
-    fn helper(
-        &self,
-        h: usize,
-        said: &mut [Option<Said>],
-        helpers: &mut Vec<(usize, Expr, Vec<Slip>)>,
-        repairer: &mut Repairer,
-    ) {
-        let read = &self.attempt.read;
-        let helper = &read.helpers[h];
-        let symbol = Symbol::new(&format!("helper {}", helper.name));
-        let names = read.vocabulary.clone().alias(&helper.name, symbol.into());
-        let value = |k: usize| -> Option<Expr> {
-            let syntax = crate::lexis::read(self.text, &read.pieces[k].span, &names).ok()?;
-            let printed = syntax.value();
-            // A scaled matrix is worked out.
-            read.pieces[k].syntax.as_ref()?;
-            Some(printed)
-        };
-        let with = |e: Expr, by: Expr| e.substitute(|s| (s == symbol).then_some(by));
-        // What is wrong, as a pair of formulas in the helper and what it should be.
-        let mut pairs: Vec<(Vec<usize>, Expr, Expr)> = vec![];
-        for (k, piece) in read.pieces.iter().enumerate() {
-            let (None, Some(test)) = (&said[k], self.attempt.test_of_piece[k]) else { continue };
-            if self.fared(test) != Fared::Wrong || !self.is_pinned(test) || piece.candidates.len() != 1 {
-                continue;
-            }
-            let (Some(value), Some(wanted)) = (value(k), self.model.value(piece.candidates[0])) else {
-                continue;
-            };
-            if value.symbols().contains(&symbol) && !piece.candidates[0].is_up_to_constant() {
-                pairs.push((vec![k], value, wanted));
-            }
-        }
-        for (r, row) in read.rows.iter().enumerate() {
-            let test = self.attempt.test_of_row[r];
-            if row.pieces.iter().any(|p| said[*p].is_some())
-                || self.fared(test) != Fared::Wrong
-                || !self.is_pinned(test)
-            {
-                continue;
-            }
-            let mut sum = Expr::int(0);
-            let mut is_read = true;
-            for (&p, &rate) in row.pieces.iter().zip(&self.model.state.qd) {
-                match value(p) {
-                    Some(v) => sum = sum + v * Expr::from(rate),
-                    None => is_read = false,
-                }
-            }
-            let wanted = self.model.value(Quantity::Velocity(row.joint));
-            if let (true, Some(wanted)) = (is_read && sum.symbols().contains(&symbol), wanted) {
-                pairs.push((row.pieces.clone(), sum, wanted));
-            }
-        }
-        let Some((_, first, wanted)) = pairs.first() else { return };
-        let Some(slope) = crate::jacobians::derivative(*first, symbol.into()) else { return };
-        if slope.symbols().contains(&symbol) || slope.is_zero() {
-            return;
-        }
-        let should = (*wanted - with(*first, Expr::int(0))) / slope;
-        let piece = Piece {
-            statement: helper.statement,
-            place: None,
-            span: helper.span.clone(),
-            syntax: Some(helper.syntax.clone()),
-            value: helper.value,
-            candidates: vec![],
-            row: None,
-            is_nameless: false,
-        };
-        let Some((_, slips, should)) = repairer.slips(&piece, should) else { return };
-        if !pairs.iter().all(|(_, value, wanted)| equal(with(*value, should), *wanted).is_equal()) {
-            return;
-        }
-        for (pieces, ..) in &pairs {
-            for &p in pieces {
-                let truth = match read.pieces[p].candidates[..] {
-                    [q] => self.model.value(q),
-                    _ => None,
-                };
-                let value = read.pieces[p].value;
-                let wanted = truth.unwrap_or(value);
-                said[p] = Some(match equal(value, wanted) {
-                    Equality::Equal { conditions } => {
-                        Said::Right { identity: Some([value, wanted]), unless_zero: conditions }
-                    }
-                    _ => Said::Carried { by: By::Helper(h), wanted },
-                });
-            }
-        }
-        helpers.push((h, should, slips));
+        // A zero among formulas in which the joint moves is meant for all its values.
+        let is_meant = |q: &&Symbol| !(piece.value.is_zero() && spoken.contains(q));
+        state.q.iter().filter(|q| !printed.contains(q) && right.contains(q)).filter(is_meant).any(is_fixed)
     }
 }
 
+/// True for a slip that does not make a formula that of a special case.
+fn is_small(slip: &Slip) -> bool {
+    use denavit_reading::slip::Slip as Kind;
+    let is_small = |kind: &Kind| {
+        matches!(
+            kind,
+            Kind::Sign | Kind::SineForCosine | Kind::Index | Kind::Exponent | Kind::Bracket | Kind::Exchanged
+        )
+    };
+    matches!(&slip.kind, SlipKind::Formula(kind) if is_small(kind))
+}
+
 /// The pieces that are wrong so far.
-fn wrongs(said: &[Option<Said>]) -> Vec<Option<usize>> {
+pub(super) fn wrongs(said: &[Option<Said>]) -> Vec<Option<usize>> {
     let of = |(k, s): (usize, &Option<Said>)| match s {
         Some(Said::Wrong { .. }) => Some(k),
         Some(Said::Carried { by: By::Piece(by), .. }) => Some(*by),

@@ -18,6 +18,8 @@ pub(super) enum Role {
     Length(Option<usize>),
     /// One of Khalil's ten numbers.
     Ten(usize, usize),
+    /// The inertia of the rotor that turns a joint, as the joint feels it.
+    Rotor(Option<usize>),
     /// The mass that the hand carries.
     Payload,
     Gravity,
@@ -75,9 +77,10 @@ pub(super) fn words(source: &str) -> BTreeSet<String> {
             if matches!(base.as_str(), "mL" | "ML" | "mp" | "Mp" | "mt") {
                 found.insert(base.clone());
             }
-            base.chars().for_each(|c| {
-                found.insert(c.to_string());
-            });
+            // A product of names has few letters; `sigma`, `gamma` are one, and so is a word.
+            if base.chars().count() <= 3 || !base.is_ascii() {
+                found.extend(base.chars().map(|c| c.to_string()));
+            }
             continue;
         }
         for base in
@@ -191,6 +194,9 @@ pub(super) fn role(word: &str, n: usize) -> Option<Role> {
                 ("" | "c" | "C" | "G" | "g" | "o" | "O" | "l" | "L" | "s" | "S" | "cm" | "zz" | "z", ..) => {
                     Some(Role::Inertia(index))
                 }
+                ("m" | "M" | "mot" | "motor" | "r" | "rot" | "rotor" | "a" | "A", ..) => {
+                    Some(Role::Rotor(index))
+                }
                 _ => None,
             }
         }
@@ -206,6 +212,8 @@ pub(super) fn role(word: &str, n: usize) -> Option<Role> {
 pub(super) struct Names {
     pub vocabulary: Vocabulary,
     pub roles: BTreeMap<Symbol, Role>,
+    /// Of each joint, whether it slides.
+    pub slides: Vec<bool>,
 }
 
 /// Names for an arm: `state` are the symbols of joints, rates and accelerations, `rows` the rows that move. With `lengths` names
@@ -300,7 +308,8 @@ pub(super) fn names(
         vocabulary = std::mem::take(&mut vocabulary).symbol(word);
         roles.insert(Symbol::new(word), role);
     }
-    Names { vocabulary, roles }
+    let slides = variables.iter().map(|v| v.kind == JointKind::Prismatic).collect();
+    Names { vocabulary, roles, slides }
 }
 
 /// The length of a link, by the row that holds it.

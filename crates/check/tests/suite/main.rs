@@ -4,6 +4,7 @@ mod allowed;
 mod configurations;
 mod documents;
 mod dynamics;
+mod dynamics_meant;
 mod hostile;
 mod inverse;
 mod marking;

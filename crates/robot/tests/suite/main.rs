@@ -35,6 +35,7 @@ mod motion_timing;
 mod motion_torques;
 mod numeric;
 mod programs;
+mod programs_random;
 mod redundant;
 mod same;
 mod scope;

@@ -237,16 +237,19 @@ fn all_chains_are_proved() {
 fn somewhere(m: &Mechanism, chain: &Chain) -> (Vec<f64>, Vec<f64>) {
     let variables = m.variables();
     let mut q = vec![0.0; variables.len()];
-    let number = |e: Expr| e.eval(|_| None).unwrap();
-    let values = chain.joints.iter().enumerate().map(|(i, &j)| {
-        let x = [0.3, -0.4, 1.2, 0.9, -0.8][i % 5];
-        let joint: &Joint = &m.joints[j];
-        let leader = joint.follows.as_ref().map_or(j, |f| f.joint);
-        q[variables.iter().position(|&v| v == leader).unwrap()] = x;
-        joint.follows.as_ref().map_or(x, |f| f.factor.to_f64() * x + number(f.offset))
-    });
-    let values = values.collect();
+    for (i, &j) in chain.joints.iter().enumerate() {
+        let leader = m.joints[j].follows.as_ref().map_or(j, |f| f.joint);
+        q[variables.iter().position(|&v| v == leader).unwrap()] = [0.3, -0.4, 1.2, 0.9, -0.8][i % 5];
+    }
+    let values = chain.joints.iter().map(|&j| value_of(m, &q, j)).collect();
     (q, values)
+}
+
+/// The value of a joint in a configuration of the mechanism.
+fn value_of(m: &Mechanism, q: &[f64], j: usize) -> f64 {
+    let own = |leader: usize| q[m.variables().iter().position(|&v| v == leader).unwrap()];
+    let follows = m.joints[j].follows.as_ref();
+    follows.map_or_else(|| own(j), |f| f.factor.to_f64() * own(f.joint) + f.offset.eval(|_| None).unwrap())
 }
 
 fn cells(d: &Description) -> Vec<[Expr; 4]> {
@@ -351,7 +354,8 @@ fn ways_between_leaves_go_both_ways() {
             let Ok(there) = m.chain(Some(names[0]), Some(names[1]), Convention::Craig) else { continue };
             let back = m.chain(Some(names[1]), Some(names[0]), Convention::Standard).unwrap();
             let (q, at) = somewhere(&m, &there);
-            let value = |joint: &usize| at[there.joints.iter().position(|j| j == joint).unwrap()];
+            // Where joints follow others, each way has the first that it meets as variable.
+            let value = |&joint: &usize| value_of(&m, &q, joint);
             let other: Vec<f64> = back.joints.iter().map(value).collect();
             let pose = |c: &Chain, q: &[f64]| Robot::numeric(&c.description).unwrap().pose(q);
             let product = pose(&there, &at) * pose(&back, &other);
@@ -396,7 +400,7 @@ fn joints_that_follow_are_couplings() {
     let m = read_urdf(text, Decimals::Meant).unwrap().0;
     let chain = m.chain(None, None, Convention::Standard).unwrap();
     let thetas: Vec<String> = chain.description.rows.iter().map(|r| r.theta.to_string()).collect();
-    assert_eq!(thetas, ["1/2 - 2*q1", "q1", "-q1"]);
+    assert_eq!(thetas, ["q1", "1/4 - q1/2", "q1/2"]);
     // Without the leader on the way the follower is what moves.
     let alone = m.chain(None, Some("b"), Convention::Standard).unwrap();
     assert_eq!(alone.description.rows[0].theta.to_string(), "q1");
@@ -410,7 +414,7 @@ fn a_large_robot_is_read_soon() {
     let m = read_urdf(&text, Decimals::Meant).unwrap().0;
     assert!(m.bodies.len() > 80);
     // 20 ms in a release build; tests share their processor.
-    assert!(start.elapsed() < Duration::from_millis(500), "{:?}", start.elapsed());
+    assert!(start.elapsed() < Duration::from_secs(10), "{:?}", start.elapsed());
 }
 
 /// Very many links that do not move, beside each other or on each other, and as many names that are not there.

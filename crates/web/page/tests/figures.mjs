@@ -1,4 +1,4 @@
-// How fast the page is: printed, and only a gate where it is three times slower than it should be.
+// How fast the page is: printed; a gate where nothing else runs (`cargo xtask page --timed`), at three times the budget.
 import assert from "node:assert/strict";
 import { pictureOf } from "./pixels.mjs";
 import { open, openRobot, scenario, tab, until } from "./support.mjs";
@@ -9,6 +9,7 @@ export const FIGURES = [];
 function figure(words, value, unit, budget, isMost = true) {
   FIGURES.push({ words, value, unit, budget });
   console.log(`# ${words}: ${value.toFixed(value < 10 ? 2 : 0)} ${unit} (budget ${isMost ? "≤" : "≥"} ${budget} ${unit})`);
+  if (process.env.PAGE_FIGURES !== "gate") return;
   assert.ok(isMost ? value <= 3 * budget : value >= budget / 3, `${words}: ${value} ${unit}`);
 }
 

@@ -87,7 +87,8 @@ impl Lexer<'_> {
                 }
                 continue;
             }
-            let line = rest.iter().position(|&b| b == b'\n').unwrap_or(rest.len());
+            // To the end of the line, looked for only where it is needed: a text may be one long line.
+            let line = || rest.iter().position(|&b| b == b'\n').unwrap_or(rest.len());
             match first {
                 b'\n' => {
                     self.begins = self.open.is_empty() || !is_python;
@@ -105,10 +106,12 @@ impl Lexer<'_> {
                     apart = true;
                     continue;
                 }
-                b'#' => self.at += line,
-                b'%' if !is_python => self.at += line,
-                b'.' if !is_python && rest.starts_with(b"...") => self.at += (line + 1).min(rest.len()),
-                b'\\' if is_python && line <= 2 => self.at += (line + 1).min(rest.len()),
+                b'#' => self.at += line(),
+                b'%' if !is_python => self.at += line(),
+                b'.' if !is_python && rest.starts_with(b"...") => self.at += (line() + 1).min(rest.len()),
+                b'\\' if is_python && rest[..rest.len().min(3)].contains(&b'\n') => {
+                    self.at += line() + 1;
+                }
                 _ => {
                     let c = self.text[self.at..].chars().next().unwrap_or(' ');
                     if c.is_whitespace() || c == '\u{feff}' {

@@ -1,9 +1,10 @@
 //! Functions: the program's own, those that make links and robots, and those of numbers and lists.
 
 use super::links::{LINKS, ROBOTS};
-use super::parse::{Act, Argument, Form, Statement};
-use super::run::Run;
+use super::parse::{Act, Argument, Form, Function, Statement};
+use super::run::{Flow, MAX_CALLS, Run};
 use super::value::{Formula, Lost, MAX_ITEMS, Value, formula, integer};
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -14,7 +15,7 @@ const OF_NUMBERS: [&str; 13] = [
 ];
 
 /// Functions that change nothing that they are given.
-pub(super) const HARMLESS: [&str; 36] = [
+pub(super) const HARMLESS: [&str; 35] = [
     "print",
     "disp",
     "display",
@@ -23,7 +24,6 @@ pub(super) const HARMLESS: [&str; 36] = [
     "str",
     "repr",
     "format",
-    "assignin",
     "save",
     "plot",
     "show",
@@ -73,8 +73,24 @@ impl<'p> Run<'p> {
         if name == "isempty" || name == "exist" || name == "isfield" {
             return self.unknown(span);
         }
-        if arguments.iter().any(|a| matches!(&a.value.form, Form::Unary(s, _) if s.starts_with('*'))) {
-            return self.unknown(span);
+        let is_spread = |a: &Argument| matches!(&a.value.form, Form::Unary(s, _) if s.starts_with('*'));
+        if arguments.iter().any(is_spread) {
+            let lost = self.lost(span, "is not followed");
+            for argument in arguments {
+                let inner = match &argument.value.form {
+                    Form::Unary(_, inner) => inner,
+                    _ => &argument.value,
+                };
+                let value = self.value(inner);
+                self.reached(&value, &lost);
+            }
+            return Value::Unknown(lost);
+        }
+        // What a text says is not read.
+        if matches!(name, "eval" | "evalc" | "evalin" | "exec" | "execfile" | "assignin" | "run" | "load") {
+            let lost = self.lost(span, "is not followed");
+            self.doubt(&lost);
+            return Value::Unknown(lost);
         }
         let values: Vec<Value> = arguments.iter().map(|a| self.value(&a.value)).collect();
         if matches!(name, "rigidBody" | "rigidBodyJoint" | "setFixedTransform" | "addBody" | "rigidBodyTree")
@@ -91,17 +107,88 @@ impl<'p> Run<'p> {
             let lost = self.lost(span, "is not followed");
             if !HARMLESS.contains(&name) {
                 for value in &values {
-                    if matches!(value, Value::Joint(_) | Value::Body(_) | Value::Tree) {
-                        self.tree_lost.get_or_insert_with(|| lost.clone());
-                    }
-                    if !matches!(value, Value::Robot(_)) {
-                        self.change(value);
-                        self.store.lose(value, &lost);
-                    }
+                    self.reached(value, &lost);
                 }
             }
             Value::Unknown(lost)
         })
+    }
+
+    /// What the parameters of a function of Python are where nothing is given for them.
+    pub fn find_defaults(&mut self, function: &'p Function) {
+        if self.is_python() {
+            let values =
+                function.parameters.iter().map(|p| p.1.as_ref().map(|node| self.value(node))).collect();
+            self.defaults.insert(std::ptr::from_ref(function), values);
+        }
+    }
+
+    /// Calls a function of the program; what it is not given has its default.
+    pub fn call_own(
+        &mut self,
+        function: &'p Function,
+        given: Vec<(Option<String>, Value)>,
+        span: &Range<usize>,
+    ) -> Value {
+        if self.scopes.len() > MAX_CALLS {
+            return Value::Unknown(self.lost(span, "is not followed: calls too deep"));
+        }
+        let mut scope = HashMap::new();
+        let defaults = self.defaults.get(&std::ptr::from_ref(function)).cloned().unwrap_or_default();
+        for (k, (name, default)) in function.parameters.iter().enumerate() {
+            if let Some(default) = default {
+                let value = defaults.get(k).cloned().flatten().unwrap_or_else(|| self.value(default));
+                scope.insert(name.clone(), value);
+            }
+        }
+        let count = given.len();
+        for (k, (key, value)) in given.into_iter().enumerate() {
+            let name = key.or_else(|| function.parameters.get(k).map(|p| p.0.clone()));
+            match name {
+                Some(name) if function.parameters.iter().any(|p| p.0 == name) => {
+                    drop(scope.insert(name, value))
+                }
+                _ => return self.unknown(span),
+            }
+        }
+        if !self.is_python() {
+            let number = |n: usize| Value::Number(Formula::integer(i64::try_from(n).unwrap_or(0), 0..0));
+            scope.insert("nargin".into(), number(count));
+            scope.insert("nargout".into(), number(usize::from(self.is_asked)));
+        }
+        let is_asked = std::mem::replace(&mut self.is_asked, true);
+        self.scopes.push(scope);
+        // Names of the function are its own: only where the call is unsure is it noted which are assigned.
+        let is_sure = self.unsure.is_empty();
+        if !is_sure {
+            self.unsure.push(HashSet::new());
+        }
+        let flow = self.block(&function.body);
+        if !is_sure {
+            self.unsure.pop();
+        }
+        let scope = self.scopes.pop().unwrap_or_default();
+        self.is_asked = is_asked;
+        match (flow, function.results.as_slice()) {
+            (Flow::Returns(value), []) => value,
+            (_, [one, ..]) => scope.get(one).cloned().unwrap_or(Value::None),
+            _ => Value::None,
+        }
+    }
+
+    /// What a function that is not followed is given may be changed by it, but for robots.
+    fn reached(&mut self, value: &Value, lost: &Lost) {
+        if matches!(value, Value::Joint(_) | Value::Body(_) | Value::Tree) {
+            self.tree_lost.get_or_insert_with(|| lost.clone());
+        }
+        if !matches!(value, Value::Robot(_)) {
+            if self.store.holds_link(value) {
+                // They may be a robot in another order.
+                self.links_lost.get_or_insert_with(|| lost.clone());
+            }
+            self.change(value);
+            self.store.lose(value, lost);
+        }
     }
 
     /// An object of a class of the program: the robot that its constructor makes.
@@ -164,7 +251,22 @@ impl<'p> Run<'p> {
                     items.reverse();
                 }
                 let is_array = matches!(name, "array" | "asarray" | "r_" | "matrix");
-                (!self.step(items.len(), span)).then(|| self.store.list(items, is_array))
+                if self.step(items.len(), span) {
+                    return None;
+                }
+                if is_array {
+                    // Rows are arrays of their own.
+                    for item in &mut items {
+                        if let Value::List(_) = item {
+                            let inner = self.store.items(item).ok()?;
+                            if self.step(inner.len(), span) {
+                                return None;
+                            }
+                            *item = self.store.list(inner, true);
+                        }
+                    }
+                }
+                Some(self.store.list(items, is_array))
             }
             ("range", _) => {
                 let numbers: Vec<i64> = values.iter().map(integer).collect::<Option<_>>()?;
@@ -235,9 +337,10 @@ impl<'p> Run<'p> {
                 self.store.links.push(link);
                 Some(Value::Link(self.store.links.len() - 1))
             }
-            ("copy", [one @ Value::List(_)]) => {
+            ("copy", [one @ Value::List(k)]) => {
+                let is_array = self.store.lists[*k].is_array;
                 let items = self.store.items(one).ok()?;
-                (!self.step(items.len(), span)).then(|| self.store.list(items, false))
+                (!self.step(items.len(), span)).then(|| self.store.list(items, is_array))
             }
             _ => None,
         }
@@ -275,11 +378,6 @@ impl<'p> Run<'p> {
             }
             Some(height) => Some(Value::Matrix(Rc::new(vec![row; height]))),
         }
-    }
-
-    /// What is lost of a robot that is made here.
-    pub fn lost_here(&self) -> Option<Lost> {
-        self.lost.clone()
     }
 }
 

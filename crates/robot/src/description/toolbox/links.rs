@@ -268,7 +268,7 @@ impl Run<'_> {
                         link.moves = moves.unwrap_or(row.moves);
                         link.lost = link.lost.or(row.lost);
                     }
-                    Value::Text(_) if !is_python || WORDS.contains(&&*self.text_of(&value)) => {}
+                    Value::Text(words) if !is_python || WORDS.contains(&&**words) => {}
                     _ => match order.next() {
                         Some(role) => match self.cell(&value, &place) {
                             Ok(cell) => drop(link.cells.insert(role, cell)),
@@ -289,13 +289,6 @@ impl Run<'_> {
         }
         self.store.links.push(link);
         Value::Link(self.store.links.len() - 1)
-    }
-
-    fn text_of(&self, value: &Value) -> String {
-        match value {
-            Value::Text(t) => t.to_string(),
-            _ => String::new(),
-        }
     }
 
     /// What a name says of a link.
@@ -369,6 +362,7 @@ impl Run<'_> {
                     self.store.robots[k].name = Some(text.to_string());
                 }
             }
+            "qlim" => self.find(Severity::Warning, span, "limits of the robot set afterwards are not read"),
             "links" | "offset" | "mdh" => {
                 self.change(&Value::Robot(k));
                 let lost = self.lost(span, "is not followed");
@@ -378,7 +372,7 @@ impl Run<'_> {
         }
     }
 
-    fn not_read(&mut self, name: &str, value: &Value, span: &Range<usize>) {
+    pub fn not_read(&mut self, name: &str, value: &Value, span: &Range<usize>) {
         if *value != Value::None {
             self.find(Severity::Warning, span, &format!("`{name}` is not read"));
         }
@@ -458,7 +452,7 @@ impl Run<'_> {
             Ok(links) => (links, None),
             Err(lost) => (vec![], Some(lost)),
         };
-        let lost = self.lost_here().or(lost);
+        let lost = self.lost.clone().or(lost);
         self.store.robots.push(Made { name: None, links, span: span.clone(), lost, is_part: false });
         Value::Robot(self.store.robots.len() - 1)
     }

@@ -22,7 +22,7 @@ mod value;
 pub use code::Language;
 
 use super::cell::{Place, Style, read_cell, variable_number};
-use super::diagnostic::{Diagnostic, Diagnostics};
+use super::diagnostic::{Diagnostic, Diagnostics, Severity};
 use super::robot_file::{MAX_BYTES, MAX_ROWS};
 use super::units::Quantity;
 use super::{Convention, Description, JointKind, Parameter, Row, Variable};
@@ -96,6 +96,13 @@ fn robots(
         run.store.robots.extend(tree);
         if !run.store.robots.is_empty() {
             run.store.robots.retain(|r| !r.is_part);
+            // What is not followed behind a robot may change it.
+            if let Some(lost) = &run.lost
+                && run.store.robots.iter().any(|r| r.lost.is_none())
+            {
+                let (span, words) = (lost.span.clone(), lost.message.to_string());
+                run.find(Severity::Warning, &span, &words);
+            }
             return (run.store.robots, run.store.links, run.findings);
         }
         last = Some(run);

@@ -1,9 +1,9 @@
 //! Names, attributes, methods and entries of lists.
 
 use super::functions::{HARMLESS, is_known};
-use super::parse::{Argument, Form, Node};
+use super::parse::{Act, Argument, Form, Node, Statement};
 use super::run::{Run, position};
-use super::value::{Formula, MAX_ITEMS, Value, integer};
+use super::value::{Formula, Lost, MAX_ITEMS, Value, integer};
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -37,6 +37,31 @@ impl<'p> Run<'p> {
         }
     }
 
+    /// An object gets a second name here, in an assignment, a list or a call: its attributes are not known from here on.
+    pub fn share(&mut self, name: &str, span: &Range<usize>) {
+        // A constructor hands itself on to those that it is built upon.
+        let is_object = self.owners.contains(name) || matches!(self.named(name), Some(Value::Unknown(_)));
+        if name == "self" || !self.is_python() || !is_object || !self.shared.insert(name.into()) {
+            return;
+        }
+        let own = |k: &&String| k.strip_prefix(name).is_some_and(|rest| rest.starts_with('.'));
+        let paths: Vec<String> =
+            self.scopes.last().into_iter().flat_map(|s| s.keys().filter(own).cloned()).collect();
+        let message = format!("`{name}` gets a second name here, by which it may be changed");
+        for path in paths {
+            let lost = Lost { span: span.clone(), message: message.as_str().into() };
+            self.assign(&path, Value::Unknown(lost));
+        }
+    }
+
+    /// `q = p` of an object that is shared: it is by this name as well.
+    pub fn share_by(&mut self, targets: &[Node], value: &Node) {
+        if matches!(&value.form, Form::Name(name) if self.shared.contains(name)) {
+            let names = targets.iter().filter_map(Self::path).filter(|p| !p.contains('.'));
+            self.shared.extend(names);
+        }
+    }
+
     /// `object.name`, or a name of a module.
     pub fn attribute(&mut self, node: &Node, inner: &Node, name: &str) -> Value {
         let path = Self::path(node);
@@ -58,7 +83,10 @@ impl<'p> Run<'p> {
                 _ => self.unknown(&node.span),
             };
         }
-        let object = self.value(inner);
+        let object = match &inner.form {
+            Form::Name(name) => self.of_name(name, &inner.span),
+            _ => self.value(inner),
+        };
         match (&object, name) {
             (Value::Unknown(_), _) => object,
             (Value::Robot(k), "links") => {
@@ -107,7 +135,23 @@ impl<'p> Run<'p> {
                     self.named(&p).is_none() && self.named(p.split('.').next().unwrap_or("")).is_none()
                 });
                 if of_module {
+                    // A function of the program's own is none of a module.
+                    if self.is_python()
+                        && (self.functions.contains_key(name.as_str())
+                            || self.classes.contains_key(name.as_str()))
+                    {
+                        return self.unknown(span);
+                    }
                     return self.called(name, arguments, span);
+                }
+                const CHANGES: [&str; 9] =
+                    ["append", "insert", "extend", "pop", "remove", "reverse", "sort", "clear", "addlink"];
+                if CHANGES.contains(&name.as_str())
+                    && let Some((k, part)) = self.robot_of_entry(object)
+                {
+                    let unknown = self.unknown(span);
+                    self.set_of_robot(k, &part, unknown, span);
+                    return Value::None;
                 }
                 let value = self.value(object);
                 self.method(value, name, inner, arguments, span)
@@ -162,7 +206,10 @@ impl<'p> Run<'p> {
                         Value::None
                     }
                     ("copy" | "tolist", []) => match self.store.items(&object) {
-                        Ok(items) if !self.step(items.len(), span) => self.store.list(items, false),
+                        Ok(items) if !self.step(items.len(), span) => {
+                            let is_array = name == "copy" && self.store.lists[k].is_array;
+                            self.store.list(items, is_array)
+                        }
                         _ => self.unknown(span),
                     },
                     ("index" | "count", _) => self.unknown(span),
@@ -186,6 +233,18 @@ impl<'p> Run<'p> {
                 self.entry(value, arguments, span)
             }
             (Value::Robot(_), "sym" | "copy") => object,
+            // What the program's own classes do with it, and what changes it.
+            (Value::Robot(_), _) if name == "addlink" || self.is_method(name) => {
+                let lost = self.lost(span, "is not followed");
+                self.change(&object);
+                self.store.lose(&object, &lost);
+                Value::Unknown(lost)
+            }
+            (Value::Number(f), _) if &*f.text == "self" && self.is_method(name) => {
+                let lost = self.lost(span, "is not followed");
+                self.doubt(&lost);
+                Value::Unknown(lost)
+            }
             (Value::Tree, "addBody") | (Value::Joint(_), "setFixedTransform") => {
                 let mut values = vec![object];
                 values.extend(arguments.iter().map(|a| self.value(&a.value)));
@@ -228,7 +287,7 @@ impl<'p> Run<'p> {
                 }
                 if let Form::Range(ends) = &one.value.form {
                     return match self.slice(&items, ends) {
-                        Some(part) => self.store.list(part, false),
+                        Some(part) => self.part(k, part),
                         None => self.unknown(span),
                     };
                 }
@@ -277,18 +336,44 @@ impl<'p> Run<'p> {
         Some(items.get(first..last).unwrap_or(&[]).to_vec())
     }
 
+    /// A part of a list: of an array it is one.
+    fn part(&mut self, of: usize, items: Vec<Value>) -> Value {
+        let is_array = self.store.lists[of].is_array;
+        let part = self.store.list(items, is_array);
+        if let Value::List(k) = part {
+            self.store.lists[k].part_of = is_array.then_some(of);
+        }
+        part
+    }
+
+    /// Whether a class of the program has a method of this name.
+    fn is_method(&self, name: &str) -> bool {
+        let is_it = |s: &Statement| matches!(&s.act, Act::Function(f) if f.name == name);
+        self.classes.values().any(|body| body.iter().any(is_it))
+    }
+
     /// `d[i, j]`, `d[i, :]`, `d[:, j]`
     fn entry_of_rows(&mut self, list: usize, arguments: &[Argument], span: &Range<usize>) -> Value {
         let is_all = |a: &Argument| matches!(&a.value.form, Form::Range(e) if e.iter().all(Option::is_none));
         let [row, column] = arguments else { return self.unknown(span) };
-        let rows = match is_all(row) {
-            true => match self.store.items(&Value::List(list)) {
-                Ok(rows) => rows,
-                Err(_) => return self.unknown(span),
-            },
+        let is_several = matches!(&row.value.form, Form::Range(_));
+        let rows = match is_several {
+            true => {
+                let part = match is_all(row) {
+                    true => Value::List(list),
+                    false => self.entry(Value::List(list), std::slice::from_ref(row), span),
+                };
+                match self.store.items(&part) {
+                    Ok(rows) => rows,
+                    Err(_) => return self.unknown(span),
+                }
+            }
             false => vec![self.entry(Value::List(list), std::slice::from_ref(row), span)],
         };
         if is_all(column) {
+            if is_several && !is_all(row) {
+                return self.part(list, rows);
+            }
             return match <[Value; 1]>::try_from(rows) {
                 Ok([one]) => one,
                 Err(_) => Value::List(list),
@@ -299,7 +384,7 @@ impl<'p> Run<'p> {
         }
         let column = std::slice::from_ref(column);
         let mut found: Vec<Value> = rows.into_iter().map(|r| self.entry(r, column, span)).collect();
-        if is_all(row) { self.store.list(found, true) } else { found.pop().unwrap_or(Value::None) }
+        if is_several { self.part(list, found) } else { found.pop().unwrap_or(Value::None) }
     }
 
     /// The places that an index of MATLAB means.

@@ -213,7 +213,7 @@ impl Parser<'_> {
                 let other = p.value()?;
                 return p.node(Form::Choice(Box::new([first, condition, other])), start);
             }
-            if !p.is_python() && p.word() == ":" && !p.is_row_end() {
+            if !p.is_python() && p.word() == ":" {
                 let mut ends = vec![Some(first)];
                 while p.take(":") {
                     ends.push(Some(p.sums(0)?));
@@ -222,10 +222,6 @@ impl Parser<'_> {
             }
             Some(first)
         })
-    }
-
-    fn is_row_end(&self) -> bool {
-        self.kind() == Kind::Line
     }
 
     /// How strongly a sign between two values binds.
@@ -264,6 +260,10 @@ impl Parser<'_> {
                 self.at += 1;
             }
             let right = self.deeper(|p| p.sums(strength))?;
+            // `0 < i < 2` of Python is two comparisons.
+            if strength == 3 && self.is_python() && self.strength() == Some(3) {
+                return None;
+            }
             left = self.node(Form::Binary(sign, Box::new(left), Box::new(right)), start)?;
         }
         Some(left)
@@ -531,6 +531,13 @@ impl Parser<'_> {
                 self.at += 1;
                 rows.push(vec![]);
             } else if !self.take(",") {
+                // `1d-3` is one number, which is not read.
+                let last = self.tokens.get(self.at.wrapping_sub(1)).map(|t| &self.text[t.span.clone()]);
+                let begins = last.is_none_or(|word| ["[", "{", ","].contains(&word)) || self.token().apart;
+                let is_behind_value = rows.last().is_some_and(|r| !r.is_empty());
+                if is_behind_value && !begins {
+                    return None;
+                }
                 let value = self.value()?;
                 rows.last_mut()?.push(value);
             }

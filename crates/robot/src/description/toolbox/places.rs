@@ -2,7 +2,7 @@
 
 use super::parse::{Argument, Form, Node};
 use super::run::{Run, position};
-use super::value::{MAX_ITEMS, Value, integer};
+use super::value::{Lost, MAX_ITEMS, Value, integer};
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -19,7 +19,7 @@ impl Run<'_> {
     fn root(node: &Node) -> Option<&str> {
         match &node.form {
             Form::Name(name) => Some(name),
-            Form::Attribute(inner, _) | Form::Call(inner, _) => Self::root(inner),
+            Form::Attribute(inner, _) | Form::Call(inner, _) | Form::Unary(_, inner) => Self::root(inner),
             _ => None,
         }
     }
@@ -31,9 +31,21 @@ impl Run<'_> {
             && let Some(known) = self.named(root).cloned()
         {
             self.store.lose(&known, &lost);
+            if root == "self" {
+                self.doubt(&lost);
+            }
             if !matches!(known, Value::Robot(_)) {
                 self.assign(root, Value::Unknown(lost));
             }
+        }
+    }
+
+    /// Makes all robots unknown, those that were made and those to come.
+    pub fn doubt(&mut self, lost: &Lost) {
+        self.lost.get_or_insert_with(|| lost.clone());
+        for k in 0..self.store.robots.len() {
+            self.change(&Value::Robot(k));
+            self.store.lose(&Value::Robot(k), lost);
         }
     }
 
@@ -70,12 +82,16 @@ impl Run<'_> {
                                 let lost = self.lost(&target.span, "is not followed");
                                 self.store.lose(&object, &lost);
                             }
+                            ("Mass" | "Inertia" | "CenterOfMass", value) => {
+                                self.not_read(name, &value, &target.span);
+                            }
                             _ => {}
                         }
                     }
-                    Value::Unknown(_) if path.is_none() => {}
+                    Value::Tree if name == "Gravity" => self.not_read(name, &value, &target.span),
+                    Value::Tree if name == "DataFormat" => {}
                     Value::None | Value::Unknown(_) | Value::Number(_) if path.is_some() => {
-                        self.assign(&path.unwrap_or_default(), value);
+                        self.set_attribute(&path.unwrap_or_default(), value, &target.span);
                     }
                     _ => self.lose_root(target),
                 }
@@ -85,8 +101,25 @@ impl Run<'_> {
         }
     }
 
+    /// `object.name = value`
+    fn set_attribute(&mut self, path: &str, value: Value, span: &Range<usize>) {
+        let root = path.split('.').next().unwrap_or("");
+        if self.shared.contains(root) {
+            let unknown = self.unknown(span);
+            return self.assign(path, unknown);
+        }
+        if self.is_python() {
+            self.owners.insert(root.into());
+        }
+        self.assign(path, value);
+    }
+
     /// `L(k) = value`, `links[k] = value`, `dh(k,:) = values`
     fn set_entry(&mut self, target: &Node, inner: &Node, arguments: &[Argument], value: Value) {
+        if let Some((k, name)) = self.robot_of_entry(inner) {
+            let unknown = self.unknown(&target.span);
+            return self.set_of_robot(k, &name, unknown, &target.span);
+        }
         let path = Self::path(inner);
         let container = match &path {
             Some(path) => self.named(path).cloned(),
@@ -99,6 +132,18 @@ impl Run<'_> {
                     _ => None,
                 };
                 self.change(&Value::List(k));
+                // A part of an array changes with the whole, and the whole with it.
+                let source = self.store.lists[k].part_of;
+                let parts: Vec<usize> = match self.store.lists[k].is_array {
+                    true => (0..self.store.lists.len())
+                        .filter(|p| self.store.lists[*p].part_of == Some(k))
+                        .collect(),
+                    false => vec![],
+                };
+                for other in source.into_iter().chain(parts) {
+                    let lost = self.lost(&target.span, "is not followed: a part of an array changes with it");
+                    self.store.lose(&Value::List(other), &lost);
+                }
                 let items = &mut self.store.lists[k].items;
                 let index = index.and_then(|i| position(i, items.len()));
                 match index {
@@ -127,14 +172,25 @@ impl Run<'_> {
                     }
                 }
             }
-            Some(Value::Unknown(_)) => {}
-            Some(_) => self.lose_root(target),
-            None => {}
+            _ => self.lose_root(target),
+        }
+    }
+
+    /// `robot.links` of a robot: which, and what of it.
+    pub fn robot_of_entry(&mut self, node: &Node) -> Option<(usize, String)> {
+        let Form::Attribute(object, name) = &node.form else { return None };
+        match self.value(object) {
+            Value::Robot(k) => Some((k, name.clone())),
+            _ => None,
         }
     }
 
     /// Puts a value into a matrix of MATLAB, which grows.
     fn filled(&mut self, rows: &mut Vec<Vec<Value>>, arguments: &[Argument], value: Value) -> Option<()> {
+        // `L(2) = []` takes an entry out.
+        if matches!(&value, Value::Matrix(m) if m.iter().all(Vec::is_empty)) {
+            return None;
+        }
         let width = rows.first().map_or(0, Vec::len);
         let index = |run: &mut Self, node: &Node, end: usize| -> Option<usize> {
             run.ends.push(end);
@@ -157,7 +213,8 @@ impl Run<'_> {
             [row, column] if matches!(&column.value.form, Form::Range(e) if e.iter().all(Option::is_none)) => {
                 let k = index(self, &row.value, rows.len())?;
                 let values = self.store.items(&value).ok()?;
-                if !(rows.is_empty() || width == values.len()) {
+                let size = rows.len().max(k + 1).saturating_mul(values.len());
+                if !(rows.is_empty() || width == values.len()) || size > MAX_ITEMS {
                     return None;
                 }
                 rows.resize(rows.len().max(k + 1), vec![Value::None; values.len()]);

@@ -14,7 +14,7 @@ const MAX_STEPS: usize = 200_000;
 /// How deep values, blocks and calls stand in one another while they are followed.
 const MAX_DEPTH: usize = 150;
 /// How deep functions of the program call one another.
-const MAX_CALLS: usize = 8;
+pub(super) const MAX_CALLS: usize = 8;
 
 /// How a block ended.
 #[derive(Clone, PartialEq, Debug)]
@@ -31,7 +31,7 @@ pub(super) struct Run<'p> {
     pub language: Language,
     pub store: Store,
     /// Names of the program, then those of each function under way.
-    scopes: Vec<HashMap<String, Value>>,
+    pub scopes: Vec<HashMap<String, Value>>,
     pub functions: HashMap<&'p str, &'p Function>,
     pub classes: HashMap<&'p str, &'p [Statement]>,
     pub findings: Vec<Diagnostic>,
@@ -49,7 +49,12 @@ pub(super) struct Run<'p> {
     /// True where the program is run, not imported.
     pub is_main: bool,
     /// Where it is unsure that the program gets there: names that are assigned.
-    unsure: Vec<HashSet<String>>,
+    pub unsure: Vec<HashSet<String>>,
+    /// What parameters are where nothing is given for them: that is found where a function is defined.
+    pub defaults: HashMap<*const Function, Vec<Option<Value>>>,
+    /// Objects of Python with attributes, and those of them that have a second name: what is changed by one is changed by the other.
+    pub owners: HashSet<String>,
+    pub shared: HashSet<String>,
     /// What `end` is in an index.
     pub ends: Vec<usize>,
     steps: usize,
@@ -74,6 +79,9 @@ impl<'p> Run<'p> {
             is_asked: true,
             is_main,
             unsure: vec![],
+            defaults: HashMap::new(),
+            owners: HashSet::new(),
+            shared: HashSet::new(),
             ends: vec![],
             steps: 0,
             depth: 0,
@@ -115,7 +123,9 @@ impl<'p> Run<'p> {
 
     pub fn named(&self, name: &str) -> Option<&Value> {
         let local = self.scopes.last().and_then(|s| s.get(name));
-        local.or_else(|| self.scopes.first().and_then(|s| s.get(name)))
+        // Functions of MATLAB have names of their own alone.
+        let of_all = || self.scopes.first().filter(|_| self.is_python()).and_then(|s| s.get(name));
+        local.or_else(of_all)
     }
 
     pub fn assign(&mut self, name: &str, value: Value) {
@@ -123,6 +133,10 @@ impl<'p> Run<'p> {
             names.insert(name.to_string());
         }
         if let Some(scope) = self.scopes.last_mut() {
+            if self.owners.contains(name) {
+                // Attributes are those of the object that had the name.
+                scope.retain(|k, _| k.strip_prefix(name).is_none_or(|rest| !rest.starts_with('.')));
+            }
             scope.insert(name.to_string(), value);
         }
     }
@@ -188,11 +202,20 @@ impl<'p> Run<'p> {
                         self.extend(*k, &found, &statement.span);
                         return Flow::Goes;
                     }
+                    let array = match before {
+                        Value::List(k) if self.store.lists[k].is_array => Some(k),
+                        _ => None,
+                    };
                     found = self.binary(sign, before, found, &statement.span);
+                    if let Some(k) = array {
+                        self.put_in_place(k, &found, &statement.span);
+                        return Flow::Goes;
+                    }
                 }
                 for target in targets {
                     self.set(target, found.clone());
                 }
+                self.share_by(targets, value);
             }
             Act::For(round, body) => return self.repeat(round, body, &statement.span),
             Act::If(blocks) => return self.choose(blocks, &statement.span),
@@ -209,14 +232,27 @@ impl<'p> Run<'p> {
             }
             Act::Block(body) => return self.block(body),
             Act::Function(function) => {
-                self.functions.insert(&function.name, function);
+                // In functions and under conditions it depends on where the program is.
+                if self.scopes.len() > 1 || !self.unsure.is_empty() {
+                    let unknown = self.unknown(&(statement.span.start..statement.span.start + 3));
+                    self.assign(&function.name, unknown);
+                } else {
+                    self.functions.insert(&function.name, function);
+                    self.find_defaults(function);
+                }
             }
             Act::Class(name, body) => {
                 self.classes.insert(name, body);
+                for one in body {
+                    if let Act::Function(function) = &one.act {
+                        self.find_defaults(function);
+                    }
+                }
             }
             Act::Import(names) => {
                 for (name, original) in names {
-                    if name != original {
+                    // Of a number it makes one that is not followed.
+                    if name != original || name == "tau" {
                         self.assign(name, Value::Known(original.as_str().into()));
                     }
                 }
@@ -271,6 +307,8 @@ impl<'p> Run<'p> {
     fn repeat(&mut self, round: &'p Round, body: &'p [Statement], span: &Range<usize>) -> Flow {
         let values = self.value(&round.values);
         let Ok(items) = self.rounds(&values) else {
+            let unknown = self.unknown(&round.values.span);
+            self.set(&round.target, unknown);
             self.perhaps(&[body], &(span.start..round.values.span.end), true);
             return Flow::Goes;
         };
@@ -362,65 +400,6 @@ impl<'p> Run<'p> {
         }
     }
 
-    // Functions of the program -----------------------------------------------------------------------------------------
-
-    /// Calls a function of the program; what it is not given has its default.
-    pub fn call_own(
-        &mut self,
-        function: &'p Function,
-        given: Vec<(Option<String>, Value)>,
-        span: &Range<usize>,
-    ) -> Value {
-        if self.scopes.len() > MAX_CALLS {
-            return Value::Unknown(self.lost(span, "is not followed: calls too deep"));
-        }
-        let mut scope = HashMap::new();
-        for (name, default) in &function.parameters {
-            if let Some(default) = default {
-                let value = self.value(default);
-                scope.insert(name.clone(), value);
-            }
-        }
-        let count = given.len();
-        for (k, (key, value)) in given.into_iter().enumerate() {
-            let name = key.or_else(|| function.parameters.get(k).map(|p| p.0.clone()));
-            match name {
-                Some(name) if function.parameters.iter().any(|p| p.0 == name) => {
-                    drop(scope.insert(name, value))
-                }
-                _ => return self.unknown(span),
-            }
-        }
-        if !self.is_python() {
-            let number = |n: usize| Value::Number(Formula::integer(i64::try_from(n).unwrap_or(0), 0..0));
-            scope.insert("nargin".into(), number(count));
-            scope.insert("nargout".into(), number(usize::from(self.is_asked)));
-        }
-        let is_asked = std::mem::replace(&mut self.is_asked, true);
-        self.scopes.push(scope);
-        self.unsure.push(HashSet::new());
-        let is_sure = self.unsure.len() == 1;
-        if is_sure {
-            self.unsure.clear();
-        }
-        let flow = self.block(&function.body);
-        let result = match (flow, function.results.as_slice()) {
-            (Flow::Returns(value), []) => value,
-            (_, [one, ..]) => self.named_here(one).unwrap_or(Value::None),
-            _ => Value::None,
-        };
-        if !is_sure {
-            self.unsure.pop();
-        }
-        self.scopes.pop();
-        self.is_asked = is_asked;
-        result
-    }
-
-    fn named_here(&self, name: &str) -> Option<Value> {
-        self.scopes.last().and_then(|s| s.get(name)).cloned()
-    }
-
     // Values ---------------------------------------------------------------------------------------------------------
 
     pub fn value(&mut self, node: &Node) -> Value {
@@ -446,7 +425,10 @@ impl<'p> Run<'p> {
                 }
             }
             Form::Text(text) => Value::Text(text.as_str().into()),
-            Form::Name(name) => self.of_name(name, span),
+            Form::Name(name) => {
+                self.share(name, span);
+                self.of_name(name, span)
+            }
             Form::Attribute(inner, name) => self.attribute(node, inner, name),
             Form::Call(inner, arguments) => self.call(node, inner, arguments),
             Form::Unary(sign, inner) => {

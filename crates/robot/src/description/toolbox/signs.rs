@@ -77,7 +77,8 @@ impl Run<'_> {
             return self.compared(sign, &left, &right).map_or_else(|| self.unknown(span), Value::Bool);
         }
         let is_arithmetic = matches!(sign, "+" | "-" | "*" | "/" | ".*" | "./" | ".^" | "^" | "//" | "%");
-        if !is_arithmetic {
+        // `^` of Python is no power.
+        if !is_arithmetic || sign == "^" && self.is_python() && self.text[span.clone()].contains('^') {
             return self.unknown(span);
         }
         let is_array = |run: &Self, v: &Value| match v {
@@ -91,9 +92,8 @@ impl Run<'_> {
             {
                 Value::Text(format!("{a}{b}").into())
             }
-            (Value::Robot(a), Value::Robot(b)) if matches!(sign, "+" | "*") => {
+            (Value::Robot(_), Value::Robot(_)) if matches!(sign, "+" | "*") => {
                 let links = [&left, &right].map(|r| r.clone()).to_vec();
-                let _ = (a, b);
                 self.robot_of(&Value::Matrix(Rc::new(vec![links])), span)
             }
             (Value::List(a), Value::List(b))
@@ -140,6 +140,20 @@ impl Run<'_> {
             (a, b) => {
                 let found = formula(a).zip(formula(b)).and_then(|(a, b)| a.joined(sign, &b, span.clone()));
                 found.map_or_else(|| self.unknown(span), Value::Number)
+            }
+        }
+    }
+
+    /// `a *= 2` of an array changes it where it is, for all that have it.
+    pub fn put_in_place(&mut self, array: usize, found: &Value, span: &Range<usize>) {
+        self.change(&Value::List(array));
+        let whole = self.store.lists[array].part_of;
+        match (found, whole) {
+            (Value::List(k), None) => self.store.lists[array].items = self.store.lists[*k].items.clone(),
+            _ => {
+                let lost = self.lost(span, "is not followed");
+                self.store.lose(&Value::List(whole.unwrap_or(array)), &lost);
+                self.store.lose(&Value::List(array), &lost);
             }
         }
     }

@@ -120,6 +120,11 @@ impl Parser<'_> {
         let sign = self.word().to_string();
         if self.is_python() && sign == ":" {
             // A type.
+            if !matches!(&targets[0].form, Form::Name(_) | Form::Attribute(..))
+                || ["else", "try", "finally"].contains(&&self.text[targets[0].span.clone()])
+            {
+                return None;
+            }
             self.at += 1;
             self.value()?;
         }
@@ -219,6 +224,12 @@ impl Parser<'_> {
                 Some(if word == "try" { Act::Try(blocks) } else { Act::Unsure(blocks) })
             }
             "function" => self.matlab_function(),
+            "global" | "persistent" | "do" | "until" | "unwind_protect" | "arguments" | "classdef"
+                if is_command || word == "do" =>
+            {
+                self.left(self.at);
+                Some(Act::Unread)
+            }
             "return" => self.one(Act::Return(None)),
             "break" => self.one(Act::Break),
             "continue" => self.one(Act::Continue),
@@ -386,9 +397,13 @@ impl Parser<'_> {
             "continue" => self.one(Act::Continue),
             "pass" => self.one(Act::Nothing),
             "import" | "from" => self.import(),
-            "raise" | "assert" | "global" | "nonlocal" => {
+            "raise" | "assert" => {
                 self.left(self.at);
                 Some(Act::Nothing)
+            }
+            "global" | "nonlocal" => {
+                self.left(self.at);
+                Some(Act::Unread)
             }
             _ => return None,
         };
@@ -416,8 +431,10 @@ impl Parser<'_> {
 
     /// Ends of lines before one of these words.
     fn skip_lines_before(&mut self, words: &[&str]) {
-        while self.kind() == Kind::Line && words.contains(&self.second()) {
-            self.at += 1;
+        let lines = self.tokens[self.at..].iter().take_while(|t| t.kind == Kind::Line).count();
+        let behind = self.tokens.get(self.at + lines).map(|t| &self.text[t.span.clone()]);
+        if behind.is_some_and(|word| words.contains(&word)) {
+            self.at += lines;
         }
     }
 
@@ -455,6 +472,8 @@ impl Parser<'_> {
                     let value = if self.take("=") { Some(self.value()?) } else { None };
                     parameters.push((name, value));
                 }
+                // `*all` and `**named` take what is left.
+                Kind::Sign if self.word().starts_with('*') => return None,
                 Kind::Sign => self.at += 1,
                 _ => return None,
             }

@@ -3,6 +3,7 @@
 use super::links::Joint;
 use super::{Link, Made};
 use crate::description::cell::MAX_LENGTH;
+use std::collections::HashSet;
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -120,6 +121,8 @@ pub(super) struct List {
     pub items: Vec<Value>,
     /// Of numpy: sums and multiples go entry by entry.
     pub is_array: bool,
+    /// The array that it is a part of: numpy's parts change with the whole.
+    pub part_of: Option<usize>,
     pub lost: Option<Lost>,
 }
 
@@ -145,21 +148,51 @@ pub(super) struct Store {
 
 impl Store {
     pub fn list(&mut self, items: Vec<Value>, is_array: bool) -> Value {
-        self.lists.push(List { items, is_array, lost: None });
+        self.lists.push(List { items, is_array, part_of: None, lost: None });
         Value::List(self.lists.len() - 1)
     }
 
-    /// Says that this is not known any more.
+    /// Says that this is not known any more, nor what it holds; robots in lists stay as they are.
     pub fn lose(&mut self, value: &Value, lost: &Lost) {
-        let place = match *value {
-            Value::List(k) => &mut self.lists[k].lost,
-            Value::Link(k) => &mut self.links[k].lost,
-            Value::Robot(k) => &mut self.robots[k].lost,
-            Value::Joint(k) => &mut self.joints[k].lost,
-            Value::Body(k) => &mut self.bodies[k].lost,
-            _ => return,
-        };
-        place.get_or_insert_with(|| lost.clone());
+        let mut open = vec![value.clone()];
+        while let Some(one) = open.pop() {
+            let place = match one {
+                Value::List(k) => {
+                    if self.lists[k].lost.is_none() {
+                        open.extend(
+                            self.lists[k].items.iter().filter(|v| !matches!(v, Value::Robot(_))).cloned(),
+                        );
+                    }
+                    &mut self.lists[k].lost
+                }
+                Value::Matrix(rows) => {
+                    let held = |v: &&Value| !matches!(v, Value::Robot(_) | Value::Number(_));
+                    open.extend(rows.iter().flatten().filter(held).cloned());
+                    continue;
+                }
+                Value::Link(k) => &mut self.links[k].lost,
+                Value::Robot(k) => &mut self.robots[k].lost,
+                Value::Joint(k) => &mut self.joints[k].lost,
+                Value::Body(k) => &mut self.bodies[k].lost,
+                _ => continue,
+            };
+            place.get_or_insert_with(|| lost.clone());
+        }
+    }
+
+    /// Whether links stand in a value.
+    pub fn holds_link(&self, value: &Value) -> bool {
+        let mut open = vec![value.clone()];
+        let mut seen = HashSet::new();
+        while let Some(one) = open.pop() {
+            match one {
+                Value::Link(_) => return true,
+                Value::List(k) if seen.insert(k) => open.extend(self.lists[k].items.iter().cloned()),
+                Value::Matrix(rows) => open.extend(rows.iter().flatten().cloned()),
+                _ => {}
+            }
+        }
+        false
     }
 
     /// The entries of a list, row or column.

@@ -1,0 +1,192 @@
+//! What sentences say of a document's dynamics: where gravity pulls, and about which points inertias are.
+
+/// The point about which the inertias of links are.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Point {
+    Centre,
+    Joint,
+}
+
+/// What the words of a document say.
+#[derive(Clone, Copy, Default, Debug)]
+pub(super) struct Told {
+    /// The axis along which gravity acts, and whether against it.
+    pub gravity: Option<(usize, bool)>,
+    pub inertia: Option<Point>,
+}
+
+pub(super) fn told(text: &str) -> Told {
+    let lower = text.to_lowercase();
+    Told { gravity: gravity(&lower), inertia: inertia(&lower) }
+}
+
+/// No sentence is longer that says something.
+const LONGEST: usize = 300;
+/// So often a word is looked at.
+const OFTEN: usize = 50;
+
+/// The sentences with a word in them.
+fn sentences<'t>(lower: &'t str, words: &'t [&'t str]) -> impl Iterator<Item = &'t str> {
+    words.iter().flat_map(move |word| lower.match_indices(word).take(OFTEN)).map(move |(at, _)| {
+        let mut first = at.saturating_sub(LONGEST);
+        while !lower.is_char_boundary(first) {
+            first += 1;
+        }
+        let is_end = |text: &str, k: usize| {
+            // The point in `I_1. The` ends a sentence, that in `0.5` does not.
+            text.as_bytes()[k] == b'\n' || text.as_bytes().get(k + 1).is_none_or(u8::is_ascii_whitespace)
+        };
+        let before = &lower[first..at];
+        let start = before.rmatch_indices(['.', '\n']).find(|(k, _)| is_end(before, *k));
+        let start = start.map_or(first, |(k, _)| first + k + 1);
+        let mut last = (at + LONGEST).min(lower.len());
+        while !lower.is_char_boundary(last) {
+            last -= 1;
+        }
+        let behind = &lower[at..last];
+        let end = behind.match_indices(['.', '\n']).find(|(k, _)| is_end(behind, *k));
+        &lower[start..end.map_or(last, |(k, _)| at + k)]
+    })
+}
+
+/// The direction in which a sentence says that gravity acts.
+fn gravity(lower: &str) -> Option<(usize, bool)> {
+    const WORDS: [&str; 9] = [
+        "gravit",
+        "schwerkraft",
+        "schwerebeschl",
+        "erdbeschl",
+        "pesanteur",
+        "gravedad",
+        "gravidade",
+        "gravità",
+        "weight",
+    ];
+    let mut found: Option<(usize, bool)> = None;
+    for sentence in sentences(lower, &WORDS) {
+        let sentence: String =
+            sentence.chars().filter(|c| !matches!(c, '$' | '{' | '}' | '\\' | '_')).collect();
+        let sentence = ["hat", "vec", "mathbf"].iter().fold(sentence, |s, look| s.replace(look, ""));
+        for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
+            for minus in ["-", "−", "–"] {
+                for (k, _) in sentence.match_indices(&format!("{minus}{letter}")) {
+                    let behind = sentence[k + minus.len() + 1..].chars().next();
+                    if behind.is_some_and(char::is_alphabetic) {
+                        continue;
+                    }
+                    match found {
+                        Some(other) if other != (axis, true) => return None,
+                        _ => found = Some((axis, true)),
+                    }
+                }
+            }
+        }
+    }
+    found
+}
+
+/// The point about which a sentence says that inertias are.
+fn inertia(lower: &str) -> Option<Point> {
+    const WORDS: [&str; 6] = ["inerti", "inerzi", "inerci", "inérci", "trägheit", "traegheit"];
+    const CENTRES: [&str; 14] = [
+        "centre of mass",
+        "center of mass",
+        "centres of mass",
+        "centers of mass",
+        "centre of gravity",
+        "center of gravity",
+        "centroid",
+        "schwerpunkt",
+        "massenmittelpunkt",
+        "centre de masse",
+        "centre de gravité",
+        "centro de mas",
+        "centro di massa",
+        "baricent",
+    ];
+    const JOINTS: [&str; 13] = [
+        "joint",
+        "axis of rotation",
+        "rotation axis",
+        "pivot",
+        "drehachse",
+        "drehpunkt",
+        "gelenk",
+        "axe de rotation",
+        "articulation",
+        "articulación",
+        "articulação",
+        "asse di rotazione",
+        "eje de giro",
+    ];
+    const ABOUT: [&str; 13] = [
+        "about",
+        "around",
+        "respect to",
+        "relative to",
+        " um ",
+        "bezüglich",
+        "bezogen auf",
+        "autour",
+        "par rapport",
+        "alrededor",
+        "respecto",
+        "rispetto",
+        "em torno",
+    ];
+    let mut found: Option<Point> = None;
+    for sentence in sentences(lower, &WORDS) {
+        for (names, point) in [(&CENTRES[..], Point::Centre), (&JOINTS[..], Point::Joint)] {
+            for (at, _) in names.iter().flat_map(|name| sentence.match_indices(name)) {
+                let mut first = at.saturating_sub(30);
+                while !sentence.is_char_boundary(first) {
+                    first += 1;
+                }
+                // `about the centre`, with nothing between that is another point.
+                let before = &sentence[first..at];
+                let about = ABOUT.iter().filter_map(|w| before.rfind(w)).max();
+                let is_about = about.is_some_and(|k| {
+                    !before[k..].contains([',', ';'])
+                        && !CENTRES.iter().chain(&JOINTS).any(|other| before[k..].contains(other))
+                });
+                match found {
+                    _ if !is_about => {}
+                    Some(other) if other != point => return None,
+                    _ => found = Some(point),
+                }
+            }
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sentences_say_where_gravity_pulls_and_about_what_inertias_are() {
+        for (text, gravity, inertia) in [
+            ("Gravity acts along −y.", Some((1, true)), None),
+            ("The inertias $I_1$, $I_2$ are those about the centres of mass.", None, Some(Point::Centre)),
+            ("I_1 is the moment of inertia about joint 1.", None, Some(Point::Joint)),
+            (
+                "Trägheitsmomente um die Gelenkachsen; die Schwerkraft wirkt entlang -z",
+                Some((2, true)),
+                Some(Point::Joint),
+            ),
+            ("I_i: moments d'inertie par rapport au centre de masse", None, Some(Point::Centre)),
+            ("Its inertia is I and its centre of mass is at 0.5 l from the joint.", None, None),
+            (
+                "Inertias about the joints in a), about the centres of mass in b) (inertias again).",
+                None,
+                None,
+            ),
+            ("g along -x. The gravity acts along -y", Some((1, true)), None),
+            ("gravity along -x or gravity along -y", None, None),
+        ] {
+            let found = told(text);
+            assert_eq!((found.gravity, found.inertia), (gravity, inertia), "{text}");
+        }
+    }
+}

@@ -1,0 +1,224 @@
+//! How formulas of dynamics are meant: what the document says of it, one meaning for one letter, special cases, and names that are no
+//! quantities of dynamics. Short documents about a planar arm with two links, in pieces.
+
+use denavit_check::{CheckOptions, Checked, Standing, check};
+use denavit_reading::document::Format;
+
+const TABLE: &str = "# Two-link arm, dynamics\n\nStandard DH\n\n| i | theta | d | a | alpha |\n|---|---|---|---|---|\n| 1 | θ1 | 0 | l1 | 0 |\n| 2 | θ2 | 0 | l2 | 0 |\n";
+
+const POINTS: &str = "Point masses at the link ends, gravity acts along −y.";
+const M: &str = r"$$M_{11} = m_1 l_1^2 + m_2(l_1^2 + l_2^2 + 2 l_1 l_2 c_2)$$
+
+$$M_{12} = m_2 l_2^2 + m_2 l_1 l_2 c_2$$
+
+$$M_{22} = m_2 l_2^2$$";
+const INERTIAL_1: &str = r"(m_1+m_2) l_1^2 \ddot\theta_1 + m_2 l_2^2(\ddot\theta_1+\ddot\theta_2) + m_2 l_1 l_2 c_2 (2\ddot\theta_1+\ddot\theta_2)";
+const CORIOLIS_1: &str = r"- m_2 l_1 l_2 s_2 (2\dot\theta_1\dot\theta_2+\dot\theta_2^2)";
+const GRAVITY_1: &str = "+ (m_1+m_2) g l_1 c_1 + m_2 g l_2 c_{12}";
+const TORQUE_2: &str = r"$$\tau_2 = m_2 l_2^2(\ddot\theta_1+\ddot\theta_2) + m_2 l_1 l_2 c_2 \ddot\theta_1 + m_2 l_1 l_2 s_2 \dot\theta_1^2 + m_2 g l_2 c_{12}$$";
+
+fn checked(parts: &[&str]) -> Checked {
+    let text = format!("{TABLE}\n{}\n", parts.join("\n\n"));
+    check(&text, Format::of("a.md", &text), None, &CheckOptions::default())
+        .unwrap_or_else(|e| panic!("{text}\n{e:?}"))
+}
+
+fn torque_1(parts: &[&str]) -> String {
+    format!(r"$$\tau_1 = {}$$", parts.join(" "))
+}
+
+/// What is said of each claim, in order.
+#[track_caller]
+fn says(parts: &[&str], expected: &[Standing]) -> Checked {
+    let all = checked(parts);
+    let found: Vec<Standing> = all.claims.iter().map(denavit_check::Claim::standing).collect();
+    let names: Vec<&str> = all.claims.iter().map(|c| c.name.as_str()).collect();
+    assert_eq!(found, expected, "{parts:?}\n{names:?}\n{:?}", all.unjudged);
+    all
+}
+
+const RIGHT: Standing = Standing::Equal;
+const WRONG: Standing = Standing::Wrong;
+const OPEN: Standing = Standing::Undecided;
+
+#[test]
+fn torques_have_gravity_where_the_document_has_it() {
+    let no_gravity = torque_1(&[INERTIAL_1, CORIOLIS_1]);
+    says(&[POINTS, &no_gravity, TORQUE_2], &[WRONG, RIGHT]);
+    says(&[POINTS, &torque_1(&[INERTIAL_1, GRAVITY_1]), TORQUE_2], &[WRONG, RIGHT]);
+    // What is lost is more than a slip, and nothing else says where the first mass is.
+    says(&[POINTS, &torque_1(&[INERTIAL_1]), TORQUE_2], &[OPEN, RIGHT]);
+    // In a plane that lies flat there is none.
+    let flat = TORQUE_2.replace(" + m_2 g l_2 c_{12}", "");
+    says(&["The arm moves in a horizontal plane.", &no_gravity, &flat], &[RIGHT, RIGHT]);
+}
+
+#[test]
+fn a_letter_with_three_indices_has_one_meaning() {
+    let right = [
+        r"$$c_{121} = c_{211} = -m_2 l_1 l_2 s_2$$",
+        r"$$c_{221} = -m_2 l_1 l_2 s_2$$",
+        r"$$c_{112} = m_2 l_1 l_2 s_2$$",
+        r"$$c_{122} = 0$$",
+    ];
+    says(&[M, right[0], right[1], right[2], right[3]], &[RIGHT; 7]);
+    let wrong = [right[2].replace("= m", "= -m"), right[3].replace('0', "-m_2 l_1 l_2 s_2")];
+    says(&[M, right[0], right[1], &wrong[0], &wrong[1]], &[RIGHT, RIGHT, RIGHT, RIGHT, RIGHT, WRONG, WRONG]);
+}
+
+#[test]
+fn a_zero_is_of_the_kind_of_its_like() {
+    let v1 = r"$$V_1 = -m_2 l_1 l_2 s_2(2\dot\theta_1\dot\theta_2 + \dot\theta_2^2)$$";
+    says(&[POINTS, M, v1, "$$V_2 = 0$$"], &[RIGHT, RIGHT, RIGHT, RIGHT, WRONG]);
+    let c = r"$$C_{11} = -m_2 l_1 l_2 s_2 \dot\theta_2, \quad C_{12} = -m_2 l_1 l_2 s_2(\dot\theta_1+\dot\theta_2), \quad C_{21} = m_2 l_1 l_2 s_2 \dot\theta_1, \quad C_{22} = 0$$";
+    says(&[POINTS, M, c], &[RIGHT; 7]);
+}
+
+#[test]
+fn helpers_are_what_they_are_where_they_are_used() {
+    let matrix = r"$$C(q,\dot q) = \begin{bmatrix} h\dot\theta_2 & h(\dot\theta_1+\dot\theta_2) \\ -h\dot\theta_1 & 0 \end{bmatrix}$$";
+    let h = "$$h = -m_2 l_1 l_2 s_2$$";
+    let all = says(&[M, h, matrix, "and once more", "$$h = m_2 l_1 l_2 c_2$$"], &[RIGHT; 5]);
+    assert_eq!(all.unjudged.len(), 1, "{:?}", all.unjudged);
+    says(&[M, "$$h = -m_2 l_1 l_2 s_2 = -m_2 l_2 l_1 s_2$$", matrix], &[RIGHT; 5]);
+    says(&[M, "$$h = -m_2 l_1 l_2 s_2 = -m_2 l_1 l_2 c_2$$", matrix], &[RIGHT, RIGHT, RIGHT, WRONG, RIGHT]);
+}
+
+#[test]
+fn what_the_words_say_counts() {
+    let sines = |s: &str| s.replace("c_1 ", "s_1 ").replace("c_{12}", "s_{12}");
+    let torques = [torque_1(&[INERTIAL_1, CORIOLIS_1, &sines(GRAVITY_1)]), sines(TORQUE_2)];
+    // Nothing says along what gravity acts.
+    says(&["Point masses at the link ends.", &torques[0], &torques[1]], &[RIGHT, RIGHT]);
+    says(&[POINTS, &torques[0], &torques[1]], &[OPEN, OPEN]);
+    let about_joints = r"$$M_{11} = I_1 + I_2 + m_2 l_1^2 + 2 m_2 l_1 l_{c2} c_2$$
+
+$$M_{12} = I_2 + m_2 l_1 l_{c2} c_2$$
+
+$$M_{22} = I_2$$";
+    let where_ = |about: &str| {
+        format!("The inertias $I_1$, $I_2$ are those about {about}; $l_{{c1}}$, $l_{{c2}}$ from the joints.")
+    };
+    says(&[&where_("the joints"), about_joints], &[RIGHT; 3]);
+    says(&[&where_("the centres of mass"), about_joints], &[OPEN; 3]);
+}
+
+#[test]
+fn rotors_turn_their_own_joint_alone() {
+    let m = r"$$M_{11} = (m_1+m_2) l_1^2 + m_2 l_2^2 + 2 m_2 l_1 l_2 c_2 + J_1$$
+
+$$M_{12} = m_2 l_2^2 + m_2 l_1 l_2 c_2$$
+
+$$M_{22} = m_2 l_2^2 + J_2$$";
+    says(&["Point masses at the ends; $J_1$, $J_2$ are the rotors' inertias.", m], &[RIGHT; 3]);
+    let named = m.replace("J_1", "J_{m1}").replace("J_2", "J_{m2}");
+    says(&["Point masses at the ends.", &named], &[RIGHT; 3]);
+    let both = r"$$M_{11} = I_1 + I_2 + J_1 + l_{c1}^{2} m_1 + m_2(l_1^2 + 2 l_1 l_{c2} c_2 + l_{c2}^2)$$
+
+$$M_{12} = I_2 + l_{c2} m_2(l_1 c_2 + l_{c2})$$
+
+$$M_{22} = I_2 + J_2 + l_{c2}^2 m_2$$
+
+$$T = \frac{1}{2}(I_1 + J_1 + m_1 l_{c1}^2)\dot\theta_1^2 + \frac{1}{2} I_2 (\dot\theta_1 + \dot\theta_2)^2 + \frac{1}{2} J_2 \dot\theta_2^2 + \frac{1}{2} m_2 (l_1^2 \dot\theta_1^2 + l_{c2}^2 (\dot\theta_1 + \dot\theta_2)^2 + 2 l_1 l_{c2} c_2 \dot\theta_1 (\dot\theta_1 + \dot\theta_2))$$";
+    says(&["", both], &[RIGHT; 4]);
+    // Of a link it would turn with all joints before it.
+    let twice = both.replace("+ J_1 + l_{c1}", "+ J_1 + J_2 + l_{c1}");
+    let all = checked(&["", &twice]);
+    assert_eq!(all.claims[0].standing(), WRONG);
+}
+
+#[test]
+fn other_quantities_are_not_taken_for_these() {
+    let c = r"$$C(q,\dot q) = \begin{bmatrix} -m_2 l_1 l_2 s_2\dot\theta_2 & -m_2 l_1 l_2 s_2(\dot\theta_1+\dot\theta_2) \\ m_2 l_1 l_2 s_2\dot\theta_1 & 0 \end{bmatrix}$$";
+    for letter in ["N", "S"] {
+        let skew = format!(
+            r"The matrix ${letter} = \dot M - 2C$ is skew-symmetric:
+
+$${letter} = \begin{{bmatrix}} 0 & m_2 l_1 l_2 s_2(2\dot\theta_1+\dot\theta_2) \\ -m_2 l_1 l_2 s_2(2\dot\theta_1+\dot\theta_2) & 0\end{{bmatrix}}$$"
+        );
+        let all = says(&[POINTS, M, c, &skew], &[RIGHT; 4]);
+        assert!(!all.unjudged.is_empty());
+    }
+    let task = r"$$\Lambda = \begin{bmatrix} m_2 + \frac{m_1}{s_2^2} & 0 \\ 0 & m_2\end{bmatrix}$$";
+    says(&[POINTS, M, task], &[RIGHT; 3]);
+    let forces = r"$$F_2 = m_2 l_1 \ddot\theta_1 c_2 + m_2 l_2 (\ddot\theta_1 + \ddot\theta_2) + m_2 l_1 s_2 \dot\theta_1^2 + m_2 g c_{12}$$
+
+$$f_1 = m_1 l_1 \ddot\theta_1 + m_1 g c_1$$";
+    let all = checked(&[POINTS, &torque_1(&[INERTIAL_1, CORIOLIS_1, GRAVITY_1]), TORQUE_2, forces]);
+    assert!(all.claims.iter().all(|c| c.standing() != WRONG));
+    assert!(all.claims[..2].iter().all(denavit_check::Claim::is_proved));
+}
+
+#[test]
+fn special_cases_are_not_called_wrong() {
+    let whole = torque_1(&[INERTIAL_1, CORIOLIS_1, GRAVITY_1]);
+    for (words, special) in [
+        (
+            "Neglecting the Coriolis and centrifugal terms, for slow motions",
+            torque_1(&[INERTIAL_1, GRAVITY_1]),
+        ),
+        (
+            "With joint 2 locked",
+            torque_1(&[r"((m_1+m_2) l_1^2 + m_2 l_2^2 + 2 m_2 l_1 l_2 c_2) \ddot\theta_1", GRAVITY_1]),
+        ),
+        ("A controller that ignores the coupling", torque_1(&[r"m_1 l_1^2 \ddot\theta_1 + m_1 g l_1 c_1"])),
+        (
+            "If the first link is massless,",
+            torque_1(&[
+                &INERTIAL_1.replace("(m_1+m_2)", "m_2"),
+                CORIOLIS_1,
+                &GRAVITY_1.replace("(m_1+m_2)", "m_2"),
+            ]),
+        ),
+    ] {
+        says(&[POINTS, &whole, TORQUE_2, words, &special], &[RIGHT, RIGHT, OPEN]);
+    }
+    // What differs by a sign is a slip, wherever it stands.
+    let slip = whole.replace("- m_2 l_1 l_2 s_2", "+ m_2 l_1 l_2 s_2");
+    says(&[POINTS, &whole, TORQUE_2, "Again:", &slip], &[RIGHT, RIGHT, WRONG]);
+    for (words, entry) in [
+        (r"For $\theta_2 = 45°$", r"$$M_{12} = m_2 l_2^2 + \frac{\sqrt 2}{2} m_2 l_1 l_2$$"),
+        (r"For $\theta_2 = 60°$", r"$$M_{11} = m_1 l_1^2 + m_2(l_1^2 + l_2^2 + l_1 l_2)$$"),
+    ] {
+        says(&[POINTS, M, words, entry], &[RIGHT, RIGHT, RIGHT, OPEN]);
+    }
+}
+
+#[test]
+fn documents_that_mention_dynamics_keep_their_kinematics() {
+    let words = "For a later lecture on dynamics.\n\nsigma = θ1 + θ2\n\nx = l1 cos θ1 + l2 cos(sigma)\n\ny = l1 sin θ1 + l2 sin(sigma)\n";
+    let all = checked(&[words]);
+    let proved = all.claims.iter().filter(|c| c.is_proved()).count();
+    assert!(proved >= 2, "{:?} {:?}", all.claims, all.unjudged);
+    let matrices = r"$$M_1 = \begin{bmatrix} c_1 & -s_1 & 0 & l_1 c_1 \\ s_1 & c_1 & 0 & l_1 s_1 \\ 0&0&1&0\\0&0&0&1\end{bmatrix}$$
+
+$$M_1 M_2 = \begin{bmatrix} c_{12} & -s_{12} & 0 & l_1 c_1 + l_2 c_{12} \\ s_{12} & c_{12} & 0 & l_1 s_1 + l_2 s_{12} \\ 0&0&1&0\\0&0&0&1\end{bmatrix}$$";
+    let all = checked(&[matrices]);
+    assert!(
+        !all.claims.is_empty() && all.claims.iter().all(denavit_check::Claim::is_proved),
+        "{:?}",
+        all.unjudged
+    );
+}
+
+/// A document with very many names for one thing has an answer soon, which says what was not tried.
+#[test]
+fn many_names_are_bounded() {
+    let mut sum = String::new();
+    for k in 1..=2 {
+        for base in [
+            "m", "M", "m_{G", "l_{", "l_{c", "l_{g", "L_{", "L_{c", "r_{", "r_{c", "I_{", "I_{c", "I_{G",
+            "I_{o", "J_{", "J_{c", "J_{G",
+        ] {
+            let close = if base.contains('{') { "}" } else { "" };
+            let bar = if close.is_empty() { "_" } else { "" };
+            sum += &format!(r" + {base}{bar}{k}{close}\ddot\theta_1");
+        }
+    }
+    let entries: String = (1..=2)
+        .flat_map(|i| (1..=2).flat_map(move |j| (1..=2).map(move |k| (i, j, k))))
+        .map(|(i, j, k)| format!("$$c_{{{i}{j}{k}}} = m_1 l_1^2 s_{j} c_{k} + I_2$$\n\n"))
+        .collect();
+    let all = checked(&[&format!(r"$$\tau_1 = a_1{sum}$$"), &entries]);
+    assert!(all.claims.iter().all(|c| !c.is_proved()));
+}
