@@ -163,6 +163,12 @@ fn what_is_not_followed_is_an_error_with_its_place() {
             "r = rigidBodyTree;\nj = rigidBodyJoint('j','revolute');\nsetFixedTransform(j,[0 1 0 0],'dh');\nb = rigidBody('b'); b.Joint = j;\nc = rigidBody('c');\naddBody(r,b,'base'); addBody(r,c,'base');",
             "6:22 error: ",
         ),
+        ("L = [Link([0 0 1 0]) Link([0 0 2 0])];\nL(1) = [];\nr = SerialLink(L);", "2:1 error: `L(1)`"),
+        (
+            "L = [Link([0 0 1 0]) Link([0 0 2 0])];\neval('L(2).a = 7;');\nr = SerialLink(L);",
+            "2:1 error: `eval(",
+        ),
+        ("r = SerialLink([Link([0 1d-3 0 0]) Link([0 0 1 0])]);", "1:22 error: "),
         (
             "r = rigidBodyTree;\nj = rigidBodyJoint('j','revolute');\nj.JointAxis = [0 1 0];\nsetFixedTransform(j,[0 1 0 0],'dh');",
             "3:1 error: ",
@@ -200,6 +206,28 @@ fn what_is_not_followed_is_an_error_with_its_place() {
         ("r = DHRobot([RevoluteDH(a=1), RevoluteDH(a=x[1])])", "1:44 error: `x[1]` is not followed"),
         ("r = DHRobot([RevoluteDH(a=1)]*n)", "1:13 error: "),
         ("r = DHRobot([RevoluteDH(a=1), RevoluteDH(a=2)])\nr.links = []", "2:1 error: `r.links`"),
+        // What is not followed behind a robot, and what follows it.
+        (
+            "l = RevoluteDH(a=1)\nr = DHRobot([l, RevoluteDH(a=2)])\nif x[:\n    y = 1\nelse:\n    l.a = 3",
+            "3:1 error: `if x[:…`",
+        ),
+        (
+            "class P: pass\np = P()\np.a = 1\nq = p\nq.a = 2\nr = DHRobot([RevoluteDH(a=p.a), RevoluteDH(a=1)])",
+            "4:5 error: `p` gets",
+        ),
+        (
+            "h = 0\ndef f():\n    global h\n    h = 2\nf()\nr = DHRobot([RevoluteDH(a=h), RevoluteDH(a=1)])",
+            "3:5 error: `global h`",
+        ),
+        (
+            "import numpy as np\na = np.array([1, 2])\nb = a[0:1]\nb[0] = 7\nr = DHRobot([RevoluteDH(a=a[0]), RevoluteDH(a=1)])",
+            "4:1 error: `b[0]`",
+        ),
+        ("r = DHRobot([RevoluteDH(a=2^3), RevoluteDH(a=1)])", "1:26 error: `2^3`"),
+        (
+            "class A(DHRobot):\n    def __init__(self):\n        super().__init__([RevoluteDH(a=1), RevoluteDH(a=2)])\n    def grow(self):\n        self.links[0].a = 9\nr = A()\nr.grow()",
+            "7:1 error: `r.grow()`",
+        ),
     ] {
         assert!(
             said(text, Language::Python).starts_with(expected),

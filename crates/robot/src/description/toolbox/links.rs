@@ -335,6 +335,10 @@ impl Run<'_> {
     /// `L(2).offset = value`
     pub fn set_of_link(&mut self, k: usize, name: &str, value: Value, span: &Range<usize>) {
         self.change(&Value::Link(k));
+        if let Some(lost) = self.lost.clone() {
+            // Behind what is not followed it is not known whether the program gets here.
+            return self.store.lose(&Value::Link(k), &lost);
+        }
         let mut link = self.store.links[k].clone();
         match name {
             "flip" | "mdh" | "sigma" => match self.store.truth(&value) {

@@ -246,12 +246,14 @@ impl Parser<'_> {
 
     pub(super) fn sums(&mut self, least: u8) -> Option<Node> {
         let start = self.start();
-        if self.is_python() && self.word() == "not" {
+        let mut left = if self.is_python() && self.word() == "not" {
             self.at += 1;
-            let inner = self.deeper(|p| p.sums(3))?;
-            return self.node(Form::Unary("not".into(), Box::new(inner)), start);
-        }
-        let mut left = self.unary()?;
+            // It binds less than comparisons.
+            let inner = self.deeper(|p| p.sums(2))?;
+            self.node(Form::Unary("not".into(), Box::new(inner)), start)?
+        } else {
+            self.unary()?
+        };
         while let Some(strength) = self.strength().filter(|s| *s > least) {
             let mut sign = self.word().to_string();
             self.at += 1;
