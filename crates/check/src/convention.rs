@@ -1,7 +1,7 @@
 //! The convention that a document's words name, in the phrases of courses and books and in their languages.
 
-use denavit::description::Convention;
-use denavit::description::table::PrintedTable;
+use denavit::description::table::{PrintedTable, tables};
+use denavit::description::{Convention, TableKind, TableOptions};
 use denavit_symbolic::Expr;
 use std::ops::Range;
 
@@ -373,3 +373,30 @@ mod tests {
         }
     }
 }
+
+/// The tables that can be read, one whose convention nothing says in each of them; and whether it was tried.
+pub(super) fn in_each(
+    text: &str,
+    kind: TableKind,
+    reading: &TableOptions,
+    printed: &[PrintedTable],
+) -> Vec<(PrintedTable, bool)> {
+    let is_open = |t: &PrintedTable| t.robot.is_err() && reading.convention.is_none();
+    let tried: Vec<PrintedTable> = match printed.iter().take(MAX_TABLES).any(is_open) {
+        false => vec![],
+        true => Convention::ALL
+            .into_iter()
+            .flat_map(|c| tables(text, kind, &TableOptions { convention: Some(c), ..reading.clone() }))
+            .collect(),
+    };
+    let of = |table: &PrintedTable| -> Vec<(PrintedTable, bool)> {
+        if !is_open(table) {
+            return vec![(table.clone(), false)];
+        }
+        tried.iter().filter(|t| t.span == table.span).map(|t| (t.clone(), true)).collect()
+    };
+    printed.iter().take(MAX_TABLES).flat_map(of).collect()
+}
+
+/// The most tables that are held against a robot.
+const MAX_TABLES: usize = 12;

@@ -2,14 +2,15 @@
 //! entries of frames in each other, the direction of a planar arm, and the letters that a text uses for the hand's place.
 
 use super::habits::{Habits, Places};
+pub(super) use super::letters::plain;
+use super::letters::{AXES, Add, is_mentioned};
 use super::matrix::Matrix;
 use super::subject::Subject;
 use denavit::description::JointKind;
 use denavit::geometry::{Transform, Vector};
 use denavit_reading::slip::Points;
-use denavit_symbolic::parse::parse;
-use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
-use denavit_symbolic::{Expr, greek};
+use denavit_symbolic::Expr;
+use denavit_symbolic::vocabulary::plain_name;
 use std::collections::BTreeSet;
 
 /// A name with its meaning.
@@ -19,40 +20,6 @@ pub(super) struct Custom {
     pub meaning: Expr,
     /// The same with the entries of the pose as symbols.
     pub inverse: Expr,
-}
-
-/// The axes of coordinates.
-const AXES: [&str; 3] = ["x", "y", "z"];
-
-/// The names of a text: letters, each with the digits and letters behind it, marks of subscripts left aside.
-pub(super) fn plain(text: &str) -> String {
-    // `\\rho` as ρ, by its command; of the rest only names that no word contains.
-    let text = if text.contains('\\') { greek_commands(text) } else { text.to_string() };
-    let mut plain = plain_name(&text);
-    for name in ["vartheta", "varphi", "theta", "omega", "phi", "tau"] {
-        if plain.contains(name) {
-            let letter = greek::letter(name).unwrap_or('φ');
-            plain = plain.replace(name, letter.encode_utf8(&mut [0; 4]));
-        }
-    }
-    plain
-}
-
-/// A text with the commands of Greek letters as letters.
-fn greek_commands(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    let mut rest = text;
-    while let Some(at) = rest.find('\\') {
-        out.push_str(&rest[..at]);
-        let name: String = rest[at + 1..].chars().take_while(char::is_ascii_alphabetic).collect();
-        match greek::letter(&name) {
-            Some(letter) => out.push(letter),
-            None => out.push_str(&rest[at..at + 1 + name.len()]),
-        }
-        rest = &rest[at + 1 + name.len()..];
-    }
-    out.push_str(rest);
-    out
 }
 
 /// The customary names that a text mentions.
@@ -67,7 +34,7 @@ pub(super) fn names(subject: &Subject, text: &str, habits: &Habits) -> Vec<Custo
         found.push(Custom { name: name.to_string(), meaning, inverse });
     };
     rates(subject, &plain, &mut add);
-    torques(subject, text, habits, &mut add);
+    super::loads::torques(subject, text, habits, &mut add);
     wrist(subject, &plain, places, &mut add);
     frames(subject, &plain, places, &mut add);
     wrist_rotation(subject, &plain, places, &mut add);
@@ -79,8 +46,6 @@ pub(super) fn names(subject: &Subject, text: &str, habits: &Habits) -> Vec<Custo
     }
     found
 }
-
-type Add<'a> = dyn FnMut(&str, Expr, Expr) + 'a;
 
 /// Joint rates, and the velocity of the hand in them.
 fn rates(subject: &Subject, plain: &str, add: &mut Add<'_>) {
@@ -150,66 +115,12 @@ fn rates(subject: &Subject, plain: &str, add: &mut Add<'_>) {
 /// The torques of all joints, below one another.
 pub(super) fn torque_column(subject: &Subject, text: &str, habits: &Habits) -> Option<Matrix> {
     let mut found: Vec<(String, Expr)> = vec![];
-    torques(subject, text, habits, &mut |name, meaning, _| found.push((name.to_string(), meaning)));
+    super::loads::torques(subject, text, habits, &mut |name, meaning, _| {
+        found.push((name.to_string(), meaning))
+    });
     let of = |k: usize| found.iter().find(|(name, _)| *name == format!("τ{k}")).map(|f| vec![Some(f.1)]);
     let column: Vec<Vec<Option<Expr>>> = (1..=subject.joints().len()).map_while(of).collect();
     (!column.is_empty() && column.len() == subject.joints().len()).then_some(Matrix(column))
-}
-
-/// True for a name, marks of subscripts left aside, that stands in a text as such, or behind the digits of another.
-fn is_mentioned(text: &str, name: &str) -> bool {
-    let words = text.split(|c: char| !(c.is_alphanumeric() || matches!(c, '_' | '{' | '}' | '\\')));
-    // Letters stay what they are in a plain name.
-    let letters = || name.chars().filter(char::is_ascii);
-    let may_be = |w: &&str| w.len() < 200 && letters().all(|c| w.contains(c));
-    words.filter(may_be).any(|word| {
-        let word = plain_name(word);
-        word.match_indices(name).any(|(at, _)| {
-            let ends = word[at + name.len()..].starts_with(char::is_alphanumeric);
-            !ends && !word[..at].ends_with(char::is_alphabetic)
-        })
-    })
-}
-
-/// The load that a text gives as a vector, `F = (0, 0, -W)`, `\mathbf f = (10; -5)`: force, and moment if there are six.
-/// Nothing where it gives several: a torque would have to say of which it is.
-fn load_given(text: &str) -> Option<[Expr; 6]> {
-    let open = Vocabulary::new().open(true);
-    let mut found: Option<[Expr; 6]> = None;
-    for (at, _) in text.match_indices('=').take(2_000) {
-        let before = text[..at].trim_end_matches([' ', '}', '&', '$']);
-        let Some(stem) = before.strip_suffix(['F', 'f']) else { continue };
-        if stem.ends_with(|c: char| c.is_alphanumeric() || c == '_') {
-            continue;
-        }
-        let rest = text[at + 1..].trim_start_matches([' ', '\n', '&', '$']);
-        let rest = rest.strip_prefix("\\left").unwrap_or(rest);
-        // `F = N u`: a size along a direction.
-        let mut words = rest.split_whitespace();
-        let is_letter =
-            |w: Option<&str>| w.is_some_and(|w| w.chars().count() == 1 && w.chars().all(char::is_alphabetic));
-        if is_letter(words.next()) && is_letter(words.next()) {
-            return None;
-        }
-        let Some(inner) = rest.strip_prefix(['(', '[']).and_then(|r| r.split([')', ']']).next()) else {
-            continue;
-        };
-        let parts: Vec<&str> =
-            inner.split([',', ';']).map(|p| p.trim_matches(['\\', ' ', '~', '$'])).collect();
-        let values: Option<Vec<Expr>> =
-            parts.iter().map(|p| parse(&p.replace('−', "-"), &open).ok()).collect();
-        let Some(values) = values.filter(|v| matches!(v.len(), 2 | 3 | 6)) else { continue };
-        let is_short = values.iter().all(|e| e.symbols().len() <= 1);
-        if is_short && values.iter().any(|e| !e.is_zero()) {
-            let mut load = [Expr::int(0); 6];
-            load.iter_mut().zip(values).for_each(|(l, v)| *l = v);
-            if found.is_some_and(|other| other != load) {
-                return None;
-            }
-            found = Some(load);
-        }
-    }
-    found
 }
 
 /// True for a text that has p_x, p_y for the place of the hand.
@@ -236,116 +147,6 @@ pub(super) fn calls_entries(text: &str) -> bool {
 /// True for a text that has names for the entries of a rotation: no frame is turned against itself, as `R_{11}` would be.
 pub(super) fn names_entries(text: &str) -> bool {
     ["R11", "R22", "R33"].iter().any(|name| is_mentioned(text, name))
-}
-
-/// The letters that a text has for torques.
-fn torque_letters(text: &str) -> Vec<&'static str> {
-    let all = plain(text);
-    let mut found: Vec<&str> = ["τ", "Γ"].into_iter().filter(|t| all.contains(t)).collect();
-    if all.contains("Gamma1") || all.contains("Gamma2") {
-        found.push("Gamma");
-    }
-    // M is a moment where a text says so and names a force.
-    let lower = text.to_lowercase();
-    let says = ["torque", "moment", "couple", "drehmoment", "coppie"].iter().any(|w| lower.contains(w));
-    let has_force = || {
-        let is_named = ["Fx", "Fy", "Fz", "fx", "fy", "fz"].iter().any(|f| is_mentioned(text, f));
-        is_named || load_given(text).is_some()
-    };
-    let is_told = |k: usize| {
-        let name = format!("M{k}");
-        is_mentioned(text, &name) && ["=", "&="].iter().any(|e| all.contains(&format!("{name}{e}")))
-    };
-    if found.is_empty() && says && has_force() && (1..=6).filter(|k| is_told(*k)).count() > 0 {
-        found.push("M");
-    }
-    found
-}
-
-/// Letters of their own that a text may have for a load on the hand: it speaks of torques, and names no components of a force.
-pub(super) fn letters_of_load(text: &str) -> Vec<char> {
-    let components = ["Fx", "Fy", "Fz", "fx", "fy", "fz"];
-    let is_given = || components.iter().any(|c| is_mentioned(text, c)) || load_given(text).is_some();
-    if torque_letters(text).is_empty() || is_given() {
-        return vec![];
-    }
-    // A weight m·g counts as one letter.
-    let weighs =
-        text.contains("mg") || text.contains("m g") || text.contains("m·g") || text.contains("m\\,g");
-    let weight = Some('g').filter(|_| weighs);
-    ['W', 'F', 'P', 'G', 'f']
-        .into_iter()
-        .filter(|c| is_mentioned(text, &c.to_string()))
-        .chain(weight)
-        .collect()
-}
-
-/// Torques of the joints for a force at the hand, in those of its components that are mentioned.
-fn torques(subject: &Subject, text: &str, habits: &Habits, add: &mut Add<'_>) {
-    let letters = torque_letters(text);
-    if letters.is_empty() {
-        return;
-    }
-    let mut load = [Expr::int(0); 6];
-    for (first, forces) in [(0, ["F", "f"]), (3, ["M", "m"])] {
-        for (r, axis) in AXES.iter().enumerate() {
-            // `My` is a word, too.
-            let is_marked = |f: &str| {
-                f == "F"
-                    || f == "f"
-                    || text.contains(&format!("{f}_{axis}"))
-                    || text.contains(&format!("{f}_{{{axis}"))
-            };
-            let is_named = |f: &&&str| is_marked(f) && is_mentioned(text, &format!("{f}{axis}"));
-            if let Some(letter) = forces.iter().find(is_named) {
-                let name = format!("{letter}{axis}");
-                let symbol = Expr::symbol(&name);
-                load[first + r] = symbol;
-                add(&name, symbol, symbol);
-            }
-        }
-    }
-    if load.iter().all(|e| e.is_zero())
-        && let Some(given) = load_given(text)
-    {
-        load = given;
-        for symbol in given.iter().flat_map(|e| e.symbols()) {
-            add(&symbol.name(), symbol.into(), symbol.into());
-        }
-    }
-    if let Some((letter, axis, is_minus)) = habits.load.filter(|_| load.iter().all(|e| e.is_zero())) {
-        let symbol = Expr::symbol(&letter.to_string());
-        let mass = (letter == 'g').then(|| Expr::symbol("m"));
-        let size = mass.map_or(symbol, |m| m * symbol);
-        load[axis] = if is_minus { -size } else { size };
-        for own in [Some(symbol), mass].into_iter().flatten() {
-            add(&own.as_symbol().map_or_else(String::new, |s| s.name().to_string()), own, own);
-        }
-    }
-    if load.iter().all(|e| e.is_zero()) {
-        return;
-    }
-    if habits.load_in_hand {
-        let turn = subject.pose().rotation;
-        let [force, moment] = [0, 3].map(|k| (turn * Vector([load[k], load[k + 1], load[k + 2]])).0);
-        load = std::array::from_fn(|k| if k < 3 { force[k] } else { moment[k - 3] });
-    }
-    if habits.against_load {
-        load = load.map(|e| -e);
-    }
-    let kinds = subject.description.variables().into_iter().map(|v| v.kind);
-    for ((k, torque), kind) in (1..).zip(subject.torques(&load)).zip(kinds) {
-        for letter in &letters {
-            add(&format!("{letter}{k}"), torque, torque);
-        }
-        // The force of a sliding joint has a letter of its own.
-        for letter in ["f", "F", "Q"] {
-            let name = format!("{letter}{k}");
-            if kind == JointKind::Prismatic && is_mentioned(text, &name) {
-                add(&name, torque, torque);
-            }
-        }
-    }
 }
 
 /// The point in which the last three axes meet.
@@ -459,8 +260,10 @@ pub(super) fn speaks_of_wrist(plain: &str) -> bool {
 
 /// Frame 6 in frame 3 of an arm with six joints, and that by the pose as symbols.
 pub(super) fn wrist_frame(subject: &Subject, places: &Places) -> Option<(Transform<Expr>, Transform<Expr>)> {
-    let is_six = subject.last() == 6;
-    is_six.then(|| Some((subject.transform(Some(3), Some(6))?, seen_through(subject, places, 3, 6)?)))?
+    let n = subject.last();
+    let has_wrist = matches!(n, 6 | 7);
+    has_wrist
+        .then(|| Some((subject.transform(Some(n - 3), Some(n))?, seen_through(subject, places, n - 3, n)?)))?
 }
 
 /// A frame in another by the hand's pose as symbols and the joints outside of both.

@@ -5,7 +5,7 @@ use super::subject::Subject;
 use denavit::description::JointKind;
 use denavit::forward::Reference;
 use denavit_reading::slip::Points;
-use denavit_symbolic::vocabulary::Vocabulary;
+use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
 use denavit_symbolic::{Angle, Expr, equal};
 use std::rc::Rc;
 
@@ -124,6 +124,65 @@ pub(super) fn direction(
         let inverse = Expr::from(places.symbol(1, 0)).atan2(places.symbol(0, 0).into());
         spelled.iter().for_each(|name| add(name, sum, inverse));
     }
+}
+
+/// Names for sums of joints that the text tells by a formula for the last of them alone, `θ_4 = β - θ_2 - θ_3`, each with the sum
+/// and what it is by the pose.
+pub(super) fn told(
+    text: &str,
+    subject: &Subject,
+    names: &Vocabulary,
+    places: &Places,
+) -> Vec<(String, Expr, Expr)> {
+    const MOST: usize = 8;
+    const MOST_TRIED: usize = 24;
+    let mut tried = 0;
+    let joint = |word: &str| {
+        let known = |w: &str| names.lookup(w).filter(|e| subject.joints().contains(e));
+        // `q4s` is a solution for q4.
+        known(word).or_else(|| known(word.trim_end_matches(char::is_alphabetic).trim_end_matches('_')))
+    };
+    let mut found: Vec<(String, Expr, Expr)> = vec![];
+    for line in text.lines().filter(|l| l.len() < 300 && l.contains('=') && l.contains(['-', '−'])) {
+        for (at, _) in line.match_indices('=').take(4) {
+            let left = line[..at].trim_end_matches([' ', '&', '$', ':']);
+            let left = left.rsplit([' ', '$', '*', '[', '(', ',', '&']).next().unwrap_or_default();
+            let Some(last) = joint(&plain_name(left)) else { continue };
+            let right = line[at + 1..].split(['=', ';', ',', '#', '%', '$', ':']).next().unwrap_or_default();
+            let right = right.trim_matches(['&', ' ', '\\', '.', ']']).replace('−', "-");
+            let mut terms = right.split('-').map(|t| plain_name(t.trim()));
+            let name = terms.next().unwrap_or_default();
+            let is_name = name.chars().count() < 8
+                && name.starts_with(char::is_alphabetic)
+                && name.chars().all(char::is_alphanumeric)
+                && !matches!(name.as_str(), "pi" | "π")
+                && names.lookup(&name).is_none();
+            let others: Option<Vec<Expr>> = terms.map(|t| joint(&t)).collect();
+            let Some(others) = others.filter(|o| is_name && !o.is_empty() && !o.contains(&last)) else {
+                continue;
+            };
+            let sum = others.into_iter().fold(last, |sum, q| sum + q);
+            tried += 1;
+            if tried > MOST_TRIED {
+                return found;
+            }
+            let is_new = found.len() < MOST && found.iter().all(|f| f.0 != name) && !is_defined(text, &name);
+            if let Some(entry) = sum_in_pose(subject, places, sum).filter(|_| is_new) {
+                found.push((name, sum, entry));
+            }
+        }
+    }
+    found
+}
+
+/// True for a name that the text gives a formula.
+fn is_defined(text: &str, name: &str) -> bool {
+    text.lines().any(|line| {
+        let left = line.split_once('=').map_or("", |l| l.0).trim_end_matches([' ', '&', '$', ':']);
+        !left.is_empty()
+            && left.len() < 200
+            && plain_name(left.rsplit([' ', '$', '*', '(']).next().unwrap_or("")) == name
+    })
 }
 
 /// Names that programs give the direction of the hand.

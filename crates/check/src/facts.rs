@@ -374,7 +374,7 @@ pub enum Sense {
     },
     /// A load on the hand of this letter along an axis, or against it.
     Load {
-        /// Its letter.
+        /// Its letter; `N` where words give it in newtons.
         letter: char,
         /// The axis.
         axis: Axis,

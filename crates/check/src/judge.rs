@@ -9,6 +9,7 @@ use super::numbers::{self, Answer};
 use super::outcome::{Claim, Counterexample, Entry, Finding, Patch, Slip, Standing, Wrong};
 use super::plan::{Plan, Walked};
 use super::subject::Subject;
+use super::supposed;
 use super::values;
 use super::walk::{Assertion, Pair, Piece, is_measured};
 use super::whole;
@@ -195,6 +196,9 @@ impl<'a> Judge<'a> {
                 {
                     let (correct, remarks) = (vec![], vec![]);
                     finding = Finding::Conditional { condition: Condition::Locked, correct, remarks };
+                }
+                if finding.standing() == Standing::Wrong && supposed::where_told(self.text, pair, robot) {
+                    finding = supposed::condition();
                 }
                 let mut identities = vec![];
                 if finding.standing() == Standing::Equal {

@@ -27,9 +27,11 @@ pub mod inverse;
 mod jacobians;
 mod judge;
 mod leeway;
+mod letters;
 mod lexis;
 mod lines;
 mod listing;
+mod loads;
 pub mod marking;
 mod matrix;
 mod names;
@@ -43,10 +45,12 @@ mod product;
 mod programs;
 mod readings;
 mod recognised;
+mod remarks;
 mod respelling;
 mod scripts;
 mod subject;
 mod supported;
+mod supposed;
 mod tables;
 mod tools;
 mod trial;
@@ -54,6 +58,7 @@ mod unjudged;
 mod unsupported;
 mod values;
 mod walk;
+mod weights;
 mod whole;
 
 pub use facts::{
@@ -115,11 +120,14 @@ pub fn check(
     let respelled = respelling::respelled(text, options.language.is_some());
     let text = &*respelled;
     let mut document = match options.language {
-        Some(_) => Document::default(),
+        Some(language) => remarks::document(text, language),
         None => document::read(text, format),
     };
-    let supported =
-        if robot.is_none() { supported::by_statements(text, format, &document, options) } else { None };
+    let supported = match (robot, options.language) {
+        (None, None) => supported::by_statements(text, format, &document, options),
+        (None, Some(_)) => supported::by_statements(text, format, &Document::default(), options),
+        _ => None,
+    };
     let mut options = options.clone();
     let is_long = |_: &Range<usize>| {
         let kind = plan::kind_of_tables(format);
@@ -144,6 +152,9 @@ pub fn check(
     let options = &options;
     let mut plan = Plan::of(text, format, &document, robot, options, &mut notes)?;
     let of_dynamics = dynamics::taken(text, &mut document, &plan.tables);
+    if options.language.is_some() {
+        plan.remarks = Rc::new(document.statements.iter().map(|s| s.span.clone()).collect());
+    }
     let programs = plan::programs(text, &document, options);
     let known = directions::Known::of(&plan.subjects);
     let scripts = scripts::inverse(text, &programs, &|name| plan.is_joint(name), &|name| known.has(name));
@@ -196,7 +207,9 @@ pub fn check(
         }
         claims.extend(table.claims);
     }
+    supposed::withdraw(text, &plan, &walked, &mut claims);
     unsupported::withdraw(text, &plan, &walked, &mut claims);
+    remarks::withdraw(&plan.remarks, &walked.assertions, &mut claims);
     claims.extend(goals::judged(text, &plan, &walked));
     let (listed, open_rows) = configurations::judged(text, plan::kind_of_tables(format), &plan, &walked);
     claims.extend(listed);

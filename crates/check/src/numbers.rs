@@ -7,6 +7,9 @@ use denavit::description::JointKind;
 use denavit_symbolic::{Expr, Rational, Symbol};
 use std::f64::consts::TAU;
 
+/// Values of joints, and whether they have a unit.
+pub(super) type Values = Vec<Option<(f64, bool)>>;
+
 /// The configuration that a document states, joint by joint.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Configuration {
@@ -68,6 +71,28 @@ impl Configuration {
         }
     }
 
+    /// The present values.
+    pub fn present(&self) -> Values {
+        self.values.clone()
+    }
+
+    /// The present values, if so many joints have one.
+    pub fn whole(&self, joints: usize) -> Option<Values> {
+        let is_whole = self.values.len() == joints && self.values.iter().all(Option::is_some);
+        is_whole.then(|| self.values.clone())
+    }
+
+    /// Goes to other values, those that are left being stated as well.
+    pub fn put(&mut self, values: Values) {
+        for own in [self.values.clone(), values.clone()] {
+            let is_whole = !own.is_empty() && own.iter().all(Option::is_some);
+            if is_whole && self.stated.len() < MOST_FOUND && !self.stated.contains(&own) {
+                self.stated.push(own);
+            }
+        }
+        self.values = values;
+    }
+
     /// Keeps the present configuration among those that were found.
     fn keep_found(&mut self) {
         self.keep(self.values.clone());
@@ -109,6 +134,9 @@ impl Configuration {
         // A part of a configuration is that of another.
         let is_whole = values.iter().all(Option::is_some) && values.len() >= self.before.len();
         if !were_found && is_whole && !values.is_empty() {
+            if self.stated.len() < MOST_FOUND && !self.stated.contains(&values) {
+                self.stated.push(values.clone());
+            }
             self.before = values;
         }
     }
@@ -214,7 +242,10 @@ pub(super) fn unit_behind(text: &str) -> Option<(&str, Expr, u32)> {
     let mut squared = squares.iter().filter_map(|s| simple_unit_behind(plain.strip_suffix(s)?));
     let square =
         squared.find(|(_, _, power)| *power == 1).map(|(before, factor, _)| (before, factor * factor, 2));
-    square.or_else(|| simple_unit_behind(text))
+    let cubes = ["^3", "³", "^{3", "}^3", "}^{3"];
+    let mut cubed = cubes.iter().filter_map(|s| simple_unit_behind(plain.strip_suffix(s)?));
+    let cube = cubed.find(|(_, _, power)| *power == 1).map(|(before, factor, _)| (before, factor.powi(3), 3));
+    square.or(cube).or_else(|| simple_unit_behind(text))
 }
 
 /// The same for a unit that is no power.
@@ -344,6 +375,19 @@ fn judge_here(answer: &Answer, subject: &Subject, tolerance: Option<f64>) -> Fin
     let near = |x: f64, allowed: f64| (x - answer.printed).abs() <= allowed;
     if near(right, allowed) {
         return Finding::Equal { unless_zero: vec![] };
+    }
+    // A table in centimetres, of which nothing else says so.
+    if near(right / 100.0, allowed) && answer.printed != 0.0 && right.abs() > 1.0 {
+        return Finding::Equal { unless_zero: vec![] };
+    }
+    // Areas and volumes in another unit of length: a number of another size is none of this one.
+    let ratio = (answer.printed / right).abs();
+    if right.abs() > 1e-6 && ratio > 0.0 && !(3e-5..3e4).contains(&ratio) {
+        let is_there = [1e6, 1e-6, 1e9, 1e-9].into_iter().any(|k| near(right * k, allowed));
+        return match is_there {
+            true => Finding::Equal { unless_zero: vec![] },
+            false => Finding::Undecided { why: Unproved::NotFound },
+        };
     }
     let mut wrong = Wrong { correct: vec![decimal(right)], ..Wrong::default() };
     let other = at(units[1], false).filter(|x| near(*x, allowed));

@@ -10,13 +10,14 @@ use super::note::{Note, Noted, Notes, Unread, Unreadable};
 use super::numbers::Configuration;
 use super::order;
 use super::programs::{self, Followed, Source};
+use super::remarks;
 use super::subject::Subject;
 use super::tables::OwnTable;
 use super::walk::{Answered, Assertion, Defined, Goal, Walk, points};
 use denavit::catalogue;
-use denavit::description::table::{PrintedTable, tables};
+use denavit::description::table::PrintedTable;
 use denavit::description::{
-    Convention, Description, Diagnostic, Measure, NotSet, Severity, TableKind, TableOptions, line_column,
+    Convention, Description, Diagnostic, Measure, NotSet, Severity, TableKind, line_column,
 };
 use denavit::geometry::{Transform, Vector};
 use denavit_reading::code::Dialect;
@@ -48,6 +49,8 @@ pub(super) struct Plan {
     pub is_own: bool,
     /// Where its tables stand.
     pub tables: Rc<Vec<Range<usize>>>,
+    /// Statements in the comments of a program.
+    pub remarks: Rc<Vec<Range<usize>>>,
 }
 
 /// What the statements of a document claim.
@@ -167,6 +170,7 @@ impl Plan {
             posed: vec![],
             is_own,
             tables: Rc::default(),
+            remarks: Rc::default(),
         };
         if let Some(robot) = robot {
             plan.push(0, named(robot));
@@ -187,7 +191,7 @@ impl Plan {
         }
         if robot.is_some() {
             let mut own: Vec<OwnTable> = vec![];
-            for (table, is_tried) in in_each_convention(text, kind, &reading, &printed) {
+            for (table, is_tried) in convention::in_each(text, kind, &reading, &printed) {
                 if let Ok((d, _)) = &table.robot
                     && let Some(subject) = from_table(d, &table)
                 {
@@ -331,7 +335,20 @@ impl Plan {
         let programs = self.programs.clone();
         let (has_robot, is_own, tables) = (self.has_robot, self.is_own, Rc::clone(&self.tables));
         let posed = self.posed.clone();
-        Plan { subjects, habits, own_tables, authors, turns, has_robot, programs, posed, is_own, tables }
+        let remarks = Rc::clone(&self.remarks);
+        Plan {
+            subjects,
+            habits,
+            own_tables,
+            authors,
+            turns,
+            has_robot,
+            programs,
+            posed,
+            is_own,
+            tables,
+            remarks,
+        }
     }
 
     /// The same document, claims at these places taken as the author prints them.
@@ -430,6 +447,7 @@ impl Plan {
         inverse_names.push(Rc::new(walk.lexis.inverse_names()));
         stated.push(walk.at.lengths_alone());
         let (mut assertions, mut refused) = (walk.assertions, vec![]);
+        let of_document = assertions.len();
         let source = self.programs.as_deref().unwrap_or(text);
         let (mut followed, mut unsaid) = (vec![], vec![]);
         for (number, language, blocks) in self.blocks(text, document, options) {
@@ -451,6 +469,20 @@ impl Plan {
             walk.defined.extend(found.defined);
         }
         walk.defined.sort_by_key(|d| d.from);
+        // What a program shows in its comments is said there.
+        let mut shown: Vec<Range<usize>> = assertions[of_document..]
+            .iter()
+            .map(|a: &Assertion| a.span.clone())
+            .filter(|s| remarks::is_in(s, &self.remarks))
+            .collect();
+        shown.sort_by_key(|s| s.start);
+        let is_twice = |a: &Assertion| remarks::is_in(&a.span, &shown);
+        let mut number = 0;
+        assertions.retain(|a| {
+            number += 1;
+            number > of_document || !remarks::is_idle(a, &self.remarks) && !is_twice(a)
+        });
+        ignored.extend(self.remarks.iter().cloned());
         assertions.extend(points(&walk.defined, &assertions, &self.subjects));
         assertions.sort_by_key(|a| a.span.start);
         Walked {
@@ -486,33 +518,6 @@ pub(super) fn is_setting(line: &str) -> bool {
 enum Event<'a> {
     Table(&'a PrintedTable),
     Directive(&'a Directive),
-}
-
-/// The most tables that are held against a robot.
-const MAX_TABLES: usize = 12;
-
-/// The tables that can be read, one whose convention nothing says in each of them; and whether it was tried.
-fn in_each_convention(
-    text: &str,
-    kind: TableKind,
-    reading: &TableOptions,
-    printed: &[PrintedTable],
-) -> Vec<(PrintedTable, bool)> {
-    let is_open = |t: &PrintedTable| t.robot.is_err() && reading.convention.is_none();
-    let tried: Vec<PrintedTable> = match printed.iter().take(MAX_TABLES).any(is_open) {
-        false => vec![],
-        true => Convention::ALL
-            .into_iter()
-            .flat_map(|c| tables(text, kind, &TableOptions { convention: Some(c), ..reading.clone() }))
-            .collect(),
-    };
-    let of = |table: &PrintedTable| -> Vec<(PrintedTable, bool)> {
-        if !is_open(table) {
-            return vec![(table.clone(), false)];
-        }
-        tried.iter().filter(|t| t.span == table.span).map(|t| (t.clone(), true)).collect()
-    };
-    printed.iter().take(MAX_TABLES).flat_map(of).collect()
 }
 
 /// A robot without links, for what holds of any.

@@ -51,6 +51,8 @@ struct Letters {
     has_millimetres: bool,
     /// Its words say that the arm holds something.
     holds: bool,
+    /// It speaks of the frame of the hand.
+    in_hand: bool,
 }
 
 impl Letters {
@@ -62,14 +64,27 @@ impl Letters {
             |letter: &str| ["x", "y", "z"].iter().any(|a| words.contains(format!("{letter}{a}").as_str()));
         Letters {
             tells_hand: !super::custom::hand_letters(text).is_empty(),
-            loads: super::custom::letters_of_load(text),
+            loads: super::loads::letters_of_load(text),
             has_millimetres: text.contains("mm"),
+            in_hand: IN_HAND.iter().any(|w| text.to_lowercase().contains(w)),
             holds: HOLDING.iter().any(|w| text.to_lowercase().contains(w)),
             may_be_o: has("o") && !["n", "p", "P", "s"].into_iter().any(has),
             has_wrist: super::custom::speaks_of_wrist(&plain_name(text)) && words.iter().any(|w| is_r(w)),
         }
     }
 }
+
+/// Words of what is along the axes of the hand.
+const IN_HAND: [&str; 8] = [
+    "tip frame",
+    "tool frame",
+    "hand frame",
+    "frame of the hand",
+    "frame of the tool",
+    "werkzeugsystem",
+    "terna della pinza",
+    "repère de l'outil",
+];
 
 /// Words of loads that are held.
 const HOLDING: [&str; 16] = [
@@ -231,7 +246,14 @@ fn candidates(
         for (letter, (k, axis)) in letters.loads.iter().flat_map(|&l| axes.clone().map(move |a| (l, a))) {
             for is_minus in [false, true] {
                 let load = Some((letter, k, is_minus));
-                found.push((Habits { load, ..habits.clone() }, Sense::Load { letter, axis, is_minus }, 1));
+                // A torque that is 0 is so in many readings.
+                let margin = if letter == super::weights::LETTER { MARGIN } else { 1 };
+                let sense = Sense::Load { letter, axis, is_minus };
+                if letters.in_hand {
+                    let load_in_hand = true;
+                    found.push((Habits { load, load_in_hand, ..habits.clone() }, sense.clone(), MARGIN));
+                }
+                found.push((Habits { load, ..habits.clone() }, sense, margin));
             }
         }
     }

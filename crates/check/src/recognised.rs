@@ -179,6 +179,15 @@ pub(super) struct Agreement {
 
 /// The candidate that agrees with a matrix of formulas in most entries.
 pub(super) fn nearest(subject: &Subject, printed: &Matrix) -> Option<(Candidate, Agreement)> {
+    nearest_with(subject, printed, &|e| e)
+}
+
+/// The same where lengths have the values of a program.
+pub(super) fn nearest_with(
+    subject: &Subject,
+    printed: &Matrix,
+    given: &dyn Fn(Expr) -> Expr,
+) -> Option<(Candidate, Agreement)> {
     let shape = printed.shape()?;
     let mut points = Points::new(29);
     let mut key = |m: &Matrix| -> Vec<Option<Value>> {
@@ -191,7 +200,9 @@ pub(super) fn nearest(subject: &Subject, printed: &Matrix) -> Option<(Candidate,
     let telling = tells.iter().filter(|t| **t).count();
     let mut best: Option<(Candidate, Agreement)> = None;
     for candidate in candidates(subject, shape) {
-        let own = key(&candidate.0);
+        let lengths =
+            |m: &Matrix| Matrix(m.0.iter().map(|r| r.iter().map(|e| e.map(given)).collect()).collect());
+        let own = key(&lengths(&candidate.0));
         let agrees: Vec<bool> = wanted.iter().zip(&own).map(|(a, b)| a.is_some() && a == b).collect();
         let agreeing = agrees.iter().zip(&tells).filter(|(a, t)| **a && **t).count();
         let is_whole = is_told && agrees.iter().all(|a| *a);

@@ -10,7 +10,11 @@ const MAX_BLANKS: usize = 3;
 pub(super) fn respelled(text: &str, is_program: bool) -> Cow<'_, str> {
     let mut text = Cow::Borrowed(text);
     let of_all: [fn(&str) -> Option<String>; 1] = [decimal_points];
-    let of_prose: [fn(&str) -> Option<String>; 7] = [
+    if let Some(now) = units_without_brackets(&text, is_program) {
+        text = Cow::Owned(now);
+    }
+    let of_prose: [fn(&str) -> Option<String>; 8] = [
+        without_asides,
         rates_by_primes,
         alternatives_by_primes,
         words_as_signs,
@@ -26,6 +30,75 @@ pub(super) fn respelled(text: &str, is_program: bool) -> Cow<'_, str> {
         }
     }
     text
+}
+
+/// A text without the numbers in brackets behind others, `x = 160.0 (161), y = …`: they are measured, rounded or of another
+/// source; nothing for other texts.
+fn without_asides(text: &str) -> Option<String> {
+    let mut bytes = text.as_bytes().to_vec();
+    let mut is_any = false;
+    for line in super::lines::lines(text) {
+        let source = text.get(line.clone()).unwrap_or_default();
+        if !source.contains('=') || source.len() > 2_000 {
+            continue;
+        }
+        for (open, _) in source.match_indices(" (") {
+            let open = open + 1;
+            let Some(close) = source[open..].find(')').map(|i| open + i) else { break };
+            let inner = source[open + 1..close].trim();
+            let behind = source[close + 1..].trim_start();
+            let is_end = behind.is_empty() || behind.starts_with([',', ';', '.']);
+            let is_number = |s: &str| s.trim_start_matches(['-', '−', '+']).parse::<f64>().is_ok();
+            let before = source[..open].trim_end();
+            let word = before.rsplit([' ', '=']).next().unwrap_or_default();
+            if is_end && is_number(inner) && is_number(word) {
+                bytes[line.start + open..=line.start + close].fill(b' ');
+                is_any = true;
+            }
+        }
+    }
+    if is_any { String::from_utf8(bytes).ok() } else { None }
+}
+
+/// A text with `0.45  m ` for `0.45 (m)` and without the unit behind a formula, `l1 s2   (mm^2)`, at the end of a line or before a
+/// comma; nothing for other texts. In a program this is said of comments alone.
+fn units_without_brackets(text: &str, is_program: bool) -> Option<String> {
+    const UNITS: [&str; 30] = [
+        "mm", "m", "cm", "in", "rad", "deg", "°", "N", "kN", "Nm", "N m", "N*m", "N·m", "mm^2", "mm²", "m^2",
+        "m²", "mm^3", "mm³", "m^3", "m³", "in^3", "in^2", "cm^2", "cm^3", "m/s", "mm/s", "rad/s", "deg/s",
+        "°/s",
+    ];
+    let mut bytes = text.as_bytes().to_vec();
+    let mut is_any = false;
+    for line in super::lines::lines(text) {
+        let source = text.get(line.clone()).unwrap_or_default();
+        let is_comment =
+            source.trim_start().starts_with(['#', '%', '*']) || source.trim_start().starts_with("//");
+        if !source.contains('=') || source.len() > 2_000 || is_program && !is_comment {
+            continue;
+        }
+        for (open, _) in source.match_indices('(') {
+            let Some(close) = source[open..].find(')').map(|i| open + i) else { break };
+            let inner = source[open + 1..close].trim();
+            let behind = source[close + 1..].trim_start();
+            let is_end = behind.is_empty() || behind.starts_with([',', ';', '.', '|']);
+            let before = source[..open].trim_end();
+            let is_apart = before.len() < open && before.contains('=') && !before.ends_with('=');
+            if !is_end || !is_apart || !UNITS.contains(&inner) {
+                continue;
+            }
+            let value = before.rsplit(['=', ',']).next().unwrap_or_default();
+            let is_number =
+                value.trim().trim_start_matches(['-', '−', '+']).replace(',', ".").parse::<f64>().is_ok();
+            bytes[line.start + open] = b' ';
+            bytes[line.start + close] = b' ';
+            if !is_number {
+                bytes[line.start + open..line.start + close].fill(b' ');
+            }
+            is_any = true;
+        }
+    }
+    if is_any { String::from_utf8(bytes).ok() } else { None }
 }
 
 /// A text with `τ_2` for the words of `force 2 = 78 N` at the beginning of a line; nothing for other texts.

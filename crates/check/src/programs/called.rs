@@ -6,8 +6,9 @@ use crate::matrix::Matrix;
 use crate::note::{Unread, Unreadable};
 use crate::subject::Subject;
 use crate::walk::{Pair, Piece};
-use denavit_reading::code::{Cell, Reading};
+use denavit_reading::code::{Assigned, Cell, Reading, Value};
 use denavit_reading::slip::Points;
+use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Expr, Symbol, equal};
 
 /// The coordinate of the hand that a function is called after: `fk_x`, `get_y`, `px`.
@@ -134,4 +135,36 @@ pub(super) fn determinant_like(subject: &Subject, printed: Expr) -> Option<Expr>
     let wanted = [Part::Any, Part::Linear].into_iter().find_map(|p| subject.determinant(p))?;
     let is_turned = subject.joints().len() > 3 && equal(printed, -wanted).is_equal();
     Some(if is_turned { -wanted } else { wanted })
+}
+
+/// Lengths of the robot that a program sets to numbers.
+pub(super) fn given_in(function: &Reading, subject: &Subject, lexis: &Lexis) -> Vec<(Symbol, Expr)> {
+    let of = |a: &Assigned| {
+        let Value::Scalar(cell) = &a.value else { return None };
+        let lower = a.name.to_lowercase();
+        let found = lexis.names.lookup(&a.name).or_else(|| lexis.names.lookup(&lower));
+        let symbol = found?.as_symbol()?;
+        let is_length = subject.description.parameter(symbol).is_some();
+        (is_length && cell.value.symbols().is_empty()).then_some((symbol, cell.value))
+    };
+    function.assigned.iter().filter_map(of).collect()
+}
+
+/// The names of the document and those that a function gives its scalars.
+pub(super) fn names_in(function: &Reading, lexis: &Lexis) -> Vocabulary {
+    function.assigned.iter().fold(lexis.names.clone(), |names, a| match &a.value {
+        Value::Scalar(cell) if a.name.chars().all(char::is_alphanumeric) => names.alias(&a.name, cell.value),
+        _ => names,
+    })
+}
+
+/// The rows of the Jacobian whose determinant has a name: `detJ`, `det_Jv`; `det` alone is that of the whole.
+pub(super) fn determinant_named(name: &str) -> Option<Part> {
+    let rest = name.strip_prefix("det").or_else(|| name.strip_prefix("Det"))?.trim_start_matches('_');
+    match rest {
+        "" | "J" | "j" | "Jac" | "jac" => Some(Part::Any),
+        "Jv" | "J_v" | "Jp" | "J_p" | "JP" => Some(Part::Linear),
+        "Jw" | "J_w" | "Jo" | "J_o" | "JO" => Some(Part::Angular),
+        _ => None,
+    }
 }

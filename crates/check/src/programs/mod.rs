@@ -23,7 +23,8 @@ use super::recognised;
 use super::subject::Subject;
 use super::walk::{Assertion, Defined, Pair, Piece, Walk, is_measured};
 use called::{
-    as_square, axis_of, determinant_like, gives_another, is_determinant, is_of_part, lacking, without,
+    as_square, axis_of, determinant_like, determinant_named, given_in, gives_another, is_determinant,
+    is_of_part, lacking, names_in, without,
 };
 use defined::{defined, unsaid};
 use denavit::forward::Reference;
@@ -190,38 +191,6 @@ pub(super) fn words(formula: &str) -> impl Iterator<Item = &str> {
 const HANDS: [&str; 4] = ["T", "H", "Tee", "T_ee"];
 const JACOBIANS: [&str; 11] = ["J", "Jac", "jac", "Jv", "J_v", "Jp", "J_p", "Jw", "J_w", "Jo", "J_o"];
 
-/// The rows of the Jacobian whose determinant has a name: `detJ`, `det_Jv`; `det` alone is that of the whole.
-fn determinant_named(name: &str) -> Option<Part> {
-    let rest = name.strip_prefix("det").or_else(|| name.strip_prefix("Det"))?.trim_start_matches('_');
-    match rest {
-        "" | "J" | "j" | "Jac" | "jac" => Some(Part::Any),
-        "Jv" | "J_v" | "Jp" | "J_p" | "JP" => Some(Part::Linear),
-        "Jw" | "J_w" | "Jo" | "J_o" | "JO" => Some(Part::Angular),
-        _ => None,
-    }
-}
-
-/// Lengths of the robot that a program sets to numbers.
-fn given_in(function: &Reading, subject: &Subject, lexis: &Lexis) -> Vec<(Symbol, Expr)> {
-    let of = |a: &Assigned| {
-        let Value::Scalar(cell) = &a.value else { return None };
-        let lower = a.name.to_lowercase();
-        let found = lexis.names.lookup(&a.name).or_else(|| lexis.names.lookup(&lower));
-        let symbol = found?.as_symbol()?;
-        let is_length = subject.description.parameter(symbol).is_some();
-        (is_length && cell.value.symbols().is_empty()).then_some((symbol, cell.value))
-    };
-    function.assigned.iter().filter_map(of).collect()
-}
-
-/// The names of the document and those that a function gives its scalars.
-fn names_in(function: &Reading, lexis: &Lexis) -> Vocabulary {
-    function.assigned.iter().fold(lexis.names.clone(), |names, a| match &a.value {
-        Value::Scalar(cell) if a.name.chars().all(char::is_alphanumeric) => names.alias(&a.name, cell.value),
-        _ => names,
-    })
-}
-
 struct Program<'a> {
     text: &'a str,
     subject: &'a Subject,
@@ -313,10 +282,26 @@ impl Program<'_> {
             }
             let values = rows.iter().map(|r| r.iter().map(|c| Some(in_radians(c.value))).collect()).collect();
             let printed = Matrix(values);
-            let Some(((matrix, about), agreement)) = recognised::nearest(self.subject, &printed) else {
-                continue;
+            let given = |e: Expr| e.substitute(|s| self.given.iter().rev().find(|g| g.0 == s).map(|g| g.1));
+            let nearest = recognised::nearest_with(self.subject, &printed, &given);
+            let Some(((matrix, about), agreement)) = nearest else { continue };
+            // A column that is named by its joint, as others are.
+            let column = |m: &Meaning, name: &str| match m {
+                Meaning::Column(joint, jacobian) => {
+                    let number = name.strip_prefix('J')?.trim_start_matches('_').parse::<usize>().ok()?;
+                    (number == *joint).then_some(jacobian.order)
+                }
+                _ => None,
             };
-            if !agreement.is_whole {
+            let is_column = || {
+                let own = column(&about, &a.name);
+                let others = found.iter().filter_map(|x: &Assertion| match &x.about {
+                    About::Matrix(m) => column(m, &x.name),
+                    _ => None,
+                });
+                own.is_some() && agreement.agreeing > 0 && others.into_iter().any(|o| Some(o) == own)
+            };
+            if !agreement.is_whole && !is_column() {
                 continue;
             }
             if let Some(pieces) = self.compare(rows, &matrix) {
@@ -451,11 +436,23 @@ impl Program<'_> {
             _ if is_jacobian => return None,
             (4, 4) => (Matrix::of(&pose), hand),
             (3, 3) => (Matrix::of_rotation(&pose.rotation), Meaning::Rotation(hand.into())),
-            (3, 1) => (Matrix::column(&pose.translation), Meaning::Position),
+            (3, 1) => match self.other_vector(rows) {
+                Some(found) => found,
+                None => (Matrix::column(&pose.translation), Meaning::Position),
+            },
             _ => return None,
         };
         let pieces = self.compare(rows, &matrix)?;
         Some(self.assertion(shown, About::Matrix(about), span, pieces, Some(matrix)))
+    }
+
+    /// An axis of a frame, or another point, that a vector is in all its entries.
+    fn other_vector(&self, rows: &[Vec<Cell>]) -> Option<(Matrix, Meaning)> {
+        let values = rows.iter().map(|r| r.iter().map(|c| Some(in_radians(c.value))).collect()).collect();
+        let given = |e: Expr| e.substitute(|s| self.given.iter().rev().find(|g| g.0 == s).map(|g| g.1));
+        let ((matrix, about), agreement) = recognised::nearest_with(self.subject, &Matrix(values), &given)?;
+        let is_axis = matches!(about, Meaning::Axis(..));
+        (agreement.is_whole && agreement.telling > 1 && is_axis).then_some((matrix, about))
     }
 
     /// `fk_x(…)` by what a function is called.

@@ -2,7 +2,7 @@
 
 use super::stated::in_radians;
 use super::{Program, Programs, Source, defined, given_in, names_in};
-use crate::directions::{DIRECTIONS, parallel_sum, sum_in_pose};
+use crate::directions::{DIRECTIONS, parallel_sum, sum_in_pose, told};
 use crate::facts::About;
 use crate::habits::{Habits, Places, named_sign, with_named_signs};
 use crate::lexis::Lexis;
@@ -50,8 +50,13 @@ pub(super) fn solutions(of: &Source<'_>, telling: &Telling<'_>, asked: &Asked<'_
     };
     // `H` is a pose, unless it is a length of the table.
     let own = |name: &str| lexis.names.lookup(name).and_then(|_| length(name)).map(|e| vec![vec![e]]);
+    let sums = told(text, subject, &lexis.names, &places);
+    let sum = |name: &str| sums.iter().find(|s| s.0 == name).map(|s| vec![vec![s.2]]);
     let given = |name: &str| {
-        own(name).or_else(|| given(name, lexis, &places, pitch)).or_else(|| Some(vec![vec![length(name)?]]))
+        own(name)
+            .or_else(|| sum(name))
+            .or_else(|| given(name, lexis, &places, pitch))
+            .or_else(|| Some(vec![vec![length(name)?]]))
     };
     let in_degrees = blocks.iter().any(|b| {
         let source = text.get(b.clone()).unwrap_or_default();

@@ -2,7 +2,7 @@
 
 use super::scalars::is_measured;
 use super::{Assertion, Cell, Pair, Piece, Reference, Walk};
-use crate::facts::{Meaning, Remark, ShortRow};
+use crate::facts::{About, Meaning, Remark, ShortRow};
 use crate::jacobians::{frames_told, told_of_jacobian};
 use crate::matrix::Matrix;
 use crate::names::Name;
@@ -39,16 +39,22 @@ impl Walk<'_> {
         let is_told = told.is_some();
         let grid = read.iter().find_map(|r| match r.as_ref().ok()?.factors.as_deref()? {
             [Factor::Grid(grid)] if is_told => Some(*grid),
+            [Factor::Scalar(_), Factor::Grid(grid)] if is_told => Some(*grid),
             [Factor::Grid(grid), Factor::Grid(rates)] if is_rates(rates) => Some(*grid),
             _ => None,
         })?;
+        let scale = read.iter().find_map(|r| match r.as_ref().ok()?.factors.as_deref()? {
+            [Factor::Scalar(factor), Factor::Grid(_)] => Some(*factor),
+            _ => None,
+        });
+        let scaled = |e: Expr| scale.map_or(e, |factor| factor * e);
         let printed = Matrix(
             self.cells(grid)
                 .iter()
                 .map(|row| {
                     row.iter()
                         .map(|c| match c {
-                            Cell::Formulas(f) => f.first().map(|f| f.1.value()),
+                            Cell::Formulas(f) => f.first().map(|f| scaled(f.1.value())),
                             _ => None,
                         })
                         .collect()
@@ -133,6 +139,23 @@ impl Walk<'_> {
         };
         let is_velocity = matches!(base, "ω" | "Ω" | "v" | "V") && matches!(about, Meaning::Velocity { .. });
         let is_place = is_place || is_velocity;
+        // A column that is named by its joint, as others before it are.
+        let column = |about: &Meaning, sub: &str| match about {
+            Meaning::Column(joint, jacobian) => (sub.parse() == Ok(*joint)).then_some(jacobian.order),
+            _ => None,
+        };
+        let own = name.as_ref().filter(|n| n.base == "J").and_then(|n| column(&about, &n.sub));
+        let is_column = || {
+            let sub =
+                |a: &Assertion| a.name.trim_start_matches(['J', '_', '{']).trim_end_matches('}').to_string();
+            let others = self.assertions.iter().filter(|a| a.name.starts_with('J'));
+            let mut others = others.filter_map(|a| match &a.about {
+                About::Matrix(m) => column(m, &sub(a)),
+                _ => None,
+            });
+            own.is_some() && agreeing > 0 && others.any(|o| Some(o) == own)
+        };
+        let is_near = is_near || is_column();
         let is_certain = is_whole && (telling >= 2 || telling == 1 && (is_place || !is_vector));
         (is_certain || is_near).then_some(Reference { matrix, about: Some(about) })
     }

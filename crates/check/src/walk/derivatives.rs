@@ -21,7 +21,9 @@ impl Walk<'_> {
         };
         let of = value(&of)?;
         let joints = self.subject.joints();
-        if by == "t" {
+        // A joint may be called t.
+        let is_joint = self.lexis.names.lookup(&by).is_some_and(|q| joints.contains(&q));
+        if by == "t" && !is_joint {
             let rates = self.subject.rates();
             let mut parts = joints.iter().zip(rates).map(|(&q, rate)| Some(derivative(of, q)? * rate));
             return parts.try_fold(Expr::int(0), |sum, part| Some(sum + part?));

@@ -211,9 +211,11 @@ impl Walk<'_> {
             return false;
         }
         self.taken.push(statement.span.clone());
+        let before = self.at.present();
         for (joint, value) in values.into_iter().enumerate() {
             self.at.set(joint, value);
         }
+        self.learn_label(&statement.span, &before);
         true
     }
 

@@ -8,19 +8,22 @@ mod derivatives;
 mod determinants;
 mod entries;
 mod goal;
+mod labels;
 mod matrices;
 mod points;
 mod rates;
 mod scalars;
 mod told;
+mod words;
 
 pub(super) use cases::speaks_of_singularity;
 pub(super) use goal::{Answered, Goal, Target};
 pub(super) use points::points;
 pub(super) use scalars::is_measured;
 
+use super::directions::told;
 use super::facts::{About, Meaning, Remark};
-use super::habits::Habits;
+use super::habits::{Habits, Places};
 use super::lexis::{Lexis, read};
 use super::matrix::Matrix;
 use super::names::Name;
@@ -141,6 +144,8 @@ pub(super) struct Walk<'a> {
     pub sines: Vec<(Expr, Vec<Expr>)>,
     /// The configuration that was stated last.
     pub at: Configuration,
+    /// The configurations that have names.
+    labels: labels::Labels,
     /// The set of angles that a directive names.
     pub angles: Option<OrientationSet>,
     /// Statements that say nothing of the robot and could not be read.
@@ -215,7 +220,11 @@ struct Reference {
 impl<'a> Walk<'a> {
     /// Begins with a robot.
     pub fn new(text: &'a str, subject: &Rc<Subject>, habits: &Rc<Habits>) -> Self {
-        let lexis = Lexis::new(subject, habits, &Rc::from(text));
+        let mut lexis = Lexis::new(subject, habits, &Rc::from(text));
+        for (name, sum, entry) in told(text, subject, &lexis.names, &Places(habits.columns)) {
+            lexis.define(&name, sum);
+            lexis.define_inverse(&name, entry);
+        }
         Walk {
             text,
             lexis,
@@ -238,6 +247,7 @@ impl<'a> Walk<'a> {
             last_heading: 0..0,
             last_end: 0,
             at: Configuration::default(),
+            labels: labels::Labels::default(),
             angles: None,
             skipped: vec![],
             cells: RefCell::default(),
@@ -302,6 +312,7 @@ impl<'a> Walk<'a> {
                 self.told_to = end;
             }
         }
+        self.recall_before(statement.span.start);
         if statement.sides.iter().flat_map(|s| &s.parts).all(|p| matches!(p, Part::Text(_)))
             && self.scalars(statement, claim)
         {

@@ -1,9 +1,10 @@
 //! What a document states: configurations, lengths, rates, in formulas and in sentences.
 
 use super::cases::tells_goal;
+use super::words::{JOINTS, LENGTHS, RATES, REST, SAME, VALUES, ZERO};
 use super::{Scalar, Walk};
 use crate::lexis::read;
-use denavit::description::{Measure, read_value};
+use denavit::description::{JointKind, Measure, read_value};
 use denavit_reading::code::Dialect;
 use denavit_symbolic::parse::SyntaxKind;
 use denavit_symbolic::vocabulary::plain_name;
@@ -12,96 +13,6 @@ use std::ops::Range;
 
 /// Sentences of more bytes state nothing.
 const LONGEST: usize = 1_000;
-/// Words between a value and the next name.
-const JOINTS: [&str; 8] = [" and ", " und ", " et ", " y ", " e ", " en ", " with ", " mit "];
-/// Words before a list of lengths, of joint values, of joint rates.
-const LENGTHS: [&str; 8] = [
-    "lengths",
-    "längen",
-    "longueurs",
-    "longitudes",
-    "lunghezze",
-    "link length",
-    "gliedlängen",
-    "comprimentos",
-];
-const VALUES: [&str; 6] = [
-    "joint angles",
-    "joint values",
-    "gelenkwinkel",
-    "angles articulaires",
-    "ángulos articulares",
-    "configuration",
-];
-const RATES: [&str; 8] = [
-    "joint rates",
-    "joint velocities",
-    "joint speeds",
-    "gelenkgeschwindigkeiten",
-    "vitesses articulaires",
-    "velocidades articulares",
-    "velocità di giunto",
-    "rates of the joints",
-];
-
-/// Words that put all joints to zero.
-const ZERO: [&str; 24] = [
-    "in der nullstellung",
-    "in nullstellung",
-    "in the zero position",
-    "in the zero configuration",
-    "at the zero configuration",
-    "at the zero position",
-    "in its zero position",
-    "all joints at 0",
-    "dans la configuration zéro",
-    "en la posición cero",
-    "nella posizione zero",
-    "na posição zero",
-    "all joints zero",
-    "all joints at zero",
-    "all joints are zero",
-    "all joint variables zero",
-    "all joint angles zero",
-    "all angles zero",
-    "alle gelenke null",
-    "alle gelenke auf null",
-    "tous les joints à zéro",
-    "toutes les articulations à zéro",
-    "todas las articulaciones en cero",
-    "todas las articulaciones a cero",
-];
-
-/// Words for the configuration that stands further up.
-const SAME: [&str; 26] = [
-    "zahlenwerten aus a",
-    "zahlenwerten aus teil",
-    "zahlenwerte aus a",
-    "zahlenwerte aus teil",
-    "values of part",
-    "values from part",
-    "numbers of part",
-    "numbers from part",
-    "valeurs de la question",
-    "same configuration",
-    "same posture",
-    "configuration of part",
-    "configuration of (",
-    "configuration above",
-    "posture of part",
-    "posture of (",
-    "posture above",
-    "derselben stellung",
-    "derselben konfiguration",
-    "gleichen stellung",
-    "gleichen konfiguration",
-    "même configuration",
-    "configuration du ",
-    "misma configuración",
-    "misma postura",
-    "stessa configurazione",
-];
-
 /// What a list of values is for.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum List {
@@ -113,6 +24,12 @@ enum List {
 impl Walk<'_> {
     /// Reads the values that a line of prose gives: `with a1 = 1 and θ1 = 30°`, `q = (30°, 45°)`, `lengths 0.5, 0.4`.
     pub(super) fn told_in(&mut self, prose: &Range<usize>) {
+        let before = self.at.present();
+        self.told_of(prose);
+        self.learn_label(prose, &before);
+    }
+
+    fn told_of(&mut self, prose: &Range<usize>) {
         let Some(line) = self.text.get(prose.clone()).filter(|l| l.len() < LONGEST) else { return };
         if is_case(line) {
             return;
@@ -127,11 +44,12 @@ impl Walk<'_> {
         if tells_goal(&lower) {
             self.at.forget_joints(self.in_inverse);
         }
+        self.recall_named(&lower);
         if self.in_inverse && SAME.iter().any(|words| lower.contains(words)) {
             self.at.recall_joints();
             self.seek(false);
         }
-        if ZERO.iter().any(|words| lower.contains(words)) {
+        if ZERO.iter().chain(&REST).any(|words| lower.contains(words)) {
             (0..self.subject.joints().len()).for_each(|joint| self.at.set(joint, Expr::int(0)));
         }
         self.told_names(&joined);
@@ -289,10 +207,27 @@ impl Walk<'_> {
         for (at, _) in line.match_indices('=') {
             let behind = &line[at + 1..];
             let open = behind.trim_start();
+            // `q = np.radians([20, 45])`
+            const CALLS: [&str; 8] = [
+                "np.radians(",
+                "np.deg2rad(",
+                "numpy.radians(",
+                "deg2rad(",
+                "radians(",
+                "np.array(",
+                "numpy.array(",
+                "math.radians(",
+            ];
+            let call = CALLS.iter().find(|c| open.starts_with(**c));
+            let is_degrees = call.is_some_and(|c| c.contains("rad"));
+            let open = call.map_or(open, |c| &open[c.len()..]);
             let Some(inner) = open.strip_prefix(['(', '[']) else { continue };
             let Some(close) = inner.find([')', ']']) else { continue };
-            let values: Vec<&str> =
-                inner[..close].split([',', ';']).map(|v| v.trim_matches(['\\', ' ', '~'])).collect();
+            let values: Vec<String> = inner[..close]
+                .split([',', ';'])
+                .map(|v| format!("{}{}", v.trim_matches(['\\', ' ', '~']), if is_degrees { "°" } else { "" }))
+                .collect();
+            let values: Vec<&str> = values.iter().map(String::as_str).collect();
             let before = line[..at].trim_end();
             let name = before.rsplit([' ', ',', ';', ':']).next().unwrap_or_default();
             let plain = crate::custom::plain(&name.replace(['(', ')', '*'], ""));
@@ -300,7 +235,8 @@ impl Walk<'_> {
             let plain = if is_dotted { format!("dot{plain}") } else { plain };
             let plain =
                 plain.trim_start_matches("mathbf").trim_start_matches("boldsymbol").trim_start_matches("vec");
-            let is_joints = matches!(plain, "q" | "θ" | "Θ" | "ϑ" | "Q");
+            let is_angles = matches!(plain, "θ" | "Θ" | "ϑ" | "φ");
+            let is_joints = is_angles || matches!(plain, "q" | "Q") || self.is_letter_of_joints(plain);
             let is_rates = matches!(plain, "dotq" | "dotθ" | "qdot" | "dotmathbfq" | "thetadot" | "dq")
                 || matches!(plain, "q\u{307}" | "θ\u{307}");
             let listed = before.ends_with(')') && self.is_list_of_joints(before);
@@ -309,12 +245,34 @@ impl Walk<'_> {
                 () if is_rates => List::Rates,
                 () => continue,
             };
-            if self.assign_list(list, &values) {
+            if self.assign_list(list, &values) || is_angles && self.assign_angles(&values) {
                 let from = start + at - name.len();
                 let length = at + 1 + (behind.len() - open.len()) + 1 + close;
                 self.taken.push(from.min(start + at)..start + length);
             }
         }
+    }
+
+    /// True for the letter that the names of all joints have before their number: `t` of `t1`, `t2`, `t3`.
+    fn is_letter_of_joints(&self, letter: &str) -> bool {
+        let is_letter = !letter.is_empty() && letter.chars().all(char::is_alphabetic);
+        let mut named = (1..).zip(self.subject.joints());
+        is_letter && named.all(|(k, joint)| self.lexis.names.lookup(&format!("{letter}{k}")) == Some(*joint))
+    }
+
+    /// Gives the joints that turn values in their order; false if there are not as many.
+    fn assign_angles(&mut self, values: &[&str]) -> bool {
+        let variables = self.subject.description.variables();
+        let turning: Vec<usize> =
+            (0..variables.len()).filter(|&k| variables[k].kind == JointKind::Revolute).collect();
+        if turning.len() != values.len() || turning.len() < 2 {
+            return false;
+        }
+        let Some(read) = values.iter().map(|v| self.constant(v)).collect::<Option<Vec<Expr>>>() else {
+            return false;
+        };
+        turning.into_iter().zip(read).for_each(|(k, value)| self.at.set(k, value));
+        true
     }
 
     /// True for `(q1, q2, q3)` at the end of a text: all joints in their order.

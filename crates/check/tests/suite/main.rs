@@ -10,6 +10,7 @@ mod inverse;
 mod marking;
 mod mutations;
 mod named;
+mod ordinary;
 mod programs;
 mod readings;
 mod scripts;

@@ -173,6 +173,9 @@ fn numbers_of_another_configuration() {
             "{PLANAR}a1 = 0.5 m, a2 = 0.4 m.\n\nR1: q = (30°, 60°)\n\nR2: q = (90°, 0°)\n\nIn these poses\n\n- R1: x = {x}\n"
         )
     };
-    assert_eq!(all(&read(&text("0.4330"), None), "x"), [Standing::Undecided]);
+    assert_eq!(all(&read(&text("0.4330"), None), "x"), [Standing::Equal]);
+    // Said of the last one, it is right at another.
+    let unnamed = text("0.4330").replace("- R1: x", "- x");
+    assert_eq!(all(&read(&unnamed, None), "x"), [Standing::Undecided]);
     assert_eq!(all(&read(&text("0.4210"), None), "x"), [Standing::Wrong]);
 }

@@ -2,8 +2,8 @@
 
 use crate::common::{robot, shown};
 use denavit::description::{
-    Convention, Description, SameChain, TableKind, TableOptions, prove_same_chain, read_table, render,
-    write_toml,
+    Convention, Description, JointKind, SameChain, TableKind, TableOptions, prove_same_chain, read_table,
+    render, write_toml,
 };
 use denavit_symbolic::Expr;
 
@@ -517,4 +517,37 @@ fn without_a_convention_all_else_is_still_told() {
         let expected = if expected.is_empty() { vec![own.as_str()] } else { expected };
         check_table_findings(text, TableKind::Csv, &TableOptions::default(), &expected);
     }
+}
+
+#[test]
+fn variables_with_values_of_configurations() {
+    let standard = told(Convention::Standard);
+    let moves = |text: &str| {
+        let d = table(text, TableKind::Markdown, &standard);
+        d.variables().iter().map(|v| v.kind).collect::<Vec<JointKind>>()
+    };
+    let (turns, slides) = (JointKind::Revolute, JointKind::Prismatic);
+    let head = "| i | θ | d | a | α |\n|---|---|---|---|---|\n";
+    // Names that are numbered as the rows are, at one configuration or at several.
+    let numbered = format!("{head}| 1 | φ1 | 0 | l1 | 0 |\n| 2 | φ2 | 0 | l2 | 0 |\n\n");
+    assert_eq!(moves(&format!("{numbered}For φ1 = 30°, φ2 = 60°:\n")), [turns; 2]);
+    assert_eq!(moves(&format!("{numbered}φ1 = 30°, φ2 = 60°\n\nφ1 = 0°, φ2 = 90°\n")), [turns; 2]);
+    // Nothing would turn without them; a name that always has one value is a constant beside others.
+    let words = format!("{head}| 1 | pan | 0 | 0 | 90° |\n| 2 | tilt | 0 | l2 | 0 |\n\n");
+    assert_eq!(moves(&format!("{words}pan = 30°, tilt = 45°\n")), [turns; 2]);
+    assert_eq!(moves(&format!("{words}tilt = 45°\n")), [turns]);
+    // A slide by a letter of its own among joints with numbers.
+    assert_eq!(
+        moves(&format!("{head}| 1 | 0 | s | 0 | -90° |\n| 2 | t2 | w | l2 | 0 |\n| 3 | t3 | 0 | l3 | 0 |\n")),
+        [slides, turns, turns]
+    );
+    assert_eq!(
+        moves(&format!("{head}| 1 | 0 | l1 | 0 | -90° |\n| 2 | t2 | w | l2 | 0 |\n")),
+        [turns],
+        "a length is none"
+    );
+    let angle = "| giunto | a | α | d | angolo |\n|---|---|---|---|---|\n| 1 | 0 | -90° | 0 | φ |\n| 2 | l | 0 | 0 | ψ |\n";
+    assert_eq!(moves(angle), [turns; 2]);
+    let named = "  Axis      theta  d    a     alpha\n  1 swing   q1     880  240   90 deg\n  2 boom    q2     0    1790  0\n  3 stick arm  q3   0   980   0\n";
+    assert_eq!(moves(named), [turns; 3]);
 }

@@ -170,6 +170,11 @@ impl Check for English {
             Sense::Unit { millimetres: false } => "lengths without a unit read as metres",
             Sense::Load { letter, axis, is_minus } => {
                 let against = if *is_minus { "against" } else { "along" };
+                if *letter == 'N' {
+                    return format!(
+                        "the load in newtons is read as one on the hand {against} the axis {axis}"
+                    );
+                }
                 return format!("{letter} read as a load on the hand {against} the axis {axis}");
             }
         }

@@ -184,6 +184,9 @@ impl Check for French {
             Sense::PlaceIsO => "lu avec o comme position de l’organe terminal",
             Sense::Load { letter, axis, is_minus } => {
                 let along = if *is_minus { "contre" } else { "suivant" };
+                if *letter == 'N' {
+                    return say!("la charge en newtons est lue sur l'organe terminal, {along} l'axe {axis}");
+                }
                 return say!("{letter} lu comme une charge sur l'organe terminal, {along} l'axe {axis}");
             }
             Sense::Unit { millimetres: true } => "longueurs sans unité lues en millimètres",

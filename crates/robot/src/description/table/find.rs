@@ -1,6 +1,7 @@
 //! Where a text has something with rows and columns.
 
 use super::columns::{Role, column};
+use super::layout::number_before;
 use super::{TableKind, latex, lines};
 use std::ops::Range;
 
@@ -294,8 +295,11 @@ fn is_header(line: &str, cells: &[GridCell], separator: Separator) -> bool {
         && (separator != Separator::Blank || !line.contains(['|', '&', '\t']))
 }
 
-/// `3`, `Link 3`, `J3`
+/// `3`, `Link 3`, `J3`, `3 elbow`
 fn is_numbered(cell: &str) -> bool {
+    if number_before(cell).is_some() {
+        return true;
+    }
     // `axis 2 (shoulder):`
     let bare = cell.trim_end_matches([':', '.', ' ']);
     let bare = bare.strip_suffix(')').and_then(|b| b.rsplit_once('(')).map_or(bare, |b| b.0.trim_end());

@@ -39,7 +39,36 @@ pub(super) fn joints(
     if is_silent && joints.iter().all(|j| *j == Joint::Fixed) {
         return by_words(rows, convention.length_z(), is_given, out);
     }
+    for (row, joint) in rows.iter().zip(&mut joints).filter(|(row, _)| !starred && !says_what_moves(row)) {
+        if *joint == Joint::Fixed
+            && let Some(name) = slide(row)
+        {
+            let (z, number) = (convention.length_z(), row.number);
+            note_slide(&row.z, (&name, number, z), out);
+            *joint = Joint::Moves(JointKind::Prismatic, Some(name));
+        }
+    }
     joints
+}
+
+/// The letter of a way along z in a row that does not turn, where other rows move: `s`, or `p3` in row 3.
+fn slide(row: &ReadRow) -> Option<String> {
+    const LETTERS: [&str; 8] = ["s", "p", "x", "y", "z", "u", "rho", "lambda"];
+    let [(name, _)] = &row.z.cell.symbols[..] else { return None };
+    let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
+    let index = &name[stem.len()..];
+    let is_own = index.is_empty() || index.parse() == Ok(row.number);
+    let is_elsewhere = [&row.x, &row.alpha].into_iter().any(|c| c.cell.symbols.iter().any(|s| s.0 == *name));
+    (LETTERS.contains(&stem) && is_own && row.theta.cell.symbols.is_empty() && !is_elsewhere)
+        .then(|| name.clone())
+}
+
+/// Says that a row slides.
+fn note_slide(cell: &TableCell, (name, number, z): (&str, usize, &str), out: &mut Diagnostics) {
+    let message = format!("row {number} is prismatic: `{name}` in {z}, and no variable in theta");
+    out.note(cell.cell.span.clone(), message).hint(
+        "if that is a constant, give it another name, or add a column σ (0 revolute, 1 prismatic, 2 fixed)",
+    );
 }
 
 /// True for a row with a cell for its type or its variable.
@@ -48,8 +77,20 @@ fn says_what_moves(row: &ReadRow) -> bool {
 }
 
 /// The joints of a table whose variables have names of their own (`pan`, `tilt`, `rho`): the one symbol of θ that has no
-/// value turns; where θ is a number, the one along z that stands nowhere else slides.
+/// value turns; where θ is a number, the one along z that stands nowhere else slides. Values are those of a configuration where
+/// the names are numbered as the rows are (`φ1`, `φ2`), or where nothing would turn without these names.
 fn by_words(rows: &[ReadRow], z: &str, is_given: &dyn Fn(&str) -> bool, out: &mut Diagnostics) -> Vec<Joint> {
+    let turning = || rows.iter().filter(|r| !r.theta.cell.symbols.is_empty());
+    let stem = |row: &ReadRow| -> Option<String> {
+        let [(name, _)] = &row.theta.cell.symbols[..] else { return None };
+        let stem = name.strip_suffix(&row.number.to_string())?;
+        (!stem.is_empty() && !stem.ends_with(|c: char| c.is_ascii_digit())).then(|| stem.to_string())
+    };
+    let first = turning().next().and_then(stem);
+    let is_counted = turning().count() > 1 && first.is_some() && turning().all(|r| stem(r) == first);
+    let is_still = turning().all(|r| r.theta.cell.symbols.iter().all(|s| is_given(&s.0)));
+    let is_angle = |name: &str| turning().any(|r| r.theta.cell.symbols.iter().any(|s| s.0 == name));
+    let is_given = |name: &str| is_given(name) && !(is_angle(name) && (is_counted || is_still));
     let open = |cell: &TableCell| -> Option<String> {
         let mut names = cell.cell.symbols.iter().map(|s| &s.0).filter(|n| !is_given(n));
         let first = names.next()?;
@@ -154,10 +195,7 @@ fn joint(row: &ReadRow, z: &str, starred: bool, above: &[Joint], out: &mut Diagn
     }
     // Some count all joint variables as θ.
     let name = own_symbol(&row.z, row.number, &["d", "r", "q", "theta"])?;
-    let (number, span) = (row.number, row.z.cell.span.clone());
-    out.note(span, format!("row {number} is prismatic: `{name}` in {z}, and no variable in theta")).hint(
-        "if that is a constant, give it another name, or add a column σ (0 revolute, 1 prismatic, 2 fixed)",
-    );
+    note_slide(&row.z, (&name, row.number, z), out);
     Some(Joint::Moves(JointKind::Prismatic, Some(name)))
 }
 

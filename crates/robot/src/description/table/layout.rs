@@ -5,6 +5,24 @@ use super::find::{Grid, GridCell, Separator};
 use crate::description::units::Unit;
 use std::ops::Range;
 
+/// Heads of the angles of the joints, in words.
+const ANGLES: [&str; 14] = [
+    "angle",
+    "rotation",
+    "winkel",
+    "drehwinkel",
+    "gelenkwinkel",
+    "angolo",
+    "angolodigiunto",
+    "ángulo",
+    "angulo",
+    "ângulo",
+    "angledejoint",
+    "hoek",
+    "угол",
+    "açı",
+];
+
 /// A Denavit–Hartenberg table, not yet read.
 #[derive(Clone)]
 pub(super) struct Layout {
@@ -48,6 +66,13 @@ impl Layout {
             && let Some(k) = heads.iter().position(|h| {
                 matches!(plain(&h.text).as_str(), "phi" | "phii" | "phij" | "varphi" | "varphii")
             })
+        {
+            columns[k].role = Role::Theta;
+        }
+        // Or call them by a word.
+        if columns.iter().all(|c| !matches!(c.role, Role::Theta | Role::Variable))
+            && letters.len() == 3
+            && let Some(k) = heads.iter().position(|h| ANGLES.contains(&plain(&h.text).as_str()))
         {
             columns[k].role = Role::Theta;
         }
@@ -197,8 +222,19 @@ impl Layout {
     }
 }
 
-/// The number at the end of a text: `3`, `Link 3`, `$J_{3}$`; not that of a formula.
+/// The number before a word: `1 swing`, `2. boom`.
+pub(super) fn number_before(text: &str) -> Option<usize> {
+    let (number, word) = text.trim().split_once([' ', '~'])?;
+    let is_word =
+        word.len() > 1 && word.chars().all(|c| c.is_alphabetic() || matches!(c, ' ' | '-' | '(' | ')'));
+    number.trim_end_matches(['.', ')', ':']).parse().ok().filter(|n| is_word && *n <= 10_000)
+}
+
+/// The number at the end of a text: `3`, `Link 3`, `$J_{3}$`, or before a word; not that of a formula.
 fn number_in(text: &str) -> Option<usize> {
+    if let Some(number) = number_before(text) {
+        return Some(number);
+    }
     let text = text.trim_end_matches(['$', '*', ' ', '}', '.', ')']);
     let digits = text.len() - text.trim_end_matches(|c: char| c.is_ascii_digit()).len();
     let before = &text[..text.len() - digits];

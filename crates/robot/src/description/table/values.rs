@@ -60,11 +60,12 @@ pub(super) fn parameters(
     parameters
 }
 
-/// True for a name to which a line gives a constant.
+/// True for a name to which lines give a constant, always the same one: other values are those of configurations.
 pub(super) fn is_constant(name: &str, lines: &Lines, units: &BareUnits) -> bool {
     let style = units.style(Quantity::Open, None);
-    let mut given = lines.values.iter().filter(|v| v.0 == name);
-    given.any(|v| read_line(&v.1, &style, &mut Diagnostics::default()).is_some())
+    let given = lines.values.iter().filter(|v| v.0 == name);
+    let mut values = given.filter_map(|v| read_line(&v.1, &style, &mut Diagnostics::default()));
+    values.next().is_some_and(|first| values.all(|v| v == first))
 }
 
 /// What a line gives a name, if that is a constant.
