@@ -59,7 +59,7 @@ impl Walk<'_> {
 
     /// Goes to the configuration that a sentence, in small letters, names.
     pub(super) fn recall_named(&mut self, sentence: &str) {
-        if tells_goal(sentence) {
+        if self.labels.0.is_empty() || tells_goal(sentence) {
             return;
         }
         let is_there = |name: &str| {

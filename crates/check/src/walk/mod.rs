@@ -14,6 +14,7 @@ mod points;
 mod rates;
 mod scalars;
 mod told;
+mod units;
 mod words;
 
 pub(super) use cases::speaks_of_singularity;

@@ -277,7 +277,7 @@ impl Walk<'_> {
                     place: None,
                     span: span.clone(),
                     printed: Some(syntax.clone()),
-                    value: syntax.value(),
+                    value: in_degrees(syntax.value(), wanted),
                     wanted: self.there(span, syntax.value(), wanted),
                     also: vec![],
                 })),
@@ -507,6 +507,13 @@ impl Walk<'_> {
         let (matrix, about) = self.lexis.matrix(&self.subject, &name)?;
         Some(Reference { matrix, about: Some(about?) })
     }
+}
+
+/// A bare number that is right as degrees of an angle of the table, in radians: `alpha1 = -90`; any other formula as it is.
+fn in_degrees(value: Expr, wanted: Expr) -> Expr {
+    let may_be = value.as_number().is_some() && wanted.as_number().is_none() && wanted.symbols().is_empty();
+    let angle = value * Expr::pi() / Expr::int(180);
+    if may_be && denavit_symbolic::equal(angle, wanted).is_equal() { angle } else { value }
 }
 
 /// True for a number that somebody computed: neither 0 nor ±1.

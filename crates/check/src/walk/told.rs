@@ -1,10 +1,11 @@
 //! What a document states: configurations, lengths, rates, in formulas and in sentences.
 
 use super::cases::tells_goal;
+use super::units::shared;
 use super::words::{JOINTS, LENGTHS, RATES, REST, SAME, VALUES, ZERO};
 use super::{Scalar, Walk};
 use crate::lexis::read;
-use denavit::description::{JointKind, Measure, read_value};
+use denavit::description::{JointKind, Measure, Variable, read_value};
 use denavit_reading::code::Dialect;
 use denavit_symbolic::parse::SyntaxKind;
 use denavit_symbolic::vocabulary::plain_name;
@@ -93,6 +94,9 @@ impl Walk<'_> {
                 false => [value, short.as_str(), first.trim_end_matches([':', '.'])],
             };
             let mut is_given = false;
+            let behind = joined.get(at + pair[1].len() - rest.len() + value.len()..).unwrap_or_default();
+            let with_unit = self.with_shared_unit(&names, value, behind);
+            let tried = with_unit.as_deref().map_or(tried, |v| [v; 3]);
             for name in &names {
                 is_given |= tried.iter().any(|v| self.assign(name, v));
             }
@@ -198,6 +202,8 @@ impl Walk<'_> {
                 self.told_in(&here);
             } else if is_text && tells_goal(&line.to_lowercase()) {
                 self.look_for_joints();
+            } else if is_text && !is_prose && line.len() < LONGEST {
+                self.recall_named(&line.to_lowercase());
             }
         }
     }
@@ -372,14 +378,37 @@ impl Walk<'_> {
         value.symbols().is_empty().then(|| value * factor)
     }
 
-    /// Gives a joint or a length a value; false if that is not what is written.
-    fn assign(&mut self, name: &str, value: &str) -> bool {
+    /// The symbol of a name as it is written, and the name without subscripts.
+    fn named(&self, name: &str) -> (Option<Symbol>, String) {
         let letters = name.trim_matches(['*', '`']).replace("\\ell", "l").replace('ℓ', "l");
         let name = letters.as_str();
         let plain: String =
             name.chars().map(|c| denavit_symbolic::parse::subscript(c).unwrap_or(c)).collect();
         let found = self.lexis.names.lookup(name).or_else(|| self.lexis.names.lookup(&plain));
-        let Some(symbol) = found.and_then(|e| e.as_symbol()) else { return false };
+        (found.and_then(|e| e.as_symbol()), plain)
+    }
+
+    /// True for the name of a length, or of a joint that slides.
+    fn is_length(&self, name: &str) -> bool {
+        let d = &self.subject.description;
+        let Some(symbol) = self.named(name).0 else { return false };
+        let slides = |v: &Variable| v.symbol == symbol && v.kind == JointKind::Prismatic;
+        let is_parameter = d.parameter(symbol).is_some() && d.measure(symbol) == Measure::Length;
+        is_parameter || d.variables().iter().any(slides)
+    }
+
+    /// The value of a length with the unit behind the last value of its list, where it has none of its own.
+    fn with_shared_unit(&self, names: &[&str], value: &str, behind: &str) -> Option<String> {
+        value.trim_start_matches(['-', '−']).parse::<f64>().ok()?;
+        let is_length = |name: &str| self.is_length(name);
+        let unit = shared(behind, &is_length)?;
+        names.iter().all(|name| is_length(name)).then(|| format!("{value} {unit}"))
+    }
+
+    /// Gives a joint or a length a value; false if that is not what is written.
+    fn assign(&mut self, name: &str, value: &str) -> bool {
+        let (symbol, plain) = self.named(name);
+        let Some(symbol) = symbol else { return false };
         let d = &self.subject.description;
         if let Some(joint) = d.variables().iter().position(|v| v.symbol == symbol) {
             return match self.constant(value) {
@@ -441,13 +470,24 @@ impl Walk<'_> {
         if names.is_empty() || names.iter().any(|n| n.1.is_none()) {
             return false;
         }
+        // `0.45 m`, wherever m is a moment or a mass.
+        let is_quantity = |e: Expr| {
+            let d = &self.subject.description;
+            let is_own =
+                |s: &Symbol| d.parameter(*s).is_some() || d.variables().iter().any(|v| v.symbol == *s);
+            let number = crate::numbers::unit_behind(self.source(value)).map(|u| u.0);
+            number.is_some_and(|n| n.parse::<f64>().is_ok()) && !e.symbols().iter().any(is_own)
+        };
         let is_constant = match read.last() {
-            Some(Scalar::Formula(_, s)) => s.value().symbols().is_empty(),
+            Some(Scalar::Formula(_, s)) => s.value().symbols().is_empty() || is_quantity(s.value()),
             Some(Scalar::Broken(..)) => true,
             _ => false,
         };
+        let behind = self.text.get(value.end..).and_then(|t| t.lines().next()).unwrap_or_default();
         let value = self.source(value);
         let names: Vec<&str> = names.iter().map(|n| self.source(n.0)).collect();
+        let with_unit = self.with_shared_unit(&names, value, behind);
+        let value = with_unit.as_deref().unwrap_or(value);
         is_constant && names.iter().all(|name| self.assign(name, value))
     }
 }

@@ -248,3 +248,55 @@ fn a_function_for_an_axis() {
     let found = read(text, Some(Dialect::Python));
     assert!(found.claims.iter().all(|c| c.standing() != Standing::Wrong), "{:?}", found.claims);
 }
+
+#[test]
+fn a_unit_behind_the_last_of_several_lengths() {
+    let table = "DH (standard)\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | q1 | 0 | coxa | 90° |\n| 2 | q2 | 0 | femur | 0 |\n\n";
+    // x = (coxa + femur c2) c1 = 40 + 30 = 70 mm at q2 = 60°
+    for given in
+        ["coxa = 40, femur = 60 (mm), q1 = 0°, q2 = 60°", "coxa = 40 and femur = 60 mm, q1 = 0°, q2 = 60°"]
+    {
+        let text = |z: &str| format!("{table}With {given}:\n\nx = 70.0 mm\n\nz = {z} mm\n");
+        expect(&text("51.96"), None, &[("x", EQUAL), ("z", EQUAL), ("coxa", &[]), ("femur", &[])]);
+        expect(&text("30.00"), None, &[("x", EQUAL), ("z", WRONG)]);
+    }
+}
+
+#[test]
+fn metres_beside_a_letter_m() {
+    let text = format!(
+        "{UPRIGHT}The hand exerts (Fx, Fy) and the moment m:\n\nτ1 = -(a1 s1 + a2 s12) Fx + (a1 c1 + a2 c12) Fy + m\n\nNow $a_1 = 0.6$ m, $a_2 = 0.4 m$; \
+         a1 = 0.60 (m); a2 = 0.40 m:\n\nx = 0.720 m\n"
+    );
+    let found = read(&text, None);
+    assert!(found.claims.iter().all(|c| c.standing() == Standing::Equal), "{:?}", found.claims);
+    expect(&text, None, &[("τ1", EQUAL), ("x", EQUAL)]);
+}
+
+#[test]
+fn angles_of_the_table_in_degrees() {
+    let text = |angle: &str| {
+        format!(
+            "% Two joints, standard DH\n%\n%  i  theta  d  a   alpha\n%  1  q1     0  L1  -90\n%  2  q2     0  L2  0\n\n% alpha1 = {angle}, alpha2 = 0\nA = 1;\n"
+        )
+    };
+    let wrong = |angle: &str| {
+        let found = read(&text(angle), Some(Dialect::Matlab));
+        found.claims.iter().filter(|c| c.name == "alpha1" && c.standing() == Standing::Wrong).count()
+    };
+    assert_eq!((wrong("-90"), wrong("-pi/2"), wrong("90")), (0, 0, 1));
+}
+
+#[test]
+fn a_configuration_that_a_line_of_words_names() {
+    let table = "DH (standard), metres\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | q1 | 0 | 0.5 | 0 |\n| 2 | q2 | 0 | 0.4 | 0 |\n\n";
+    let text = |words: &str, det: &str| {
+        format!(
+            "{table}First test pose, q = (0, 90):\n   x = 0.500\n   y = 0.400\n\nSecond test pose, q = (30, -30):\n   x = 0.833\n\n\
+             {words} has\n   det J = {det}\nby hand.\n"
+        )
+    };
+    expect(&text("The arm in the first test pose", "0.200"), None, &[("det J", EQUAL)]);
+    expect(&text("The arm in the first test pose", "-0.150"), None, &[("det J", WRONG)]);
+    expect(&text("The arm in the second test pose", "-0.100"), None, &[("det J", EQUAL)]);
+}
