@@ -4,7 +4,7 @@ use super::facts::{Remark, Unproved};
 use super::outcome::{Finding, Wrong};
 use super::subject::Subject;
 use denavit::description::JointKind;
-use denavit_symbolic::{Expr, Rational, Symbol};
+use denavit_symbolic::{Angle, Expr, Rational, Symbol};
 use std::f64::consts::TAU;
 
 /// Values of joints, and whether they have a unit.
@@ -376,6 +376,10 @@ fn judge_here(answer: &Answer, subject: &Subject, tolerance: Option<f64>) -> Fin
     if near(right, allowed) {
         return Finding::Equal { unless_zero: vec![] };
     }
+    // An angle in degrees beside others in degrees: `θ2 = 90, θ3 = -30: φ = 60`.
+    if units[0] == Unit::Degrees && is_angle(answer.wanted, subject) && near(right.to_degrees(), allowed) {
+        return Finding::Equal { unless_zero: vec![] };
+    }
     // A table in centimetres, of which nothing else says so.
     if near(right / 100.0, allowed) && answer.printed != 0.0 && right.abs() > 1.0 {
         return Finding::Equal { unless_zero: vec![] };
@@ -402,6 +406,16 @@ fn judge_here(answer: &Answer, subject: &Subject, tolerance: Option<f64>) -> Fin
         (None, None) => Remark::OffBy((answer.printed - right).abs()),
     });
     Finding::Wrong(Box::new(wrong))
+}
+
+/// True for a sum of joints that turn, with whole parts of a turn.
+fn is_angle(e: Expr, subject: &Subject) -> bool {
+    let angle = Angle::of(e);
+    let turns = |e: Expr| {
+        let variables = subject.description.variables();
+        variables.iter().any(|v| Expr::from(v.symbol) == e && v.kind == JointKind::Revolute)
+    };
+    !angle.terms.is_empty() && angle.radians.is_zero() && angle.terms.iter().all(|t| turns(t.0))
 }
 
 /// How far a number may be off: zero and one are meant so, other whole numbers are rounded.

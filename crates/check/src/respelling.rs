@@ -13,8 +13,9 @@ pub(super) fn respelled(text: &str, is_program: bool) -> Cow<'_, str> {
     if let Some(now) = units_without_brackets(&text, is_program) {
         text = Cow::Owned(now);
     }
-    let of_prose: [fn(&str) -> Option<String>; 8] = [
+    let of_prose: [fn(&str) -> Option<String>; 9] = [
         without_asides,
+        apart_by_blanks,
         rates_by_primes,
         alternatives_by_primes,
         words_as_signs,
@@ -53,6 +54,36 @@ fn without_asides(text: &str) -> Option<String> {
             let word = before.rsplit([' ', '=']).next().unwrap_or_default();
             if is_end && is_number(inner) && is_number(word) {
                 bytes[line.start + open..=line.start + close].fill(b' ');
+                is_any = true;
+            }
+        }
+    }
+    if is_any { String::from_utf8(bytes).ok() } else { None }
+}
+
+/// A text with commas between statements that blanks set apart, `X = 250.0   Y = 200.0`; nothing for other texts.
+fn apart_by_blanks(text: &str) -> Option<String> {
+    let mut bytes = text.as_bytes().to_vec();
+    let mut is_any = false;
+    for line in super::lines::lines(text) {
+        let source = text.get(line.clone()).unwrap_or_default();
+        let has_two = source.bytes().filter(|b| *b == b'=').take(2).count() == 2;
+        if !has_two || source.len() > 2_000 || source.contains(['[', '|', '&', '\\']) {
+            continue;
+        }
+        let mut told = 0;
+        for (equals, _) in source.match_indices('=') {
+            let left = source[told..equals].trim_end_matches(' ');
+            told = equals + 1;
+            let Some(gap) = left.rfind("  ") else { continue };
+            let (before, name) = (left[..gap].trim_end_matches(' '), left[gap..].trim_start());
+            let is_name = name.starts_with(char::is_alphabetic)
+                && name.chars().count() < 12
+                && name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '\'' | '(' | ')'));
+            let is_number = before.rsplit([' ', '=']).next().is_some_and(|n| n.parse::<f64>().is_ok());
+            if is_name && is_number && source[..equals].contains('=') {
+                let at = line.start + (before.as_ptr() as usize - source.as_ptr() as usize) + before.len();
+                bytes[at] = b',';
                 is_any = true;
             }
         }

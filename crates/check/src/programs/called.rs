@@ -6,6 +6,7 @@ use crate::matrix::Matrix;
 use crate::note::{Unread, Unreadable};
 use crate::subject::Subject;
 use crate::walk::{Pair, Piece};
+use denavit::forward::Reference;
 use denavit_reading::code::{Assigned, Cell, Reading, Value};
 use denavit_reading::slip::Points;
 use denavit_symbolic::vocabulary::Vocabulary;
@@ -131,7 +132,21 @@ pub(super) fn without(piece: &mut Piece, lacking: &[Symbol]) {
 
 /// The determinant that the arm has by nature; in which order the rows of a task of more than a place are is not told, so that
 /// of more than three joints it has the sign of the printed one.
-pub(super) fn determinant_like(subject: &Subject, printed: Expr) -> Option<Expr> {
+/// A function that does not take all joints gives that of the joints which it takes, if it is printed so.
+pub(super) fn determinant_like(subject: &Subject, printed: Expr, lacking: &[Symbol]) -> Option<Expr> {
+    let taken = |k: &usize| subject.joints()[*k].as_symbol().is_none_or(|q| !lacking.contains(&q));
+    let columns: Vec<usize> = (0..subject.joints().len()).filter(taken).collect();
+    if columns.len() < subject.joints().len() {
+        let rows = subject.geometric_rows(Reference::Tool, Reference::Frame(0));
+        let picked = |row: &Vec<Expr>| columns.iter().map(|&k| Some(row[k])).collect::<Vec<_>>();
+        let moves = |row: &Vec<Option<Expr>>| row.iter().flatten().any(|e| !e.is_zero());
+        let block = Matrix(rows[..3].iter().map(picked).filter(moves).collect());
+        let is_square = block.0.len() == columns.len();
+        let own = if is_square { block.determinant() } else { None };
+        if let Some(own) = own.filter(|own| equal(printed, *own).is_equal()) {
+            return Some(own);
+        }
+    }
     let wanted = [Part::Any, Part::Linear].into_iter().find_map(|p| subject.determinant(p))?;
     let is_turned = subject.joints().len() > 3 && equal(printed, -wanted).is_equal();
     Some(if is_turned { -wanted } else { wanted })

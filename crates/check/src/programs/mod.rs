@@ -464,7 +464,8 @@ impl Program<'_> {
         shown: &str,
     ) -> Option<Assertion> {
         if is_determinant(function) && function.returned.len() == 1 {
-            let wanted = determinant_like(self.subject, in_radians(cell.value))?;
+            let lacking = lacking(function, self.text, self.lexis, self.subject);
+            let wanted = determinant_like(self.subject, in_radians(cell.value), &lacking)?;
             return Some(self.assertion(
                 shown,
                 About::Equation,

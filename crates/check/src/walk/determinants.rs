@@ -30,6 +30,9 @@ impl Walk<'_> {
             .map_or(inner, |_| "J");
         let name = self.lexis.lone_name(inner, &(0..inner.len()))?;
         let told = crate::jacobians::told_of_jacobian(&name)?;
+        if name.base == "J" && name.sub == "11" && self.lexis.defined(&name).is_none() {
+            return self.determinant_of_wrist();
+        }
         // Rows that vanish are left out.
         let moves = |row: &&Vec<Option<Expr>>| row.iter().any(|e| e.is_none_or(|e| !e.is_zero()));
         let printed = self.lexis.defined(&name).map(|m| Matrix(m.0.iter().filter(moves).cloned().collect()));
@@ -50,6 +53,20 @@ impl Walk<'_> {
         let is_open = printed.is_none() && !is_numeric && self.is_printed(&name, span.start);
         let by_nature = || if is_open { None } else { self.subject.determinant(told.part) };
         printed.and_then(|m| m.determinant()).or_else(by_nature)
+    }
+
+    /// That of the first three joints and the point in which the last three axes meet: the upper left block `J_{11}`.
+    fn determinant_of_wrist(&self) -> Option<Expr> {
+        let origin = |k: usize| Some(self.subject.transform(Some(0), Some(k))?.translation);
+        let (four, five) = (origin(4)?, origin(5)?);
+        let meet = four.0.iter().zip(&five.0).all(|(a, b)| denavit_symbolic::equal(*a, *b).is_equal());
+        if self.subject.joints().len() != 6 || !meet {
+            return None;
+        }
+        let rows = self.subject.geometric_rows(Reference::Frame(4), Reference::Frame(0));
+        let first = |row: &Vec<Expr>| row[..3].iter().map(|e| Some(*e)).collect();
+        let block = Matrix(rows[..3].iter().map(first).collect());
+        (block.shape() == Some((3, 3))).then(|| block.determinant())?
     }
 
     /// True if a line before a place begins with a name and gives it a matrix.

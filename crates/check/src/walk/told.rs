@@ -2,7 +2,7 @@
 
 use super::cases::tells_goal;
 use super::units::shared;
-use super::words::{JOINTS, LENGTHS, RATES, REST, SAME, VALUES, ZERO};
+use super::words::{JOINTS, LENGTHS, RATES, REST, SAME, VALUES, WORST, ZERO};
 use super::{Scalar, Walk};
 use crate::lexis::read;
 use denavit::description::{JointKind, Measure, Variable, read_value};
@@ -14,6 +14,8 @@ use std::ops::Range;
 
 /// Sentences of more bytes state nothing.
 const LONGEST: usize = 1_000;
+/// A unit stands at most so many bytes behind a value.
+const LIST: usize = 300;
 /// What a list of values is for.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum List {
@@ -44,6 +46,9 @@ impl Walk<'_> {
         let lower = joined.to_lowercase();
         if tells_goal(&lower) {
             self.at.forget_joints(self.in_inverse);
+        }
+        if WORST.iter().any(|words| lower.contains(words)) {
+            self.at.forget_joints(false);
         }
         self.recall_named(&lower);
         if self.in_inverse && SAME.iter().any(|words| lower.contains(words)) {
@@ -483,7 +488,9 @@ impl Walk<'_> {
             Some(Scalar::Broken(..)) => true,
             _ => false,
         };
-        let behind = self.text.get(value.end..).and_then(|t| t.lines().next()).unwrap_or_default();
+        let end = (value.end..=value.end + LIST).rev().find(|&k| self.text.is_char_boundary(k));
+        let behind = end.and_then(|end| self.text.get(value.end..end)).unwrap_or_default();
+        let behind = behind.lines().next().unwrap_or_default();
         let value = self.source(value);
         let names: Vec<&str> = names.iter().map(|n| self.source(n.0)).collect();
         let with_unit = self.with_shared_unit(&names, value, behind);

@@ -135,3 +135,17 @@ pub(super) const SAME: [&str; 26] = [
     "misma postura",
     "stessa configurazione",
 ];
+
+/// Words for a configuration of their own, which is not the one that stands further up.
+pub(super) const WORST: [&str; 10] = [
+    "worst case",
+    "worst position",
+    "worst posture",
+    "ungünstigst",
+    "schlimmst",
+    "plus défavorable",
+    "peor caso",
+    "caso peggiore",
+    "pior caso",
+    "najgorsz",
+];

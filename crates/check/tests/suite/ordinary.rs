@@ -83,8 +83,8 @@ fn angles_of_the_joints_that_turn() {
     let text =
         format!("{table}$\\theta=(30^\\circ, 60^\\circ)$: the tool is at\n$x=0.2598$ m,\n$y=0.3600$ m\n");
     expect(&text, None, &[("x", EQUAL), ("y", WRONG)]);
-    let letters = table.replace("θ1", "t1").replace("θ2", "t2").replace("d3", "t3");
-    let text = format!("{letters}For t = (30 deg, 60 deg, 0.1 m)\n\nx = 0.2598 m\ny = 0.3600 m\n");
+    let letters = table.replace("θ1", "t1").replace("θ2", "t2").replace("| 0 | d3 |", "| t3 | 0 |");
+    let text = format!("{letters}For t = (30 deg, 60 deg, 10 deg)\n\nx = 0.2598 m\ny = 0.3600 m\n");
     expect(&text, None, &[("x", EQUAL), ("y", WRONG)]);
 }
 
@@ -264,13 +264,19 @@ fn a_unit_behind_the_last_of_several_lengths() {
 
 #[test]
 fn metres_beside_a_letter_m() {
-    let text = format!(
-        "{UPRIGHT}The hand exerts (Fx, Fy) and the moment m:\n\nτ1 = -(a1 s1 + a2 s12) Fx + (a1 c1 + a2 c12) Fy + m\n\nNow $a_1 = 0.6$ m, $a_2 = 0.4 m$; \
-         a1 = 0.60 (m); a2 = 0.40 m:\n\nx = 0.720 m\n"
-    );
-    let found = read(&text, None);
-    assert!(found.claims.iter().all(|c| c.standing() == Standing::Equal), "{:?}", found.claims);
-    expect(&text, None, &[("τ1", EQUAL), ("x", EQUAL)]);
+    let table = "DH (standard)\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | t1 | 0 | a1 | 0 |\n| 2 | t2 | 0 | a2 | 180° |\n| 3 | 0 | d3 | 0 | 0 |\n\n";
+    let text = |z: &str| {
+        format!(
+            "{table}The hand exerts (Fx, Fy) and the moment m:\n\nτ1 = -(a1 s1 + a2 s12) Fx + (a1 c1 + a2 c12) Fy + m\n\n\
+             τ2 = -a2 s12 Fx + a2 c12 Fy + m\n\nNow a1 = 0.5, a2 = 0.4 (m); d3 = 0.30 m, t1 = 30°, t2 = 30°:\n\nx = 0.6330 m\n\nz = {z} m\n"
+        )
+    };
+    let all = |z: &str| {
+        read(&text(z), None).claims.iter().map(|c| (c.name.clone(), c.standing())).collect::<Vec<_>>()
+    };
+    let wrong = |z: &str| all(z).iter().filter(|c| c.1 == Standing::Wrong).count();
+    assert_eq!((wrong("-0.300"), wrong("0.500")), (0, 1), "{:?}", all("-0.300"));
+    assert!(all("-0.300").contains(&("z".to_string(), Standing::Equal)));
 }
 
 #[test]
@@ -299,4 +305,68 @@ fn a_configuration_that_a_line_of_words_names() {
     expect(&text("The arm in the first test pose", "0.200"), None, &[("det J", EQUAL)]);
     expect(&text("The arm in the first test pose", "-0.150"), None, &[("det J", WRONG)]);
     expect(&text("The arm in the second test pose", "-0.100"), None, &[("det J", EQUAL)]);
+}
+
+#[test]
+fn a_sum_of_angles_in_degrees() {
+    let table = "DH (standard), metres\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | q1 | 0 | 0.5 | 0 |\n| 2 | q2 | 0 | 0.4 | 0 |\n\nPut φ = q1 + q2.\n\n";
+    let text = |phi: &str| format!("{table}At q1 = 90, q2 = -30 (degrees):\n\nφ = {phi}\n");
+    let of = |text: &str| read(text, None).claims.iter().filter(|c| c.standing() == Standing::Wrong).count();
+    assert_eq!((of(&text("60")), of(&text("65"))), (0, 1));
+}
+
+#[test]
+fn statements_that_blanks_set_apart() {
+    let text = |y: &str| format!("{UPRIGHT}   x = 0.633 m\n\n   x = 0.6330   y = {y}   z = 0.0000\n");
+    let standings =
+        |y: &str| -> Vec<Standing> { read(&text(y), None).claims.iter().map(|c| c.standing()).collect() };
+    assert_eq!(standings("0.5964"), [Standing::Equal; 4]);
+    let (e, w) = (Standing::Equal, Standing::Wrong);
+    assert_eq!(standings("0.6964"), [e, e, w, e]);
+}
+
+#[test]
+fn the_worst_case_is_another_configuration() {
+    let text = |words: &str| {
+        format!(
+            "{UPRIGHT}$x = 0.633$ m\n\nThe hand exerts the force (Fx, Fy), τ1 = -(a1 s1 + a2 s12) Fx + (a1 c1 + a2 c12) Fy.\n\n{words} x = 0.900 m.\n"
+        )
+    };
+    let wrong = |words: &str| {
+        read(&text(words), None).claims.iter().filter(|c| c.standing() == Standing::Wrong).count()
+    };
+    assert_eq!((wrong("The worst case is the arm stretched out. There"), wrong("There")), (0, 1));
+}
+
+#[test]
+fn a_determinant_of_the_joints_that_a_function_takes() {
+    let text = |sign: &str| {
+        format!(
+            "# DH (standard)\n#\n# | i | theta | d | a | alpha |\n# |---|---|---|---|---|\n# | 1 | q1 | H | L1 | 0 |\n# | 2 | q2 | 0 | L2 | 180 |\n\
+             # | 3 | 0 | q3 | 0 | 0 |\nfrom math import *\n\ndef det_j(q1, q2):\n    return {sign}L1*L2*sin(q2)\n\n\
+             def det_jacobian(q1, q2, q3):\n    return L1*L2*cos(q2)\n"
+        )
+    };
+    let wrong = |sign: &str| {
+        let found = read(&text(sign), Some(Dialect::Python));
+        found.claims.iter().filter(|c| c.standing() == Standing::Wrong).count()
+    };
+    // That of all three joints has the other sign.
+    assert_eq!((wrong(""), wrong("-"), wrong("2*")), (1, 1, 2));
+}
+
+#[test]
+fn the_determinant_of_a_wrist() {
+    let table = "DH (standard)\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | q1 | 0 | 0 | 90° |\n| 2 | q2 | 0 | a2 | 0 |\n| 3 | q3 | 0 | 0 | 90° |\n\
+                 | 4 | q4 | d4 | 0 | -90° |\n| 5 | q5 | 0 | 0 | 90° |\n| 6 | q6 | d6 | 0 | 0 |\n\n";
+    // The wrist is at a2 c2 + d4 s23 from the first axis.
+    let text = |sign: &str| {
+        format!(
+            "{table}The block of the wrist has\n\n$$\\det J_{{11}} = {sign}a_2d_4c_3(a_2c_2+d_4s_{{23}})$$\n"
+        )
+    };
+    let standing =
+        |sign: &str| read(&text(sign), None).claims.iter().map(|c| c.standing()).collect::<Vec<_>>();
+    let found = (standing(""), standing("-"));
+    assert!(found.0 == EQUAL && found.1 == WRONG || found.0 == WRONG && found.1 == EQUAL, "{found:?}");
 }
