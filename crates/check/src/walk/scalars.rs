@@ -24,11 +24,14 @@ impl Walk<'_> {
         if let Some(value) = self.derivative_named(span) {
             return known(value);
         }
-        // `6.96°/s`, also where s is a name.
-        let is_rate =
-            |number: &str| number.trim().parse::<f64>().is_ok() && self.source(span).ends_with("/s");
-        let rate = crate::numbers::unit_behind(self.source(span)).filter(|(number, ..)| is_rate(number));
-        if let Some(value) = rate.and_then(|_| self.constant(self.source(span))) {
+        // `6.96°/s`, also where s is a name, and `0.45 m`, where m is that of a moment or a mass.
+        let source = self.source(span);
+        let is_rate = |number: &str| {
+            let is_named = source.ends_with("/s") || source.ends_with(" m") && !self.is_of_robot("m");
+            is_named && number.trim().parse::<f64>().is_ok()
+        };
+        let rate = crate::numbers::unit_behind(source).filter(|(number, ..)| is_rate(number));
+        if let Some(value) = rate.and_then(|_| self.constant(source)) {
             return known(value);
         }
         let errors = match self.lexis.formula(self.text, span) {

@@ -393,6 +393,13 @@ impl Walk<'_> {
         (found.and_then(|e| e.as_symbol()), plain)
     }
 
+    /// True for the name of a joint, or of a length or an angle of the table.
+    pub(super) fn is_of_robot(&self, name: &str) -> bool {
+        let d = &self.subject.description;
+        let symbol = self.named(name).0;
+        symbol.is_some_and(|s| d.parameter(s).is_some() || d.variables().iter().any(|v| v.symbol == s))
+    }
+
     /// True for the name of a length, or of a joint that slides.
     fn is_length(&self, name: &str) -> bool {
         let d = &self.subject.description;
@@ -475,16 +482,8 @@ impl Walk<'_> {
         if names.is_empty() || names.iter().any(|n| n.1.is_none()) {
             return false;
         }
-        // `0.45 m`, wherever m is a moment or a mass.
-        let is_quantity = |e: Expr| {
-            let d = &self.subject.description;
-            let is_own =
-                |s: &Symbol| d.parameter(*s).is_some() || d.variables().iter().any(|v| v.symbol == *s);
-            let number = crate::numbers::unit_behind(self.source(value)).map(|u| u.0);
-            number.is_some_and(|n| n.parse::<f64>().is_ok()) && !e.symbols().iter().any(is_own)
-        };
         let is_constant = match read.last() {
-            Some(Scalar::Formula(_, s)) => s.value().symbols().is_empty() || is_quantity(s.value()),
+            Some(Scalar::Formula(_, s)) => s.value().symbols().is_empty(),
             Some(Scalar::Broken(..)) => true,
             _ => false,
         };

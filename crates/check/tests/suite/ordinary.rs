@@ -268,7 +268,7 @@ fn metres_beside_a_letter_m() {
     let text = |z: &str| {
         format!(
             "{table}The hand exerts (Fx, Fy) and the moment m:\n\nτ1 = -(a1 s1 + a2 s12) Fx + (a1 c1 + a2 c12) Fy + m\n\n\
-             τ2 = -a2 s12 Fx + a2 c12 Fy + m\n\nNow a1 = 0.5, a2 = 0.4 (m); d3 = 0.30 m, t1 = 30°, t2 = 30°:\n\nx = 0.6330 m\n\nz = {z} m\n"
+             τ2 = -a2 s12 Fx + a2 c12 Fy + m\n\nWith a1 = 0.5, a2 = 0.4 (m); d3 = 0.30 m, t1 = 30°, t2 = 30°:\n\nx = 0.6330 m\n\nz = {z} m\n"
         )
     };
     let all = |z: &str| {
