@@ -338,6 +338,33 @@ fn motion(name: &str, arguments: &str) -> Option<[char; 2]> {
     }
 }
 
+/// The tables that can be read, one whose convention nothing says in each of them; and whether it was tried.
+pub(super) fn in_each(
+    text: &str,
+    kind: TableKind,
+    reading: &TableOptions,
+    printed: &[PrintedTable],
+) -> Vec<(PrintedTable, bool)> {
+    let is_open = |t: &PrintedTable| t.robot.is_err() && reading.convention.is_none();
+    let tried: Vec<PrintedTable> = match printed.iter().take(MAX_TABLES).any(is_open) {
+        false => vec![],
+        true => Convention::ALL
+            .into_iter()
+            .flat_map(|c| tables(text, kind, &TableOptions { convention: Some(c), ..reading.clone() }))
+            .collect(),
+    };
+    let of = |table: &PrintedTable| -> Vec<(PrintedTable, bool)> {
+        if !is_open(table) {
+            return vec![(table.clone(), false)];
+        }
+        tried.iter().filter(|t| t.span == table.span).map(|t| (t.clone(), true)).collect()
+    };
+    printed.iter().take(MAX_TABLES).flat_map(of).collect()
+}
+
+/// The most tables that are held against a robot.
+const MAX_TABLES: usize = 12;
+
 #[cfg(test)]
 mod tests {
     use super::named;
@@ -373,30 +400,3 @@ mod tests {
         }
     }
 }
-
-/// The tables that can be read, one whose convention nothing says in each of them; and whether it was tried.
-pub(super) fn in_each(
-    text: &str,
-    kind: TableKind,
-    reading: &TableOptions,
-    printed: &[PrintedTable],
-) -> Vec<(PrintedTable, bool)> {
-    let is_open = |t: &PrintedTable| t.robot.is_err() && reading.convention.is_none();
-    let tried: Vec<PrintedTable> = match printed.iter().take(MAX_TABLES).any(is_open) {
-        false => vec![],
-        true => Convention::ALL
-            .into_iter()
-            .flat_map(|c| tables(text, kind, &TableOptions { convention: Some(c), ..reading.clone() }))
-            .collect(),
-    };
-    let of = |table: &PrintedTable| -> Vec<(PrintedTable, bool)> {
-        if !is_open(table) {
-            return vec![(table.clone(), false)];
-        }
-        tried.iter().filter(|t| t.span == table.span).map(|t| (t.clone(), true)).collect()
-    };
-    printed.iter().take(MAX_TABLES).flat_map(of).collect()
-}
-
-/// The most tables that are held against a robot.
-const MAX_TABLES: usize = 12;
