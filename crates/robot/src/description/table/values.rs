@@ -60,10 +60,13 @@ pub(super) fn parameters(
     parameters
 }
 
+/// So many lines that give a name a value are looked at.
+const MAX_GIVEN: usize = 1_000;
+
 /// True for a name to which lines give a constant, always the same one: other values are those of configurations.
 pub(super) fn is_constant(name: &str, lines: &Lines, units: &BareUnits) -> bool {
     let style = units.style(Quantity::Open, None);
-    let given = lines.values.iter().filter(|v| v.0 == name);
+    let given = lines.values.iter().filter(|v| v.0 == name).take(MAX_GIVEN);
     let mut values = given.filter_map(|v| read_line(&v.1, &style, &mut Diagnostics::default()));
     values.next().is_some_and(|first| values.all(|v| v == first))
 }
