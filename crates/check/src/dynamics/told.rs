@@ -160,9 +160,94 @@ fn inertia(lower: &str) -> Option<Point> {
     found
 }
 
+/// True for words before a formula, or behind it on its line, that say that it is one of a special case: a joint held, slow motion, small
+/// angles, terms left out, values of joints.
+pub(super) fn is_special_case(words: &str) -> bool {
+    const WORDS: [&str; 40] = [
+        "lock",
+        "brake",
+        "clamp",
+        "frozen",
+        "held",
+        "at rest",
+        "standstill",
+        "neglect",
+        "ignor",
+        "without the",
+        "small angle",
+        "slow",
+        "special case",
+        "if only",
+        "gesperrt",
+        "gebremst",
+        "blockiert",
+        "festgehalten",
+        "stillstand",
+        "in ruhe",
+        "vernachläss",
+        "kleine winkel",
+        "langsam",
+        "sonderf",
+        "waagerecht gelegt",
+        "bloqu",
+        "frein",
+        "immobil",
+        "au repos",
+        "néglig",
+        "petits angles",
+        "lente",
+        "bloccat",
+        "freno",
+        "fermo",
+        "trascur",
+        "piccoli angoli",
+        "en reposo",
+        "despreci",
+        "travad",
+    ];
+    let lower = words.to_lowercase();
+    let plain: String = lower.chars().filter(|c| !c.is_whitespace()).collect();
+    // `(\dot r = 0)`, `for θ2 = 90°`
+    let has_value = plain.match_indices('=').any(|(at, _)| {
+        let before: String =
+            plain[..at].chars().rev().take(14).collect::<Vec<_>>().into_iter().rev().collect();
+        let is_joint = ["θ", "theta", "q", "dot", "phi", "φ"].iter().any(|name| before.contains(name));
+        let behind = plain[at + 1..].trim_start_matches(['-', '−', '\\', '$']);
+        let digits = behind.chars().take_while(|c| c.is_ascii_digit() || matches!(c, '.' | ',')).count();
+        let rest = &behind[digits..];
+        let is_value = behind.starts_with("pi")
+            || behind.starts_with('π')
+            || digits > 0 && !rest.starts_with(['k', 'm', 'n']);
+        is_joint && is_value
+    });
+    has_value || WORDS.iter().any(|w| lower.contains(w))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn special_cases_are_told() {
+        for words in [
+            "With joint 2 locked",
+            "Schubgelenk gebremst ($\\dot r = 0$):",
+            "For $\\theta_2 = 45°$",
+            "pour de petits angles",
+            "at q2 = pi/2",
+            "Neglecting the Coriolis terms",
+        ] {
+            assert!(is_special_case(words), "{words}");
+        }
+        for words in [
+            "The torques are",
+            "with l_1 = 0.5 m and m_2 = 3 kg",
+            "Gravity acts along −y.",
+            "Hence, with g = 9.81 m/s^2,",
+        ] {
+            assert!(!is_special_case(words), "{words}");
+        }
+    }
 
     #[test]
     fn sentences_say_where_gravity_pulls_and_about_what_inertias_are() {

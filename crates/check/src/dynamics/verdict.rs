@@ -7,6 +7,7 @@ use super::model::Model;
 use super::quantity::Quantity;
 use super::repair::Repairer;
 use super::statements::Piece;
+use super::told;
 use super::vote::{agree, values};
 use crate::facts::{SlipKind, Unproved};
 use crate::formula::Formula;
@@ -49,6 +50,8 @@ pub(super) enum By {
 const MAX_REFUTED: usize = 60;
 /// No more readings are asked for a slip.
 const MAX_READINGS: usize = 6;
+/// No more of the text before a formula is looked at.
+const MAX_WORDS: usize = 250;
 /// No formula with more literals is shown.
 const MAX_SHOWN: u64 = 300;
 
@@ -252,13 +255,13 @@ impl Verdicts<'_> {
                 }
             }
         }
-        // Printed right elsewhere it may be meant for a special case here, unless it is a small slip away.
-        let is_twice = self.is_right_elsewhere(k, test);
+        // Printed right elsewhere, or behind words that say so, it may be meant for a special case, unless it is a small slip away.
+        let is_case = self.is_right_elsewhere(k, test) || told::is_special_case(&self.words_around(piece));
         match best {
-            Some((_, _, slips)) if is_twice && !slips.iter().all(is_small) => {
+            Some((_, _, slips)) if is_case && !slips.iter().all(is_small) => {
                 Said::Open(Unproved::OpenReading)
             }
-            None if is_twice => Said::Open(Unproved::OpenReading),
+            None if is_case => Said::Open(Unproved::OpenReading),
             Some((_, wanted, slips)) => Said::Wrong { wanted, slips },
             None if is_pinned && piece.candidates.len() == 1 => match self.model.value(piece.candidates[0]) {
                 Some(wanted) => {
@@ -269,6 +272,19 @@ impl Verdicts<'_> {
             },
             None => Said::Open(Unproved::OpenReading),
         }
+    }
+
+    /// The words between a formula and the one before it, and behind it on its line.
+    fn words_around(&self, piece: &Piece) -> String {
+        let own = &self.statements[piece.statement].span;
+        let ends = self.statements.iter().map(|s| s.span.end).filter(|end| *end <= own.start);
+        let mut first = ends.max().unwrap_or(0).max(own.start.saturating_sub(MAX_WORDS));
+        while !self.text.is_char_boundary(first) {
+            first += 1;
+        }
+        let behind = self.text.get(own.end..).and_then(|rest| rest.lines().next()).unwrap_or("");
+        let behind: String = behind.chars().take(MAX_WORDS).collect();
+        format!("{} {behind}", self.text.get(first..own.start).unwrap_or(""))
     }
 
     /// True where the document prints the same quantity again, right.

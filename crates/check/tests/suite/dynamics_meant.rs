@@ -173,6 +173,13 @@ fn special_cases_are_not_called_wrong() {
     ] {
         says(&[POINTS, &whole, TORQUE_2, words, &special], &[RIGHT, RIGHT, OPEN]);
     }
+    // Where the general formula is wrong, too.
+    let wrong = whole.replace("2\\dot\\theta_1\\dot\\theta_2", "\\dot\\theta_1\\dot\\theta_2");
+    let locked = torque_1(&[r"((m_1+m_2) l_1^2 + m_2 l_2^2 + 2 m_2 l_1 l_2 c_2) \ddot\theta_1", GRAVITY_1]);
+    says(
+        &[POINTS, &wrong, TORQUE_2, r"With the brake of joint 2 closed ($\dot\theta_2 = 0$)", &locked],
+        &[WRONG, RIGHT, OPEN],
+    );
     // What differs by a sign is a slip, wherever it stands.
     let slip = whole.replace("- m_2 l_1 l_2 s_2", "+ m_2 l_1 l_2 s_2");
     says(&[POINTS, &whole, TORQUE_2, "Again:", &slip], &[RIGHT, RIGHT, WRONG]);

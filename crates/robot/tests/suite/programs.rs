@@ -223,7 +223,7 @@ fn what_is_not_followed_is_an_error_with_its_place() {
             "import numpy as np\na = np.array([1, 2])\nb = a[0:1]\nb[0] = 7\nr = DHRobot([RevoluteDH(a=a[0]), RevoluteDH(a=1)])",
             "4:1 error: `b[0]`",
         ),
-        ("r = DHRobot([RevoluteDH(a=2^3), RevoluteDH(a=1)])", "1:26 error: `2^3`"),
+        ("r = DHRobot([RevoluteDH(a=2^3), RevoluteDH(a=1)])", "1:27 error: `2^3`"),
         (
             "class A(DHRobot):\n    def __init__(self):\n        super().__init__([RevoluteDH(a=1), RevoluteDH(a=2)])\n    def grow(self):\n        self.links[0].a = 9\nr = A()\nr.grow()",
             "7:1 error: `r.grow()`",

@@ -62,6 +62,14 @@ impl<'p> Run<'p> {
         }
     }
 
+    /// That of which something is an attribute: it gets no second name by that.
+    pub fn object(&mut self, inner: &Node) -> Value {
+        match &inner.form {
+            Form::Name(name) => self.of_name(name, &inner.span),
+            _ => self.value(inner),
+        }
+    }
+
     /// `object.name`, or a name of a module.
     pub fn attribute(&mut self, node: &Node, inner: &Node, name: &str) -> Value {
         let path = Self::path(node);
@@ -83,10 +91,7 @@ impl<'p> Run<'p> {
                 _ => self.unknown(&node.span),
             };
         }
-        let object = match &inner.form {
-            Form::Name(name) => self.of_name(name, &inner.span),
-            _ => self.value(inner),
-        };
+        let object = self.object(inner);
         match (&object, name) {
             (Value::Unknown(_), _) => object,
             (Value::Robot(k), "links") => {
@@ -153,7 +158,7 @@ impl<'p> Run<'p> {
                     self.set_of_robot(k, &part, unknown, span);
                     return Value::None;
                 }
-                let value = self.value(object);
+                let value = self.object(object);
                 self.method(value, name, inner, arguments, span)
             }
             _ => match self.value(inner) {

@@ -69,7 +69,7 @@ impl Run<'_> {
             Form::Attribute(inner, name) => {
                 let path = Self::path(target);
                 let is_known = Self::path(inner).is_none_or(|p| self.named(&p).is_some());
-                let object = if is_known { self.value(inner) } else { Value::None };
+                let object = if is_known { self.object(inner) } else { Value::None };
                 match object {
                     Value::Link(k) => self.set_of_link(k, name, value, &target.span),
                     Value::Robot(k) => self.set_of_robot(k, name, value, &target.span),
@@ -179,7 +179,7 @@ impl Run<'_> {
     /// `robot.links` of a robot: which, and what of it.
     pub fn robot_of_entry(&mut self, node: &Node) -> Option<(usize, String)> {
         let Form::Attribute(object, name) = &node.form else { return None };
-        match self.value(object) {
+        match self.object(object) {
             Value::Robot(k) => Some((k, name.clone())),
             _ => None,
         }
