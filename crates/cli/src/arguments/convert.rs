@@ -19,8 +19,8 @@ pub struct ConvertArguments {
     /// The convention of what is written; that of the robot otherwise
     #[arg(long = "as", value_enum)]
     pub written_as: Option<ConventionName>,
-    /// All of a tree as one table, with a column a(j) for the row that each stands on (markdown, latex, csv); par and tree write all of
-    /// it anyway
+    /// All of a tree: as bodies and joints (urdf, mjcf), or as one table with a column a(j) for the row that each stands on (markdown,
+    /// latex, csv); par and tree write all of it anyway
     #[arg(long, conflicts_with_all = ["base", "tip"])]
     pub whole: bool,
     /// Print JSON: the text, what is left out, and how it is the robot
@@ -36,7 +36,7 @@ pub struct ConvertArguments {
 pub enum ConvertFormat {
     /// A robot file
     Toml,
-    /// A URDF: joints in their places, no looks
+    /// A URDF: joints in their places, simple solids
     Urdf,
     /// A model of MuJoCo's: joints in their places, simple solids
     Mjcf,

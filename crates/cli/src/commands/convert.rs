@@ -16,6 +16,7 @@ use denavit::mechanism::{COMPARED, Chains, Comparison, compare, compare_chains};
 use denavit_symbolic::Expr;
 use denavit_wire::Schema;
 use denavit_wire::convert::Converted;
+use std::borrow::Cow;
 use std::collections::HashMap;
 
 /// Writes a robot in another format.
@@ -24,13 +25,14 @@ use std::collections::HashMap;
 /// If there is no such robot, a parameter has no value, nothing can be written, or what was written is not the robot.
 pub fn run(arguments: &ConvertArguments) -> Result<(), Failure> {
     let is_whole = matches!(arguments.to, ConvertFormat::Par | ConvertFormat::Tree);
-    if arguments.whole && !is_whole && table_kind(arguments.to).is_none() {
-        return Err(Failure::Usage("--whole is for tables: markdown, latex and csv".into()));
+    let is_of_bodies = matches!(arguments.to, ConvertFormat::Urdf | ConvertFormat::Mjcf);
+    if arguments.whole && !is_whole && !is_of_bodies && table_kind(arguments.to).is_none() {
+        return Err(Failure::Usage("--whole is for urdf, mjcf, markdown, latex and csv".into()));
     }
     if (is_whole || arguments.whole)
         && let Some(whole) = load::mechanism(&arguments.robot)?
     {
-        return tree(&whole, arguments);
+        return if is_of_bodies { bodies(&whole, arguments) } else { tree(&whole, arguments) };
     }
     let (robot, around) = load::robot_and_around(&arguments.robot)?;
     let converted = match arguments.written_as {
@@ -170,7 +172,9 @@ fn written(
             alone(text, back)
         }
         ConvertFormat::Urdf => {
-            let text = write_urdf(converted).map_err(|missing| no_values(missing.parameters.into_iter()))?;
+            let bodies =
+                Mechanism::of(converted).map_err(|missing| no_values(missing.parameters.into_iter()))?;
+            let text = write_urdf(&bodies);
             let copy = text.clone();
             let back = move |decimals| {
                 let (m, _) = read_urdf(&copy, decimals).ok()?;
@@ -286,6 +290,63 @@ fn tree(whole: &Tree, arguments: &ConvertArguments) -> Result<(), Failure> {
         }
     };
     let compared = |decimals| Some(compare_chains(whole.as_ref(), &read(decimals)?, &named));
+    how_tree(&rows.name, &text, &left, arguments, &compared)
+}
+
+/// All of a tree as bodies and joints; every chain from its root to an end is read back and compared.
+fn bodies(whole: &Tree, arguments: &ConvertArguments) -> Result<(), Failure> {
+    if arguments.written_as.is_some() {
+        return Err(Failure::Usage("--as: bodies and joints have no convention".into()));
+    }
+    let (tree, rows) = match whole {
+        Tree::Bodies(m) => (Cow::Borrowed(m), RowTree::of_mechanism(m).ok()),
+        Tree::Rows(rows) => {
+            let tree = rows.mechanism().map_err(|missing| no_values(missing.parameters.into_iter()))?;
+            (Cow::Owned(tree), Some(rows.clone()))
+        }
+    };
+    let text = match arguments.to {
+        ConvertFormat::Mjcf => {
+            say_refused(&tree);
+            write_mjcf(&tree)
+        }
+        _ => write_urdf(&tree),
+    };
+    // Torques and forces have a place here.
+    let parts = rows.map_or(vec![], |rows| left_out(&rows.all_rows(), false, arguments.to));
+    if !arguments.json {
+        put(&arguments.output, text.as_bytes())?;
+    }
+    let compared = |decimals| {
+        let back = match arguments.to {
+            ConvertFormat::Mjcf => read_mjcf("written", &text, &mut Alone, decimals).0.ok()?.0,
+            _ => read_urdf(&text, decimals).ok()?.0,
+        };
+        let rows = RowTree::of_mechanism(&back).ok()?;
+        // Its rows call the ends as they do where a name is taken.
+        let there: HashMap<&str, &String> = back
+            .leaves()
+            .into_iter()
+            .map(|b| back.bodies[b].name.as_str())
+            .zip(rows.frames.iter().map(|f| &f.name))
+            .collect();
+        let ends = tree.leaves().into_iter().map(|b| tree.bodies[b].name.clone());
+        let ends: Vec<(String, String)> = ends
+            .map(|end| (end.clone(), there.get(end.as_str()).map_or(end, |name| name.to_string())))
+            .collect();
+        Some(compare_chains(whole.as_ref(), &rows, &ends))
+    };
+    how_tree(&tree.name, &text, &parts, arguments, &compared)
+}
+
+/// Says how what was written of a tree is the tree, by what it is read back to with decimals as they are meant, or as they are written.
+fn how_tree(
+    name: &str,
+    text: &str,
+    left: &[Part],
+    arguments: &ConvertArguments,
+    compared: &dyn Fn(Decimals) -> Option<Chains>,
+) -> Result<(), Failure> {
     let meant = (!arguments.robot.as_written).then(|| compared(Decimals::Meant)).flatten();
     let (chains, is_meant) = match meant {
         Some(chains) if !chains.differ() => (Some(chains), true),
@@ -299,7 +360,7 @@ fn tree(whole: &Tree, arguments: &ConvertArguments) -> Result<(), Failure> {
         Some(chains) => how_chains(&chains, is_meant),
     };
     if arguments.json {
-        answer(arguments, &rows.name, &text, &left, &how)?;
+        answer(arguments, name, text, left, &how)?;
     }
     said(how)
 }

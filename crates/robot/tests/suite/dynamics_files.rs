@@ -2,7 +2,7 @@
 
 use crate::common::{Random, shown};
 use crate::dynamics::{ARMS, random_arm, state};
-use denavit::description::{Convention, Decimals, read_toml, read_urdf, write_toml, write_urdf};
+use denavit::description::{Convention, Decimals, Mechanism, read_toml, read_urdf, write_toml, write_urdf};
 use denavit::dynamics::{Dynamics, Formulas, NoNumbers, inverse_dynamics};
 use denavit_symbolic::Expr;
 
@@ -42,7 +42,7 @@ fn a_converted_file_has_the_same_torques() {
         let [q, qd, qdd] = state(arm.joints(), &mut Random(17));
         let wanted = inverse_dynamics(&arm, &q, &qd, &qdd, None);
         let from_toml = read_toml(&write_toml(&d)).unwrap().0;
-        let urdf = write_urdf(&d).unwrap();
+        let urdf = write_urdf(&Mechanism::of(&d).unwrap());
         let from_urdf = read_urdf(&urdf, Decimals::AsWritten).unwrap().0;
         let from_urdf = from_urdf.chain(None, None, Convention::Standard).unwrap().description;
         for (how, other) in [("toml", from_toml), ("urdf", from_urdf)] {
@@ -146,7 +146,7 @@ fn masses_of_all_rows_are_in_a_urdf() {
                 inertia = [0.01, 0, 0, 0.01, 0, 0.01]\n";
     let d = read_toml(text).unwrap_or_else(|e| panic!("{}", shown(text, &e).join("\n"))).0;
     let arm = Dynamics::numeric(&d).unwrap();
-    let urdf = write_urdf(&d).unwrap();
+    let urdf = write_urdf(&Mechanism::of(&d).unwrap());
     let back = read_urdf(&urdf, Decimals::AsWritten).unwrap().0;
     let back = back.chain(None, None, Convention::Standard).unwrap().description;
     let other = Dynamics::numeric(&back).unwrap();

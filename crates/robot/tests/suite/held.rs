@@ -34,7 +34,8 @@ fn back(d: &Description, format: Format) -> Vec<(String, Description)> {
             .map(|written| named("axes", toml(&write_axes(d, written).expect("axes"))))
             .to_vec(),
         Format::Urdf => {
-            let (m, _) = read_urdf(&write_urdf(d).expect("a URDF"), Decimals::Meant).expect("a robot");
+            let (m, _) = read_urdf(&write_urdf(&Mechanism::of(d).expect("numbers")), Decimals::Meant)
+                .expect("a robot");
             vec![named("urdf", of_mechanism(&m))]
         }
         Format::Mjcf => {

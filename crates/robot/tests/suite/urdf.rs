@@ -468,7 +468,7 @@ fn a_long_chain_is_converted_soon() {
     let start = Instant::now();
     let m = read_urdf(&text, Decimals::Meant).unwrap().0;
     let d = m.chain(None, None, Convention::Standard).unwrap().description;
-    let back = read_urdf(&write_urdf(&d).unwrap(), Decimals::Meant).unwrap().0;
+    let back = read_urdf(&write_urdf(&Mechanism::of(&d).unwrap()), Decimals::Meant).unwrap().0;
     let back = back.chain(Some("base"), Some("tool"), Convention::Standard).unwrap().description;
     let compared = compare(&d, &back);
     assert!(
@@ -487,7 +487,7 @@ fn the_catalogue_goes_to_urdf_and_back() {
     let (mut to_the_letter, mut proved) = (0, 0);
     for name in catalogue::names() {
         let d = catalogue::robot(name).unwrap().filled().in_numbers();
-        let text = write_urdf(&d).unwrap();
+        let text = write_urdf(&Mechanism::of(&d).unwrap());
         let (m, _) = read_urdf(&text, Decimals::Meant).unwrap_or_else(|e| panic!("{name}: {e:?}\n{text}"));
         let back = m.chain(None, Some("tool"), d.convention).unwrap().description;
         let (plain, _) = d.at_rest().description(name, d.convention).unwrap();
@@ -498,6 +498,6 @@ fn the_catalogue_goes_to_urdf_and_back() {
         assert!(apart(&a, &b) < 1e-14, "{name}: {:e}", apart(&a, &b));
     }
     assert!(to_the_letter >= 93 && proved >= 93, "{to_the_letter} {proved}");
-    let missing = write_urdf(&catalogue::robot("prrrrp").unwrap()).unwrap_err();
+    let missing = Mechanism::of(&catalogue::robot("prrrrp").unwrap()).unwrap_err();
     assert_eq!(missing.parameters.len(), 3);
 }

@@ -5,17 +5,11 @@
 
 use crate::description::JointKind;
 use crate::description::robot_file::exact_rpy;
-use crate::description::tree::{Joint, Mass, Mechanism};
-use crate::description::xml::{escaped, number};
+use crate::description::tree::{Joint, Mass, Mechanism, Solids};
+use crate::description::xml::{escaped, joint_names, number};
 use crate::geometry::{Rotation, Transform, Vector};
 use denavit_symbolic::{Expr, Rational};
-use std::collections::HashMap;
 use std::fmt::Write;
-
-/// How thick solids are, of the longest way from a joint to the next.
-const THICKNESS: f64 = 0.06;
-/// The thinnest ones, metres.
-const THINNEST: f64 = 0.005;
 
 /// What is to be written next.
 enum Step {
@@ -26,25 +20,10 @@ enum Step {
 
 /// The model of a tree whose numbers are constants.
 pub fn write_mjcf(tree: &Mechanism) -> String {
-    let mut on: Vec<Vec<usize>> = vec![vec![]; tree.bodies.len()];
-    for (j, joint) in tree.joints.iter().enumerate() {
-        on[joint.parent].push(j);
-    }
-    let mut names = HashMap::new();
-    let names: Vec<String> = tree
-        .joints
-        .iter()
-        .map(|j| {
-            let times = names.entry(j.name.as_str()).and_modify(|n| *n += 1).or_insert(1);
-            if *times == 1 { escaped(&j.name) } else { format!("{}_{times}", escaped(&j.name)) }
-        })
-        .collect();
-    let far = tree.joints.iter().map(|j| length(&j.origin)).fold(0.0, f64::max);
     let mut file = File {
         tree,
-        on,
-        names,
-        radius: (THICKNESS * far).max(THINNEST),
+        solids: Solids::new(tree),
+        names: joint_names(tree),
         text: String::new(),
         depth: 2,
         moving: vec![],
@@ -60,9 +39,11 @@ pub fn write_mjcf(tree: &Mechanism) -> String {
     );
     let mut steps = match tree.bodies[tree.root].name.as_str() {
         // The world is there.
-        "world" => {
-            file.on[tree.root].iter().rev().map(|&j| Step::Open(tree.joints[j].child, Some(j))).collect()
-        }
+        "world" => file.solids.on[tree.root]
+            .iter()
+            .rev()
+            .map(|&j| Step::Open(tree.joints[j].child, Some(j)))
+            .collect(),
         _ => vec![Step::Open(tree.root, None)],
     };
     while let Some(step) = steps.pop() {
@@ -72,7 +53,7 @@ pub fn write_mjcf(tree: &Mechanism) -> String {
                 if file.open(body, joint) {
                     steps.push(Step::Close);
                     steps.extend(
-                        file.on[body].iter().rev().map(|&j| Step::Open(tree.joints[j].child, Some(j))),
+                        file.solids.on[body].iter().rev().map(|&j| Step::Open(tree.joints[j].child, Some(j))),
                     );
                 }
             }
@@ -95,11 +76,9 @@ pub fn refused_masses(tree: &Mechanism) -> Vec<&str> {
 /// A file under way.
 struct File<'a> {
     tree: &'a Mechanism,
-    /// The joints on each body.
-    on: Vec<Vec<usize>>,
+    solids: Solids,
     /// The names of the joints.
     names: Vec<String>,
-    radius: f64,
     text: String,
     depth: usize,
     /// The joints that move, in the order in which they are written.
@@ -138,7 +117,7 @@ impl File<'_> {
         let placed = joint.map_or(String::new(), |(_, j)| placed(&j.origin));
         let moves = joint.is_some_and(|(_, j)| j.kind.is_some());
         let mass = tree.bodies[body].mass.as_ref();
-        if joint.is_some() && !moves && self.on[body].is_empty() && mass.is_none() {
+        if joint.is_some() && !moves && self.solids.on[body].is_empty() && mass.is_none() {
             self.line(&format!("<site name=\"{name}\"{placed}/>"));
             return false;
         }
@@ -174,12 +153,7 @@ impl File<'_> {
 
     /// Capsules to what a body carries; a ball where there is none and it moves.
     fn solid(&mut self, body: usize, moves: bool) {
-        let ends: Vec<[f64; 3]> = self.on[body]
-            .iter()
-            .map(|&j| self.tree.joints[j].origin.translation.0.map(value))
-            .filter(|p| p.iter().map(|x| x * x).sum::<f64>().sqrt() > self.radius)
-            .collect();
-        let radius = self.radius;
+        let (ends, radius) = (self.solids.bars(body), self.solids.radius);
         for [x, y, z] in &ends {
             self.line(&format!(
                 "<geom type=\"capsule\" size=\"{radius:.4}\" fromto=\"0 0 0 {x:.6} {y:.6} {z:.6}\"/>"
@@ -213,11 +187,6 @@ impl File<'_> {
 
 fn value(e: Expr) -> f64 {
     e.eval(|_| None).unwrap_or(f64::NAN)
-}
-
-fn length(x: &Transform<Expr>) -> f64 {
-    let Vector(p) = x.translation.map(value);
-    p.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// Where a frame is, and how it is turned: by fixed angles about x, y, z where these are exact, else by a quaternion.

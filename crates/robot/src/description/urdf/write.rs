@@ -1,12 +1,12 @@
-//! A description as a URDF that reads back to it.
+//! A tree as a URDF that reads back to it, with simple solids in place of its links.
 //!
 //! Angles have 17 digits, by which they are found again, lengths are decimals. ROS's own parser asks for effort and velocity of
 //! every limit, and for limits of every slide: 0 and a distance that nothing has stand for what is not known.
 
+use crate::description::JointKind;
 use crate::description::robot_file::exact_rpy;
-use crate::description::tree::{Joint, Mass, Mechanism};
-use crate::description::xml::{escaped, number};
-use crate::description::{Description, JointKind, MissingValue};
+use crate::description::tree::{Joint, Mass, Mechanism, Solids};
+use crate::description::xml::{escaped, joint_names, number};
 use crate::geometry::Rotation;
 use denavit_symbolic::{Expr, Rational};
 use std::fmt::Write;
@@ -14,30 +14,50 @@ use std::fmt::Write;
 /// Where no slide goes, metres: limits so far away are read as none.
 const NOWHERE: &str = "1e9";
 
-/// The URDF of a description.
-///
-/// # Errors
-/// If a parameter has no value.
-pub fn write_urdf(d: &Description) -> Result<String, MissingValue> {
-    let tree = Mechanism::of(d)?;
+/// The URDF of a tree whose numbers are constants.
+pub fn write_urdf(tree: &Mechanism) -> String {
+    let (solids, names) = (Solids::new(tree), joint_names(tree));
     let mut text = format!("<robot name=\"{}\">\n", escaped(&tree.name));
-    let link = |text: &mut String, body: usize| {
+    let link = |text: &mut String, body: usize, moves: bool| {
         let name = escaped(&tree.bodies[body].name);
-        let _ = match &tree.bodies[body].mass {
-            Some(mass) => writeln!(text, "  <link name=\"{name}\">\n{}  </link>", inertial(mass)),
-            None => writeln!(text, "  <link name=\"{name}\"/>"),
+        let mass = tree.bodies[body].mass.as_ref().map_or(String::new(), inertial);
+        let inner = mass + &looks(&solids, body, moves);
+        let _ = match inner.is_empty() {
+            true => writeln!(text, "  <link name=\"{name}\"/>"),
+            false => writeln!(text, "  <link name=\"{name}\">\n{inner}  </link>"),
         };
     };
-    link(&mut text, tree.root);
-    for joint in &tree.joints {
-        link(&mut text, joint.child);
-        write_joint(&mut text, &tree, joint);
+    link(&mut text, tree.root, false);
+    for (j, joint) in tree.joints.iter().enumerate() {
+        link(&mut text, joint.child, joint.kind.is_some());
+        write_joint(&mut text, tree, &names, j);
     }
     text.push_str("</robot>\n");
-    Ok(text)
+    text
 }
 
-fn write_joint(text: &mut String, tree: &Mechanism, joint: &Joint) {
+/// Cylinders to what a body carries; a ball where there is none and it moves.
+fn looks(solids: &Solids, body: usize, moves: bool) -> String {
+    let (ends, radius) = (solids.bars(body), solids.radius);
+    let visual = |origin: &str, shape: &str| {
+        format!("    <visual>\n{origin}      <geometry>{shape}</geometry>\n    </visual>\n")
+    };
+    if ends.is_empty() && moves {
+        return visual("", &format!("<sphere radius=\"{radius:.4}\"/>"));
+    }
+    let bar = |&[x, y, z]: &[f64; 3]| {
+        let level = x.hypot(y);
+        // About y away from z, then about z.
+        let (pitch, yaw) = (level.atan2(z), if level > 0.0 { y.atan2(x) } else { 0.0 });
+        let middle = [x, y, z].map(|c| format!("{:.6}", c / 2.0)).join(" ");
+        let origin = format!("      <origin xyz=\"{middle}\" rpy=\"0 {pitch:.6} {yaw:.6}\"/>\n");
+        visual(&origin, &format!("<cylinder radius=\"{radius:.4}\" length=\"{:.6}\"/>", level.hypot(z)))
+    };
+    ends.iter().map(bar).collect()
+}
+
+fn write_joint(text: &mut String, tree: &Mechanism, names: &[String], j: usize) {
+    let joint: &Joint = &tree.joints[j];
     let list = |v: [Expr; 3]| v.map(number).join(" ");
     let kind = match (joint.kind, joint.limits) {
         (None, _) => "fixed",
@@ -48,16 +68,19 @@ fn write_joint(text: &mut String, tree: &Mechanism, joint: &Joint) {
     let origin = &joint.origin;
     let rpy = exact_rpy(&origin.rotation).unwrap_or_else(|| numeric_rpy(&origin.rotation));
     let [parent, child] = [joint.parent, joint.child].map(|b| escaped(&tree.bodies[b].name));
-    let _ = writeln!(text, "  <joint name=\"{}\" type=\"{kind}\">", escaped(&joint.name));
+    let _ = writeln!(text, "  <joint name=\"{}\" type=\"{kind}\">", names[j]);
     let _ = writeln!(text, "    <origin xyz=\"{}\" rpy=\"{}\"/>", list(origin.translation.0), list(rpy));
     let _ = writeln!(text, "    <parent link=\"{parent}\"/>\n    <child link=\"{child}\"/>");
     if joint.kind.is_some() {
         let _ = writeln!(text, "    <axis xyz=\"{}\"/>", list(joint.axis.0));
     }
     if let Some(follows) = &joint.follows {
-        let leader = escaped(&tree.joints[follows.joint].name);
-        let factor = number(follows.factor.clone().into());
-        let _ = writeln!(text, "    <mimic joint=\"{leader}\" multiplier=\"{factor}\"/>");
+        let (leader, factor) = (&names[follows.joint], number(follows.factor.clone().into()));
+        let offset = match follows.offset.is_zero() {
+            true => String::new(),
+            false => format!(" offset=\"{}\"", number(follows.offset)),
+        };
+        let _ = writeln!(text, "    <mimic joint=\"{leader}\" multiplier=\"{factor}\"{offset}/>");
     }
     let known = |x: Option<Expr>| x.map_or("0".into(), number);
     let drive = format!("effort=\"{}\" velocity=\"{}\"", known(joint.effort), known(joint.velocity));
