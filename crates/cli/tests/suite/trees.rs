@@ -260,8 +260,38 @@ fn whole_trees_are_tables() {
     }
     let (code, _, said) = run(&["convert", &urdf("pr2"), "--to", "markdown", "--whole"]);
     assert!(code == 0 && said.contains("of 25 chains"), "{said}");
-    let (code, _, said) = run(&["convert", "dual-arm", "--to", "urdf", "--whole"]);
-    assert!(code == 2 && said.contains("--whole is for tables"), "{said}");
+    let (code, _, said) = run(&["convert", "dual-arm", "--to", "poe", "--whole"]);
+    assert!(code == 2 && said.contains("--whole is for"), "{said}");
+}
+
+/// All of a tree as bodies and joints, from any description of one.
+#[test]
+fn whole_trees_are_bodies_and_joints() {
+    for (to, ending) in [("urdf", "urdf"), ("mjcf", "xml")] {
+        for (name, chains) in [("dual-arm", 3), ("gripper", 3), ("humanoid", 5)] {
+            let (code, written, said) = run(&["convert", name, "--to", to, "--whole"]);
+            assert!(
+                code == 0 && said.contains(&format!("of {chains} chains are proved")),
+                "{name} {to}: {said}"
+            );
+            let file = File::new(&format!("bodies-{name}.{ending}"), &written);
+            let (code, again, said) = run(&["convert", file.name(), "--to", to, "--whole"]);
+            assert_eq!((code, &again), (0, &written), "{name} {to}: {said}");
+        }
+        for (name, chains) in [("pr2", 25), ("ur5_gripper", 2)] {
+            let (code, written, said) = run(&["convert", &urdf(name), "--to", to, "--whole"]);
+            assert!(code == 0 && said.contains(&format!("of {chains} chains")), "{name} {to}: {said}");
+            assert!(!said.contains("torques"), "efforts have a place: {said}");
+            let joints = if to == "urdf" {
+                written.matches("effort=").count()
+            } else {
+                written.matches("actuatorfrcrange").count()
+            };
+            assert!(joints > 5, "{name} {to}");
+        }
+    }
+    let (code, _, said) = run(&["convert", "dual-arm", "--to", "urdf", "--whole", "--as", "craig"]);
+    assert!(code == 2 && said.contains("no convention"), "{said}");
 }
 
 #[test]

@@ -480,6 +480,57 @@ fn a_long_chain_is_converted_soon() {
     assert!(start.elapsed() < Duration::from_secs(100), "{:?}", start.elapsed());
 }
 
+/// Whole trees as URDF and back: bodies, joints, what follows what, limits, masses, and where everything is.
+#[test]
+fn whole_trees_go_to_urdf_and_back() {
+    for name in ["baxter", "pr2", "anymal_kinova", "allegro_right_hand", "ur5_gripper"] {
+        let m = mechanism(name);
+        let text = write_urdf(&m);
+        let (back, _) = read_urdf(&text, Decimals::Meant).unwrap_or_else(|e| panic!("{name}: {e:?}"));
+        let names = |m: &Mechanism| -> (Vec<String>, Vec<String>) {
+            (
+                m.bodies.iter().map(|b| b.name.clone()).collect(),
+                m.joints.iter().map(|j| j.name.clone()).collect(),
+            )
+        };
+        let sorted = |(mut a, mut b): (Vec<String>, Vec<String>)| {
+            a.sort();
+            b.sort();
+            (a, b)
+        };
+        assert_eq!(sorted(names(&back)), sorted(names(&m)), "{name}");
+        let there: Vec<usize> =
+            m.joints.iter().map(|j| back.joints.iter().position(|b| b.name == j.name).unwrap()).collect();
+        for (one, &k) in m.joints.iter().zip(&there) {
+            let other = &back.joints[k];
+            let number = |e: Option<Expr>| e.map(|e| e.eval(|_| None).unwrap());
+            let ends = |j: &Joint| j.limits.map(|l| l.map(|e| number(Some(e)).unwrap()));
+            assert_eq!((one.kind, ends(one)), (other.kind, ends(other)), "{name}: {}", one.name);
+            if one.limits.is_some() {
+                assert_eq!(number(one.velocity).unwrap_or(0.0), number(other.velocity).unwrap_or(0.0));
+                assert_eq!(number(one.effort).unwrap_or(0.0), number(other.effort).unwrap_or(0.0));
+            }
+            let leads = |m: &Mechanism, j: &Joint| {
+                j.follows
+                    .as_ref()
+                    .map(|f| (m.joints[f.joint].name.clone(), f.factor.clone(), number(Some(f.offset))))
+            };
+            assert_eq!(leads(&m, one), leads(&back, other), "{name}: {}", one.name);
+        }
+        let q: Vec<f64> = (0..m.variables().len()).map(|i| [0.3, -0.4, 1.2, 0.9, -0.8][i % 5]).collect();
+        let own = m.variables();
+        let other: Vec<f64> =
+            back.variables().iter().map(|&j| q[own.iter().position(|&o| there[o] == j).unwrap()]).collect();
+        let (a, b) = (m.poses(&q), back.poses(&other));
+        for (body, pose) in m.bodies.iter().zip(&a) {
+            let off = apart(pose, &b[back.body(&body.name).unwrap()]);
+            assert!(off < 1e-12, "{name}: {}: {off:e}", body.name);
+            let again = &back.bodies[back.body(&body.name).unwrap()];
+            assert_eq!(body.mass.is_some(), again.mass.is_some(), "{name}: {}", body.name);
+        }
+    }
+}
+
 /// Each robot of the catalogue as a URDF and back: the rows that its axes have, to the letter, and proved the same. Angles that are no
 /// multiples of 15° come back with the digits of a double.
 #[test]
