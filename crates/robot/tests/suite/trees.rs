@@ -504,8 +504,7 @@ fn gears_turn_by_their_factor() {
         assert!(apart(&m.poses(&q)[m.body(&end).expect("the end")], &pose(&d, &q)) < 1e-12, "{text}");
         let chain =
             |m: Mechanism| m.chain(Some("base"), Some("tool"), d.convention).expect("a chain").description;
-        let urdf =
-            read_urdf(&write_urdf(&Mechanism::of(&d).expect("numbers")), Decimals::Meant).expect("a URDF").0;
+        let urdf = read_urdf(&write_urdf(&bodies), Decimals::Meant).expect("a URDF").0;
         is_same(&chain(urdf), "URDF");
         let mjcf =
             read_mjcf("gears", &write_mjcf(&bodies), &mut Alone, Decimals::Meant).0.expect("a model").0;
