@@ -274,10 +274,11 @@ impl Verdicts<'_> {
         }
     }
 
-    /// The words between a formula and the one before it, and behind it on its line.
+    /// The words before a formula, on its line and up to the formula on a line before it, and behind it on its line.
     fn words_around(&self, piece: &Piece) -> String {
         let own = &self.statements[piece.statement].span;
-        let ends = self.statements.iter().map(|s| s.span.end).filter(|end| *end <= own.start);
+        let line = self.text.get(..own.start).and_then(|before| before.rfind('\n')).unwrap_or(0);
+        let ends = self.statements.iter().map(|s| s.span.end).filter(|end| *end <= line);
         let mut first = ends.max().unwrap_or(0).max(own.start.saturating_sub(MAX_WORDS));
         while !self.text.is_char_boundary(first) {
             first += 1;

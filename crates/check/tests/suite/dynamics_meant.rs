@@ -180,6 +180,10 @@ fn special_cases_are_not_called_wrong() {
         &[POINTS, &wrong, TORQUE_2, r"With the brake of joint 2 closed ($\dot\theta_2 = 0$)", &locked],
         &[WRONG, RIGHT, OPEN],
     );
+    let line = format!(r"- Held ($\dot\theta_2 = 0$, $\ddot\theta_2 = 0$): {}", locked.replace("$$", "$"));
+    let all = checked(&[POINTS, &wrong, TORQUE_2, &line]);
+    let last = all.claims.iter().rfind(|c| c.name.contains("tau_1")).expect("a torque");
+    assert_eq!(last.standing(), OPEN, "{:?}", last.entries);
     // What differs by a sign is a slip, wherever it stands.
     let slip = whole.replace("- m_2 l_1 l_2 s_2", "+ m_2 l_1 l_2 s_2");
     says(&[POINTS, &whole, TORQUE_2, "Again:", &slip], &[RIGHT, RIGHT, WRONG]);
