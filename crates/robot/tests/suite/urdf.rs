@@ -444,12 +444,12 @@ fn very_many_links_are_read_soon() {
         // What is said of the others is that they have no joints.
         assert_eq!(m.chain(None, None, Convention::Standard).unwrap().to, m.body("tip").unwrap());
         // 4 s and less in a release build.
-        assert!(start.elapsed() < Duration::from_secs(60), "{:?}", start.elapsed());
+        assert!(start.elapsed() < Duration::from_secs(200), "{:?}", start.elapsed());
     }
     let text = of(|_| 0).replace("<parent link='l0'/>", "<parent link='lost'/>");
     let start = Instant::now();
     assert!(read_urdf(&text, Decimals::Meant).is_err());
-    assert!(start.elapsed() < Duration::from_secs(30), "{:?}", start.elapsed());
+    assert!(start.elapsed() < Duration::from_secs(100), "{:?}", start.elapsed());
 }
 
 /// A chain of many joints whose angles are no multiples of 15° is made, written and held against itself soon.
