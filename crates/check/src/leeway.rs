@@ -100,30 +100,18 @@ fn loosened(syntax: &Syntax, source: &str, halves: &mut Vec<(Symbol, f64)>, dept
     })
 }
 
+/// Words for joints that do not move.
+pub(super) const HELD: [&str; 9] =
+    ["locked", "held", "at rest", "frozen", "gesperrt", "blockiert", "festgehalten", "bloqu", "bloccat"];
+
 /// True for a rate of a joint that is right while other joints do not move, in a text that has some fixed.
 pub(super) fn with_locked_joints(text: &str, pair: &Pair, subject: &Subject) -> bool {
-    const WORDS: [&str; 15] = [
-        "locked",
-        "fixed",
-        "held",
-        "at rest",
-        "frozen",
-        "gesperrt",
-        "blockiert",
-        "festgehalten",
-        "ruht",
-        "bloqu",
-        "fixe",
-        "bloccat",
-        "fisso",
-        "fijo",
-        "fija",
-    ];
+    const FIXED: [&str; 6] = ["fixed", "ruht", "fixe", "fisso", "fijo", "fija"];
     let rates: Vec<Symbol> = subject.rates().iter().filter_map(|r| r.as_symbol()).collect();
     let own = pair.wanted.as_symbol().filter(|s| rates.contains(s));
     let (Some(own), true) = (own, rates.len() <= MAX_JOINTS) else { return false };
     let lower = text.to_lowercase();
-    if !WORDS.iter().any(|w| lower.contains(w)) {
+    if !HELD.iter().chain(&FIXED).any(|w| lower.contains(w)) {
         return false;
     }
     let mut points = Points::new(41);

@@ -98,9 +98,8 @@ fn told(text: &str, plan: &Plan) -> Vec<Vector<Expr>> {
         if parts.len() != 3 {
             continue;
         }
-        let before = edge(text, at.saturating_sub(NEAR)).map_or("", |from| &text[from..at]);
-        let behind =
-            edge(text, at + length + NEAR).map_or("", |to| text.get(at + length + 2..to).unwrap_or(""));
+        let before = &text[edge(text, at.saturating_sub(NEAR))..at];
+        let behind = text.get(at + length + 2..edge(text, at + length + NEAR)).unwrap_or("");
         let line = |t: &str| t.split('\n').next().unwrap_or_default().to_string();
         let around = format!("{} {}", before.rsplit('\n').next().unwrap_or_default(), line(behind));
         let mut words = around.split(|c: char| !c.is_ascii_digit());
@@ -126,7 +125,7 @@ fn is_short(e: Expr) -> bool {
     e.symbols().len() <= 1 && e.symbols().iter().all(|s| is_length(&plain_name(&s.name())))
 }
 
-/// The nearest place before `at` at which no character is cut.
-fn edge(text: &str, at: usize) -> Option<usize> {
-    (0..=at.min(text.len())).rev().find(|i| text.is_char_boundary(*i))
+/// The nearest place up to `at` at which no character is cut.
+pub(super) fn edge(text: &str, at: usize) -> usize {
+    (0..=at.min(text.len())).rev().find(|i| text.is_char_boundary(*i)).unwrap_or(0)
 }

@@ -34,8 +34,7 @@ pub(super) struct Attempt {
     /// The bodies are the robot's own.
     pub is_given: bool,
     pub rows: Vec<usize>,
-    /// Not all ways to read the document were tried.
-    pub is_cut: bool,
+    bounds: Rc<Bounds>,
 }
 
 impl Attempt {
@@ -53,15 +52,18 @@ impl Attempt {
         self.vote.score()
     }
 
-    /// The tests that are right in some reading, whatever the rest of the document says; each by itself.
-    pub fn right_alone(&self, tests: &[usize]) -> Vec<usize> {
-        let bounds = Bounds::default();
-        let voter = Voter::new(&self.model, &self.symbols, &bounds);
-        let is_right = |t: &usize| {
-            let test = std::slice::from_ref(&self.tests[*t]);
-            voter.vote(test, &self.candidates, &self.gravities).is_some_and(|v| v.score() > 0)
-        };
-        tests.iter().copied().filter(is_right).collect()
+    /// True if a test is right in some reading, whatever the rest of the document says, or not all readings could be tried.
+    pub fn is_right_alone(&self, test: usize) -> bool {
+        let voter = Voter::new(&self.model, &self.symbols, &self.bounds);
+        let before = self.bounds.is_cut.replace(false);
+        let vote = voter.vote(&self.tests[test..=test], &self.candidates, &self.gravities);
+        let is_cut = self.bounds.is_cut.replace(before);
+        is_cut || vote.is_some_and(|v| v.score() > 0)
+    }
+
+    /// True if not all ways to read the document were tried.
+    pub fn is_cut(&self) -> bool {
+        self.bounds.is_cut.get()
     }
 
     fn is_perfect(&self) -> bool {
@@ -83,7 +85,7 @@ pub(super) fn best(text: &str, subject: &Subject, all: &[Statement]) -> Option<A
     let generic: Vec<Numbers> = symbols.bodies.iter().map(|b| b.map(Expr::from)).collect();
     let gravity = symbols.gravity.map(Expr::from);
     let told = told(text);
-    let bounds = Bounds::default();
+    let bounds = Rc::new(Bounds::default());
     let own = subject.vocabulary();
     let letters = ['l', 'L', 'a', 'd', 'r'].into_iter().filter(|letter| {
         let named = |k: usize| format!("{letter}{}", k + 1);
@@ -118,7 +120,7 @@ pub(super) fn best(text: &str, subject: &Subject, all: &[Statement]) -> Option<A
             }
         }
     }
-    found.map(|f| Attempt { is_cut: bounds.is_cut.get(), ..f })
+    found
 }
 
 fn attempted(
@@ -201,7 +203,7 @@ fn attempted(
         gravities,
         is_given,
         rows,
-        is_cut: voter.bounds.is_cut.get(),
+        bounds: Rc::clone(voter.bounds),
     })
 }
 

@@ -27,7 +27,7 @@ impl Verdicts<'_> {
         let n = row.pieces.len();
         let is_open = self.fared(test) == Fared::Either
             || self.attempt.score() == 0 && !self.attempt.is_given
-            || self.attempt.is_cut
+            || self.attempt.is_cut()
             || !self.is_pinned(test);
         let truth: Option<Vec<Expr>> =
             (0..n).map(|j| self.model.value(Quantity::CoriolisEntry(row.joint, j))).collect();

@@ -1,5 +1,8 @@
 //! What sentences say of a document's dynamics: where gravity pulls, and about which points inertias are.
 
+use crate::leeway::HELD;
+use crate::tools::edge;
+
 /// The point about which the inertias of links are.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Point {
@@ -28,10 +31,7 @@ const OFTEN: usize = 50;
 /// The sentences with a word in them.
 fn sentences<'t>(lower: &'t str, words: &'t [&'t str]) -> impl Iterator<Item = &'t str> {
     words.iter().flat_map(move |word| lower.match_indices(word).take(OFTEN)).map(move |(at, _)| {
-        let mut first = at.saturating_sub(LONGEST);
-        while !lower.is_char_boundary(first) {
-            first += 1;
-        }
+        let first = edge(lower, at.saturating_sub(LONGEST));
         let is_end = |text: &str, k: usize| {
             // The point in `I_1. The` ends a sentence, that in `0.5` does not.
             text.as_bytes()[k] == b'\n' || text.as_bytes().get(k + 1).is_none_or(u8::is_ascii_whitespace)
@@ -39,10 +39,7 @@ fn sentences<'t>(lower: &'t str, words: &'t [&'t str]) -> impl Iterator<Item = &
         let before = &lower[first..at];
         let start = before.rmatch_indices(['.', '\n']).find(|(k, _)| is_end(before, *k));
         let start = start.map_or(first, |(k, _)| first + k + 1);
-        let mut last = (at + LONGEST).min(lower.len());
-        while !lower.is_char_boundary(last) {
-            last -= 1;
-        }
+        let last = edge(lower, at + LONGEST);
         let behind = &lower[at..last];
         let end = behind.match_indices(['.', '\n']).find(|(k, _)| is_end(behind, *k));
         &lower[start..end.map_or(last, |(k, _)| at + k)]
@@ -138,10 +135,7 @@ fn inertia(lower: &str) -> Option<Point> {
     for sentence in sentences(lower, &WORDS) {
         for (names, point) in [(&CENTRES[..], Point::Centre), (&JOINTS[..], Point::Joint)] {
             for (at, _) in names.iter().flat_map(|name| sentence.match_indices(name)) {
-                let mut first = at.saturating_sub(30);
-                while !sentence.is_char_boundary(first) {
-                    first += 1;
-                }
+                let first = edge(sentence, at.saturating_sub(30));
                 // `about the centre`, with nothing between that is another point.
                 let before = &sentence[first..at];
                 let about = ABOUT.iter().filter_map(|w| before.rfind(w)).max();
@@ -163,13 +157,10 @@ fn inertia(lower: &str) -> Option<Point> {
 /// True for words before a formula, or behind it on its line, that say that it is one of a special case: a joint held, slow motion, small
 /// angles, terms left out, values of joints.
 pub(super) fn is_special_case(words: &str) -> bool {
-    const WORDS: [&str; 40] = [
+    const WORDS: [&str; 32] = [
         "lock",
         "brake",
         "clamp",
-        "frozen",
-        "held",
-        "at rest",
         "standstill",
         "neglect",
         "ignor",
@@ -178,10 +169,7 @@ pub(super) fn is_special_case(words: &str) -> bool {
         "slow",
         "special case",
         "if only",
-        "gesperrt",
         "gebremst",
-        "blockiert",
-        "festgehalten",
         "stillstand",
         "in ruhe",
         "vernachläss",
@@ -189,14 +177,12 @@ pub(super) fn is_special_case(words: &str) -> bool {
         "langsam",
         "sonderf",
         "waagerecht gelegt",
-        "bloqu",
         "frein",
         "immobil",
         "au repos",
         "néglig",
         "petits angles",
         "lente",
-        "bloccat",
         "freno",
         "fermo",
         "trascur",
@@ -220,7 +206,7 @@ pub(super) fn is_special_case(words: &str) -> bool {
             || digits > 0 && !rest.starts_with(['k', 'm', 'n']);
         is_joint && is_value
     });
-    has_value || WORDS.iter().any(|w| lower.contains(w))
+    has_value || HELD.iter().chain(&WORDS).any(|w| lower.contains(w))
 }
 
 #[cfg(test)]

@@ -14,6 +14,7 @@ use crate::formula::Formula;
 use crate::judge::counterexample;
 use crate::outcome::{Entry, Finding, Slip, Wrong};
 use crate::subject::Subject;
+use crate::tools::edge;
 use denavit_reading::document::Statement;
 use denavit_symbolic::readable::literals;
 use denavit_symbolic::vocabulary::Vocabulary;
@@ -221,7 +222,7 @@ impl Verdicts<'_> {
         }
         if self.fared(test) == Fared::Either
             || self.attempt.score() == 0 && !self.attempt.is_given
-            || self.attempt.is_cut
+            || self.attempt.is_cut()
         {
             return Said::Open(Unproved::OpenReading);
         }
@@ -279,10 +280,8 @@ impl Verdicts<'_> {
         let own = &self.statements[piece.statement].span;
         let line = self.text.get(..own.start).and_then(|before| before.rfind('\n')).unwrap_or(0);
         let ends = self.statements.iter().map(|s| s.span.end).filter(|end| *end <= line);
-        let mut first = ends.max().unwrap_or(0).max(own.start.saturating_sub(MAX_WORDS));
-        while !self.text.is_char_boundary(first) {
-            first += 1;
-        }
+        let first = ends.max().unwrap_or(0).max(own.start.saturating_sub(MAX_WORDS));
+        let first = edge(self.text, first);
         let behind = self.text.get(own.end..).and_then(|rest| rest.lines().next()).unwrap_or("");
         let behind: String = behind.chars().take(MAX_WORDS).collect();
         format!("{} {behind}", self.text.get(first..own.start).unwrap_or(""))
@@ -315,7 +314,7 @@ impl Verdicts<'_> {
         let mut kin =
             others.iter().filter(|(_, t)| vote.links[*t].iter().any(|l| vote.links[test].contains(l)));
         let is_apart = kin.all(|(p, _)| heading(p) != heading(piece));
-        (is_twice || is_apart) && !self.attempt.right_alone(&[test]).is_empty()
+        (is_twice || is_apart) && self.attempt.is_right_alone(test)
     }
 
     /// True for a formula with names that mean nothing as the document is read: friction, equal masses, another arm.

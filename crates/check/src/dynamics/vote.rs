@@ -166,7 +166,7 @@ type Tables = Rc<[Table; POINTS]>;
 pub(super) struct Voter<'a> {
     pub model: &'a Rc<Model>,
     pub symbols: &'a Rc<Symbols>,
-    pub bounds: &'a Bounds,
+    pub bounds: &'a Rc<Bounds>,
     tables: RefCell<BTreeMap<Quantity, Option<Tables>>>,
 }
 
@@ -272,7 +272,7 @@ struct Chosen {
 }
 
 impl<'a> Voter<'a> {
-    pub fn new(model: &'a Rc<Model>, symbols: &'a Rc<Symbols>, bounds: &'a Bounds) -> Self {
+    pub fn new(model: &'a Rc<Model>, symbols: &'a Rc<Symbols>, bounds: &'a Rc<Bounds>) -> Self {
         Voter { model, symbols, bounds, tables: RefCell::default() }
     }
 
@@ -296,7 +296,6 @@ impl<'a> Voter<'a> {
     fn beam(&self, cost: usize) -> usize {
         let left = self.bounds.work.get();
         let beam = (WORK.min(left) / cost.max(1)).min(BEAM);
-        self.bounds.work.set(left - beam * cost);
         if beam == 0 {
             self.bounds.is_cut.set(true);
         }
@@ -382,6 +381,8 @@ impl<'a> Voter<'a> {
             };
             let mut states = vec![first];
             for k in (0..n).rev() {
+                let products = states.len() * chosen[k].len() * slots.len() * NUMBERS * POINTS;
+                self.bounds.work.set(self.bounds.work.get().saturating_sub(products));
                 let mut next: Vec<Chosen> = vec![];
                 for from in &states {
                     for (number, values) in &chosen[k] {

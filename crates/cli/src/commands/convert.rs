@@ -260,9 +260,7 @@ fn tree(whole: &Tree, arguments: &ConvertArguments) -> Result<(), Failure> {
     let named = match whole {
         Tree::Rows(_) => named,
         Tree::Bodies(m) => {
-            let bodies = m.leaves().into_iter().map(|b| &m.bodies[b].name);
-            let body: HashMap<&str, &String> =
-                rows.frames.iter().map(|f| f.name.as_str()).zip(bodies).collect();
+            let body: HashMap<&str, &str> = ends(&rows, m).map(|(body, frame)| (frame, body)).collect();
             named
                 .into_iter()
                 .filter_map(|(end, there)| Some((body.get(end.as_str())?.to_string(), there)))
@@ -291,6 +289,12 @@ fn tree(whole: &Tree, arguments: &ConvertArguments) -> Result<(), Failure> {
     };
     let compared = |decimals| Some(compare_chains(whole.as_ref(), &read(decimals)?, &named));
     how_tree(&rows.name, &text, &left, arguments, &compared)
+}
+
+/// The ends of a tree of bodies, and what its rows call them.
+fn ends<'a>(rows: &'a RowTree, m: &'a Mechanism) -> impl Iterator<Item = (&'a str, &'a str)> {
+    let bodies = m.leaves().into_iter().map(|b| m.bodies[b].name.as_str());
+    bodies.zip(rows.frames.iter().map(|f| f.name.as_str()))
 }
 
 /// All of a tree as bodies and joints; every chain from its root to an end is read back and compared.
@@ -324,14 +328,9 @@ fn bodies(whole: &Tree, arguments: &ConvertArguments) -> Result<(), Failure> {
         };
         let rows = RowTree::of_mechanism(&back).ok()?;
         // Its rows call the ends as they do where a name is taken.
-        let there: HashMap<&str, &String> = back
-            .leaves()
-            .into_iter()
-            .map(|b| back.bodies[b].name.as_str())
-            .zip(rows.frames.iter().map(|f| &f.name))
-            .collect();
-        let ends = tree.leaves().into_iter().map(|b| tree.bodies[b].name.clone());
-        let ends: Vec<(String, String)> = ends
+        let there: HashMap<&str, &str> = ends(&rows, &back).collect();
+        let leaves = tree.leaves().into_iter().map(|b| tree.bodies[b].name.clone());
+        let ends: Vec<(String, String)> = leaves
             .map(|end| (end.clone(), there.get(end.as_str()).map_or(end, |name| name.to_string())))
             .collect();
         Some(compare_chains(whole.as_ref(), &rows, &ends))

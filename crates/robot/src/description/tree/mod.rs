@@ -9,14 +9,14 @@ mod masses;
 mod of;
 mod poses;
 mod program;
-mod solids;
+mod written;
 
 pub use chain::{Chain, NoChain};
 pub(super) use chain::{moved, rest, turned};
 pub use compared::{Alikeness, Likeness};
 pub use masses::Unweighed;
 pub use poses::Placing;
-pub(super) use solids::Solids;
+pub(super) use written::{Solids, joint_names};
 
 use super::JointKind;
 use crate::geometry::{Transform, Vector};

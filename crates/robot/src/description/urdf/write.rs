@@ -5,8 +5,8 @@
 
 use crate::description::JointKind;
 use crate::description::robot_file::exact_rpy;
-use crate::description::tree::{Joint, Mass, Mechanism, Solids};
-use crate::description::xml::{escaped, joint_names, number};
+use crate::description::tree::{Joint, Mass, Mechanism, Solids, joint_names};
+use crate::description::xml::{escaped, number};
 use crate::geometry::Rotation;
 use denavit_symbolic::{Expr, Rational};
 use std::fmt::Write;

@@ -6,7 +6,7 @@ mod tree;
 mod write;
 
 pub(super) use tree::{Attribute, Element, Node, Text, Tree, Value};
-pub(super) use write::{escaped, joint_names, number};
+pub(super) use write::{escaped, number};
 
 use super::diagnostic::Diagnostics;
 use roxmltree::{Document, Error, ParsingOptions};

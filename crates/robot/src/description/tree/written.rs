@@ -1,13 +1,30 @@
-//! Simple solids in place of links, for files that have looks: a bar to each joint that a body carries, or a ball.
+//! What files of bodies and joints share when they are written: names of joints that are their own, and simple solids in place of
+//! links, a bar to each joint that a body carries, or a ball.
 
-use super::Mechanism;
+use super::{Joint, Mechanism};
+use crate::description::xml::escaped;
 use crate::geometry::Vector;
 use denavit_symbolic::Expr;
+use std::collections::HashSet;
 
 /// How thick solids are, of the longest way from a joint to the next.
 const THICKNESS: f64 = 0.06;
 /// The thinnest ones, metres.
 const THINNEST: f64 = 0.005;
+
+/// The names of joints as they are written, each its own.
+pub(in crate::description) fn joint_names(tree: &Mechanism) -> Vec<String> {
+    let mut taken: HashSet<String> = HashSet::new();
+    let one = |joint: &Joint| {
+        let name = escaped(&joint.name);
+        let numbered = (2..).map(|k| format!("{name}_{k}"));
+        let own = std::iter::once(name.clone()).chain(numbered).find(|n| !taken.contains(n));
+        let own = own.unwrap_or(name);
+        taken.insert(own.clone());
+        own
+    };
+    tree.joints.iter().map(one).collect()
+}
 
 /// The solids of a tree whose numbers are constants.
 pub(in crate::description) struct Solids {
