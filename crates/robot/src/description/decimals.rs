@@ -28,6 +28,18 @@ pub(super) struct Meant {
     pub is_doubtful: bool,
 }
 
+impl Meant {
+    /// How far the decimal is off, in words: `off by 3.3e-6 rad`.
+    pub fn distance(&self) -> String {
+        distance(self.off, " rad")
+    }
+}
+
+/// How far a decimal is off what it is read as; one that is the nearest double of it says so.
+pub(super) fn distance(off: f64, unit: &str) -> String {
+    if off == 0.0 { "to the last digit of a double".into() } else { format!("off by {off:.1e}{unit}") }
+}
+
 /// An angle that is a multiple of π/12, or not, or nearly.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum Found {

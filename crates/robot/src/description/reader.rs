@@ -11,6 +11,8 @@ use std::ops::Range;
 
 /// Lengths below this (metres) are noise of a program.
 const NOISE: (i64, i64) = (1, 1_000_000_000_000);
+/// More than a turn, radians: no file needs such a roll, pitch or yaw.
+const TURN: i64 = 7;
 /// How large a number may be: a robot is no continent.
 const LARGEST: i64 = 1_000_000_000;
 
@@ -22,6 +24,8 @@ pub(super) struct Reader {
     pub is_part: bool,
     /// What angles were taken for: by text and multiple, where first, how often.
     angles: BTreeMap<(String, i64), Angles>,
+    /// Roll, pitch or yaw of more than a turn.
+    pub far_angles: Vec<Range<usize>>,
     /// Rotations by roll, pitch and yaw: most are those of many joints.
     rotations: HashMap<[Expr; 3], Rotation<Expr>>,
 }
@@ -35,7 +39,14 @@ struct Angles {
 
 impl Reader {
     pub fn new(out: Diagnostics, decimals: Decimals) -> Self {
-        Reader { out, decimals, is_part: false, angles: BTreeMap::new(), rotations: HashMap::new() }
+        Reader {
+            out,
+            decimals,
+            is_part: false,
+            angles: BTreeMap::new(),
+            far_angles: vec![],
+            rotations: HashMap::new(),
+        }
     }
 
     /// A decimal.
@@ -136,7 +147,7 @@ impl Reader {
     pub fn say_angles(&mut self) {
         for ((text, twelfths), Angles { first, count, meant, is_taken }) in std::mem::take(&mut self.angles) {
             let places = if count == 1 { String::new() } else { format!("; {count} places") };
-            let off = format!("off by {:.1e} rad{places}", meant.off);
+            let off = format!("{}{places}", meant.distance());
             let (severity, message) = match (is_taken, meant.is_doubtful) {
                 (true, true) => {
                     (Severity::Warning, format!("{} is read as {} ({off})", shown(&text), name(twelfths)))
@@ -168,7 +179,12 @@ impl Reader {
             let Some(value) = element.attribute(name) else { return zero };
             let Some(numbers) = self.numbers(&value, name, 3) else { return zero };
             let mut read = numbers.into_iter().map(|(x, word)| match is_angle {
-                true => self.angle(x, &word),
+                true => {
+                    if x.abs() > Rational::from(TURN) {
+                        self.far_angles.push(word.span.clone());
+                    }
+                    self.angle(x, &word)
+                }
                 false => self.length(x, &word),
             });
             [0, 1, 2].map(|_| read.next().unwrap_or(Expr::int(0)))

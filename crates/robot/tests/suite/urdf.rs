@@ -33,6 +33,46 @@ fn every_finding_has_its_place() {
     }
 }
 
+/// A revolute joint with these limits at this place.
+fn limited(limits: &str, origin: &str) -> String {
+    format!(
+        "<robot name=\"r\"><link name=\"a\"/><link name=\"b\"/><joint name=\"j\" type=\"revolute\">\
+         <parent link=\"a\"/><child link=\"b\"/><origin {origin}/><axis xyz=\"0 0 1\"/>\
+         <limit {limits} effort=\"1\" velocity=\"inf\"/></joint></robot>"
+    )
+}
+
+/// Infinite ends, as programs print them, are none; one end alone is left out aloud.
+#[test]
+fn infinite_limits_are_none() {
+    for (ends, is_said) in [
+        (r#"lower="-inf" upper="inf""#, false),
+        (r#"lower="-INF" upper="+Infinity""#, false),
+        (r#"lower="-inf" upper="1""#, true),
+        (r#"lower="0.5" upper="inf""#, true),
+    ] {
+        let (mechanism, list) = read_urdf(&limited(ends, ""), Decimals::Meant).unwrap();
+        assert!(mechanism.joints[0].limits.is_none() && mechanism.joints[0].velocity.is_none(), "{ends}");
+        assert_eq!(list.iter().any(|f| f.message.contains("on one side")), is_said, "{ends}");
+    }
+    assert!(read_urdf(&limited(r#"lower="nan" upper="1""#, ""), Decimals::Meant).is_err());
+}
+
+/// Degrees and millimetres are warned of, once each; what arms have is not.
+#[test]
+fn degrees_and_millimetres_are_warned_of() {
+    let warned = |limits: &str, origin: &str| {
+        let (_, list) = read_urdf(&limited(limits, origin), Decimals::Meant).unwrap();
+        list.iter().filter(|f| f.hint.as_deref().is_some_and(|h| h.contains("of a URDF are in"))).count()
+    };
+    let plain = r#"lower="-6.3" upper="12.6""#;
+    assert_eq!(warned(plain, r#"xyz="10 0 2" rpy="0 6.28 -3.14""#), 0);
+    assert_eq!(warned(r#"lower="-90" upper="90""#, ""), 1);
+    assert_eq!(warned(plain, r#"xyz="300 0 0""#), 1);
+    assert_eq!(warned(plain, r#"xyz="0 0 0" rpy="0 90 0""#), 1);
+    assert_eq!(warned(r#"lower="-170" upper="170""#, r#"xyz="0 300 0" rpy="90 0 180""#), 3);
+}
+
 /// Files that are made to hurt: all end in an error with a place, and soon.
 #[test]
 fn hostile_files_are_refused_at_once() {

@@ -340,8 +340,7 @@ impl<'t> Reader<'t> {
         {
             return match recognise(&x, places(item.text)) {
                 Found::Multiple(m) => {
-                    let message =
-                        format!("{} is read as {} (off by {:.1e} rad)", item.text, name(m.twelfths), m.off);
+                    let message = format!("{} is read as {} ({})", item.text, name(m.twelfths), m.distance());
                     match m.is_doubtful {
                         true => self.out.warning(item.span.clone(), message),
                         false => self.out.note(item.span.clone(), message),
@@ -350,10 +349,10 @@ impl<'t> Reader<'t> {
                 }
                 Found::Nearly(m) => {
                     let message = format!(
-                        "{} is nearly {} (off by {:.1e} rad), and stays as it is",
+                        "{} is nearly {} ({}), and stays as it is",
                         item.text,
                         name(m.twelfths),
-                        m.off
+                        m.distance()
                     );
                     self.out.note(item.span.clone(), message);
                     Cell { expr: x.into(), ..none }

@@ -170,10 +170,10 @@ impl Placing<'_> {
         let rotation = meant.rotation();
         if rotation != plain && self.quaternions.len() < 1000 {
             let said = format!(
-                "the quaternion {} is read as {} (off by {:.1e})",
+                "the quaternion {} is read as {} ({})",
                 shown(text.text),
                 meant.name(),
-                meant.off
+                decimals::distance(meant.off, "")
             );
             self.quaternions.entry(text.text.into()).or_insert((text.span.clone(), 0, said)).1 += 1;
         }

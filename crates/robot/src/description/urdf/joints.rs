@@ -198,21 +198,28 @@ impl Reader {
             &["lower", "upper", "velocity", "effort", "acceleration", "deceleration", "jerk"],
             &mut self.out,
         );
-        let [lower, upper, velocity, effort] =
-            ["lower", "upper", "velocity", "effort"].map(|n| self.any_number(&limit, n));
+        let ends = ["lower", "upper"].map(|n| self.end_of_range(&limit, n));
+        let [velocity, effort] = ["velocity", "effort"].map(|n| self.end_of_range(&limit, n).flatten());
         let positive = |x: Option<Rational>| x.filter(|x| !x.is_negative() && !x.is_zero()).map(Expr::from);
         let (velocity, effort) = (positive(velocity), positive(effort));
         if kind == "continuous" {
-            if lower.is_some() || upper.is_some() {
+            if ends.iter().flatten().flatten().next().is_some() {
                 self.out
                     .note(limit.span(), "a continuous joint has no limits: `lower` and `upper` are skipped");
             }
             return (None, velocity, effort);
         }
-        let is_wrong = ["lower", "upper"].iter().any(|n| limit.attribute(n).is_some())
-            && (limit.attribute("lower").is_some() != lower.is_some()
-                || limit.attribute("upper").is_some() != upper.is_some());
-        let (lower, upper) = (lower.unwrap_or_default(), upper.unwrap_or_default());
+        let is_open = ends.each_ref().map(|end| *end == Some(None));
+        if is_open.contains(&true) {
+            if is_open != [true; 2] {
+                let message = format!("`{}` has a limit on one side, which is left out", shown(name));
+                self.out.warning(limit.span(), message).hint("a large number is an end, too");
+            }
+            return (None, velocity, effort);
+        }
+        let given = ["lower", "upper"].map(|n| limit.attribute(n).is_some());
+        let is_wrong = [0, 1].iter().any(|&i| given[i] != ends[i].is_some());
+        let [lower, upper] = ends.map(|end| end.flatten().unwrap_or_default());
         if lower > upper {
             let message = format!("the lower limit of `{}` is above the upper one", shown(name));
             self.out.warning(limit.span(), message).hint("it is read as without limits, as Bullet takes it");
@@ -229,6 +236,16 @@ impl Reader {
         }
         self.safety(joint, &lower, &upper);
         (Some([lower.into(), upper.into()]), velocity, effort)
+    }
+
+    /// A number that may be missing, or that is infinite (`inf`, `-INF`, as programs print it): no end then.
+    fn end_of_range(&mut self, limit: &Element, name: &str) -> Option<Option<Rational>> {
+        let value = limit.attribute(name)?;
+        let word = value.text.trim().trim_start_matches(['+', '-']).to_ascii_lowercase();
+        if matches!(word.as_str(), "inf" | "infinity" | ".inf") {
+            return Some(None);
+        }
+        self.any_number(limit, name).map(Some)
     }
 
     /// Friction: `damping` is viscous, `friction` is Coulomb's.

@@ -6,6 +6,7 @@
 mod joints;
 mod looks;
 mod tree;
+mod units;
 mod write;
 
 pub(super) use joints::{Draft, FAR};
@@ -136,6 +137,7 @@ impl Reader {
             return None;
         }
         let drafts = self.joints(robot, &mut links);
+        self.say_units(&drafts);
         self.beside(robot);
         if !self.has_few_joints(&drafts) {
             return None;
