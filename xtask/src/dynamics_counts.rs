@@ -1,6 +1,6 @@
 //! docs/dynamics-counts.md: what the torques of every arm of the catalogue cost, beside SYMORO's and published figures.
 
-use crate::{denavit, path, robots};
+use crate::{denavit, path, robots, scratch};
 use anyhow::{Context, Result, bail};
 use serde_json::Value;
 use std::fmt::Write;
@@ -17,6 +17,9 @@ const OTHERS: &[(&str, &str)] = &[(
      282 / 222 bare with base parameters put in",
 )];
 
+/// Arms with two letters for lengths that are the same: one in the place of the other, as published counts have them.
+const SAME: &[(&str, &str, &str)] = &[("franka-panda", "a4", "-a3")];
+
 const INTRODUCTION: &str = "\
 # Operation counts of dynamics
 
@@ -26,7 +29,8 @@ what depends on parameters alone is apart. Each is equal to Lagrange's equations
 large or have divisors, compared *at random states*, exactly modulo a prime or in doubles ([more](dynamics.md#formulas)).
 
 *General* is Khalil and Kleinfinger's count for any arm of n joints, all of them revolute: 92n − 127 multiplications and 81n − 117 additions
-(1987), the recursion, customised, with base parameters, before anything is known of the arm.
+(1987), the recursion, customised, with base parameters, before anything is known of the arm. Published counts of the Panda take its
+two equal lengths for one: so does its second line.
 
 | arm | joints | base parameters | here | equal | general | others |
 |---|--:|--:|--:|---|--:|---|
@@ -39,7 +43,11 @@ large or have divisors, compared *at random states*, exactly modulo a prime or i
 pub fn run(check: bool) -> Result<()> {
     let mut text = INTRODUCTION.to_string();
     for name in robots()? {
-        text += &row(&name)?;
+        text += &row(&name, &name)?;
+        for (_, letter, other) in SAME.iter().filter(|s| s.0 == name) {
+            let file = with_one_letter(&name, letter, other)?;
+            text += &row(&format!("{name}, {letter} = {}", other.replace('-', "−")), &file)?;
+        }
     }
     text += "\nRenew with `cargo xtask counts dynamics`.\n";
     if !check {
@@ -54,8 +62,19 @@ pub fn run(check: bool) -> Result<()> {
     Ok(())
 }
 
-fn row(name: &str) -> Result<String> {
-    let printed = denavit(["dynamics", name, "--symbolic", "--json"])?;
+/// A file of the arm with another formula in the place of a length, which is no parameter any more.
+fn with_one_letter(name: &str, letter: &str, other: &str) -> Result<String> {
+    let text = fs::read_to_string(path(&format!("crates/robot/catalogue/{name}.toml")))?;
+    let head = format!("{letter} = ");
+    let kept = text.lines().filter(|l| !l.starts_with(&head)).map(|l| format!("{l}\n"));
+    let text = kept.collect::<String>().replace(&format!("\"{letter}\""), &format!("\"{other}\""));
+    let file = scratch()?.join(format!("{name}-{letter}.toml"));
+    fs::write(&file, text)?;
+    Ok(file.to_string_lossy().into_owned())
+}
+
+fn row(name: &str, robot: &str) -> Result<String> {
+    let printed = denavit(["dynamics", robot, "--symbolic", "--json"])?;
     let model: Value = serde_json::from_str(&printed).with_context(|| name.to_string())?;
     let number = |v: &Value| v.as_u64().with_context(|| format!("{name}: no number in {v}"));
     let count = &model["count"];

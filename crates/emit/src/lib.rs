@@ -13,6 +13,7 @@ pub(crate) mod listing;
 mod matlab;
 pub(crate) mod names;
 mod nested;
+mod order;
 mod python;
 mod rust;
 pub(crate) mod solver;

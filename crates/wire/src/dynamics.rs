@@ -14,6 +14,9 @@ pub struct Answer {
     /// What the torques that were given accelerate the arm by.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub accelerations: Option<Vec<f64>>,
+    /// The first derivatives of the torques, or of the accelerations where torques were given, if they were asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub derivatives: Option<Slopes>,
     /// The energies, joules.
     pub energy: Energy,
     /// The torques of friction.
@@ -44,6 +47,21 @@ pub struct Answer {
     /// What holds the wrench of the tool, if one was given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wrench: Option<Vec<f64>>,
+}
+
+/// First derivatives: row j is that of joint j.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Slopes {
+    /// By the joint variables.
+    pub by_q: Vec<Vec<f64>>,
+    /// By their rates.
+    pub by_qd: Vec<Vec<f64>>,
+    /// Of torques by the accelerations: A.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub by_qdd: Option<Vec<Vec<f64>>>,
+    /// Of accelerations by the torques: the inverse of A.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub by_tau: Option<Vec<Vec<f64>>>,
 }
 
 /// Energies, joules.

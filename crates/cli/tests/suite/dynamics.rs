@@ -448,3 +448,37 @@ fn a_whole_tree_is_answered() {
     assert!((numbers(&found["qd"])[0] - std::f64::consts::FRAC_PI_2).abs() < 1e-15, "{found}");
     assert!((numbers(&found["qdd"])[0] - 0.5).abs() < 1e-15, "{found}");
 }
+
+/// Derivatives of Craig's two links, of torques and of accelerations, and of a whole tree.
+#[test]
+fn derivatives_of_a_state() {
+    let arm = file("slopes.toml", TWO_LINKS);
+    let state = [&arm, "-q", "0.4,-1.1", "--qd", "0.7,-1.3", "--derivatives"];
+    let of = |a: &Value, key: &str| -> Vec<Vec<f64>> {
+        a["derivatives"][key].as_array().unwrap_or_else(|| panic!("{key}: {a}")).iter().map(numbers).collect()
+    };
+    let a = json(&[&state[..], &["--qdd", "2,0.6"]].concat());
+    // By Craig's formulas: gravity of the second joint by the first, and friction by its rate.
+    let (m2, l1, l2, g) = (2.3, 0.5, 0.4, 9.81);
+    let (s12, s2) = ((-0.7_f64).sin(), (-1.1_f64).sin());
+    let near = |x: f64, wanted: f64| assert!((x - wanted).abs() < 1e-12, "{x} {wanted}");
+    near(of(&a, "by_q")[1][0], -m2 * l2 * g * s12);
+    near(of(&a, "by_qd")[0][0], 2.0 * m2 * l1 * l2 * s2 * 1.3 + 0.5);
+    assert_eq!(of(&a, "by_qdd"), a["inertia"].as_array().unwrap().iter().map(numbers).collect::<Vec<_>>());
+    assert!(a["derivatives"].get("by_tau").is_none());
+    // The accelerations' are these through the inverse of A.
+    let b = json(&[&state[..], &["--tau", "3,-1"]].concat());
+    let (inverse, matrix) = (of(&b, "by_tau"), of(&a, "by_qdd"));
+    for i in 0..2 {
+        for j in 0..2 {
+            let product: f64 = (0..2).map(|k| inverse[i][k] * matrix[k][j]).sum();
+            near(product, f64::from(u8::from(i == j)));
+        }
+    }
+    let baxter = concat!(env!("CARGO_MANIFEST_DIR"), "/../robot/tests/urdf/baxter.urdf");
+    let tree = json(&[baxter, "--whole", "-q", "left_s0=0.3", "--derivatives"]);
+    assert_eq!(of(&tree, "by_q").len(), tree["q"].as_array().unwrap().len());
+    let shown = text(&fed(&[&["dynamics"], &state[..]].concat(), "").stdout);
+    assert!(["∂τ/∂q\n", "∂τ/∂q̇\n", "∂τ/∂q̈\n"].iter().all(|w| shown.contains(w)), "{shown}");
+    refused(&[&state[..], &["--wrench", "1,0,0,0,0,0"]].concat(), 2, "--wrench");
+}

@@ -11,6 +11,7 @@ use crate::compiled::{
     lines, opening,
 };
 use crate::names::{Names, brief};
+use crate::order::{for_blocks, is_large};
 use crate::solver::{Plan, plans};
 use crate::spelling::Spelling;
 use crate::wrap::comments;
@@ -455,7 +456,8 @@ impl Source<'_> {
             }
         }
         if f.has_range() {
-            out.line("int in_range = 1;");
+            let is_wide = self.library.precision == Precision::Double && is_large(f);
+            out.line(if is_wide { "int64_t in_range = 1;" } else { "int in_range = 1;" });
         }
         out.line(&format!("for (int i = 0; i < {upper}_LANES; i++) {{"));
         out.indent = 8;
@@ -463,7 +465,7 @@ impl Source<'_> {
             out.line(&format!("const {real} {} = q[{}];", f.names.of(symbol), self.lane(k, "i")));
         }
         out.blank();
-        for step in &f.body {
+        for step in &for_blocks(f) {
             match step {
                 Step::Pairs(pairs) => {
                     for p in pairs {

@@ -16,11 +16,13 @@
 //! - [`Recursion`]: Newton and Euler's, a name for every quantity.
 //! - [`DynamicPrograms`]: all of it as programs, with derivatives.
 //! - [`direct_dynamics`], [`articulated_bodies`]: accelerations.
+//! - [`torque_derivatives`], [`acceleration_derivatives`]: their first derivatives, in numbers.
 //! - [`simulate`]: motion over time, with the balance of energy.
 
 mod articulated;
 mod base;
 mod coriolis;
+mod derivatives;
 mod direct;
 mod dynamic_model;
 mod energy;
@@ -42,6 +44,7 @@ mod tree;
 pub use articulated::articulated_bodies;
 pub use base::{BaseModel, BaseParameter, Fate, Minimality};
 pub use coriolis::coriolis_matrix;
+pub use derivatives::{Slopes, acceleration_derivatives, torque_derivatives};
 pub use direct::{Factored, Singular, direct_dynamics, factored};
 pub use dynamic_model::{DynamicModel, Parts};
 pub use energy::{kinetic_energy, potential_energy};

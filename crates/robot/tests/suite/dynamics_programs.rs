@@ -4,8 +4,8 @@ use crate::common::{Random, numbers, robot};
 use crate::dynamics::{ARMS, random_arm, state, with_bodies};
 use denavit::description::{Description, read_toml};
 use denavit::dynamics::{
-    DynamicFunction as F, DynamicPrograms, Dynamics, Ground, Loads, Masses, NoProgram, direct_dynamics,
-    drive_torques,
+    Drive, DynamicFunction as F, DynamicPrograms, Dynamics, Ground, Loads, Masses, NoProgram,
+    acceleration_derivatives, direct_dynamics, drive_torques, torque_derivatives,
 };
 use denavit::geometry::{Body, PARAMETERS, Vector};
 use denavit_program::Program;
@@ -88,6 +88,33 @@ fn programs_agree_with_pinocchio() {
             1e-10,
         );
         hold(F::Acceleration, "pulled", of("direct"), 1e-9);
+        // The recursion over dual numbers.
+        let mut arm = Dynamics::numeric(&d).expect("numbers");
+        let found = torque_derivatives(&arm, &of("q"), &of("qd"), &of("qdd"));
+        for (key, own) in [("tau_q", &found.by_q), ("tau_qd", &found.by_qd), ("tau_qdd", &found.by_third)] {
+            close(&format!("{name}, {key} in numbers"), &own.concat(), &matrix(&slope[key]).concat(), 1e-10);
+        }
+        if slope["qdd_q"].is_array() {
+            let found = acceleration_derivatives(&arm, &of("q"), &of("qd"), &of("pulled")).expect("masses");
+            for (key, own) in [("qdd_q", &found.by_q), ("qdd_qd", &found.by_qd), ("qdd_tau", &found.by_third)]
+            {
+                close(
+                    &format!("{name}, {key} in numbers"),
+                    &own.concat(),
+                    &matrix(&slope[key]).concat(),
+                    1e-9,
+                );
+            }
+        }
+        // Friction has derivatives, Coulomb's none.
+        let rubs = Drive { rotor: 0.0, viscous: 0.7, coulomb: 3.0 };
+        let before = arm.drives.clone();
+        arm.drives.iter_mut().for_each(|d| *d = Drive { rotor: d.rotor, ..rubs });
+        let rubbed = torque_derivatives(&arm, &of("q"), &of("qd"), &of("qdd"));
+        for j in 0..arm.drives.len() {
+            let more = rubbed.by_qd[j][j] - found.by_qd[j][j];
+            assert!((more - 0.7 + before[j].viscous).abs() < 1e-9, "{name}: {more}");
+        }
         hold(F::TorqueDerivatives, "qdd", beside(["tau_q", "tau_qd", "tau_qdd"]), 1e-10);
         if slope["qdd_q"].is_array() {
             derived += 1;

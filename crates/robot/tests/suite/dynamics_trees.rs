@@ -5,7 +5,7 @@ use denavit::description::{Convention, Decimals, Mechanism, read_urdf};
 use denavit::dynamics::{
     Acting, Dynamics, Method, OfTree, Torques, Unknown, articulated_bodies, coriolis_matrix, direct_dynamics,
     gravity_torques, inertia_matrix, inverse_dynamics, kinetic_energy, momentum, potential_energy, regressor,
-    simulate,
+    simulate, torque_derivatives,
 };
 use serde_json::Value;
 
@@ -128,6 +128,39 @@ fn models_of_a_tree_fit_together() {
     };
     let rate = (at(1e-5) - at(-1e-5)).scale(found.mass / 2e-5);
     close("momentum", &found.linear.0, &rate.0, 1e-6);
+}
+
+/// Derivatives of whole trees, joints that follow others among them, against differences.
+#[test]
+fn derivatives_of_trees_are_slopes() {
+    let peers: Value = serde_json::from_str(include_str!("../peers/dynamics_trees.json")).unwrap();
+    let mut random = Random(77);
+    for tree in peers["trees"].as_array().unwrap() {
+        let name = tree["name"].as_str().unwrap();
+        let arm = OfTree::new(&mechanism(name)).unwrap().dynamics;
+        let n = arm.joints();
+        let mut any =
+            |size: f64| -> Vec<f64> { (0..n).map(|_| size * (2.0 * random.unit() - 1.0)).collect() };
+        let (q, qd, qdd) = (any(1.0), any(0.5), any(1.0));
+        let found = torque_derivatives(&arm, &q, &qd, &qdd);
+        let torque = |q: &[f64], qd: &[f64], qdd: &[f64]| inverse_dynamics(&arm, q, qd, qdd, None);
+        let at = |all: &[f64], k: usize, h: f64| {
+            let mut all = all.to_vec();
+            all[k] += h;
+            all
+        };
+        let h = 1e-5;
+        let column = |k: usize, of: &dyn Fn(f64) -> Vec<f64>, rows: &[Vec<f64>], what: &str| {
+            let slope: Vec<f64> = of(h).iter().zip(of(-h)).map(|(a, b)| (a - b) / (2.0 * h)).collect();
+            let own: Vec<f64> = rows.iter().map(|row| row[k]).collect();
+            close(&format!("{name}, {what} {k}"), &own, &slope, 1e-5);
+        };
+        for k in 0..n {
+            column(k, &|h| torque(&at(&q, k, h), &qd, &qdd), &found.by_q, "q");
+            column(k, &|h| torque(&q, &at(&qd, k, h), &qdd), &found.by_qd, "qd");
+            column(k, &|h| torque(&q, &qd, &at(&qdd, k, h)), &found.by_third, "qdd");
+        }
+    }
 }
 
 /// A tree that falls keeps its energy.

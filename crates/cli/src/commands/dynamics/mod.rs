@@ -15,9 +15,9 @@ use crate::terminal::{note, words};
 use denavit::Robot;
 use denavit::description::{Description, JointKind, Measure, Row, Variable};
 use denavit::dynamics::{
-    DynamicModel, Dynamics, GRAVITY, Ground, NoNumbers, Recursion, direct_dynamics, drive_torques, friction,
-    gravity_torques, holding_torques, inertia_matrix, kinetic_energy, momentum, potential_energy, power,
-    velocity_torques,
+    DynamicModel, Dynamics, GRAVITY, Ground, NoNumbers, Recursion, acceleration_derivatives, direct_dynamics,
+    drive_torques, friction, gravity_torques, holding_torques, inertia_matrix, kinetic_energy, momentum,
+    potential_energy, power, torque_derivatives, velocity_torques,
 };
 use denavit::forward::Reference;
 use denavit::geometry::{Body, Vector};
@@ -29,7 +29,7 @@ use denavit_report::explain::{
 use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::{Expr, Rational};
 use denavit_wire::Schema;
-use denavit_wire::dynamics::{Answer, Energy, Model, Momentum, Recursive};
+use denavit_wire::dynamics::{Answer, Energy, Model, Momentum, Recursive, Slopes};
 use std::io::Write;
 
 /// Answers what is asked about dynamics.
@@ -132,7 +132,7 @@ impl Arm {
     /// Everything about a state.
     fn answer(&self, given: Given, q: Vec<f64>) -> Result<Answer, String> {
         let (arm, n) = (&self.dynamics, self.joints.len());
-        let Given { qd, qdd, tau, wrench } = given;
+        let Given { qd, qdd, tau, wrench, derivatives } = given;
         let held =
             wrench.zip(self.exerts.as_ref()).map(|(w, (robot, at))| holding_torques(robot, &q, at, &w));
         let less = |all: &[f64], sign: f64| -> Vec<f64> {
@@ -146,6 +146,8 @@ impl Arm {
                 Some(found.map_err(|singular| self.moves_nothing(singular.joint))?)
             }
         };
+        let derivatives =
+            derivatives.then(|| self.slopes(&q, &qd, qdd.as_deref(), tau.as_deref())).transpose()?;
         let torques = tau.unwrap_or_else(|| {
             let pulled = qdd.clone().unwrap_or_else(|| vec![0.0; n]);
             less(&drive_torques(arm, &q, &qd, &pulled, None), 1.0)
@@ -155,6 +157,7 @@ impl Arm {
         let momentum = momentum(arm, &q, &qd);
         Ok(Answer {
             accelerations,
+            derivatives,
             energy: Energy { kinetic: kinetic_energy(arm, &q, &qd), potential: potential_energy(arm, &q) },
             friction,
             gravity,
@@ -175,6 +178,24 @@ impl Arm {
             qd,
             qdd,
         })
+    }
+
+    /// The first derivatives of the accelerations under torques, or of the torques for accelerations.
+    fn slopes(
+        &self,
+        q: &[f64],
+        qd: &[f64],
+        qdd: Option<&[f64]>,
+        tau: Option<&[f64]>,
+    ) -> Result<Slopes, String> {
+        if let Some(tau) = tau {
+            let of = acceleration_derivatives(&self.dynamics, q, qd, tau);
+            let of = of.map_err(|singular| self.moves_nothing(singular.joint))?;
+            return Ok(Slopes { by_q: of.by_q, by_qd: of.by_qd, by_qdd: None, by_tau: Some(of.by_third) });
+        }
+        let still = vec![0.0; q.len()];
+        let of = torque_derivatives(&self.dynamics, q, qd, qdd.unwrap_or(&still));
+        Ok(Slopes { by_q: of.by_q, by_qd: of.by_qd, by_qdd: Some(of.by_third), by_tau: None })
     }
 
     /// Why no acceleration follows from torques.
@@ -261,6 +282,8 @@ struct Given {
     tau: Option<Vec<f64>>,
     /// Force and moment along the axes of the base.
     wrench: Option<[f64; 6]>,
+    /// Whether first derivatives are asked for.
+    derivatives: bool,
 }
 
 impl Given {
@@ -280,6 +303,7 @@ impl Given {
             qdd: rates(&arguments.qdd, "--qdd")?,
             tau: arguments.tau.as_deref().map(|text| torques(joints, text)).transpose()?,
             wrench: None,
+            derivatives: arguments.derivatives,
         })
     }
 }

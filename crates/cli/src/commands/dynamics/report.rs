@@ -3,7 +3,7 @@
 use crate::terminal::{Align, FAINT, HEADING, matrix, number, styled, table};
 use denavit::description::JointKind;
 use denavit::quantity::{rate, reading, torque_unit};
-use denavit_wire::dynamics::Answer;
+use denavit_wire::dynamics::{Answer, Slopes};
 
 /// The state, the torques with their parts, the inertia matrix, the energies.
 pub fn text(robot: &str, joints: &[(String, JointKind)], a: &Answer) -> String {
@@ -55,6 +55,7 @@ pub fn text(robot: &str, joints: &[(String, JointKind)], a: &Answer) -> String {
     let units = if slides { "kg m²; kg m beside a slide, kg between slides" } else { "kg m²" };
     text += &format!("\n{}  {}\n", styled("Inertia matrix", HEADING), styled(&format!("({units})"), FAINT));
     text += &matrix("", &entries, Align::Right);
+    text += &a.derivatives.as_ref().map_or(String::new(), slopes);
     text += &format!(
         "\n  kinetic energy {} J, potential energy {} J\n",
         number(a.energy.kinetic, 1e-14),
@@ -84,6 +85,24 @@ pub fn text(robot: &str, joints: &[(String, JointKind)], a: &Answer) -> String {
         let shown = all.iter().filter(|x| x.1 != 0.0 || !matches!(x.0, "friction takes" | "the tool gives"));
         let each = shown.map(|(what, x)| format!("{what} {} W", number(*x, 1e-14 * size)));
         text += &format!("  power: {}\n", each.collect::<Vec<_>>().join(", "));
+    }
+    text
+}
+
+/// The matrices of first derivatives, one below the other: a row a joint, in radians, metres, seconds, newtons.
+fn slopes(all: &Slopes) -> String {
+    let (of, third) = match (&all.by_qdd, &all.by_tau) {
+        (_, Some(third)) => ("q̈", ("τ", third)),
+        (Some(third), None) => ("τ", ("q̈", third)),
+        (None, None) => return String::new(),
+    };
+    let mut text = String::new();
+    for (by, rows) in [("q", &all.by_q), ("q̇", &all.by_qd), third] {
+        let largest = rows.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let entries: Vec<Vec<String>> =
+            rows.iter().map(|row| row.iter().map(|&x| number(x, 1e-14 * largest)).collect()).collect();
+        text += &format!("\n{}\n", styled(&format!("∂{of}/∂{by}"), HEADING));
+        text += &matrix("", &entries, Align::Right);
     }
     text
 }
