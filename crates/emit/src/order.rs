@@ -11,7 +11,7 @@ const FEW: usize = 40;
 const MANY: usize = 4_000;
 
 /// So large a function has no registers left for a second vector.
-const LARGE: u32 = 400;
+const LARGE: u32 = 600;
 
 /// Whether loops over the lanes of a function should take one vector at a time: its flags are as wide as its numbers then, of
 /// narrower ones compilers make one vector beside two of numbers.
