@@ -3,7 +3,7 @@
 
 use super::habits::{Habits, Places};
 pub(super) use super::letters::plain;
-use super::letters::{AXES, Add, is_mentioned};
+use super::letters::{AXES, Add, is_mentioned, speaks_of_speed};
 use super::matrix::Matrix;
 use super::subject::Subject;
 use denavit::description::JointKind;
@@ -33,7 +33,7 @@ pub(super) fn names(subject: &Subject, text: &str, habits: &Habits) -> Vec<Custo
     let mut add = |name: &str, meaning: Expr, inverse: Expr| {
         found.push(Custom { name: name.to_string(), meaning, inverse });
     };
-    rates(subject, &plain, &mut add);
+    rates(subject, text, &plain, &mut add);
     super::loads::torques(subject, text, habits, &mut add);
     wrist(subject, &plain, places, &mut add);
     frames(subject, &plain, places, &mut add);
@@ -48,8 +48,10 @@ pub(super) fn names(subject: &Subject, text: &str, habits: &Habits) -> Vec<Custo
 }
 
 /// Joint rates, and the velocity of the hand in them.
-fn rates(subject: &Subject, plain: &str, add: &mut Add<'_>) {
-    let is_moving = plain.contains("dot")
+fn rates(subject: &Subject, text: &str, plain: &str, add: &mut Add<'_>) {
+    let speaks = speaks_of_speed(text);
+    let is_moving = speaks
+        || plain.contains("dot")
         || plain.contains('\u{307}')
         || ["vx", "vy", "vz", "Vx", "Vy", "ωx", "ωz"].iter().any(|n| plain.contains(n));
     if !is_moving {
@@ -91,6 +93,12 @@ fn rates(subject: &Subject, plain: &str, add: &mut Add<'_>) {
             }
         }
     }
+    if speaks {
+        for (name, joint) in lettered_rates(subject, text, plain) {
+            let rate = subject.rates()[joint];
+            add(&name, rate, rate);
+        }
+    }
     let velocity = subject.velocity();
     for (r, axis) in AXES.iter().enumerate() {
         let (linear, angular) = (velocity[r], velocity[3 + r]);
@@ -110,6 +118,58 @@ fn rates(subject: &Subject, plain: &str, add: &mut Add<'_>) {
         }
         add(&format!("ω{axis}"), angular, angular);
     }
+}
+
+/// Letters of their own for the rates of joints, each with the place of the joint: `w1 for θ1`, or ω1, ω2 with the numbers of joints.
+fn lettered_rates(subject: &Subject, text: &str, plain: &str) -> Vec<(String, usize)> {
+    const LETTERS: [&str; 4] = ["ω", "w", "Ω", "u"];
+    const FOR: [&str; 8] = ["for", "für", "pour", "para", "per", "of", "voor", "dla"];
+    const MOST: usize = 20;
+    let names = subject.vocabulary();
+    let joint = |name: &str| names.lookup(name).and_then(|e| subject.joints().iter().position(|q| *q == e));
+    let is_name = |w: &str| {
+        let stem = w.trim_end_matches(|c: char| c.is_ascii_digit());
+        w.len() < 12 && stem.len() < w.len() && (1..=2).contains(&stem.chars().count())
+    };
+    let mut found: Vec<(String, usize)> = vec![];
+    let spoken = |l: &&str| l.len() < 1_000 && speaks_of_speed(l);
+    for line in text.lines().filter(spoken).take(MOST) {
+        let words: Vec<&str> = line
+            .split(|c: char| c.is_whitespace() || matches!(c, ',' | '(' | ')' | ':' | ';' | '.' | '$' | '`'))
+            .filter(|w| !w.is_empty())
+            .collect();
+        for w in words.windows(3).filter(|w| FOR.contains(&w[1])) {
+            let name = plain_name(w[0]);
+            if let Some(k) = joint(w[2]).filter(|_| is_name(&name) && names.lookup(&name).is_none()) {
+                found.push((name, k));
+            }
+        }
+    }
+    for letter in LETTERS {
+        let number = |k: u32| {
+            let name = format!("{letter}{k}");
+            let is_there = is_mentioned(text, &name) || is_mentioned(plain, &name);
+            let own = joint(&format!("q{k}")).or_else(|| joint(&format!("θ{k}")));
+            (is_there && names.lookup(&name).is_none()).then_some((name, own))
+        };
+        let all: Vec<(String, Option<usize>)> = (0..10).filter_map(number).collect();
+        // `ω_2 = (0, w_1, 0)` is something else.
+        let has_formula = |name: &str| {
+            let mut given = ["=", "&="].into_iter().flat_map(|sign| {
+                let at = plain.match_indices(&format!("{name}{sign}")).collect::<Vec<_>>();
+                at.into_iter().map(move |(i, m)| i + m.len())
+            });
+            let is_number = |c: char| c.is_ascii_digit() || matches!(c, '-' | '−' | '+' | '.' | '$');
+            given.any(|i| !plain[i..].starts_with(is_number))
+        };
+        let is_family = all.len() > 1 || all.len() == subject.joints().len();
+        if !is_family || all.iter().any(|(name, own)| own.is_none() || has_formula(name)) {
+            continue;
+        }
+        found.extend(all.into_iter().filter_map(|(name, own)| Some((name, own?))));
+    }
+    found.truncate(MOST);
+    found
 }
 
 /// The torques of all joints, below one another.

@@ -126,8 +126,8 @@ pub(super) fn direction(
     }
 }
 
-/// Names for sums of joints that the text tells by a formula for the last of them alone, `θ_4 = β - θ_2 - θ_3`, each with the sum
-/// and what it is by the pose.
+/// Names for sums of joints that the text tells by a formula for one of them alone, `θ_4 = β - θ_2 - θ_3`, `θ_4 = θ_1 + θ_2 - φ`,
+/// each with the sum and what it is by the pose.
 pub(super) fn told(
     text: &str,
     subject: &Subject,
@@ -150,23 +150,21 @@ pub(super) fn told(
             let Some(last) = joint(&plain_name(left)) else { continue };
             let right = line[at + 1..].split(['=', ';', ',', '#', '%', '$', ':']).next().unwrap_or_default();
             let right = right.trim_matches(['&', ' ', '\\', '.', ']']).replace('−', "-");
-            let mut terms = right.split('-').map(|t| plain_name(t.trim()));
-            let name = terms.next().unwrap_or_default();
+            let Some((name, sum)) = solved_for_name(&right, last, &joint) else { continue };
             let is_name = name.chars().count() < 8
                 && name.starts_with(char::is_alphabetic)
                 && name.chars().all(char::is_alphanumeric)
                 && !matches!(name.as_str(), "pi" | "π")
                 && names.lookup(&name).is_none();
-            let others: Option<Vec<Expr>> = terms.map(|t| joint(&t)).collect();
-            let Some(others) = others.filter(|o| is_name && !o.is_empty() && !o.contains(&last)) else {
+            if !is_name {
                 continue;
-            };
-            let sum = others.into_iter().fold(last, |sum, q| sum + q);
+            }
             tried += 1;
             if tried > MOST_TRIED {
                 return found;
             }
-            let is_new = found.len() < MOST && found.iter().all(|f| f.0 != name) && !is_defined(text, &name);
+            let is_new =
+                found.len() < MOST && found.iter().all(|f| f.0 != name) && !is_other(text, &name, sum, names);
             if let Some(entry) = sum_in_pose(subject, places, sum).filter(|_| is_new) {
                 found.push((name, sum, entry));
             }
@@ -175,19 +173,53 @@ pub(super) fn told(
     found
 }
 
-/// True for a name that the text gives a formula.
-fn is_defined(text: &str, name: &str) -> bool {
+/// The one name in a sum of joints that is no joint, and what it is where a joint is that sum.
+fn solved_for_name(
+    sum: &str,
+    joint: Expr,
+    joint_of: &dyn Fn(&str) -> Option<Expr>,
+) -> Option<(String, Expr)> {
+    const MOST: usize = 8;
+    let (mut name, mut rest, mut count) = (None, joint, 0);
+    let mut at = 0;
+    while at < sum.len() {
+        let source = &sum[at..];
+        let is_minus = source.trim_start().starts_with('-');
+        let begin = at + source.len() - source.trim_start_matches([' ', '+', '-']).len();
+        let end = sum[begin..].find(['+', '-']).map_or(sum.len(), |i| begin + i);
+        let term = plain_name(sum[begin..end].trim());
+        at = end.max(begin + 1);
+        count += 1;
+        match joint_of(&term) {
+            _ if term.is_empty() || count > MOST => return None,
+            Some(q) if q == joint => return None,
+            Some(q) => rest = if is_minus { rest + q } else { rest - q },
+            None if name.is_none() => name = Some((term, is_minus)),
+            None => return None,
+        }
+    }
+    let (name, is_minus) = name.filter(|_| count > 1)?;
+    Some((name, if is_minus { -rest } else { rest }))
+}
+
+/// True for a name that the text gives a formula for something else than a sum.
+fn is_other(text: &str, name: &str, sum: Expr, names: &Vocabulary) -> bool {
     text.lines().any(|line| {
-        let left = line.split_once('=').map_or("", |l| l.0).trim_end_matches([' ', '&', '$', ':']);
-        !left.is_empty()
+        let Some((left, right)) = line.split_once('=') else { return false };
+        let left = left.trim_end_matches([' ', '&', '$', ':']);
+        let is_it = !left.is_empty()
             && left.len() < 200
-            && plain_name(left.rsplit([' ', '$', '*', '(']).next().unwrap_or("")) == name
+            && plain_name(left.rsplit([' ', '$', '*', '(']).next().unwrap_or("")) == name;
+        let right = right.split(['=', ';', '#', '%', '$', '.', ',']).next().unwrap_or_default().trim();
+        is_it
+            && !super::lexis::read(right, &(0..right.len()), names)
+                .is_ok_and(|s| equal(s.value(), sum).is_equal())
     })
 }
 
 /// Names that programs give the direction of the hand.
-pub(super) const DIRECTIONS: [&str; 9] =
-    ["phi", "pitch", "gamma", "zeta", "psi", "beta", "gam", "orient", "heading"];
+pub(super) const DIRECTIONS: [&str; 10] =
+    ["phi", "pitch", "gamma", "zeta", "psi", "beta", "gam", "orient", "heading", "fi"];
 
 /// Names that a robot gives their meaning; those of the direction of the hand, if its arm is planar.
 pub(super) struct Known {

@@ -9,7 +9,7 @@ use super::subject::Subject;
 use super::walk::{Answered, Target};
 use denavit::description::JointKind;
 use denavit::random::Random;
-use denavit_symbolic::{Expr, Symbol};
+use denavit_symbolic::{Angle, Expr, Symbol};
 use std::f64::consts::{PI, TAU};
 
 /// Starts of a search, and its steps.
@@ -22,19 +22,38 @@ const MAX_ANSWERS: usize = 200;
 
 /// A claim for each of the numbers; those of which the pose is not known are left out.
 pub(super) fn judged(text: &str, plan: &Plan, walked: &Walked) -> Vec<Claim> {
-    let mut found = vec![];
     let answers = &walked.answered[..walked.answered.len().min(MAX_ANSWERS)];
+    let mut groups: Vec<&[Answered]> = vec![];
     let mut at = 0;
     while at < answers.len() {
         let first = &answers[at];
         let line = |a: &Answered| text[..a.span.start].matches('\n').count();
         let same = |a: &&Answered| a.subject == first.subject && line(a) == line(first);
         let count = answers[at..].iter().take_while(same).count();
-        let group = &answers[at..at + count];
+        groups.push(&answers[at..at + count]);
         at += count;
-        let search = Search::new(&plan.subjects[first.subject], group);
-        let Some(search) = search else { continue };
-        found.extend(search.verdicts().into_iter().zip(group).map(|(v, a)| (v, a, group)));
+    }
+    let verdicts = |group: &[Answered], is_exact: bool| {
+        Some(Search::new(&plan.subjects[group.first()?.subject], group, is_exact)?.verdicts())
+    };
+    let is_same = |a: &[Answered], b: &[Answered]| {
+        let key = |g: &[Answered]| -> Vec<(Expr, u64)> {
+            g.iter().take(1).flat_map(|a| &a.targets).map(|t| (t.wanted, t.printed.to_bits())).collect()
+        };
+        key(a) == key(b)
+    };
+    // Where some values are those of the pose as it is printed, it is no rounded one.
+    let exact: Vec<Option<Vec<Option<bool>>>> = groups.iter().map(|g| verdicts(g, true)).collect();
+    let is_right =
+        |v: &Option<Vec<Option<bool>>>| v.as_ref().is_some_and(|v| v.iter().all(|x| *x == Some(true)));
+    let mut found: Vec<(Option<bool>, &Answered, &[Answered])> = vec![];
+    for (group, own) in groups.iter().zip(&exact) {
+        let is_exact = groups.iter().zip(&exact).any(|(other, v)| {
+            let is_joint = other.iter().any(|a| plan.subjects[a.subject].joints().contains(&a.of));
+            is_joint && is_right(v) && is_same(other, group)
+        });
+        let own = if is_exact { own.clone() } else { verdicts(group, false) };
+        found.extend(own.into_iter().flatten().zip(group.iter()).map(|(v, a)| (v, a, *group)));
     }
     // What is wrong is so only beside something that is right of the same robot: then the pose is the one that is meant.
     let is_meant = found.iter().any(|(v, ..)| *v == Some(true));
@@ -62,7 +81,7 @@ pub(super) fn judged(text: &str, plan: &Plan, walked: &Walked) -> Vec<Claim> {
 fn wrong(plan: &Plan, answer: &Answered, group: &[Answered]) -> Wrong {
     // Nothing was found by a search: that is no proof.
     let mut wrong = Wrong { remarks: vec![Remark::Sampled], ..Wrong::default() };
-    let Some(search) = Search::new(&plan.subjects[answer.subject], group) else { return wrong };
+    let Some(search) = Search::new(&plan.subjects[answer.subject], group, false) else { return wrong };
     let right = search.of_branch(answer).or_else(|| search.nearest(answer));
     let (Some(&x), Some(right)) = (answer.values.first(), right) else { return wrong };
     let shown = |v: f64| if search.in_degrees(answer) { decimal(v.to_degrees()) } else { decimal(v) };
@@ -87,11 +106,13 @@ struct Search<'a> {
     /// The joints on which the pose depends, as far as it is given.
     moving: Vec<usize>,
     size: f64,
+    /// The pose is exactly what is printed.
+    is_exact: bool,
 }
 
 impl<'a> Search<'a> {
     /// Nothing if the pose does not determine the joints.
-    fn new(subject: &'a Subject, group: &'a [Answered]) -> Option<Self> {
+    fn new(subject: &'a Subject, group: &'a [Answered], is_exact: bool) -> Option<Self> {
         let kinds = subject.description.variables();
         let is_angle: Vec<bool> = kinds.iter().map(|v| v.kind == JointKind::Revolute).collect();
         let targets = &group.first()?.targets;
@@ -103,7 +124,7 @@ impl<'a> Search<'a> {
         if !(0..joints.len()).all(|k| asked(&k)) {
             return None;
         }
-        let search = Search { subject, group, is_angle, moving, size: 1.0 };
+        let search = Search { subject, group, is_angle, moving, size: 1.0, is_exact };
         let is_known =
             targets.iter().all(|t| search.value(t.wanted, &vec![0.1; search.is_angle.len()]).is_some());
         if targets.len() < search.moving.len() || search.moving.is_empty() || !is_known {
@@ -136,11 +157,19 @@ impl<'a> Search<'a> {
             && (answer.has_unit || bare.into_iter().any(|x| x.abs() > TAU || *x != 0.0 && x % 5.0 == 0.0))
     }
 
+    /// True for a joint, or a sum of joints, not for another formula in them.
+    fn is_sum(&self, of: Expr) -> bool {
+        let joints = self.subject.joints();
+        Angle::of(of).terms.iter().all(|(e, _)| joints.contains(e) || e.symbols().is_empty())
+    }
+
     fn turns(&self, of: Expr) -> bool {
         let joints = self.subject.joints();
-        of.symbols()
-            .iter()
-            .all(|s| joints.iter().position(|j| *j == (*s).into()).is_some_and(|k| self.is_angle[k]))
+        self.is_sum(of)
+            && of
+                .symbols()
+                .iter()
+                .all(|s| joints.iter().position(|j| *j == (*s).into()).is_some_and(|k| self.is_angle[k]))
     }
 
     /// A value in radians or in the document's length, and half a unit of its last digit.
@@ -154,12 +183,17 @@ impl<'a> Search<'a> {
         let mut found = vec![];
         for t in &self.group[0].targets {
             let off = self.value(t.wanted, q)? - t.printed;
-            found.push(off / (t.half + 2e-4 * self.scale(t)));
+            let half = if self.is_exact { 0.0 } else { t.half };
+            found.push(off / (half + 2e-4 * self.scale(t)));
         }
         for (of, value, half) in fixed {
             let off = self.value(*of, q)? - value;
             let off = if self.turns(*of) { off - TAU * (off / TAU).round() } else { off };
-            let scale = if self.turns(*of) { 1.0 } else { self.size };
+            let scale = match () {
+                () if self.turns(*of) => 1.0,
+                () if self.is_sum(*of) => self.size,
+                () => value.abs(),
+            };
             found.push(off / (half + 2e-4 * scale));
         }
         Some(found)

@@ -113,6 +113,37 @@ impl Subject {
         Some((matrix, Jacobian { body, at: None, axes, is_angular_first: false, rows, order }))
     }
 
+    /// The columns of some joints of the Jacobian of the hand, in the order of rows that agrees most with the printed ones.
+    pub fn jacobian_of_joints(
+        &self,
+        printed: &Matrix,
+        joints: &[usize],
+        part: Part,
+    ) -> Option<(Matrix, Jacobian)> {
+        let (rows, columns) = printed.shape().filter(|s| s.0 <= 6)?;
+        if columns != joints.len() || joints.iter().any(|&k| k >= self.joints().len()) {
+            return None;
+        }
+        let axes = self.ground();
+        let full = self.geometric_rows(Reference::Tool, axes);
+        let mut points = Points::new(7);
+        let zero = points.value(Expr::int(0));
+        let mut value = |e: Option<Expr>| e.and_then(|e| points.value(e));
+        let wanted: Vec<Vec<Option<Value>>> =
+            printed.0.iter().map(|row| row.iter().map(|e| value(*e)).collect()).collect();
+        let own: Vec<Vec<Option<Value>>> =
+            full.iter().map(|row| joints.iter().map(|&k| value(Some(row[k]))).collect()).collect();
+        let agreement = |r: usize, k: usize| -> usize {
+            let pairs = wanted[r].iter().zip(&own[k]).filter(|(a, b)| a.is_some() && a == b);
+            pairs.map(|(a, _)| if *a == zero { 1 } else { 3 }).sum()
+        };
+        let order = matched(rows, part, &agreement)?;
+        let row = |k: &u8| joints.iter().map(|&c| Some(full[usize::from(*k)][c])).collect();
+        let matrix = Matrix(order[..rows].iter().map(row).collect());
+        let body = Reference::Tool;
+        Some((matrix, Jacobian { body, at: None, axes, is_angular_first: false, rows, order }))
+    }
+
     /// Numbers agree with no formula: they are those of the Jacobian that the arm has by nature, if it has as many rows.
     fn jacobian_in_numbers(&self, printed: &Matrix, told: &Told) -> Option<(Matrix, Jacobian)> {
         let is_number = |e: &Option<Expr>| e.is_some_and(|e| e.symbols().is_empty());
@@ -202,8 +233,26 @@ impl Subject {
         all.filter(|d| !vanishes(*d)).map(at).find(|e| vanishes(*e))
     }
 
+    /// The determinant of the linear rows without the joints that do not move the hand's point.
+    fn of_moving_joints(&self) -> Option<Expr> {
+        let j = self.geometric_rows(Reference::Tool, self.ground());
+        let mut points = Points::new(7);
+        let zero = points.value(Expr::int(0));
+        let mut moves = |r: usize, k: usize| points.value(j[r][k]) != zero;
+        let n = self.joints().len();
+        let rows: Vec<usize> = (0..3).filter(|&r| (0..n).any(|k| moves(r, k))).collect();
+        let columns: Vec<usize> = (0..n).filter(|&k| rows.iter().any(|&r| moves(r, k))).collect();
+        if rows.len() != columns.len() || columns.len() == n {
+            return None;
+        }
+        let row = |&r: &usize| columns.iter().map(|&k| Some(j[r][k])).collect();
+        Matrix(rows.iter().map(row).collect()).determinant()
+    }
+
     fn worked_out(&self, part: Part) -> Option<Expr> {
-        let rows = self.task(part)?;
+        let Some(rows) = self.task(part) else {
+            return self.of_moving_joints().filter(|_| part != Part::Angular);
+        };
         // Along which axes it is written does not matter for blocks that turn together; the middle is short.
         let is_whole = |block: [usize; 3]| {
             let count = block.iter().filter(|r| rows.contains(r)).count();

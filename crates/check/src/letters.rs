@@ -6,6 +6,36 @@ use denavit_symbolic::{Expr, greek};
 /// The axes of coordinates.
 pub(super) const AXES: [&str; 3] = ["x", "y", "z"];
 
+/// Words, units and names of velocities.
+const SPEED: [&str; 20] = [
+    "rad/s",
+    "m/s",
+    "deg/s",
+    "°/s",
+    "velo",
+    "vitesse",
+    "geschwind",
+    "rates",
+    " rate ",
+    "speed",
+    "snelheid",
+    "prędk",
+    "скорост",
+    "hastighet",
+    "hız",
+    "速度",
+    "ωz",
+    "vx",
+    "v_x",
+    "tempo",
+];
+
+/// True for a text that speaks of velocities.
+pub(super) fn speaks_of_speed(text: &str) -> bool {
+    let lower = text.to_lowercase();
+    SPEED.iter().any(|w| lower.contains(w))
+}
+
 /// Takes a name with its meaning, and what it is by the entries of the pose.
 pub(super) type Add<'a> = dyn FnMut(&str, Expr, Expr) + 'a;
 

@@ -465,6 +465,7 @@ fn lists(text: &str) -> Option<Listing> {
             continue;
         }
         let plain = line.split(['#', '%']).next().unwrap_or_default().trim();
+        let plain = plain.strip_prefix("return ").unwrap_or(plain).trim();
         let open = plain.rfind("= [").filter(|_| rows.is_empty()).map_or(plain, |i| &plain[i + 3..]).trim();
         let found = rows_in(open, told.as_deref().or(by_function.as_deref()));
         if found.is_empty() {

@@ -72,7 +72,8 @@ fn torque_letters(text: &str) -> Vec<&'static str> {
         let weighs = || {
             says(&[
                 "weigh", "tyngd", "gewicht", "peso", "poids", "load", "last ", "charge", "carico", "carga",
-            ]) && ["W", "G", "P", "F"].iter().any(|f| is_mentioned(text, f))
+                "ciężar", "mass",
+            ]) && ["W", "G", "P", "F", "Q", "m"].iter().any(|f| is_mentioned(text, f))
         };
         is_named || load_given(text).is_some() || super::weights::told(text).is_some() || weighs()
     };
@@ -99,15 +100,18 @@ pub(super) fn letters_of_load(text: &str) -> Vec<char> {
     if torque_letters(text).is_empty() || is_given() {
         return vec![];
     }
+    // A mass times the number for g: `m*9.81`.
+    let times = Some(super::weights::MASS).filter(|_| super::weights::has_mass_times_number(text));
     // A weight m·g counts as one letter.
     let weighs =
         text.contains("mg") || text.contains("m g") || text.contains("m·g") || text.contains("m\\,g");
     let weight = Some('g').filter(|_| weighs);
     let told = super::weights::told(text).map(|_| super::weights::LETTER);
-    ['W', 'F', 'P', 'G', 'f']
+    ['W', 'F', 'P', 'G', 'Q', 'f']
         .into_iter()
         .filter(|c| is_mentioned(text, &c.to_string()))
-        .chain(weight)
+        .chain(weight.filter(|_| times.is_none()))
+        .chain(times)
         .chain(told)
         .collect()
 }
@@ -187,6 +191,7 @@ pub(super) fn torques(subject: &Subject, text: &str, habits: &Habits, add: &mut 
         let symbol = told.unwrap_or_else(|| Expr::symbol(&letter.to_string()));
         let mass = (letter == 'g').then(|| Expr::symbol("m"));
         let size = mass.map_or(symbol, |m| m * symbol);
+        let size = if letter == super::weights::MASS { size * super::weights::gravity() } else { size };
         load[axis] = if is_minus { -size } else { size };
         for own in [Some(symbol).filter(|_| told.is_none()), mass].into_iter().flatten() {
             add(&own.as_symbol().map_or_else(String::new, |s| s.name().to_string()), own, own);

@@ -381,6 +381,8 @@ fn may_be_helper(name: &str, tells_hand: bool) -> bool {
         ['r' | 't' | 'R' | 'T', a, b] if a.is_ascii_digit() && b.is_ascii_digit() => false,
         ['n' | 'o' | 's' | 'a', 'x' | 'y' | 'z'] => false,
         ['p' | 'P', 'x' | 'y' | 'z'] => tells_hand,
+        // The torque of a joint.
+        ['τ' | 'Γ', k] if k.is_ascii_digit() => false,
         _ => true,
     }
 }

@@ -230,10 +230,8 @@ fn pointed(text: &str) -> Option<String> {
 
 /// A text that writes joint rates as `θ1'`, with `dθ1` instead, byte for byte; nothing for other texts.
 fn rates_by_primes(text: &str) -> Option<String> {
-    const SPEED: [&str; 9] = ["rad/s", "m/s", "velo", "vitesse", "geschwind", "rates", "ωz", "vx", "v_x"];
-    let lower = text.to_lowercase();
     let has_dots = text.contains("\\dot") || text.contains('\u{307}');
-    if has_dots || !SPEED.iter().any(|w| lower.contains(w)) {
+    if has_dots || !super::letters::speaks_of_speed(text) {
         return None;
     }
     let mut bytes = text.as_bytes().to_vec();

@@ -10,7 +10,7 @@ use denavit::geometry::{Axis, Rotation, Transform, Vector};
 use denavit::robot::Robot;
 use denavit::velocity::{Viewpoint, geometric};
 use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
-use denavit_symbolic::{Angle, Expr, Rational, Symbol};
+use denavit_symbolic::{Angle, Expr, Rational, Symbol, greek};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
@@ -271,15 +271,18 @@ impl Subject {
         of_frames(&frames, &hand.unwrap_or_else(Transform::identity), &is_revolute)
     }
 
-    /// True if the table calls its joints q0, q1, …: the first has the number 0.
-    fn counts_from_zero(&self) -> bool {
+    /// The number of the first joint where the table's names count the joints from another one than 1: q0, q1, …, or θ4, θ5, θ6
+    /// of a wrist.
+    fn counts_from(&self) -> Option<usize> {
         let number = |name: &str| -> Option<usize> {
             let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
-            name[stem.len()..].parse().ok().filter(|_| !stem.is_empty())
+            name[stem.len()..].parse().ok().filter(|n| !stem.is_empty() && *n < 10)
         };
-        self.variables.len() > 1
+        let first = number(self.variables.first()?.as_deref()?).filter(|n| *n != 1)?;
+        let is_counted = self.variables.len() > 1
             && self.first == 0
-            && (0..).zip(&self.variables).all(|(k, v)| v.as_deref().and_then(number) == Some(k))
+            && (first..).zip(&self.variables).all(|(k, v)| v.as_deref().and_then(number) == Some(k));
+        is_counted.then_some(first)
     }
 
     /// The names of the robot's quantities: parameters, joint variables, the table's own names for them, cells of
@@ -287,12 +290,13 @@ impl Subject {
     pub fn vocabulary(&self) -> Vocabulary {
         let d = &self.description;
         let variables = d.variables();
-        let counts_from_zero = self.counts_from_zero();
-        let mut names = match counts_from_zero {
-            false => d.vocabulary(),
-            true => {
+        let counts_from = self.counts_from();
+        let mut names = match counts_from {
+            None => d.vocabulary(),
+            Some(first) => {
                 let names = d.parameters.iter().fold(Vocabulary::new(), |v, p| v.symbol(&p.symbol.name()));
-                (0..).zip(&variables).fold(names, |v, (n, variable)| match variable.kind {
+                let first = u32::try_from(first).unwrap_or(0);
+                (first..).zip(&variables).fold(names, |v, (n, variable)| match variable.kind {
                     JointKind::Revolute => v.angle(n, variable.symbol),
                     JointKind::Prismatic => v.sliding(n, variable.symbol),
                 })
@@ -305,8 +309,11 @@ impl Subject {
         for (variable, printed) in variables.iter().zip(&self.variables) {
             if let Some(printed) = printed {
                 names = declare(names, printed, variable.symbol.into());
-                if let Some(number) = plain_name(printed).strip_prefix("theta") {
-                    names = declare(names, &format!("θ{number}"), variable.symbol.into());
+                let plain = plain_name(printed);
+                let stem = plain.trim_end_matches(|c: char| c.is_ascii_digit());
+                if let Some(letter) = greek::letter(stem) {
+                    let name = format!("{letter}{}", &plain[stem.len()..]);
+                    names = declare(names, &name, variable.symbol.into());
                 }
             }
         }
@@ -332,12 +339,12 @@ impl Subject {
                 Some(v) if v.kind == JointKind::Revolute => v.symbol.into(),
                 _ => row.theta,
             };
-            if counts_from_zero {
+            if counts_from.is_some() {
                 continue;
             }
             names = declare(names, &format!("θ{i}"), theta);
         }
-        let begin = if counts_from_zero { 0 } else { self.first + 1 };
+        let begin = counts_from.unwrap_or(self.first + 1);
         let angles: Vec<(usize, Symbol)> = (begin..)
             .zip(&variables)
             .filter(|(i, v)| *i <= 9 && v.kind == JointKind::Revolute)

@@ -150,7 +150,12 @@ impl<'a> User<'a> {
     fn add(&mut self, text: &str, span: &Range<usize>, syntax: &Syntax) {
         if let SyntaxKind::Name(_) = syntax.kind {
             let shown = text.get(span.start + syntax.span.start..span.start + syntax.span.end);
-            self.names.extend(shown.map(super::custom::plain));
+            let shown = shown.unwrap_or_default();
+            self.names.insert(super::custom::plain(shown));
+            // A choice of a program, `up ? a : b`, is known by its text alone.
+            if shown.contains(['?', '(']) && shown.contains(' ') {
+                self.names.extend(super::programs::words(shown).map(super::custom::plain));
+            }
         }
         syntax.children().into_iter().for_each(|part| self.add(text, span, part));
     }
@@ -161,14 +166,12 @@ impl<'a> User<'a> {
     }
 }
 
-/// True for a claim that shows its helpers to be right, if only under a condition: it is, or it is so in a part of all configurations or as far as it goes,
-/// or one change of its own, or of a helper, makes it so.
+/// True for a claim that shows its helpers to be right, if only under a condition: it is, or it is so in a part of all
+/// configurations or as far as it goes, or one change of its own, or of a helper, makes it so.
 fn rests_well(claim: &Claim, claims: &[Claim]) -> bool {
     let of = |e: &Entry| match &e.finding {
         Finding::Equal { .. } => true,
-        Finding::Conditional {
-            condition: Condition::Incomplete(_) | Condition::Configurations(_), ..
-        } => true,
+        Finding::Conditional { condition, .. } => !matches!(condition, Condition::AsUsed),
         Finding::Carried { by, .. } => claims.get(*by).is_some_and(|c| c.about == About::Helper),
         Finding::Wrong(wrong) => claim.about == About::Joint && wrong.slip.is_some(),
         _ => false,
@@ -195,7 +198,9 @@ fn helpers(text: &str, walked: &Walked, claims: &[Claim]) -> Vec<Claim> {
                 && end.is_none_or(|e| u.span.start < e)
                 && u.span != defined.statement
                 && u.uses(text, &defined.name)
-                && !u.equation.is_some_and(|a| is_even(text, walked, a, defined))
+                && !u
+                    .equation
+                    .is_some_and(|a| is_own_value(text, a, defined) || is_even(text, walked, a, defined))
         };
         let Some(is_proved) = users.iter().filter(uses).map(|u| u.is_proved).max() else { continue };
         let (span, names) = (defined.statement.clone(), BTreeSet::new());
@@ -220,6 +225,15 @@ fn helpers(text: &str, walked: &Walked, claims: &[Claim]) -> Vec<Claim> {
         });
     }
     found
+}
+
+/// True for an equation that only gives a helper its value in numbers: it says nothing of the helper.
+fn is_own_value(text: &str, assertion: &Assertion, defined: &Defined) -> bool {
+    let Some((span, syntax)) = &assertion.reference else { return false };
+    let shown = text.get(span.clone()).unwrap_or_default();
+    matches!(syntax.kind, SyntaxKind::Name(_))
+        && super::custom::plain(shown) == super::custom::plain(&defined.name)
+        && assertion.pieces.iter().all(|p| matches!(p, Piece::Number { .. } | Piece::Unreadable { .. }))
 }
 
 /// True for an equation that holds for a helper with the other sign as well, as one between squares: it says nothing of the helper.

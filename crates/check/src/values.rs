@@ -190,7 +190,9 @@ impl Judge<'_> {
     /// True if values in several statements belong to those of a joint before that has as many statements, one by one.
     fn pairs_up(&self, before: &[Values], same: &[&Values]) -> bool {
         let own = |v: &Values| self.trial.own(v.of[0], &v.branches.concat());
-        let others: Vec<&Values> = before.iter().filter(|v| v.of != same[0].of).collect();
+        // What is right nowhere belongs to nothing.
+        let is_some = |v: &&Values| v.of != same[0].of && own(v).into_iter().any(|right| right);
+        let others: Vec<&Values> = before.iter().filter(is_some).collect();
         let partner = others
             .iter()
             .map(|v| &v.of)

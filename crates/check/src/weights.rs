@@ -6,6 +6,8 @@ use denavit_symbolic::vocabulary::Vocabulary;
 
 /// Stands for such a load among the letters of loads.
 pub(super) const LETTER: char = 'N';
+/// Stands for a mass that a text multiplies with the number for g, `m*9.81`.
+pub(super) const MASS: char = 'm';
 /// Longer texts are not looked through.
 const LONGEST: usize = 400_000;
 /// The acceleration of a falling body, in m/s².
@@ -24,6 +26,20 @@ pub(super) fn told(text: &str) -> Option<Expr> {
             Some(value(&mass)? * value(GRAVITY)?)
         }
     }
+}
+
+/// The acceleration of a falling body.
+pub(super) fn gravity() -> Expr {
+    value(GRAVITY).unwrap_or(Expr::int(10))
+}
+
+/// True for a text with a mass m times the number for g.
+pub(super) fn has_mass_times_number(text: &str) -> bool {
+    let plain: String =
+        text.chars().filter(|c| !c.is_whitespace() && !matches!(c, '\\' | '{' | '}')).collect();
+    ["m*9.81", "m·9.81", "mcdot9.81", "9.81*m", "9.81·m", "9.81cdotm", "m*9,81", "m·9,81", "9,81·m"]
+        .iter()
+        .any(|product| plain.contains(product))
 }
 
 fn value(number: &str) -> Option<Expr> {

@@ -1,16 +1,57 @@
 //! What a function gives back by its name, its arguments and its shape.
 
+use super::stated::in_radians;
+use super::{Program, recognised};
+use crate::facts::{About, Meaning};
 use crate::jacobians::Part;
 use crate::lexis::Lexis;
 use crate::matrix::Matrix;
 use crate::note::{Unread, Unreadable};
 use crate::subject::Subject;
-use crate::walk::{Pair, Piece};
+use crate::walk::{Assertion, Pair, Piece};
 use denavit::forward::Reference;
 use denavit_reading::code::{Assigned, Cell, Reading, Value};
 use denavit_reading::slip::Points;
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Expr, Symbol, equal};
+use std::ops::Range;
+
+impl Program<'_> {
+    /// An axis of a frame, or another point, that a vector is in all its entries.
+    pub(super) fn other_vector(&self, rows: &[Vec<Cell>]) -> Option<(Matrix, Meaning)> {
+        let values = rows.iter().map(|r| r.iter().map(|c| Some(in_radians(c.value))).collect()).collect();
+        let given = |e: Expr| e.substitute(|s| self.given.iter().rev().find(|g| g.0 == s).map(|g| g.1));
+        let ((matrix, about), agreement) = recognised::nearest_with(self.subject, &Matrix(values), &given)?;
+        let is_axis = matches!(about, Meaning::Axis(..));
+        (agreement.is_whole && agreement.telling > 1 && is_axis).then_some((matrix, about))
+    }
+
+    /// `fk_x(…)` by what a function is called.
+    pub(super) fn by_function(
+        &self,
+        function: &Reading,
+        span: &Range<usize>,
+        cell: &Cell,
+        shown: &str,
+    ) -> Option<Assertion> {
+        if is_determinant(function) && function.returned.len() == 1 {
+            let lacking = lacking(function, self.text, self.lexis, self.subject);
+            let given = |e: Expr| self.with_numbers(e, in_radians(cell.value));
+            let wanted = determinant_like(self.subject, in_radians(cell.value), &lacking, &given)?;
+            return Some(self.assertion(
+                shown,
+                About::Equation,
+                span,
+                vec![self.piece(None, cell, wanted)],
+                None,
+            ));
+        }
+        let axis =
+            axis_of(&function.name).filter(|_| !is_of_part(function) && function.returned.len() == 1)?;
+        let pieces = vec![self.piece(None, cell, self.subject.pose().translation.0[axis])];
+        Some(self.assertion(shown, About::Entry, span, pieces, None))
+    }
+}
 
 /// The coordinate of the hand that a function is called after: `fk_x`, `get_y`, `px`.
 pub(super) fn axis_of(name: &str) -> Option<usize> {
@@ -57,6 +98,12 @@ pub(super) fn gives_another(function: &Reading) -> bool {
     ];
     let is_jacobian = function.name.to_lowercase().contains("jac");
     !is_jacobian && words(&function.name).any(|w| OTHERS.iter().any(|other| w.starts_with(other)))
+}
+
+/// True for a function whose name says that it gives a velocity.
+pub(super) fn is_velocity(function: &Reading) -> bool {
+    const WORDS: [&str; 8] = ["vel", "speed", "rate", "twist", "geschw", "vitesse", "veloc", "snelh"];
+    words(&function.name).any(|w| WORDS.iter().any(|other| w.starts_with(other)))
 }
 
 /// True for a function that is called after a determinant: `arm_det`.
@@ -106,6 +153,16 @@ pub(super) fn as_square(
 /// The joints that a function does not take where it takes others by their names: what it gives holds at values of them that it does
 /// not tell.
 pub(super) fn lacking(function: &Reading, source: &str, lexis: &Lexis, subject: &Subject) -> Vec<Symbol> {
+    let taken = joints_taken(function, source, lexis, subject);
+    if taken.is_empty() {
+        return vec![];
+    }
+    let others = (0..).zip(subject.joints()).filter(|(k, _)| !taken.contains(k));
+    others.filter_map(|(_, q)| q.as_symbol()).collect()
+}
+
+/// The places of the joints that a function takes by their names.
+pub(super) fn joints_taken(function: &Reading, source: &str, lexis: &Lexis, subject: &Subject) -> Vec<usize> {
     let text = source.get(function.span.clone()).unwrap_or_default();
     let head = text.split_once('(').and_then(|h| h.1.split_once(')')).map_or("", |h| h.0);
     if function.name.is_empty() || head.is_empty() {
@@ -113,11 +170,8 @@ pub(super) fn lacking(function: &Reading, source: &str, lexis: &Lexis, subject: 
     }
     let names: Vec<&str> = super::words(head).collect();
     let taken: Vec<Expr> = names.iter().filter_map(|n| lexis.names.lookup(n)).collect();
-    let joints = subject.joints();
-    if !joints.iter().any(|q| taken.contains(q)) {
-        return vec![];
-    }
-    joints.iter().filter(|q| !taken.contains(q)).filter_map(|q| q.as_symbol()).collect()
+    let joints = (0..).zip(subject.joints());
+    joints.filter(|(_, q)| taken.contains(q)).map(|(k, _)| k).collect()
 }
 
 /// A pair whose right side holds a joint that the function does not take is not judged, unless it is right.
@@ -133,7 +187,12 @@ pub(super) fn without(piece: &mut Piece, lacking: &[Symbol]) {
 /// The determinant that the arm has by nature; in which order the rows of a task of more than a place are is not told, so that
 /// of more than three joints it has the sign of the printed one.
 /// A function that does not take all joints gives that of the joints which it takes, if it is printed so.
-pub(super) fn determinant_like(subject: &Subject, printed: Expr, lacking: &[Symbol]) -> Option<Expr> {
+pub(super) fn determinant_like(
+    subject: &Subject,
+    printed: Expr,
+    lacking: &[Symbol],
+    given: &dyn Fn(Expr) -> Expr,
+) -> Option<Expr> {
     let taken = |k: &usize| subject.joints()[*k].as_symbol().is_none_or(|q| !lacking.contains(&q));
     let columns: Vec<usize> = (0..subject.joints().len()).filter(taken).collect();
     if columns.len() < subject.joints().len() {
@@ -143,12 +202,12 @@ pub(super) fn determinant_like(subject: &Subject, printed: Expr, lacking: &[Symb
         let block = Matrix(rows[..3].iter().map(picked).filter(moves).collect());
         let is_square = block.0.len() == columns.len();
         let own = if is_square { block.determinant() } else { None };
-        if let Some(own) = own.filter(|own| equal(printed, *own).is_equal()) {
+        if let Some(own) = own.filter(|own| equal(printed, given(*own)).is_equal()) {
             return Some(own);
         }
     }
     let wanted = [Part::Any, Part::Linear].into_iter().find_map(|p| subject.determinant(p))?;
-    let is_turned = subject.joints().len() > 3 && equal(printed, -wanted).is_equal();
+    let is_turned = subject.joints().len() > 3 && equal(printed, given(-wanted)).is_equal();
     Some(if is_turned { -wanted } else { wanted })
 }
 

@@ -4,6 +4,7 @@
 mod called;
 mod defined;
 mod followed;
+mod moving;
 mod posed;
 mod rows;
 mod shown;
@@ -23,8 +24,8 @@ use super::recognised;
 use super::subject::Subject;
 use super::walk::{Assertion, Defined, Pair, Piece, Walk, is_measured};
 use called::{
-    as_square, axis_of, determinant_like, determinant_named, given_in, gives_another, is_determinant,
-    is_of_part, lacking, names_in, without,
+    as_square, axis_of, determinant_named, given_in, gives_another, is_of_part, is_velocity, joints_taken,
+    lacking, names_in, without,
 };
 use defined::{defined, unsaid};
 use denavit::forward::Reference;
@@ -92,10 +93,11 @@ pub(super) fn assertions(of: &Source<'_>, subject: &Rc<Subject>, habits: &Rc<Hab
         let own = name.split_once('_').map(|n| n.1).filter(|n| n.len() > 1)?;
         lexis.names.lookup(own).filter(|e| subject.joints().contains(e))
     };
-    // The components of a load are known by custom alone.
+    // The components of a load and the rates of joints are known by custom alone.
+    let rates = subject.rates();
     let load = |name: &str, e: &Expr| {
         let is_component = name.len() == 2 && name.starts_with(['F', 'f']) && name.ends_with(['x', 'y', 'z']);
-        is_component && e.as_symbol().is_some_and(|s| *s.name() == *name)
+        is_component && e.as_symbol().is_some_and(|s| *s.name() == *name) || rates.contains(e)
     };
     let meaning = |name: &str| {
         let found = lexis.names.lookup(name).filter(|e| !lexis.is_by_custom(name) || load(name, e));
@@ -224,13 +226,14 @@ impl Program<'_> {
             }
         }
         let of_hand = parallel_sum(self.subject);
+        let is_other = |f: &Reading| is_of_part(f) || is_velocity(f);
         for (i, a) in function.assigned.iter().enumerate() {
             let is_last = !function.assigned[i + 1..].iter().any(|b| b.name == a.name);
             // What is returned under that name is judged there.
             let is_returned = function.returned.iter().any(|r| r.name.as_deref() == Some(a.name.as_str()));
             if is_last
                 && !is_returned
-                && !(is_of_part(function) && matches!(a.name.to_lowercase().as_str(), "x" | "y" | "z"))
+                && !(is_other(function) && matches!(a.name.to_lowercase().as_str(), "x" | "y" | "z"))
                 && a.name.contains(|c: char| c.is_ascii_digit() || c == 'x' || c == 'y' || c == 'z')
             {
                 found.extend(self.named(&a.name, &a.name, &a.span, &a.value));
@@ -243,6 +246,12 @@ impl Program<'_> {
             {
                 // What a script calls so is the hand's.
                 found.extend(self.pose(function, &a.name, &a.span, rows));
+            } else if is_last
+                && !is_returned
+                && let Value::Matrix(rows) = &a.value
+                && let Some(torques) = self.torques(&a.name, &a.name, &a.span, rows)
+            {
+                found.push(torques);
             } else if is_last
                 && !is_returned
                 && let (Value::Scalar(cell), Some(sum)) = (&a.value, of_hand)
@@ -320,14 +329,19 @@ impl Program<'_> {
             let span = r.name.as_ref().and_then(own).map_or(&r.span, |a| &a.span);
             let is_other =
                 |n: &&String| is_of_part(function) && matches!(n.to_lowercase().as_str(), "x" | "y" | "z");
-            let named = r
-                .name
-                .as_ref()
-                .filter(|n| !is_other(n))
-                .and_then(|name| self.named(name, &shown, span, &r.value));
-            found.extend(named.or_else(|| match &r.value {
-                Value::Matrix(rows) => self.pose(function, &shown, span, rows),
-                Value::Scalar(cell) => self.by_function(function, span, cell, &shown),
+            let named =
+                r.name.as_ref().filter(|n| !is_other(n)).and_then(|name| match is_velocity(function) {
+                    true => self.component(name, &shown, span, &r.value),
+                    false => self.named(name, &shown, span, &r.value),
+                });
+            found.extend(named.or_else(|| {
+                match &r.value {
+                    Value::Matrix(rows) => self
+                        .torques(r.name.as_deref().unwrap_or(&function.name), &shown, span, rows)
+                        .or_else(|| self.velocity(function, &shown, span, rows))
+                        .or_else(|| self.pose(function, &shown, span, rows)),
+                    Value::Scalar(cell) => self.by_function(function, span, cell, &shown),
+                }
             }));
         }
         found
@@ -401,6 +415,7 @@ impl Program<'_> {
         let rows = square.as_deref().unwrap_or(rows);
         let columns = rows.first()?.len();
         let joints = self.subject.description.variables().len();
+        let taken = joints_taken(function, self.text, self.lexis, self.subject);
         // Of a part of the joints, or of names that are no joints: another frame, or a transform of any row.
         let own = |rows: &[Vec<Cell>]| -> Vec<Symbol> {
             let symbols = rows.iter().flatten().flat_map(|c| c.value.symbols());
@@ -432,6 +447,13 @@ impl Program<'_> {
                 let (matrix, jacobian) = self.subject.nearest_jacobian(&values, &told)?;
                 (matrix, Meaning::Jacobian(jacobian))
             }
+            // That of the joints which the function takes.
+            (n, m) if is_jacobian && m == taken.len() && m > 1 && n <= 6 => {
+                let value = |c: &Cell| Some(in_radians(c.value));
+                let values = Matrix(rows.iter().map(|r| r.iter().map(value).collect()).collect());
+                let (matrix, jacobian) = self.subject.jacobian_of_joints(&values, &taken, Part::Any)?;
+                (matrix, Meaning::Jacobian(jacobian))
+            }
             // A part of a Jacobian is no pose.
             _ if is_jacobian => return None,
             (4, 4) => (Matrix::of(&pose), hand),
@@ -444,40 +466,6 @@ impl Program<'_> {
         };
         let pieces = self.compare(rows, &matrix)?;
         Some(self.assertion(shown, About::Matrix(about), span, pieces, Some(matrix)))
-    }
-
-    /// An axis of a frame, or another point, that a vector is in all its entries.
-    fn other_vector(&self, rows: &[Vec<Cell>]) -> Option<(Matrix, Meaning)> {
-        let values = rows.iter().map(|r| r.iter().map(|c| Some(in_radians(c.value))).collect()).collect();
-        let given = |e: Expr| e.substitute(|s| self.given.iter().rev().find(|g| g.0 == s).map(|g| g.1));
-        let ((matrix, about), agreement) = recognised::nearest_with(self.subject, &Matrix(values), &given)?;
-        let is_axis = matches!(about, Meaning::Axis(..));
-        (agreement.is_whole && agreement.telling > 1 && is_axis).then_some((matrix, about))
-    }
-
-    /// `fk_x(…)` by what a function is called.
-    fn by_function(
-        &self,
-        function: &Reading,
-        span: &Range<usize>,
-        cell: &Cell,
-        shown: &str,
-    ) -> Option<Assertion> {
-        if is_determinant(function) && function.returned.len() == 1 {
-            let lacking = lacking(function, self.text, self.lexis, self.subject);
-            let wanted = determinant_like(self.subject, in_radians(cell.value), &lacking)?;
-            return Some(self.assertion(
-                shown,
-                About::Equation,
-                span,
-                vec![self.piece(None, cell, wanted)],
-                None,
-            ));
-        }
-        let axis =
-            axis_of(&function.name).filter(|_| !is_of_part(function) && function.returned.len() == 1)?;
-        let pieces = vec![self.piece(None, cell, self.subject.pose().translation.0[axis])];
-        Some(self.assertion(shown, About::Entry, span, pieces, None))
     }
 
     fn compare(&self, rows: &[Vec<Cell>], matrix: &Matrix) -> Option<Vec<Piece>> {
@@ -514,13 +502,7 @@ impl Program<'_> {
         }
         let d = &self.subject.description;
         let uses = |e: Expr| e.symbols().iter().any(|s| d.parameter(*s).is_some());
-        let wanted = match uses(value) {
-            true => wanted,
-            false => wanted.substitute(|s| {
-                let given = self.given.iter().rev().find(|g| g.0 == s).map(|g| g.1);
-                given.or_else(|| d.exact_value(s))
-            }),
-        };
+        let wanted = self.with_numbers(wanted, value);
         // A length that the program has under another name, or one that the robot has not: a tool's.
         let is_known = |s: &Symbol| joints.contains(&(*s).into()) || d.parameter(*s).is_some();
         let differs = || !equal(value, wanted).is_equal();
@@ -561,6 +543,18 @@ impl Program<'_> {
         let is_written = value == cell.value && self.text.get(cell.span.clone()).is_some();
         let printed = cell.syntax.clone().filter(|_| is_written);
         Piece::Pair(Pair { place, span: cell.span.clone(), printed, value, wanted, also: vec![] })
+    }
+
+    /// What is wanted with the numbers that the program has for lengths, where what is printed has none of these as letters.
+    fn with_numbers(&self, wanted: Expr, printed: Expr) -> Expr {
+        let d = &self.subject.description;
+        if printed.symbols().iter().any(|s| d.parameter(*s).is_some()) {
+            return wanted;
+        }
+        wanted.substitute(|s| {
+            let given = self.given.iter().rev().find(|g| g.0 == s).map(|g| g.1);
+            given.or_else(|| d.exact_value(s))
+        })
     }
 
     /// True if numbers are made of the robot's alone, or of those that the program has for its lengths.

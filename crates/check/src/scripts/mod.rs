@@ -11,7 +11,7 @@ use super::directions::DIRECTIONS;
 use super::listing::comment_mark;
 use denavit_reading::code::{Dialect, is_sign_name};
 use denavit_reading::document::{self, Document, Format, Statement};
-use spelling::{branches, roots, spelled, squeezed};
+use spelling::{branches, defines, is_factor_of_root, renamed, roots, spelled, squeezed};
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -31,7 +31,7 @@ pub(super) struct Scripts {
 /// Functions by which inverse formulas are told.
 const INVERSE: [&str; 7] = ["atan2", "arctan", "atan(", "acos", "arccos", "asin", "arcsin"];
 /// Modules whose names stand before functions.
-const MODULES: [&str; 7] = ["np.", "math.", "numpy.", "sp.", "sympy.", "sym.", "jnp."];
+pub(super) const MODULES: [&str; 7] = ["np.", "math.", "numpy.", "sp.", "sympy.", "sym.", "jnp."];
 /// Functions that formulas have.
 const KNOWN: [&str; 30] = [
     "sin", "cos", "tan", "sqrt", "atan2", "arctan2", "acos", "asin", "atan", "arccos", "arcsin", "arctan",
@@ -42,6 +42,8 @@ const KNOWN: [&str; 30] = [
 const MAX_BESIDE: usize = 12;
 /// The longest line.
 const LONGEST: usize = 2_000;
+/// The most parameters of a function that are looked at.
+const MAX_PARAMETERS: usize = 40;
 
 /// A function of a program, or what stands outside of them.
 struct Region {
@@ -82,8 +84,12 @@ pub(super) fn inverse(
     for (span, language) in programs {
         let all = regions(text, span, *language);
         // Numbers that the program gives names beside the functions.
-        let own: Vec<String> =
+        let mut own: Vec<String> =
             all.iter().take(1).flat_map(|r| &r.lines).flat_map(|l| &l.parts).map(|p| p.0.clone()).collect();
+        if *language == Dialect::C {
+            let defines = text[span.clone()].lines().filter_map(|l| l.trim_start().strip_prefix("#define "));
+            own.extend(defines.filter_map(|l| l.split_whitespace().next()).map(String::from));
+        }
         let functions: Vec<Range<usize>> = all.iter().filter_map(|r| r.function.clone()).collect();
         for region in all {
             let solves = |line: &Line| {
@@ -112,6 +118,12 @@ pub(super) fn inverse(
                 continue;
             }
             is_any = true;
+            // What a root is multiplied by is 1 or −1.
+            let body: String = text[whole.clone()].chars().filter(|c| !c.is_whitespace()).collect();
+            let parameters = region.parameters.iter().take(MAX_PARAMETERS);
+            let factors: Vec<String> = parameters.filter(|p| is_factor_of_root(&body, p)).cloned().collect();
+            let mut region = region;
+            region.signs.extend(factors);
             // What goes by vectors and matrices is followed as a program.
             let mut known = region.parameters.clone();
             known.extend(poses(text, &region.lines));
@@ -137,14 +149,23 @@ pub(super) fn inverse(
             };
             let has_own =
                 region.function.is_some() && region.lines.iter().any(|l| words(l).iter().any(is_foreign));
-            if has_own || region.lines.iter().filter(|l| is_cut(l, &mut lost)).count() > 0 {
+            // Several solutions for one joint, `th3a`, `th3b`.
+            let is_variant = |p: &(String, Range<usize>)| {
+                let stem = p.0.strip_suffix(['a', 'b', 'A', 'B']).unwrap_or_default();
+                let number = stem.trim_end_matches(|c: char| c.is_ascii_digit());
+                number.len() < stem.len()
+                    && is_joint(stem)
+                    && !is_joint(&p.0)
+                    && INVERSE.iter().any(|f| text[p.1.clone()].contains(f))
+            };
+            let has_variants = region.lines.iter().flat_map(|l| &l.parts).any(is_variant);
+            if has_own || has_variants || region.lines.iter().filter(|l| is_cut(l, &mut lost)).count() > 0 {
                 posed.push(whole);
                 if let Some(function) = region.function {
                     kept[function].iter_mut().filter(|b| **b != b'\n').for_each(|b| *b = b' ');
                 }
                 continue;
             }
-            let mut region = region;
             region.parameters.extend(poses(text, &region.lines));
             let mut lost: BTreeSet<String> = BTreeSet::new();
             let lines = std::mem::take(&mut region.lines);
@@ -448,26 +469,6 @@ impl Region {
         }
         self.lines.push(new);
     }
-}
-
-/// True for a formula of a name that it is made from.
-fn defines(formula: &str, name: &str) -> bool {
-    formula.split(|c: char| !c.is_alphanumeric() && c != '_').any(|w| w == name)
-}
-
-/// `wx` for `px`.
-fn renamed(text: &str, name: &str) -> String {
-    let own = format!("w{}", &name[1..]);
-    let mut out = String::with_capacity(text.len());
-    let is_part = |c: char| c.is_alphanumeric() || c == '_';
-    let mut rest = text;
-    while let Some(i) = rest.find(name) {
-        let is_word = !rest[..i].ends_with(is_part) && !rest[i + name.len()..].starts_with(is_part);
-        out += &rest[..i];
-        out += if is_word { &own } else { name };
-        rest = &rest[i + name.len()..];
-    }
-    out + rest
 }
 
 /// Names of the pose in a script, given as numbers or as a part of another: `T06 = [0.5 …]`, `R = T06(1:3,1:3)`.

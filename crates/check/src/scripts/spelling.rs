@@ -281,3 +281,35 @@ mod tests {
         }
     }
 }
+
+/// True for a name that a root is multiplied by, in a text without blanks: `side*sqrt(1-D*D)`.
+pub(super) fn is_factor_of_root(body: &str, name: &str) -> bool {
+    const ROOTS: [&str; 3] = ["sqrt(", "acos(", "arccos("];
+    let is_part = |c: char| c.is_alphanumeric() || c == '_';
+    !name.is_empty()
+        && body.match_indices(&format!("{name}*")).any(|(at, m)| {
+            let rest = MODULES.iter().find_map(|p| body[at + m.len()..].strip_prefix(p));
+            let rest = rest.unwrap_or(&body[at + m.len()..]);
+            !body[..at].ends_with(is_part) && ROOTS.iter().any(|r| rest.starts_with(r))
+        })
+}
+
+/// True for a formula of a name that it is made from.
+pub(super) fn defines(formula: &str, name: &str) -> bool {
+    formula.split(|c: char| !c.is_alphanumeric() && c != '_').any(|w| w == name)
+}
+
+/// `wx` for `px`.
+pub(super) fn renamed(text: &str, name: &str) -> String {
+    let own = format!("w{}", &name[1..]);
+    let mut out = String::with_capacity(text.len());
+    let is_part = |c: char| c.is_alphanumeric() || c == '_';
+    let mut rest = text;
+    while let Some(i) = rest.find(name) {
+        let is_word = !rest[..i].ends_with(is_part) && !rest[i + name.len()..].starts_with(is_part);
+        out += &rest[..i];
+        out += if is_word { &own } else { name };
+        rest = &rest[i + name.len()..];
+    }
+    out + rest
+}

@@ -181,6 +181,45 @@ impl Walk<'_> {
             && !denavit_symbolic::equal(left.value(), right).is_equal()
     }
 
+    /// True for a number of the hand's place that somebody measured: `we measured x = 367.1`.
+    pub(super) fn is_read_off(&self, statement: &Statement, read: &[Scalar]) -> bool {
+        const WORDS: [&str; 13] = [
+            "measured",
+            "measurement",
+            "gemessen",
+            "abgelesen",
+            "messwert",
+            "mesuré",
+            "mesure",
+            "medido",
+            "medimos",
+            "misurat",
+            "gemeten",
+            "zmierz",
+            "измерен",
+        ];
+        const FROM: [&str; 9] =
+            [" from", " ab ", " von", " vom", " desde", " depuis", " dal", " a partir", " vanaf"];
+        let [Scalar::Formula(name, _), Scalar::Formula(_, right)] = read else { return false };
+        if !right.value().symbols().is_empty() || !self.is_right_name(name) {
+            return false;
+        }
+        let before = self.text.get(..statement.span.start).unwrap_or_default();
+        let line = before.rsplit("\n\n").next().unwrap_or_default();
+        let sentence = line.rsplit(". ").next().unwrap_or_default();
+        let sentence = sentence.rsplit([':', ';', '!']).find(|s| s.trim().len() > 3).unwrap_or_default();
+        let start = before.len() - line.len();
+        let is_short = statement.span.start - start < NEAR && sentence.len() < NEAR;
+        let sentence = sentence.to_lowercase();
+        is_short
+            && WORDS.iter().any(|w| {
+                sentence.find(w).is_some_and(|at| {
+                    let rest = &sentence[at + w.len()..];
+                    !FROM.iter().any(|f| rest.starts_with(f))
+                })
+            })
+    }
+
     /// True for another whole number of a name that the document gave one: `σ_j = 0` for what turns, `σ_j = 1` for what slides.
     pub(super) fn is_other_case(&self, spans: &[Range<usize>], read: &[Scalar]) -> bool {
         let ([name, _], [Scalar::Formula(_, left), Scalar::Formula(_, right)]) = (spans, read) else {

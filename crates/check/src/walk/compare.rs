@@ -1,6 +1,7 @@
 //! A printed matrix, or a product of printed matrices, against the matrix that it should be.
 
 use super::scalars::is_measured;
+use super::words::{REST, ZERO};
 use super::{Assertion, Cell, Pair, Piece, Reference, Walk};
 use crate::facts::{About, Meaning, Remark, ShortRow};
 use crate::jacobians::{frames_told, told_of_jacobian};
@@ -465,7 +466,9 @@ impl Walk<'_> {
             let value = sentence[at + 1..].trim_start_matches([' ', '$', '-', '−', '+']);
             value.starts_with(|c: char| c.is_ascii_digit() || c == 'π') || value.starts_with("\\pi")
         };
-        let is_told = sentence.match_indices('=').any(|(at, _)| is_value(at));
+        let words = sentence.to_lowercase();
+        let is_at_rest = || ZERO.iter().chain(&REST).any(|w| words.contains(w));
+        let is_told = sentence.match_indices('=').any(|(at, _)| is_value(at)) || is_at_rest();
         let there = self.at.exactly(wanted, &self.subject).filter(|_| is_told);
         there.filter(|&there| equal(printed, there).is_equal()).unwrap_or(wanted)
     }

@@ -5,10 +5,11 @@ use crate::directions::{parallel_sum, sum_in_pose};
 use crate::facts::About;
 use crate::habits::Places;
 use crate::lexis::read;
+use denavit::random::Random;
 use denavit_reading::document::Statement;
-use denavit_symbolic::Expr;
 use denavit_symbolic::parse::{Function, Syntax, SyntaxKind};
 use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
+use denavit_symbolic::{Expr, Node, Symbol};
 use std::ops::Range;
 
 /// True for the name of a length of a table: `d2`, `a3`, `r1`.
@@ -34,7 +35,8 @@ impl Walk<'_> {
                     {
                         return false;
                     }
-                    return !denavit_symbolic::equal(left.value(), formula.value()).is_equal();
+                    return !denavit_symbolic::equal(left.value(), formula.value()).is_equal()
+                        && !self.agree_on_a_branch(left.value(), formula.value());
                 }
                 // `d2 = a² + b²` where the table has 0 for d2: the name is the author's own.
                 let is_empty_cell = is_cell(&plain_name(self.source(span)))
@@ -52,6 +54,32 @@ impl Walk<'_> {
             }
             Scalar::Broken(..) => false,
         }
+    }
+
+    /// True for a value with a root and one without that are the same where the root has its sign: `r = √(x² + y²) - a_1` is
+    /// `a_2 c_2 + a_3 c_23`.
+    fn agree_on_a_branch(&self, rooted: Expr, other: Expr) -> bool {
+        const TRIES: usize = 12;
+        let has_root = |e: Expr| Expr::postorder(&[e]).iter().any(|e| matches!(e.node(), Node::Sqrt(_)));
+        if !has_root(rooted) || has_root(other) {
+            return false;
+        }
+        let mut random = Random(31);
+        let mut count = 0;
+        for _ in 0..TRIES {
+            let mut values: Vec<(Symbol, f64)> = vec![];
+            for s in rooted.symbols().into_iter().chain(other.symbols()) {
+                if values.iter().all(|v| v.0 != s) {
+                    let known = self.subject.description.value(s);
+                    let x = 2.0 * random.unit() - 0.9;
+                    values.push((s, known.unwrap_or(x)));
+                }
+            }
+            let at = |e: Expr| e.eval(|s| values.iter().find(|v| v.0 == s).map(|v| v.1)).ok();
+            let (Some(a), Some(b)) = (at(rooted), at(other)) else { continue };
+            count += usize::from((a - b).abs() < 1e-9 * (1.0 + a.abs()));
+        }
+        count > 1
     }
 
     /// True for `Z = P_z - L`: by custom Z is that entry of the pose, which it cannot be here.

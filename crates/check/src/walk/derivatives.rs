@@ -11,6 +11,9 @@ const LONGEST: usize = 100;
 impl Walk<'_> {
     /// The derivative that a side names, of what is known by a joint or by time.
     pub(super) fn derivative_named(&self, span: &Range<usize>) -> Option<Expr> {
+        if let Some(found) = self.primed(span) {
+            return Some(found);
+        }
         let (of, by) = quotient(self.source(span))?;
         let value = |name: &str| {
             let own = self.lexis.names.lookup(name);
@@ -24,12 +27,35 @@ impl Walk<'_> {
         // A joint may be called t.
         let is_joint = self.lexis.names.lookup(&by).is_some_and(|q| joints.contains(&q));
         if by == "t" && !is_joint {
-            let rates = self.subject.rates();
-            let mut parts = joints.iter().zip(rates).map(|(&q, rate)| Some(derivative(of, q)? * rate));
-            return parts.try_fold(Expr::int(0), |sum, part| Some(sum + part?));
+            return self.by_time(of);
         }
         let by = self.lexis.names.lookup(&by).filter(|q| joints.contains(q))?;
         derivative(of, by)
+    }
+
+    fn by_time(&self, of: Expr) -> Option<Expr> {
+        let (joints, rates) = (self.subject.joints(), self.subject.rates());
+        let mut parts = joints.iter().zip(rates).map(|(&q, rate)| Some(derivative(of, q)? * rate));
+        parts.try_fold(Expr::int(0), |sum, part| Some(sum + part?))
+    }
+
+    /// `x'` on a line with rates of joints, or a unit of velocity: the derivative by time.
+    fn primed(&self, span: &Range<usize>) -> Option<Expr> {
+        let source = self.source(span);
+        let name = source.strip_suffix(['\'', '′'])?;
+        let is_name = !name.is_empty() && name.len() < 12 && name.chars().all(char::is_alphanumeric);
+        let line = self.text.get(span.end..)?.lines().next().filter(|l| is_name && l.len() < 4 * LONGEST)?;
+        let rates = self.subject.rates();
+        let mut words =
+            line.split(|c: char| !c.is_alphanumeric() && c != '\u{307}').filter(|w| !w.is_empty());
+        let is_rate = |w: &str| self.lexis.names.lookup(w).is_some_and(|e| rates.contains(&e));
+        if !line.contains("/s") && !words.any(is_rate) {
+            return None;
+        }
+        let axis = ["x", "y", "z"].iter().position(|a| *a == name.to_lowercase());
+        let place = axis.map(|r| self.subject.pose().translation.0[r]);
+        let of = self.lexis.names.lookup(name).or(place)?;
+        self.by_time(of)
     }
 }
 

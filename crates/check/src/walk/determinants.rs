@@ -38,7 +38,9 @@ impl Walk<'_> {
         let printed = self.lexis.defined(&name).map(|m| Matrix(m.0.iter().filter(moves).cloned().collect()));
         let is_square = |m: &Matrix| m.shape().is_some_and(|(r, c)| r == c);
         if let (Some(whole), Some(false)) = (self.lexis.defined(&name), printed.as_ref().map(is_square)) {
-            return self.told_minor(whole).filter(is_square)?.determinant();
+            // A part of the one that the arm has by nature may be printed.
+            let minor = self.told_minor(whole).filter(is_square);
+            return minor.map_or_else(|| self.subject.determinant(told.part), |m| m.determinant());
         }
         // Numbers are what the author makes of it, and may be wrong.
         let is_known = |m: &Matrix| m.0.iter().flatten().flatten().any(|e| !e.symbols().is_empty());
@@ -46,6 +48,11 @@ impl Walk<'_> {
             Some(m) if !is_known(&m) => (None, true),
             printed => (printed, false),
         };
+        // Of a block in numbers: that of its columns.
+        let block = self.lexis.defined(&name).and_then(Matrix::shape).filter(|_| is_numeric);
+        if let Some((_, columns)) = block.filter(|s| s.0 == s.1 && s.1 < self.subject.joints().len()) {
+            return self.minor(&(1..=columns).collect::<Vec<usize>>());
+        }
         if is_numeric && self.subject.square_jacobian(crate::jacobians::Part::Any).is_none() {
             return None;
         }
@@ -94,7 +101,9 @@ impl Walk<'_> {
         };
         let by_nature = || {
             let rows = self.subject.geometric_rows(Reference::Tool, Reference::Frame(0));
-            Matrix(rows[..3].iter().map(|r| r.iter().map(|e| Some(*e)).collect()).collect())
+            let is_moved =
+                |r: &&Vec<Expr>| columns.iter().any(|k| r.get(k - 1).is_some_and(|e| !e.is_zero()));
+            Matrix(rows[..3].iter().filter(is_moved).map(|r| r.iter().map(|e| Some(*e)).collect()).collect())
         };
         let fits = |m: &Matrix| {
             m.shape().is_some_and(|(r, c)| r == columns.len() && columns.iter().all(|k| *k <= c))

@@ -127,7 +127,9 @@ impl Walk<'_> {
 
     /// Keeps the numbers that a joint is said to have for the pose that is to be reached; false if there is more to judge.
     pub(super) fn answer(&mut self, statement: &Statement, read: &[Scalar]) -> bool {
-        let Some((of, span, syntax)) = self.numbers_of_joint(read) else { return false };
+        let Some((of, span, syntax)) = self.numbers_of_joint(read) else {
+            return self.number_at_goal(statement, read);
+        };
         let targets = match self.in_inverse && !self.goal.is_empty() {
             true => self.goal.clone(),
             false => self.pose_of_other_solution(statement),
@@ -171,6 +173,47 @@ impl Walk<'_> {
             at: self.at.clone(),
         });
         self.only_numbers(read)
+    }
+
+    /// Keeps the number that a formula has where the pose is reached, `cos θ_3 = 0.426`, `D = (x² + y² - …)/… = 0.18`; false if
+    /// there is more to judge.
+    fn number_at_goal(&mut self, statement: &Statement, read: &[Scalar]) -> bool {
+        let [first, middle @ .., Scalar::Formula(span, number)] = read else { return false };
+        let joints = self.subject.joints();
+        let moves = |e: Expr| e.symbols().iter().any(|s| joints.contains(&(*s).into()));
+        let is_known = |e: Expr| {
+            let d = &self.subject.description;
+            e.symbols().iter().all(|s| joints.contains(&(*s).into()) || d.parameter(*s).is_some())
+        };
+        let formula = match (first, middle) {
+            (Scalar::Formula(name, s), _) if moves(s.value()) => {
+                // What the pose itself is told to be.
+                let is_entry = self.is_right_name(name) && self.lexis.lone_name(self.text, name).is_some();
+                (!is_entry).then(|| s.value())
+            }
+            (Scalar::Lone(_), [Scalar::Formula(_, s), ..]) if moves(s.value()) => Some(s.value()),
+            _ => None,
+        };
+        let Some(of) = formula.filter(|e| is_known(*e)) else { return false };
+        let is_number = number.value().symbols().is_empty() && number.sign_choices() == 0;
+        if !self.in_inverse || self.goal.is_empty() || !is_number || self.at.knows(of, &self.subject) {
+            return false;
+        }
+        let Ok(value) = number.value().eval(|_| None) else { return false };
+        let answered = Answered {
+            span: statement.span.clone(),
+            name: self.claim_name(statement),
+            value: span.clone(),
+            of,
+            values: vec![value],
+            half: self.half(span),
+            has_unit: true,
+            subject: self.number,
+            targets: self.goal.clone(),
+            at: self.at.clone(),
+        };
+        self.answered.push(answered);
+        middle.is_empty()
     }
 
     /// The pose of the configuration that the document states, where the words before a statement speak of another solution:

@@ -382,8 +382,10 @@ impl Walk<'_> {
                 _ => None,
             })
         });
-        for (side, r) in statement.sides.iter().zip(&read) {
-            let anew = (tells_jacobian(0) && r.is_ok()).then(|| self.lone(side)).flatten().map(Box::new);
+        for (k, (side, r)) in statement.sides.iter().zip(&read).enumerate() {
+            // `Jv` may look like a product.
+            let is_told = tells_jacobian(0) && (r.is_ok() || k == 0);
+            let anew = is_told.then(|| self.lone(side)).flatten().map(Box::new);
             let unknown = match r {
                 Err(NotMatrices::Unknown(name)) => Some(name.clone()),
                 _ => anew,

@@ -7,6 +7,7 @@ mod defines;
 mod derivatives;
 mod determinants;
 mod entries;
+mod extracts;
 mod goal;
 mod labels;
 mod matrices;
@@ -129,6 +130,8 @@ pub(super) struct Defined {
 
 /// So many bytes may stand between a paragraph and what it is about.
 const MAX_DISTANCE: usize = 120;
+/// The longest heading at the beginning of a paragraph, in bytes.
+const MAX_HEADING: usize = 60;
 /// The most elements of a matrix that are read.
 const MAX_ELEMENTS: usize = 4_096;
 
@@ -166,6 +169,8 @@ pub(super) struct Walk<'a> {
     load: Option<Vec<(Symbol, Expr)>>,
     /// Names that the document gives matrices: the statement and the name as printed.
     pub named: Vec<(Range<usize>, String)>,
+    /// The rotation, or the transform, that was printed last, and where it ends.
+    printed_last: Option<(Matrix, usize)>,
     /// The statement before which another one is read.
     reader: Option<usize>,
     /// The prose and the heading that were looked at last.
@@ -243,6 +248,7 @@ impl<'a> Walk<'a> {
             load: Some(vec![]),
             told_to: 0,
             named: vec![],
+            printed_last: None,
             reader: None,
             last_prose: 0..0,
             last_heading: 0..0,
@@ -288,10 +294,7 @@ impl<'a> Walk<'a> {
         {
             self.last_heading = heading.clone();
             let words = self.text.get(heading.clone()).unwrap_or_default().to_lowercase();
-            let were_found = self.seek(cases::tells_inverse(&words));
-            if self.in_inverse {
-                self.at.forget_joints(were_found);
-            }
+            self.begin(&words);
             self.told_in(heading);
         }
         let before = self.last_end.min(statement.span.start)..statement.span.start;
@@ -302,8 +305,11 @@ impl<'a> Walk<'a> {
                 self.last_prose = prose.clone();
                 self.told_to = prose.start;
                 let words = self.text.get(prose.clone()).unwrap_or_default().to_lowercase();
-                if words.len() < 60 && cases::tells_inverse(&words) {
-                    self.look_for_joints();
+                match words.trim_start().strip_prefix("**").and_then(|w| w.split_once("**")) {
+                    // A heading that the paragraph begins with.
+                    Some((head, _)) if head.len() < MAX_HEADING => self.begin(head),
+                    _ if words.len() < MAX_HEADING && cases::tells_inverse(&words) => self.look_for_joints(),
+                    _ => {}
                 }
             }
             // What later sentences give is not given yet.
@@ -319,7 +325,16 @@ impl<'a> Walk<'a> {
         {
             return;
         }
+        self.keep_printed(statement);
         self.matrices(statement, claim);
+    }
+
+    /// Begins a part of the document under a heading, in small letters.
+    fn begin(&mut self, heading: &str) {
+        let were_found = self.seek(cases::tells_inverse(heading));
+        if self.in_inverse {
+            self.at.forget_joints(were_found);
+        }
     }
 
     /// True for a statement that gives a name without meaning, or a helper, its meaning.

@@ -109,6 +109,13 @@ impl Walk<'_> {
             self.skipped.push((statement.span.clone(), Unreadable::NeitherFormulaNorProduct));
             return true;
         }
+        if self.is_read_off(statement, &read) {
+            self.skipped.push((statement.span.clone(), Unreadable::NeitherFormulaNorProduct));
+            return true;
+        }
+        if self.is_of_last_matrix(statement) {
+            return true;
+        }
         if self.tells_goal(statement) {
             self.look_for_joints();
         }
@@ -252,7 +259,10 @@ impl Walk<'_> {
             }
             return true;
         };
-        let others = read.iter().enumerate().filter(|(i, _)| *i != at);
+        // A number that is held against the pose to be reached.
+        let is_answered = self.answered.last().is_some_and(|a| a.span == statement.span);
+        let is_number = |s: &Scalar| matches!(s, Scalar::Formula(_, s) if s.value().symbols().is_empty());
+        let others = read.iter().enumerate().filter(|(i, s)| *i != at && !(is_answered && is_number(s)));
         let mut pieces = vec![];
         for (i, s) in others {
             match s {

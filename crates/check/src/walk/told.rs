@@ -58,6 +58,7 @@ impl Walk<'_> {
         if ZERO.iter().chain(&REST).any(|words| lower.contains(words)) {
             (0..self.subject.joints().len()).for_each(|joint| self.at.set(joint, Expr::int(0)));
         }
+        self.told_row(&joined);
         self.told_names(&joined);
         self.told_lists(&joined);
         self.told_tuples(&joined, prose.start);
@@ -76,7 +77,8 @@ impl Walk<'_> {
             let value = value.trim().trim_end_matches([':', '.', '?', '!']);
             // `cos θ3 = 0.2` says nothing of θ3 itself.
             let before = pair[0].trim_end().strip_suffix(name).unwrap_or_default().trim_end();
-            let word = before.rsplit([' ', '(', '$', '\\']).next().unwrap_or_default();
+            let word =
+                before.rsplit([' ', '(', '$', '\\', '·', '*', '+', '-', '−']).next().unwrap_or_default();
             let is_argument = matches!(word, "cos" | "sin" | "tan" | "sen" | "tg" | "det");
             // `a1 − a2 = 0.2` says nothing of a2 itself.
             let signs = ['+', '-', '−', '·', '*', '/', '±', '×', '^', '|'];
@@ -205,6 +207,8 @@ impl Walk<'_> {
             let is_text = !line.trim_start().starts_with(['|', '%', '!', '#', '\\', '<']);
             if line.contains('=') && is_text && !is_prose {
                 self.told_in(&here);
+            } else if is_text && line.trim_start().starts_with(['(', '-', '*']) && line.len() < LONGEST {
+                self.told_row(line);
             } else if is_text && tells_goal(&line.to_lowercase()) {
                 self.look_for_joints();
             } else if is_text && !is_prose && line.len() < LONGEST {
@@ -261,6 +265,20 @@ impl Walk<'_> {
                 let length = at + 1 + (behind.len() - open.len()) + 1 + close;
                 self.taken.push(from.min(start + at)..start + length);
             }
+        }
+    }
+
+    /// `(-30, 60, 150, 30):` at the beginning of a line, one number a joint.
+    pub(super) fn told_row(&mut self, line: &str) {
+        let begins = line.trim_start().trim_start_matches(['-', '*', '•', ' ']);
+        let Some((inner, rest)) = begins.strip_prefix('(').and_then(|l| l.split_once(')')) else { return };
+        let rest = rest.trim_start();
+        let leads = [":", "->", "→", "=>", "|", "⇒"].iter().any(|sign| rest.starts_with(sign));
+        let values: Vec<&str> = inner.split([',', ';']).map(str::trim).collect();
+        let is_number =
+            |v: &&str| v.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '-' | '−' | '+' | '.'));
+        if leads && values.len() == self.subject.joints().len() && values.iter().all(is_number) {
+            self.assign_list(List::Joints, &values);
         }
     }
 
@@ -444,9 +462,10 @@ impl Walk<'_> {
             // `f2` may have it as its value, but is not its name.
             let is_own = crate::custom::plain(&plain) == crate::custom::plain(&name);
             let is_load = is_own
-                && (name.len() == 2
-                    && name.starts_with(['F', 'f', 'M', 'm'])
-                    && name.ends_with(['x', 'y', 'z'])
+                && (self.lexis.is_by_custom(&plain)
+                    || name.len() == 2
+                        && name.starts_with(['F', 'f', 'M', 'm'])
+                        && name.ends_with(['x', 'y', 'z'])
                     || self.lexis.habits.load.is_some_and(|l| *name == *l.0.to_string()));
             return match self.constant(value).filter(|_| is_load) {
                 Some(constant) => {
@@ -500,7 +519,11 @@ impl Walk<'_> {
 
 /// True for a text that tells a case, not a configuration.
 pub(super) fn is_case(line: &str) -> bool {
-    const CASES: [&str; 28] = [
+    const CASES: [&str; 32] = [
+        "satisf",
+        "erfüll",
+        "soddisf",
+        "vérifie",
         "if ",
         "iff ",
         "loses rank",

@@ -186,10 +186,15 @@ impl<'a> Machine<'a> {
         }
     }
 
-    /// Marks names as not known.
+    /// Marks names as not known. An array that was only set aside for what is not read is none of the program's results.
     pub fn forget(&mut self, names: &[&'a str]) {
         for name in names {
-            self.frame().slots.insert(name, Slot::default());
+            let before = self.frame().slots.insert(name, Slot::default());
+            if let Some(record) = before.and_then(|slot| self.records.get_mut(slot.record?))
+                && record.as_ref().is_some_and(Assigned::is_set_aside)
+            {
+                *record = None;
+            }
         }
     }
 

@@ -137,6 +137,16 @@ pub struct Assigned {
     pub value: Value,
 }
 
+impl Assigned {
+    /// True for a matrix of zeros alone.
+    fn is_set_aside(&self) -> bool {
+        match &self.value {
+            Value::Matrix(rows) => rows.iter().flatten().all(|cell| cell.value.is_zero()),
+            Value::Scalar(_) => false,
+        }
+    }
+}
+
 /// A value that a function gives back.
 #[derive(Clone, Debug)]
 pub struct Returned {
@@ -383,7 +393,7 @@ fn arguments<'a>(
     is_helper: bool,
 ) -> Result<BTreeMap<&'a str, Object<'a>>, ParseError> {
     if machine.posed.is_some() {
-        return Ok(machine.posed_arguments(&d.parameters));
+        return Ok(machine.posed_arguments(d));
     }
     let mut slots = BTreeMap::new();
     let mut unknown = vec![];
@@ -397,6 +407,27 @@ fn arguments<'a>(
             }
             None if p.default.is_none() => unknown.push(p),
             None => {}
+        }
+    }
+    // Beside all joints as many more: how fast they move.
+    let takes_all = || {
+        let joint = |p: &tree::Parameter| (machine.names)(&p.name).filter(|e| machine.joints.contains(e));
+        d.parameters.iter().filter_map(joint).count() == machine.joints.len()
+    };
+    let rate = |q: &Expr| (machine.names)(&format!("dot{}", q.as_symbol()?.name()));
+    if !unknown.is_empty()
+        && unknown.len() < machine.joints.len() + 1
+        && takes_all()
+        && let Some(rates) = machine.joints.iter().map(rate).collect::<Option<Vec<Expr>>>()
+    {
+        // Those that are known keep their meaning, the others are the rest in their order.
+        let known: Vec<Expr> = d.parameters.iter().filter_map(|p| (machine.names)(&p.name)).collect();
+        let open: Vec<Expr> = rates.into_iter().filter(|r| !known.contains(r)).collect();
+        if open.len() == unknown.len() {
+            for (p, rate) in unknown.iter().zip(open) {
+                slots.insert(p.name.as_str(), Object::Scalar(Scalar::of(rate, &p.span)));
+            }
+            unknown.clear();
         }
     }
     match unknown.as_slice() {

@@ -6,11 +6,11 @@ use super::place::Step;
 use super::records::is_number;
 use super::report;
 use super::scalar::{Read, Scalar};
-use super::tree::{Kind, Node, Parameter, Span, Statement, changed};
+use super::tree::{Definition, Kind, Node, Op, Span, Statement, StatementKind, SuffixKind, changed};
 use super::value::{Matrix, Object, Sort, object};
 use super::{Assigned, Dialect, eval};
 use denavit_symbolic::Expr;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What names mean in a program that is told of a pose.
 #[derive(Clone, Copy)]
@@ -40,15 +40,19 @@ pub fn is_sign_name(name: &str) -> bool {
 
 impl<'a> Machine<'a> {
     /// The arguments of a function that is told of a pose.
-    pub fn posed_arguments(&self, parameters: &'a [Parameter]) -> BTreeMap<&'a str, Object<'a>> {
+    pub fn posed_arguments(&self, d: &'a Definition) -> BTreeMap<&'a str, Object<'a>> {
         let mut slots = BTreeMap::new();
         let Some(posed) = self.posed else { return slots };
-        for p in parameters {
+        let signs = factors_of_roots(&d.body);
+        for p in &d.parameters {
             let scalar = |e: Expr| Object::Scalar(Scalar::of(e, &p.span));
             let is_one = p.default.as_ref().is_some_and(is_plus_or_minus_one);
             let has_number = p.default.as_ref().is_some_and(|d| matches!(d.kind, Kind::Number(..)));
             let lower = p.name.to_lowercase();
-            let is_sign = || p.default.is_none() && (is_sign_name(&lower) || lower == "s");
+            let is_sign = || {
+                let is_called = is_sign_name(&lower) || lower == "s" || signs.contains(p.name.as_str());
+                p.default.is_none() && is_called
+            };
             let value = match () {
                 () if is_one => scalar((posed.sign)(&p.name)),
                 () if has_number => continue,
@@ -133,13 +137,16 @@ impl<'a> Machine<'a> {
     /// `p.x` of C, here `p_x`, where p is a point that a function is told.
     pub fn coordinate(&mut self, name: &'a str, span: &Span) -> Option<Object<'a>> {
         self.posed?;
-        let (base, axis) = name.rsplit_once('_')?;
-        let k = ["x", "y", "z"].iter().position(|a| *a == axis)?;
-        match self.variable(base)?.ok()? {
-            Object::Matrix(m) if m.entries.len() == 3 => {
-                Some(Object::Scalar(m.entries[k].clone().named(span)))
+        let (base, field) = name.rsplit_once('_')?;
+        let Object::Matrix(m) = self.variable(base)?.ok()? else { return None };
+        match ["x", "y", "z"].iter().position(|a| *a == field) {
+            Some(k) if m.entries.len() == 3 => Some(Object::Scalar(m.entries[k].clone().named(span))),
+            Some(k) if m.rows == 4 && m.columns == 4 => {
+                Some(Object::Scalar(m.entries[4 * k + 3].clone().named(span)))
             }
-            _ => None,
+            // Of a pose beside its place: the direction of the hand.
+            None => self.entry_of_pose(field, span).map(Object::Scalar),
+            Some(_) => None,
         }
     }
 
@@ -216,6 +223,62 @@ impl<'a> Machine<'a> {
             self.frame().slots.insert(name, slot);
         }
         Ok(Flow::Next)
+    }
+}
+
+/// The names that are factors of roots, `side * sqrt(1 - c*c)`: an argument of which nothing else is known is 1 or −1 there.
+fn factors_of_roots(body: &[Statement]) -> BTreeSet<&str> {
+    let mut found = BTreeSet::new();
+    for statement in body {
+        match &statement.kind {
+            StatementKind::Assign(_, node) | StatementKind::Return(Some(node)) => {
+                in_products(node, &mut found)
+            }
+            StatementKind::If(arms, other) => {
+                let all = arms.iter().map(|a| &a.1).chain([other]);
+                all.for_each(|body| found.append(&mut factors_of_roots(body)));
+            }
+            StatementKind::For(_, _, body) => found.append(&mut factors_of_roots(body)),
+            _ => {}
+        }
+    }
+    found
+}
+
+fn in_products<'a>(node: &'a Node, found: &mut BTreeSet<&'a str>) {
+    let is_root = |node: &Node| match &node.kind {
+        Kind::Path(base, suffixes) => {
+            let is_named = |name: &str| name == "sqrt" || name == "acos" || name == "arccos";
+            let by_name = matches!(&base.kind, Kind::Name(name) if is_named(name));
+            let by_module =
+                suffixes.iter().any(|s| matches!(&s.kind, SuffixKind::Attribute(a) if is_named(a)));
+            by_name || by_module
+        }
+        _ => false,
+    };
+    match &node.kind {
+        Kind::Chain(first, rest) => {
+            let parts = || std::iter::once(&**first).chain(rest.iter().map(|r| &r.1));
+            let is_product = rest.iter().all(|r| matches!(r.0, Op::Mul | Op::EachMul));
+            if is_product && parts().any(is_root) {
+                found.extend(parts().filter_map(|p| match &p.kind {
+                    Kind::Name(name) => Some(name.as_str()),
+                    _ => None,
+                }));
+            }
+            parts().for_each(|p| in_products(p, found));
+        }
+        Kind::Path(base, suffixes) => {
+            in_products(base, found);
+            for suffix in suffixes {
+                if let SuffixKind::Call(arguments) = &suffix.kind {
+                    arguments.iter().for_each(|a| in_products(&a.value, found));
+                }
+            }
+        }
+        Kind::Bracket(inner) | Kind::Unary(_, inner) => in_products(inner, found),
+        Kind::Tuple(parts) | Kind::List(parts) => parts.iter().for_each(|p| in_products(p, found)),
+        _ => {}
     }
 }
 

@@ -550,4 +550,22 @@ fn variables_with_values_of_configurations() {
     assert_eq!(moves(angle), [turns; 2]);
     let named = "  Axis      theta  d    a     alpha\n  1 swing   q1     880  240   90 deg\n  2 boom    q2     0    1790  0\n  3 stick arm  q3   0   980   0\n";
     assert_eq!(moves(named), [turns; 3]);
+    // A wrist counts on; the values of a sentence are those of a configuration.
+    let wrist =
+        format!("{head}| 1 | th4 | 0 | 0 | -90° |\n| 2 | th5 | 0 | 0 | 90° |\n| 3 | th6 | d6 | 0 | 0 |\n\n");
+    assert_eq!(
+        moves(&format!("{wrist}Numbers: th4 = 30°, th5 = 60°, th6 = 90° gives r33 = 0.5.\n")),
+        [turns; 3]
+    );
+    let beam = format!(
+        "{head}| 1 | p | 142 | 25 | 90° |\n| 2 | t + 90° | 0 | 18 | 90° |\n| 3 | 0 | s | 0 | 0 |\n\n"
+    );
+    assert_eq!(
+        moves(&format!("{beam}For p = 90°, t = 30°, s = 2 the point is Y = 1.7.\n")),
+        [turns, turns, slides]
+    );
+    // A word for a slide among joints with numbers.
+    let boom =
+        format!("{head}| 1 | th1 | 0 | 0 | 90° |\n| 2 | th2 | 0 | 0 | 90° |\n| 3 | 0 | ext | 0 | 0 |\n");
+    assert_eq!(moves(&boom), [turns, turns, slides]);
 }

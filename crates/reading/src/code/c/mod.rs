@@ -230,6 +230,9 @@ impl Writer {
             }
             _ => {}
         }
+        if self.name(self.at) == Some("for") && self.counted_loop() {
+            return;
+        }
         match self.name(self.at) {
             Some("typedef" | "using" | "namespace" | "enum" | "template" | "class") => {
                 return self.passed_over();
@@ -465,6 +468,47 @@ impl Writer {
             self.body();
             return;
         }
+    }
+
+    /// `for (int i = 0; i < 4; i++) …`, as a loop over a range; false for any other loop.
+    fn counted_loop(&mut self) -> bool {
+        let close = self.behind(self.at + 1);
+        let mut k = self.at + 2;
+        while self.name(k).is_some_and(|w| TYPES.contains(&w)) {
+            k += 1;
+        }
+        let (Some(name), "=") = (self.name(k).map(str::to_string), self.op(k + 1)) else { return false };
+        let end_of = |from: usize| (from..close).find(|&i| self.op(i) == ";");
+        let Some(first) = end_of(k + 2) else { return false };
+        let Some(second) = end_of(first + 1) else { return false };
+        let is_name = |i: usize| self.name(i) == Some(&name);
+        let compares = matches!(self.op(first + 2), "<" | "<=") && is_name(first + 1);
+        let step = second + 1;
+        let counts = is_name(step) && self.op(step + 1) == "++" && step + 3 == close
+            || self.op(step) == "++" && is_name(step + 1) && step + 3 == close;
+        // Bounds that are numbers, so that the turns are known.
+        let is_number = |i: usize| matches!(self.tokens.get(i).map(|t| &t.mark), Some(Mark::Number(..)));
+        let has_numbers = (k + 2..first).chain(first + 3..second).all(is_number);
+        if !(compares && counts && has_numbers && first > k + 2 && second > first + 3) {
+            return false;
+        }
+        let is_closed = self.op(first + 2) == "<=";
+        self.word("for");
+        self.word(&name);
+        self.word("in");
+        self.word("range");
+        self.put(Mark::Op("("));
+        self.out.extend_from_slice(&self.tokens[k + 2..first]);
+        self.put(Mark::Op(","));
+        self.out.extend_from_slice(&self.tokens[first + 3..second]);
+        if is_closed {
+            self.put(Mark::Op("+"));
+            self.put(Mark::Number(Rational::from(1), true));
+        }
+        self.put(Mark::Op(")"));
+        self.at = close;
+        self.body();
+        true
     }
 
     fn body(&mut self) {

@@ -18,11 +18,19 @@ pub(super) enum Joint {
     Moves(JointKind, Option<String>),
 }
 
-/// The joint of each row; `is_given` tells the names to which the text gives values.
+/// What the text gives names.
+pub(super) struct Given<'a> {
+    /// True for a name to which it gives a constant.
+    pub is_constant: &'a dyn Fn(&str) -> bool,
+    /// True for two names to which one line gives values.
+    pub gives_both: &'a dyn Fn(&str, &str) -> bool,
+}
+
+/// The joint of each row.
 pub(super) fn joints(
     rows: &[ReadRow],
     convention: Convention,
-    is_given: &dyn Fn(&str) -> bool,
+    given: &Given<'_>,
     out: &mut Diagnostics,
 ) -> Vec<Joint> {
     let starred = rows.iter().any(|r| r.cells().iter().any(|c| c.star));
@@ -37,7 +45,7 @@ pub(super) fn joints(
         && !out.has_errors()
         && rows.iter().all(|r| !says_what_moves(r));
     if is_silent && joints.iter().all(|j| *j == Joint::Fixed) {
-        return by_words(rows, convention.length_z(), is_given, out);
+        return by_words(rows, convention.length_z(), given, out);
     }
     for (row, joint) in rows.iter().zip(&mut joints).filter(|(row, _)| !starred && !says_what_moves(row)) {
         if *joint == Joint::Fixed
@@ -51,9 +59,25 @@ pub(super) fn joints(
     joints
 }
 
-/// The letter of a way along z in a row that does not turn, where other rows move: `s`, or `p3` in row 3.
+/// The letter of a way along z in a row that does not turn, where other rows move: `s`, or `p3` in row 3; or a word for one.
 fn slide(row: &ReadRow) -> Option<String> {
-    const LETTERS: [&str; 8] = ["s", "p", "x", "y", "z", "u", "rho", "lambda"];
+    const LETTERS: [&str; 15] = [
+        "s",
+        "p",
+        "x",
+        "y",
+        "z",
+        "u",
+        "rho",
+        "lambda",
+        "ext",
+        "extension",
+        "stroke",
+        "slide",
+        "lift",
+        "hub",
+        "telescope",
+    ];
     let [(name, _)] = &row.z.cell.symbols[..] else { return None };
     let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
     let index = &name[stem.len()..];
@@ -78,19 +102,28 @@ fn says_what_moves(row: &ReadRow) -> bool {
 
 /// The joints of a table whose variables have names of their own (`pan`, `tilt`, `rho`): the one symbol of θ that has no
 /// value turns; where θ is a number, the one along z that stands nowhere else slides. Values are those of a configuration where
-/// the names are numbered as the rows are (`φ1`, `φ2`), or where nothing would turn without these names.
-fn by_words(rows: &[ReadRow], z: &str, is_given: &dyn Fn(&str) -> bool, out: &mut Diagnostics) -> Vec<Joint> {
+/// the names are numbered as the rows are (`φ1`, `φ2`, or `θ4`, `θ5` of a wrist), where nothing would turn without these names, or
+/// where the line that gives one gives another angle its value, too.
+fn by_words(rows: &[ReadRow], z: &str, given: &Given<'_>, out: &mut Diagnostics) -> Vec<Joint> {
+    let is_constant = given.is_constant;
     let turning = || rows.iter().filter(|r| !r.theta.cell.symbols.is_empty());
-    let stem = |row: &ReadRow| -> Option<String> {
+    // The stem of a name, and how far its number is from that of the row.
+    let counted = |row: &ReadRow| -> Option<(String, usize)> {
         let [(name, _)] = &row.theta.cell.symbols[..] else { return None };
-        let stem = name.strip_suffix(&row.number.to_string())?;
-        (!stem.is_empty() && !stem.ends_with(|c: char| c.is_ascii_digit())).then(|| stem.to_string())
+        let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
+        let number: usize = name[stem.len()..].parse().ok()?;
+        Some((stem.to_string(), number.checked_sub(row.number)?)).filter(|_| !stem.is_empty())
     };
-    let first = turning().next().and_then(stem);
-    let is_counted = turning().count() > 1 && first.is_some() && turning().all(|r| stem(r) == first);
-    let is_still = turning().all(|r| r.theta.cell.symbols.iter().all(|s| is_given(&s.0)));
-    let is_angle = |name: &str| turning().any(|r| r.theta.cell.symbols.iter().any(|s| s.0 == name));
-    let is_given = |name: &str| is_given(name) && !(is_angle(name) && (is_counted || is_still));
+    let first = turning().next().and_then(counted);
+    let is_counted = turning().count() > 1 && first.is_some() && turning().all(|r| counted(r) == first);
+    let angles = || turning().flat_map(|r| &r.theta.cell.symbols).map(|s| s.0.as_str());
+    let is_still = angles().all(is_constant);
+    let is_angle = |name: &str| angles().any(|a| a == name);
+    let is_beside = |name: &str| {
+        angles().any(|other| other != name && !is_constant(other) && (given.gives_both)(name, other))
+    };
+    let is_given =
+        |name: &str| is_constant(name) && !(is_angle(name) && (is_counted || is_still || is_beside(name)));
     let open = |cell: &TableCell| -> Option<String> {
         let mut names = cell.cell.symbols.iter().map(|s| &s.0).filter(|n| !is_given(n));
         let first = names.next()?;

@@ -8,6 +8,11 @@ use std::ops::Range;
 
 const KEYS: &[&str] = &["convention", "columns", "angles", "lengths", "name"];
 
+/// So many lines with several names are looked at.
+const MAX_BESIDE: usize = 200;
+/// The most names of a line that are kept.
+const MAX_NAMES: usize = 20;
+
 /// `key: value`
 struct Directive {
     key: String,
@@ -19,6 +24,8 @@ pub(super) struct Lines {
     directives: Vec<Directive>,
     /// `D3 = 450 mm`: the plain name and the text of the value.
     pub values: Vec<(String, GridCell)>,
+    /// Names that one line gives values, or formulas.
+    beside: Vec<Vec<String>>,
     headings: Vec<GridCell>,
 }
 
@@ -53,7 +60,7 @@ impl Around {
 
 impl Lines {
     pub fn of(text: &str) -> Self {
-        let mut found = Lines { directives: vec![], values: vec![], headings: vec![] };
+        let mut found = Lines { directives: vec![], values: vec![], beside: vec![], headings: vec![] };
         for span in lines(text) {
             let line = &text[span.clone()];
             if line.len() > 1000 {
@@ -125,9 +132,22 @@ impl Lines {
         }
     }
 
+    /// True if a line gives two names values: `for p = 90°, t = 30° the point is …`.
+    pub fn gives_both(&self, one: &str, other: &str) -> bool {
+        let has = |line: &[String], name: &str| line.iter().any(|n| n == name);
+        self.beside.iter().any(|line| has(line, one) && has(line, other))
+    }
+
     /// `a2 = 0.43 m, a3 = 0.02 m`
     fn equations(&mut self, text: &str, span: Range<usize>) {
         let line = &text[span.clone()];
+        if self.beside.len() < MAX_BESIDE && line.matches('=').take(2).count() > 1 {
+            let names = line.split('=').filter_map(|left| {
+                let word = left.trim_end().rsplit([' ', '(', ',', ';', '$', ':']).next()?;
+                name_of(word, true)
+            });
+            self.beside.push(names.take(MAX_NAMES).collect());
+        }
         let mut start = span.start;
         let cuts = line
             .match_indices([',', ';'])

@@ -3,7 +3,7 @@
 use super::after::antecedents;
 use super::columns::{Column, Role};
 use super::find::{GridCell, Separator};
-use super::joint::{Joint, joints};
+use super::joint::{Given, Joint, joints};
 use super::layout::Layout;
 use super::letters::{Letters, check_letters, columns, convention, letters};
 use super::lines::{Around, Lines};
@@ -240,8 +240,10 @@ fn read_as(letters: &Letters, tables: &Tables, out: &mut Diagnostics) -> Reading
             out.add(finding);
         }
     }
-    let is_given = |name: &str| values::is_constant(name, lines, &units);
-    let joints = joints(&read, letters.convention, &is_given, out);
+    let is_constant = |name: &str| values::is_constant(name, lines, &units);
+    let gives_both = |one: &str, other: &str| lines.gives_both(one, other);
+    let given = Given { is_constant: &is_constant, gives_both: &gives_both };
+    let joints = joints(&read, letters.convention, &given, out);
     rename(&mut read, &joints, &units, out);
     units.angle = units.angle.or(common_unit(&told_columns[0], Quantity::Angle));
     units.length = units.length.or(common_unit(&told_columns[0], Quantity::Length));
