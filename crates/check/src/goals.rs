@@ -33,8 +33,17 @@ pub(super) fn judged(text: &str, plan: &Plan, walked: &Walked) -> Vec<Claim> {
         groups.push(&answers[at..at + count]);
         at += count;
     }
+    // Lengths without a unit may be in millimetres where those of the robot are in metres.
+    let units = if plan.habits.millimetres { &[1.0, 1e-3][..] } else { &[1.0] };
     let verdicts = |group: &[Answered], is_exact: bool| {
-        Some(Search::new(&plan.subjects[group.first()?.subject], group, is_exact)?.verdicts())
+        let subject = &plan.subjects[group.first()?.subject];
+        let mut all = units.iter().filter_map(|&unit| {
+            let search = Search::new(subject, group, is_exact)?;
+            Some(Search { unit, size: search.size * unit, ..search }.verdicts())
+        });
+        let is_some_right = |v: &Vec<Option<bool>>| v.contains(&Some(true));
+        let first = all.next()?;
+        if is_some_right(&first) { Some(first) } else { all.find(is_some_right).or(Some(first)) }
     };
     let is_same = |a: &[Answered], b: &[Answered]| {
         let key = |g: &[Answered]| -> Vec<(Expr, u64)> {
@@ -108,6 +117,8 @@ struct Search<'a> {
     size: f64,
     /// The pose is exactly what is printed.
     is_exact: bool,
+    /// Lengths in print are in this unit.
+    unit: f64,
 }
 
 impl<'a> Search<'a> {
@@ -124,7 +135,7 @@ impl<'a> Search<'a> {
         if !(0..joints.len()).all(|k| asked(&k)) {
             return None;
         }
-        let search = Search { subject, group, is_angle, moving, size: 1.0, is_exact };
+        let search = Search { subject, group, is_angle, moving, size: 1.0, is_exact, unit: 1.0 };
         let is_known =
             targets.iter().all(|t| search.value(t.wanted, &vec![0.1; search.is_angle.len()]).is_some());
         if targets.len() < search.moving.len() || search.moving.is_empty() || !is_known {
@@ -138,6 +149,10 @@ impl<'a> Search<'a> {
 
     fn scale(&self, target: &Target) -> f64 {
         if target.is_length { self.size } else { 1.0 }
+    }
+
+    fn scaled(&self, target: &Target) -> f64 {
+        if target.is_length { self.unit } else { 1.0 }
     }
 
     fn value(&self, e: Expr, q: &[f64]) -> Option<f64> {
@@ -182,12 +197,19 @@ impl<'a> Search<'a> {
     fn residuals(&self, fixed: &[Fixed], q: &[f64]) -> Option<Vec<f64>> {
         let mut found = vec![];
         for t in &self.group[0].targets {
-            let off = self.value(t.wanted, q)? - t.printed;
-            let half = if self.is_exact { 0.0 } else { t.half };
+            let off = self.value(t.wanted, q)? - t.printed * self.scaled(t);
+            let half = if self.is_exact { 0.0 } else { t.half * self.scaled(t) };
             found.push(off / (half + 2e-4 * self.scale(t)));
         }
         for (of, value, half) in fixed {
-            let off = self.value(*of, q)? - value;
+            let own = self.value(*of, q)?;
+            // A length, an area, or neither.
+            let powers = if self.unit == 1.0 || self.turns(*of) { 1 } else { 3 };
+            let value = (0..powers)
+                .map(|p| value * self.unit.powi(p))
+                .min_by(|a, b| (a - own).abs().total_cmp(&(b - own).abs()));
+            let value = &value?;
+            let off = own - value;
             let off = if self.turns(*of) { off - TAU * (off / TAU).round() } else { off };
             let scale = match () {
                 () if self.turns(*of) => 1.0,
@@ -257,7 +279,10 @@ impl<'a> Search<'a> {
             let mut there = q.to_vec();
             there[k] += step;
             let Some(moved) = self.residuals(&[], &there) else { return false };
-            let scale = self.group[0].targets.iter().map(|t| (t.half + 2e-4 * self.scale(t)) / self.scale(t));
+            let scale = self.group[0]
+                .targets
+                .iter()
+                .map(|t| (t.half * self.scaled(t) + 2e-4 * self.scale(t)) / self.scale(t));
             let column = moved.iter().zip(&r).zip(scale).map(|((a, b), s)| (a - b) / 1e-6 * s);
             columns.push(column.collect::<Vec<f64>>());
         }

@@ -298,12 +298,17 @@ fn candidates(
             MARGIN,
         ));
     }
+    // A coordinate whose others are those of the hand is the hand's.
+    let is_entry = |a: &&Assertion| a.about == About::Entry && score.right_at.contains(&a.span.start);
+    let entries = walked.assertions.iter().filter(is_entry);
+    let known: BTreeSet<String> =
+        entries.map(|a| family(&plain_name(&super::custom::plain(&a.name)))).collect();
     let names: BTreeSet<String> = wrong
         .iter()
         .filter(|a| matches!(a.about, About::Entry | About::Equation) && a.spoken.is_none())
         .map(|a| plain_name(&super::custom::plain(&a.name)))
         .filter(|n| n.chars().count() <= 6 && n.chars().all(char::is_alphanumeric))
-        .filter(|n| may_be_helper(n, letters.tells_hand))
+        .filter(|n| may_be_helper(n, letters.tells_hand) && !known.contains(&family(n)))
         .chain(walked.defined.iter().filter(|d| d.by_custom).map(|d| plain_name(&d.name)))
         .collect();
     let families: BTreeSet<String> = names.iter().map(|n| family(n)).collect();

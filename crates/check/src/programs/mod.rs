@@ -425,14 +425,14 @@ impl Program<'_> {
         let hand = Matrix::of(&pose).0.concat();
         let of_hand = hand.iter().flatten().flat_map(|e| e.symbols());
         let mut of_hand = of_hand.filter(|s| self.subject.joints().contains(&(*s).into()));
-        let is_other = rows.len() == 4 && of_hand.any(|s| !printed.contains(&s));
+        let is_jacobian = function.name.to_lowercase().contains("jac") || shown.starts_with('J');
+        let is_other = !is_jacobian && rows.len() == 4 && of_hand.any(|s| !printed.contains(&s));
         if is_other && shown.ends_with("(…)") {
             let values = rows.iter().map(|r| r.iter().map(|c| Some(in_radians(c.value))).collect()).collect();
             let ((matrix, about), agreement) = recognised::nearest(self.subject, &Matrix(values))?;
             let pieces = self.compare(rows, &matrix).filter(|_| agreement.is_whole)?;
             return Some(self.assertion(shown, About::Matrix(about), span, pieces, Some(matrix)));
         }
-        let is_jacobian = function.name.to_lowercase().contains("jac") || shown.starts_with('J');
         let hand = Meaning::Frame { of: Reference::Tool, seen_from: Reference::Frame(0) };
         let (matrix, about) = match (rows.len(), columns) {
             (n, m) if is_jacobian && m == joints && n <= 6 => {

@@ -181,6 +181,25 @@ impl Walk<'_> {
             && !denavit_symbolic::equal(left.value(), right).is_equal()
     }
 
+    /// True for an equation behind words that something satisfies it: it holds there.
+    pub(super) fn is_satisfied(&self, statement: &Statement) -> bool {
+        const WORDS: [&str; 9] = [
+            "satisfies",
+            "satisfy",
+            "satisfying",
+            "erfüllt",
+            "satisface",
+            "satisfait",
+            "vérifie",
+            "soddisfa",
+            "satisfaz",
+        ];
+        let before = self.text.get(..statement.span.start).unwrap_or_default();
+        let marks = [' ', '\n', '$', ':', '[', '\\', '&', '~'];
+        let before = before.trim_end_matches(marks);
+        WORDS.iter().any(|w| before.ends_with(w))
+    }
+
     /// True for a number of the hand's place that somebody measured: `we measured x = 367.1`.
     pub(super) fn is_read_off(&self, statement: &Statement, read: &[Scalar]) -> bool {
         const WORDS: [&str; 13] = [
@@ -204,12 +223,23 @@ impl Walk<'_> {
         if !right.value().symbols().is_empty() || !self.is_right_name(name) {
             return false;
         }
-        let before = self.text.get(..statement.span.start).unwrap_or_default();
-        let line = before.rsplit("\n\n").next().unwrap_or_default();
+        let end = statement.span.start;
+        let start =
+            (end.saturating_sub(2 * NEAR)..=end).find(|&i| self.text.is_char_boundary(i)).unwrap_or(end);
+        let before = self.text.get(start..end).unwrap_or_default();
+        let paragraph = before.rsplit("\n\n").next().unwrap_or_default();
+        // What stands behind an equation on a line of its own speaks of that.
+        let line = match paragraph.rsplit_once('\n') {
+            Some((above, line)) => {
+                let lines = above.rsplit('\n').take_while(|l| !l.contains('='));
+                let length: usize = lines.map(|l| l.len() + 1).sum();
+                &paragraph[paragraph.len() - line.len() - length..]
+            }
+            None => paragraph,
+        };
         let sentence = line.rsplit(". ").next().unwrap_or_default();
         let sentence = sentence.rsplit([':', ';', '!']).find(|s| s.trim().len() > 3).unwrap_or_default();
-        let start = before.len() - line.len();
-        let is_short = statement.span.start - start < NEAR && sentence.len() < NEAR;
+        let is_short = line.len() < NEAR;
         let sentence = sentence.to_lowercase();
         is_short
             && WORDS.iter().any(|w| {

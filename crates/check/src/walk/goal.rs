@@ -200,6 +200,13 @@ impl Walk<'_> {
             return false;
         }
         let Ok(value) = number.value().eval(|_| None) else { return false };
+        // `β = q_2 + q_3 + q_4 = -30°` tells the direction of the hand.
+        let form = Angle::of(of);
+        if form.terms.len() > 1 && form.terms.iter().all(|t| joints.contains(&t.0)) {
+            let target = Target::new(&self.subject, of, value, self.half(span));
+            self.aim_at(statement, vec![target]);
+            return false;
+        }
         let answered = Answered {
             span: statement.span.clone(),
             name: self.claim_name(statement),

@@ -70,7 +70,20 @@ impl Walk<'_> {
                     ends(sentence[..i].chars().next_back()) && ends(sentence[i + name.len()..].chars().next())
                 })
         };
-        let named: Vec<&(String, Values)> = self.labels.0.iter().filter(|l| is_there(&l.0)).collect();
+        // `in point A` of `measuring point A`.
+        let words: Vec<&str> =
+            sentence.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).collect();
+        let is_short = |name: &str| {
+            let Some((before, letter)) = name.rsplit_once(' ') else { return false };
+            let last = before.rsplit(' ').next().unwrap_or_default();
+            letter.chars().count() == 1
+                && words.windows(2).any(|w| w[1] == letter && w[0].len() >= SHORTEST && last.ends_with(w[0]))
+        };
+        let labels = || self.labels.0.iter();
+        let mut named: Vec<&(String, Values)> = labels().filter(|l| is_there(&l.0)).collect();
+        if named.is_empty() {
+            named = labels().filter(|l| is_short(&l.0)).collect();
+        }
         if let [(_, values)] = &named[..] {
             let values = values.clone();
             self.seek(false);

@@ -119,7 +119,7 @@ impl Walk<'_> {
         if self.tells_goal(statement) {
             self.look_for_joints();
         }
-        let is_case = self.is_case(statement);
+        let is_case = self.is_case(statement) || self.is_satisfied(statement);
         if is_case && (self.case(statement, &read) || self.is_open(&read)) {
             self.take_as_case(statement);
             return true;

@@ -341,7 +341,17 @@ impl<'t> Reader<'t> {
     /// Whether the last statement waits for its last side, and `span` follows at once.
     fn pending(&self, span: &Range<usize>) -> bool {
         let empty = self.statements.last().and_then(|s| s.sides.last()).is_some_and(|s| s.parts.is_empty());
-        empty && self.follows(span)
+        empty && (self.follows(span) || self.begins_fence(span))
+    }
+
+    /// Whether only the first line of a fence stands between the last statement and `span`: `T =` above a matrix in one.
+    fn begins_fence(&self, span: &Range<usize>) -> bool {
+        self.statements.last().is_some_and(|s| {
+            s.sides.len() < LONGEST_CHAIN && s.span.end <= span.start && span.start - s.span.end < 100 && {
+                let gap = cut(self.text, &(s.span.end..span.start)).trim();
+                matches!(gap, "```" | "```text" | "```txt" | "```math" | "~~~")
+            }
+        })
     }
 
     /// Whether only marks of formulas stand between the last statement and `span`.

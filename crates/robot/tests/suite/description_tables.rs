@@ -568,4 +568,9 @@ fn variables_with_values_of_configurations() {
     let boom =
         format!("{head}| 1 | th1 | 0 | 0 | 90° |\n| 2 | th2 | 0 | 0 | 90° |\n| 3 | 0 | ext | 0 | 0 |\n");
     assert_eq!(moves(&boom), [turns, turns, slides]);
+    // One letter for all joints.
+    let scara = format!(
+        "{head}| 1 | t1 | h | a | 0 |\n| 2 | t2 | 0 | b | 180° |\n| 3 | 0 | t3 | 0 | 0 |\n| 4 | t4 | k | 0 | 0 |\n"
+    );
+    assert_eq!(moves(&scara), [turns, turns, slides, turns]);
 }

@@ -47,9 +47,11 @@ pub(super) fn joints(
     if is_silent && joints.iter().all(|j| *j == Joint::Fixed) {
         return by_words(rows, convention.length_z(), given, out);
     }
+    // The letter of the angles that turn is that of all joints: `t3` along z beside θ1 = `t1`.
+    let stems: Vec<String> = joints.iter().filter_map(stem_of_angle).collect();
     for (row, joint) in rows.iter().zip(&mut joints).filter(|(row, _)| !starred && !says_what_moves(row)) {
         if *joint == Joint::Fixed
-            && let Some(name) = slide(row)
+            && let Some(name) = slide(row, &stems)
         {
             let (z, number) = (convention.length_z(), row.number);
             note_slide(&row.z, (&name, number, z), out);
@@ -59,8 +61,16 @@ pub(super) fn joints(
     joints
 }
 
-/// The letter of a way along z in a row that does not turn, where other rows move: `s`, or `p3` in row 3; or a word for one.
-fn slide(row: &ReadRow) -> Option<String> {
+/// The letter of a joint that turns, without its number.
+fn stem_of_angle(joint: &Joint) -> Option<String> {
+    let Joint::Moves(JointKind::Revolute, Some(name)) = joint else { return None };
+    let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
+    (!stem.is_empty() && stem.len() < name.len()).then(|| stem.to_string())
+}
+
+/// The letter of a way along z in a row that does not turn, where other rows move: `s`, or `p3` in row 3, or one of `stems` with
+/// the number of the row; or a word for one.
+fn slide(row: &ReadRow, stems: &[String]) -> Option<String> {
     const LETTERS: [&str; 15] = [
         "s",
         "p",
@@ -83,7 +93,8 @@ fn slide(row: &ReadRow) -> Option<String> {
     let index = &name[stem.len()..];
     let is_own = index.is_empty() || index.parse() == Ok(row.number);
     let is_elsewhere = [&row.x, &row.alpha].into_iter().any(|c| c.cell.symbols.iter().any(|s| s.0 == *name));
-    (LETTERS.contains(&stem) && is_own && row.theta.cell.symbols.is_empty() && !is_elsewhere)
+    let is_joint = !index.is_empty() && stems.iter().any(|s| s == stem);
+    ((LETTERS.contains(&stem) || is_joint) && is_own && row.theta.cell.symbols.is_empty() && !is_elsewhere)
         .then(|| name.clone())
 }
 
