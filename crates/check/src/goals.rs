@@ -65,8 +65,11 @@ pub(super) fn judged(text: &str, plan: &Plan, walked: &Walked) -> Vec<Claim> {
         found.extend(own.into_iter().flatten().zip(group.iter()).map(|(v, a)| (v, a, *group)));
     }
     // What is wrong is so only beside something that is right of the same robot: then the pose is the one that is meant.
-    let is_meant = found.iter().any(|(v, ..)| *v == Some(true));
-    let claims = found.into_iter().map(|(verdict, answer, group)| {
+    let right: Vec<&[Answered]> = found.iter().filter(|f| f.0 == Some(true)).map(|f| f.2).collect();
+    let claims = found.iter().map(|&(verdict, answer, group)| {
+        // Of a formula the pose itself must be borne out.
+        let is_joint = plan.subjects[answer.subject].joints().contains(&answer.of);
+        let is_meant = right.iter().any(|other| is_joint || is_same(other, group));
         let finding = match verdict {
             Some(true) => Finding::Equal { unless_zero: vec![] },
             Some(false) if is_meant => Finding::Wrong(Box::new(wrong(plan, answer, group))),

@@ -6,7 +6,7 @@ use crate::names::Name;
 use crate::numbers::Configuration;
 use crate::subject::Subject;
 use denavit_reading::document::{Part, Place, Statement};
-use denavit_symbolic::parse::Syntax;
+use denavit_symbolic::parse::{Syntax, SyntaxKind};
 use denavit_symbolic::{Angle, Expr};
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -67,6 +67,8 @@ const GIVEN: [&str; 15] = [
 /// No pose has more numbers.
 const MAX_TARGETS: usize = 16;
 
+/// A number beside others of a pose stands no farther behind them, in bytes.
+const MAX_BESIDE: usize = 40;
 /// Numbers of one pose stand no farther from each other, in bytes.
 const FAR: usize = 300;
 
@@ -137,6 +139,17 @@ impl Walk<'_> {
         if targets.is_empty() {
             return false;
         }
+        // The direction of the hand beside the place that is to be reached: `x = 150, y = 0, z = 40, p = -90`.
+        let is_named_sum = matches!(read.first(), Some(Scalar::Formula(_, s)) if matches!(s.kind, SyntaxKind::Name(_)))
+            && Angle::of(of).terms.len() > 1;
+        let between = self.text.get(self.goal_at.min(statement.span.start)..statement.span.start);
+        if is_named_sum && between.is_some_and(|b| b.len() < MAX_BESIDE && !b.contains('\n')) {
+            let Ok(value) = syntax.value().eval(|_| None) else { return false };
+            let target = Target::new(&self.subject, of, self.in_radians(span, value), self.half(span));
+            self.aim_at(statement, vec![target]);
+            self.taken.push(statement.span.clone());
+            return true;
+        }
         // `With θ1 = 30°, θ2 = 45°:` begins what is computed from them.
         let rest = self.text.get(statement.span.end..).unwrap_or_default();
         let line = rest.split('\n').next().unwrap_or_default();
@@ -175,6 +188,13 @@ impl Walk<'_> {
         self.only_numbers(read)
     }
 
+    /// An angle in print in radians: one without a unit that is more than a turn, or a multiple of 5, is in degrees.
+    fn in_radians(&self, span: &Range<usize>, value: f64) -> f64 {
+        let is_bare = !self.source(span).contains(|c: char| c.is_alphabetic() || matches!(c, '°' | 'π'));
+        let looks_like_degrees = value.abs() > 2.0 * PI || value != 0.0 && value % 5.0 == 0.0;
+        if is_bare && looks_like_degrees { value.to_radians() } else { value }
+    }
+
     /// Keeps the number that a formula has where the pose is reached, `cos θ_3 = 0.426`, `D = (x² + y² - …)/… = 0.18`; false if
     /// there is more to judge.
     fn number_at_goal(&mut self, statement: &Statement, read: &[Scalar]) -> bool {
@@ -203,8 +223,11 @@ impl Walk<'_> {
         // `β = q_2 + q_3 + q_4 = -30°` tells the direction of the hand.
         let form = Angle::of(of);
         if form.terms.len() > 1 && form.terms.iter().all(|t| joints.contains(&t.0)) {
-            let target = Target::new(&self.subject, of, value, self.half(span));
+            let target = Target::new(&self.subject, of, self.in_radians(span, value), self.half(span));
             self.aim_at(statement, vec![target]);
+            return false;
+        }
+        if statement.span.start.saturating_sub(self.goal_at) > 2 * FAR {
             return false;
         }
         let answered = Answered {

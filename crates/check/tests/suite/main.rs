@@ -14,6 +14,7 @@ mod ordinary;
 mod programs;
 mod readings;
 mod scripts;
+mod spoken;
 mod statements;
 mod strangers;
 mod tables;

@@ -67,7 +67,8 @@ fn what_somebody_measured_is_no_claim() {
     is(&format!("{text}We measured x = 0.295 m there.\n"), &[("x", RIGHT)]);
     is(&format!("{text}Again x = 0.295 m there.\n"), &[("x", &[Standing::Equal, Standing::Wrong])]);
     // The remark behind a value says nothing of the next line.
-    let lines = "θ1 = 0°, θ2 = 90°:\n\n    x = 0.300 m    measured 0.295\n    y = 0.250 m    measured 0.199\n";
+    let lines =
+        "θ1 = 0°, θ2 = 90°:\n\n    x = 0.300 m    measured 0.295\n    y = 0.250 m    measured 0.199\n";
     is(&format!("{PLANAR}a1 = 0.3 m, a2 = 0.2 m.\n\n{lines}"), &[("x", RIGHT), ("y", WRONG)]);
 }
 
@@ -112,7 +113,9 @@ fn entries_of_the_matrix_printed_last() {
 
 #[test]
 fn what_something_satisfies_holds_there() {
-    let text = format!("{PLANAR}$$ x = a_1 c_1 + a_2 c_{{12}} $$\n\nOn the axis the angles satisfy\n\n$$ a_1 c_1 + a_2 c_{{12}} = -a_1 $$\n");
+    let text = format!(
+        "{PLANAR}$$ x = a_1 c_1 + a_2 c_{{12}} $$\n\nOn the axis the angles satisfy\n\n$$ a_1 c_1 + a_2 c_{{12}} = -a_1 $$\n"
+    );
     let found = read(&text, Format::Markdown, None);
     assert!(found.claims.iter().all(|c| c.standing() == Standing::Equal), "{:#?}", found.claims);
 }
@@ -198,7 +201,14 @@ fn velocities_and_torques_of_programs() {
     let text = format!(
         "{TURRET}/* speed of the hand */\nvoid speed(double th1, double th2, double ext, double w1, double w2, double ve, double v[3])\n{{\n    double c1 = cos(th1), s1 = sin(th1), c2 = cos(th2), s2 = sin(th2);\n    double rho = A1 + ext*c2;\n    v[0] = -rho*s1*w1 - ext*c1*s2*w2 + c1*c2*ve;\n    v[1] =  rho*c1*w1 - ext*s1*s2*w2 + s1*c2*ve;\n    v[2] =  ext*c2*w2 + s2*ve;\n}}\n\ndouble detj(double th2, double ext)\n{{\n    return ext*(A1 + ext*cos(th2));\n}}\n\n/* tau = J^T f for a load (fx, fy, fz) */\nvoid hold(double th1, double th2, double ext, double fx, double fy, double fz, double tau[3])\n{{\n    double c1 = cos(th1), s1 = sin(th1), c2 = cos(th2), s2 = sin(th2);\n    tau[0] = (A1 + ext*c2)*(c1*fy - s1*fx);\n    tau[1] = ext*(c2*fz - s2*(c1*fx + s1*fy));\n    tau[2] = c1*c2*fx + s1*c2*fy + s2*fz;\n}}\n"
     );
-    let right = [("v[0]", RIGHT), ("v[1]", RIGHT), ("v[2]", RIGHT), ("detj(…)", RIGHT), ("tau[1]", RIGHT), ("tau[2]", RIGHT)];
+    let right = [
+        ("v[0]", RIGHT),
+        ("v[1]", RIGHT),
+        ("v[2]", RIGHT),
+        ("detj(…)", RIGHT),
+        ("tau[1]", RIGHT),
+        ("tau[2]", RIGHT),
+    ];
     is_program(&text, Dialect::C, &right);
     let wrong = text.replace("ext*c2*w2 + s2*ve", "ext*c2*w2 - s2*ve").replace("s2*fz;", "c2*fz;");
     is_program(&wrong, Dialect::C, &[("v[1]", RIGHT), ("v[2]", WRONG), ("tau[1]", RIGHT), ("tau[2]", WRONG)]);
