@@ -156,7 +156,9 @@ impl Walk<'_> {
             });
             own.is_some() && agreeing > 0 && others.any(|o| Some(o) == own)
         };
-        let is_near = is_near || is_column();
+        // All but one component of a velocity.
+        let is_velocity = is_velocity && is_vector && agreeing > 1 && 3 * agreeing >= 2 * telling;
+        let is_near = is_near || is_velocity || is_column();
         let is_certain = is_whole && (telling >= 2 || telling == 1 && (is_place || !is_vector));
         (is_certain || is_near).then_some(Reference { matrix, about: Some(about) })
     }

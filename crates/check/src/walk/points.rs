@@ -165,7 +165,7 @@ fn claims(point: &[(usize, &Defined)], subject: &Subject) -> Vec<Assertion> {
         }
     }
     let is_enough = |b: &(usize, usize)| 2 * b.0 >= point.len() || told.is_some() && b.0 > 0;
-    let Some((count, k)) = best.filter(is_enough) else { return vec![] };
+    let Some((count, k)) = best.filter(is_enough) else { return axis_of_frame(point, subject) };
     // One of three is little: all may be something else.
     if count > 1 || point.len() == 2 || told.is_some() {
         let origin = subject.origin(k);
@@ -173,6 +173,47 @@ fn claims(point: &[(usize, &Defined)], subject: &Subject) -> Vec<Assertion> {
         // A distance from an axis, `√(x² + y²) - L`, is no coordinate in the base.
         let coordinates = point.iter().filter(|(_, d)| !has_root_of_sum(d.value));
         return coordinates.map(|(axis, d)| assertion(d, origin[*axis], &frame)).collect();
+    }
+    axis_of_frame(point, subject)
+}
+
+/// The claims that the components of an axis make, `u_x`, `u_y`, `u_z`: all, or all but one, are those of one axis of a frame.
+fn axis_of_frame(point: &[(usize, &Defined)], subject: &Subject) -> Vec<Assertion> {
+    let mut points = Points::new(67);
+    let Ok([a, b, c]) = <[(usize, &Defined); 3]>::try_from(point) else { return vec![] };
+    let printed = [a, b, c];
+    let is_told = [0, 1, 2].iter().all(|k| printed.iter().any(|p| p.0 == *k));
+    let values = printed.map(|(_, d)| points.value(d.value));
+    let moves = |e: Expr| e.symbols().iter().any(|s| subject.joints().contains(&(*s).into()));
+    if !is_told || values.iter().any(Option::is_none) {
+        return vec![];
+    }
+    let frames = (0..=subject.last().min(MAX_FRAMES)).filter_map(|k| subject.transform(Some(0), Some(k)));
+    for frame in frames.chain([subject.pose()]) {
+        let rows = frame.rotation.rows();
+        for column in 0..3 {
+            let wanted = printed.map(|(axis, _)| rows[axis][column]);
+            let agrees = [0, 1, 2].map(|k| points.value(wanted[k]) == values[k]);
+            let moving = (0..3).filter(|&k| agrees[k] && moves(wanted[k])).count();
+            // A component that does not move tells little.
+            let is_it = match agrees.iter().filter(|a| **a).count() {
+                3 => moving > 1,
+                2 => moving == 2 && wanted.iter().all(|e| moves(*e)),
+                _ => false,
+            };
+            if is_it {
+                let pair = |(d, wanted): (&Defined, Expr)| Pair {
+                    place: None,
+                    span: d.span.clone(),
+                    printed: Some(d.printed.clone()),
+                    value: d.value,
+                    wanted,
+                    also: vec![],
+                };
+                let all = printed.iter().map(|p| p.1).zip(wanted);
+                return all.map(|(d, wanted)| equation(d, pair((d, wanted)))).collect();
+            }
+        }
     }
     vec![]
 }

@@ -264,3 +264,21 @@ fn rows_of_a_list_that_is_returned() {
     let wrong = read(&text.replace("z = d1 +", "z = d1 -"), Format::Plain, Some(Dialect::Python));
     assert!(wrong.claims.iter().any(|c| c.standing() == Standing::Wrong), "{:#?}", wrong.claims);
 }
+
+#[test]
+fn components_of_an_axis_under_names_of_the_author() {
+    let table = "DH (standard)\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | θ1 | h | 0 | 90° |\n| 2 | θ2 + 90° | 0 | 0 | 90° |\n| 3 | 0 | d3 | 0 | 0 |\n\nThe direction of the beam is\n\n";
+    let text = format!("{table}ux = cos θ1 cos θ2\n\nuy = sin θ1 cos θ2\n\nuz = sin θ2\n");
+    is(&text, &[("ux", RIGHT), ("uy", RIGHT), ("uz", RIGHT)]);
+    is(&text.replace("uz = sin", "uz = cos"), &[("ux", RIGHT), ("uy", RIGHT), ("uz", WRONG)]);
+    // One of three says nothing.
+    is(&text.replace("uz = sin θ2", "uz = 2").replace("uy = sin", "uy = cos"), &[("ux", &[]), ("uy", &[])]);
+}
+
+#[test]
+fn a_velocity_with_one_slip() {
+    let table = "| i | α(i−1) | a(i−1) | d(i) | θ(i) |\n|---|---|---|---|---|\n| 1 | 0 | 0 | 0 | θ1 |\n| 2 | 90° | 0 | d2 | 0 |\n| 3 | 0 | 0 | L2 | θ3 |\n\nCraig's convention. Joint rates: w1 for θ1, u2 for d2 and w3 for θ3.\n\n";
+    let text = format!("{table}- v3 in frame 3: v3 = (c3*(d2 + L2)*w1, -s3*(d2 + L2)*w1, u2)\n");
+    is(&text, &[("v3", RIGHT)]);
+    is(&text.replace("-s3*", "s3*"), &[("v3", WRONG)]);
+}
