@@ -2,6 +2,7 @@
 //! pose, as far as the printed digits tell.
 
 use super::facts::{About, Remark, Unproved};
+use super::inverse::Tape;
 use super::numbers::decimal;
 use super::outcome::{Claim, Entry, Finding, Wrong};
 use super::plan::{Plan, Walked};
@@ -10,7 +11,9 @@ use super::walk::{Answered, Target};
 use denavit::description::JointKind;
 use denavit::random::Random;
 use denavit_symbolic::{Angle, Expr, Symbol};
+use rustc_hash::FxHashMap;
 use std::f64::consts::{PI, TAU};
+use std::rc::Rc;
 
 /// Starts of a search, and its steps.
 const STARTS: usize = 60;
@@ -52,7 +55,12 @@ pub(super) fn judged(text: &str, plan: &Plan, walked: &Walked) -> Vec<Claim> {
         key(a) == key(b)
     };
     // Where some values are those of the pose as it is printed, it is no rounded one.
-    let exact: Vec<Option<Vec<Option<bool>>>> = groups.iter().map(|g| verdicts(g, true)).collect();
+    let is_coarse = |g: &[Answered]| {
+        let size = g[0].targets.iter().filter(|t| t.is_length).map(|t| t.printed.abs()).fold(0.0, f64::max);
+        g[0].targets.iter().any(|t| t.half > 2e-4 * if t.is_length { size } else { 1.0 })
+    };
+    let exact: Vec<Option<Vec<Option<bool>>>> =
+        groups.iter().map(|g| if is_coarse(g) { verdicts(g, true) } else { None }).collect();
     let is_right =
         |v: &Option<Vec<Option<bool>>>| v.as_ref().is_some_and(|v| v.iter().all(|x| *x == Some(true)));
     let mut found: Vec<(Option<bool>, &Answered, &[Answered])> = vec![];
@@ -94,21 +102,49 @@ fn wrong(plan: &Plan, answer: &Answered, group: &[Answered]) -> Wrong {
     // Nothing was found by a search: that is no proof.
     let mut wrong = Wrong { remarks: vec![Remark::Sampled], ..Wrong::default() };
     let Some(search) = Search::new(&plan.subjects[answer.subject], group, false) else { return wrong };
-    let right = search.of_branch(answer).or_else(|| search.nearest(answer));
+    let Some(k) = group.iter().position(|a| std::ptr::eq(a, answer)) else { return wrong };
+    let right = search.of_branch(k).or_else(|| search.nearest(k));
     let (Some(&x), Some(right)) = (answer.values.first(), right) else { return wrong };
-    let shown = |v: f64| if search.in_degrees(answer) { decimal(v.to_degrees()) } else { decimal(v) };
+    let shown = |v: f64| if search.in_degrees(k) { decimal(v.to_degrees()) } else { decimal(v) };
     wrong.correct = vec![shown(right)];
     let off = (right - x).abs();
     wrong.remarks.push(if (right + x).abs() < 4.0 * answer.half + 1e-9 {
         Remark::Sign
     } else {
-        Remark::OffBy(if search.in_degrees(answer) { off.to_degrees() } else { off })
+        Remark::OffBy(if search.in_degrees(k) { off.to_degrees() } else { off })
     });
     wrong
 }
 
-/// A joint or a sum of joints at a value, and how far it may be off.
-type Fixed = (Expr, f64, f64);
+/// What an answer gives a value to.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    /// A joint that turns, or a sum of such.
+    Turn,
+    /// Another joint, or a sum.
+    Sum,
+    /// Another formula.
+    Formula,
+}
+
+/// An answer at a value, and how far it may be off.
+#[derive(Clone, Copy)]
+struct Fixed {
+    /// The number of the answer in its group.
+    answer: usize,
+    kind: Kind,
+    joint: Option<usize>,
+    value: f64,
+    half: f64,
+}
+
+/// What a search comes to.
+enum Reached {
+    At(Vec<f64>),
+    /// The pose does not determine the joints there.
+    Vague,
+    Nowhere,
+}
 
 /// Configurations that reach a pose.
 struct Search<'a> {
@@ -122,6 +158,13 @@ struct Search<'a> {
     is_exact: bool,
     /// Lengths in print are in this unit.
     unit: f64,
+    /// The quantities of the pose, and then what the answers are of, over the joints.
+    tape: Rc<Tape>,
+    /// The joints' places and the values of all lengths behind them.
+    lengths: Vec<f64>,
+    /// Answers of which no number is known.
+    is_open: Vec<bool>,
+    kinds: Vec<Kind>,
 }
 
 impl<'a> Search<'a> {
@@ -138,16 +181,43 @@ impl<'a> Search<'a> {
         if !(0..joints.len()).all(|k| asked(&k)) {
             return None;
         }
-        let search = Search { subject, group, is_angle, moving, size: 1.0, is_exact, unit: 1.0 };
-        let is_known =
-            targets.iter().all(|t| search.value(t.wanted, &vec![0.1; search.is_angle.len()]).is_some());
-        if targets.len() < search.moving.len() || search.moving.is_empty() || !is_known {
+        if targets.len() < moving.len() || moving.is_empty() {
             return None;
         }
-        let lengths = targets.iter().filter(|t| t.is_length).map(|t| t.printed.abs());
-        let size = lengths.fold(0.0, f64::max);
+        let (d, at) = (&subject.description, &group[0].at);
+        let mut inputs: FxHashMap<Symbol, usize> =
+            (0..).zip(joints).filter_map(|(k, q)| Some((q.as_symbol()?, k))).collect();
+        let mut lengths: Vec<f64> = vec![];
+        let formulas = || targets.iter().map(|t| t.wanted).chain(group.iter().map(|a| a.of));
+        for s in formulas().flat_map(|e| e.symbols()) {
+            if let (false, Some(x)) = (inputs.contains_key(&s), at.length(s).or_else(|| d.value(s))) {
+                inputs.insert(s, joints.len() + lengths.len());
+                lengths.push(x);
+            }
+        }
+        let is_known = |e: Expr| e.symbols().iter().all(|s| inputs.contains_key(s));
+        let is_open: Vec<bool> = group.iter().map(|a| !is_known(a.of)).collect();
+        let all: Vec<Expr> = formulas().map(|e| if is_known(e) { e } else { Expr::int(0) }).collect();
+        if !targets.iter().all(|t| is_known(t.wanted)) {
+            return None;
+        }
+        let tape = Rc::new(Tape::new(&all, &inputs).ok()?);
+        let is_joint = |e: &Expr| joints.contains(e) || e.symbols().is_empty();
+        let kind = |a: &Answered| {
+            let symbols = a.of.symbols();
+            let mut all = symbols.iter().map(|s| joints.iter().position(|j| *j == (*s).into()));
+            match Angle::of(a.of).terms.iter().all(|(e, _)| is_joint(e)) {
+                false => Kind::Formula,
+                true if all.all(|k| k.is_some_and(|k| is_angle[k])) => Kind::Turn,
+                true => Kind::Sum,
+            }
+        };
+        let kinds = group.iter().map(kind).collect();
+        let of_lengths = targets.iter().filter(|t| t.is_length).map(|t| t.printed.abs());
+        let size = of_lengths.fold(0.0, f64::max);
         let size = if size > 0.0 { size } else { 1.0 };
-        Some(Search { size, ..search })
+        let unit = 1.0;
+        Some(Search { subject, group, is_angle, moving, size, is_exact, unit, tape, lengths, is_open, kinds })
     }
 
     fn scale(&self, target: &Target) -> f64 {
@@ -158,113 +228,116 @@ impl<'a> Search<'a> {
         if target.is_length { self.unit } else { 1.0 }
     }
 
-    fn value(&self, e: Expr, q: &[f64]) -> Option<f64> {
-        let (d, joints) = (&self.subject.description, self.subject.joints());
-        let at = &self.group[0].at;
-        let value = |s: Symbol| {
-            let joint = joints.iter().position(|j| *j == s.into()).map(|k| q[k]);
-            joint.or_else(|| at.length(s)).or_else(|| d.value(s))
-        };
-        e.eval(value).ok().filter(|x| x.is_finite())
+    /// The quantities of the pose, and then those that have answers.
+    fn values(&self, q: &[f64]) -> Vec<f64> {
+        let point: Vec<f64> = q.iter().chain(&self.lengths).copied().collect();
+        self.tape.values(&point)
+    }
+
+    /// The value that an answer's formula has.
+    fn value(&self, answer: usize, q: &[f64]) -> Option<f64> {
+        self.values(q).get(self.group[0].targets.len() + answer).copied().filter(|x| x.is_finite())
     }
 
     /// True for values of angles that are in degrees: they say so, or are more than a turn in radians.
-    fn in_degrees(&self, answer: &Answered) -> bool {
-        let bare = self.group.iter().filter(|a| !a.has_unit && self.turns(a.of)).flat_map(|a| &a.values);
-        self.turns(answer.of)
-            && (answer.has_unit || bare.into_iter().any(|x| x.abs() > TAU || *x != 0.0 && x % 5.0 == 0.0))
-    }
-
-    /// True for a joint, or a sum of joints, not for another formula in them.
-    fn is_sum(&self, of: Expr) -> bool {
-        let joints = self.subject.joints();
-        Angle::of(of).terms.iter().all(|(e, _)| joints.contains(e) || e.symbols().is_empty())
-    }
-
-    fn turns(&self, of: Expr) -> bool {
-        let joints = self.subject.joints();
-        self.is_sum(of)
-            && of
-                .symbols()
-                .iter()
-                .all(|s| joints.iter().position(|j| *j == (*s).into()).is_some_and(|k| self.is_angle[k]))
+    fn in_degrees(&self, answer: usize) -> bool {
+        let turning = (0..self.group.len()).filter(|&k| self.kinds[k] == Kind::Turn);
+        let bare = turning.map(|k| &self.group[k]).filter(|a| !a.has_unit).flat_map(|a| &a.values);
+        self.kinds[answer] == Kind::Turn
+            && (self.group[answer].has_unit
+                || bare.into_iter().any(|x| x.abs() > TAU || *x != 0.0 && x % 5.0 == 0.0))
     }
 
     /// A value in radians or in the document's length, and half a unit of its last digit.
-    fn fixed(&self, answer: &Answered, value: f64) -> Fixed {
-        let to = if self.in_degrees(answer) && !answer.has_unit { PI / 180.0 } else { 1.0 };
-        (answer.of, value * to, answer.half * to)
+    fn fixed(&self, answer: usize, value: f64) -> Fixed {
+        let a = &self.group[answer];
+        let to = if self.in_degrees(answer) && !a.has_unit { PI / 180.0 } else { 1.0 };
+        let joint = self.subject.joints().iter().position(|j| *j == a.of);
+        Fixed { answer, kind: self.kinds[answer], joint, value: value * to, half: a.half * to }
     }
 
     /// Residuals in units of what rounding explains.
     fn residuals(&self, fixed: &[Fixed], q: &[f64]) -> Option<Vec<f64>> {
+        let (values, targets) = (self.values(q), &self.group[0].targets);
         let mut found = vec![];
-        for t in &self.group[0].targets {
-            let off = self.value(t.wanted, q)? - t.printed * self.scaled(t);
+        for (t, x) in targets.iter().zip(&values) {
+            let off = x - t.printed * self.scaled(t);
             let half = if self.is_exact { 0.0 } else { t.half * self.scaled(t) };
             found.push(off / (half + 2e-4 * self.scale(t)));
         }
-        for (of, value, half) in fixed {
-            let own = self.value(*of, q)?;
+        for f in fixed {
+            let own = *values.get(targets.len() + f.answer)?;
             // A length, an area, or neither.
-            let powers = if self.unit == 1.0 || self.turns(*of) { 1 } else { 3 };
-            let value = (0..powers)
-                .map(|p| value * self.unit.powi(p))
-                .min_by(|a, b| (a - own).abs().total_cmp(&(b - own).abs()));
-            let value = &value?;
+            let powers = if self.unit == 1.0 || f.kind == Kind::Turn { 1 } else { 3 };
+            let factors = (0..powers).map(|p| self.unit.powi(p));
+            let factor =
+                factors.min_by(|a, b| (f.value * a - own).abs().total_cmp(&(f.value * b - own).abs()))?;
+            let (value, half) = (f.value * factor, f.half * factor);
             let off = own - value;
-            let off = if self.turns(*of) { off - TAU * (off / TAU).round() } else { off };
-            let scale = match () {
-                () if self.turns(*of) => 1.0,
-                () if self.is_sum(*of) => self.size,
-                () => value.abs(),
+            let off = if f.kind == Kind::Turn { off - TAU * (off / TAU).round() } else { off };
+            let scale = match f.kind {
+                Kind::Turn => 1.0,
+                Kind::Sum => self.size,
+                Kind::Formula => value.abs(),
             };
             found.push(off / (half + 2e-4 * scale));
         }
-        Some(found)
+        found.iter().all(|x| x.is_finite()).then_some(found)
     }
 
     /// A configuration with these values that reaches the pose.
-    fn reach(&self, fixed: &[Fixed], random: &mut Random) -> Option<Vec<f64>> {
-        let n = self.is_angle.len();
+    fn reach(&self, fixed: &[Fixed], random: &mut Random) -> Reached {
+        let mut is_vague = false;
         for _ in 0..STARTS {
-            let draw = |random: &mut Random, &is_angle: &bool| {
-                (2.0 * random.unit() - 1.0) * if is_angle { PI } else { self.size }
-            };
-            let mut q: Vec<f64> = self.is_angle.iter().map(|a| draw(random, a)).collect();
-            for (of, value, _) in fixed {
-                if let Some(k) = self.subject.joints().iter().position(|j| j == of) {
-                    q[k] = *value;
+            if let Some(q) = self.descend(fixed, random) {
+                if self.is_isolated(&q) {
+                    return Reached::At(q);
+                }
+                is_vague = true;
+            }
+        }
+        if is_vague { Reached::Vague } else { Reached::Nowhere }
+    }
+
+    /// Goes from a configuration at random to one with these values that reaches the pose.
+    fn descend(&self, fixed: &[Fixed], random: &mut Random) -> Option<Vec<f64>> {
+        let n = self.is_angle.len();
+        let draw = |random: &mut Random, &is_angle: &bool| {
+            (2.0 * random.unit() - 1.0) * if is_angle { PI } else { self.size }
+        };
+        let mut q: Vec<f64> = self.is_angle.iter().map(|a| draw(random, a)).collect();
+        for f in fixed {
+            if let Some(k) = f.joint {
+                q[k] = f.value;
+            }
+        }
+        let mut damping = 1e-2;
+        let mut r = self.residuals(fixed, &q)?;
+        for _ in 0..STEPS {
+            let cost: f64 = r.iter().map(|x| x * x).sum();
+            if r.iter().all(|x| x.abs() <= ENOUGH) {
+                return Some(q);
+            }
+            let mut j = vec![vec![0.0; n]; r.len()];
+            for k in 0..n {
+                let h = 1e-7 * if self.is_angle[k] { 1.0 } else { self.size };
+                let mut there = q.clone();
+                there[k] += h;
+                let moved = self.residuals(fixed, &there)?;
+                for (row, (a, b)) in j.iter_mut().zip(moved.iter().zip(&r)) {
+                    row[k] = (a - b) / h;
                 }
             }
-            let mut damping = 1e-2;
-            let mut r = self.residuals(fixed, &q)?;
-            for _ in 0..STEPS {
-                let cost: f64 = r.iter().map(|x| x * x).sum();
-                if r.iter().all(|x| x.abs() <= ENOUGH) {
-                    return self.is_isolated(&q).then_some(q);
-                }
-                let mut j = vec![vec![0.0; n]; r.len()];
-                for k in 0..n {
-                    let h = 1e-7 * if self.is_angle[k] { 1.0 } else { self.size };
-                    let mut there = q.clone();
-                    there[k] += h;
-                    let moved = self.residuals(fixed, &there)?;
-                    for (row, (a, b)) in j.iter_mut().zip(moved.iter().zip(&r)) {
-                        row[k] = (a - b) / h;
-                    }
-                }
-                let step = damped(&j, &r, damping)?;
-                let next: Vec<f64> = q.iter().zip(&step).map(|(a, b)| a - b).collect();
-                let there = self.residuals(fixed, &next)?;
-                if there.iter().map(|x| x * x).sum::<f64>() < cost {
-                    (q, r) = (next, there);
-                    damping = (damping * 0.2).max(1e-12);
-                } else {
-                    damping *= 8.0;
-                    if damping > 1e6 {
-                        break;
-                    }
+            let step = damped(&j, &r, damping)?;
+            let next: Vec<f64> = q.iter().zip(&step).map(|(a, b)| a - b).collect();
+            let there = self.residuals(fixed, &next)?;
+            if there.iter().map(|x| x * x).sum::<f64>() < cost {
+                (q, r) = (next, there);
+                damping = (damping * 0.2).max(1e-12);
+            } else {
+                damping *= 8.0;
+                if damping > 1e6 {
+                    return None;
                 }
             }
         }
@@ -303,51 +376,63 @@ impl<'a> Search<'a> {
         // `q2 = 60° or q2 = -60°` are two answers.
         let twice = (1..self.group.len()).any(|k| self.group[..k].iter().any(|a| a.of == self.group[k].of));
         let single = self.group.iter().all(|a| a.values.len() == 1) && self.group.len() > 1 && !twice;
+        if self.is_open.contains(&true) {
+            return vec![None; self.group.len()];
+        }
+        let is_at = |r: Reached| matches!(r, Reached::At(_));
+        let one = |k: usize| self.fixed(k, self.group[k].values.first().copied().unwrap_or(f64::NAN));
         if single {
-            let all: Vec<Fixed> = self.group.iter().map(|a| self.fixed(a, a.values[0])).collect();
-            if self.reach(&all, &mut random).is_some() {
+            let all: Vec<Fixed> = (0..self.group.len()).map(one).collect();
+            if is_at(self.reach(&all, &mut random)) {
                 return vec![Some(true); self.group.len()];
             }
             // One that is wrong leaves the others right together.
             for k in 0..all.len() {
                 let mut rest = all.clone();
                 rest.remove(k);
-                if all.len() > 2 && self.reach(&rest, &mut random).is_some() {
+                if all.len() > 2 && is_at(self.reach(&rest, &mut random)) {
                     return (0..all.len()).map(|i| Some(i != k)).collect();
                 }
             }
         }
-        let own = |a: &Answered| {
-            let all = a.values.iter().map(|&v| self.reach(&[self.fixed(a, v)], &mut random).is_some());
-            Some(all.collect::<Vec<bool>>().into_iter().all(|x| x))
+        let mut own = |k: usize| {
+            let mut is_right = Some(true);
+            for &v in &self.group[k].values {
+                match self.reach(&[self.fixed(k, v)], &mut random) {
+                    Reached::At(_) => {}
+                    Reached::Vague => return None,
+                    Reached::Nowhere => is_right = Some(false),
+                }
+            }
+            is_right
         };
-        let found: Vec<Option<bool>> = self.group.iter().map(own).collect();
+        let found: Vec<Option<bool>> = (0..self.group.len()).map(&mut own).collect();
         // Each is one of the pose, but not all together.
         if single && found.iter().all(|f| *f == Some(true)) { vec![None; found.len()] } else { found }
     }
 
     /// The value with which the others of the line, one number each, reach the pose.
-    fn of_branch(&self, answer: &Answered) -> Option<f64> {
-        let others: Vec<&Answered> = self.group.iter().filter(|a| a.of != answer.of).collect();
-        if others.is_empty() || others.iter().any(|a| a.values.len() != 1) {
+    fn of_branch(&self, answer: usize) -> Option<f64> {
+        let others = || (0..self.group.len()).filter(|&k| self.group[k].of != self.group[answer].of);
+        if others().next().is_none() || others().any(|k| self.group[k].values.len() != 1) {
             return None;
         }
-        let fixed: Vec<Fixed> = others.iter().map(|a| self.fixed(a, a.values[0])).collect();
-        let q = self.reach(&fixed, &mut Random(17))?;
-        let y = self.value(answer.of, &q)?;
-        let (_, x, _) = self.fixed(answer, *answer.values.first()?);
-        Some(if self.turns(answer.of) { y - TAU * ((y - x) / TAU).round() } else { y })
+        let fixed: Vec<Fixed> = others().map(|k| self.fixed(k, self.group[k].values[0])).collect();
+        let Reached::At(q) = self.reach(&fixed, &mut Random(17)) else { return None };
+        let y = self.value(answer, &q)?;
+        let x = self.fixed(answer, *self.group[answer].values.first()?).value;
+        Some(if self.kinds[answer] == Kind::Turn { y - TAU * ((y - x) / TAU).round() } else { y })
     }
 
     /// The value nearest to a wrong one with which the pose is reached.
-    fn nearest(&self, answer: &Answered) -> Option<f64> {
-        let (_, x, _) = self.fixed(answer, *answer.values.first()?);
+    fn nearest(&self, answer: usize) -> Option<f64> {
+        let x = self.fixed(answer, *self.group[answer].values.first()?).value;
         let mut random = Random(13);
         let mut best: Option<f64> = None;
         for _ in 0..8 {
-            let Some(q) = self.reach(&[], &mut random) else { continue };
-            let y = self.value(answer.of, &q)?;
-            let y = if self.turns(answer.of) { y - TAU * ((y - x) / TAU).round() } else { y };
+            let Reached::At(q) = self.reach(&[], &mut random) else { continue };
+            let y = self.value(answer, &q)?;
+            let y = if self.kinds[answer] == Kind::Turn { y - TAU * ((y - x) / TAU).round() } else { y };
             if best.is_none_or(|b| (y - x).abs() < (b - x).abs()) {
                 best = Some(y);
             }

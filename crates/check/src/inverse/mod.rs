@@ -30,6 +30,7 @@ pub use judgement::{
 };
 pub(super) use mend::rebuilt;
 pub use orientation::{Orientation, orientation};
+pub(super) use tape::Tape;
 
 use arm::Arm;
 use compare::{Comparison, Formulas, share};
