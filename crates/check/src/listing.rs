@@ -173,7 +173,10 @@ fn told_rows(text: &str) -> Option<Listing> {
             continue;
         }
         // `return [(q1, d1, 0, pi/2),`
-        let inside = ["[(", "[["].iter().find_map(|open| Some(&plain[plain.find(open)? + 1..]));
+        let inside = ["return [(", "return [[", "= [(", "= [["].iter().find_map(|open| {
+            let at = plain.find(open)? + open.len() - 1;
+            Some(&plain[at..])
+        });
         let plain = inside.filter(|_| rows.is_empty() && head.is_some()).unwrap_or(plain);
         let row = named_row(plain).or_else(|| row(plain, head.as_deref()?));
         match row {
