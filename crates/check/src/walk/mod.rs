@@ -325,8 +325,8 @@ impl<'a> Walk<'a> {
         {
             return;
         }
-        self.keep_printed(statement);
         self.matrices(statement, claim);
+        self.keep_printed(statement);
     }
 
     /// Begins a part of the document under a heading, in small letters.
