@@ -504,7 +504,10 @@ impl Program<'_> {
         let uses = |e: Expr| e.symbols().iter().any(|s| d.parameter(*s).is_some());
         let wanted = self.with_numbers(wanted, value);
         // A length that the program has under another name, or one that the robot has not: a tool's.
-        let is_known = |s: &Symbol| joints.contains(&(*s).into()) || d.parameter(*s).is_some();
+        // Rates and loads stand in what is wanted.
+        let of_wanted = wanted.symbols();
+        let is_known =
+            |s: &Symbol| joints.contains(&(*s).into()) || d.parameter(*s).is_some() || of_wanted.contains(s);
         let differs = || !equal(value, wanted).is_equal();
         let foreign = value.symbols().into_iter().find(|s| !is_known(s));
         let has_lengths = Expr::postorder(&[value]).iter().any(|e| match e.node() {

@@ -96,8 +96,19 @@ impl Parser<'_> {
             _ => vec![],
         };
         self.at = self.at.max(start + 1);
+        let body = if body.is_empty() { self.lost_name(start) } else { body };
         let statement = self.refused(error, body, start);
         out.push(statement);
+    }
+
+    /// The name that a line which is not understood gives a value, `T = …`, as a statement that is never run: what the name stands
+    /// for is not known afterwards.
+    fn lost_name(&self, start: usize) -> Vec<Statement> {
+        let marks = [start, start + 1].map(|k| self.tokens.get(k));
+        let [Some(first), Some(second)] = marks else { return vec![] };
+        let (Mark::Name(name), Mark::Op("=")) = (&first.mark, &second.mark) else { return vec![] };
+        let node = || Node { kind: Kind::Name(name.clone()), span: first.span.clone() };
+        vec![Statement { kind: StatementKind::Assign(vec![node()], node()), span: first.span.clone() }]
     }
 
     fn simple_line(&mut self, out: &mut Vec<Statement>) {
