@@ -1,24 +1,23 @@
 //! From what stands on the command line to a robot.
 
-mod files;
 mod rows;
 mod urdf;
 
+pub use denavit_load::{contents, frame, is_tree, joint};
 pub use urdf::bundle;
 
 use crate::arguments::{AngleUnit, LengthUnit, RobotArguments};
 use crate::failure::Failure;
 use crate::terminal::{decimals, note};
-use denavit::catalogue;
 use denavit::description::{
-    Chain, Described, Description, Diagnostic, Language, MAX_BYTES, Measure, Mechanism, NamedFrame, Row,
-    RowChain, RowTree, Severity, TableKind, TableOptions, Variable, read_robot, read_table_robot, read_value,
-    root_element, write_toml,
+    Chain, Described, Description, Diagnostic, MAX_BYTES, Measure, Mechanism, NamedFrame, RowChain, RowTree,
+    Severity, TableOptions, read_robot, read_table_robot, read_value, write_toml,
+};
+use denavit_load::{
+    Content, Contents, ENDINGS, Finding, Kind, Options, Problem, catalogue_name, close_names, listed,
 };
 use denavit_symbolic::Expr;
 use std::f64::consts::TAU;
-use std::fs::File;
-use std::io::{self, Read};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -114,26 +113,6 @@ fn all(arguments: &RobotArguments) -> Result<(Description, String, Around), Fail
 /// A chain, its text if it has one, and what it was taken out of.
 type Found = (Description, Option<String>, Around);
 
-/// The endings of files of bodies and joints, and those of others that are known.
-const TREES: [&str; 4] = ["urdf", "xacro", "xml", "mjcf"];
-const OTHERS: [&str; 10] = ["toml", "md", "markdown", "txt", "csv", "tsv", "tex", "par", "m", "py"];
-/// How much of a file is looked at for its root element.
-const HEAD: u64 = 1 << 16;
-
-/// True for a file of bodies and joints: a URDF, or a model of MuJoCo's. Which, its root element says; that it is one, too, where its
-/// ending says nothing.
-pub fn is_tree(name: &str) -> bool {
-    let path = Path::new(name);
-    let ending = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
-    if TREES.contains(&ending) || OTHERS.contains(&ending) || name == "-" || !path.is_file() {
-        return TREES.contains(&ending);
-    }
-    let mut head = vec![];
-    let read = File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
-    let text = String::from_utf8_lossy(&head);
-    read.is_ok() && matches!(root_element(&text), Some("robot" | "mujoco" | "mujocoinclude" | "sdf"))
-}
-
 /// Options that are for other kinds of files are refused.
 fn check_options(arguments: &RobotArguments, is_listed: bool) -> Result<(), Failure> {
     let is_urdf = !is_listed && is_tree(&arguments.robot);
@@ -151,21 +130,10 @@ fn check_options(arguments: &RobotArguments, is_listed: bool) -> Result<(), Fail
     Ok(())
 }
 
-/// The catalogue's spelling: lower case, words joined by hyphens. `None` for what looks like a path.
-fn catalogue_name(text: &str) -> Option<String> {
-    let is_path = text.contains(['/', '\\', '.']) || text == "-";
-    (!is_path).then(|| text.to_lowercase().replace([' ', '_'], "-"))
-}
-
 /// True for what is read as a robot file, the catalogue's among them: its reader says which rows are no body.
 pub fn is_robot_file(name: &str) -> bool {
     let is_listed = catalogue_name(name).is_some_and(|n| listed(&n).is_some());
     is_listed || Path::new(name).extension().is_some_and(|ending| ending == "toml")
-}
-
-/// The file of an arm of the catalogue, or of a structure beside it.
-fn listed(name: &str) -> Option<&'static str> {
-    catalogue::text(name).or_else(|| catalogue::structure_text(name))
 }
 
 /// The option given that only a URDF can need; `.par` files hold decimals, too.
@@ -190,42 +158,60 @@ fn table_option(arguments: &RobotArguments, is_urdf: bool) -> Option<&'static st
     given.into_iter().find(|g| g.0).map(|g| g.1)
 }
 
-/// The kind of tables in a file with this ending.
-fn table_kind(ending: &str) -> Option<TableKind> {
-    match ending {
-        "md" | "markdown" | "txt" => Some(TableKind::Markdown),
-        "csv" | "tsv" => Some(TableKind::Csv),
-        "tex" => Some(TableKind::Latex),
-        _ => None,
-    }
-}
-
 /// The robot, and the text of its file if that is a robot file.
 fn from_file(arguments: &RobotArguments) -> Result<Found, Failure> {
     let without_text = |(description, around)| (description, None, around);
     let name = arguments.robot.as_str();
-    let path = Path::new(name);
-    let kind = match path.extension().and_then(|e| e.to_str()) {
-        _ if name == "-" => Some(TableKind::Markdown),
-        Some("toml") => None,
-        Some(ending) if let Some(kind) = table_kind(ending) => Some(kind),
-        _ if is_tree(name) => return urdf::from_urdf(arguments).map(without_text),
-        Some("par") => return rows::from_par(arguments).map(without_text),
-        Some("m") => return rows::from_program(arguments, Language::Matlab).map(without_text),
-        Some("py") => return rows::from_program(arguments, Language::Python).map(without_text),
-        _ if path.is_file() => {
-            let hint = "a robot file ends in .toml, .urdf, .xacro, .xml, .mjcf or .par, a table in .md, .txt, .csv, .tsv or .tex, a program in .m or .py";
-            return Err(Failure::Input(format!("error: {name}: what is this?\n  = hint: {hint}")));
+    match Kind::of(name) {
+        Some(Kind::Bodies) => urdf::from_urdf(arguments).map(without_text),
+        Some(Kind::Par) => rows::from_par(arguments).map(without_text),
+        Some(Kind::Program(language)) => rows::from_program(arguments, language).map(without_text),
+        Some(kind @ (Kind::Robot | Kind::Table(_))) => {
+            let file = file(arguments, kind)?;
+            let Content::Rows(described) = file.content else { return Err(unknown_robot(name)) };
+            let (description, written, around) = robot_of_rows(arguments, described, &file.text)?;
+            Ok((description, written.filter(|_| kind == Kind::Robot), around))
         }
-        _ => return Err(unknown_robot(name)),
+        None if Path::new(name).is_file() => {
+            Err(Failure::Input(format!("error: {name}: what is this?\n  = hint: {ENDINGS}")))
+        }
+        None => Err(unknown_robot(name)),
+    }
+}
+
+/// The file that the arguments name, of this kind; what is worth saying about it goes to standard error.
+fn file(arguments: &RobotArguments, kind: Kind) -> Result<Contents, Failure> {
+    let name = arguments.robot.as_str();
+    let file = denavit_load::read(name, kind, &options(arguments)?).map_err(|why| match why {
+        Problem::Unreadable(e) => Failure::Input(format!("error: {name}: {e}")),
+        Problem::Errors(findings) => Failure::Input(rendered(&findings)),
+        Problem::TakesNoArguments => {
+            Failure::Usage(format!("--arg is for xacro files, and {name} is a model of MuJoCo's"))
+        }
+    })?;
+    note(rendered(&file.findings).trim_end());
+    Ok(file)
+}
+
+/// How the arguments want their file to be read.
+fn options(arguments: &RobotArguments) -> Result<Options, Failure> {
+    let packages = pairs(&arguments.package, "--package", "ur_description=../ur_description")?;
+    Ok(Options {
+        arguments: pairs(&arguments.arg, "--arg", "name=ur5")?,
+        as_written: arguments.as_written,
+        packages: packages.into_iter().map(|(n, p)| (n, p.into())).collect(),
+        table: table_options(arguments),
+    })
+}
+
+/// `NAME=VALUE`, or `NAME:=VALUE` as ROS writes it.
+fn pairs(settings: &[String], option: &str, example: &str) -> Result<Vec<(String, String)>, Failure> {
+    let pair = |setting: &String| {
+        let sides = setting.split_once(":=").or_else(|| setting.split_once('='));
+        let sides = sides.map(|(name, value)| (name.trim().to_string(), value.trim().to_string()));
+        sides.ok_or_else(|| Failure::Usage(format!("{option} {setting}: write NAME=VALUE, as in {example}")))
     };
-    let text = contents(name, MAX_BYTES).map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
-    let outcome = match kind {
-        None => read_robot(&text),
-        Some(kind) => read_table_robot(&text, kind, &table_options(arguments)),
-    };
-    let (description, written, around) = robot_of_rows(arguments, read(name, &text, outcome)?, &text)?;
-    Ok((description, written.filter(|_| kind.is_none()), around))
+    settings.iter().map(pair).collect()
 }
 
 /// The chain of what was read, and its text if that describes just this chain.
@@ -245,12 +231,12 @@ pub fn mechanism(arguments: &RobotArguments) -> Result<Option<Tree>, Failure> {
     }
     let name = arguments.robot.as_str();
     let listed = catalogue_name(name).and_then(|n| listed(&n)).map(str::to_string);
-    let tree = match Path::new(name).extension().and_then(|e| e.to_str()) {
-        _ if listed.is_none() && is_tree(name) => {
+    let tree = match Kind::of(name) {
+        Some(Kind::Bodies) if listed.is_none() => {
             check_options(arguments, false)?;
             Tree::Bodies(urdf::mechanism(arguments)?)
         }
-        Some("par") => {
+        Some(Kind::Par) => {
             check_options(arguments, false)?;
             let tree = rows::par(arguments)?;
             if tree.is_chain() {
@@ -258,19 +244,19 @@ pub fn mechanism(arguments: &RobotArguments) -> Result<Option<Tree>, Failure> {
             }
             Tree::Rows(tree)
         }
-        _ => {
+        kind => {
             let is_listed = listed.is_some();
-            let is_toml = is_listed || name.ends_with(".toml");
-            let kind = Path::new(name).extension().and_then(|e| e.to_str()).and_then(table_kind);
-            // Standard input, which has no ending, can be read but once: it is one chain.
-            let text = match listed {
-                None if is_toml || kind.is_some() => contents(name, MAX_BYTES).ok(),
-                listed => listed,
-            };
             let read = |text: &str| match kind {
-                _ if is_toml => Some(read_robot(text)),
-                Some(kind) => Some(read_table_robot(text, kind, &table_options(arguments))),
-                None => None,
+                _ if is_listed => Some(read_robot(text)),
+                Some(Kind::Robot) => Some(read_robot(text)),
+                Some(Kind::Table(kind)) => Some(read_table_robot(text, kind, &table_options(arguments))),
+                _ => None,
+            };
+            // Standard input can be read but once: it is one chain.
+            let text = match (listed, kind) {
+                (Some(text), _) => Some(text),
+                (None, Some(Kind::Robot | Kind::Table(_))) if name != "-" => contents(name, MAX_BYTES).ok(),
+                _ => None,
             };
             let Some(Ok((Described::Tree(tree), findings))) = text.as_deref().and_then(read) else {
                 return Ok(None);
@@ -304,21 +290,6 @@ impl Tree {
     }
 }
 
-/// The text of a file or of standard input, bounded (one byte more says that there are more), whatever its bytes are.
-///
-/// # Errors
-/// If it cannot be read.
-pub fn contents(name: &str, most: usize) -> io::Result<String> {
-    let limit = most as u64 + 1;
-    let mut bytes = vec![];
-    if name == "-" {
-        io::stdin().lock().take(limit).read_to_end(&mut bytes)?;
-    } else {
-        File::open(name)?.take(limit).read_to_end(&mut bytes)?;
-    }
-    Ok(String::from_utf8_lossy(&bytes).into_owned())
-}
-
 /// How tables are to be read.
 pub fn table_options(arguments: &RobotArguments) -> TableOptions {
     TableOptions {
@@ -342,6 +313,10 @@ fn read(name: &str, text: &str, outcome: Reading) -> Result<Described, Failure> 
     }
 }
 
+fn rendered(findings: &[Finding]) -> String {
+    findings.iter().map(|f| coloured(&f.diagnostic, &f.name, &f.text)).collect()
+}
+
 fn render(findings: &[Diagnostic], name: &str, text: &str) -> String {
     findings.iter().map(|d| coloured(d, name, text)).collect()
 }
@@ -358,8 +333,7 @@ fn coloured(finding: &Diagnostic, name: &str, text: &str) -> String {
 }
 
 fn unknown_robot(name: &str) -> Failure {
-    let names = catalogue::names().into_iter().chain(catalogue::structures());
-    let close: Vec<&str> = names.filter(|n| similar(n, name)).take(6).collect();
+    let close = close_names(name);
     let hint = match &close[..] {
         [] => {
             "`denavit robots` lists the catalogue; files end in .toml, .par, .urdf, .xacro, .xml, .mjcf, .md, .txt, .csv, .tsv, .tex, .m or .py"
@@ -368,79 +342,6 @@ fn unknown_robot(name: &str) -> Failure {
         names => format!("did you mean {}?", names.join(", ")),
     };
     Failure::Input(format!("error: no robot or file `{name}`\n  = hint: {hint}"))
-}
-
-/// Whether a catalogue name is what somebody may have meant: it holds the text, or most of its letters in order.
-fn similar(candidate: &str, text: &str) -> bool {
-    let plain = |s: &str| s.to_lowercase().chars().filter(char::is_ascii_alphanumeric).collect::<String>();
-    let (candidate, text) = (plain(candidate), plain(text));
-    if text.len() < 2 {
-        return false;
-    }
-    let mut rest = candidate.chars();
-    let found = text.chars().filter(|&c| rest.clone().any(|r| r == c) && rest.any(|r| r == c)).count();
-    candidate.contains(&text) || (found + 1 >= text.len() && text.len() + 3 >= candidate.len())
-}
-
-/// The joint (from 0) that a word names: by its number from 1, its variable, or the name of its row.
-///
-/// # Errors
-/// A sentence that says which there are.
-pub fn joint(d: &Description, word: &str) -> Result<usize, String> {
-    let moving: Vec<_> = d.rows.iter().filter_map(|r| Some((r.variable?, r.name.as_deref()))).collect();
-    let number = word.parse().ok().filter(|n| (1..=moving.len()).contains(n)).map(|n: usize| n - 1);
-    let variable = moving.iter().position(|m| *m.0.symbol.name() == *word);
-    let named = moving.iter().position(|m| m.1 == Some(word));
-    if let (None, Some(v), Some(n)) = (number, variable, named.filter(|n| variable != Some(*n))) {
-        let what = format!("`{word}` is the variable of joint {} and the name of joint {}", v + 1, n + 1);
-        return Err(format!("{what}: name it by its number"));
-    }
-    let found = number.or(variable).or(named);
-    found.ok_or_else(|| {
-        let follows = d.rows.iter().find(|r| r.variable.is_none() && r.name.as_deref() == Some(word));
-        if let Some(leader) = follows.and_then(|row| follows_whom(d, row)) {
-            return format!("`{word}` does not move by itself: it follows {leader}");
-        }
-        let named = |(v, name): &(Variable, Option<&str>)| match name {
-            Some(name) => format!("{} ({name})", v.symbol.name()),
-            None => v.symbol.name().to_string(),
-        };
-        format!("no joint `{word}`; there are {}", moving.iter().map(named).collect::<Vec<_>>().join(", "))
-    })
-}
-
-/// The frame that a word names: by its number from 0, or by the name of its row.
-///
-/// # Errors
-/// A sentence that says which there are.
-pub fn frame(d: &Description, word: &str) -> Result<usize, String> {
-    let last = d.rows.len();
-    if let Some(n) = word.parse::<usize>().ok().filter(|n| *n <= last) {
-        return Ok(n);
-    }
-    let named = |row: &Row| row.name.as_deref() == Some(word);
-    let found: Vec<usize> = (0..last).filter(|&i| named(&d.rows[i])).collect();
-    match found[..] {
-        [i] => Ok(i + 1),
-        [] => {
-            let names: Vec<&str> = d.rows.iter().filter_map(|r| r.name.as_deref()).collect();
-            let names = if names.is_empty() { String::new() } else { format!(", or {}", names.join(", ")) };
-            Err(format!("no frame `{word}`: name a frame from 0 to {last}{names}"))
-        }
-        _ => Err(format!("several rows are called `{word}`: name the frame by its number, from 0 to {last}")),
-    }
-}
-
-/// The variables, with the names of their rows, that move a row which has none of its own.
-fn follows_whom(d: &Description, row: &Row) -> Option<String> {
-    let symbols = [row.theta, row.d].into_iter().flat_map(Expr::symbols).collect::<Vec<_>>();
-    let moving = d.rows.iter().filter_map(|r| Some((r.variable?.symbol, r.name.as_deref())));
-    let named = moving.filter(|m| symbols.contains(&m.0)).map(|(symbol, name)| match name {
-        Some(name) => format!("{} ({name})", symbol.name()),
-        None => symbol.name().to_string(),
-    });
-    let all: Vec<String> = named.collect();
-    (!all.is_empty()).then(|| all.join(" and "))
 }
 
 /// The two sides of `NAME=VALUE`.

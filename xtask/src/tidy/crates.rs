@@ -17,11 +17,12 @@ const CERTIFICATE: &str = "denavit-certificate";
 const GENERATE: &str = "denavit-generate";
 const REPORT: &str = "denavit-report";
 const WIRE: &str = "denavit-wire";
+const LOAD: &str = "denavit-load";
 const JIT: &str = "denavit-jit";
 
 /// What a crate builds on, whatever it is for: none is a door, none is left of another without being named.
 const BELOW_DOORS: &[&str] =
-    &[SYMBOLIC, READING, PROGRAM, EMIT, ELIMINATION, ROBOT, CHECK, CERTIFICATE, GENERATE, REPORT, WIRE];
+    &[SYMBOLIC, READING, PROGRAM, EMIT, ELIMINATION, ROBOT, CHECK, CERTIFICATE, GENERATE, REPORT, WIRE, LOAD];
 
 /// Folders and packages, and the project's packages that each may use; tests may use more.
 const ALLOWED: &[(&str, &str, &[&str])] = &[
@@ -37,6 +38,7 @@ const ALLOWED: &[(&str, &str, &[&str])] = &[
     ("crates/generate", GENERATE, &[SYMBOLIC, PROGRAM, EMIT, ELIMINATION, ROBOT]),
     ("crates/report", REPORT, &[SYMBOLIC, READING, PROGRAM, ROBOT, CHECK]),
     ("crates/wire", WIRE, &[SYMBOLIC, READING, PROGRAM, EMIT, ROBOT, CHECK, GENERATE, REPORT]),
+    ("crates/load", LOAD, &[SYMBOLIC, ROBOT]),
     ("crates/cli", "denavit-cli", BELOW_DOORS),
     ("crates/web", "denavit-web", BELOW_DOORS),
     ("crates/python", "denavit-python", BELOW_DOORS),

@@ -1,13 +1,11 @@
 //! What is described in rows, one chain or a tree, and the chain of it that a command is about.
 
-use super::{Around, contents, render};
+use super::{Around, file, unknown_robot};
 use crate::arguments::RobotArguments;
 use crate::failure::Failure;
 use crate::terminal::{note, words};
-use denavit::description::{
-    Convention, Decimals, Described, Description, Language, MAX_BYTES, NoChain, RowTree, read_par,
-    read_program,
-};
+use denavit::description::{Convention, Described, Description, Language, NoChain, RowTree};
+use denavit_load::{Content, Kind};
 use denavit_report::words::Whole;
 
 /// The chain of what was read, and what is around it; a description that is one already has no `--base` and `--tip`.
@@ -59,12 +57,10 @@ fn of_tree(
 /// # Errors
 /// If it cannot be read or has errors.
 pub fn par(arguments: &RobotArguments) -> Result<RowTree, Failure> {
-    let name = arguments.robot.as_str();
-    let text = contents(name, MAX_BYTES).map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
-    let decimals = if arguments.as_written { Decimals::AsWritten } else { Decimals::Meant };
-    let (tree, findings) = read_par(&text, decimals).map_err(|f| Failure::Input(render(&f, name, &text)))?;
-    note(render(&findings, name, &text).trim_end());
-    Ok(tree)
+    match file(arguments, Kind::Par)?.content {
+        Content::Par(tree) => Ok(*tree),
+        Content::Rows(_) | Content::Bodies(_) => Err(unknown_robot(&arguments.robot)),
+    }
 }
 
 /// The chain of a `.par` file that the arguments name.
@@ -103,11 +99,10 @@ pub fn from_program(
     if let Some((_, option)) = given.into_iter().find(|g| g.0) {
         return Err(Failure::Usage(format!("{option} is not for programs: {name} says it itself")));
     }
-    let text = contents(name, MAX_BYTES).map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
-    let read = read_program(&text, language, arguments.table);
-    let (description, findings) = read.map_err(|f| Failure::Input(render(&f, name, &text)))?;
-    note(render(&findings, name, &text).trim_end());
-    Ok((description, Around::Nothing))
+    match file(arguments, Kind::Program(language))?.content {
+        Content::Rows(Described::Chain(description)) => Ok((*description, Around::Nothing)),
+        Content::Rows(_) | Content::Par(_) | Content::Bodies(_) => Err(unknown_robot(name)),
+    }
 }
 
 /// Why there is no chain, with the option that helps.

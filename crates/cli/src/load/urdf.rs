@@ -1,14 +1,12 @@
 //! A URDF, plain or for xacro to expand, and the chain of it that a command is about.
 
-use super::files::{Folder, plain};
 use super::rows::no_chain;
-use super::{Around, coloured};
+use super::{Around, file, options, unknown_robot};
 use crate::arguments::RobotArguments;
 use crate::failure::Failure;
 use crate::terminal::{note, words};
-use denavit::description::{
-    Convention, Decimals, Description, Diagnostic, MAX_XML_BYTES, Mechanism, Shape, is_mjcf, read_bodies,
-};
+use denavit::description::{Convention, Decimals, Description, MAX_XML_BYTES, Mechanism, Shape, read_bodies};
+use denavit_load::{Content, Folder, Kind, contents, plain};
 use denavit_wire::view::Bundle;
 use std::fs;
 use std::path::PathBuf;
@@ -41,36 +39,14 @@ pub fn from_urdf(arguments: &RobotArguments) -> Result<(Description, Around), Fa
 /// If the file cannot be read or has errors.
 pub fn mechanism(arguments: &RobotArguments) -> Result<Mechanism, Failure> {
     let name = arguments.robot.as_str();
-    let text = super::contents(name, MAX_XML_BYTES);
-    let text = text.map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
-    let packages = pairs(&arguments.package, "--package", "ur_description=../ur_description")?;
-    let packages: Vec<(String, PathBuf)> = packages.into_iter().map(|(n, p)| (n, p.into())).collect();
-    let given = pairs(&arguments.arg, "--arg", "name=ur5")?;
-    if is_mjcf(&text) && !given.is_empty() {
-        return Err(Failure::Usage(format!("--arg is for xacro files, and {name} is a model of MuJoCo's")));
+    let found = file(arguments, Kind::Bodies)?;
+    if found.apart > SEEN {
+        note(&format!("{name}: note: {}", words().read_apart(found.apart)));
     }
-    let read = |decimals| {
-        let mut folder = Folder::around(name, &packages);
-        read_bodies(name, &text, &mut folder, &given, decimals)
-    };
-    let decimals = if arguments.as_written { Decimals::AsWritten } else { Decimals::Meant };
-    let (outcome, files) = read(decimals);
-    let render = |findings: &[Diagnostic]| -> String {
-        let shown = |d: &Diagnostic| {
-            let (name, text, span) = files.locate(&d.span)?;
-            Some(coloured(&Diagnostic { span, ..d.clone() }, name, text))
-        };
-        findings.iter().filter_map(shown).collect()
-    };
-    let (mechanism, findings) = outcome.map_err(|findings| Failure::Input(render(&findings)))?;
-    note(render(&findings).trim_end());
-    if let (Decimals::Meant, (Ok((written, _)), _)) = (decimals, read(Decimals::AsWritten)) {
-        let apart = mechanism.apart(&written);
-        if apart > SEEN {
-            note(&format!("{name}: note: {}", words().read_apart(apart)));
-        }
+    match found.content {
+        Content::Bodies(mechanism) => Ok(*mechanism),
+        Content::Rows(_) | Content::Par(_) => Err(unknown_robot(name)),
     }
-    Ok(mechanism)
 }
 
 /// The most bytes of a mesh, and of all together, that the page is given.
@@ -86,12 +62,11 @@ pub fn bundle(arguments: &RobotArguments) -> Result<(Bundle, Vec<PathBuf>), Fail
     let file = fs::canonicalize(&arguments.robot)
         .map_err(|e| Failure::Input(format!("error: {}: {e}", arguments.robot)))?;
     let name = file.to_string_lossy().into_owned();
-    let text = super::contents(&name, MAX_XML_BYTES);
+    let text = contents(&name, MAX_XML_BYTES);
     let text = text.map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
-    let packages = pairs(&arguments.package, "--package", "ur_description=../ur_description")?;
-    let packages: Vec<(String, PathBuf)> = packages.into_iter().map(|(n, p)| (n, p.into())).collect();
-    let given = pairs(&arguments.arg, "--arg", "name=ur5")?;
-    let mut folder = Folder::around(&name, &packages);
+    let options = options(arguments)?;
+    let mut folder = Folder::around(&name, &options.packages);
+    let given = options.arguments;
     let (outcome, _) = read_bodies(&name, &text, &mut folder, &given, Decimals::Meant);
     let (mechanism, _) = outcome.map_err(|_| Failure::Input(format!("error: {name}: it has errors")))?;
     let mut paths: Vec<PathBuf> = vec![];
@@ -142,14 +117,4 @@ fn with_data(key: String, path: PathBuf) -> Vec<(String, PathBuf)> {
     all.sort();
     all.insert(0, (key, path));
     all
-}
-
-/// `NAME=VALUE`, or `NAME:=VALUE` as ROS writes it.
-fn pairs(settings: &[String], option: &str, example: &str) -> Result<Vec<(String, String)>, Failure> {
-    let pair = |setting: &String| {
-        let sides = setting.split_once(":=").or_else(|| setting.split_once('='));
-        let sides = sides.map(|(name, value)| (name.trim().to_string(), value.trim().to_string()));
-        sides.ok_or_else(|| Failure::Usage(format!("{option} {setting}: write NAME=VALUE, as in {example}")))
-    };
-    settings.iter().map(pair).collect()
 }

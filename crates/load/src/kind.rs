@@ -1,0 +1,92 @@
+//! What a name stands for: an arm of the catalogue, or a file of some kind.
+
+use denavit::catalogue;
+use denavit::description::{Language, TableKind, root_element};
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+/// The endings of files of bodies and joints, and those of others that are known.
+const TREES: [&str; 4] = ["urdf", "xacro", "xml", "mjcf"];
+const OTHERS: [&str; 10] = ["toml", "md", "markdown", "txt", "csv", "tsv", "tex", "par", "m", "py"];
+/// How much of a file is looked at for its root element.
+const HEAD: u64 = 1 << 16;
+
+/// Which endings files have, in words.
+pub const ENDINGS: &str = "a robot file ends in .toml, .urdf, .xacro, .xml, .mjcf or .par, a table in .md, .txt, .csv, .tsv or .tex, a program in .m or .py";
+
+/// What a file holds.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Kind {
+    /// A robot file.
+    Robot,
+    /// A document with a table.
+    Table(TableKind),
+    /// Bodies and joints: a URDF, plain or for xacro to expand, or a model of MuJoCo's.
+    Bodies,
+    /// Rows of a tree as SYMORO writes them.
+    Par,
+    /// A program that makes a robot.
+    Program(Language),
+}
+
+impl Kind {
+    /// By the ending of a file, or by its root element where the ending says nothing; `-` is standard input, a table.
+    pub fn of(name: &str) -> Option<Self> {
+        match Path::new(name).extension().and_then(|e| e.to_str()) {
+            _ if name == "-" => Some(Kind::Table(TableKind::Markdown)),
+            Some("toml") => Some(Kind::Robot),
+            Some("md" | "markdown" | "txt") => Some(Kind::Table(TableKind::Markdown)),
+            Some("csv" | "tsv") => Some(Kind::Table(TableKind::Csv)),
+            Some("tex") => Some(Kind::Table(TableKind::Latex)),
+            _ if is_tree(name) => Some(Kind::Bodies),
+            Some("par") => Some(Kind::Par),
+            Some("m") => Some(Kind::Program(Language::Matlab)),
+            Some("py") => Some(Kind::Program(Language::Python)),
+            _ => None,
+        }
+    }
+}
+
+/// True for a file of bodies and joints: a URDF, or a model of MuJoCo's. Which, its root element says; that it is one, too, where its
+/// ending says nothing.
+pub fn is_tree(name: &str) -> bool {
+    let path = Path::new(name);
+    let ending = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
+    if TREES.contains(&ending) || OTHERS.contains(&ending) || name == "-" || !path.is_file() {
+        return TREES.contains(&ending);
+    }
+    let mut head = vec![];
+    let read = File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
+    let text = String::from_utf8_lossy(&head);
+    read.is_ok() && matches!(root_element(&text), Some("robot" | "mujoco" | "mujocoinclude" | "sdf"))
+}
+
+/// The catalogue's spelling: lower case, words joined by hyphens. `None` for what looks like a path.
+pub fn catalogue_name(text: &str) -> Option<String> {
+    let is_path = text.contains(['/', '\\', '.']) || text == "-";
+    (!is_path).then(|| text.to_lowercase().replace([' ', '_'], "-"))
+}
+
+/// The file of an arm of the catalogue, or of a structure beside it.
+pub fn listed(name: &str) -> Option<&'static str> {
+    catalogue::text(name).or_else(|| catalogue::structure_text(name))
+}
+
+/// Names of the catalogue that may have been meant.
+pub fn close_names(name: &str) -> Vec<&'static str> {
+    let names = catalogue::names().into_iter().chain(catalogue::structures());
+    names.filter(|n| similar(n, name)).take(6).collect()
+}
+
+/// Whether a catalogue name is what somebody may have meant: it holds the text, or most of its letters in order.
+fn similar(candidate: &str, text: &str) -> bool {
+    let plain = |s: &str| s.to_lowercase().chars().filter(char::is_ascii_alphanumeric).collect::<String>();
+    let (candidate, text) = (plain(candidate), plain(text));
+    if text.len() < 2 {
+        return false;
+    }
+    let mut rest = candidate.chars();
+    let found = text.chars().filter(|&c| rest.clone().any(|r| r == c) && rest.any(|r| r == c)).count();
+    candidate.contains(&text) || (found + 1 >= text.len() && text.len() + 3 >= candidate.len())
+}

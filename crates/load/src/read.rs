@@ -1,0 +1,173 @@
+//! What stands in a file, with its findings.
+
+use crate::folder::Folder;
+use crate::kind::Kind;
+use denavit::description::{
+    Decimals, Described, Diagnostic, MAX_BYTES, MAX_XML_BYTES, Mechanism, RowTree, Severity, TableOptions,
+    is_mjcf, read_bodies, read_par, read_program, read_robot, read_table_robot,
+};
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// How a file is to be read.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// Values of a xacro file's arguments.
+    pub arguments: Vec<(String, String)>,
+    /// Whether decimals of angles are taken as they are written: 1.5708 is no quarter turn.
+    pub as_written: bool,
+    /// Folders of packages, by name.
+    pub packages: Vec<(String, PathBuf)>,
+    /// How tables are read; which one is the number of a program's robot, too.
+    pub table: TableOptions,
+}
+
+impl Options {
+    /// How decimals are taken.
+    pub fn decimals(&self) -> Decimals {
+        if self.as_written { Decimals::AsWritten } else { Decimals::Meant }
+    }
+}
+
+/// What a file says of a robot.
+pub enum Content {
+    /// A chain, or a tree of rows.
+    Rows(Described),
+    /// A tree of rows as SYMORO writes it, which may be a chain.
+    Par(Box<RowTree>),
+    /// A tree of bodies.
+    Bodies(Box<Mechanism>),
+}
+
+/// A finding in a text; its place is one of that text.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Finding {
+    /// What was found.
+    pub diagnostic: Diagnostic,
+    /// What the text is called.
+    pub name: Arc<str>,
+    /// The text.
+    pub text: Arc<str>,
+}
+
+impl Finding {
+    /// All findings in one text.
+    pub fn all(findings: Vec<Diagnostic>, name: &str, text: &Arc<str>) -> Vec<Self> {
+        let name: Arc<str> = name.into();
+        let of = |diagnostic| Finding { diagnostic, name: name.clone(), text: text.clone() };
+        findings.into_iter().map(of).collect()
+    }
+
+    /// True for an error.
+    pub fn is_error(&self) -> bool {
+        self.diagnostic.severity == Severity::Error
+    }
+}
+
+/// A file that was read.
+pub struct Contents {
+    /// What it says.
+    pub content: Content,
+    /// Its text.
+    pub text: Arc<str>,
+    /// Warnings and notes.
+    pub findings: Vec<Finding>,
+    /// By how many metres its bodies lie apart from where the decimals as written put them.
+    pub apart: f64,
+}
+
+/// Why there is nothing.
+#[derive(Debug)]
+pub enum Problem {
+    /// The file cannot be read.
+    Unreadable(io::Error),
+    /// It has errors.
+    Errors(Vec<Finding>),
+    /// Arguments were given to a file that is not for xacro.
+    TakesNoArguments,
+}
+
+/// Reads the file of this name, of this kind.
+///
+/// # Errors
+/// See [`Problem`].
+pub fn read(name: &str, kind: Kind, options: &Options) -> Result<Contents, Problem> {
+    let most = if kind == Kind::Bodies { MAX_XML_BYTES } else { MAX_BYTES };
+    let text: Arc<str> = contents(name, most).map_err(Problem::Unreadable)?.into();
+    let findings = |all| Finding::all(all, name, &text);
+    let errors = |all| Problem::Errors(findings(all));
+    let (content, found) = match kind {
+        Kind::Bodies => return bodies(name, text, options),
+        Kind::Robot => {
+            let (read, found) = read_robot(&text).map_err(errors)?;
+            (Content::Rows(read), found)
+        }
+        Kind::Table(kind) => {
+            let (read, found) = read_table_robot(&text, kind, &options.table).map_err(errors)?;
+            (Content::Rows(read), found)
+        }
+        Kind::Par => {
+            let (tree, found) = read_par(&text, options.decimals()).map_err(errors)?;
+            (Content::Par(Box::new(tree)), found)
+        }
+        Kind::Program(language) => {
+            let (chain, found) = read_program(&text, language, options.table.table).map_err(errors)?;
+            (Content::Rows(Described::Chain(Box::new(chain))), found)
+        }
+    };
+    let findings = findings(found);
+    Ok(Contents { content, text, findings, apart: 0.0 })
+}
+
+/// A tree of bodies, with the files that it names.
+fn bodies(name: &str, text: Arc<str>, options: &Options) -> Result<Contents, Problem> {
+    if is_mjcf(&text) && !options.arguments.is_empty() {
+        return Err(Problem::TakesNoArguments);
+    }
+    let read = |decimals| {
+        let mut folder = Folder::around(name, &options.packages);
+        read_bodies(name, &text, &mut folder, &options.arguments, decimals)
+    };
+    let (outcome, files) = read(options.decimals());
+    let placed = |found: Vec<Diagnostic>| -> Vec<Finding> {
+        let mut texts: Vec<(Arc<str>, Arc<str>)> = vec![];
+        let mut shared = |name: &str, text: &str| {
+            let known = texts.iter().position(|t| *t.0 == *name);
+            let at = known.unwrap_or_else(|| {
+                texts.push((name.into(), text.into()));
+                texts.len() - 1
+            });
+            texts[at].clone()
+        };
+        let place = |d: Diagnostic| {
+            let (name, text, span) = files.locate(&d.span)?;
+            let (name, text) = shared(name, text);
+            Some(Finding { diagnostic: Diagnostic { span, ..d }, name, text })
+        };
+        found.into_iter().filter_map(place).collect()
+    };
+    let (mechanism, findings) = outcome.map_err(|found| Problem::Errors(placed(found)))?;
+    let findings = placed(findings);
+    let apart = match (options.decimals(), read(Decimals::AsWritten)) {
+        (Decimals::Meant, (Ok((written, _)), _)) => mechanism.apart(&written),
+        _ => 0.0,
+    };
+    Ok(Contents { content: Content::Bodies(Box::new(mechanism)), text, findings, apart })
+}
+
+/// The text of a file or of standard input, bounded (one byte more says that there are more), whatever its bytes are.
+///
+/// # Errors
+/// If it cannot be read.
+pub fn contents(name: &str, most: usize) -> io::Result<String> {
+    let limit = most as u64 + 1;
+    let mut bytes = vec![];
+    if name == "-" {
+        io::stdin().lock().take(limit).read_to_end(&mut bytes)?;
+    } else {
+        File::open(name)?.take(limit).read_to_end(&mut bytes)?;
+    }
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
