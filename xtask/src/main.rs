@@ -8,6 +8,7 @@ mod documents;
 mod dynamics_counts;
 mod errata;
 mod languages;
+mod python;
 mod runner;
 mod soak;
 mod steps;
@@ -43,6 +44,8 @@ cargo xtask bench [--write | --quick] [evaluation] [dynamics] [inverse] [arms] [
                                  deriving every robot of the catalogue, beside SymPy's, and of writing its report; --write renews docs/performance.md, --quick takes fewer
                                  poses (arms); fails if a figure is above its limit
 cargo xtask languages            builds and runs generated source code in every language
+cargo xtask python               the Python package: built beside the program, its types checked, its tests run
+cargo xtask wheel                its wheel as it would be published, installed into an empty environment and tested there
 cargo xtask counts [--check]     writes docs/operation-counts.md; --check fails if it is not up to date,
                                  or if SymPy needs fewer operations for some robot
 cargo xtask counts dynamics [--check]
@@ -90,6 +93,8 @@ fn dispatch(arguments: &[String]) -> Result<()> {
         ["bench", "--write", ref parts @ ..] => bench::run(parts, true),
         ["bench", ref parts @ ..] => bench::run(parts, false),
         ["languages"] => languages::run(),
+        ["python"] => python::test(),
+        ["wheel"] => python::wheel(),
         ["miri"] => soak::miri(),
         ["counts"] => counts::run(false),
         ["counts", "--check"] => counts::run(true),

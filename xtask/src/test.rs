@@ -38,6 +38,7 @@ const ASIDE: &[Step] = &[
     step("page, driven", &["page"]),
     step("benchmark", &["step", "benchmark"]),
     step("languages", &["languages"]),
+    step("python", &["python"]),
 ];
 /// After an edit.
 const QUICK: &[Step] = &[
@@ -53,6 +54,7 @@ const FULL: &[Step] = &[
     step("certificates", &["certificates"]),
     step("counts of dynamics", &["counts", "dynamics", "--check"]),
     step("descriptions", &["descriptions"]),
+    step("wheel", &["wheel"]),
     step("miri", &["miri"]),
     step("soak", &["soak"]),
     step("bench", &["bench"]),

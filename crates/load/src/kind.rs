@@ -76,7 +76,11 @@ pub fn listed(name: &str) -> Option<&'static str> {
 /// Names of the catalogue that may have been meant.
 pub fn close_names(name: &str) -> Vec<&'static str> {
     let names = catalogue::names().into_iter().chain(catalogue::structures());
-    names.filter(|n| similar(n, name)).take(6).collect()
+    let mut close: Vec<&str> = names.filter(|n| similar(n, name)).collect();
+    // What is spelt alike is meant before what is longer.
+    close.sort_by_key(|n| n.len().abs_diff(name.len()));
+    close.truncate(6);
+    close
 }
 
 /// Whether a catalogue name is what somebody may have meant: it holds the text, or most of its letters in order.

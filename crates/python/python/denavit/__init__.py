@@ -1,0 +1,59 @@
+"""Exact kinematics of robot manipulators: formulas that are proved, numbers that are fast.
+
+>>> import numpy as np
+>>> from denavit import Robot
+>>> robot = Robot("ur5")
+>>> pose = robot.fk([0.3, -1.2, 1.5, 0.4, 0.9, -0.6])
+>>> answer = robot.ik(pose)
+>>> answer.solutions.shape, answer.complete
+((8, 6), True)
+>>> bool(np.allclose(robot.fk(answer.solutions), pose))
+True
+
+Angles are radians, lengths metres; poses are 4×4 matrices of the tool in the base.
+"""
+
+from ._answers import Answer, Answers, Family, Obstacle
+from ._denavit import __version__
+from ._documents import Checked, Claim, check
+from ._errors import (
+    ChainError,
+    DenavitError,
+    DescriptionError,
+    FileError,
+    Finding,
+    MissingValueError,
+    NoMassesError,
+    PoseError,
+    ShapeError,
+    UnknownRobotError,
+    UnsupportedError,
+    UsageError,
+)
+from ._robot import Joint, Robot, catalogue
+
+__all__ = [
+    "Answer",
+    "Answers",
+    "ChainError",
+    "Checked",
+    "Claim",
+    "DenavitError",
+    "DescriptionError",
+    "Family",
+    "FileError",
+    "Finding",
+    "Joint",
+    "MissingValueError",
+    "NoMassesError",
+    "Obstacle",
+    "PoseError",
+    "Robot",
+    "ShapeError",
+    "UnknownRobotError",
+    "UnsupportedError",
+    "UsageError",
+    "__version__",
+    "catalogue",
+    "check",
+]

@@ -1,0 +1,291 @@
+//! Joint variables for poses.
+
+use crate::arrays::{Rows, array, leading};
+use crate::robot::Core;
+use crate::trouble::{Kind, Trouble};
+use denavit::description::Description;
+use denavit::geometry::Transform;
+use denavit::inverse::{Answer, Family, Goal, InverseKinematics, InverseOptions, Solution, Unprepared};
+use denavit_report::words::Tongue;
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+use std::collections::HashMap;
+use std::num::NonZero;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
+
+/// What is solved besides the pose.
+pub struct Wish {
+    /// The solution nearest to this is wanted, too.
+    pub near: Option<Vec<f64>>,
+    /// Whether solutions that the limits exclude are left out.
+    pub limits: bool,
+    /// Whether one will do.
+    pub one: bool,
+    /// Joints whose values are given.
+    pub given: Vec<(String, f64)>,
+}
+
+/// The solvers of a robot, prepared when they are first needed.
+#[derive(Default)]
+pub struct Solvers(Mutex<HashMap<String, Arc<Prepared>>>);
+
+/// A solver, with what stands for joints that are given.
+pub struct Prepared {
+    solver: InverseKinematics,
+    /// Names of the joint variables.
+    names: Vec<String>,
+    /// Values of given joints that nobody gives.
+    usual: Vec<f64>,
+}
+
+fn goal_of(name: &str) -> Result<Goal, Trouble> {
+    match name {
+        "pose" => Ok(Goal::Pose),
+        "position" => Ok(Goal::Position),
+        _ => Err(Trouble::new(Kind::Usage, format!("no goal `{name}`: pose or position"))),
+    }
+}
+
+/// What a solver is asked to be.
+///
+/// # Errors
+/// If there is no such joint or goal.
+pub fn options(d: &Description, given: Option<&[String]>, goal: &str) -> Result<InverseOptions, Trouble> {
+    let joint = |word: &String| {
+        denavit_load::joint(d, word).map_err(|why| Trouble::new(Kind::Usage, format!("given: {why}")))
+    };
+    let given = given.map(|words| words.iter().map(joint).collect::<Result<Vec<usize>, _>>());
+    Ok(InverseOptions { goal: goal_of(goal)?, given: given.transpose()? })
+}
+
+impl Solvers {
+    fn get(
+        &self,
+        core: &Core,
+        py: Python<'_>,
+        wish: &Wish,
+        goal: &str,
+    ) -> Result<(Arc<Prepared>, Vec<f64>), Trouble> {
+        let words: Vec<String> = wish.given.iter().map(|g| g.0.clone()).collect();
+        let key = format!("{goal} {words:?}");
+        let known = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = known().get(&key).cloned();
+        let prepared = match found {
+            Some(prepared) => prepared,
+            None => {
+                let made = core.derive(py, |d| prepare(d, &words, goal).map(Arc::new))?;
+                known().entry(key).or_insert(made).clone()
+            }
+        };
+        // By number or name a joint is found only in the description; the solver has them sorted.
+        let mut values = prepared.usual.clone();
+        if !wish.given.is_empty() {
+            let order = core.derive(py, |d| Ok(options(d, Some(&words), goal)?.given.unwrap_or_default()))?;
+            for (value, joint) in values.iter_mut().zip(&prepared.solver.given) {
+                if let Some(k) = order.iter().position(|g| g == joint) {
+                    *value = wish.given[k].1;
+                }
+            }
+        }
+        Ok((prepared, values))
+    }
+}
+
+fn prepare(d: &Description, given: &[String], goal: &str) -> Result<Prepared, Trouble> {
+    let options = options(d, (!given.is_empty()).then_some(given), goal)?;
+    let solver = InverseKinematics::new(d, &options).map_err(|why| match why {
+        Unprepared::Missing(missing) => Trouble::missing(missing),
+        Unprepared::Lengths(_) => Trouble::new(Kind::Unsupported, why.to_string()),
+        Unprepared::Given(why) => Trouble::new(Kind::Usage, format!("given: {why}")),
+    })?;
+    let names = d.variables().iter().map(|v| v.symbol.name().to_string()).collect();
+    let limits: Vec<_> = d.rows.iter().filter(|r| r.variable.is_some()).map(|r| r.limits).collect();
+    let usual = solver.given.iter().map(|&j| {
+        let limits = limits[j].and_then(|[a, b]| {
+            let number = |e: denavit_symbolic::Expr| e.eval(|s| d.value(s)).ok();
+            Some([number(a)?, number(b)?])
+        });
+        match limits {
+            Some([low, high]) if !(low..=high).contains(&0.0) => f64::midpoint(low, high),
+            _ => 0.0,
+        }
+    });
+    let usual = usual.collect();
+    Ok(Prepared { usual, names, solver })
+}
+
+/// The poses of an array `(..., 4, 4)`, with its leading shape.
+fn poses(object: &Bound<'_, PyAny>) -> PyResult<(Vec<Transform<f64>>, Vec<usize>)> {
+    let (entries, shape) = match array(object, "pose")? {
+        Rows::Double(a) => (a.as_slice().map(<[f64]>::to_vec), a.shape().to_vec()),
+        Rows::Single(a) => {
+            (a.as_slice().map(|s| s.iter().map(|&x| f64::from(x)).collect()), a.shape().to_vec())
+        }
+    };
+    let entries = entries.map_err(|why| Trouble::new(Kind::Shape, why.to_string()))?;
+    let shape = leading(&shape, &[4, 4], "pose")?;
+    let pose = |(number, m): (usize, &[f64])| {
+        let row = |r: usize| [m[4 * r], m[4 * r + 1], m[4 * r + 2], m[4 * r + 3]];
+        Transform::from_matrix([row(0), row(1), row(2), row(3)]).map_err(|why| {
+            let which = if shape.is_empty() { String::new() } else { format!("pose {number}: ") };
+            Trouble::new(Kind::Pose, format!("{which}{why}"))
+        })
+    };
+    let all: Result<Vec<_>, Trouble> = entries.chunks_exact(16).enumerate().map(pose).collect();
+    Ok((all?, shape))
+}
+
+/// Everything about one pose.
+///
+/// # Errors
+/// If it is none, or the robot cannot be solved.
+pub fn solve<'py>(
+    core: &Core,
+    solvers: &Solvers,
+    py: Python<'py>,
+    pose: &Bound<'py, PyAny>,
+    wish: &Wish,
+    goal: &str,
+) -> PyResult<Bound<'py, PyDict>> {
+    let (all, shape) = poses(pose)?;
+    let [pose] = all[..] else {
+        let why =
+            format!("one pose is needed, and this is an array {shape:?} of them: `ik_batch` takes many");
+        return Err(Trouble::new(Kind::Shape, why).into());
+    };
+    let (prepared, values) = solvers.get(core, py, wish, goal)?;
+    let solver = &prepared.solver;
+    let joints = solver.robot.joints;
+    if let Some(near) = wish.near.as_ref().filter(|q| q.len() != joints) {
+        let why = format!("near has {} values; {joints} are needed", near.len());
+        return Err(Trouble::new(Kind::Shape, why).into());
+    }
+    let (answer, nearest) = py.detach(|| {
+        let seeded = wish.near.as_ref().map(|near| {
+            let mut seeded = solver.clone();
+            seeded.seed = Some(near.clone());
+            seeded
+        });
+        let solver = seeded.as_ref().unwrap_or(solver);
+        let mut answer = match wish.one {
+            true => solver.one(&pose, &values, wish.near.as_deref()),
+            false => solver.solve(&pose, &values),
+        };
+        if wish.limits {
+            answer.leave_out(&solver.space);
+        }
+        let nearest = wish.near.as_ref().and_then(|to| solver.nearest(&pose, &answer, to));
+        (answer, nearest)
+    });
+    let dict = PyDict::new(py);
+    listed(py, &dict, joints, &answer.solutions)?;
+    let families = answer.families.iter().map(|f| family(py, f, joints)).collect::<PyResult<Vec<_>>>()?;
+    dict.set_item("families", PyList::new(py, families)?)?;
+    dict.set_item("complete", answer.is_complete())?;
+    dict.set_item("doubt", denavit_wire::inverse::doubt(&answer))?;
+    dict.set_item("status", denavit_wire::inverse::status(&answer))?;
+    dict.set_item("method", solver.method())?;
+    let given = solver.given.iter().map(|&j| prepared.names[j].clone()).zip(values);
+    dict.set_item("given", given.collect::<Vec<_>>())?;
+    dict.set_item("nearest", nearest.map(|n| n.q.into_pyarray(py)))?;
+    let obstacle = answer.obstacle.as_ref().filter(|_| !answer.is_reachable());
+    let obstacle = obstacle.map(|o| {
+        let words = Tongue::English.words().obstacle(o);
+        (words, o.q.clone().into_pyarray(py), o.angle, o.distance)
+    });
+    dict.set_item("obstacle", obstacle)?;
+    Ok(dict)
+}
+
+/// Solutions side by side.
+fn listed<'py>(
+    py: Python<'py>,
+    dict: &Bound<'py, PyDict>,
+    joints: usize,
+    solutions: &[Solution],
+) -> PyResult<()> {
+    let q: Vec<f64> = solutions.iter().flat_map(|s| &s.q).copied().collect();
+    dict.set_item("solutions", matrix(py, q, solutions.len(), joints)?)?;
+    let residuals: Vec<f64> = solutions.iter().map(|s| s.residual).collect();
+    dict.set_item("residuals", residuals.into_pyarray(py))?;
+    dict.set_item("branches", solutions.iter().map(|s| s.branch.to_string()).collect::<Vec<_>>())?;
+    let multiplicities: Vec<i64> = solutions.iter().map(|s| i64::from(s.multiplicity)).collect();
+    dict.set_item("multiplicities", multiplicities.into_pyarray(py))?;
+    let within: Vec<bool> = solutions.iter().map(|s| s.within_limits).collect();
+    dict.set_item("within_limits", PyArray1::from_vec(py, within))
+}
+
+fn matrix<'py>(
+    py: Python<'py>,
+    entries: Vec<f64>,
+    rows: usize,
+    columns: usize,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    entries.into_pyarray(py).reshape([rows, columns])
+}
+
+fn family<'py>(py: Python<'py>, f: &Family, joints: usize) -> PyResult<Bound<'py, PyDict>> {
+    let dict = PyDict::new(py);
+    dict.set_item("q", f.representative.q.clone().into_pyarray(py))?;
+    dict.set_item("branch", f.representative.branch.to_string())?;
+    dict.set_item("residual", f.representative.residual)?;
+    dict.set_item("within_limits", f.representative.within_limits)?;
+    dict.set_item("dimension", f.dimension)?;
+    dict.set_item("free", f.free.clone())?;
+    dict.set_item("direction", f.direction.clone().into_pyarray(py))?;
+    dict.set_item("affine", f.is_affine)?;
+    dict.set_item("interval", f.interval.map(|[a, b]| (a, b)))?;
+    dict.set_item("feasible", f.feasible.iter().map(|[a, b]| (*a, *b)).collect::<Vec<_>>())?;
+    let curve: Vec<f64> = f.curve.iter().flatten().copied().collect();
+    dict.set_item("curve", matrix(py, curve, f.curve.len(), joints)?)?;
+    Ok(dict)
+}
+
+/// All solutions of many poses, one behind the other.
+///
+/// # Errors
+/// If one is no pose, or the robot cannot be solved.
+pub fn solve_all<'py>(
+    core: &Core,
+    solvers: &Solvers,
+    py: Python<'py>,
+    many: &Bound<'py, PyAny>,
+    wish: &Wish,
+    goal: &str,
+    threads: Option<usize>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let (poses, shape) = poses(many)?;
+    let (prepared, values) = solvers.get(core, py, wish, goal)?;
+    let solver = &prepared.solver;
+    let answers: Vec<Answer> = py.detach(|| {
+        let cores = || thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN);
+        let threads = threads.and_then(NonZero::new).unwrap_or_else(cores);
+        let mut answers = solver.solve_all(&poses, &values, threads);
+        if wish.limits {
+            for answer in &mut answers {
+                answer.leave_out(&solver.space);
+            }
+        }
+        answers
+    });
+    let dict = PyDict::new(py);
+    let solutions: Vec<Solution> = answers.iter().flat_map(|a| &a.solutions).cloned().collect();
+    listed(py, &dict, solver.robot.joints, &solutions)?;
+    let counts: Vec<i64> =
+        answers.iter().map(|a| i64::try_from(a.solutions.len()).unwrap_or(i64::MAX)).collect();
+    dict.set_item("counts", counts.into_pyarray(py))?;
+    let complete: Vec<bool> = answers.iter().map(Answer::is_complete).collect();
+    dict.set_item("complete", PyArray1::from_vec(py, complete))?;
+    let status: Vec<&str> = answers.iter().map(denavit_wire::inverse::status).collect();
+    dict.set_item("status", status)?;
+    let families = |a: &Answer| -> PyResult<Bound<'py, PyList>> {
+        let all = a.families.iter().map(|f| family(py, f, solver.robot.joints));
+        PyList::new(py, all.collect::<PyResult<Vec<_>>>()?)
+    };
+    dict.set_item("families", answers.iter().map(families).collect::<PyResult<Vec<_>>>()?)?;
+    dict.set_item("method", solver.method())?;
+    dict.set_item("shape", shape)?;
+    Ok(dict)
+}

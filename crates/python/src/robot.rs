@@ -1,0 +1,444 @@
+//! A robot: the text of its file, and what was compiled of it.
+
+use crate::arrays::Call;
+use crate::formulas;
+use crate::inverse::{self, Solvers};
+use crate::loading::{self, Facts, Joint, Request};
+use crate::trouble::{Found, Kind, Trouble, apart};
+use denavit::description::Description;
+use denavit::dynamics::{DynamicFunction, DynamicPrograms, Masses};
+use denavit::forward::{Reference, frames_program, pose_program};
+use denavit::velocity::{Viewpoint, jacobian_program};
+use denavit_program::{Function, Program};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::collections::HashMap;
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+/// A robot.
+#[pyclass(frozen, module = "denavit._denavit")]
+pub struct Core {
+    facts: Facts,
+    /// What it was read from, where there is more of it.
+    request: Option<Request>,
+    pose: OnceLock<Arc<Function>>,
+    /// Other functions, by what they compute.
+    functions: Mutex<HashMap<String, Arc<Function>>>,
+    solvers: Solvers,
+}
+
+/// The names of the catalogue, arms first, structures behind them.
+#[pyfunction]
+pub fn catalogue() -> (Vec<&'static str>, Vec<&'static str>) {
+    (denavit::catalogue::names(), denavit::catalogue::structures())
+}
+
+/// A program at the robot's own values.
+fn compiled(d: &Description, program: &Program) -> Result<Arc<Function>, Trouble> {
+    program.compile_with(|s| d.value(s)).map(Arc::new).map_err(Trouble::missing)
+}
+
+/// The frame that a word names.
+///
+/// # Errors
+/// If there is none.
+pub fn reference(d: &Description, word: &str) -> Result<Reference, Trouble> {
+    match word {
+        "base" => Ok(Reference::Base),
+        "tool" => Ok(Reference::Tool),
+        _ => denavit_load::frame(d, word)
+            .map(Reference::Frame)
+            .map_err(|why| Trouble::new(Kind::Usage, format!("{why}; or `base` or `tool`"))),
+    }
+}
+
+impl Core {
+    fn new(facts: Facts, request: Option<Request>) -> Self {
+        Core {
+            facts,
+            request,
+            pose: OnceLock::new(),
+            functions: Mutex::default(),
+            solvers: Solvers::default(),
+        }
+    }
+
+    fn loaded(py: Python<'_>, request: Request) -> PyResult<Self> {
+        let facts = apart(py, || request.load())?;
+        Ok(Core::new(facts, Some(request)))
+    }
+
+    /// What is made of the description on a thread of its own.
+    ///
+    /// # Errors
+    /// Those of the work.
+    pub fn derive<T: Send>(
+        &self,
+        py: Python<'_>,
+        work: impl FnOnce(&Description) -> Result<T, Trouble> + Send,
+    ) -> Result<T, Trouble> {
+        apart(py, || work(&loading::description(&self.facts.text)?))
+    }
+
+    /// The function of this name, compiled when it is first needed.
+    fn function(
+        &self,
+        py: Python<'_>,
+        key: String,
+        program: impl FnOnce(&Description) -> Result<Program, Trouble> + Send,
+    ) -> Result<Arc<Function>, Trouble> {
+        let known = || self.functions.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(function) = known().get(&key) {
+            return Ok(function.clone());
+        }
+        let made = self.derive(py, |d| compiled(d, &program(d)?))?;
+        Ok(known().entry(key).or_insert(made).clone())
+    }
+
+    fn joint_count(&self) -> usize {
+        self.facts.joints.len()
+    }
+}
+
+/// The dynamic function of a name.
+fn dynamic(name: &str) -> Option<(DynamicFunction, usize)> {
+    Some(match name {
+        "torque" => (DynamicFunction::Torque, 3),
+        "inertia" => (DynamicFunction::Inertia, 1),
+        "bias" => (DynamicFunction::Bias, 2),
+        "gravity" => (DynamicFunction::Gravity, 1),
+        "acceleration" => (DynamicFunction::Acceleration, 3),
+        "energy" => (DynamicFunction::Energy, 2),
+        _ => return None,
+    })
+}
+
+#[pymethods]
+impl Core {
+    /// From the catalogue.
+    #[staticmethod]
+    #[pyo3(signature = (name, base, tip, convention))]
+    fn catalogue(
+        py: Python<'_>,
+        name: String,
+        base: Option<String>,
+        tip: Option<String>,
+        convention: Option<String>,
+    ) -> PyResult<Self> {
+        Core::loaded(py, Request { name, base, tip, convention, ..Request::default() })
+    }
+
+    /// From a file.
+    #[staticmethod]
+    #[allow(clippy::too_many_arguments)] // The options of a file, given by name.
+    fn file(
+        py: Python<'_>,
+        name: String,
+        base: Option<String>,
+        tip: Option<String>,
+        convention: Option<String>,
+        arguments: Vec<(String, String)>,
+        packages: Vec<(String, PathBuf)>,
+        as_written: bool,
+        angles: Option<String>,
+        lengths: Option<String>,
+        table: Option<usize>,
+        columns: Option<String>,
+    ) -> PyResult<Self> {
+        let request = Request {
+            name,
+            is_file: true,
+            base,
+            tip,
+            convention,
+            arguments,
+            packages,
+            as_written,
+            angles,
+            lengths,
+            table,
+            columns,
+        };
+        Core::loaded(py, request)
+    }
+
+    /// From the text of a robot file.
+    #[staticmethod]
+    fn text(py: Python<'_>, text: &str, name: &str) -> PyResult<Self> {
+        Ok(Core::new(apart(py, || loading::from_text(text, name))?, None))
+    }
+
+    /// Another chain of what it was read from.
+    fn chain(&self, py: Python<'_>, base: Option<String>, tip: Option<String>) -> PyResult<Self> {
+        let Some(request) = self.request.clone() else {
+            let why = format!("{} is one chain: it has no links to choose from", self.facts.name);
+            return Err(Trouble::new(Kind::Chain, why).into());
+        };
+        Core::loaded(py, Request { base, tip, ..request })
+    }
+
+    /// The same with values for parameters.
+    fn set(&self, py: Python<'_>, values: Vec<(String, String)>) -> PyResult<Self> {
+        let facts = self.derive(py, |d| {
+            let mut d = d.clone();
+            for (name, value) in &values {
+                let set = d.set(name, value);
+                set.map_err(|why| Trouble::new(Kind::Usage, format!("{name} = {value}: {why}")))?;
+            }
+            Ok(Facts::of(&d, self.facts.findings.clone()))
+        })?;
+        Ok(Core::new(facts, None))
+    }
+
+    /// The same in another convention.
+    fn converted(&self, py: Python<'_>, to: &str) -> PyResult<Self> {
+        let facts = self.derive(py, |d| {
+            let conversion = d.converted(loading::convention(to)?);
+            Ok(Facts::of(&conversion.description, self.facts.findings.clone()))
+        })?;
+        Ok(Core::new(facts, None))
+    }
+
+    #[getter]
+    fn toml(&self) -> &str {
+        &self.facts.text
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.facts.name
+    }
+
+    #[getter]
+    fn source(&self) -> Option<&str> {
+        self.facts.source.as_deref()
+    }
+
+    #[getter]
+    fn convention(&self) -> &str {
+        self.facts.convention
+    }
+
+    #[getter]
+    fn joints(&self) -> Vec<Joint> {
+        self.facts.joints.clone()
+    }
+
+    #[getter]
+    fn parameters(&self) -> Vec<(String, Option<f64>)> {
+        self.facts.parameters.clone()
+    }
+
+    #[getter]
+    fn poses(&self) -> Vec<(String, Vec<f64>)> {
+        self.facts.poses.clone()
+    }
+
+    #[getter]
+    fn table(&self) -> (Vec<String>, Vec<Vec<String>>) {
+        self.facts.table.clone()
+    }
+
+    #[getter]
+    fn has_masses(&self) -> bool {
+        self.facts.has_masses
+    }
+
+    #[getter]
+    fn findings(&self) -> Vec<Found> {
+        self.facts.findings.clone()
+    }
+
+    /// Poses of the tool.
+    fn fk<'py>(
+        &self,
+        q: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+        threads: Option<usize>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let function = match self.pose.get() {
+            Some(function) => function,
+            None => {
+                let made = self.derive(q.py(), |d| compiled(d, &pose_program(d)))?;
+                self.pose.get_or_init(|| made)
+            }
+        };
+        let call = Call { function, variables: self.joint_count(), tail: &[4, 4], what: "q", out, threads };
+        call.of(q)
+    }
+
+    /// Poses of frames.
+    fn frames<'py>(
+        &self,
+        q: &Bound<'py, PyAny>,
+        of: Option<Vec<String>>,
+        out: Option<&Bound<'py, PyAny>>,
+        threads: Option<usize>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let count = of.as_ref().map_or(self.facts.table.1.len() + 2, Vec::len);
+        let function = self.function(q.py(), format!("frames {of:?}"), |d| {
+            let frames = match of {
+                Some(words) => words.iter().map(|w| reference(d, w)).collect::<Result<Vec<_>, _>>()?,
+                None => (0..=d.rows.len()).map(Reference::Frame).chain([Reference::Tool]).collect(),
+            };
+            Ok(frames_program(d, &frames))
+        })?;
+        let call = Call {
+            function: &function,
+            variables: self.joint_count(),
+            tail: &[count, 4, 4],
+            what: "q",
+            out,
+            threads,
+        };
+        call.of(q)
+    }
+
+    /// Geometric Jacobians.
+    fn jacobian<'py>(
+        &self,
+        q: &Bound<'py, PyAny>,
+        of: &str,
+        frame: &str,
+        at: Option<&str>,
+        out: Option<&Bound<'py, PyAny>>,
+        threads: Option<usize>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let function = self.function(q.py(), format!("jacobian {of:?} {frame:?} {at:?}"), |d| {
+            let body = formulas::body(d, of)?;
+            let mut view = Viewpoint::of(body, reference(d, frame)?);
+            if let Some(at) = at {
+                view.at = reference(d, at)?;
+            }
+            Ok(jacobian_program(d, &view))
+        })?;
+        let n = self.joint_count();
+        let call = Call { function: &function, variables: n, tail: &[6, n], what: "q", out, threads };
+        call.of(q)
+    }
+
+    /// A dynamic function; the vectors that it reads stand side by side in the rows.
+    fn dynamics<'py>(
+        &self,
+        name: &str,
+        state: &Bound<'py, PyAny>,
+        threads: Option<usize>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (wanted, reads) =
+            dynamic(name).ok_or_else(|| Trouble::new(Kind::Usage, format!("no function `{name}`")))?;
+        if !self.facts.has_masses {
+            let why = format!(
+                "{} says nothing of masses: a URDF does, or mass, com and inertia in a robot file or in rows",
+                self.facts.name
+            );
+            return Err(Trouble::new(Kind::NoMasses, why).into());
+        }
+        let function = self.function(state.py(), format!("dynamics {name}"), |d| {
+            let programs = DynamicPrograms::new(d, Masses::Numbers);
+            let programs = programs.map_err(|why| Trouble::new(Kind::NoMasses, why.to_string()))?;
+            let made = programs.program(wanted);
+            Ok(made.map_err(|why| Trouble::new(Kind::Unsupported, why.to_string()))?.program)
+        })?;
+        let n = self.joint_count();
+        let tail: &[usize] = match wanted {
+            DynamicFunction::Inertia => &[n, n],
+            DynamicFunction::Energy => &[2],
+            _ => &[n],
+        };
+        let call =
+            Call { function: &function, variables: reads * n, tail, what: "the state", out: None, threads };
+        call.of(state)
+    }
+
+    /// All configurations for a pose.
+    #[allow(clippy::too_many_arguments)] // What `Robot.ik` takes by name.
+    fn ik<'py>(
+        &self,
+        py: Python<'py>,
+        pose: &Bound<'py, PyAny>,
+        near: Option<Vec<f64>>,
+        limits: bool,
+        one: bool,
+        given: Vec<(String, f64)>,
+        goal: &str,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let wish = inverse::Wish { near, limits, one, given };
+        inverse::solve(self, &self.solvers, py, pose, &wish, goal)
+    }
+
+    /// All configurations for many poses, with the values of given joints.
+    #[allow(clippy::too_many_arguments)] // What `Robot.ik_batch` takes by name.
+    fn ik_batch<'py>(
+        &self,
+        py: Python<'py>,
+        poses: &Bound<'py, PyAny>,
+        limits: bool,
+        given: Vec<(String, f64)>,
+        goal: &str,
+        threads: Option<usize>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let wish = inverse::Wish { near: None, limits, one: false, given };
+        inverse::solve_all(self, &self.solvers, py, poses, &wish, goal, threads)
+    }
+
+    /// The forward model in formulas.
+    fn derive_text(
+        &self,
+        py: Python<'_>,
+        format: &str,
+        from: &str,
+        to: &str,
+        only: &str,
+    ) -> PyResult<String> {
+        Ok(self.derive(py, |d| formulas::forward(d, format, from, to, only))?)
+    }
+
+    /// How the closed form is derived.
+    fn ik_explain(
+        &self,
+        py: Python<'_>,
+        format: &str,
+        given: Option<Vec<String>>,
+        goal: &str,
+    ) -> PyResult<String> {
+        Ok(self.derive(py, |d| formulas::inverse(d, format, given.as_deref(), goal))?)
+    }
+
+    /// The Jacobian in formulas, and where it is singular.
+    fn jacobian_explain(&self, py: Python<'_>, format: &str, of: &str) -> PyResult<String> {
+        Ok(self.derive(py, |d| formulas::jacobian(d, format, of))?)
+    }
+
+    /// Torques in formulas.
+    fn dynamics_explain(&self, py: Python<'_>, format: &str) -> PyResult<String> {
+        Ok(self.derive(py, |d| formulas::dynamics(d, format))?)
+    }
+
+    /// The whole report.
+    fn report(&self, py: Python<'_>, format: &str, language: &str) -> PyResult<String> {
+        Ok(self.derive(py, |d| formulas::report(d, format, language))?)
+    }
+
+    /// The arm, or its line diagram, as SVG.
+    fn figure(&self, py: Python<'_>, q: Option<Vec<f64>>, scheme: bool) -> PyResult<String> {
+        Ok(self.derive(py, |d| formulas::figure(d, q.as_deref(), scheme))?)
+    }
+
+    /// The claims of a document about this robot, as JSON.
+    fn check(&self, py: Python<'_>, text: &str, name: &str) -> PyResult<String> {
+        Ok(self.derive(py, |d| formulas::checked(text, name, Some(d)))?)
+    }
+
+    /// Source code: files, what is said of each function, and the command that tests it.
+    fn generate(
+        &self,
+        py: Python<'_>,
+        language: &str,
+        functions: Vec<String>,
+        name: Option<String>,
+        goal: &str,
+    ) -> PyResult<formulas::Code> {
+        Ok(self.derive(py, |d| formulas::code(d, language, &functions, name, goal))?)
+    }
+}

@@ -1,0 +1,98 @@
+//! The Python package: built with the artefacts of the workspace and tested; as a wheel, installed and tested.
+
+use crate::{cargo, command, languages, path, program, scratch, succeed, target};
+use anyhow::{Context, Result, bail};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// The package without its module.
+const PACKAGE: &str = "crates/python/python/denavit";
+const TESTS: &str = "crates/python/tests";
+/// What tests use.
+const PACKAGES: &[&str] = &["numpy", "pytest", "hypothesis", "scipy", "mypy"];
+
+/// Builds the module beside the program, puts the package together and runs its tests and those of its types.
+///
+/// # Errors
+/// If something fails.
+pub fn test() -> Result<()> {
+    let python = languages::python(PACKAGES)?;
+    let program = program()?;
+    let folder = put_together()?;
+    types(&python, &folder)?;
+    let mut tests = pytest(&python, &program)?;
+    succeed(tests.env("PYTHONPATH", &folder))
+}
+
+/// The package with its module, in a folder of its own.
+fn put_together() -> Result<PathBuf> {
+    // As the program is built, so that both take the same libraries.
+    let arguments = ["build", "--quiet", "--locked", "--workspace", "--lib", "--bins", "--examples"];
+    succeed(cargo().args(arguments))?;
+    let folder = scratch()?.join("python");
+    let package = folder.join("denavit");
+    if package.exists() {
+        fs::remove_dir_all(&package)?;
+    }
+    fs::create_dir_all(&package)?;
+    for entry in fs::read_dir(path(PACKAGE))? {
+        let file = entry?.path();
+        if file.is_file() {
+            fs::copy(&file, package.join(file.file_name().context("a name")?))?;
+        }
+    }
+    let (library, module) = match () {
+        () if cfg!(windows) => ("denavit_python.dll", "_denavit.pyd"),
+        () if cfg!(target_os = "macos") => ("libdenavit_python.dylib", "_denavit.abi3.so"),
+        () => ("libdenavit_python.so", "_denavit.abi3.so"),
+    };
+    fs::copy(target().join("debug").join(library), package.join(module))?;
+    Ok(folder)
+}
+
+/// mypy finds nothing in the package.
+fn types(python: &Path, folder: &Path) -> Result<()> {
+    let mut check = command(python);
+    check.args(["-m", "mypy", "--strict", "--no-error-summary", "--cache-dir"]).arg(scratch()?.join("mypy"));
+    succeed(check.args(["-p", "denavit"]).env("MYPYPATH", folder))
+}
+
+/// The tests, beside the program.
+fn pytest(python: &Path, program: &Path) -> Result<Command> {
+    let mut tests = command(python);
+    tests.args(["-m", "pytest", "-q", "-p", "no:cacheprovider", TESTS]);
+    tests.env("DENAVIT", program).env("PYTHONDONTWRITEBYTECODE", "1");
+    tests.env("HYPOTHESIS_STORAGE_DIRECTORY", scratch()?.join("hypothesis"));
+    Ok(tests)
+}
+
+/// Builds the wheel as it would be published, installs it into an empty environment and runs the tests there.
+///
+/// # Errors
+/// If something fails.
+pub fn wheel() -> Result<()> {
+    let python = languages::python(&["maturin"])?;
+    let program = program()?;
+    let wheels = target().join("wheels");
+    if wheels.exists() {
+        fs::remove_dir_all(&wheels)?;
+    }
+    let mut build = command(&python);
+    build.args(["-m", "maturin", "build", "--profile", "dist", "--locked", "--out"]).arg(&wheels);
+    succeed(build.args(["--manifest-path", "crates/python/Cargo.toml"]))?;
+    let built: Vec<PathBuf> = fs::read_dir(&wheels)?.map(|e| Ok(e?.path())).collect::<Result<_>>()?;
+    let [wheel] = &built[..] else { bail!("{} wheels in {}", built.len(), wheels.display()) };
+    let environment = scratch()?.join("wheel");
+    if environment.exists() {
+        fs::remove_dir_all(&environment)?;
+    }
+    succeed(command(&python).args(["-m", "venv"]).arg(&environment))?;
+    let own = environment.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
+    let install =
+        |packages: &[&str]| succeed(command(&own).args(["-m", "pip", "install", "--quiet"]).args(packages));
+    install(&[&wheel.to_string_lossy()])?;
+    install(PACKAGES)?;
+    println!("{}: {} bytes", wheel.display(), fs::metadata(wheel)?.len());
+    succeed(&mut pytest(&own, &program)?)
+}
