@@ -77,15 +77,19 @@ pub fn listed(name: &str) -> Option<&'static str> {
 pub fn close_names(name: &str) -> Vec<&'static str> {
     let names = catalogue::names().into_iter().chain(catalogue::structures());
     let mut close: Vec<&str> = names.filter(|n| similar(n, name)).collect();
-    // What is spelt alike is meant before what is longer.
-    close.sort_by_key(|n| n.len().abs_diff(name.len()));
+    // What differs in signs alone is meant before all others.
+    close.sort_by_key(|n| plain(n) != plain(name));
     close.truncate(6);
     close
 }
 
+/// Letters and digits alone.
+fn plain(s: &str) -> String {
+    s.to_lowercase().chars().filter(char::is_ascii_alphanumeric).collect()
+}
+
 /// Whether a catalogue name is what somebody may have meant: it holds the text, or most of its letters in order.
 fn similar(candidate: &str, text: &str) -> bool {
-    let plain = |s: &str| s.to_lowercase().chars().filter(char::is_ascii_alphanumeric).collect::<String>();
     let (candidate, text) = (plain(candidate), plain(text));
     if text.len() < 2 {
         return false;

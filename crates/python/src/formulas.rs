@@ -1,11 +1,10 @@
 //! What is derived of a robot, as text: formulas, explanations, verdicts on documents, source code.
 
-use crate::inverse::options;
-use crate::robot::reference;
+use crate::named::{body, options, reference};
 use crate::trouble::{Found, Kind, Trouble, apart, found};
 use denavit::description::Description;
 use denavit::dynamics::{DynamicModel, Loads, Recursion};
-use denavit::forward::{Outputs, Reference};
+use denavit::forward::Outputs;
 use denavit::inverse::InverseModel;
 use denavit::velocity::{JacobianModel, Obstacle, Singularities, singular_configurations};
 use denavit_check::{CheckOptions, check as judged};
@@ -117,19 +116,6 @@ pub fn inverse(
     let title = format!("Inverse kinematics of the {}", d.name);
     let document = of_blocks(title, explanation.names(), explanation.document(Tongue::English));
     written(&document, format, || denavit_wire::text(&denavit_wire::derivation::Derivation::of(&explanation)))
-}
-
-/// A body that moves.
-///
-/// # Errors
-/// If it does not, or there is none.
-pub fn body(d: &Description, of: &str) -> Result<Reference, Trouble> {
-    match reference(d, of)? {
-        Reference::Base | Reference::Frame(0) => {
-            Err(Trouble::new(Kind::Usage, format!("the velocity of `{of}`: the base does not move")))
-        }
-        body => Ok(body),
-    }
 }
 
 /// The Jacobian and where it is singular.

@@ -1,11 +1,12 @@
 //! Joint variables for poses.
 
 use crate::arrays::{Rows, array, leading};
-use crate::robot::Core;
+use crate::loading::derive;
+use crate::named::options;
 use crate::trouble::{Kind, Trouble};
 use denavit::description::Description;
 use denavit::geometry::Transform;
-use denavit::inverse::{Answer, Family, Goal, InverseKinematics, InverseOptions, Solution, Unprepared};
+use denavit::inverse::{Answer, Family, InverseKinematics, Solution, Unprepared};
 use denavit_report::words::Tongue;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
@@ -40,30 +41,10 @@ pub struct Prepared {
     usual: Vec<f64>,
 }
 
-fn goal_of(name: &str) -> Result<Goal, Trouble> {
-    match name {
-        "pose" => Ok(Goal::Pose),
-        "position" => Ok(Goal::Position),
-        _ => Err(Trouble::new(Kind::Usage, format!("no goal `{name}`: pose or position"))),
-    }
-}
-
-/// What a solver is asked to be.
-///
-/// # Errors
-/// If there is no such joint or goal.
-pub fn options(d: &Description, given: Option<&[String]>, goal: &str) -> Result<InverseOptions, Trouble> {
-    let joint = |word: &String| {
-        denavit_load::joint(d, word).map_err(|why| Trouble::new(Kind::Usage, format!("given: {why}")))
-    };
-    let given = given.map(|words| words.iter().map(joint).collect::<Result<Vec<usize>, _>>());
-    Ok(InverseOptions { goal: goal_of(goal)?, given: given.transpose()? })
-}
-
 impl Solvers {
     fn get(
         &self,
-        core: &Core,
+        text: &str,
         py: Python<'_>,
         wish: &Wish,
         goal: &str,
@@ -75,14 +56,14 @@ impl Solvers {
         let prepared = match found {
             Some(prepared) => prepared,
             None => {
-                let made = core.derive(py, |d| prepare(d, &words, goal).map(Arc::new))?;
+                let made = derive(py, text, |d| prepare(d, &words, goal).map(Arc::new))?;
                 known().entry(key).or_insert(made).clone()
             }
         };
         // By number or name a joint is found only in the description; the solver has them sorted.
         let mut values = prepared.usual.clone();
         if !wish.given.is_empty() {
-            let order = core.derive(py, |d| Ok(options(d, Some(&words), goal)?.given.unwrap_or_default()))?;
+            let order = derive(py, text, |d| Ok(options(d, Some(&words), goal)?.given.unwrap_or_default()))?;
             for (value, joint) in values.iter_mut().zip(&prepared.solver.given) {
                 if let Some(k) = order.iter().position(|g| g == joint) {
                     *value = wish.given[k].1;
@@ -142,7 +123,7 @@ fn poses(object: &Bound<'_, PyAny>) -> PyResult<(Vec<Transform<f64>>, Vec<usize>
 /// # Errors
 /// If it is none, or the robot cannot be solved.
 pub fn solve<'py>(
-    core: &Core,
+    text: &str,
     solvers: &Solvers,
     py: Python<'py>,
     pose: &Bound<'py, PyAny>,
@@ -155,7 +136,7 @@ pub fn solve<'py>(
             format!("one pose is needed, and this is an array {shape:?} of them: `ik_batch` takes many");
         return Err(Trouble::new(Kind::Shape, why).into());
     };
-    let (prepared, values) = solvers.get(core, py, wish, goal)?;
+    let (prepared, values) = solvers.get(text, py, wish, goal)?;
     let solver = &prepared.solver;
     let joints = solver.robot.joints;
     if let Some(near) = wish.near.as_ref().filter(|q| q.len() != joints) {
@@ -248,7 +229,7 @@ fn family<'py>(py: Python<'py>, f: &Family, joints: usize) -> PyResult<Bound<'py
 /// # Errors
 /// If one is no pose, or the robot cannot be solved.
 pub fn solve_all<'py>(
-    core: &Core,
+    text: &str,
     solvers: &Solvers,
     py: Python<'py>,
     many: &Bound<'py, PyAny>,
@@ -257,7 +238,7 @@ pub fn solve_all<'py>(
     threads: Option<usize>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let (poses, shape) = poses(many)?;
-    let (prepared, values) = solvers.get(core, py, wish, goal)?;
+    let (prepared, values) = solvers.get(text, py, wish, goal)?;
     let solver = &prepared.solver;
     let answers: Vec<Answer> = py.detach(|| {
         let cores = || thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN);

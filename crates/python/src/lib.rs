@@ -7,6 +7,7 @@ mod arrays;
 mod formulas;
 mod inverse;
 mod loading;
+mod named;
 mod robot;
 mod trouble;
 

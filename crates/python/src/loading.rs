@@ -1,6 +1,6 @@
 //! Robots by name, from files and texts.
 
-use crate::trouble::{Found, Kind, Trouble, all_found, found, said};
+use crate::trouble::{Found, Kind, Trouble, all_found, apart, found, said};
 use denavit::description::{
     Convention, Described, Description, JointKind, NoChain, RowTree, TableOptions, read_robot, read_toml,
     write_toml,
@@ -10,6 +10,7 @@ use denavit_report::document::plain;
 use denavit_report::words::{Tongue, Whole};
 use denavit_symbolic::Expr;
 use denavit_symbolic::vocabulary::Vocabulary;
+use pyo3::Python;
 use std::path::PathBuf;
 
 /// Metres that a person could see.
@@ -205,13 +206,20 @@ pub fn from_text(text: &str, name: &str) -> Result<Facts, Trouble> {
     Ok(Facts::of(&description, place(findings)))
 }
 
-/// The description that a text of [`Facts`] holds.
+/// What is made of the description that a text of [`Facts`] holds, on a thread of its own.
 ///
 /// # Errors
-/// If it has errors.
-pub fn description(text: &str) -> Result<Description, Trouble> {
-    let place = |all: Vec<_>| all.iter().map(|d| found(d, "robot", text)).collect::<Vec<_>>();
-    read_toml(text).map(|read| read.0).map_err(|all| Trouble::of(place(all)))
+/// Those of the work; or if the text has errors.
+pub fn derive<T: Send>(
+    py: Python<'_>,
+    text: &str,
+    work: impl FnOnce(&Description) -> Result<T, Trouble> + Send,
+) -> Result<T, Trouble> {
+    apart(py, || {
+        let place = |all: Vec<_>| all.iter().map(|d| found(d, "robot", text)).collect::<Vec<_>>();
+        let (description, _) = read_toml(text).map_err(|all| Trouble::of(place(all)))?;
+        work(&description)
+    })
 }
 
 impl Facts {

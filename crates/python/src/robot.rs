@@ -4,6 +4,7 @@ use crate::arrays::Call;
 use crate::formulas;
 use crate::inverse::{self, Solvers};
 use crate::loading::{self, Facts, Joint, Request};
+use crate::named::{body, reference};
 use crate::trouble::{Found, Kind, Trouble, apart};
 use denavit::description::Description;
 use denavit::dynamics::{DynamicFunction, DynamicPrograms, Masses};
@@ -39,20 +40,6 @@ fn compiled(d: &Description, program: &Program) -> Result<Arc<Function>, Trouble
     program.compile_with(|s| d.value(s)).map(Arc::new).map_err(Trouble::missing)
 }
 
-/// The frame that a word names.
-///
-/// # Errors
-/// If there is none.
-pub fn reference(d: &Description, word: &str) -> Result<Reference, Trouble> {
-    match word {
-        "base" => Ok(Reference::Base),
-        "tool" => Ok(Reference::Tool),
-        _ => denavit_load::frame(d, word)
-            .map(Reference::Frame)
-            .map_err(|why| Trouble::new(Kind::Usage, format!("{why}; or `base` or `tool`"))),
-    }
-}
-
 impl Core {
     fn new(facts: Facts, request: Option<Request>) -> Self {
         Core {
@@ -78,7 +65,7 @@ impl Core {
         py: Python<'_>,
         work: impl FnOnce(&Description) -> Result<T, Trouble> + Send,
     ) -> Result<T, Trouble> {
-        apart(py, || work(&loading::description(&self.facts.text)?))
+        loading::derive(py, &self.facts.text, work)
     }
 
     /// The function of this name, compiled when it is first needed.
@@ -306,8 +293,7 @@ impl Core {
         threads: Option<usize>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let function = self.function(q.py(), format!("jacobian {of:?} {frame:?} {at:?}"), |d| {
-            let body = formulas::body(d, of)?;
-            let mut view = Viewpoint::of(body, reference(d, frame)?);
+            let mut view = Viewpoint::of(body(d, of)?, reference(d, frame)?);
             if let Some(at) = at {
                 view.at = reference(d, at)?;
             }
@@ -364,7 +350,7 @@ impl Core {
         goal: &str,
     ) -> PyResult<Bound<'py, PyDict>> {
         let wish = inverse::Wish { near, limits, one, given };
-        inverse::solve(self, &self.solvers, py, pose, &wish, goal)
+        inverse::solve(&self.facts.text, &self.solvers, py, pose, &wish, goal)
     }
 
     /// All configurations for many poses, with the values of given joints.
@@ -379,7 +365,7 @@ impl Core {
         threads: Option<usize>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let wish = inverse::Wish { near: None, limits, one: false, given };
-        inverse::solve_all(self, &self.solvers, py, poses, &wish, goal, threads)
+        inverse::solve_all(&self.facts.text, &self.solvers, py, poses, &wish, goal, threads)
     }
 
     /// The forward model in formulas.
