@@ -34,6 +34,7 @@ mod listing;
 mod loads;
 pub mod marking;
 mod matrix;
+mod named_sums;
 mod names;
 mod note;
 mod numbers;

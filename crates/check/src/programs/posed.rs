@@ -2,10 +2,11 @@
 
 use super::stated::in_radians;
 use super::{Program, Programs, Source, defined, given_in, names_in};
-use crate::directions::{DIRECTIONS, parallel_sum, sum_in_pose, told};
+use crate::directions::{DIRECTIONS, parallel_sum, sum_in_pose};
 use crate::facts::About;
 use crate::habits::{Habits, Places, named_sign, with_named_signs};
 use crate::lexis::Lexis;
+use crate::named_sums::told;
 use crate::note::Unread;
 use crate::subject::Subject;
 use crate::walk::{Assertion, Piece, Spoken};

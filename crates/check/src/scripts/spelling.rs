@@ -253,35 +253,6 @@ fn entry(text: &str, first: usize) -> Option<(String, usize)> {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::{Region, spelled};
-    use denavit_reading::code::Dialect;
-
-    #[test]
-    fn lines_of_programs_as_formulas() {
-        let region = Region {
-            function: None,
-            parameters: vec!["T".into(), "p".into()],
-            signs: vec!["s".into(), "elbow".into()],
-            lines: vec![],
-            renamed: vec![],
-        };
-        for (language, line, formula) in [
-            (Dialect::Python, "np.sqrt(x**2 + y**2)", "   sqrt(x^ 2 + y^ 2)"),
-            (Dialect::Python, "np.arctan2(s*np.sqrt(1 - D**2), D)", "   arctan2(±   sqrt(1 - D^ 2), D)"),
-            (Dialect::Python, "a - elbow * b", "a ∓       b"),
-            (Dialect::Python, "T[0, 3] - d*T[0,2]", "px      - d*r13   "),
-            (Dialect::Python, "T[1][3] + p[2]", "py      + pz  "),
-            (Dialect::Matlab, "atan2(p(2), T(1,4)) .* c.^2", "atan2(py  , px    )  * c ^2"),
-        ] {
-            let found = spelled(line, &region, language);
-            assert_eq!(found, formula);
-            assert_eq!(found.len(), line.len());
-        }
-    }
-}
-
 /// True for a name that a root is multiplied by, in a text without blanks: `side*sqrt(1-D*D)`.
 pub(super) fn is_factor_of_root(body: &str, name: &str) -> bool {
     const ROOTS: [&str; 3] = ["sqrt(", "acos(", "arccos("];
@@ -312,4 +283,33 @@ pub(super) fn renamed(text: &str, name: &str) -> String {
         rest = &rest[i + name.len()..];
     }
     out + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Region, spelled};
+    use denavit_reading::code::Dialect;
+
+    #[test]
+    fn lines_of_programs_as_formulas() {
+        let region = Region {
+            function: None,
+            parameters: vec!["T".into(), "p".into()],
+            signs: vec!["s".into(), "elbow".into()],
+            lines: vec![],
+            renamed: vec![],
+        };
+        for (language, line, formula) in [
+            (Dialect::Python, "np.sqrt(x**2 + y**2)", "   sqrt(x^ 2 + y^ 2)"),
+            (Dialect::Python, "np.arctan2(s*np.sqrt(1 - D**2), D)", "   arctan2(±   sqrt(1 - D^ 2), D)"),
+            (Dialect::Python, "a - elbow * b", "a ∓       b"),
+            (Dialect::Python, "T[0, 3] - d*T[0,2]", "px      - d*r13   "),
+            (Dialect::Python, "T[1][3] + p[2]", "py      + pz  "),
+            (Dialect::Matlab, "atan2(p(2), T(1,4)) .* c.^2", "atan2(py  , px    )  * c ^2"),
+        ] {
+            let found = spelled(line, &region, language);
+            assert_eq!(found, formula);
+            assert_eq!(found.len(), line.len());
+        }
+    }
 }

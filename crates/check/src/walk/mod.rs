@@ -23,11 +23,11 @@ pub(super) use goal::{Answered, Goal, Target};
 pub(super) use points::points;
 pub(super) use scalars::is_measured;
 
-use super::directions::told;
 use super::facts::{About, Meaning, Remark};
 use super::habits::{Habits, Places};
 use super::lexis::{Lexis, read};
 use super::matrix::Matrix;
+use super::named_sums::told;
 use super::names::Name;
 use super::note::{Unread, Unreadable};
 use super::numbers::{Answer, Configuration};

@@ -191,8 +191,8 @@ fn axis_of_frame(point: &[(usize, &Defined)], subject: &Subject) -> Vec<Assertio
     let frames = (0..=subject.last().min(MAX_FRAMES)).filter_map(|k| subject.transform(Some(0), Some(k)));
     for frame in frames.chain([subject.pose()]) {
         let rows = frame.rotation.rows();
-        for column in 0..3 {
-            let wanted = printed.map(|(axis, _)| rows[axis][column]);
+        let columns = [0, 1, 2].map(|column| printed.map(|(axis, _)| rows[axis][column]));
+        for wanted in columns {
             let agrees = [0, 1, 2].map(|k| points.value(wanted[k]) == values[k]);
             let moving = (0..3).filter(|&k| agrees[k] && moves(wanted[k])).count();
             // A component that does not move tells little.

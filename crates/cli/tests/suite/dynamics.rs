@@ -469,9 +469,9 @@ fn derivatives_of_a_state() {
     // The accelerations' are these through the inverse of A.
     let b = json(&[&state[..], &["--tau", "3,-1"]].concat());
     let (inverse, matrix) = (of(&b, "by_tau"), of(&a, "by_qdd"));
-    for i in 0..2 {
+    for (i, row) in inverse.iter().enumerate() {
         for j in 0..2 {
-            let product: f64 = (0..2).map(|k| inverse[i][k] * matrix[k][j]).sum();
+            let product: f64 = row.iter().zip(&matrix).map(|(x, column)| x * column[j]).sum();
             near(product, f64::from(u8::from(i == j)));
         }
     }

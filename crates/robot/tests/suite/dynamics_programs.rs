@@ -111,9 +111,9 @@ fn programs_agree_with_pinocchio() {
         let before = arm.drives.clone();
         arm.drives.iter_mut().for_each(|d| *d = Drive { rotor: d.rotor, ..rubs });
         let rubbed = torque_derivatives(&arm, &of("q"), &of("qd"), &of("qdd"));
-        for j in 0..arm.drives.len() {
+        for (j, before) in before.iter().enumerate() {
             let more = rubbed.by_qd[j][j] - found.by_qd[j][j];
-            assert!((more - 0.7 + before[j].viscous).abs() < 1e-9, "{name}: {more}");
+            assert!((more - 0.7 + before.viscous).abs() < 1e-9, "{name}: {more}");
         }
         hold(F::TorqueDerivatives, "qdd", beside(["tau_q", "tau_qd", "tau_qdd"]), 1e-10);
         if slope["qdd_q"].is_array() {
