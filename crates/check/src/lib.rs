@@ -53,6 +53,7 @@ mod subject;
 mod supported;
 mod supposed;
 mod tables;
+mod told_otherwise;
 mod tools;
 mod trial;
 mod unjudged;

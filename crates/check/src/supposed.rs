@@ -7,79 +7,25 @@ use super::outcome::{Claim, Finding, Standing};
 use super::plan::{Plan, Walked};
 use super::recognised;
 use super::subject::Subject;
+use super::told_otherwise::{as_pose, is_told_otherwise, told_values};
 use super::walk::{Assertion, Pair, Piece, Spoken};
 use denavit::forward::Reference;
 use denavit_reading::slip::Points;
-use denavit_symbolic::vocabulary::plain_name;
 use denavit_symbolic::{Expr, Symbol, equal};
 
 /// So many bytes before a formula a supposition may stand.
 const BEFORE: usize = 400;
-/// No more values are looked at.
-const MOST: usize = 8;
 
 /// True for a formula that is right where a joint has the value that the words before it suppose: `in the posture q_3 = 0 the
 /// wrist is at …`.
 pub(super) fn where_told(text: &str, pair: &Pair, subject: &Subject) -> bool {
-    const WORDS: [&str; 22] = [
-        "for ",
-        "at ",
-        "posture",
-        "position",
-        "when ",
-        "if ",
-        "with ",
-        "where ",
-        "für ",
-        "bei ",
-        "wenn ",
-        "pour ",
-        "si ",
-        "quando ",
-        "para ",
-        "con ",
-        "per ",
-        "cuando ",
-        "lorsque ",
-        "configura",
-        "stellung",
-        "suppose",
-    ];
     let start =
         (pair.span.start.saturating_sub(BEFORE)..=pair.span.start).find(|&k| text.is_char_boundary(k));
     let Some(window) = start.and_then(|s| text.get(s..pair.span.start)) else { return false };
     let parts: Vec<&str> = window.split("\n\n").collect();
     let window = parts[parts.len().saturating_sub(2)..].join(" ");
-    let names = subject.vocabulary();
     let joints = subject.joints();
-    let mut told: Vec<(Symbol, Expr)> = vec![];
-    for sentence in window.split(". ") {
-        let lower = sentence.to_lowercase();
-        if !WORDS.iter().any(|w| lower.contains(w)) {
-            continue;
-        }
-        for (at, _) in sentence.match_indices('=').take(MOST) {
-            let before = sentence[..at].trim_end_matches([' ', '$', '&']);
-            let name = before.rsplit([' ', '$', '(', ',', '\n', '*']).next().unwrap_or_default();
-            let value = sentence[at + 1..].trim_start_matches([' ', '$', '&']);
-            let value = value.split([' ', ',', ';', '$', ')', '\n', ':']).next().unwrap_or_default();
-            let bare = value.replace("^\\circ", "").replace("^{\\circ}", "").replace('°', "");
-            let bare = bare.trim_end_matches('.').trim_start_matches(['-', '−']);
-            let quarter = match bare {
-                "0" => 0,
-                "90" | "\\pi/2" | "π/2" | "pi/2" => 1,
-                "180" | "\\pi" | "π" | "pi" => 2,
-                _ => continue,
-            };
-            let sign = if value.starts_with(['-', '−']) { -1 } else { 1 };
-            let joint = names.lookup(&plain_name(name)).filter(|e| joints.contains(e));
-            if let Some(symbol) = joint.and_then(|e| e.as_symbol())
-                && told.len() < MOST
-            {
-                told.push((symbol, Expr::pi() * Expr::int(sign * quarter) / Expr::int(2)));
-            }
-        }
-    }
+    let told = told_values(&window, subject);
     let mut points = Points::new(61);
     let mut holds = |given: &[(Symbol, Expr)]| {
         let there = |e: Expr| e.substitute(|s| given.iter().find(|g| g.0 == s).map(|g| g.1));
@@ -101,7 +47,13 @@ pub(super) fn withdraw(text: &str, plan: &Plan, walked: &Walked, claims: &mut [C
             continue;
         }
         let (assertion, subject) = (&walked.assertions[k], &plan.subjects[claims[k].robot]);
-        if let Some(about) = of_other_point(text, assertion, subject) {
+        if let Some(findings) = as_pose(assertion, subject) {
+            claims[k].about = About::Matrix(Meaning::Hand);
+            claims[k].instead = None;
+            for (entry, finding) in claims[k].entries.iter_mut().zip(findings) {
+                entry.finding = finding;
+            }
+        } else if let Some(about) = of_other_point(text, assertion, subject) {
             claims[k].about = About::Matrix(about);
             claims[k].instead = None;
             let pairs = assertion.pieces.iter().map(|p| match p {
@@ -112,7 +64,10 @@ pub(super) fn withdraw(text: &str, plan: &Plan, walked: &Walked, claims: &mut [C
                 entry.finding = Finding::Equal { unless_zero: vec![] };
                 entry.identities = identities;
             }
-        } else if is_of_other_solution(walked, claims, k) || is_made_of_others(text, assertion) {
+        } else if is_of_other_solution(walked, claims, k)
+            || is_made_of_others(text, assertion)
+            || is_told_otherwise(text, assertion, subject)
+        {
             for entry in claims[k].entries.iter_mut().filter(|e| e.finding.standing() == Standing::Wrong) {
                 entry.finding = Finding::Undecided { why: Unproved::Unsupported };
             }

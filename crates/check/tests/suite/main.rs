@@ -8,6 +8,7 @@ mod dynamics_meant;
 mod hostile;
 mod inverse;
 mod marking;
+mod meant_otherwise;
 mod mutations;
 mod named;
 mod ordinary;

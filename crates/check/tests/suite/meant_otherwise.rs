@@ -1,0 +1,70 @@
+//! Words before a formula that give its letters another meaning than the usual one.
+
+use denavit_check::{CheckOptions, Checked, Standing, check};
+use denavit_reading::document::Format;
+
+fn read(text: &str) -> Checked {
+    check(text, Format::Markdown, None, &CheckOptions::default()).unwrap_or_else(|e| panic!("{e:?}\n{text}"))
+}
+
+#[track_caller]
+fn standings(text: &str, name: &str) -> Vec<Standing> {
+    let found = read(text);
+    let own: Vec<Standing> = found.claims.iter().filter(|c| c.name == name).map(|c| c.standing()).collect();
+    assert!(!own.is_empty(), "{name}: {:?}", found.claims);
+    own
+}
+
+/// A wrist of three joints with its orientation, right.
+const WRIST: &str = "DH (standard)\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | θ1 | 0 | 0 | -90° |\n| 2 | θ2 | 0 | 0 | 90° |\n\
+                     | 3 | θ3 | 0 | 0 | 0 |\n\n$\\theta_2 = \\operatorname{atan2}(\\pm\\sqrt{r_{13}^2+r_{23}^2}, r_{33})$\n\n";
+
+#[test]
+fn entries_of_another_matrix() {
+    let text = |what: &str| {
+        format!(
+            "{WRIST}Let $r_{{ij}}$ be the elements of ${what}$, then\n\n$\\theta_1 = \\operatorname{{atan2}}(-r_{{12}}, r_{{22}})$\n"
+        )
+    };
+    assert_ne!(standings(&text("R_2^0"), "\\theta_1"), [Standing::Wrong]);
+    assert_eq!(standings(&text("R_3^0"), "\\theta_1"), [Standing::Wrong]);
+}
+
+#[test]
+fn a_sum_under_a_supposition() {
+    let text = |words: &str| {
+        format!("{WRIST}{words}\n\n* $\\theta_1 + \\theta_3 = \\operatorname{{atan2}}(r_{{21}}, r_{{22}})$\n")
+    };
+    let name = "\\theta_1 + \\theta_3";
+    assert_ne!(standings(&text("When $\\theta_2 = 0$ only the sum is determined:"), name), [Standing::Wrong]);
+    assert_eq!(standings(&text("For all poses:"), name), [Standing::Wrong]);
+}
+
+/// `T1` is the pose at `P1` where it is that in all its entries.
+#[test]
+fn a_pose_with_the_number_of_its_configuration() {
+    let text = |x: &str| {
+        format!(
+            "DH (standard)\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | θ1 | 0 | 0.5 | 0 |\n| 2 | θ2 | 0 | 0.4 | 0 |\n\n\
+             x = 0.5 cos θ1 + 0.4 cos(θ1 + θ2)\n\nPose P1: θ1 = 30°, θ2 = 60°\n\n\
+             T1 = | 0  -1  0  {x} |\n     | 1   0  0  0.650 |\n     | 0   0  1  0 |\n     | 0   0  0  1 |\n"
+        )
+    };
+    assert_eq!(standings(&text("0.433"), "T1"), [Standing::Equal]);
+    assert_eq!(standings(&text("0.443"), "T1"), [Standing::Wrong]);
+}
+
+/// A moment beside forces, in a plane that is not x y: what its letter is nobody said.
+#[test]
+fn a_moment_that_is_a_letter() {
+    let text = |second: &str| {
+        format!(
+            "DH (standard)\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | θ1 | 0 | a1 | 90° |\n| 2 | θ2 | 0 | a2 | 0 |\n\
+             | 3 | θ3 | 0 | a3 | 0 |\n\nThe hand exerts the force (fx, fy, fz) and the couple m.\n\n\
+             $\\tau_2 = {second}$\n"
+        )
+    };
+    let right = "-(a_2 s_2 + a_3 s_{23})(c_1 f_x + s_1 f_y) + (a_2 c_2 + a_3 c_{23}) f_z";
+    assert_ne!(standings(&text(&format!("{right} + m")), "\\tau_2"), [Standing::Wrong]);
+    assert_eq!(standings(&text(&right.replace("c_{23}", "c_{2}")), "\\tau_2"), [Standing::Wrong]);
+}
