@@ -44,9 +44,10 @@ pub(super) fn judged(text: &str, plan: &Plan, walked: &Walked) -> Vec<Claim> {
             let search = Search::new(subject, group, is_exact)?;
             Some(Search { unit, size: search.size * unit, ..search }.verdicts())
         });
-        let is_some_right = |v: &Vec<Option<bool>>| v.contains(&Some(true));
+        // What is not known in one unit is not wrong by another.
+        let rank = |v: &Vec<Option<bool>>| (!v.contains(&Some(true)), !v.contains(&None));
         let first = all.next()?;
-        if is_some_right(&first) { Some(first) } else { all.find(is_some_right).or(Some(first)) }
+        Some(all.fold(first, |best, other| if rank(&other) < rank(&best) { other } else { best }))
     };
     let is_same = |a: &[Answered], b: &[Answered]| {
         let key = |g: &[Answered]| -> Vec<(Expr, u64)> {

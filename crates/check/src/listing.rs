@@ -99,7 +99,7 @@ fn table(listing: &Listing, reading: &TableOptions) -> Option<PrintedTable> {
     let [a, alpha] = if listing.is_previous { ["a_{i-1}", "alpha_{i-1}"] } else { ["a", "alpha"] };
     let mut text = format!("{unit}| i | theta | d | {a} | {alpha} |\n|---|---|---|---|---|\n");
     for (k, row) in listing.rows.iter().enumerate() {
-        let mut row = row.clone();
+        let mut row = row.clone().map(|cell| clean(&cell));
         // A row that does not turn slides, whatever its length is called.
         let letters = |cell: &str| cell.chars().any(char::is_alphabetic) && !cell.contains("pi");
         if !letters(&row[0]) && letters(&row[1]) {

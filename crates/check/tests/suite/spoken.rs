@@ -260,6 +260,10 @@ fn rows_of_a_list_that_is_returned() {
     let text = "import numpy as np\n\n# DH, standard convention\nd1, a2, a3 = 0.069, 0.146, 0.187\n\n\ndef dh(theta, d, a, alpha):\n    ct, st = np.cos(theta), np.sin(theta)\n    ca, sa = np.cos(alpha), np.sin(alpha)\n    return np.array([[ct, -st*ca, st*sa, a*ct], [st, ct*ca, -ct*sa, a*st], [0.0, sa, ca, d], [0.0, 0.0, 0.0, 1.0]])\n\n\ndef table(q1, q2, q3):\n    #        theta          d    a    alpha\n    return [(q1,            d1,  0.0, np.pi/2),\n            (q2,            0.0, a2,  0.0),\n            (q3,            0.0, a3,  0.0)]\n\n\ndef fk(q):\n    q1, q2, q3 = q\n    r = a2*np.cos(q2) + a3*np.cos(q2 + q3)\n    x = r*np.cos(q1)\n    y = r*np.sin(q1)\n    z = d1 + a2*np.sin(q2) + a3*np.sin(q2 + q3)\n    return np.array([x, y, z])\n";
     let found = read(text, Format::Plain, Some(Dialect::Python));
     assert_eq!(found.robots[0].rows.len(), 3, "{:#?}", found.robots[0]);
+    // The module of π is no letter.
+    let letters: Vec<String> =
+        found.robots[0].parameters.iter().map(|p| p.symbol.name().to_string()).collect();
+    assert_eq!(letters, ["d1", "a2", "a3"]);
     assert!(found.claims.iter().all(|c| c.standing() != Standing::Wrong), "{:#?}", found.claims);
 }
 
