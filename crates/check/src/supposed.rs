@@ -47,7 +47,7 @@ pub(super) fn withdraw(text: &str, plan: &Plan, walked: &Walked, claims: &mut [C
             continue;
         }
         let (assertion, subject) = (&walked.assertions[k], &plan.subjects[claims[k].robot]);
-        if let Some(findings) = as_pose(assertion, subject) {
+        if let Some(findings) = as_pose(text, assertion, subject) {
             claims[k].about = About::Matrix(Meaning::Hand);
             claims[k].instead = None;
             for (entry, finding) in claims[k].entries.iter_mut().zip(findings) {

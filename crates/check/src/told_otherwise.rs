@@ -82,9 +82,12 @@ fn has_own_moment(assertion: &Assertion, subject: &Subject) -> bool {
     })
 }
 
-/// The verdict on a matrix of numbers as the pose at its configuration, where it is that throughout: `T1` at `P1`.
-pub(super) fn as_pose(assertion: &Assertion, subject: &Subject) -> Option<Vec<Finding>> {
+/// The verdict on a matrix of numbers as the pose at its configuration, where it is that throughout: `T1` behind `Pose P1: …`.
+pub(super) fn as_pose(text: &str, assertion: &Assertion, subject: &Subject) -> Option<Vec<Finding>> {
     const LEAST: usize = 9;
+    if !has_number_of_configuration(text, assertion) {
+        return None;
+    }
     let pose = subject.pose();
     let rows = pose.rotation.rows();
     let findings = assertion.pieces.iter().map(|piece| {
@@ -159,4 +162,36 @@ pub(super) fn told_values(window: &str, subject: &Subject) -> Vec<(Symbol, Expr)
         }
     }
     told
+}
+
+/// Whether a matrix has one letter and the number that words before it give the configuration: `P1:`, `pose 1`.
+fn has_number_of_configuration(text: &str, assertion: &Assertion) -> bool {
+    const WORDS: [&str; 9] = [
+        "pose ",
+        "posture ",
+        "position ",
+        "configuration ",
+        "case ",
+        "stellung ",
+        "lage ",
+        "configurazione ",
+        "posa ",
+    ];
+    let name = plain_name(assertion.name.trim());
+    let mut letters = name.chars();
+    let number = match letters.next() {
+        Some(first) if first.is_alphabetic() => letters.as_str(),
+        _ => return false,
+    };
+    if number.is_empty() || !number.bytes().all(|b| b.is_ascii_digit()) || assertion.name.contains('^') {
+        return false;
+    }
+    let window = before(text, assertion.span.start, BEFORE).to_lowercase();
+    let is_whole = |rest: &str| !rest.starts_with(|c: char| c.is_alphanumeric());
+    WORDS.iter().flat_map(|word| window.match_indices(word).map(|(at, w)| &window[at + w.len()..])).any(
+        |rest| {
+            let rest = rest.strip_prefix(|c: char| c.is_alphabetic()).unwrap_or(rest);
+            rest.strip_prefix(number).is_some_and(is_whole)
+        },
+    )
 }

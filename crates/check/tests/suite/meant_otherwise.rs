@@ -52,6 +52,8 @@ fn a_pose_with_the_number_of_its_configuration() {
     };
     assert_eq!(standings(&text("0.433"), "T1"), [Standing::Equal]);
     assert_eq!(standings(&text("0.443"), "T1"), [Standing::Wrong]);
+    // Without that number it is what its name says: frame 1.
+    assert_eq!(standings(&text("0.433").replace("Pose P1: ", "At "), "T1"), [Standing::Wrong]);
 }
 
 /// A moment beside forces, in a plane that is not x y: what its letter is nobody said.
