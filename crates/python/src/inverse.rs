@@ -143,7 +143,7 @@ pub fn solve<'py>(
         let why = format!("near has {} values; {joints} are needed", near.len());
         return Err(Trouble::new(Kind::Shape, why).into());
     }
-    let (answer, nearest) = py.detach(|| {
+    let (answer, nearest, left_out) = py.detach(|| {
         let seeded = wish.near.as_ref().map(|near| {
             let mut seeded = solver.clone();
             seeded.seed = Some(near.clone());
@@ -154,11 +154,10 @@ pub fn solve<'py>(
             true => solver.one(&pose, &values, wish.near.as_deref()),
             false => solver.solve(&pose, &values),
         };
-        if wish.limits {
-            answer.leave_out(&solver.space);
-        }
+        // Before anything is left out: a family may have a member within the limits, and it is the nearest.
         let nearest = wish.near.as_ref().and_then(|to| solver.nearest(&pose, &answer, to));
-        (answer, nearest)
+        let left_out = wish.limits.then(|| answer.leave_out(&solver.space));
+        (answer, nearest.filter(|n| n.within_limits || !wish.limits), left_out)
     });
     let dict = PyDict::new(py);
     listed(py, &dict, joints, &answer.solutions)?;
@@ -166,12 +165,15 @@ pub fn solve<'py>(
     dict.set_item("families", PyList::new(py, families)?)?;
     dict.set_item("complete", answer.is_complete())?;
     dict.set_item("doubt", denavit_wire::inverse::doubt(&answer))?;
-    dict.set_item("status", denavit_wire::inverse::status(&answer))?;
+    let status = denavit_wire::inverse::status_within(&answer, left_out);
+    dict.set_item("status", status)?;
+    dict.set_item("left_out", left_out.unwrap_or(0))?;
     dict.set_item("method", solver.method())?;
     let given = solver.given.iter().map(|&j| prepared.names[j].clone()).zip(values);
     dict.set_item("given", given.collect::<Vec<_>>())?;
     dict.set_item("nearest", nearest.map(|n| n.q.into_pyarray(py)))?;
-    let obstacle = answer.obstacle.as_ref().filter(|_| !answer.is_reachable());
+    let is_excluded = left_out.is_some_and(|n| n > 0);
+    let obstacle = answer.obstacle.as_ref().filter(|_| !answer.is_reachable() && !is_excluded);
     let obstacle = obstacle.map(|o| {
         let words = Tongue::English.words().obstacle(o);
         (words, o.q.clone().into_pyarray(py), o.angle, o.distance)
@@ -240,16 +242,13 @@ pub fn solve_all<'py>(
     let (poses, shape) = poses(many)?;
     let (prepared, values) = solvers.get(text, py, wish, goal)?;
     let solver = &prepared.solver;
-    let answers: Vec<Answer> = py.detach(|| {
+    let (answers, left_out): (Vec<Answer>, Vec<Option<usize>>) = py.detach(|| {
         let cores = || thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN);
         let threads = threads.and_then(NonZero::new).unwrap_or_else(cores);
         let mut answers = solver.solve_all(&poses, &values, threads);
-        if wish.limits {
-            for answer in &mut answers {
-                answer.leave_out(&solver.space);
-            }
-        }
-        answers
+        let leave_out = |answer: &mut Answer| wish.limits.then(|| answer.leave_out(&solver.space));
+        let left_out = answers.iter_mut().map(leave_out).collect();
+        (answers, left_out)
     });
     let dict = PyDict::new(py);
     let solutions: Vec<Solution> = answers.iter().flat_map(|a| &a.solutions).cloned().collect();
@@ -259,8 +258,11 @@ pub fn solve_all<'py>(
     dict.set_item("counts", counts.into_pyarray(py))?;
     let complete: Vec<bool> = answers.iter().map(Answer::is_complete).collect();
     dict.set_item("complete", PyArray1::from_vec(py, complete))?;
-    let status: Vec<&str> = answers.iter().map(denavit_wire::inverse::status).collect();
+    let both = answers.iter().zip(&left_out);
+    let status: Vec<&str> = both.map(|(a, &n)| denavit_wire::inverse::status_within(a, n)).collect();
     dict.set_item("status", status)?;
+    let left_out: Vec<usize> = left_out.into_iter().map(Option::unwrap_or_default).collect();
+    dict.set_item("left_out", left_out)?;
     let families = |a: &Answer| -> PyResult<Bound<'py, PyList>> {
         let all = a.families.iter().map(|f| family(py, f, solver.robot.joints));
         PyList::new(py, all.collect::<PyResult<Vec<_>>>()?)

@@ -5,8 +5,8 @@ use crate::formulas;
 use crate::inverse::{self, Solvers};
 use crate::loading::{self, Facts, Joint, Request};
 use crate::named::{body, reference};
-use crate::trouble::{Found, Kind, Trouble, apart};
-use denavit::description::Description;
+use crate::trouble::{Found, Kind, Trouble, apart, said};
+use denavit::description::{Description, SameChain, prove_same_chain};
 use denavit::dynamics::{DynamicFunction, DynamicPrograms, Masses};
 use denavit::forward::{Reference, frames_program, pose_program};
 use denavit::velocity::{Viewpoint, jacobian_program};
@@ -181,8 +181,21 @@ impl Core {
     /// The same in another convention.
     fn converted(&self, py: Python<'_>, to: &str) -> PyResult<Self> {
         let facts = self.derive(py, |d| {
-            let conversion = d.converted(loading::convention(to)?);
-            Ok(Facts::of(&conversion.description, self.facts.findings.clone()))
+            let made = d.converted(loading::convention(to)?).description;
+            let mut findings = self.facts.findings.clone();
+            match prove_same_chain(d, &made) {
+                SameChain::Equal => {}
+                SameChain::Different { .. } => {
+                    let why = format!("the table in {to} convention is not the same chain");
+                    return Err(Trouble::new(Kind::Unsupported, why));
+                }
+                SameChain::Undecided => findings.push(said(
+                    "warning",
+                    format!("that the table in {to} convention is the same chain is not proved"),
+                    &d.name,
+                )),
+            }
+            Ok(Facts::of(&made, findings))
         })?;
         Ok(Core::new(facts, None))
     }

@@ -115,6 +115,13 @@ def test_limits_and_turns():
     assert (len(everything), len(allowed)) == (2, 1)
     assert allowed.within_limits.all()
     assert np.allclose(allowed.solutions, [[0.3, 0.5]])
+    assert (everything.left_out, allowed.left_out) == (0, 1)
+    # Solutions that the limits exclude are no proof that there is none.
+    outside = robot.ik(robot.fk([2.5, 0.0]), goal="position", limits=True)
+    assert (len(outside), outside.left_out, outside.status) == (0, 1, "outside the limits")
+    both = robot.ik_batch(robot.fk([[0.3, 0.5], [2.5, 0.0]]), goal="position", limits=True)
+    assert both.status == ["solved", "outside the limits"] and both.left_out == [1, 1]
+    assert both[1].status == "outside the limits"
     ur5 = Robot("ur5")
     near = Q + np.array([2 * np.pi, 0, 0, 0, 0, 0]) * 0.9
     nearest = ur5.ik(ur5.fk(Q), near=near).nearest

@@ -307,6 +307,12 @@ pub fn status(answer: &inverse::Answer) -> &'static str {
     }
 }
 
+/// The same of an answer from which so many solutions and families were left out: `outside the limits` where these were all.
+pub fn status_within(answer: &inverse::Answer, left_out: Option<usize>) -> &'static str {
+    let is_excluded = !answer.is_reachable() && left_out.is_some_and(|n| n > 0);
+    if is_excluded { "outside the limits" } else { status(answer) }
+}
+
 /// A robot that cannot be solved in formulas.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Refused {

@@ -79,14 +79,17 @@ class Answer:
     within_limits: NDArray[np.bool_]
     #: Where the arm can move with its hand still.
     families: list[Family]
-    #: Whether these are all solutions.
+    #: Whether these are all solutions, with those that were left out.
     complete: bool
-    #: ``solved``; ``unreachable`` where it is certain that there is no solution; ``not found``.
+    #: ``solved``; ``unreachable`` where it is certain that there is no solution; ``outside the limits`` where there are some, and
+    #: all were left out; ``not found``.
     status: str
     #: ``closed form``, ``elimination``, ``self-motion`` or ``descent``.
     method: str
     #: Why there may be more.
     doubt: Optional[str] = None
+    #: How many solutions and families the limits exclude, where these were asked for.
+    left_out: int = 0
     #: The solution nearest to ``near``, whole turns away where that is nearer and the limits allow it.
     nearest: Optional[Floats] = None
     #: Why there is none.
@@ -145,8 +148,10 @@ class Answers:
     offsets: NDArray[np.int64]
     #: Whether all solutions of a pose are here, in the leading shape of the poses.
     complete: NDArray[np.bool_]
-    #: ``solved``, ``unreachable`` or ``not found``, one a pose.
+    #: ``solved``, ``unreachable``, ``outside the limits`` or ``not found``, one a pose.
     status: list[str]
+    #: How many solutions and families of each pose the limits exclude, where these were asked for.
+    left_out: list[int]
     #: The families of each pose.
     families: list[list[Family]]
     #: ``closed form``, ``elimination``, ``self-motion`` or ``descent``.
@@ -176,6 +181,7 @@ class Answers:
             families=self.families[k],
             complete=bool(self.complete.flat[k]),
             status=self.status[k],
+            left_out=self.left_out[k],
             method=self.method,
         )
 

@@ -203,7 +203,7 @@ class Robot:
         return Robot._of(self._core.set(texts))
 
     def converted(self, convention: str) -> Robot:
-        """The robot in another convention; the chain is proved unchanged.
+        """The robot in another convention, proved to be the same chain; where that is not decided `findings` has a warning.
 
         >>> from denavit import Robot
         >>> Robot("ur5").converted("craig").convention

@@ -130,10 +130,7 @@ impl Question {
             robot: self.robot.clone(),
             schema: Schema,
             solutions: answer.solutions.iter().map(solution).collect(),
-            status: match found.excluded() {
-                true => "outside the limits",
-                false => wire::status(answer),
-            },
+            status: wire::status_within(answer, found.left_out),
         }
     }
 
